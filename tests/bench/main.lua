@@ -10,6 +10,7 @@ local Page = require "tests.bench.page"
 local films = require "tests.bench.report_film"
 
 local accuracy = require "tests.bench.parts_accuracy"
+local beside = require "tests.bench.parts_beside"
 local compositing = require "tests.bench.parts_compositing"
 local files = require "tests.bench.parts_files"
 local film = require "tests.bench.parts_film"
@@ -42,6 +43,7 @@ local parts = {
   { "demo", "the demo film to PNG", film.demo },
   { "film", "films, frame by frame", frames.film },
   { "planes", "plane files beside frames", planes.planes },
+  { "beside", "one film, made by what people would pick instead", beside.beside },
 }
 
 local function read_arguments(words)
@@ -81,6 +83,7 @@ local pipe = assert(io.popen "pwd")
 runner.root = pipe:read "l"
 pipe:close()
 runner.folder, runner.celspan = options.folder, options.build .. "/celspan"
+runner.modules = options.skia
 runner.skia = options.skia and Runner.command("node", "tests/bench/skia.js", options.skia)
 
 runner.has_material = scenes.write(options.folder)
@@ -94,14 +97,14 @@ for _, part in ipairs(parts) do
 end
 
 if not runner:has_counter() then
-  runner:note "this system has no instruction counter: that column is empty"
+  runner:note "this system has no instruction counter: that column of the table is empty"
 end
 local csv = options.folder .. "/bench.csv"
 runner:write(csv)
 local page = Page.new(options.folder)
 films.tables(page)
 print(table.concat(page.out, "\n"))
-machine.write(options.folder .. "/machine.txt", { began = began, ended = os.time(),
+machine.write(options.folder .. "/bench.txt", { began = began, ended = os.time(),
   notes = runner.notes, has_material = runner.has_material,
   is_quick = options.is_quick })
 print(("== %d measurements in %s, after %d seconds"):format(#runner.rows, csv, os.time() - began))

@@ -165,7 +165,7 @@ local function painted(runner, folder, rounds)
   if runner:has "opencv" then
     entries[2] = raw(runner, "painted", frame_count, "opencv",
       Command(program, "layers", layers, 1, frame_count))
-  else runner:note "OpenCV is not installed: its columns are empty" end
+  else runner:note "OpenCV is not installed: it is left out" end
   runner:repeat_all(rounds, entries)
   local last = runner.rows[#runner.rows]
   if last.renderer == "opencv" then -- it blends codes, so celspan's picture is one of codes, too

@@ -40,7 +40,7 @@ function parts.raster(runner, folder)
       if runner:has(name) then
         entries[#entries + 1] = raster(job, name, "whole",
           Command(runner:program(name), "picture", job))
-      else runner:note(name .. " is not installed: its columns are empty") end
+      else runner:note(name .. " is not installed: it is left out") end
     end
     if runner.skia and job ~= "perspective" then
       entries[#entries + 1] = raster(job, "skia", "whole",
@@ -116,7 +116,7 @@ local function blurs(runner, sharp, raw, scene, radius, entries)
   end
   local rows = radius <= 5 and side or radius <= 50 and 1024 or 128
   if runner:has "opencv" then add("opencv", rows < side and 1 or nil, raw, radius, rows)
-  else runner:note "OpenCV is not installed: its columns are empty" end
+  else runner:note "OpenCV is not installed: it is left out" end
   if runner:has "vips" then add("vips", nil, sharp, radius) end
 end
 

@@ -40,12 +40,12 @@ function parts.peers(runner)
   local list = {}
   for _, name in ipairs { "agg", "cairo", "qt" } do
     if runner:has(name) then list[#list + 1] = name
-    else runner:note(name .. " is not installed: its columns are empty") end
+    else runner:note(name .. " is not installed: it is left out") end
   end
   if runner:has "blend2d" then list[#list + 1] = "blend2d"
-  else runner:note "Blend2D is not installed (BLEND2D_ROOT): its columns are empty" end
+  else runner:note "Blend2D is not installed (BLEND2D_ROOT): it is left out" end
   if runner.skia then list[#list + 1] = "skia"
-  else runner:note "skia is not installed (npm: @napi-rs/canvas): its columns are empty" end
+  else runner:note "skia is not installed (npm: @napi-rs/canvas): it is left out" end
   return list
 end
 

@@ -13,14 +13,6 @@ published.shapes = {
   small = { [1024] = 0.019, [4096] = 0.053, [30000] = 0.465 },
 }
 
---- AGG's best times in the same measurement: comparing them with AGG's in a run shows how slow the
---- run is.
-published.agg = {
-  ["10"] = { [1024] = 0.000487, [4096] = 0.00284, [30000] = 0.0754 },
-  ["100"] = { [1024] = 0.00582, [4096] = 0.0294, [30000] = 0.749 },
-  ["1000"] = { [1024] = 0.0568, [4096] = 0.294, [30000] = 7.59 },
-}
-
 published.pictures = { affine = 0.00884, shift = 0.00183 }
 
 --- The paper's figures 13 and 14: seconds at 30,000 pixels a side on one processor of an SGI Origin

@@ -1,6 +1,6 @@
---- The parts of the page about films: the first table of the page, and the tables of films, which
---- `./run bench film` prints. Each function adds to a page (page.lua) and leaves out figures that
---- were not measured. Times of films are the least of several runs.
+--- The parts of the page about films: what a drawing costs in a film, and the tables of films,
+--- which `./run bench film` prints. Each function adds to a page (page.lua) and leaves out figures
+--- that were not measured. Times of films are the least of several runs.
 local targets = require "tests.bench.targets.list"
 local frames = require "tests.bench.parts_frames"
 local results = require "tests.bench.results"
@@ -41,26 +41,19 @@ end
 
 --- What a film costs, a drawing again and a new one, compared with the best of the peers.
 function report.first(page)
-  page:put [[
-The time of the fastest of Skia, AGG, Qt and Cairo divided by celspan's, and its name; antialiased,
-to 8-bit pixels, one thread. Above 1, celspan is the fastest.
-
-- *A film's frame*: the [film](#films) of a sheet of drawings, or of the drawing `house`, and of two
-  drawings in front of it.
-- *A drawing again*: the sheet or `house` alone, in a later frame of a film that has shown it
-  before.
-- *A new drawing*: it alone, in the first frame of a film that shows it.
-]]
-  page:head { "drawing", "side", "a film's frame", "a drawing again", "a new drawing" }
+  local lines = {}
   for _, scene in ipairs(scenes.backs) do
     for _, side in ipairs(sides) do
-      local line = { scene, short[side], film_ratio(page.run, scene, side),
-                     drawing_ratio(page.run, scene, side, "again"),
-                     drawing_ratio(page.run, scene, side, "first") }
-      if line[3] .. line[4] .. line[5] ~= "" then page:cells(line) end
+      lines[#lines + 1] = { scene, short[side], film_ratio(page.run, scene, side),
+                            drawing_ratio(page.run, scene, side, "again"),
+                            drawing_ratio(page.run, scene, side, "first") }
     end
   end
-  page:put ""
+  page:section { fixed = 2, lines = lines, text = [[
+A drawing in a film costs less after its first frame. *A film's frame*: the [film](#films) of a
+drawing and of two others in front of it. *A drawing again*: it alone, in a later frame. *A new
+drawing*: it alone, in the first frame that shows it (`./run bench film artwork`).
+]], names = { "drawing", "side", "a film's frame", "a drawing again", "a new drawing" } }
 end
 
 -- ---------------------------------------------------------------- films of drawings
@@ -91,27 +84,23 @@ local function film_line(run, scene, side, mine)
 end
 
 local function drawings(page)
-  if #page.run:all { part = "film" } == 0 then return end
-  page:put [[
-48 frames of a sheet of drawings, or of `house`, under a pan and a zoom, with `skaters` and
-`mosquito` in front of it, each on a way of its own; `three sheets`: `emoji` and `twemoji` in front
-of `clipart`. The peers
-build their paths once and fill them under a matrix in each frame, into a picture of the whole
-frame; celspan moves its cels and writes pixels into a row that is reused, or into a *whole
-picture*. *With its maps*: the film is shown for the first time, and its
-[maps](how-it-works.md#maps) are made within this time; otherwise they are kept from a showing
-before. Processor time for each frame, the least of several showings. *Differ by*: the peers'
-pictures of the middle frame from celspan's, at most, in means of 64 x 64 cells.
-]]
-  page:head { "film", "side", "celspan", "whole picture", "with its maps", "Blend2D", "Skia", "AGG",
-              "Qt", "Cairo", "ahead of Blend2D", "ahead of the best peer", "differ by" }
+  local lines = {}
   for _, film in ipairs(scenes.films) do
     for _, side in ipairs(sides) do
       local mine = page.run:film_row(film[1], side, "celspan", "again")
-      if mine then page:cells(film_line(page.run, film[1], side, mine)) end
+      lines[#lines + 1] = mine and film_line(page.run, film[1], side, mine)
     end
   end
-  page:put ""
+  page:section { fixed = 2, lines = lines, text = [[
+Processor time for each of 48 frames, the least of several showings. The film shows a sheet of
+drawings, or `house`, under a pan and a zoom, with `skaters` and `mosquito` in front of it; `three
+sheets` shows `emoji` and `twemoji` in front of `clipart`. The others build their paths once and
+fill them in each frame, into a whole picture; celspan writes a row that is reused, or a *whole
+picture*. *With its maps*: shown for the first time, with the making of its
+[maps](how-it-works.md#maps). *Differ by*: the others' pictures from celspan's, at most, in means of
+64 x 64 cells.
+]], names = { "film", "side", "celspan", "whole picture", "with its maps", "Blend2D", "Skia", "AGG",
+              "Qt", "Cairo", "ahead of Blend2D", "ahead of the best peer", "differ by" } }
 end
 
 -- ---------------------------------------------------------------- from the script to raw pixels
@@ -120,24 +109,19 @@ local names = { demo = "the demo film", film = "`scripts/film.lua`",
                 painted = "nine painted layers" }
 
 local function raw(page)
-  if #page.run:all { part = "raw" } == 0 then return end
-  page:put [[
-From the script to raw pixels at 1280 x 720, all frames in order: processor time of the whole
-process for each frame, the least of several. The nine painted layers, four of them blurred, move
-under a pan; OpenCV reads the same files and warps, blurs and blends codes in floats, while celspan
-works in linear light. *Differs by*: frame 40, where celspan blends codes, too.
-]]
-  page:head { "film", "celspan", "OpenCV", "ahead of OpenCV", "differs by" }
+  local lines = {}
   for _, scene in ipairs { "demo", "film", "painted" } do
     local mine = page.run:one { part = "raw", scene = scene, renderer = "celspan" }
     local other = page.run:one { part = "raw", scene = scene, renderer = "opencv" }
-    if mine then
-      page:cells { names[scene], shown(mine), shown(other),
-                   times(other and other.best_processor / mine.best_processor),
-                   other and other.rms and ("%.2f of 255"):format(other.rms) or "" }
-    end
+    lines[#lines + 1] = mine and { names[scene], shown(mine), shown(other),
+      times(other and other.best_processor / mine.best_processor),
+      other and other.rms and ("%.2f of 255"):format(other.rms) or "" }
   end
-  page:put ""
+  page:section { lines = lines, text = [[
+From the script to raw pixels at 1280 x 720: processor time of the whole process for each frame. The
+nine painted layers, four of them blurred, move under a pan; OpenCV warps, blurs and blends the same
+files. *Differs by*: frame 40, where celspan blends codes, as OpenCV does.
+]], names = { "film", "celspan", "OpenCV", "ahead of OpenCV", "differs by" } }
 end
 
 --- The seconds of one of the later frames of a film of SVG files.
@@ -158,19 +142,15 @@ local function files(page)
       lines[#lines + 1] = later and { sheet[1], short[side], targets.time(later) }
     end
   end
-  if #lines == 0 then return end
-  page:put [[
-A sheet of 64 SVG files of the sample material with their gradients, strokes and groups, under a
-pan: what a later frame costs, from the script to raw pixels.
-]]
-  page:head { "files", "side", "a later frame" }
-  for _, line in ipairs(lines) do page:cells(line) end
-  page:put ""
+  page:section { fixed = 2, lines = lines, text = [[
+A sheet of 64 SVG files with their gradients, strokes and groups, under a pan: what a later frame
+costs, from the script to raw pixels.
+]], names = { "files", "side", "a later frame" } }
 end
 
 function report.tables(page)
   if #page.run:all { part = "film" } + #page.run:all { part = "raw" } == 0 then return end
-  page:put "## Films"
+  page:put "### Films"
   page:put ""
   drawings(page)
   files(page)

@@ -1,7 +1,7 @@
---- The parts of the page about drawings: celspan compared with the peers. Each function adds to a
---- page (page.lua) and leaves out figures that were not measured.
+--- The parts of the page about drawings: celspan compared with the peers, and how time and memory
+--- grow with the size. Each function adds to a page (page.lua) and leaves out figures that were not
+--- measured.
 local targets = require "tests.bench.targets.list"
-local published = require "tests.bench.published"
 local results = require "tests.bench.results"
 local scenes = require "tests.bench.scenes"
 
@@ -10,16 +10,25 @@ local seconds, time = results.seconds, targets.time
 
 local short = { [1024] = "1k", [2048] = "2k", [4096] = "4k", [30000] = "30k", [100000] = "100k",
                 [1000000] = "1M" }
-local pixel_sides = { 1024, 2048, 4096, 30000 }
+local all_scenes = { scenes.artwork, scenes.random, scenes.hard, scenes.gradients }
 
-local function shown(row)
-  if not row then return "" end
-  return results.mark(row) .. time(seconds(row))
+local function shown(row) return results.mark(row) .. time(seconds(row)) end
+
+local function mebibytes(row)
+  return row.peak_kib and row.peak_kib > 0 and ("%.1f MiB"):format(row.peak_kib / 1024) or ""
 end
 
-local function count(value) return value and ("%.3g million"):format(value / 1e6) or "" end
+--- A column for each renderer, whose rows have these fields.
+local function renderers(antialias)
+  local columns = { { "celspan", { renderer = "celspan", antialias = antialias } },
+                    { "Blend2D", { renderer = "blend2d", antialias = antialias } } }
+  for _, peer in ipairs(results.peers) do
+    columns[#columns + 1] = { peer[2], { renderer = peer[1], antialias = antialias } }
+  end
+  return columns
+end
 
--- ---------------------------------------------------------------- ratios
+-- ---------------------------------------------------------------- beside the peers
 
 --- "1.2 AGG", and Blend2D's ratio if it was measured.
 local function ratio_cell(run, scene, side)
@@ -31,67 +40,50 @@ local function ratio_cell(run, scene, side)
   return blend2d and ("%s, %.2f Blend2D"):format(cell, seconds(blend2d) / seconds(mine)) or cell
 end
 
-local function ratio_lines(page, names)
-  for _, scene in ipairs(names) do
-    local line, is_measured = { scene }, false
-    for _, side in ipairs(pixel_sides) do
-      line[#line + 1] = ratio_cell(page.run, scene, side)
-      is_measured = is_measured or line[#line] ~= ""
-    end
-    if is_measured then page:cells(line) end
-  end
-end
-
 --- Every drawing compared with the best of the peers.
 function report.ratios(page)
-  page:put [[
-Drawings to pixels, antialiased, one thread: the time of the fastest of Skia, AGG, Qt and Cairo
-divided by celspan's, and its name. Above 1, celspan is the fastest.
-]]
-  page:head { "drawing", "1k", "2k", "4k", "30k" }
-  for _, names in ipairs { scenes.artwork, scenes.random, scenes.hard, scenes.gradients } do
-    ratio_lines(page, names)
-  end
-  page:put ""
-end
-
--- ---------------------------------------------------------------- tables of drawings
-
---- One drawing at one side.
-local function pixel_line(run, scene, side, mine)
-  local known = (published.shapes[scene] or {})[side]
-  local again = run:pixel_row(scene, side, "celspan", "again")
-  local line = { scene, short[side], shown(mine), shown(run:pixel_row(scene, side, "celspan",
-                 "swept")), shown(again), count(mine.instructions),
-                 shown(run:pixel_row(scene, side, "blend2d", "area")),
-                 known and time(known) or "" }
-  for _, peer in ipairs(results.peers) do
-    line[#line + 1] = shown(run:pixel_row(scene, side, peer[1], "area"))
-  end
-  line[#line + 1] = shown(run:pixel_row(scene, side, "fill of runs"))
-  line[#line + 1] = shown(run:pixel_row(scene, side, "memset"))
-  line[#line + 1] = known and ("%.2g times"):format(known / mine.best_processor) or ""
-  local yardstick = targets.by_yardstick(run, scene, side)
-  line[#line + 1] = yardstick and ("%.2g times"):format(yardstick) or ""
-  local best = run:best_peer(scene, side)
-  line[#line + 1] = best and ("%.2g times"):format(best / seconds(mine)) or ""
-  return line
-end
-
---- The table of drawings to pixels.
-local function pixel_table(page, names)
-  page:head { "drawing", "side", "celspan", "celspan, swept", "celspan, later frame",
-              "instructions", "Blend2D", "Blend2D, published", "Skia", "AGG", "Qt", "Cairo",
-              "fill of the runs", "memset",
-              "ahead of Blend2D, published", "estimated from AGG", "ahead of the best peer" }
-  for _, scene in ipairs(names) do
-    for _, side in ipairs(pixel_sides) do
-      local mine = page.run:pixel_row(scene, side, "celspan", "area")
-      if mine then page:cells(pixel_line(page.run, scene, side, mine)) end
+  local lines = {}
+  for _, names in ipairs(all_scenes) do
+    for _, scene in ipairs(names) do
+      local line = { scene }
+      for _, side in ipairs { 1024, 2048, 4096, 30000 } do
+        line[#line + 1] = ratio_cell(page.run, scene, side)
+      end
+      lines[#lines + 1] = line
     end
   end
-  page:put ""
+  page:section { lines = lines, text = [[
+A drawing once, at four sizes (`./run bench artwork shapes hard gradients`):
+
+- `mosquito`, `skaters`, `boating`: drawings of 155 to 159 paths. `clipart` (2053 paths), `emoji`
+  (983) and `twemoji` (426): sheets of about 64 drawings. `house`: 220 paths, drawn by code.
+- `10`, `100`, `1000`: closed B-splines of random colour and alpha. `opaque`: the 1000, opaque.
+  `small`: 10,000 of a twentieth of the side. `faint`: about 60 faint layers at each point.
+  `gradients-100`, `gradients-1000`: the 100 and the 1000, each with a linear gradient.
+]], names = { "drawing", "1k", "2k", "4k", "30k" } }
 end
+
+--- The times behind the ratios, at the sizes of films.
+function report.times(page)
+  local columns = renderers "area"
+  table.insert(columns, 2, { "celspan, later frame", { renderer = "celspan",
+                                                       antialias = "again" } })
+  local lines = {}
+  for _, names in ipairs(all_scenes) do
+    for _, scene in ipairs(names) do
+      for _, side in ipairs { 1024, 4096 } do
+        lines[#lines + 1] = page:line({ scene, short[side] }, { part = "shapes", scene = scene,
+          side = side, output = "row" }, columns, shown)
+      end
+    end
+  end
+  page:section { title = "### Drawings, in time", fixed = 2, lines = lines, text = [[
+The times of the same drawings. *Later frame*: in a film that has shown the drawing before, which is
+then drawn from its [map](how-it-works.md#maps).
+]], names = page.names({ "drawing", "side" }, columns) }
+end
+
+-- ---------------------------------------------------------------- size and memory
 
 local function power(run, wanted, sides)
   local exponent = run:exponent(wanted, sides)
@@ -99,139 +91,108 @@ local function power(run, wanted, sides)
 end
 
 --- The power of the side with which the time grows.
-local function exponent_table(page, names)
-  page:head { "drawing", "spans `none`, 4k to 1M", "spans `area`, 4k to 1M",
-              "pixels `area`, 4k to 30k", "Skia", "AGG", "Qt", "Cairo" }
-  for _, scene in ipairs(names) do
-    local line = { scene }
-    for _, antialias in ipairs { "none", "area" } do
-      line[#line + 1] = power(page.run, { part = "shapes", scene = scene, output = "spans",
-        antialias = antialias, renderer = "celspan" }, { 4096, 30000, 100000, 1000000 })
-    end
-    for _, name in ipairs { "celspan", "skia", "agg", "qt", "cairo" } do
+local function exponents(page)
+  local lines = {}
+  for i, scene in ipairs(scenes.random) do
+    local line = { scene, power(page.run, { part = "shapes", scene = scene, output = "spans",
+      antialias = "area", renderer = "celspan" }, { 4096, 30000, 100000, 1000000 }) }
+    for _, column in ipairs(renderers "area") do
       line[#line + 1] = power(page.run, { part = "shapes", scene = scene, output = "row",
-        antialias = "area", renderer = name }, { 4096, 30000 })
+        antialias = "area", renderer = column[2].renderer }, { 4096, 30000 })
     end
-    page:cells(line)
+    lines[i] = line
   end
-  page:put ""
+  page:section { lines = lines, text = [[
+The time grows with this power of the side; 1 is linear, 2 is quadratic. To spans from 4k to 1M, to
+pixels from 4k to 30k.
+]], names = page.names({ "shapes", "celspan, spans" }, renderers()) }
 end
 
-local function span_line(row)
-  return { row.scene, short[row.side], row.antialias, shown(row), count(row.instructions),
-           ("%.0f"):format(row.spans), ("%.0f"):format(row.colours),
-           ("%.1f"):format(1e9 * seconds(row) / row.spans),
-           ("%.1f"):format(1e9 * seconds(row) / row.crossings),
-           ("%.1f MiB"):format(row.peak_kib / 1024) }
-end
-
-local function span_table(page, names)
-  page:head { "drawing", "side", "antialiasing", "time", "instructions", "spans",
-              "colours composed", "ns per span", "ns per crossing", "peak memory" }
-  for _, scene in ipairs(names) do
-    for _, antialias in ipairs { "none", "area" } do
-      for _, side in ipairs { 1024, 2048, 4096, 30000, 100000, 1000000 } do
-        local row = page.run:one { part = "shapes", scene = scene, side = side, output = "spans",
-                                   antialias = antialias, renderer = "celspan" }
-        if row and row.spans then page:cells(span_line(row)) end
-      end
+--- How the time grows with the side.
+function report.scaling(page)
+  local lines, columns = {}, {}
+  for i, side in ipairs { 1024, 4096, 30000, 100000, 1000000 } do
+    columns[i] = { short[side], { side = side } }
+  end
+  for _, scene in ipairs(scenes.random) do
+    for _, antialias in ipairs { "area", "none" } do
+      lines[#lines + 1] = page:line({ scene, antialias }, { part = "shapes", scene = scene,
+        output = "spans", antialias = antialias, renderer = "celspan" }, columns, shown)
     end
   end
-  page:put ""
-end
-
---- A title, words and the table of these drawings to pixels.
-local function section(page, title, text, names)
-  page:put("### ", title)
-  page:put ""
-  page:put(text)
-  pixel_table(page, names)
-end
-
---- The random shapes, the hard scenes, and artwork.
-function report.tables(page)
-  page:put "## Random shapes"
-  page:put ""
+  page:section { title = "## Scaling with size", fixed = 2, lines = lines, text = [[
+celspan's time to colour spans, which are made and discarded, of 10, 100 and 1000 random shapes, at
+1,024 to 1,000,000 pixels a side (`./run bench shapes large`).
+]], names = page.names({ "shapes", "antialiasing" }, columns) }
+  exponents(page)
   page:put [[
-10, 100 and 1000 closed B-splines of random colour and alpha, antialiased, to pixels. *Ahead of*:
-the other renderer's time divided by celspan's; below 1, the other renderer is faster. *Later
-frame*: the drawing again in a film, where at least 64 shapes are drawn from their
-[map](how-it-works.md#maps). *Swept*: without maps, whatever the rule says.]]
+In the plots, *Blend2D, published* are its best published times, on another machine; *fill of the
+runs* is the time to write a picture's runs of one colour where they are known, a lower limit.
+]]
   page:plot("ratios", "ratios")
-  for _, scene in ipairs(scenes.random) do page:plot("shapes-" .. scene, "shapes", scene) end
-  pixel_table(page, scenes.random)
-  page:put "### To spans"
-  page:put ""
-  page:put [[
-A crossing is an edge that meets a row, whether it is hidden or not.
-]]
-  span_table(page, scenes.random)
-  page:put "The time grows with this power of the side: 1 is linear, 2 is quadratic."
-  page:put ""
-  exponent_table(page, scenes.random)
-  section(page, "Hard for spans", [[
-`opaque`: the 1000 shapes without transparency. `small`: 10,000 shapes of a twentieth of the side.
-`faint`: the 1000 shapes at alpha 0.02 to 0.08, so that about 60 layers are visible at each point.
-]], scenes.hard)
-  section(page, "Gradients", [[
-The 100 and the 1000 shapes, each with a linear gradient from the left to the right of its box,
-between its colour and another of the same alpha. All renderers blend coded values. celspan computes
-the gradient in floats, as one span where nothing covers it; AGG and Qt use tables of 256 and 1024
-colours.
-]], scenes.gradients)
-  section(page, "Artwork", [[
-Drawings as filled paths, mostly opaque. Of the sample material: `mosquito`, `skaters` and `boating`
-with 155 to 159 paths each; sheets of about 64 drawings each, `clipart` (2053 paths), `emoji` (983)
-and `twemoji` (426). Drawn by code: `house` (220 paths).
-]], scenes.artwork)
+  page:plot("shapes-100", "shapes", "100")
 end
 
--- ---------------------------------------------------------------- whole images, agreement
-
-function report.whole_images(page)
-  if #page.run:all { part = "shapes", output = "whole" } == 0 then return end
-  page:put "### Whole images, and without antialiasing"
-  page:put ""
-  page:head { "drawing", "side", "antialiasing", "to", "celspan", "Blend2D", "Skia", "AGG", "Qt",
-              "Cairo" }
-  for _, kind in ipairs { { "whole", "area" }, { "row", "none" } } do
-    for _, scene in ipairs { "100", "1000" } do
-      local line = { scene, "4k", kind[2], kind[1] == "whole" and "a whole image" or "pixels" }
-      for _, name in ipairs { "celspan", "blend2d", "skia", "agg", "qt", "cairo" } do
-        line[#line + 1] = shown(page.run:one { part = "shapes", scene = scene, side = 4096,
-          output = kind[1], antialias = kind[2], renderer = name })
-      end
-      page:cells(line)
+--- The peak of memory, of whole processes.
+function report.memory(page)
+  local columns, lines = renderers(), {}
+  local function add(name, wanted) lines[#lines + 1] = page:line({ name }, wanted, columns,
+    mebibytes) end
+  for _, scene in ipairs { "100", "1000" } do
+    local function shapes(name, side, output)
+      add(("%s shapes, %s"):format(scene, name), { part = "shapes", scene = scene, side = side,
+        output = output, antialias = "area" })
     end
+    shapes("4k, to a reused row or band", 4096, "row")
+    shapes("4k, a whole picture", 4096, "whole")
+    shapes("30k, to a reused row or band", 30000, "row")
+    shapes("1M, to spans", 1000000, "spans")
   end
-  page:put ""
+  add("the demo film to PNG, 3840 x 2160", { part = "demo", scene = "240 frames", workers = 1 })
+  page:section { title = "## Memory", lines = lines, text = [[
+The most memory of the whole process (`./run bench shapes large whole demo`). celspan has no frame
+buffer: its memory does not grow with the size of the frame, unless a whole picture is wanted. The
+others draw into a band of 256 rows (64 at 30k) that is reused.
+]], names = page.names({ "job" }, columns) }
 end
 
-function report.agreement(page)
-  local rows = page.run:all { part = "agreement" }
-  if #rows == 0 then return end
-  page:put "## Do all renderers draw the same?"
-  page:put ""
-  page:put [[
-Each drawing once at 1024 pixels per side, averaged over cells of 16 x 16 pixels: the root of the
-mean square of the difference from celspan's picture, in units of 1/255. For this comparison celspan
-blends coded values, as the others do. Cairo and Skia drop fractions of a value at each of 60 faint
-layers.
-]]
-  page:head { "drawing", "Blend2D", "Skia", "AGG", "Qt", "Cairo" }
-  local done = {}
-  for _, row in ipairs(rows) do
-    if not done[row.scene] then
-      done[row.scene] = true
-      local line = { row.scene }
-      for _, name in ipairs { "blend2d", "skia", "agg", "qt", "cairo" } do
-        local one = page.run:one { part = "agreement", scene = row.scene, renderer = name }
-        line[#line + 1] = one and ("%.2f"):format(one.rms) or ""
-      end
-      page:cells(line)
+-- ---------------------------------------------------------------- exactness
+
+local function worst_of(run, scene)
+  local worst, rms
+  for _, row in ipairs(run:all { part = "accuracy", scene = scene }) do
+    worst = math.max(worst or 0, row.worst)
+    rms = row.rms and math.max(rms or 0, row.rms)
+  end
+  return worst and ("%.2f"):format(worst) or "", rms and ("%.3f"):format(rms) or ""
+end
+
+--- How far celspan is from the truth, and the others from celspan.
+function report.exactness(page)
+  local columns, lines = renderers(), {}
+  table.remove(columns, 1)
+  for _, names in ipairs(all_scenes) do
+    for _, scene in ipairs(names) do
+      lines[#lines + 1] = page:line({ scene, worst_of(page.run, scene) }, { part = "agreement",
+        scene = scene }, columns, function(row) return ("%.2f"):format(row.rms) end)
     end
   end
-  page:put ""
+  page:section { title = "## How exact it is", lines = lines, text = [[
+*Worst* and *rms*: the error of celspan's worst pixel, and the root of the mean square over all
+pixels, in linear light, in units of 1/255; the truth is the mean of 512 x 512 samples in each pixel
+(`./run bench accuracy`). The other columns say how far other renderers' pictures are from celspan's
+in means of 16 x 16 pixels, all blending coded values (`./run bench agreement`); Cairo and Skia drop
+fractions of a value at each of the 60 layers of `faint`.
+]], names = page.names({ "drawing", "worst", "rms" }, columns) }
+  local leaks = {}
+  for _, cover in ipairs { "fans", "bars" } do
+    local row = page.run:one { part = "accuracy", scene = "abutting " .. cover }
+    if row then leaks[#leaks + 1] = ("%d of %d pixels of %s"):format(row.leaking, row.pixels, cover)
+    end
+  end
+  if #leaks == 0 then return end
+  page:put("Where black shapes meet, the white behind them shows in ",
+    table.concat(leaks, "\nand "), ".\n")
 end
 
 return report

@@ -9,7 +9,7 @@ Runner.columns = {
   "part", "scene", "side", "output", "antialias", "renderer", "workers", "wall", "best_wall",
   "processor", "best_processor", "instructions", "runs", "peak_kib", "spans", "colours",
   "crossings", "bytes", "is_part", "is_over", "rms", "worst", "over_two", "pixels", "leaking",
-  "load",
+  "load", "lines",
 }
 
 --- programs: the folder of the built ones; seconds: how long a program may repeat a job; share: the

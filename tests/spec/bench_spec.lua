@@ -1,6 +1,7 @@
 -- The drawings of the benchmark and the evaluation of its table; its speeds are not tested.
 local targets = require "tests.bench.targets.list"
 local films = require "tests.bench.report_film"
+local more = require "tests.bench.report_more"
 local frames = require "tests.bench.parts_frames"
 local house = require "tests.bench.house"
 local Page = require "tests.bench.page"
@@ -221,8 +222,8 @@ describe("the films of the benchmark", function()
     local page = page_of(rows)
     films.tables(page)
     local text = table.concat(page.out, "\n")
-    assert.truthy(text:find("| clipart | 1k | 4 ms | 5 ms | 6 ms | 2 ms |  | 8 ms | 9 ms |  | "
-      .. "0.50 times | 2.00 times, AGG |  |", 1, true))
+    assert.truthy(text:find("| clipart | 1k | 4 ms | 5 ms | 6 ms | 2 ms | 8 ms | 9 ms | "
+      .. "0.50 times | 2.00 times, AGG |", 1, true))
     assert.truthy(text:find("| nine painted layers | 100 ms | 150 ms | 1.50 times | 0.25 of 255 |",
       1, true))
   end)
@@ -244,6 +245,19 @@ describe("the films of the benchmark", function()
     films.first(page)
     assert.truthy(table.concat(page.out, "\n"):find(
       "| clipart | 1k | 2.00 AGG, 0.50 Blend2D | 3.00 Cairo | 0.75 Cairo |", 1, true))
+  end)
+
+  it("by other programs have frames a second, and empty columns are left out", function()
+    local row = { part = "beside", scene = "150 frames", renderer = "Synfig", wall = 60.0,
+                  processor = 90.0, peak_kib = 2048 }
+    local page = page_of { row }
+    more.beside(page)
+    local text = table.concat(page.out, "\n")
+    assert.truthy(text:find("| program | frames a second | processor | memory |\n", 1, true))
+    assert.truthy(text:find("| Synfig | 2.5 | 90.0 s | 2 MiB |\n", 1, true))
+    page = page_of {}
+    more.beside(page)
+    assert.same({}, page.out)
   end)
 
   it("have their targets", function()

@@ -82,15 +82,6 @@ local function ahead(run, scene, side)
   return over((published.shapes[scene] or {})[side], mine and mine.best_processor)
 end
 
---- The same, estimated from AGG: Blend2D is assumed to be as much faster than AGG on this machine
---- as in the published figures.
-function targets.by_yardstick(run, scene, side)
-  local mine, agg = shapes(run, scene, side, "row", "area"), shapes(run, scene, side, "row", "area",
-    "agg")
-  local known = (published.agg[scene] or {})[side]
-  return known and over(over(seconds(agg), known / published.shapes[scene][side]), seconds(mine))
-end
-
 local names = { [1024] = "1k", [2048] = "2k", [4096] = "4k", [30000] = "30k" }
 
 local function pixels(run, lines)
