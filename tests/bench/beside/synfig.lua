@@ -17,8 +17,8 @@ local function still(name, x, y) put('<param name="%s">%s</param>', name, vector
 --- A place that moves evenly from a to b.
 local function moving(name, a, b)
   put('<param name="%s"><animated type="vector">', name)
-  for time, at in pairs { ["0f"] = a, ["149f"] = b } do
-    put('<waypoint time="%s" before="linear" after="linear">%s</waypoint>', time,
+  for i, at in ipairs { a, b } do
+    put('<waypoint time="%df" before="linear" after="linear">%s</waypoint>', 149 * (i - 1),
       vector(at[1], at[2]))
   end
   put "</animated></param>"
