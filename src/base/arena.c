@@ -51,8 +51,9 @@ static cs_arena_chunk *find_next(cs_arena *arena, size_t size) {
   return NULL;
 }
 
-/* Of a new chunk with its header: a power of two, as are the classes of spares (base/spares.h), so
- * that what is a little larger next time fits, too. 0: no size is large enough. */
+/* The size of a new chunk with its header: a power of two, as are the classes of spares
+ * (base/spares.h), so that a slightly larger request next time fits, too. 0: no size is large
+ * enough. */
 static size_t choose_size(const cs_arena *arena, size_t size) {
   size_t wanted = CHUNK_FIRST;
   if (arena->current)

@@ -1,5 +1,4 @@
-/* The most memory that a run may hold: the script, the scene, what is rendered and the caches
- * together.
+/* The most memory that a run may hold: the script, the scene, rendering and the caches together.
  *
  *   |<-- memory that the process may use: its control group's, the machine's, or what is given -->|
  *   | used by others | what may be held: three quarters of the rest |  room                       |
@@ -27,8 +26,8 @@ typedef struct cs_ceiling {
   atomic_size_t asked; /* the bytes held up to which it is not asked again */
 } cs_ceiling;
 
-/* machine: its memory; given: what the process may use as the user says, whatever others use; 0:
- * unknown. The least counts. */
+/* machine: its memory; given: the user's limit for the process, whatever other processes use; 0:
+ * unknown. The least of these counts. */
 void cs_ceiling_init(cs_ceiling *ceiling, const cs_control_group *group, uint64_t machine,
                      uint64_t given);
 /* There is no limit any more. */
@@ -41,7 +40,7 @@ typedef enum cs_refusal {
   CS_REFUSAL_GROUP      /* the group is full, whoever holds it */
 } cs_refusal;
 
-/* Whether `more` bytes may be held beside those that are. Any thread. */
+/* Whether `more` bytes may be held in addition to the bytes held now. Any thread. */
 cs_refusal cs_ceiling_refuses(cs_ceiling *ceiling, size_t held, size_t more);
 /* Why that is refused, as the end of a sentence. */
 void cs_ceiling_tell(const cs_ceiling *ceiling, cs_refusal refusal, char *text, size_t size);

@@ -13,7 +13,7 @@
 #include "base/spares.h"
 #include "celspan/celspan.h"
 
-/* For whom a thread allocates. What a script has rendered counts for the script. */
+/* For whom a thread allocates. Memory for frames that a script renders counts for the script. */
 typedef enum cs_account_kind {
   CS_ACCOUNT_NONE,
   CS_ACCOUNT_SCRIPT,
@@ -22,7 +22,7 @@ typedef enum cs_account_kind {
 
 typedef struct cs_account {
   cs_account_kind kind;
-  cs_refusal refusal; /* of the last allocation that was larger than what it replaced */
+  cs_refusal refusal; /* of the last allocation that was larger than the one it replaced */
 } cs_account;
 
 /* Shared by a context, its branches and every value made in it; counted, because scene values may
@@ -84,15 +84,16 @@ struct celspan_context {
   const struct cs_colour_module *colour_module;   /* likewise, for colour profiles */
   atomic_int processors; /* root only; see cs_context_workers; 0: not counted yet */
   int forced_way;        /* root only; of tests: a cs_ways_forced (frames/render/ways.h) */
-  struct cs_file_contents *contents; /* gets those of the files completed now; NULL: nobody asks */
+  struct cs_file_contents *contents; /* gets the contents of each file when it is completed; NULL:
+                                        nobody asks */
   char error[CS_ERROR_SIZE];
 };
 
 cs_memory *cs_memory_ref(cs_memory *memory);
 void cs_memory_unref(cs_memory *memory);
 
-/* Sets the account of this thread; returns the one before. A thread that works for another one sets
- * that one's. */
+/* Sets the account of this thread; returns the one before. A thread that works for another thread
+ * sets the account of that thread. */
 cs_account_kind cs_account_set(const cs_memory *memory, cs_account_kind kind);
 cs_account_kind cs_account_of(const cs_memory *memory);
 /* A frame is rendered from now on. Returns the account before, for the end. */
@@ -105,12 +106,12 @@ void cs_account_give_up(cs_memory *memory, size_t bytes);
  * them, which the account of the thread then says. The host counts them in `beside`. */
 bool cs_account_allows(cs_memory *memory, size_t more);
 void cs_account_beside(cs_memory *memory, size_t change);
-/* All that is held, with that of the host. */
+/* All held bytes, including those of the host. */
 size_t cs_account_bytes(const cs_memory *memory);
 /* Whether the limit of all that is held refused the last allocation of this thread. The text says
  * why, as the end of a sentence. */
 bool cs_account_tell(const cs_memory *memory, char *text, size_t size);
-/* Bytes that are neither kept by caches nor used to render a frame: those of scripts and scenes. */
+/* Bytes of scripts and scenes: neither kept by caches nor used to render a frame. */
 size_t cs_account_scene_bytes(const cs_memory *memory);
 
 /* Allocates, resizes or (new_size 0) frees; NULL when there is no memory. Any thread. Does not

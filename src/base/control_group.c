@@ -44,7 +44,7 @@ static bool read_in(const char *folder, const char *name, char text[TEXT]) {
 }
 
 /* A whole number at the start of a text, with a space or the end behind it. "max", "-1", an empty
- * text, anything else and what is too large are CS_CONTROL_GROUP_NONE. *end: behind the number. */
+ * text, any other text and too large numbers are CS_CONTROL_GROUP_NONE. *end: behind the number. */
 static uint64_t number_at(const char *text, const char **end) {
   char *after = NULL;
   *end = text;
@@ -81,7 +81,7 @@ typedef struct lines {
   char bytes[TEXT];
 } lines;
 
-/* Makes room behind what is left, and reads there. false: there is nothing more. */
+/* Makes room behind the remaining bytes, and reads there. false: there is nothing more. */
 static bool read_more(lines *l) {
   l->size -= l->begin;
   memmove(l->bytes, l->bytes + l->begin, l->size);
@@ -96,7 +96,7 @@ static bool read_more(lines *l) {
   return true;
 }
 
-/* The next line, without its end, until the one after it is asked for; NULL: there is none. */
+/* The next line, without its end, valid until the next call; NULL: there is none. */
 static char *next_line(lines *l) {
   do {
     char *line = l->bytes + l->begin, *end = memchr(line, '\n', l->size - l->begin);
@@ -157,7 +157,7 @@ static void decode(char *text) {
   *out = '\0';
 }
 
-/* What of a path lies below a root; NULL: the path is elsewhere. */
+/* The part of a path below a root; NULL: the path is elsewhere. */
 static const char *below(const char *path, const char *root) {
   size_t length = strcmp(root, "/") == 0 ? 0 : strlen(root);
   bool is_there = strncmp(path, root, length) == 0 && (!path[length] || path[length] == '/');
@@ -284,8 +284,8 @@ void cs_control_group_open(const char *folder, int *usage, int *stat) {
   *stat = open_in(folder, "memory.stat");
 }
 
-/* A number of memory.stat. In version 1 a name counts the group alone, and "total_" before it, in a
- * later line, those below it, too. */
+/* A number of memory.stat. In version 1 a name counts the group alone; the name with "total_"
+ * before it, in a later line, also counts the groups below it. */
 static uint64_t number_of(const char *text, const char *name) {
   uint64_t found = 0;
   size_t length = strlen(name);

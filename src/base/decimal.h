@@ -6,6 +6,7 @@
  */
 #pragma once
 
-/* The number that text begins with; infinite when it is too large. Returns what follows it, or NULL
- * when text begins with none. An e without digits after it is not part of the number. */
+/* The number that text begins with; infinite when it is too large. Returns the text after it, or
+ * NULL when text does not begin with a number. An e without digits after it is not part of the
+ * number. */
 const char *cs_decimal_read(const char *text, double *out);

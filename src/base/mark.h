@@ -2,7 +2,7 @@
  * made.
  *
  *   name    "hand", by :named or celspan_object_named and its like
- *   origin  "shot.lua", line 12: what the context said when the value was made
+ * origin "shot.lua", line 12: the place that the context named when the value was made
  *
  * A mark is kept by the values that are made of a value by transforms, fades and names. It is no
  * part of a value's hash. Invariant: a name is valid UTF-8 of 1 to CS_MARK_NAME bytes, without

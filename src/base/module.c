@@ -21,7 +21,7 @@
 
 /* Where a module may lie, relative to the folder of the object that contains this function: an
  * installed library, program or Lua module, a Lua module in the build tree, a test program. A
- * folder that ends with a slash is followed by that of the module's sources. */
+ * folder that ends with a slash is followed by the folder of the module's sources. */
 static const char *const folders[] = {
     "./",
     "../",
@@ -131,7 +131,7 @@ static celspan_status fail_search(celspan_context *context, const cs_module_desc
                  desc->override);
 }
 
-/* What the module offers, which must be of this release. */
+/* The table of the module, which must be of this release. */
 static celspan_status get_table(celspan_context *context, const cs_module_desc *desc,
                                 celspan_status failure, const char *path,
                                 const void *(*entry)(void), const void **table) {
@@ -176,7 +176,8 @@ static celspan_status load(celspan_context *context, const cs_module_desc *desc,
   return status;
 }
 
-/* Volatile, for compilers know what is taken and given back at once, and leave both out. */
+/* Volatile, because compilers recognize memory that is allocated and freed at once, and leave out
+ * both calls. */
 static bool has_room(void) {
   void *volatile room = malloc(ROOM);
   free(room);

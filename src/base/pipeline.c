@@ -165,7 +165,7 @@ static celspan_status deliver_first(cs_pipeline *p, celspan_context *context) {
   if (status != CELSPAN_OK)
     return status;
   p->delivered++;
-  if (p->claimed < p->delivered) /* nobody claims what the owner has made */
+  if (p->claimed < p->delivered) /* nobody claims items that the owner has made */
     p->claimed = p->delivered;
   return CELSPAN_OK;
 }

@@ -37,14 +37,15 @@ typedef enum cs_pipeline_step {
   CS_PIPELINE_ANYWHERE = 0, /* any worker */
   CS_PIPELINE_HERE,         /* the owner, at once */
   CS_PIPELINE_IN_ORDER,     /* the owner, when all items before it have been delivered */
-  CS_PIPELINE_NOTHING       /* nobody: it is complete as it is */
+  CS_PIPELINE_NOTHING       /* nobody: it is complete already */
 } cs_pipeline_step;
 
 typedef struct cs_pipeline_desc {
   size_t count; /* of items that may be added in all */
   size_t slots; /* at least 1 */
   int threads;  /* in addition to the owner's */
-  /* The owner claims items too while it waits for one; else it makes only those left to it. */
+  /* The owner claims items too while it waits for one; otherwise it makes only the items that are
+   * left to it. */
   bool owner_claims;
   bool keeps_going; /* an item that fails does not keep later ones from being made */
   void *user;

@@ -2,8 +2,8 @@
  *
  *   roots of a script: its folder, --allow DIR ..., the folders of CELSPAN_PATH
  *
- * INVARIANT: a path is below a root if what it leads to (base/resolve.h) is. So the answer does not
- * say whether a file outside the roots exists.
+ * INVARIANT: a path is below a root if its target (base/resolve.h) is. So the answer does not say
+ * whether a file outside the roots exists.
  */
 #pragma once
 

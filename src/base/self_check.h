@@ -1,4 +1,4 @@
-/* Self-checks: what headers promise in prose, checked while the program runs.
+/* Self-checks: the promises of headers, checked while the program runs.
  *
  * The meson option `checks` builds them in; builds that are tested have it. A build that is
  * installed or measured does not: there a claim is not even evaluated, and the functions that

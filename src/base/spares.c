@@ -82,7 +82,7 @@ static void *advised(void *storage, size_t size) {
   return storage;
 }
 
-/* realloc; what is kept is given up where memory is short. */
+/* realloc; kept memory is freed where memory is short. */
 static void *request(cs_spares *spares, void *storage, size_t size) {
   void *made = realloc(storage, size);
   if (!made) {

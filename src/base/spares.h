@@ -46,19 +46,19 @@ typedef struct cs_spare cs_spare;
 typedef struct cs_spares {
   pthread_mutex_t lock;
   bool is_closed;                    /* nothing is kept any more */
-  size_t bytes, most;                /* of what is kept */
+  size_t bytes, most;                /* of the kept memory */
   cs_spare *kept[CS_SPARES_CLASSES]; /* from malloc */
 } cs_spares;
 
 /* False: the system has no lock left. */
 bool cs_spares_init(cs_spares *spares);
 /* Any thread, as the next two. A celspan_resize on the C library's functions. user: a cs_spares.
- * old_size must be what was requested. Shrinking never fails. */
+ * old_size must be the requested size. Shrinking never fails. */
 void *cs_spares_resize(void *user, void *storage, size_t old_size, size_t new_size);
 /* Frees everything that is kept. */
 void cs_spares_trim(cs_spares *spares);
 /* The same, and nothing is kept any more. */
 void cs_spares_close(cs_spares *spares);
-/* The same at the end, when no other thread uses them. Only what has no class may be freed
+/* The same at the end, when no other thread uses them. Only memory without a class may be freed
  * afterwards. */
 void cs_spares_finish(cs_spares *spares);

@@ -116,7 +116,7 @@ static inline int cs_v4_is_between(cs_v4 value, cs_v4 least, cs_v4 most) {
 #endif
 }
 
-/* Whether a lane of a is greater than that of b. */
+/* Whether a lane of a is greater than the same lane of b. */
 static inline int cs_v4_any_above(cs_v4 a, cs_v4 b) {
   typedef long long words __attribute__((vector_size(16)));
   words above = (words)(a > b);

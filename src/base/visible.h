@@ -8,9 +8,9 @@
 #include <stddef.h>
 #include <stdio.h>
 
-enum { CS_VISIBLE = 5 }; /* bytes of what one character may become, with a zero */
+enum { CS_VISIBLE = 5 }; /* bytes of the longest text for one character, with a zero */
 
-/* Writes what is shown of the first character of a text that is not "", and a zero. size: of the
+/* Writes the visible form of the first character of a text that is not "", and a zero. size: of the
  * text. The answer: bytes of the text that it was read from. */
 static inline size_t cs_visible_first(const char *text, size_t size, char out[CS_VISIBLE]) {
   const unsigned char *at = (const unsigned char *)text;

@@ -45,7 +45,8 @@ static inline cs_isa cs_isa_best(void) { return CS_ISA_ANY; }
 #define CS_WIDE_EXPAND(name, isa) CS_WIDE_JOIN(name, isa)
 #define CS_WIDE(name) CS_WIDE_EXPAND(name, CS_WIDE_ISA)
 
-/* Arrays that kernels go through begin on a line of the cache: what lies across two costs twice. */
+/* Arrays that kernels go through begin on a line of the cache: an access across two lines costs
+ * twice as much. */
 #define CS_WIDE_LINE 64
 
 static inline void *cs_wide_align(void *block) {
