@@ -1,10 +1,10 @@
-/* Blend modes: what a colour of a source and one of its backdrop give where both are there.
+/* Blend modes: the colour that a source and its backdrop give where both are present.
  *
  *     separable          each channel by itself: multiply, screen, ... exclusion
  *     not separable      hue, saturation, color, luminosity: of the colour as a whole
  *
  * W3C Compositing and Blending Level 1, chapter 10. CELSPAN_BLEND_ADD has no such colour: it adds
- * what is premultiplied (engine/compose/over.h). The two modes after it are those of painting
+ * premultiplied colours (engine/compose/over.h). The two modes after it are those of painting
  * programs, and separable.
  *
  * Colours are not premultiplied, and in 0..1. Lane 3 has no meaning. Every operation is exact IEEE
@@ -17,14 +17,15 @@
 
 #define CS_BLEND_COUNT (CELSPAN_BLEND_SOFT_LIGHT_PHOTOSHOP + 1)
 
-/* Added to a mode: the source shows only as far as its backdrop is there, whose alpha it leaves; so
- * a mode of this kind is never CELSPAN_BLEND_NORMAL. What "add" gives is then clamped to 1. */
+/* Added to a mode: the source shows only where its backdrop is present, and does not change the
+ * backdrop's alpha; so a mode of this kind is never CELSPAN_BLEND_NORMAL. The result of "add" is
+ * then clamped to 1. */
 #define CS_BLEND_WITHIN 32
 #define CS_BLEND_MODE(blend) ((celspan_blend)((unsigned)(blend) & (CS_BLEND_WITHIN - 1)))
 
 /* The words of celspan_blend, ended by NULL. */
 extern const char *const cs_blend_words[];
 
-/* Of one colour of a source, s, and one of its backdrop, b; of many at once: blend_lanes.h. ADD is
- * that of sources within their backdrops. */
+/* Blends one colour of a source, s, with one of its backdrop, b; blend_lanes.h blends many at once.
+ * ADD is the mode of sources within their backdrops. */
 cs_v4 cs_blend_colour(celspan_blend mode, cs_v4 b, cs_v4 s);

@@ -25,7 +25,7 @@ static inline cs_wide cs_blend_lanes_burn(cs_wide b, cs_wide s) {
   return cs_wide_choose(b >= 1, cs_wide_all(1), dark);
 }
 
-/* bright: what a backdrop becomes under white. */
+/* bright: the result over a backdrop under a white source. */
 static inline cs_wide cs_blend_lanes_softly(cs_wide b, cs_wide s, cs_wide bright) {
   return cs_wide_choose(s <= 0.5f, b - (1 - 2 * s) * b * (1 - b), b + (2 * s - 1) * (bright - b));
 }
@@ -86,7 +86,7 @@ static inline cs_wide cs_blend_lanes_whole(celspan_blend mode, cs_wide b, cs_wid
 
 /* ---------------------------------------------------------------- any mode */
 
-/* b: of the backdrops; s: of the sources. ADD is that of sources within their backdrops. */
+/* b: of the backdrops; s: of the sources. ADD is the mode of sources within their backdrops. */
 static inline cs_wide cs_blend_lanes(celspan_blend mode, cs_wide b, cs_wide s) {
   switch (mode) {
   case CELSPAN_BLEND_NORMAL:

@@ -22,7 +22,7 @@
 typedef struct reader {
   celspan_context *context;
   const char *file;
-  const char *text, *end; /* what is left; a zero byte is at `end` */
+  const char *text, *end; /* the text not read yet; a zero byte is at `end` */
   size_t line;
   cs_cube *cube;
   size_t filled; /* values read so far */

@@ -1,5 +1,5 @@
-/* Tables of colours (.cube): what comes out for some colours that go in, in one or three
- * dimensions; what lies between them is interpolated.
+/* Tables of colours (.cube): the output colours for some input colours, in one or three dimensions;
+ * colours between these are interpolated.
  *
  *     one                          three
  *     out |     .--*                blue ^  / green     a colour lies in one of the small boxes
@@ -22,7 +22,7 @@
 typedef struct cs_cube {
   atomic_size_t references;
   cs_memory *memory;
-  cs_hash hash;     /* of what it does */
+  cs_hash hash;     /* of its domain and values */
   bool is_solid;    /* three dimensions */
   size_t side;      /* values along a side, at least 2 */
   double domain[6]; /* the least red, green, blue; the greatest */

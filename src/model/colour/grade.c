@@ -50,7 +50,7 @@ static cs_grade_map saturation_map(double s) {
   return map;
 }
 
-/* Likewise. The second row of the sines is that of the standard. */
+/* Likewise. The second row of the sines is the one in the standard. */
 static cs_grade_map hue_map(double radians) {
   const double sines[3][3] = {
       {-luma[0], -luma[1], 1 - luma[2]}, {0.143, 0.140, -0.283}, {luma[0] - 1, luma[1], luma[2]}};
@@ -107,8 +107,8 @@ static void apply_map(const cs_grade_map *map, double colour[3]) {
 
 /* ---------------------------------------------------------------- curves */
 
-/* The slopes of Fritsch and Carlson: the means of those of the lines on both sides, then drawn in
- * to the circle of radius 3 in which a cubic does not overshoot. */
+/* The slopes of Fritsch and Carlson: the mean slope of the lines on both sides, then reduced to the
+ * circle of radius 3 in which a cubic does not overshoot. */
 static void find_slopes(const cs_grade_curve *curve) {
   const celspan_point *p = curve->points;
   double before = 0;

@@ -1,4 +1,4 @@
-/* Grades: what becomes of a colour, step by step, in the numbers of a space.
+/* Grades: changes of a colour, step by step, in the numbers of a space.
  *
  *   exposure   contrast   saturation   hue   temperature, tint     gamma    matrix   curves   table
  *   '------------------- one affine map a space -------------'    |c|^1/g   affine
@@ -14,7 +14,7 @@
 #define CS_GRADE_POINTS 1024 /* of a curve, at most */
 #define CS_GRADE_MOST 1e12   /* between two steps, colours are clamped to this and its negative */
 
-/* A map of colours: each row gives a channel by those of the colour, and 1. */
+/* A map of colours: each row gives a channel from the channels of the colour, and 1. */
 typedef struct cs_grade_map {
   bool is_given;
   double rows[3][4];
@@ -35,13 +35,14 @@ typedef struct cs_grade {
   cs_cube *cube; /* NULL: none. A reference */
 } cs_grade;
 
-/* desc: checked. Fills all but the cube. Errors: NO_MEMORY; *out is then to be finished, too. */
+/* desc: checked. Fills everything except the cube. Errors: NO_MEMORY; *out must be finished then,
+ * too. */
 CELSPAN_CHECKED celspan_status cs_grade_make(celspan_context *context,
                                              const celspan_grade_desc *desc, cs_grade *out);
 void cs_grade_finish(cs_grade *grade, cs_memory *memory);
 
 /* Replaces a colour, which was divided by its alpha. */
 void cs_grade_colour(const cs_grade *grade, celspan_space space, double colour[3]);
-/* Replaces premultiplied light. alpha: how much of it is there; light without any is graded as if
- * it were there as far as it shines. */
+/* Replaces premultiplied light. alpha: the coverage; light without coverage is graded as if its
+ * coverage were its brightness. */
 void cs_grade_light(const cs_grade *grade, celspan_space space, float alpha, float light[3]);

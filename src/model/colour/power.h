@@ -20,7 +20,7 @@ enum { CS_POWER_POINTS = 64, CS_POWER_SERIES = 8, CS_POWER_OCTAVES = 24 };
 
 typedef struct cs_power {
   double exponent, point[CS_POWER_POINTS], series[CS_POWER_SERIES];
-  double octave[2 * CS_POWER_OCTAVES + 1]; /* the middle one is that of 1 */
+  double octave[2 * CS_POWER_OCTAVES + 1]; /* the middle one belongs to 1 */
 } cs_power;
 
 extern const cs_power cs_power_srgb_encoding, cs_power_srgb_decoding;
@@ -66,7 +66,7 @@ static inline double cs_power_of(const cs_power *power, double x) {
 #define CS_POWER_SRGB_LIGHT 0.0031308 /* of linear light */
 #define CS_POWER_SRGB_CODE 0.04045    /* of codes in 0..1 */
 
-/* Of which a code's light is the power. */
+/* The base whose power is the light of a code. */
 static inline double cs_power_srgb_base(double code) { return (code + 0.055) / 1.055; }
 
 static inline double cs_power_srgb_encoded(double light, double power) {

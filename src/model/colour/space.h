@@ -5,8 +5,8 @@
  *     group in one space                                the space around it
  *     S, T  -- S / d --> colour --curve--> colour * d --> S, T      d: how much of it is there
  *
- * Invariant: 0 and 1 stay as they are, to the bit, and so does T; a colour that goes there and back
- * is the same within rounding.
+ * Invariant: 0, 1 and T do not change, to the bit; a colour that goes there and back is the same
+ * within rounding.
  */
 #pragma once
 
@@ -25,19 +25,20 @@ static inline celspan_space cs_space_inside(celspan_space own, celspan_space aro
                                           : around;
 }
 
-/* d of one channel of what is `share` there: the greater of `share` and min(s, 1). */
+/* d of one channel of a colour whose coverage is `share`: the greater of `share` and min(s, 1). */
 static inline float cs_space_there(float s, float share) {
   float size = s < 0 ? -s : s, least = size < 1 ? size : 1;
   return share > least ? share : least;
 }
 
-/* One channel of what is `share` there, taken to a space from the other one: as above. */
+/* One channel of a colour whose coverage is `share`, converted to a space from the other one: as
+ * above. */
 float cs_space_channel(celspan_space to, float s, float share);
 /* Converts `count` channels to the same bits as one by one. (space_wide.c) */
 CS_WIDE_DECLARE(void, cs_space_channels,
                 (celspan_space to, const float *shares, int32_t count, float *s));
 
-/* Converts three channels; t: how much each transmits, of which only `keep` counts. */
+/* Converts three channels; t: the transmission of each, of which only the share `keep` counts. */
 static inline cs_v4 cs_space_leave(celspan_space to, cs_v4 e, cs_v4 t, float keep) {
   return (cs_v4){cs_space_channel(to, e[0], 1 - keep * t[0]),
                  cs_space_channel(to, e[1], 1 - keep * t[1]),

@@ -1,5 +1,6 @@
-/* The curve of sRGB over many channels, a few steps each for all of them, which become vector code:
- * a power is found for channels on the straight part of the curve, too, of the end of that.
+/* The curve of sRGB over many channels, in loops of a few steps each, which become vector code. A
+ * power is computed also for channels on the straight part of the curve: that of the end of the
+ * straight part.
  *
  *   s, share --> colour --> base --> power of it --> colour, converted --> s
  *

@@ -8,14 +8,14 @@
  *
  *     64 codes --four instructions, by quarters--> byte 0 of 64 floats; bytes 1, 2, 3 likewise
  *
- * Invariant: the floats are those of cs_srgb8_colour.
+ * Invariant: the floats equal those of cs_srgb8_colour.
  */
 #pragma once
 
 #include "base/wide.h"
 #include "model/colour/srgb8.h"
 
-/* Whether there are these instructions. */
+/* Whether the processor has these instructions. */
 static inline bool cs_srgb8_decodes(cs_isa isa) {
 #ifdef __x86_64__
   return isa == CS_ISA_AVX512 && __builtin_cpu_supports("avx512vbmi");
@@ -26,8 +26,8 @@ static inline bool cs_srgb8_decodes(cs_isa isa) {
 
 #ifdef __AVX512F__
 
-/* Aligned to lines of the cache: otherwise what is linked in front of these loops decides, by where
- * they come to lie, whether they are up to 8 % slower. */
+/* Aligned to lines of the cache: otherwise the code linked in front of these loops decides where
+ * they lie, and a bad place makes them up to 8 % slower. */
 #define CS_SRGB8_BYTES __attribute__((target("avx512vbmi"), aligned(64)))
 
 typedef struct cs_srgb8_tables {

@@ -258,9 +258,9 @@ CS_WIDE_DECLARE(void, cs_srgb8_codes, (const float *rgba, size_t count, unsigned
 /* `count` colours as pixels. */
 typedef void (*cs_srgb8)(const float *rgba, size_t count, unsigned char *out);
 
-/* Of linear colours. */
+/* For linear colours. */
 static inline cs_srgb8 cs_srgb8_choose(cs_isa isa) { return CS_WIDE_CHOOSE(isa, cs_srgb8_code); }
-/* Of colours whose numbers are codes. */
+/* For colours whose numbers are codes. */
 static inline cs_srgb8 cs_srgb8_choose_codes(cs_isa isa) {
   return CS_WIDE_CHOOSE(isa, cs_srgb8_codes);
 }

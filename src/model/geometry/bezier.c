@@ -115,7 +115,7 @@ static void halve(const double *coefficients, int degree, double *low, double *h
   }
 }
 
-/* The signs of the coefficients, without those that are noise; 0 if all are noise. */
+/* The signs of the coefficients, without coefficients that are noise; 0 if all are noise. */
 typedef struct sign_pattern {
   int first, last, changes;
 } sign_pattern;

@@ -16,7 +16,7 @@
 #include "model/geometry/outline.h"
 
 #define CS_BEZIER_DEGREE 15
-/* The most roots of any polynomial here: those of the extrema of a rational piece. */
+/* The most roots of any polynomial here: a rational piece has that many extrema. */
 #define CS_BEZIER_ROOTS (2 * CS_BEZIER_DEGREE)
 /* The highest degree of any polynomial that may be asked for its roots. */
 #define CS_BEZIER_POLYNOMIAL 100

@@ -60,7 +60,7 @@ static inline bool is_before(const cs_boundary_chain *a, const cs_boundary_chain
 
 CS_SORT_DEFINE(sort_chains, cs_boundary_chain, is_before)
 
-/* A whole number in the order of heights; those that are close share one. */
+/* A whole number in the order of heights; heights that are close share one. */
 static inline int32_t height_key(double y) {
   const float height = (float)y + 0.0f; /* no -0 */
   int32_t bits;

@@ -73,8 +73,8 @@ bool cs_boundary_around_box(const celspan_box *box, const celspan_matrix *matrix
 
 void cs_boundary_init(cs_boundary_set *set);
 void cs_boundary_finish(cs_boundary_set *set, cs_memory *memory);
-/* Makes room for the chains of outlines with so many pieces and points, about, so that the arrays
- * need not grow with them. Errors: NO_MEMORY. */
+/* Makes room for the chains of outlines with about this number of pieces and points, so that the
+ * arrays need not grow with them. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_boundary_expect(celspan_context *context, cs_boundary_set *set,
                                                   size_t pieces, size_t points);
 
@@ -88,5 +88,5 @@ typedef struct cs_boundary_group {
   double slope[CS_BOUNDARY_GROUP + 1]; /* dx/dy of each segment, at its top; 0 where it is flat */
   double curve[CS_BOUNDARY_GROUP + 1]; /* and d2x/dy2 / 2; 0 of a chord */
   uint32_t count;                      /* of segments; an arc is one */
-  uint32_t first, groups;              /* of the piece: one, or those of a leap */
+  uint32_t first, groups;              /* of the piece: one group, or the groups of a leap */
 } cs_boundary_group;

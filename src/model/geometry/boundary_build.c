@@ -2,7 +2,8 @@
  *
  * Every stage works on a piece in its canonical order, so that a curve and its reversed copy give
  * the same bits, and makes stretches from top to bottom. The stretches of a piece are then put into
- * the order of the contour. One file, because each stage is small and inlined into the one before.
+ * the order of the contour. One file, because each stage is small and inlined into the previous
+ * one.
  */
 #include "model/geometry/boundary_build.h"
 
@@ -198,7 +199,7 @@ static celspan_status add_across(builder *b, const cs_bezier *curve, double y0, 
 }
 
 /* curve: goes down from its first point to its last. It may extend a little beyond top and bottom:
- * that costs little, and its vertices are then those of a larger frame. */
+ * that costs little, and its vertices are then the same as in a larger frame. */
 static celspan_status add_falling(builder *b, cs_bezier *curve) {
   const cs_boundary_frame *frame = &b->frame;
   celspan_point from = project(curve->points[0]), to = project(curve->points[curve->degree]);
@@ -476,8 +477,8 @@ static bool is_vertical(const cs_boundary_piece *piece) {
   return piece->chords == 1 && piece->x0 == piece->x1;
 }
 
-/* Puts the pieces of a run below the others of its chain, which are from `chain` to `next`; two
- * vertical lines become one. Returns their end. */
+/* Puts the pieces of a run below the other pieces of its chain, which are from `chain` to `next`;
+ * two vertical lines become one. Returns the end of the chain. */
 static cs_boundary_piece *append_run(const cs_boundary_stretch *items, size_t begin, size_t end,
                                      const cs_boundary_piece *chain, cs_boundary_piece *next) {
   bool falls = items[begin].direction > 0;

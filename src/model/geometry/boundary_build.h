@@ -21,8 +21,8 @@
 #include "model/geometry/boundary.h"
 #include "model/geometry/plain.h"
 
-/* Stretches: what falls or rises along one contour, in the order of the contour, until they are
- * joined to chains.
+/* Stretches: the falling and rising parts of one contour, in the order of the contour, until they
+ * are joined to chains.
  *
  *        .0.            the contour begins at 0 and goes down the left side
  *      1'   '5
@@ -43,7 +43,8 @@ typedef struct cs_boundary_stretches {
   size_t count, capacity;
 } cs_boundary_stretches;
 
-/* Reverses the order of those from `begin` on. turns_direction: they then go the other way too. */
+/* Reverses the order of the stretches from `begin` on. turns_direction: their directions are
+ * reversed, too. */
 void cs_stretches_reverse(cs_boundary_stretches *stretches, size_t begin, bool turns_direction);
 
 /* Appends the chains of a closed contour to the set. Errors: NO_MEMORY, LIMIT. */
@@ -58,7 +59,7 @@ typedef struct cs_boundary_builder {
   cs_boundary_frame frame;
   cs_boundary_frame inside;        /* plain curves within it are inside */
   cs_boundary_stretches stretches; /* of the current contour */
-  cs_boundary_stretch straight;    /* what the stretches of the current curve begin as */
+  cs_boundary_stretch straight;    /* the initial value of the stretches of the current curve */
   cs_bezier *fronts;               /* the parts of the current piece that are before the horizon */
   size_t front_count, front_capacity;
   bool has_pen;

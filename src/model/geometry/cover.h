@@ -29,7 +29,7 @@ static inline double cs_cover_round(double x) {
   return (x + bias) - bias;
 }
 
-/* As `by_twice`, of a line that may be upright: it is taken to be very thin then. */
+/* As `by_twice`, for a line that may be upright: an upright line counts as very thin. */
 static inline double cs_cover_by_twice(double low, double high) {
   const double thin = 0x1p-100;
   return 0.5 / cs_number_most(high - low, thin);
@@ -56,7 +56,8 @@ static inline double cs_cover_passed(double low, double high, double by_twice, d
   return until * until * by_twice + cs_number_most(x - high, 0);
 }
 
-/* In the pixel of column p, of a line from xa to xb and some height: 0..height, rounded. */
+/* The area right of a line from xa to xb over a height, in the pixel of column p: 0..height,
+ * rounded. */
 static inline double cs_cover_of(double xa, double xb, double height, int32_t p) {
   double low = cs_number_least(xa, xb), high = cs_number_most(xa, xb);
   double by_twice = cs_cover_by_twice(low, high);

@@ -32,7 +32,7 @@ static inline bool cs_matrix_keeps_weights(const celspan_matrix *matrix) {
 }
 /* Affine without rotation or skew: rows stay rows and columns columns. */
 bool cs_matrix_is_upright(const celspan_matrix *matrix);
-/* Whether what is clockwise becomes counter-clockwise, in front of the horizon. */
+/* Whether a clockwise curve in front of the horizon becomes counter-clockwise. */
 bool cs_matrix_mirrors(const celspan_matrix *matrix);
 /* By how much lengths at a point are stretched in the direction in which that is most: the greater
  * singular value of the derivative. INFINITY at the horizon and behind it. */

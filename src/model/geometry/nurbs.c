@@ -184,7 +184,7 @@ static cs_hpoint blossom(const cs_hpoint *points, const double *knots, size_t de
   return work[degree];
 }
 
-/* points[0..degree] are those of the span; a contour begins before the first piece. */
+/* points[0..degree] are the points of the span; a contour begins before the first piece. */
 static celspan_status add_span(celspan_context *context, cs_outline *outline, const curve *c,
                                size_t span, bool is_first) {
   cs_hpoint points[CS_BEZIER_DEGREE + 1], bezier[CS_BEZIER_DEGREE + 1];

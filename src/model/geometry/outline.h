@@ -39,9 +39,9 @@ typedef struct cs_outline {
 void cs_outline_init(cs_outline *outline);
 void cs_outline_finish(cs_outline *outline, cs_memory *memory);
 
-/* Building: move begins a contour, the others append a piece from the current point, close ends the
- * contour with a line when it is open. A contour without pieces vanishes.
- * Errors: NO_MEMORY; LIMIT past 2^31 points. */
+/* Building: move begins a contour, close ends it with a line when it is open, and the other
+ * functions append a piece from the current point. A contour without pieces vanishes. Errors:
+ * NO_MEMORY; LIMIT past 2^31 points. */
 CELSPAN_CHECKED celspan_status cs_outline_move(celspan_context *context, cs_outline *outline,
                                                cs_hpoint to);
 CELSPAN_CHECKED celspan_status cs_outline_line(celspan_context *context, cs_outline *outline,
@@ -58,7 +58,8 @@ CELSPAN_CHECKED celspan_status cs_outline_close(celspan_context *context, cs_out
 CELSPAN_CHECKED celspan_status cs_outline_rect(celspan_context *context, cs_outline *outline,
                                                double x, double y, double width, double height,
                                                double radius);
-/* Its corners are quarters of an ellipse, whose radii are above 0 and at most half the sides. */
+/* A rectangle whose corners are quarters of an ellipse. The radii are above 0 and at most half the
+ * sides. */
 CELSPAN_CHECKED celspan_status cs_outline_rounded(celspan_context *context, cs_outline *outline,
                                                   const celspan_box *box, double radius_x,
                                                   double radius_y);
@@ -70,7 +71,7 @@ CELSPAN_CHECKED celspan_status cs_outline_polygon(celspan_context *context, cs_o
 /* Errors: BAD_ARGUMENT for knots, weights, degree and counts (it checks them, naming the knot). */
 CELSPAN_CHECKED celspan_status cs_outline_nurbs(celspan_context *context, cs_outline *outline,
                                                 const celspan_nurbs_desc *desc);
-/* Errors: BAD_ARGUMENT naming the offset and what was expected. */
+/* Errors: BAD_ARGUMENT naming the offset and the expected input. */
 CELSPAN_CHECKED celspan_status cs_outline_path(celspan_context *context, cs_outline *outline,
                                                const char *data);
 /* The contours that path data close with Z, and the pieces that continue the arc of the previous
@@ -89,7 +90,7 @@ CELSPAN_CHECKED celspan_status cs_outline_path_open(celspan_context *context, cs
                                                     cs_outline_closed *closed, const char *data);
 
 /* An outline that will not change, in one block with its arrays: it has no room to grow. The
- * original stays as it is. Errors: NO_MEMORY. */
+ * original does not change. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_outline_pack(celspan_context *context, const cs_outline *outline,
                                                cs_outline **out);
 void cs_outline_free_packed(cs_outline *packed, cs_memory *memory);
@@ -103,7 +104,7 @@ typedef struct cs_outline_box {
 } cs_outline_box;
 const cs_outline *cs_outline_of_box(const celspan_box *box, cs_outline_box *room);
 
-/* The box around two. */
+/* The box around two boxes. */
 celspan_box cs_outline_box_around(celspan_box a, celspan_box b);
 /* The tight box of the outline under a matrix, cut at the horizon; false when there is nothing in
  * front of it. */

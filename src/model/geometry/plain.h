@@ -20,7 +20,7 @@
 #define CS_PLAIN_PARTS CS_PLAIN_DEGREE /* between extrema, at most */
 
 typedef struct cs_plain {
-  cs_pair points[CS_PLAIN_DEGREE + 1]; /* those beyond the degree repeat the last */
+  cs_pair points[CS_PLAIN_DEGREE + 1]; /* points beyond the degree repeat the last point */
   int degree;
 } cs_plain;
 
@@ -43,7 +43,7 @@ static inline cs_pair cs_plain_place(const cs_plain_map *map, const cs_hpoint *p
   return map->x * point->x + map->y * point->y + map->shift;
 }
 
-/* The piece from a joint on; points: those after the joint, in units of the outline. */
+/* The piece from a joint on; points: the points after the joint, in units of the outline. */
 static inline void cs_plain_load(cs_plain *piece, cs_pair joint, const cs_hpoint *points,
                                  int degree, const cs_plain_map *map) {
   piece->degree = degree;
@@ -88,7 +88,7 @@ static inline bool cs_plain_has_monotone_polygon(const cs_plain *piece) {
          (p[0][1] >= p[1][1] && p[1][1] >= p[2][1] && p[2][1] >= p[3][1]);
 }
 
-/* As the functions of bezier.h that are called so. */
+/* As the functions of these names in bezier.h. */
 bool cs_plain_canonise(cs_plain *piece);
 void cs_plain_cut_front(cs_plain *rest, double *from, double t, cs_plain *front);
 int cs_plain_extrema(const cs_plain *piece, cs_bezier_axis axis, double roots[CS_PLAIN_DEGREE]);

@@ -21,7 +21,7 @@
 #define CHORDS_SHORT 1.64
 #define CHORD_LIMIT 1e9
 #define LEAP_MOST 8 /* groups */
-/* How much larger the second derivative may be between two samples of it. */
+/* By what factor the second derivative may be larger between two of its samples. */
 #define SAMPLING_MARGIN 1.25
 
 /* ---------------------------------------------------------------- evaluation */
@@ -120,7 +120,7 @@ static void make_vertices(const cs_boundary_set *set, const cs_boundary_piece *p
 /* The arc through vertices first and end that has the area of the chords between them. */
 static cs_polyline_arc fit_arc(const double *vx, const double *vy, int first, int end) {
   double x = vx[first], y = vy[first], height = vy[end] - y, width = vx[end] - x;
-  double area = 0; /* twice that of the chords, left of them */
+  double area = 0; /* twice the area left of the chords */
   for (int k = first; k < end; k++)
     area += ((vx[k] - x) + (vx[k + 1] - x)) * (vy[k + 1] - vy[k]);
   double curve = 3 * (width * height - area) / (height * height * height);
@@ -193,7 +193,7 @@ static bool try_arcs(const cs_polyline_vertices *v, int half, int count, cs_boun
 
 static inline bool is_flat(const cs_boundary_piece *piece) { return piece->y1 - piece->y0 < FLAT; }
 
-/* The one chord of a piece. */
+/* The single chord of a piece. */
 static void set_line(const cs_boundary_piece *piece, cs_boundary_group *out) {
   out->x[0] = piece->x0;
   out->y[0] = piece->y0;
@@ -346,7 +346,7 @@ static inline double length_of(const cs_pair *p, int degree) {
 
 /* False: a single chord is near enough.
  *
- * What counts is the area between curve and polyline in a pixel, about where a vertex is displaced:
+ * The error is the area between curve and polyline in a pixel, about where a vertex is displaced:
  *
  *    .-o-.         short chords: a pixel sees both sides of   .--.__o__.--.  long ones: it sees one
  *   '     '        the curve, and they cancel each other      |    |  |   |

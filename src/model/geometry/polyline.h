@@ -1,4 +1,4 @@
-/* The polyline of a monotone piece: what the sweep walks instead of the curve.
+/* The polyline of a monotone piece. The sweep walks it instead of the curve.
  *
  *      *                *  the border of two groups: on the curve (.), or displaced where no arc
  *       \.                 can be near the curve, so that none ends there
@@ -99,7 +99,7 @@ typedef struct cs_polyline_vertices {
 CS_WIDE_DECLARE(void, cs_polyline_powers,
                 (const double c[8], const cs_boundary_piece *piece, uint32_t first, uint32_t stride,
                  cs_polyline_vertices *out));
-/* The two steps of it. points: those at even steps, and those at the seats. */
+/* Its two steps. points: the points at even steps, and the points at the seats. */
 CS_WIDE_DECLARE(void, cs_polyline_sit,
                 (const cs_polyline_points *points, const cs_boundary_piece *piece, uint32_t first,
                  uint32_t stride, cs_polyline_seats *out));

@@ -8,10 +8,10 @@
  *        \ .            square root of 2, so that what their other ends are displaced by makes up
  *         o k+1         for all of the area.
  *
- * A border of two groups is displaced only where the curve is bent too much for an arc: then by
- * what even steps ask for, so that both groups know it. Else it lies on the curve, because an arc
- * may end there, and the neighbours of it are displaced by more, as those of any vertex that is not
- * displaced by its share.
+ * A border of two groups is displaced only where the curve is bent too much for an arc: then by the
+ * displacement for even steps, so that both groups know it. Else it lies on the curve, because an
+ * arc may end there, and its neighbours are displaced by more, like the neighbours of any vertex
+ * that is not displaced by its own share.
  *
  * The seat of a vertex is the parameter of the curve at which it is made. Vertices have even steps
  * of the parameter between them, except at the ends of a piece, and a vertex within a sixth of a

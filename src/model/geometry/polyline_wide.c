@@ -108,7 +108,7 @@ static inline spots load_spots(const cs_polyline_points *p, int k) {
 
 /* ---------------------------------------------------------------- seats */
 
-/* The vertices of the lanes, by number; and what is asked about them all the time. */
+/* The vertices of the lanes, by number, and some values of them that are needed often. */
 typedef struct places {
   const cs_boundary_piece *piece;
   lanes vertex;
@@ -153,7 +153,7 @@ static inline void sit(const spots *p, const places *at, int k, cs_polyline_seat
 
 /* By how much the vertices of a group may be displaced. */
 typedef struct limits {
-  double above, below; /* its first and its last, in units of C'' / 12 */
+  double above, below; /* the shares of its first and its last vertex, in units of C'' / 12 */
   double lift;         /* any of them upwards or downwards: pixels */
   bool is_halved;      /* the places with one vertex more on the curve are wanted too */
 } limits;
@@ -169,8 +169,8 @@ static inline limits find_limits(const cs_boundary_piece *piece, uint32_t first,
                   piece->half < piece->group && !is_bent_above && !is_bent_below};
 }
 
-/* The share of each vertex, in units of C''. With even steps of length h it is h^2 / 12. The
- * neighbour of a vertex that is not displaced by its share makes up for what is missing. */
+/* The share of each vertex, in units of C''. With even steps of length h it is h^2 / 12. If a
+ * vertex is not displaced by its share, its neighbour makes up for the difference. */
 static inline lanes find_shares(const cs_boundary_piece *piece, const limits *most, lanes k,
                                 lanes before, lanes after) {
   const double group = piece->group;

@@ -193,11 +193,11 @@ static celspan_status read_coded(const file_pass *pass, int32_t y, int32_t rows)
 /* Where the texels of a rectangle of the whole go: to the batch, or their alphas alone. */
 typedef struct copying {
   celspan_rectangle area;
-  float *batch; /* NULL: to the alphas */
+  float *batch; /* NULL: the copy goes to the alphas */
   const cs_smooth_alphas *alphas;
 } copying;
 
-/* Copies what a block of the whole holds of the rectangle. */
+/* Copies the part of the rectangle that lies in a block of the whole. */
 static void copy_from_block(const copying *to, const cs_picture_block *block) {
   int32_t x0 = to->area.x, y0 = to->area.y;
   int32_t left = block->column * CS_PICTURE_BLOCK, top = block->row * CS_PICTURE_BLOCK;
@@ -302,8 +302,8 @@ static bool are_exact(const cs_srgb8_curve *curve, const unsigned char *codes, c
   return difference == 0;
 }
 
-/* Sets the codes of a row, of which the first `count` are made and the others are like the first.
- * Returns whether they are exact. */
+/* Sets the codes of a row: the first `count` are made, the others are copies of the first. Returns
+ * whether they are exact. */
 static bool set_codes(cs_picture_block *block, size_t y, size_t count) {
   const float *texels = block->texels + 4 * y * CS_PICTURE_BLOCK;
   unsigned char *codes = block->codes[y];
@@ -345,7 +345,7 @@ static void join(const file_pass *pass, cs_picture_block *block, const cs_pictur
     memcpy(block->codes[y] + 4 * CS_PICTURE_BLOCK, right->codes[y], 4);
 }
 
-/* Puts the blocks into the store. Returns the one at (column, row), pinned. */
+/* Puts the blocks into the store. Returns the block at (column, row), pinned. */
 static cs_picture_block *insert_blocks(file_pass *pass, int32_t column, int32_t row) {
   cs_picture_block *wanted = NULL;
   for (size_t i = 0; i < block_count(pass); i++)
@@ -464,7 +464,7 @@ static bool is_inside(const cs_picture_entry *entry, int level, int32_t column, 
 static celspan_status load_locked(celspan_context *context, cs_picture_entry *entry,
                                   const cs_picture *picture, int level, int32_t column, int32_t row,
                                   cs_picture_block **out) {
-  pthread_mutex_lock(&entry->reading); /* of a part before that of the whole */
+  pthread_mutex_lock(&entry->reading); /* the lock of a part before the lock of its whole */
   entry->part = picture->whole ? picture : NULL;
   entry->surface = picture->whole ? NULL : picture->surface;
   celspan_status status = load(context, entry, level, column, row, out);

@@ -81,7 +81,7 @@ static void decode_pixel(const cs_mip_levels_decoder *decoder, float *rgba) {
   rgba[3] = alpha;
 }
 
-/* In drawings most pixels are like the one before. */
+/* In drawings most pixels equal the pixel before them. */
 void cs_mip_levels_decode(const cs_mip_levels_decoder *decoder, float *rgba, size_t count) {
   float coded[4], light[4];
   for (size_t i = 0; i < count; i++, rgba += 4) {

@@ -20,7 +20,7 @@ static inline int32_t cs_mip_levels_size(int32_t size, int level) {
   return (int32_t)(((int64_t)size + ((int64_t)1 << level) - 1) >> level);
 }
 
-/* The number of levels, from level 0 to the one of a single texel. */
+/* The number of levels, from level 0 to the level of a single texel. */
 int cs_mip_levels_count(int32_t width, int32_t height);
 
 /* A level of a picture of width x height pixels. */

@@ -51,7 +51,7 @@ typedef struct cs_picture_header {
   uint64_t file_number;
 } cs_picture_header;
 
-/* What a file holds beside the picture that is read of it. */
+/* The contents of a file apart from the picture that is read from it. */
 typedef struct cs_picture_part {
   int subimage;          /* -1: a layer, of the first subimage */
   char name[256];        /* by which it can be asked for as a layer; "": it has none */

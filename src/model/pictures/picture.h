@@ -19,7 +19,8 @@ typedef struct cs_picture {
   char *colour, *layer;     /* may be NULL */
   char *tried;              /* where it was looked for before; may be NULL; not hashed */
   int subimage;
-  struct cs_picture *whole;    /* what this is a part of, a reference; NULL: it is no part */
+  struct cs_picture *whole;    /* the picture that this is a part of, a reference; NULL: it is no
+                                  part */
   int32_t x, y, width, height; /* of a part, in pixels of the whole; a width of 0: all of it */
   bool is_smooth;              /* its alpha is made smooth */
 } cs_picture;
@@ -31,5 +32,5 @@ CELSPAN_CHECKED celspan_status cs_picture_create(celspan_context *context,
 cs_picture *cs_picture_ref(cs_picture *picture);
 void cs_picture_unref(cs_picture *picture);
 cs_hash cs_picture_hash(const cs_picture *picture);
-/* For messages: the name of the file, or what else it is. */
+/* For messages: the name of the file, or a description of a picture without a file. */
 const char *cs_picture_name(const cs_picture *picture);

@@ -54,13 +54,13 @@ static void smooth_pixel(uint32_t step, double mean, float rgba[4]) {
   rgba[3] = (float)(held / STEPS);
 }
 
-/* As far as a mean at `place` reaches to either side: equally far, also near the edges, so that a
- * slope keeps its height. */
+/* The reach of a mean at `place` to either side: equally far on both, also near the edges, so that
+ * a slope keeps its height. */
 static int32_t radius_at(int32_t place, int32_t size) {
   return least(CS_SMOOTH_RADIUS, least(place, size - 1 - place));
 }
 
-/* A row of the rectangle, of which the sums count `rows` rows. */
+/* A row of the rectangle; the sums include `rows` rows. */
 static void smooth_row(const cs_smooth_alphas *alphas, const celspan_rectangle *rectangle,
                        int32_t y, int32_t rows, float *rgba) {
   int32_t left = alphas->area.x, begin = rectangle->x - radius_at(rectangle->x, alphas->width);

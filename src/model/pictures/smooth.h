@@ -1,5 +1,5 @@
 /* Alpha without steps. An alpha of 8 bits is rounded to one of 256 steps, and a glow that fades
- * slowly is painted with few of them: what it adds to the dark then shows rings.
+ * slowly is painted with few of them: it then shows rings where it lies over dark parts.
  *
  *   painted      1.2 1.3 1.4 1.5 1.6 1.7 1.8 ...
  *   stored        1   1   1   2   2   2   2  ...
@@ -25,7 +25,7 @@ typedef struct cs_smooth_alphas {
   uint32_t *sums;         /* scratch memory, as many as the area has columns */
 } cs_smooth_alphas;
 
-/* More than the sum of all steps of which one mean is made. */
+/* More than the sum of all steps in one mean. */
 #define CS_SMOOTH_BETWEEN ((uint32_t)1 << 21)
 
 /* The alphas that are needed to smooth a rectangle of a picture, without their memory. */

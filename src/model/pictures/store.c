@@ -9,7 +9,7 @@
 
 /* Files kept open at a time: a film may have a picture for every frame. */
 #define OPEN_READERS 32
-/* Entries of surfaces before those that are not in use are dropped. */
+/* The number of entries of surfaces from which on unused ones are dropped. */
 #define SURFACES_LEAST 256
 
 static const cs_module_desc picture_module = {
@@ -113,7 +113,7 @@ celspan_status cs_store_module(celspan_context *context, celspan_status failure,
 
 /* ---------------------------------------------------------------- blocks */
 
-/* Of a block; one of level 0 has codes, too. */
+/* The bytes of a block; a block of level 0 has codes, too. */
 #define PLAIN_BYTES (sizeof(cs_picture_block) + CS_PICTURE_TEXELS_BYTES)
 #define BLOCK_BYTES (PLAIN_BYTES + CS_PICTURE_CODES_BYTES)
 
@@ -196,7 +196,7 @@ static size_t blocks_across(int32_t size, int level) {
 
 /* A row of a frame reads along a row of blocks. If the budget were less than that, every row of the
  * frame would read the file again. A quarter more leaves room for the next row of blocks. A row of
- * blocks that are smooth is made of three others. The caller has locked `lock`. */
+ * smooth blocks is made from three other rows. The caller has locked `lock`. */
 static void plan_entry(cs_picture_store *store, bool is_smooth, cs_picture_entry *entry) {
   const celspan_picture_info *info = &entry->header.info;
   size_t rows = is_smooth ? 4 : 1;
@@ -253,8 +253,8 @@ static celspan_status open_file(celspan_context *context, const cs_picture *pict
   return CELSPAN_OK;
 }
 
-/* The header of a part: that of the whole picture, except for the size. Its rows can be read in any
- * order. */
+/* The header of a part: the header of the whole picture, with another size. Its rows can be read in
+ * any order. */
 static celspan_status open_part(celspan_context *context, const cs_picture *part,
                                 cs_picture_header *header) {
   cs_picture_entry *whole;

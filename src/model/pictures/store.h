@@ -19,14 +19,14 @@
 
 /* Texels of a block's side. */
 #define CS_PICTURE_BLOCK 64
-/* Codes in a row of a block: those of its texels, and that of the texel right of the block. */
+/* Codes in a row of a block: one for each texel, and one for the texel right of the block. */
 #define CS_PICTURE_CODES_ROW (CS_PICTURE_BLOCK + 1)
 /* The sizes of a block's codes, and of its texels and codes. */
 #define CS_PICTURE_CODES_BYTES ((size_t)CS_PICTURE_BLOCK * 4 * CS_PICTURE_CODES_ROW)
 #define CS_PICTURE_TEXELS_BYTES ((size_t)CS_PICTURE_BLOCK * 16 * CS_PICTURE_BLOCK)
 #define CS_PICTURE_BLOCK_BYTES (CS_PICTURE_TEXELS_BYTES + CS_PICTURE_CODES_BYTES)
 
-/* What all texels of a block that lie in the picture have in common. */
+/* The common properties of all texels of a block that lie in the picture. */
 typedef enum cs_picture_opacity {
   CS_PICTURE_MIXED,
   CS_PICTURE_OPAQUE, /* alpha is 1 */
@@ -60,13 +60,14 @@ struct cs_picture_entry {
   cs_picture_entry *next;
   cs_picture_store *store;
   cs_hash hash;
-  atomic_size_t users; /* calls that have the entry now; that of a surface may go without them */
+  atomic_size_t users; /* calls that use the entry now; the entry of a surface may be removed when
+                          there are none */
   cs_picture *picture; /* a reference; NULL: of a surface */
   cs_picture_header header;
   cs_mip_levels_decoder decoder;
   int level_count;
-  /* The first level of which all blocks fit into `share`. The levels up to it are made from the
-   * rows of the file, those above from the level below. */
+  /* The first level of which all blocks fit into `share`. This level and the levels below it are
+   * made from the rows of the file; each higher level is made from the level below. */
   int base;
   size_t share; /* blocks that one pass over the file may make: half the budget */
   pthread_mutex_t reading;
@@ -83,7 +84,8 @@ struct cs_picture_store {
   cs_cache blocks; /* its budget is at least a row of blocks of the widest picture */
   pthread_mutex_t lock;
   cs_picture_entry *entries[256];      /* by hash */
-  size_t surface_count, surface_limit; /* entries of surfaces; those in use may be more */
+  size_t surface_count, surface_limit; /* entries of surfaces; there may be more if they are in
+                                          use */
   size_t reader_count;                 /* readers open now */
   float *tables[8][17];                /* light by code, for each transfer and number of bits */
   cs_srgb8_curve curve;                /* the light of all codes */
@@ -95,7 +97,7 @@ CELSPAN_CHECKED celspan_status cs_store_info(celspan_context *context, const cs_
 /* The picture module. failure: the status when there is none, INPUT or OUTPUT. */
 CELSPAN_CHECKED celspan_status cs_store_module(celspan_context *context, celspan_status failure,
                                                const cs_picture_module **out);
-/* What the module is asked for. The texts are the picture's. */
+/* The request to the module. The texts are the picture's. */
 cs_picture_request cs_store_request(const cs_picture *picture);
 /* Removes a pin. */
 void cs_store_release(cs_picture_block *block);
@@ -120,7 +122,7 @@ CELSPAN_CHECKED celspan_status cs_store_add_texels(celspan_context *context,
                                                    cs_picture_block *block);
 CELSPAN_CHECKED celspan_status cs_store_add_codes(celspan_context *context,
                                                   cs_picture_block *block);
-/* Puts the block into the store; one that is there already is returned instead. */
+/* Puts the block into the store; if the store has it already, returns the one in the store. */
 cs_picture_block *cs_store_insert(cs_picture_block *block, bool is_pinned);
 /* Frees a block that was never inserted. NULL is ignored. */
 void cs_store_discard(cs_picture_block *block);

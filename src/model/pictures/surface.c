@@ -82,7 +82,7 @@ static cs_hash hash_of(const celspan_surface_desc *desc, bool is_reader) {
   return cs_hash_end(hash);
 }
 
-/* Fills in what is left out. Without an alpha there is nothing that could be multiplied by it. */
+/* Fills in missing values. Without an alpha there is nothing that could be multiplied by it. */
 static void complete(celspan_surface_desc *desc) {
   const layout *shape = &layouts[desc->format];
   if (desc->stride == 0)

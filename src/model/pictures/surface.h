@@ -1,4 +1,5 @@
-/* Surfaces: pictures in memory, a buffer of the host's or what a function of it fills on demand.
+/* Surfaces: pictures in memory: a buffer of the host, or pixels that a function of the host fills
+ * in on demand.
  *
  *   buffer --widen--> RGBA floats of a rectangle, coded as the surface is
  *   fill --codes--> the end of the same memory --widen--> RGBA floats
@@ -30,7 +31,8 @@ struct celspan_surface {
   cs_hash hash;
   celspan_surface_desc desc; /* pixels: the copy, unless there is a release function */
   size_t copied;             /* bytes of the copy */
-  bool is_reader;            /* its hash differs from that of a host's surface of the same key */
+  bool is_reader;            /* so that its hash differs from the hash of a host's surface with the
+                                same key */
 };
 
 /* As celspan_surface_create, with a fill function that any thread may call: a reader. */
@@ -45,5 +47,5 @@ void cs_surface_describe(const celspan_surface *surface, cs_picture_header *out)
 CELSPAN_CHECKED celspan_status cs_surface_read(celspan_context *context,
                                                const celspan_surface *surface,
                                                const celspan_rectangle *rectangle, float *rgba);
-/* Whether its pixels can be asked for by the rendering thread alone. */
+/* Whether only the rendering thread may ask for the surface's pixels. */
 bool cs_surface_stays_on_thread(const celspan_surface *surface);

@@ -41,7 +41,7 @@ celspan_status celspan_object_create_boolean(celspan_context *context, celspan_o
                                 out);
 }
 
-/* What is known of the operands that are there already is taken over. */
+/* The known properties of the earlier operands are copied. */
 static celspan_status fill_more(celspan_context *context, cs_primitive_data *data,
                                 const cs_primitive_data *from, celspan_object *const *operands,
                                 size_t count) {

@@ -8,8 +8,8 @@
 #include "model/scene/primitive_data.h"
 #include "model/stroke/outliner.h"
 
-/* What outlines of strokes are made with. Its status is that of the last one that could not be
- * made; the box found then is larger than it might be. */
+/* The tools for outlines of strokes. The status is that of the last outline that could not be made;
+ * the box is then larger than necessary. */
 typedef struct finder {
   celspan_context *context; /* NULL: the stroke's memory is used, and errors have no text */
   celspan_status status;

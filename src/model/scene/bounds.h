@@ -1,6 +1,7 @@
 /* Boxes around objects and cels for callers whose picture depends on them: gradients that are
  * spread over a box, places that scripts take from it. celspan_object_bounds and celspan_cel_bounds
- * are for callers that only leave out what lies outside: their boxes are larger if memory runs out.
+ * are for callers that only leave out objects outside the box: the box is larger if memory runs
+ * out.
  *
  *   +-------------+
  *   |   .--.      |  the outer box always contains the stroke; the inner one is tight and takes

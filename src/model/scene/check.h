@@ -29,7 +29,7 @@ CELSPAN_CHECKED celspan_status cs_check_size(celspan_context *context, const cha
 /* 0 < value <= 1e12 */
 CELSPAN_CHECKED celspan_status cs_check_positive(celspan_context *context, const char *noun,
                                                  const char *field, double value);
-/* Holds a finite value to 0..1, because the curves that give shares overshoot. */
+/* Clamps a finite value to 0..1, because the curves that give shares overshoot. */
 CELSPAN_CHECKED celspan_status cs_check_share(celspan_context *context, const char *noun,
                                               const char *field, double value, double *out);
 /* A field such as stops[2].at: its member ("": none) of its item `index`, counted from 1 (0: the

@@ -10,7 +10,7 @@
  *               group{ matte(ground, blur(silhouette), its light many times brighter), object }
  *
  * A silhouette is the object's bounds in one colour, with the object as their matte: as soft as the
- * object is. A mode stays outermost: it is taken off the object, and given to the whole.
+ * object is. A mode stays outermost: it is removed from the object, and given to the result.
  */
 #include <math.h>
 
@@ -25,7 +25,7 @@
 
 /* ---------------------------------------------------------------- steps */
 
-/* Puts what was made in the place of *object, unless making it has failed. */
+/* Replaces *object by the new object, unless making it has failed. */
 static celspan_status replace(celspan_object **object, celspan_status status,
                               celspan_object *made) {
   if (status != CELSPAN_OK)
@@ -66,7 +66,7 @@ static celspan_status give_mode_of(celspan_context *context, celspan_object **ob
   return replace(object, status, made);
 }
 
-/* *object present as far as `by` is, or is not. */
+/* Makes *object present where `by` is present, or where it is not. */
 static celspan_status mask(celspan_context *context, celspan_object **object, celspan_object *by,
                            bool inverts) {
   celspan_object *made = NULL;
@@ -75,8 +75,8 @@ static celspan_status mask(celspan_context *context, celspan_object **object, ce
   return replace(object, status, made);
 }
 
-/* What an effect made of an object without its mode, unless making it has failed: it gets the
- * object's mode, name and line. */
+/* Gives the object's mode, name and line to the result of an effect on the object without its mode,
+ * unless the effect has failed. */
 static celspan_status finish(celspan_context *context, const celspan_object *object,
                              celspan_status status, celspan_object *made, celspan_object **out) {
   if (status == CELSPAN_OK)
@@ -85,7 +85,7 @@ static celspan_status finish(celspan_context *context, const celspan_object *obj
     celspan_object_unref(made);
     return status;
   }
-  if (made != object) { /* which it is where there is nothing to blur */
+  if (made != object) { /* they are equal where there is nothing to blur */
     cs_mark_drop(made->mark);
     made->mark = cs_mark_keep(object->mark);
   }
@@ -139,7 +139,7 @@ static celspan_status compose(celspan_context *context, celspan_object *object,
   return status;
 }
 
-/* Of an object without a mode. brightness: what its light is multiplied by. */
+/* For an object without a mode. brightness: the factor of its light. */
 static celspan_status blur(celspan_context *context, celspan_object *object,
                            const celspan_blur_desc *desc, double brightness, celspan_object **out) {
   celspan_box box = {0};
@@ -172,11 +172,11 @@ static celspan_status blur(celspan_context *context, celspan_object *object,
   return status;
 }
 
-/* What an effect makes of an object without a mode. */
+/* The result of an effect on an object without a mode. */
 typedef celspan_status (*effect_maker)(celspan_context *context, celspan_object *object,
                                        const void *desc, celspan_object **made);
 
-/* The effect on an object, whose mode becomes that of the whole. */
+/* The effect on an object. The mode of the object becomes the mode of the result. */
 static celspan_status make(celspan_context *context, celspan_object *object, effect_maker add,
                            const void *desc, celspan_object **out) {
   celspan_object *plain, *made = NULL;
@@ -334,8 +334,9 @@ celspan_status celspan_object_glow(celspan_context *context, celspan_object *obj
 
 /* ---------------------------------------------------------------- outlines */
 
-/* How many times brighter a blurred silhouette is made as a matte: what covers a 32nd of the disc
- * about a point is all there. Along a straight side this is so from 0.86 of the width inwards. */
+/* How many times brighter a blurred silhouette is made as a matte: an object that covers a 32nd of
+ * the disc around a point gives full strength there. Along a straight side this happens from 0.86
+ * of the width inwards. */
 #define SPREAD_STOPS 5
 
 static celspan_status check_outline(celspan_context *context, const celspan_object *object,
@@ -402,7 +403,7 @@ static celspan_status spread(celspan_context *context, celspan_object *object, d
   return status;
 }
 
-/* The same for what has an alpha of its own. */
+/* The same for an object with an alpha of its own. */
 static celspan_status outline_alpha(celspan_context *context, celspan_object *object,
                                     const celspan_outline_desc *desc, celspan_object **out) {
   celspan_object *wide, *ground = NULL;

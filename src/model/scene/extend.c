@@ -7,21 +7,23 @@
 
 enum { PIECES = 9 };
 
-/* The border as it is known to all pieces. */
+/* The border, as all pieces share it. */
 typedef struct frame {
-  celspan_matrix placed, back; /* the objects' units to those of the border, and from them */
+  celspan_matrix placed, back; /* from the objects' units to the border's, and back */
   double sides[2][4]; /* by axis: where the strips and the inside begin and end, ascending */
   double stretch[2];
 } frame;
 
-/* From the border's units to the same: what piece k of three along an axis shows. */
+/* From the border's units to the same units: the part of the art that piece k of three shows along
+ * an axis. */
 static void set_axis(celspan_matrix *map, const frame *f, int axis, int k) {
   double side = f->sides[axis][k == 0 ? 1 : 2], stretch = f->stretch[axis];
   map->m[4 * axis] = k == 1 ? 1 : -stretch;
   map->m[3 * axis + 2] = k == 1 ? 0 : side * (1 + stretch);
 }
 
-/* The most that keeps numbers sane is enough, except for what is all but nothing. */
+/* The largest factor that keeps numbers in range is enough, except for objects of almost no
+ * size. */
 static void set_stretch(frame *f, int axis, double reach) {
   const double *side = f->sides[axis];
   double wanted = CS_EXTEND_SHARE * reach / (side[2] - side[1]);

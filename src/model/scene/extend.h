@@ -1,4 +1,4 @@
-/* Art that continues beyond a border as it is on it.
+/* Art that continues beyond a border with the colours on the border.
  *
  *      .-----+---------------+-----.        inside: the art, clipped
  *      |corner    strip      |     |        strip:  the art, mirrored at its side of the border
@@ -9,7 +9,7 @@
  *      `-----+---------------+-----'        All nine abut, so nothing leaks between them.
  *            |<-- border --> |<--->| reach
  *
- * A strip shows 1/SHARE of what lies inside at most, however far it reaches.
+ * A strip shows at most 1/SHARE of the art inside, however far it reaches.
  */
 #pragma once
 
@@ -18,7 +18,7 @@
 #define CS_EXTEND_STRETCH 0x1p14 /* at least */
 #define CS_EXTEND_SHARE 64
 
-/* placed: the objects' units to those of the border; not singular. *out: in the objects' units.
+/* placed: from the objects' units to the border's; not singular. *out: in the objects' units.
  * Errors: NO_MEMORY, LIMIT, and BAD_ARGUMENT where the objects cannot be transformed so. */
 CELSPAN_CHECKED celspan_status cs_extend(celspan_context *context, celspan_object *const *objects,
                                          size_t count, const celspan_matrix *placed,

@@ -1,4 +1,4 @@
-/* A grade as a value of the scene: counted, checked, with a hash of what it does. */
+/* A grade as a value of the scene: counted, checked, with a hash of its steps. */
 #pragma once
 
 #include "base/hash.h"
@@ -9,11 +9,11 @@ struct celspan_grade {
   cs_memory *memory;
   cs_hash hash; /* of a table of colours its contents count, not its name */
   cs_grade steps;
-  /* The description, for the oracle. Its curves are those of the steps, and it names no files. */
+  /* The description, for the oracle. It points to the curves of the steps, and names no files. */
   celspan_grade_desc desc;
 };
 
-/* What the compiler and the oracle need of one; NULL: there is none. */
+/* The values of a grade for the compiler and the oracle; NULL: there is none. */
 static inline const cs_grade *cs_grade_steps(const celspan_grade *grade) {
   return grade ? &grade->steps : NULL;
 }

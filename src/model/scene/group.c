@@ -88,7 +88,7 @@ celspan_blend celspan_object_mode(const celspan_object *object) {
   return CS_BLEND_MODE(cs_object_mode(object));
 }
 
-/* A union like that of an object, with another look: its operands stay. noun: for messages. */
+/* A union with the operands of an object's union, but with another look. noun: for messages. */
 static celspan_status change(celspan_context *context, const char *noun,
                              const celspan_object *object, const cs_boolean *look,
                              celspan_object **out) {
@@ -103,7 +103,7 @@ static celspan_status change(celspan_context *context, const char *noun,
   return status;
 }
 
-/* What a boolean is like, whatever its operands. */
+/* The properties of a boolean that do not depend on its operands. */
 static cs_boolean traits_of(const cs_boolean *from) {
   return (cs_boolean){.op = from->op,
                       .blend = from->blend,

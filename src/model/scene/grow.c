@@ -29,9 +29,8 @@ typedef struct grower {
   const cs_grow *how;
 } grower;
 
-/* What an object grows to, and what it shrinks to, as far as they are wanted; else NULL. Both are
- * made at once, since an xor needs both of its operands: nested ones would be made again at every
- * level. */
+/* The grown object and the shrunken one; NULL for the one that is not wanted. Both are made at
+ * once, since an xor needs both of its operands: nested ones would be made again at every level. */
 typedef struct sizes {
   celspan_object *grown, *shrunk;
 } sizes;
@@ -127,7 +126,7 @@ static celspan_status make_rim(const grower *g, const cs_primitive_data *data,
   return status;
 }
 
-/* data: of the object, or of the shape in it. around: from the units around the object to those
+/* data: of the object, or of the shape in it. around: from the units around the object to the units
  * around the whole. */
 static celspan_status grow_primitive(const grower *g, celspan_object *object,
                                      const cs_primitive_data *data, const celspan_matrix *around,
@@ -154,8 +153,7 @@ static celspan_status grow_primitive(const grower *g, celspan_object *object,
 static celspan_status grow_any(const grower *g, celspan_object *object,
                                const celspan_matrix *around, wanted want, sizes *out);
 
-/* The operands of a boolean, as it needs them when it is grown, and after them as it needs them
- * when it is shrunk. */
+/* The operands of a boolean for growing it, and after them the operands for shrinking it. */
 static celspan_status grow_operands(const grower *g, const cs_boolean *boolean,
                                     const celspan_matrix *around, wanted want,
                                     celspan_object **list) {
@@ -230,7 +228,7 @@ typedef struct placed_core {
   cs_grow how;
 } placed_core;
 
-/* What a matrix scales all lengths by; false where these differ. */
+/* The factor by which a matrix scales all lengths; false where it scales directions differently. */
 static bool find_scale(const celspan_matrix *matrix, double *scale) {
   const double *m = matrix->m;
   const double across = m[0] * m[0] + m[3] * m[3], down = m[1] * m[1] + m[4] * m[4];
@@ -239,7 +237,7 @@ static bool find_scale(const celspan_matrix *matrix, double *scale) {
          fabs(m[0] * m[1] + m[3] * m[4]) <= ALIKE * across;
 }
 
-/* An object with a mode, or named as a group, may be around what has a core. */
+/* An object with a mode, or a named group, may be around an object that has a core. */
 static const celspan_object *find_inner(const celspan_object *object, celspan_matrix *matrix) {
   const cs_primitive_data *data = object->data;
   while (data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op == CELSPAN_UNION &&
@@ -251,7 +249,7 @@ static const celspan_object *find_inner(const celspan_object *object, celspan_ma
   return object;
 }
 
-/* Whether what an object grows to is its core, grown farther. */
+/* Whether growing an object gives its core, grown farther. */
 static bool find_core(const cs_grow *how, const celspan_object *object,
                       const celspan_matrix *around, placed_core *out) {
   double scale;

@@ -1,4 +1,5 @@
-/* Shapes grown by a width: what lies in a shape or within that distance of it. Paints do not count.
+/* Shapes grown by a width: all points in a shape or within that distance of it. Paints do not
+ * count.
  *
  *     a primitive     the shape and a stroke along its outline        .-----------.
  *     a union         the union of what its operands grow to          |  .-----.  |
@@ -11,9 +12,9 @@
  * outline with the same joins, or of one with round joins, is made of the core, by both widths
  * together, so that outlines around each other do not multiply.
  *
- * INVARIANT: what is made is a tree of vector shapes, exact at every size. Where the outlines of
- * the operands of an intersection or a difference cross, it has the corner in which the grown
- * outlines meet, and joins of strokes everywhere else.
+ * INVARIANT: the result is a tree of vector shapes, exact at every size. Where the outlines of the
+ * operands of an intersection or a difference cross, the result has the corner in which the grown
+ * outlines meet; everywhere else it has the joins of strokes.
  */
 #pragma once
 

@@ -72,9 +72,9 @@ celspan_status celspan_object_create_image(celspan_context *context, const celsp
   celspan_picture_desc picture = desc->picture;
   picture.has_box = true;
   CS_TRY(place(context, desc, &frame, &picture.box));
-  /* The picture now fills the rectangle, and the rectangle's outline decides where it ends.
-   * Clamped, the picture has a colour also at the centre of a pixel of which the outline covers a
-   * part. */
+  /* The picture now fills the rectangle, and the rectangle's outline decides where it ends. Because
+   * the picture is clamped, it has a colour also at the centre of a pixel that the outline covers
+   * only in part. */
   if (picture.wrap == CELSPAN_WRAP_CLEAR)
     picture.wrap = CELSPAN_WRAP_CLAMP;
   celspan_texture *texture;

@@ -37,7 +37,7 @@ static inline bool cs_inside_primitive(const cs_primitive_data *data, celspan_po
 }
 
 /* Whether a boolean object is present at a point where `present` of its operands are present.
- * first: whether the first operand is one of them. */
+ * first: whether the first operand is among the present ones. */
 static inline bool cs_inside_is_present(celspan_operator op, size_t present, size_t operand_count,
                                         bool first) {
   switch (op) {

@@ -323,7 +323,7 @@ static bool is_in_wedge(const cs_stroke *stroke, const piece_end *in, const piec
                         double turn) {
   double side = turn > 0 ? 1 : -1;
   double ax = side * in->away_y, ay = -side * in->away_x;   /* normal of the piece before */
-  double bx = -side * out->away_y, by = side * out->away_x; /* and of the one after */
+  double bx = -side * out->away_y, by = side * out->away_x; /* and of the next one */
   double cosine = ax * bx + ay * by, sine = ax * by - ay * bx;
   if (sine == 0)
     return false;

@@ -159,7 +159,7 @@ static bool copy_text(cs_memory *memory, const char *text, char **out) {
   return copy != NULL;
 }
 
-/* Of a failure the sentence is in the context, and stays there. */
+/* The message of a failure is in the context, and stays there. */
 static celspan_status remember(cs_inspection *inspection, const cs_picture *picture,
                                celspan_status status) {
   celspan_context *context = inspection->context;

@@ -27,7 +27,7 @@ static celspan_status check(celspan_context *context, const celspan_rostrum *ros
   return CELSPAN_OK;
 }
 
-/* What the objects of all cels come to. */
+/* The sums over the objects of all cels. */
 static celspan_status measure(celspan_context *context, cs_primitive_data *data) {
   data->primitive_count = data->shape_count = 1; /* the frame */
   for (size_t i = 0; i < data->rostrum->cel_count; i++) {

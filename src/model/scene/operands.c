@@ -68,7 +68,7 @@ static void keep_objects(celspan_object **to, celspan_object *const *from, size_
 
 /* ---------------------------------------------------------------- views */
 
-/* Under the lock, or before anybody else knows of the list. */
+/* Adds a view. Called under the lock, or before anybody else knows of the list. */
 static void begin_view(cs_operands_list *list, size_t count) {
   list->used = count;
   list->lives[count] = true;
@@ -98,7 +98,8 @@ celspan_status cs_operands_create(celspan_context *context, const char *noun,
   return CELSPAN_OK;
 }
 
-/* Claims the places after those that `from` shows. Only the view that shows all of a list can. */
+/* Claims the places after the operands that `from` shows. Only a view that shows all of its list
+ * can. */
 static bool claim(const cs_operands *from, size_t count) {
   cs_operands_list *list = from->list;
   if (!list || count == 0)
@@ -111,7 +112,8 @@ static bool claim(const cs_operands *from, size_t count) {
   return is_claimed;
 }
 
-/* A list with room for as many again, so that the copies of a chain are as many as its operands. */
+/* A list with room for the same number again, so that a chain is copied about as often as it has
+ * operands. */
 static cs_operands_list *copy_list(cs_memory *memory, const cs_operands *from, size_t more) {
   size_t count = from->count + more;
   cs_operands_list *list = create_list(memory, count > SIZE_MAX / 2 ? count : 2 * count);
@@ -138,7 +140,7 @@ celspan_status cs_operands_extend(celspan_context *context, const char *noun,
   return CELSPAN_OK;
 }
 
-/* The longest view that lives of those shorter than `count`: how many it shows, or 0. */
+/* The length of the longest living view that is shorter than `count`, or 0. */
 static size_t longest_below(const cs_operands_list *list, size_t count) {
   do
     count--;
@@ -146,9 +148,9 @@ static size_t longest_below(const cs_operands_list *list, size_t count) {
   return count;
 }
 
-/* While the longest view is one that ended: frees the places that no shorter one shows. Shorter
- * views that end during this find that `used` is not their count and leave their places to this
- * loop; so does a view that ends on another thread meanwhile. */
+/* While the longest view has ended: frees the places that no shorter view shows. Shorter views that
+ * end during this find that `used` is not their count and leave their places to this loop; so does
+ * a view that ends on another thread meanwhile. */
 static void end_view(cs_operands_list *list, size_t count) {
   pthread_mutex_lock(&list->lock);
   list->lives[count] = false;

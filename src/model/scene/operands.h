@@ -15,8 +15,8 @@
  * so places are freed as soon as no living view shows them, and not when the list goes.
  *
  * INVARIANT: the longest view of a list that lives shows all that is used of it; no two living
- * views show equally many. An operand shows, of the list that it is in, only what lies before it.
- * What a living view shows never changes. Threads: views of one list may be extended and dropped on
+ * views show equally many. An operand shows only the part of its list that lies before it. The
+ * operands of a living view never change. Threads: views of one list may be extended and dropped on
  * any threads.
  */
 #pragma once
@@ -25,15 +25,15 @@
 
 typedef struct cs_operands_list cs_operands_list;
 
-/* A view: what one boolean object shows of a list. No operands: no list. */
+/* A view: the part of a list that one boolean object shows. No operands: no list. */
 typedef struct cs_operands {
   cs_operands_list *list;
   celspan_object **objects; /* in the list */
   size_t count;
 } cs_operands;
 
-/* A view of a new list of these objects, each of which is kept. noun: for the message. Errors:
- * NO_MEMORY, BAD_ARGUMENT for an object that is missing. */
+/* A view of a new list of these objects. The list keeps a reference to each. noun: for the message.
+ * Errors: NO_MEMORY, BAD_ARGUMENT for an object that is missing. */
 CELSPAN_CHECKED celspan_status cs_operands_create(celspan_context *context, const char *noun,
                                                   celspan_object *const *objects, size_t count,
                                                   cs_operands *out);

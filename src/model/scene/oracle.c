@@ -213,7 +213,8 @@ static double fold(celspan_spread spread, double at) {
   return is_turned ? 1 - rest : rest;
 }
 
-/* A gradient at a point of its own units, as it was given: not as it was unrolled. */
+/* A gradient at a point of its own units, by the texture that was given, not by the unrolled
+ * one. */
 static cs_oracle_paint shade_gradient(const celspan_texture *given, celspan_point point,
                                       celspan_space space) {
   double at = given->kind == CS_TEXTURE_LINEAR ? linear_parameter(given, point)

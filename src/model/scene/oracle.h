@@ -24,35 +24,36 @@ CELSPAN_CHECKED celspan_status cs_oracle_texture(celspan_context *context,
                                                  const celspan_texture *texture,
                                                  const celspan_box *bounds, celspan_point point,
                                                  celspan_space space, cs_oracle_paint *out);
-/* The paint of a primitive at a point of its own units that is inside it. Procedures are asked for
- * their row, and *is_there is whether a span of it covers the point (true for all others). Errors:
- * INPUT, LIMIT, NO_MEMORY, CALLBACK. */
+/* The paint of a primitive at a point of its own units that is inside it. Procedures are called for
+ * their row, and *is_there says whether one of its spans covers the point. For other primitives it
+ * is true. Errors: INPUT, LIMIT, NO_MEMORY, CALLBACK. */
 CELSPAN_CHECKED celspan_status cs_oracle_primitive(celspan_context *context,
                                                    const cs_primitive_data *data,
                                                    celspan_point point, celspan_space space,
                                                    bool *is_there, cs_oracle_paint *out);
 
-/* One channel of what is `share` there, taken to a space from the other one. */
+/* One channel of a colour whose coverage is `share`, converted to a space from the other one. */
 double cs_oracle_convert(celspan_space to, double s, double share);
 
-/* What is seen of a part of the picture: the light that it sends to the camera, and what it lets
- * through. */
+/* A part of the picture as it is seen: the light that it sends to the camera, and the light that it
+ * lets through. */
 typedef struct cs_oracle_sight {
   double light[3], through[3];
-  double keep; /* what the mattes of back lights in it leave of transparency; they dim no light */
+  double keep; /* the share of transparency that the mattes of back lights in it leave; they dim no
+                  light */
 } cs_oracle_sight;
 
 extern const cs_oracle_sight cs_oracle_nothing;
 
 /* How much there is of it. */
 double cs_oracle_alpha(const cs_oracle_sight *sight);
-/* One in front of another. */
+/* One sight in front of another. */
 cs_oracle_sight cs_oracle_before(const cs_oracle_sight *front, const cs_oracle_sight *back);
 /* A source with a mode in front of its backdrop, by the formulas of W3C Compositing and Blending
  * Level 1. */
 cs_oracle_sight cs_oracle_blend(celspan_blend mode, const cs_oracle_sight *source,
                                 const cs_oracle_sight *back);
-/* What leaves for a space from the other one: converted channel by channel. */
+/* Converts a colour to a space from the other one, channel by channel. */
 cs_oracle_sight cs_oracle_leave(celspan_space to, const cs_oracle_sight *sight);
 /* A whole, graded in a space. */
 void cs_oracle_grade(const celspan_grade *grade, celspan_space space, cs_oracle_sight *sight);

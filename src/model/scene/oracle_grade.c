@@ -1,5 +1,5 @@
-/* Grades in doubles, step by step, from what a grade was made of: without a look at the formulas of
- * model/colour/grade.c and cube.c, which the tests compare with these. */
+/* Grades in doubles, step by step, from the description of a grade. They share nothing with the
+ * formulas of model/colour/grade.c and cube.c, which the tests compare with these. */
 #include <math.h>
 #include <string.h>
 
@@ -57,7 +57,7 @@ static void multiply(const celspan_grade_desc *desc, double c[3]) {
 
 static double rise(const celspan_point *p) { return (p[1].y - p[0].y) / (p[1].x - p[0].x); }
 
-/* The slopes at all points: what holds one piece to its circle is seen by the next. */
+/* The slopes at all points, in order: the limit on one piece also changes the next piece. */
 static void find_slopes(const celspan_point *p, size_t count, double *slopes) {
   slopes[0] = rise(p);
   for (size_t i = 0; i + 1 < count; i++) {

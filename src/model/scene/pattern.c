@@ -64,7 +64,7 @@ static celspan_status check_depth(celspan_context *context, const celspan_patter
                  CS_SCENE_DEPTH);
 }
 
-/* Textures are made before rostrums, of which they know nothing. */
+/* The code of textures comes before the code of rostrums, and so cannot call it directly. */
 static const cs_texture_tile_calls tile_calls = {celspan_rostrum_ref, celspan_rostrum_unref};
 
 celspan_status celspan_texture_create_pattern(celspan_context *context,
@@ -129,7 +129,7 @@ static celspan_status make_shape(celspan_context *context, cs_primitive_data *da
   return cs_primitive_data_object(context, data, out);
 }
 
-/* Puts the clip in the place of *data, which is given up then. */
+/* Replaces *data by the clip, and releases it. */
 static celspan_status fill(celspan_context *context, cs_primitive_data **data) {
   const cs_boolean look = {.op = CELSPAN_CLIP, .is_filled = true};
   celspan_object *both[2] = {NULL, NULL};

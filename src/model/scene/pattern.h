@@ -9,7 +9,7 @@
  *     | .'. | .'. | .'. |         lies a whole number of widths and heights away from it.
  *     +-----+-----+-----+
  *
- * Invariant: what has an outline keeps it: cs_pattern_shape.
+ * Invariant: data with an outline keep it: cs_pattern_shape.
  */
 #pragma once
 
@@ -19,7 +19,8 @@
  * the clip then. Errors: `status`, NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_pattern_wrap(celspan_context *context, cs_primitive_data *data,
                                                celspan_status status, celspan_object **out);
-/* The data of the outline: those of the shape where they are filled with a pattern, else `data`. */
+/* The data of the outline: where `data` are filled with a pattern, the data of the filled shape;
+ * otherwise `data`. */
 const cs_primitive_data *cs_pattern_shape(const cs_primitive_data *data);
 /* The point of the box that is shown at a point of the plane, in the rostrum's units. */
 celspan_point cs_pattern_fold(const cs_repeat *repeat, celspan_point point);

@@ -8,7 +8,8 @@
 
 /* ---------------------------------------------------------------- mixing */
 
-/* Of a texture of paints. Where the medium dims what the pigment leaves, both are mixed. */
+/* Of a texture of paints. Both are mixed where the medium dims the light that the pigment
+ * leaves. */
 static cs_mixing mixing_of_paint(const cs_paint *paint) {
   bool is_opaque = true, is_single = true;
   for (int c = 0; c < 3; c++) {
@@ -25,7 +26,8 @@ static cs_mixing mixing_of_texture(const celspan_texture *texture) {
   return is_plain ? CS_MIXING_SINGLE : CS_MIXING_MIXED;
 }
 
-/* Adds an operand to what is known of a boolean. is_only: no other one is painted. */
+/* Updates the known properties of a boolean for one more operand. is_only: no other operand is
+ * painted. */
 static void add_mixing(const celspan_object *object, bool is_only, cs_primitive_data *data) {
   uint8_t mixing = object->data->mixing;
   if (mixing == CS_MIXING_OPAQUE && object->fade < 1)
@@ -41,7 +43,7 @@ static bool has_formula(const cs_boolean *boolean) {
          boolean->blend != CELSPAN_BLEND_NORMAL;
 }
 
-/* Of operands that come after others. */
+/* For operands that come after others. */
 static void measure_mixing(celspan_object *const *objects, size_t count, cs_primitive_data *data) {
   const cs_boolean *boolean = data->boolean;
   bool is_first = boolean->op == CELSPAN_DIFFERENCE || boolean->op == CELSPAN_CLIP;
@@ -58,7 +60,7 @@ static void measure_mixing(celspan_object *const *objects, size_t count, cs_prim
 
 /* ---------------------------------------------------------------- data */
 
-/* What only data of this kind have. */
+/* The values that only data of this kind have. */
 static celspan_status create_part(celspan_context *context, cs_primitive_data *data) {
   if (data->kind == CS_PRIMITIVE_DATA_SCANLINE) {
     return CS_MAKE(context, data->scanline, 1);
@@ -191,7 +193,8 @@ static cs_hash hash_primitive(const cs_primitive_data *data) {
   return cs_hash_end(hash);
 }
 
-/* The length comes last, so that the hash of more operands begins with that of fewer. */
+/* The length comes last, so that the hash of a longer list begins with the hash of a shorter
+ * one. */
 static cs_hash hash_boolean(cs_boolean *boolean) {
   bool is_extended = boolean->hashed_count > 0;
   cs_hash hash = is_extended ? boolean->operands_hash : cs_hash_begin(CS_VALUE_DATA);
@@ -375,7 +378,8 @@ celspan_status cs_primitive_data_list_copy(celspan_context *context, const char 
   return CELSPAN_OK;
 }
 
-/* What an operand, or an object of a cel, does to the backdrop of what it is in. */
+/* Records how an operand, or an object of a cel, changes the backdrop of the boolean or cel around
+ * it. */
 static void add_modes(const celspan_object *object, cs_primitive_data *data) {
   for (int around = CELSPAN_SPACE_LINEAR; around < CS_SPACES; around++) {
     celspan_space space = data->kind == CS_PRIMITIVE_DATA_BOOLEAN

@@ -24,8 +24,8 @@ void cs_primitive_data_unref(cs_primitive_data *data);
 CELSPAN_CHECKED celspan_status cs_primitive_data_object(celspan_context *context,
                                                         cs_primitive_data *data,
                                                         celspan_object **out);
-/* *out: new data of a boolean with these operands, which are kept. look: what it is like. noun: for
- * messages. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+/* *out: new data of a boolean with these operands, to which it keeps references. look: its
+ * properties. noun: for messages. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_of_operands(celspan_context *context,
                                                              const char *noun,
                                                              const cs_boolean *look,
@@ -76,7 +76,7 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_complete_box(celspan_context *c
                                                               cs_primitive_data *data,
                                                               const celspan_box *box,
                                                               celspan_object **out);
-/* Gives data, which have no outline yet, that of an upright rectangle. Errors: NO_MEMORY. */
+/* Gives data without an outline the outline of an upright rectangle. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_set_box(celspan_context *context,
                                                          cs_primitive_data *data,
                                                          const celspan_box *box);
@@ -92,7 +92,7 @@ CELSPAN_CHECKED celspan_status cs_object_graded(celspan_context *context, celspa
                                                 const celspan_grade_desc *fields,
                                                 celspan_object **out);
 
-/* What operators are called, in their order, with that of mattes. */
+/* The names of the operators, in their order, and of mattes. */
 extern const char *const cs_boolean_words[];
 
 /* *out: a boolean of these operands, new, with the operator, mode, space, grade and isolation of
@@ -101,8 +101,8 @@ CELSPAN_CHECKED celspan_status cs_boolean_like(celspan_context *context, const c
                                                celspan_object *const *operands, size_t count,
                                                celspan_object **out);
 
-/* As celspan_object_blend, but the object shows only as far as its backdrop is there, in the
- * nearest group that isolates, whose alpha it does not change (CS_BLEND_WITHIN). */
+/* As celspan_object_blend, but the object shows only where its backdrop is present, in the nearest
+ * isolating group, and does not change the alpha of that group (CS_BLEND_WITHIN). */
 CELSPAN_CHECKED celspan_status cs_object_blend_within(celspan_context *context,
                                                       celspan_object *object, celspan_blend mode,
                                                       celspan_object **out);

@@ -24,8 +24,8 @@
 #include "model/scene/oracle.h"
 #include "model/scene/pattern.h"
 
-/* The point that is evaluated, and the film it belongs to: that of the call, or that of a rostrum
- * which is an object. */
+/* The point that is evaluated, and the film that it belongs to: the film of the call, or the film
+ * of a rostrum that is an object. */
 typedef struct probe_call {
   celspan_context *context;
   double film_width, film_height;
@@ -33,7 +33,7 @@ typedef struct probe_call {
   celspan_space space; /* of all numbers */
 } probe_call;
 
-/* What a light is at the point. */
+/* The light at the point. */
 typedef struct light_sample {
   double rgb[3], matte;
 } light_sample;
@@ -80,8 +80,8 @@ static celspan_status present(const probe_call *probe, const celspan_object *obj
 
 /* ---------------------------------------------------------------- places */
 
-/* A place in what isolates, on the way from the camera to the rear: in a list of objects, or in a
- * rostrum. Behind its last item the way continues in the list around it, unless this isolates.
+/* A place in an isolating group, on the way from the camera to the rear: in a list of objects, or
+ * in a rostrum. Behind its last item the way continues in the list around it, unless this isolates.
  *
  *     rostrum, rear first   0          1             2       3             4
  *                           its back   back light    cel 1   back light    cel 2
@@ -95,10 +95,10 @@ struct place {
   celspan_object *const *objects; /* of a list */
   size_t left;                    /* objects, or places of a rostrum, not yet met */
   celspan_matrix matrix;          /* of a list: to film units */
-  light_sample front;             /* of a list: what it is lit by */
+  light_sample front;             /* of a list: the light on it */
 };
 
-/* Adds what is seen from a place on. */
+/* Adds everything that is seen from a place on. */
 static celspan_status see(place at, cs_oracle_sight *seen);
 
 static bool is_hidden(const cs_oracle_sight *seen) {
@@ -139,7 +139,7 @@ static celspan_status see_rostrum(const probe_call *probe, const celspan_rostrum
   return see((place){.probe = probe, .rostrum = rostrum, .left = 2 * rostrum->cel_count + 1}, out);
 }
 
-/* Its strength is that of the second operand, which is not drawn. */
+/* The strength of a matte comes from the second operand, which is not drawn. */
 static celspan_status see_matte(const probe_call *probe, const cs_boolean *boolean,
                                 const celspan_matrix *matrix, const light_sample *front,
                                 cs_oracle_sight *out) {
@@ -168,7 +168,8 @@ static void light_paint(const cs_oracle_paint *paint, const light_sample *front,
   }
 }
 
-/* What was seen in a space, as a whole: graded, converted to that of the probe, and lit. */
+/* Handles a colour composited in another space as a whole: it is graded, converted to the space of
+ * the probe, and lit. */
 static void light_whole(const probe_call *probe, celspan_space space, const celspan_grade *grade,
                         const light_sample *front, cs_oracle_sight *sight) {
   if (grade)
@@ -341,7 +342,7 @@ static celspan_status see_next(place *at, cs_oracle_sight *seen) {
                        : see_cel(at, index, seen);
 }
 
-/* What is hidden is not looked at. */
+/* Hidden layers are not evaluated. */
 static celspan_status see(place at, cs_oracle_sight *seen) {
   while ((at.left > 0 || at.around) && !is_hidden(seen)) {
     if (at.left > 0)

@@ -81,7 +81,7 @@ static void fill(celspan_rostrum *rostrum, const celspan_rostrum_desc *desc) {
   rostrum->grade = celspan_grade_ref(desc->grade);
 }
 
-/* What is kept: the caller frees it, whatever the status. */
+/* Makes the values that the rostrum keeps: the caller frees them, whatever the status. */
 static celspan_status make_parts(celspan_context *context, const celspan_rostrum_desc *desc,
                                  celspan_rostrum *parts) {
   cs_light_desc front = {.noun = "rostrum",

@@ -40,7 +40,7 @@ void cs_scanline_finish(celspan_scanline_output *output, cs_memory *memory);
 
 /* Fills `output` with the spans of a procedure at height y. y and row: in the procedure's own
  * units. At a height outside the bounds there are none, and the procedure is not called. Errors:
- * NO_MEMORY; CALLBACK, naming the span and the mistake; those of the procedure. */
+ * NO_MEMORY; CALLBACK, naming the span and the mistake; the errors of the procedure. */
 CELSPAN_CHECKED celspan_status cs_scanline_collect(celspan_context *context,
                                                    const celspan_scanline_desc *desc, double y,
                                                    const celspan_scanline_row *row,

@@ -1,4 +1,4 @@
-/* What a frame shows: its name, and whether it can have one. */
+/* The hash of a frame's contents, and whether it has one. */
 #include "model/scene/scene.h"
 
 #include "base/number.h"
@@ -45,7 +45,7 @@ static celspan_status check(celspan_context *context, const cs_light_desc *desc)
                        CELSPAN_LIGHT_ON_CEL);
 }
 
-/* What a texture of one paint shines with in a space. */
+/* The colour of a texture of one paint in a space. */
 static celspan_light flat_of(const celspan_texture *texture, const celspan_light_texture *shape,
                              celspan_space space) {
   const cs_paint paint = cs_space_paint(space, texture->flat);

@@ -45,10 +45,10 @@ typedef struct cs_light {
   celspan_texture *texture; /* NULL: flat */
   double gain;              /* of the texture; else 0 */
   celspan_light_place on;   /* likewise */
-  double matte;             /* likewise: what the texture's beta is multiplied by */
+  double matte;             /* likewise: the factor of the texture's beta */
 } cs_light;
 
-/* What a description says of one light. */
+/* One light of a description. */
 typedef struct cs_light_desc {
   const char *noun, *field;
   bool is_given; /* the plain light is */
@@ -64,7 +64,7 @@ CELSPAN_CHECKED celspan_status cs_light_make(celspan_context *context, const cs_
 cs_light cs_light_ref(const cs_light *light);
 void cs_light_unref(const cs_light *light);
 void cs_light_hash(cs_hash *hash, const cs_light *light);
-/* What it is in a space, where it is flat. */
+/* The colour of it in a space, where it is flat. */
 static inline celspan_light cs_light_in(const cs_light *light, celspan_space space) {
   return space == CELSPAN_SPACE_SRGB ? light->coded : light->flat;
 }
@@ -81,38 +81,40 @@ typedef enum cs_primitive_data_kind {
   CS_PRIMITIVE_DATA_ROSTRUM
 } cs_primitive_data_kind;
 
-/* A matte among the operators: two operands, of which the second is never painted. Its strength at
- * a point is what the first is faded by. */
+/* A matte among the operators: it has two operands. The second is never painted; its strength at a
+ * point fades the first. */
 #define CS_OPERATOR_MATTE ((celspan_operator)(CELSPAN_CLIP + 1))
 
-/* What a boolean is known to be present where: where an object is, grown (model/scene/grow.h). */
+/* A known fact about where a boolean is present: where an object is present that is grown
+ * (model/scene/grow.h). */
 typedef struct cs_core {
   celspan_object *object; /* in the boolean's units; NULL: nothing is known. A reference */
   double width;
   celspan_stroke_join join;
 } cs_core;
 
-/* What only booleans have. A group is a union, and so is an object with a mode of its own. */
+/* The values that only booleans have. A group is a union, and so is an object with a mode of its
+ * own. */
 typedef struct cs_boolean {
   celspan_operator op;
   celspan_blend blend;
   celspan_space space;       /* in which its operands are composited */
-  bool mixes;                /* that is what they need: CS_MIXING_MIXED, if there is a space */
-  celspan_grade *grade;      /* of what that makes; NULL: none. A reference */
+  bool mixes;                /* they need CS_MIXING_MIXED, if there is a space */
+  celspan_grade *grade;      /* of the result; NULL: none. A reference */
   bool isolates;             /* modes inside do not act on its backdrop */
   bool is_luma;              /* MATTE: the strength is luma, not alpha */
   bool inverts;              /* MATTE: 1 less the strength */
   bool is_filled;            /* CLIP: the plane of a pattern, and the primitive that it fills */
   cs_core core;              /* of an outline; no part of the hash, since it shows in nothing */
   cs_operands view;          /* keeps the operands */
-  celspan_object **operands; /* those of the view */
+  celspan_object **operands; /* the operands of the view */
   size_t operand_count;
   cs_hash operands_hash; /* of the first hashed_count operands; more continue it */
   size_t hashed_count;
 } cs_boolean;
 
-/* What a working space means for what is seen of an object by itself. Pixels are averaged in that
- * of the film, so edges do not count. */
+/* How a working space changes the look of an object by itself. Pixels are averaged in the film's
+ * space, so edges do not count. */
 typedef enum cs_mixing {
   CS_MIXING_OPAQUE, /* nothing: one opaque paint at each point */
   CS_MIXING_SINGLE, /* nothing, unless something lies behind it: one paint, or colour of a picture,
@@ -127,9 +129,9 @@ typedef struct cs_repeat {
 } cs_repeat;
 
 /* The data of an object without its transform and fade: shared by all its transformed copies. A
- * scene may have a million of them, nearly all outlines: what other kinds have is behind a
- * pointer, and an upright rectangle is kept as a box. cs_primitive_data_outline gives the
- * outline of either. */
+ * scene may have a million of them, nearly all outlines: the values of other kinds are behind a
+ * pointer, and an upright rectangle is kept as a box. cs_primitive_data_outline gives the outline
+ * of either. */
 typedef struct cs_primitive_data {
   atomic_size_t references;
   cs_memory *memory;
@@ -146,7 +148,7 @@ typedef struct cs_primitive_data {
   bool is_box;              /* the outline is that of `box`, which has an area */
   int16_t depth;            /* levels of booleans and rostrums below and with this one */
   uint16_t shape_count;     /* as primitive_count, a mesh being one shape; 65535 at most */
-  uint16_t cut_count;       /* of these, in what a difference cuts away */
+  uint16_t cut_count;       /* of these, primitives that a difference cuts away */
   uint32_t primitive_count; /* below and with this one, each time it occurs */
   celspan_texture *texture; /* OUTLINE; never NULL */
   celspan_box bounds; /* all but BOOLEAN: own units; tight, but of a stroke only where that shows */
@@ -163,7 +165,7 @@ typedef struct cs_primitive_data {
   cs_repeat *repeat; /* ROSTRUM, whose frame is then the plane of a pattern; else NULL. Owned */
 } cs_primitive_data;
 
-/* The outline of data that have one, else NULL. room: where that of a box is made. */
+/* The outline of data that have one, else NULL. room: where the outline of a box is made. */
 static inline const cs_outline *cs_primitive_data_outline(const cs_primitive_data *data,
                                                           cs_outline_box *room) {
   return data->is_box ? cs_outline_of_box(&data->box, room) : data->outline;
@@ -191,7 +193,7 @@ static inline celspan_space cs_boolean_space(const cs_boolean *boolean, celspan_
   return boolean->mixes ? cs_space_inside(boolean->space, around) : around;
 }
 
-/* Whether what a boolean makes inside a space is changed as a whole: graded, or converted. */
+/* Whether the result of a boolean inside a space is changed as a whole: graded, or converted. */
 static inline bool cs_boolean_develops(const cs_boolean *boolean, celspan_space around) {
   return boolean->grade || cs_boolean_space(boolean, around) != around;
 }
@@ -286,8 +288,9 @@ CELSPAN_CHECKED celspan_status cs_scene_cel_matrix(celspan_context *context,
                                                    const celspan_rostrum *rostrum, size_t cel_index,
                                                    double film_width, double film_height,
                                                    celspan_matrix *out);
-/* The factors of that matrix that come after the cel's own transform: the view is the viewport and
- * then the camera; without a camera, that factor is the identity. They are not checked. */
+/* The factors of that matrix that come after the cel's own transform: the view, which is the
+ * viewport and then the camera, and the camera alone, which is the identity where there is none.
+ * They are not checked. */
 celspan_matrix cs_scene_view(const celspan_rostrum *rostrum, const celspan_cel *cel,
                              double film_width, double film_height);
 celspan_matrix cs_scene_camera(const celspan_rostrum *rostrum, double film_width,
@@ -296,9 +299,9 @@ celspan_matrix cs_scene_camera(const celspan_rostrum *rostrum, double film_width
 cs_light cs_scene_front(const celspan_rostrum *rostrum, const celspan_cel *cel);
 /* A back light times the rostrum's brightness; the matte does not change. */
 cs_light cs_scene_back(const celspan_rostrum *rostrum, const cs_light *back);
-/* *out: new; like `cel`, name and line included, without what is named: its lights, so that white
- * light shines on it and none through it, and its defocus. For tools that show a part of the work.
- * Errors: NO_MEMORY. */
+/* *out: new; a copy of `cel`, name and line included, without the parts named: its lights, so that
+ * white light shines on it and none through it, or its defocus. For tools that show a part of the
+ * work. Errors: NO_MEMORY. */
 typedef struct cs_cel_without {
   bool lights, defocus;
 } cs_cel_without;
@@ -321,8 +324,8 @@ CELSPAN_CHECKED celspan_status cs_rostrum_by_camera(celspan_context *context,
                                                     const celspan_rostrum *from,
                                                     const celspan_rostrum *by,
                                                     celspan_rostrum **out);
-/* A hash of what exposures show, independent of the frame's size. Exposures with equal hashes show
- * the same, provided that they contain no procedure and the files of their pictures do not
+/* A hash of the contents of exposures, independent of the frame's size. Exposures with equal hashes
+ * show the same, provided that they contain no procedure and the files of their pictures do not
  * change. */
 cs_hash cs_scene_hash(const celspan_exposure *exposures, size_t count);
 /* Whether any exposure contains a scan-line procedure. */
@@ -337,12 +340,12 @@ bool cs_scene_has_procedure(const celspan_exposure *exposures, size_t count);
  *       v    ---------------------------
  *            cels behind it are left out: no light of theirs is left
  *
- * What it sends to the camera is what a unit of that light adds to the whole. Mattes are 0, so that
- * the alpha of what is sent is 1 less the mean of what comes through all of these cels.
+ * The light that it sends to the camera is what a unit of that light adds to the frame. Mattes are
+ * 0, so that the alpha is 1 less the mean share of light that comes through all of these cels.
  *
  * INVARIANT: it borrows everything from the rostrum that it was made of, which must outlive it. It
- * has the hashes of that rostrum and its cels: what caches keep under them does not depend on
- * lights.
+ * has the hashes of that rostrum and its cels: the items that caches keep under them do not depend
+ * on lights.
  */
 typedef struct cs_lit_alone {
   celspan_rostrum rostrum;

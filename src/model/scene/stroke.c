@@ -72,8 +72,8 @@ static celspan_status check_outline(celspan_context *context, const celspan_obje
 
 /* ---------------------------------------------------------------- construction */
 
-/* A picture without a box lies on the tight bounds; for everything else those of the line and its
- * largest reach do. */
+/* A picture without a box lies on the tight bounds; for everything else the bounds of the line,
+ * enlarged by its largest reach, are good enough. */
 static celspan_status find_bounds(celspan_context *context, cs_primitive_data *data) {
   const cs_stroke *stroke = data->stroke;
   data->is_empty = !(stroke->around.width > 0 && stroke->around.height > 0);

@@ -7,7 +7,7 @@
  *   FLAT        [ texture ]                      most textures of most scenes: they are kept small
  *   all others  [ texture | its variation ]      one allocation
  *
- * A PATTERN is on no primitive: one that is given it becomes a boolean (pattern.h).
+ * A PATTERN is on no primitive: a primitive that is given a pattern becomes a boolean (pattern.h).
  */
 #pragma once
 
@@ -36,7 +36,7 @@ typedef struct cs_texture_tile_calls {
   void (*release)(celspan_rostrum *tile);
 } cs_texture_tile_calls;
 
-/* What textures have that vary from point to point. */
+/* The values of textures that vary from point to point. */
 typedef struct cs_texture_variation {
   celspan_point points[3]; /* TRIANGLE: corners; LINEAR: from, to; RADIAL: centre, and the way
                               from it to the focus, less than the radius */
@@ -44,17 +44,17 @@ typedef struct cs_texture_variation {
   cs_paint corners[3];     /* TRIANGLE */
   cs_stop *stops;          /* LINEAR, RADIAL */
   size_t stop_count;
-  celspan_spread spread;          /* LINEAR, RADIAL; of what primitives and lights have: HOLD */
+  celspan_spread spread;          /* LINEAR, RADIAL; HOLD in textures of primitives and lights */
   bool has_matrix;                /* not singular: */
   celspan_matrix matrix, inverse; /* from the texture's units to the primitive's */
-  celspan_texture *origin; /* what was unrolled to this one, a reference; NULL: nothing was */
-  cs_picture *picture;     /* PICTURE */
+  celspan_texture *origin;        /* the texture before unrolling, a reference; NULL: none */
+  cs_picture *picture;            /* PICTURE */
   cs_picture *medium; /* PICTURE, of a paint: its rgb is T; NULL: T is 1 - alpha of `picture` */
   celspan_sampling sampling;
   celspan_picture_use use;
   celspan_wrap wrap;
   bool has_box;
-  celspan_box box; /* where has_box; else the primitive's tight bounds. PATTERN: what is repeated */
+  celspan_box box; /* where has_box; else the primitive's tight bounds. PATTERN: the repeated box */
   celspan_rostrum *tile; /* PATTERN: one box of it; a reference */
   cs_hash tile_hash;
   const cs_texture_tile_calls *calls; /* of the tile; NULL: there is none */
@@ -71,8 +71,8 @@ struct celspan_texture {
   const cs_texture_variation *variation;
 };
 
-/* A texture of a kind, of which nothing is known yet: to be filled, and hashed again. *out: new.
- * Errors: NO_MEMORY. */
+/* An empty texture of a kind: the caller fills it and hashes it again. *out: new. Errors:
+ * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_texture_create_kind(celspan_context *context,
                                                       cs_texture_kind kind, celspan_texture **out);
 /* *out: `texture` with a reference more, or new opaque black when it is NULL. Errors: NO_MEMORY. */
@@ -92,8 +92,8 @@ CELSPAN_CHECKED celspan_status cs_texture_create_coded(celspan_context *context,
 
 /* The variation of a texture that is being made and is not FLAT, to be filled. */
 cs_texture_variation *cs_texture_own(celspan_texture *texture);
-/* A copy with its own mark, which is taken over, and room for so many stops, of which those that
- * fit are copied. Errors: NO_MEMORY. */
+/* A copy with its own mark, which it owns from now on, and room for the given number of stops. It
+ * copies as many stops as fit. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_texture_copy(celspan_context *context,
                                                const celspan_texture *texture, size_t stop_count,
                                                cs_mark mark, celspan_texture **out);
@@ -101,8 +101,9 @@ CELSPAN_CHECKED celspan_status cs_texture_copy(celspan_context *context,
 CELSPAN_CHECKED celspan_status cs_texture_copy_medium(celspan_context *context,
                                                       const celspan_texture *texture,
                                                       cs_picture *medium, celspan_texture **out);
-/* *out: new; a picture that had no box in this one, where it ends with what it is on, so that it
- * continues at its edges; or `texture` with a reference more. Errors: NO_MEMORY. */
+/* *out: a new texture: a picture that had no box gets this one, and continues beyond its edges,
+ * because it ends where the object ends. For other textures `texture` with one more reference.
+ * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_texture_boxed(celspan_context *context, celspan_texture *texture,
                                                 const celspan_box *box, celspan_texture **out);
 /* To be called when a copy was changed. */
@@ -111,5 +112,5 @@ void cs_texture_rehash(celspan_texture *texture);
 /* Whether every colour of the texture lets the three channels through alike. A picture is grey
  * unless it is a gel or has a medium. */
 bool cs_texture_is_grey(const celspan_texture *texture);
-/* Whether its picture is a surface that is drawn on the rendering thread alone. */
+/* Whether the texture's picture is a surface that only the rendering thread draws. */
 bool cs_texture_stays_on_thread(const celspan_texture *texture);

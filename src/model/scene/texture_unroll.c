@@ -45,7 +45,7 @@ static bool find_periods(const celspan_texture *texture, const celspan_box *box,
 
 /* ---------------------------------------------------------------- stops */
 
-/* The stops of one period, and those that hold its colours to its ends. */
+/* The stops of one period, and stops that continue its outer colours to its ends. */
 static size_t stops_of_period(const celspan_texture *texture) {
   return texture->variation->stop_count + 2;
 }
@@ -140,7 +140,7 @@ static bool is_gradient(const celspan_texture *texture) {
   return texture->kind == CS_TEXTURE_LINEAR || texture->kind == CS_TEXTURE_RADIAL;
 }
 
-/* A copy to be changed; a gradient that was made flat stays what it is. */
+/* A copy to be changed; a gradient that was made flat stays flat. */
 static celspan_status copy(celspan_context *context, const celspan_texture *texture,
                            celspan_texture **out) {
   return cs_texture_copy(context, texture, texture->variation->stop_count,

@@ -4,7 +4,7 @@
  *   unrolled      0 ---- 1/3 ---- 2/3 ---- 1        from the first period to the last one
  *                 ^ ---- from' ---------- to' ^     so many times as long
  *
- * Invariant: inside the box the unrolled gradient shows what the one that repeats does.
+ * Invariant: inside the box the unrolled gradient shows the same as the repeating one.
  */
 #pragma once
 
@@ -12,8 +12,8 @@
 
 #define CS_UNROLL_STOPS 4096
 
-/* Puts another texture in the place of *texture, which is given up then, where it repeats. box:
- * around what it is on, in its units; NULL: a light's, which may be anywhere. Errors: NO_MEMORY;
- * LIMIT for more than CS_UNROLL_STOPS. */
+/* Where *texture repeats, replaces it by a texture that does not, and releases it. box: around the
+ * object that it is on, in its units; NULL: the texture of a light, which may be anywhere. Errors:
+ * NO_MEMORY; LIMIT for more than CS_UNROLL_STOPS. */
 CELSPAN_CHECKED celspan_status cs_texture_unroll(celspan_context *context,
                                                  celspan_texture **texture, const celspan_box *box);

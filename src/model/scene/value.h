@@ -31,8 +31,9 @@ static inline bool cs_value_drop(atomic_size_t *references) {
   return atomic_fetch_sub_explicit(references, 1, memory_order_acq_rel) == 1;
 }
 
-/* Copies a value, whose first field is its count, but not that count, which other threads may be
- * changing: that of the copy is 1. What the value refers to is not counted once more. */
+/* Copies a value, whose first field is its reference count, except for the count, which other
+ * threads may be changing: the count of the copy is 1. The references inside the value are not
+ * counted once more. */
 static inline void cs_value_copy(void *to, const void *from, size_t size) {
   atomic_init((atomic_size_t *)to, 1);
   const size_t count = sizeof(atomic_size_t);

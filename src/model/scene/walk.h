@@ -3,7 +3,8 @@
  *   rostrum: its lights, then cel by cel: lights, objects through booleans to primitives
  *                                                  \-- a rostrum: the same again
  *
- * INVARIANT: the order is that of the lists, back to front; what occurs twice is met twice.
+ * INVARIANT: the order is that of the lists, back to front; a node that occurs twice is visited
+ * twice.
  */
 #pragma once
 

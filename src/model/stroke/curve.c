@@ -220,7 +220,8 @@ bool cs_curve_is_straight(const cs_bezier *line) {
 /* ---------------------------------------------------------------- lengths */
 
 #define LENGTH_DEPTH 30
-/* Of the polygon, for every halving alike; not below what coordinates round off. */
+/* The error allowed, of the polygon's length, the same for every halving; not below the rounding of
+ * coordinates. */
 #define LENGTH_ERROR 1e-11
 
 /* The speed of a line at many places: a polynomial of the second degree, unless the line has

@@ -1,4 +1,5 @@
-/* A piece of a line with its radius, or a part of one: what strokes are measured and outlined by.
+/* A piece of a line with its radius, or a part of one. Strokes are measured and outlined piece by
+   piece.
  */
 #pragma once
 
@@ -27,7 +28,7 @@ void cs_curve_reverse(cs_curve *curve);
 void cs_curve_split(const cs_curve *curve, double t, cs_curve *low, cs_curve *high);
 /* The part of a Bernstein polynomial between two parameters, in place. */
 void cs_curve_cut_polynomial(double *coefficients, int degree, double begin, double end);
-/* The product of two of them, whose degree is the sum of theirs. */
+/* The product of two polynomials; its degree is the sum of their degrees. */
 void cs_curve_multiply(const double *a, int a_degree, const double *b, int b_degree, double *out);
 cs_curve_place cs_curve_at(const cs_curve *curve, double t);
 /* A place of the line alone. */
@@ -45,7 +46,8 @@ bool cs_curve_is_straight(const cs_bezier *line);
 /* Whether all of the line is one point, up to rounding. */
 bool cs_curve_is_point(const cs_bezier *line);
 
-/* The length of a line between two parameters, right within 1e-10 of that of its polygon. */
+/* The length of a line between two parameters, with an error of at most 1e-10 of the length of its
+ * polygon. */
 double cs_curve_length(const cs_bezier *line, double begin, double end);
 /* The parameter at which the length from 0 is `length`; whole: that up to 1. */
 double cs_curve_parameter(const cs_bezier *line, double whole, double length);

@@ -27,7 +27,7 @@ static size_t find(const cs_ruler *ruler, size_t begin, size_t end, double lengt
   return begin;
 }
 
-/* Whether a piece has so many dashes that it is worth while to mark it. */
+/* Whether a piece has enough dashes to make marks on it worth while. */
 static bool is_marked(cs_ruler *ruler, size_t piece, const cs_bezier *line, double whole) {
   if (ruler->marked == piece)
     return true;
@@ -134,7 +134,7 @@ static bool meet(const cs_outline *line, const cs_stroke_part *first, const cs_s
          last->end == 1 && (count == 1 || !(is_dot(first) || is_dot(last)));
 }
 
-/* Finds the first dash of a run that is drawn, and the number of those that are. */
+/* Finds the first dash of a run that is drawn, and the number of drawn dashes. */
 static size_t count_dashes(const cs_dashes *dashes, cs_dashes_run *run) {
   size_t each = dashes->place_count / 2;
   size_t first = each * (size_t)floor((run->from - run->start) / dashes->pattern);
@@ -185,7 +185,7 @@ static size_t run_end(const cs_stroke *stroke, size_t run) {
                                             : stroke->part_count;
 }
 
-/* The run of a part: most often that of the part before it. */
+/* The run of a part: most often the run of the previous part. */
 static size_t find_run(const cs_parts *parts, size_t index) {
   const cs_dashes *dashes = &parts->stroke->dashes;
   size_t low = 0, high = dashes->run_count;

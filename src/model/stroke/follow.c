@@ -7,7 +7,7 @@
 #define THIN 0.04 /* pixels: half the width that both errors of the sweep may be as large as */
 #define HAIR 1e-4 /* pixels: sides that are so near are the same curve, wherever they are drawn */
 #define RESTING 0.02   /* of the speed at the other end */
-#define HALF_TURN 1e-9 /* sine: what is nearer to a half turn is one */
+#define HALF_TURN 1e-9 /* sine: a turn nearer to a half turn counts as one */
 #define ROOT_STEPS 100
 
 /* Spokes of a part of a curve, evenly spaced by the parameter, and how they move. All are taken
@@ -288,8 +288,8 @@ static celspan_status draw_backwards(cs_side *side, const fan *f, double *at, bo
   return CELSPAN_OK;
 }
 
-/* Where the tips of a curve turn round, between the first two spokes of which one goes forwards and
- * one backwards. */
+/* Where the tips of a curve turn round: between the first two neighbouring spokes of which one goes
+ * forwards and the other backwards. */
 static double find_turn(const cs_curve *curve, const fan *f) {
   int before = -1, i = 0;
   for (; i < SPOKES; i++) {

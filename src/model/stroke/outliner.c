@@ -17,7 +17,7 @@ typedef struct stretch {
   double begin, end;
   cs_spoke first, last;
   bool is_swallowed; /* every disc is inside its neighbour */
-  bool is_cut;       /* what comes before it cannot be seen */
+  bool is_cut;       /* the part before it cannot be seen */
 } stretch;
 
 typedef struct outliner {
@@ -80,7 +80,7 @@ static celspan_status add_visible(outliner *o, const stretch *base, const cs_cur
   return add_between(o, base, curve, from, 1);
 }
 
-/* Whether it is worth while to look at parts of a curve. One that is shorter than it is wide looks
+/* Whether it is worth while to look at parts of a curve. A curve that is shorter than wide looks
  * alike from both ends. */
 static bool is_long(const outliner *o, const cs_curve *curve, const celspan_box *box) {
   celspan_box line = cs_curve_box(curve, 0);
@@ -88,7 +88,7 @@ static bool is_long(const outliner *o, const cs_curve *curve, const celspan_box 
          cs_stroke_view_is_exceeded(o->view, &line);
 }
 
-/* Adds what can be seen of a curve, between two parameters of a piece. */
+/* Adds the visible part of a curve between two parameters of a piece. */
 static celspan_status add_curve(outliner *o, const stretch *base, const cs_curve *curve,
                                 int depth) {
   if (!o->is_all_visible) {

@@ -1,7 +1,7 @@
 /* The outline of a stroke, made for a view.
  *
- *            right side, forwards                A part that is drawn becomes runs: what of it can
- *     .----->--------->--------->----.           be seen, as one contour each, up to where it is
+ *            right side, forwards                A part that is drawn becomes runs: all that can be
+ *     .----->--------->--------->----.           seen of it, as one contour each, up to where it is
  *     |  .......... the line .....>  | cap       hidden. A closed part that is all seen has one
  *     '-----<---------<---------<----'           contour for either side. Folds and some shapes of
  *            right side, backwards               ends are contours of their own.

@@ -142,7 +142,7 @@ static celspan_status add_polyline(celspan_context *context, cs_outline *line,
 }
 
 /* A clamped spline has one piece for every knot span; the line that closes it as an outline is
- * taken off again. */
+ * removed again. */
 static celspan_status add_spline(celspan_context *context, cs_outline *line,
                                  const celspan_point *points, size_t count,
                                  const celspan_stroke_desc *desc) {

@@ -19,7 +19,7 @@
  *   a primitive    --> outline  --/
  */
 
-/* A line as it is given. Pieces of `widths`, where it has any, are those of the line: their x is
+/* A line as it was given. If `widths` has pieces, they belong to the pieces of the line: their x is
  * the width. */
 typedef struct cs_stroke_raw {
   cs_outline line, widths;

@@ -3,7 +3,7 @@
 #define PI 3.14159265358979323846
 #define ARC_DEPTH 20
 #define ARC_WORST 0.2113 /* parameter at which a cubic is farthest from its arc */
-#define SAME 1e-3        /* of what is allowed: pivots that are no farther apart are one */
+#define SAME 1e-3        /* of the allowed error: pivots that are no farther apart count as one */
 
 void cs_side_init(cs_side *side, celspan_context *context, const cs_stroke_view *view,
                   cs_outline *outline) {
@@ -39,7 +39,7 @@ static celspan_status draw_curve(cs_side *side, const celspan_point p[4]) {
   return cs_outline_piece(side->context, side->outline, 3, points);
 }
 
-/* Appends pieces [begin, end) of an outline, backwards if asked, to one that ends where they
+/* Appends pieces [begin, end) of an outline, backwards if asked, to an outline that ends where they
  * begin. */
 static celspan_status append_pieces(celspan_context *context, cs_outline *to,
                                     const cs_outline *from, size_t begin, size_t end,
@@ -61,14 +61,14 @@ static void clear(cs_outline *outline) {
 
 static bool has_fold(const cs_side *side) { return side->tips.piece_count > 0; }
 
-/* Where the tips of the fold have come to. */
+/* Where the tips of the fold end so far. */
 static celspan_point last_tip(const cs_side *side) {
   cs_hpoint p = side->tips.points[side->tips.point_count - 1];
   return (celspan_point){p.x, p.y};
 }
 
-/* The side goes out to the last tip. The fold is the way of the tips back from there, then what the
- * side has gone since the first tip: pivots, with a spoke before and after them. */
+/* The side goes out to the last tip. The fold is the way of the tips back from there, then the way
+ * of the side since the first tip: pivots, with a spoke before and after them. */
 static celspan_status end_fold(cs_side *side) {
   if (!has_fold(side))
     return CELSPAN_OK;

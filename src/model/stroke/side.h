@@ -1,8 +1,8 @@
 /* One side of a stroke: the pieces of an outline along the right of a line's way.
  *
- * A stroke is the union of what its spokes sweep over. Where the line bends less than the side is
- * away, the tips go forwards. Where it bends more sharply, the tips on the inside go backwards, for
- * a spoke turns about its pivot, and the part beyond the pivot moves the other way:
+ * A stroke is the union of the areas that its spokes sweep over. Where the line bends less than the
+ * side is away, the tips go forwards. Where it bends more sharply, the tips on the inside go
+ * backwards, for a spoke turns about its pivot, and the part beyond the pivot moves the other way:
  *
  *         a --------> b     the line    A contour must not go round anything in the wrong
  *          \        /                   order, or parts that lie over each other cancel. So the
@@ -24,21 +24,21 @@ typedef struct cs_side {
   celspan_context *context;
   const cs_stroke_view *view;
   cs_outline *outline;
-  bool may_hide;  /* some of the stroke may be out of sight: what is has straight sides */
+  bool may_hide;  /* some of the stroke may be out of sight: those parts have straight sides */
   bool is_turned; /* the line is followed from its end to its beginning */
   bool is_begun;  /* the outline has an open contour, which ends at `at` */
   celspan_point at;
   cs_outline tips;   /* of the fold that is under way: an open contour, as they go; or nothing */
   size_t fold_begin; /* the piece of the outline with which the side left its first tip */
-  cs_outline folds;  /* those that are done */
+  cs_outline folds;  /* the finished folds */
 } cs_side;
 
 void cs_side_init(cs_side *side, celspan_context *context, const cs_stroke_view *view,
                   cs_outline *outline);
 void cs_side_finish(cs_side *side);
 
-/* How far from its place, in pixels, what is near some points may be drawn; in the box of them that
- * is larger by a share of its size on every side. */
+/* The allowed error in pixels near some points: in their box, enlarged on every side by a share of
+ * its size. */
 double cs_side_allowance(const cs_side *side, const celspan_point *points, int count, double share);
 celspan_point cs_side_on_cubic(const celspan_point p[4], double t);
 
@@ -92,8 +92,8 @@ CELSPAN_CHECKED celspan_status cs_corner_cap(cs_side *side, const cs_stroke *str
                                              const cs_spoke *end);
 /* The same, where the line is only cut. */
 CELSPAN_CHECKED celspan_status cs_corner_cut(cs_side *side, const cs_spoke *end);
-/* Contours of their own, for what does not lie along the side: the straight ends of both lines at a
- * corner, and a square cap before a straight end. */
+/* Contours of their own, for parts that do not lie along the side: the straight ends of both lines
+ * at a corner, and a square cap before a straight end. */
 CELSPAN_CHECKED celspan_status cs_corner_turn_more(cs_side *side, const cs_stroke *stroke,
                                                    const cs_spoke *in, const cs_spoke *out);
 CELSPAN_CHECKED celspan_status cs_corner_cap_more(cs_side *side, const cs_stroke *stroke,

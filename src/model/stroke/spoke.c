@@ -5,7 +5,7 @@
 
 #define SLOW 1e-9      /* of the polygon: a slower place has its direction from its neighbours */
 #define NEAR 1e-5      /* parameter: such a neighbour */
-#define REST 1e-11     /* of what the pace is the difference of: less is rounding */
+#define REST 1e-11     /* of the two terms whose difference is the pace: less is rounding */
 #define ROUNDING 1e-15 /* of coordinates */
 
 cs_spoke cs_spoke_make(celspan_point centre, double radius, celspan_point tangent, double slope) {
@@ -19,7 +19,7 @@ cs_spoke cs_spoke_turned(const cs_spoke *spoke) {
   return cs_spoke_make(spoke->centre, spoke->radius, cs_spoke_back(spoke->tangent), -spoke->slope);
 }
 
-/* Where the line stands still: direction and slope of what comes next to it. */
+/* Where the line does not move: takes direction and slope from a neighbouring place. */
 static cs_spoke at_rest(const cs_curve *curve, double t, const cs_curve_place *place) {
   cs_curve_place near = cs_curve_at(curve, t < 0.5 ? t + NEAR : t - NEAR);
   celspan_point away = cs_spoke_away(place->point, near.point), tangent = near.velocity;

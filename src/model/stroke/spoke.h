@@ -50,7 +50,7 @@ static inline celspan_point cs_spoke_left(celspan_point v) { return (celspan_poi
 static inline celspan_point cs_spoke_back(celspan_point v) { return (celspan_point){-v.x, -v.y}; }
 
 cs_spoke cs_spoke_make(celspan_point centre, double radius, celspan_point tangent, double slope);
-/* That of a curve at a parameter. */
+/* The spoke of a curve at a parameter. */
 cs_spoke cs_spoke_at(const cs_curve *curve, double t);
 cs_spoke_motion cs_spoke_move(const cs_curve *curve, double t, const cs_spoke *spoke);
 /* The same place seen on the way back: the spoke to the other side. */

@@ -36,7 +36,7 @@ typedef struct cs_stroke_part {
 /* The dashes of a contour (dashes.h). */
 typedef struct cs_dashes_run {
   uint32_t contour;
-  bool is_whole;   /* it has no length to divide: one part, as it is */
+  bool is_whole;   /* it has no length to divide: it is one part */
   bool is_dot;     /* is_whole: it is a point */
   bool is_closed;  /* its only part has no caps */
   bool is_joined;  /* its last dash continues in its first and is no part of its own */
@@ -73,10 +73,10 @@ typedef struct cs_stroke {
   celspan_box around; /* nothing of the stroke is outside it; not tight */
 } cs_stroke;
 
-/* Makes a stroke of a description whose numbers have been checked. outline: what desc->outline is
- * made of, or another line; NULL for one of the description. closed: which contours of it are;
- * NULL: all. Errors: NO_MEMORY; BAD_ARGUMENT for path data, degree and counts; LIMIT for more
- * dashes than CS_STROKE_DASHES. finish frees it, also after an error. */
+/* Makes a stroke of a description whose numbers have been checked. outline: the line from which
+ * desc->outline is made, or another line; NULL for one of the description. closed: which of its
+ * contours are closed; NULL: all. Errors: NO_MEMORY; BAD_ARGUMENT for path data, degree and counts;
+ * LIMIT for more dashes than CS_STROKE_DASHES. finish frees it, also after an error. */
 CELSPAN_CHECKED celspan_status cs_stroke_init(celspan_context *context, cs_stroke *stroke,
                                               const celspan_stroke_desc *desc,
                                               const cs_outline *outline,

@@ -21,7 +21,7 @@ typedef struct tapering {
   cs_stroke *out;
   double length;   /* of the part */
   double taper[2]; /* scaled down, if the part is shorter */
-  bool is_round;   /* the factor is u (2 - u), where u is that of a straight taper */
+  bool is_round;   /* the factor is u (2 - u), where u is the factor of a straight taper */
   double way;      /* so far, from the beginning of the part */
   bool is_first;   /* nothing of the part is appended yet */
 } tapering;

@@ -5,13 +5,13 @@
 #include "model/geometry/bezier.h"
 #include "model/geometry/matrix.h"
 
-/* Halvings of a piece, after which what is left of it is a jump. */
+/* The most halvings of a piece; if the error is too large even then, the map jumps there. */
 #define DEPTH 40
 /* A cubic is first looked at when it is no longer than this share of the object, or after FORCED
- * halvings: the map may turn twice in what is longer. */
+ * halvings: in a longer cubic the map may turn twice. */
 #define LONG 0.125
 #define FORCED 3
-/* Of the tolerance: what the comparison at three places leaves open. */
+/* The share of the tolerance that is used, because only three places are compared. */
 #define SAFE 0.85
 
 typedef struct bender {
@@ -19,7 +19,7 @@ typedef struct bender {
   cs_outline *out;
   cs_bezier piece; /* placed; all weights above 0 */
   size_t cubics;
-  int forced; /* halvings of this piece in any case */
+  int forced; /* halvings of this piece that are always made */
 } bender;
 
 /* A stretch of the piece, and where its ends go. */
@@ -85,7 +85,8 @@ static bool is_line(const stretch *s, celspan_point q1, celspan_point q2, double
 
 static celspan_status check(const bender *b, const stretch *s, const celspan_point cubic[4],
                             double within, bool *is_right) {
-  static const double places[] = {0.5, 0.1283, 0.8761}; /* in no even steps: waves hide there */
+  static const double places[] = {0.5, 0.1283, 0.8761}; /* not in even steps: waves could hide
+                                                           between these */
   *is_right = true;
   for (int i = 0; i < 3 && *is_right; i++) {
     celspan_point there;
@@ -108,7 +109,7 @@ static celspan_status append(bender *b, const celspan_point cubic[4], bool is_li
                  : cs_outline_piece(b->map->context, b->out, 3, points);
 }
 
-/* What is left after all halvings is a kink of the map, or a jump. */
+/* A piece that is still wrong after all halvings contains a kink of the map, or a jump. */
 static celspan_status end_halving(bender *b, const stretch *s) {
   const celspan_point straight[4] = {s->a, s->a, s->b, s->b};
   if (distance(s->a, s->b) <= b->map->within)

@@ -1,6 +1,7 @@
 /* A map of the plane, given by a host: every point that it returns is checked here.
  *
- * INVARIANT: what is asked is a point of the object that is bent, in the units around the object.
+ * INVARIANT: the map is asked only for points of the object that is bent, in the units around the
+ * object.
  */
 #pragma once
 

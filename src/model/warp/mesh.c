@@ -4,7 +4,7 @@
 
 #include "model/scene/inside.h"
 
-/* The least width of the rim, and what its width is multiplied by, in cells. */
+/* The least width of the rim in cells, and the factor of its width. */
 #define RIM_LEAST 0x1p-20
 #define RIM_MORE 1.5
 
@@ -72,7 +72,7 @@ static celspan_status find_error(const cs_warp_map *map, const cs_warp_mesh *mes
 
 /* ---------------------------------------------------------------- the rim */
 
-/* A point of the rim continues the way from a point through the one beside it. */
+/* A point of the rim continues the line from a point through its neighbour. */
 static void continue_way(cs_warp_mesh *mesh, size_t rim, size_t border, size_t inner,
                          double share) {
   celspan_point *lists[] = {mesh->from, mesh->to};
@@ -96,7 +96,7 @@ static void make_rim(cs_warp_mesh *mesh, double share) {
   }
 }
 
-/* The share of a cell that covers an error: that of the narrowest cell. */
+/* The share of a cell that covers an error, for the narrowest cell. */
 static double rim_share(const cs_warp_mesh *mesh, double error) {
   double narrowest = HUGE_VAL;
   for (size_t j = 1; j + 1 < mesh->rows; j++)

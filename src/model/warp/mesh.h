@@ -17,7 +17,7 @@
 #include "model/warp/map.h"
 
 typedef struct cs_warp_mesh {
-  size_t columns, rows; /* cells, with those of the rim */
+  size_t columns, rows; /* cells, including the rim */
   celspan_point *from, *to;
 } cs_warp_mesh;
 

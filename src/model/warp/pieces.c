@@ -12,8 +12,8 @@ typedef struct cutter {
   size_t count;
 } cutter;
 
-/* The affine map that takes three points to three others: the identity and what changes, so that
- * it is the identity, to the bit, where nothing does. */
+/* The affine map that takes three points to three others, as the identity plus a change, so that it
+ * is the identity, to the bit, where nothing changes. */
 static celspan_matrix affine(const celspan_point from[3], const celspan_point to[3]) {
   double ux = from[1].x - from[0].x, uy = from[1].y - from[0].y;
   double vx = from[2].x - from[0].x, vy = from[2].y - from[0].y;

@@ -1,12 +1,12 @@
-/* Objects under a map: the tree of an object stays as it is, and every outline in it is bent. What
- * varies in colour becomes the triangles of a mesh, inside the bent outline.
+/* Objects under a map: the tree of an object stays as it is, and every outline in it is bent. Data
+ * whose colour varies become the triangles of a mesh, inside the bent outline.
  *
  *     union{ a, b }          union{ a bent, b bent }
  *     a, of one colour       its outline, bent
  *     a, of many colours     clip(union{ triangles }, its outline, bent)
  *
- * All transforms are multiplied into the points, since the map is one of the units around the whole
- * object; fades, modes, names and lines stay.
+ * All transforms are multiplied into the points, since the map takes points in the units around the
+ * whole object; fades, modes, names and lines stay.
  */
 #include <math.h>
 
@@ -28,7 +28,7 @@
 
 /* ---------------------------------------------------------------- primitives */
 
-/* The outline of data, bent; strokes have theirs made as exactly as it is needed. */
+/* The outline of data, bent; outlines of strokes are made as exactly as needed. */
 static celspan_status bend_outline(const cs_warp_map *map, const cs_primitive_data *data,
                                    const celspan_matrix *matrix, cs_outline *out) {
   cs_outline_box room;
@@ -72,7 +72,7 @@ static celspan_status bend_texture(const cs_warp_map *map, const cs_primitive_da
   return status;
 }
 
-/* The box around what is drawn of data, tight, in the units around the object. */
+/* The tight box around the drawn part of data, in the units around the object. */
 static celspan_status find_box(const cs_warp_map *map, const cs_primitive_data *data,
                                const celspan_matrix *matrix, bool *is_there, celspan_box *box) {
   cs_outline_box room;
@@ -145,7 +145,7 @@ static celspan_status bend_boolean(const cs_warp_map *map, const cs_boolean *boo
   return status;
 }
 
-/* Gives what was made the fade, the name and the line of the object. */
+/* Gives the result the fade, the name and the line of the object. */
 static celspan_status finish(const cs_warp_map *map, const celspan_object *object,
                              celspan_object *made, celspan_object **out) {
   celspan_object *faded;
