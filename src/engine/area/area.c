@@ -53,10 +53,11 @@ void cs_area_finish(cs_area *area, cs_memory *memory) {
 /* The walk along a row, or along a slab of it, from left to right. */
 typedef struct row_walk {
   cs_area *area;
-  const cs_cell *cells;    /* as in cs_cells; they do not change until the walk is done */
+  const cs_cell *cells;    /* the array of cs_cells; it does not change until the walk is done */
   cs_intervals *intervals; /* between the two heights */
   size_t visible;          /* the next visible boundary */
-  bool is_slab;            /* of a row whose other heights are walked by themselves */
+  bool is_slab;            /* the walk is of a part of a row; the other heights are walked by
+                              themselves */
 } row_walk;
 
 /* ---------------------------------------------------------------- alone */
@@ -87,7 +88,7 @@ static celspan_status add_boundaries(row_walk *w, const uint32_t *boundaries, si
   return CELSPAN_OK;
 }
 
-/* Draws the visible boundaries up to boundary `end`, to which nothing happens but bends. What comes
+/* Draws the visible boundaries up to boundary `end`, which only bend in the row. Everything drawn
  * after them is at or right of x = next. */
 static celspan_status walk_alone(row_walk *w, size_t end, double next) {
   cs_area *area = w->area;
@@ -126,7 +127,7 @@ static bool is_crowd(const row_walk *w, const cs_interval *interval) {
   return cs_crowd_suits(w->intervals, interval, tools->composer, tools->width);
 }
 
-/* The least x of what comes after an interval. */
+/* The least x of everything drawn after an interval. */
 static double next_after(const row_walk *w, const cs_interval *interval) {
   const cs_intervals *intervals = w->intervals;
   double next = interval->high < intervals->active->count ? intervals->edges->low[interval->high]
@@ -171,8 +172,8 @@ static celspan_status walk_interval(row_walk *w, const cs_interval *interval) {
   return CELSPAN_OK;
 }
 
-/* Whether an interval is two straight boundaries that cross: the bends of both, if any, keep to
- * their chords. */
+/* Whether an interval is two boundaries that cross and may count as straight: where they have
+ * bends, these lie on their chords. */
 static bool is_pair(const cs_area *area, const cs_interval *interval) {
   const cs_active *active = area->tools.active;
   size_t i = interval->low;
@@ -260,8 +261,8 @@ static celspan_status find_procedures(cs_area *area, cs_intervals *b) {
 #define SLAB_EDGES ((size_t)4 << 20) /* edges in all slabs of a row, about, at most */
 
 /* Whether the boundaries at the current height are dense: judged by the middle half of them, so
- * that few others far away do not matter, as if all were as far apart as these over twice the
- * width, because what ends and bends in the row divides them into several intervals. */
+ * that a few others far away do not matter. They count as if they were spread over twice the width,
+ * because boundaries that end or bend in the row divide them into several intervals. */
 static bool is_dense(const cs_area *area) {
   const cs_active *active = area->tools.active;
   size_t first = active->count / 4, last = first + active->count / 2;
@@ -364,7 +365,7 @@ static celspan_status make_cells(row_walk *w, cs_change change) {
   return CELSPAN_OK;
 }
 
-/* Walks along what has been found. */
+/* Walks along the intervals found. */
 static celspan_status walk_heights(row_walk *w) {
   cs_cells_list(w->area->tools.cells);
   return walk_row(w);

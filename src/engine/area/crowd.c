@@ -13,10 +13,10 @@
 #define NOBODY UINT32_MAX
 #define NEVER INT32_MAX /* steps of winding do not end */
 #define STRONG 0.51f    /* a layer that hides more is strong, */
-#define STRONG_EACH 4   /* and at most one edge in so many may be that of such a layer */
+#define STRONG_EACH 4   /* at most one edge in STRONG_EACH may belong to such a layer */
 
-/* Generators of the lattices, whose samples lines in all directions divide about evenly: close to
- * the golden section of their number. */
+/* Generators of the lattices. Lines in all directions divide the samples of a lattice about evenly,
+ * because each generator is close to the golden section of their number. */
 static const struct {
   int32_t count, generator;
 } lattices[LATTICES] = {{FEW, 71}, {MORE, 633}, {CS_CROWD_SAMPLES, 1265}};
@@ -68,7 +68,7 @@ typedef struct drawing {
   cs_local_sweep *sweep;
   celspan_context *context;
   cs_composer *composer;
-  double next;               /* the least x of what is drawn after the interval */
+  double next;               /* the least x of everything drawn after the interval */
   int32_t width, first, end; /* of the frame; the columns that are drawn */
   bool is_changed;           /* the composer has moved since the last cell was composed */
 } drawing;
@@ -140,7 +140,7 @@ static inline bool live_is_before(const cs_crowd_live *a, const cs_crowd_live *b
 
 CS_SORT_DEFINE(sort_live, cs_crowd_live, live_is_before)
 
-/* Makes a member one of those that arrive in the column. */
+/* Adds a member to those that arrive in the column. */
 static celspan_status arrive(const drawing *d, size_t i) {
   cs_crowd *crowd = d->crowd;
   const cs_crowd_member *member = &crowd->members[i];
@@ -148,7 +148,7 @@ static celspan_status arrive(const drawing *d, size_t i) {
                    (cs_crowd_live){key_of(member->layer, i), member->end});
 }
 
-/* Merges those that arrive with the live members, all at once: there may be very many of both. */
+/* Merges the arriving members into the live ones, all at once: there may be very many of both. */
 static celspan_status merge_arriving(const drawing *d) {
   cs_crowd *crowd = d->crowd;
   size_t i = crowd->live_count, j = crowd->arriving_count, k = i + j;
@@ -191,8 +191,8 @@ static celspan_status begin_step(const drawing *d, uint32_t layer, double height
   return merge_arriving(d);
 }
 
-/* From here on a layer winds more or less often below a height. Where as much begins there as ends,
- * nothing is left of the step. */
+/* From here on the winding of a layer changes below a height. Where begins and ends balance, no
+ * step is left. */
 static celspan_status add_step(const drawing *d, uint32_t layer, double height, int32_t direction) {
   cs_crowd *crowd = d->crowd;
   size_t k = find_step(crowd, layer, height);
@@ -216,8 +216,8 @@ static celspan_status pass(drawing *d, size_t i) {
   return member.foot >= 1 ? CELSPAN_OK : add_step(d, member.layer, member.foot, -member.direction);
 }
 
-/* Passes the live members that end left of column p. What that adds comes among the live ones, so
- * those that leave are taken out first. */
+/* Passes the live members that end left of column p. This may add live members, so the leaving
+ * members are removed first. */
 static celspan_status leave(drawing *d, int32_t p) {
   cs_crowd *crowd = d->crowd;
   size_t kept = 0, leaving = 0;
@@ -253,8 +253,8 @@ static celspan_status enter(drawing *d, int32_t p) {
 
 /* ---------------------------------------------------------------- a pixel */
 
-/* The fold of a pixel, from the camera backwards. The samples let through what `through` says,
- * times `whole`: the layers that cover the pixel evenly. */
+/* The fold of a pixel, from the camera backwards. Each sample transmits `through` times `whole`,
+ * the transmission of the layers that cover the whole pixel. */
 typedef struct fold {
   cs_crowd_room *room;
   const cs_crowd_lattice *lattice;
@@ -309,7 +309,7 @@ static void add_inside(const drawing *d, fold *f, const cs_layer *layer, float w
   f->mean -= seen * hides;
 }
 
-/* What lies right of a piece that goes through the row, in all columns up to x. */
+/* Adds the area right of a piece that goes through the row, in all columns up to x. */
 static inline double passed(const cs_crowd_piece *piece, double x) {
   return cs_cover_passed(cs_number_least(piece->xa, piece->xb),
                          cs_number_most(piece->xa, piece->xb), piece->by_twice, x);
@@ -363,7 +363,7 @@ static bool is_left_of(const cs_crowd *crowd, const cs_crowd_member *a, const cs
   return true;
 }
 
-/* The same of b: whether it lies right of a. */
+/* The same for b: whether it lies right of a. */
 static bool is_right_of(const cs_crowd *crowd, const cs_crowd_member *b, const cs_crowd_member *a) {
   for (uint32_t i = 0; i < a->piece_count; i++) {
     const cs_crowd_piece *piece = &crowd->pieces[a->piece + i];
@@ -429,8 +429,8 @@ static inline uint32_t live_layer(const cs_crowd *crowd, size_t k) {
   return k < crowd->live_count ? layer_of(crowd->live[k].key) : CS_STACK_NONE;
 }
 
-/* Folds the layers of the pixel of column p: those that have edges in it, which are the live ones,
- * and those that are present all over it. */
+/* Folds the layers of the pixel of column p: layers with edges in it, which are the live members,
+ * and layers that cover all of it. */
 static void fold_layers(const drawing *d, fold *f, int32_t p) {
   const cs_composer *composer = d->composer;
   const cs_stack *stack = composer->stack;
@@ -473,7 +473,7 @@ static celspan_status put_cell(const drawing *d, int32_t p, const cs_cell *left,
                                const cs_cell *cell) {
   cs_window *window = &d->sweep->target->window;
   const cs_border border = {{p, d->sweep->y0, p, d->sweep->y1}, left, cell};
-  if (p <= d->next) /* what follows may add to the pixels from there on */
+  if (p <= d->next) /* edges drawn later may add to the pixels from there on */
     CS_TRY(cs_window_begin_item(window, p));
   if (!cs_composer_same(d->composer, left, cell))
     CS_TRY(cs_window_add(window, &border));

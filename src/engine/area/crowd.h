@@ -1,5 +1,5 @@
-/* Crowds: intervals in which so many translucent edges share pixels that to follow their
- * intersections would cost far more than to look at samples of each pixel: hatching, hair, rain.
+/* Crowds: intervals in which very many translucent edges share pixels, so that following their
+ * intersections would cost far more than looking at samples of each pixel: hatching, hair, rain.
  *
  *      p      p+1
  *      +------/+     pixel by pixel, layer by layer from the camera backwards:
@@ -26,7 +26,7 @@
 #include "engine/area/intervals.h"
 
 #define CS_CROWD_LEAST 32     /* boundaries of a crowd, at least */
-#define CS_CROWD_A_PIXEL 6    /* of them in each pixel, on the average, at least */
+#define CS_CROWD_A_PIXEL 6    /* samples in each pixel, on the average, at least */
 #define CS_CROWD_SUMS 16      /* partial sums over samples: as many on all machines */
 #define CS_CROWD_SAMPLES 2048 /* in a pixel, at most */
 
@@ -56,8 +56,8 @@ typedef struct cs_crowd_cover {
 CS_WIDE_DECLARE(cs_crowd_cover, cs_crowd_find,
                 (const cs_crowd_lattice *lattice, const cs_crowd_line *lines, size_t line_count,
                  int32_t base, int32_t mask, int32_t *inside));
-/* Takes a share of what the samples inside let through, and returns the sum of what they let
- * through before. */
+/* Reduces the light that the samples inside let through by a share. Returns the sum of the light
+ * that they let through before. */
 CS_WIDE_DECLARE(float, cs_crowd_dim,
                 (float *through, const int32_t *inside, int32_t count, float share));
 
@@ -82,13 +82,13 @@ typedef struct cs_crowd_member {
   bool is_passed; /* the composer has crossed it */
 } cs_crowd_member;
 
-/* A member that reaches the current column. Those of nearer layers come first. */
+/* A member that reaches the current column. Members of nearer layers come first. */
 typedef struct cs_crowd_live {
   uint64_t key; /* of its layer and its number */
   int32_t end;  /* the member's */
 } cs_crowd_live;
 
-/* What a worker keeps of it. */
+/* The memory that a worker keeps for crowds. */
 typedef struct cs_crowd_room {
   cs_crowd_lattice lattices[3];
   _Alignas(CS_WIDE_LINE) float through[3][CS_CROWD_SAMPLES]; /* by channel; only the first where all
@@ -104,8 +104,8 @@ typedef struct cs_crowd {
   cs_crowd_member *members;
   uint32_t *entering;      /* by column: the first that enters there */
   cs_crowd_live *live;     /* members in the current column */
-  cs_crowd_live *arriving; /* those that were not in the column before */
-  uint32_t *leaving;       /* those that were in the column before alone */
+  cs_crowd_live *arriving; /* members that were not in the previous column */
+  uint32_t *leaving;       /* members that were only in the previous column */
   cs_crowd_line *lines;    /* of a layer in a pixel */
   size_t piece_count, piece_capacity, member_count, member_capacity;
   size_t arriving_count, arriving_capacity;
@@ -118,7 +118,8 @@ void cs_crowd_finish(cs_crowd *crowd, cs_memory *memory);
 bool cs_crowd_suits(const cs_intervals *intervals, const cs_interval *interval,
                     const cs_composer *composer, int32_t width);
 /* Draws the members of a sweep, and those that begin, through a whole row. The composer is left of
- * them all, and is there again afterwards. extent: theirs; next: the least x of what is drawn after
- * them; right: the cell right of them. Errors: NO_MEMORY, those of painting. */
+ * all members, before and after the call. extent: the columns of the members; next: the least x of
+ * everything drawn after them; right: the cell right of them. Errors: NO_MEMORY, and the errors of
+ * painting. */
 CELSPAN_CHECKED celspan_status cs_crowd_draw(cs_crowd *crowd, cs_local_sweep *sweep,
                                              cs_extent extent, double next, const cs_cell *right);

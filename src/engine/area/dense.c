@@ -71,7 +71,7 @@ static void find_places(const drawing *d, sub_rows *rows) {
   }
 }
 
-/* Sorts by one digit of x, keeping the order of those that have the same. */
+/* Sorts by one digit of x. Members with the same digit keep their order. */
 static void sort_digit(const cs_dense_place *from, cs_dense_place *to, size_t count, int shift) {
   uint32_t ends[DIGIT] = {0};
   for (size_t i = 0; i < count; i++)

@@ -1,5 +1,5 @@
-/* Dense intervals: so many boundaries share few pixels that to follow every one of their
- * intersections would cost the square of their number, and show nothing.
+/* Dense intervals: very many boundaries share few pixels, so that following every intersection
+ * would cost the square of their number, and show nothing.
  *
  *   y0  +--------+--------+        The interval is cut into sub-rows by height. In each of them its
  *       |.\..|./.|.|..\./.| sub-   boundaries are put in order at its middle, and the row
@@ -27,7 +27,7 @@ typedef struct cs_dense_place {
   uint32_t member;
 } cs_dense_place;
 
-/* What crossing a member changes. */
+/* The changes made by crossing a member. */
 typedef struct cs_dense_crossing {
   uint32_t layer, span; /* span: as a member's */
   int32_t direction;
@@ -43,11 +43,12 @@ typedef struct cs_dense {
 } cs_dense;
 
 void cs_dense_finish(cs_dense *dense, cs_memory *memory);
-/* Whether members at the top of a row that lie within an extent, in pixels, are dense. What only
- * begins in the row is not counted: it is replayed exactly, however small and regular it is. */
+/* Whether members at the top of a row that lie within an extent, in pixels, are dense. Members that
+ * only begin in the row are not counted: they are replayed exactly, however small and regular they
+ * are. */
 bool cs_dense_suits(size_t members, double extent);
 /* Draws the members of a sweep, and those that begin, from sweep->y0 to sweep->y1. The composer is
- * left of them all, and is there again afterwards. extent: theirs; right: the cell right of them.
- * Errors: NO_MEMORY, those of painting. */
+ * left of all members, before and after the call. extent: the columns of the members; right: the
+ * cell right of them. Errors: NO_MEMORY, and the errors of painting. */
 CELSPAN_CHECKED celspan_status cs_dense_draw(cs_dense *dense, cs_local_sweep *sweep,
                                              cs_extent extent, const cs_cell *right);

@@ -1,7 +1,7 @@
-/* Direct edges: boundaries that are drawn into the row at once, from what has been measured of
- * them, without the borders of a window. That works for an edge that shares its pixels with no
- * other one, and for a few that share pixels with each other and with nothing else. Nearly all
- * edges of nearly all rows are such.
+/* Direct edges: boundaries that are drawn into the row at once, from their measurements, without
+ * the borders of a window. That works for an edge that shares its pixels with no other one, and for
+ * a few that share pixels with each other and with nothing else. Nearly all edges of nearly all
+ * rows are such.
  *
  *              first           end           first, end: the columns that the edge crosses
  *              |               |
@@ -39,14 +39,14 @@ typedef struct cs_direct_edges {
   int32_t width;
 } cs_direct_edges;
 
-/* Draws boundaries from the first one on and returns how many. It ends before a boundary that lies
- * between cells that vary along the row, and before one that only a window can draw. Room for
+/* Draws boundaries from the first one on and returns how many. It ends before a boundary between
+ * cells that vary along the row, and before a boundary that only a window can draw. Room for
  * CS_DIRECT_EACH spans a boundary and CS_DIRECT_TOGETHER more is enough for at least one. */
 CS_WIDE_DECLARE(size_t, cs_direct_draw, (const cs_direct_edges *direct, cs_row_writer *writer));
 
 /* The area right of a straight edge in the pixels of a row, as the weight of colours: in the first
- * column that it crosses, in the second and in the last, and what each column between has more than
- * the one before. */
+ * column that it crosses, in the second and in the last; and for the columns between, by how much
+ * the area grows from column to column. */
 typedef struct cs_direct_shares {
   float one, second, two, fall;
 } cs_direct_shares;
@@ -65,10 +65,11 @@ static inline void cs_direct_ramp(cs_row_writer *writer, int32_t first, int32_t 
   cs_row_writer_to(writer, last + 1, cs_v4_bounded(base + step * shares.two));
 }
 
-/* Four doubles: sums of colour steps. The alignment is that of any memory from an allocator. */
+/* Four doubles: sums of colour steps. The alignment is what every allocator gives. */
 typedef double cs_sum4 __attribute__((vector_size(32), aligned(16)));
 
-/* From a cs_v4. A macro, because a function that returns it would need the calling rules of AVX. */
+/* Makes four doubles from a cs_v4. A macro, because a function that returns them would need the
+ * calling rules of AVX. */
 #define CS_SUM4(v) __builtin_convertvector(v, cs_sum4)
 
 /* A straight piece of an edge, and the columns [first, end) that it crosses. */

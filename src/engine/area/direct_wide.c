@@ -12,8 +12,8 @@
  *       |  /#####|#\  /###|####\   |     column by column (draw_group)
  *       +--------+--------+--------+
  *
- * Plain edges come first because nearly all are plain: what is written for them does not depend on
- * a branch that could not be foreseen.
+ * Plain edges come first because nearly all are plain: their code does not depend on a branch that
+ * the processor cannot predict.
  */
 #include "engine/area/direct.h"
 
@@ -48,7 +48,7 @@ static inline bool put_middle(celspan_span *span, head at, int32_t columns, cs_v
   if (cs_v4_same(slope, cs_v4_all(0)) || cs_v4_same(one, middle) || cs_v4_same(middle, two))
     return false;
   put_span(span, at + (head){1, columns - 1, is_ramp, 1}, middle);
-  cs_v4_store(span->slope, slope); /* of a single it is never read */
+  cs_v4_store(span->slope, slope); /* the slope of a single span is never read */
   return true;
 }
 
@@ -81,8 +81,8 @@ static inline celspan_span *put_plain(celspan_span *span, head start, int32_t fi
 }
 
 /* Draws the plain boundaries from the first one on: those that are straight or cross one or two
- * columns, share no pixel, lie between flat cells and give spans of different colours. Returns how
- * many; the last boundary at least is never among them. */
+ * columns, share no pixel, lie between flat cells and give spans of different colours. Returns
+ * their number. The last boundary is never among them. */
 static inline size_t draw_plain(cs_row_writer *writer, const cs_direct_edges *s,
                                 const cs_edges *edges, size_t done) {
   const uint32_t *boundaries = s->boundaries + done;
@@ -221,7 +221,8 @@ static inline size_t try_group(cs_row_writer *writer, const cs_direct_edges *s, 
   return drawn;
 }
 
-/* Draws the first boundary, and those that share its pixels. Returns how many, or 0. */
+/* Draws the first boundary, and the boundaries that share its pixels. Returns their number, or
+ * 0. */
 static inline size_t draw_next(cs_row_writer *writer, const cs_direct_edges *s,
                                const cs_edges *edges, size_t done) {
   size_t i = s->boundaries[done];

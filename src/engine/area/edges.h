@@ -13,9 +13,9 @@
  *      first   second  last
  *
  * Invariants: the values are the same whichever instructions compute them. Areas are multiples of
- * 2^-28 (cover.h) of a whole row's height. They are given where the boundary crosses at most
- * two columns, or is straight and stays in the frame; `end` of one that leaves the frame sideways
- * is at least first + 3, or first when it does not enter it.
+ * 2^-28 (cover.h) of a whole row's height. They are given where the boundary crosses at most two
+ * columns, or is straight and stays in the frame; where it leaves the frame sideways, `end` is at
+ * least first + 3, or first if it does not enter the frame.
  */
 #pragma once
 
@@ -48,8 +48,8 @@ CS_WIDE_DECLARE(void, cs_edges_straight,
                 (cs_edges * edges, const double *top, const double *foot, size_t count,
                  int32_t width));
 
-/* Columns of the frame at or left of x (floor) and at or right of it (ceil), clamped to the row; 0
- * of what is no number. */
+/* The column of the frame at or left of x (floor), or at or right of it (ceil), clamped to the row;
+ * 0 where x is not a number. */
 static inline int32_t cs_edges_floor(double x, int32_t width) {
   return !(x > 0) ? 0 : x >= width ? width : (int32_t)x;
 }

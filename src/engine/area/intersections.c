@@ -67,7 +67,7 @@ static void find_batch_least(cs_intersections *m, size_t batch) {
   m->least[batch] = least_of(m->shares + batch * BATCH, BATCH)[0];
 }
 
-/* Whether there are so many places that the least share of every batch is kept. */
+/* Whether there are enough places to keep the least share of every batch. */
 static inline bool has_batches(size_t count) { return count > BATCH + 1; }
 
 /* Finds all shares, and fills the last four up. Returns whether any two cross. */
@@ -176,8 +176,9 @@ static celspan_status find_in_step(cs_intersections *m, celspan_context *context
   return CELSPAN_OK;
 }
 
-/* x at a height of the segment that ends at a point. At the point it is exactly that of the point;
- * whether it is there can hardly be foreseen, so the division is always made. */
+/* x of the segment that ends at a point, at a height. At the end point it is exactly the x of the
+ * point. The processor can hardly predict whether the height is that of the end point, so the
+ * division is always made. */
 static inline double segment_x(const celspan_point *end, double y) {
   const celspan_point *from = end - 1;
   double x = from->x + (end->x - from->x) * ((y - from->y) / (end->y - from->y));
@@ -203,7 +204,8 @@ static inline way find_way(const cs_active_edge *edge, double x, double y0, doub
   return w;
 }
 
-/* Whether the left of two neighbours is right of the other one at any vertex below y0, or at y1. */
+/* Whether the left one of two neighbours lies right of the right one at any vertex below y0, or at
+ * y1. */
 static bool do_cross(const cs_active_edge *left, const cs_active_edge *right, double y0,
                      double y1) {
   const celspan_point *a = left->points + left->at, *b = right->points + right->at;
@@ -218,8 +220,8 @@ static bool do_cross(const cs_active_edge *left, const cs_active_edge *right, do
   return false;
 }
 
-/* Goes down to y1 at once where no two neighbours cross on the way, which is nearly always so;
- * false: some do, and nothing is changed. */
+/* Goes down to y1 at once if no two neighbours cross on the way, as nearly always; false: some
+ * cross, and nothing is changed. */
 static bool go_straight(cs_intersections *m, size_t count, double y0, double y1) {
   double high = -INFINITY;
   for (size_t i = 0; i < count; i++) {

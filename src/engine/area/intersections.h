@@ -28,15 +28,16 @@
 typedef struct cs_active_edge {
   const celspan_point *points; /* ascending in y */
   uint32_t at;                 /* the segment it is on ends at points[at] */
-  uint32_t last_at;            /* the same at the point where it last changed places */
-  double last_x, last_y;       /* and that point */
+  uint32_t last_at;            /* `at` when the edge last changed places */
+  double last_x, last_y;       /* the point where it did */
 } cs_active_edge;
 
 /* Two neighbours change places. */
 typedef struct cs_intersection {
   double y, left_x, right_x;  /* where each of them is */
   uint32_t left_at, right_at; /* on which segment */
-  uint32_t left, right;       /* edges: left goes from the place to the one right of it */
+  uint32_t left, right;       /* edges: `left` moves from this place to the next place on the
+                                 right */
   uint32_t next, previous;    /* intersections at the same place, or NONE */
   const void *cell; /* for the caller: the cell between the two edges below the intersection */
 } cs_intersection;
@@ -44,11 +45,13 @@ typedef struct cs_intersection {
 typedef struct cs_intersections {
   cs_active_edge *edges; /* in their order at the top */
   /* by place, from left to right */
-  uint32_t *order;    /* which edge is there */
-  double *top, *foot; /* its x at both ends of the step; in the end, at the lower height */
-  double *shares; /* of the step, at which it crosses its right neighbour; INFINITY: it does not */
+  uint32_t *order;    /* the edge at each place */
+  double *top, *foot; /* its x at both ends of the step; after the last step, at the lower height */
+  double *shares; /* the share of the step at which the edge crosses its right neighbour; INFINITY:
+                     it does not cross */
   double *least;  /* of each batch of 16 shares, where there is more than one */
-  uint32_t *first, *last;         /* intersections of the place and the one right of it, or NONE */
+  uint32_t *first, *last;         /* intersections of this place with the next one on the right, or
+                                     NONE */
   cs_intersection *intersections; /* from the highest to the lowest */
   size_t count, capacity;
   void *storage; /* one allocation, of all the arrays above except the intersections */

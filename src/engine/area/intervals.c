@@ -1,5 +1,5 @@
-/* Finding the intervals of a row: inversion groups first, then what begins and ends, then both
- * merged. The file is long because every row calls it, and its steps are inlined into one. */
+/* Finding the intervals of a row: inversion groups first, then begins and ends, then both merged.
+ * The file is long because every row calls it, and its steps are inlined into one. */
 #include "engine/area/intervals.h"
 
 #include "base/sort.h"
@@ -243,15 +243,15 @@ static const cs_interval *find_group(const cs_intervals *b, size_t i) {
   return low < b->group_count && b->intervals[low].low <= i ? &b->intervals[low] : NULL;
 }
 
-/* What keeps its order through the row: boundary i, or the group it is in. */
+/* A unit that keeps its order through the row: boundary i, or the group it is in. */
 static cs_interval unit_at(const cs_intervals *b, size_t i) {
   const cs_interval *group = find_group(b, i);
   return group ? *group
                : (cs_interval){i, i + 1, i, cs_extent_nowhere(), boundary_extent(b, i), false};
 }
 
-/* Adds the interval of the boundaries whose extents meet that of some events, or the place between
- * two. Units do not cross, so their extents rise with their places. */
+/* Adds the interval of the boundaries whose extents meet the extent of some events, or the place
+ * between two boundaries. Units do not cross, so their extents rise with their places. */
 static celspan_status add_extent_interval(cs_intervals *b, cs_extent r, cs_interval *out) {
   const cs_active *active = b->active;
   size_t place = find_place(active, r.low), first = place, end = place;
@@ -329,8 +329,8 @@ static void join(cs_interval *last, const cs_interval *next) {
   last->extent = cs_extent_join(next->extent, last->extent);
 }
 
-/* Joins intervals that share a boundary or an x at which something begins, and places that touch an
- * interval; one that has grown may then extend to the one before it. */
+/* Joins intervals that share a boundary or an x at which something begins, and adds places that
+ * touch an interval. An interval that has grown may then reach the previous interval. */
 static void merge_intervals(cs_intervals *b) {
   size_t kept = 0;
   sort_intervals(b->intervals, b->count);

@@ -24,17 +24,17 @@
 #include "engine/area/edges.h"
 #include "engine/area/local_sweep.h"
 
-/* Neighbours [low, high) that are replayed together; low == high: what begins and ends between two
- * boundaries. */
+/* Neighbours [low, high) that are replayed together; low == high: only boundaries that begin and
+ * end between two others. */
 typedef struct cs_interval {
   size_t low, high;
   size_t last_low;  /* the greatest `low` of the intervals that were merged into it */
-  cs_extent events; /* of what begins or ends in it */
-  cs_extent extent; /* of its boundaries, and of what begins, in the row */
+  cs_extent events; /* of the boundaries that begin or end in it */
+  cs_extent extent; /* of its boundaries in the row, including those that begin there */
   bool is_crowd;    /* it is drawn without its cells (crowd.h) */
 } cs_interval;
 
-/* A begin or an end inside the row, and the extent in the row of what begins or ends. */
+/* A begin or an end inside the row, and the extent in the row of the boundaries concerned. */
 typedef struct cs_interval_event {
   double y;
   cs_extent extent;

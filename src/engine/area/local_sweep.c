@@ -201,7 +201,7 @@ static celspan_status compose_place(cs_local_sweep *sweep, size_t j) {
   return sweep->is_low ? compose_up(sweep, j) : compose_down(sweep, j);
 }
 
-/* Follows place j down the slab: the member that is there is drawn from one intersection with a
+/* Follows place j down the slab: draws the member at the place from one intersection with a
  * neighbour to the next. left: the cell left of the place at the top. */
 static celspan_status draw_place(cs_local_sweep *sweep, size_t j, const cs_cell *left) {
   cs_member *const *members = sweep->members;
@@ -248,7 +248,7 @@ static void commit_places(cs_local_sweep *sweep) {
   sweep->members = members;
 }
 
-/* Draws the intersections of a slab, and leaves the members as they are at its foot. */
+/* Draws the intersections of a slab, and leaves the members in their order at its foot. */
 static celspan_status draw_intersections(cs_local_sweep *sweep) {
   const cs_cell *left = sweep->left;
   for (size_t j = 0; j < sweep->count; j++) {
@@ -311,7 +311,7 @@ static double slope_below(const cs_member *member, double y) {
   return b->y > a->y ? (b->x - a->x) / (b->y - a->y) : 0;
 }
 
-/* Whether a belongs right of b at the height y of both. */
+/* Whether a belongs right of b at the height y, which both cross. */
 static bool is_right(const cs_member *a, const cs_member *b, double y) {
   if (a->foot != b->foot)
     return a->foot > b->foot;
@@ -400,8 +400,8 @@ static celspan_status refresh_inside(cs_local_sweep *sweep, const cs_extent *cha
 }
 
 /* Applies the events at height y, the foot of a slab. The sets of layers change only between the
- * least and the greatest x of these events: outside, what begins and ends balances, so the cells
- * there are kept. */
+ * least and the greatest x of these events: outside, begins and ends balance, so the cells there
+ * are kept. */
 static celspan_status change_members(cs_local_sweep *sweep, double y) {
   cs_extent changed = cs_extent_nowhere();
   CS_TRY(end_members(sweep, y, &changed));

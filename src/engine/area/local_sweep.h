@@ -86,11 +86,11 @@ typedef struct cs_local_sweep {
   /* given for each replay */
   double y0, y1;       /* the row, or a slab of it */
   const cs_cell *left; /* of all its members */
-  cs_member *begins;   /* those still to begin, by height, then x, then order */
+  cs_member *begins;   /* members that have not begun yet, by height, then x, then order */
   size_t begin_count;
   cs_deferred_cursor deferred; /* from the least x of the members on */
   /* while it runs */
-  cs_member **members; /* those that are there at the current height, in order */
+  cs_member **members; /* the members at the current height, in order */
   size_t count;
   cs_member **spare;           /* room for as many */
   const cs_cell **cells_below; /* right of each place at the foot of a slab; room for as many */
@@ -107,21 +107,21 @@ void cs_local_sweep_init(cs_local_sweep *sweep, cs_composer *composer, cs_arena 
                          cs_target *target);
 void cs_local_sweep_finish(cs_local_sweep *sweep, cs_memory *memory);
 /* Makes room for `count` members at the top of the row, which the caller then fills through
- * `members`, and for those that begin. y0, y1, left, begins and begin_count are given.
- * Errors: NO_MEMORY. */
+ * `members`, and for the members that begin. The caller has set y0, y1, left, begins and
+ * begin_count. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_local_sweep_begin(cs_local_sweep *sweep, size_t count);
-/* What it has been given: `count` members at the top of the row, then those that begin. */
+/* Its input: `count` members at the top of the row, then the members that begin inside the row. */
 static inline cs_member *cs_local_sweep_member(const cs_local_sweep *sweep, size_t i) {
   return i < sweep->count ? &sweep->entering[i] : &sweep->begins[i - sweep->count];
 }
 
 /* How far they extend in the row. */
 cs_extent cs_local_sweep_extent(const cs_local_sweep *sweep);
-/* Draws the members through the row. The composer is left of them all, and is there again
- * afterwards. */
+/* Draws the members through the row. The composer is left of all members, before and after the
+ * call. */
 CELSPAN_CHECKED celspan_status cs_local_sweep_replay(cs_local_sweep *sweep);
 
-/* The same for boundaries i and i + 1, straight through the row, that cross once, which is what
- * nearly all local sweeps are. Given are left, of both, and deferred. */
+/* The same for boundaries i and i + 1, straight through the row, that cross once, as in nearly all
+ * local sweeps. Only `left`, of both boundaries, and `deferred` are set. */
 CELSPAN_CHECKED celspan_status cs_local_sweep_pair(cs_local_sweep *sweep, const cs_active *active,
                                                    size_t i);

@@ -60,8 +60,8 @@ void cs_window_open_row(cs_window *window) {
   window->varies = window->base->length > 0;
 }
 
-/* What a border crosses of the open window. By rounding it may begin left of the window, which
- * begins where the written columns end. */
+/* The part of a border inside the open window. Because of rounding the border may begin left of the
+ * window, which begins where the written columns end. */
 static inline cs_direct_piece measure(const cs_window *window, const cs_border *border) {
   double xa = border->line.xa, xb = border->line.xb, top = window->centre - 0.5;
   int32_t first = cs_edges_floor(cs_number_least(xa, xb), window->width);
@@ -100,7 +100,7 @@ static const float (*find_stretch(const cs_window *window, const cs_cell *cell, 
 }
 
 /* Makes the stretch of the cell right of the open window, up to the next window's first columns,
- * in place of that of the cell before. next: where that window begins. */
+ * which replaces the stretch of the previous cell. next: where the next window begins. */
 static celspan_status make_stretch(cs_window *window, int32_t next) {
   cs_window_stretch made;
   int32_t end = window->width - next < BESIDE ? window->width : next + BESIDE;
@@ -167,8 +167,8 @@ typedef struct crossing {
   struct crossing *next; /* in the list of a tile */
 } crossing;
 
-/* Adds a border to the sums by column: change[k] is by how much column p0 + k exceeds the one
- * before.
+/* Adds a border to the sums by column: change[k] is the sum of column p0 + k less the sum of the
+ * previous column.
  */
 static void add_changes(const crossing *c, int32_t p0, int32_t p1, cs_sum4 *change) {
   const cs_direct_piece *f = &c->piece;
@@ -182,7 +182,7 @@ static void add_changes(const crossing *c, int32_t p0, int32_t p1, cs_sum4 *chan
   }
 }
 
-/* Draws the pixels from the writer's end to p1, and leaves the sum as it is in the last of them. */
+/* Draws the pixels from the writer's end to p1, and leaves the sum of the last of these pixels. */
 static inline void draw_sums(cs_row_writer *p, int32_t p1, const cs_sum4 *change, cs_sum4 *sum) {
   for (int32_t k = 0, count = p1 - p->from; k < count; k++) {
     *sum += change[k];
@@ -232,7 +232,7 @@ static crossing *join_lists(crossing *a, crossing *b) {
   return joined;
 }
 
-/* Those of a list that change the sums from column p on. */
+/* The borders of a list that change the sums from column p on. */
 static crossing *pass_on(crossing *list, int32_t p) {
   crossing *passed, **last = &passed;
   for (; list; list = list->next)
@@ -244,13 +244,13 @@ static crossing *pass_on(crossing *list, int32_t p) {
   return passed;
 }
 
-/* What has been drawn of the window. */
+/* The drawn part of the window. */
 typedef struct drawn {
   int32_t end; /* of its columns */
   cs_sum4 sum; /* in the last of them */
 } drawn;
 
-/* Draws the columns up to p1, of which those from p0 on change by the borders of a list. */
+/* Draws the columns up to p1. The borders of a list change the columns from p0 on. */
 static celspan_status draw_tile(const cs_window *window, const crossing *list, int32_t p0,
                                 int32_t p1, drawn *done) {
   cs_sum4 change[TILE];
@@ -301,7 +301,7 @@ static celspan_status close_narrow(cs_window *window) {
 
 typedef struct weighted_cell {
   const cs_cell *cell;
-  double carry;    /* its weight in pixels that no border crosses */
+  double carry;    /* the weight of the colour in pixels that no border crosses */
   double *weights; /* one a pixel of the tile; NULL: the carry in all of them */
 } weighted_cell;
 
@@ -551,7 +551,8 @@ celspan_status cs_window_add(cs_window *window, const cs_border *border) {
   return CELSPAN_OK;
 }
 
-/* Draws the edges from the first on, up to one that cannot be drawn directly. Returns how many. */
+/* Draws the edges from the first on, up to an edge that cannot be drawn directly. Returns their
+ * number. */
 static size_t draw_edges(cs_window *window, const cs_direct_edges *direct) {
   cs_row_writer writer = cs_row_writer_begin(window->out, window->from);
   size_t done = CS_WIDE_CHOOSE(window->painter->isa, cs_direct_draw)(direct, &writer);

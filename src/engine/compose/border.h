@@ -6,9 +6,9 @@
  *                 \           map
  *
  * Invariant: at any height of a row, the borders that cross it lead from the leftmost cell to the
- * rightmost one, each beginning with the colours with which the one before it has ended. So the
- * colour at a point is that of the leftmost cell plus the steps of all borders left of the point,
- * in whatever order they are added.
+ * rightmost one, each beginning with the colours right of the border before it. So the colour at a
+ * point is that of the leftmost cell plus the steps of all borders left of the point, in whatever
+ * order they are added.
  */
 #pragma once
 

@@ -31,7 +31,8 @@ void cs_cells_list(cs_cells *cells) {
   uint32_t *visible = cells->visible;
   if (cells->is_listed)
     return;
-  for (size_t i = 0; i < count; i++) { /* which are visible can hardly be foreseen: no branch */
+  for (size_t i = 0; i < count; i++) { /* the processor can hardly predict which are visible, so no
+                                          branch */
     visible[found] = (uint32_t)i;
     found += is_visible[i];
   }
@@ -39,7 +40,7 @@ void cs_cells_list(cs_cells *cells) {
   cells->is_listed = true;
 }
 
-/* Moves what belongs to the last `tail` boundaries to their places among `count`. */
+/* Moves the items of the last `tail` boundaries to their places among `count`. */
 static void move_tail(cs_cells *cells, size_t count, size_t tail) {
   size_t to = count - tail, from = cells->known - 1 - tail;
   if (to == from)
@@ -133,14 +134,14 @@ static inline bool make_cell(cs_cells *cells, cs_composer *composer, size_t i) {
   return is_new;
 }
 
-/* Crosses the boundary right of the walk, which is at x. */
+/* Moves the walk across the next boundary on its right, which is at x. */
 static inline void cross_next(cs_cells *cells, cs_composer *composer, double x) {
   cs_crossing crossing = cells->crossing[cells->place++];
   cs_composer_cross(composer, crossing.layer, crossing.direction);
   cs_deferred_forward(&cells->deferred, composer, x);
 }
 
-/* Makes what is right of boundaries [first, end), of which the first lies at the walk. */
+/* Makes the cells right of the boundaries [first, end). The walk is at the first of these. */
 static void make_cells(cs_cells *cells, cs_composer *composer, const cs_active *active,
                        size_t first, size_t end) {
   for (size_t i = first, is_new = true; i < end; i++) {
@@ -166,7 +167,7 @@ static inline size_t within(size_t place, size_t least, size_t most) {
   return place < least ? least : place > most ? most : place;
 }
 
-/* Goes through a range of boundaries, the first of which lies at the walk. */
+/* Goes through a range of boundaries. The walk is at the first of them. */
 static void go_through(cs_cells *cells, cs_composer *composer, const cs_active *active,
                        cs_cells_gap range, const cs_cells_gap *gaps, size_t gap_count) {
   size_t i = range.low;
@@ -194,7 +195,7 @@ celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer, const cs_
   if (change.low == 0)
     make_cell(cells, composer, 0);
   if (cells->known == 0)
-    cells->known = 1; /* the one just made */
+    cells->known = 1; /* the cell just made */
   move_tail(cells, active->count, change.tail);
   go_through(cells, composer, active, (cs_cells_gap){change.low, active->count - change.tail}, gaps,
              gap_count);

@@ -27,7 +27,7 @@
 
 /* Where the walk is among the deferred winding changes of a row. */
 typedef struct cs_deferred_cursor {
-  const cs_deferred *first, *next, *end; /* those before next have been crossed */
+  const cs_deferred *first, *next, *end; /* the changes before `next` have been crossed */
 } cs_deferred_cursor;
 
 /* Crosses the changes at or left of x. */
@@ -39,15 +39,15 @@ static inline void cs_deferred_forward(cs_deferred_cursor *cursor, cs_composer *
   cursor->next = next;
 }
 
-/* The same; and crosses back those right of x. */
+/* The same; and crosses back the boundaries right of x. */
 static inline void cs_deferred_to(cs_deferred_cursor *cursor, cs_composer *composer, double x) {
   cs_deferred_forward(cursor, composer, x);
   for (; cursor->next > cursor->first && cursor->next[-1].x > x; cursor->next--)
     cs_composer_cross(composer, cursor->next[-1].layer, -cursor->next[-1].direction);
 }
 
-/* Boundaries [low, high) between which nobody asks for cells: those right of the first and left of
- * the last are not made. */
+/* Boundaries [low, high) between which nobody asks for cells: the cells right of the first boundary
+ * and left of the last one are not made. */
 typedef struct cs_cells_gap {
   size_t low, high;
 } cs_cells_gap;
@@ -73,8 +73,8 @@ typedef struct cs_cells {
 
 void cs_cells_init(cs_cells *cells);
 void cs_cells_finish(cs_cells *cells, cs_memory *memory);
-/* Brings the cells up to date with the active boundaries. change: where they differ from those of
- * the last update. gaps: from left to right; cells between them are made as always.
+/* Brings the cells up to date with the active boundaries. change: where the boundaries differ from
+ * those at the last update. gaps: from left to right; cells between them are made as always.
  * Errors: NO_MEMORY; failures of composing stay in composer->failure. */
 CELSPAN_CHECKED celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer,
                                                const cs_active *active, cs_change change,
@@ -91,6 +91,6 @@ void cs_cells_forget(cs_cells *cells);
 /* The same after a failure: nothing is present at the place of the walk. */
 void cs_cells_restart(cs_cells *cells, cs_composer *composer);
 
-/* Self-check: whether the composer's windings and the set of every cell are those of a walk from
- * the left end of the row. */
+/* Self-check: whether the composer's windings and the set of every cell are the same as in a walk
+ * from the left end of the row. */
 bool cs_cells_are_true(const cs_cells *cells, const cs_composer *composer, const cs_active *active);

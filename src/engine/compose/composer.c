@@ -1,8 +1,8 @@
 #include "engine/compose/composer.h"
 
-/* Cells remembered, two of one place, a power of two: of a layer, at least; up to MEMO_FEW. Of more
- * layers a row may have more cells than these, and each of its cells is that of the row above, so
- * there is one for each layer, up to MEMO_MOST. */
+/* Number of cells that are remembered: a power of two, because two share a place. At least one for
+ * each layer, up to MEMO_FEW. A row of more layers may have more cells than that, and most of its
+ * cells are those of the row above, so there is one for each layer, up to MEMO_MOST. */
 #define MEMO_EACH 64
 #define MEMO_FEW 4096
 #define MEMO_MOST 16384
@@ -28,7 +28,7 @@ static bool has_flats_alone(const cs_stack *stack) {
   return stack->group_count == 0;
 }
 
-/* What folds very many flat layers fast, if they suit it. */
+/* A fast fold for very many flat layers, if they suit it. */
 static celspan_status make_table(cs_composer *composer) {
   composer->is_flat = has_flats_alone(composer->stack);
   if (!composer->is_flat || !cs_over_table_suits(composer->stack))
@@ -133,8 +133,8 @@ static cs_v4 most_through(cs_composer *composer, const cs_layer *layer) {
   return cs_v4_all(1 - layer->fade);
 }
 
-/* Adds the front lights of a group and of those around it that are not entered yet, outermost
- * first. The fold has left all groups that do not hold this one. At most CS_STACK_GROUPS. */
+/* Adds the front lights of a group and of the groups around it that are not entered yet, outermost
+ * first. The fold has left all groups that do not contain this one. At most CS_STACK_GROUPS. */
 static celspan_status gather_front(cs_composer *composer, cs_over *over, uint32_t group) {
   if (group == over->group)
     return CELSPAN_OK;
@@ -146,9 +146,9 @@ static celspan_status gather_front(cs_composer *composer, cs_over *over, uint32_
   return gather_item(composer, entered->light);
 }
 
-/* Adds one layer to a program, and to the fold: one that varies as if it let through everywhere the
- * most it lets through anywhere, so that the program ends too late rather than too early. The light
- * of that fold has no meaning. */
+/* Adds one layer to a program, and to the fold. A layer that varies is folded with its greatest
+ * transmission, so that the program ends too late rather than too early. The light of that fold has
+ * no meaning. */
 static celspan_status gather_layer(cs_composer *composer, cs_over *over, uint32_t index) {
   const cs_layer *layer = &composer->stack->layers[index];
   if (composer->stack->has_group_light)
@@ -160,8 +160,8 @@ static celspan_status gather_layer(cs_composer *composer, cs_over *over, uint32_
   return CELSPAN_OK;
 }
 
-/* Gathers the contributing layers from the front until nothing shines through. `filled` is that of
- * the layers present: trees only take layers away. */
+/* Gathers the contributing layers from the front until nothing shines through. `filled` is the one
+ * for the present layers: trees only remove layers. */
 static celspan_status gather(cs_composer *composer, const uint64_t *set) {
   cs_over over;
   cs_over_begin(&over, composer->stack, composer->outers);
@@ -209,7 +209,7 @@ static celspan_status keep_program(cs_composer *composer, cs_cell *cell) {
   return CELSPAN_OK;
 }
 
-/* What contributes of the layers present. A boolean without operands is a tree without layers:
+/* The layers that are present and contribute. A boolean without operands is a tree without layers:
  * there is nothing to copy then, and nowhere to copy it. */
 static const uint64_t *resolve(cs_composer *composer) {
   if (composer->stack->tree_count == 0 || composer->stack->layer_count == 0)
@@ -220,7 +220,7 @@ static const uint64_t *resolve(cs_composer *composer) {
   return composer->contributing;
 }
 
-/* The same by what has been folded beforehand. */
+/* The same with partial folds made in advance. */
 static celspan_status fold_prepared(cs_composer *composer, const uint64_t *set, cs_over *over) {
   cs_over_pair light;
   CS_TRY(cs_over_table_light(composer->table, set, &light));
@@ -230,7 +230,7 @@ static celspan_status fold_prepared(cs_composer *composer, const uint64_t *set, 
   return CELSPAN_OK;
 }
 
-/* Folds what contributes while all of it is flat. */
+/* Folds the contributing layers as long as they are flat. */
 static celspan_status fold(cs_composer *composer, const uint64_t *set, cs_over *over,
                            bool *is_flat) {
   *is_flat = true;

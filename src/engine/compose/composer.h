@@ -33,8 +33,8 @@ typedef struct cs_memo {
   bool is_used;
 } cs_memo;
 
-/* The one question that the composer asks the painter: whether the picture of an image layer lets
- * nothing through, wherever the layer is present. A picture that cannot be read does not. */
+/* The one question that the composer asks the painter: whether the picture of an image layer is
+ * opaque wherever the layer is present. A picture that cannot be read is not opaque. */
 typedef struct cs_image_opacity {
   bool (*is_opaque)(void *painter, uint32_t image);
   void *painter; /* borrowed */
@@ -90,8 +90,8 @@ void cs_composer_cross_span(cs_composer *composer, uint32_t layer, uint32_t proc
 /* The cell at the place of the walk. On failure the cell is clear and composer->failure is set. */
 void cs_composer_cell(cs_composer *composer, cs_cell *out);
 
-/* What the cell at the place of the walk lets through, channel by channel; lane 3: the mean of
- * these. The cell has one colour, and the stack no back lights. Errors: NO_MEMORY. */
+/* The transmission of the cell at the place of the walk, channel by channel; lane 3: the mean of
+ * the channels. The cell has one colour, and the stack no back lights. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_composer_through(cs_composer *composer, cs_v4 *out);
 
 /* Whether two cells show the same everywhere. */

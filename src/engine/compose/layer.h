@@ -1,8 +1,7 @@
-/* One layer of a compiled frame, and what belongs to layers of each kind.
+/* One layer of a compiled frame, and the data of each kind of layer.
  *
- * A layer is one primitive in its place: what it paints and how it is lit. The sweep
- * decides where it is present. What else a layer of some kind needs is in an array of that kind, at
- * `index`.
+ * A layer is one primitive in its place: what it paints and how it is lit. The sweep decides where
+ * it is present. Other data of a layer are in an array for its kind, at `index`.
  *
  * Invariant: nothing here changes while rows are made, so workers share it.
  */
@@ -28,7 +27,7 @@ typedef enum cs_layer_kind {
   CS_LAYER_DEFOCUSED /* a defocused cel */
 } cs_layer_kind;
 
-/* What the paint of a layer does. */
+/* The effect of a layer's paint. */
 typedef enum cs_layer_role {
   CS_LAYER_PAINT, /* covers what lies behind it */
   CS_LAYER_BACK,  /* a back light with a shape: its pigment adds to the light, and dims nothing */
@@ -51,7 +50,7 @@ typedef struct cs_layer {
 } cs_layer;
 static_assert(sizeof(cs_layer) == 64, "a layer fills a line of the cache");
 
-/* What the walk along a row needs of a layer. */
+/* The values of a layer that the walk along a row needs. */
 typedef struct cs_layer_rule {
   uint64_t key[2];      /* names the layer in the hash of a set */
   int32_t winding_mask; /* inside where (winding & mask) != 0: -1 non-zero, 1 even-odd */
@@ -73,7 +72,7 @@ typedef struct cs_shade {
 typedef struct cs_image_layer {
   const celspan_texture *texture; /* borrowed from the scene */
   celspan_matrix inverse;         /* frame pixels to own units */
-  celspan_box box;                /* what the picture fills, own units */
+  celspan_box box;                /* the box that the picture fills, own units */
   celspan_wrap wrap;
   celspan_space space; /* in which its samples are mixed with others */
 } cs_image_layer;
@@ -91,38 +90,38 @@ typedef struct cs_procedure {
   celspan_space space;                       /* in which its paints are mixed with others */
 } cs_procedure;
 
-/* What a group does with what it holds, once that has been composited by itself. */
+/* What a group does with its contents after they have been composited by themselves. */
 typedef enum cs_group_kind {
   CS_GROUP_PLAIN,  /* it is lit, faded, and put over the layers behind it */
   CS_GROUP_HEAD,   /* the frontmost part of the group around it, which needs it in another way */
-  CS_GROUP_GROUND, /* what a source is blended with: its head is the source, the rest of it is all
-                      that is behind the source. Without a head it is as if it were not there */
-  CS_GROUP_MATTE   /* its head is the matte: how much of the rest is there */
+  CS_GROUP_GROUND, /* the backdrop of a source, and the source: its head is the source, and the rest
+                      is everything behind it. Without a head it has no effect */
+  CS_GROUP_MATTE   /* its head is the matte, which says how much of the rest is visible */
 } cs_group_kind;
 
 /* Layers that are composited by themselves.
  *
  *     camera --> [ ground  [ head: source ]   layer  layer  [ ground [ head ] layer layer ] ]
  *
- * A film in which sources with modes lie over each other has a ground inside a ground: all those of
- * one isolating group begin with the same layer, that at its rear. */
+ * A film in which sources with modes lie over each other has a ground inside a ground: all grounds
+ * of one isolating group begin with the same layer, its rearmost one. */
 typedef struct cs_group {
   uint32_t parent; /* or CS_STACK_NONE */
   uint32_t first;  /* its rearmost layer */
   float fade;
   bool has_light; /* a front light with a shape */
   bool varies;    /* it has one, or a group around it has */
-  bool curves;    /* it is a head (but not of a matte of alpha), graded, converted to another
-                        space, or inside such a group: what the layers around it look like is no
-                        affine function of its paints */
+  bool curves;    /* it is a head (but not of a matte of alpha), graded, converted to another space,
+                     or inside such a group: the colours of the frame are no affine function of its
+                     paints */
   bool is_source; /* it is a head, or inside one */
   bool inverts;   /* MATTE: 1 less its strength */
   bool is_luma;   /* MATTE: its strength is luma, else alpha */
-  bool is_frame;  /* directly in the frame, or the whole of it: its back lights are behind what
-                        else is in it, too */
+  bool is_frame;  /* directly in the frame, or the whole of it: its back lights lie behind
+                     everything else in it */
   uint8_t kind;   /* a cs_group_kind */
   const cs_grade *grade; /* PLAIN: NULL: none. Borrowed from the scene */
-  uint8_t space;         /* grade: that of its contents */
+  uint8_t space;         /* grade: the space of its contents */
   uint8_t converts;      /* PLAIN: its result, to this celspan_space; AROUND: not at all */
   uint8_t blend;         /* GROUND: a celspan_blend */
   bool has_front;        /* a flat front light, since its parts could not be lit one by one */

@@ -1,6 +1,6 @@
 #include "engine/compose/over.h"
 
-/* What a group that has been left is for the group around it. */
+/* What a group that has been left contributes to the group around it. */
 static cs_over_pair finish_group(cs_over *over, const cs_group *group, cs_over_outer *around) {
   cs_over_pair inner = {over->e, over->t};
   if (!over->is_bound)

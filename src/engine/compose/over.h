@@ -27,7 +27,7 @@
  *                     their light is looked up;
  *   engine/paint/over_row.h  up to 256 pixels of one program at once, a register at a time; modes
  *                            are blended by over_blend_wide.c;
- *   engine/paint/over_bare.h  the same of pictures alone that are shown as they are;
+ *   engine/paint/over_bare.h  the same for pictures alone, shown unchanged;
  *   engine/map/sheets.h  drawings that have a map, one over the other;
  *   engine/area/crowd.c  the samples of a pixel that very many edges cross.
  * Names and arithmetic are the same in the first three.
@@ -38,7 +38,7 @@
 #include "model/colour/blend.h"
 #include "model/colour/space.h"
 
-/* Light of some layers by themselves, and what they let through. Lane 3 of e has no meaning. */
+/* The light of some layers by themselves, and their transmission. Lane 3 of e has no meaning. */
 typedef struct cs_over_pair {
   cs_v4 e, t;
 } cs_over_pair;
@@ -50,8 +50,8 @@ static inline cs_over_pair cs_over_pair_over(cs_over_pair front, cs_over_pair ba
   return (cs_over_pair){front.e + front.t * back.e, front.t * back.t};
 }
 
-/* What a paint adds in its layer: its light under the front light of its cel, faded into clear. The
- * loops of engine/paint/over_row_wide.c do the same for many pixels. */
+/* The light that a paint adds in its layer: its light under the front light of its cel, faded into
+ * clear. The loops of engine/paint/over_row_wide.c do the same for many pixels. */
 static inline cs_over_pair cs_over_lit(cs_v4 front, float fade, cs_v4 s, cs_v4 t) {
   return (cs_over_pair){front * (fade * s), (1 - fade) + fade * t};
 }
@@ -77,8 +77,8 @@ static inline cs_v4 cs_over_colour(cs_v4 e, float alpha) {
                    : cs_v4_all(0);
 }
 
-/* A source over its backdrop. keep: what mattes of back lights leave of the backdrop's
- * transparency; it becomes 1 where the result's t says that, too. */
+/* A source over its backdrop. keep: the share of the backdrop's transparency that the mattes of
+ * back lights leave; it becomes 1 where the result's t includes it. */
 static inline cs_over_pair cs_over_blend(celspan_blend mode, cs_over_pair source, cs_over_pair back,
                                          float *keep) {
   float as = cs_over_alpha(source.t, 1), ab = cs_over_alpha(back.t, *keep);
@@ -102,8 +102,8 @@ static inline cs_v4 cs_over_grade(const cs_group *group, cs_over_pair pair, floa
   return cs_v4_load(light);
 }
 
-/* What becomes of a group as a whole: it is graded, converted to the space around it, then lit.
- * keep: what mattes of back lights leave of the transparency of a frame. */
+/* Finishes a group as a whole: it is graded, converted to the space around it, then lit. keep: the
+ * share of a frame's transparency that the mattes of its back lights leave. */
 static inline cs_over_pair cs_over_develop(const cs_group *group, cs_over_pair pair, float keep) {
   keep = group->is_frame ? keep : 1;
   if (group->grade)
@@ -115,7 +115,7 @@ static inline cs_over_pair cs_over_develop(const cs_group *group, cs_over_pair p
   return pair;
 }
 
-/* How much of what it is the matte of is there. head: what the matte is. */
+/* The share of the art that a matte keeps. head: the composited layers of the matte. */
 static inline float cs_over_strength(const cs_group *group, cs_over_pair head) {
   float luma = 0.2126f * head.e[0] + 0.7152f * head.e[1] + 0.0722f * head.e[2];
   float m = group->is_luma ? luma : cs_over_alpha(head.t, 1);
@@ -128,7 +128,7 @@ static inline float cs_over_strength(const cs_group *group, cs_over_pair head) {
 typedef struct cs_over_outer {
   cs_over_pair outer; /* of the group around it, put aside */
   cs_over_pair head;  /* GROUND and MATTE; clear until its head has been left */
-  uint32_t group;     /* the one around it that was entered before, or CS_STACK_NONE */
+  uint32_t group;     /* the group around it, entered before, or CS_STACK_NONE */
   float keep;         /* of the group around it */
 } cs_over_outer;
 
@@ -136,7 +136,7 @@ typedef struct cs_over_outer {
 typedef struct cs_over {
   const cs_stack *stack;
   cs_v4 e, t;     /* of the innermost group */
-  float keep;     /* what the mattes of back lights leave of transparency */
+  float keep;     /* the share of transparency that the mattes of back lights leave */
   uint32_t group; /* the innermost that was entered, or CS_STACK_NONE */
   size_t light;   /* the next back light to be met */
   uint32_t depth;
@@ -144,8 +144,8 @@ typedef struct cs_over {
   cs_over_outer *outers; /* borrowed; room for cs_stack_depth of them */
 } cs_over;
 
-/* Enters a group and those around it that were not entered yet. A ground whose head was not met is
- * not entered: neither then nor as `group` itself. */
+/* Enters a group and the groups around it that were not entered yet. A ground whose head was not
+ * met is never entered, also not as `group` itself. */
 void cs_over_enter_group(cs_over *over, uint32_t group);
 
 /* outers: as above; NULL where no layer to come is in a group. */

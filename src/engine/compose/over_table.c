@@ -5,12 +5,12 @@
 #define FOUR CS_OVER_FOUR
 #define QUADS 16      /* of a word */
 #define CHOICES 16    /* of the layers of a quad */
-#define LEAST_WORDS 4 /* fewer are quickly folded */
+#define LEAST_WORDS 4 /* fewer words are folded quickly without a table */
 
 /* ---------------------------------------------------------------- the choice */
 
-/* What a layer lets through in its clearest channel; of one that lets nothing through, the least
- * that counts. */
+/* The transmission of a layer in its clearest channel; for an opaque layer, the least one that
+ * counts. */
 static double let_through(const cs_layer *layer) {
   float most = layer->t[0] > layer->t[1] ? layer->t[0] : layer->t[1];
   most = layer->t[2] > most ? layer->t[2] : most;
@@ -36,7 +36,7 @@ bool cs_over_table_suits(const cs_stack *stack) {
 
 static inline size_t group_count(size_t nodes) { return (nodes + FOUR - 1) / FOUR; }
 
-/* Every tier but the last is filled up to a multiple of four, with clear nodes. */
+/* Every tier except the last is filled up to a multiple of four, with clear nodes. */
 static celspan_status make_nodes(cs_over_table *table) {
   size_t starts[CS_OVER_TABLE_TIERS] = {0}, nodes = table->count;
   table->node_count = FOUR * group_count(nodes);
@@ -154,8 +154,8 @@ static celspan_status join_word(cs_over_table *table, size_t i, uint64_t word) {
 
 #define BATCH 8 /* words compared at a time */
 
-/* Which of eight words differ from those of a set, as bits. The set has just been written word by
- * word: whoever reads two at once waits until both have left the processor's store buffer. */
+/* Which of eight words differ from the words of a set, as bits. The set has just been written word
+ * by word: a read of two words at once waits until both have left the processor's store buffer. */
 static inline unsigned compare_words(const cs_over_word *words, const uint64_t *set) {
   unsigned differ = 0;
   for (unsigned i = 0; i < BATCH; i++)
@@ -190,8 +190,8 @@ static celspan_status renew(cs_over_table *table, const uint64_t *set) {
   return CELSPAN_OK;
 }
 
-/* Adds those of four parts that leave something to shine through, and returns the one behind them,
- * in which the light ends: the rearmost at the latest. */
+/* Adds the parts, from the front, as long as light still shines through. Returns the part in which
+ * the light ends, at the latest the rearmost of the four. */
 static inline size_t add_parts(cs_over_pair *light, const cs_over_pair *four) {
   size_t part = FOUR - 1;
   for (; part > 0; part--) {
@@ -203,7 +203,7 @@ static inline size_t add_parts(cs_over_pair *light, const cs_over_pair *four) {
   return part;
 }
 
-/* The light as far as it comes, where the layers together let nothing through. */
+/* The light down to the layer where it ends, if the layers together are opaque. */
 static cs_over_pair go_down(const cs_over_table *table) {
   cs_over_pair light = cs_over_pair_clear, quads[FOUR];
   size_t i = 0;

@@ -39,8 +39,8 @@
 
 /* The layers of one word of a set. */
 typedef struct cs_over_word {
-  uint64_t word;                       /* those present */
-  cs_over_pair *quads;                 /* of any choice of each four layers; NULL: not yet */
+  uint64_t word;                       /* the layers present */
+  cs_over_pair *quads;                 /* for any choice of each four layers; NULL: not made yet */
   cs_over_pair quarters[CS_OVER_FOUR]; /* of sixteen layers each */
 } cs_over_word;
 

@@ -22,13 +22,14 @@ static inline bool cs_set_hash_same(cs_set_hash p, cs_set_hash q) {
   return p.a == q.a && p.b == q.b;
 }
 
-/* How often a layer's boundary winds around the place, and what that means. */
+/* How often a layer's boundary winds around the place, and for which winding numbers the layer is
+ * present. */
 typedef struct cs_presence {
   cs_layer_rule rule;
   int32_t winding;
 } cs_presence;
 
-/* What crossing a boundary of a layer does to its presence, the set and the set's hash.
+/* Updates the presence of a layer, the set and the set's hash for the crossing of a boundary.
  * direction: of the boundary, +1 or -1, as it is crossed from left to right. */
 static inline void cs_set_cross(cs_presence *presences, uint64_t *set, uint8_t *filled,
                                 cs_set_hash *hash, uint32_t layer, int32_t direction) {
@@ -36,7 +37,7 @@ static inline void cs_set_cross(cs_presence *presences, uint64_t *set, uint8_t *
   const cs_layer_rule *rule = &presence->rule;
   int32_t before = presence->winding, after = before + direction;
   presence->winding = after;
-  /* Whether it flips can hardly be foreseen, so nothing here is a branch. */
+  /* The processor can hardly predict whether it flips, so nothing here is a branch. */
   uint64_t flips = ((before & rule->winding_mask) != 0) != ((after & rule->winding_mask) != 0);
   uint64_t word = set[layer / 64] ^ flips << (layer % 64);
   set[layer / 64] = word;

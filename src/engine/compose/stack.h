@@ -42,7 +42,8 @@ typedef enum cs_step_kind {
 typedef struct cs_step {
   cs_step_kind kind;
   celspan_operator op; /* LAYERS: of operands that are all layers; OPERATOR: of results */
-  uint32_t first, end; /* the layers below; GUARD: those that the operator needs one of */
+  uint32_t first, end; /* the layers below; GUARD: layers of which the operator needs at least
+                          one */
   uint32_t operands;   /* FRAME: the results of the trees inside it; GUARD: the steps guarded */
 } cs_step;
 
@@ -86,14 +87,14 @@ typedef struct cs_stack {
 } cs_stack;
 
 void cs_stack_finish(cs_stack *stack, cs_memory *memory);
-/* What it holds. */
+/* Its contents. */
 size_t cs_stack_bytes(const cs_stack *stack);
 
 /* Whether a layer of paint dims the three channels alike, if it is no defocused cel. */
 bool cs_stack_layer_is_grey(const cs_stack *stack, const cs_layer *layer);
 
-/* The innermost group that is `group` or around it such that what is hidden inside hides nothing
- * behind it. CS_STACK_NONE: there is none. */
+/* The innermost group, `group` itself or one around it, whose opaque contents do not hide what lies
+ * behind the group. CS_STACK_NONE: there is none. */
 static inline uint32_t cs_stack_veil(const cs_stack *stack, uint32_t group) {
   while (group != CS_STACK_NONE && stack->groups[group].fade == 1 &&
          stack->groups[group].kind == CS_GROUP_PLAIN)
@@ -115,7 +116,8 @@ static inline uint32_t cs_stack_entered(const cs_stack *stack, uint32_t group, u
   return group;
 }
 
-/* The same for a group that is about to be entered: of a head, the group that it is the head of. */
+/* The same for a group that is about to be entered. For a head, the group that it is the head
+ * of. */
 static inline uint32_t cs_stack_around(const cs_stack *stack, uint32_t group, uint32_t now) {
   uint32_t parent = stack->groups[group].parent;
   return stack->groups[group].kind == CS_GROUP_HEAD ? parent : cs_stack_entered(stack, parent, now);

@@ -55,8 +55,8 @@ static bool is_operator_present(celspan_operator op, uint32_t operands, uint32_t
   return first; /* a matte */
 }
 
-/* Clears what the operator does not paint: everything where it is absent; where a clip is present,
- * its shape. first_end: where the layers of the first operand end. */
+/* Clears the layers that the operator does not paint: all of them where it is absent; where a clip
+ * is present, its shape. first_end: where the layers of the first operand end. */
 static void clear_hidden(const cs_step *step, uint32_t first_end, bool is_present, uint64_t *set) {
   if (!is_present)
     clear_range(set, step->first, step->end);
@@ -64,7 +64,8 @@ static void clear_hidden(const cs_step *step, uint32_t first_end, bool is_presen
     clear_range(set, first_end, step->end);
 }
 
-/* A composition inside another is cut at its frame; what its trees gave is of no use outside. */
+/* A composition inside another is cut at its frame; the results of its trees are not used
+ * outside. */
 static cs_tree_result resolve_frame(const cs_step *step, uint64_t *set) {
   bool is_present = has_bit(set, step->first);
   if (!is_present)
@@ -92,8 +93,8 @@ static cs_tree_result resolve_step(const cs_step *step, uint64_t *set,
   return (cs_tree_result){step->first, step->end, is_present};
 }
 
-/* The steps after a guard to skip: all that it guards, the last of which clears its layers and is
- * absent; or none. */
+/* The number of steps to skip after a guard: all steps that it guards, the last of which clears its
+ * layers and is absent; or none. */
 static uint32_t skip_guarded(const cs_step *guard, uint64_t *set, cs_tree_result *result) {
   if (any_in_range(set, guard->first, guard->end))
     return 0;
@@ -142,7 +143,7 @@ void cs_tree_resolve(const cs_stack *stack, uint64_t *set, cs_tree_result *resul
 
 /* One more operand for an operator. `both` and `any` are of the operands so far. */
 typedef struct operands {
-  cs_cull_presence first, both, any, others; /* others: any but the first */
+  cs_cull_presence first, both, any, others; /* others: any operand except the first */
   uint64_t known, odd;                       /* where all are known; where their number is odd */
   uint32_t count;
 } operands;

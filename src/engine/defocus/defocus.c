@@ -24,7 +24,7 @@
 
 #define GROUP CS_DEFOCUSED_GROUP
 
-/* What makes one plane, and its row of nodes. */
+/* The maker of one plane, and its row of nodes. */
 typedef struct node_plane {
   cs_row_maker maker;
   cs_defocus_lines *lines; /* NULL: the rows go through the kernel of the plan */
@@ -78,7 +78,7 @@ static inline int32_t group_end(const filling *f, int32_t i) {
   return i + 1 < f->groups ? (i + 1) * GROUP : f->grid->columns;
 }
 
-/* Writes a stretch of one colour; of the groups that lie in it, no more than their ends. */
+/* Writes a stretch of one colour. Of a group that lies wholly in it, only the ends are written. */
 static void write_single(const filling *f, node_plane *p, const celspan_span *span) {
   cs_v4 colour = cs_v4_load(span->colour);
   for (int32_t x = span->x0, next; x < span->x1; x = next) {
@@ -280,7 +280,7 @@ static void init_grid(cs_defocused *grid, int32_t width, int32_t height, int32_t
   grid->band_rows = (int32_t)cs_number_clamp((double)rows, BAND_ROWS_LEAST, most_rows);
 }
 
-/* Finds the way, and makes what it needs. */
+/* Chooses one of the ways, and makes what this way needs. */
 static celspan_status init_way(celspan_context *context, cs_defocus *defocus, bool varies,
                                double samples) {
   const cs_blur *s = &defocus->blur;

@@ -43,18 +43,19 @@ typedef enum cs_defocus_way {
 typedef struct cs_defocus cs_defocus;
 struct cs_defocus {
   size_t owners;     /* plans, layers that mix from it, the list of a frame; all of one thread */
-  cs_defocused grid; /* what composing reads */
+  cs_defocused grid; /* the grid that composing reads */
   cs_blur blur;      /* in nodes' widths */
   cs_defocus_way way;
   cs_defocus_edges edges;
   cs_defocus_sums sums;
   cs_defocus_slices slices;
-  bool is_fine;     /* samples are so many that each may be the mean over its area */
+  bool is_fine;     /* there are enough samples for each to be the mean over its area */
   bool is_own;      /* the grid of a cel's own, whose bands are nodes */
   cs_defocus *own;  /* that grid, where the cel has one, and how the nodes are mixed from it; */
   cs_regrid regrid; /* then this has no plans */
   cs_plan plans[2]; /* one a plane; made by engine/defocus/layer.c */
-  celspan_object *extended; /* what the plans show beyond the frame, too; NULL: the cel as it is */
+  celspan_object *extended; /* the objects of the plans, continued beyond the frame; NULL: the cel's
+                               own objects */
   cs_hash key;
 };
 

@@ -70,7 +70,7 @@ static celspan_status fill_shares(celspan_context *context, const cs_blur *blur,
 }
 
 /* The weight of a line k + 1/2 rows away. The tents already spread edges by a variance of 1/6,
- * which is subtracted from that of a Gaussian. */
+ * which is subtracted from the variance of the Gaussian. */
 static double weight_at(const cs_blur *blur, int32_t k) {
   const double(*e)[2] = blur->edges;
   double variance = 0.25 * blur->radius_y * blur->radius_y - 1.0 / 6, away = k + 0.5;

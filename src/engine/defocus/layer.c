@@ -12,12 +12,12 @@
  * pixels or more is smooth at the scale of pixels, and its value at their centres is shown. */
 #define SHARP 0.5
 #define SMOOTH 2.0
-#define EXTENT 4 /* radii: farther than any kernel, and what its grid adds */
+#define EXTENT 4 /* radii: farther than any kernel reaches, including its grid */
 
 /* ---------------------------------------------------------------- the kernel */
 
-/* A map near a point, as the affine one that touches it there: itself where it is affine. Film
- * lies on the frame in perspective only where it is that of a rostrum inside another. */
+/* The affine map that is tangent to a map at a point: the map itself where it is affine. Only the
+ * film of a rostrum inside another rostrum lies on the frame in perspective. */
 static celspan_matrix touching(const celspan_matrix *map, celspan_point at) {
   celspan_matrix facing = cs_matrix_facing(map);
   const double *m = facing.m;
@@ -184,7 +184,7 @@ static cs_hash find_key(const cs_defocus_cel *place, const cs_blur *blur, double
 
 /* ---------------------------------------------------------------- what was made before */
 
-/* Another owner of what has this key; NULL: there is none. */
+/* A new reference to the layer with this key; NULL: there is none. */
 static cs_defocus *find_made(const cs_defocus_made *made, cs_hash key) {
   size_t number;
   if (!cs_hash_table_find(&made->numbers, key, &number))
@@ -193,7 +193,7 @@ static cs_defocus *find_made(const cs_defocus_made *made, cs_hash key) {
   return made->list[number];
 }
 
-/* Compiles what has a way, and keeps it under its key. */
+/* Compiles a cel for the chosen way, and keeps it under its key. */
 static celspan_status compile_new(celspan_context *context, const cs_defocus_cel *place,
                                   const cs_defocus_compiler *compiler, cs_defocus *defocus) {
   cs_defocus_made *made = compiler->made;
@@ -247,7 +247,7 @@ static celspan_status use_own(celspan_context *context, const cs_defocus_cel *pl
   return CELSPAN_OK;
 }
 
-/* What is blended is made pixel by pixel, where it can be seen. */
+/* Blended layers are made pixel by pixel, where they can be seen. */
 static void use_pixels(const cs_boundary_frame *visible, cs_defocus *defocus) {
   const int32_t first[2] = {(int32_t)visible->left, (int32_t)visible->top};
   const int32_t end[2] = {(int32_t)visible->right, (int32_t)visible->bottom};
@@ -291,8 +291,8 @@ static celspan_status add_box(celspan_context *context, const cs_boundary_frame 
                          visible->bottom - visible->top, 0);
 }
 
-/* The cel's objects with what lies on the border of the film continuing outside it, as far as the
- * blur reaches. */
+/* The cel's objects. Objects on the border of the film continue outside it, as far as the blur
+ * reaches. */
 static celspan_status extend(celspan_context *context, const cs_defocus_cel *place,
                              const cs_blur *blur, celspan_object **out) {
   const celspan_point middle = {place->film_width / 2, place->film_height / 2};

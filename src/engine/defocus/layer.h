@@ -36,9 +36,9 @@ typedef struct cs_defocus_job {
   cs_kernel *kernel; /* the compiler owns it from now on; NULL: the mean over each pixel */
 } cs_defocus_job;
 
-/* What was blurred for a frame, by keys: what is seen in several places, such as a glow in the glow
- * of a glow, is compiled once, so that the work does not double with each level of nesting. All
- * zero is empty. */
+/* The blurred layers of a frame, by keys. A cel that is seen in several places, such as a glow in
+ * the glow of a glow, is compiled once, so that the work does not double with each level of
+ * nesting. All zero is empty. */
 typedef struct cs_defocus_made {
   cs_hash_table numbers;
   cs_defocus **list;
@@ -55,13 +55,13 @@ typedef struct cs_defocus_compiler {
 
 /* Whether the blur of the cel is large enough to be visible. */
 bool cs_defocus_layer_is_needed(const cs_defocus_cel *place);
-/* *out: another owner of what was made before, or new; NULL when nothing can be seen. box: gets the
- * rectangle, in whole pixels, in which the layer is present. Errors: NO_MEMORY, and those of the
- * compiler. */
+/* *out: a new layer, or a reference to one that was made before; NULL when nothing can be seen.
+ * box: gets the rectangle, in whole pixels, in which the layer is present. Errors: NO_MEMORY, and
+ * those of the compiler. */
 CELSPAN_CHECKED celspan_status cs_defocus_layer_create(celspan_context *context,
                                                        const cs_defocus_cel *place,
                                                        const cs_defocus_compiler *compiler,
                                                        cs_outline *box, cs_defocus **out);
 void cs_defocus_layer_unref(cs_defocus *defocus, cs_memory *memory);
-/* Frees what a plan holds, its defocused cels too. */
+/* Frees the contents of a plan, including its defocused cels. */
 void cs_defocus_layer_free_plan(cs_plan *plan, cs_memory *memory);

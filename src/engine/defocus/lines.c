@@ -17,7 +17,7 @@
 typedef struct group {
   bool is_marked;   /* an edge of this row is near */
   bool was_marked;  /* an edge of the row above it was near */
-  int32_t constant; /* the number of latest lines in all of which it has one same colour, */
+  int32_t constant; /* how many of the latest lines have the same colour there, */
   int32_t pending;  /* and of the latest of these, which are not written */
   cs_v4 colour;     /* where constant > 0 */
   cs_v4 below;      /* where !was_marked: what the row above added to the line below it */
@@ -34,7 +34,7 @@ struct cs_defocus_lines {
   cs_defocus_columns row;
   cs_v4 *lines;        /* a ring of line_count lines */
   const float **under; /* the lines under a row of nodes, from the middle outwards */
-  float *shares;       /* room for those of one edge */
+  float *shares;       /* room for the shares of one edge */
   cs_isa isa;
   cs_retained_row retained;
 };
@@ -162,7 +162,7 @@ static void write_pending(cs_defocus_lines *f, int32_t i, int32_t number) {
   int32_t first = i * GROUP, columns = group_end(f, i) - first;
   for (int32_t k = 1; k <= count; k++) {
     cs_v4 *line = line_of(f, number - k) + first;
-    if (columns == GROUP) /* unrolled: what costs time here is the loop */
+    if (columns == GROUP) /* unrolled: the loop itself would cost most of the time */
       for (int32_t p = 0; p < GROUP; p++)
         line[p] = colour;
     else

@@ -24,20 +24,20 @@
 
 typedef struct cs_defocus_lines cs_defocus_lines;
 
-/* edges, maker: borrowed. maker: of the samples, of which extent_x columns and extent_y rows lie
- * before those of the first node. Errors: NO_MEMORY; *out must be freed then too. */
+/* edges, maker: borrowed. maker: of the samples, extent_x columns and extent_y rows of them lie
+ * before the samples of the first node. Errors: NO_MEMORY; *out must be freed then too. */
 CELSPAN_CHECKED celspan_status cs_defocus_lines_create(const cs_defocus_edges *edges,
                                                        cs_row_maker *maker, int32_t columns,
                                                        cs_defocus_lines **out);
 void cs_defocus_lines_free(cs_defocus_lines *lines);
-/* The nodes of a row: any row at first, then always the next one. even: as in cs_defocused_nodes.
- * Errors: those of the maker's rows. */
+/* The nodes of a row. The first call may ask for any row, each later call for the next row. even:
+ * as in cs_defocused_nodes. Errors: those of the maker's rows. */
 CELSPAN_CHECKED celspan_status cs_defocus_lines_row(cs_defocus_lines *lines, int32_t row,
                                                     float (*nodes)[4], bool *even);
 
 /* ---- lines_wide.c */
 
-/* What a row adds to the line above it and to the line below it. */
+/* The values that a row adds to the line above it and to the line below it. */
 typedef struct cs_defocus_halves {
   cs_v4 upper, lower;
 } cs_defocus_halves;
@@ -58,8 +58,9 @@ typedef struct cs_defocus_columns {
 CS_WIDE_DECLARE(void, cs_defocus_lines_spread,
                 (const float *low, const float *high, float t, int32_t count, float *shares,
                  const cs_defocus_halves *step, cs_defocus_halves *near));
-/* Fills the columns [first, end) of the line above the row, and the part below it. sum: of the
- * steps left of them; becomes that of the steps left of `end`. near and steps are cleared. */
+/* Fills the columns [first, end) of the line above the row, and the part below it. sum: the sum of
+ * the steps left of `first`; becomes the sum of the steps left of `end`. near and steps are
+ * cleared. */
 CS_WIDE_DECLARE(void, cs_defocus_lines_sum,
                 (const cs_defocus_columns *columns, int32_t first, int32_t end,
                  cs_defocus_passed *sum, cs_v4 *line));

@@ -82,7 +82,7 @@ static inline void weigh(const float *const *lines, const float *weights, int32_
                   settle(sum[j], cs_wide_load(lines[0] + at + j * CS_WIDE_LANES)));
 }
 
-/* One float, by the same operations. */
+/* The same operations on one float. */
 static float weigh_one(const float *const *lines, const float *weights, int32_t pairs, int32_t at) {
   float sum = 0, centre = lines[0][at];
   for (int32_t k = pairs - 1; k >= 0; k--)

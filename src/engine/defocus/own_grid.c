@@ -5,21 +5,21 @@
 
 #include <math.h>
 
-/* Nodes in a radius: of a Gaussian, so many that the cubics between them (regrid.h) are within 3/4
- * of an 8-bit code of it; of the others as on the grids of frames (defocus.c). */
+/* Nodes in a radius: for a Gaussian, enough to keep the cubics between them (regrid.h) within 3/4
+ * of an 8-bit code of it; for the other kernels as on the grids of frames (defocus.c). */
 #define NODES_GAUSSIAN 6
 #define NODES_DISC 28
 #define NODES_BOX 64
-/* Samples of pictures in the radius of a Gaussian: no more than these, no fewer than those. */
+/* The most and the fewest samples of pictures in the radius of a Gaussian. */
 #define SAMPLES_FINE 18
 #define SAMPLES_LEAST 4
 #define LEAST_RADIUS 3     /* pixels: of smaller ones the nodes would be many to a pixel */
-#define BEYOND 4           /* nodes that the part has beyond what the frame shows */
+#define BEYOND 4           /* nodes of the part beyond the visible area */
 #define FARTHEST (1 << 17) /* from the cel's origin, nodes: there the axes are off by 1/100 */
 #define PARTS 8            /* the part is rounded to this share of the frame's nodes */
 #define LEAST_STEP 16      /* and to no fewer nodes than these */
 
-/* What an axis of the frame says about the grid. */
+/* The values of the grid along an axis that follow from the frame. */
 typedef struct grid_axis {
   double scale;   /* pixels for one of the cel's units */
   float turn[2];  /* the direction of the axis in the cel, of length 1 */
@@ -75,8 +75,8 @@ static bool find_axis(const celspan_matrix *matrix, const cs_blur *blur, int k, 
   return cs_number_is_sane(out->scale) && out->scale > 1 / CS_NUMBER_LIMIT && radius >= least;
 }
 
-/* The blur on the grid. Single precision, because what differs in the last bits of a product of
- * matrices is one blur. */
+/* The blur on the grid. Single precision, so that blurs that differ only in the last bits of a
+ * product of matrices are the same. */
 static cs_blur blur_on(const cs_blur *blur, const grid_axis axes[2]) {
   cs_blur out = {.kind = blur->kind,
                  .radius_x = (double)axes[0].radius * axes[0].density,
@@ -98,8 +98,8 @@ static double step_of(double nodes) {
   return step;
 }
 
-/* The part of an axis: what the frame shows of the blurred artwork, [low, high) in nodes of the
- * whole grid. size: of the frame, pixels. */
+/* The part of an axis: the blurred artwork that is visible in the frame, [low, high) in nodes of
+ * the whole grid. size: of the frame, pixels. */
 static bool find_part(cs_own_grid *grid, int k, int32_t size, double low, double high) {
   double far = cs_defocus_extent(&grid->blur, k) + BEYOND, nodes = size * grid->scale[k];
   double step = step_of(k == 0 ? nodes / PARTS : nodes); /* rows are made when they are needed */

@@ -12,8 +12,8 @@
  * the cel lies at a whole place. How far the nodes are apart follows from the radius in the cel's
  * units; where samples of pictures must be as fine as pixels, from the class of the scale too.
  * Scales from the fourth root of 2 above the one below it are one class, so nodes are at most 1.19
- * times too dense. What is made is rounded outward to whole numbers of many nodes, so that a pan
- * rarely leaves it.
+ * times too dense. The part of the grid that is made is rounded outward to multiples of many nodes,
+ * so that a pan rarely leaves it.
  *
  * Invariant: the grid is a function of the cel's artwork, its placement and blur, and the size of
  * the frame; of the placement and the size only the class, the direction of the axes and the part
@@ -35,7 +35,7 @@ typedef struct cs_defocus_cel {
   bool is_antialiased;
   celspan_space space;      /* in which it is blurred */
   bool is_source;           /* a mode or a matte shows it pixel by pixel */
-  celspan_object *extended; /* a cel's objects, continued (layer.c); NULL: as they are */
+  celspan_object *extended; /* a cel's objects, continued (layer.c); NULL: its own objects */
 } cs_defocus_cel;
 
 typedef struct cs_own_grid {

@@ -7,8 +7,8 @@
 
 /* ---------------------------------------------------------------- places */
 
-/* The node before a place, and the weights of the cubic through the four about it, except that of
- * the node before it, which is 1 less the others. last: node. */
+/* The node before a place, and the weights of the cubic through the four nodes around it. The
+ * weight of the node before the place is left out: it is 1 less the others. last: the last node. */
 static int32_t find_place(double at, int32_t last, float weights[3]) {
   at = cs_number_clamp(at, 0, last);
   int32_t before = cs_number_floor(at);
@@ -19,7 +19,8 @@ static int32_t find_place(double at, int32_t last, float weights[3]) {
   return before;
 }
 
-/* Where node `k` of the frame's grid is, pixels, and where that is among the cel's own nodes. */
+/* The place of node `k` of the frame's grid in pixels, and the same place counted in the cel's own
+ * nodes. */
 static double pixel_of(double pitch, int32_t k) { return (k - 0.5) * pitch; }
 
 static double place_of(const cs_regrid_axis *axis, double pixel) {
@@ -134,7 +135,7 @@ celspan_status cs_regrid_row(cs_regrid_rows *rows, int plane, int32_t y, float (
 
 /* ---------------------------------------------------------------- what a row has */
 
-/* The first column that reads beyond a number of nodes of the mixed row. */
+/* The first column that reads nodes of the mixed row from this number on. */
 static int32_t first_beyond(const cs_regrid_rows *rows, int32_t nodes) {
   int32_t low = 0, high = rows->to->columns;
   while (low < high) {
@@ -151,7 +152,7 @@ static inline bool is_clear(const cs_regrid_rows *rows, int32_t node) {
   return cs_v4_same(cs_v4_load(rows->mixed[node]), cs_v4_all(0));
 }
 
-/* The plane of S comes first: its matte says what is clear. */
+/* The plane of S comes first: its matte says which columns are clear. */
 static celspan_status mix_visible(cs_regrid_rows *rows, int plane, double y, float (*nodes)[4],
                                   cs_defocused_range *visible) {
   int32_t first = 0, end = rows->map->from->columns + 3;

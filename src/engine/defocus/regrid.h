@@ -1,5 +1,5 @@
-/* From the grid of a cel's own to the grid of a frame: each node of the frame is a cubic through
- * the four rows and the four columns of nodes that are nearest to it.
+/* From a cel's own grid to the grid of a frame: each node of the frame is a cubic through the four
+ * rows and the four columns of nodes that are nearest to it.
  *
  *     o    o    o    o     o  nodes of the cel's own grid
  *     o    o    o    o     x  a node of the frame's grid: first every column is mixed from four
@@ -42,16 +42,16 @@ typedef struct cs_regrid_rows {
   cs_regrid_column *columns;
   float (*mixed)[4];  /* a row of the cel's own nodes, at the height of the row being made; its
                          first node is there twice, its last one three times */
-  int32_t first, end; /* the columns of the frame's grid that lie between nodes; the groups of
-                         others are even */
+  int32_t first, end; /* the columns of the frame's grid that lie between nodes; groups of the other
+                         columns are even */
 } cs_regrid_rows;
 
 /* Must be finished after a failure too. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_regrid_begin(const cs_regrid *map, const cs_defocused *to,
                                                celspan_context *context, cs_regrid_rows *out);
 void cs_regrid_finish(cs_regrid_rows *rows);
-/* Row y of one plane of the frame's nodes, with what defocused.h says of even groups. Errors: those
- * of the bands of the cel's own grid. */
+/* Row y of one plane of the frame's nodes, and the groups that are even, as in defocused.h. Errors:
+ * those of the bands of the cel's own grid. */
 CELSPAN_CHECKED celspan_status cs_regrid_row(cs_regrid_rows *rows, int plane, int32_t y,
                                              float (*nodes)[4], bool *even);
 /* As `mix` and `forget` of cs_defocused: a row of pixels, as far as there is anything in it. Nodes

@@ -40,7 +40,7 @@ typedef struct cs_defocus_tiles {
   void *user;
 } cs_defocus_tiles;
 
-/* Sums all nodes; those of a tile that is plain get its colour. nodes: columns times rows. */
+/* Sums all nodes; the nodes of a plain tile get its colour. nodes: columns times rows. */
 void cs_defocus_samples_sum(cs_defocus_samples *samples, const cs_defocus_tiles *tiles,
                             float (*nodes)[4]);
 /* Row k under the tile, sample by sample. */

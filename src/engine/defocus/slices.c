@@ -86,7 +86,7 @@ void cs_defocus_slices_finish(cs_defocus_slices *slices, cs_memory *memory) {
 typedef struct summing {
   const cs_defocus_slices *slices;
   cs_isa isa;
-  cs_defocus_samples samples; /* those under all nodes */
+  cs_defocus_samples samples; /* the samples under all nodes */
   cs_v4 *row;                 /* samples of one row under the tile */
   cs_v4 *sums;                /* by row: of the samples from the tile's left edge up to each */
   float (*out)[4];            /* TILE nodes */

@@ -12,8 +12,8 @@
  *
  * The samples are finer than the nodes by a whole factor. The position of a slice relative to its
  * node is the same for all nodes, so the slices are found once, and one end of a slice is two sums
- * with a weight each. The sums of a row are kept by their place within a node's width, so that
- * those that neighbouring nodes need are neighbours too, and are read many at a time:
+ * with a weight each. The sums of a row are kept by their place within a node's width, so that the
+ * sums for neighbouring nodes are neighbours too, and many are read at a time:
  *
  *     factor 3, sums   0 1 2 3 4 5 6 7 8 ...     kept as   0 3 6 ...   1 4 7 ...   2 5 8 ...
  *
@@ -53,7 +53,7 @@ CELSPAN_CHECKED celspan_status cs_defocus_slices_fill(const cs_defocus_slices *s
 
 #define CS_DEFOCUS_SLICES_TOGETHER 16 /* nodes; as many or a multiple are summed at once */
 
-/* Sums up the slices for `count` nodes beside each other. sums: the first one under the first
+/* Sums up the slices for `count` nodes beside each other. sums: the first sum under the first
  * node. */
 CS_WIDE_DECLARE(void, cs_defocus_slices_sum,
                 (const cs_defocus_slice *slices, size_t slice_count, const float *sums,

@@ -100,7 +100,7 @@ void cs_defocus_sums_finish(cs_defocus_sums *sums, cs_memory *memory) {
 typedef struct summing {
   const cs_defocus_sums *sums;
   cs_isa isa;
-  cs_defocus_samples samples; /* those under all nodes */
+  cs_defocus_samples samples; /* the samples under all nodes */
   cs_v4 *row;                 /* samples of one row under the tile, */
   cs_v4 *placed;              /* and by their place within a node's width */
   cs_v4 *across;              /* summed along the rows: TILE nodes a row */

@@ -1,4 +1,4 @@
-/* Bundles: what has taken the place of culled chains (engine/sweep/cull.h), as upright courses.
+/* Bundles: upright courses that replace culled chains (engine/sweep/cull.h).
  *
  *        row of tiles  +-------+-------+-------+
  *                      |       |b    d |       |   the windings of all chains that are culled in

@@ -37,7 +37,7 @@ static inline double x_between(celspan_point a, celspan_point b, double y) {
   return a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
 }
 
-/* Adds what a chord has in the drawing. */
+/* Adds the part of a chord inside the drawing. */
 static void add_chord(const maker *m, cs_course_point *points, cs_course *course,
                       celspan_point from, celspan_point to) {
   if (to.y < 0 || from.y > m->height || to.y == from.y)
@@ -50,7 +50,8 @@ static void add_chord(const maker *m, cs_course_point *points, cs_course *course
     add_point(m, points, course, to.x, to.y);
 }
 
-/* Adds what a piece has below its first point; of one above the top, its last point is enough. */
+/* Adds the points of a piece below its first point; for a piece above the top, the last point is
+ * enough. */
 static void add_piece(const maker *m, const cs_boundary_piece *piece, cs_course_point *points,
                       cs_course *course) {
   bool is_inside = piece->y0 >= 0 && piece->y1 <= m->height;

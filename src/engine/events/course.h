@@ -37,11 +37,11 @@ typedef struct cs_courses {
   size_t course_count, course_capacity, point_count, point_capacity;
 } cs_courses;
 
-/* The chains must lie within 16384 pixels of the origin sideways. What lies above 0 or below the
- * height, in pixels, at most 16384, is cut off. Between top and foot, in units, the points are
- * those of the whole course: it begins with its last point at or above the top, and ends with the
- * first one at or below the foot. more: upright courses for which there will be room. Errors:
- * NO_MEMORY; cs_courses_finish must be called then, too. */
+/* The chains must lie within 16384 pixels of the origin sideways. The parts above 0 and below the
+ * height, in pixels, at most 16384, are cut off. Between top and foot, in units, it has the points
+ * of the whole course: from the last point at or above the top to the first point at or below the
+ * foot. more: upright courses for which there will be room. Errors: NO_MEMORY; cs_courses_finish
+ * must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_courses_make(celspan_context *context, const cs_boundary_set *set,
                                                int32_t height, int32_t top, int32_t foot,
                                                size_t more, cs_courses *out);

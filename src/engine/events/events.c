@@ -386,7 +386,8 @@ static celspan_status begin(sweep *s, int32_t top) {
   return CELSPAN_OK;
 }
 
-/* Ends all parts at a height in a zone, or at its top; what was found below it is dropped. */
+/* Ends all parts at a height inside a zone, or at its top. Parts found below that height are
+ * dropped. */
 static celspan_status end_parts(sweep *s, int32_t foot) {
   const cs_order *order = &s->order;
   cs_events *events = s->events;

@@ -13,7 +13,8 @@
  *    '----------'   '        ends
  *
  * The result is a list of parts: pieces of courses between two heights, with the windings on both
- * sides. Colours are not known here: what shows is found afterwards, once for each of the windings.
+ * sides. Colours are not known here: visible colours are found afterwards, once for each of the
+ * windings.
  *
  * Heights are whole units. Neighbours that meet between two heights change places at the lower one,
  * so a part may be wrong by a strip of one unit, which is 2^-16 of a pixel, and at no height is
@@ -39,13 +40,13 @@ typedef struct cs_events {
   cs_courses courses;
   cs_bundles bundles; /* their courses follow those of the chains */
   cs_windings windings;
-  cs_events_part *parts; /* those of a course from the top */
+  cs_events_part *parts; /* the parts of a course from the top down */
   size_t part_count, part_capacity;
   size_t intersections; /* how often two courses have changed places */
   uint64_t missing;     /* bit k: zone k has too many windings, and no parts */
 } cs_events;
 
-/* What is swept: some rows of a drawing, in pixels from 0. height: at most 16384 and 64 zones. */
+/* The swept rows of a drawing, in pixels from 0. height: at most 16384 and 64 zones. */
 typedef struct cs_events_rows {
   int32_t first, end, height; /* first <= end <= height */
   int32_t zone;               /* rows of a zone, which has whole belts; each is judged alone */

@@ -47,8 +47,9 @@ double cs_order_x(const cs_order *order, uint32_t course, int32_t y) {
 static inline int32_t lesser(int32_t a, int32_t b) { return a < b ? a : b; }
 static inline int32_t greater(int32_t a, int32_t b) { return a > b ? a : b; }
 
-/* On which side of a course another one is first, from a height down to a limit that neither ends
- * above: 1: left of it; -1: right of it; 0: they are the same. */
+/* On which side of a course q the course p lies where they first differ, from a height down to a
+ * limit; neither ends above the limit. 1: p is right of q; -1: p is left of q; 0: they are the
+ * same. */
 static int compare(const cs_course_point *p, const cs_course_point *q, int32_t y, int32_t limit) {
   double above = cs_course_x(p, y) - cs_course_x(q, y);
   for (int32_t top = y;; above = cs_course_x(p, top) - cs_course_x(q, top)) {
@@ -76,7 +77,7 @@ static int32_t intersection_height(int32_t top, int32_t foot, double above, doub
   return lesser(top + (int32_t)height, foot);
 }
 
-/* Whether a segment lies left of another one as a whole. */
+/* Whether a whole segment lies left of another one. */
 static inline bool is_beside(const cs_course_point *p, const cs_course_point *q) {
   return greater(p->x, p[1].x) <= lesser(q->x, q[1].x);
 }
@@ -121,8 +122,9 @@ static inline void unlink_entry(cs_order *order, uint32_t course) {
   entries[entries[course].next].previous = entries[course].previous;
 }
 
-/* Whether one of two courses that both cross y, or begin there, belongs left of the other one: that
- * which is there first in the belt, and of two that are the same the one with the lower number. */
+/* Whether one of two courses that both cross y, or begin there, belongs left of the other one. The
+ * course on the left at the first height, from y down, at which they differ is the left one; of two
+ * equal courses, the one with the lower number. */
 static bool is_left(const cs_order *order, uint32_t left, uint32_t right, int32_t y) {
   cs_order_entry *a = &order->entries[left], *b = &order->entries[right];
   int32_t limit = lesser(order->foot, lesser(a->foot, b->foot));
@@ -187,7 +189,7 @@ static void sort_places(cs_order_place *places, size_t count) {
   }
 }
 
-/* Brings those within the slack into the order that they have below. */
+/* Brings the courses within the slack into the order that they have below. */
 static void sort_near(const cs_order *order, int32_t y) {
   cs_order_place *places = order->index;
   for (size_t i = 1; i < order->index_count; i++) {
@@ -202,7 +204,7 @@ static void sort_near(const cs_order *order, int32_t y) {
   }
 }
 
-/* Links the courses as they are listed. Returns whether that changes anything. */
+/* Links the courses in the order of the list. Returns whether that changes anything. */
 static bool link_places(cs_order *order) {
   bool is_changed = false;
   uint32_t left = order->ends;

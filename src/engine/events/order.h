@@ -31,7 +31,7 @@
 typedef struct cs_order_entry {
   const cs_course_point *at; /* where its segment at the height begins */
   int32_t foot;              /* its last height */
-  int32_t low, high;         /* the extent of x in the belt, from its beginning there on */
+  int32_t low, high;         /* the extent of x in the belt, from where the course begins in it */
   uint32_t previous, next;   /* courses */
   uint32_t left, right;      /* windings on its sides */
   int32_t since;             /* the height from which these have been so */
@@ -64,7 +64,7 @@ void cs_order_finish(cs_order *order, cs_memory *memory);
 /* All courses leave. */
 void cs_order_clear(cs_order *order);
 /* Brings the courses that cross y, where the belt down to order->foot begins, into their order.
- * *is_changed: it was another one. Errors: NO_MEMORY. */
+ * *is_changed: the order has changed. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_order_begin_belt(celspan_context *context, cs_order *order,
                                                    int32_t y, bool *is_changed);
 /* Puts in a course that begins at y, or crosses it and has not been in the list until now.

@@ -28,7 +28,7 @@ static void find_families(const cs_windings *windings, family *out) {
   }
 }
 
-/* Crosses a boundary, or back. */
+/* Crosses a boundary from left to right (sign 1) or back (sign -1). */
 static void cross(const walk *w, uint32_t boundary, int32_t sign) {
   const cs_boundary_set *set = &w->plan->boundaries;
   const cs_deferred *deferred = w->plan->cull.deferred_list;

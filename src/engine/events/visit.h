@@ -1,4 +1,4 @@
-/* What shows between boundaries: the cells of all windings that a sweep has found, and the parts
+/* Visible cells between boundaries: the cells of all windings that a sweep has found, and the parts
  * between different cells.
  *
  *     0 --a--- 1 --b--- 2      the composer goes along the tree of the windings, from parent to
@@ -13,14 +13,14 @@
 #include "engine/events/events.h"
 #include "engine/row/plan.h"
 
-/* cell: that of some windings; its program is the composer's, and valid during this call. out: its
- * number. */
+/* cell: the cell of some windings; its program belongs to the composer and is valid during this
+ * call. out: its number. */
 typedef celspan_status (*cs_events_visitor)(void *user, cs_composer *composer, const cs_cell *cell,
                                             uint32_t *out);
 
 /* Visits the cell of 0 and then, once, that of each of the windings beside a part, and reduces the
- * parts to what can be seen: those with the same cell on both sides go, and those of a course that
- * follow each other between the same cells become one. Then left and right of parts are numbers of
+ * parts to visible ones: a part with the same cell on both sides is removed, and consecutive parts
+ * of a course between the same two cells become one. Then left and right of parts are numbers of
  * cells. events: of the plan. Errors: NO_MEMORY, those of composing and of the visitor. */
 CELSPAN_CHECKED celspan_status cs_events_show(celspan_context *context, const cs_plan *plan,
                                               cs_events *events, cs_events_visitor visitor,

@@ -20,7 +20,8 @@ typedef struct cs_windings_hash {
 
 typedef struct cs_windings_entry {
   cs_windings_hash hash;
-  uint32_t parent, boundary; /* from which, and what was crossed; 0 has none */
+  uint32_t parent, boundary; /* the winding that this one comes from, and the boundary crossed; 0
+                                has none */
   int32_t zone;              /* for the caller: where they were met last; 0: nowhere */
 } cs_windings_entry;
 
@@ -35,8 +36,8 @@ CELSPAN_CHECKED celspan_status cs_windings_init(celspan_context *context, cs_win
 void cs_windings_finish(cs_windings *windings, cs_memory *memory);
 /* A hash, changed by crossing a boundary of a layer. */
 cs_windings_hash cs_windings_add(cs_windings_hash hash, uint32_t layer, int32_t direction);
-/* The number of those right of a boundary, by which the hash changes by `change`.
- * Errors: NO_MEMORY. */
+/* The number of the windings right of a boundary that changes the hash by `change`. Errors:
+ * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_windings_cross(celspan_context *context, cs_windings *windings,
                                                  uint32_t from, uint32_t boundary,
                                                  cs_windings_hash change, uint32_t *out);

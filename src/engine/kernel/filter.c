@@ -32,7 +32,7 @@
 
 /* ---------------------------------------------------------------- life */
 
-/* Columns of the sums of one stretch of an edge: those of the kernel, twice, with some room. */
+/* Columns of the sums of one stretch of an edge: twice the columns of the kernel, and some room. */
 static size_t sum_count(const cs_kernel *kernel) { return 2 * (size_t)kernel->stride + 8; }
 
 /* Errors: NO_MEMORY. */
@@ -119,8 +119,8 @@ typedef struct summing {
   cs_convolve_range range; /* of the colours under the kernel, except near edges */
 } summing;
 
-/* Rounds a sum of colours times weights, where the weights sum to 1. What lies beyond the 40th bit
- * is an error of rounding; without it, the mean of one colour is that colour to the bit. */
+/* Rounds a sum of colours times weights, where the weights sum to 1. Bits beyond the 40th are
+ * errors of rounding; without it, the mean of one colour is that colour to the bit. */
 static double tidy(double value) { return rint(value * 0x1p40) * 0x1p-40; }
 
 /* Finds the range of the colours at the heights of a row. */
@@ -148,8 +148,8 @@ static void apply_passed(cs_convolve *convolve, const cs_convolve_passed *passed
   }
 }
 
-/* Applies the passed events at column p. In the list, those of one retained row are neighbours, so
- * the range of a row is found once. */
+/* Applies the passed events at column p. In the list, the events of one retained row are
+ * neighbours, so the range of a row is found once. */
 static void apply_passed_events(summing *s, int32_t p) {
   cs_convolve *convolve = s->convolve;
   for (uint32_t at = convolve->passed_at[p]; at != 0;) {
@@ -307,7 +307,7 @@ static celspan_status sum_row(summing *s) {
 }
 
 /* Row y from `count` retained rows, sealed, from the topmost under its kernel to the lowest.
- * Errors: NO_MEMORY and what painting meets. */
+ * Errors: NO_MEMORY and the errors of painting. */
 static CELSPAN_CHECKED celspan_status convolve_row(cs_convolve *convolve, cs_painter *painter,
                                                    const cs_retained_row *const *retained_rows,
                                                    size_t count, int32_t y, cs_row *out) {

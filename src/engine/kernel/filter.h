@@ -13,7 +13,7 @@
 
 #include "engine/kernel/convolve_parts.h"
 
-/* Sweeps any row, those beyond the frame too, and keeps its edges. */
+/* Sweeps any row, also beyond the frame, and keeps its edges. */
 typedef celspan_status cs_filter_retain(void *user, int32_t y, cs_retained_row *retained);
 
 typedef struct cs_filter {
@@ -22,7 +22,7 @@ typedef struct cs_filter {
   cs_filter_retain *retain;
   void *user; /* of retain */
   cs_retained_row *rows;
-  const cs_retained_row **under; /* those under the kernel, from the topmost down */
+  const cs_retained_row **under; /* the rows under the kernel, from the topmost down */
   size_t row_count;              /* of rows, and room in under */
   cs_convolve convolve;
 } cs_filter;
@@ -33,5 +33,5 @@ CELSPAN_CHECKED celspan_status cs_filter_init(cs_filter *filter, const cs_kernel
                                               cs_painter *painter, int32_t width,
                                               cs_filter_retain *retain, void *user);
 void cs_filter_finish(cs_filter *filter, cs_memory *memory);
-/* Row y, into an empty row. Errors: NO_MEMORY and what retain returns. */
+/* Row y, into an empty row. Errors: NO_MEMORY and the errors of retain. */
 CELSPAN_CHECKED celspan_status cs_filter_row(cs_filter *filter, int32_t y, cs_row *out);

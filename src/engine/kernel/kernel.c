@@ -11,7 +11,7 @@
 #define SMALL 0.4
 #define OFFSETS 4
 #define PLACES 256       /* in a pixel, at which light is measured */
-#define UNNOTICED 0.0015 /* what an edge may be changed by, so that light is kept */
+#define UNNOTICED 0.0015 /* the change of an edge that is allowed in order to keep the light */
 #define SHARP 0.8        /* a pixel: the peak of a Gaussian of radius 1.5 */
 #define SHARPEST 8
 #define PHASES 64 /* places of an edge in a pixel, for radii from 1 on */
@@ -59,9 +59,9 @@ static double window(double width, double x) {
                    : fabs(x) <= 0.5 * width;
 }
 
-/* Pixels are samples of the filtered picture, and the light that a shape gives them together may
- * depend on where it lies between them. This evens that out as far as no edge changes by more than
- * `most`. */
+/* Pixels are samples of the filtered picture, and the sum of a shape's light may depend on its
+ * place between them. This reduces the differences as far as possible without changing any edge by
+ * more than `most`. */
 static void balance(double *first, double radius, double most) {
   double missing[PLACES], mean = 0, worst = 0, width = floor(2 * radius);
   if (width < 1)
@@ -161,8 +161,8 @@ static double integral(const axis *work, double u) {
   return work->twice[i] + (2.0 / SAMPLES) * t * (low + 0.5 * t * (high - low));
 }
 
-/* One axis of a defocus kernel: the shares left of the table's places. *radius: of the shape;
- * becomes that of the shape with the blur. */
+/* One axis of a defocus kernel: the shares left of the table's places. *radius: the radius of the
+ * shape; becomes the radius of the shape with the blur. */
 static void fill_axis(celspan_defocus_kernel kind, double blur, axis *work, double *radius,
                       double *first) {
   double narrow = *radius;
@@ -235,7 +235,8 @@ static void fill_even(const cs_blur *blur, cs_kernel *kernel) {
   const double(*e)[2] = blur->edges;
   bool is_box = blur->kind == CELSPAN_DEFOCUS_BOX;
   kernel->shape = is_box ? CS_KERNEL_PARALLELOGRAM : CS_KERNEL_ELLIPSE;
-  kernel->rows = 8; /* segments weigh exactly; only the chord is that of their middle height */
+  kernel->rows = 8; /* segments are weighted exactly; only their chord is that of the middle
+                       height */
   kernel->radius_x = is_box ? fabs(e[0][0]) + fabs(e[1][0]) : blur->radius_x;
   kernel->radius_y = is_box ? fabs(e[0][1]) + fabs(e[1][1]) : blur->radius_y;
   kernel->per_radius_y = 1 / kernel->radius_y;

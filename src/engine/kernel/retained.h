@@ -40,8 +40,8 @@ static inline CELSPAN_CHECKED celspan_status cs_retained_add(cs_retained_row *re
                                                              const cs_border *edge) {
   return CS_APPEND(context, retained->edges, retained->edge_count, retained->edge_capacity, *edge);
 }
-/* The row is done: copies what its edges need of the composer. It is sealed unless the composer
- * has failed. Errors: NO_MEMORY. */
+/* The row is done: copies the data of the composer that its edges need. It is sealed unless the
+ * composer has failed. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_retained_seal(cs_retained_row *retained,
                                                 const cs_composer *composer);
 

@@ -22,7 +22,7 @@ typedef struct cs_scatter {
   celspan_context *context;
   double centre;                   /* height of the row that is made */
   const cs_retained_row *retained; /* the row that is read */
-  uint32_t row;                    /* its place among those under the kernel */
+  uint32_t row;                    /* its place among the rows under the kernel */
   uint32_t *terms;                 /* of the retained row's cells that vary */
 } cs_scatter;
 
@@ -62,7 +62,7 @@ static celspan_status add_shift(cs_scatter *g, const cs_border *edge, int32_t p,
 }
 
 /* From column p on, which is touched, the share of the colour right of the edge grows by `weight`,
- * and that of the colour left of it shrinks by as much. */
+ * and the share of the colour left of it shrinks by as much. */
 static void add_step(cs_scatter *g, const cs_border *edge, int32_t p, double weight) {
   double *sum = g->convolve->changes[p];
   for (int c = 0; c < 4; c++)
@@ -375,7 +375,7 @@ static int count_even_segments(const cs_kernel *kernel, const cs_segment *line) 
 /* Kernels whose centres are moved from the pixels' centres. */
 typedef struct moved {
   double dx, dy;
-  double share; /* of them in the whole kernel */
+  double share; /* the share of these rows in the whole kernel */
 } moved;
 
 /* Adds the part of an edge that is within the heights of moved kernels to these. */

@@ -1,4 +1,4 @@
-/* What the borders of a swath add to its pixels: loops for every set of instructions.
+/* Adding the borders of a swath to its pixels: loops for every set of instructions.
  *
  *      border, from row to row            a row, from column to column
  *      +---------\-----------+            +-----------+-----------+-----------+
@@ -17,7 +17,7 @@
 
 #include "engine/map/swath.h"
 
-/* From points to places: (origin + point) * scale + shift, and x before y in all of them. */
+/* From points to places: (origin + point) * scale + shift. Each array has x first, then y. */
 typedef struct cs_map_placing {
   double origin[4], scale[4], shift[4];
 } cs_map_placing;
@@ -27,7 +27,7 @@ CS_WIDE_DECLARE(void, cs_map_put_places,
                 (const cs_map_placing *placing, const cs_map_point *points, size_t count,
                  cs_map_point *out));
 
-/* The swath whose sums are made: that of a drawing whose lives have been found. */
+/* The swath whose sums are made; the lives of its drawing have been found. */
 typedef struct cs_map_adding {
   celspan_context *context;
   cs_map_sums *sums;
@@ -36,5 +36,5 @@ typedef struct cs_map_adding {
   celspan_status *status; /* becomes NO_MEMORY where there is none for parts */
 } cs_map_adding;
 
-/* Adds what the lives have in the swath, and finds where each begins in the swath below. */
+/* Adds the parts of the lives in the swath, and finds where each begins in the swath below. */
 CS_WIDE_DECLARE(void, cs_map_add, (const cs_map_adding *adding));

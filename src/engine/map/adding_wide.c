@@ -16,8 +16,8 @@ static inline doubles load_doubles(const double *from) {
 
 #define FARTHEST (32767.0 * CS_MAP_UNIT)
 
-/* No farther than an integer can be. What is drawn is at most 16384 pixels long, so that nothing
- * but borders that are left of the frame as a whole are bent by that. */
+/* Clamped to the range of an integer. A drawing is at most 16384 pixels long, so this bends only
+ * borders that lie wholly left of the frame. */
 static inline doubles bounded(doubles v) {
 #ifdef __AVX2__
   return _mm256_max_pd(_mm256_set1_pd(-FARTHEST), _mm256_min_pd(_mm256_set1_pd(FARTHEST), v));
@@ -53,21 +53,21 @@ void CS_WIDE(cs_map_put_places)(const cs_map_placing *placing, const cs_map_poin
 
 /* ---------------------------------------------------------------- a pixel */
 
-/* What borders are added to: copies, which stay in registers. */
+/* The sums to which borders are added: copies, which stay in registers. */
 typedef struct target {
   cs_map_sum *sums;
   unsigned char *bits;
   uint32_t stride;   /* bytes of a row of bits */
   int32_t top, side; /* of the swath, and the right side of the frame */
-  bool is_inside;    /* a constant of each caller: no place is left or right of the frame */
-  bool varies;       /* another one: the areas of cells that vary are listed */
+  bool is_inside;    /* no place is left or right of the frame; a constant of each caller */
+  bool varies;       /* the areas of cells that vary are listed; a constant of each caller */
   cs_v4 step;
   uint64_t key;
   const cs_map_live *live;
 } target;
 
-/* Adds an area to that of the cell on the right, and takes it from that on the left, of those that
- * vary. */
+/* Adds an area to the area of the cell on the right, and subtracts it from the area of the cell on
+ * the left; cells that do not vary have no area here. */
 static celspan_status add_parts(const cs_map_adding *a, const cs_map_live *live, uint32_t *head,
                                 int32_t change) {
   const cs_map_drawing *drawing = a->rows->drawing;
@@ -83,7 +83,7 @@ static celspan_status add_parts(const cs_map_adding *a, const cs_map_live *live,
   return CELSPAN_OK;
 }
 
-/* Adds by how much a border has more of a pixel than of the one on its left. weight: the same
+/* Adds the area of a border in a pixel, less its area in the pixel on the left. weight: the same
  * number. */
 static inline void add(const cs_map_adding *a, const target *t, cs_map_sum *sum, int32_t change,
                        float weight) {
@@ -107,7 +107,7 @@ static inline void mark(const target *t, uint32_t at, uint32_t mask) {
 #define UNIT_BITS 16 /* vectors of integers are shifted: they are slow to divide */
 _Static_assert(1 << UNIT_BITS == CS_MAP_UNIT, "a pixel is a power of two");
 
-/* What a line has in one row of the frame: its upper end, and its lower one. */
+/* The part of a line in one row of the frame: its upper end and its lower end. */
 typedef struct piece {
   int32_t xa, ya, xb, yb;
 } piece;
@@ -125,7 +125,8 @@ static __attribute__((noinline)) void add_columns(const cs_map_adding *a, const 
   const double slope = (double)height / ((double)to - from);
   const uint32_t row = ((uint32_t)p->ya / CS_MAP_UNIT) % CS_MAP_ROWS;
   uint32_t column = (uint32_t)from / CS_MAP_UNIT;
-  int32_t x = from, passed = 0, rest = 0; /* rest: what the last column has less than its height */
+  int32_t x = from, passed = 0, rest = 0; /* rest: by how much the last column is below its
+                                             height */
   cs_map_sum *sum = &t->sums[CS_MAP_ROWS * (size_t)column + row];
   for (; x < to; column++, sum += CS_MAP_ROWS) {
     const int32_t right = (int32_t)(column + 1) * CS_MAP_UNIT, end = right < to ? right : to;
@@ -171,7 +172,7 @@ static inline ends load_pieces(const piece *p) {
                 __builtin_shufflevector(ba, dc, 2, 6, 3, 7, 10, 14, 11, 15)};
 }
 
-/* What eight pieces change, where they are in at most two columns. */
+/* The changes by eight pieces, each in at most two columns. */
 typedef struct changes {
   int32_t sum[8];                   /* the number of the sum of the first column */
   int32_t byte[8], mask[8];         /* the bits of all columns */
@@ -196,7 +197,7 @@ static inline void find_places(const target *t, integers8 from, integers8 ya, in
   PUT(mask, out->mask);
 }
 
-/* An upright piece divides by 0, and what comes of that is not chosen: it has one column. */
+/* An upright piece divides by 0, but that result is not used, because the piece has one column. */
 static inline void find_changes(const target *t, const piece *pieces, changes *out) {
   const ends p = load_pieces(pieces);
   const integers8 is_down = p.xa < p.xb;
@@ -245,7 +246,8 @@ static inline void add_pieces(const cs_map_adding *a, const target *t, cutting *
 
 /* ---------------------------------------------------------------- cutting */
 
-/* Puts a piece as far as it is in the frame; of what is left of it the height counts. */
+/* Adds the part of a piece that is in the frame. Of the part left of the frame only the height
+ * counts. */
 static void put_clipped(cutting *s, piece p, int32_t side) {
   const int32_t from = p.xa < p.xb ? p.xa : p.xb, to = p.xa < p.xb ? p.xb : p.xa;
   const double slope = to > from ? (double)(p.yb - p.ya) / ((double)to - from) : 0;

@@ -1,10 +1,10 @@
-/* The brush of a drawing: what its cells that vary show, as one thread paints it.
+/* The brush of a drawing: one thread's tool to paint the cells that vary.
  *
  *   map: layers, formulas, pictures over the raster --place--> the same over the frame's pixels
  *   program of a cell --painter--> colours under white light --light, grade--> those of the frame
  *
- * In pixels with several cells short streaks are painted ahead and kept, because what varies in one
- * of them is asked for in its neighbours, too.
+ * In pixels with several cells short streaks are painted ahead and kept, because the varying cells
+ * of a pixel are needed in its neighbours, too.
  *
  * Invariant: a colour depends on the drawing, the cell and the pixel alone.
  */
@@ -21,7 +21,7 @@ typedef struct cs_map_streak {
   cs_v4 colours[CS_MAP_STREAK];
 } cs_map_streak;
 
-/* It must not be moved. */
+/* The brush must not be moved. */
 typedef struct cs_map_brush {
   const cs_map_drawing *drawing; /* borrowed; NULL: nothing varies */
   cs_painter painter;
@@ -32,7 +32,7 @@ typedef struct cs_map_brush {
 /* Puts the stack of the drawing's map into its place: drawing->stack. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_brush_place(celspan_context *context,
                                                   cs_map_drawing *drawing);
-/* Frees what that has made. */
+/* Frees the stack that cs_map_brush_place has made. */
 void cs_map_brush_displace(cs_map_drawing *drawing, cs_memory *memory);
 
 /* Errors: NO_MEMORY; cs_map_brush_finish must be called then, too. */
@@ -40,7 +40,7 @@ CELSPAN_CHECKED celspan_status cs_map_brush_init(cs_map_brush *brush, celspan_co
                                                  const cs_map_drawing *drawing);
 void cs_map_brush_finish(cs_map_brush *brush);
 
-/* A colour under white light in that of the drawing. */
+/* Converts a colour under white light to the colour under the light of the drawing. */
 cs_v4 cs_map_brush_light(const cs_map_drawing *drawing, cs_v4 colour);
 /* Whether that changes no colour. */
 bool cs_map_brush_is_bare(const cs_map_drawing *drawing);

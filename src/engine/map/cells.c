@@ -14,7 +14,7 @@ void cs_map_cells_clear(cs_map_cells *cells) {
   cells->map->cell_count = cells->map->item_count = 0;
 }
 
-/* ---------------------------------------------------------------- what shows */
+/* ---------------------------------------------------------------- contents */
 
 static uint64_t mix(uint64_t word) { return cs_splitmix_next(&word); }
 

@@ -1,4 +1,4 @@
-/* The cells of a map that is being filled, found by what shows in them.
+/* The cells of a map that is being filled, found by their contents.
  *
  * Invariant: the map has a cell once, and its cells are numbered in the order in which they were
  * asked for first.
@@ -13,10 +13,10 @@ typedef struct cs_map_cells {
   size_t capacity;
 } cs_map_cells;
 
-/* What shows in a cell: a colour where length is 0. */
+/* The contents of a cell: a colour where length is 0, otherwise a program. */
 typedef struct cs_map_content {
   cs_v4 colour;
-  cs_v4 through; /* of a coloured map, of a colour: what it lets through; else 0 */
+  cs_v4 through; /* of a colour in a coloured map: the light that it lets through; else 0 */
   const cs_item *items;
   uint32_t length;
 } cs_map_content;
@@ -24,8 +24,8 @@ typedef struct cs_map_content {
 void cs_map_cells_finish(cs_map_cells *cells, cs_memory *memory);
 /* Empties the map's list of cells. */
 void cs_map_cells_clear(cs_map_cells *cells);
-/* The number of the cell of what shows there, which is appended to the map if it is new. Where
- * there are too many the map is not whole. Errors: NO_MEMORY. */
+/* The number of the cell with these contents, which is appended to the map if it is new. If there
+ * are too many cells the map is not whole. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_cells_find(celspan_context *context, cs_map_cells *cells,
                                                  cs_map_content what, uint32_t *out);
 

@@ -34,8 +34,8 @@ static celspan_status add_piece(celspan_context *context, cs_map_exact *exact,
   return append(context, exact, &piece);
 }
 
-/* Cuts a line where it enters or leaves the pixel sideways. What is right of the pixel is left out;
- * what is left of it is moved to its left edge. */
+/* Cuts a line where it enters or leaves the pixel sideways. The part right of the pixel is left
+ * out; the part left of it is moved to its left edge. */
 static celspan_status add_line(celspan_context *context, cs_map_exact *exact,
                                const cs_map_line *line) {
   const cs_segment *at = &line->at;
@@ -63,8 +63,8 @@ typedef struct spot {
   int32_t left, right, top, foot; /* in places */
 } spot;
 
-/* Makes a line that of two places, as far as it is in the row, from the pixel's corner; false: it
- * does not count. */
+/* Sets a line to the line between two places, cut to the row and relative to the pixel's corner;
+ * false: it does not count. */
 static bool cut_to_row(cs_segment *line, cs_map_point above, cs_map_point below, const spot *at) {
   const double unit = 1.0 / CS_MAP_UNIT;
   if (below.y <= at->top || below.y == above.y || (above.x < at->left && below.x < at->left) ||
@@ -140,12 +140,12 @@ celspan_status cs_map_exact_add(celspan_context *context, cs_map_exact *exact, c
 
 /* ---------------------------------------------------------------- two drawings */
 
-/* What a pixel has right of a line. */
+/* The area of a pixel right of a line. */
 static double area_of(const cs_segment *line) {
   return (line->yb - line->ya) * cs_cover_within(line->xa, line->xb, 1);
 }
 
-/* What it has right of both of two lines. */
+/* The area of the pixel that lies right of both lines. */
 static double overlap_of(const cs_segment *k, const cs_segment *l) {
   double top = k->ya > l->ya ? k->ya : l->ya, foot = k->yb < l->yb ? k->yb : l->yb;
   double height = foot - top;
@@ -161,13 +161,13 @@ static double overlap_of(const cs_segment *k, const cs_segment *l) {
   return height * cs_cover_within(part * (a + x), (1 - part) * (x + b), 1);
 }
 
-/* How what the near drawing lets through and what the far one shows and lets through change
+/* How the transmission of the near drawing and the light and transmission of the far one change
  * together. */
 typedef struct change {
   cs_v4 colour, through;
 } change;
 
-/* Of drawings that dim all channels alike, whose lines need one product each. */
+/* For drawings that dim all channels alike: their lines need one product each. */
 static change even_change(const cs_map_exact *exact, uint32_t near) {
   cs_v4d sum = {{0, 0}, {0, 0}};
   for (size_t i = 0; i < exact->line_count; i++) {
@@ -185,7 +185,7 @@ static change even_change(const cs_map_exact *exact, uint32_t near) {
   return (change){-all, cs_v4_all(all[3])};
 }
 
-/* Of any drawings. */
+/* For any drawings. */
 static change coloured_change(const cs_map_exact *exact, uint32_t near) {
   cs_v4d colour = {{0, 0}, {0, 0}}, through = colour;
   for (size_t i = 0; i < exact->line_count; i++) {
@@ -213,7 +213,7 @@ cs_v4 cs_map_exact_pair(cs_map_exact *exact, const cs_map_frame *frame, const cs
   const change joint = exact->is_coloured ? coloured_change(exact, near) : even_change(exact, near);
   cs_map_exact_clear(exact);
   cs_map_fold all = cs_map_fold_begin, behind = cs_map_fold_begin;
-  cs_v4 before = cs_v4_all(1); /* what comes through the others in front of the far one */
+  cs_v4 before = cs_v4_all(1); /* the transmission of the other drawings in front of the far one */
   for (size_t i = 0; i < count; i++) {
     const cs_map_shown *s = &shown[i];
     cs_map_fold_add(&all, s->sheet, s->colour, s->through);
@@ -297,7 +297,7 @@ static cs_v4 fold(const cs_map_frame *frame, const cs_map_shown *shown, size_t c
   return cs_map_fold_end(all, frame);
 }
 
-/* What a drawing shows right of a line. */
+/* The colour of a drawing right of a line. */
 static void cross(cs_map_shown *shown, const cs_map_line *line) {
   shown->colour += line->step;
   shown->through =

@@ -7,8 +7,9 @@
  *     y1  +----------/--\---+
  *
  * Where two drawings are broken, they need not be cut: a fold is linear in each of its layers, so
- * the mean is the fold of the means, corrected by how the lines of the two lie to each other. For
- * lines k and l that is the area right of both, less the product of the areas right of each:
+ * the mean is the fold of the means, corrected by the relation between the lines of the two. For
+ * lines k and l the correction is the area right of both, less the product of the areas right of
+ * each:
  *
  *     +--------\--/-----+
  *     |   k     \/  l   |     #: right of both
@@ -16,7 +17,7 @@
  *     +--------/--\#####+
  *
  * Invariant: the mean is exact except for rounding, unless more than CS_MAP_EXACT_LINES lines meet:
- * then it is that of as many heights, spaced evenly.
+ * then it is the mean of CS_MAP_EXACT_LINES heights, spaced evenly.
  */
 #pragma once
 
@@ -26,11 +27,12 @@
 
 #define CS_MAP_EXACT_LINES 48
 
-/* What changes at a piece of a border in the pixel: x and y from its upper left corner. */
+/* The change at a piece of a border in the pixel. x and y count from the pixel's upper left
+ * corner. */
 typedef struct cs_map_line {
   cs_segment at;
   cs_v4 step;     /* right less left */
-  cs_v4 through;  /* the same of what is let through */
+  cs_v4 through;  /* the same for the light let through */
   uint32_t sheet; /* of the list */
 } cs_map_line;
 
@@ -61,12 +63,12 @@ static inline void cs_map_exact_clear(cs_map_exact *exact) {
 CELSPAN_CHECKED celspan_status cs_map_exact_add(celspan_context *context, cs_map_exact *exact,
                                                 cs_map_rows *rows, uint32_t index, int32_t from,
                                                 int32_t column, int32_t row);
-/* The mean where two drawings are broken, those of the lines that have been added, which are
- * removed. Of all that are shown the means are given. */
+/* The mean where two drawings are broken, whose lines have been added; the lines are then removed.
+ * The means of all drawings that are shown are given. */
 cs_v4 cs_map_exact_pair(cs_map_exact *exact, const cs_map_frame *frame, const cs_map_shown *shown,
                         size_t count);
-/* The mean, of what is shown from the camera, with the lines that have been added, which are
- * removed. opaque: nothing shines through the last one. Errors: NO_MEMORY. */
+/* The mean of all that is shown, from the camera on, with the lines that have been added; the lines
+ * are then removed. opaque: nothing shines through the last one. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_exact_mean(celspan_context *context, cs_map_exact *exact,
                                                  const cs_map_frame *frame,
                                                  const cs_map_shown *shown, size_t count,

@@ -2,7 +2,7 @@
 
 #include "base/sort.h"
 
-/* The end of a border: right of it, what is `minus` above is `plus` below. */
+/* The end of a border: right of it, the cell is `minus` above and `plus` below. */
 typedef struct change {
   cs_map_point at;
   uint32_t minus, plus, number;
@@ -35,7 +35,7 @@ static void list_changes(const cs_map_lines *lines, change *out) {
   }
 }
 
-/* Joins a change to those before it: from A to B and from B to C is from A to C. */
+/* Joins a change to the changes before it: A to B and B to C become A to C. */
 static celspan_status join(finder *f, change next) {
   for (size_t i = 0; i < f->pair_count && next.minus != next.plus;) {
     if (f->pairs[i].plus == next.minus)

@@ -1,4 +1,4 @@
-/* The flat boundaries of a map, which its rows do not need: what lies between the ends of borders.
+/* The flat boundaries of a map, which its rows do not need: they lie between the ends of borders.
  *
  *            above
  *       A  /  A    \  B        at one height, from left to right: what changes from above to below

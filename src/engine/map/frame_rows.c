@@ -90,7 +90,7 @@ typedef struct folding {
   cs_map_maker *maker;
   int32_t y;
   const cs_map_span *at[CS_MAP_DRAWINGS]; /* the span of each sheet */
-  cs_map_shown shown[CS_MAP_DRAWINGS];    /* what can be shown at x, from the camera */
+  cs_map_shown shown[CS_MAP_DRAWINGS];    /* drawings that may be visible at x, from the camera */
   size_t shown_count, broken_count, varied_count;
 } folding;
 
@@ -105,15 +105,15 @@ static bool hides(const cs_map_drawing *drawing, const cs_map_span *span) {
          drawing->light[3] == 1;
 }
 
-/* What a span of a sheet lets through. */
+/* The transmission of a span of a sheet. */
 static inline cs_v4 through_of(const folding *f, size_t i, const cs_map_span *span) {
   const cs_map_rows *rows = &f->maker->rows[i];
   return rows->drawing->through ? rows->through[span - rows->spans] : cs_map_even(span->colour);
 }
 
 /* Folds `count` sheets at a column, up to the first one that nothing shines through. *end: gets the
- * end of the columns where they are the same. What varies is left out of the fold. varies: whether
- * anything does, or is coloured: a constant of each caller. */
+ * end of the columns where the sheets stay the same. Cells that vary are left out of the fold.
+ * varies: whether any cell varies or is coloured: a constant of each caller. */
 static inline cs_map_fold fold_sheets(folding *f, int32_t x, size_t count, int32_t *end,
                                       bool varies) {
   const cs_map_frame *frame = f->maker->frame;
@@ -139,15 +139,15 @@ static inline cs_map_fold fold_sheets(folding *f, int32_t x, size_t count, int32
   return fold;
 }
 
-/* Lists what can be shown, after a fold. */
+/* Lists the drawings that may be visible, after a fold. */
 static void list_shown(folding *f) {
   for (size_t i = 0; i < f->shown_count; i++)
     f->shown[i] =
         (cs_map_shown){&f->maker->frame->sheets[i], f->at[i]->colour, through_of(f, i, f->at[i])};
 }
 
-/* What a sheet that varies lets through in the pixels of its span where its alpha is 0: what varies
- * dims all channels alike, by its alpha. */
+/* The transmission of a varying sheet in the pixels of its span where its alpha is 0: a cell that
+ * varies dims all channels alike, by its alpha. */
 static cs_v4 clear_of(const folding *f, size_t i) {
   const cs_map_rows *rows = &f->maker->rows[i];
   const cs_map_span *span = f->at[i];
@@ -184,7 +184,7 @@ static const cs_map_span *find_broken(const folding *f, size_t i) {
   return span;
 }
 
-/* What a sheet shows left of what is broken, at x. */
+/* What a sheet shows at x, left of the broken pixels. */
 static celspan_status find_base(folding *f, size_t i, int32_t x, cs_map_shown *out) {
   const cs_map_rows *rows = &f->maker->rows[i];
   const cs_map_span *first = rows->spans + rows->first[f->y - f->maker->row];
@@ -236,7 +236,7 @@ static bool is_rearmost(const folding *f, const cs_map_fold *fold) {
   return !has_backing || hides(f->maker->rows[last].drawing, f->at[last]);
 }
 
-/* Whether only one cell can be seen, as it is. */
+/* Whether only one cell is visible, with nothing in front of it. */
 static bool is_bare(const folding *f, const cs_map_fold *fold) {
   size_t last = f->shown_count - 1;
   const cs_map_span *span = f->at[last];
@@ -254,13 +254,13 @@ static celspan_status paint_run(folding *f, size_t i, int32_t x, int32_t end, cs
 
 /* ---------------------------------------------------------------- one that varies among flats */
 
-/* What a pixel shows is then an affine function of the colour c of the sheet that varies:
- * base + scale * c + cover * the alpha of c. */
+/* The colour of a pixel is then an affine function of the colour c of the sheet that varies: base +
+ * scale * c + cover * the alpha of c. */
 typedef struct affine {
   cs_v4 base, scale, cover;
 } affine;
 
-/* What shows where the sheet that varies has this colour. */
+/* The colour of the frame where the sheet that varies has this colour. */
 static cs_v4 fold_with(const folding *f, size_t varied, cs_v4 colour) {
   cs_map_fold fold = cs_map_fold_begin;
   for (size_t i = 0; i < f->shown_count; i++)
@@ -311,8 +311,8 @@ static celspan_status put_through(const cs_map_maker *maker, const affine *p,
                          slope_through(p, cs_v4_load(span->slope)));
 }
 
-/* Which sheet varies, where it is the only one and flat ones alone are before and behind it; the
- * number of sheets: none. */
+/* The number of the only sheet that varies, if all sheets before and behind it are flat; otherwise
+ * the number of sheets. */
 static size_t only_varied(const folding *f) {
   size_t i = 0;
   while (f->at[i]->share_count == 0)
@@ -321,8 +321,8 @@ static size_t only_varied(const folding *f) {
   return is_one && !f->maker->rows[i].drawing->grade ? i : f->shown_count;
 }
 
-/* Whether spans seen among flat ones are no farther from their curve than twice what they are by
- * themselves: they were made with half the error that they may have. */
+/* Whether spans that are seen among flat ones deviate from their curve by at most twice their own
+ * error: they were made with half the allowed error. */
 static bool keeps_error(const affine *p) {
   return !cs_v4_any_above(p->scale, cs_v4_all(1)) && !cs_v4_any_above(p->base, cs_v4_all(1));
 }
@@ -383,12 +383,12 @@ static celspan_status paint_varied(folding *f, const cs_map_fold *fold, int32_t 
   return CELSPAN_OK;
 }
 
-/* Writes the columns [x, end), in which all sheets but the last are the same, whose fold is
- * `near`. */
+/* Writes the columns [x, end), in which all sheets except the last stay the same. `near` is the
+ * fold of these sheets. */
 static celspan_status fold_last(folding *f, cs_map_fold near, int32_t x, int32_t end,
                                 cs_row_writer *writer) {
   const size_t last = f->maker->frame->count - 1, near_count = f->broken_count;
-  /* Copies, so that what does not depend on the last sheet's colour is computed once. */
+  /* Copies, so that the part that does not depend on the last sheet's colour is computed once. */
   const cs_map_sheet sheet = {.back = f->maker->frame->sheets[last].back,
                               .keep = f->maker->frame->sheets[last].keep};
   const cs_map_frame frame = {.back = f->maker->frame->back, .keep = f->maker->frame->keep};
@@ -470,7 +470,7 @@ static celspan_status make_swath(cs_map_maker *maker, int32_t row) {
   for (size_t i = 0; i < maker->frame->count; i++) {
     if (maker->frame->sheets[i].plan) {
       CS_TRY(cs_map_swept_sweep(&maker->swept[i], row));
-      maker->rows[i].row = -1; /* its borders are others */
+      maker->rows[i].row = -1; /* because its borders are new */
     }
     CS_TRY(cs_map_rows_make(maker->context, &maker->sums, &maker->rows[i], row));
   }

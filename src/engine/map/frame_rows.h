@@ -1,4 +1,4 @@
-/* The rows of a frame of drawings: what one thread needs to make them. */
+/* The state of one thread that makes the rows of a frame of drawings. */
 #pragma once
 
 #include "engine/map/exact.h"
@@ -10,7 +10,7 @@ typedef struct cs_map_maker {
   cs_map_sums sums;
   cs_map_rows *rows;     /* one for each sheet */
   cs_map_brush *brushes; /* one for each sheet */
-  cs_map_swept *swept;   /* one for each sheet, used by those that are swept */
+  cs_map_swept *swept;   /* one for each sheet, used by the swept sheets */
   int32_t row;           /* the first of the swath that `rows` has; -1: they have none */
   cs_map_exact exact;
   cs_row painted; /* a run of the only sheet that varies */

@@ -14,8 +14,8 @@
 /* Fills an empty map. */
 typedef celspan_status (*cs_map_keep_maker)(void *user, celspan_context *context, cs_map *map);
 
-/* What becomes of a map that was made: it goes with its frame, or is kept if there is room, or
- * others go to make room for it. */
+/* What is done with a new map: it is dropped with its frame, or kept if there is room, or kept in
+ * place of other maps. */
 typedef enum cs_map_keeping {
   CS_MAP_KEEP_NOT,
   CS_MAP_KEEP_BESIDE,

@@ -1,6 +1,6 @@
-/* Making a map: the boundaries of a plan are swept by events (engine/events/events.h), what shows
- * is composed once for each of the windings, and the parts that can be seen (engine/events/visit.h)
- * become borders.
+/* Making a map: the boundaries of a plan are swept by events (engine/events/events.h), the cells
+ * are composed once for each of the windings, and the visible parts (engine/events/visit.h) become
+ * borders.
  *
  *   windings   0 --A+-- 1 --B+-- 2    they are visited from the first one along their tree: each
  *               `--B+-- 3             is found by crossing one boundary
@@ -40,7 +40,7 @@ void cs_map_ref(cs_map *map) {
 
 static void keep_texture(celspan_texture *texture) { (void)celspan_texture_ref(texture); }
 
-/* The textures of what varies, of which the map has references. */
+/* The textures of the varying cells. The map has a reference to each. */
 static void change_references(const cs_stack *stack, void (*change)(celspan_texture *texture)) {
   for (size_t i = 0; i < stack->shade_count; i++)
     change((celspan_texture *)stack->shades[i].texture);
@@ -116,7 +116,7 @@ static celspan_status find_cell(void *user, cs_composer *composer, const cs_cell
   return map->is_whole ? cs_map_cells_find(m->context, &m->cells, what, out) : CELSPAN_OK;
 }
 
-/* Cell 0 is there whatever is found. */
+/* Cell 0 always exists. */
 static celspan_status add_clear(maker *m) {
   uint32_t clear;
   const cs_map_content nothing = {.through = cs_v4_all(m->map->is_coloured ? 1 : 0)};
@@ -133,8 +133,8 @@ static int32_t unit_at(const cs_course_point *from, int32_t y) {
   return (int32_t)floor(cs_course_x(from, y) + 0.5);
 }
 
-/* Adds what a part has between two heights as a border; there is room for it. from: a point of
- * its course above them. */
+/* Adds the part of a course between two heights as a border, for which there is room. from: a point
+ * of its course above both heights. */
 static void add_border(maker *m, const cs_events_part *part, int32_t top, int32_t foot,
                        const cs_course_point **from) {
   cs_map_lines *lines = &m->map->lines;
@@ -163,7 +163,7 @@ static void add_part(maker *m, const cs_events_part *part) {
   }
 }
 
-/* Makes room for the borders of parts, of which each has a point of its course only once. */
+/* Makes room for the borders of parts. Each border contains a point of its course only once. */
 static celspan_status reserve_borders(maker *m) {
   const cs_events *events = &m->events;
   cs_map_lines *lines = &m->map->lines;
@@ -193,7 +193,7 @@ static celspan_status add_borders(maker *m) {
   return status;
 }
 
-/* Takes over what the programs name. */
+/* Takes ownership of everything that the programs name. */
 static void take_stack(cs_map *map, cs_stack *stack) {
   cs_map_cells_find_hiding(map, stack);
   map->stack = *stack;

@@ -22,8 +22,8 @@
  * Units: a raster of the drawing at a scale of its own, in 2^-16 of its pixels. The raster begins
  * at a whole pixel, so that equal boundaries of two drawings at one scale have equal points.
  *
- * Invariant: at any height, the borders that cross it lead from cell 0 to cell 0, each beginning
- * with the cell with which the one before it has ended.
+ * Invariant: at any height, the borders that cross it lead from cell 0 to cell 0, each with the
+ * cell on its left that the border before it has on its right.
  */
 #pragma once
 
@@ -74,7 +74,8 @@ typedef struct cs_map_flat {
 typedef struct cs_map {
   atomic_size_t references;
   cs_memory *memory;
-  bool is_coloured;     /* some cell does not let all channels through alike; those that vary do */
+  bool is_coloured;     /* some flat cell does not let all channels through alike; cells that vary
+                           always do */
   bool is_whole;        /* false: the drawing cannot be a map, and there is nothing else */
   int64_t left, top;    /* where the raster begins, in its pixels from the drawing's origin */
   int32_t height, zone; /* of the raster, and of a zone: pixels */
@@ -82,7 +83,8 @@ typedef struct cs_map {
   cs_map_lines lines;
   cs_map_flat *flats; /* only of a map that is turned */
   cs_map_cell *cells;
-  /* Coloured: what each cell lets through; lane 3: the mean. 0 where it varies. Else NULL. */
+  /* Of a coloured map: the transmission of each cell; lane 3: its mean; 0 where the cell varies.
+   * NULL for other maps. */
   cs_v4 *through;
   cs_item *items; /* of the programs */
   cs_stack stack; /* that they name; none where all cells are flat */
@@ -95,8 +97,8 @@ void cs_map_lines_finish(cs_map_lines *lines, cs_memory *memory);
 /* The border whose points are the last ones, from `first` on; it is not added to the list. */
 cs_map_border cs_map_lines_border(const cs_map_lines *lines, size_t first, uint32_t left,
                                   uint32_t right);
-/* Brings the borders into their order: by the y of their first points, then by x; those that begin
- * at one point keep their order. Errors: NO_MEMORY. */
+/* Brings the borders into their order: by the y of their first points, then by x; borders that
+ * begin at one point keep their order. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_lines_sort(celspan_context *context, cs_map_lines *lines);
 
 /* An empty map that is not whole. Errors: NO_MEMORY. */
@@ -107,8 +109,8 @@ size_t cs_map_bytes(const cs_map *map);
 /* Whether a plan of a drawing alone can be a map: it has no procedures, lights or blurs. */
 bool cs_map_suits(const cs_plan *plan);
 /* Fills a map with a plan that suits, whose raster begins at the pixel (map->left, map->top). The
- * map is not whole where one that varies does not let all channels through alike. Where cells vary
- * it takes over the plan's stack. first, end: the rows for which it is made, of whole zones; the
+ * map is not whole if a cell that varies does not let all channels through alike. If cells vary,
+ * the map takes the plan's stack. first, end: the rows for which it is made, of whole zones; the
  * plan may have these alone. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_make(celspan_context *context, cs_plan *plan, int32_t first,
                                            int32_t end, cs_map *map);

@@ -19,7 +19,8 @@
 /* Finds the bits of the rows' swath, unless they are known. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_near_find(celspan_context *context, cs_map_rows *rows);
 
-/* Those of 64 borders, from 64 * word on, that are near the columns [first, last]. */
+/* A bit for each of the 64 borders from 64 * word on: whether it is near the columns [first,
+ * last]. */
 static inline uint64_t cs_map_near_word(const cs_map_rows *rows, size_t word, int32_t first,
                                         int32_t last) {
   uint64_t bits = 0;

@@ -14,8 +14,8 @@
 CS_WIDE_DECLARE(CELSPAN_CHECKED celspan_status, cs_map_read,
                 (celspan_context * context, cs_map_sums *sums, const cs_v4 *colours,
                  cs_map_rows *rows));
-/* The row k of the swath, as that of a frame of this sheet alone, in which nothing varies; its sums
- * are cleared. out: empty, with room for all columns. */
+/* Row k of the swath, as in a frame that shows only this sheet and in which nothing varies. The
+ * sums of the row are cleared. out: empty, with room for all columns. */
 CS_WIDE_DECLARE(void, cs_map_read_alone,
                 (const cs_map_sums *sums, const cs_map_rows *rows, const cs_map_frame *frame,
                  size_t k, cs_row *out));

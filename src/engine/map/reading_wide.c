@@ -9,8 +9,8 @@ typedef struct pixel {
   const cs_map_cell *cells;
   const cs_v4 *colours; /* of the cells */
   size_t cell_count;
-  cs_v4 sum;     /* of what has been added so far: its colour */
-  uint64_t key;  /* the same of keys, times HEIGHT */
+  cs_v4 sum;     /* the colour summed so far */
+  uint64_t key;  /* the same sum for keys, times HEIGHT */
   uint32_t cell; /* BROKEN: several are in it */
 } pixel;
 
@@ -32,7 +32,7 @@ static inline uint32_t cell_of(const pixel *p) {
              : CS_MAP_BROKEN;
 }
 
-/* Adds what a pixel has more than the one on its left, and clears it. */
+/* Adds the difference between a pixel and the pixel on its left to the sum, and clears it. */
 static inline void change(pixel *p, cs_map_sum *sum) {
   p->sum += cs_v4_load(sum->colour);
   p->key += sum->key;
@@ -135,7 +135,7 @@ static celspan_status add_area(reader *r, const cs_map_part *part) {
   return CELSPAN_OK;
 }
 
-/* Changes the areas by the parts of a pixel, and drops those that are 0 then. */
+/* Changes the areas by the parts of a pixel, and drops areas that become 0. */
 static celspan_status change_areas(reader *r, const cs_map_sums *sums, uint32_t head) {
   cs_map_rows *rows = r->rows;
   size_t kept = 0;
@@ -148,7 +148,7 @@ static celspan_status change_areas(reader *r, const cs_map_sums *sums, uint32_t 
   return CELSPAN_OK;
 }
 
-/* Gives the last span what varies in it. */
+/* Gives the last span the shares of the cells that vary in it. */
 static celspan_status add_shares(reader *r) {
   cs_map_rows *rows = r->rows;
   cs_map_span *span = r->last;

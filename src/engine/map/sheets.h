@@ -24,9 +24,9 @@
 typedef struct cs_map_sheet {
   cs_map_drawing drawing; /* of a map; else 0 */
   cs_plan *plan;          /* of cels that are swept; NULL: it is drawn from a map. Owned */
-  size_t source_count;    /* what it was made from: for the caller */
+  size_t source_count;    /* the number of cels that it was made from, for the caller */
   cs_v4 back;             /* the light behind it; lane 3 is 0 */
-  float keep;             /* what the matte of that light leaves of transparency */
+  float keep;             /* the share of transparency that the matte of that light leaves */
 } cs_map_sheet;
 
 typedef struct cs_map_frame {
@@ -39,8 +39,8 @@ typedef struct cs_map_frame {
   int32_t width, height;
 } cs_map_frame;
 
-/* What light has come through so far, from the camera: lane 3 of e has no meaning, and that of t
- * none but where all sheets are even. */
+/* The light gathered so far, from the camera. Lane 3 of e has no meaning; lane 3 of t has a meaning
+ * only where all sheets are even. */
 typedef struct cs_map_fold {
   cs_v4 e, t;
   float keep;
@@ -48,10 +48,10 @@ typedef struct cs_map_fold {
 
 static const cs_map_fold cs_map_fold_begin = {{0, 0, 0, 0}, {1, 1, 1, 1}, 1};
 
-/* What a colour lets through that dims all channels alike. */
+/* The transmission of a colour that dims all channels alike. */
 static inline cs_v4 cs_map_even(cs_v4 colour) { return cs_v4_all(1 - colour[3]); }
 
-/* What a cell of a drawing lets through where it shows this colour. */
+/* The transmission of a cell of a drawing where it shows this colour. */
 static inline cs_v4 cs_map_through(const cs_map_drawing *drawing, uint32_t cell, cs_v4 colour) {
   return drawing->through && drawing->map->cells[cell].length == 0 ? drawing->through[cell]
                                                                    : cs_map_even(colour);
@@ -65,7 +65,7 @@ static inline void cs_map_fold_add(cs_map_fold *fold, const cs_map_sheet *sheet,
   fold->keep *= sheet->keep;
 }
 
-/* t: the mean of what comes through. */
+/* t: the mean transmission. */
 static inline cs_v4 cs_map_fold_end_with(cs_map_fold fold, float t, const cs_map_frame *frame) {
   cs_v4 colour = fold.e + fold.t * frame->back;
   colour[3] = 1 - fold.keep * frame->keep * t;

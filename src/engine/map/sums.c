@@ -11,7 +11,7 @@ static size_t sums_size(const cs_map_sums *sums) {
 
 static size_t storage_size(const cs_map_sums *sums) { return CS_WIDE_LINE + sums_size(sums); }
 
-/* One word more than the rows have: bits are marked four bytes at a time. */
+/* One word more than the rows need: bits are marked four bytes at a time. */
 static size_t bit_words(const cs_map_sums *sums) { return CS_MAP_ROWS * sums->words + 1; }
 
 celspan_status cs_map_sums_init(celspan_context *context, int32_t width, cs_map_sums *out) {
@@ -89,7 +89,7 @@ static void put_places(const swath *s, const cs_map_point *points, size_t count,
   CS_WIDE_CHOOSE(s->sums->isa, cs_map_put_places)(&s->placing, points, count, out);
 }
 
-/* The first of a live border's lines that is in the swath, of those from a place on. */
+/* The first line of a live border, from a place on, that is in the swath. */
 static uint32_t find_place(const swath *s, const cs_map_live *live, uint32_t from) {
   const cs_map_point *places = s->rows->places;
   uint32_t low = from, high = live->end;
@@ -133,20 +133,20 @@ static void drop_lives(const swath *s) {
     pack_places(rows);
 }
 
-/* What a border changes of the cells' colours from its left to its right. */
+/* The difference of the cells' colours from the left to the right of a border. */
 static void find_step(const cs_v4 *colours, const cs_map_border *f, cs_map_live *live) {
   cs_v4_store(live->step, (colours[f->right] - colours[f->left]) * (1.0f / CS_MAP_HEIGHT));
 }
 
-/* The same of keys, and whether a cell beside it varies. */
+/* The same for keys, and whether a cell beside it varies. */
 static void find_change(const cs_map_drawing *drawing, const cs_map_border *f, cs_map_live *live) {
   const cs_map_cell *left = &drawing->map->cells[f->left], *right = &drawing->map->cells[f->right];
   live->varies = left->length > 0 || right->length > 0;
   live->key = right->key - left->key;
 }
 
-/* The places of a border are appended to the others. box: its lowest and its highest place. Of one
- * left of the frame the heights alone count. */
+/* The places of a border are appended to the others. box: its lowest and its highest place. Of a
+ * border left of the frame only the heights count. */
 static celspan_status add_live(const swath *s, uint32_t number, const cs_map_point *box) {
   cs_map_rows *rows = s->rows;
   const cs_map_lines *lines = s->drawing->lines;
@@ -190,7 +190,7 @@ static celspan_status add_lives(const swath *s) {
   return CELSPAN_OK;
 }
 
-/* Goes back to the first border, or keeps those that cross the swath above. */
+/* Goes back to the first border, or keeps the borders that cross the swath above. */
 static void go_to(const swath *s) {
   cs_map_rows *rows = s->rows;
   if (rows->row < 0 || s->row < rows->row)
@@ -238,8 +238,8 @@ static void find_steps(const swath *s, const cs_v4 *colours) {
   }
 }
 
-/* What the spans let through: they are made as those of colours are, and since keys alone say where
- * a span ends, they are the same. */
+/* The transmission of the spans: these spans are made like the spans of colours, and end at the
+ * same columns, because only keys decide where a span ends. */
 static celspan_status make_through(const swath *s) {
   cs_map_rows *rows = s->rows;
   find_steps(s, s->drawing->through);

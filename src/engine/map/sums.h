@@ -1,4 +1,4 @@
-/* Rows of one map: sums of what its borders change.
+/* Rows of one map: sums of the changes at its borders.
  *
  *      border             pixel p           p + 1
  *                   +-----------/-----+-----------------+     right of a border the colour changes
@@ -17,9 +17,9 @@
  * that of the cell to the bit, and nothing of the sum so far is carried on. A pixel in which there
  * is more than one cell is broken.
  *
- * Cells that vary are clear in these sums. Their areas are summed cell by cell instead, and what
- * shows of them is painted where it can be seen (brush.h): as a share of the cell's own colour in
- * that pixel, so that nothing leaks between a gradient and its neighbour.
+ * Cells that vary are clear in these sums. Their areas are summed cell by cell instead, and their
+ * visible parts are painted (brush.h): as a share of the cell's own colour in that pixel, so that
+ * nothing leaks between a gradient and its neighbour.
  *
  * Invariant: the rows are a function of the drawing and their numbers: borders are added in the
  * order that the map has, whichever rows were made before.
@@ -36,7 +36,7 @@ void cs_map_rows_finish(cs_map_rows *rows, cs_memory *memory);
 /* Makes the rows of the swath that begins with `row`. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_rows_make(celspan_context *context, cs_map_sums *sums,
                                                 cs_map_rows *rows, int32_t row);
-/* Leaves the rows as sums, to be read one by one; those that are not are cleared with the next
+/* Leaves the rows as sums, to be read one by one; rows that nobody reads are cleared with the next
  * swath. Nothing in the drawing varies. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_rows_sum(celspan_context *context, cs_map_sums *sums,
                                                cs_map_rows *rows, int32_t row);

@@ -1,5 +1,5 @@
-/* What the rows of a swath are made from: a map in its place in a frame, the borders of it that
- * cross the swath, and what they add to its pixels.
+/* The sources of the rows of a swath: a map in its place in a frame, its borders that cross the
+ * swath, and the values that they add to the pixels.
  *
  *   row 8 k      +--+--+--+--+--+--+     a swath: the rows that are summed together
  *   ...          |  |\ |  |  |  |  |
@@ -23,22 +23,22 @@ static inline int32_t cs_map_swath(int32_t row) { return row - row % CS_MAP_ROWS
 /* A map in its place in a frame. */
 typedef struct cs_map_drawing {
   cs_map *map;               /* a reference */
-  const cs_map_lines *lines; /* those of the map, or turned ones */
+  const cs_map_lines *lines; /* the lines of the map, or turned copies */
   cs_map_lines turned;       /* owned; empty where the frame shows the map upright */
-  /* Units of the lines to pixels: those of the map from the drawing's origin, which is at -left,
-   * -top. Both scales are above 0. */
+  /* From units of the lines to pixels of the map, counted from the drawing's origin, which is at
+   * -left, -top. Both scales are above 0. */
   double scale_x, shift_x, scale_y, shift_y;
   int64_t left, top;
-  celspan_matrix to_raster; /* from pixels to those of the map's raster */
+  celspan_matrix to_raster; /* from pixels to pixels of the map's raster */
   cs_v4 light;              /* that falls on it; lane 3: how opaque it is */
   const cs_grade *grade;    /* NULL: none. Borrowed from the scene */
   celspan_space space;
   cs_v4 *colours; /* of its cells, in the frame's light; 0 where they vary; owned */
-  /* Coloured: what the cells let through, faded; lane 3: the mean; 0 where they vary. Else NULL.
-   * Owned. */
+  /* Of a coloured map: the light that each cell lets through, faded; lane 3: the mean of it; 0
+   * where the cell varies. NULL for other maps. Owned. */
   cs_v4 *through;
-  cs_stack stack; /* that of the map, on the pixels of the frame: shades and images are owned, the
-                     rest is the map's */
+  cs_stack stack; /* the stack of the map, on the pixels of the frame: shades and images are owned,
+                     the rest belongs to the map */
 } cs_map_drawing;
 
 /* How much of a pixel is in a cell that varies. */
@@ -49,14 +49,14 @@ typedef struct cs_map_share {
 
 /* Neighbouring pixels of one colour, from the end of the span before. */
 typedef struct cs_map_span {
-  cs_v4 colour; /* of what does not vary */
+  cs_v4 colour; /* of the cells that do not vary */
   int32_t end;
   uint32_t cell;               /* BROKEN: several */
-  uint32_t share, share_count; /* of the rows: what varies */
+  uint32_t share, share_count; /* in the shares of the rows: the cells that vary */
 } cs_map_span;
 
-/* A border that crosses the swath. Its points from the one that begins its first line there are in
- * `places` of the rows, from `at` on to before `end`. */
+/* A border that crosses the swath. Its points, beginning with the first point of its first line in
+ * the swath, are in `places` of the rows, from `at` to before `end`. */
 typedef struct cs_map_live {
   uint32_t border, at, end;
   uint32_t next;           /* as `at`, for the swath below */
@@ -81,10 +81,12 @@ typedef struct cs_map_rows {
   cs_map_live *lives;            /* in the order of the map */
   cs_map_point *places;          /* of their points on the frame, in UNITths of a pixel */
   cs_map_span *spans;
-  cs_v4 *through;                /* of a coloured drawing: what is flat in each span lets through */
-  size_t first[CS_MAP_ROWS + 1]; /* spans of each row, and the end of those of the last */
+  cs_v4 *through;                /* of a coloured drawing: the light that the flat part of each span
+                                    lets through */
+  size_t first[CS_MAP_ROWS + 1]; /* the first span of each row, and the end of the last row's
+                                    spans */
   cs_map_share *shares;
-  cs_map_area *areas; /* of the pixel being read, those that are not 0 */
+  cs_map_area *areas; /* of the pixel being read, areas other than 0 */
   size_t live_count, live_capacity, place_count, place_capacity, span_count, span_capacity;
   int32_t width;  /* of the frame */
   uint64_t *near; /* near.h, where has_near */
@@ -93,7 +95,7 @@ typedef struct cs_map_rows {
   size_t share_count, share_capacity, area_count, area_capacity, through_capacity;
 } cs_map_rows;
 
-/* By how much a pixel exceeds the one on its left: half a line of the cache. */
+/* By how much a pixel exceeds the pixel on its left. Its size is half a line of the cache. */
 typedef struct cs_map_sum {
   float colour[4];
   uint64_t key;  /* the same, times HEIGHT, modulo 2^64 */
@@ -101,7 +103,7 @@ typedef struct cs_map_sum {
 } cs_map_sum;
 _Static_assert(sizeof(cs_map_sum) == 32, "two sums are a line of the cache");
 
-/* The same of the area of a cell that varies, in HEIGHTths. */
+/* The same for the area of a cell that varies, in units of 1 / HEIGHT. */
 typedef struct cs_map_part {
   int32_t change;
   uint32_t cell, next; /* next: 1 more than the next part of the pixel; 0: none */
@@ -116,7 +118,7 @@ typedef struct cs_map_sums {
   void *storage;    /* of the sums, which lie on lines of the cache */
   cs_map_sum *sums; /* column by column */
   uint64_t *bits;   /* row by row: the pixels to which something was added */
-  int32_t *columns; /* room for those of a row */
+  int32_t *columns; /* room for the columns of a row */
   uint32_t unread;  /* a bit for each row that is not cleared */
   cs_map_part *parts;
   size_t part_count, part_capacity;

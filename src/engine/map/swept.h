@@ -14,12 +14,12 @@
 #include "engine/map/sums.h"
 #include "engine/row/row.h"
 
-/* It must not be moved. */
+/* The structure must not be moved. */
 typedef struct cs_map_swept {
   const cs_plan *plan; /* borrowed; NULL: the sheet is drawn from a map */
   cs_row_maker maker;
   cs_retained_row retained;
-  cs_map map; /* of the swath; its stack is that of the drawing */
+  cs_map map; /* of the swath; it has the stack of the drawing */
   cs_map_cells cells;
   uint32_t *numbers;      /* in the map, of the cells of the retained row */
   cs_map_drawing drawing; /* the map on the frame's pixels */

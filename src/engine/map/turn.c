@@ -6,7 +6,7 @@
 
 typedef struct turner {
   celspan_context *context;
-  celspan_matrix matrix; /* units of the map to those of the frame's lines */
+  celspan_matrix matrix; /* from units of the map to units of the frame's lines */
   bool is_mirrored;
   int32_t end[2]; /* of the frame */
   cs_map_lines *out;
@@ -32,7 +32,7 @@ static celspan_status add_point(turner *t, cs_map_point point) {
   return CS_APPEND(t->context, out->points, out->point_count, out->point_capacity, point);
 }
 
-/* Ends a part that goes up or down, of the points from `first` on; those beyond the frame are
+/* Ends a part that goes up or down, with the points from `first` on; a part beyond the frame is
  * dropped. */
 static celspan_status end_part(turner *t, const course *c, bool goes_up, size_t first) {
   cs_map_lines *out = t->out;

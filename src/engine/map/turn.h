@@ -15,9 +15,9 @@
 #define CS_MAP_FARTHEST 32000
 
 /* The lines of a map that has its flat boundaries, in units of 2^-16 pixels, without those beyond a
- * frame of these sizes. matrix: pixels of the raster to those of the frame. *fits: false where
- * something of it would be too far away or behind the camera, and there are no lines then. Errors:
- * NO_MEMORY. */
+ * frame of these sizes. matrix: from pixels of the raster to pixels of the frame. *fits: false
+ * where something of it would be too far away or behind the camera, and there are no lines then.
+ * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_turn(celspan_context *context, const cs_map *map,
                                            const celspan_matrix *matrix, const int32_t size[2],
                                            bool *fits, cs_map_lines *out);

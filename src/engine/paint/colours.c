@@ -74,7 +74,7 @@ static celspan_status sample_picture(cs_painter *painter, const cs_layer *layer,
   return CELSPAN_OK;
 }
 
-/* The same of a picture with a medium of its own: its paints. */
+/* The same for a picture with a medium of its own: its two paints. */
 static celspan_status sample_media(cs_painter *painter, const cs_layer *layer,
                                    const cs_batch *batch, samples *out) {
   const cs_image_view *view;
@@ -90,7 +90,7 @@ static celspan_status sample_media(cs_painter *painter, const cs_layer *layer,
   return CELSPAN_OK;
 }
 
-/* The same, of pictures that are shown as they are. */
+/* The same for pictures that are shown unchanged. */
 static celspan_status sample_bare(cs_painter *painter, const cs_layer *layer, const cs_batch *batch,
                                   cs_samples *out) {
   const cs_image_view *view;
@@ -183,7 +183,8 @@ bool cs_painter_are_bare(const cs_painter *painter, const cs_program *program) {
   return bare;
 }
 
-/* Programs of pictures alone: each is sampled only where it shines through those in front. */
+/* Programs of pictures alone: each picture is sampled only where it shines through the pictures in
+ * front of it. */
 static celspan_status fold_bare(cs_painter *painter, const cs_program *program,
                                 const cs_batch *batch, cs_over_bare *out) {
   const cs_over_bare_range *shown = &out->shown;
@@ -247,8 +248,8 @@ celspan_status cs_painter_shown_colours(cs_painter *painter, const cs_program *p
   return CELSPAN_OK;
 }
 
-/* What shows in the strides from that of column x on: in all that a run meets, if the same is known
- * of each of them, else in one. *end: where they end. */
+/* Finds the visible items from run.x0 on: in as many strides of the run as show the same items, or
+ * in one stride where this is not known. *end: where they end. */
 static celspan_status find_shown(cs_painter *painter, const cs_program *program, int32_t stride,
                                  cs_run run, int32_t *end) {
   int32_t left = run.x0 / stride * stride;

@@ -20,7 +20,7 @@ CELSPAN_CHECKED celspan_status cs_painter_program_colours(cs_painter *painter,
 
 /* ---- for the rest of the room */
 
-/* The same of a program of which all items show (shown.h). */
+/* The same for a program whose items all show (shown.h). */
 CELSPAN_CHECKED celspan_status cs_painter_shown_colours(cs_painter *painter,
                                                         const cs_program *program, cs_run run,
                                                         float (*rgba)[4]);
@@ -35,5 +35,6 @@ CELSPAN_CHECKED celspan_status cs_painter_batch_codes(cs_painter *painter,
 /* Whether an item shows the samples of its picture unchanged: not faded, lit white, in no group,
  * and in front of every back light. */
 bool cs_painter_is_bare(const cs_painter *painter, cs_item item);
-/* Whether all items do and are paints of light, so that the program is a fold of over_bare.h. */
+/* Whether all items are such pictures, and paints of light, so that the program is a fold of
+ * over_bare.h. */
 bool cs_painter_are_bare(const cs_painter *painter, const cs_program *program);

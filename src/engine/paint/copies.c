@@ -91,7 +91,7 @@ static bool has_items(const cs_copies_plan *plan, const cs_program *program) {
 
 static celspan_status set_key(celspan_context *context, const cs_program *program, cs_run run,
                               cs_copies_plan *plan) {
-  plan->end_row = 0; /* of no use, if what follows fails */
+  plan->end_row = 0; /* invalid if a later step fails */
   CS_TRY(CS_RESERVE(context, plan->items, plan->item_capacity, program->length));
   memcpy(plan->items, program->items, program->length * sizeof *plan->items);
   plan->length = program->length;

@@ -18,7 +18,7 @@
 #include "engine/paint/painter.h"
 #include "engine/span/row.h"
 
-/* Whether a program is of such pictures, shown as they are, and mixed as light. Errors: those of
+/* Whether a program consists of such pictures, shown unchanged and mixed as light. Errors: those of
  * reading the headers of pictures. */
 CELSPAN_CHECKED celspan_status cs_copies_fit(cs_painter *painter, const cs_program *program,
                                              bool *fit);

@@ -14,8 +14,8 @@
 
 #define CS_FEW_PIXELS 4
 
-/* Whether a program has defocused layers, of which none hides another that would be made, and else
- * flat ones. */
+/* Whether a program has defocused layers, none of which hides another one that has not been made
+ * yet, and apart from them only flat layers. */
 bool cs_few_fits(const cs_stack *stack, const cs_program *program);
 /* Premultiplied RGBA of such a program at the middles of a run's pixels, at most CS_FEW_PIXELS.
  * Errors: NO_MEMORY, and those of making defocused cels. */

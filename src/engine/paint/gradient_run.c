@@ -11,7 +11,7 @@ typedef struct arc {
   const cs_gradient_table *table;
   double u, v;       /* the values of the shade's planes at x = 0 */
   double bend;       /* RADIAL: second derivative of the distance r along the row, times r cubed,
-                        where r is `at` and, with a focus, what was taken off it */
+                        where r is `at` plus, with a focus, the part subtracted */
   int32_t from, end; /* the columns of the run that are not yet written */
   const cs_gradient_table_section *section; /* between the current two cuts */
   double steepness; /* there: the greatest change of a channel from 0 to 1 along the gradient */
@@ -29,7 +29,7 @@ static double at_column(const arc *a, int32_t column) {
   return sqrt(u * u + v * v) - shade->eccentricity * u;
 }
 
-/* What is taken off the distance at a column, because of a focus. */
+/* What a focus subtracts from the distance at a column. */
 static double taken_off(const arc *a, int32_t column) {
   const cs_shade *shade = a->table->shade;
   return shade->eccentricity * (shade->plane[0][0] * (column + 0.5) + a->u);

@@ -41,7 +41,7 @@ void cs_gradient_tables_destroy(cs_gradient_tables *tables, cs_memory *memory) {
 
 /* ---------------------------------------------------------------- colours */
 
-/* Puts a gradient, and the flat layers in front of it, over what lies behind them. */
+/* Puts a gradient, and the flat layers in front of it, over the layers behind them. */
 static inline cs_over_pair fold_point(const cs_gradient_table_layer *layer,
                                       const cs_gradient_table_tint *tint, double at,
                                       cs_over_pair behind) {
@@ -52,7 +52,7 @@ static inline cs_over_pair fold_point(const cs_gradient_table_layer *layer,
                         layer->t * (through * behind.t)};
 }
 
-/* The same for pixels that lie in one section of a linear gradient, most of which do. */
+/* The same for pixels that lie in one section of a linear gradient, as most pixels do. */
 static void fold_section(const cs_gradient_table_layer *layer, const cs_batch *batch,
                          size_t section, cs_over_pair *restrict pixels) {
   const cs_gradient_table_tint *tint = &layer->tints[section];
@@ -252,8 +252,8 @@ static celspan_status find_tints(cs_gradient_tables *tables, const cs_layer *lay
   return CELSPAN_OK;
 }
 
-/* Moves what has been folded so far into the layer of the next gradient, and begins a new fold
- * behind it: over keeps its lights. */
+/* Moves the result of the fold so far into the layer of the next gradient, and begins a new fold
+ * behind it. `over` keeps its lights. */
 static celspan_status add_layer(cs_gradient_tables *tables, const cs_layer *layer, cs_over *over,
                                 cs_gradient_table_layer *out) {
   out->e = over->e;

@@ -8,7 +8,7 @@
  *                    |  colour    |               |
  *
  * Of one gradient: everything that is done to its paint (light, fades, the layers in front and
- * behind) is affine, so what the program shows is a mix of what it shows at two stops. A pixel
+ * behind) is affine, so the colour of the program is a mix of its colours at two stops. A pixel
  * costs a search among the stops and a mix. Of several, in no faded group: the flat layers between
  * them are folded, and a pixel is folded from the rear through one layer a gradient.
  *
@@ -52,7 +52,8 @@ typedef struct cs_gradient_table {
   const cs_gradient_table_layer *layers; /* of several, front to back */
   size_t layer_count;                    /* 0: of one */
   cs_set_hash name;                      /* of the program's layers */
-  float keep;                            /* what the mattes of back lights leave of transparency */
+  float keep;                            /* the share of transparency that the mattes of back lights
+                                            leave */
 } cs_gradient_table;
 
 typedef struct cs_gradient_tables cs_gradient_tables;

@@ -37,7 +37,7 @@ struct cs_halving_curve {
   /* Whether the line from one point to another is near the curve between them. */
   celspan_status (*test)(cs_halving_curve *curve, const cs_halving_point *first,
                          const cs_halving_point *last, bool *is_straight);
-  /* The points of two neighbouring columns, the left of which is `column`. */
+  /* The points of the columns `column` and `column` + 1. */
   celspan_status (*split)(cs_halving_curve *curve, int32_t column, cs_halving_point points[2]);
 };
 
@@ -46,7 +46,7 @@ struct cs_halving_curve {
 CELSPAN_CHECKED celspan_status cs_halving_fit(cs_halving_curve *curve,
                                               const cs_halving_point *first,
                                               const cs_halving_point *last);
-/* The same of a curve that is known not to be straight. */
+/* The same for a curve that is known not to be straight. */
 CELSPAN_CHECKED celspan_status cs_halving_split(cs_halving_curve *curve,
                                                 const cs_halving_point *first,
                                                 const cs_halving_point *last);

@@ -266,7 +266,7 @@ static void pick_columns(line_shape shape, cs_run run, int32_t *columns) {
                                         : cs_halving_quarter(run, shape == STRAIGHT ? 4 * k : k);
 }
 
-/* Whether a line is straight by its colours, which are those of pick_columns. */
+/* Whether a line is straight, judged by its colours at the columns of pick_columns. */
 static bool is_line(const cs_halving_curve *curve, const cs_halving_point *first,
                     const cs_halving_point *last, const float (*rgba)[4]) {
   cs_run run = cs_halving_run(first, last);
@@ -288,7 +288,8 @@ static celspan_status put_line(colour_curve *c, line_shape shape, cs_run run,
   return cs_halving_put(&c->curve, &first, &last);
 }
 
-/* The columns of as many lines from one on as fit into a batch. Returns the line after them. */
+/* The columns of the lines from `line` on, as many lines as fit into a batch. Returns the line
+ * after them. */
 static size_t pick_batch(line_shape shape, const cut_list *ends, size_t line, double y,
                          int32_t *columns, int32_t *count) {
   *count = 0;

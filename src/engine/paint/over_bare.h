@@ -1,5 +1,6 @@
-/* The fold of over_row.h for pictures alone that are shown as they are: none faded, lit white, in
- * no group and in front of the one back light that there may be. The same bits, sooner.
+/* The fold of over_row.h for programs of pictures alone that are shown unchanged: not faded, lit
+ * white, in no group, and in front of the only back light, if there is one. It gives the same bits
+ * in less time.
  *
  *     pixels         0 ......................... count - 1
  *     first          [opaque opaque][ mixed  ][opaque ...]
@@ -49,7 +50,7 @@ CS_WIDE_DECLARE(void, cs_over_bare_mix_copies,
                 (const cs_srgb8_curve *curve, const unsigned char *front, const unsigned char *rear,
                  int32_t count, unsigned char *out));
 
-/* Returns the pixels that something shines through, from the first to the last group of them. */
+/* Returns the range from the first to the last group of pixels that something shines through. */
 CS_WIDE_DECLARE(cs_over_bare_range, cs_over_bare_fold, (cs_over_bare * over));
 CS_WIDE_DECLARE(void, cs_over_bare_mix_rgba,
                 (const cs_back_light *behind, const cs_over_bare *over, float (*out)[4]));

@@ -135,7 +135,8 @@ static inline void put_rgba(group v, int32_t count, float (*rgba)[4]) {
 
 /* ---------------------------------------------------------------- all groups */
 
-/* The group from pixel i on of what was folded before the last picture, and of that. */
+/* The group of pixels from pixel i on: the fold of the pictures before the last one, and the last
+ * picture. */
 static inline group folded_before(const cs_over_bare *over, int32_t i) {
   return over->is_first ? nothing_folded() : load_group(over->folded + i);
 }
@@ -194,8 +195,8 @@ CS_SRGB8_BYTES static inline group decode_group(const cs_srgb8_tables *tables, _
       {(cs_wide)made.of[0], (cs_wide)made.of[1], (cs_wide)made.of[2], (cs_wide)made.of[3]}};
 }
 
-/* One picture over the other in sixteen pixels, of which those from `count` on are not stored. The
- * rows below are fetched into the cache now, so that they are there in time. */
+/* One picture over another in sixteen pixels; the pixels from `count` on are not stored. The next
+ * rows of the pictures are fetched into the cache now, so that they are there in time. */
 CS_SRGB8_BYTES static inline void mix_codes(const cs_srgb8_tables *tables,
                                             const unsigned char *front, const unsigned char *rear,
                                             int32_t count, unsigned char *out) {

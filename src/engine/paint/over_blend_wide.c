@@ -13,7 +13,7 @@ static inline cs_wide colour_of(cs_wide e, cs_wide alpha) {
   return cs_wide_min(cs_wide_max(e, cs_wide_all(0)), cs_wide_all(1));
 }
 
-/* A row of sources, and what they are put over. */
+/* A row of sources, and the backdrops below them. */
 typedef struct blending {
   const cs_over_row_state *source;
   float fade, keep; /* of the sources; of their backdrop */

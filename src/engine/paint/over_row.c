@@ -29,7 +29,7 @@ static void meet_light(cs_over_row *over) {
   over->keep *= light->keep;
 }
 
-/* What a group that has been left is for the group around it, but not yet faded. */
+/* What a group that has been left contributes to the group around it, not yet faded. */
 static void finish_group(cs_over_row *over, const cs_group *group, const cs_over_row_outer *around,
                          cs_over_row_state *inner) {
   if (group->grade || group->converts != CELSPAN_SPACE_AROUND || group->has_front)
@@ -46,7 +46,8 @@ static void finish_group(cs_over_row *over, const cs_group *group, const cs_over
   over->keep = around->keep * (mode == CELSPAN_BLEND_ADD ? 1 : over->keep);
 }
 
-/* Adds a group that has been left to the one around it, or keeps it for that as its head. */
+/* Adds a group that has been left to the group around it, or keeps it as the head of the group
+ * around it. */
 static void add_left(cs_over_row *over, const cs_group *group, cs_over_row_state *inner) {
   if (group->kind == CS_GROUP_HEAD) {
     over->outers[over->depth - 1].head = inner;

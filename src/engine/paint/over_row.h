@@ -40,10 +40,11 @@ typedef struct cs_over_row_outer {
   cs_over_row_state *outer; /* of the group around it, put aside */
   bool is_clear;            /* nothing has been added to that yet */
   cs_over_row_state
-      *head;         /* GROUND and MATTE: what its head was, not yet faded; NULL: it was not */
+      *head;         /* GROUND and MATTE: the composited head, not yet faded; NULL: no head was
+                        met */
   float head_fade;   /* there */
   float (*front)[4]; /* its front light, where that has a shape */
-  uint32_t group;    /* the one around it that was entered before, or CS_STACK_NONE */
+  uint32_t group;    /* the group around it, entered before, or CS_STACK_NONE */
   float keep;        /* of the group around it */
 } cs_over_row_outer;
 
@@ -59,7 +60,7 @@ typedef struct cs_over_row {
   uint32_t depth;
   uint32_t group; /* the innermost that has been entered, or CS_STACK_NONE */
   size_t light;   /* the next back light to be met */
-  float keep;     /* what the mattes of back lights leave of transparency */
+  float keep;     /* the share of transparency that the mattes of back lights leave */
 } cs_over_row;
 
 /* arena: lives as long as the fold. Errors: NO_MEMORY. */
@@ -77,7 +78,8 @@ CELSPAN_CHECKED celspan_status cs_over_row_add_samples(cs_over_row *over, const 
                                                        const float (*rgba)[4]);
 CELSPAN_CHECKED celspan_status cs_over_row_add_paint(cs_over_row *over, const cs_layer *layer,
                                                      const float (*s)[4], const float (*t)[4]);
-/* Moves to a layer and adds it: a flat one as it is, any other by its paints. Errors: NO_MEMORY. */
+/* Moves to a layer and adds it: a flat layer by its light, any other by its paints. Errors:
+ * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_over_row_layer(cs_over_row *over, uint32_t layer,
                                                  const float (*s)[4], const float (*t)[4]);
 /* Premultiplied RGBA of the pixels. */

@@ -1,5 +1,5 @@
-/* What the loops over pixels of over_row and over_bare share: pixels of four floats, a register of
- * them at a time. For files that are compiled once for every set of instructions (base/wide.h).
+/* Code shared by the loops over pixels of over_row and over_bare: pixels of four floats, a register
+ * of them at a time. For files that are compiled once for every set of instructions (base/wide.h).
  */
 #pragma once
 
@@ -21,7 +21,7 @@ static inline cs_wide cs_over_wide_mean(cs_wide t) {
   return first + ((second - first) + (third - first)) * (1.0f / 3);
 }
 
-/* Stores the pixels of a register from pixel i on, of which `count` are in the row. */
+/* Stores the pixels of a register at pixel i and after it, in a row of `count` pixels. */
 static inline void cs_over_wide_put(cs_wide colour, int32_t i, int32_t count, float (*rgba)[4]) {
   if (i + CS_OVER_WIDE_PIXELS <= count)
     cs_wide_store(rgba[i], colour);

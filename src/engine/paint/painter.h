@@ -4,7 +4,7 @@
  *     cell: one colour ------------------------------------> one span
  *     cell: program (layers, front to back)
  *            |-- colours.h   samples, over_row --> pixels
- *            `-- run.h       what shows where  --> shown.h
+ *            `-- run.h       visible items     --> shown.h
  *                            a picture shows   --> pixels, or their codes
  *                            formulas only     --> few linear spans (lines.h)
  *                            one defocused cel --> from node to node (run.c)
@@ -31,9 +31,9 @@ typedef struct cs_image_view {
   cs_sampler medium; /* where the texture has one */
 } cs_image_view;
 
-/* What of a program shows over some columns: shown.h. */
+/* The visible items of a program over some columns: shown.h. */
 typedef struct cs_shown {
-  cs_item *items; /* those that are neither clear nor hidden there, front to back */
+  cs_item *items; /* the items that are neither clear nor hidden there, front to back */
   size_t capacity;
   uint32_t length;
   bool ends_opaque; /* nothing shines through them */

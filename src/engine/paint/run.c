@@ -28,7 +28,7 @@
 typedef struct light {
   cs_v4 base, s, t;
   cs_v4 clear;    /* where the defocused layer is clear */
-  float matte[3]; /* of alpha: what each channel of t adds */
+  float matte[3]; /* the share of each channel of t in alpha */
 } light;
 
 typedef struct drawing {
@@ -146,7 +146,7 @@ static cs_v4 constant_colour(const drawing *w, size_t k) {
 
 /* ---------------------------------------------------------------- lines */
 
-/* The column after those up to vertex k, at most x1. */
+/* The first column after vertex k, at most x1. */
 static int32_t column_after(const drawing *w, size_t k, int32_t x1) {
   double x = (w->view->at[k] + w->defocused->left) * w->defocused->pitch_x - 0.5;
   int32_t column = x < 0 ? 0 : (int32_t)x + 1;
@@ -270,9 +270,9 @@ static celspan_status run_shown(cs_painter *painter, const cs_program *shown, bo
 
 #define STRIDES 8 /* examined together first, since often one answer holds for all */
 
-/* What shows from run.x0 on, and *end, up to which it is known. Strides are counted from the left
- * edge of the frame, since what shows must not depend on where a run begins. Many are examined at
- * once if the run covers them: mostly the answer is the same for all. */
+/* The visible items from run.x0 on, and *end, up to which they are known. Strides are counted from
+ * the left edge of the frame, since the result must not depend on where a run begins. Many are
+ * examined at once if the run covers them: mostly the answer is the same for all. */
 static celspan_status next_shown(cs_painter *painter, const cs_program *program, int32_t stride,
                                  cs_run run, cs_shown *out, int64_t *end) {
   int32_t x = run.x0, left = x / stride * stride;

@@ -1,9 +1,8 @@
 /* Runs of a cell as spans.
  *
  * Where pictures or defocused cels show in the program, some columns of the frame are examined at a
- * time (shown.h): what is clear or hidden there is left out. The rest of the program is painted in
- * the cheapest way that is right: as codes of texels, pixel by pixel, or as few linear spans as
- * needed.
+ * time (shown.h): clear and hidden items are left out. The rest of the program is painted in the
+ * cheapest way that is right: as codes of texels, pixel by pixel, or as few linear spans as needed.
  *
  * Invariant: where a program varies as a formula, spans are cut so that they are right within
  * 1/1023; the cuts depend on the run and the program alone.

@@ -52,7 +52,7 @@ static cs_paint triangle_paint(const cs_shade *shade, double u, double v) {
 
 /* ---------------------------------------------------------------- stops */
 
-/* What a gradient shows from one stop to the next, or before the first or after the last one. */
+/* The colours of a gradient from one stop to the next, before the first or after the last. */
 typedef struct stretch {
   double from, to;            /* [from, to) along the stops */
   double length;              /* 0: the paint is the same everywhere */
@@ -159,7 +159,7 @@ cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y) {
   return stretch_paint(&found, at);
 }
 
-/* What a stretch shows at places that are in it, at most PLACES. */
+/* The colours of a stretch at up to PLACES places in it. */
 static void fill_paints(const stretch *part, const double *at, int32_t count, float (*s)[4],
                         float (*t)[4]) {
   float shares[PLACES];
@@ -172,7 +172,7 @@ static void fill_paints(const stretch *part, const double *at, int32_t count, fl
   }
 }
 
-/* At most PLACES of them. */
+/* At most PLACES places. */
 static void stop_paints(const cs_shade *shade, const double *x, int32_t count, double y,
                         float (*s)[4], float (*t)[4]) {
   const cs_paint clear = CS_PAINT_CLEAR;

@@ -50,8 +50,8 @@ static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
                            shade->is_affine);
 }
 
-/* The same of places of a row; and how far places lie from one stop, `from`, to the next. In vector
- * code: shade_wide.c. */
+/* The same for places of a row; and how far each place is on the way from one stop, `from`, to the
+ * next. In vector code: shade_wide.c. */
 CS_WIDE_DECLARE(void, cs_shade_places,
                 (const cs_shade *shade, const double *x, int32_t count, double y, double *at));
 CS_WIDE_DECLARE(void, cs_shade_shares,

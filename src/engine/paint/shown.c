@@ -50,7 +50,7 @@ static inline bool is_pixels(const cs_stack *stack, const cs_layer *layer) {
          stack->defocused[layer->index]->mix;
 }
 
-/* Asks a layer of pixels what is clear. */
+/* Asks a layer of pixels which columns are clear. */
 static celspan_status bound_pixels(cs_painter *painter, const cs_layer *layer, cs_run run,
                                    bound *out) {
   const cs_defocused *defocused = painter->stack->defocused[layer->index];
@@ -122,7 +122,7 @@ int32_t cs_shown_stride(cs_painter *painter, const cs_program *program) {
   return columns;
 }
 
-/* Whether nothing can be hidden by what is only known in some columns. */
+/* Whether no item can hide another one by properties that hold only in some columns. */
 static bool hides_nothing(const cs_stack *stack, const cs_program *program) {
   bool hides = false;
   for (uint32_t i = 0; i < program->length && !hides; i++) {
@@ -133,7 +133,7 @@ static bool hides_nothing(const cs_stack *stack, const cs_program *program) {
   return !hides;
 }
 
-/* All but the layers of pixels that are clear. */
+/* All items except clear layers of pixels. */
 static celspan_status find_pixels(cs_painter *painter, const cs_program *program, cs_run run,
                                   cs_shown *out) {
   for (uint32_t i = 0; i < program->length; i++) {

@@ -1,4 +1,4 @@
-/* What of a program shows over some columns of a row.
+/* The visible items of a program over some columns of a row.
  *
  *     columns        | 0 .. 63   64 .. 127   128 .. 191   192 .. 255 |
  *     picture A      |   clear     mixed       opaque       mixed    |   by the blocks under them
@@ -8,11 +8,11 @@
  *
  *     shown          |   B, grad   A, B, grad  A            A, grad  |
  *
- * The items are gone through as the composer did when it made the program, group by group, with
- * bounds that hold in these columns instead of anywhere in the frame. So what is hidden here is
- * left out where it is hidden only here, and what is clear here is left out too.
+ * The items are visited in the order in which the composer visited them when it made the program,
+ * group by group, with bounds that hold in these columns instead of anywhere in the frame. So items
+ * that are hidden or clear only in these columns are left out too.
  *
- * Invariant: what is shown is a function of the program, the columns and the row.
+ * Invariant: the result is a function of the program, the columns and the row.
  */
 #pragma once
 

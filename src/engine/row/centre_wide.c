@@ -85,7 +85,7 @@ static inline void place_batch(found_ends *p, const double *x, const bool *is_vi
 
 static inline void find_columns(const double *x, int32_t width, int32_t columns[BATCH]) {
   for (int k = 0; k < BATCH; k++) {
-    double centre = x[k] > 0.5 ? x[k] - 0.5 : 0; /* what is not a number goes to 0, too */
+    double centre = x[k] > 0.5 ? x[k] - 0.5 : 0; /* a value that is not a number becomes 0, too */
     centre = centre < width ? centre : width;
     int32_t column = (int32_t)centre;
     columns[k] = column + (centre > column);

@@ -30,5 +30,5 @@ typedef struct cs_plan {
   bool is_crowded;      /* there were more than allowed: outlines are missing, so it has no rows */
 } cs_plan;
 
-/* Frees what a plan holds, except for its defocused cels. */
+/* Frees the contents of a plan, except for its defocused cels. */
 void cs_plan_finish(cs_plan *plan, cs_memory *memory);

@@ -2,8 +2,8 @@
  *
  *   plan --sweep--> active boundaries --compose--> cells --one of three filters--> row of spans
  *
- * Invariant: a row is a function of the plan and its number alone. What a row maker remembers from
- * one row to the next only saves work.
+ * Invariant: a row is a function of the plan and its number alone. The state that a row maker keeps
+ * from row to row only saves work.
  */
 #pragma once
 

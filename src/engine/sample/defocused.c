@@ -147,8 +147,9 @@ static bool is_fixed(const cs_defocused_polyline *polyline, size_t first, size_t
 }
 
 /* Lines between nodes lie above a hollow and below a hill of the nodes between them. So that the
- * row keeps its light, what a line adds is taken from the values of its ends: half from each, or
- * all from the one that may change. first: of the vertices of the row. */
+ * row keeps its light, the light that a line adds is subtracted from the values of its ends: half
+ * from each, or all from one end if only this end may change. first: the first of the row's
+ * vertices. */
 static void balance(const node_row *row, cs_defocused_polyline *polyline, size_t first) {
   size_t planes = (size_t)row->plane_count;
   for (size_t p = 0; p < planes; p++) {
@@ -415,7 +416,7 @@ size_t cs_defocused_find(const cs_defocused_view *view, double at, size_t hint) 
   return low;
 }
 
-/* What a vertex lets through; lane 3 is 0. */
+/* The transmission of a vertex; lane 3 is 0. */
 static cs_v4 vertex_through(const cs_defocused *defocused, const cs_defocused_view *view,
                             size_t vertex) {
   cs_v4 t = defocused->planes == 2

@@ -1,4 +1,5 @@
-/* A picture in its place on the frame, as its samples are made: what every file of this room reads.
+/* A picture in its place on the frame: the structure from which every file of this room makes
+ * samples.
  *
  *      frame                          picture
  *      +---+---+---+   inverse        .  .  .  .  .

@@ -170,8 +170,8 @@ static void find_in_block(const cs_sampling *run, int32_t x, int32_t y, int32_t 
                                .light = slot->texels + 4 * (CS_PICTURE_BLOCK * row + column)};
 }
 
-/* The same of row v from column u on, which need not be in the picture: what lies beyond its edges
- * is what the wrap mode says. */
+/* The same for row v from column u on. Both may lie outside the picture; the wrap mode then
+ * decides. */
 static void find_at(const cs_sampling *run, int64_t u, int64_t v, int32_t most,
                     cs_sampler_texels *out) {
   const cs_sampler *s = run->sampler;

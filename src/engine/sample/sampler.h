@@ -27,10 +27,10 @@ void cs_sampler_prepare(cs_sampler *sampler);
  * Errors: INPUT, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_sampler_run(cs_block_cache *blocks, const cs_sampler *sampler,
                                               cs_run run, float (*rgba)[4]);
-/* The same of at most CS_SAMPLER_BATCH pixels, in planes where these are sooner made. */
+/* The same for at most CS_SAMPLER_BATCH pixels, in planes where planes take less time. */
 CELSPAN_CHECKED celspan_status cs_sampler_samples(cs_block_cache *blocks, const cs_sampler *sampler,
                                                   cs_run run, cs_samples *out);
-/* The same of some columns of a row, ascending. */
+/* The same for some columns of a row, ascending. */
 CELSPAN_CHECKED celspan_status cs_sampler_at(cs_block_cache *blocks, const cs_sampler *sampler,
                                              const int32_t *columns, int32_t count, double y,
                                              float (*rgba)[4]);
@@ -45,8 +45,8 @@ typedef struct cs_sampler_texels {
   const float *light;
 } cs_sampler_texels;
 
-/* Those of a picture that is copied, for as many pixels as possible from run.x0 on, at least one.
- * They remain valid until two other blocks are asked for (block_cache.h). */
+/* The codes of a picture that is copied, for as many pixels as possible from run.x0 on, at least
+ * one. They remain valid until two other blocks are requested (block_cache.h). */
 CELSPAN_CHECKED celspan_status cs_sampler_texels_at(cs_block_cache *blocks,
                                                     const cs_sampler *sampler, cs_run run,
                                                     cs_sampler_texels *out);

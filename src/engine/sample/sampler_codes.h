@@ -1,5 +1,5 @@
-/* Quads of texels that are read as codes, and decoded in registers: that is quicker than to fetch
- * four times as much light.
+/* Quads of texels that are read as codes, and decoded in registers: that is quicker than fetching
+ * four times as many bytes of light.
  *
  *     +----------+----------+----------+     tiles: the blocks of 64 x 64 codes in the rectangle
  *     |::        |          |          |     around a batch of pixels, numbered row by row
@@ -21,7 +21,7 @@
 typedef struct cs_sampler_tiles {
   int32_t column, row, columns;                 /* its first block, and its width in blocks */
   bool are_opaque;                              /* all that are touched */
-  const unsigned char *codes[CS_SAMPLER_TILES]; /* of those that are touched */
+  const unsigned char *codes[CS_SAMPLER_TILES]; /* of the tiles that are touched */
   /* Bytes from a quad's codes to those that the row after the next will read: they are fetched into
    * the cache now, so that they are there in time. */
   ptrdiff_t ahead;

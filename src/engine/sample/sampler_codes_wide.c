@@ -11,7 +11,7 @@
 
 /* ---------------------------------------------------------------- places */
 
-/* The first texel of a quad along an axis. *share: that of its second texels in the mix. */
+/* The first texel of a quad along an axis. *share: the share of its second texels in the mix. */
 static inline double begin(double u, float *share) {
   double place = u - 0.5, whole = floor(place + SAME), rest = place - whole;
   *share = rest >= SAME ? (float)rest : 0.0f;

@@ -1,4 +1,5 @@
-/* What the samples of some pixels have in common, from the blocks of texels they may come from.
+/* The common properties of the samples of some pixels, from the blocks of texels that they may come
+ * from.
  *
  *     +-------+-------+-------+       a picture, in blocks of 64 x 64 texels
  *     | clear | clear | mixed |

@@ -14,7 +14,7 @@ void cs_sampler_pixel_run(const cs_sampling *run, cs_run pixels, float (*rgba)[4
 /* One bicubic sample, at a place brought into the picture by cs_sampler_reduce. */
 void cs_sampler_bicubic(const cs_sampling *run, double u, double v, float rgba[4]);
 
-/* What the boxes of a picture have in common along an axis, in its pixels. */
+/* The values that all boxes of a picture share along an axis, in its pixels. */
 typedef struct cs_sampler_axis {
   double width;         /* of a box */
   double least, most;   /* the edges of the picture, unless it repeats */
@@ -23,8 +23,8 @@ typedef struct cs_sampler_axis {
 
 cs_sampler_axis cs_sampler_axis_of(const cs_sampler *sampler, double width, int32_t size);
 
-/* One axis of a box: texels, and how much the first and the last one are covered; all others are
- * as a whole. */
+/* One axis of a box: texels, and how much of the first and of the last one is covered; all others
+ * are covered wholly. */
 typedef struct cs_sampler_extent {
   int32_t first, count;
   float head, tail; /* in pixels; of one texel both are the same */

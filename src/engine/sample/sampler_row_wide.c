@@ -1,4 +1,4 @@
-/* The sampler's loops over the pixels of upright pictures. What must not depend on the
+/* The sampler's loops over the pixels of upright pictures. Everything that could depend on the
  * instructions is written out: no division where a product is meant, every sum in its order.
  */
 #include "engine/sample/sampler_level.h"

@@ -28,8 +28,9 @@ static void mix_apart(const cs_sampling *run, int level, const cs_sampler_quads 
   cs_v4_store(rgba, column[0] + quads->across[i] * (column[1] - column[0]));
 }
 
-/* How many texels lie, in a block, between a quad and the one that the row after the next will mix
- * at the same column; 0 where that is in another block. u, v, near: of a pixel's centre. */
+/* The distance in texels, inside a block, from a quad to the quad that the row after the next will
+ * mix at the same column; 0 where that quad is in another block. u, v, near: of a pixel's
+ * centre. */
 static ptrdiff_t texels_ahead(const cs_sampler *s, int level, double u, double v, double near) {
   double rows = ROWS_AHEAD * near / (double)((int64_t)1 << level);
   double across = (s->m[1] - u * s->m[7]) * rows, down = (s->m[4] - v * s->m[7]) * rows;
@@ -105,8 +106,8 @@ static bool mix_coded(const cs_sampling *run, int32_t count, const places *at, f
   return mix_tiles(run, touched, &tiles, &clamped, count, false, rgba);
 }
 
-/* Bounds of the quads of an affine map, of which the first and the last are the outermost; false if
- * they are not all in the picture. */
+/* Bounds of the quads of an affine map. Its first and its last quad are the outermost ones. False
+ * if not all quads are in the picture. */
 static bool bound_quads(const cs_sampler *s, int32_t x0, int32_t count, double y,
                         cs_sampler_clamped *out) {
   const double *m = s->m;
@@ -124,7 +125,7 @@ static bool bound_quads(const cs_sampler *s, int32_t x0, int32_t count, double y
   return true;
 }
 
-/* One tap a pixel of an affine map, all of them inside. */
+/* One tap for each pixel of an affine map; all taps are inside the picture. */
 static bool tap_inside(const cs_sampling *run, int32_t x0, int32_t count, double y, bool are_planes,
                        float (*rgba)[4]) {
   const cs_sampler *s = run->sampler;

@@ -59,7 +59,7 @@ CS_WIDE_DECLARE(void, cs_sampler_map_perspective,
 /* Fills `visible`. */
 CS_WIDE_DECLARE(void, cs_sampler_mark_visible,
                 (const cs_sampler *sampler, int32_t count, cs_sampler_centres *centres));
-/* In perspective, what each pixel's mean is made of: level << 16 | columns << 8 | rows. */
+/* In perspective, the texels in each pixel's mean: level << 16 | columns << 8 | rows. */
 CS_WIDE_DECLARE(void, cs_sampler_plan_taps,
                 (const cs_sampler *sampler, int32_t count, const cs_sampler_centres *centres,
                  int32_t *plans));

@@ -5,14 +5,14 @@
  *     in planes        | r0 r4 r8 r12 r1 r5 .. r15 | g0 .. | b0 .. | a0 .. |       pixels 0 to 15
  *                      | r16 ..                                                    16 to 31 ...
  *
- * Planes are what sixteen codes become when they are decoded in registers of 64 bytes, and what
- * they are coded from: lane 4 l + j is pixel 4 j + l. Only AVX-512 makes and reads them.
+ * Sixteen codes become planes when they are decoded in registers of 64 bytes, and planes are coded
+ * in the same way: lane 4 l + j is pixel 4 j + l. Only AVX-512 makes and reads them.
  */
 #pragma once
 
 #include <stdbool.h>
 
-#define CS_SAMPLER_BATCH 256 /* pixels made at a time, a multiple of those of a plane */
+#define CS_SAMPLER_BATCH 256 /* pixels made at a time, a multiple of a plane's pixels */
 #define CS_SAMPLES_PLANE 16  /* pixels */
 
 typedef struct cs_samples {

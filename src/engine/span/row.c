@@ -211,7 +211,7 @@ static celspan_status expose_gradient(celspan_context *context, cs_row *out, int
   return cs_row_gradient(context, out, bend, x1, rest, rest_slope);
 }
 
-/* One span of each row, all of which cover [x0, x1), and their weights. */
+/* One span of each row, and their weights. All of these spans cover [x0, x1). */
 typedef struct exposed {
   const celspan_span **spans;
   const float *weights;

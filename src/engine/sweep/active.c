@@ -133,7 +133,7 @@ static inline void rotate_items(void *array, size_t size, size_t to, size_t from
   memcpy(items + to * size, moved, size);
 }
 
-/* The same with boundaries. */
+/* Inserts a boundary in the same way. */
 static void insert_boundary(cs_active *active, size_t to, size_t from) {
 #define ROTATE(array)                                                                              \
   static_assert(sizeof *(array) <= sizeof(uint64_t), "");                                          \
@@ -341,8 +341,8 @@ static celspan_status step(celspan_context *context, cs_active *active, size_t i
                  : note_bend(context, active, &(cs_bend){.boundary = (uint32_t)i, .ends = true});
 }
 
-/* The same, noting the vertices on the way. Displaced vertices may lie a little above the one
- * before; those are not noted. */
+/* The same, noting the vertices on the way. A displaced vertex may lie a little above the previous
+ * one; such vertices are not noted. */
 static celspan_status bend(celspan_context *context, cs_active *active, size_t i, double y) {
   cs_boundary_walk *walk = &active->walks[active->slot[i]];
   cs_bend noted = {.boundary = (uint32_t)i, .vertex = (uint32_t)active->vertex_count};

@@ -5,10 +5,10 @@
  *      |        \    |     /
  *   ---*---------*---o----*--------- y_next  height advanced to; o: a chain ends here (cs_bend)
  *
- * Advancing leaves the order as it is at y, so that a row can be made from both ends of every
- * boundary. Settling then moves to y_next: it removes the chains that ended, sorts those that
- * crossed each other, and inserts the chains that begin. Every field that each row reads is an
- * array over the boundaries; the walk of a boundary down its chain is found by the boundary's slot.
+ * Advancing keeps the order at y, so that a row can be made from both ends of every boundary.
+ * Settling then moves to y_next: it removes the chains that ended, sorts those that crossed each
+ * other, and inserts the chains that begin. Every field that each row reads is an array over the
+ * boundaries; the walk of a boundary down its chain is found by the boundary's slot.
  *
  * Invariants, at height y
  *   - exactly those chains with y0 <= y < y1 are listed that the cull keeps in y's row of tiles;
@@ -94,7 +94,7 @@ typedef struct cs_active {
   const cs_cull *cull;
   cs_isa isa;
   bool notes_bends; /* false: only x is needed; then bends are noted only for chains that end */
-  /* The order: `count` of each, with room for CS_ADVANCE_BATCH more. */
+  /* The boundaries in order: each array has `count` items, and room for CS_ADVANCE_BATCH more. */
   double *x;      /* at the current height */
   double *x_next; /* at the height advanced to; where the chain ends, if it ends before */
   cs_segments segments;

@@ -41,5 +41,5 @@ typedef struct cs_advanced {
 CS_WIDE_DECLARE(cs_advanced, cs_advance_to,
                 (const cs_segments *segments, size_t count, double y, double *x_next,
                  uint32_t *ended));
-/* Whether each of x is less than the one after it. */
+/* Whether each item of x is less than the next one. */
 CS_WIDE_DECLARE(bool, cs_advance_rises, (const double *x, size_t count));

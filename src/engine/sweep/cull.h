@@ -50,8 +50,7 @@ typedef struct cs_cull_group {
   double fade;
 } cs_cull_group;
 
-/* Layers of which it depends on the presence of others whether they are painted where they are
- * present. */
+/* Layers that are present but may be left unpainted, depending on the presence of other layers. */
 typedef struct cs_cull_tree {
   uint32_t first, end;
 } cs_cull_tree;
@@ -98,7 +97,7 @@ typedef struct cs_cull_desc {
   const void *user;
   size_t scratch_size;
   int32_t width, height, margin; /* pixels */
-  double opaque;                 /* what lets through no more than this lets nothing through */
+  double opaque;                 /* a transmission of at most this counts as 0 */
   int workers;                   /* threads at most */
 } cs_cull_desc;
 

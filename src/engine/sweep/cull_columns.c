@@ -53,9 +53,9 @@ static void find_chord(const cs_cull_grid *grid, const chord *line, int32_t firs
 }
 
 /* Covers a piece with chords that are as long as the slack allows. A chord over s of the piece's
- * own chords lies within s^2 sags of the curve. What the sweep walks later, in segments at most 1.5
- * times as long as the piece's own chords, lies within 2.25 sags of the curve, and its displaced
- * vertices within CS_POLYLINE_LIFT sags more. */
+ * own chords lies within s^2 sags of the curve. The polyline that the sweep walks later, in
+ * segments at most 1.5 times as long as the piece's own chords, lies within 2.25 sags of the curve,
+ * and its displaced vertices within CS_POLYLINE_LIFT sags more. */
 static void find_piece(const cs_cull_grid *grid, const cs_boundary_piece *piece, int32_t first,
                        int32_t last, cs_cull_columns *columns) {
   const double near = 2.25 + CS_POLYLINE_LIFT;

@@ -64,8 +64,8 @@ static inline uint64_t cs_cull_columns_mask(cs_cull_columns r) {
 /* Finds the columns of a chain in each of its rows of tiles. */
 void cs_cull_columns_find(const cs_cull_grid *grid, uint32_t chain, cs_cull_columns *columns);
 
-/* Culls one row of tiles: fills `kept`, appends deferred changes to those of the job, and counts
- * them in cull->deferred_starts[row + 1]. Errors: NO_MEMORY. */
+/* Culls one row of tiles: fills `kept`, appends deferred changes to the job's list, and counts them
+ * in cull->deferred_starts[row + 1]. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_cull_row_walk(const cs_cull_grid *grid, cs_cull_job *job,
                                                 int32_t row);
 /* Room for the scratch of a job. Errors: NO_MEMORY; free it then, too. */

@@ -18,9 +18,9 @@
  * deferred winding change takes its place. A chain that begins or ends inside the row is kept, and
  * no tile between such chains counts as inside, because the winding is not the same at all heights.
  *
- * A group has a veil of its own over that of its surroundings: one that begins with tiles that let
- * everything through, of which those are live that are live around it; when it is left, the tiles
- * around it are dimmed by its share. That is what the fold of colours does, so where a tile is
+ * A group has a veil of its own over the veil of its surroundings. At first all its tiles let
+ * everything through, and it has the same live tiles as the surroundings; when it is left, the
+ * tiles around it are dimmed by its share. The fold of colours does the same, so where a tile is
  * dead, the fold has stopped.
  *
  * The layers of a boolean tree are placed together first; where one is not certain to be painted it
@@ -29,7 +29,7 @@
  */
 #include "engine/sweep/cull_grid.h"
 
-/* What the tiles let through in front of the layer that is being culled. */
+/* The transmission of the tiles in front of the layer that is being culled. */
 typedef struct cs_cull_veil {
   double through[CS_CULL_COLUMNS]; /* 1 unless dimmed */
   uint64_t live, dimmed;
@@ -47,7 +47,7 @@ typedef struct walk {
 
 /* ---------------------------------------------------------------- veils */
 
-/* Lets something reduce what tiles let through; tiles below `opaque` become dead. */
+/* Reduces the transmission of tiles; tiles below `opaque` become dead. */
 static inline void dim(const walk *w, veil *tiles, int index, double through) {
   double *tile = &tiles->through[index];
   *tile *= through;
@@ -285,7 +285,7 @@ static size_t tree_room(const cs_cull_desc *desc) {
   return most;
 }
 
-/* A group comes after the one around it. */
+/* A group comes after the group around it. */
 static size_t veil_room(const cs_cull_desc *desc) {
   size_t most = 0;
   for (size_t i = 0; i < desc->group_count; i++) {
