@@ -8,11 +8,11 @@
 
 #include "celspan/celspan.h"
 
-/* A name for a frame, and for those up to another one. */
+/* A name for a range of frames, from one frame to another. */
 typedef struct cs_film_mark {
   const char *name;
   int64_t frame, last;
-  bool has_last; /* false: up to the one before the next mark */
+  bool has_last; /* false: up to the frame before the next mark */
 } cs_film_mark;
 
 typedef struct cs_film_info {
@@ -35,8 +35,8 @@ typedef struct cs_film_frame {
   bool repeats; /* it is one of several: see celspan_frame_desc */
 } cs_film_frame;
 
-/* Copies the exposures and takes a reference to each rostrum. out: new, to be finished, by any
- * thread and before or after the context is. Errors: NO_MEMORY. */
+/* Copies the exposures and takes a reference to each rostrum. out: new, must be finished, by any
+ * thread, before or after the context ends. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_film_frame_init(cs_film_frame *out, celspan_context *context,
                                                   const celspan_exposure *exposures, size_t count);
 /* A frame that is all zero, or finished already, may be finished too. */

@@ -17,7 +17,7 @@ struct cs_frame_pipeline_frame {
   size_t index;
   void *carried;
   bool is_here;     /* the calling thread makes it */
-  atomic_int share; /* of it that is made */
+  atomic_int share; /* the share of the frame that is made */
 };
 
 struct run {
@@ -69,7 +69,7 @@ static celspan_status tick_or_stop(run *r) {
 
 /* ---------------------------------------------------------------- one frame */
 
-/* As many workers continue as there are frames left for them; the last frames get more than one. */
+/* While enough frames are left, each worker makes one; the last frames get several workers each. */
 static int workers_of(const run *r, size_t index) {
   size_t left = r->desc->count - index;
   return left < (size_t)r->workers ? (int)((size_t)r->workers / left) : 1;

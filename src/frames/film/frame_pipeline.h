@@ -6,9 +6,9 @@
  * step to step. At most a few frames for each worker are built and not yet finished. The order is
  * kept by base/pipeline.h.
  *
- * INVARIANT: frames are finished in order, whatever the number of workers, so what is reported of
- * them does not depend on it either; the failure that ends a run is that of its first frame that
- * failed.
+ * INVARIANT: frames are finished in order, whatever the number of workers, so the reports about
+ * them do not depend on that number either. If several frames fail, the run ends with the failure
+ * of the first of them.
  */
 #pragma once
 
@@ -20,7 +20,7 @@ typedef struct cs_frame_pipeline_frame cs_frame_pipeline_frame;
 typedef struct cs_frame_pipeline {
   size_t count;      /* of frames */
   int workers;       /* 0: one per processor */
-  bool keeps_going;  /* failures of frames do not keep others from being made */
+  bool keeps_going;  /* after the failure of a frame, other frames are still made */
   size_t frame_size; /* bytes that a frame carries; zero when it is built */
   void *user;
   /* *step: who makes the frame; ANYWHERE unless it is set. HERE: before the next one is built. */
@@ -28,10 +28,10 @@ typedef struct cs_frame_pipeline {
   /* context: the calling thread's, or a branch. workers: threads that it may use itself. */
   celspan_status (*make)(void *user, celspan_context *context, void *carried, int workers,
                          cs_frame_pipeline_frame *frame);
-  /* status: of what came before, with its sentence in the context. What is returned ends the run
-   * unless it is OK. */
+  /* status: the result of the earlier steps; its message is in the context. A returned status other
+   * than OK ends the run. */
   celspan_status (*finish)(void *user, void *carried, celspan_status status);
-  /* Frees what the frame carries, once for each frame that had to be built. Calling thread. */
+  /* Frees the data of the frame, once for each frame that had to be built. Calling thread. */
   void (*release)(void *user, void *carried);
   /* Called now and then; share: of the frames that are not finished yet, in frames. false ends the
    * run. Calling thread; may be NULL. */

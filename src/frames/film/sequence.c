@@ -165,7 +165,8 @@ static celspan_status refuse_mark(const reader *r, size_t length) {
       names, used < sizeof names ? "" : " ...");
 }
 
-/* Its own last frame; else the frame before the next mark that is at a later frame, or the last. */
+/* The mark's own last frame if it has one. Otherwise the frame before the next mark that is at a
+ * later frame; without such a mark the film's last frame. */
 static int64_t find_end(const cs_film_info *film, size_t mark) {
   if (film->marks[mark].has_last)
     return film->marks[mark].last;
@@ -331,7 +332,7 @@ celspan_status cs_sequence_name(celspan_context *context, const char *pattern, i
 
 enum { PATH_SIZE = 4096 };
 
-/* Adds the number of a file if its name is the one that the pattern gives to that number. */
+/* Adds the number of a file if the pattern gives this name to that number. */
 static celspan_status add_file(reader *r, const char *pattern, const char *name, cs_sequence *out) {
   char expected[PATH_SIZE];
   if (!cs_sequence_matches(pattern, name))

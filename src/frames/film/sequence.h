@@ -35,10 +35,10 @@ CELSPAN_CHECKED celspan_status cs_sequence_within(celspan_context *context,
 
 /* Whether the pattern has a place for a number. */
 bool cs_sequence_has_number(const char *pattern);
-/* Whether a name could be that of a frame of the pattern; both without their folder. */
+/* Whether a name could belong to a frame of the pattern; both are without their folder. */
 bool cs_sequence_matches(const char *pattern, const char *name);
-/* The numbers of the files of a pattern that are there, ascending. out: new, perhaps empty. Errors:
- * INPUT when the folder cannot be read, LIMIT, NO_MEMORY. */
+/* The numbers of the existing files of a pattern, ascending. out: new, perhaps empty. Errors: INPUT
+ * when the folder cannot be read, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_sequence_list(celspan_context *context, const char *pattern,
                                                 cs_sequence *out);
 /* Writes the file name of a frame. BAD_ARGUMENT when it does not fit into `size` bytes. */

@@ -16,8 +16,8 @@
 
 /* Frames that show the same scene: the first of them is made, and the others can be copied from it.
  *
- * INVARIANT: one frame of each scene is known, the first that was added. What it can be copied from
- * is set when that frame is finished.
+ * INVARIANT: one frame of each scene is known, the first that was added. The file to copy is set
+ * when that frame is finished.
  */
 typedef struct known_frame {
   int64_t number;     /* of the frame */
@@ -32,8 +32,8 @@ typedef struct known_frames {
   cs_hash_table indices; /* from scenes to indices into known */
 } known_frames;
 
-/* Finds the frame of a scene, or adds frame `number` as its first; *is_new says which. *index: of
- * the frame among `known`. Errors: NO_MEMORY. */
+/* Finds the frame of a scene, or adds frame `number` as its first; *is_new says which. *index: the
+ * place of the frame in `known`. Errors: NO_MEMORY. */
 static CELSPAN_CHECKED celspan_status add_duplicate(known_frames *duplicates,
                                                     celspan_context *context, cs_hash scene,
                                                     int64_t number, size_t *index, bool *is_new) {
@@ -61,7 +61,7 @@ typedef struct job {
   known_frames duplicates;
 } job;
 
-/* What a frame carries through the pipeline. */
+/* The data of a frame in the pipeline. */
 typedef struct frame_task {
   cs_shoot_frame frame;
   cs_film_frame built;
@@ -168,8 +168,8 @@ static celspan_status make_frame(const job *j, celspan_context *context,
                             : celspan_frame_write(context, desc, frame->path, &file, NULL);
 }
 
-/* Copies the frame from the one that it equals, unless the file of that is gone or was changed.
- * Calling thread. */
+/* Copies the frame from the earlier frame that it equals, unless the file of that frame is gone or
+ * was changed. Calling thread. */
 static celspan_status copy_duplicate(const job *j, celspan_context *context, frame_task *task) {
   const known_frame *duplicate = &j->duplicates.known[task->duplicate];
   char from[CS_SHOOT_PATH];
@@ -221,7 +221,7 @@ static celspan_status make(void *user, celspan_context *context, void *carried, 
 
 /* ---------------------------------------------------------------- the end */
 
-/* Notes what later frames that are equal to this one can be copied from. */
+/* Notes the file from which later frames that equal this one can be copied. */
 static void note_duplicate(job *j, const frame_task *task) {
   known_frame *duplicate = &j->duplicates.known[task->duplicate];
   duplicate->number = task->frame.number;

@@ -10,8 +10,8 @@
  * scan-line procedures are never copied: a procedure can be compared with nothing, and the calling
  * thread has to call it before it builds the next frame.
  *
- * INVARIANT: frames are reported in their order, and what is reported of them does not depend on
- * the number of workers.
+ * INVARIANT: frames are reported in their order, and the reports do not depend on the number of
+ * workers.
  */
 #pragma once
 
@@ -53,11 +53,12 @@ typedef struct cs_shoot {
   /* The exposures of a frame: new. Errors: with their sentence in the context. Calling thread, in
    * order. */
   celspan_status (*build)(void *user, int64_t number, cs_film_frame *out);
-  /* What is done with each frame instead of writing a file: frame->way is set where it was not
-   * made, and frame->digest where there are digests. Calling thread, in order. NULL: files. */
+  /* The function that is called for each frame instead of writing a file: frame->way is set where
+   * it was not made, and frame->digest where there are digests. Calling thread, in order. NULL:
+   * files. */
   celspan_status (*put)(void *user, const celspan_frame_desc *desc, cs_shoot_frame *frame);
-  /* Whether the frame is there already. Its number, path and hashes are set; where there are
-   * digests, this function sets the frame's. Calling thread. NULL: no frame is. */
+  /* Whether the frame exists already. Its number, path and hashes are set; where there are digests,
+   * this function sets the frame's. Calling thread. NULL: no frame exists. */
   bool (*keep)(void *user, cs_shoot_frame *frame);
   /* A frame is finished or has failed; in order. The sentence of a failure is in the context and
    * names the frame. A result other than OK ends the run. */

@@ -2,8 +2,8 @@
  *
  *   rostrum --compile, record--> borders --> bytes of a plane file --> plane --rows.c--> rows
  *
- * A plane in memory is the bytes of its file and what a reader makes of them, so a plane that was
- * made and one that was read draw the same pixels.
+ * A plane in memory consists of the bytes of its file and of the values that a reader made from
+ * them, so a new plane draws the same pixels as one that was read.
  */
 #include <errno.h>
 #include <inttypes.h>
@@ -89,7 +89,7 @@ static bool read_bytes(void *user, uint64_t offset, void *bytes, size_t size) {
   return true;
 }
 
-/* What the bytes say of a frame. */
+/* The values of a frame in the bytes. */
 static planefile_status load(celspan_plane *plane, uint32_t frame, planefile_fault *fault) {
   planefile_source source = {.read = read_bytes,
                              .user = plane,
@@ -117,7 +117,7 @@ static bool append(void *user, const void *bytes, size_t size) {
   return true;
 }
 
-/* What has a place of its own on the raster, and so no plane. */
+/* Refuses a plan that depends on the raster: a plane has none. */
 static celspan_status check_plan(celspan_context *context, const cs_plan *plan) {
   if (plan->is_crowded)
     return cs_fail(context, CELSPAN_LIMIT, "plane: more than %d dashes of strokes are in view",

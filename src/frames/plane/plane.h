@@ -18,8 +18,8 @@ bool cs_plane_is_wanted(const char *path, const char *format);
 static inline int32_t cs_plane_depth(celspan_depth depth) {
   return depth == CELSPAN_DEPTH_8 ? 8 : 16;
 }
-/* Writes a frame as a plane file of a depth, 8 or 16: its film, of which size, crop and
- * antialiasing say nothing. Errors: those of making and of writing a plane. */
+/* Writes a frame as a plane file of a depth, 8 or 16: its film; size, crop and antialiasing are
+ * ignored. Errors: those of making and of writing a plane. */
 CELSPAN_CHECKED celspan_status cs_plane_write_frame(celspan_context *context,
                                                     const celspan_frame_desc *frame,
                                                     const char *path, int32_t depth);
@@ -45,11 +45,12 @@ CELSPAN_CHECKED celspan_status cs_plane_film_create(celspan_context *context, co
 CELSPAN_CHECKED celspan_status cs_plane_film_put(cs_plane_film *film,
                                                  const celspan_frame_desc *frame,
                                                  const cs_hash *scene);
-/* Both end the film, whatever they return. */
+/* Both functions end the film, whatever they return. */
 CELSPAN_CHECKED celspan_status cs_plane_film_commit(cs_plane_film *film);
 void cs_plane_film_discard(cs_plane_film *film); /* NULL is ignored */
 
-/* What a plane consists of. Of what crosses several bands each part counts. */
+/* The contents of a plane, as counts. A chain or border that crosses several bands counts once for
+ * each. */
 typedef struct cs_plane_facts {
   size_t parts; /* bands of the file */
   size_t borders, curves;
@@ -66,7 +67,7 @@ CELSPAN_CHECKED celspan_status cs_plane_rows_create(celspan_context *context,
                                                     const celspan_plane_view *view,
                                                     cs_plane_rows **out);
 void cs_plane_rows_destroy(cs_plane_rows *rows); /* NULL is ignored */
-/* y: a row of the crop, from 0; those of a run are quickest from the top. Valid until the next
+/* y: a row of the crop, from 0. Asking for rows from the top down is quickest. Valid until the next
  * call. */
 CELSPAN_CHECKED celspan_status cs_plane_rows_get(cs_plane_rows *rows, int32_t y,
                                                  const celspan_span **spans, size_t *count);

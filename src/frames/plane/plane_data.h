@@ -1,6 +1,6 @@
 /* A plane, as its units share it.
  *
- * Invariant: `plane` is what a reader makes of the bytes.
+ * Invariant: `plane` is the result of reading the bytes.
  */
 #pragma once
 
@@ -14,7 +14,8 @@
 struct celspan_plane {
   atomic_size_t references;
   cs_memory *memory;
-  celspan_plane *whole; /* owned: that which has the bytes, of another frame of a film; or NULL */
+  celspan_plane *whole; /* owned: the plane of another frame of the film, which has the bytes; or
+                           NULL */
   unsigned char *bytes; /* of the file */
   size_t size, capacity;
   planefile_plane *plane;
@@ -34,7 +35,7 @@ typedef struct cs_plane_frame {
   cs_plan *plans;
   size_t plan_count, plan_capacity;
 } cs_plane_frame;
-/* What can be seen of a frame. out: must be finished, whatever happens. Errors: those of
+/* The visible part of a frame. out: must be finished, also after an error. Errors: those of
  * celspan_plane_create. */
 CELSPAN_CHECKED celspan_status cs_plane_record(celspan_context *context,
                                                const celspan_exposure *exposures, size_t count,

@@ -104,7 +104,7 @@ int cs_child_write(int descriptor, const void *bytes, size_t size) {
 
 /* ---------------------------------------------------------------- the end */
 
-/* Whether it has ended. Its number stays valid until it is waited for. */
+/* Whether the child has ended. Its number stays valid until somebody waits for it. */
 static bool has_ended(const cs_child *child) {
   siginfo_t info = {0};
   int result = waitid(P_PID, (id_t)child->id, &info, WEXITED | WNOHANG | WNOWAIT);

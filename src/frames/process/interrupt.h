@@ -19,8 +19,8 @@
 void cs_interrupt_install(void);
 /* The signal that requested the stop, or 0. The caller that gets a signal must end soon. */
 int cs_interrupt_signal(void);
-/* Waits as poll(2) does, until a signal requests a stop: also one that came before. For one thread,
- * the one that gets signals. */
+/* Waits as poll(2) does, until a signal requests a stop; returns at once if one has done so before.
+ * Only for the thread that gets signals. */
 void cs_interrupt_wait(struct pollfd *sources, size_t count, int milliseconds);
 /* Sets a function that the handler of the first signal calls; NULL: none. It may call only
  * functions that are safe in a signal handler. */

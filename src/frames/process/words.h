@@ -1,4 +1,4 @@
-/* The last words of a program: the end of what it wrote to its standard error, for a message. */
+/* The last words of a program: the end of its output on standard error, for a message. */
 #pragma once
 
 #include <stddef.h>

@@ -1,4 +1,5 @@
-/* What the shapes of a cel are like, counted before it is compiled: from their boxes and paints.
+/* Counts and sizes of the shapes of a cel, found before it is compiled, from their boxes and
+ * paints.
  *
  *     +---- frame ----+
  *     |  +--+         |      height: rows of the frame that a shape's box covers
@@ -21,7 +22,7 @@ typedef struct cs_census {
   double heights;      /* of those inside: rows that each covers, summed */
   double varied, flat; /* areas of those that vary (gradients, pictures), and of the others */
   bool may_have_dashes;
-  size_t pieces, points; /* of the outlines of all of them; those of strokes are not known */
+  size_t pieces, points; /* of the outlines of all shapes; unknown for strokes */
 } cs_census;
 
 /* matrix: from the units of the objects to pixels of the frame. */

@@ -28,7 +28,7 @@
 /* Pixels beside the columns asked for, for rounding: many dashes may be there. */
 #define BESIDE 0x1p-6
 #define DEPTH_LEAST 6   /* halvings of light; a tile dies at CS_THROUGH_OPAQUE */
-#define SOURCES_MOST 64 /* grounds inside each other, each of which the cull would go into */
+#define SOURCES_MOST 64 /* grounds inside each other; the cull would enter each */
 
 /* ---------------------------------------------------------------- in the words of the cull */
 
@@ -217,7 +217,7 @@ static celspan_status compile_paint(cs_compiler *c, const celspan_rostrum *rostr
   return CELSPAN_OK;
 }
 
-/* The same, graded as it is lit. */
+/* The same for a cel with a grade, which acts on the lit cel. */
 static celspan_status compile_graded(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
                                      const celspan_matrix *matrix, const cs_compiler_film *film) {
   cs_objects_outside outer;
@@ -348,7 +348,7 @@ static bool stays_on_thread(const cs_plan *plan) {
   return false;
 }
 
-/* status: that of compiling. The plan is given away, or freed. */
+/* status: the result of compiling. The plan is moved to *out, or freed. */
 static celspan_status finish(cs_compiler *c, celspan_status status, cs_plan *out) {
   cs_boundary_builder_finish(c->boundaries);
   c->plan->stays_on_thread = status == CELSPAN_OK && stays_on_thread(c->plan);

@@ -34,7 +34,7 @@ typedef struct cs_view {
   size_t most_dashes;       /* in view; with more, the plan is crowded (engine/row/plan.h) */
   float span_error;         /* see engine/compose/stack.h */
   celspan_space space;      /* of the rows */
-  celspan_space film_space; /* of a rostrum that has none; AROUND: that of the rows */
+  celspan_space film_space; /* of a rostrum that has none; AROUND: the space of the rows */
   /* Of planes, pixels: curves are kept (model/geometry/boundary.h), and objects lie at multiples
    * of it, so that their curves are the same wherever they have been moved to. 0: neither. */
   double unit;

@@ -1,12 +1,12 @@
-/* A frame being compiled: what the files of this room share.
+/* A frame being compiled: the state that the files of this room share.
  *
  *   compile.c    rostrum, cels            calls
  *   objects.c    objects, trees, groups   |  |  ^  a rostrum that is an object comes back
  *   lights.c     lights of a film         v  |  |  as a callback
  *   layers.c     layers of primitives        v  |
  *
- * Layers are appended from the rear to the camera. Invariant: the layers of a group, and those of a
- * tree, are neighbours; nothing else is appended between them.
+ * Layers are appended from the rear to the camera. Invariant: the layers of a group are neighbours,
+ * and so are the layers of a tree: nothing else is appended between them.
  */
 #pragma once
 
@@ -18,28 +18,30 @@
 typedef struct cs_compiler_film {
   double width, height;
   celspan_matrix to_pixels;  /* film units to pixels of the frame */
-  cs_v4 shine;               /* what falls on it from outside: multiplies its lights; lane 3 is 0 */
+  cs_v4 shine;               /* the light that falls on it from outside: multiplies its lights; lane
+                                3 is 0 */
   const cs_outline *outline; /* of an object's frame, film units; NULL: the whole plane */
 } cs_compiler_film;
 
-/* What outlines in the frame are like. Those that are left out because they are on no row asked for
- * are included, so that it depends on the scene and the frame's size alone. */
+/* Counts of the outlines in the frame. Outlines that are left out because they are on no requested
+ * row are included, so that the counts depend on the scene and the frame's size alone. */
 typedef struct cs_compiler_census {
   double pieces, rows; /* rows: the heights of the outlines, pixels */
   double depth;        /* halvings of light that the layers make behind a point, on the average */
 } cs_compiler_census;
 
-/* What isolates: the frame, a rostrum that is an object, or a group. Where a source with a mode is
- * inside, its layers are appended to a ground (engine/compose/layer.h), and those in front of a
- * source to the next one, around it. */
+/* An isolating group: the frame, a rostrum that is an object, or a group. Where a source with a
+ * mode is inside, its layers are appended to a ground (engine/compose/layer.h), and layers in front
+ * of the source to the next ground, around the first. */
 typedef struct cs_compiler_isolation {
-  uint32_t ground; /* the one being filled; CS_STACK_NONE: no source is inside */
+  uint32_t ground; /* the ground being filled; CS_STACK_NONE: no source is inside */
   /* The front light with a shape of the cel being compiled, which lights its parts between sources
    * each by itself; NULL: there is none, or the cel has no source. Borrowed */
   const struct cs_lights_front *light;
   const cs_compiler_film *film; /* of that light */
-  /* A film that has mattes of back lights, in layers behind all others (lights.h): where those
-   * begin that are behind the cel being compiled, and those in no ground yet end. Else both 0. */
+  /* A film that has mattes of back lights, in layers behind all others (lights.h): where the layers
+   * behind the cel being compiled begin, and where the layers that are in no ground yet end.
+   * Otherwise both 0. */
   uint32_t mattes, mattes_end;
 } cs_compiler_isolation;
 
@@ -61,16 +63,16 @@ struct cs_compiler {
   size_t cel;                      /* from 1; it and the mark are for messages */
   cs_mark mark;                    /* of the cel; borrowed */
   cs_v4 front;
-  celspan_space space; /* of what is being compiled */
+  celspan_space space; /* of the object being compiled */
   double unit;         /* of planes: see cs_view */
   uint32_t group;      /* the group being filled, or CS_STACK_NONE */
   cs_compiler_isolation isolation;
-  bool records;     /* what is compiled is an operand: it leaves one result on the tree's stack */
+  bool records;     /* an operand is being compiled: it leaves one result on the tree's stack */
   bool is_nested;   /* inside a rostrum that is an object, so inside a tree */
-  uint32_t results; /* is_nested: those that the trees inside it have left so far */
+  uint32_t results; /* is_nested: the results that the trees inside it have left so far */
   bool fades_out;   /* inside something faded to nothing: present, but clear */
   cs_compiler_census census;
-  /* Of the frame; shared by copies, and by what is compiled alone. */
+  /* Of the frame; shared by copies, and by compilers of single cels. */
   struct cs_patterns *patterns;
   struct cs_defocus_made *blurs;
   /* Compiles one cel alone, as for a defocused one, and frees its plan. user: the compiler. */

@@ -14,8 +14,8 @@
 
 /* ---------------------------------------------------------------- maps */
 
-/* A cel in its place. The transform and the fade of an only object are those of the place, too, so
- * that it has the same map wherever it is moved. */
+/* A cel in its place. If it has only one object, the transform and the fade of the object count as
+ * part of the place, so that the object has the same map wherever it is moved. */
 typedef struct placed_cel {
   const celspan_cel *cel;
   const cs_view *view; /* of the frame */
@@ -58,10 +58,11 @@ static double power_above(double number) {
   return ldexp(1, fraction == 0.5 ? exponent - 1 : exponent);
 }
 
-/* Rounding does not double the scale of what is turned without being stretched. */
+/* Rounding does not double the scale of a cel that is turned without being stretched. */
 #define STRETCH_ROUNDING 1e-9
 
-/* The scale of a cel that is turned, sheared or in perspective: that of its largest corner. */
+/* The scale of a cel that is turned, sheared or in perspective: the largest scale at its
+ * corners. */
 static bool find_turned_scale(placed_cel *d) {
   celspan_box box = {0, 0, 0, 0};
   double stretch = 0;
@@ -154,7 +155,7 @@ static celspan_status make(void *user, celspan_context *context, cs_map *map) {
   return make_alone(context, d, &drawing, map);
 }
 
-/* Of an object of a drawing; an only one is the same wherever they are moved. */
+/* The hash of an object of a drawing; a single object has the same hash wherever it is moved. */
 static cs_hash hash_of(const celspan_cel *cel, size_t object) {
   return cel->object_count == 1 ? cel->objects[0]->data->hash : cel->objects[object]->hash;
 }
@@ -177,7 +178,7 @@ static cs_cache_key key_of(const placed_cel *d) {
 
 static cs_v4 colour_of(celspan_light light) { return (cs_v4){light.r, light.g, light.b, 0}; }
 
-/* What the cells of a coloured map let through where the cel is as opaque as this. */
+/* The transmission of the cells of a coloured map where the cel has this opacity. */
 static celspan_status fade_media(celspan_context *context, cs_map_drawing *drawing) {
   const cs_map *map = drawing->map;
   const float opacity = drawing->light[3];
@@ -232,9 +233,9 @@ static celspan_status place_turned(celspan_context *context, const placed_cel *d
 
 /* ---------------------------------------------------------------- cels that are swept */
 
-/* Compiles cels by themselves, with all their lights but the one behind them, which is compiled
- * only if nothing else is behind it. All rows are compiled, so that the number of dashes is that of
- * the whole frame. *suits: whether there are not too many of these. */
+/* Compiles cels by themselves, with all their lights except the back light, which is compiled only
+ * if nothing else is behind it. All rows are compiled, so that the dashes of the whole frame are
+ * counted. *suits: whether there are not too many dashes. */
 static celspan_status compile_cels(celspan_context *context, const cs_cel_parts *parts,
                                    const cs_view *view, const cs_antialias *antialias,
                                    cs_map_sheet *sheet, size_t first, bool *suits) {
@@ -331,8 +332,8 @@ typedef struct making {
   placed_cel drawings[CS_MAP_DRAWINGS];
 } making;
 
-/* Whether a map is made of some rows alone: of an upright drawing, which nothing but the zones in
- * these rows can keep from being a map. */
+/* Whether a map can be made of some rows alone: it can for an upright drawing, because only the
+ * zones in these rows decide whether it can be a map. */
 static bool is_cropped(const making *m, const placed_cel *d) {
   const cs_view *view = m->view;
   return !m->repeats && CROPPED * (view->end_row - view->first_row) <= view->height &&

@@ -26,7 +26,8 @@ CELSPAN_CHECKED celspan_status cs_drawings_create(celspan_context *context,
 void cs_drawings_finish(cs_map_frame *frame, cs_memory *memory);
 
 static inline bool cs_drawings_are_used(const cs_map_frame *frame) { return frame->width > 0; }
-/* Whether all rows are drawn from them. The others are swept, as if there were none. */
+/* Whether all rows are drawn from the maps. If not, the other rows are swept, as if there were no
+ * maps. */
 static inline bool cs_drawings_are_enough(const cs_map_frame *frame) {
   return cs_drawings_are_used(frame) && !frame->has_gaps;
 }

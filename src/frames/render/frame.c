@@ -79,7 +79,8 @@ int cs_frame_workers(celspan_context *context, int wanted) {
   return cs_context_workers(context, wanted, WORKER_LIMIT);
 }
 
-/* Strips of whole swaths, which are not made twice then, where a crop begins with one. */
+/* Makes strips of whole swaths, so that no swath is made twice if the crop begins with a whole
+ * swath. */
 static void choose_workers(celspan_context *context, cs_frame *frame,
                            const celspan_frame_desc *desc) {
   frame->workers = needs_one_thread(frame) ? 1 : cs_frame_workers(context, desc->workers);

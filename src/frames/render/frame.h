@@ -40,9 +40,9 @@ CELSPAN_CHECKED celspan_status cs_frame_check(celspan_context *context,
 CELSPAN_CHECKED celspan_status cs_frame_create(celspan_context *context,
                                                const celspan_frame_desc *desc, cs_frame *out);
 void cs_frame_free(cs_frame *frame, cs_memory *memory);
-/* Compiles all exposures for a view, into plans that were empty; view->most_dashes is that of all
- * of them together. They must be freed, also after an error. *is_crowded: whether one of them is.
- * Errors: those of cs_compile. */
+/* Compiles all exposures for a view, into plans that were empty; view->most_dashes is the limit for
+ * all exposures together. The plans must be freed, also after an error. *is_crowded: whether one of
+ * the plans is crowded. Errors: those of cs_compile. */
 CELSPAN_CHECKED celspan_status cs_frame_compile(celspan_context *context, const cs_frame *frame,
                                                 const cs_view *view, int workers, cs_plan *plans,
                                                 bool *is_crowded);

@@ -17,7 +17,7 @@ void cs_layers_fill_flat(cs_layer *layer, cs_paint paint, float fade) {
   layer->t = t;
 }
 
-/* What lets through at most `t` before it is faded. */
+/* The most that a layer transmits after it is faded, if it transmits at most `t` before. */
 static cs_v4 faded_through(float fade, cs_v4 t) {
   cs_v4 faded = (1 - fade) + fade * t;
   faded[3] = 0;
@@ -106,7 +106,7 @@ celspan_status cs_layers_append(cs_compiler *c, double fade, celspan_rule rule, 
   return CELSPAN_OK;
 }
 
-/* Adds an outline of so many pieces that lies in a rectangle to the census. */
+/* Adds an outline with this number of pieces, in a rectangle, to the census. */
 static void count_outline(cs_compiler *c, size_t pieces, const cs_layer *layer,
                           const cs_boundary_frame *around) {
   const cs_boundary_frame *frame = &c->frame;
@@ -152,8 +152,9 @@ static bool takes_dashes(cs_compiler *c, const cs_stroke *stroke, const cs_strok
   return !plan->is_crowded;
 }
 
-/* The outline of a stroke is made for what the rows that are asked for show of it. The census
- * counts what does not depend on them: two sides of its line and two ends of each of its parts. */
+/* The outline of a stroke is made only as far as the requested rows show it. The census counts
+ * numbers that do not depend on these rows: two sides of its line and two ends of each of its
+ * parts. */
 static celspan_status add_stroke(cs_compiler *c, const cs_primitive_data *data,
                                  const celspan_matrix *facing, uint32_t index) {
   const cs_stroke *stroke = data->stroke;

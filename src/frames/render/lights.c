@@ -7,7 +7,7 @@ static cs_v4 colour_of(celspan_light light) { return (cs_v4){light.r, light.g, l
 
 static cs_v4 grey(double x) { return (cs_v4){(float)x, (float)x, (float)x, 0}; }
 
-/* A light of a film under what falls on the film from outside. */
+/* A light of a film, multiplied by the light that falls on the film from outside. */
 static cs_v4 under_shine(const cs_compiler_film *film, cs_v4 light) {
   return film->outline ? cs_v4_min(film->shine * light, cs_v4_all(CS_LAYER_BRIGHTEST)) : light;
 }
@@ -45,8 +45,7 @@ static celspan_status add_film_outline(cs_compiler *c, const cs_compiler_film *f
   return status;
 }
 
-/* A layer of a light with a shape. front: what its pigments are multiplied by. fade: of its
- * paint. */
+/* A layer of a light with a shape. front: the factor of its pigments. fade: of its paint. */
 static celspan_status append_shape(cs_compiler *c, const cs_light *light,
                                    const cs_compiler_film *film, const celspan_matrix *inverse,
                                    cs_v4 front, double fade, uint32_t *index) {
@@ -77,7 +76,7 @@ static celspan_status add_flat_matte(cs_compiler *c, float matte, const cs_compi
   return add_film_outline(c, film, layer);
 }
 
-/* Its pigments are not lit, so that only its T counts, which is 1 - matte * beta. */
+/* The pigments of the layer are not lit, so that only its T counts, which is 1 - matte * beta. */
 static celspan_status add_matte(cs_compiler *c, const celspan_rostrum *rostrum, size_t index,
                                 const cs_light *back, const cs_compiler_film *film) {
   celspan_matrix inverse;
@@ -116,7 +115,8 @@ celspan_status cs_lights_add_flat(cs_compiler *c, celspan_light light) {
   return CELSPAN_OK;
 }
 
-/* One of an object's frame: a layer that dims nothing. Its matte belongs to the frame's layer. */
+/* A back light in the frame of an object: a layer that dims nothing. Its matte belongs to the
+ * frame's layer. */
 static celspan_status append_flat(cs_compiler *c, celspan_light light,
                                   const cs_compiler_film *film) {
   uint32_t index;

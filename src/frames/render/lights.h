@@ -16,12 +16,12 @@
 
 #include "frames/render/compiler.h"
 
-/* What the mattes of a rostrum's flat back lights leave of transparency, all together. */
+/* The share of transparency that the mattes of a rostrum's flat back lights leave together. */
 float cs_lights_keep(const celspan_rostrum *rostrum);
-/* The mattes of its back lights that have a shape, and, in an object whose cels have modes, of the
- * flat ones. Those of lights in front come first, so that those behind a cel are a range.
- * firsts: gets where the range of each cel begins; its own light is behind it. Errors: NO_MEMORY,
- * LIMIT, BAD_ARGUMENT. */
+/* Adds the mattes of the rostrum's back lights that have a shape; in an object whose cels have
+ * modes, also those of flat back lights. Mattes of lights in front come first, so that the mattes
+ * behind a cel are a range. firsts: gets where the range of each cel begins; its own light is
+ * behind it. Errors: NO_MEMORY, LIMIT, BAD_ARGUMENT. */
 CELSPAN_CHECKED celspan_status cs_lights_add_mattes(cs_compiler *c, const celspan_rostrum *rostrum,
                                                     const cs_compiler_film *film, uint32_t *firsts);
 /* A back light that shines on every layer appended from now on. index: of its cel. Errors: as
@@ -42,7 +42,7 @@ typedef struct cs_lights_front {
   celspan_matrix inverse;
 } cs_lights_front;
 
-/* The front light of a cel: sets that of the layers to come. Errors: BAD_ARGUMENT. */
+/* Sets the front light of the layers that follow to that of a cel. Errors: BAD_ARGUMENT. */
 CELSPAN_CHECKED celspan_status cs_lights_set_front(cs_compiler *c, const celspan_rostrum *rostrum,
                                                    size_t index, const cs_compiler_film *film,
                                                    cs_lights_front *out);

@@ -13,7 +13,7 @@
 
 #define PARTS 16 /* a union of more operands is compiled as one of as many unions */
 
-/* Moves to the nearest multiple of the unit; what is seen in perspective stays. */
+/* Moves to the nearest multiple of the unit; objects in perspective keep their place. */
 static void snap(const cs_compiler *c, celspan_matrix *matrix) {
   double *m = matrix->m;
   if (c->unit == 0 || m[6] != 0 || m[7] != 0 || m[8] != 1)
@@ -63,7 +63,7 @@ static cs_group developed(const cs_compiler *c, celspan_space space, const celsp
       .fade = 1, .grade = cs_grade_steps(grade), .space = (uint8_t)space, .converts = (uint8_t)to};
 }
 
-/* Begins one that is lit as a whole. */
+/* Begins a group that is lit as a whole. */
 static celspan_status enter_whole(cs_compiler *c, celspan_space space, const celspan_grade *grade) {
   cs_group group = developed(c, space, grade);
   group.has_front = true;
@@ -114,7 +114,8 @@ void cs_objects_end_group(cs_compiler *c, cs_objects_outside outer) {
 
 /* ---------------------------------------------------------------- sources and their grounds */
 
-/* like: the ground inside it, or one with what all grounds of what isolates have in common. */
+/* like: the ground inside it, or one with the values that all grounds of an isolating group
+ * share. */
 static celspan_status begin_ground(cs_compiler *c, const cs_group *like) {
   cs_stack *stack = &c->plan->stack;
   const cs_group common = *like;
@@ -295,7 +296,7 @@ static bool is_needed(const cs_boolean *boolean, size_t i) {
     return false;
   case CELSPAN_INTERSECTION:
   case CELSPAN_CLIP:
-    return i + 1 == boolean->operand_count; /* of a clip, its shape */
+    return i + 1 == boolean->operand_count; /* the shape of a clip */
   case CELSPAN_DIFFERENCE:
     break;
   }
@@ -336,8 +337,8 @@ static celspan_status add_operands(cs_compiler *c, const cs_boolean *boolean,
 static celspan_status add_guarded(cs_compiler *c, const cs_boolean *boolean,
                                   const celspan_matrix *matrix, operands *o);
 
-/* A union of many as a union of unions: one of which no part is present is skipped at once.
- * Recursion ends: each part has a sixteenth of the operands. *count: the parts. */
+/* A union of many operands as a union of unions. A part without a present operand is skipped as a
+ * whole. Recursion ends: each part has a sixteenth of the operands. *count: the number of parts. */
 static celspan_status add_unions(cs_compiler *c, const cs_boolean *boolean,
                                  const celspan_matrix *matrix, operands *o, size_t *count) {
   size_t all = o->end - o->begin, each = (all + PARTS - 1) / PARTS;
@@ -433,8 +434,8 @@ static celspan_status end_tree(cs_compiler *c, cs_tree tree) {
   return CELSPAN_OK;
 }
 
-/* A boolean object. One that is not an operand of another is the root of a tree, unless it needs no
- * steps, or is inside a rostrum: then it belongs to the tree of that. */
+/* A boolean object. If it is not an operand of another one, it is the root of a tree, unless it
+ * needs no steps. Inside a rostrum it belongs to the rostrum's tree. */
 static celspan_status add_boolean(cs_compiler *c, const cs_primitive_data *data,
                                   const celspan_matrix *matrix) {
   if (c->records || is_plain_union(data))
@@ -454,7 +455,7 @@ static celspan_status add_boolean(cs_compiler *c, const cs_primitive_data *data,
 static celspan_status add_frame(cs_compiler *c, const cs_primitive_data *data,
                                 const celspan_matrix *matrix) {
   uint32_t index;
-  bool has_layers = cs_rostrum_blends(data->rostrum, c->space); /* of mattes, each by itself */
+  bool has_layers = cs_rostrum_blends(data->rostrum, c->space); /* layers of mattes, one for each */
   float keep = c->fades_out || has_layers ? 1 : cs_lights_keep(data->rostrum);
   CS_TRY(cs_layers_append(c, 1, CELSPAN_RULE_NONZERO, &index));
   cs_layer *layer = &c->plan->stack.layers[index];
@@ -465,7 +466,7 @@ static celspan_status add_frame(cs_compiler *c, const cs_primitive_data *data,
                                index);
 }
 
-/* Its layers, and the step that cuts them at the frame and leaves one result. */
+/* Adds the layers of a rostrum, and the step that cuts them at the frame and leaves one result. */
 static celspan_status add_framed(cs_compiler *inner, const cs_primitive_data *data,
                                  const celspan_matrix *matrix) {
   const cs_stack *stack = &inner->plan->stack;
@@ -484,9 +485,9 @@ static celspan_status add_framed(cs_compiler *inner, const cs_primitive_data *da
                                       .operands = inner->results});
 }
 
-/* What changes inside is the compiler's copy, which has the same plan. Light multiplies level by
- * level, except where modes or grades are inside, or codes instead of light: it falls on what they
- * make. */
+/* Changes are made in a copy of the compiler, which has the same plan. Light multiplies level by
+ * level, except where modes or grades are inside, or codes instead of light: then it falls on their
+ * result. */
 static celspan_status add_rostrum(cs_compiler *c, const cs_primitive_data *data,
                                   const celspan_matrix *matrix) {
   celspan_space space = cs_space_inside(data->rostrum->space, c->space);
@@ -596,7 +597,7 @@ static celspan_status add_parts(cs_compiler *c, const celspan_object *object,
 
 /* ---------------------------------------------------------------- patterns */
 
-/* What is seen of a pattern, in the place of its plane. */
+/* Adds the visible boxes of a pattern in place of its plane. */
 static celspan_status add_pattern(cs_compiler *c, const celspan_object *plane,
                                   const celspan_matrix *matrix) {
   celspan_object *seen;
@@ -624,7 +625,7 @@ static celspan_status add_object(cs_compiler *c, const celspan_object *object,
   return add_parts(c, object, &matrix);
 }
 
-/* Those that are not behind others. */
+/* Adds the objects that are not hidden behind others. */
 static celspan_status add_visible(cs_compiler *c, celspan_object *const *objects,
                                   const cs_unseen *list, const celspan_matrix *matrix) {
   for (size_t i = 0; i < list->count; i++)

@@ -3,7 +3,7 @@
  *      object                            plan
  *      primitive                         one layer
  *      union of unions                   layers: all that are present are painted
- *      other booleans                    layers, and the steps of a tree: what of them contributes
+ *      other booleans                    layers, and the steps of a tree: which of them contribute
  *      faded boolean                     its layers are a group
  *      with a mode                       a source: its layers are the head of a ground, which holds
  *                                        all that is behind it in what isolates
@@ -15,7 +15,7 @@
 
 #include "frames/render/compiler.h"
 
-/* The state of the compiler outside of a group, or of what isolates. */
+/* The state of the compiler outside of a group, isolating or not. */
 typedef struct cs_objects_outside {
   uint32_t group;
   bool fades_out;
@@ -29,7 +29,7 @@ CELSPAN_CHECKED celspan_status cs_objects_begin_group(cs_compiler *c, double fad
                                                       cs_objects_outside *outer);
 void cs_objects_end_group(cs_compiler *c, cs_objects_outside outer);
 
-/* Begins a group for a grade (NULL: none), which ends like those above. Errors: NO_MEMORY. */
+/* Begins a group for a grade (NULL: none), which ends like the groups above. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_objects_begin_grade(cs_compiler *c, const celspan_grade *grade,
                                                       cs_objects_outside *outer);
 
@@ -38,14 +38,14 @@ CELSPAN_CHECKED celspan_status cs_objects_begin_grade(cs_compiler *c, const cels
 CELSPAN_CHECKED celspan_status cs_objects_begin_frame(cs_compiler *c, celspan_space space,
                                                       const celspan_grade *grade);
 
-/* Begins what isolates. blends: a source is inside that acts on its backdrop. is_frame: it is the
- * frame itself. Errors: NO_MEMORY. */
+/* Begins an isolating group. blends: a source is inside that acts on its backdrop. is_frame: it is
+ * the frame itself. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_objects_begin_isolation(cs_compiler *c, bool blends,
                                                           bool is_frame, cs_objects_outside *outer);
 void cs_objects_end_isolation(cs_compiler *c, cs_objects_outside outer);
 
-/* What is appended from here on is lit by a front light with a shape, whose parts between sources,
- * and groups that hold sources, are lit each by itself, so that modes act on what is lit. Errors:
+/* Layers appended from here on are lit by a front light with a shape. Parts between sources, and
+ * groups with sources inside, are lit each by itself, so that modes act on lit colours. Errors:
  * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_objects_begin_light(cs_compiler *c,
                                                       const struct cs_lights_front *light,

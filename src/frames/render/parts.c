@@ -8,13 +8,13 @@ typedef struct search {
   const celspan_cel *cel;
   const cs_view *view;
   const celspan_rostrum *rostrum;
-  size_t rich;  /* shapes of what is rich */
+  size_t rich;  /* shapes of the rich objects */
   size_t least; /* shapes of a part */
   cs_cel_parts *parts;
   size_t number;                  /* of the cel */
   size_t first;                   /* of its parts */
   size_t count, most;             /* cels of the frame so far, and room for them */
-  size_t rich_shapes, all_shapes; /* of the parts of this cel, and what lies between them */
+  size_t rich_shapes, all_shapes; /* of the parts of this cel, and of the objects between them */
   bool is_sane;                   /* none of its parts is enlarged or reduced too far */
 } search;
 
@@ -84,7 +84,7 @@ static void add(search *s, celspan_object **objects, size_t count, const celspan
   s->count++;
 }
 
-/* matrix: from the units of the objects to those of the cel. */
+/* matrix: from the units of the objects to the units of the cel. */
 static void split(search *s, celspan_object **objects, size_t count, const celspan_matrix *matrix) {
   size_t first = 0;
   for (size_t i = 0; i < count; i++) {
@@ -128,7 +128,7 @@ static void split_cel(search *s, size_t left) {
 
 /* ---------------------------------------------------------------- a rostrum */
 
-/* An only object that is moved is in its place already: see drawings.c. */
+/* If the only object of a cel has a transform, drawings.c has already made it part of the place. */
 static bool cel_has_part(const search *s) {
   const celspan_cel *cel = s->cel;
   bool has = cel->object_count == 1 && holds_part(s, cel->objects[0]);

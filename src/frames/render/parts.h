@@ -12,9 +12,10 @@
  *
  * A cel that is one map is solved again whenever anything in it moves. The rule. An object of a cel
  * is a part that has a transform, is rich (CS_WAYS_SHAPES of ways.h), and has at least one in
- * CS_PARTS_MOST of the shapes of its cel; unless parts are inside it, which it only holds together:
- * then they are. What only holds together is a union that is not faded and has no mode, grade or
- * space of its own. What lies between two parts is a cel, too. A cel keeps its parts together that
+ * CS_PARTS_MOST of the shapes of its cel; unless it only groups objects that contain parts: then
+ * these are the parts. An object only groups if it is a union that is not faded and has no mode,
+ * grade or space of its own. The objects between two parts make a cel, too. A cel keeps its parts
+ * together that
  *   - composites its objects by themselves, such as a faded one, or has objects whose modes act on
  *     other cels, or a light with a shape,
  *   - would have more shapes in what is not rich than in what is,
@@ -32,7 +33,7 @@
 #define CS_PARTS_MOST 8 /* in a cel */
 
 typedef struct cs_cel_parts {
-  const celspan_rostrum *rostrum;  /* whose cels are the parts; it borrows what they are made of */
+  const celspan_rostrum *rostrum;  /* its cels are the parts; it borrows their contents */
   const celspan_rostrum *from;     /* borrowed */
   size_t numbers[CS_MAP_DRAWINGS]; /* of the cels that the parts belong to, from 1 */
   celspan_rostrum own;             /* the rostrum of the parts, */
@@ -49,7 +50,7 @@ CELSPAN_CHECKED celspan_status cs_parts_create(celspan_context *context,
 CELSPAN_CHECKED celspan_status cs_parts_place(celspan_context *context, const cs_cel_parts *parts,
                                               size_t index, const cs_view *view,
                                               celspan_matrix *out);
-/* The shapes of a list of objects, as they count in rules about maps: without those that are cut
- * away. */
+/* The number of shapes in a list of objects, as rules about maps count them: without shapes that
+ * are cut away. */
 size_t cs_parts_shapes(celspan_object *const *objects, size_t count);
 void cs_parts_finish(cs_cel_parts *parts, cs_memory *memory);

@@ -12,7 +12,7 @@
 #include "model/scene/walk.h"
 
 #define COPIES_EACH 4096 /* primitives in the boxes of one plane that are copied, at most */
-#define COPIES_ALL 16384 /* and in those of a frame */
+#define COPIES_ALL 16384 /* and in all patterns of a frame */
 #define FEW_BOXES 64     /* of one plane: they are copied, whatever is in them */
 #define SIDE 4096        /* texels of a picture, at most */
 #define TEXELS 4194304   /* likewise */
@@ -32,7 +32,7 @@ void cs_patterns_finish(cs_patterns *patterns, cs_memory *memory) {
 typedef struct view {
   const cs_repeat *repeat;
   celspan_matrix to_pixels; /* from the pattern's units */
-  double left, top;         /* the first boxes in view, counted from that of the pattern */
+  double left, top;         /* the first boxes in view, counted from the pattern's own box */
   double columns, rows;     /* of boxes in view; 0: nothing is */
   double scale_x, scale_y;  /* pixels to a unit of the pattern, at most */
 } view;
@@ -85,7 +85,7 @@ static extent find_visible(const cs_compiler *c, const cs_primitive_data *plane,
   return seen;
 }
 
-/* The greatest scale at the corners of what is seen. */
+/* The greatest scale at the corners of the visible area. */
 static void find_scale(const extent *seen, view *v) {
   const double *m = v->to_pixels.m;
   for (int i = 0; i < 4; i++) {
@@ -216,7 +216,7 @@ static celspan_status make_surface(cs_compiler *c, const cs_defocus_job *job, cs
   celspan_space space = job->is_through ? CELSPAN_SPACE_LINEAR : c->space;
   celspan_status status = make_rows(c->context, &plan, space, texels);
   for (int32_t i = 0; job->is_through && i < job->width * job->height; i++)
-    texels[i][3] = 1; /* what is let through, all of it a medium */
+    texels[i][3] = 1; /* the light let through, all of it through a medium */
   c->free_alone(&plan, c->context->memory);
   CS_TRY(status);
   celspan_surface_desc desc = CELSPAN_SURFACE_DESC;
@@ -246,7 +246,7 @@ static celspan_status note_colour(const cs_walk *walk, const cs_primitive_data *
   return CELSPAN_OK;
 }
 
-/* Whether what is seen through the box may have another colour: then the picture has a medium. */
+/* Whether light through the box may change its colour: then the picture has a medium. */
 static bool has_gels(const celspan_rostrum *tile) {
   bool is_coloured = false;
   cs_walk walk = {.call = note_colour, .user = &is_coloured};

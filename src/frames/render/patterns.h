@@ -1,4 +1,4 @@
-/* Patterns of a frame: what is seen of them.
+/* The visible boxes of the patterns of a frame.
  *
  *     plane of a pattern                     object in its place
  *     few boxes in view                       a union of rostrums, one for each box: exact
@@ -23,7 +23,7 @@ typedef struct cs_patterns_picture {
   celspan_texture *texture; /* a reference */
 } cs_patterns_picture;
 
-/* Of a frame, with all that is compiled alone for it. All zero is empty. */
+/* The patterns of a frame, with everything that is compiled alone for it. All zero is empty. */
 typedef struct cs_patterns {
   cs_patterns_picture *pictures;
   size_t count, capacity;
@@ -31,8 +31,8 @@ typedef struct cs_patterns {
 } cs_patterns;
 
 void cs_patterns_finish(cs_patterns *patterns, cs_memory *memory);
-/* *out: new; what shows the plane, in its units. The pictures that it shows are kept by the plan.
- * matrix: the plane's units to pixels. Errors: those of the compiler. */
+/* *out: new; the objects that show the plane, in its units. The pictures that it shows are kept by
+ * the plan. matrix: the plane's units to pixels. Errors: those of the compiler. */
 CELSPAN_CHECKED celspan_status cs_patterns_expand(cs_compiler *c, const cs_primitive_data *plane,
                                                   const celspan_matrix *matrix,
                                                   celspan_object **out);

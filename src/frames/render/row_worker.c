@@ -107,7 +107,7 @@ static bool has_row(const cs_view *pane, int32_t y) {
   return y >= pane->first_row && y < pane->end_row;
 }
 
-/* Compiles a pane, and begins it unless that is crowded. The one before it ends. */
+/* Compiles a pane, and begins it unless it is crowded. The previous pane ends. */
 static celspan_status begin_pane(cs_row_worker *worker, const cs_view *pane, bool *is_crowded) {
   finish_makers(worker);
   cs_frame_free_plans(worker->frame, worker->plans, worker->context.memory);

@@ -1,4 +1,4 @@
-/* A row worker: what one thread needs to make the rows of a frame.
+/* A row worker: the state of one thread that makes the rows of a frame.
  *
  *   exposure 0: plan --> row maker --> row --\
  *   exposure 1: plan --> row maker --> row ---+--> sum, by weight --> crop --> row of the frame
@@ -9,7 +9,7 @@
  * rows are halved until few dashes are left, and a single row into columns.
  *
  *   +-------------------+     pane 1: rows with few dashes
- *   |         1         |     pane 2, 3: columns of one row, each with as many as allowed, whose
+ * | 1 | pane 2, 3: columns of one row, each with as many as allowed, whose
  *   +---------+---------+                spans are joined
  *   |    2    |    3    |
  *   +---------+---------+
@@ -25,10 +25,10 @@
 #include "frames/render/frame.h"
 
 typedef struct cs_row_worker {
-  celspan_context context; /* a branch of the frame's */
+  celspan_context context; /* branched from the frame's context */
   const cs_frame *frame;
-  cs_row_maker *makers;     /* one for each exposure, of those that have a plan */
-  cs_map_maker *map_makers; /* one for each exposure, of those that are drawn from maps */
+  cs_row_maker *makers;     /* one for each exposure that has a plan */
+  cs_map_maker *map_makers; /* one for each exposure that is drawn from maps */
   cs_row *rows;             /* one for each exposure */
   cs_row sum;
   /* of a crowded frame */

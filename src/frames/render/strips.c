@@ -289,7 +289,7 @@ static int32_t choose_rows(const strips *s, const celspan_frame_desc *desc) {
 static celspan_status render_together(celspan_context *context, const cs_frame *frame,
                                       delivery *d) {
   strips s = {.context = context, .frame = frame, .delivery = d};
-  /* Of one share alone only one worker could make the rows. */
+  /* If there were only one share, only one worker could make the rows. */
   s.has_shares = cs_sink_shares(d->sink, &s.shares) && s.shares.rows < frame->crop_height;
   if (!s.has_shares)
     s.shares = (cs_shares){.rows = 0};

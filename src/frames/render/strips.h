@@ -7,14 +7,14 @@
  * deliver.
  *
  * INVARIANT: the sink gets the same spans whatever the number of workers and the height of strips;
- * the failure reported is that of the topmost row that failed.
+ * if rows fail, the failure of the topmost of them is reported.
  */
 #pragma once
 
 #include "frames/render/row_worker.h"
 
-/* Feeds all rows of the frame to sink->row. desc: for its progress function.
- * Errors: those of rows and of the sink; CANCELLED. */
+/* Feeds all rows of the frame to sink->row. desc: its progress function is called. Errors: those of
+ * rows and of the sink; CANCELLED. */
 CELSPAN_CHECKED celspan_status cs_strips_render(celspan_context *context, const cs_frame *frame,
                                                 const celspan_frame_desc *desc,
                                                 const celspan_sink *sink,

@@ -6,7 +6,8 @@
 #include "model/pictures/store.h"
 #include "model/scene/texture.h"
 
-/* Colours are asked for in the middle of a pixel that the layer only touches. */
+/* A pixel that the layer only touches takes the colour at its middle, which may lie outside the
+ * layer. */
 #define BESIDE 1 /* pixels */
 /* Rounding may put a mix of two paints, or a plane, beyond the greater of its ends. */
 #define ROUNDING (1 + 0x1p-20f)
@@ -41,8 +42,8 @@ static cs_v4 stops_through(const celspan_texture *texture) {
   return most;
 }
 
-/* The planes of a triangle continue outside it, so they are greatest in a corner of what is
- * visible. */
+/* The planes of a triangle continue outside it, so they are greatest in a corner of the visible
+ * box. */
 static cs_v4 triangle_through(const cs_shade *shade, const cs_boundary_frame *visible) {
   cs_v4 most = cs_v4_all(0);
   for (int corner = 0; corner < 4; corner++) {

@@ -1,5 +1,5 @@
-/* Bounds on the light that shines through a layer: what is hidden behind several of them need not
- * be looked at.
+/* Bounds on the light that shines through a layer: layers hidden behind several others need not be
+ * examined.
  *
  *     T of a layer
  *       |  - - - - - - - - - - - - - - -  bound: no channel lets through more, wherever the layer
@@ -21,12 +21,12 @@
 cs_v4 cs_through_shade(const cs_shade *shade, const cs_boundary_frame *visible);
 
 /* The most that a painted layer transmits wherever it is present, fade included. A picture's header
- * is read for it; one that cannot be read counts as clear, since it may be hidden itself. */
+ * is read for it; an unreadable picture counts as clear, since it may be hidden itself. */
 cs_v4 cs_through_layer(celspan_context *context, const cs_stack *stack, const cs_layer *layer);
 /* The least that this may be, before a header is read. */
 cs_v4 cs_through_least(const cs_stack *stack, const cs_layer *layer);
 
-/* How often what lets through at most `t` halves the light behind it, roughly; CS_THROUGH_OPAQUE
- * where that is so often or more. */
+/* How many times a layer of transmission `t` at most halves the light behind it, roughly; at most
+ * CS_THROUGH_OPAQUE. */
 #define CS_THROUGH_OPAQUE 16
 double cs_through_halvings(cs_v4 t);

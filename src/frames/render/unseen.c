@@ -7,8 +7,8 @@
 #define OBJECTS_LEAST 1024 /* of a list that is searched */
 #define SIDE 256           /* tiles in a row, and rows of tiles, at most */
 #define WORDS (SIDE / 64)
-/* Pixels: how near a rectangle's edge must be to that of a tile, to cover it, against rounding; it
- * is far less than shows. And how far outlines may reach beyond their bounds. */
+/* Pixels: how far a rectangle's edge may be from the edge of a tile that it covers, because of
+ * rounding; nobody can see so little. And how far outlines may reach beyond their bounds. */
 #define NEAR 1e-9
 #define BEYOND (2 * CS_BOUNDARY_TOLERANCE)
 
@@ -94,7 +94,7 @@ static bool is_upright(const celspan_matrix *matrix) {
   return m[1] == 0 && m[3] == 0 && m[6] == 0 && m[7] == 0;
 }
 
-/* Whether its bounds are all painted where it is upright, with light from behind held back. */
+/* Whether an upright object paints all of its bounds, and lets no light from behind through. */
 static bool hides(const celspan_object *object) {
   const cs_primitive_data *data = object->data;
   const celspan_texture *texture = data->texture;
@@ -102,7 +102,8 @@ static bool hides(const celspan_object *object) {
          texture->flat.t[0] == 0 && texture->flat.t[1] == 0 && texture->flat.t[2] == 0;
 }
 
-/* Whether the object is behind what the tiles were covered with; else it covers its own. */
+/* Whether the object lies behind the objects that cover its tiles; if not, it covers the tiles
+ * inside it. */
 static bool is_behind(tiles *t, const celspan_object *object, const celspan_matrix *parent) {
   const cs_primitive_data *data = object->data;
   cs_boundary_frame box;

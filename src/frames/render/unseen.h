@@ -9,14 +9,14 @@
  *   +-----+-----+-----+-----+
  *
  * So a list of very many small rectangles costs as much as those of them that are seen, whatever
- * lies behind. Invariant: what is left out depends on the scene and the frame's size alone; the
- * objects of one list hide each other wholly, however their cel is faded or lit.
+ * lies behind. Invariant: which objects are left out depends on the scene and the frame's size
+ * alone; the objects of one list hide each other wholly, however their cel is faded or lit.
  */
 #pragma once
 
 #include "frames/render/compiler.h"
 
-/* The objects of a list, one bit each: those that are left out. No bits: none is. */
+/* A bit for each object of a list: whether it is left out. No bits: none is left out. */
 typedef struct cs_unseen {
   uint64_t *bits;
   size_t count;

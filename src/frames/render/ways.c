@@ -28,8 +28,8 @@ static bool is_mapped(const cs_ways *ways, size_t cel) {
          (ways->is_artwork[cel] || ways->is_small[cel] || ways->forced == CS_WAYS_MAPPED);
 }
 
-/* Whether more of a cel is needed than what it shows and lets through to put it over the cels
- * behind it: of a swept one a colour and an alpha are known. */
+/* Whether a colour and an alpha for each place are not enough to put a cel over the cels behind it.
+ * Nothing else is known about a swept cel. */
 static bool needs_backdrop(const celspan_cel *cel, bool has_map, celspan_space space) {
   return cs_cel_blends(cel, space) || (cs_ways_is_uneven(cel) && !has_map) || cel->back.texture;
 }
@@ -49,7 +49,8 @@ void cs_ways_sweep(const celspan_rostrum *rostrum, cs_ways *ways, size_t cel) {
 
 static bool is_white(celspan_light light) { return light.r == 1 && light.g == 1 && light.b == 1; }
 
-/* Modes act on what is lit, so that those inside a cel are in its map only under white light. */
+/* Modes act on lit colours, so the map of a cel contains the modes inside it only under white
+ * light. */
 static bool may_have_map(const celspan_rostrum *rostrum, const celspan_cel *cel,
                          celspan_space space) {
   const cs_light front = cs_scene_front(rostrum, cel);

@@ -22,7 +22,7 @@
  * shapes that suit, unless most of their area varies; the others are swept. Otherwise the whole
  * exposure is swept.
  *
- * What this was fitted to: docs/how-it-works.md.
+ * docs/how-it-works.md has the measurements behind these numbers.
  *
  * An exposure may have maps where its antialiasing is "area", no side of the frame is above
  * CS_WAYS_SIDE pixels, and it has at most CS_MAP_DRAWINGS cels, no procedures, no grade of the
@@ -36,7 +36,7 @@
  *   - is small enough to be a map (engine/map/map.h) and, if it is turned, to be turned (turn.h
  *     there), and does not have too many dashes.
  *
- * What is said of cels here is meant of their parts where they have some (parts.h).
+ * Where a cel has parts (parts.h), all this is about its parts.
  *
  * Invariant: the ways depend on the frame's scene and the size of the whole frame alone; not on
  * the crop, on the workers, on whether the frame is one of a film, or on which maps are kept.
@@ -71,11 +71,13 @@ void cs_ways_judge(cs_ways *ways, size_t cel, size_t shapes, const cs_census *ce
                    bool occurs_again);
 /* Finds which cels suit, whatever their places and sizes are. All of them have been judged. */
 void cs_ways_find(const celspan_rostrum *rostrum, const cs_view *view, cs_ways *ways);
-/* Chooses those that are drawn from maps among those that suit; false: the exposure is swept. */
+/* Chooses the cels that are drawn from maps among the cels that suit; false: the exposure is
+ * swept. */
 bool cs_ways_choose(const celspan_rostrum *rostrum, cs_ways *ways);
-/* A cel turns out not to suit: it is swept, and what it needs for that is. */
+/* For a cel that turns out not to suit: marks it as swept, and also the cels that must be swept
+ * because of it. */
 void cs_ways_sweep(const celspan_rostrum *rostrum, cs_ways *ways, size_t cel);
-/* Whether it has paints that do not dim all channels alike. */
+/* Whether a cel has paints that do not dim all channels alike. */
 bool cs_ways_is_uneven(const celspan_cel *cel);
 /* The end of the sheet that begins with a cel. */
 size_t cs_ways_end(const celspan_rostrum *rostrum, const cs_ways *ways, size_t first);

@@ -1,4 +1,4 @@
-/* A picture as rows of a frame. The rows of a span file are its own spans; those of a plane are
+/* A picture as rows of a frame. The rows of a span file are its own spans; the rows of a plane are
  * drawn. Any other picture becomes a scene: one image rectangle of the picture's size, lit white
  * and sampled at pixel centres, so that every pixel keeps its value.
  */

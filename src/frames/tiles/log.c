@@ -51,7 +51,7 @@ static void add_file(cs_hash *hash, const char *path) {
 }
 
 /* Hashes the structure of a scene, and the name, size and time of its pictures. A procedure has no
- * structure: for a scene with procedures, the script and what it is given are hashed too. */
+ * structure: for a scene with procedures, the script and its parameters are hashed too. */
 static void add_scene(cs_hash *hash, const cs_tile_inputs *inputs) {
   const celspan_frame_desc *frame = inputs->frame;
   const celspan_exposure *exposures = frame->exposures;
@@ -101,7 +101,7 @@ static void write_head(const cs_tile_log *log, char line[LINE_SIZE]) {
            log->digest.b);
 }
 
-/* The line of a row that follows the lines of which `check` is made, and adds it to these. */
+/* The line of a row. `check` is the checksum of the lines before it, to which the line is added. */
 static void write_row(cs_tile_row row, cs_hash *check, char line[LINE_SIZE]) {
   int length = snprintf(line, LINE_SIZE, "row %" PRId32 " %" PRId32 " %" PRId32 " %" PRId32,
                         row.level, row.row, row.first, row.end);
@@ -109,7 +109,8 @@ static void write_row(cs_tile_row row, cs_hash *check, char line[LINE_SIZE]) {
   snprintf(line + length, (size_t)(LINE_SIZE - length), " %016" PRIx64 "\n", cs_hash_end(*check).a);
 }
 
-/* Whether the text is the line of a row after those lines; then it is added to these. */
+/* Whether the text is the line of a row that continues the lines of `check`; if so, it is added to
+ * them. */
 static bool read_row(const char *text, cs_hash *check, cs_tile_row *row) {
   char line[LINE_SIZE];
   cs_hash added = *check;
@@ -229,7 +230,7 @@ static celspan_status append(celspan_context *context, const cs_tile_log *log, c
                                                : fail(context, log->path, "cannot write");
 }
 
-/* Reads the rows of a locked record, and cuts off what follows them. */
+/* Reads the rows of a locked record, and cuts off everything after them. */
 static celspan_status read_locked(celspan_context *context, cs_tile_log *log) {
   off_t trusted = 0;
   FILE *file = fopen(log->path, "r");

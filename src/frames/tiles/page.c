@@ -147,7 +147,7 @@ static void put_places(text_file *out, const cs_tile_page *page) {
   }
 }
 
-/* Whether it was copied, by this run or an earlier one. */
+/* Whether the file was copied, by this run or an earlier one. */
 static bool has_openseadragon(const cs_pyramid *pyramid) {
   char path[PATH_SIZE];
   int length = snprintf(path, sizeof path, "%s" OPENSEADRAGON, pyramid->folder);

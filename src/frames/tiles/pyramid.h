@@ -50,7 +50,8 @@ int32_t cs_pyramid_within(const cs_pyramid *pyramid, int32_t side);
 /* The highest level that is a single tile. */
 int32_t cs_pyramid_single(const cs_pyramid *pyramid);
 void cs_pyramid_size(const cs_pyramid *pyramid, int32_t level, int32_t *width, int32_t *height);
-/* The tiles of a level, or those that a region of the frame touches; region: NULL for all. */
+/* The tiles of a level, or only the tiles that a region of the frame touches; region: NULL for
+ * all. */
 cs_pyramid_box cs_pyramid_tiles(const cs_pyramid *pyramid, int32_t level,
                                 const cs_pyramid_box *region);
 /* The pixels of a rectangle of tiles, including their overlap. */

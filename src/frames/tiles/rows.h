@@ -53,7 +53,7 @@ typedef struct cs_tile_rows {
   cs_tile_output *output;
   int32_t level;
   cs_pyramid_box tiles;  /* to make */
-  cs_pyramid_box pixels; /* of those tiles; these are rendered */
+  cs_pyramid_box pixels; /* the pixels of those tiles, which are rendered */
   int32_t next;          /* row of tiles */
   int workers;
   /* Called after each finished row of tiles. */

@@ -130,7 +130,7 @@ celspan_status cs_encoder_open(cs_encoder *out, celspan_context *context, const 
 
 /* ---------------------------------------------------------------- the end */
 
-/* Ends the encoder. The result is that of cs_child_end. */
+/* Ends the encoder. Returns the result of cs_child_end. */
 static bool close_encoder(cs_encoder *encoder, double seconds) {
   bool is_over = cs_child_end(&encoder->process, seconds);
   pthread_mutex_lock(&encoder->mutex);

@@ -30,5 +30,5 @@ bool cs_feeder_has_failed(const cs_feeder *feeder);
 /* Ends the thread after the encoder has ended, and closes the samples; does nothing if it is not
  * open. */
 void cs_feeder_end(cs_feeder *feeder);
-/* Of a feeder that has ended. Errors: those of the samples; OUTPUT. */
+/* The outcome of a feeder that has ended. Errors: those of the samples; OUTPUT. */
 CELSPAN_CHECKED celspan_status cs_feeder_outcome(const cs_feeder *feeder, celspan_context *context);

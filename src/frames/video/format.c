@@ -198,7 +198,7 @@ static void begin(cs_video_command *command) {
   add_all(command, first);
 }
 
-/* Whatever the bytes are, ffmpeg opens nothing else because of them. */
+/* Whatever bytes it gets, ffmpeg opens no other file because of them. */
 static void add_pipe(cs_video_command *command, int number) {
   add(command, "-protocol_whitelist");
   add(command, "pipe");

@@ -13,7 +13,8 @@
  *
  * INVARIANT: a film with a background is opaque, and its file has no alpha. In all other films,
  * alpha is kept if the format has it. No shell reads the arguments. ffmpeg opens no file to read,
- * and the name of the one that it writes begins with "file:", so that it is no option or address.
+ * and the name of its output file begins with "file:", so that it cannot be an option or an
+ * address.
  */
 #pragma once
 
@@ -74,7 +75,7 @@ typedef struct cs_video_command {
 
 /* The format of that name, or else NULL. */
 const cs_video_format *cs_video_format_named(const char *name);
-/* The names of all, "mp4, mkv, ...": for messages; cut if there is no place for all. */
+/* The names of all formats, "mp4, mkv, ...": for messages; cut if there is no place for all. */
 void cs_video_format_list(char *out, size_t size);
 /* The pixels of the encoder under the options; NULL: not available. */
 const char *cs_video_pixels(const cs_video_format *format, const cs_video_options *options);

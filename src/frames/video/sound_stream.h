@@ -1,4 +1,4 @@
-/* A stream of samples: what a sound is once it is decoded.
+/* A stream of samples: a decoded sound.
  *
  *   sound file --plugins/sound/sound.h--> cs_sound_stream --feeder.h--> the encoder of a video
  *
@@ -20,8 +20,8 @@ typedef struct cs_sound_stream {
   int32_t rate;     /* moments in a second */
   int32_t channels; /* of a moment */
   uint32_t places; /* of the channels around the listener, as WAV files number them; 0: the usual */
-  /* Reads up to `count` moments. *got: fewer only at the end, and after `stop`. The context is that
-   * of the calling thread. Errors: INPUT, LIMIT, NO_MEMORY, CANCELLED. */
+  /* Reads up to `count` moments. *got: fewer only at the end, and after `stop`. context: that of
+   * the calling thread. Errors: INPUT, LIMIT, NO_MEMORY, CANCELLED. */
   celspan_status (*read)(void *user, celspan_context *context, float *out, size_t count,
                          size_t *got);
   void (*stop)(void *user); /* ends a read that waits; any thread */
