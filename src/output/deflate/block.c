@@ -35,7 +35,8 @@ typedef struct code_header {
 
 static const uint8_t extra_bits[LENGTH_SYMBOLS] = {[REPEAT] = 2, [FEW_ZEROS] = 3, [MANY_ZEROS] = 7};
 
-/* The order in which the third code's own lengths are stored: those most likely to be 0 last. */
+/* The order in which the third code's own lengths are stored: the lengths most likely to be 0 come
+ * last. */
 static const uint8_t stored_order[LENGTH_SYMBOLS] = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
                                                      11, 4,  12, 3, 13, 2, 14, 1, 15};
 

@@ -13,9 +13,9 @@
  *   | 1 |  times   | length-3  | 0 |  distance-1   |   a match after `times` longest ones
  *   +---+----------+-----------+---+---------------+
  *
- * INVARIANT: `counts` are those of the tokens that wait. times is 0 unless the distance is at most
- * CS_DEFLATE_NEAR: so a run of a colour, whose distance is the size of a pixel, takes a token for
- * each 128 longest matches.
+ * INVARIANT: `counts` are the counts of the tokens that wait. times is 0 unless the distance is at
+ * most CS_DEFLATE_NEAR: so a run of a colour, whose distance is the size of a pixel, takes a token
+ * for each 128 longest matches.
  */
 #pragma once
 
@@ -213,7 +213,7 @@ static inline void cs_deflate_block_matches(cs_deflate_block *block, size_t time
                                   (cs_deflate_token)(distance - 1));
 }
 
-/* Any number of bytes, at least 3, that equal those `distance` before them (near). */
+/* Any number of bytes, at least 3, that equal the bytes `distance` before them (near). */
 static inline void cs_deflate_block_run(cs_deflate_block *block, size_t bytes, size_t distance) {
   const size_t longest = CS_DEFLATE_LONGEST_MATCH;
   size_t times = (bytes - 3) / longest, rest = bytes - times * longest;

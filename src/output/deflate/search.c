@@ -51,7 +51,7 @@ static inline uint64_t load_8(const unsigned char *at) {
   return word;
 }
 
-/* How many of the next bytes, up to `most`, equal those `distance` before them. */
+/* How many of the next bytes, up to `most`, equal the bytes `distance` before them. */
 static inline size_t match_length(const unsigned char *at, size_t distance, size_t most) {
   for (size_t length = 0; length < most; length += 8) {
     uint64_t difference = load_8(at + length) ^ load_8(at + length - distance);
@@ -88,8 +88,8 @@ static inline int gain(const unsigned char *at, match found) {
   return bits;
 }
 
-/* The best of several matches has the highest score: bits of the literals it saves, less those of
- * its distance. */
+/* The best of several matches has the highest score: the bits of the literals that it saves, less
+ * the bits of its distance. */
 static inline int score(match found) {
   return found.length ? 4 * (int)found.length - distance_bits(found.distance) : 0;
 }
@@ -224,7 +224,7 @@ static inline bool takes_run(const cs_deflate_search *search, size_t next, match
          match_length(search->buffer + next, later.distance, run.length) == run.length;
 }
 
-/* Puts tokens for the next bytes, for which `best` was found. Returns what is found after them. */
+/* Puts tokens for the next bytes, for which `best` was found. Returns the best match after them. */
 static inline match put_best(cs_deflate_search *search, size_t *next, match best) {
   size_t remembered = defer(search, next, &best);
   if (best.length == 0) {

@@ -30,7 +30,7 @@ typedef struct cs_deflate_search {
   uint32_t base; /* the position of buffer[0] */
   size_t start, next, end;
   /* The latest position of a hash of eight bytes; `before` leads from each position to the one
-   * before it with the same hash. Of four bytes the latest position alone. */
+   * before it with the same hash. For a hash of four bytes, only the latest position. */
   uint32_t latest[1 << CS_DEFLATE_SEARCH_LONG_BITS];
   uint32_t before[CS_DEFLATE_SEARCH_WINDOW];
   uint32_t latest_short[1 << CS_DEFLATE_SEARCH_SHORT_BITS];

@@ -1,4 +1,4 @@
-/* How the strips of each format are put together: what join.c asks of them.
+/* How the strips of each format are put together: the functions that join.c calls.
  *
  *   inspect, for every part --> begin --> add, for every part --> end
  *
@@ -27,7 +27,7 @@ typedef struct cs_join_part {
   uint64_t body, body_end; /* bytes that hold the rows; PNG: body_end is where IEND begins */
 } cs_join_part;
 
-/* Errors: INPUT, also for what is not an ordinary file. */
+/* Errors: INPUT, also for anything but an ordinary file. */
 CELSPAN_CHECKED celspan_status cs_join_part_open(celspan_context *context, const char *path,
                                                  cs_join_part *out);
 void cs_join_part_close(cs_join_part *part);
@@ -41,7 +41,7 @@ celspan_status cs_join_part_fail(celspan_context *context, const cs_join_part *p
 enum { CS_JOIN_START = 26, CS_JOIN_PIECE = 1 << 16 };
 
 typedef struct cs_joining {
-  cs_file *file;             /* what is made */
+  cs_file *file;             /* the file that is made */
   celspan_context *context;  /* of the call in progress, for callbacks of the library spanfile */
   cs_deflate_sum sum;        /* PNG: of the rows so far */
   spanfile_joiner *spanfile; /* span files; owned */

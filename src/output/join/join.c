@@ -51,7 +51,7 @@ static celspan_status inspect(celspan_context *context, cs_join_part *part,
   return CELSPAN_OK;
 }
 
-/* Whether a part is what comes next. */
+/* Whether a part is the next one. */
 static celspan_status check_next(celspan_context *context, const job *j, const cs_join_part *part,
                                  const cs_join_format *format) {
   if (j->row > 0 &&
@@ -73,7 +73,7 @@ static celspan_status check_next(celspan_context *context, const job *j, const c
   return CELSPAN_OK;
 }
 
-/* Opens a part and sees whether it is what comes next. On failure it is closed. */
+/* Opens a part and checks that it is the next one. On failure it is closed. */
 static celspan_status open_next(celspan_context *context, const job *j, const char *path,
                                 cs_join_part *part, const cs_join_format **format) {
   CS_TRY(cs_join_part_open(context, path, part));
@@ -158,7 +158,7 @@ static celspan_status write_parts(celspan_context *context, job *j, cs_joining *
 
 static bool is_name(const char *wanted, const char *name) { return strcmp(wanted, name) == 0; }
 
-/* Strips are large, and so is what a run that was killed has left of their picture. */
+/* Strips are large, and so are the files that a killed run has left of them. */
 static celspan_status write_file(celspan_context *context, job *j) {
   cs_temporary_sweep(j->output, is_name);
   cs_joining *joining;

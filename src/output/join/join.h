@@ -1,9 +1,9 @@
-/* Strips (output/sinks/strip.h) to the picture that they are rows of, without unpacking a pixel.
+/* Joins strips (output/sinks/strip.h) to their picture, without unpacking a pixel.
  *
  *   every part: open, inspect --> do they follow one another? --> every part: open, inspect, add
  *
- * The parts of Targa and span files come to the bytes that the whole would have been written as;
- * those of PNG to its pixels, for their first rows are filtered otherwise.
+ * Joined parts of Targa and span files have the bytes of a file that was written as a whole; joined
+ * parts of PNG have only its pixels, because their first rows are filtered differently.
  *
  * INVARIANT: the file appears whole or not at all (output/sinks/file.h), and only from parts that
  * are one picture from its first row to its last. Memory does not depend on the contents of the

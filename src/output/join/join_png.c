@@ -8,8 +8,8 @@
  *   file      header (2) | segments of 0 | segments of 1 | last block, checksum of all (6)
  *
  * The first row of a strip is filtered without the row above (output/sinks/strip.h), so filters
- * stay as they are. The checksum of all is made from those of the strips and their sizes
- * (adler32_combine).
+ * stay as they are. The checksum of the whole is computed from the checksums and sizes of the
+ * strips (adler32_combine).
  *
  * Chunks are copied one for one, each with a checksum of its own; those before the image data come
  * from the first strip and must be the same in all.
@@ -144,7 +144,7 @@ static celspan_status inspect(celspan_context *context, cs_join_part *part) {
 
 /* ---------------------------------------------------------------- copies of chunks */
 
-/* What is copied of a chunk: its data without `skipped` bytes at the start and `dropped` at the
+/* The copied part of a chunk: its data without `skipped` bytes at the start and `dropped` at the
  * end, and then `more`. */
 typedef struct copied {
   uint32_t skipped, dropped;
@@ -240,8 +240,8 @@ static celspan_status add_sum(cs_joining *joining, celspan_context *context,
   return CELSPAN_OK;
 }
 
-/* The last chunk of a part, without the end of its stream; that of the last part with the end of
- * the file's. */
+/* The last chunk of a part, without the end of its stream; in the last part, with the end of the
+ * file's stream. */
 static celspan_status add_last(cs_joining *joining, celspan_context *context,
                                const cs_join_part *part, const chunk *c, uint32_t skipped) {
   unsigned char trailer[CS_DEFLATE_TRAILER], own[CS_DEFLATE_TRAILER];

@@ -38,7 +38,7 @@ static spanfile_source source_of(part_source *from) {
                            .resize_user = from->context->memory};
 }
 
-/* What failed in a callback has set the error already. */
+/* A callback that failed has set the error already. */
 static celspan_status report(celspan_context *context, spanfile_status status,
                              const cs_join_part *part, const spanfile_fault *fault) {
   switch (status) {

@@ -1,4 +1,5 @@
-/* Targa strips: packets end with their row, so bodies follow one another as they are. */
+/* Targa strips: packets end with their row, so bodies are copied one after another without a
+ * change. */
 #include <string.h>
 
 #include "output/join/format.h"

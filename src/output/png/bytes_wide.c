@@ -14,10 +14,10 @@ static inline bytes choose(bytes condition, bytes yes, bytes no) {
   return (yes & condition) | (no & ~condition);
 }
 
-/* Of a, b and c the one nearest to p = a + b - c; of equally near ones the first. p - a is b - c
- * and p - b is a - c. If c lies between a and b, those two have different signs, and |p - c|, the
- * size of their sum, is the difference of their sizes. Otherwise |p - c| is the sum of the sizes,
- * so c cannot be the nearest alone, and a distance of 255 serves as well. */
+/* The nearest of a, b and c to p = a + b - c; the first of several that are equally near. p - a is
+ * b - c and p - b is a - c. If c lies between a and b, those two have different signs, and |p - c|,
+ * the size of their sum, is the difference of their sizes. Otherwise |p - c| is the sum of the
+ * sizes, so c cannot be the nearest alone, and a distance of 255 serves as well. */
 static inline bytes paeth(bytes a, bytes b, bytes c) {
   bytes a_is_less = (bytes)(a <= c), b_is_less = (bytes)(b <= c);
   bytes from_b = choose(a_is_less, c - a, a - c), from_a = choose(b_is_less, c - b, b - c);

@@ -13,8 +13,8 @@
  * tried. */
 enum { KEPT_WIDTH = 4096, KEPT_MOST = 15 };
 
-/* The estimated cost of a run, in eighths of a bit, is that of its first pixel as literals, by the
- * size of the differences, and MATCH_COST when there are more pixels. */
+/* The estimated cost of a run, in eighths of a bit: the cost of its first pixel as literals, by the
+ * size of the differences, plus MATCH_COST if there are more pixels. */
 enum { MATCH_COST = 80 };
 
 static void fill_costs(uint8_t costs[256]) {
@@ -82,7 +82,7 @@ static size_t filter_up(const cs_png_runs *row, const cs_png_runs *above, cs_def
   return (size_t)(next - out);
 }
 
-/* The one of three neighbours nearest to left + above - corner, byte by byte. */
+/* The nearest of three neighbours to left + above - corner, byte by byte. */
 static inline uint64_t paeth_pixel(uint64_t left, uint64_t above, uint64_t corner, size_t size) {
   uint64_t nearest = 0;
   if (above == corner)
@@ -236,7 +236,7 @@ static CELSPAN_CHECKED celspan_status put_filtered_runs(cs_png_filter_runs *filt
 
 /* ---------------------------------------------------------------- rows of bytes */
 
-/* The filters of PNG over rows of bytes: the one whose differences cost least is put.
+/* The filters of PNG over rows of bytes: the filter whose differences cost least is used.
  *
  * INVARIANT: rows have zeros around them, as output/png/bytes.h draws.
  */
@@ -387,7 +387,7 @@ static celspan_status reserve_bytes(const cs_png_rows *rows, celspan_context *co
   return CELSPAN_OK;
 }
 
-/* Coded pixels of 16 bits per channel to those of the file, in place. */
+/* Converts coded pixels of 16 bits per channel to the byte order of the file, in place. */
 static inline void pack_samples(cs_png_rows *rows, unsigned char *bytes, size_t pixel_size) {
   unsigned char *to = bytes;
   for (int32_t x = 0; x < rows->width; x++, to += pixel_size) {

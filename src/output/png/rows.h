@@ -80,7 +80,7 @@ void cs_png_rows_restart(cs_png_rows *rows);
 CELSPAN_CHECKED celspan_status cs_png_rows_put(cs_png_rows *rows, celspan_context *context,
                                                const celspan_span *spans, size_t span_count,
                                                cs_deflate *deflate);
-/* A row that is not put: it only serves as the one above the next. */
+/* A row that is not put: it is only the row above the next one. */
 CELSPAN_CHECKED celspan_status cs_png_rows_set_above(cs_png_rows *rows, celspan_context *context,
                                                      const celspan_span *spans, size_t span_count);
 void cs_png_rows_end(cs_png_rows *rows, celspan_context *context);

@@ -7,7 +7,8 @@
 
 enum {
   STRIP_PIXELS = 1 << 18,      /* enough for a thread of its own to pay */
-  STRIP_ROWS = 64,             /* flat rows are short: so many where that is not too much */
+  STRIP_ROWS = 64,             /* rows of a strip: flat rows are short, so a strip may have this
+                                  many */
   STRIP_PIXELS_MOST = 1 << 20, /* spans of pictures are 16 bytes a pixel */
   WORKERS_MOST = 64,
   AHEAD = 2 /* strips filled and not yet written, for each worker */
@@ -20,7 +21,7 @@ typedef struct buffer {
 } buffer;
 
 typedef struct strip {
-  cs_row_queue rows; /* with the one above, unless it is the first strip */
+  cs_row_queue rows; /* with the row above, unless this is the first strip */
   buffer packed;
   cs_deflate_sum sum;
 } strip;
@@ -85,7 +86,8 @@ static celspan_status put_rows(worker *w, int32_t index, strip *s) {
   return cs_deflate_end(w->deflate, &w->context, &s->sum);
 }
 
-/* Writes what was packed from `start` on: a strip's own. The last one ends the stream. */
+/* Writes the packed bytes from `start` on, which belong to a strip. The last one ends the
+ * stream. */
 static celspan_status write_strip(cs_png_strips *strips, celspan_context *context, int32_t index,
                                   cs_deflate_sum sum, buffer *packed, size_t start, size_t end) {
   unsigned char trailer[CS_DEFLATE_TRAILER];
@@ -287,7 +289,8 @@ void cs_png_strips_destroy(cs_png_strips *strips, celspan_context *context) {
 
 /* ---------------------------------------------------------------- shares */
 
-/* So many strips in a share that the row above it, which is made twice, counts for little. */
+/* The number of strips in a share: enough that the row above it, which is made twice, costs
+ * little. */
 enum { SHARE_STRIPS = 4, SHARES_A_WORKER = 8 };
 
 typedef struct share {

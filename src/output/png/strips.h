@@ -26,11 +26,12 @@ CELSPAN_CHECKED celspan_status cs_png_strips_create(celspan_context *context,
                                                     const cs_png_picture *picture,
                                                     cs_deflate_write write, void *user,
                                                     cs_png_strips **out);
-/* The next row. Errors: NO_MEMORY; BAD_ARGUMENT when it is not opaque as was said; those of write.
+/* The next row. Errors: NO_MEMORY; BAD_ARGUMENT when it is not opaque although the desc says so;
+   the errors of write.
  */
 CELSPAN_CHECKED celspan_status cs_png_strips_row(cs_png_strips *strips, celspan_context *context,
                                                  const celspan_span *spans, size_t span_count);
-/* After the last row: writes what is left. */
+/* After the last row: writes the rest. */
 CELSPAN_CHECKED celspan_status cs_png_strips_finish(cs_png_strips *strips,
                                                     celspan_context *context);
 /* How several threads fill strips from the rows that they make themselves; in place of

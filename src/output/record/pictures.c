@@ -82,7 +82,7 @@ static bool put_row(void *user, uint32_t y, void *out) {
 
 /* ---------------------------------------------------------------- pictures */
 
-/* Whether codes of 8 bits are all that a picture has: a part has what the whole has. */
+/* Whether a picture has only codes of 8 bits. A part has the codes of its whole. */
 static celspan_status find_form(celspan_context *context, const cs_picture *picture,
                                 bool *is_light) {
   cs_picture_entry *entry;
@@ -148,7 +148,7 @@ static celspan_status add_grid(celspan_context *context, const cs_defocus *own,
   return append(&source, made, record);
 }
 
-/* Whether a picture of a key is in the record; *out: its number, or that of the next one. */
+/* Whether a picture of a key is in the record; *out: its number, or the next free number. */
 static bool is_known(const cs_recording *record, cs_hash key, uint32_t *out) {
   size_t i = 0;
   while (i < record->picture_count &&

@@ -1,7 +1,7 @@
-/* Planes over the frame of a plane file, from those over pixels of the plan.
+/* Converts planes over pixels of the plan to planes over the frame of a plane file.
  *
  * Invariant: a plane over the frame has the value at (x, y), 0 to 1 in both directions, that the
- * other one has at the same place.
+ * plane over pixels has at the same place.
  */
 #pragma once
 
@@ -14,7 +14,7 @@ static inline void cs_place_plane(const double over_pixels[3], double out[3]) {
   out[2] = over_pixels[2];
 }
 
-/* Whether a matrix from pixels of the plan has no perspective; what is made of its w is 1 then. */
+/* Whether a matrix from pixels of the plan has no perspective; its w counts as 1 then. */
 static inline bool cs_place_is_affine(const celspan_matrix *inverse) {
   return inverse->m[6] == 0 && inverse->m[7] == 0 && inverse->m[8] > 0;
 }

@@ -12,7 +12,7 @@
 
 /* A group that was entered. */
 typedef struct entered_group {
-  uint32_t group;        /* the one around it that was entered before, or CS_STACK_NONE */
+  uint32_t group;        /* the group around it, entered before, or CS_STACK_NONE */
   uint32_t head, length; /* the steps of its head, which is a layer */
 } entered_group;
 
@@ -25,10 +25,10 @@ typedef struct program_maker {
   uint32_t count;                      /* of the groups that were entered */
   uint32_t depth, deepest;             /* of their steps */
   bool has_glass[PLANEFILE_DEPTH + 1]; /* layers behind it shine through in its colours */
-  bool has_veil[PLANEFILE_DEPTH + 1];  /* its layers to come are multiplied */
+  bool has_veil[PLANEFILE_DEPTH + 1];  /* the following layers are multiplied */
   bool lost_glass; /* glass is in a layer by now: all behind it would shine through in grey */
   size_t light;    /* the next back light to be met */
-  float keep;      /* what the mattes of back lights leave of transparency */
+  float keep;      /* the share of transparency that the mattes of back lights leave */
   bool is_hard;    /* steps cannot say it */
 } program_maker;
 
@@ -55,7 +55,8 @@ static celspan_status add_step(program_maker *m, planefile_step step) {
                    step);
 }
 
-/* Adds a layer of one colour: to the one in front of it, if that is such a layer, too. */
+/* Adds a layer of one colour; if the layer in front of it has one colour too, the two are
+ * joined. */
 static celspan_status add_flat(program_maker *m, cs_v4 light, float alpha) {
   cs_recording *record = m->record;
   planefile_step *last =
@@ -77,7 +78,7 @@ static celspan_status meet_light(program_maker *m) {
   return add_flat(m, light->light, 0);
 }
 
-/* All that is behind is met: mattes make what is left opaque. */
+/* Everything behind is included: mattes make the rest opaque. */
 static celspan_status end_frame(program_maker *m) {
   while (m->light < m->source->stack->light_count)
     CS_TRY(meet_light(m));
@@ -139,7 +140,7 @@ static celspan_status enter_group(program_maker *m, uint32_t group) {
   return m->is_hard ? CELSPAN_OK : open_group(m, group);
 }
 
-/* What leaving a group does to its channels. */
+/* How leaving a group changes its channels. */
 static planefile_step leaving(const cs_group *group) {
   cs_v4 factors = cs_v4_all(1);
   if (group->has_front)
@@ -181,7 +182,7 @@ static void forget_enter(program_maker *m) {
 
 /* ---------------------------------------------------------------- heads */
 
-/* The head of a group again, at a step, of some channels. */
+/* Adds the head of a group once more, at a step, for some channels. */
 static celspan_status add_head(program_maker *m, const entered_group *of, size_t at,
                                cs_v4 channels) {
   cs_recording *record = m->record;
@@ -198,8 +199,8 @@ static celspan_status add_head(program_maker *m, const entered_group *of, size_t
   return CELSPAN_OK;
 }
 
-/* A source multiplies the rest of its ground, or what it is over white does; a screen also adds its
- * light to all that is behind it. */
+/* A source, or the source composited over white, multiplies the rest of its ground. A screen also
+ * adds its light to everything behind it. */
 static celspan_status leave_source(program_maker *m, const cs_group *ground,
                                    const planefile_step *leave) {
   entered_group *of = &m->outer[m->count - 1];
@@ -249,7 +250,7 @@ static celspan_status leave_matte(program_maker *m, const cs_group *group, const
                                   planefile_step *leave) {
   if (of->length > 0)
     CS_TRY(add_leave(m, PLANEFILE_LAYER, all_of(1)));
-  else if (!group->inverts) /* there is no matte: nothing is there */
+  else if (!group->inverts) /* there is no matte, so nothing is shown */
     leave->colour = (planefile_cell){{0}};
   return add_leave(m, leave->how, leave->colour);
 }
@@ -393,7 +394,7 @@ static cs_over_pair lit(const cs_layer *layer, const cs_paint *paint) {
   return cs_over_lit(layer->front, layer->role == CS_LAYER_FRONT ? 1 : layer->fade, s, t);
 }
 
-/* What is added of a gradient. */
+/* The part of a gradient that is added. */
 typedef enum part { WHOLE, LIGHT, THROUGH } part;
 
 static celspan_status add_part(program_maker *m, const cs_layer *layer, part what) {
@@ -409,7 +410,7 @@ static celspan_status add_part(program_maker *m, const cs_layer *layer, part wha
   return add_varied(m, layer, stop);
 }
 
-/* One that dims the channels in different ways is a light in front of glass. */
+/* A layer that dims the channels in different ways is a light in front of glass. */
 static celspan_status add_gradient(program_maker *m, const cs_layer *layer) {
   const cs_texture_variation *of = m->source->stack->shades[layer->index].texture->variation;
   bool is_glass = false;
@@ -442,7 +443,7 @@ static celspan_status add_triangle(program_maker *m, const cs_layer *layer) {
              : add_leave(m, PLANEFILE_LAYER, cell_of(layer->fade * layer->front, layer->fade));
 }
 
-/* What hides all behind it says so by a flat layer there. */
+/* Adds a picture. If it hides everything behind it, a flat layer behind it says so. */
 static celspan_status add_picture(program_maker *m, const cs_layer *layer) {
   celspan_context *context = m->source->context;
   size_t stop = m->record->stop_count;
@@ -515,7 +516,7 @@ static celspan_status add_layers(program_maker *m, const cs_program *program) {
 
 /* ---------------------------------------------------------------- tables */
 
-/* What shows from one stop of a gradient to the next. */
+/* The colours from one stop of a gradient to the next. */
 typedef struct table {
   float s[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4], rgba[CS_OVER_ROW_BATCH][4];
 } table;

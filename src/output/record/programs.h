@@ -1,4 +1,5 @@
-/* Programs of a plane: what the composer's programs show, layer by layer, as a plane file keeps it.
+/* Programs of a plane: the composer's programs, layer by layer, in the form that a plane file
+ * keeps.
  *
  *     items of a program      gradient   flat  | gradient  flat |   flat     a faded group
  *     steps of the plane      ramp       flat  enter ramp  flat  leave  flat
@@ -8,14 +9,14 @@
  * else, such as a grade or another mode, can be kept where only one gradient is in the
  * program: then all that shows is a function of the place along it, and is tabulated.
  *
- * Invariant: a program of the plane shows what that of the composer does, within 1/16384.
+ * Invariant: a program of the plane shows the same as the composer's program, within 1/16384.
  */
 #pragma once
 
 #include "engine/compose/cell.h"
 #include "output/record/recording.h"
 
-/* What a program is made from. */
+/* The source of a program. */
 typedef struct cs_record_source {
   celspan_context *context;
   const cs_stack *stack;
@@ -25,8 +26,8 @@ typedef struct cs_record_source {
                      record plus 1; 0: it has none yet */
 } cs_record_source;
 
-/* Appends the program's steps and what they need to a record. Errors: NO_MEMORY; BAD_ARGUMENT: a
- * plane cannot keep it. */
+/* Appends the program's steps, and the values that they need, to a record. Errors: NO_MEMORY;
+ * BAD_ARGUMENT: a plane cannot keep it. */
 CELSPAN_CHECKED celspan_status cs_record_program(const cs_record_source *source,
                                                  const cs_program *program, cs_recording *record,
                                                  planefile_program *out);

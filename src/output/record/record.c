@@ -17,7 +17,7 @@ typedef struct recorder {
   const cs_plan *plan;
   cs_recording *out;
   cs_events events;
-  uint32_t *chain_of;  /* by chain of the plan: that of the record plus 1; 0: it has none yet */
+  uint32_t *chain_of;  /* by chain of the plan: the chain of the record plus 1; 0: none yet */
   cs_hash_table cells; /* by their colours or layers */
   cs_record_source source;
   const planefile_rounding *rounding; /* NULL: colours are not rounded to codes */
@@ -265,7 +265,7 @@ static celspan_status add_border(recorder *r, const cs_events_part *part) {
                                                record->border_capacity, border);
 }
 
-/* Adds what can be seen; on the sides of bundles there is always the same. */
+/* Adds the visible borders; the two sides of a bundle are always the same cell. */
 static celspan_status add_borders(recorder *r) {
   const cs_events *events = &r->events;
   for (size_t i = 0; i < events->part_count; i++)
@@ -276,7 +276,7 @@ static celspan_status add_borders(recorder *r) {
 
 /* ---------------------------------------------------------------- the record */
 
-/* The cell around a plan counts in that around a sum of them, which is cell 0. */
+/* The cell around each plan contributes to cell 0, the cell around the sum of all plans. */
 static void add_to_sum(const recorder *r, uint32_t cell) {
   planefile_cell *cells = r->out->cells;
   for (int c = 0; c < 4 && cell > 0; c++) {
@@ -292,7 +292,7 @@ celspan_status cs_record_begin_sum(celspan_context *context, cs_recording *out) 
   return CS_APPEND(context, out->cells, out->cell_count, out->cell_capacity, clear);
 }
 
-/* Of all layers that may have an axis. */
+/* The number of all layers that may have an axis. */
 static size_t axis_count(const cs_plan *plan) {
   return plan->stack.shade_count + plan->stack.image_count + plan->stack.defocused_count + 1;
 }

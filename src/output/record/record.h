@@ -5,8 +5,8 @@
  * The curve of a border is the chain's, from its control points; a chain with a curve that a plane
  * cannot have is a chain of lines.
  *
- * Borders need no order, so what several plans show is all of their borders, and cell 0 of the sum
- * has the colours of theirs together.
+ * Borders need no order, so the sum of several plans is the list of all their borders, and cell 0
+ * of the sum has the colours of their cells 0 together.
  *
  * Invariant: at any height, borders lead from the cell 0 of a plan to itself, as parts do.
  */
@@ -20,7 +20,7 @@ CELSPAN_CHECKED celspan_status cs_record_begin_sum(celspan_context *context, cs_
 /* Adds a plan of SIDE x SIDE pixels that keeps its curves, with all its colours times a weight.
  * rounding: borrowed; colours are rounded to 8-bit codes, and what has one colour then is one cell;
  * NULL: they are not. out: empty, or a sum; must be finished whatever happens. Errors: NO_MEMORY;
- * BAD_ARGUMENT for what a plane cannot keep (programs.h); LIMIT. */
+ * BAD_ARGUMENT for contents that a plane cannot keep (programs.h); LIMIT. */
 CELSPAN_CHECKED celspan_status cs_record_put_plan(celspan_context *context, const cs_plan *plan,
                                                   float weight, const planefile_rounding *rounding,
                                                   cs_recording *out);

@@ -2,7 +2,7 @@
  *
  *     record.h     chains, borders, cells
  *     programs.h   what cells show that vary
- *     pictures.h   the pictures of these
+ * pictures.h the pictures of these
  *
  * Invariant: every cell has a program, which is empty where the cell is flat.
  */

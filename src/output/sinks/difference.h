@@ -1,5 +1,5 @@
-/* The picture of where two pictures differ: the first one in pale grey, to find one's way, and what
- * differs in red, the darker the more.
+/* A picture of the places where two pictures differ: the first picture in pale grey, for
+ * orientation, and differing pixels in red, the darker the larger the difference.
  *
  *   grey  255 - 2/5 of the darkness over white        red  255..165, 150..0, 75..0 for 0..1
  */

@@ -1,5 +1,5 @@
 /* Dithering: 8-bit numbers rounded up or down by the place of their pixel, so that the mean of a
- * flat field is what rounding would lose, and gradients show no bands.
+ * flat field keeps the fraction that rounding would lose, and gradients show no bands.
  *
  *   a channel at 100.25 of 255, pixel by pixel           thresholds of 2 x 2 pixels (here 16 x 16)
  *
@@ -7,7 +7,7 @@
  *     100 100 100 100 100 100 100 100                       7/8  3/8
  *
  * Invariants: a pixel's bytes depend on its colour and its place in the whole frame alone, so
- * crops, strips and workers change nothing. A number that is exact in 8 bits stays as it is. Over
+ * crops, strips and workers change nothing. A number that is exact in 8 bits does not change. Over
  * 16 x 16 pixels of one colour the mean is within 1/130560 (half of 1/256 of 1/255) of the colour.
  */
 #pragma once

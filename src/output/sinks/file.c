@@ -26,7 +26,7 @@ struct cs_file {
   unsigned char buffer[BUFFER_BYTES];
 };
 
-enum { CHUNK = 1 << 16 }; /* of what is hashed: part of the records that programs have kept */
+enum { CHUNK = 1 << 16 }; /* bytes hashed at a time; existing records depend on this number */
 
 bool cs_file_contents_read(int descriptor, cs_file_contents *out) {
   unsigned char chunk[CHUNK];

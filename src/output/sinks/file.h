@@ -20,9 +20,9 @@
 
 typedef struct cs_file cs_file;
 
-/* What a file has that was completed. A context whose `contents` points to one has those of the
- * last file that it committed: taken of the temporary file, which nobody else has opened, before it
- * gets its name. What happens to the file afterwards does not change them. */
+/* The contents of a completed file. If `contents` of a context points to one, it gets those of the
+ * last file that the context committed. They are read from the temporary file, which nobody else
+ * has opened, before the file gets its name. Later changes of the file do not change them. */
 typedef struct cs_file_contents {
   cs_hash hash;
   uint64_t bytes;
@@ -61,12 +61,12 @@ uint64_t cs_file_size(const cs_file *file);
  * borrowed until the file ends. */
 CELSPAN_CHECKED celspan_status cs_file_temporary(cs_file *file, celspan_context *context,
                                                  const char **name);
-/* Takes what another program has written under the temporary name as the file's contents. */
+/* Takes the output of another program, written under the temporary name, as the file's contents. */
 CELSPAN_CHECKED celspan_status cs_file_adopt(cs_file *file, celspan_context *context);
-/* Both end the file, whatever they return. NULL is ignored by discard. */
+/* Both functions end the file, whatever they return. discard ignores NULL. */
 CELSPAN_CHECKED celspan_status cs_file_commit(cs_file *file, celspan_context *context);
 void cs_file_discard(cs_file *file, celspan_context *context);
 
-/* The ending of a file's name, which says its format where nothing else does: what follows the last
- * dot in the last part of the path; "" where there is no dot. Points into the path. */
+/* The ending of a file's name, which says its format where nothing else does: the text after the
+ * last dot in the last part of the path; "" where there is no dot. Points into the path. */
 const char *cs_file_ending(const char *path);

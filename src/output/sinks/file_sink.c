@@ -12,7 +12,7 @@
 
 /* ---------------------------------------------------------------- the guard */
 
-/* The door of every sink that writes a file: what a caller may do with it, in which order.
+/* The entry of every sink that writes a file: it checks the order of a caller's calls.
  *
  *   create --> begin --> row 0, row 1, ... row height-1 --> end(OK)         the file is complete
  *      |         |          |
@@ -36,7 +36,7 @@ typedef struct guard {
   char path[];
 } guard;
 
-/* A call that is refused ends what can be done with the sink, as one that failed does. */
+/* After a refused call, as after a failed one, nothing more can be done with the sink. */
 #define REFUSE(guard, context, ...)                                                                \
   ((guard)->failure = cs_fail((context), CELSPAN_BAD_ARGUMENT, __VA_ARGS__))
 

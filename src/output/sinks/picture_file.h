@@ -3,8 +3,8 @@
  *
  *   rows --cs_picture_file_rows--> module --put--> file.h --close: read back, commit--> file
  *
- * INVARIANT: one that was opened is ended once, by close or by discard. It must not be moved,
- * because the module keeps its address.
+ * INVARIANT: an opened file is ended once, by close or by discard. It must not be moved, because
+ * the module keeps its address.
  */
 #pragma once
 
@@ -29,9 +29,9 @@ CELSPAN_CHECKED celspan_status cs_picture_file_open(celspan_context *context,
 /* `count` rows from y on, as the output says; rows come in order. Errors: OUTPUT. */
 CELSPAN_CHECKED celspan_status cs_picture_file_rows(cs_picture_file *file, celspan_context *context,
                                                     int32_t y, int32_t count, const void *rows);
-/* Completes the file, and ends it whatever happens. Errors: OUTPUT, also where what was written
- * cannot be read back. */
+/* Completes the file, and closes it in any case. Errors: OUTPUT, also where the written file cannot
+ * be read back. */
 CELSPAN_CHECKED celspan_status cs_picture_file_close(cs_picture_file *file,
                                                      celspan_context *context);
-/* Leaves nothing. One that was never opened, and is zero, is ignored. */
+/* Removes the file. A file that was never opened, and is zero, is ignored. */
 void cs_picture_file_discard(cs_picture_file *file, celspan_context *context);

@@ -38,7 +38,7 @@ static const file_format formats[] = {
      HAS(CELSPAN_DEPTH_HALF) | HAS(CELSPAN_DEPTH_FLOAT), false, true},
     {" tif tiff ", "tiff", 1048576, 0, 4, CELSPAN_DEPTH_8,
      HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16) | HAS(CELSPAN_DEPTH_FLOAT), false, false},
-    /* Its writer holds the whole picture in memory. */
+    /* The writer of this format keeps the whole picture in memory. */
     {" dpx ", "dpx", 1048576, (int64_t)1 << 28, 3, CELSPAN_DEPTH_16,
      HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16), true, true},
     {" jpg jpeg ", "jpeg", 65500, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true},
@@ -49,7 +49,7 @@ static const file_format formats[] = {
      true},
     /* Sixteen bits come out shifted by a byte. */
     {" ppm pnm ", "pnm", 1048576, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true},
-    /* Its writer divides by alpha along a curve of its own, so it gets no alpha. */
+    /* The writer of this format divides by alpha along a curve of its own, so it gets no alpha. */
     {" webp ", "webp", 16383, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true},
     {" gif ", "gif", 65535, (int64_t)1 << 28, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false,
      true},

@@ -103,7 +103,7 @@ static uint16_t to_half(float x) {
   return (uint16_t)(sign | ((size - 0x38000000 + 0xfff + even) >> 13));
 }
 
-/* Whether the numbers of spans are those of the coding already. */
+/* Whether the numbers of spans need no conversion for the coding. */
 static bool is_in_codes(const celspan_coding *coding) {
   return coding->space == CELSPAN_SPACE_SRGB && coding->transfer == CELSPAN_TRANSFER_SRGB;
 }

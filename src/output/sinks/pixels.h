@@ -46,10 +46,10 @@ void cs_pixels_encode(const celspan_coding *coding, const float rgba[4], float c
 void cs_pixels_code(const celspan_coding *coding, const float rgba[4], void *pixel);
 
 /* The coded colours of single spans. Most spans of a drawn frame have one colour and few pixels;
- * coded together, their colours cost a fraction of what they cost one by one.
+ * coded together, their colours cost a fraction of the time that they cost one by one.
  *
- * INVARIANT: entry i belongs to span i of the last call; that of a span which is not single has no
- * meaning.
+ * INVARIANT: entry i belongs to span i of the last call; the entry of a span that is not single has
+ * no meaning.
  */
 enum { CS_SINGLE_COLOURS_MOST = 512 };
 

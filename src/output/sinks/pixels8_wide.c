@@ -113,8 +113,8 @@ static inline size_t lines_before(int32_t x, int32_t first) {
   return (uint32_t)(x - (first - (LINE_PIXELS - 1))) / LINE_PIXELS;
 }
 
-/* owners[i] becomes the span in which line i begins, if that is a long run; else any span. (Lines
- * are bytes here, so a fill marks 64 of them.) */
+/* owners[i] becomes the span in which line i begins, if that span is a long run; otherwise any
+ * span. (Lines are bytes here, so a fill marks 64 of them.) */
 static inline void mark_lines(const celspan_span *spans, uint64_t longs, int32_t first,
                               unsigned char *owners) {
   for (size_t line = 0; line < LINES; line += CS_FILL_CHUNK)

@@ -20,7 +20,7 @@ CELSPAN_CHECKED celspan_status cs_sink_tga(celspan_context *context, const char 
 /* Any other format through the picture module; checks the format's limits first. */
 CELSPAN_CHECKED celspan_status cs_sink_picture(celspan_context *context, const char *path,
                                                const celspan_file_desc *file, celspan_sink *out);
-/* Whether that writes the format of this name. */
+/* Whether that sink writes the format of this name. */
 bool cs_sink_picture_knows(const char *name);
 /* The names of these formats, "exr, tif, ..."; cut if there is no place for all. */
 void cs_sink_picture_list(char *out, size_t size);
@@ -40,9 +40,9 @@ CELSPAN_CHECKED celspan_status cs_sink_digest(celspan_context *context,
 /* Chosen by the format or the path's ending: PNG, Targa, a span file, or the picture module. */
 CELSPAN_CHECKED celspan_status cs_sink_file(celspan_context *context, const char *path,
                                             const celspan_file_desc *file, celspan_sink *out);
-/* Whether the format of such a file is one of those. */
+/* Whether the format of such a file is known. */
 bool cs_sink_file_knows(const char *path, const celspan_file_desc *file);
-/* Their names, "png, tga, ...": for messages; cut if there is no place for all. */
+/* The names of the formats, "png, tga, ...": for messages; cut if there is no place for all. */
 enum { CS_SINK_LIST = 128 };
 void cs_sink_file_list(char *out, size_t size);
 /* Whether such a file contains the number of its frame, so that equal frames make unequal files. */

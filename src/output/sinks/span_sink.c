@@ -18,7 +18,7 @@
 
 enum { CHUNK = 4096 };
 
-/* What one thread needs to pack rows. */
+/* The state of one thread that packs rows. */
 typedef struct packer {
   const celspan_coding *coding;
   spanfile_writer *writer; /* of the file, or of the part that is packed */

@@ -13,9 +13,9 @@
  *   Targa  an image ID: `csST`, row (4), height of the whole (4), little-endian
  *   span   two numbers of its header and trailer (docs/spanfile.md)
  *
- * INVARIANT: a strip begins at a multiple of CS_STRIP_ROWS, and ends at one or where the whole
- * does. So rows of span files are stored as they are in the whole; and the first row of a strip in
- * PNG is filtered without the row above, which its file does not have.
+ * INVARIANT: a strip begins at a multiple of CS_STRIP_ROWS, and ends at such a multiple or at the
+ * end of the whole. So rows of span files are stored as in the whole file; and the first row of a
+ * strip in PNG is filtered without the row above, which its file does not have.
  */
 #pragma once
 

@@ -104,8 +104,8 @@ static void name_descriptor(int descriptor, char out[32]) {
   out[length] = '\0';
 }
 
-/* The system knows the names of open files, so that no list of them has to be kept; a file that has
- * got its final name, or was removed, has another one there. */
+/* The system knows the names of open files, so no list of them has to be kept; there, a file that
+ * has got its final name, or was removed, has another name. */
 void cs_temporary_abandon(void) {
   char link[32], path[4096], name[NAME_SIZE];
   for (int descriptor = 3; descriptor < DESCRIPTORS; descriptor++) {

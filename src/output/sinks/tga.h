@@ -1,4 +1,4 @@
-/* What writing and joining Targa files share: sizes, numbers and the end of a file (Truevision,
+/* Shared by writing and joining of Targa files: sizes, numbers and the end of a file (Truevision,
  * 1991).
  *
  *   header (18) | image ID of a strip (12) | packets of rows | extension (495) | footer (26)

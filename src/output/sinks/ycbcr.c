@@ -14,7 +14,7 @@
 #define CB (224 / 255.0 / (2 - 2 * BLUE))
 #define CR (224 / 255.0 / (2 - 2 * RED))
 
-/* What a code of each channel adds. */
+/* The sum that a code of each channel adds. */
 static const float LUMA_OF[3] = {(float)(LUMA * RED), (float)(LUMA *GREEN), (float)(LUMA *BLUE)};
 static const float CB_OF[3] = {(float)(-CB * RED), (float)(-CB *GREEN), (float)(CB *(1 - BLUE))};
 static const float CR_OF[3] = {(float)(CR * (1 - RED)), (float)(-CR *GREEN), (float)(-CR *BLUE)};
