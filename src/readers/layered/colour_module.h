@@ -42,12 +42,12 @@ typedef struct cs_colour_table {
   };
 } cs_colour_table;
 
-/* A profile, or what the gAMA and cHRM chunks of a PNG say in its place. */
+/* A profile, or the values of the gAMA and cHRM chunks of a PNG in its place. */
 typedef struct cs_colour_request {
   const void *bytes; /* an ICC profile; NULL: the fields below */
   size_t size;
   uint32_t power;     /* light^(power / 100,000) is the code; above 0 */
-  bool has_places;    /* false: those of sRGB */
+  bool has_places;    /* false: the places of sRGB */
   uint32_t places[8]; /* x and y of white, red, green and blue, in 1/100,000 */
 } cs_colour_request;
 

@@ -28,7 +28,7 @@ static bool is_control(const unsigned char *at, size_t size) {
          (size == 2 && at[0] == 0xC2 && at[1] < 0xA0);
 }
 
-/* What is no character becomes a question mark. */
+/* Bytes that are no character become a question mark. */
 static void set_name(char out[CS_CONTENTS_TEXT], const char *name, size_t size) {
   const unsigned char *from = (const unsigned char *)name;
   size_t done = 0;

@@ -1,4 +1,4 @@
-/* The contents of a painting: its layers and groups, and notes on what cannot be shown.
+/* The contents of a painting: its layers and groups, and notes on contents that cannot be shown.
  *
  *   sky        layer   0   parent 3    layers are in the order of painting, rearmost first; a group
  *   hills      layer   1   parent 3    comes after its layers, so the parent of a layer is greater
@@ -61,8 +61,8 @@ struct celspan_painting {
 /* An empty painting. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_contents_create(celspan_context *context, celspan_painting **out);
 /* Appends a layer: visible, opaque, normal, without pixels and of no group. Its address is valid
- * until the next one. name: size bytes, repaired and cut to what a name may be.
- * Errors: LIMIT, NO_MEMORY. */
+ * until the next one. name: size bytes, repaired and cut to a valid name. Errors: LIMIT,
+ * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_contents_add(celspan_context *context, const cs_input *input,
                                                celspan_painting *painting, const char *name,
                                                size_t size, cs_contents_layer **out);
@@ -70,8 +70,8 @@ CELSPAN_CHECKED celspan_status cs_contents_add(celspan_context *context, const c
 static inline size_t cs_contents_last(const celspan_painting *painting) {
   return painting->count - 1;
 }
-/* Appends a note on a layer, or on the whole painting (CS_CONTENTS_NONE): what of it is not shown
- * as in the program that made it. Errors: NO_MEMORY. */
+/* Appends a note on a layer, or on the whole painting (CS_CONTENTS_NONE): what is not shown as in
+ * the program that made it. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_contents_note(celspan_context *context,
                                                 celspan_painting *painting, size_t layer,
                                                 const char *format, ...)
@@ -87,8 +87,8 @@ CELSPAN_CHECKED celspan_status cs_contents_check_whole(celspan_context *context,
                                                        celspan_painting *painting);
 /* Reverses a list that has the foremost layer first, and groups before their layers. */
 void cs_contents_reverse(celspan_painting *painting);
-/* Errors: LIMIT for pictures beyond the limits above, INPUT for those without pixels. what: for the
- * message. */
+/* Errors: LIMIT for pictures beyond the limits above, INPUT for those without pixels. what: the
+ * picture, for the message. */
 CELSPAN_CHECKED celspan_status cs_contents_check_size(celspan_context *context,
                                                       const cs_input *input, const char *what,
                                                       int64_t width, int64_t height);

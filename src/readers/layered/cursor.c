@@ -21,7 +21,7 @@ void cs_cursor_fail(cs_cursor *cursor, celspan_status status, const char *senten
         cs_input_fail(cursor->context, cursor->input, cursor->at, status, "%s", sentence);
 }
 
-/* Makes the byte at the cursor one of those in the buffer. */
+/* Fills the buffer so that it contains the byte at the cursor. */
 static void refill(cs_cursor *cursor) {
   int64_t left = cursor->end - cursor->at;
   cursor->first = cursor->at;

@@ -27,7 +27,7 @@ uint16_t cs_cursor_16(cs_cursor *cursor);
 uint32_t cs_cursor_32(cs_cursor *cursor);
 uint64_t cs_cursor_64(cs_cursor *cursor);
 /* The end of a section of `size` bytes that begins here; a failure where it passes the cursor's own
- * end, which is then given. what: the section, for the message. */
+ * end; the result is then that end. what: the section, for the message. */
 int64_t cs_cursor_section(cs_cursor *cursor, uint64_t size, const char *what);
 /* Records a failure at the cursor. */
 void cs_cursor_fail(cs_cursor *cursor, celspan_status status, const char *sentence);

@@ -17,8 +17,8 @@
 #include "readers/layered/zip.h"
 
 #define CS_DOCUMENT_BYTES ((size_t)16 << 20) /* of its XML at most */
-/* Bytes that all members together may unpack to while the painting is read: this number, and as
- * many as the second for each byte of the file. Many layers may name one member that unpacks to a
+/* Bytes that all members together may unpack to while the painting is read: the first number, plus
+ * the second number for each byte of the file. Many layers may name one member that unpacks to a
  * lot. */
 #define CS_DOCUMENT_SCANNED ((int64_t)64 << 20)
 #define CS_DOCUMENT_SCANNED_EACH 64
@@ -46,7 +46,7 @@ struct cs_document {
   size_t group;       /* the innermost open one; CS_CONTENTS_NONE: none */
   bool has_size;      /* an element had the size of the painting */
   char folder[256];   /* Krita: of the archive, where the layers lie */
-  size_t unnamed;     /* OpenRaster: open stacks, the outermost of which is the painting itself */
+  size_t unnamed;     /* OpenRaster: open stacks; the outermost stack is the painting itself */
   int64_t scanned;    /* bytes of members that were unpacked */
   cs_profile profile; /* Krita: of the image */
 };
@@ -75,7 +75,7 @@ CELSPAN_CHECKED celspan_status cs_document_scan(cs_document *document, int64_t c
 /* Records "path: member:line: sentence". */
 celspan_status cs_document_fail(const cs_document *document, celspan_status status,
                                 const char *format, ...) __attribute__((format(printf, 3, 4)));
-/* The word for a blend mode: that of the file without the name of its program. */
+/* The word for a blend mode: the file's word without the name of the program. */
 void cs_document_blend(const char *file, char out[32]);
 /* Whether a name is allowed in an archive: relative, and without "..". */
 bool cs_document_is_inside(const char *name);

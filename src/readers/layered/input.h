@@ -1,6 +1,6 @@
 /* The file of a painting, or the part of one: bytes at offsets.
  *
- * INVARIANT: what was opened is a regular file, and as long as `is_known` it is the same, unchanged
+ * INVARIANT: an open input is a regular file, and while `is_known` is set it is the same, unchanged
  * file each time it is opened. It is open between cs_input_open and cs_input_close only, so that a
  * painting of a thousand layers needs no descriptor while none of them is read.
  *
@@ -11,10 +11,10 @@
 #include "base/context.h"
 
 typedef struct cs_input {
-  const char *path;           /* borrowed; of bytes in memory what they are called in messages */
+  const char *path;           /* borrowed; of bytes in memory, their name in messages */
   const unsigned char *bytes; /* borrowed: they are the file then; NULL: it is on the disc */
   int descriptor;             /* while it is open */
-  bool is_known;              /* the facts below are those of the file as it was first opened */
+  bool is_known;              /* the facts below describe the file as it was first opened */
   int64_t size;
   int64_t time; /* nanoseconds */
   uint64_t number;

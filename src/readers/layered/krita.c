@@ -71,7 +71,7 @@ static const cs_zip_member *find_member(const cs_document *document, const char 
 
 /* ---------------------------------------------------------------- colour profiles */
 
-/* A profile that is embedded, or else the one that is named; neither: *out stays as it is. */
+/* The embedded profile, or if there is none, the named one; without both, *out does not change. */
 static celspan_status read_profile(cs_document *document, const cs_zip_member *member,
                                    cs_profile *out) {
   const char *name = cs_document_text(document, "profile");
@@ -100,7 +100,8 @@ static celspan_status start_image(cs_document *document) {
                          &document->profile);
 }
 
-/* The profile of a layer's pixels; it is noted where it is not that of the image. */
+/* The profile of a layer's pixels; a note is made where it differs from the profile of the
+ * image. */
 static celspan_status read_layer_profile(cs_document *document, const char *name,
                                          cs_contents_layer *layer) {
   cs_profile profile = document->profile;
@@ -114,7 +115,7 @@ static celspan_status read_layer_profile(cs_document *document, const char *name
 
 /* ---------------------------------------------------------------- pixels */
 
-/* What Krita takes where there is no tile. */
+/* The pixel that Krita takes where there is no tile. */
 static celspan_status read_default(cs_document *document, const char *name,
                                    cs_krita_tiles_form *form) {
   unsigned char *bytes;

@@ -78,7 +78,7 @@ static bool unpack_lzf(const unsigned char *packed, size_t size, unsigned char *
     size_t back = ((head & 31) << 8 | packed[at++]) + 1;
     if (back > done || count > out_size - done)
       return false;
-    for (size_t i = 0; i < count; i++, done++) /* may overlap what it writes: a repeated pattern */
+    for (size_t i = 0; i < count; i++, done++) /* may overlap its own output: a repeated pattern */
       out[done] = out[done - back];
   }
   return done == out_size;

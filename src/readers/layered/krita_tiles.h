@@ -21,7 +21,7 @@
 #include "readers/layered/zip.h"
 
 #define CS_KRITA_TILES_BYTES ((size_t)1 << 30) /* of a layer's tiles, packed, at most */
-#define CS_KRITA_TILES_SIDE 131072             /* of what the tiles of a layer cover */
+#define CS_KRITA_TILES_SIDE 131072             /* of the area that the tiles of a layer cover */
 
 typedef struct cs_krita_tiles_form {
   /* In: the painting's rectangle in the layer's units; out: the rectangle of the rows. */
@@ -33,10 +33,10 @@ typedef struct cs_krita_tiles_form {
   int64_t scanned;         /* out: bytes that the tiles have */
 } cs_krita_tiles_form;
 
-/* Sets what a colour space means; false where its pixels are not read. */
+/* Sets the form of a colour space; false where its pixels are not read. */
 bool cs_krita_tiles_form_of(const char *space, cs_krita_tiles_form *form);
-/* Looks where the tiles are. *out stays as it is where there are none, and beyond them is clear.
- * Errors: INPUT, LIMIT, NO_MEMORY. */
+/* Finds the places of the tiles. *out does not change where there are none and the area beyond them
+ * is clear. Errors: INPUT, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_krita_tiles_create(celspan_context *context,
                                                      const cs_input *input,
                                                      const cs_zip_member *member,

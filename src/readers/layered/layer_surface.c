@@ -12,7 +12,7 @@ typedef struct reading {
   char *path;
   cs_input input;
   cs_rows_source *source;
-  cs_profile_table *table; /* a reference; NULL: codes stay as they are */
+  cs_profile_table *table; /* a reference; NULL: codes are not converted */
   cs_rows *rows;           /* NULL: not begun */
   int32_t next;            /* the row that comes next */
   unsigned char *row;      /* while begun */
@@ -84,7 +84,7 @@ static celspan_status read_rectangle(reading *r, celspan_context *context,
   return status;
 }
 
-/* What stays from one call to the next lies in the surface's memory, whatever context asks. */
+/* The state from one call to the next lies in the surface's memory, whatever context asks. */
 static celspan_status fill(void *user, celspan_context *context, const celspan_rectangle *rectangle,
                            void *destination, size_t stride, int32_t *rows) {
   reading *r = user;

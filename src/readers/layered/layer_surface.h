@@ -2,17 +2,17 @@
  *
  *   store of pictures --fill rows y..--> begin, or continue --rows--> pixels, or floats by a table
  *
- * The store asks for rows from top to bottom and keeps what it got within its budget, so a layer is
- * unpacked once. Where it asks for rows that are past, the layer is begun again.
+ * The store asks for rows from top to bottom and keeps them within its budget, so a layer is
+ * unpacked once. Where it asks for earlier rows, the layer is begun again.
  */
 #pragma once
 
 #include "readers/layered/profile_table.h"
 #include "readers/layered/rows.h"
 
-/* Takes the source over, also on failure. input: as it was while the painting was read; copied.
- * index: of the layer, which distinguishes the surfaces of a file. table: converts the codes, a
- * reference is taken; NULL: they stay as they are. Errors: NO_MEMORY. */
+/* Owns the source from now on, also on failure. input: as it was while the painting was read;
+ * copied. index: of the layer, which distinguishes the surfaces of a file. table: converts the
+ * codes, a reference is taken; NULL: codes are not converted. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_layer_surface_create(celspan_context *context,
                                                        const cs_input *input, size_t index,
                                                        cs_rows_source *source,

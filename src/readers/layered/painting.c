@@ -1,4 +1,4 @@
-/* Layered paintings: which format a file has, and what its layers are. */
+/* Layered paintings: the format of a file, and its layers. */
 #include "readers/layered/document.h"
 #include "readers/layered/layer_surface.h"
 #include "readers/layered/profile_table.h"

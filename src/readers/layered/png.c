@@ -22,7 +22,7 @@ typedef struct png_rows {
   cs_stream_inflate inflate;
   uint32_t left;                /* of the IDAT that is read */
   bool is_ended;                /* a chunk that is no IDAT follows */
-  unsigned char *packed, *last; /* this row and the one above, unfiltered; see packed_size */
+  unsigned char *packed, *last; /* this row and the row above, unfiltered; see packed_size */
   size_t packed_size;
   unsigned char colours[256][4];
   int colour_count;
@@ -196,7 +196,7 @@ static bool unfilter(int filter, unsigned char *row, const unsigned char *last, 
   return filter >= 0 && filter < 5;
 }
 
-/* Value i of a row, as it is coded. */
+/* The coded value i of a row. */
 static uint16_t value_of(const unsigned char *row, size_t i, int depth) {
   if (depth == 16)
     return cs_bytes_big16(row + 2 * i);

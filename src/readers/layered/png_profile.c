@@ -8,7 +8,7 @@ enum { BEFORE_CHUNKS = 8, SUM = 4 };
 
 typedef struct chunks {
   celspan_context *context;
-  cs_stream base;    /* pulls what is left of the open chunk */
+  cs_stream base;    /* pulls the rest of the open chunk */
   cs_stream *source; /* the member's bytes */
   uint32_t left;     /* of the open chunk */
   int64_t scanned;
@@ -46,7 +46,7 @@ static celspan_status pull(cs_stream *stream, celspan_context *context, void *by
 
 /* ---------------------------------------------------------------- the profile */
 
-/* What the zlib stream in the rest of the chunk unpacks to. Errors: as cs_stream_load. */
+/* The unpacked zlib stream in the rest of the chunk. Errors: as cs_stream_load. */
 static celspan_status unpack(chunks *c, unsigned char **bytes, size_t *size) {
   cs_stream_inflate inflate;
   CS_TRY(cs_stream_inflate_init(&inflate, c->context, &c->base, CS_STREAM_ZLIB));

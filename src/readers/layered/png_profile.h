@@ -1,4 +1,4 @@
-/* What the chunks of a PNG before its data say of its colours: a profile, or values in its place.
+/* The chunks before a PNG's data that describe its colours: a profile, or values in its place.
  *
  *   iCCP   name, NUL, 0, profile in zlib     sRGB   that it is sRGB
  *   gAMA   a power                           cHRM   white and primaries

@@ -9,7 +9,7 @@
  * A damaged profile is UNKNOWN, never a reason to refuse a painting.
  *
  * INVARIANT: a painting has a table for each of its different profiles, at most CS_PROFILES_MOST,
- * until its surfaces are made; those that need it have references.
+ * until its surfaces are made; the surfaces that need it have references.
  */
 #pragma once
 
@@ -29,10 +29,10 @@ typedef struct cs_profile {
 CELSPAN_CHECKED celspan_status cs_profile_read(celspan_context *context, const cs_input *input,
                                                celspan_painting *painting,
                                                const cs_colour_request *request, cs_profile *out);
-/* What the name of a profile says that is not embedded: one of those that Krita comes with. */
+/* The meaning of the name of a profile that is not embedded: a profile that comes with Krita. */
 void cs_profile_of_name(const char *name, cs_profile *out);
-/* What the gAMA and cHRM chunks of a PNG say; has_places: whether there is a cHRM.
- * Errors: those of cs_profile_read. */
+/* The values of the gAMA and cHRM chunks of a PNG; has_places: whether there is a cHRM. Errors:
+ * those of cs_profile_read. */
 CELSPAN_CHECKED celspan_status cs_profile_of_power(celspan_context *context, const cs_input *input,
                                                    celspan_painting *painting,
                                                    const cs_colour_request *request,

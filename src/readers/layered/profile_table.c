@@ -194,8 +194,8 @@ static void sum_curves(const cs_colour_table *light, const uint32_t codes[3], fl
   }
 }
 
-/* Tetrahedral interpolation: from the corner below, along the axis of the greatest share, then that
- * of the next. */
+/* Tetrahedral interpolation: from the corner below, first along the axis with the greatest share,
+ * then along the axis with the next greatest one. */
 static void blend_grid(const cs_colour_table *light, const uint32_t codes[3], float out[3]) {
   static const int strides[] = {3 * CS_COLOUR_SIDE * CS_COLOUR_SIDE, 3 * CS_COLOUR_SIDE, 3};
   const float *corner = &light->grid[0][0][0][0];

@@ -13,7 +13,7 @@
 typedef enum cs_profile_codes {
   CS_PROFILE_SRGB = 0,
   CS_PROFILE_LINEAR,    /* light in the primaries of sRGB */
-  CS_PROFILE_CONVERTED, /* others, which the table converts */
+  CS_PROFILE_CONVERTED, /* other codes, which the table converts */
   CS_PROFILE_UNKNOWN    /* not understood */
 } cs_profile_codes;
 

@@ -67,7 +67,7 @@ static celspan_status read_header(document *d, cs_cursor *cursor) {
 
 /* ---------------------------------------------------------------- resources */
 
-/* Of `size` bytes at the cursor, which are passed by the caller. */
+/* Reads `size` bytes at the cursor; the caller moves the cursor behind them. */
 static celspan_status read_profile(document *d, const cs_cursor *cursor, uint32_t size) {
   d->profile.codes = CS_PROFILE_UNKNOWN;
   if (size > CS_PROFILE_BYTES)
@@ -83,7 +83,8 @@ static celspan_status read_profile(document *d, const cs_cursor *cursor, uint32_
   return status;
 }
 
-/* Blocks of a number, a name and bytes, each padded to an even count. What is no block ends them.
+/* Blocks of a number, a name and bytes, each padded to an even count. Anything else ends the
+   blocks.
  */
 static celspan_status read_resources(document *d, cs_cursor *cursor) {
   enum { PROFILE = 1039 };
@@ -118,7 +119,7 @@ static celspan_status read_packing(const document *d, cs_cursor *cursor, cs_psd_
   return CELSPAN_OK;
 }
 
-/* A channel of `size` bytes at the cursor, which is left behind it. */
+/* Reads a channel of `size` bytes at the cursor, and moves the cursor behind it. */
 static celspan_status read_channel(const document *d, cs_cursor *cursor, uint64_t size,
                                    cs_psd_channel *out) {
   int64_t end = cs_cursor_section(cursor, size, "a channel");
@@ -238,7 +239,7 @@ static celspan_status open_group(document *d) {
   return CELSPAN_OK;
 }
 
-/* The mask of a group: pixels as large as the document, of which alpha counts. */
+/* The mask of a group: pixels over the whole document. Only their alpha counts. */
 static celspan_status set_mask(const document *d, const cs_psd_record *record,
                                const cs_psd_layer *group, cs_contents_layer *layer) {
   cs_psd_layer source = {.base = {.width = d->width, .height = d->height, .bits = d->bits},
@@ -306,7 +307,7 @@ static celspan_status read_layers(document *d, cs_cursor *cursor) {
   return d->depth == 0 ? CELSPAN_OK : fail(d, -1, "a group does not end");
 }
 
-/* Layers of 16 bits: in a tagged block behind the section of those of 8 bits, and its masks. */
+/* Layers of 16 bits: in a tagged block behind the section of 8-bit layers and its masks. */
 static celspan_status read_deep_layers(document *d, cs_cursor *cursor) {
   char key[5];
   uint64_t size;
@@ -350,7 +351,7 @@ static celspan_status read_section(document *d, cs_cursor *cursor) {
 
 /* ---------------------------------------------------------------- without layers */
 
-/* The merged picture: the rows of each channel after those of the one before, all packed alike. */
+/* The merged picture: the rows of one channel after those of another, all packed alike. */
 static celspan_status find_merged(const document *d, cs_cursor *cursor, cs_psd_layer *layer) {
   cs_psd_channel first = {.width = d->width, .height = d->height, .is_there = true};
   CS_TRY(read_packing(d, cursor, &first));
@@ -368,7 +369,7 @@ static celspan_status find_merged(const document *d, cs_cursor *cursor, cs_psd_l
   return CELSPAN_OK;
 }
 
-/* In packed rows a channel begins where those of the one before end: their sizes are added up. */
+/* A packed channel begins where the rows of the previous one end, so their sizes are added up. */
 static celspan_status find_packed(const document *d, cs_psd_layer *layer) {
   cs_cursor sizes;
   int64_t at = layer->channels[CS_PSD_RED].at;

@@ -104,8 +104,8 @@ static void read_tags(cs_cursor *cursor, bool is_large, cs_psd_record *out) {
 
 /* ---------------------------------------------------------------- mask and ranges */
 
-/* How much the mask counts and how far its edge is spread out: of a mask that was painted, then of
- * one that was drawn as a path. */
+/* How much the mask counts and how far its edge is spread out: for a painted mask, then for a mask
+ * drawn as a path. */
 static void read_mask_parameters(cs_cursor *cursor, cs_psd_record *out) {
   unsigned present = cs_cursor_8(cursor);
   if (present & 1)
@@ -144,7 +144,7 @@ static void read_mask(cs_cursor *cursor, cs_psd_record *out) {
     cursor->at = end;
 }
 
-/* Ranges of lightness in which the layer shows; all of them, unless somebody moved a slider. */
+/* Ranges of lightness in which the layer shows; all lightnesses, unless somebody moved a slider. */
 static void read_ranges(cs_cursor *cursor, cs_psd_record *out) {
   uint32_t size = cs_cursor_32(cursor);
   int64_t end = cs_cursor_section(cursor, size, "a layer's blending ranges");

@@ -29,7 +29,8 @@ typedef struct cs_psd_record {
   int32_t mask_left, mask_top, mask_right, mask_bottom;
   unsigned char mask_beyond, mask_density;
   bool has_vector_mask, has_effects, has_conditions;
-  char adjustment[5], fill_content[5]; /* the key of what makes its pixels; "": painted */
+  char adjustment[5], fill_content[5]; /* the key of the adjustment or fill that makes its pixels;
+                                          "": painted */
   char name[CS_CONTENTS_TEXT];
   size_t name_size;
 } cs_psd_record;
@@ -37,7 +38,7 @@ typedef struct cs_psd_record {
 /* Reads the record at the cursor, whose status is the result. is_large: a large document, with
  * some lengths of 8 bytes. */
 void cs_psd_record_read(cs_cursor *cursor, bool is_large, cs_psd_record *out);
-/* The word of celspan for a blend key; "" stays as it is, and so do keys without one. */
+/* The word of celspan for a blend key; "" does not change, and neither do keys without a word. */
 void cs_psd_record_blend(const char key[5], char out[32]);
 /* Reads the signature, key and length of a tagged block at the cursor; false where there is none.
  */

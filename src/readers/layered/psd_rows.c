@@ -29,7 +29,7 @@ static celspan_status fail(celspan_context *context, const psd_rows *rows,
   return cs_input_fail(context, rows->input, channel->data.at, CELSPAN_INPUT, "%s", sentence);
 }
 
-/* False where the packed bytes are not those of exactly one row. */
+/* False unless the packed bytes are exactly one row. */
 static bool unpack_bits(const unsigned char *from, size_t size, unsigned char *row,
                         size_t row_size) {
   size_t at = 0, done = 0;
@@ -65,7 +65,7 @@ static celspan_status next_packed(psd_rows *rows, celspan_context *context, chan
   return CELSPAN_OK;
 }
 
-/* Each value is the one on its left and what stands in the file. */
+/* Each value is the sum of the value on its left and the number in the file. */
 static void add_up(channel_rows *channel) {
   unsigned char *row = channel->row;
   for (size_t i = 1; i < channel->row_size && channel->bits == 8; i++)

@@ -28,7 +28,7 @@ typedef struct cs_rows_kind {
   void (*destroy)(cs_rows_source *source); /* frees the source */
 } cs_rows_kind;
 
-/* The first member of what a kind keeps. */
+/* The first member of the structure of every kind. */
 struct cs_rows_source {
   const cs_rows_kind *kind;
   cs_memory *memory;     /* borrowed from the painting */

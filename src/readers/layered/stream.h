@@ -21,7 +21,8 @@ struct cs_stream {
   const cs_input *input; /* borrowed; for messages */
 };
 
-/* Exactly `size` bytes. what: for the message where the stream ends before. Errors: INPUT. */
+/* Exactly `size` bytes. what: the item, for the message where the stream ends before. Errors:
+ * INPUT. */
 CELSPAN_CHECKED celspan_status cs_stream_read(cs_stream *stream, celspan_context *context,
                                               void *bytes, size_t size, const char *what);
 

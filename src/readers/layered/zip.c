@@ -86,7 +86,7 @@ static celspan_status find_table(celspan_context *context, const cs_input *input
 
 /* ---------------------------------------------------------------- the table */
 
-/* Takes the next 64-bit number of the extra field for a number that did not fit. */
+/* Replaces a number that did not fit by the next 64-bit number of the extra field. */
 static bool widen(int64_t *number, const unsigned char **at, const unsigned char *end) {
   if (*number != UINT32_MAX)
     return true;

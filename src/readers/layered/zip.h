@@ -21,10 +21,10 @@
 #define CS_ZIP_BARE (-1) /* in the place of the header of a file that lies in no archive */
 
 typedef struct cs_zip_member {
-  const char *name; /* UTF-8 as it is in the archive; in the table that the zip keeps */
+  const char *name; /* UTF-8 as in the archive; points into the table that the zip keeps */
   int64_t header;   /* offset of the local header, or CS_ZIP_BARE */
   int64_t packed, unpacked;
-  uint32_t sum; /* CRC-32 of what it unpacks to */
+  uint32_t sum; /* CRC-32 of the unpacked bytes */
   uint16_t flags, method;
 } cs_zip_member;
 
@@ -35,7 +35,7 @@ typedef struct cs_zip {
   unsigned char *table;
   char *names; /* ended by NUL each */
   size_t names_size;
-  cs_zip_member *members; /* by name; of one name in the order of the table */
+  cs_zip_member *members; /* sorted by name; members of one name in the order of the table */
   size_t count, capacity;
 } cs_zip;
 

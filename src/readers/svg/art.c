@@ -24,8 +24,8 @@ celspan_svg *celspan_svg_ref(celspan_svg *svg) {
   return svg;
 }
 
-/* Drops what items hold, not the items. Recursion: the depth of items, which that of the document
- * limits. */
+/* Releases the contents of items, not the items. Recursion: the depth of items, which is limited by
+ * the depth of the document. */
 void cs_svg_item_drop(cs_svg_item *item) {
   for (; item; item = item->next) {
     cs_svg_item_drop(item->first);
@@ -84,7 +84,8 @@ celspan_status cs_svg_text_copy(celspan_context *context, celspan_svg *art, cons
 
 /* ---------------------------------------------------------------- composing */
 
-/* Replaces *object, which is given up, by what `status` made of it. */
+/* Releases *object and puts `made` in its place, or NULL where `status` is a failure. Returns
+ * status. */
 static celspan_status replace(celspan_status status, celspan_object *made,
                               celspan_object **object) {
   celspan_object_unref(*object);
@@ -255,8 +256,8 @@ static celspan_status list_part(listing *list, const char *text, const cs_svg_it
   return CELSPAN_OK;
 }
 
-/* First those that are drawn at their own place, then those that only `use` shows. Recursion: the
- * depth of items. */
+/* First the items that are drawn at their own place, then the items that only `use` shows.
+ * Recursion: the depth of items. */
 static celspan_status list_parts(listing *list, const cs_svg_item *item, bool is_label,
                                  bool is_moved) {
   for (; item; item = item->next) {
@@ -302,7 +303,7 @@ typedef struct visiting {
   celspan_space space;
   celspan_svg_visit visit;
   void *user;
-  cs_hash_table visited; /* the numbers of those that were visited */
+  cs_hash_table visited; /* the numbers of the visited items */
 } visiting;
 
 static celspan_status visit_element(visiting *v, const cs_svg_item *item, int32_t depth) {

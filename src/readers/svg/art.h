@@ -5,16 +5,16 @@
  *          |     item "hand" --- item ...         filtered, clipped, masked, faded, with a mode
  *          filter, clip, mask, opacity, mode
  *
- * Items are what `with` needs to put another object in the place of a part: only the objects above
- * it are made again. Invariant: an item's object follows from its own object or items, filter,
- * clip, mask, opacity and mode; everything is in the drawing's units.
+ * With the items, `with` can replace a part by another object: only the objects above the part are
+ * made again. Invariant: an item's object follows from its own object or items, filter, clip, mask,
+ * opacity and mode; everything is in the drawing's units.
  */
 #pragma once
 
 #include "base/arena.h"
 #include "readers/svg/recipe.h"
 
-/* What an element of the file is, for those without a name. */
+/* The facts about an element of the file, also for elements without a name. */
 typedef struct cs_svg_facts {
   uint32_t number, line;     /* number: among all elements of the file, from 1 */
   const char *tag, *classes; /* classes: NULL where it has none; in the arena, as the tag */
@@ -24,7 +24,7 @@ typedef struct cs_svg_facts {
 typedef struct cs_svg_item {
   struct cs_svg_item *next, *first, *last; /* first, last: items inside */
   const char *id, *label;                  /* NULL: none; in the arena */
-  const cs_svg_facts *facts;               /* NULL: it is a part of what an element draws */
+  const cs_svg_facts *facts;               /* NULL: it is a part of an element's drawing */
   celspan_object *own;                     /* NULL for a group, and for nothing */
   cs_svg_recipe *filter;                   /* NULL: none. A reference */
   bool has_clip;
@@ -55,7 +55,8 @@ struct celspan_svg {
   atomic_size_t references;
   cs_memory *memory;
   cs_arena arena;
-  celspan_svg *origin; /* what it was made of with changes, whose texts it borrows; NULL: none */
+  celspan_svg *origin; /* the drawing that it is a changed copy of, whose texts it borrows; NULL:
+                          none */
   cs_svg_item *root;
   double width, height;
   celspan_space space;    /* of the object and of the parts */
@@ -68,13 +69,14 @@ struct celspan_svg {
 
 /* Without items. *out: new. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_svg_art_create(celspan_context *context, celspan_svg **out);
-/* A new item inside `parent`, after those that are there; NULL: one by itself. Errors: NO_MEMORY.
+/* A new item inside `parent`, after its other items; NULL: an item without a parent. Errors:
+   NO_MEMORY.
  */
 CELSPAN_CHECKED celspan_status cs_svg_item_append(celspan_context *context, celspan_svg *art,
                                                   cs_svg_item *parent, cs_svg_item **out);
 CELSPAN_CHECKED celspan_status cs_svg_text_copy(celspan_context *context, celspan_svg *art,
                                                 const char *text, const char **out);
-/* Releases what a list of items holds. */
+/* Releases the contents of a list of items. */
 void cs_svg_item_drop(cs_svg_item *item);
 /* Makes an item's object of its contents, which are complete. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_svg_item_compose(celspan_context *context, cs_svg_item *item);

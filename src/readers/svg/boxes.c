@@ -39,7 +39,7 @@ static celspan_status add_element_box(cs_svg_reading *reading, const cs_svg_node
                                       cs_svg_place place, celspan_box *whole, bool *is_there) {
   const cs_svg_open open = {node, place.open};
   if (!cs_svg_is_shown(node, place.sizes) || cs_svg_is_open(place.open, node))
-    return CELSPAN_OK; /* what shows itself is noted when it is drawn */
+    return CELSPAN_OK; /* visible contents are noted when they are drawn */
   if (++reading->depth > CS_SVG_DEPTH)
     return cs_fail(reading->context, CELSPAN_LIMIT,
                    "line %u: elements refer to one another more than %d deep", node->line,
@@ -76,7 +76,8 @@ static celspan_status add_boxes(cs_svg_reading *reading, const cs_svg_node *node
   return CELSPAN_OK;
 }
 
-/* Of a nested svg element or a symbol; that of the outermost one has been entered. */
+/* The viewport of a nested svg element or a symbol; the outermost viewport has been entered
+ * already. */
 static celspan_status add_viewport_box(cs_svg_reading *reading, const cs_svg_node *node,
                                        const cs_svg_place *place, celspan_box *whole,
                                        bool *is_there) {
@@ -111,7 +112,7 @@ static void add_placed(const celspan_box *box, const celspan_matrix *matrix, cel
   }
 }
 
-/* What is measured now is drawn later, and its notes are made then. */
+/* Measured elements are drawn later, and their notes are made then. */
 static celspan_status add_text_box(cs_svg_reading *reading, const cs_svg_node *node,
                                    const cs_svg_place *place, celspan_box *whole, bool *is_there) {
   celspan_box box;

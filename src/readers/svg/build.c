@@ -29,8 +29,8 @@ typedef struct builder {
   celspan_matrix root_matrix; /* user units of the outermost element to the drawing's */
 } builder;
 
-/* Adds what an element draws to `parent`. place: of what it is in. Recursion: at most CS_SVG_DEPTH
- * elements deep, those of `use` counted. */
+/* Adds what an element draws to `parent`. place: the place of its parent. Recursion: at most
+ * CS_SVG_DEPTH elements deep, those of `use` counted. */
 static celspan_status add_element(builder *b, const cs_svg_node *node, cs_svg_place place,
                                   cs_svg_item *parent);
 
@@ -74,7 +74,8 @@ static celspan_status add_viewport(builder *b, const cs_svg_node *node, const cs
 
 /* ---------------------------------------------------------------- contexts */
 
-/* A paint as it is in `place`, for what takes it over: one with a context already keeps that. */
+/* A paint with `place` as its context, for an element that inherits it. A paint that has a context
+ * already keeps it. */
 static cs_svg_paint context_paint(cs_svg_paint paint, const cs_svg_style *style,
                                   const cs_svg_context_box *context) {
   if (paint.kind == CS_SVG_PAINT_CURRENT) {
@@ -87,7 +88,7 @@ static cs_svg_paint context_paint(cs_svg_paint paint, const cs_svg_style *style,
 }
 
 /* Gives the contents of a `use` or a marker, in *inner, the paints of the element at `place`.
- * *context: lives as long as they are drawn. */
+ * *context: must live while they are drawn. */
 static celspan_status enter_context(builder *b, const cs_svg_node *node, const cs_svg_place *place,
                                     cs_svg_context_box *context, cs_svg_place *inner) {
   const cs_svg_style *style = &place->style;
@@ -104,8 +105,8 @@ static celspan_status enter_context(builder *b, const cs_svg_node *node, const c
 
 /* ---------------------------------------------------------------- use */
 
-/* The drawing's units at the place where an element stands in the file: the transforms of what it
- * is in. */
+/* The drawing's units at the place where an element stands in the file: the transforms of the
+ * elements around it. */
 static celspan_status find_home(builder *b, const cs_svg_node *node, const cs_svg_place *root,
                                 celspan_matrix *out) {
   celspan_matrix whole = celspan_matrix_identity();
@@ -202,7 +203,7 @@ static celspan_status add_marks(builder *b, const cs_svg_node *node, const cs_sv
   return status;
 }
 
-/* One of the things that a shape is painted with. */
+/* One paint of a shape: its fill, its stroke or its markers. */
 static celspan_status add_layer(builder *b, const cs_svg_node *node, const cs_svg_place *place,
                                 cs_svg_layer layer, cs_svg_item *parent) {
   cs_svg_item *item;
@@ -257,7 +258,7 @@ static celspan_status add_content(builder *b, const cs_svg_node *node, const cs_
 
 /* ---------------------------------------------------------------- effects */
 
-/* What is done to all of the element at once. */
+/* The properties that act on the element as a whole. */
 static celspan_status read_effects(builder *b, const cs_svg_node *node, const cs_svg_place *place,
                                    cs_svg_item *item);
 
@@ -280,7 +281,7 @@ static celspan_status draw_mask(builder *b, const cs_svg_node *mask, const cs_sv
   return status;
 }
 
-/* Takes what was drawn, inside the mask's region, as the item's mask. */
+/* Makes the drawn contents, inside the mask's region, the item's mask. */
 static celspan_status take_mask(builder *b, const cs_svg_region *region, cs_svg_item *drawn,
                                 cs_svg_item *item) {
   celspan_object *both[2] = {drawn->object, NULL};
@@ -339,7 +340,7 @@ static const cs_svg_node *mask_of(const builder *b, const cs_svg_style *style) {
   return mask && mask->element == CS_SVG_ELEMENT_MASK ? mask : NULL;
 }
 
-/* Whether a mask is open, or one of those that mask it in turn. */
+/* Whether a mask, or a mask of the mask, and so on, is open. */
 static celspan_status masks_itself(builder *b, const cs_svg_open *open, const cs_svg_node *mask,
                                    bool *out) {
   *out = cs_svg_is_open(open, mask);

@@ -60,7 +60,7 @@ static bool fits_compound(const cs_css_compound *compound, const cs_svg_node *no
   return true;
 }
 
-/* Whether the first `count` compounds fit the element and what it is in. */
+/* Whether the first `count` compounds fit the element and the elements around it. */
 static bool fits_chain(const cs_css_rule *rule, size_t count, const cs_svg_node *node,
                        uint64_t *tests) {
   if (*tests == 0 || --*tests == 0 || !fits_compound(&rule->compounds[count - 1], node))
@@ -138,7 +138,7 @@ static celspan_status fill_variables(collecting *c) {
   return CELSPAN_OK;
 }
 
-/* What the words that every property has mean, as far as it is the same for all. */
+/* The meaning of the words that every property accepts, as far as it is the same for all. */
 static const char *common_value(cs_svg_name name, const char *value) {
   const char *initial = cs_svg_name_facts_of(name)->initial;
   if (!*value || !strchr("iurIUR", *value))

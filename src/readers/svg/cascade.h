@@ -13,8 +13,9 @@ typedef struct cs_svg_cascade {
   const cs_svg_variable *variables;      /* of the element */
 } cs_svg_cascade;
 
-/* inherited: the variables of what the element is in. tests: how often selectors may still be
- * tried, counted down. Errors: NO_MEMORY; LIMIT when that is used up, or variables take too much.
+/* inherited: the variables of the element's parent. tests: how often selectors may still be tried,
+ * counted down. Errors: NO_MEMORY; LIMIT when these tests are used up, or variables take too much
+ * memory.
  */
 CELSPAN_CHECKED celspan_status cs_svg_cascade_collect(celspan_context *context,
                                                       cs_svg_document *document,

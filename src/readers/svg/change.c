@@ -9,7 +9,7 @@ typedef struct changing {
   celspan_context *context;
   const celspan_svg_changed *changes;
   bool *are_labels;  /* whether each change's name is a label, and not an id */
-  uint32_t *numbers; /* of the element that each change is of; 0: it has a name */
+  uint32_t *numbers; /* the number of the element for each change; 0: the change has a name */
   size_t change_count;
   celspan_svg *art; /* the copy */
 } changing;
@@ -48,7 +48,7 @@ static celspan_status make_other(changing *c, const celspan_svg_changed *change,
   return status;
 }
 
-/* Makes the item a leaf that is what the change makes of its object: it is a whole from now on. */
+/* Makes the item a leaf whose object is the result of the change: it has no parts from now on. */
 static celspan_status change_item(changing *c, const celspan_svg_changed *change,
                                   cs_svg_item *item) {
   celspan_object *other;
@@ -72,7 +72,8 @@ static celspan_status change_item(changing *c, const celspan_svg_changed *change
   return CELSPAN_OK;
 }
 
-/* An item that has an id and a label may be meant by both: one change acts on what the other made.
+/* An item that has an id and a label may be meant by both: one change then acts on the result of
+   the other.
  */
 static celspan_status change_as_meant(changing *c, cs_svg_item *item, bool *is_changed) {
   for (size_t i = 0; i < c->change_count && item->object; i++)
@@ -83,8 +84,8 @@ static celspan_status change_as_meant(changing *c, cs_svg_item *item, bool *is_c
   return CELSPAN_OK;
 }
 
-/* Copies the items inside `from` into `to`. *is_changed: any of them, or of their contents, has
- * changed. Recursion: the depth of items. */
+/* Copies the items inside `from` into `to`. *is_changed: whether one of them, or of their contents,
+ * has changed. Recursion: the depth of items. */
 static celspan_status copy_items(changing *c, const cs_svg_item *from, cs_svg_item *to,
                                  bool *is_changed);
 

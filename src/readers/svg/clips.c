@@ -11,7 +11,7 @@
 
 /* ---------------------------------------------------------------- objects */
 
-/* Moves an object that is given up; *out is new. */
+/* Moves an object, which is released; *out is new. */
 static celspan_status moved(celspan_context *context, celspan_object *object,
                             const celspan_matrix *matrix, celspan_object **out) {
   celspan_status status = celspan_object_transform(context, object, matrix, out);
@@ -112,8 +112,8 @@ celspan_status cs_svg_shape_object(cs_svg_reading *reading, const cs_svg_node *n
 /* ---------------------------------------------------------------- basic shapes */
 
 /* A clip path that is written as circle(), ellipse(), inset() or polygon(), while it is read.
- * Lengths and shares are those of the element's box without its stroke. Source: CSS Shapes Module
- * Level 1, 3.1. */
+ * Lengths and shares refer to the element's box without its stroke. Source: CSS Shapes Module Level
+ * 1, 3.1. */
 typedef struct drafting {
   celspan_context *context;
   const char *text;
@@ -171,7 +171,7 @@ static celspan_status add_round(drafting *d, bool is_circle) {
   return rx > 0 && ry > 0 ? cs_outline_ellipse(d->context, d->outline, centre, rx, ry) : CELSPAN_OK;
 }
 
-/* inset(top right bottom left): those left out are the ones across, or the top. */
+/* inset(top right bottom left): a missing side equals the opposite side, or the top. */
 static celspan_status add_inset(drafting *d) {
   double inset[4];
   int count = 0;
@@ -226,7 +226,7 @@ static celspan_status add_shape(drafting *d) {
   return CELSPAN_OK;
 }
 
-/* The object of an outline, which is taken over. */
+/* The object of an outline. The object owns the outline from now on. */
 static celspan_status place_shape(drafting *d, const cs_svg_place *place, celspan_object **out) {
   celspan_object *object;
   CS_TRY(cs_primitive_data_of_outline(d->context, d->outline, d->rule, NULL, &object));

@@ -1,5 +1,5 @@
-/* Clip paths, and what else is taken of elements as mere shapes: boolean objects in the drawing's
- * units, without paint.
+/* Clip paths, and other uses of elements as mere shapes: boolean objects in the drawing's units,
+ * without paint.
  *
  *   clip path = union of its children, each inside its own clip path, inside the clip path's own
  */
@@ -20,6 +20,6 @@ CELSPAN_CHECKED celspan_status cs_svg_clip_make(cs_svg_reading *reading, const c
                                                 const cs_svg_place *place, celspan_object **out,
                                                 bool *is_clip);
 
-/* The intersection of two objects, both of which are given up; NULL where either is. */
+/* The intersection of two objects. It releases both; NULL where either is NULL. */
 CELSPAN_CHECKED celspan_status cs_svg_intersect(cs_svg_reading *reading, celspan_object *a,
                                                 celspan_object *b, celspan_object **out);

@@ -158,7 +158,7 @@ static bool take_hwb(const char **text, cs_svg_colour *out) {
   return true;
 }
 
-/* color(): a space of which the conversion is known, and three components. */
+/* color(): a space whose conversion is known, and three components. */
 static bool take_color(const char **text, cs_svg_colour *out) {
   static const char *const words[] = {"srgb",    "srgb-linear", "display-p3",
                                       "xyz-d50", "xyz-d65",     "xyz"};

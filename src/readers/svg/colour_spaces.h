@@ -1,7 +1,7 @@
 /* Colours of other spaces than sRGB's codes, as CSS writes them: hwb(), lab(), lch(), oklab(),
  * oklch() and color().
  *
- * What lies outside of sRGB is cut off channel by channel.
+ * Colours outside of sRGB are clamped channel by channel.
  */
 #pragma once
 
@@ -12,7 +12,7 @@ typedef struct cs_svg_colour {
   double rgb[3], alpha;
 } cs_svg_colour;
 
-/* Reads what *text begins with and moves *text behind it; false: it is no such colour. */
+/* Reads such a colour at *text and moves *text behind it; false: there is none. */
 bool cs_svg_take_space_colour(const char **text, cs_svg_colour *out);
 
 /* The colour of a hue in degrees; alpha stays. */

@@ -220,7 +220,7 @@ static bool take_channels(const char **text, cs_svg_colour *out) {
   return !has_comma || (is_percent[0] == is_percent[1] && is_percent[1] == is_percent[2]);
 }
 
-/* What follows "rgb(" and "hsl(". */
+/* The arguments after "rgb(" and "hsl(". */
 static bool take_function(const char **text, bool is_hue, cs_svg_colour *out) {
   bool is_percent;
   *text = cs_svg_skip_space(*text);

@@ -4,6 +4,6 @@
 #include "readers/svg/colour_spaces.h"
 
 /* "#rgb", "#rrggbb" and with alpha, rgb(), rgba(), hsl(), hsla(), those of colour_spaces.h, a name,
- * transparent: reads what *text begins with and moves *text behind it. False when there is no
+ * transparent: reads the colour at *text and moves *text behind it. False when there is no
  * colour. */
 bool cs_svg_take_colour(const char **text, cs_svg_colour *out);

@@ -12,7 +12,7 @@
 #define COMPOUNDS 32
 #define CLASSES 16
 #define CONDITIONS 16
-/* Weights of what a compound asks for. Source: CSS Selectors Level 3, 9. */
+/* Weights of the parts of a compound. Source: CSS Selectors Level 3, 9. */
 #define ID_WEIGHT 65536u
 #define CLASS_WEIGHT 256u
 
@@ -79,7 +79,7 @@ static const char *value_end(const char *text, const char *end) {
   return text;
 }
 
-/* What follows the braces that begin at a '{', or the end. */
+/* The text after the braces that begin at a '{', or the end. */
 static const char *braces_end(const char *text, const char *end) {
   char quote = 0;
   int depth = 0;
@@ -114,8 +114,8 @@ static const char *unprefixed(const char *name) {
   return cs_svg_words_have(aliases, rest) ? rest : name;
 }
 
-/* Judges a declaration with this name; *counts: false for one that is not read, which is noted
- * where it would change what is drawn. */
+/* Judges a declaration with this name; *counts: false for a declaration that is not read; a note is
+ * made where it would change the drawing. */
 static celspan_status judge(const cs_css_place *place, const char *name, cs_css_declaration *it,
                             bool *counts) {
   const char *property = unprefixed(name);
@@ -356,7 +356,7 @@ static celspan_status add_selectors(parser *p, const char *text, const char *bra
   return CELSPAN_OK;
 }
 
-/* What follows an at-rule: it ends with a block or with a semicolon. */
+/* The text after an at-rule, which ends with a block or with a semicolon. */
 static const char *skip_at_rule(const char *text) {
   int depth = 0;
   for (; *text; text++) {

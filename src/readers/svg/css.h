@@ -3,7 +3,7 @@
  *   g.sleeve > path#cuff, .red { fill: #a00; stroke: none !important }
  *   '---------selector--------'  '------------declarations-----------'
  *
- * A selector is a chain of compounds, the last of which is the element itself: element, classes and
+ * A selector is a chain of compounds. The last compound is the element itself: element, classes and
  * id and attributes, joined by descent or by being a child. Selectors with other parts
  * (pseudo-classes except :root, siblings, attributes without a meaning here), rules inside of rules
  * and at-rules are left out, and set `omitted`.
@@ -19,7 +19,7 @@
 typedef struct cs_css_place {
   celspan_context *context;
   cs_arena *arena;
-  cs_svg_unread *unread; /* what is not read: a property, or a value, which does not count then */
+  cs_svg_unread *unread; /* properties that are not read, and values that therefore do not count */
   uint32_t line;         /* of the text */
 } cs_css_place;
 
@@ -38,8 +38,8 @@ typedef struct cs_css_declarations {
   bool has_nested;   /* there were rules between them, which are left out */
 } cs_css_declarations;
 
-/* [name], [name=value], or with a sign before the '=': ~ a word of it, | it or what it begins
- * with before a hyphen, ^ its beginning, $ its end, * any part of it. */
+/* [name], [name=value], or with a sign before the '=': ~ a word of it, | the whole value or its
+ * beginning before a hyphen, ^ its beginning, $ its end, * any part of it. */
 typedef struct cs_css_condition {
   cs_svg_name name;
   char comparison; /* 0: the attribute exists; '=': it is the value; else the sign before the '=' */
@@ -53,7 +53,7 @@ typedef struct cs_css_compound {
   size_t class_count;
   cs_css_condition *conditions; /* all of them */
   size_t condition_count;
-  bool is_child; /* of what the compound before it is, not only below it */
+  bool is_child; /* of the element of the compound before it, not only below it */
 } cs_css_compound;
 
 typedef struct cs_css_rule {
@@ -71,7 +71,7 @@ typedef struct cs_css_sheet {
   bool has_geometry; /* in any rule */
 } cs_css_sheet;
 
-/* Parses what a `style` attribute holds. Errors: NO_MEMORY. */
+/* Parses the contents of a `style` attribute. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_css_declarations_parse(const cs_css_place *place,
                                                          const char *text,
                                                          cs_css_declarations *out);

@@ -19,10 +19,10 @@ typedef struct reader {
   const char *name;
   cs_svg_document *document;
   cs_svg_node *open;      /* the innermost element that is open; NULL: none */
-  uint32_t foreign_depth; /* elements of other namespaces that are open, and those inside */
+  uint32_t foreign_depth; /* open elements of other namespaces, and open elements inside these */
   char *css;              /* of the style elements so far */
   size_t css_size, css_capacity;
-  char *characters; /* of the text that is open, since its last element */
+  char *characters; /* of the open text, since its last element */
   size_t character_size, character_capacity;
   uint64_t character_line; /* where they begin */
   celspan_status failure;
@@ -73,8 +73,8 @@ static cs_css_place css_place(reader *r, uint64_t line) {
   return (cs_css_place){r->context, &r->document->arena, &r->document->unread, (uint32_t)line};
 }
 
-/* Whether an attribute that is not read changes nothing: those of other namespaces, and names that
- * count in a namespace alone. */
+/* Whether an attribute that is not read changes nothing: an attribute of another namespace, or a
+ * name that has a meaning only in a namespace. */
 static bool is_silent(const char *const *attribute) {
   return strchr(attribute[0], ' ') || cs_svg_name_of(attribute[0]) != CS_SVG_NAME_COUNT ||
          cs_svg_name_is_silent(attribute[0], attribute[1]);

@@ -36,7 +36,7 @@ typedef struct cs_svg_document {
   cs_arena arena;
   cs_svg_node *root; /* an svg element */
   size_t element_count;
-  cs_svg_node **named; /* those with an id; the first of each id is in `ids` */
+  cs_svg_node **named; /* the nodes with an id; the first node of each id is in `ids` */
   size_t named_count, named_capacity;
   cs_hash_table ids; /* to places in `named` */
   cs_css_sheet sheet;

@@ -28,7 +28,7 @@ static bool take_family(const char **text, family *out) {
   return true;
 }
 
-/* Whether a name is that of the family and the words of a face behind it. */
+/* Whether a name consists of the family's name and then the words of a face. */
 static bool is_named(const char *name, family wanted, const char *face) {
   return strncasecmp(name, wanted.text, wanted.size) == 0 &&
          strcasecmp(name + wanted.size, face) == 0;

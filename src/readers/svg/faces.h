@@ -1,5 +1,5 @@
-/* The fonts of a text: of those that the caller gave, the ones that its font-family names, then the
- * one for all families.
+/* The fonts of a text: from the caller's fonts, first the fonts that font-family names, then the
+ * font for all families.
  *
  *   font-family: Arial, "Gill Sans"; font-weight: bold
  *   tried: "Arial Bold", "Arial", "Gill Sans Bold", "Gill Sans", "default"
@@ -10,8 +10,8 @@
 #include "readers/text/layout.h"
 
 typedef struct cs_svg_faces {
-  celspan_font fonts[CS_TEXT_FONTS]; /* borrowed from the source; each is asked for what those
-                                        before it lack */
+  celspan_font fonts[CS_TEXT_FONTS]; /* borrowed from the source; each is used for letters that the
+                                        fonts before it lack */
   size_t count;                      /* 0: none was given */
   bool is_plain;                     /* the first is bold or italic less than it should be */
 } cs_svg_faces;

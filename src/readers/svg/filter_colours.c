@@ -9,7 +9,7 @@
 #define DEGREES_TO_RADIANS (3.14159265358979323846 / 180)
 /* Values of a table, at most. */
 #define VALUES 128
-/* Points of a curve: five around each place where a table bends, or those of a power. */
+/* Points of a curve: five around each place where a table bends, or the points of a power. */
 #define POWER_POINTS 256
 #define POINTS (5 * VALUES + 8)
 /* Half of the width of a bend or a jump. */
@@ -69,7 +69,7 @@ static double value_at(const function *f, double x) {
   }
 }
 
-/* The type as it is written; a table without values is no function. */
+/* The type as written; a table without values is no function. */
 static function_kind kind_of(const cs_svg_node *node, size_t count) {
   static const char *const words[] = {"identity", "table", "discrete", "linear", "gamma"};
   const char *type = cs_svg_node_value(node, CS_SVG_TYPE);
@@ -103,7 +103,7 @@ static void add_point(curve *c, double x, double y) {
     c->points[c->count++] = (celspan_point){x, cs_number_clamp(y, 0, 1)};
 }
 
-/* What lies between two bends stays straight, because its ends have its slope. */
+/* The part between two bends stays straight, because its ends have its slope. */
 static void add_bend(curve *c, const function *f, double x) {
   for (int side = -2; side <= 2; side++)
     if ((side != 0 || f->kind != FUNCTION_DISCRETE) && x + side * NEAR >= 0 && x + side * NEAR <= 1)
@@ -171,7 +171,7 @@ static bool has_other_values(const cs_svg_node *node, const function *f) {
   return text && *cs_svg_skip_space(text) && f->count == 0;
 }
 
-/* The functions of the channels of which there are elements. */
+/* The functions of the channels that have elements. */
 static void read_functions(const cs_svg_node *node, curve curves[3], celspan_grade_desc *desc,
                            cs_svg_step *step, const char **reason) {
   static const cs_svg_element channels[] = {CS_SVG_ELEMENT_FE_FUNC_R, CS_SVG_ELEMENT_FE_FUNC_G,
@@ -234,7 +234,7 @@ static bool is_flood(const cs_svg_recipe *recipe, size_t number) {
          recipe->steps[number - CS_SVG_SOURCES].kind == CS_SVG_STEP_FLOOD;
 }
 
-/* What is multiplied by a flood has the product of the colours where the flood is. */
+/* An input that is multiplied by a flood gets the product of the two colours where the flood is. */
 celspan_status cs_svg_product_read(const cs_svg_reading *reading, const cs_svg_recipe *recipe,
                                    cs_svg_step *step, const char **reason) {
   const size_t *inputs = recipe->inputs + step->first_input;

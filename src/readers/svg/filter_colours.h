@@ -1,9 +1,9 @@
-/* What filters do to colours: feColorMatrix and feComponentTransfer, as grades.
+/* Filters of colours, feColorMatrix and feComponentTransfer, as grades.
  *
  *     colour, not premultiplied --> matrix or curves --> clamped to 0..1
  *     alpha ----------------------> times a share
  *
- * A grade does not change what is let through, so alpha may only be multiplied by 0..1; other
+ * A grade does not change how much light passes, so alpha may only be multiplied by 0..1; other
  * functions of alpha, and colours that depend on alpha, are not read.
  */
 #pragma once
@@ -20,7 +20,7 @@ CELSPAN_CHECKED celspan_status cs_svg_transfer_read(cs_svg_reading *reading,
                                                     const cs_svg_node *node, cs_svg_step *step,
                                                     const char **reason);
 
-/* Fills in the product of two inputs of a step, of which one is a flood. Errors: NO_MEMORY. */
+/* Fills in the product of two inputs of a step; one of them is a flood. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_svg_product_read(const cs_svg_reading *reading,
                                                    const cs_svg_recipe *recipe, cs_svg_step *step,
                                                    const char **reason);
@@ -33,6 +33,6 @@ CELSPAN_CHECKED celspan_status cs_svg_clamped_grade(const cs_svg_reading *readin
 
 /* The value of an attribute that is one number; `fallback` for any other. */
 double cs_svg_filter_number(const cs_svg_node *node, cs_svg_name name, double fallback);
-/* The numbers of an attribute, up to `most` of them; returns how many there are, 0 where anything
- * else is among them. */
+/* The numbers of an attribute, up to `most` of them; returns their number, or 0 where anything else
+ * is among them. */
 size_t cs_svg_filter_numbers(const cs_svg_node *node, cs_svg_name name, double *out, size_t most);

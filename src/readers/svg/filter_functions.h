@@ -1,5 +1,5 @@
-/* The functions of the property `filter` as steps of recipes: those that elements of a filter would
- * make, in the codes of sRGB.
+/* The functions of the property `filter` as steps of recipes: the same steps as for the elements of
+ * a filter, in the codes of sRGB.
  */
 #pragma once
 

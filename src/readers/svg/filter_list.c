@@ -4,7 +4,7 @@
 
 #include "readers/svg/transforms.h"
 
-/* What the arguments of a function are. */
+/* The kind of a function's arguments. */
 typedef enum arguments { LENGTH, SHADOW, ANGLE, AMOUNT, SHARE } arguments;
 
 static const struct function {

@@ -1,4 +1,4 @@
-/* The property `filter` as it is written: a list of functions of CSS and of references to filters.
+/* The property `filter` as written: a list of functions of CSS and of references to filters.
  *
  *     "blur(2px) url(#f) sepia(50%)" --> one call after the other
  *
@@ -29,7 +29,7 @@ typedef struct cs_svg_filter_call {
   double amount;              /* of colours: 0 or more, or degrees */
   cs_svg_length lengths[3];   /* BLUR: the first; SHADOW: along x, along y, the deviation */
   bool is_bare;               /* a length other than 0 has no unit */
-  bool has_colour;            /* SHADOW; false: that of the property `color` */
+  bool has_colour;            /* SHADOW; false: the colour of the property `color` */
   cs_svg_colour colour;
 } cs_svg_filter_call;
 

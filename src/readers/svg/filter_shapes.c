@@ -16,7 +16,7 @@ static bool is_none(const cs_svg_paint *paint) {
   return !paint->has_server && paint->kind == CS_SVG_PAINT_NONE;
 }
 
-/* The only paint of an element: that of its area or that of its line. */
+/* The only paint of an element: of its area or of its line. */
 static bool own_paint(const cs_svg_reading *reading, const cs_svg_node *element,
                       const cs_svg_style *style, celspan_paint *out) {
   const bool is_filled = is_none(&style->stroke);

@@ -1,4 +1,5 @@
-/* What feMorphology can take: inputs of one colour, whose greatest and least pixels are shapes.
+/* The inputs that feMorphology can take: they have one colour, so that their greatest and least
+ * pixels are shapes.
  *
  *     the element or its silhouette --> feOffset, feMorphology --> the same paint
  */

@@ -20,7 +20,7 @@ typedef struct named_result {
   size_t number; /* as inputs of steps count */
 } named_result;
 
-/* A filter that is being read, and its element of which the next step is made. */
+/* A filter that is being read, and the element in it that becomes the next step. */
 typedef struct filter {
   cs_svg_reading *reading;
   const cs_svg_node *element; /* that is filtered */
@@ -49,7 +49,7 @@ static celspan_status add_input(filter *f, size_t number) {
                    number);
 }
 
-/* The step before, or the element: what counts where there is no other input. */
+/* The previous step, or the element: the input by default. */
 static size_t last_result(const filter *f) {
   return f->recipe->step_count > 0 ? CS_SVG_SOURCES + f->recipe->step_count - 1 : 0;
 }
@@ -85,7 +85,7 @@ static celspan_status take_both(filter *f) {
 
 /* ---------------------------------------------------------------- places */
 
-/* One side of the step's box; what is not given is that of the region. */
+/* One side of the step's box; by default that of the region. */
 static celspan_status read_side(const filter *f, cs_svg_name name, cs_svg_axis axis,
                                 const cs_svg_measure *measure, double *side) {
   const char *text = cs_svg_node_value(f->node, name);
@@ -104,13 +104,13 @@ static celspan_status read_side(const filter *f, cs_svg_name name, cs_svg_axis a
   return CELSPAN_OK;
 }
 
-/* The box of an input: the sources have that of the region. */
+/* The box of an input: for the sources it is the region. */
 static const celspan_box *box_of(const filter *f, size_t number) {
   return number < CS_SVG_SOURCES ? &f->recipe->region
                                  : &f->recipe->steps[number - CS_SVG_SOURCES].box;
 }
 
-/* The box of a step that gives none: around those of its inputs, as browsers have it. */
+/* The box of a step that gives none: around the boxes of its inputs, as in browsers. */
 static celspan_box usual_box(const filter *f) {
   const cs_svg_recipe *recipe = f->recipe;
   if (f->step.input_count == 0 || f->step.kind == CS_SVG_STEP_TILE)
@@ -135,7 +135,7 @@ static celspan_status read_box(filter *f) {
   return read_side(f, CS_SVG_HEIGHT, CS_SVG_AXIS_Y, &measure, &box->height);
 }
 
-/* What two boxes share; without a size where that is nothing. */
+/* The common part of two boxes; without a size where there is none. */
 static celspan_box common(const celspan_box *a, const celspan_box *b) {
   double left = fmax(a->x, b->x), right = fmin(a->x + a->width, b->x + b->width);
   double top = fmax(a->y, b->y), bottom = fmin(a->y + a->height, b->y + b->height);
@@ -228,7 +228,7 @@ static celspan_status read_blend(filter *f) {
   return take_both(f);
 }
 
-/* Nothing can be taken off, and of products one factor is a flood. */
+/* Nothing can be subtracted, and one factor of a product must be a flood. */
 static celspan_status read_sum(filter *f) {
   double *weights = f->step.weights;
   f->step.kind = CS_SVG_STEP_SUM;
@@ -273,7 +273,7 @@ static celspan_status read_transfer(filter *f) {
   return cs_svg_transfer_read(f->reading, f->node, &f->step, &f->reason);
 }
 
-/* What is repeated is the box of the input. */
+/* The box of the input is repeated. */
 static celspan_status read_tile(filter *f) {
   f->step.kind = CS_SVG_STEP_TILE;
   CS_TRY(take_input(f, f->node, CS_SVG_IN));
@@ -343,7 +343,7 @@ static celspan_status start_uses(filter *f) {
   return CELSPAN_OK;
 }
 
-/* Counts how often the sources are in what the step makes. */
+/* Counts how often the sources are in the result of the step. */
 static celspan_status count_uses(filter *f) {
   uint32_t uses = 0;
   const size_t factor = f->step.kind == CS_SVG_STEP_SUM      ? 2 * CS_SVG_SUM_MOST
@@ -452,8 +452,8 @@ static celspan_status find_owner(filter *f, cs_svg_reference reference, bool *is
                    : cs_svg_skip(f->reading, f->element, "filter that shows what it filters");
 }
 
-/* The recipe of a call. weight: how often the element is in what is filtered; updated. *out: new;
- * NULL: it cannot be made. */
+/* The recipe of a call. weight: how often the element is in the filtered picture; updated. *out:
+ * new; NULL: it cannot be made. */
 static celspan_status add_recipe(filter f, const cs_svg_filter_call *call, uint32_t *weight,
                                  cs_svg_recipe **out) {
   bool is_there = true;

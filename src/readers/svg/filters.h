@@ -1,15 +1,15 @@
 /* Filters: from elements of the file and functions of CSS to recipes for the element that names
  * them.
  *
- * A list of filters with anything that recipes cannot do is noted, at the line of that, and left
- * out as a whole. Source: Filter Effects Module Level 1.
+ * A list of filters with anything that recipes cannot do is left out as a whole; the note names the
+ * line of the filter. Source: Filter Effects Module Level 1.
  */
 #pragma once
 
 #include "readers/svg/reading.h"
 #include "readers/svg/recipe.h"
 
-/* The filters of an element at `place`, whose style has some. *out: new; NULL: it is drawn as
- * it is. Errors: NO_MEMORY, LIMIT, INPUT. */
+/* The filters of an element at `place`, whose style has some. *out: new; NULL: it is drawn without
+ * filters. Errors: NO_MEMORY, LIMIT, INPUT. */
 CELSPAN_CHECKED celspan_status cs_svg_filter_make(cs_svg_reading *reading, const cs_svg_node *node,
                                                   const cs_svg_place *place, cs_svg_recipe **out);

@@ -1,9 +1,9 @@
-/* Which values of attributes and properties are read: what the table of names.h says, as a test. */
+/* Which values of attributes and properties are read: a test by the table of names.h. */
 #pragma once
 
 #include "readers/svg/names.h"
 
-/* Whether a value has another one in it that is only known later: var(). */
+/* Whether a value contains a part that is only known later: var(). */
 bool cs_svg_has_variable(const char *value);
 /* is_style: the value is of a style sheet or of an attribute `style`. Numbers that no value may be
  * (cs_svg_is_unfit) and values with variables are not judged here: true. */

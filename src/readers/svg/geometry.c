@@ -38,7 +38,7 @@ static bool has_property(const cs_svg_node *node, cs_svg_name name) {
   }
 }
 
-/* The data in path("..."); other values as they are. */
+/* The data in path("..."); other values unchanged. */
 static celspan_status unwrap(pass *p, const char **value) {
   const char *begin = strpbrk(*value, "\"'"), *end = begin ? strrchr(*value, *begin) : NULL;
   if (!begin || strncmp(*value, "path(", 5) != 0 || end == begin)

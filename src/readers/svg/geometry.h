@@ -3,7 +3,7 @@
 
 #include "readers/svg/cascade.h"
 
-/* Puts what styles say into the attributes of the elements that have such a property, so that all
- * else reads attributes alone. Errors: NO_MEMORY, LIMIT. */
+/* Writes the values of styles into the attributes of the elements that have such a property, so
+ * that all other code reads only attributes. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_svg_geometry_apply(celspan_context *context,
                                                      cs_svg_document *document, uint64_t *tests);

@@ -6,7 +6,7 @@
 #include "readers/svg/image_source.h"
 #include "readers/svg/shapes.h"
 
-/* What an image shows, before it is put in its place. */
+/* The contents of an image, before it is put in its place. */
 typedef struct image {
   cs_svg_reading *reading;
   const cs_svg_node *node;
@@ -20,7 +20,7 @@ static celspan_status note(const image *of, const char *reason) {
   return cs_svg_skip(of->reading, of->node, "image: %s", reason);
 }
 
-/* A failure that is about the image is noted; others stay failures. */
+/* A failure caused by the image is noted; other failures are returned. */
 static celspan_status note_failure(const image *of, celspan_status status) {
   if ((status != CELSPAN_INPUT && status != CELSPAN_LIMIT) || of->reading->has_failed)
     return status;
@@ -62,7 +62,7 @@ static celspan_status copy_notes(const image *of, const celspan_svg *art) {
   return CELSPAN_OK;
 }
 
-/* What of the drawing lies inside of its size. */
+/* The part of the drawing inside its size. */
 static celspan_status show_art(image *of, const celspan_svg *art) {
   const celspan_matrix identity = celspan_matrix_identity();
   celspan_point size = celspan_svg_size(art);
@@ -195,7 +195,7 @@ static celspan_status read_box(const image *of, const cs_svg_measure *measure, c
   return CELSPAN_OK;
 }
 
-/* Cuts off what sticks out of the element's box. */
+/* Cuts off the parts outside the element's box. */
 static celspan_status cut(const image *of, const celspan_box *box, const celspan_matrix *user,
                           celspan_object **object) {
   celspan_object *both[2] = {*object, NULL};
@@ -208,7 +208,7 @@ static celspan_status cut(const image *of, const celspan_box *box, const celspan
   return status;
 }
 
-/* Fits what is shown into a box. user: its units to those of *out. */
+/* Fits the shown part into a box. user: from its units to those of *out. */
 static celspan_status put(const image *of, const celspan_box *box, const celspan_matrix *user,
                           celspan_object **out) {
   const char *aspect = cs_svg_node_value(of->node, CS_SVG_PRESERVE_ASPECT_RATIO);
@@ -225,7 +225,7 @@ static celspan_status put(const image *of, const celspan_box *box, const celspan
   return aspect && strstr(aspect, "slice") ? cut(of, box, user, out) : CELSPAN_OK;
 }
 
-/* What the element shows, read when it is asked for first. The object is borrowed. */
+/* The contents of the element, read when they are first needed. The object is borrowed. */
 static celspan_status show(image *of) {
   cs_svg_kept_image found = {NULL, 0, 0};
   const char *href = cs_svg_node_value(of->node, CS_SVG_HREF);

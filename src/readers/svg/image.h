@@ -14,16 +14,16 @@
 
 #define CS_SVG_IMAGE_DEPTH 4 /* drawings one inside the other */
 
-/* Adds what an image element, whose style *place has, shows to `item`; what cannot be shown is
- * noted. Errors: NO_MEMORY; LIMIT for more than CS_SVG_IMAGE_BYTES in all; INPUT for numbers that
- * are unfit. */
+/* Adds the contents of an image element to `item`; *place has its style. Contents that cannot be
+ * shown are noted. Errors: NO_MEMORY; LIMIT for more than CS_SVG_IMAGE_BYTES in all; INPUT for
+ * numbers that are unfit. */
 CELSPAN_CHECKED celspan_status cs_svg_image_add(cs_svg_reading *reading, const cs_svg_node *node,
                                                 const cs_svg_place *place, cs_svg_item *item);
 /* The box of an image element in user units; *is_there: it has a size. Errors: as above. */
 CELSPAN_CHECKED celspan_status cs_svg_image_box(cs_svg_reading *reading, const cs_svg_node *node,
                                                 const cs_svg_measure *measure, celspan_box *out,
                                                 bool *is_there);
-/* What the element names, fitted into a box in user units by its preserveAspectRatio. *out: new, in
- * user units; NULL: nothing is shown. Errors: as above. */
+/* The picture or drawing that the element names, fitted into a box in user units by its
+ * preserveAspectRatio. *out: new, in user units; NULL: nothing is shown. Errors: as above. */
 CELSPAN_CHECKED celspan_status cs_svg_image_in_box(cs_svg_reading *reading, const cs_svg_node *node,
                                                    const celspan_box *box, celspan_object **out);

@@ -28,7 +28,7 @@ static unsigned char take_byte(const char **text) {
   return byte;
 }
 
-/* -1 for what is no digit of base64. */
+/* -1 for a character that is no digit of base64. */
 static int base64_digit(unsigned char c) {
   if (c >= 'A' && c <= 'Z')
     return c - 'A';
@@ -148,7 +148,8 @@ static bool join(const char *file, const char *name, char out[CS_SVG_PATH]) {
   return true;
 }
 
-/* Records what errno says of the file: why nothing is drawn, or that the system failed. */
+/* Records the error in errno about the file: the reason why nothing is drawn, or a failure of the
+ * system. */
 static celspan_status fail(celspan_context *context, const cs_svg_image_file *file,
                            const char **reason) {
   char text[CS_ERROR_TEXT_SIZE];

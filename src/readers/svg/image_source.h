@@ -1,7 +1,7 @@
 /* Where the bytes of an image are: in its href itself, or in a file below the drawing's own folder.
  *
  *   data:image/png;base64,iVBORw0KGgo...     bytes by base64
- *   data:image/svg+xml,%3Csvg xmlns=...      bytes as they are, and by per cents
+ * data:image/svg+xml,%3Csvg xmlns=... bytes unchanged, and by per cents
  *
  *   "art/hero.svg" names "hand.png"      ->  "art/hand.png"
  *                        "parts/arm.svg" ->  "art/parts/arm.svg"

@@ -185,8 +185,8 @@ static extent extent_of(const cs_svg_letters *letters, const cs_svg_text_length 
   return found;
 }
 
-/* Spaces the letters out, or widens them, until they are as long as they should be; what follows
- * moves along. */
+/* Spaces the letters out, or widens them, until they are as long as they should be; the letters
+ * after them move along. */
 static void set_length(cs_svg_letters *letters, const cs_svg_text_length *wanted) {
   extent found = extent_of(letters, wanted);
   double width = found.right - found.left, longer = wanted->length - width;
@@ -285,7 +285,7 @@ static void place_letters(const cs_svg_written *written, cs_svg_letters *letters
     if (!letter)
       continue;
     if (begins) {
-      /* Without an x of its own a chunk begins where the one before it ends. */
+      /* Without an x of its own a chunk begins where the previous chunk ends. */
       double x = !isnan(said->x) ? said->x : is_first ? 0 : line + (letter->x - shift);
       part.end = i;
       anchor_chunk(written, &part, letters, &at);
@@ -327,7 +327,7 @@ static void bend_letters(const cs_svg_written *written, cs_svg_letters *letters)
     }
 }
 
-/* Numbers beyond what the geometry takes draw nothing. */
+/* Numbers too large for the geometry draw nothing. */
 static void drop_unfit(cs_svg_letters *letters) {
   for (size_t i = 0; i < letters->count; i++) {
     cs_svg_letter *letter = &letters->letters[i];

@@ -41,13 +41,13 @@ typedef struct cs_svg_letters {
   celspan_context *context;
   cs_svg_run *runs;
   size_t run_count, run_capacity;
-  cs_svg_letter *letters; /* as they are seen, from left to right */
+  cs_svg_letter *letters; /* in the order on the page, from left to right */
   size_t count, capacity;
   uint32_t *order; /* by character: the letter that begins with it, from 1; 0: none */
   size_t order_count;
 } cs_svg_letters;
 
-/* Notes what cannot be drawn. node: the text element. *out must be finished even after a
+/* Notes parts that cannot be drawn. node: the text element. *out must be finished even after a
  * failure. Errors: NO_MEMORY; INPUT for a font that is missing, cut off or not a font. */
 CELSPAN_CHECKED celspan_status cs_svg_letters_make(cs_svg_reading *reading, const cs_svg_node *node,
                                                    const cs_svg_written *written,

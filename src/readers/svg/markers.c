@@ -11,7 +11,7 @@
 
 enum { START, MID, END };
 
-/* What the marks of one shape have in common. */
+/* The values that the marks of one shape share. */
 typedef struct marking {
   cs_svg_reading *reading;
   const cs_svg_place *place;
@@ -85,7 +85,7 @@ static celspan_point bisector(celspan_point in, celspan_point out) {
 
 /* ---------------------------------------------------------------- one mark */
 
-/* A direction in degrees by the attribute orient; false where it is that of the line. */
+/* A direction in degrees by the attribute orient; false where the line gives the direction. */
 static bool read_angle(const char *text, double *degrees) {
   *degrees = 0;
   text = cs_svg_skip_space(text ? text : "");

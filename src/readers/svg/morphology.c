@@ -32,7 +32,7 @@ static celspan_status paint_by(celspan_context *context, const celspan_box *box,
   return status;
 }
 
-/* Light of 1 in a box where the object is, or, for what shrinks, is not. */
+/* Light of 1 in a box: where the object is, or for shrinking, where it is not. */
 static celspan_status light_up(celspan_context *context, const celspan_box *box,
                                celspan_object *object, const cs_svg_morphology *wanted,
                                celspan_object **out) {

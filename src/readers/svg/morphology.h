@@ -1,9 +1,9 @@
-/* What feMorphology makes of an object of one colour: where the rectangle of two radii around a
- * point has any of the object in it, or nothing else.
+/* The result of feMorphology on an object of one colour: the points around which the rectangle of
+ * two radii contains some of the object, or nothing but the object.
  *
  *     object --> light of 1 where it is --> mean of the rectangle --> much brighter --> matte
  *
- * INVARIANT: a rectangle of which the object fills 1/256 counts as one that it is in.
+ * INVARIANT: a rectangle counts as touched when the object fills 1/256 of it.
  */
 #pragma once
 

@@ -1,6 +1,6 @@
 /* The names of SVG that mean something here, as numbers: elements, attributes and properties, with
- * the values that are read of them. These lists are the one place that says what is drawn: whatever
- * else a document names is noted (unread.h).
+ * the values that are read of them. Only these lists say what is drawn: all other names in a
+ * document are noted (unread.h).
  *
  * Invariant: all lists are sorted as strcmp sorts their texts, which is how they are searched.
  */
@@ -35,7 +35,7 @@ typedef enum cs_svg_element {
   CS_SVG_ELEMENT_LIST(ELEMENT),
 #undef ELEMENT
   CS_SVG_ELEMENT_OTHER,      /* any other of SVG */
-  CS_SVG_ELEMENT_CHARACTERS, /* those of a text, between its elements */
+  CS_SVG_ELEMENT_CHARACTERS, /* the characters of a text between its elements */
   CS_SVG_ELEMENT_COUNT = CS_SVG_ELEMENT_OTHER
 } cs_svg_element;
 
@@ -178,7 +178,7 @@ typedef enum cs_svg_use {
   CS_SVG_USE_APART      /* an attribute, and a property with another meaning */
 } cs_svg_use;
 
-/* What a value looks like. */
+/* The form of a value. */
 typedef enum cs_svg_form {
   CS_SVG_FORM_ANY, /* it is judged where it is used */
   CS_SVG_FORM_WORD,
@@ -210,9 +210,9 @@ typedef struct cs_svg_name_facts {
   const char *initial; /* of a property that is inherited; NULL: it is not */
 } cs_svg_name_facts;
 
-/* OTHER for one that is not in the list. */
+/* OTHER for a name that is not in the list. */
 cs_svg_element cs_svg_element_named(const char *text);
-/* CS_SVG_NAME_COUNT for one that is not in the list. */
+/* CS_SVG_NAME_COUNT for a name that is not in the list. */
 cs_svg_name cs_svg_name_of(const char *text);
 /* Whether the element or its contents may be seen; false for notes, scripts and filters. */
 bool cs_svg_element_is_drawn(cs_svg_element element);

@@ -4,8 +4,8 @@
 
 #include "model/scene/bounds.h"
 
-/* The least share of the greater radius of a blur that the other one may be: less cannot be seen,
- * and would stretch the object without limit. */
+/* The least ratio of the smaller radius of a blur to the greater one: smaller ratios cannot be
+ * seen, and would stretch the object without limit. */
 #define LEAST_RADIUS 1e-3
 
 celspan_status cs_svg_object_replace(celspan_status status, celspan_object *made,

@@ -4,7 +4,8 @@
 
 #include "base/context.h"
 
-/* Replaces *object, which is given up, by what `status` made of it. */
+/* Releases *object and puts `made` in its place, or NULL where `status` is a failure. Returns
+ * status. */
 celspan_status cs_svg_object_replace(celspan_status status, celspan_object *made,
                                      celspan_object **object);
 /* Each of the two gives *object up; NULL after a failure. Errors: NO_MEMORY, LIMIT. */

@@ -8,8 +8,8 @@
 CELSPAN_CHECKED celspan_status cs_svg_fill(cs_svg_reading *reading, const cs_svg_node *node,
                                            const cs_svg_place *place, celspan_object **out);
 
-/* Fills an outline in the user units of `place`, which is taken over where it is drawn. box: for
- * gradients whose units are shares of a box; NULL: the outline's. */
+/* Fills an outline in the user units of `place`. The result owns the outline where it is drawn.
+ * box: for gradients whose units are shares of a box; NULL: the outline's. */
 CELSPAN_CHECKED celspan_status cs_svg_fill_outline(cs_svg_reading *reading, const cs_svg_node *node,
                                                    const cs_svg_place *place, cs_outline *outline,
                                                    const celspan_box *box, celspan_object **out);

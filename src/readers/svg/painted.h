@@ -1,4 +1,4 @@
-/* What gradients and patterns are made for, and what they become. */
+/* The elements that gradients and patterns paint, and the resulting textures. */
 #pragma once
 
 #include "readers/svg/reading.h"
@@ -23,5 +23,5 @@ typedef struct cs_svg_painted {
   celspan_box painted; /* around all of it that is painted, in the same */
   double opacity;
   const celspan_matrix *matrix; /* the same units to the drawing's */
-  const cs_svg_open *open;      /* what it is in, with itself */
+  const cs_svg_open *open;      /* the element itself and the open elements around it */
 } cs_svg_painted;

@@ -1,5 +1,5 @@
-/* What a shape is filled or stroked with, as it is written: a colour, currentColor, none, or a
- * reference with one of them in case that it leads nowhere.
+/* The paint of a fill or a stroke, as written: a colour, currentColor, none, or a reference with
+ * one of them in case that it leads nowhere.
  */
 #pragma once
 
@@ -9,7 +9,7 @@
 typedef enum cs_svg_paint_kind {
   CS_SVG_PAINT_NONE,
   CS_SVG_PAINT_COLOUR,
-  CS_SVG_PAINT_CURRENT /* that of the property `color` */
+  CS_SVG_PAINT_CURRENT /* the colour of the property `color` */
 } cs_svg_paint_kind;
 
 typedef struct cs_svg_paint {
@@ -30,5 +30,6 @@ typedef enum cs_svg_layer {
 
 /* Each takes the whole value; false: it is invalid. */
 bool cs_svg_parse_paint(const char *text, cs_svg_paint *out);
-/* The lowest layer is first: those that are named, in that order, then the others in theirs. */
+/* The lowest layer is first: the named layers in that order, then the other layers in their usual
+ * order. */
 bool cs_svg_parse_order(const char *text, cs_svg_layer out[3]);

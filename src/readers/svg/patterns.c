@@ -12,7 +12,7 @@ typedef struct pattern {
   cs_svg_reading *reading;
   const cs_svg_node *node;
   const cs_svg_painted *shape;
-  celspan_box box;       /* what is repeated, in the pattern's units */
+  celspan_box box;       /* the repeated box, in the pattern's units */
   celspan_matrix matrix; /* from these to the shape's */
 } pattern;
 

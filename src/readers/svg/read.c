@@ -76,7 +76,7 @@ static celspan_svg *find_stored(drawing_store *store, cs_hash key) {
   return found;
 }
 
-/* Keeps the drawing in the place of the one that was not asked for the longest. */
+/* Keeps the drawing, and drops the drawing whose last use is longest ago. */
 static void keep(drawing_store *store, cs_hash key, celspan_svg *art) {
   pthread_mutex_lock(&store->lock);
   stored *oldest = &store->items[0];
@@ -90,7 +90,7 @@ static void keep(drawing_store *store, cs_hash key, celspan_svg *art) {
 
 /* ---------------------------------------------------------------- reading bytes */
 
-/* Adds what the document names and is not read. */
+/* Adds notes about names in the document that are not read. */
 static celspan_status note_unread(cs_svg_reading *reading) {
   const cs_svg_unread *unread = &reading->document->unread;
   for (size_t i = 0; i < unread->count; i++)
@@ -99,7 +99,7 @@ static celspan_status note_unread(cs_svg_reading *reading) {
   return CELSPAN_OK;
 }
 
-/* By the lines of the file; those of one line in the order in which they were made. */
+/* By the lines of the file; notes about one line in the order in which they were made. */
 static int compare_notes(const void *a, const void *b) {
   const cs_svg_skipped *first = a, *second = b;
   if (first->line != second->line)
@@ -153,8 +153,8 @@ static celspan_status build(cs_svg_reading *reading, const char *name, celspan_s
   return status;
 }
 
-/* reading: the limits, and how to read; its document and notes are those of this drawing while it
- * is read. */
+/* reading: the limits, and how to read; while the drawing is read, its document and notes belong to
+ * this drawing. */
 static celspan_status read_bytes(cs_svg_reading *reading, const char *bytes, size_t size,
                                  celspan_svg **out) {
   celspan_context *context = reading->context;

@@ -3,7 +3,7 @@
 
 #include "readers/svg/reading.h"
 
-/* What a drawing is read with. */
+/* The fonts and the space for reading a drawing. */
 typedef struct cs_svg_options {
   const celspan_svg_font *fonts;
   size_t font_count;

@@ -12,7 +12,7 @@
 #include "base/hash_table.h"
 #include "readers/svg/style.h"
 
-#define CS_SVG_DRAWN 1000000             /* elements drawn, those of `use` counted each time */
+#define CS_SVG_DRAWN 1000000             /* elements drawn, counted again at each `use` */
 #define CS_SVG_SELECTOR_TESTS 100000000u /* of elements against rules, in all */
 #define CS_SVG_DRAWINGS 1000             /* read as images, one inside the other or not */
 #define CS_SVG_SKIPPED 10000             /* entries; more are not reported */
@@ -57,13 +57,13 @@ typedef struct cs_svg_reading {
    * INPUT, LIMIT, NO_MEMORY. */
   celspan_status (*read_inner)(struct cs_svg_reading *outer, const cs_svg_source *source,
                                const char *bytes, size_t size, celspan_svg **out);
-  /* Draws an element alone, or only its contents. place: of what it is in; for contents, of the
-   * element. *out: new, in the units that `place` has; NULL: nothing is drawn. Errors: NO_MEMORY,
-   * LIMIT, INPUT. */
+  /* Draws an element alone, or only its contents. place: the place of its parent; for contents, the
+   * place of the element. *out: new, in the units of `place`; NULL: nothing is drawn. Errors:
+   * NO_MEMORY, LIMIT, INPUT. */
   celspan_status (*draw)(struct cs_svg_reading *reading, const cs_svg_node *node, bool is_whole,
                          const struct cs_svg_place *place, celspan_object **out);
   void *builder; /* for it */
-  /* Colours stay as they are coded: in masks, unless the drawing is in codes anyway. */
+  /* Colours keep their codes: in masks, unless the whole drawing is in codes. */
   bool is_coded;
   celspan_space space;  /* of the drawing and of its parts */
   uint64_t tests;       /* of selectors, that are left */
@@ -104,7 +104,7 @@ typedef struct cs_svg_place {
   const cs_svg_node *sizes; /* the `use` that shows the element next entered; NULL: none */
 } cs_svg_place;
 
-/* Notes what is not drawn. Errors: NO_MEMORY. */
+/* Notes a part that is not drawn. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_svg_skip(cs_svg_reading *reading, const cs_svg_node *node,
                                            const char *format, ...)
     __attribute__((format(printf, 3, 4)));

@@ -117,7 +117,7 @@ static bool is_within(const celspan_box *inner, const celspan_box *outer) {
          inner->y + inner->height <= outer->y + outer->height;
 }
 
-/* Cuts off what lies outside of a box. */
+/* Cuts off everything outside of a box. */
 static celspan_status cut(const applying *a, const celspan_box *box, celspan_object **object) {
   const celspan_matrix identity = celspan_matrix_identity();
   celspan_object *both[2] = {*object, NULL}, *made = NULL;
@@ -207,7 +207,7 @@ static celspan_status grade(const applying *a, celspan_object *object, celspan_o
   return object ? celspan_object_create_group(a->context, &desc, out) : CELSPAN_OK;
 }
 
-/* The product of the inputs, of which one is a flood. */
+/* The product of the inputs; one of them is a flood. */
 static celspan_status multiply(const applying *a, celspan_object **out) {
   celspan_object *other = NULL;
   if (!(a->step->weights[3] > 0))
@@ -329,7 +329,7 @@ static celspan_status make_image(const applying *a, celspan_object **out) {
 
 /* ---------------------------------------------------------------- the whole */
 
-/* *out: NULL before; what was made, also after a failure. */
+/* *out: NULL before the call; the result so far, also after a failure. */
 typedef celspan_status step_maker(const applying *a, celspan_object **out);
 
 static step_maker *const makers[] = {[CS_SVG_STEP_MERGE] = make_merge,

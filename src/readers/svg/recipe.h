@@ -4,10 +4,10 @@
  *     1 its silhouette  |                          +--> 4 merge = the result
  *                       +--------------------------+
  *
- * Several filters of one element are a list of recipes: each acts on what the one before made. They
- * are kept with their item, because they act on whatever `with` puts into the item's place.
- * Everything in it is in the user units of the element, and what a step makes is cut off at the
- * step's box.
+ * Several filters of one element are a list of recipes: each acts on the result of the previous
+ * one. They are kept with their item, because they act on whatever `with` puts into the item's
+ * place. Everything in it is in the user units of the element, and the result of a step is cut off
+ * at the step's box.
  *
  * INVARIANT: an input of a step is one of the two sources or an earlier step; recipes do not change
  * once they are complete.
@@ -19,7 +19,7 @@
 #include "base/context.h"
 
 #define CS_SVG_SOURCES 2 /* the element, and its silhouette in black */
-/* How often the sources may be in what a recipe makes, at most. */
+/* How often the sources may be in the result of a recipe, at most. */
 #define CS_SVG_RECIPE_USES 1024
 
 typedef enum cs_svg_step_kind {
@@ -76,15 +76,15 @@ typedef struct cs_svg_recipe {
 
 /* Without steps. *out: new. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_svg_recipe_create(celspan_context *context, cs_svg_recipe **out);
-/* Appends a step, and takes over what it owns, also after a failure. Errors: NO_MEMORY. */
+/* Appends a step, and owns its contents from now on, also after a failure. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_svg_recipe_append(celspan_context *context, cs_svg_recipe *recipe,
                                                     const cs_svg_step *step);
 cs_svg_recipe *cs_svg_recipe_ref(cs_svg_recipe *recipe);
 /* Drops the recipes after it, too. */
 void cs_svg_recipe_unref(cs_svg_recipe *recipe);
 
-/* Puts what the recipe and those after it make of *object in its place. NULL, before and after:
- * nothing is drawn. Errors: NO_MEMORY, LIMIT; *object is then what was made so far. */
+/* Replaces *object by the result of this recipe and the following ones. NULL, before and after:
+ * nothing is drawn. Errors: NO_MEMORY, LIMIT; *object is then the result so far. */
 CELSPAN_CHECKED celspan_status cs_svg_recipe_apply(celspan_context *context,
                                                    const cs_svg_recipe *recipe,
                                                    celspan_object **object);

@@ -17,7 +17,7 @@
 
 /* Stops in place of one stretch between two, at most; 64 are enough from black to white. */
 #define PIECES 64
-/* How far what is shown may be from what a browser shows, in coded values. */
+/* The allowed difference between the picture here and in a browser, in coded values. */
 #define TOLERANCE (0.5 / 255)
 
 typedef struct coloured_stop {
@@ -179,7 +179,7 @@ static celspan_status hold_ends(cs_svg_reading *reading, gradient_stops *stops) 
   return CELSPAN_OK;
 }
 
-/* Puts the stops of the periods [first, last), last > first, in place of those of one period;
+/* Puts the stops of the periods [first, last), last > first, in place of the stops of one period;
  * places then go from 0 at the start of the first to 1 at the end of the last. */
 static celspan_status spread_stops(cs_svg_reading *reading, spread_kind spread, int first, int last,
                                    gradient_stops *stops) {
@@ -236,7 +236,7 @@ static const char *text_of(const gradient *g, cs_svg_name name) {
   return owner ? cs_svg_node_value(owner, name) : "";
 }
 
-/* per_cent: what the attribute is by default. */
+/* per_cent: the attribute's default value. */
 static celspan_status read_length(const gradient *g, cs_svg_name name, cs_svg_axis axis,
                                   double per_cent, double *out) {
   const cs_svg_node *owner = owner_of(g, name, true);
@@ -251,7 +251,7 @@ static celspan_status read_linear(gradient *g) {
   return read_length(g, CS_SVG_Y2, CS_SVG_AXIS_Y, 0, &g->to.y);
 }
 
-/* A focus lies inside the circle; on its edge there would be no end to what it sends out. */
+/* A focus lies inside the circle; on its edge the gradient would have no end. */
 static void hold_focus(gradient *g) {
   double dx = g->from.x - g->to.x, dy = g->from.y - g->to.y;
   double distance = cs_number_length(dx, dy), most = FOCUS_SHARE * g->outer;
@@ -359,8 +359,8 @@ static celspan_paint mix_stops(const cs_svg_reading *reading, const celspan_stop
                                      converted(CELSPAN_SPACE_SRGB, b->paint), (float)u));
 }
 
-/* Places counted from the centre instead of from the inner radius; what would lie before the centre
- * is cut off. */
+/* Places counted from the centre instead of from the inner radius; stops before the centre are cut
+ * off. */
 static void begin_at_centre(gradient *g) {
   size_t kept = 0;
   for (size_t i = 0; i < g->stops.count; i++) {

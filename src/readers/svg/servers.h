@@ -13,7 +13,7 @@
 
 #define CS_SVG_STOPS 4096 /* of one texture */
 
-/* What a shape is painted with, by its property fill or stroke. Errors: NO_MEMORY, LIMIT, INPUT. */
+/* The paint of a shape by its property fill or stroke. Errors: NO_MEMORY, LIMIT, INPUT. */
 CELSPAN_CHECKED celspan_status cs_svg_server_find(cs_svg_reading *reading,
                                                   const cs_svg_paint *paint,
                                                   const cs_svg_style *style,

@@ -102,7 +102,7 @@ static celspan_status add_ellipse(celspan_context *context, const cs_svg_node *n
 
 /* ---------------------------------------------------------------- points and paths */
 
-/* One point of a list, which *at is moved behind. */
+/* Reads one point of a list at *at, and moves *at behind it. */
 static celspan_status take_point(celspan_context *context, const cs_svg_node *node, const char **at,
                                  cs_hpoint *point, bool *is_broken) {
   const char *begin = *at;

@@ -5,8 +5,8 @@
 
 #include "readers/svg/names.h"
 
-/* Names of pages around drawings, of scripts, of links, of screen readers, and of what belongs to
- * something that is noted itself; some with a few values alone. */
+/* Names for pages around drawings, scripts, links and screen readers, and names that belong to an
+ * element that is noted itself; some only with a few values. */
 typedef struct silent_name {
   const char *text;
   const char *values; /* with '|' between them; NULL: any */

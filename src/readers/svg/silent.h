@@ -1,4 +1,4 @@
-/* What a document may name although it changes nothing that is drawn.
+/* Names that may be in a document and change nothing in the drawing.
  *
  * Invariant: no name of names.h is in this list, which is sorted as strcmp sorts texts.
  */

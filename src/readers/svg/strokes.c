@@ -15,7 +15,7 @@ typedef struct stroking {
   const cs_svg_node *node;
   const cs_svg_place *place;
   cs_outline *outline;             /* in the units of the stroke */
-  const cs_outline_closed *closed; /* its contours that are; NULL: all */
+  const cs_outline_closed *closed; /* which of its contours are closed; NULL: all */
   celspan_matrix to_page;          /* these units to the drawing's */
   celspan_stroke_desc desc;
   double *dashes;
@@ -29,7 +29,8 @@ bool cs_svg_is_stroked(const cs_svg_style *style) {
 
 /* ---------------------------------------------------------------- dashes */
 
-/* Appends the lengths of the list; *is_fit: false for what is no list of lengths that are drawn. */
+/* Appends the lengths of the list; *is_fit: false for anything but a list of lengths that can be
+ * drawn. */
 static celspan_status take_dashes(stroking *p, const char *text, double unit, bool *is_fit) {
   double sum = 0;
   cs_svg_length length;
@@ -147,7 +148,7 @@ static celspan_status clip_cover(stroking *p, const cs_svg_server *server, celsp
 
 /* ---------------------------------------------------------------- paint */
 
-/* A stroke that is a shape first, as its box is what a gradient may be spread over. */
+/* Makes a stroke a shape first, because a gradient may be spread over its box. */
 static celspan_status paint_by_server(stroking *p, const celspan_box *outline_box,
                                       celspan_object **out) {
   const cs_svg_style *style = &p->place->style;
@@ -187,7 +188,7 @@ static celspan_status paint_flat(stroking *p, celspan_object **out) {
   return status;
 }
 
-/* box: what gradients in shares of a box are spread over; NULL: the outline's. */
+/* box: gradients in shares of a box are spread over this one; NULL: the outline's. */
 static celspan_status draw(stroking *p, const celspan_box *given, celspan_object **out) {
   const celspan_matrix identity = celspan_matrix_identity();
   celspan_box box;

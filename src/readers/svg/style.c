@@ -133,7 +133,7 @@ static void read_cap_and_join(const char *cap, const char *join, cs_svg_style *o
     out->cap = CELSPAN_CAP_SQUARE;
   if (join && (cs_svg_is_word(join, "miter") || cs_svg_is_word(join, "miter-clip") ||
                cs_svg_is_word(join, "arcs")))
-    out->join = CELSPAN_JOIN_MITER; /* where there is no other, as browsers have it */
+    out->join = CELSPAN_JOIN_MITER; /* browsers have no other join here */
   else if (join && cs_svg_is_word(join, "round"))
     out->join = CELSPAN_JOIN_ROUND;
   else if (join && cs_svg_is_word(join, "bevel"))
@@ -201,7 +201,7 @@ static void read_blend(const char *text, const cs_svg_style *parent, cs_svg_styl
       out->blend = (celspan_blend)mode;
 }
 
-/* What is done to the element as a whole. */
+/* The properties that act on the element as a whole. */
 static void read_effects(const char *const *values, const cs_svg_style *parent, cs_svg_style *out) {
   const char *clip = values[CS_SVG_CLIP_PATH], *filter = values[CS_SVG_FILTER];
   out->has_clip_path = read_reference(clip, &out->clip_path);

@@ -32,7 +32,7 @@ typedef struct cs_svg_style {
   double opacity;
   cs_svg_reference clip_path, mask;
   const char *filter;     /* a list of filters; NULL: none */
-  const char *clip_shape; /* clip-path where it is no reference; NULL: it is, or none */
+  const char *clip_shape; /* clip-path where it is a shape; NULL: it is a reference, or none */
   bool has_clip_path, has_mask;
   celspan_blend blend;
   bool isolates;                           /* blend modes inside do not see its background */
@@ -47,8 +47,8 @@ typedef struct cs_svg_style {
 
 cs_svg_style cs_svg_style_initial(void);
 
-/* node's style under that of its parent. tests: how often selectors may still be tried, counted
- * down. Errors: LIMIT when that is used up; INPUT for a number that is unfit. */
+/* node's style, given the style of its parent. tests: how often selectors may still be tried,
+ * counted down. Errors: LIMIT when that is used up; INPUT for a number that is unfit. */
 CELSPAN_CHECKED celspan_status cs_svg_style_resolve(celspan_context *context,
                                                     cs_svg_document *document,
                                                     const cs_svg_node *node,

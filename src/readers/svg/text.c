@@ -39,8 +39,8 @@ static celspan_status add_layer(lettering *l, const cs_svg_text_node *text,
   return cs_svg_item_compose(l->reading->context, item);
 }
 
-/* The place of a text node is that of its element, except for the transform: elements inside of a
- * text have no transform of their own. */
+/* A text node has the place of its element, but not its transform: elements inside a text have no
+ * transform of their own. */
 static celspan_status add_text_node(lettering *l, const cs_svg_place *place, cs_svg_item *parent) {
   const cs_svg_text_node *text = &l->written.nodes[l->next++];
   cs_svg_place own = text->place;

@@ -2,14 +2,14 @@
  *
  *   element --written.c--> characters --letters.c--> letters --paint.c--> objects
  *
- * An element inside of a text is an item inside of the text's, and so may be a part. */
+ * An element inside of a text becomes an item inside of the text's item, and so may be a part. */
 #pragma once
 
 #include "model/geometry/outline.h"
 #include "readers/svg/art.h"
 #include "readers/svg/reading.h"
 
-/* Adds what a text element, whose style *place has, draws to `item`. Errors: NO_MEMORY, LIMIT;
+/* Adds the drawing of a text element to `item`; *place has its style. Errors: NO_MEMORY, LIMIT;
  * INPUT for numbers that are unfit and for fonts that cannot be read. */
 CELSPAN_CHECKED celspan_status cs_svg_text_add(cs_svg_reading *reading, celspan_svg *art,
                                                const cs_svg_node *node, const cs_svg_place *place,

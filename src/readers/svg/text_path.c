@@ -39,7 +39,8 @@ static celspan_status measure_line(celspan_context *context, cs_svg_text_path *p
   return CELSPAN_OK;
 }
 
-/* Per cents are of the line; numbers are in units of which the path says how many it has. */
+/* Per cents refer to the length of the line; numbers are in units, and the path says how many units
+ * long it is. */
 static celspan_status read_start(cs_svg_reading *reading, const cs_svg_node *node,
                                  const cs_svg_node *path, const cs_svg_place *place,
                                  cs_svg_text_path *out) {

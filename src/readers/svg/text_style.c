@@ -24,7 +24,7 @@ static void read_slant(const char *text, bool *is_italic) {
     *is_italic = cs_svg_is_word(text, "italic") || strncmp(text, "oblique", 7) == 0;
 }
 
-/* Per cents are of the em here, and so is what else there is to measure by. */
+/* Per cents, and all other relative lengths, refer to the em here. */
 static void read_spacing(const char *text, double em, double *out) {
   const cs_svg_measure measure = {em, em, em, em, em, em};
   cs_svg_length length;

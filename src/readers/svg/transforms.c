@@ -16,7 +16,7 @@ typedef struct argument {
   bool is_percent; /* the value is a share */
 } argument;
 
-/* A call of a function, and what lengths in it are of. */
+/* A call of a function, and the sizes that lengths in it refer to. */
 typedef struct call {
   const cs_svg_measure *measure;
   argument items[ARGUMENTS];
@@ -97,7 +97,7 @@ static bool make_matrix(const call *c, celspan_matrix *out) {
   return true;
 }
 
-/* Columns of four, of which nothing but a matrix of the plane may be given. */
+/* A matrix in columns of four, which must be one of the plane. */
 static bool make_matrix3d(const call *c, celspan_matrix *out) {
   static const struct {
     int index, value;
@@ -141,7 +141,7 @@ static bool make_rotate(const call *c, celspan_matrix *out) {
   return c->count != 2;
 }
 
-/* About an axis: that of z alone turns in the plane. */
+/* A turn about an axis: only the z axis turns within the plane. */
 static bool make_rotate3d(const call *c, celspan_matrix *out) {
   double along = number(c, 2);
   *out = cs_matrix_turn(along < 0 ? -number(c, 3) : number(c, 3), (celspan_point){0, 0});
@@ -158,7 +158,7 @@ static bool make_skew_y(const call *c, celspan_matrix *out) {
   return true;
 }
 
-/* What leaves the plane as it is: a shift along z, or a turn about x or y by nothing. */
+/* Functions that do not change the plane: a shift along z, or a turn about x or y by 0. */
 static bool make_nothing(const call *c, celspan_matrix *out) {
   *out = celspan_matrix_identity();
   return number(c, 0) == 0;

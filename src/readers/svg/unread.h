@@ -1,4 +1,4 @@
-/* What a document names that is not drawn: an attribute, a property, an element, or a value of one
+/* A name in a document that is not drawn: an attribute, a property, an element, or a value of one
  * of them; once for each name, at the line where it appears first.
  */
 #pragma once

@@ -1,7 +1,7 @@
 /* Values of attributes: numbers, lengths, words, references, viewBox.
  *
- * A value that is not what it should be counts as if it were not given, as in browsers; one that is
- * not finite or beyond 1e12 is unfit, and the file is refused.
+ * A value that is not what it should be counts as if it were not given, as in browsers; a number
+ * that is not finite or beyond 1e12 is unfit, and the file is refused.
  */
 #pragma once
 
@@ -24,7 +24,7 @@ typedef struct cs_svg_length {
   cs_svg_unit unit;
 } cs_svg_length;
 
-/* What lengths are relative to. */
+/* The sizes that lengths are relative to. */
 typedef struct cs_svg_measure {
   double width, height; /* of the nearest viewport, in user units */
   double font_size;
@@ -34,7 +34,8 @@ typedef struct cs_svg_measure {
 
 typedef enum cs_svg_axis { CS_SVG_AXIS_X, CS_SVG_AXIS_Y, CS_SVG_AXIS_BOTH } cs_svg_axis;
 
-/* What an attribute refers to: url(#id) and #id; size 0: nothing. Borrowed from the value. */
+/* The target of a reference in an attribute: url(#id) and #id; size 0: none. Borrowed from the
+ * value. */
 typedef struct cs_svg_reference {
   const char *id;
   size_t size;
@@ -50,12 +51,12 @@ const char *cs_svg_skip_space(const char *text);
 /* Space and at most one comma. */
 const char *cs_svg_skip_comma(const char *text);
 
-/* Each reads what *text begins with and moves *text behind it; false, and nothing is moved, when
- * there is no such thing or it is unfit. */
+/* Each reads a value at *text and moves *text behind it; false, and *text does not move, when there
+ * is no such value or it is unfit. */
 bool cs_svg_take_number(const char **text, double *out);
 bool cs_svg_take_length(const char **text, cs_svg_length *out);
 bool cs_svg_take_reference(const char **text, cs_svg_reference *out);
-/* A word of letters and hyphens, as long as it is `word`. */
+/* Reads a word of letters and hyphens if it is `word`. */
 bool cs_svg_take_word(const char **text, const char *word);
 
 /* The whole value. */

@@ -46,7 +46,7 @@ static const char *find(const cs_svg_variable *list, const char *name, size_t si
   return NULL;
 }
 
-/* The ')' that closes what begins at `text`, or the end. */
+/* The ')' that closes the parenthesis around `text`, or the end. */
 static const char *closing(const char *text, const char *end) {
   int depth = 0;
   for (; text < end && (depth > 0 || *text != ')'); text++)

@@ -22,7 +22,7 @@ CELSPAN_CHECKED celspan_status cs_svg_viewport_find(cs_svg_reading *reading,
 /* Moves *place into the viewport, to the units of its contents. */
 void cs_svg_viewport_enter(const cs_svg_node *node, const celspan_box *viewport,
                            cs_svg_place *place);
-/* Moves *place into a viewport at (0, 0) of this size that shows a view box; what it shows.
- * view_box, aspect: values of their attributes; NULL: not given. */
+/* Moves *place into a viewport at (0, 0) of this size that shows a view box. Returns the shown
+ * part. view_box, aspect: values of their attributes; NULL: not given. */
 celspan_box cs_svg_viewport_fit(const char *view_box, const char *aspect, double width,
                                 double height, cs_svg_place *place);

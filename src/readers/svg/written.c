@@ -78,8 +78,8 @@ static double *value_of(cs_svg_written *w, size_t i, size_t offset) {
   return (double *)((char *)&w->characters[i] + offset);
 }
 
-/* Gives the values of a list to the characters from `begin` on that have none yet: those of
- * elements inside win. The last one holds for the rest where it is a rotation. */
+/* Gives the values of a list to the characters from `begin` on that have none yet: the values of
+ * inner elements win. The last one holds for the rest where it is a rotation. */
 static celspan_status give_list(cs_svg_written *w, const cs_svg_node *node, cs_svg_name name,
                                 size_t offset, cs_svg_axis axis, const cs_svg_measure *measure,
                                 size_t begin) {
@@ -141,7 +141,7 @@ static celspan_status give_values(cs_svg_written *w, const cs_svg_node *node,
 static celspan_status add_content(cs_svg_written *w, const cs_svg_node *node,
                                   const cs_svg_place *place);
 
-/* What is only done to texts as a whole. */
+/* Properties that act only on a text as a whole. */
 static celspan_status note_effects(cs_svg_written *w, const cs_svg_node *node,
                                    const cs_svg_style *style) {
   const struct {
@@ -214,7 +214,7 @@ static celspan_status add_content(cs_svg_written *w, const cs_svg_node *node,
   return give_values(w, node, &place->measure, begin);
 }
 
-/* The space at the end of a text collapses with what is not there. */
+/* Removes the space at the end of a text, which is not shown. */
 static void drop_last(cs_svg_written *w) {
   w->count--;
   w->size = w->characters[w->count].byte;

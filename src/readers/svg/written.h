@@ -1,5 +1,5 @@
-/* A text as it is written: the characters of an element and of those inside of it, with the
- * positions that the file gives them.
+/* A text as written: the characters of an element and of the elements inside it, with the positions
+ * that the file gives them.
  *
  *   <text x="10 20">A <tspan dy="3"> b</tspan></text>
  *
@@ -46,7 +46,7 @@ typedef struct cs_svg_written {
   size_t length_count;
   cs_svg_text_path paths[CS_SVG_TEXT_PATHS]; /* ascending, apart; none is empty */
   size_t path_count;
-  bool ends_in_space; /* which collapses with what follows */
+  bool ends_in_space; /* which collapses with a following space */
   bool is_too_long;
 } cs_svg_written;
 

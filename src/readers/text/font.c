@@ -77,8 +77,8 @@ static celspan_status make_font(void *user, celspan_context *context, cs_cache_e
   return open_font(context, wanted, (cs_font *)entry);
 }
 
-/* Two fonts are the same when their files, and what is known of them, are, and their faces and
- * variations. */
+/* Two fonts are the same if they have the same files with the same known properties, the same faces
+ * and the same variations. */
 static cs_cache_key key_of(const request *wanted, const struct stat *found) {
   cs_hash hash = cs_hash_begin(0);
   cs_hash_text(&hash, wanted->file);

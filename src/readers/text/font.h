@@ -20,7 +20,7 @@ typedef struct cs_font {
   cs_type_font_info info;
   uint8_t *bytes;
   size_t size;
-  pthread_mutex_t lock; /* of what follows */
+  pthread_mutex_t lock; /* of the members below */
   cs_outline **glyphs;  /* by their numbers; NULL: not made yet */
   size_t points;        /* of all that were made */
 } cs_font;

@@ -11,7 +11,7 @@
 
 /* ---------------------------------------------------------------- reading */
 
-/* Whether it may be the name of a font that is installed. */
+/* Whether a text may be the name of an installed font. */
 static bool is_family(const char *file) {
   const char *slash = strrchr(file, '/');
   return !strchr(slash ? slash : file, '.');

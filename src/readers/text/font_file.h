@@ -21,9 +21,9 @@ CELSPAN_CHECKED celspan_status cs_font_file_stat(celspan_context *context, const
 /* *bytes: new, of `size` bytes, the size that was found above. Errors: NO_MEMORY, INPUT, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_font_file_read(celspan_context *context, const char *file,
                                                  size_t size, uint8_t **bytes);
-/* face: of a collection, which has others too; any number for a file of one font.
- * Errors: INPUT for what is no font or is cut; BAD_ARGUMENT for fonts of bitmaps or colours, and a
- * face that the collection does not have. */
+/* face: the number of the font in a collection; any number for a file of one font. Errors: INPUT
+ * for a file that is no font or is cut; BAD_ARGUMENT for fonts of bitmaps or colours, and a face
+ * that the collection does not have. */
 CELSPAN_CHECKED celspan_status cs_font_file_check(celspan_context *context, const char *file,
                                                   const uint8_t *bytes, size_t size, uint32_t face);
 bool cs_font_file_is_collection(const uint8_t *bytes, size_t size);

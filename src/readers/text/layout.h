@@ -38,7 +38,7 @@ typedef struct cs_text_letter {
 /* A glyph as its font shapes it, before it is placed. */
 typedef struct cs_text_shaped {
   cs_font *font;
-  cs_type_glyph glyph; /* characters are those of the text */
+  cs_type_glyph glyph; /* characters count from the beginning of the text */
   bool is_leftward;
 } cs_text_shaped;
 
@@ -70,8 +70,9 @@ typedef struct cs_layout {
   double width; /* of the widest line */
 } cs_layout;
 
-/* Lays out what desc says, which was not checked yet: fonts, characters, lines. The layout must be
- * finished whatever the result is. noun: for messages. Errors: see celspan_object_create_text. */
+/* Lays out a text by its desc, which nobody has checked yet: fonts, characters, lines. The layout
+ * must be finished whatever the result is. noun: for messages. Errors: see
+ * celspan_object_create_text. */
 CELSPAN_CHECKED celspan_status cs_typeset_make(cs_layout *layout, celspan_context *context,
                                                const char *noun, const celspan_text_desc *desc);
 void cs_typeset_finish(cs_layout *layout);

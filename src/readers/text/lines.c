@@ -11,14 +11,14 @@
 #include <string.h>
 
 #define HIDDEN_HYPHEN 0x00ad
-/* Of the width: what rounding may add to the advances of a line. */
+/* The share of the width that rounding may add to the advances of a line. */
 #define SLACK 1e-9
 /* Lines that are shaped shorter again, because their ends made them longer than was measured. */
 #define RETRIES 8
 
 /* ---------------------------------------------------------------- measuring */
 
-/* Spaces that vanish at the end of a line: those that are not there to keep words together. */
+/* Spaces that vanish at the end of a line: all except those that keep words together. */
 static bool is_space(uint32_t c) {
   return c == ' ' || c == 0x1680 || (c >= 0x2000 && c <= 0x200a && c != 0x2007) || c == 0x205f ||
          c == 0x3000;
@@ -190,8 +190,9 @@ static void end_line(cs_layout *layout, double width) {
   layout->line++;
 }
 
-/* Adds the next line of a paragraph that wraps; *at: its first character, then that of the next
- * line. What it measures may change where it is cut: letters that were joined are not any more. */
+/* Adds the next line of a paragraph that wraps; *at: its first character; becomes the first
+ * character of the next line. A cut may change the measures: letters that were joined are not any
+ * more. */
 static celspan_status wrap_line(cs_layout *layout, uint8_t base, size_t *at, size_t end) {
   size_t letter = layout->letter_count, glyph = layout->glyph_count, limit = end + 1;
   for (int retry = 0;; retry++) {
@@ -211,8 +212,8 @@ static celspan_status wrap_line(cs_layout *layout, uint8_t base, size_t *at, siz
   }
 }
 
-/* The script of marks, digits and punctuation is that of the letters before them, else of the first
- * after them. */
+/* Marks, digits and punctuation have the script of the letters before them; if there are none, of
+ * the first letter after them. */
 static void resolve_scripts(cs_layout *layout, size_t begin, size_t end) {
   uint32_t *scripts = layout->scripts, script = CS_TYPE_COMMON;
   size_t first = end;

@@ -15,7 +15,7 @@ typedef struct cs_text_run {
   uint8_t embedding;
 } cs_text_run;
 
-/* What is known of each character of a text. */
+/* The known properties of each character of a text. */
 typedef struct cs_run_characters {
   const uint32_t *characters, *scripts;
   const uint8_t *embeddings;

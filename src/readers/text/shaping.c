@@ -22,7 +22,7 @@ typedef struct shaping {
   const cs_text_run *run;
 } shaping;
 
-/* Glyphs of a part of a run by one font, before those that it lacks are taken from the next. */
+/* Glyphs of a part of a run by one font, before missing glyphs are taken from the next font. */
 typedef struct part {
   shaping *shaping;
   size_t begin, end;
@@ -95,7 +95,7 @@ static celspan_status fail_missing(const part *p) {
                  is_one ? "; name another font after it, { file, other }" : "");
 }
 
-/* The glyphs of a part are those of one letter from `first` to before the answer. */
+/* The glyphs from `first` to before the returned one belong to one letter. */
 static size_t letter_end(const cs_text_shaped *glyphs, size_t first, size_t count) {
   size_t end = first + 1;
   while (end < count && glyphs[end].glyph.character == glyphs[first].glyph.character)

@@ -1,4 +1,5 @@
-/* What a text asks for, checked, with its fonts, characters and paragraphs, before it is shaped. */
+/* The checked settings of a text, with its fonts, characters and paragraphs, before it is
+ * shaped. */
 #include "readers/text/layout.h"
 
 #include <string.h>

@@ -1,6 +1,6 @@
 /* UTF-8 as characters.
  *
- * INVARIANT: what is decoded are Unicode scalar values, of which no control character but "\n".
+ * INVARIANT: decoded characters are Unicode scalar values, and no control characters except "\n".
  */
 #pragma once
 

@@ -3,7 +3,7 @@
  *
  *   bytes of a file --module: parse--> elements, attributes, text --core--> scene values
  *
- * The module knows libraries; what documents mean, and what is drawn of them, is the core's.
+ * The module knows libraries; the core knows what documents mean, and draws them.
  *
  * INVARIANT: no memory changes its owner, nothing outside the bytes is read, and every failure
  * comes with a sentence.
@@ -20,7 +20,7 @@ typedef struct cs_art_failure {
   char text[512];
 } cs_art_failure;
 
-/* What an XML document consists of, in its order. Names are "local", or "namespace local" with one
+/* The contents of an XML document, in its order. Names are "local", or "namespace local" with one
  * blank between them; everything is UTF-8 and borrowed. A function that answers false stops the
  * parse with the status CANCELLED. */
 typedef struct cs_xml_handler {

@@ -1,4 +1,4 @@
-/* What the art module knows about type: shaping and outlines of fonts (HarfBuzz), the order of
+/* The functions of the art module for type: shaping and outlines of fonts (HarfBuzz), the order of
  * characters (FriBidi), and where lines may end (libunibreak).
  *
  *   bytes of a font --open--> font --shape-->   glyphs: numbers, advances, offsets
@@ -37,12 +37,12 @@ typedef struct cs_type_font_info {
 
 typedef struct cs_type_glyph {
   uint32_t glyph;     /* 0: the font has none for these characters */
-  uint32_t character; /* the first of those that it is for */
+  uint32_t character; /* the first of its characters */
   int32_t advance, x_offset, y_offset;
 } cs_type_glyph;
 
-/* What is shaped: characters begin .. end - 1 of `count`; those around them decide how letters
- * join. */
+/* The characters to be shaped: begin .. end - 1 of `count`; the characters around them decide how
+ * letters join. */
 typedef struct cs_type_run {
   const uint32_t *characters;
   size_t count, begin, end;
@@ -81,14 +81,15 @@ typedef struct cs_type_functions {
   celspan_status (*outline)(cs_type_font *font, uint32_t glyph, const cs_type_outliner *outliner);
   bool (*has)(cs_type_font *font, uint32_t character);
   /* Embedding levels of one paragraph by the bidirectional algorithm: odd ones run to the left.
-   * *base: that of the paragraph. Errors: NO_MEMORY. */
+   * *base: the level of the paragraph. Errors: NO_MEMORY. */
   celspan_status (*embeddings)(const uint32_t *characters, size_t count,
                                celspan_direction direction, uint8_t *embeddings, uint8_t *base);
   /* The same algorithm's rule L1 for a line, which is characters begin .. end - 1. Errors:
    * NO_MEMORY. */
   celspan_status (*end_line)(const uint32_t *characters, size_t begin, size_t end, uint8_t base,
                              uint8_t *embeddings);
-  /* What may happen after each character. language: NULL, or a tag. Errors: NO_MEMORY. */
+  /* The kind of break that is allowed after each character. language: NULL, or a tag. Errors:
+   * NO_MEMORY. */
   celspan_status (*breaks)(const uint32_t *characters, size_t count, const char *language,
                            uint8_t *breaks);
   void (*scripts)(const uint32_t *characters, size_t count, uint32_t *scripts);
