@@ -1,4 +1,4 @@
-/* The light of a picture, from what is known of it.
+/* The light of a picture, estimated from known facts about it.
  *
  *   uneven: terms of a field, from the picture or a blank              field = colour * shape
  *   clue GREY    mean of R / shape, over the picture     = colour * pigment

@@ -17,7 +17,7 @@
  * Errors: BAD_ARGUMENT, naming the channel. */
 CELSPAN_CHECKED celspan_status cs_light_field_check(celspan_context *context, const char *noun,
                                                     const celspan_light_field *field);
-/* Whether it is the same everywhere. */
+/* Whether the field is the same everywhere. */
 bool cs_light_field_is_flat(const celspan_light_field *field);
 /* The b of a place. */
 void cs_light_field_basis(double x, double y, double basis[CELSPAN_LIGHT_FIELD_TERMS]);

@@ -1,4 +1,4 @@
-/* Light taken off pictures: R = S F + T I, solved at every pixel and for every channel.
+/* Light removed from pictures: R = S F + T I, solved at every pixel and for every channel.
  *
  *   one picture     S = R / F                           T = 1 - alpha
  *   two exposures   S = R1 / F                          T = R2 / I
@@ -102,7 +102,7 @@ static celspan_status open_one(celspan_context *context, const celspan_texture *
   return cs_original_same_size(context, &all->list[0], &all->list[all->count - 1]);
 }
 
-/* What solves the rows that were read. */
+/* The solver of the rows that were read. */
 typedef struct solver solver;
 struct solver {
   originals all;

@@ -23,8 +23,8 @@
 #include "tools/relight/addend.h"
 
 #define MOST_CELS 4096
-/* Gradients stand for curves in each of the addends: finer than in a frame, so that their sum
- * is. */
+/* Gradients stand for curves in each of the addends, with a finer tolerance than in a frame,
+ * because they are summed. */
 #define TOLERANCE 0x1p-18
 /* Rows that a worker sums at a time. */
 #define STRIP 4
@@ -121,7 +121,7 @@ static celspan_status render(celspan_context *context, celspan_rostrum *rostrum,
   return celspan_frame_render(context, &frame, &sink, NULL);
 }
 
-/* One frame becomes an addend, or two. through: NULL, or what comes through its cels. */
+/* One frame becomes an addend, or two. through: NULL, or the light that comes through its cels. */
 static celspan_status take(celspan_context *context, celspan_rostrum *rostrum, cs_addend *colours,
                            cs_addend *through, taking *t) {
   celspan_status status = cs_addend_writer_init(context, colours, &t->budget, false, &t->colours);
@@ -201,7 +201,7 @@ typedef struct summing {
   term *terms;
   size_t count;
   float keep;
-  float *planes; /* of each worker, four of each row: colours, and what comes through */
+  float *planes; /* for each worker, four for each row: colours, and the light let through */
   size_t stride; /* from one to the next */
   float *rgba;
 } summing;
@@ -219,7 +219,8 @@ static void add_term(summing *s, const cs_addend *addend, const celspan_light *l
     s->terms[s->count++] = t;
 }
 
-/* has_base: what changes in the base. Returns the bytes that the terms have. */
+/* Lists the terms of the lights. has_base: as changes to the base, which comes first. Returns the
+ * bytes of the terms. */
 static size_t list_terms(summing *s, const celspan_stack_light *lights, bool has_base) {
   const celspan_stack *stack = s->stack;
   const celspan_stack_light none = {{0, 0, 0, 0}, {0, 0, 0, 0}};
@@ -243,7 +244,7 @@ static const cs_addend *through_of(const celspan_stack *stack) {
   return stack->is_grey && stack->light_count > 1 ? &stack->backs[0] : &stack->through;
 }
 
-/* What the mattes of back lights leave of what comes through. */
+/* The share that the mattes of back lights leave of the light that comes through. */
 static float keep_of(const celspan_stack *stack, const celspan_stack_light *lights) {
   float keep = 1;
   for (size_t i = 0; i < stack->light_count; i++)

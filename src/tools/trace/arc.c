@@ -19,8 +19,8 @@ void cs_arc_add(cs_arc_sums *s, celspan_point point) {
   s->xz += x * z, s->yz += y * z, s->zz += z * z;
 }
 
-/* The same sums about the mean of the points, divided by their count; z is that of places from
- * there. */
+/* The same sums about the mean of the points, divided by their count; z is the z of places relative
+ * to the mean. */
 typedef struct moments {
   double x, y; /* the mean */
   double xx, xy, yy, xz, yz, zz;

@@ -36,7 +36,7 @@ double cs_arc_error(const cs_arc_sums *sums);
 /* The line or the arc itself, of two points or more in different places. */
 cs_arc cs_arc_of(const cs_arc_sums *sums, bool is_line);
 
-/* How far a point is from it, and in what direction that grows. */
+/* The distance of a point from the arc, and the direction in which the distance grows. */
 double cs_arc_off(const cs_arc *arc, celspan_point point, celspan_point *across);
 /* The place on it that is nearest to a point. */
 celspan_point cs_arc_nearest(const cs_arc *arc, celspan_point point);

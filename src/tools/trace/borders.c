@@ -191,7 +191,7 @@ static celspan_status walk_closed_at(walker *w, int32_t x, int32_t y) {
   return is_walked(w, x, y, 1) ? CELSPAN_OK : add_chain(w, x, y, 1, CS_NODE_NONE);
 }
 
-/* What is left has no node; every closed chain has an upright side. */
+/* The remaining chains have no node; every closed chain has an upright side. */
 static celspan_status walk_closed(walker *w) {
   const cs_regions *regions = w->regions;
   for (int32_t y = 0; y < regions->height; y++) {

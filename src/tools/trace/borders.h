@@ -52,7 +52,7 @@ static inline bool cs_chain_is_rim(const cs_chain *chain) {
   return chain->left == CS_REGION_OUTSIDE || chain->right == CS_REGION_OUTSIDE;
 }
 
-/* What a direction adds to x and to y. */
+/* The step of a direction along x and y. */
 static inline int32_t cs_border_x(int direction) {
   return direction == 0 ? 1 : direction == 2 ? -1 : 0;
 }

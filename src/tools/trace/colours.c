@@ -12,11 +12,11 @@ enum { BITS = 5, BINS = 1 << 3 * BITS, ROUNDS = 32 };
 #define FLAT 20
 /* Only flat places count if they are at least one pixel in this many. */
 #define FLAT_SHARE 50
-/* Of what share of the pixels a colour is as likely to be chosen as any other. */
+/* The share of the pixels with which a colour is as likely to be chosen as any other. */
 #define FULL_SHARE 500
 /* Colours of less distance, squared, are the same to the eye. */
 #define SAME 0.0009f
-/* What lies about the fullest bin, squared. */
+/* The squared distance of colours that count as near the fullest bin. */
 #define ABOUT 0.003f
 
 typedef struct bin {
@@ -188,7 +188,8 @@ static void find_groups(groups *g, size_t wanted) {
 
 /* ---------------------------------------------------------------- colours */
 
-/* The mean of what lies about the fullest bin of a group; the group's pixels, 0: there are none. */
+/* The mean of the colours near the fullest bin of a group. Returns the group's pixels; 0: there are
+ * none. */
 static uint64_t colour_of_group(const groups *g, uint32_t group, unsigned char code[3]) {
   const bin *top = NULL;
   uint64_t sum[3] = {0}, about = 0, count = 0;
@@ -216,7 +217,7 @@ static bool is_listed(const cs_colours *colours, const unsigned char code[3]) {
   return false;
 }
 
-/* In the order of their pixels: each is put before those that have fewer. */
+/* In the order of their pixels: each is put before the groups that have fewer. */
 static void list_colours(const groups *g, const cs_scan *scan, cs_colours *out) {
   uint64_t counts[CS_COLOURS_MOST + 1];
   out->count = 0;

@@ -11,7 +11,7 @@ enum { MARGIN = 24 };
 enum { GAP_MOST = 4 };
 /* How far a corner may be from the points about it. */
 #define FAR 2.5
-/* How much more than the noise points may be off an arc that is no corner. */
+/* The distance of points from an arc without a corner, at most, in units of the noise. */
 #define DOUBT 1.4
 
 /* Points on either side through which a bend goes that a corner is not told from, and its least
@@ -30,7 +30,7 @@ typedef struct finder {
 
 static ptrdiff_t point_count(const finder *f) { return (ptrdiff_t)f->points->count; }
 
-/* One point in this many is examined: those around it overlap by far. */
+/* One point in this many is examined: its neighbours overlap with it by far. */
 static int stride_of(const finder *f) { return f->rules->near / 2; }
 
 /* Whether one arc goes through the points about one. */
@@ -90,8 +90,8 @@ static bool meet(const finder *f, const cs_stretch *a, const cs_stretch *b, cels
   return in.x * out.x + in.y * out.y <= f->rules->turn;
 }
 
-/* Whether points between two stretches, and next to them, are so near to both sides of their corner
- * as rounding takes them. Along a bend they are not. */
+/* Whether points between two stretches, and next to them, are as near to both sides of their corner
+ * as rounding explains. Along a bend they are not. */
 static bool is_filled(const finder *f, const cs_stretch *a, const cs_stretch *b) {
   for (ptrdiff_t i = a->to - 1; i <= b->from; i++) {
     celspan_point own = cs_points_at(f->points, i), across;
@@ -120,7 +120,7 @@ static bool goes_round(const finder *f, const cs_stretch *a, const cs_stretch *b
          fabs(street.middle.bend) < 0.5 / ROUND_LEAST;
 }
 
-/* The one of points [from, to) that is nearest. */
+/* The nearest of the points [from, to). */
 static size_t nearest(const finder *f, celspan_point point, ptrdiff_t from, ptrdiff_t to) {
   ptrdiff_t best = from, count = point_count(f);
   double least = HUGE_VAL;

@@ -14,7 +14,7 @@
 
 /* How points are fitted. */
 typedef struct cs_fit_rules {
-  double tolerance; /* pixels between a point and what is fitted */
+  double tolerance; /* pixels between a point and the fitted line */
   double mean;      /* and root mean square of all of them */
   double straight;  /* pixels between a point and a line from corner to corner */
   int about;        /* points on either side that give a tangent */
@@ -22,7 +22,8 @@ typedef struct cs_fit_rules {
   int near;         /* points on either side that lie on an arc where there is no corner */
   double rounding;  /* pixels that points next to a corner are off both of its sides */
   double noise;     /* pixels, root mean square, that points are off a smooth border */
-  bool is_exact;    /* what is fitted passes all gates: tolerance, mean and straight do not count */
+  bool is_exact;    /* the fitted line passes all gates: tolerance, mean and straight do not
+                       count */
 } cs_fit_rules;
 
 typedef struct cs_corner {

@@ -7,10 +7,10 @@
 
 /* Times that parameters are brought to the curve; points that are asked in doing so, at most. */
 enum { ROUNDS = 4, ASKED = 40 };
-/* What is so many times as far away as is allowed will not come near. */
+/* A cubic whose error is this many times the allowed one will not come near enough. */
 #define HOPELESS 6.0
-/* The same for gates, which weights have to find; and what of its weight a point keeps that the
- * curve goes through. */
+/* The same for gates, which weights have to find; and the share of its weight that a point keeps
+ * when the curve goes through it. */
 enum { THREAD_ROUNDS = 12 };
 #define THREAD_HOPELESS 20.0
 #define STAYS 0.05
@@ -92,7 +92,8 @@ static int list_unknowns(const cs_cubic_end ends[2], unknown list[4]) {
 
 typedef struct sums {
   double b[2][2];     /* of products of the weights of both control points */
-  celspan_point r[2]; /* of their weights with what the ends leave over */
+  celspan_point r[2]; /* of their weights with the part of the points that the ends do not
+                         explain */
 } sums;
 
 static void add_point(sums *s, const cs_cubic_end ends[2], celspan_point point, double t,

@@ -19,7 +19,7 @@ typedef struct cs_cubic_end {
   bool has_tangent;
 } cs_cubic_end;
 
-/* What is known of a point while a cubic is fitted. */
+/* The state of a point while a cubic is fitted. */
 typedef struct cs_cubic_station {
   double parameter;
   double weight, room; /* where gates are passed */
@@ -31,7 +31,7 @@ typedef struct cs_cubic_station {
 bool cs_cubic_fit(const cs_edge_point *points, size_t count, const cs_cubic_end ends[2],
                   double tolerance, double mean, cs_cubic_station *stations,
                   celspan_point control[2]);
-/* The same, of points of whole pixels: returns whether the curve passes all their gates. Those that
- * are passed farthest aside get the more weight, round by round (Lawson's algorithm, 1961). */
+/* The same for points of whole pixels: returns whether the curve passes all their gates. Gates that
+ * are missed most get more weight, round by round (Lawson's algorithm, 1961). */
 bool cs_cubic_thread(const cs_edge_point *points, size_t count, const cs_cubic_end ends[2],
                      cs_cubic_station *stations, celspan_point control[2]);

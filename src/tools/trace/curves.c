@@ -6,7 +6,7 @@
 #include "base/number.h"
 #include "tools/trace/corners.h"
 
-/* Closed chains of fewer sides, or of fewer points, stay as they are. */
+/* Closed chains of fewer sides, or of fewer points, are not changed. */
 enum { FEW_SIDES = 8, FEW_POINTS = 5 };
 
 typedef struct maker {
@@ -34,7 +34,8 @@ static cs_fit_rules rules_of_mixed(double smooth) {
 }
 
 /* A picture of whole pixels does not tell where within half a pixel of a side an edge is: that is
- * noise of the square root of 1/12. What is smoothed more need not pass between the pixels. */
+ * noise of the square root of 1/12. A curve that is smoothed more need not pass between the
+ * pixels. */
 static cs_fit_rules rules_of_whole(double smooth) {
   return (cs_fit_rules){.tolerance = 0.3 + 0.25 * smooth,
                         .mean = 0.1 + 0.15 * smooth,
@@ -163,7 +164,7 @@ static void add_line(sums *s, const cs_points *points, const cs_node *node) {
     return;
   mx /= n, my /= n;
   xx = xx / n - mx * mx, xy = xy / n - mx * my, yy = yy / n - my * my;
-  /* The direction across the points: that of the lesser eigenvalue. */
+  /* The direction across the points, by the lesser eigenvalue. */
   double half = 0.5 * (xx - yy), root = sqrt(half * half + xy * xy);
   double nx = half > 0 ? -xy : root - half, ny = half > 0 ? root + half : -xy;
   double length = cs_number_length(nx, ny);

@@ -14,7 +14,7 @@
 #define ABOUT 3
 /* How far points are apart at least, along their border. */
 #define LEAST_STEP 0.3
-/* One side in so many has mixtures about it in a picture that is antialiased. */
+/* In an antialiased picture at least one side in this many has mixed pixels near it. */
 #define WHOLE_SHARE 8
 
 /* ---------------------------------------------------------------- points */
@@ -62,14 +62,14 @@ static float share_at(const across *line, int i) {
   return cs_labels_share(&light, &list[line->a].light, &list[line->b].light);
 }
 
-/* What one side of the edge holds of the other side's colour. */
+/* The share of the other side's colour on one side of the edge. */
 typedef struct flank {
   float sum;
   int own;      /* pixels of its own colour, up to the extent */
   bool is_thin; /* it ends before it is plain, and the other colour comes again */
 } flank;
 
-/* step: 1, the side of b; -1, that of a. */
+/* step: 1: the side of b; -1: the side of a. */
 static flank measure(const across *line, int step) {
   flank f = {0, 0, true};
   float before = 1;

@@ -7,7 +7,7 @@
 #include "tools/trace/cubic.h"
 #include "tools/trace/stretches.h"
 
-/* Points this near to a corner or an end are not fitted: what lies about a corner rounds them. */
+/* Points this near to a corner or an end are not fitted: the pixels around a corner round them. */
 #define NEAR 1.1
 /* How many points a fit is begun with. */
 enum { FIRST = 8 };
@@ -251,9 +251,8 @@ static celspan_status fit_shares(const part *p, double share, bool *fits) {
   return CELSPAN_OK;
 }
 
-/* Pieces that go as far as they may are as far off as they may be, and the last one has what is
- * left over. So each is made shorter by as much as if the last one had gone as far as the others;
- * where that does not fit they stay. */
+/* Pieces of the greatest length have the greatest error, and the last one has only the rest. So all
+ * pieces are shortened to about the same length; where that does not fit they keep theirs. */
 static celspan_status fit_part(part *p) {
   size_t first = p->out->count, count;
   CS_TRY(fit_greedily(p));

@@ -8,7 +8,7 @@ enum { ASKED_BITS = 16, MIXED = 254, UNKNOWN = 253 };
 #define PLAIN 0.2f
 /* A mixture of two colours is this much nearer to the line between them than to any third one. */
 #define NEARER 0.5f
-/* What two colours that are not about a pixel must explain better, as a share. */
+/* By what share two colours that are not near a pixel must explain it better. */
 #define STRANGE 4.0f
 
 typedef struct work {
@@ -71,7 +71,7 @@ static unsigned char label_of(const work *w, int32_t x, int32_t y) {
   return (unsigned char)*asked;
 }
 
-/* Most pixels are like the one before. */
+/* Most pixels equal the pixel before them. */
 static void label_plain(const work *w) {
   for (int32_t y = 0; y < w->scan->height; y++) {
     unsigned char *row = cs_labels_at(w->labels, 0, y);

@@ -10,11 +10,11 @@
 #include "tools/trace/thinning.h"
 
 enum { THIRDS = 3, EVENING = 3 };
-/* Between places where shares are asked across a line, pixels. */
+/* Pixels between the places where shares are measured across a line. */
 #define STEP 0.25
 /* A share that is noise. */
 #define NOTHING 0.06
-/* How much farther than it is deep a line is asked. */
+/* The factor of a line's depth up to which shares are measured. */
 #define BEYOND 1.5
 /* The tolerance of splines, pixels, at smooth 1. */
 #define TOLERANCE 0.2
@@ -32,7 +32,7 @@ typedef struct liner {
 
 /* ---------------------------------------------------------------- the ground */
 
-/* The label of most of the rim, the first of those. */
+/* The most frequent label along the rim; of equal ones the first. */
 static unsigned char ground_of(const cs_labels *labels) {
   size_t counts[256] = {0}, best = 0;
   for (int32_t x = 0; x < labels->width; x++) {
@@ -235,7 +235,7 @@ static celspan_status add_stroke(const liner *l, const line *n) {
   return status;
 }
 
-/* A single pixel is what is left of a dot: a disc of the same area, about its middle. */
+/* A single pixel is the rest of a dot: a disc of the same area, around its middle. */
 static void set_dot(const liner *l, const cs_branch *branch, line *n) {
   size_t place = l->branches.places[branch->first];
   int32_t x = (int32_t)(place % l->thin.stride) - 1, y = (int32_t)(place / l->thin.stride) - 1;

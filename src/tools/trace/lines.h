@@ -18,5 +18,5 @@
 CELSPAN_CHECKED celspan_status cs_lines_make(celspan_context *context, const cs_material *material,
                                              const cs_regions *regions, double smooth,
                                              celspan_trace *out);
-/* What such a shape is drawn with, without a texture. */
+/* The description that draws such a shape, without a texture. */
 celspan_stroke_desc cs_lines_stroke(const cs_shape *shape);

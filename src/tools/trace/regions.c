@@ -119,7 +119,7 @@ static size_t count_regions(const cs_regions *regions) {
   return count;
 }
 
-/* Runs come in the order of pixels, and what a run refers to comes before it. */
+/* Runs come in the order of pixels, and a run refers only to runs before it. */
 static void number_regions(const cs_labels *labels, cs_regions *regions) {
   for (int32_t y = 0; y < regions->height; y++)
     for (size_t i = regions->rows[y]; i < regions->rows[y + 1]; i++) {
@@ -183,7 +183,7 @@ uint32_t cs_regions_at(const cs_regions *regions, int32_t x, int32_t y) {
 
 /* ---------------------------------------------------------------- speckles */
 
-/* How often what is left is tried again. */
+/* How often the rest is tried again. */
 #define ROUNDS 8
 #define NO_RUN UINT32_MAX
 
@@ -217,8 +217,8 @@ static void vote(const sweeper *s, int32_t x, int32_t y, uint32_t votes[256]) {
     votes[s->regions.list[region].label]++;
 }
 
-/* The label of most of its border, the first of those; its own where it borders on speckles
- * alone. */
+/* The most frequent label along its border, of equal ones the first; its own label where it borders
+ * only on speckles. */
 static unsigned char neighbour(const sweeper *s, uint32_t region) {
   uint32_t votes[256] = {0};
   for (uint32_t run = s->first[region]; run != NO_RUN; run = s->next[run]) {

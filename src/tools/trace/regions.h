@@ -48,7 +48,7 @@ static inline int32_t cs_regions_end(const cs_regions *regions, int32_t y, size_
   return run + 1 < regions->rows[y + 1] ? regions->runs[run + 1].x0 : regions->width;
 }
 
-/* Speckles: regions of few pixels, which get the label of what they border on most.
+/* Speckles: regions of few pixels, which get the label that is most frequent along their border.
  *
  * INVARIANT: only labels of speckles change. A speckle whose neighbours are all speckles stays
  * until one of them is not a speckle any more; where everything is speckled nothing changes.

@@ -1,4 +1,4 @@
-/* What a tracing is made of: the value behind celspan_trace.
+/* The contents of a tracing: the value behind celspan_trace.
  *
  * INVARIANT: immutable once it is made, and counted. A shape's object is made from its text, so
  * that whoever reads the text makes the same object.

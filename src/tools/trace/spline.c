@@ -108,7 +108,7 @@ static void apply(const fitter *f, const cs_station *in, cs_station *out) {
   }
 }
 
-/* What is left to be explained of the stations, weighted. */
+/* The remaining error of the stations, weighted. */
 static void residual(const fitter *f, const cs_station *controls, cs_station *out) {
   memset(out, 0, f->controls * sizeof *out);
   for (size_t i = 0; i < f->count; i++) {

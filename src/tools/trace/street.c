@@ -7,7 +7,7 @@
 /* A narrower street does not count as one, nor does a smaller weight. */
 #define NARROWEST 1e-3
 #define WEIGHTLESS 1e-12
-/* The search ends when what it could still gain is so small a share. */
+/* The search ends when its possible gain is this small a share. */
 #define GAIN 1e-6
 enum { STEPS = 100, AXES = 3, CORNERS = AXES + 1 };
 
@@ -126,7 +126,7 @@ static bool settle(search *s) {
   return true;
 }
 
-/* Until both hulls are known to be apart, or how far. */
+/* Searches until both hulls are known to be apart, or the distance is known. */
 static bool run(search *s, bool is_enough) {
   s->nearest = (place){{1, 0, 0}};
   s->corners[0] = s->nearest = closest(s);

@@ -115,7 +115,7 @@ static bool cs_preimage_middle(const cs_gate_row *row, cs_arc *line) {
 
 /* ---------------------------------------------------------------- stretches */
 
-/* What a line costs, an arc, a point that is left out, and one that is although it has a gate. */
+/* The costs of a line, of an arc, of a point that is left out, and of such a point with a gate. */
 #define LINE 5.0
 #define ARC 8.0
 #define LEFT_OUT 2.2
@@ -182,7 +182,7 @@ static void row_between(const finder *f, ptrdiff_t start, ptrdiff_t end, cs_gate
 
 /* The longest stretch that ends at a point. */
 typedef struct longest {
-  bool is_line, is_known; /* known: what passes its gates */
+  bool is_line, is_known; /* known: a line or arc passes its gates */
   ptrdiff_t start;
   cs_street street;
 } longest;
@@ -242,7 +242,7 @@ static cs_arc arc_of(const finder *f, const cs_stretch *stretch, bool is_line) {
   return cs_arc_of(&sums, is_line);
 }
 
-/* The one that passes through the gates; false: none does. */
+/* The line or arc that passes through the gates; false: none does. */
 static bool pass_gates(const finder *f, const cs_stretch *stretch, bool is_line, cs_arc *out) {
   cs_gate_row row;
   cs_street street;
@@ -266,7 +266,7 @@ static celspan_status add(celspan_context *context, cs_stretches *out, const cs_
   return CS_APPEND(context, out->items, out->count, out->capacity, *stretch);
 }
 
-/* Goes the ways back from the last point, and turns round what it finds. */
+/* Follows the ways back from the last point, and reverses the result. */
 static celspan_status list(celspan_context *context, const finder *f, cs_stretches *out) {
   out->count = 0;
   for (ptrdiff_t end = f->count; end > 0;) {

@@ -55,7 +55,8 @@ static bool may_go(unsigned bits, bool is_second) {
 
 /* ---------------------------------------------------------------- rounds */
 
-/* Marks those that may go, all seen at once; then takes away those that still may. */
+/* Marks the pixels that may be removed, judged all at once; then removes marked pixels that may
+ * still be removed. */
 static celspan_status half_round(thinner *t, bool is_second, bool *has_changed) {
   t->marked.count = 0;
   for (size_t i = 0; i < t->now.count; i++)
@@ -82,7 +83,7 @@ static celspan_status thin_round(thinner *t, bool *has_changed) {
   t->next.count = 0;
   CS_TRY(half_round(t, false, has_changed));
   CS_TRY(half_round(t, true, has_changed));
-  /* What was kept may go another time, when what is about it has gone. */
+  /* A pixel that was kept may be removed later, when its neighbours have been removed. */
   place_list now = t->now;
   t->now = t->next;
   t->next = now;

@@ -20,7 +20,7 @@ typedef struct cs_thin {
   int32_t width, height;
   size_t stride;
   unsigned char *plane;
-  uint16_t *depths; /* thirds of a pixel to what is not drawn, before thinning */
+  uint16_t *depths; /* thirds of a pixel to the nearest undrawn pixel, before thinning */
 } cs_thin;
 
 /* The neighbours of a pixel, clockwise from the one above, as offsets into the plane. */

@@ -100,7 +100,7 @@ static celspan_status draw_way(const maker *m, cs_writing *path, cs_way way) {
   return CELSPAN_OK;
 }
 
-/* Around, from one way until it comes again. */
+/* Draws the ways around a region, from one way until it comes again. */
 static celspan_status draw_around(const maker *m, cs_writing *path, cs_way begun) {
   celspan_point start = start_of(m, begun);
   CS_TRY(cs_writing_draw(m->context, path, 'M', &start, 1));

@@ -93,7 +93,7 @@ static size_t step_count(const drawer *d) {
   return steps < MOST_POINTS ? (size_t)steps : MOST_POINTS;
 }
 
-/* One side, forwards or backwards: left of who goes that way. */
+/* One side, forwards or backwards: on the left in the direction of travel. */
 static celspan_status add_side(const drawer *d, bool is_back) {
   size_t steps = step_count(d);
   for (size_t i = 0; i < steps + !d->shape->is_closed; i++) {

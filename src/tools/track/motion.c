@@ -10,7 +10,7 @@
 enum { MOST_UNKNOWNS = 8, SAMPLES = 300, REFINEMENTS = 12 };
 
 #define TUKEY 4.685          /* where a pair's weight falls to 0, in deviations */
-#define LEAST_DEVIATION 0.02 /* pixels: what a patch is found within at best */
+#define LEAST_DEVIATION 0.02 /* pixels: the least error with which a patch is found */
 #define LEAST_PIVOT 1e-10    /* of equations whose numbers are near 1 */
 
 /* ---------------------------------------------------------------- linear equations */

@@ -17,7 +17,7 @@ enum { CS_MOTION_MOST = 256 }; /* pairs */
 
 typedef struct cs_motion_pair {
   celspan_point from, to;
-  bool agrees; /* what cs_motion_agree says of it */
+  bool agrees; /* the result of cs_motion_agree */
 } cs_motion_pair;
 
 /* How many pairs a motion needs at least, so that it is not only a guess. */

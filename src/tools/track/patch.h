@@ -41,6 +41,7 @@ bool cs_patch_find(const cs_patch *patch, const cs_plane *plane, cs_patch_place 
                    double *likeness);
 
 /* The same from afar: tries the middle at all whole offsets up to `radius` pixels, and moves it to
- * the one where the pixels are most alike. likeness: there; -1 where none is in the picture. */
+ * the offset where the pixels are most alike. likeness: at this offset; -1 where no offset is in
+ * the picture. */
 void cs_patch_search(const cs_patch *patch, const cs_plane *plane, int radius,
                      cs_patch_place *place, double *likeness);

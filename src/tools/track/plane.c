@@ -164,7 +164,8 @@ static celspan_status list_peaks(celspan_context *context, const map *m, candida
   return CELSPAN_OK;
 }
 
-/* Of the candidates, strongest first, those that are not nearer than `apart` to one before them. */
+/* Keeps the candidates, strongest first, that are at least `apart` from all candidates kept before
+ * them. */
 static size_t spread(const candidate *list, size_t count, double apart, celspan_point *out) {
   size_t taken = 0;
   for (size_t i = 0; i < count && taken < CS_FEATURES_MOST; i++) {

@@ -32,7 +32,7 @@ enum { SEARCHED_CORNERS = 60, SEARCH_RADIUS = 14 }; /* the latter in pixels of t
 #define FINE_TOLERANCE 1.0
 #define FARTHEST_BACK 0.5 /* pixels from where a patch came to where it is found again */
 #define LEAST_SHARE 0.2   /* of the corners in the frame that must agree */
-#define MOST_ERROR 0.6    /* pixels, of those that agree */
+#define MOST_ERROR 0.6    /* pixels, of the corners that agree */
 
 struct celspan_tracker {
   celspan_context *context;
