@@ -19,7 +19,7 @@ enum {
   PLANE = CS_COLOUR_SIDE * CS_COLOUR_SIDE
 };
 
-/* The largest allocation: what a damaged profile asks beyond it counts as a failure of the library.
+/* The largest allocation: a larger request by a damaged profile counts as a failure of the library.
  */
 #define LARGEST ((cmsUInt32Number)64 << 20)
 

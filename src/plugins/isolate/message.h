@@ -45,7 +45,7 @@ typedef enum cs_worker_task {
   CS_WORKER_LISTENS    /* one sound, as ffmpeg */
 } cs_worker_task;
 
-/* It comes with the shared memory, or with the pipe that the samples of a sound go to. */
+/* This message brings the shared memory, or the pipe for the samples of a sound. */
 typedef struct cs_message_start {
   uint64_t memory; /* bytes that the worker may allocate after its start; 0: any */
   double loading;  /* seconds that loading the module may take; 0: any */
@@ -56,7 +56,7 @@ typedef struct cs_message_open {
   int32_t subimage, has_layer, has_space;
 } cs_message_open;
 
-/* The form of the samples; 0: that of the file. */
+/* The form of the samples; 0: the form in the file. */
 typedef struct cs_message_sound {
   int32_t rate, channels;
   double speed; /* 1: as it is */
@@ -119,7 +119,7 @@ typedef enum cs_message_arrival {
 /* descriptor: sent with the message, and still owned by the caller; -1: none. false: the other side
  * has ended. */
 bool cs_message_send(int socket, const cs_message *message, int descriptor);
-/* *descriptor: the one sent with the message, or -1; NULL: none is accepted. */
+/* *descriptor: the descriptor sent with the message, or -1; NULL: none is accepted. */
 cs_message_arrival cs_message_receive(int socket, cs_message *out, int *descriptor);
 /* The same on a socket that blocks, without LATE: where it has only answered EAGAIN for as many
  * seconds as `patience`, the other side counts as ended. */

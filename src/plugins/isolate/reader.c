@@ -264,7 +264,7 @@ void cs_reader_close(cs_picture_reader *reader) {
   const cs_message message = {.kind = CS_MESSAGE_CLOSE, .number = reader->number};
   if (reader->worker) {
     cs_worker_lock(reader->worker);
-    /* A worker that cannot receive it has died, which the next request finds. */
+    /* If the worker cannot receive it, it has died; the next request notices that. */
     if (reader->worker->socket >= 0)
       (void)!cs_message_send(reader->worker->socket, &message, -1);
     leave(reader);

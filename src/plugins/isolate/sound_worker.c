@@ -42,7 +42,7 @@ static cs_message receive(const cs_worker_desc *desc, int *sound) {
   return message;
 }
 
-/* Each source has a number from 3 on; the sound is moved last, over those that are not needed any
+/* Each source has a number from 3 on; the sound is moved last, over sources that are not needed any
  * more. */
 static void set_files(const cs_worker_desc *desc, int sound) {
   bool is_set = dup2(desc->memory, STDOUT_FILENO) >= 0 && dup2(desc->socket, STDERR_FILENO) >= 0;

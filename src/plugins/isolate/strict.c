@@ -29,7 +29,7 @@
 #define BIND_AND_CONNECT 3
 #define ABSTRACT_SOCKETS_AND_SIGNALS 3
 
-/* Libraries, and what they read: the description of the processor, random numbers. */
+/* Libraries, and the files that they read: the description of the processor, random numbers. */
 static const char *const SYSTEM[] = {"/usr/lib",
                                      "/usr/lib64",
                                      "/usr/local/lib",
@@ -44,7 +44,7 @@ static const char *const SYSTEM[] = {"/usr/lib",
                                      "/dev/urandom",
                                      "/sys/devices/system/cpu"};
 
-/* What libraries read that a process has loaded itself: fonts, colours, languages. */
+/* Files for libraries that a process has loaded itself: fonts, colours, languages. */
 #define SHARED "/usr"
 
 /* The program that starts programs with shared libraries. */

@@ -15,7 +15,7 @@
 
 #include "base/roots.h"
 
-/* What the process may still do. In any case it may read the libraries of the system. */
+/* The rights that the process keeps. In any case it may read the libraries of the system. */
 typedef struct cs_strict_rights {
   const cs_roots *read, *write; /* folders; NULL: none */
   /* A process with a program reads, instead of folders, this program, which it may start, and one

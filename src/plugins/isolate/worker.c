@@ -21,7 +21,7 @@ static struct {
   pthread_mutex_t lock;
   cs_worker_limits limits;
   int most;        /* decoders at a time */
-  cs_worker *list; /* those that have not ended */
+  cs_worker *list; /* the workers that have not ended */
 } all = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
 void cs_worker_limit(const cs_worker_limits *limits, int most) {

@@ -17,7 +17,7 @@ static const biquad shelf = {1.53512485958697, -2.69169618940638, 1.198392810852
                              -1.69065929318241, 0.73248077421585};
 static const biquad high_pass = {1, -2, 1, -1.99004745483398, 0.99007225036621};
 
-/* What a filter keeps of a channel: the direct form II, transposed. */
+/* The state of a filter for a channel: the direct form II, transposed. */
 typedef struct memory {
   double a, b;
 } memory;
@@ -45,7 +45,7 @@ static uint32_t usual_places(int32_t channels) {
   return channels < (int32_t)(sizeof usual / sizeof *usual) ? usual[channels] : 0;
 }
 
-/* Channels behind the listener count more, and that of low frequencies does not count. */
+/* Channels behind the listener count more, and the channel of low frequencies does not count. */
 static void set_weights(listening *l) {
   uint32_t places = l->samples.places ? l->samples.places : usual_places(l->samples.channels);
   for (int32_t c = 0; c < l->samples.channels; c++) {

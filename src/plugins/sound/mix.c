@@ -23,7 +23,7 @@ typedef struct part {
   int64_t heard, silent;   /* it is heard from `heard` to before `silent` */
   cs_sound_stream samples; /* owned; none: it is closed */
   int64_t place;           /* of the next sample that is read */
-  float *kept;             /* those that were counted, if they are few: it is not opened again */
+  float *kept;             /* the counted samples, if they are few: the file is not opened again */
   size_t capacity;         /* of them; 0: they are another part's */
   int32_t channels;        /* of them */
   int64_t moments;
@@ -86,7 +86,7 @@ static void drop_kept(mix *m, part *p) {
   p->capacity = 0;
 }
 
-/* Keeps samples that were read, after those that are kept, as long as there are few. */
+/* Keeps samples that were read, after the kept ones, as long as there are few. */
 static celspan_status keep_samples(mix *m, celspan_context *context, part *p, size_t count) {
   size_t used = (size_t)(p->moments * p->channels), before = p->capacity;
   bool is_first = p->moments == 0;
@@ -127,7 +127,8 @@ static double last_second(const mix *m, const cs_mix_sound *sound) {
   return last;
 }
 
-/* Takes the length of an earlier part with the same samples; false: none was counted as far. */
+/* Takes the length of an earlier part with the same samples; false: no earlier part was counted as
+ * far as this one needs. */
 static bool take_known(const mix *m, part *p, int64_t most) {
   for (const part *q = m->parts; q < p; q++) {
     bool is_same = q->sound.speed == p->sound.speed && strcmp(q->sound.path, p->sound.path) == 0;
@@ -150,7 +151,7 @@ static celspan_status refuse_from(celspan_context *context, const part *p) {
                  seconds, sound->from);
 }
 
-/* Whether it is heard in the mix, or close enough to duck what is. */
+/* Whether a sound is heard in the mix, or close enough to duck one that is heard. */
 static bool matters(const mix *m, const cs_mix_sound *sound) {
   double first = (double)m->place / CS_MIX_RATE, last = (double)m->end / CS_MIX_RATE;
   for (size_t i = 0; i < sound->passage_count; i++)
@@ -208,7 +209,7 @@ static double slope_at(double distance, double length) {
   return distance <= 0 ? 0 : distance < length ? distance / length : 1;
 }
 
-/* Lowers the gains from a place on to those that a ducker leaves. */
+/* Lowers the gains, from a place on, to the gains that a ducker allows. */
 static void duck(mix *m, const cs_mix_ducker *ducker, int64_t place, size_t count) {
   const part *q = &m->parts[ducker->sound];
   double attack = ducker->attack * CS_MIX_RATE, release = ducker->release * CS_MIX_RATE;
@@ -224,7 +225,7 @@ static void duck(mix *m, const cs_mix_ducker *ducker, int64_t place, size_t coun
   }
 }
 
-/* Sets the gains of a part from a place on: first, what its duckers leave. */
+/* Sets the gains of a part from a place on: first, the gains that its duckers allow. */
 static void set_gains(mix *m, const part *p, int64_t place, size_t count) {
   for (size_t i = 0; i < count; i++)
     m->gains[i] = 1;
@@ -293,7 +294,7 @@ static void add_samples(mix *m, const part *p, int64_t place, const float *sampl
           p->sound.gain[c];
 }
 
-/* Adds the samples from a place up to another one from those that are kept. */
+/* Adds the kept samples from one place to another. */
 static void add_kept(mix *m, const part *p, int64_t from, int64_t to) {
   int64_t end = p->origin + p->moments;
   if (from < end)
@@ -315,7 +316,7 @@ static celspan_status add_read(mix *m, celspan_context *context, part *p, int64_
   return CELSPAN_OK;
 }
 
-/* Adds what is heard of the part before `end`. */
+/* Adds the part's samples before `end`. */
 static celspan_status add_part(mix *m, celspan_context *context, part *p, int64_t end) {
   int64_t from = p->heard > m->place ? p->heard : m->place, to = p->silent < end ? p->silent : end;
   if (from >= to)
@@ -451,7 +452,7 @@ static void find_slope(mix *m) {
     }
 }
 
-/* What does not matter is never heard. */
+/* A sound that does not matter is never heard. */
 static celspan_status measure_all(mix *m, celspan_context *context) {
   find_slope(m);
   for (size_t i = 0; i < m->count; i++) {

@@ -18,7 +18,7 @@ struct cs_type_font {
   uint32_t face;
   hb_variation_t settings[SETTINGS];
   unsigned setting_count;
-  pthread_mutex_t lock; /* of what follows: parts of a font are made when they are asked for */
+  pthread_mutex_t lock; /* of the members below: parts of a font are made when they are needed */
   hb_font_t *font;      /* NULL: it lacked memory */
   hb_draw_funcs_t *functions;
 };
@@ -66,9 +66,9 @@ static hb_draw_funcs_t *create_functions(void) {
 
 /* ---------------------------------------------------------------- memory */
 
-static bool lacks_process; /* what HarfBuzz keeps for the process, for as long as that lives */
+static bool lacks_process; /* the memory that HarfBuzz keeps as long as the process lives */
 
-/* Everything that HarfBuzz makes once, so that what fails later is of a font. */
+/* Everything that HarfBuzz makes once, so that later failures belong to a font. */
 static void make_for_process(void) {
   errno = 0;
   hb_unicode_funcs_get_default();
@@ -142,7 +142,8 @@ static uint64_t find_axes(const cs_type_font *font) {
   return axes;
 }
 
-/* A height from the tables of the font, or else that of one of its letters, or else `other`. */
+/* A height from the tables of the font; without it the height of one of its letters; without that
+ * `other`. */
 static int32_t find_height(const cs_type_font *font, hb_ot_metrics_tag_t tag, uint32_t letter,
                            int32_t other) {
   hb_position_t height;

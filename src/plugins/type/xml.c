@@ -12,7 +12,7 @@
 
 /* Bytes handed to expat at a time: it counts them in an int. */
 #define PIECE_BYTES (1 << 20)
-/* Of what one entity stands for, as its message says. */
+/* The most bytes of one entity's text, as its message says. */
 #define ENTITY_BYTES 1024
 /* Entities may make a document this many times as large, and any to this many bytes. */
 #define GROWTH 2
@@ -39,7 +39,7 @@ static celspan_status fail(document *doc, celspan_status status, const char *for
 
 static void stop(document *doc) { XML_StopParser(doc->parser, XML_FALSE); }
 
-/* After a stop expat may still call what belongs to the same token. */
+/* After a stop expat may still make calls that belong to the same token. */
 static bool is_stopped(const document *doc) {
   XML_ParsingStatus status;
   XML_GetParsingStatus(doc->parser, &status);

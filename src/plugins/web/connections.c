@@ -69,7 +69,7 @@ void web_notify(void *user, struct MHD_Connection *library, void **context,
     remove_connection(user, *context);
 }
 
-/* Seconds that a connection may stay as it is; 0: as long as the program needs. */
+/* Seconds that a connection may stay in its state; 0: as long as the program needs. */
 static double most_seconds(web_state state) {
   return state == WEB_READING ? CS_WEB_IDLE : state == WEB_SENDING ? CS_WEB_SENDING : 0;
 }

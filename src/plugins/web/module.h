@@ -57,7 +57,7 @@ typedef struct cs_web_answer {
   size_t size;
 } cs_web_answer;
 
-/* What was refused since the server was opened. */
+/* Counts of refusals since the server was opened. */
 typedef struct cs_web_counts {
   uint64_t requests;  /* whole ones */
   uint64_t displaced; /* connections without a whole request that gave their place to another */
@@ -72,9 +72,8 @@ typedef struct cs_web_module {
   int (*open)(uint16_t port, cs_web **out);
   uint16_t (*port)(const cs_web *web);
   int (*descriptor)(const cs_web *web);
-  /* Accepts, reads and writes what can be done at once. Returns the milliseconds after which it
-   * must be called again even if nothing is readable: 0 while a request waits to be taken, -1 for
-   * ever. */
+  /* Accepts, reads and writes without waiting. Returns the milliseconds after which it must be
+   * called again even if nothing is readable: 0 while a request waits to be taken, -1 for ever. */
   int (*run)(cs_web *web);
   /* The next whole request; NULL: there is none. */
   const cs_web_request *(*take)(cs_web *web);

@@ -17,7 +17,7 @@ enum {
 
 /* ---------------------------------------------------------------- reading */
 
-/* The first callback of a request: what is returned is its `context` in the next ones. */
+/* The first callback of a request: its result is the `context` of the next callbacks. */
 static void *begin_request(void *user, const char *target, struct MHD_Connection *library) {
   cs_web *web = user;
   size_t size = strlen(target) + 1;

@@ -23,7 +23,7 @@ typedef struct web_request {
   struct web_request *next;       /* of all that are not finished */
   struct MHD_Connection *library; /* the library's name for the connection */
   web_connection *connection;     /* borrowed */
-  cs_web_request whole;           /* what the program gets */
+  cs_web_request whole;           /* the request as the program gets it */
   bool has_begun, is_long, is_taken, is_answered;
   char body[CS_WEB_BODY];
   char target[]; /* as it was sent */
@@ -55,5 +55,6 @@ static inline void web_enter(web_connection *connection, web_state state) {
 enum MHD_Result web_admit(void *web, const struct sockaddr *from, socklen_t size);
 void web_notify(void *web, struct MHD_Connection *library, void **context,
                 enum MHD_ConnectionNotificationCode code);
-/* Closes what is too slow. Returns the milliseconds until the next connection may be, -1: none. */
+/* Closes connections that are too slow. Returns the milliseconds until the next connection may be
+ * too slow; -1: none can be. */
 int web_sweep(cs_web *web);
