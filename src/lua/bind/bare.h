@@ -1,5 +1,4 @@
-/* Values without fields: what a method, a file or a picture has made, of which nothing can be
- * changed with `with`.
+/* Values without fields, made by a method or from a file or a picture. `with` cannot change them.
  *
  *   static const cs_noun warped = {.name = "warped", .fields = cs_bare_fields,
  *                                  .create = cs_bare_refuse, ...};

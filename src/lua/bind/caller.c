@@ -56,14 +56,14 @@ int cs_caller_enter(lua_State *L) {
   return leave(L, LUA_OK, 0);
 }
 
-/* Whether it is a C function through which a script calls one of celspan's own. */
+/* Whether the level is a C function through which a script calls one of celspan's own functions. */
 static bool is_passage(lua_State *L, lua_Debug *info) {
   return is_function(L, info, cs_caller_enter) || is_function(L, info, cs_require_call);
 }
 
-/* Whether it is a C function, such as that of a warp, that one of celspan's own modules called: its
- * callbacks have the script's line too. A module that calls pcall writes its own sentence, with the
- * line, about what it catches. */
+/* Whether the level is a C function that one of celspan's own modules called, such as the function
+ * of a warp: its callbacks have the script's line too. A module that calls pcall writes its own
+ * message, with the line, about an error that it catches. */
 static bool is_called_by_own(lua_State *L, int level, lua_Debug *info) {
   lua_Debug caller;
   if (strcmp(info->short_src, "[C]") != 0 || !get(L, level + 1, &caller) || !is_own(&caller))
@@ -146,7 +146,8 @@ static int next_file(lua_State *L, int level, lua_CFunction last, lua_Debug *inf
   return 0;
 }
 
-/* The level after the one at `position`; where none is there, after the innermost one. */
+/* The level after the level at `position`; after the innermost level if there is none at
+ * `position`. */
 static int first_caller(lua_State *L, const char *position, lua_CFunction last) {
   lua_Debug info;
   int innermost = next_file(L, 1, last, &info);

@@ -5,7 +5,7 @@
  *   celspan/keys.lua      keys{ ... }             celspan's own      looked for beside this file
  *   [C]                     celspan.mix(p, q, u)  the C function that uses this header
  *
- * INVARIANT: nothing here changes the stack except by what it pushes.
+ * INVARIANT: these functions change the stack only by pushing values.
  */
 #pragma once
 
@@ -26,8 +26,8 @@ int cs_caller_error(lua_State *L, const char *format, ...);
 /* Pushes "hand.lua:12: " for the nearest function below `last` that has lines and is not celspan's
  * own; "" when there is none. */
 void cs_caller_push_position(lua_State *L, lua_CFunction last);
-/* Pushes the same for the line where the function at index begins, for what is wrong with its
- * result, which has no line of its own. */
+/* Pushes the same for the line where the function at index begins, for errors in its result, which
+ * has no line of its own. */
 void cs_caller_push_function(lua_State *L, int index);
 /* Pushes the folder of the nearest file that is not celspan's own, "" for the current one; false,
  * and nothing pushed, when there is none. */

@@ -121,9 +121,9 @@ static void drop(lua_State *L, int table, const char *name) {
   lua_rawset(L, table);
 }
 
-/* Of two fields that exclude each other the one that the changes do not name is removed. The kept
- * fields of a value can have both, because the noun completes them: then the second is, if the
- * changes name none. */
+/* Of two fields that exclude each other, removes the field that the changes do not name. The kept
+ * fields of a value can contain both, because the noun completes them: if the changes name neither,
+ * the second is removed. */
 static void drop_other(lua_State *L, const cs_noun *noun, int changes, int fields) {
   const char *first = noun->either[0], *second = noun->either[1];
   if (!first)

@@ -1,7 +1,7 @@
 /* Making values from tables: the constructors, and :with, which makes a value again with changes.
  *
  * INVARIANT: a value keeps a copy of the fields that it was made from, completed by the presets of
- * its noun, so that reading a field gives what was used and :with can start from it.
+ * its noun, so that reading a field gives the value that was used, and :with can start from it.
  */
 #pragma once
 
@@ -9,7 +9,8 @@
 
 /* Checks, makes and pushes a value from the table at `fields`. */
 void cs_construct_value(lua_State *L, const cs_noun *noun, int fields);
-/* Pushes the fields that a value of the noun would keep that is made from the table at `fields`. */
+/* Pushes the fields that a value of the noun would keep if it were made from the table at
+ * `fields`. */
 void cs_construct_push_fields(lua_State *L, const cs_noun *noun, int fields);
 /* Pushes the constructor of a noun. */
 void cs_construct_push(lua_State *L, const cs_noun *noun);

@@ -56,8 +56,8 @@ static void check_gaps(const cs_form *form) {
                  (LUAI_UACINT)length, (LUAI_UACINT)gap);
 }
 
-/* Checks all names before any value, so that a mistyped name is what people read about. Of
- * several unknown names the least is reported, whatever the order of the table. */
+/* Checks all names before any value, so that people read about a mistyped name first. Of several
+ * unknown names the first in sorted order is reported, whatever the order of the table. */
 static void check_names(const cs_form *form) {
   lua_State *L = form->L;
   const char *unknown = NULL;

@@ -50,7 +50,7 @@ cs_host *cs_host_find(lua_State *L) {
   return host;
 }
 
-/* The host, with one reference; without memory the context is as it was. */
+/* The host, with one reference; without memory the context does not change. */
 static cs_host *create_host(lua_State *thread, celspan_context *context, bool owns_context) {
   cs_host *host = cs_mem_array(context->memory, 1, sizeof *host);
   if (host)

@@ -19,7 +19,7 @@ typedef enum cs_host_call {
 } cs_host_call;
 
 /* What a sandbox asks of the bindings, on the thread that runs Lua. `user` is the first argument of
- * all. */
+ * every function. */
 typedef struct cs_host_rules {
   void *user;
   /* Before and after a call into the script; calls may be nested. number: of the frame; else 0. */
@@ -32,13 +32,13 @@ typedef struct cs_host_rules {
   void (*admit)(void *user, lua_State *L, const char *path);
   /* Lets the script read below this folder too. false: it cannot be noted. NULL: no need. */
   bool (*allow)(void *user, const char *folder);
-  /* Whether it may write there; else the sentence that refuses it is in the context. NULL: it may
-   * write everywhere. */
+  /* Whether the script may write to this path. If not, the message that refuses it is in the
+   * context. NULL: it may write everywhere. */
   bool (*may_write)(void *user, lua_State *L, const char *path);
   /* The sentence of the limit that ended a call with this outcome of lua_pcall and this message
    * (NULL: no text); NULL: none did. */
   const char *(*limit)(void *user, int outcome, const char *message);
-  /* There was no memory, as this sentence says: raises it, or that of the limit that was exceeded,
+  /* Raises this message that there was no memory, or the message about the limit that was exceeded,
    * in a way that no script can catch. */
   void (*starve)(void *user, lua_State *L, const char *sentence);
   /* The state is closed, and the context with it. */
@@ -47,7 +47,7 @@ typedef struct cs_host_rules {
 
 typedef struct cs_host {
   size_t references;
-  cs_memory *memory; /* counted; that of the context */
+  cs_memory *memory; /* counted; the memory of the context */
   lua_State *state;  /* the thread that Lua callbacks run on */
   celspan_context *context;
   bool owns_context;
@@ -65,15 +65,15 @@ cs_host *cs_host_get(lua_State *L);
 celspan_context *cs_host_context(lua_State *L);
 void cs_host_unref(cs_host *host);
 
-/* Callbacks run on L until cs_host_leave is called with what cs_host_enter returned. */
+/* Callbacks run on L until cs_host_leave is called with the result of cs_host_enter. */
 lua_State *cs_host_enter(lua_State *L);
 void cs_host_leave(lua_State *L, lua_State *before);
 
 /* Raises the context's sentence at the caller's line, "noun: sentence", unless status is OK. */
 void cs_host_try(lua_State *L, const char *noun, celspan_status status);
-/* Pushes nil and the context's sentence, for a function that answers so what went wrong; a script
- * that raises the sentence raises it with this status. Returns 2, which is how many were pushed. In
- * a sandbox a lack of memory is raised instead, as by cs_host_try: what a script makes must not
+/* Pushes nil and the context's message, for a function that returns errors in this way. A script
+ * that raises the message raises it with this status. Returns 2, which is how many were pushed. In
+ * a sandbox a lack of memory is raised instead, as by cs_host_try: the results of a script must not
  * depend on it. */
 int cs_host_fail(lua_State *L, celspan_status status);
 /* The status of a message that was raised: the core's own when the message contains the core's
@@ -87,7 +87,8 @@ void cs_host_end(lua_State *L);
 bool cs_host_admits(lua_State *L, const char *path);
 /* Raises unless it may. Called before anything is asked about the file, also whether it exists. */
 void cs_host_admit(lua_State *L, const char *path);
-/* Whether a sandbox confines what scripts read, write and call. */
+/* Whether a sandbox restricts the files that scripts read and write, and the functions that they
+ * call. */
 bool cs_host_confines(lua_State *L);
 /* Lets the script read below a folder. Raises. */
 void cs_host_allow(lua_State *L, const char *folder);
@@ -96,8 +97,8 @@ bool cs_host_may_write(lua_State *L, const char *path);
 
 /* From now on the paths are remembered that the script asks to read, whether they exist or not. */
 void cs_host_remember_asked(lua_State *L);
-/* Pushes a list of those that were remembered since the last call, in which each path is a key too:
- * whether the script was let read there. Raises. */
+/* Pushes the list of paths that were remembered since the last call. Each path is also a key: its
+ * value says whether the script was allowed to read there. Raises. */
 void cs_host_push_asked(lua_State *L);
 
 /* The folder of the script that the host runs; "" is the current directory. */

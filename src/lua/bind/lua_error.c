@@ -28,7 +28,7 @@ static void push_chain(lua_State *L, const char *message, const char *position) 
     cs_caller_push_chain(L, position, lua_tocfunction(L, lua_upvalueindex(2)));
 }
 
-/* What a message of Lua's own about the argument of a frame function does not say. */
+/* A hint that Lua's own message about the argument of a frame function lacks. */
 static const char *hint_of(const char *message) {
   return strstr(message, "attempt to") && strstr(message, "celspan.frame")
              ? " (a frame function gets a table: write f.time, f.progress or f.number)"
@@ -101,7 +101,8 @@ celspan_status cs_lua_error_report_as(lua_State *L, celspan_status status) {
   return celspan_context_fail(cs_host_context(L), status, "%s", copy);
 }
 
-/* What ended a script with the core's sentence was the system, not the limit of the script. */
+/* A script that ended with the core's message was ended by the system, not by a limit of its
+ * own. */
 celspan_status cs_lua_error_limit(lua_State *L, int outcome, const char **text) {
   const cs_host_rules *rules = cs_host_get(L)->rules;
   const char *message = lua_tostring(L, -1);

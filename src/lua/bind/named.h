@@ -2,13 +2,13 @@
  *
  * While a constructor runs, the context knows the line of the script that called it: of the
  * innermost function that is not one of celspan's own. A method such as :rotate needs no line,
- * because the core keeps that of the value it changes; :with takes it over here.
+ * because the core keeps the line of the value that it changes; :with copies the line here.
  */
 #pragma once
 
 #include "lua/bind/userdata.h"
 
-/* Sets the line that the context gives to the values made from now on: that of the caller. */
+/* Makes the caller's line the one that the context gives to new values from now on. */
 void cs_named_begin(lua_State *L, celspan_context *context);
 /* The same, with the line where `value` was made. */
 void cs_named_begin_as(celspan_context *context, const cs_userdata *value);
@@ -17,7 +17,8 @@ void cs_named_end(celspan_context *context);
 /* Whether the callers of that line are kept from now on, so that cs_named_push_callers knows them:
  * every value then takes a walk over the stack. At first they are not. */
 void cs_named_keep_callers(lua_State *L, bool is_kept);
-/* Pushes what cs_caller_push_callers said when a value with this number in its mark was made. */
+/* Pushes the text of cs_caller_push_callers from the time when a value with this number in its mark
+ * was made. */
 void cs_named_push_callers(lua_State *L, uint32_t number);
 
 /* Gives `value`, new and not shared yet, the name of `from`, if it has one. */

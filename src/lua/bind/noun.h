@@ -42,7 +42,7 @@ typedef struct cs_kind {
   int kept;        /* user values of a value in addition to its fields, which are the first */
 } cs_kind;
 
-/* What a field is in the description that it is read into. */
+/* The type of a field in the description that it is read into. */
 typedef enum cs_type {
   CS_TYPE_OWN,     /* the noun reads it itself */
   CS_TYPE_NUMBER,  /* double */
@@ -64,13 +64,14 @@ typedef struct cs_field {
   uint16_t has;       /* offset of a bool that is set if the field is given; 0: there is none */
   uint16_t count;     /* NUMBERS and PIXELS: how many */
   double least, most; /* the range; equal: any number within 1e12 */
-  const char *preset; /* what it reads as when it was left out, a number or a word; NULL: nil */
+  const char *preset; /* the value that scripts read when it was left out, a number or a word; NULL:
+                         nil */
   const char *const *choices; /* CHOICE: the words, ended by NULL; the first one is the default */
   const char *shape;          /* NUMBERS: "a point {x, y}"; NULL: "an array of 9 numbers" */
-  const char *written;        /* its type in annotations; NULL: that of `type` */
+  const char *written;        /* its type in annotations; NULL: by `type` */
   const char *read; /* its type in a value, where the value always has it but not as it was given */
   const char *about;           /* for people, without its range and default; NULL: nothing to say */
-  const char *fallback;        /* for people: what is used if it is left out and has no preset */
+  const char *fallback;        /* for people: the value used if it is left out and has no preset */
   const struct cs_field *more; /* of the row without a name, which ends the fields: a group of
                                 * fields that several nouns share and that follows; NULL: none */
 } cs_field;
@@ -107,7 +108,7 @@ static inline const cs_field *cs_field_next(const cs_field *field) {
 #define CS_ABOVE_0 .is_above = true, .most = CS_NUMBER_LIMIT
 #define CS_HAS(desc, member) .has = CS_MEMBER(desc, member, bool)
 
-/* What the array part of the table holds. */
+/* The contents of the table's array part. */
 typedef enum cs_list {
   CS_LIST_NONE,
   CS_LIST_TUPLE, /* a fixed number of values: :with changes them one by one */
@@ -116,13 +117,13 @@ typedef enum cs_list {
 
 typedef struct cs_noun {
   const char *name;
-  const char *about;   /* what it makes, a sentence */
-  const char *table;   /* what annotations call its table; NULL: "celspan.NAME.fields" */
+  const char *about;   /* a sentence about its value */
+  const char *table;   /* the name of its table in annotations; NULL: "celspan.NAME.fields" */
   const cs_kind *kind; /* NULL: a table of options, not a value */
   cs_list list;
   const char *item;          /* "object": one of them; NULL without a list */
   const char *item_written;  /* the type of an item in annotations */
-  const char *item_about;    /* what the items are, for people; NULL: nothing to say */
+  const char *item_about;    /* a description of the items, for people; NULL: none */
   const cs_field *fields;    /* ended by a row without a name */
   bool has_gaps;             /* ITEMS: places with nil or false are left out */
   const char *places;        /* TUPLE: "{x, y, w, h}" for messages; NULL: they have no names */

@@ -10,14 +10,14 @@
 
 #include <lua.h>
 
-/* What a list is called in messages. */
+/* The name of a list in messages. */
 typedef struct cs_numbers_name {
   const char *noun;  /* who asks for it, "circle" */
   const char *field; /* it is a field, "centre"; NULL: it is called as whole and item say */
   const char *whole; /* "the matrix", or with %d for `number` "point %d" */
   const char *item; /* number i of it: "value %d of it"; after `number`, "point %d: its value %d" */
   int number;       /* 0: it is not one of many */
-  /* What it must be, "{x, y}", by names of its places; NULL: "an array of 9 numbers". */
+  /* Its required form, "{x, y}", by names of its places; NULL: "an array of 9 numbers". */
   const char *shape;
 } cs_numbers_name;
 
@@ -28,7 +28,7 @@ int cs_numbers_read(lua_State *L, int index, const cs_numbers_name *name, int le
 /* Reads all `count` numbers of the table at index, whose length that is. */
 void cs_numbers_read_all(lua_State *L, int index, const cs_numbers_name *name, int count,
                          double *out);
-/* The number at index, which must be one and finite. subject: what it is called, "the angle". */
+/* The value at index, which must be a finite number. subject: its name in messages, "the angle". */
 double cs_numbers_check(lua_State *L, int index, const char *noun, const char *subject);
 
 /* Pushes a number as messages show it: a whole number has no point. */

@@ -59,7 +59,7 @@ static void put_list(packer *p) {
   }
 }
 
-/* The value on top of the stack. other: where the one of another type goes. */
+/* Packs the value on top of the stack. other: where a value of another type goes. */
 static void put_value(packer *p, int other) {
   switch (lua_type(p->L, -1)) {
   case LUA_TNIL:

@@ -10,7 +10,7 @@
  * keeps of one square. Values whose fields are only numbers, short lists of numbers and at most one
  * value of another type are packed; the others keep a table.
  *
- * INVARIANT: unpacking gives a table equal to the one that was packed.
+ * INVARIANT: unpacking gives a table equal to the packed one.
  */
 #pragma once
 

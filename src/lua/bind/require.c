@@ -5,7 +5,7 @@
 
 /* Tables in the registry. */
 #define OPENERS "celspan.openers" /* of the private modules, by name */
-#define LOADED "celspan.loaded"   /* those that were loaded */
+#define LOADED "celspan.loaded"   /* the modules that were loaded */
 #define GLOBALS "celspan.own"     /* of celspan's own chunks */
 
 void cs_require_give(lua_State *L, const luaL_Reg *modules) {

@@ -3,8 +3,9 @@
  *   of scripts    package.preload, package.loaded      celspan.keys, celspan.svg, ...
  *   private       tables of their own                  celspan.fields, celspan.core, ...
  *
- * INVARIANT: only celspan's own code finds a private module. Its chunks have globals of their
- * own: those of the state as they were at first, with a `require` that knows both kinds.
+ * INVARIANT: only celspan's own code finds a private module. Its chunks have globals of their own:
+ * the globals of the state as they were at first, with a `require` that finds both kinds of
+ * modules.
  */
 #pragma once
 
@@ -21,7 +22,7 @@ void cs_require_forget(lua_State *L);
 
 /* Pushes a module of either kind, which is loaded when it is first asked for. Raises. */
 void cs_require_module(lua_State *L, const char *name);
-/* The same for a script, which has no private ones. */
+/* The same for a script, which has no private modules. */
 void cs_require_public(lua_State *L, const char *name);
 
 /* A method that is written in Lua, and ended by one without a name. Errors are raised at the line
@@ -32,5 +33,5 @@ typedef struct cs_written {
 
 /* Puts such methods into the table on top of the stack. */
 void cs_require_methods(lua_State *L, const cs_written *methods);
-/* What they are; upvalue: which one, as light userdata. */
+/* The C function behind these methods; upvalue: which method, as light userdata. */
 int cs_require_call(lua_State *L);

@@ -29,7 +29,8 @@ int cs_suggest_distance(const char *a, const char *b) {
   return d[m][n];
 }
 
-/* Words that people bring along from elsewhere, where the one meant has other letters. */
+/* Words of other programs, each with the word used here, which no comparison of letters would
+ * find. */
 static const char *const others[][2] = {
     {"color", "texture"},
     {"colour", "texture"},

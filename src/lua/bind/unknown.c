@@ -52,7 +52,8 @@ static int get(lua_State *L, int table, const char *name, const char **called) {
   return type;
 }
 
-/* Appends the text on top of the stack to the one below it, behind a comma unless it is the first.
+/* Appends the text on top of the stack to the text below it, with a comma between unless it is the
+   first.
  */
 static void join(lua_State *L, int i) {
   lua_pushstring(L, i > 0 ? ", " : "");
@@ -60,8 +61,8 @@ static void join(lua_State *L, int i) {
   lua_concat(L, 3);
 }
 
-/* Pushes the values of the places, "10, 20", or with their names, "x = 10, y = 20". Those that the
- * table lacks are called by their names, or left out. */
+/* Pushes the values of the places, "10, 20", or with their names, "x = 10, y = 20". Values that the
+ * table lacks are replaced by their names, or left out. */
 static void push_values(lua_State *L, int table, const place_list *places, bool is_named) {
   int shown = 0;
   lua_pushliteral(L, "");
@@ -143,7 +144,7 @@ static void fail_parts(lua_State *L, const cs_noun *noun, int table, const char 
   }
 }
 
-/* What stands in the list has no name. */
+/* Items of the list have no name. */
 static void fail_list(lua_State *L, const cs_noun *noun, int table, const char *name) {
   static const char *const lists[] = {"list", "items", "children", "operands", "shapes"};
   if (noun->list == CS_LIST_NONE || !noun->item)
@@ -178,7 +179,7 @@ static void fail_choice(lua_State *L, const cs_noun *noun, int table, const char
   lua_pop(L, 1);
 }
 
-/* What a noun does not do, but something else does. */
+/* Names that a noun does not have, with a hint to use something else. */
 static void fail_elsewhere(lua_State *L, const cs_noun *noun, const char *name) {
   static const struct {
     const char *noun, *field, *hint;

@@ -1,4 +1,4 @@
-/* Names that a noun does not have: what was probably meant.
+/* For names that a noun does not have: the name that was probably meant.
  *
  *   circle: unknown field 'raduis'; did you mean 'radius'?
  *   rect: write rect{ 1, 2, 3, 4 }, not rect{ x = 1, y = 2, w = 3, h = 4 }

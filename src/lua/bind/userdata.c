@@ -199,7 +199,8 @@ static int compare(const void *a, const void *b) {
   return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-/* Of the names that can be read, those of methods are keys of the table at `methods`. */
+/* Raises the message that a name cannot be read, with the names that can. The names of methods are
+ * the keys of the table at `methods`. */
 static int fail_unknown(lua_State *L, const cs_noun *noun, int methods) {
   const char *names[MOST_NAMES];
   size_t count = 0;
@@ -281,7 +282,7 @@ static int index_value(lua_State *L) {
   return fail_unknown(L, value->noun, lua_upvalueindex(1));
 }
 
-/* Items of the list that a value was made from: what can be read as value[1], value[2], ... */
+/* Items of the list that a value was made from, which can be read as value[1], value[2], ... */
 static int count_items(lua_State *L) {
   const cs_kind *kind = lua_touserdata(L, lua_upvalueindex(1));
   const cs_userdata *value = luaL_checkudata(L, 1, kind->name);
@@ -328,7 +329,7 @@ static bool push_numbers(lua_State *L, int index) {
   return true;
 }
 
-/* Pushes "name = 3" or "name = {1, 2}" for a field that is a number or a few of them. */
+/* Pushes "name = 3" or "name = {1, 2}" for a field that is a number or a short list of numbers. */
 static bool push_field(lua_State *L, int fields, const char *name) {
   lua_pushstring(L, name);
   int type = lua_rawget(L, fields), value = lua_gettop(L);
@@ -343,7 +344,7 @@ static bool push_field(lua_State *L, int fields, const char *name) {
   return is_shown;
 }
 
-/* Pushes what the array part holds: "3 objects", or its numbers. */
+/* Pushes the contents of the array part: "3 objects", or its numbers. */
 static bool push_list(lua_State *L, const cs_userdata *value, int fields) {
   const cs_noun *noun = value->noun;
   int count = (int)(value->shown ? value->shown : (lua_Integer)lua_rawlen(L, fields));
@@ -352,7 +353,7 @@ static bool push_list(lua_State *L, const cs_userdata *value, int fields) {
   return noun->list == CS_LIST_ITEMS || (noun->list == CS_LIST_TUPLE && push_numbers(L, fields));
 }
 
-/* Appends the text on top of the stack to the one below it. */
+/* Appends the text on top of the stack to the text below it. */
 static void join(lua_State *L, int *count) {
   lua_pushstring(L, (*count)++ ? ", " : "{ ");
   lua_insert(L, -2);

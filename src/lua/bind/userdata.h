@@ -6,9 +6,9 @@
  *                                     values that were placed
  *
  * INVARIANT: a userdata is made closed (handle NULL), then filled; __gc releases it, and no script
- * can call it, because __metatable hides the metatables. Its user value
- * is a table that no script can reach: fields that are read come out as copies. Chains of an
- * operator share a table of operands, of which each shows the first ones.
+ * can call it, because __metatable hides the metatables. Its user value is a table that no script
+ * can reach: fields that are read come out as copies. The values of a chain of operators share a
+ * table of operands; each value shows the first few.
  */
 #pragma once
 
@@ -26,7 +26,7 @@ typedef struct cs_userdata {
   bool is_placed;  /* there is room for a placement */
 } cs_userdata;
 
-/* What was applied to an object or a cel since its constructor, for :with. */
+/* The transform and the fade that an object or a cel was given after its constructor, for :with. */
 typedef struct cs_placement {
   celspan_matrix matrix;
   double fade;
@@ -47,7 +47,7 @@ cs_userdata *cs_userdata_push(lua_State *L, const cs_noun *noun);
  * value 1: the field of another type, or, if packed->size is 0, the table of fields. */
 cs_userdata *cs_userdata_push_packed(lua_State *L, const cs_noun *noun, bool is_placed,
                                      const cs_packed *packed);
-/* What the kind says a value has of its own: kind->own_size bytes, zeros at first. */
+/* The value's own data, as its kind defines: kind->own_size bytes, zeros at first. */
 void *cs_userdata_own(const cs_userdata *value);
 /* No transform and no fade where it was not placed. */
 cs_placement cs_userdata_placement(const cs_userdata *value);
@@ -59,7 +59,7 @@ bool cs_userdata_has_field(const cs_noun *noun, const char *name);
 void cs_userdata_push_fields(lua_State *L, int index);
 /* Pushes the table of fields of the value at `index`, which must not be changed, or nil. */
 void cs_userdata_push_kept(lua_State *L, int index);
-/* Pushes a closed value with the same noun, fields, placement and own data of its kind as the one
+/* Pushes a closed value with the same noun, fields, placement and own data of its kind as the value
  * at index. is_placed: with room for a placement in any case. */
 cs_userdata *cs_userdata_push_like(lua_State *L, int index, bool is_placed);
 /* Pushes a copy of the table at `table`, with the tables in it, that has room for `more` fields. */
@@ -73,7 +73,7 @@ cs_userdata *cs_userdata_any(lua_State *L, int index);
 /* The `self` of a method; raises when it is not of this kind. */
 cs_userdata *cs_userdata_self(lua_State *L, const cs_kind *kind, const char *method);
 
-/* Pushes what the value at index is, for messages: "a circle", "number". */
+/* Pushes a word for the value at index, for messages: "a circle", "number". */
 const char *cs_userdata_type(lua_State *L, int index);
 /* Pushes the same, but of a string its beginning, in quotes and without control characters. */
 const char *cs_userdata_shown(lua_State *L, int index);

@@ -2,7 +2,7 @@
  *
  *   core.warn(text)  -->  the list in the state  -->  cs_warnings_push  -->  celspan check
  *
- * INVARIANT: nothing is kept, and nothing need be found out, in a state that nobody asks.
+ * INVARIANT: in a state that nobody asks for warnings, nothing is kept and nothing need be checked.
  */
 #pragma once
 

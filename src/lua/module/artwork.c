@@ -42,7 +42,7 @@ cs_artwork cs_artwork_of(const char *path) {
                                            : CS_ARTWORK_NONE;
 }
 
-/* It is looked for in the script's folder, which is its own. */
+/* The script's folder is the folder of the file, so the name alone is enough. */
 void cs_artwork_push_film(lua_State *L, const char *path, cs_artwork kind) {
   const char *slash = strrchr(path, '/');
   cs_require_module(L, "celspan.artwork");

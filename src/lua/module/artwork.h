@@ -1,4 +1,4 @@
-/* What a file can be, by its first bytes: artwork, which is shown as a film of one frame, or
+/* The kind of a file, by its first bytes: artwork, which is shown as a film of one frame, or
  * something else.
  *
  * INVARIANT: nothing here raises, except cs_artwork_push_film.
@@ -16,6 +16,6 @@ typedef enum cs_artwork {
 } cs_artwork;
 
 cs_artwork cs_artwork_of(const char *path);
-/* Pushes the film of an archive, a PSD or an SVG. What is not shown of it is passed to the global
- * function `print`. Raises. */
+/* Pushes the film of an archive, a PSD or an SVG. Notes about parts that are not shown are passed
+ * to the global function `print`. Raises. */
 void cs_artwork_push_film(lua_State *L, const char *path, cs_artwork kind);

@@ -18,8 +18,8 @@ void cs_pixels_open(lua_State *L);
 
 /* ---------------------------------------------------------------- built-in Lua modules */
 
-/* Puts those for scripts into package.preload, where the private ones refuse, and gives the private
- * ones to celspan's own (lua/bind/require.h). */
+/* Puts the modules for scripts into package.preload, where private modules refuse to load, and
+ * gives the private modules to celspan's own modules (lua/bind/require.h). */
 void cs_embedded_open(lua_State *L);
 /* The same, and celspan.core with them. */
 void cs_core_open(lua_State *L);
@@ -28,8 +28,8 @@ bool cs_embedded_has(const char *name);
 /* (name) -> the source of a module for scripts, for celspan.manual */
 int cs_embedded_source(lua_State *L);
 
-/* Lets `require` of a host find modules beside the file that requires them, after where it looks by
- * itself. Without the library package nothing is done, and so it is the second time. */
+/* Lets `require` of a host find modules beside the file that requires them, after the places where
+ * it looks by itself. Does nothing without the library package, and nothing when called again. */
 void cs_beside_open(lua_State *L);
 
 /* ---------------------------------------------------------------- parameters */
@@ -45,8 +45,8 @@ int cs_file_text(lua_State *L);
 int cs_folders_names(lua_State *L);
 /* (folder, name) -> path | nil: the file does not exist, or is outside the folder */
 int cs_folders_within(lua_State *L);
-/* (pattern [, list]) -> the numbers of the files of a pattern such as walk.####.png that exist, or
- * those of a list | nil, message */
+/* (pattern [, list]) -> the numbers of the existing files of a pattern such as walk.####.png, or of
+ * the files in a list that fit the pattern | nil, message */
 int cs_folders_frames(lua_State *L);
 /* (pattern, number) -> the name of a file | nil, message */
 int cs_folders_frame_name(lua_State *L);
@@ -127,7 +127,7 @@ int cs_relight_read(lua_State *L);
 /* ---------------------------------------------------------------- frames by their lights */
 
 /* The lights of a stack are a list with eight numbers for each: r, g, b, a of its front and of its
- * back. The first is that of the rostrum itself. */
+ * back. The first of these is the light of the rostrum itself. */
 
 /* (rostrum or film, options) -> stack, { cels = {{ name =, has_front = }, ...}, brightness =,
  * width =, height =, bytes = } */

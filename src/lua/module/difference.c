@@ -27,7 +27,7 @@ static int distance_of(const uint8_t *a, const uint8_t *b, int *channel) {
   return most;
 }
 
-/* out: codes of the first picture, which become those of the difference. */
+/* out: contains the codes of the first picture, and gets the codes of the difference. */
 static tally compare(uint8_t *out, const uint8_t *other, size_t pixels, double tolerance) {
   tally t = {0, 0, 0, 0};
   for (size_t i = 0; i < pixels; i++) {

@@ -1,11 +1,11 @@
-/* Drawings read from SVG: what lua/celspan/read/svg.lua is made of.
+/* Drawings read from SVG: the functions behind lua/celspan/read/svg.lua.
  *
  *   core.read_svg(path, fonts, space) -> drawing | nil, message
  *   fonts: nil, or a list of { family, file, where it was looked for in vain }
  *   drawing:object(), :size(), :parts(), :skipped(), :key(), :with(functions by name)
  *
- * INVARIANT: functions of the script run protected, so that what the core holds while it calls them
- * is released.
+ * INVARIANT: functions of the script run protected, so that memory of the core is released when
+ * they raise errors.
  */
 #include "lua/module/core.h"
 
@@ -155,7 +155,7 @@ static int skipped(lua_State *L) {
 typedef struct changer {
   lua_State *L;
   const char *name; /* the table keeps it alive */
-  int failure;      /* where on the stack what it raised is left; 0: nothing */
+  int failure;      /* the index of the error that it raised, left on the stack; 0: none */
 } changer;
 
 typedef struct call {

@@ -1,7 +1,7 @@
-/* What hosts that embed Lua see of it: celspan/lua.h.
+/* The functions for hosts that embed Lua: celspan/lua.h.
  *
- * INVARIANT: everything that may raise, and that is nearly every call into Lua, because it may need
- * memory, runs protected; the stack is left as it was.
+ * INVARIANT: everything that may raise errors runs protected, which is nearly every call into Lua,
+ * because a call may need memory; the stack does not change.
  */
 #include <lauxlib.h>
 

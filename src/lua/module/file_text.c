@@ -1,5 +1,5 @@
-/* The whole text of a file. What is not a regular file is refused at once: nobody waits for a pipe
- * to which nothing is written.
+/* The whole text of a file. Anything but a regular file is refused at once, so that nobody waits
+ * for a pipe to which nothing is written.
  */
 #include <lauxlib.h>
 #include <string.h>
@@ -36,7 +36,7 @@ static int fail_length(lua_State *L, const char *path, lua_Integer most) {
   return 2;
 }
 
-/* Pushes the text. size: of the file, as far as it is known: those of /proc have none. */
+/* Pushes the text. size: the size of the file if it is known; files in /proc have none. */
 static int read_text(lua_State *L, int file, const char *path, size_t size, lua_Integer most) {
   luaL_Buffer text;
   ssize_t got;

@@ -103,7 +103,7 @@ static int refuse_result(lua_State *L, const char *path) {
                     is_function ? ": return celspan.film { frame = ... }" : "");
 }
 
-/* What all verbs that take films say of a file that is no film. */
+/* The message of all verbs that take films about a file that is no film. */
 static int refuse_file(lua_State *L, const char *path) {
   return luaL_error(L,
                     "%s: is not a Lua script, a drawing or a painting, but a picture or other "

@@ -59,8 +59,8 @@ static int call_outside(lua_State *L) {
   return lua_pcall(L, lua_gettop(L) - 1, LUA_MULTRET, 0) == LUA_OK ? lua_gettop(L) : lua_error(L);
 }
 
-/* core.outside(function): the same function, but what it raises is raised when it has left the
- * stack, so that handlers of errors do not find it there. */
+/* core.outside(function): the same function, but its errors are raised after it has left the stack,
+ * so that error handlers do not find it there. */
 static int outside(lua_State *L) {
   luaL_checktype(L, 1, LUA_TFUNCTION);
   lua_settop(L, 1);

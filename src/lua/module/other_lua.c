@@ -1,10 +1,11 @@
-/* celspan.so in an interpreter that is not Lua 5.4: what Lua 5.1, LuaJIT or 5.3 does not have.
+/* celspan.so in an interpreter that is not Lua 5.4: functions that Lua 5.1, LuaJIT or 5.3 does not
+ * have.
  *
  * The module is not linked with Lua: the interpreter that loads it has the functions. An older one
  * lacks some, and the loader would end with "undefined symbol". So the module has functions of
- * these names too, which raise a sentence. The loader prefers those of the interpreter, if it has
- * them. luaopen_celspan calls luaL_checkversion before everything else: Lua 5.1 comes here by it,
- * and a later one says itself that the version is wrong.
+ * these names too, which raise a sentence. The loader prefers the functions of the interpreter, if
+ * it has them. luaopen_celspan calls luaL_checkversion before everything else: Lua 5.1 comes here
+ * by it, and a later one says itself that the version is wrong.
  *
  * lua.h is not included, because its declarations are of functions that return values. A static
  * library must not have this file: its functions would take the place of Lua's.

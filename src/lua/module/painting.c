@@ -63,7 +63,7 @@ static void push_notes(lua_State *L, const celspan_painting *painting) {
   lua_newtable(L);
   for (size_t i = 0; (text = celspan_painting_note_at(painting, i, &layer)); i++) {
     if (painting->notes[i].is_own)
-      continue; /* it is drawn by what composes the layers */
+      continue; /* the code that composes the layers draws it */
     lua_createtable(L, 0, 2);
     cs_put_text(L, "what", text);
     if (layer < count)

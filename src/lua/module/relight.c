@@ -1,4 +1,4 @@
-/* Light taken off pictures, for celspan.relight. */
+/* Light removed from pictures, for celspan.relight. */
 #include <lauxlib.h>
 
 #include "lua/bind/bare.h"
@@ -13,7 +13,7 @@
 
 /* ---------------------------------------------------------------- values */
 
-/* What was taken off its light cannot be made again from fields. */
+/* The light that was removed from it cannot be computed again from fields. */
 static const cs_noun noun = {
     .name = "relit", .kind = &cs_kind_texture, .fields = cs_bare_fields, .create = cs_bare_refuse};
 

@@ -19,8 +19,8 @@ static celspan_rows **push_rows(lua_State *L) {
   return cs_userdata_push_holder(L, ROWS, sizeof(celspan_rows *), finish_rows);
 }
 
-/* The colours of a span as numbers 1, 2, ...: one RGBA of a single span, those of the first and
- * last pixel of a gradient, every pixel of an array. */
+/* The colours of a span as numbers 1, 2, ...: one RGBA for a single span, the RGBA of the first and
+ * of the last pixel for a gradient, and the RGBA of every pixel for an array. */
 static void set_colours(lua_State *L, const celspan_span *span) {
   int32_t count = span->kind == CELSPAN_SPAN_SINGLE     ? 1
                   : span->kind == CELSPAN_SPAN_GRADIENT ? 2

@@ -44,7 +44,7 @@ static void push_cel(lua_State *L, const celspan_cel *cel) {
   cs_put_flag(L, "has_front", cel->front.is_given);
 }
 
-/* What scripts need to know of a stack. */
+/* The values of a stack for scripts. */
 static void push_facts(lua_State *L, const celspan_rostrum *rostrum, celspan_space space,
                        const celspan_stack *stack) {
   int32_t width, height;

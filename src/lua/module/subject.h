@@ -7,9 +7,9 @@
 
 #include "lua/nouns/options.h"
 
-/* Reads argument 2, the options of the noun, and argument 1 as the exposures of options->desc. Of a
- * film they are those of the frame options->frame, or of the first frame, and sizes that were not
- * given are those of the film. Errors: those of the frame function, with the sentence in the
- * context. Raises an error for wrong arguments. */
+/* Reads argument 2, the options of the noun, and argument 1 as the exposures of options->desc. For
+ * a film, gives the exposures of the frame options->frame, or of the first frame; sizes that were
+ * not given are those of the film. Errors: the errors of the frame function, with the message in
+ * the context. Raises an error for wrong arguments. */
 CELSPAN_CHECKED celspan_status cs_subject_read(lua_State *L, const cs_noun *noun,
                                                cs_options *options);

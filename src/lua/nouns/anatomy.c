@@ -1,4 +1,4 @@
-/* What an object is made of, for celspan.morph: the tree of an object as tables, and the way back.
+/* The structure of an object, for celspan.morph: the tree of an object as tables, and back.
  *
  * A node: name, fade, and
  *   kind "boolean"  op, object, and the nodes of its operands as a list
@@ -126,7 +126,7 @@ static bool is_closed(const cs_stroke *stroke, size_t contour) {
   return false;
 }
 
-/* Whether it is drawn along its whole line with one width. */
+/* Whether the stroke is drawn along its whole line with one width. */
 static bool is_even(const cs_stroke *stroke) {
   if (stroke->dashes.place_count > 0 || stroke->part_count != stroke->line.contour_count)
     return false;

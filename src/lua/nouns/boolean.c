@@ -68,9 +68,10 @@ static cs_userdata *operand(lua_State *L, int index, const char *sign) {
   return value;
 }
 
-/* Pushes the operands of a chain as they are read, with the right one of the stack behind those of
- * the left: the same table where the left one shows all of it, which a table does once. Its room
- * doubles like the core's, so that a beginning that lives on holds few of what others added. */
+/* Pushes the operands of a chain: those of the left value, then the right value. If the left value
+ * shows all of its table, the table is extended and shared, which can happen only once for each
+ * table. Its room doubles like the core's, so that a value that uses only the beginning keeps few
+ * operands of other values alive. */
 static void push_operands(lua_State *L, lua_Integer count) {
   if (count == 1) {
     lua_createtable(L, 2, 0);
@@ -88,7 +89,7 @@ static void push_operands(lua_State *L, lua_Integer count) {
   lua_rawseti(L, -2, count + 1);
 }
 
-/* Makes what cs_construct_value would make of a table of all operands, but without visiting the
+/* Makes the same value as cs_construct_value for a table of all operands, but without visiting the
  * earlier operands of a chain such as a | b | c. */
 static int operate(lua_State *L, const cs_noun *noun, celspan_operator op, const char *sign) {
   const cs_userdata *left = operand(L, 1, sign);

@@ -76,8 +76,7 @@ int cs_derived_paint(lua_State *L) {
 
 /* ---------------------------------------------------------------- warp */
 
-/* The map is the function at `function`; what it raised last, with its outcome, is left on the
- * stack. */
+/* The map is the function at `function`; its last error, and its outcome, are left on the stack. */
 typedef struct mapping {
   lua_State *L;
   int function;
@@ -91,7 +90,7 @@ static bool read_point(lua_State *L, celspan_point *to) {
   return is_good && cs_number_is_sane(to->x) && cs_number_is_sane(to->y);
 }
 
-/* Pushes a number as messages show it, or what another value is. */
+/* Pushes a number as messages show it, or a word for any other value. */
 static const char *push_result(lua_State *L, int index) {
   lua_Number number = lua_tonumber(L, index);
   if (number != number)
@@ -100,7 +99,7 @@ static const char *push_result(lua_State *L, int index) {
                                            : cs_userdata_type(L, index);
 }
 
-/* Pushes what is wrong with the two values on top of the stack. */
+/* Pushes a message about the two values on top of the stack, which are wrong. */
 static void push_refusal(lua_State *L, int function, celspan_point from) {
   int first = lua_gettop(L) - 1;
   const char *x = push_result(L, first), *y = push_result(L, first + 1);

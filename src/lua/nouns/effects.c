@@ -1,5 +1,5 @@
-/* object:blur, object:shadow, object:glow and object:outline; all but the first also of cels. What
- * they make is a value with the object as its list and the options as its fields. */
+/* object:blur, object:shadow, object:glow and object:outline; all but the first also of cels. Their
+ * result is a value with the object as its list and the options as its fields. */
 #include "lua/bind/caller.h"
 #include "lua/bind/construct.h"
 #include "lua/bind/fields.h"
@@ -132,7 +132,7 @@ int cs_nouns_blur(lua_State *L) {
   return 1;
 }
 
-/* The cel at index 1 with all its objects as one, which has the effect. */
+/* The cel at index 1, with all its objects joined into one object that has the effect. */
 static int change_cel(lua_State *L, const cs_noun *noun) {
   cs_userdata_push_fields(L, 1);
   lua_newtable(L);

@@ -99,7 +99,7 @@ static void check_objects(lua_State *L) {
                       cs_userdata_type(L, i));
 }
 
-/* The options, with the two objects as the list of the value. */
+/* The fields of the value: the options, and the two objects as its list. */
 int cs_nouns_matte(lua_State *L) {
   lua_settop(L, 3);
   check_objects(L);

@@ -1,4 +1,4 @@
-/* What can be done with values: the functions of the core, by kind. */
+/* The operations on values: the functions of the core, by kind. */
 #include "lua/bind/construct.h"
 #include "lua/bind/named.h"
 #include "lua/bind/require.h"

@@ -36,8 +36,8 @@ static bool has_field(lua_State *L, const char *name) {
   return found;
 }
 
-/* Whether all keys of the table on top of the stack are names, except those of colours: for these,
- * the error says how to write the numbers. */
+/* Whether all keys of the table on top of the stack are names, and none is that of a colour: for
+ * colours, the error says how to write the numbers. */
 static bool has_names_alone(lua_State *L) {
   return cs_list_length(L, -1) == 0 && !has_field(L, "r") && !has_field(L, "g") &&
          !has_field(L, "b") && (lua_pushnil(L), lua_next(L, -2)) && (lua_pop(L, 2), true);

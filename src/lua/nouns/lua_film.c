@@ -26,7 +26,7 @@ enum { SOUND_FOLDER = 2, MARKS = 3 };
 
 /* ---------------------------------------------------------------- the value */
 
-/* The fields as they are checked; the value keeps its table. */
+/* The fields while they are checked; the value keeps its table. */
 typedef struct film_form {
   int32_t size[2];
   double fps, duration, sound_offset;
@@ -59,8 +59,8 @@ static void check_film(const cs_form *form, cs_userdata *value) {
                  cs_userdata_type(L, -1));
 }
 
-/* Adds what was left out: the size, and the number of frames from the duration or the other way
- * round.
+/* Adds the fields that were left out: the size, and the number of frames from the duration, or the
+ * duration from the number of frames.
  */
 static void complete(lua_State *L, int table) {
   if (lua_getfield(L, table, "size") == LUA_TNIL) {
@@ -115,7 +115,7 @@ const cs_noun cs_noun_film = {.name = "film",
                               .create = check_film,
                               .complete = complete};
 
-/* film:at(number): what the frame function returns, for tests and tools. */
+/* film:at(number): the result of the frame function, for tests and tools. */
 static int film_at(lua_State *L) {
   cs_userdata_self(L, &cs_kind_film, "at");
   cs_film_info film;
@@ -336,7 +336,7 @@ static int call_frame(lua_State *L) {
   return 1;
 }
 
-/* Pushes the exposures, or the message; the answer is that of lua_pcall. film: an absolute index.
+/* Pushes the exposures, or the message; returns the result of lua_pcall. film: an absolute index.
  */
 static int protected_frame(lua_State *L, int film, int64_t number) {
   cs_film_info info;
@@ -362,7 +362,7 @@ void cs_lua_film_push_frame(lua_State *L, int film, int64_t number) {
     lua_error(L);
 }
 
-/* One frame that is asked for from outside of Lua. */
+/* A request for one frame from outside of Lua. */
 typedef struct request {
   int64_t number;
   cs_film_frame frame;

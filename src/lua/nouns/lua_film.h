@@ -23,9 +23,9 @@ CELSPAN_CHECKED celspan_status cs_lua_film_build(lua_State *L, int film, int64_t
 
 /* Pushes a film of one frame around the rostrum at index. Raises. */
 void cs_lua_film_push_still(lua_State *L, int rostrum, int32_t width, int32_t height);
-/* Pushes the film at index, or for a rostrum a film of one frame, 1920 x 1080, 24 a second: what a
- * script may return. false, and nothing pushed, for anything else. Raises. */
+/* Pushes the film of a script's result at index: a film, or for a rostrum a film of one frame, 1920
+ * x 1080, 24 a second. false, and nothing pushed, for anything else. Raises. */
 bool cs_lua_film_push(lua_State *L, int index);
-/* Calls the frame function for a frame and pushes what it returns, checked to be exposures; raises
- * with the frame's number in the message. */
+/* Calls the frame function for a frame and pushes its result, checked to be exposures; raises with
+ * the frame's number in the message. */
 void cs_lua_film_push_frame(lua_State *L, int film, int64_t number);

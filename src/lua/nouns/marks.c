@@ -7,7 +7,7 @@
 
 enum { MOST_NAME = 255, MOST_MARKS = 100000 };
 
-/* `--frames` must not mistake it for a number or a time, and must find its end. */
+/* `--frames` must not read the name as a number or a time, and must find its end. */
 static bool is_name(const char *name, size_t length) {
   if (length == 0 || length > MOST_NAME || strlen(name) != length || strpbrk(name, ",:"))
     return false;

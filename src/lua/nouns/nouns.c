@@ -43,7 +43,7 @@ const cs_noun *const cs_nouns_tables[] = {&cs_noun_stroke_style,
 
 /* ---------------------------------------------------------------- descriptions */
 
-/* The type of a field in annotations, by cs_type; that of a choice is made of its words. */
+/* The type of a field in annotations, by cs_type; the type of a choice is made of its words. */
 static const char *const written[] = {NULL,     "number",   "integer",   "boolean",        NULL,
                                       "string", "number[]", "integer[]", "celspan.surface"};
 

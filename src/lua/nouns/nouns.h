@@ -1,7 +1,7 @@
-/* All nouns, and what the files of this folder know of each other.
+/* All nouns, and the functions that the files of this folder share.
  *
- * INVARIANT: every noun of which scripts make values, and every table that they fill in, is in one
- * of the two lists, so that it is in the annotations and in `celspan help lua`.
+ * INVARIANT: every noun whose values scripts make, and every table that they fill in, is in one of
+ * the two lists, so that it is in the annotations and in `celspan help lua`.
  */
 #pragma once
 
@@ -15,13 +15,13 @@ extern const cs_noun cs_noun_gradient, cs_noun_linear, cs_noun_radial, cs_noun_p
     cs_noun_blur, cs_noun_shadow, cs_noun_glow, cs_noun_outline, cs_noun_light, cs_noun_defocus,
     cs_noun_grade, cs_noun_cel, cs_noun_camera, cs_noun_frame, cs_noun_sound;
 
-/* Those with a constructor, celspan.circle, and tables: of values without one, of options, and in
- * fields of others. Ended by NULL. */
+/* The nouns with a constructor, such as celspan.circle, and the tables: of values without a
+ * constructor, of options, and in fields of other nouns. Ended by NULL. */
 extern const cs_noun *const cs_nouns_made[], *const cs_nouns_tables[];
 /* Pushes all of them by name, with the rows of their fields, for the Lua module celspan.manual. */
 int cs_nouns_push(lua_State *L);
 
-/* The methods of cels and rostrums; those of objects. */
+/* The methods of cels and rostrums; the methods of objects. */
 extern const luaL_Reg cs_placed_methods[], cs_placed_object_methods[];
 extern const luaL_Reg cs_boolean_operators[];
 
@@ -34,12 +34,12 @@ int cs_text_metrics(lua_State *L);
 
 /* object:paint(texture): its shape filled with the texture, with its own fade and name. */
 int cs_derived_paint(lua_State *L);
-/* What object:warp{...} is made of: (object, function of x and y, the tolerance, the most pieces;
- * 0 for either: as it is without) -> object. */
+/* The function behind object:warp{...}: (object, function of x and y, the tolerance, the most
+ * pieces; 0 for either: as it is without) -> object. */
 int cs_derived_warp(lua_State *L);
 
-/* What celspan.morph is made of (anatomy.c): (object, whether strokes are shapes) -> its tree as
- * tables; (object, { operands }) -> a boolean like it; (texture, { 9 numbers }) -> the texture,
+/* The functions behind celspan.morph (anatomy.c): (object, whether strokes are shapes) -> its tree
+ * as tables; (object, { operands }) -> a boolean like it; (texture, { 9 numbers }) -> the texture,
  * moved. */
 int cs_anatomy_of(lua_State *L);
 int cs_anatomy_rebuild(lua_State *L);

@@ -65,7 +65,7 @@ const cs_noun cs_noun_filter = {
     .table = "celspan.filter",
     .fields = kernel_fields};
 
-/* { kernel =, radius =, rows = } on top of the stack; what it pushes is left there. */
+/* { kernel =, radius =, rows = } on top of the stack; pushed values are left there. */
 static void read_kernel(const cs_form *outer, celspan_filter_desc *filter) {
   lua_State *L = outer->L;
   int table = lua_gettop(L);

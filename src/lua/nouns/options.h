@@ -4,8 +4,8 @@
 #include "frames/film/film.h"
 #include "lua/bind/fields.h"
 
-/* The options of all functions, as they are read; a function uses those that its noun has. The desc
- * points into this struct and to the stack. */
+/* The options of all functions, while they are read; a function uses the options of its noun. The
+ * desc points into this struct and to the stack. */
 typedef struct cs_options {
   cs_form form; /* of the table */
   celspan_frame_desc desc;
@@ -24,7 +24,7 @@ extern const cs_noun cs_noun_filter, cs_noun_render, cs_noun_pixels, cs_noun_sta
 /* Reads the table at index, or a new empty one, as options of the noun. It stays on the stack. The
  * default size is 1920 x 1080. */
 void cs_options_read(lua_State *L, const cs_noun *noun, int index, cs_options *out);
-/* Sizes that were not given become those of the film. */
+/* Sizes that were not given are taken from the film. */
 void cs_options_use_film(cs_options *options, const cs_film_info *film);
 /* Reads the field `antialias`; false if it is missing. A kernel function is called here, and its
  * values are scratch memory left on the stack: *filter points to them. */

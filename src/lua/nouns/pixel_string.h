@@ -7,7 +7,7 @@
 
 extern const char *const cs_pixel_string_formats[], *const cs_pixel_string_alphas[];
 
-/* The fields that go with `pixels`, as they are read. */
+/* The fields that go with `pixels`, while they are read. */
 typedef struct cs_pixel_string {
   bool has_size, has_alpha;
   int32_t size[2];

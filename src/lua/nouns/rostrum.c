@@ -35,7 +35,7 @@ static void read_camera(const cs_form *form, celspan_rostrum_desc *desc) {
 static celspan_cel **read_cels(const cs_form *form, int count) {
   lua_State *L = form->L;
   celspan_cel **cels = cs_form_scratch(L, (size_t)count, sizeof *cels);
-  lua_createtable(L, count, 0); /* holds them, as cs_shape_items does objects */
+  lua_createtable(L, count, 0); /* keeps the cels, as cs_shape_items keeps objects */
   int kept = lua_gettop(L);
   for (int i = 0; i < count; i++) {
     lua_rawgeti(L, form->table, i + 1);

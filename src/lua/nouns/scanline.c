@@ -63,8 +63,8 @@ static celspan_paint *read_paints(const cs_form *form, int i, size_t *count) {
   return paints;
 }
 
-/* The argument is a request, as light userdata. Runs protected; raises what is wrong with the
- * function or its result. */
+/* The argument is a request, as light userdata. Runs protected; raises an error where the function
+ * or its result is wrong. */
 static int call(lua_State *L) {
   request *r = lua_touserdata(L, 1);
   luaL_checkstack(L, 20, "scanline");
@@ -107,7 +107,7 @@ static void push_message(lua_State *L, const procedure *p) {
   }
 }
 
-/* As call; what is raised has a position. */
+/* As call; errors have a position. */
 static int call_placed(lua_State *L) {
   const request *r = lua_touserdata(L, 1);
   cs_lua_error_push_handler(L, "", call);

@@ -109,7 +109,7 @@ const cs_noun cs_noun_stroke = {
     .fields = fields,
     .create = create};
 
-/* Places and fades the stroke on top of the stack as another value is. */
+/* Gives the stroke on top of the stack the place and the fade of another value. */
 static void place_like(lua_State *L, const cs_userdata *like) {
   if (!like->is_placed)
     return;

@@ -34,7 +34,7 @@ static void read_string(const cs_form *form, celspan_text_desc *desc) {
   desc->text = lua_tolstring(L, -1, &desc->text_size); /* of a number: a string of its own */
 }
 
-/* The font on top of the stack; what finding it pushes is left above it. */
+/* The font on top of the stack; values pushed by the search are left above it. */
 static celspan_font read_font(const cs_form *form) {
   lua_State *L = form->L;
   if (lua_type(L, -1) != LUA_TSTRING)
@@ -220,7 +220,7 @@ static celspan_glyphs **push_letters(const cs_form *form, const celspan_text_des
   return holder;
 }
 
-/* One of the letters, made again by :with. */
+/* Makes one of the letters again, for :with. */
 static void create_glyph(const cs_form *form, cs_userdata *value) {
   text_form read = read_text(form);
   int index = read.index;
@@ -240,7 +240,7 @@ const cs_noun cs_noun_glyph = {.name = "glyph",
                                .create = create_glyph,
                                STRING};
 
-/* Pushes a letter's object, whose fields are those at index `fields` and its place. */
+/* Pushes a letter's object. Its fields are the fields at index `fields`, and its place. */
 static void push_object(lua_State *L, int fields, const celspan_glyph *glyph, lua_Integer index) {
   cs_userdata *value = cs_userdata_push(L, &cs_noun_glyph);
   value->handle = celspan_object_ref(glyph->object);

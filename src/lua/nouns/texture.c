@@ -38,7 +38,7 @@ static celspan_stop *read_stops(const cs_form *form, int count) {
   return stops;
 }
 
-/* The fields of a gradient along a line or around a point, as they are read. */
+/* The fields of a gradient along a line or around a point, while they are read. */
 typedef struct gradient {
   celspan_point from, to; /* or centre, focus */
   double radius;

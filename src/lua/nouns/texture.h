@@ -3,7 +3,7 @@
 
 #include "lua/nouns/pixel_string.h"
 
-/* The fields as they are read. */
+/* The fields, while they are read. */
 typedef struct cs_texture_picture {
   celspan_image_desc image; /* celspan.picture uses its picture alone */
   const char *file;         /* NULL: there are pixels */

@@ -22,7 +22,7 @@ enum {
 #define SECOND INT64_C(1000000000)
 #define GRACE (SECOND) /* after the limit of time, before the process is ended */
 
-/* 0: the clock is that of a thread that has ended. */
+/* 0: the thread of the clock has ended. */
 static int64_t read_clock(clockid_t clock) {
   struct timespec t;
   return clock_gettime(clock, &t) == 0 ? (int64_t)t.tv_sec * SECOND + t.tv_nsec : 0;
@@ -402,7 +402,7 @@ void cs_guard_pass(lua_State *L, int outcome) {
   cs_guard *guard = cs_guard_of(L);
   const char *sentence = guard ? cs_guard_limit(guard, outcome, lua_tostring(L, -1)) : NULL;
   if (!sentence && guard && cs_lua_error_is_memory(L, outcome))
-    lua_error(L); /* of the system: what a script makes must not depend on it */
+    lua_error(L); /* of the system: the results of a script must not depend on it */
   if (!sentence)
     return;
   set_hook(guard, L);

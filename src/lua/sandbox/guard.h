@@ -12,9 +12,9 @@
  * hidden an exceeded limit, the call fails at its end (cs_lua_error_settle).
  *
  * Steps are instructions of the Lua virtual machine, and the charges of C functions for their work;
- * they do not depend on the computer. They are counted per load or frame. Time is measured per
- * outermost call: that of the processor, so that a script on a busy machine does not fail, and ten
- * times as much by the clock, so that one that waits ends, too.
+ * they do not depend on the computer. They are counted per load or frame. Time is measured for each
+ * outermost call: processor time, so that a script on a busy machine does not fail, and ten times
+ * as much time by the clock, so that a script that waits ends, too.
  */
 #pragma once
 
@@ -37,8 +37,8 @@ typedef struct cs_guard {
   void *below_user;
   void (*ended)(struct cs_guard *guard); /* called when the last block of the state was freed */
   bool has_options;                      /* sentences name options of the program */
-  size_t bytes, told; /* of Lua; of those the memory of the context knows, within PIECE bytes */
-  int depth;          /* of calls into the script */
+  size_t bytes, told;      /* of Lua; `told`: known to the memory of the context, within PIECE */
+  int depth;               /* of calls into the script */
   cs_account_kind account; /* of the thread before the outermost call */
   bool is_verb;            /* the outermost call is of a verb */
   bool is_refused;         /* memory, to Lua, in this call */
@@ -48,7 +48,7 @@ typedef struct cs_guard {
   char reason[256];        /* why it was refused last, where that limit was not; "" */
   uint64_t steps, checked; /* in this frame; at the last reading of the clock */
   size_t printed;
-  bool is_silent;              /* what is printed is counted, and not shown */
+  bool is_silent;              /* printed text is counted, and not shown */
   char tripped[CS_ERROR_SIZE]; /* the sentence of the exceeded limit; "": none */
   /* The beginning of the call, in nanoseconds of the monotonic clock, 0: nothing is measured; and
    * of the processor clock of its thread. Written by that thread, read by the watchdog, too. */
@@ -65,7 +65,7 @@ void cs_guard_init(cs_guard *guard, const celspan_lua_limits *limits);
 /* The state must have been closed, or never attached. */
 void cs_guard_finish(cs_guard *guard);
 /* Attaches the main thread of a state, and all coroutines that are created later. From now on the
- * guard is the allocator of the state, in front of the one that it had. */
+ * guard is the allocator of the state, in front of the state's previous allocator. */
 void cs_guard_attach(cs_guard *guard, lua_State *L, celspan_context *context);
 /* The context ends before the state does. */
 void cs_guard_detach(cs_guard *guard);
@@ -87,8 +87,9 @@ void cs_guard_charge(lua_State *L, uint64_t steps);
 /* Counts printed bytes. Raises an error when a limit is exceeded. Whether they are shown. */
 bool cs_guard_print(lua_State *L, size_t bytes);
 
-/* There was no memory, as the sentence says: in a call into the script raises it, or that of the
- * limit of memory where that was the reason. Like an exceeded limit, it ends the outermost call. */
+/* There was no memory, as the message says. In a call into the script, raises this message, or the
+ * message about the limit of memory where the limit was the reason. Like an exceeded limit, it ends
+ * the outermost call. */
 void cs_guard_starve(lua_State *L, const char *sentence);
 
 /* The sentence of the limit that ended a call with this result of lua_pcall and this message (NULL:

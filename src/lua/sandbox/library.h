@@ -16,7 +16,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Copies fields of the table at `from` into the one on top; names: NULL after the last. */
+/* Copies fields of the table at `from` into the table on top; names: ended by NULL. */
 void cs_library_copy_fields(lua_State *L, int from, const char *const *names);
 /* Pushes a table with the functions `same` of Lua's library `name`, and with `own`. */
 void cs_library_push_part(lua_State *L, const char *name, const char *const *same,
@@ -40,8 +40,8 @@ void cs_library_push_require(lua_State *L, int globals, const char *search);
 
 /* Pushes the text of the value at index, without addresses. May call the script's __tostring. */
 const char *cs_library_push_text(lua_State *L, int index);
-/* Writes the text on top of the stack to standard error; to a terminal what it may show of it
- * (base/visible.h). */
+/* Writes the text on top of the stack to standard error; to a terminal, only characters that it may
+ * show (base/visible.h). */
 void cs_library_print(lua_State *L);
 /* Restarts math.random with a seed. */
 void cs_library_seed(lua_State *L, uint64_t seed);

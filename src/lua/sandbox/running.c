@@ -74,7 +74,7 @@ static int load(lua_State *L) {
   return 1;
 }
 
-/* Replaces the text on top of the stack by what a terminal may show of it. */
+/* Replaces the text on top of the stack by a text that a terminal may show. */
 static void make_visible(lua_State *L) {
   size_t size;
   const char *text = lua_tolstring(L, -1, &size);

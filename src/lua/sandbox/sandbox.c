@@ -267,7 +267,7 @@ static void add_absent(lua_State *L) {
   lua_call(L, 2, 0);
 }
 
-/* Makes the globals of the script those of the state. */
+/* Makes the script's globals the globals of the state. */
 static void open_globals(lua_State *L, const char *search) {
   static const char *const same[] = {"assert",   "error",  "ipairs",   "rawequal",
                                      "rawget",   "rawlen", "rawset",   "select",

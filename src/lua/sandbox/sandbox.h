@@ -16,11 +16,12 @@ typedef struct cs_sandbox {
   cs_guard guard;
   cs_roots roots;
   cs_host_rules rules;
-  cs_memory *memory; /* counted; that of the context */
+  cs_memory *memory; /* counted; the memory of the context */
 } cs_sandbox;
 
-/* Adds the folders that scripts may read under these limits: their own, and those of templates such
- * as "/lib/?.lua". false: there are too many, or, with ENOMEM in errno, no memory. */
+/* Adds the folders that scripts may read under these limits: the folders of the limits, and the
+ * folders of templates such as "/lib/?.lua". false: there are too many, or, with ENOMEM in errno,
+ * no memory. */
 bool cs_sandbox_add_roots(const celspan_lua_limits *limits, cs_roots *roots);
 
 /* Confines the state, in which celspan is open. is_trusted: by limits only. The state owns the

@@ -1,4 +1,5 @@
-/* string: Lua's functions where their time is bounded; those with patterns are defined here. */
+/* string: Lua's functions where their time is bounded; the functions with patterns are defined
+ * here. */
 #include <lauxlib.h>
 #include <limits.h>
 #include <string.h>
@@ -29,8 +30,8 @@ static cs_match match_of(lua_State *L, const char *subject, size_t length, const
                     .pattern_end = pattern + pattern_length};
 }
 
-/* What was looked at is charged, so a loop over the matches in a text takes steps in proportion to
- * the text. A single search is short enough to be charged afterwards. */
+/* The characters examined are charged, so a loop over the matches in a text takes steps in
+ * proportion to the text. A single search is short enough to be charged afterwards. */
 static int find_plain(lua_State *L, const char *subject, size_t length, size_t from,
                       const char *pattern, size_t size) {
   const char *start = subject + from;
@@ -279,7 +280,8 @@ static int charged(lua_State *L) {
   return lua_gettop(L);
 }
 
-/* Sets functions of the table on top around those of the same name below it. */
+/* Sets functions in the table on top. Each wraps the function of the same name in the table below
+ * it. */
 static void wrap(lua_State *L, const char *const *names, lua_CFunction function) {
   for (; *names; names++) {
     lua_getfield(L, -2, *names);

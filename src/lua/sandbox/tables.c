@@ -1,5 +1,5 @@
-/* table: lengths are those of the table itself, the same in every process, and ranges are checked
- * before the work begins. */
+/* table: lengths depend on the table's content alone, the same in every process, and ranges are
+ * checked before the work begins. */
 #include <lauxlib.h>
 
 #include "lua/bind/list.h"
@@ -41,7 +41,7 @@ static int call(lua_State *L) {
   return lua_gettop(L);
 }
 
-/* As Lua's, of which the length would be another one. */
+/* As Lua's insert, which would use another length. */
 static int insert(lua_State *L) {
   lua_Integer end = check_length(L, 1, "insert", EXACT) + 1, at = end;
   int count = lua_gettop(L);
@@ -108,7 +108,7 @@ static int unpack(lua_State *L) {
 
 /* ---------------------------------------------------------------- sorting */
 
-/* Whether the item at index a comes before the one at b. */
+/* Whether the item at index a comes before the item at b. */
 static bool comes_before(lua_State *L, int a, int b) {
   if (lua_isnil(L, 2))
     return lua_compare(L, a, b, LUA_OPLT);
@@ -121,7 +121,7 @@ static bool comes_before(lua_State *L, int a, int b) {
   return is_so;
 }
 
-/* Merges [low, middle) and [middle, high) of the table at `from` into the one at `to`. */
+/* Merges [low, middle) and [middle, high) of the table at `from` into the table at `to`. */
 static void merge(lua_State *L, const lua_Integer range[3], int from, int to) {
   lua_Integer a = range[0], b = range[1], out = range[0];
   while (a < range[1] && b < range[2]) {

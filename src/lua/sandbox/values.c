@@ -157,7 +157,7 @@ static int check_rank(lua_State *L, int index, const char *name) {
   return rank;
 }
 
-/* Whether the key at index a comes before the one at b. */
+/* Whether the key at index a comes before the key at b. */
 static bool is_before(lua_State *L, int a, int b, const char *name) {
   int one = check_rank(L, a, name), other = check_rank(L, b, name);
   if (one != other)
