@@ -244,7 +244,7 @@ const cs_argument cs_argument_tint = {.allowed = "a colour like #336699", .read 
 
 /* ---------------------------------------------------------------- a script's rights */
 
-/* A number of 0 or more with one of the letters behind it, each 1024 times the one before; up to
+/* A number of 0 or more with one of the letters behind it, each 1024 times the previous one; up to
  * `end`. */
 static bool read_amount(const char *text, const char *end, const char *letters, double *out) {
   char *after = NULL;
@@ -271,7 +271,7 @@ static bool read_bytes(const cs_argument *kind, const char *text, void *field) {
 const cs_argument cs_argument_bytes = {
     .allowed = "a size of at least 1M, such as 512M or 4G", .read = read_bytes, .least = 1 << 20};
 
-/* count: of the limits that are known, from the first one on. */
+/* count: how many of the known limits may be given, from the first one on. */
 static bool read_limit(const char *text, const char *end, size_t count, cs_given_limits *out) {
   static const struct limit {
     const char *name, *letters;

@@ -1,4 +1,4 @@
-/* What the values of options may be, and reading them: from text into a field of C.
+/* The kinds of values of options, and reading them: from text into a field of C.
  *
  * A reader changes its field only when it answers true. Numbers are read in the C locale, which
  * main() sets for its thread.
@@ -46,7 +46,7 @@ typedef enum cs_limit {
   CS_LIMIT_COUNT
 } cs_limit;
 
-/* Those that are not given have their defaults. */
+/* Limits that are not given have their defaults. */
 typedef struct cs_given_limits {
   bool has[CS_LIMIT_COUNT];
   double values[CS_LIMIT_COUNT]; /* whole numbers, except times */
@@ -68,7 +68,7 @@ bool cs_argument_read(const cs_argument *kind, const char *text, void *field);
 extern const cs_argument cs_argument_text, cs_argument_file, cs_argument_folder,
     cs_argument_file_or_folder, cs_argument_frames, cs_argument_format, cs_argument_cel,
     cs_argument_pattern, cs_argument_picture, cs_argument_setting;
-/* const char *: what it means is the verb's to find out */
+/* const char *: the verb finds out its meaning */
 extern const cs_argument cs_argument_colours, cs_argument_lamp, cs_argument_light;
 /* int32_t */
 extern const cs_argument cs_argument_integer, cs_argument_every, cs_argument_mebibytes,

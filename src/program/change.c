@@ -42,7 +42,7 @@ static celspan_light back_of(const cs_frame_change *change, const celspan_rostru
                          own.b + through * ground[2], 1};
 }
 
-/* A back light with a shape, as that of an empty cel. */
+/* A back light with a shape, as the back light of an empty cel. */
 static celspan_status make_lamp(celspan_context *context, const cs_light *light,
                                 celspan_cel **out) {
   celspan_cel_desc desc = CELSPAN_CEL_DESC;

@@ -32,7 +32,7 @@ cs_exit cs_change_refuse(cs_script *script, const cs_frame_change *change,
 /* Changes a frame's rostrums. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_change_frame(celspan_context *context,
                                                const cs_frame_change *change, cs_film_frame *frame);
-/* Replaces the film of the script by that of --onion. frame: the size of the output. OK, also
+/* Replaces the film of the script by the film of --onion. frame: the size of the output. OK, also
  * without the option; or reported. */
 cs_exit cs_change_lay_onion(cs_script *script, const cs_request *request,
                             const celspan_frame_desc *frame);

@@ -95,7 +95,7 @@ cs_exit cs_confine_pictures(celspan_context *context, const cs_request *request)
       has_memory ? "picture-memory" : "picture-time");
 }
 
-/* A limit of the user is instead of what may be held; a control group may still be full. */
+/* A limit of the user replaces the memory that may be held; a control group may still be full. */
 void cs_confine_rendering(celspan_context *context, const cs_request *request) {
   const cs_given_limits given = given_limits(request);
   bool has_limit = given.has[CS_LIMIT_RENDER_MEMORY];
@@ -159,8 +159,8 @@ static bool is_interrupted(void *user) {
   return cs_interrupt_signal() != 0;
 }
 
-/* The watchdog's last word. What the main thread does meanwhile is not known, so nothing of it is
- * touched: the locks of its streams may be held for ever. */
+/* The watchdog's last word. The state of the main thread is not known, so nothing of it is touched:
+ * the locks of its streams may be held for ever. */
 static void kill_script(void *user, const char *sentence) {
   char line[512];
   (void)user;
@@ -192,7 +192,7 @@ static cs_exit refuse_roots(void) {
   return CS_EXIT_MEMORY;
 }
 
-/* The folders of fonts; those that do not exist are ignored. */
+/* The folders of fonts; missing ones are ignored. */
 static void add_fonts(cs_confined *out) {
   static const char *const own[CS_FONT_FOLDERS] = {"/.local/share/fonts", "/.fonts"};
   const char *home = getenv("HOME");
@@ -204,7 +204,7 @@ static void add_fonts(cs_confined *out) {
   }
 }
 
-/* What the script may read, as the library takes it, and as roots. */
+/* The folders that the script may read, in the library's form and as roots. */
 static cs_exit open_roots(const cs_request *request, const char *script, cs_confined *out,
                           cs_roots *roots) {
   char folder[PATH_SIZE];
@@ -226,7 +226,7 @@ static cs_exit open_roots(const cs_request *request, const char *script, cs_conf
 
 /* ---------------------------------------------------------------- strict */
 
-/* The folder that what is made goes to, made if it is missing; "": nothing is made. */
+/* The folder for the output, made if it is missing; "": there is no output. */
 static void output_folder(const cs_request *request, char out[PATH_SIZE]) {
   const char *output = cs_request_text(request, "-o");
   out[0] = '\0';
@@ -243,8 +243,8 @@ static void output_folder(const cs_request *request, char out[PATH_SIZE]) {
     strcpy(out, ".");
 }
 
-/* Adds what the program itself reads: its modules, the settings of colours, and the files that
- * options name. */
+/* Adds the files that the program itself reads: its modules, the settings of colours, and the files
+ * that options name. */
 static bool add_own_folders(const cs_request *request, cs_roots *read) {
   static const char *const variables[] = {"OCIO", "CELSPAN_PICTURE_MODULE", "CELSPAN_ART_MODULE",
                                           "CELSPAN_COLOUR_MODULE"};

@@ -8,9 +8,10 @@
 
 enum { CS_FONT_FOLDERS = 2 }; /* of the user */
 
-/* What a script may do. */
+/* The rights of a script. */
 typedef struct cs_confined {
-  celspan_lua_limits limits;                                /* their folders are those below */
+  celspan_lua_limits limits;                                /* their folders are the folders
+                                                               below */
   const char *folders[CS_TEXTS_MOST + 2 + CS_FONT_FOLDERS]; /* --allow, and fonts */
   char fonts[CS_FONT_FOLDERS][4096];
   bool is_trusted; /* limits only */
@@ -21,9 +22,10 @@ cs_exit cs_confine_pictures(celspan_context *context, const cs_request *request)
 /* Finds how much memory this run may hold, and sets the sizes of the caches, before anything else.
  * OK, or reported. */
 cs_exit cs_confine_memory(const cs_request *request, celspan_context_desc *desc);
-/* Limits what is held, and of it the memory of the frames that are rendered at a time. */
+/* Limits the memory that is held, and in it the memory of the frames that are rendered at a
+ * time. */
 void cs_confine_rendering(celspan_context *context, const cs_request *request);
-/* The processes that are started from now on have a part each of what this one may hold. */
+/* Each process started from now on has a part of the memory that this one may hold. */
 void cs_confine_divide(unsigned parts);
 /* Refuses the options of scripts for a verb that reads a FILE and runs no script. OK, or reported.
  */

@@ -1,4 +1,4 @@
-/* Files for verbs in Lua: what they are, folders, and what is written. */
+/* Files for verbs in Lua: kinds of files, folders, and writing. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>

@@ -29,7 +29,7 @@
 
 typedef struct film {
   cs_script script;
-  cs_inspection pictures; /* those that were looked at */
+  cs_inspection pictures; /* the pictures that were examined */
   celspan_rostrum *held;  /* of whose camera others are seen; NULL: none. A reference */
 } film;
 
@@ -294,7 +294,7 @@ static int take_warnings(lua_State *L) {
 }
 
 /* Pushes the warnings of the script on its own stack. A script that is being stopped has none: the
- * verb ends with what it has found. */
+ * verb ends with its results so far. */
 static void push_warnings(lua_State *L, lua_State *script) {
   lua_pushcfunction(script, take_warnings);
   int outcome = lua_pcall(script, 0, LUA_MULTRET, 0);
@@ -357,7 +357,7 @@ static int use_camera(lua_State *L) {
 }
 static int costs(lua_State *L) { return cs_stage_costs(L, &self(L)->script); }
 
-/* film:hold_camera(): that of the frame that was built last, for use_camera. */
+/* film:hold_camera(): keeps the camera of the frame that was built last, for use_camera. */
 static int hold_camera(lua_State *L) {
   film *f = self(L);
   const cs_film_frame *frame = &f->script.frame;
@@ -372,7 +372,7 @@ static int keep_callers(lua_State *L) {
   return 0;
 }
 
-/* film:silence(is_silent): whether what a script in the sandbox prints is not shown from now on */
+/* film:silence(is_silent): whether text printed by a script in the sandbox is hidden from now on */
 static int silence(lua_State *L) {
   cs_sandbox *sandbox = self(L)->script.sandbox;
   if (sandbox)
@@ -396,7 +396,7 @@ static void set_marks(lua_State *L, const cs_film_info *info) {
   lua_setfield(L, -2, "marks");
 }
 
-/* Sets what a celspan.film has. */
+/* Sets the fields of a celspan.film. */
 static void set_facts(lua_State *L, const cs_film_info *info) {
   cs_put_integer(L, "first", info->first);
   cs_put_integer(L, "frames", info->count);

@@ -32,7 +32,7 @@ static size_t write_character(const char *text, char out[CHARACTER], size_t *siz
 
 /* ---------------------------------------------------------------- the object */
 
-/* Appends what fits whole; the end of the object always does. */
+/* Appends a text if it fits as a whole; the end of the object always fits. */
 static void append(cs_json *json, const char *text, size_t size) {
   if (json->length + size >= sizeof json->text - CHARACTER)
     return;

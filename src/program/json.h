@@ -18,7 +18,7 @@ void cs_json_begin(cs_json *json);
 void cs_json_text(cs_json *json, const char *name, const char *value);
 void cs_json_integer(cs_json *json, const char *name, int64_t value);
 void cs_json_number(cs_json *json, const char *name, double value);
-/* A list of whole numbers; what does not fit is left out. */
+/* A list of whole numbers; numbers that do not fit are left out. */
 void cs_json_integers(cs_json *json, const char *name, const int64_t *values, size_t count);
 /* Ends the object and its line. The text stays the json's. */
 const char *cs_json_end(cs_json *json);

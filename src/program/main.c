@@ -55,7 +55,7 @@ static cs_exit refuse_verb(const char *name) {
   return cs_report_usage("unknown verb '%s' ('celspan help' lists them)", name);
 }
 
-/* Rendering a table of films is glue, though rendering one is not. */
+/* `render` is a verb in C, but with --table it runs in Lua. */
 static bool is_in_lua(const cs_request *request) {
   return !request->verb->run || cs_request_has(request, "--table");
 }

@@ -75,8 +75,8 @@ static bool differs(const unsigned char *one, const unsigned char *other) {
   return is_far;
 }
 
-/* differing(bytes, others) -> the pixels of the first, clear where they are those of the others.
- * Both have RGBA of 8 bits, straight alpha, and the same size. */
+/* differing(bytes, others) -> the pixels of the first, clear where they equal the pixels of the
+ * others. Both have RGBA of 8 bits, straight alpha, and the same size. */
 static int differing(lua_State *L) {
   size_t size, size_other;
   const unsigned char *one = (const unsigned char *)luaL_checklstring(L, 1, &size);

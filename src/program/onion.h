@@ -3,7 +3,7 @@
 
 #include <lauxlib.h>
 
-/* film, before, after, width, height, name or nil -> a film that shows each frame with the
- * drawings of those before and after it. width, height: pixels of the skins. name: of the cels that
- * alone are shown. Raises. */
+/* film, before, after, width, height, name or nil -> a film that shows each frame with the drawings
+ * of the frames before and after it. width, height: pixels of the skins. name: only cels of this
+ * name are shown. Raises. */
 int cs_onion_film(lua_State *L);

@@ -294,7 +294,7 @@ static celspan_status compare_row(comparison *c, int32_t y, cs_still_rows *rows_
   return status;
 }
 
-/* Gives the row of the picture of differences to its sink, as codes that it takes as they are. */
+/* Gives the row of the picture of differences to its sink, as codes that it takes unchanged. */
 static celspan_status put_row(celspan_context *context, const comparison *c,
                               const celspan_sink *sink, int32_t y) {
   float *pixels = c->linear;
@@ -395,7 +395,7 @@ static void fit_plane(cs_still stills[2]) {
     }
 }
 
-/* Opens one of two pictures. --frame is that of a plane file. */
+/* Opens one of two pictures. --frame is the frame of a plane file. */
 static void open_compared(lua_State *L, const char *path, cs_still *out) {
   const cs_session *session = cs_service_session(L);
   cs_service_require(
@@ -403,7 +403,7 @@ static void open_compared(lua_State *L, const char *path, cs_still *out) {
 }
 
 /* How values are compared: with a plane multiplied by alpha, because a picture rounds the colours
- * of what is nearly clear. */
+ * of nearly clear pixels. */
 static celspan_coding coding_of(const cs_still stills[2]) {
   bool is_float = stills[0].info.is_float || stills[1].info.is_float;
   bool has_plane = stills[0].plane || stills[1].plane;

@@ -22,7 +22,7 @@
 
 enum { CHILDREN_MOST = 1024 };
 
-/* Those that run; 0: a free place. */
+/* The running processes; 0: a free place. */
 static volatile pid_t children[CHILDREN_MOST];
 
 /* Runs in the signal handler: kill(2) is safe there. */

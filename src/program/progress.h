@@ -17,8 +17,8 @@
 typedef struct cs_progress {
   cs_progress_style style; /* never AUTO once started */
   size_t frame_count, frames_done;
-  size_t copied, kept;   /* of those done */
-  const char *noun;      /* of what is counted: "frame", unless it is changed after the start */
+  size_t copied, kept;   /* of the finished frames */
+  const char *noun;      /* of the counted items: "frame", unless it is changed after the start */
   double started, shown; /* seconds of the monotonic clock */
   double pause;          /* least seconds between two lines or two states of the bar */
 } cs_progress;

@@ -62,7 +62,7 @@ static cs_hash key_of(const cs_record *record, const cs_shoot_frame *frame) {
 
 static bool equals(cs_hash a, cs_hash b) { return a.a == b.a && a.b == b.b; }
 
-/* What a file has that is there already; false when it cannot be read. */
+/* The contents of a file that exists already; false when it cannot be read. */
 static bool read_contents(const char *path, cs_file_contents *out) {
   int descriptor = cs_open_to_read(path);
   if (descriptor < 0)

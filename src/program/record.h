@@ -42,8 +42,8 @@ CELSPAN_CHECKED celspan_status cs_record_open(cs_record *record, const cs_script
                                               const celspan_frame_desc *frame);
 /* Whether the record has a line of the frame of this number. */
 bool cs_record_knows(const cs_record *record, int64_t number);
-/* Whether the file of the frame is what would be written now. By force: whether it is complete;
- * `is_named` is then set to false where it may show something else. */
+/* Whether the file of the frame equals the one that would be written now. By force: whether it is
+ * complete; `is_named` is then set to false where it may show something else. */
 bool cs_record_has(const cs_record *record, cs_shoot_frame *frame);
 /* Adds the line of a frame that was made or copied. */
 CELSPAN_CHECKED celspan_status cs_record_add(cs_record *record, const cs_shoot_frame *frame);

@@ -42,7 +42,7 @@ typedef struct render_job {
   cs_plane_film *plane; /* where the film is one plane file */
   int64_t *failed;      /* frames; owned */
   size_t failed_count, failed_capacity;
-  cs_exit outcome; /* of what was reported */
+  cs_exit outcome; /* of the reported failure */
 } render_job;
 
 /* ---------------------------------------------------------------- raw frames */
@@ -364,7 +364,7 @@ static cs_exit refuse_resume(const cs_request *request, const char *output) {
   return CS_EXIT_OK;
 }
 
-/* Refuses what cannot be written. frame_count: 0 where it is not known yet. */
+/* Refuses output that cannot be written. frame_count: 0 where it is not known yet. */
 static cs_exit refuse_output(celspan_context *context, const cs_request *request,
                              size_t frame_count) {
   if (cs_video_target_is_wanted(request, frame_count))
@@ -407,7 +407,7 @@ static cs_exit refuse_division(const cs_request *request, const char *output) {
   return CS_EXIT_OK;
 }
 
-/* Refuses what can be refused without running the script. */
+/* Refuses wrong requests as far as possible without running the script. */
 static cs_exit refuse_early(celspan_context *context, const cs_request *request) {
   const char *output = cs_request_text(request, "-o");
   if (!output && !cs_request_has(request, "--hash"))

@@ -31,7 +31,7 @@ enum {
 typedef struct renderer {
   celspan_context *context;
   pid_t id;   /* 0: it has ended */
-  int status; /* of waitpid, then */
+  int status; /* as waitpid gave it, once it has ended */
   int requests, answers, words;
   char *bytes; /* of the answer that is read; owned */
   size_t size, capacity;
@@ -168,7 +168,7 @@ static int finish(lua_State *L) {
   return 2;
 }
 
-/* Of three pipes: [0] the ends of the renderer, [1] those of the verb. */
+/* Of three pipes: [0] the renderer's ends, [1] the verb's ends. */
 static int open_pipes(renderer *r, int files[3]) {
   int ends[2], error = cs_spawn_pipe(ends);
   files[0] = ends[0];

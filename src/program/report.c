@@ -136,7 +136,7 @@ cs_exit cs_report_usage(const char *format, ...) {
   return CS_EXIT_USAGE;
 }
 
-/* where: NULL, or what comes before the sentence. number: as in print_event. */
+/* where: NULL, or the text before the message. number: as in print_event. */
 static cs_exit fail(const celspan_context *context, celspan_status status, const char *where,
                     const int64_t *number) {
   char text[SENTENCE];

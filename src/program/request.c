@@ -93,7 +93,7 @@ static cs_exit refuse_value(const reading *r) {
   return cs_report_usage("%s: '%s' is not %s", r->option->name, r->text, r->option->kind->allowed);
 }
 
-/* What a kind of value fills. */
+/* The variable that a kind of value fills. */
 typedef union value {
   cs_given_limits limits;
   cs_given_antialias antialias;
@@ -103,7 +103,7 @@ typedef union value {
   float colour[3];
 } value;
 
-/* Values are read here to refuse what is wrong; a verb reads them again into its own fields. */
+/* Values are read here to refuse wrong ones; a verb reads them again into its own fields. */
 static cs_exit take_option(const reading *r, cs_given_texts *texts) {
   const cs_argument *kind = r->option->kind;
   value one = {.limits = {.has = {false}}};
@@ -124,7 +124,7 @@ static cs_exit take_operand(const char *operand, cs_request *out) {
   return CS_EXIT_OK;
 }
 
-/* What follows "--". */
+/* The arguments after "--". */
 static cs_exit take_script_arguments(const reading *r, cs_request *out) {
   size_t first = r->next + 1;
   if (first > out->word_count)
@@ -138,7 +138,7 @@ static cs_exit take_script_arguments(const reading *r, cs_request *out) {
 }
 
 cs_exit cs_request_parse(const cs_verb *verb, size_t count, char *const *words, cs_request *out) {
-  cs_given_texts texts = {.count = 0}; /* of which there may not be too many */
+  cs_given_texts texts = {.count = 0}; /* to refuse too many texts */
   *out = (cs_request){.verb = verb, .words = words, .word_count = count};
   reading r = {.request = out};
   cs_exit outcome = CS_EXIT_OK;
@@ -184,7 +184,7 @@ const char *cs_request_text(const cs_request *request, const char *name) {
   return find_given(request, name, &r) ? r.text : NULL;
 }
 
-/* In the order in which they were given, because some options add to those before them. */
+/* In the order in which they were given, because some options add to earlier ones. */
 bool cs_request_read(const cs_request *request, const char *name, void *field) {
   bool is_given = false;
   for (reading r = {.request = request}; next_option(&r);)

@@ -1,4 +1,4 @@
-/* What a verb takes, and what it was given.
+/* The operands and options that a verb takes, and those that it was given.
  *
  *   cs_verb: operands, options, help --> parsing, the help, the manual page, suggestions for names
  *   cs_request: the words of the command line, in which a verb looks for its options
@@ -15,7 +15,7 @@ struct cs_request;
 
 typedef struct cs_option {
   const char *name;
-  const char *value;       /* what the help calls it; NULL: a flag */
+  const char *value;       /* its name in the help; NULL: a flag */
   const cs_argument *kind; /* of the value; NULL: a flag */
   const char *help;
 } cs_option;
@@ -25,10 +25,10 @@ typedef struct cs_verb {
   const char *operands; /* as the help shows them */
   size_t operand_least, operand_most;
   bool is_hidden;           /* the help does not list it */
-  bool has_script;          /* it runs one, which gets what follows "--" */
+  bool has_script;          /* it runs a script, which gets the arguments after "--" */
   bool makes_folder;        /* its -o names one */
   bool asks_files;          /* it asks which files its script has read */
-  bool asks_warnings;       /* it asks what is probably not what the author wants */
+  bool asks_warnings;       /* it asks for warnings about probable mistakes of the author */
   const char *summary;      /* one line */
   const char *notes;        /* more help, whole lines, or NULL */
   const cs_option *options; /* the last one has no name */
@@ -43,11 +43,11 @@ typedef struct cs_request {
   size_t word_count;
   const char *operands[CS_OPERANDS_MAX];
   size_t operand_count;
-  char *const *script_arguments; /* what follows -- */
+  char *const *script_arguments; /* the arguments after "--" */
   size_t script_argument_count;
 } cs_request;
 
-/* words: what follows the verb. OK, or reported and CS_EXIT_USAGE. */
+/* words: the words after the verb. OK, or reported and CS_EXIT_USAGE. */
 cs_exit cs_request_parse(const cs_verb *verb, size_t count, char *const *words, cs_request *out);
 
 /* Whether an option was given. */

@@ -21,7 +21,7 @@ static size_t equal(const uint32_t *a, const uint32_t *b, size_t most) {
 
 static uint32_t head(uint32_t kind, size_t count) { return kind << 30 | (uint32_t)count; }
 
-/* Puts the pixels [from, to) as they are. Returns the words used. */
+/* Puts the pixels [from, to) unchanged. Returns the words used. */
 static size_t put_literals(const uint32_t *pixels, size_t from, size_t to, uint32_t *out) {
   if (from == to)
     return 0;

@@ -16,8 +16,8 @@
 
 enum { CS_RUNS_LITERAL, CS_RUNS_FILL, CS_RUNS_ABOVE };
 
-/* The words that `count` pixels can need at most. A run saves a word at least, which is what the
- * head of the literals after it needs. */
+/* The words that `count` pixels can need at most. A run saves at least one word, and the head of
+ * the literals after it needs one. */
 static inline size_t cs_runs_words(size_t count) { return count + 1; }
 
 /* Packs rows of `width` pixels. out: room for cs_runs_words(count). Returns the words used. */

@@ -45,7 +45,7 @@ static void watch_script(lua_State *L) {
   cs_interrupt_call(interrupt_states);
 }
 
-/* What a script prints goes to standard error, because standard output is for results. A script
+/* Text printed by a script goes to standard error, because standard output is for results. A script
  * cannot end the program: otherwise a run that did nothing could seem to have done everything. */
 static const char HOUSE_RULES[] =
     "local stderr, pack, concat, tostring = io.stderr, table.pack, table.concat, tostring\n"
@@ -57,7 +57,7 @@ static const char HOUSE_RULES[] =
     "end\n"
     "function os.exit() error('os.exit: a script cannot end celspan; raise an error', 2) end\n";
 
-/* What a trusted script has: pcall and xpcall pass on limits where there are any. */
+/* The functions of a trusted script: pcall and xpcall pass on limits where there are any. */
 static void open_trusted(lua_State *L, bool has_limits) {
   static const luaL_Reg catching[] = {
       {"pcall", cs_guard_pcall}, {"xpcall", cs_guard_xpcall}, {NULL, NULL}};

@@ -20,7 +20,7 @@ typedef struct cs_script {
   bool is_trusted;          /* it has the whole of Lua */
   bool asks_files;          /* the paths that it asks for are remembered */
   bool asks_warnings;       /* warnings are kept */
-  bool is_silent;           /* what it prints is not shown */
+  bool is_silent;           /* its printed text is not shown */
   cs_sandbox *sandbox;      /* of the state; NULL: the whole of Lua without limits */
 } cs_script;
 
@@ -40,7 +40,7 @@ cs_exit cs_script_open_again(celspan_context *context, const cs_request *request
                              cs_script *out);
 void cs_script_close(cs_script *script);
 
-/* Builds a frame of the film and frees the one before. On failure the sentence, which names the
+/* Builds a frame of the film and frees the previous one. On failure the sentence, which names the
  * frame, is in the context. */
 celspan_status cs_script_try(cs_script *script, int64_t number);
 /* The same, with failures reported. */

@@ -66,7 +66,7 @@ cs_hash cs_settings_hash(const cs_settings *settings) {
 
 /* ---------------------------------------------------------------- the registry */
 
-/* Appends the table on top of the stack to the one below it. */
+/* Appends the table on top of the stack to the table below it. */
 static void append(lua_State *L) { lua_rawseti(L, -2, (lua_Integer)lua_rawlen(L, -2) + 1); }
 
 static void give_one(void *user, const char *name, const char *value) {

@@ -13,5 +13,5 @@ bool cs_shown_is_film(const char *path);
 /* has_frames: --frame is a frame of this file. OK, and *out new; or reported. */
 cs_exit cs_shown_open(celspan_context *context, const cs_request *request, const char *path,
                       bool has_frames, cs_still *out);
-/* The same as cs_view_frame for what is shown, with its exposures. */
+/* The same as cs_view_frame for a shown file, with its exposures. */
 cs_exit cs_shown_frame(const cs_request *request, const cs_still *still, celspan_frame_desc *out);

@@ -18,7 +18,7 @@
 
 #define PIXELS_MOST (1 << 25) /* of a picture in memory */
 
-enum { CODES, PNG, KINDS, RUNS }; /* what a picture shows, and how */
+enum { CODES, PNG, KINDS, RUNS }; /* the contents and the form of a picture */
 
 static const celspan_coding coding = {
     .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
@@ -225,7 +225,7 @@ typedef struct search {
   celspan_context *context;
   const cs_script *script;
   celspan_point point;
-  size_t count; /* of what was found */
+  size_t count; /* of the items found */
 } search;
 
 static celspan_status probe_cel(const search *s, celspan_cel *cel, bool *is_there) {

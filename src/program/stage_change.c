@@ -41,7 +41,8 @@ static void drop_cels(celspan_context *context, celspan_cel **cels, size_t count
   cs_mem_free(context->memory, cels, most * sizeof(celspan_cel *));
 }
 
-/* *out: new; the rostrum with what `make` makes of each of its cels; NULL of a cel: none. */
+/* *out: new; the rostrum with what `make` makes of each of its cels; NULL instead of a cel: the cel
+ * is left out. */
 static celspan_status remake(celspan_context *context, const celspan_rostrum *from, maker make,
                              void *user, celspan_rostrum **out) {
   celspan_cel **cels;
@@ -193,7 +194,8 @@ static void drop_objects(made *m) {
     celspan_object_unref(m->objects[--m->count]);
 }
 
-/* A cel at the same place with what the line made in it; none: it made nothing there. */
+/* A cel at the same place with the objects that the line made in it; none: the line made nothing
+ * there. */
 static celspan_status keep_made(void *user, const celspan_rostrum *from, size_t i,
                                 celspan_cel **out) {
   made *m = user;
@@ -266,7 +268,7 @@ static celspan_status measure_cel(celspan_context *context, const celspan_frame_
   return status;
 }
 
-/* Calls the function that is argument 8 with a table of what it costs. */
+/* Calls the function that is argument 8 with a table of costs. */
 static void give_cost(lua_State *L, const char *name, cs_mark mark, const cost *c) {
   celspan_origin origin = cs_mark_origin(mark);
   lua_pushvalue(L, 8);

@@ -27,7 +27,7 @@ celspan_file_desc cs_target_file(const cs_request *request) {
   return file;
 }
 
-/* Names all formats, because an unknown ending does not say what was meant. */
+/* Names all formats, because an unknown ending does not show the intended format. */
 static cs_exit refuse_format(const char *path, const char *name) {
   char pictures[CS_SINK_LIST], videos[CS_SINK_LIST];
   cs_sink_file_list(pictures, sizeof pictures);

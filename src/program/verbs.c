@@ -1,5 +1,5 @@
 /* The verbs: what each takes, and what its help says. Texts are wrapped when they are printed;
- * lines that begin with a space are left as they are. */
+ * lines that begin with a space are not wrapped. */
 #include "program/verbs.h"
 
 /* ---------------------------------------------------------------- options of several verbs */
@@ -91,7 +91,7 @@
     "--progress", "HOW", &cs_argument_progress,                                                    \
         "auto, bar, lines, none or json on standard error; openjd on standard output"              \
   }
-/* What scripts are given, and their rights. */
+/* The arguments and the rights of scripts. */
 #define SCRIPT                                                                                     \
   {"--set", "NAME=V", &cs_argument_setting,                                                        \
    "the value of a parameter that the script declares; may be given several times"},               \
