@@ -28,7 +28,7 @@ static double left(celspan_space to, double s, double t) {
 
 /* ---------------------------------------------------------------- tests */
 
-/* What lets more or less through than its light needs; sometimes more light than there can be. */
+/* A sight that transmits more or less than its light needs; sometimes its light is impossible. */
 static void random_sight(test_random *random, double least, cs_oracle_sight *out) {
   *out = (cs_oracle_sight){.keep = 1};
   for (int c = 0; c < 3; c++) {

@@ -40,7 +40,7 @@ function fields.kind(value)
   return noun and "a " .. noun or type(value)
 end
 
---- Whether a value is an object or a cel: what has bounds.
+--- Whether a value is an object or a cel, which have bounds.
 function fields.is_object(value)
   return type(value) == "userdata" and pcall(function() return value.bounds end)
 end

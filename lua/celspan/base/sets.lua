@@ -7,7 +7,7 @@ local fields = require "celspan.fields"
 
 local sets = {}
 
-local PARTED = "^[ %-_/.:]+([^/]+)$" -- the rest of a name after that of its set
+local PARTED = "^[ %-_/.:]+([^/]+)$" -- the rest of a name after the name of its set
 
 --- The member that a name is in a set; nil: none. The contents of a member are
 --- no members.

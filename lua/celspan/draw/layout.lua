@@ -19,7 +19,7 @@ local function refuse(text, ...) core.refuse(text:format(...)) end
 local across = { left = 0, centre = 0.5, right = 1 }
 local down = { top = 0, centre = 0.5, bottom = 1 }
 
---- The share that a word is. noun: of the function, for messages.
+--- The share that a word stands for. noun: the name of the function, for messages.
 local function share_of(noun, field, word, shares, default)
   local share = shares[word == nil and default or word]
   if share then return share end

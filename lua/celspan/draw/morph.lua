@@ -18,7 +18,7 @@ local function refuse(text, ...) core.refuse("morph: " .. text:format(...)) end
 
 local function between(x, y, u) return x + (y - x) * u end
 
---- An object with what both nodes have in common. The first one gives the name.
+--- An object with the common values of both nodes. The first node gives the name.
 local function finish(object, p, q, u)
   local fade, name = between(p.fade, q.fade, u), p.name ~= "" and p.name or q.name
   if fade ~= 1 then object = object:fade(fade) end
@@ -57,7 +57,7 @@ end
 
 -- ---------------------------------------------------------------- parts
 
---- The plan for what has no partner: a function of how much of it is there.
+--- The plan for a node without a partner: a function of its scale, from 0 to 1.
 local function lone(node)
   local x, y, w, h = node.object:bounds()
   if not x then return function() return node.object end end
@@ -82,8 +82,9 @@ local function plan_outlines(p, q, steering)
   end
 end
 
---- The operands of a union with their partners, in order: those of the second that have none come
---- after the partner of the one before them. names: pairs of names that are given.
+--- The operands of a union with their partners, in order: an operand of the second without a
+--- partner comes after the partner of the operand before it. names: pairs of names that the script
+--- gives.
 local function partners(p, q, names)
   local wanted, by_name, taken, list = {}, {}, {}, {}
   for _, pair in ipairs(names) do wanted[pair[1]] = pair[2] end

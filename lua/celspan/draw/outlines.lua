@@ -14,7 +14,7 @@ local outlines = {}
 local NODES = 32
 local REACH = 3
 local BAND = 0.2   -- of the length: how far the lengths of a pair of nodes may differ
-local NEVER = 1e9  -- the cost of what is not allowed
+local NEVER = 1e9  -- the cost of a pair that is not allowed
 local CHORDS = 8
 local CORNER = 0.2 -- radians
 local SAME = 1e-7  -- of the whole length
@@ -175,13 +175,13 @@ end
 
 -- ---------------------------------------------------------------- the best way
 
---- What counts against a pair of nodes for each share of length about it, and what counts once.
+--- The cost of a pair of nodes for each share of length around it, and the cost that counts once.
 local function misfit(p, q)
   local x, y, turn = p.x - q.x, p.y - q.y, p.turn - q.turn
   return x * x + y * y + 0.3 * (1 - math.cos(p.angle - q.angle)), turn * turn / 10
 end
 
---- The shares of nodes, and the sums of what it costs to leave out those before each.
+--- The shares of nodes, and for each node the sum of the costs of leaving out the nodes before it.
 local function columns(nodes)
   local shares, sums, sum = {}, {}, 0
   for i, node in ipairs(nodes) do
@@ -192,8 +192,8 @@ local function columns(nodes)
   return shares, sums
 end
 
---- The cheapest step to the pair i, j: its cost, and how many nodes of each it goes back. Rows of
---- costs are those of the nodes of p.
+--- The cheapest step to the pair i, j: its cost, and how many nodes of each it goes back. There is
+--- a row of costs for each node of p.
 local function best_step(p, q, costs, i, j)
   local best, back, over = NEVER, nil, nil
   local s, t = p.shares[i], q.shares[j]
@@ -226,8 +226,8 @@ local function trace_back(from, p, q, i, j)
 end
 
 --- The best way from the first to the last nodes of both: a list of { share of p, share of q }, and
---- its cost; nil where there is none, or it is found that none is below `limit`. is_free: pairs far
---- from each other by length are not tried.
+--- its cost; nil where there is no way, or none with a cost below `limit`. is_free: pairs far from
+--- each other by length are not tried.
 local function find_way(p, q, is_free, limit)
   local one, other, costs, from = {}, {}, { { 0 } }, { {} }
   one.shares, one.sums = columns(p)
@@ -328,7 +328,7 @@ end
 local WAYS_MOST = 1000 -- that are kept
 local kept = { count = 0 }
 
---- A contour as a string: the same for the same numbers alone.
+--- A contour as a string: equal only for equal numbers.
 local function digits_of(contour)
   local parts = { contour.open and "open" or "closed" }
   for i = 1, #contour, 2 do
@@ -478,7 +478,7 @@ local function anchors_of(ones, others, contours, places)
   return anchors
 end
 
---- The pairs of contours that are most alike, and those that are left.
+--- The pairs of contours that are most alike, and the remaining contours.
 local function pair_up(ones, others, first, second, anchors)
   local list, taken, found = {}, {}, {}
   for i, p in ipairs(ones) do

@@ -69,7 +69,7 @@ local function spread(u, smooth)
     -v * u * u / 2
 end
 
---- The cell of a place among `count`, and the place in it; outside, that of the nearest one.
+--- The cell of a place among `count` cells, and the place in it; outside, the nearest cell.
 local function cell_of(at, count)
   local cell = math.max(0, math.min(count - 1, math.floor(at)))
   return cell, at - cell
@@ -147,7 +147,7 @@ local function read_paint(object)
   end
 end
 
---- Painted weights by their objects, as long as those are used.
+--- Painted weights by their objects, as long as the objects are used.
 local painted = setmetatable({}, { __mode = "k" })
 
 local function read_weight(i, weight)
@@ -160,7 +160,7 @@ local function read_weight(i, weight)
   return painted[weight]
 end
 
---- The number of the bone that the bone number i hangs on: the one before it unless it says so.
+--- The number of the parent of bone number i: by default the bone before it.
 local function parent_of(bones, i)
   local parent = bones[i].parent
   if parent == nil then return i > 1 and i - 1 or nil end
@@ -256,8 +256,8 @@ local function read_bones(list)
   return bones
 end
 
---- Each point follows the bones by their weights there, and where those add up to less than one
---- also the bones that are near.
+--- Each point follows the bones by their weights there; where the weights add up to less than one,
+--- it also follows the bones that are near.
 function maps.bones(list)
   local bones, shares = read_bones(list), {}
   local others = numbers_without_weight(bones)
@@ -338,7 +338,7 @@ local known = { map = "function", along = "any", start = "number", stretch = "bo
                 lattice = "table", bones = "any", pins = "any", within = "number",
                 pieces = "number" }
 
---- The one of the five that is given.
+--- The option, of the five, that is given.
 local function kind_of(options)
   local found
   for _, name in ipairs { "along", "bones", "lattice", "map", "pins" } do

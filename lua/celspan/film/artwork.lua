@@ -9,7 +9,7 @@ local svg = require "celspan.svg"
 
 local artwork = {}
 
---- What a reader returns, or an error with its message, in which this file is no place.
+--- The result of a reader, or an error with its message, which does not name a line of this file.
 local function needed(value, message)
   return value or error((message:gsub("^celspan/artwork%.lua:%d+: ", "")), 0)
 end

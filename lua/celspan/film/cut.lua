@@ -48,7 +48,8 @@ local function weight_of(i, exposure)
   return weight
 end
 
---- What a frame function, or the function of cut.with, returns, as a list of { rostrum, weight }.
+--- The result of a frame function, or of the function of cut.with, as a list of { rostrum, weight
+--- }.
 local function exposures_of(result)
   if type(result) ~= "table" then result = { { result } } end
   local list = {}
@@ -209,7 +210,7 @@ function cut.wipe(settings)
   end
 end
 
---- The radii of the edge of an iris, as those of wipe_edge.
+--- The radii of the edge of an iris, as the places of wipe_edge.
 local function iris_edge(centre, softness, u, size)
   local most = 0
   for _, corner in ipairs { { 0, 0 }, { size[1], 0 }, { 0, size[2] }, size } do
@@ -446,7 +447,7 @@ local function list_of(sound)
   return sound
 end
 
---- The sounds of the shots, which fade in and out with the pictures, and those of the cut.
+--- The sounds of the shots, which fade in and out with the pictures, and the sounds of the cut.
 local function sounds_of(shots, own)
   local sounds = {}
   for _, shot in ipairs(shots) do
@@ -486,7 +487,7 @@ local function add_marks(shot, marks)
   end
 end
 
---- The marks of the shots, then the names of the parts, then those of the cut.
+--- The marks of the shots, then the names of the parts, then the marks of the cut.
 local function marks_of(shots, own)
   local marks, names = {}, {}
   for _, shot in ipairs(shots) do add_marks(shot, marks) end
@@ -538,7 +539,7 @@ local function lay_over(exposures, cels, f, size)
   return list
 end
 
---- The frame function of the cut without what is over it.
+--- The frame function of the cut without the pictures over it.
 local function frames_of(segments, size)
   return function(f)
     local segment = segment_at(segments, f.index)

@@ -32,7 +32,7 @@ local function read_with(reader, given)
   return given
 end
 
---- What the kinds allow; a reader makes a value of a text, and nil of a wrong one.
+--- The values that the kinds allow; a reader makes a value of a text, and nil of a wrong text.
 local kinds = {
   text = { type = "string", read = function(_, text) return text end },
   file = {
@@ -154,7 +154,7 @@ local function refuse_setting(settings, format, ...)
   error(settings.refused, 0)
 end
 
---- Where values come from: what messages about them begin with, and whether all of them are texts.
+--- The sources of values: the beginning of messages about them, and whether all of them are texts.
 local from_option = { prefix = "--set: ", has_texts = true }
 local from_row = { prefix = "", has_texts = true }
 
@@ -182,7 +182,7 @@ local function set(settings, declared, values, source, name, value)
   values[name] = read
 end
 
---- Sets what a JSON object says.
+--- Sets the values of a JSON object.
 local function set_from(settings, declared, values, given)
   local source = { prefix = ("--set-from %s: "):format(given.path) }
   local object, problem = json.decode(given.json)

@@ -68,7 +68,7 @@ end
 
 local flatten
 
---- The sounds of a film, which is a sound of another one.
+--- The sounds of a film that is itself a sound of another film.
 local function of_film(sound, depth)
   local film, list = sound[1], {}
   local to = math.min(sound.to or math.huge, film.duration)
@@ -94,7 +94,7 @@ local function of_film(sound, depth)
   return list
 end
 
---- Makes the sounds of one list lower while those of another one are heard, as an item says.
+--- Makes the sounds of one list lower while the sounds of another list are heard, as an item says.
 local function add_duckers(lower, higher, item)
   local sound = item.sound
   for _, one in ipairs(lower) do
@@ -124,7 +124,8 @@ local function duck_items(items)
   end
 end
 
---- New tables at each call. depth: how many films this one is a sound of.
+--- New tables at each call. depth: the number of films around this one, each of which has the next
+--- as a sound.
 function flatten(film, depth)
   if depth > DEEPEST then
     error(("the film has sounds that are films more than %d deep, which is the limit")

@@ -14,7 +14,7 @@ local rad, deg = math.rad, math.deg
 function bones.refuse(text, ...) core.refuse("puppet: " .. text:format(...)) end
 local refuse = bones.refuse
 
---- What a message about a wrong name ends with: the nearest of the names, or all of them.
+--- The end of a message about a wrong name: the nearest of the names, or all of them.
 function bones.help(name, names)
   table.sort(names)
   local hint = type(name) == "string" and core.nearest(name, names)
@@ -116,7 +116,7 @@ local function bone_before(rig, bone)
   return found
 end
 
---- Finds the parents: those that are named, else the bones before.
+--- Finds the parents: the named ones; without a name, the bone before.
 local function join_bones(rig)
   for _, bone in ipairs(rig.list) do
     if bone.parent and not rig.bones[bone.parent] then
@@ -127,7 +127,7 @@ local function join_bones(rig)
   end
 end
 
---- Refuses bones without a part whose name is misspelled, and those that move nothing.
+--- Refuses bones without a part whose name is misspelled, and bones that move nothing.
 local function check_parts(rig)
   local is_parent, names = {}, {}
   for _, bone in ipairs(rig.list) do is_parent[bone.parent or false] = true end
@@ -164,8 +164,8 @@ local function order_bones(rig)
   rig.list = ordered
 end
 
---- Reads the joints and the bones of a rig: rig.joints are those that are drawn, and gets those
---- that the script gives; rig.bones are the bones by name, rig.list has parents first.
+--- Reads the joints and the bones of a rig: rig.joints has the joints that are drawn, and gets the
+--- joints that the script gives; rig.bones are the bones by name, rig.list has parents first.
 function bones.read(rig, joints, given)
   read_joints(joints, rig.joints)
   for i = 1, rawlen(given or {}) do read_bone(rig, i, given[i]) end
@@ -179,7 +179,7 @@ end
 
 local known_turn = { rotate = "number", absolute = "number", scale = "number", stretch = "number" }
 
---- What a pose asks of a bone: degrees, or a table.
+--- The values of a bone in a pose: degrees, or a table.
 function bones.read_turn(name, value)
   if type(value) == "number" then value = { rotate = value } end
   fields.check(("puppet: bone '%s'"):format(name), value, known_turn, 6)
@@ -236,7 +236,7 @@ end
 
 -- ---------------------------------------------------------------- bones in a pose
 
---- The frame in which a bone is turned: that of its parent, moved with the joint if the parent is
+--- The frame in which a bone is turned: its parent's frame, moved with the joint if the parent is
 --- stretched.
 function bones.base_of(bone, frames)
   local parent = bone.parent and frames[bone.parent]

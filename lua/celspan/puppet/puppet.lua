@@ -173,7 +173,7 @@ end
 
 -- ---------------------------------------------------------------- poses
 
---- What a pose asks of each bone, and the chains by their first bones.
+--- The values of each bone in a pose, and the chains by their first bones.
 local function read_pose(rig, pose)
   if type(pose) ~= "table" then refuse("pose takes a table, got %s", fields.kind(pose)) end
   local turns, chains, used, choices = {}, {}, {}, {}
@@ -234,8 +234,8 @@ local function ordered_part(rig, name)
     .. "part%s", tostring(name), help(name, names_of(rig.parts)))
 end
 
---- Parts that are drawn elsewhere: lists by the part that they are over or under, and those in
---- front of and behind everything.
+--- Parts that are drawn elsewhere: lists by the part that they are over or under, and lists of the
+--- parts in front of and behind everything.
 local function read_order(rig, pose)
   local order = { over = {}, under = {}, front = {}, back = {}, moved = {} }
   local function move(list, name)

@@ -21,7 +21,8 @@ local reach = {}
 
 local pi, cos, sin, sqrt, atan = math.pi, math.cos, math.sin, math.sqrt, math.atan
 
---- Shares of the chain's length: below SAME two sides of a bend are one; TINY ends the search.
+--- Shares of the chain's length: nearer than SAME, two sides of a bend count as one; TINY ends the
+--- search.
 local SAME, TINY = 1e-9, 1e-12
 
 local function turn(angle, x, y)
@@ -53,7 +54,8 @@ local function distance_of(chain, angles)
   return sqrt(dx * dx + dy * dy)
 end
 
---- The angle by which a vector must be turned to point at the target; `angle` where nothing does.
+--- The angle by which a vector must be turned to point at the target; `angle` where the vector or
+--- the target has no direction.
 local function aim(x, y, target_x, target_y, angle)
   if (x == 0 and y == 0) or (target_x == 0 and target_y == 0) then return angle end
   return atan(target_y, target_x) - atan(y, x)
@@ -113,7 +115,7 @@ local function side_of(chain)
   return two[3] + two[4] < 0 and -1 or 1
 end
 
---- Of two sides the one whose joint is nearer to the pole.
+--- The side, of two, whose joint is nearer to the pole.
 local function side_to(chain, pole)
   local best, least
   for side = -1, 1, 2 do

@@ -75,7 +75,7 @@ local function painted(entry, clipped)
   return mode == "normal" and object or object:blend(mode)
 end
 
---- The visible layers that are clipped to the one at `place` of a list, and the place after them.
+--- The visible layers that are clipped to the layer at `place` of a list, and the place after them.
 local function clipped_to(list, place)
   local clipped, next_place = {}, place + 1
   while list[next_place] and sources[list[next_place]].clipped do
@@ -108,9 +108,8 @@ end
 local function name_of(text, kind) return text ~= "" and text or kind end
 
 --- given: name, x, y, opacity, visible, blend; and children, or picture (the fields of an image,
---- with x and y), or neither for an empty layer; clipped, within: how it is cut by those below;
---- mask: of a group, an object that it is shown through.
---- options: those of `read`.
+--- with x and y), or neither for an empty layer; clipped, within: how it is cut by the layers
+--- below; mask: of a group, an object that it is shown through. options: those of `read`.
 local function make_entry(given, options)
   local source = { name = name_of(given.name, given.children and "group" or "layer"),
                    clipped = given.clipped, within = given.within, mask = given.mask,

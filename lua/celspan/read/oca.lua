@@ -69,7 +69,7 @@ local function file_of(state, what, name)
   return found
 end
 
--- Krita's words for modes that are not ours with "_" as "-"; those of its files are in
+-- Krita's words for modes that are not ours with "_" as "-"; the words in its files are in
 -- src/readers/layered/document.c.
 local blends = { passthrough = "pass-through", add = "linear-dodge", plus = "add",
   dodge = "color-dodge", burn = "color-burn", diff = "difference", luminize = "luminosity",
@@ -99,9 +99,9 @@ local function has_one_opacity(version)
   return number < 1001001
 end
 
---- Makes the opacity of a layer and those of its drawings factors of each other. Some programs
---- write the opacity of a layer again into its frames: equal ones below 1 count once, and all in
---- documents of versions that do not multiply them.
+--- Multiplies the opacities of a layer and of its drawings. Some programs write the opacity of a
+--- layer again into its frames: equal ones below 1 count once, and all in documents of versions
+--- that do not multiply them.
 local function share_opacity(state, layer, drawings)
   local differs = false
   for _, drawing in ipairs(drawings) do

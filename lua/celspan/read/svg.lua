@@ -128,7 +128,7 @@ end
 
 local function nothing() return celspan.union {} end
 
---- What `with` calls the parts, and the children of parts as "mouth/C".
+--- The names of the parts for `with`, and of the children of parts, such as "mouth/C".
 local function paths_of(art)
   local paths = {}
   for name in pairs(art.parts) do paths[name] = name end

@@ -78,8 +78,8 @@ local function runs_of(shapes)
   return runs
 end
 
---- Takes frames from neighbours that are long enough; otherwise the run becomes part of the one
---- before, unless its mouth is closed.
+--- Takes frames from neighbours that are long enough; otherwise the run becomes part of the run
+--- before it, unless its mouth is closed.
 local function lengthen(runs, i, hold)
   local run, after, at = runs[i], runs[i + 1], i - 1
   while at > 1 and runs[at].length == 0 do at = at - 1 end

@@ -77,7 +77,7 @@ local function check_notes(notes, frames)
   for _, note in ipairs(notes) do note.frame = nil end
 end
 
---- Removes changes of a column beyond the end of the sheet: the one that closes it.
+--- Removes the change of a column beyond the end of the sheet, which closes the column.
 local function trim(column, frames)
   for i = #column.at, 1, -1 do
     if column.at[i] <= frames then break end

@@ -86,8 +86,8 @@ local function read_frame(layers, cells, number)
   return math.tointeger(frame) + 1
 end
 
---- The rows of frames in order, { frame =, cells = }; a row that repeats the one before shares its
---- cells.
+--- The rows of frames in order, { frame =, cells = }; a row that repeats the row before it shares
+--- its cells.
 local function read_frames(lines, layers)
   local list, repeated, cells = {}, nil, nil
   for number = 4, #lines do

@@ -9,8 +9,8 @@
  *     level 1   +-----+-----+--+     those of the last row and column of what is left
  *
  * Where a pixel covers less than a texel, texels are mixed about its centre; where it covers more,
- * it shows the mean of its footprint: the exact one where the picture's edges lie along the
- * frame's, else that of taps spread over the footprint.
+ * it shows the mean of its footprint: the exact mean where the picture's edges lie along the
+ * frame's, otherwise the mean of taps spread over the footprint.
  *
  * INVARIANT: a colour is a function of the picture, the axis and the place of the pixel in the
  * frame. Nothing outside the picture's texels is read, whatever the axis.

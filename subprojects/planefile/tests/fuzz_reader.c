@@ -78,7 +78,7 @@ static void draw_deep(const planefile_plane *plane, uint32_t seed) {
   free(draw_view(plane, view));
 }
 
-/* What of a border does not depend on the numbers of chains and cells. */
+/* The parts of a border that do not depend on the numbers of chains and cells. */
 typedef struct edge {
   int32_t top, foot;
   planefile_cell left, right;

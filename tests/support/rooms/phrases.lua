@@ -58,6 +58,14 @@ phrases.list = {
     "that|those of what|which", "that of the one" },
   { say = "say both cases: `one` where the mask is set, and `other` elsewhere", "else the other" },
   { say = "at the edge, along the border, at that distance", "on the rim" },
+  { say = "the same for", "the same of" },
+  { say = "name the part: the part of it that, which of them", "what of it|them|its|their|a|what" },
+  { say = "otherwise the ... of", "else that|those of" },
+  { say = "name the noun: the contents, the visible items, the colours",
+    not_before = "itself|up", "what shows" },
+  { say = "name the noun: the layers that transmit, the light that passes", "what lets|let" },
+  { say = "two sentences, or 'whose': the tiles that are live around it are live",
+    "of which those are|were" },
 }
 
 --- Places where a phrase is right; `text` is part of the sentence around it.
