@@ -22,6 +22,11 @@ static int player(lua_State *L) {
   return 1;
 }
 
+static void show(void *user, const char *text, size_t size) {
+  (void)user;
+  fwrite(text, 1, size, stderr);
+}
+
 /* A function of C does not return, so the game cannot continue. */
 static void give_up(void *user, const char *message) {
   (void)user;
@@ -69,6 +74,7 @@ int main(int count, char **arguments) {
   limits.steps = count > 3 ? (uint64_t)atof(arguments[3]) : limits.steps;
   limits.memory = count > 4 ? (size_t)atof(arguments[4]) : (size_t)64 << 20;
   limits.print = count > 5 ? (size_t)atof(arguments[5]) : limits.print;
+  limits.printed = show;
   limits.overdue = give_up;
   if (L && count > 1 && celspan_context_create(NULL, &context) == CELSPAN_OK) {
     luaL_openlibs(L); /* for the host itself: the film gets the sandbox */

@@ -64,6 +64,7 @@ static celspan_lua_limits limits_of(const cs_request *request) {
   const double *values = given.values;
   celspan_lua_limits limits =
       is_trusted(request) ? (celspan_lua_limits){.struct_size = sizeof limits} : CELSPAN_LUA_LIMITS;
+  limits.printed = cs_report_printed;
   limits.memory = least(limits.memory, budget);
   if (given.has[CS_LIMIT_MEMORY])
     limits.memory = (size_t)values[CS_LIMIT_MEMORY];

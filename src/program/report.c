@@ -77,6 +77,17 @@ static void make_visible(const char *text, char out[VISIBLE]) {
   *out = 0;
 }
 
+void cs_report_printed(void *user, const char *text, size_t size) {
+  (void)user;
+  bool is_shown = isatty(STDERR_FILENO);
+  for (size_t used; is_shown && size > 0; text += used, size -= used) {
+    char shown[CS_VISIBLE];
+    used = cs_visible_first(text, size, shown);
+    fputs(shown, stderr);
+  }
+  fwrite(text, 1, size, stderr);
+}
+
 static void print_words(bool is_error, const char *text) {
   char visible[VISIBLE];
   make_visible(text, visible);

@@ -51,6 +51,10 @@ cs_exit cs_report_failure(const celspan_context *context, celspan_status status,
 cs_exit cs_report_frame_failure(const celspan_context *context, celspan_status status,
                                 int64_t number);
 
+/* Writes what a script printed to standard error; to a terminal, only characters that it may show
+ * (base/visible.h). user: not used. */
+void cs_report_printed(void *user, const char *text, size_t size);
+
 /* The form of diagnostics. */
 typedef enum cs_report_form {
   CS_REPORT_WORDS = 0, /* "celspan: error: ..." */

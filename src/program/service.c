@@ -124,9 +124,9 @@ static int check_input(lua_State *L) {
 
 /* show(text): what a script has printed, on standard error */
 static int show(lua_State *L) {
-  luaL_checkstring(L, 1);
-  lua_settop(L, 1);
-  cs_library_print(L);
+  size_t size;
+  const char *text = luaL_checklstring(L, 1, &size);
+  cs_report_printed(NULL, text, size);
   return 0;
 }
 

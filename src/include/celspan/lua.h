@@ -46,12 +46,15 @@ typedef struct celspan_lua_limits {
   size_t memory;  /* bytes of Lua and of what the script makes; default: 512 MiB */
   uint64_t steps; /* instructions, and the work of functions, in a run or a frame; 2e9 */
   double seconds; /* of the processor, and ten times as many by the clock, in a call; 60 */
-  size_t print;   /* bytes printed, to standard error, in a run or a frame; 1 MiB */
+  size_t print;   /* bytes that may be printed in a run or a frame; 1 MiB */
   /* What scripts may read, and where they find modules, beside the folder of the script that
    * celspan_lua_run runs; borrowed for the call alone. */
   const char *const *folders; /* NULL: none */
   size_t folder_count;
   const char *search; /* templates of modules, such as "/lib/?.lua;/more/?.lua"; NULL: none */
+  /* Given what scripts print, in complete lines. The characters are the script's choice: a terminal
+   * would obey them. NULL: it is dropped. */
+  void (*printed)(void *user, const char *text, size_t size);
   /* Asked while a script runs, whether it must end; NULL: nobody is asked. */
   bool (*is_interrupted)(void *user);
   /* Called on a thread of its own while a call still runs a second after its time, as only a

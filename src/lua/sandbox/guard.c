@@ -244,15 +244,17 @@ void cs_guard_charge(lua_State *L, uint64_t steps) {
     check(L, guard);
 }
 
-bool cs_guard_print(lua_State *L, size_t bytes) {
+void cs_guard_print(lua_State *L, const char *text, size_t size) {
   cs_guard *guard = cs_guard_of(L);
-  guard->printed += bytes;
-  if (!guard->limits.print || guard->printed <= guard->limits.print)
-    return !guard->is_silent;
-  snprintf(guard->tripped, sizeof guard->tripped, "more than %zu KiB printed in a frame%s",
-           guard->limits.print >> 10, cs_guard_hint(guard, " (--limit print=SIZE allows more)"));
-  raise_limit(L, guard);
-  return false;
+  const celspan_lua_limits *limits = &guard->limits;
+  guard->printed += size;
+  if (limits->print && guard->printed > limits->print) {
+    snprintf(guard->tripped, sizeof guard->tripped, "more than %zu KiB printed in a frame%s",
+             limits->print >> 10, cs_guard_hint(guard, " (--limit print=SIZE allows more)"));
+    raise_limit(L, guard);
+  }
+  if (limits->printed && !guard->is_silent)
+    limits->printed(limits->user, text, size);
 }
 
 void cs_guard_starve(lua_State *L, const char *sentence) {

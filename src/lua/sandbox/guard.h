@@ -84,8 +84,8 @@ void cs_guard_end(cs_guard *guard);
 
 /* Counts work of C functions as steps. Raises an error when a limit is exceeded. */
 void cs_guard_charge(lua_State *L, uint64_t steps);
-/* Counts printed bytes. Raises an error when a limit is exceeded. Whether they are shown. */
-bool cs_guard_print(lua_State *L, size_t bytes);
+/* Counts printed bytes, and hands them to the host. Raises an error when a limit is exceeded. */
+void cs_guard_print(lua_State *L, const char *text, size_t size);
 
 /* There was no memory, as the message says. In a call into the script, raises this message, or the
  * message about the limit of memory where the limit was the reason. Like an exceeded limit, it ends

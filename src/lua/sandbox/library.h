@@ -40,8 +40,5 @@ void cs_library_push_require(lua_State *L, int globals, const char *search);
 
 /* Pushes the text of the value at index, without addresses. May call the script's __tostring. */
 const char *cs_library_push_text(lua_State *L, int index);
-/* Writes the text on top of the stack to standard error; to a terminal, only characters that it may
- * show (base/visible.h). */
-void cs_library_print(lua_State *L);
 /* Restarts math.random with a seed. */
 void cs_library_seed(lua_State *L, uint64_t seed);

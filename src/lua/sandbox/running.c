@@ -1,10 +1,7 @@
 /* load, print, pcall, xpcall. */
 #include <lauxlib.h>
-#include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "base/visible.h"
 #include "lua/sandbox/guard.h"
 #include "lua/sandbox/library.h"
 
@@ -74,31 +71,9 @@ static int load(lua_State *L) {
   return 1;
 }
 
-/* Replaces the text on top of the stack by a text that a terminal may show. */
-static void make_visible(lua_State *L) {
-  size_t size;
-  const char *text = lua_tolstring(L, -1, &size);
-  luaL_Buffer shown;
-  luaL_buffinit(L, &shown);
-  for (size_t used; size > 0; text += used, size -= used) {
-    char one[CS_VISIBLE];
-    used = cs_visible_first(text, size, one);
-    luaL_addstring(&shown, one);
-  }
-  luaL_pushresult(&shown);
-  lua_remove(L, -2);
-}
-
-void cs_library_print(lua_State *L) {
-  size_t size;
-  if (isatty(STDERR_FILENO))
-    make_visible(L);
-  const char *text = lua_tolstring(L, -1, &size);
-  fwrite(text, 1, size, stderr);
-}
-
-/* print goes to standard error, because standard output is for results. */
+/* print hands a line to the host. */
 static int print(lua_State *L) {
+  size_t size;
   int count = lua_gettop(L);
   luaL_Buffer line;
   luaL_buffinit(L, &line);
@@ -110,9 +85,8 @@ static int print(lua_State *L) {
   if (count == 0)
     luaL_addchar(&line, '\n');
   luaL_pushresult(&line);
-  if (!cs_guard_print(L, lua_rawlen(L, -1)))
-    return 0;
-  cs_library_print(L);
+  const char *text = lua_tolstring(L, -1, &size);
+  cs_guard_print(L, text, size);
   return 0;
 }
 
