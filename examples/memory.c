@@ -36,7 +36,7 @@ static celspan_status make_objects(celspan_context *context, scene *s) {
   TRY(celspan_object_create_ellipse(context, &(celspan_ellipse_desc){{235, 95}, 70, 70, NULL},
                                     &s->shadow));
   celspan_object *const operands[] = {s->disc, s->shadow};
-  TRY(celspan_object_create_boolean(context, CELSPAN_DIFFERENCE, operands, 2, &s->moon));
+  TRY(celspan_object_create_boolean(context, CELSPAN_OPERATOR_DIFFERENCE, operands, 2, &s->moon));
   return celspan_object_create_rect(context, &(celspan_rect_desc){0, 0, 320, 240, 0, s->dusk},
                                     &s->sky);
 }

@@ -132,7 +132,8 @@ static celspan_object *make_plane(celspan_context *context, const char *folder, 
       .radius_x = 0.4 * width,
       .radius_y = 0.5 * height};
   bench_check(context, celspan_object_create_ellipse(context, &window, &operands[1]));
-  bench_check(context, celspan_object_create_boolean(context, CELSPAN_CLIP, operands, 2, &clipped));
+  bench_check(context,
+              celspan_object_create_boolean(context, CELSPAN_OPERATOR_CLIP, operands, 2, &clipped));
   celspan_object_unref(operands[0]);
   celspan_object_unref(operands[1]);
   return moved(context, clipped, celspan_matrix_scaling(scale, scale));

@@ -86,7 +86,7 @@ static void free_shapes(celspan_object **objects, size_t count) {
 
 celspan_object *bench_union(celspan_context *context, const bench_drawing *drawing) {
   celspan_object **objects = make_shapes(context, drawing), *whole;
-  bench_check(context, celspan_object_create_boolean(context, CELSPAN_UNION, objects,
+  bench_check(context, celspan_object_create_boolean(context, CELSPAN_OPERATOR_UNION, objects,
                                                      drawing->shape_count, &whole));
   free_shapes(objects, drawing->shape_count);
   return whole;

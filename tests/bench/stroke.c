@@ -61,7 +61,7 @@ static celspan_object *make_stroke(celspan_context *context, const line *l) {
   desc.width = l->width;
   desc.dashes = &l->dash;
   desc.dash_count = 1;
-  desc.join = CELSPAN_JOIN_ROUND;
+  desc.join = CELSPAN_STROKE_JOIN_ROUND;
   if (!(l->dash > 0)) {
     desc.dashes = NULL;
     desc.dash_count = 0;

@@ -140,7 +140,7 @@ static void test_programs(celspan_context *context) {
 
 /* A boolean without operands, alone in its frame: a tree, and no layers. */
 static void test_nothing(celspan_context *context) {
-  cs_step step = {CS_STEP_LAYERS, CELSPAN_UNION, 0, 0, 0};
+  cs_step step = {CS_STEP_LAYERS, CELSPAN_OPERATOR_UNION, 0, 0, 0};
   cs_tree tree = {0, 0, 0, 1};
   cs_stack stack = {.steps = &step, .step_depth = 1, .trees = &tree, .tree_count = 1};
   cs_composer composer;

@@ -46,7 +46,7 @@ static size_t held(celspan_context *context) {
 
 static void test_stored(studio *s) {
   size_t before = held(s->context);
-  celspan_object *line = dashed(s, "M0 5H1000000", 1, CELSPAN_CAP_BUTT, 0.6, 0.4);
+  celspan_object *line = dashed(s, "M0 5H1000000", 1, CELSPAN_STROKE_CAP_BUTT, 0.6, 0.4);
   CHECK(line && line->data->stroke->part_count == 1000000);
   CHECK(held(s->context) - before < 4096);
 }
@@ -66,7 +66,7 @@ static celspan_statistics render(studio *s, const celspan_frame_desc *desc, void
 /* Of a million dashes few are in the frame, and they alone take memory. */
 static void test_out_of_sight(studio *s) {
   celspan_exposure exposure = {
-      studio_show(s, dashed(s, "M-499990 5L500000 6", 1, CELSPAN_CAP_BUTT, 0.6, 0.4)), 1};
+      studio_show(s, dashed(s, "M-499990 5L500000 6", 1, CELSPAN_STROKE_CAP_BUTT, 0.6, 0.4)), 1};
   celspan_frame_desc desc = frame_of(&exposure, 1);
   sheet made;
   size_t peak = render(s, &desc, made, sizeof made[0]).peak_bytes;
@@ -79,7 +79,7 @@ static void test_out_of_sight(studio *s) {
  * they are in is covered by their share of the line. */
 static void test_in_sight(studio *s) {
   for (int k = 0; k < 2; k++) {
-    celspan_object *line = dashed(s, k == 0 ? "M0 .5H100" : "M.5 0V100", 1, CELSPAN_CAP_BUTT,
+    celspan_object *line = dashed(s, k == 0 ? "M0 .5H100" : "M.5 0V100", 1, CELSPAN_STROKE_CAP_BUTT,
                                   100 / 165000.0, 100 / 330000.0);
     size_t count = line->data->stroke->part_count;
     celspan_exposure exposure = {studio_show(s, line), 1};
@@ -102,11 +102,12 @@ static void test_in_sight(studio *s) {
 static celspan_rostrum *crowd(studio *s) {
   celspan_object *objects[] = {
       studio_circle(s, 300, 2, 5, studio_paint(s, celspan_paint_rgb(1, 0.5f, 0, 0.5f))),
-      dashed(s, "M-3 2.3H810", 0.8, CELSPAN_CAP_BUTT, 0.1, 0.06),
-      dashed(s, "M1 4.2H790", 0.5, CELSPAN_CAP_SQUARE, 0.1, 0.7),
-      dashed(s, "M620 1V9", 2, CELSPAN_CAP_BUTT, 0.04, 0.03),
-      dashed(s, "M2 2C900 1 -100 6 799 5Z", 0.3, CELSPAN_CAP_ROUND, 2, 1),
-      dashed(s, "M400 3 l1 1 l1 -1 l1 1 l1 -1 l1 1 l1 -1z", 0.3, CELSPAN_CAP_BUTT, 0.9, 0.1)};
+      dashed(s, "M-3 2.3H810", 0.8, CELSPAN_STROKE_CAP_BUTT, 0.1, 0.06),
+      dashed(s, "M1 4.2H790", 0.5, CELSPAN_STROKE_CAP_SQUARE, 0.1, 0.7),
+      dashed(s, "M620 1V9", 2, CELSPAN_STROKE_CAP_BUTT, 0.04, 0.03),
+      dashed(s, "M2 2C900 1 -100 6 799 5Z", 0.3, CELSPAN_STROKE_CAP_ROUND, 2, 1),
+      dashed(s, "M400 3 l1 1 l1 -1 l1 1 l1 -1 l1 1 l1 -1z", 0.3, CELSPAN_STROKE_CAP_BUTT, 0.9,
+             0.1)};
   celspan_cel *cel = studio_cel(s, CELSPAN_CEL_DESC, objects, 6);
   return studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &cel, 1);
 }
@@ -147,7 +148,8 @@ static double difference(sheet a, sheet b) {
 /* Means are sums along a row, which begin elsewhere in a pane, so their last bits differ. */
 static void test_panes(studio *s) {
   celspan_rostrum *rostrum = crowd(s);
-  celspan_rostrum *moved = studio_show(s, dashed(s, "M0 4H800", 3, CELSPAN_CAP_BUTT, 0.07, 0.1));
+  celspan_rostrum *moved =
+      studio_show(s, dashed(s, "M0 4H800", 3, CELSPAN_STROKE_CAP_BUTT, 0.07, 0.1));
   const celspan_exposure exposures[] = {{rostrum, 1}, {rostrum, 0.5}, {moved, 0.5}};
   static sheet whole, panes;
   for (int k = 0; k < 8; k++) {
@@ -174,8 +176,8 @@ static void test_panes(studio *s) {
  * exact, and every row is divided into columns. */
 static celspan_rostrum *dense(studio *s) {
   celspan_object *objects[] = {
-      dashed(s, "M99.3 2.5L113.1 3.5", 14, CELSPAN_CAP_BUTT, 0.0013, 0.0018),
-      dashed(s, "M99.3 3.5L113.1 2.5", 14, CELSPAN_CAP_BUTT, 0.0011, 0.002)};
+      dashed(s, "M99.3 2.5L113.1 3.5", 14, CELSPAN_STROKE_CAP_BUTT, 0.0013, 0.0018),
+      dashed(s, "M99.3 3.5L113.1 2.5", 14, CELSPAN_STROKE_CAP_BUTT, 0.0011, 0.002)};
   celspan_cel *cel = studio_cel(s, CELSPAN_CEL_DESC, objects, 2);
   return studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &cel, 1);
 }

@@ -95,9 +95,9 @@ static void test_equal_objects(studio *s) {
               of_object(studio_fade(s, one, 0.25)));
   celspan_object *two = studio_circle(s, 1, 2, 3, NULL);
   celspan_object *const list[] = {one, two, one};
-  celspan_object *pair = studio_pair(s, CELSPAN_UNION, one, two), *extended = NULL;
+  celspan_object *pair = studio_pair(s, CELSPAN_OPERATOR_UNION, one, two), *extended = NULL;
   studio_check(s, celspan_object_extend_boolean(s->context, pair, &one, 1, &extended));
-  check_equal(of_object(studio_boolean(s, CELSPAN_UNION, list, 3)), of_object(extended));
+  check_equal(of_object(studio_boolean(s, CELSPAN_OPERATOR_UNION, list, 3)), of_object(extended));
   celspan_object_unref(extended);
 }
 
@@ -143,16 +143,16 @@ static void test_outlines(studio *s) {
 
 static void test_booleans(studio *s) {
   celspan_object *a = studio_rect(s, 0, 0, 10, 20, NULL), *b = studio_circle(s, 5, 5, 5, NULL);
-  halves h = of_object(studio_pair(s, CELSPAN_UNION, a, b));
-  check_redrawn(h, of_object(studio_pair(s, CELSPAN_UNION, b, a)));
-  check_redrawn(h, of_object(studio_pair(s, CELSPAN_INTERSECTION, a, b)));
-  check_redrawn(h, of_object(studio_pair(s, CELSPAN_DIFFERENCE, a, b)));
-  check_redrawn(h, of_object(studio_pair(s, CELSPAN_XOR, a, b)));
+  halves h = of_object(studio_pair(s, CELSPAN_OPERATOR_UNION, a, b));
+  check_redrawn(h, of_object(studio_pair(s, CELSPAN_OPERATOR_UNION, b, a)));
+  check_redrawn(h, of_object(studio_pair(s, CELSPAN_OPERATOR_INTERSECTION, a, b)));
+  check_redrawn(h, of_object(studio_pair(s, CELSPAN_OPERATOR_DIFFERENCE, a, b)));
+  check_redrawn(h, of_object(studio_pair(s, CELSPAN_OPERATOR_XOR, a, b)));
   /* the place of its contents inside it changes the drawing */
-  check_redrawn(h,
-                of_object(studio_pair(s, CELSPAN_UNION, a, studio_transform(s, b, moved(1, 0)))));
-  check_redrawn(h, of_object(studio_pair(s, CELSPAN_UNION, a, studio_fade(s, b, 0.5))));
-  check_equal(h, of_object(studio_pair(s, CELSPAN_UNION, a, renamed(s, b, "hole"))));
+  check_redrawn(
+      h, of_object(studio_pair(s, CELSPAN_OPERATOR_UNION, a, studio_transform(s, b, moved(1, 0)))));
+  check_redrawn(h, of_object(studio_pair(s, CELSPAN_OPERATOR_UNION, a, studio_fade(s, b, 0.5))));
+  check_equal(h, of_object(studio_pair(s, CELSPAN_OPERATOR_UNION, a, renamed(s, b, "hole"))));
 }
 
 /* ---------------------------------------------------------------- cels */
@@ -264,7 +264,7 @@ static void test_procedures(studio *s) {
   CHECK(!h.is_known && !again.is_known);
   CHECK(other(h.drawing, again.drawing));
   CHECK(same(h.drawing, of_object(fire).drawing));
-  celspan_object *mixed = studio_pair(s, CELSPAN_UNION, rect, fire);
+  celspan_object *mixed = studio_pair(s, CELSPAN_OPERATOR_UNION, rect, fire);
   CHECK(!of_object(mixed).is_known);
   celspan_cel *cel = studio_cel(s, CELSPAN_CEL_DESC, &mixed, 1);
   CHECK(!of_cel(cel).is_known);

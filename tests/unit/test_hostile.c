@@ -87,11 +87,14 @@ static void check_trees(void) {
   celspan_rostrum *rostrum;
   celspan_cel_desc cels = CELSPAN_CEL_DESC;
   celspan_rostrum_desc rostrums = CELSPAN_ROSTRUM_DESC;
-  CHECK(celspan_object_create_boolean(context, CELSPAN_UNION, &square, 1, &both) == CELSPAN_OK);
+  CHECK(celspan_object_create_boolean(context, CELSPAN_OPERATOR_UNION, &square, 1, &both) ==
+        CELSPAN_OK);
   for (size_t i = 0; i < COUNTS; i++) {
-    REFUSED(celspan_object_create_boolean(context, CELSPAN_UNION, &square, counts[i], &object));
-    REFUSED(celspan_object_create_boolean(context, CELSPAN_CLIP, NULL, counts[i], &object));
-    REFUSED(celspan_object_create_boolean(context, CELSPAN_XOR, NULL, counts[i], &object));
+    REFUSED(celspan_object_create_boolean(context, CELSPAN_OPERATOR_UNION, &square, counts[i],
+                                          &object));
+    REFUSED(
+        celspan_object_create_boolean(context, CELSPAN_OPERATOR_CLIP, NULL, counts[i], &object));
+    REFUSED(celspan_object_create_boolean(context, CELSPAN_OPERATOR_XOR, NULL, counts[i], &object));
     REFUSED(celspan_object_extend_boolean(context, both, &square, counts[i], &object));
     REFUSED(celspan_object_extend_boolean(context, both, NULL, counts[i], &object));
     cels.object_count = counts[i];
@@ -105,8 +108,8 @@ static void check_trees(void) {
     rostrums.cels = &no_cel;
     REFUSED(celspan_rostrum_create(context, &rostrums, &rostrum));
   }
-  REFUSED(celspan_object_create_boolean(context, CELSPAN_UNION, &missing, 1, &object));
-  REFUSED(celspan_object_create_boolean(context, CELSPAN_CLIP, NULL, 2, &object));
+  REFUSED(celspan_object_create_boolean(context, CELSPAN_OPERATOR_UNION, &missing, 1, &object));
+  REFUSED(celspan_object_create_boolean(context, CELSPAN_OPERATOR_CLIP, NULL, 2, &object));
   REFUSED(celspan_cel_create(context, NULL, &cel));
   REFUSED(celspan_rostrum_create(context, NULL, &rostrum));
   celspan_object_unref(both);

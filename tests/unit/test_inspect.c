@@ -35,8 +35,8 @@ static celspan_object *slide(const char *path) {
  * the missing one again. */
 static celspan_rostrum *rostrum_of_faults(void) {
   celspan_object *plain = studio_circle(&s, 5, 5, 4, NULL);
-  celspan_object *first[] = {slide(good),
-                             studio_pair(&s, CELSPAN_DIFFERENCE, slide(missing), slide(cut))};
+  celspan_object *first[] = {
+      slide(good), studio_pair(&s, CELSPAN_OPERATOR_DIFFERENCE, slide(missing), slide(cut))};
   celspan_object *second[] = {plain, slide(missing)};
   celspan_cel *cels[] = {studio_cel(&s, CELSPAN_CEL_DESC, first, 2),
                          studio_cel(&s, CELSPAN_CEL_DESC, second, 2)};

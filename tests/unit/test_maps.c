@@ -92,7 +92,8 @@ static celspan_object *with_shapes(studio *s, celspan_object *object) {
   objects[0] = studio_rect(s, 20, 20, 1, 1, clear);
   for (int i = 1; i < SHAPES; i++)
     objects[i] = objects[0];
-  return studio_pair(s, CELSPAN_UNION, object, studio_boolean(s, CELSPAN_UNION, objects, SHAPES));
+  return studio_pair(s, CELSPAN_OPERATOR_UNION, object,
+                     studio_boolean(s, CELSPAN_OPERATOR_UNION, objects, SHAPES));
 }
 
 static celspan_object *turned(studio *s, celspan_object *object, double angle) {
@@ -110,7 +111,7 @@ static size_t hold_in_parts(studio *s, test_random *random, celspan_object **obj
   size_t first = (size_t)random_below(random, count);
   if (random_below(random, 2))
     return count;
-  celspan_object *held = studio_boolean(s, CELSPAN_UNION, objects + first, count - first);
+  celspan_object *held = studio_boolean(s, CELSPAN_OPERATOR_UNION, objects + first, count - first);
   objects[first] = random_below(random, 2) ? held : turned(s, held, 30);
   return first + 1;
 }
@@ -670,7 +671,7 @@ static void check_census(studio *s) {
       studio_linear(s, (celspan_point){0, 0}, (celspan_point){9, 9}, stops, 2);
   celspan_object *objects[] = {
       studio_rect(s, -10, -10, 20, 30, red), /* 10 x 20 of it are inside */
-      studio_pair(s, CELSPAN_DIFFERENCE, studio_rect(s, 0, 0, 10, 10, red),
+      studio_pair(s, CELSPAN_OPERATOR_DIFFERENCE, studio_rect(s, 0, 0, 10, 10, red),
                   studio_rect(s, 5, 5, 2, 4, red)),
       studio_transform(s, studio_rect(s, 0, 0, 8, 4, varied),
                        celspan_matrix_rotation(90, (celspan_point){0, 0})),
@@ -704,7 +705,7 @@ static void check_parts(studio *s) {
   celspan_object *ground = with_shapes(s, studio_rect(s, 0, 0, 50, 50, NULL));
   cs_context_trim(s->context);
   for (uint64_t k = 1; k < 4; k++) {
-    celspan_object *pair = studio_pair(s, CELSPAN_UNION, part(s, (double)k), part(s, 5));
+    celspan_object *pair = studio_pair(s, CELSPAN_OPERATOR_UNION, part(s, (double)k), part(s, 5));
     celspan_object *both[] = {ground, turned(s, pair, 3 * (double)k)};
     check_maps(s, shown(s, plain, both, 2), 3, k == 1 ? 2 : 0);
     check_maps(s, shown(s, plain, both + 1, 1), 2, 0);

@@ -41,8 +41,8 @@ static void test_equals_the_list(studio *s) {
   celspan_object *const operands[] = {studio_rect(s, 0, 0, 5, 5, NULL),
                                       studio_rect(s, 3, 0, 5, 5, NULL),
                                       studio_circle(s, 4, 4, 2, NULL)};
-  const celspan_operator ops[] = {CELSPAN_UNION, CELSPAN_INTERSECTION, CELSPAN_DIFFERENCE,
-                                  CELSPAN_XOR};
+  const celspan_operator ops[] = {CELSPAN_OPERATOR_UNION, CELSPAN_OPERATOR_INTERSECTION,
+                                  CELSPAN_OPERATOR_DIFFERENCE, CELSPAN_OPERATOR_XOR};
   for (int i = 0; i < 4; i++) {
     celspan_object *pair = studio_boolean(s, ops[i], operands, 2);
     celspan_object *three = extend(s->context, pair, operands[2]);
@@ -58,7 +58,7 @@ static void test_equals_the_list(studio *s) {
 /* Only added operands are hashed: the existing ones may change unnoticed, which they never do. */
 static void test_hash_goes_on(studio *s) {
   celspan_object *a = studio_rect(s, 0, 0, 5, 5, NULL), *b = studio_rect(s, 3, 0, 5, 5, NULL);
-  celspan_object *pair = studio_pair(s, CELSPAN_UNION, a, b);
+  celspan_object *pair = studio_pair(s, CELSPAN_OPERATOR_UNION, a, b);
   celspan_object *expected = extend(s->context, pair, a), *three = extend(s->context, pair, b);
   celspan_object *four = extend(s->context, three, b);
   b->hash.a ^= 1; /* in both lists */
@@ -76,7 +76,7 @@ static void test_hash_goes_on(studio *s) {
 
 /* The number of operands is part of the hash, even if their own hashes are equal. */
 static void test_lengths_differ(studio *s) {
-  celspan_object *empty = studio_boolean(s, CELSPAN_UNION, NULL, 0);
+  celspan_object *empty = studio_boolean(s, CELSPAN_OPERATOR_UNION, NULL, 0);
   celspan_object *one = extend(s->context, empty, empty), *two = extend(s->context, one, empty);
   CHECK(!is_same(empty, one) && !is_same(one, two) && !is_same(empty, two));
   celspan_object *same = NULL;
@@ -89,8 +89,8 @@ static void test_lengths_differ(studio *s) {
 
 static void test_refusals(studio *s) {
   celspan_object *rect = studio_rect(s, 0, 0, 5, 5, NULL), *out = NULL;
-  celspan_object *pair = studio_pair(s, CELSPAN_UNION, rect, rect);
-  celspan_object *const refused[] = {rect, studio_pair(s, CELSPAN_CLIP, rect, rect),
+  celspan_object *pair = studio_pair(s, CELSPAN_OPERATOR_UNION, rect, rect);
+  celspan_object *const refused[] = {rect, studio_pair(s, CELSPAN_OPERATOR_CLIP, rect, rect),
                                      studio_fade(s, pair, 0.5),
                                      studio_transform(s, pair, celspan_matrix_translation(1, 0))};
   for (int i = 0; i < 4; i++)
@@ -104,7 +104,7 @@ static void test_refusals(studio *s) {
   CHECK_TEXT(celspan_context_error(s->context), "union: operands[1] is missing");
   celspan_object *object = rect;
   for (int i = 0; i < CS_SCENE_DEPTH; i++)
-    object = studio_pair(s, CELSPAN_UNION, object, rect);
+    object = studio_pair(s, CELSPAN_OPERATOR_UNION, object, rect);
   CHECK(celspan_object_extend_boolean(s->context, pair, &object, 1, &out) == CELSPAN_LIMIT);
   CHECK(out == NULL && pair->data->boolean->operand_count == 2);
 }
@@ -114,7 +114,7 @@ static void test_refusals(studio *s) {
 /* Two that share a beginning, and a third made after one of them was released. */
 static void test_branches(studio *s) {
   celspan_object *a = studio_rect(s, 0, 0, 1, 1, NULL), *b = studio_rect(s, 2, 0, 1, 1, NULL);
-  celspan_object *base = chain_of(s->context, CELSPAN_UNION, a, 3);
+  celspan_object *base = chain_of(s->context, CELSPAN_OPERATOR_UNION, a, 3);
   celspan_object *with_a = extend(s->context, base, a), *with_b = extend(s->context, base, b);
   CHECK(with_a->data->boolean->operands == base->data->boolean->operands); /* shared */
   CHECK(with_b->data->boolean->operands != base->data->boolean->operands);
@@ -134,7 +134,8 @@ static void test_branches(studio *s) {
 static void test_nothing_is_held(void) {
   memory_watch watch = {0};
   studio s = {.context = memory_watch_context(&watch)};
-  celspan_object *base = chain_of(s.context, CELSPAN_UNION, studio_rect(&s, 0, 0, 1, 1, NULL), 3);
+  celspan_object *base =
+      chain_of(s.context, CELSPAN_OPERATOR_UNION, studio_rect(&s, 0, 0, 1, 1, NULL), 3);
   size_t blocks = watch.blocks;
   celspan_object *added = NULL;
   celspan_rect_desc desc = {0, 0, 3, 3, 0, NULL};
@@ -158,7 +159,7 @@ static void test_own_beginning(void) {
     memory_watch watch = {0};
     studio s = {.context = memory_watch_context(&watch)};
     celspan_object *rect = studio_rect(&s, 0, 0, 1, 1, NULL);
-    celspan_object *chain = chain_of(s.context, CELSPAN_UNION, rect, 5), *moved = NULL;
+    celspan_object *chain = chain_of(s.context, CELSPAN_OPERATOR_UNION, rect, 5), *moved = NULL;
     celspan_matrix right = celspan_matrix_translation(i < 6 ? 5 : 0, 0);
     CHECK(celspan_object_transform(s.context, chain, &right, &moved) == CELSPAN_OK);
     celspan_object *twice = extend(s.context, chain, moved), *more = extend(s.context, twice, rect);
@@ -206,8 +207,8 @@ static size_t bytes_asked(celspan_operator op, size_t count) {
 }
 
 static void test_cost_grows_with_the_length(void) {
-  const celspan_operator ops[] = {CELSPAN_UNION, CELSPAN_INTERSECTION, CELSPAN_DIFFERENCE,
-                                  CELSPAN_XOR};
+  const celspan_operator ops[] = {CELSPAN_OPERATOR_UNION, CELSPAN_OPERATOR_INTERSECTION,
+                                  CELSPAN_OPERATOR_DIFFERENCE, CELSPAN_OPERATOR_XOR};
   for (int i = 0; i < 4; i++) {
     size_t some = bytes_asked(ops[i], LONG / 8), many = bytes_asked(ops[i], LONG);
     CHECK(many < 9 * some); /* copying all operands at each step would allocate 50 times as much */
@@ -221,7 +222,7 @@ static void test_held_steps(void) {
   studio s = {.context = context};
   celspan_object *rect = studio_rect(&s, 0, 0, 1, 1, NULL);
   static celspan_object *steps[LONG];
-  steps[0] = chain_of(context, CELSPAN_UNION, rect, 1);
+  steps[0] = chain_of(context, CELSPAN_OPERATOR_UNION, rect, 1);
   size_t before = watch.bytes;
   for (size_t i = 1; i < LONG; i++)
     steps[i] = extend(context, steps[i - 1], rect);
@@ -243,7 +244,7 @@ static void test_every_allocation_can_fail(void) {
     memory_watch watch = {0};
     studio s = {.context = memory_watch_context(&watch)};
     celspan_object *rect = studio_rect(&s, 0, 0, 1, 1, NULL), *longer = NULL;
-    celspan_object *chain = chain_of(s.context, CELSPAN_UNION, rect, 3);
+    celspan_object *chain = chain_of(s.context, CELSPAN_OPERATOR_UNION, rect, 3);
     watch.fail_at = watch.allocations + n;
     celspan_status status = celspan_object_extend_boolean(s.context, chain, &rect, 1, &longer);
     CHECK(status == CELSPAN_OK || (status == CELSPAN_NO_MEMORY && !longer));
@@ -288,7 +289,7 @@ static void *extend_often(void *user) {
 
 static void test_threads(studio *s) {
   celspan_object *rect = studio_rect(s, 0, 0, 1, 1, NULL);
-  celspan_object *base = chain_of(s->context, CELSPAN_UNION, rect, 3);
+  celspan_object *base = chain_of(s->context, CELSPAN_OPERATOR_UNION, rect, 3);
   extender extenders[4];
   pthread_t threads[4];
   for (int i = 0; i < 4; i++) {

@@ -160,7 +160,7 @@ static celspan_cel *random_cel(studio *s, test_random *random, variety kind) {
   for (size_t i = 0; i < count; i++)
     objects[i] = random_object(s, random, kind);
   celspan_object *other = random_object(s, random, kind);
-  objects[0] = studio_pair(s, CELSPAN_DIFFERENCE, objects[0], other);
+  objects[0] = studio_pair(s, CELSPAN_OPERATOR_DIFFERENCE, objects[0], other);
   desc.opacity = random_below(random, 3) ? 1 : random_unit(random);
   desc.back = random_below(random, 3) ? desc.back : (celspan_light){0.25f, 0.5f, 0, 0.5f};
   if (kind != FLAT && random_below(random, 2)) {

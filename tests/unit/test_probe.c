@@ -90,10 +90,10 @@ static void test_empty_things_draw_nothing(studio *s) {
       studio_rect(s, 0, 0, 0, 50, NULL),
       studio_circle(s, 5, 5, 0, NULL),
       studio_polygon(s, NULL, 0, CELSPAN_RULE_NONZERO, NULL),
-      studio_boolean(s, CELSPAN_UNION, NULL, 0),
-      studio_boolean(s, CELSPAN_INTERSECTION, NULL, 0),
-      studio_boolean(s, CELSPAN_DIFFERENCE, NULL, 0),
-      studio_boolean(s, CELSPAN_XOR, NULL, 0),
+      studio_boolean(s, CELSPAN_OPERATOR_UNION, NULL, 0),
+      studio_boolean(s, CELSPAN_OPERATOR_INTERSECTION, NULL, 0),
+      studio_boolean(s, CELSPAN_OPERATOR_DIFFERENCE, NULL, 0),
+      studio_boolean(s, CELSPAN_OPERATOR_XOR, NULL, 0),
       studio_transform(s, rect, celspan_matrix_scaling(0, 1)),
       studio_transform(s, rect, (celspan_matrix){{0}}),
   };
@@ -121,7 +121,7 @@ static void test_matrices_nest(studio *s) {
   celspan_object *rect = studio_rect(s, 0, 0, 10, 10, studio_paint(s, red));
   celspan_object *turned =
       studio_transform(s, rect, celspan_matrix_rotation(1.5707963267948966, (celspan_point){0, 0}));
-  celspan_object *both = studio_boolean(s, CELSPAN_UNION, &turned, 1);
+  celspan_object *both = studio_boolean(s, CELSPAN_OPERATOR_UNION, &turned, 1);
   celspan_rostrum *r = studio_show(s, studio_transform(s, both, celspan_matrix_translation(20, 0)));
   EXPECT(s, r, 15, 5, 1, 0, 0, 1); /* a quarter clockwise takes x to y and y to -x */
   EXPECT(s, r, 25, 5, 0, 0, 0, 0);
@@ -167,34 +167,38 @@ static void test_boolean_pair(studio *s, celspan_operator op, const char *expect
 }
 
 static void test_booleans(studio *s) {
-  test_boolean_pair(s, CELSPAN_UNION, "rgg-");
-  test_boolean_pair(s, CELSPAN_INTERSECTION, "-g--");
-  test_boolean_pair(s, CELSPAN_DIFFERENCE, "r---");
-  test_boolean_pair(s, CELSPAN_XOR, "r-g-");
-  test_boolean_pair(s, CELSPAN_CLIP, "-r--");
+  test_boolean_pair(s, CELSPAN_OPERATOR_UNION, "rgg-");
+  test_boolean_pair(s, CELSPAN_OPERATOR_INTERSECTION, "-g--");
+  test_boolean_pair(s, CELSPAN_OPERATOR_DIFFERENCE, "r---");
+  test_boolean_pair(s, CELSPAN_OPERATOR_XOR, "r-g-");
+  test_boolean_pair(s, CELSPAN_OPERATOR_CLIP, "-r--");
 }
 
 static void test_many_operands(studio *s) {
   celspan_object *const all[] = {studio_rect(s, 0, 0, 40, 50, studio_paint(s, red)),
                                  studio_rect(s, 10, 0, 40, 50, studio_paint(s, green)),
                                  studio_rect(s, 20, 0, 40, 50, studio_paint(s, blue))};
-  EXPECT(s, studio_show(s, studio_boolean(s, CELSPAN_XOR, all, 3)), 25, 9, 0, 0, 1, 1);
-  EXPECT(s, studio_show(s, studio_boolean(s, CELSPAN_XOR, all, 3)), 15, 9, 0, 0, 0, 0);
-  EXPECT(s, studio_show(s, studio_boolean(s, CELSPAN_DIFFERENCE, all, 3)), 5, 9, 1, 0, 0, 1);
-  EXPECT(s, studio_show(s, studio_boolean(s, CELSPAN_DIFFERENCE, all, 3)), 25, 9, 0, 0, 0, 0);
-  EXPECT(s, studio_show(s, studio_boolean(s, CELSPAN_INTERSECTION, all, 3)), 25, 9, 0, 0, 1, 1);
-  EXPECT(s, studio_show(s, studio_boolean(s, CELSPAN_INTERSECTION, all, 3)), 15, 9, 0, 0, 0, 0);
+  EXPECT(s, studio_show(s, studio_boolean(s, CELSPAN_OPERATOR_XOR, all, 3)), 25, 9, 0, 0, 1, 1);
+  EXPECT(s, studio_show(s, studio_boolean(s, CELSPAN_OPERATOR_XOR, all, 3)), 15, 9, 0, 0, 0, 0);
+  EXPECT(s, studio_show(s, studio_boolean(s, CELSPAN_OPERATOR_DIFFERENCE, all, 3)), 5, 9, 1, 0, 0,
+         1);
+  EXPECT(s, studio_show(s, studio_boolean(s, CELSPAN_OPERATOR_DIFFERENCE, all, 3)), 25, 9, 0, 0, 0,
+         0);
+  EXPECT(s, studio_show(s, studio_boolean(s, CELSPAN_OPERATOR_INTERSECTION, all, 3)), 25, 9, 0, 0,
+         1, 1);
+  EXPECT(s, studio_show(s, studio_boolean(s, CELSPAN_OPERATOR_INTERSECTION, all, 3)), 15, 9, 0, 0,
+         0, 0);
 }
 
 /* An operand that is faded out still has its shape: it cuts, and lets the other one show. */
 static void test_fade_inside_boolean(studio *s) {
   celspan_object *a = studio_rect(s, 0, 0, 20, 50, studio_paint(s, red));
   celspan_object *b = studio_fade(s, studio_rect(s, 10, 0, 20, 50, studio_paint(s, green)), 0);
-  EXPECT(s, studio_show(s, studio_pair(s, CELSPAN_DIFFERENCE, a, b)), 15, 9, 0, 0, 0, 0);
-  EXPECT(s, studio_show(s, studio_pair(s, CELSPAN_UNION, a, b)), 15, 9, 1, 0, 0, 1);
+  EXPECT(s, studio_show(s, studio_pair(s, CELSPAN_OPERATOR_DIFFERENCE, a, b)), 15, 9, 0, 0, 0, 0);
+  EXPECT(s, studio_show(s, studio_pair(s, CELSPAN_OPERATOR_UNION, a, b)), 15, 9, 1, 0, 0, 1);
   b = studio_fade(s, studio_rect(s, 10, 0, 20, 50, studio_paint(s, green)), 0.25);
-  EXPECT(s, studio_show(s, studio_pair(s, CELSPAN_UNION, a, b)), 15, 9, 0.75, 0.25, 0, 1);
-  celspan_object *both = studio_pair(s, CELSPAN_UNION, a, b);
+  EXPECT(s, studio_show(s, studio_pair(s, CELSPAN_OPERATOR_UNION, a, b)), 15, 9, 0.75, 0.25, 0, 1);
+  celspan_object *both = studio_pair(s, CELSPAN_OPERATOR_UNION, a, b);
   EXPECT(s, studio_show(s, studio_fade(s, both, 0.5)), 15, 9, 0.375, 0.125, 0, 0.5);
 }
 
@@ -390,8 +394,10 @@ static void test_scanline(studio *s) {
   EXPECT(s, r, 19.9, 3, 0.25625, 0.74375, 0, 1);
   EXPECT(s, r, 21, 3, 0, 0, 0, 0); /* the span extends to 12, the bounds end at 10 */
   celspan_object *rect = studio_rect(s, 0, 0, 40, 40, studio_paint(s, blue));
-  EXPECT(s, studio_show(s, studio_pair(s, CELSPAN_DIFFERENCE, rect, placed)), 1, 3, 0, 0, 0, 0);
-  EXPECT(s, studio_show(s, studio_pair(s, CELSPAN_DIFFERENCE, rect, placed)), 5, 3, 0, 0, 1, 1);
+  EXPECT(s, studio_show(s, studio_pair(s, CELSPAN_OPERATOR_DIFFERENCE, rect, placed)), 1, 3, 0, 0,
+         0, 0);
+  EXPECT(s, studio_show(s, studio_pair(s, CELSPAN_OPERATOR_DIFFERENCE, rect, placed)), 5, 3, 0, 0,
+         1, 1);
 }
 
 static const double (*bad_spans)[2];

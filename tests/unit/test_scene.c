@@ -130,9 +130,9 @@ static void test_outline_doors(studio *s) {
 static void test_object_doors(studio *s) {
   celspan_object *rect = studio_rect(s, 0, 0, 1, 1, NULL), *out = NULL;
   celspan_object *const operands[3] = {rect, NULL, rect};
-  REFUSED(s, celspan_object_create_boolean(s->context, CELSPAN_XOR, operands, 3, &out),
+  REFUSED(s, celspan_object_create_boolean(s->context, CELSPAN_OPERATOR_XOR, operands, 3, &out),
           "xor: operands[2] is missing");
-  REFUSED(s, celspan_object_create_boolean(s->context, CELSPAN_CLIP, operands, 1, &out),
+  REFUSED(s, celspan_object_create_boolean(s->context, CELSPAN_OPERATOR_CLIP, operands, 1, &out),
           "clip: 1 operands were given; it takes two");
   REFUSED(s, celspan_object_create_boolean(s->context, (celspan_operator)7, operands, 1, &out),
           "boolean: op is 7; it must be between 0 and 4");
@@ -268,17 +268,17 @@ static void test_bounds(studio *s) {
   check_bounds(circle, 5, 5, 10, 10);
   check_bounds(studio_transform(s, circle, celspan_matrix_rotation(0.7, (celspan_point){10, 10})),
                5, 5, 10, 10);
-  check_bounds(studio_pair(s, CELSPAN_UNION, circle, rect), 5, 0, 27, 15);
-  check_bounds(studio_pair(s, CELSPAN_XOR, circle, rect), 5, 0, 27, 15);
-  check_bounds(studio_pair(s, CELSPAN_INTERSECTION, circle, rect), 12, 5, 3, 6);
-  check_bounds(studio_pair(s, CELSPAN_CLIP, circle, rect), 12, 5, 3, 6);
-  check_bounds(studio_pair(s, CELSPAN_DIFFERENCE, circle, rect), 5, 5, 10, 10);
+  check_bounds(studio_pair(s, CELSPAN_OPERATOR_UNION, circle, rect), 5, 0, 27, 15);
+  check_bounds(studio_pair(s, CELSPAN_OPERATOR_XOR, circle, rect), 5, 0, 27, 15);
+  check_bounds(studio_pair(s, CELSPAN_OPERATOR_INTERSECTION, circle, rect), 12, 5, 3, 6);
+  check_bounds(studio_pair(s, CELSPAN_OPERATOR_CLIP, circle, rect), 12, 5, 3, 6);
+  check_bounds(studio_pair(s, CELSPAN_OPERATOR_DIFFERENCE, circle, rect), 5, 5, 10, 10);
   celspan_box box;
-  CHECK(!celspan_object_bounds(studio_pair(s, CELSPAN_INTERSECTION, circle, far), &box));
-  celspan_object *empty = studio_boolean(s, CELSPAN_UNION, NULL, 0);
-  CHECK(!celspan_object_bounds(studio_pair(s, CELSPAN_INTERSECTION, circle, empty), &box));
+  CHECK(!celspan_object_bounds(studio_pair(s, CELSPAN_OPERATOR_INTERSECTION, circle, far), &box));
+  celspan_object *empty = studio_boolean(s, CELSPAN_OPERATOR_UNION, NULL, 0);
+  CHECK(!celspan_object_bounds(studio_pair(s, CELSPAN_OPERATOR_INTERSECTION, circle, empty), &box));
   CHECK(!celspan_cel_bounds(studio_cel(s, CELSPAN_CEL_DESC, &empty, 1), &box));
-  celspan_object *both = studio_pair(s, CELSPAN_UNION, circle, rect);
+  celspan_object *both = studio_pair(s, CELSPAN_OPERATOR_UNION, circle, rect);
   check_bounds(studio_transform(s, both, celspan_matrix_scaling(2, -1)), 10, -15, 54, 15);
   celspan_cel *cel = studio_cel(s, CELSPAN_CEL_DESC, (celspan_object *const[]){circle, far}, 2);
   CHECK(celspan_cel_bounds(cel, &box) && box.x == 5 && box.width == 86);
@@ -399,7 +399,8 @@ static celspan_rostrum *scene(studio *s, int change) {
       studio_polygon(s, points, 3, change == 6 ? CELSPAN_RULE_EVENODD : CELSPAN_RULE_NONZERO,
                      change == 7 ? flat : linear)};
   celspan_object *both =
-      studio_boolean(s, change == 8 ? CELSPAN_XOR : CELSPAN_UNION, operands, change == 9 ? 1 : 2);
+      studio_boolean(s, change == 8 ? CELSPAN_OPERATOR_XOR : CELSPAN_OPERATOR_UNION, operands,
+                     change == 9 ? 1 : 2);
   if (change == 10)
     both = studio_fade(s, both, 0.5);
   if (change == 11)
@@ -535,9 +536,9 @@ static void test_origins(studio *s) {
 static void test_nesting_limit(studio *s) {
   celspan_object *rect = studio_rect(s, 0, 0, 1, 1, NULL), *object = rect, *deeper = NULL;
   for (int i = 0; i < CS_SCENE_DEPTH; i++)
-    object = studio_pair(s, CELSPAN_UNION, object, rect);
+    object = studio_pair(s, CELSPAN_OPERATOR_UNION, object, rect);
   CHECK(celspan_object_contains(object, (celspan_point){0.5, 0.5}));
-  CHECK(celspan_object_create_boolean(s->context, CELSPAN_UNION, &object, 1, &deeper) ==
+  CHECK(celspan_object_create_boolean(s->context, CELSPAN_OPERATOR_UNION, &object, 1, &deeper) ==
         CELSPAN_LIMIT);
   CHECK_TEXT(celspan_context_error(s->context), "union: nested 129 levels deep; the limit is 128");
   CHECK(deeper == NULL);
@@ -547,9 +548,10 @@ static void test_nesting_limit(studio *s) {
 static void test_primitive_limit(studio *s) {
   celspan_object *object = studio_rect(s, 0, 0, 1, 1, NULL), *more = NULL;
   for (int i = 0; i < 24; i++)
-    object = studio_pair(s, CELSPAN_UNION, object, object);
+    object = studio_pair(s, CELSPAN_OPERATOR_UNION, object, object);
   celspan_object *const twice[] = {object, object};
-  CHECK(celspan_object_create_boolean(s->context, CELSPAN_UNION, twice, 2, &more) == CELSPAN_LIMIT);
+  CHECK(celspan_object_create_boolean(s->context, CELSPAN_OPERATOR_UNION, twice, 2, &more) ==
+        CELSPAN_LIMIT);
   CHECK_TEXT(celspan_context_error(s->context), "union: it holds more than 16777216 primitives");
 }
 
@@ -559,8 +561,8 @@ static void test_count(studio *s) {
   studio_check(s, celspan_texture_create_picture(s->context, &desc, &picture));
   celspan_object *a = studio_rect(s, 0, 0, 1, 1, NULL), *b = studio_rect(s, 0, 0, 1, 1, picture);
   celspan_texture_unref(picture);
-  celspan_object *pair = studio_pair(s, CELSPAN_XOR, a, b);
-  celspan_object *const objects[] = {studio_pair(s, CELSPAN_UNION, pair, b), a};
+  celspan_object *pair = studio_pair(s, CELSPAN_OPERATOR_XOR, a, b);
+  celspan_object *const objects[] = {studio_pair(s, CELSPAN_OPERATOR_UNION, pair, b), a};
   celspan_cel *const cels[] = {studio_cel(s, CELSPAN_CEL_DESC, objects, 2),
                                studio_cel(s, CELSPAN_CEL_DESC, objects, 1)};
   celspan_rostrum_counts counts;
@@ -673,7 +675,7 @@ static celspan_status try_outlines(celspan_context *context, celspan_object *sha
   celspan_outline_desc desc = CELSPAN_OUTLINE_DESC;
   celspan_object *both[] = {shape, shape}, *mixed, *made;
   desc.width = desc.blur = 2;
-  CS_TRY(celspan_object_create_boolean(context, CELSPAN_XOR, both, 2, &mixed));
+  CS_TRY(celspan_object_create_boolean(context, CELSPAN_OPERATOR_XOR, both, 2, &mixed));
   celspan_status status = celspan_object_outline(context, mixed, &desc, &made);
   celspan_object_unref(mixed);
   CS_TRY(status);
@@ -709,7 +711,8 @@ static celspan_status try_effects(celspan_context *context, celspan_object *obje
 
 static celspan_status build_film(celspan_context *context, everything *all) {
   const celspan_matrix half = celspan_matrix_scaling(0.5, 0.5);
-  CS_TRY(celspan_object_create_boolean(context, CELSPAN_XOR, all->objects, 7, &all->operands[0]));
+  CS_TRY(celspan_object_create_boolean(context, CELSPAN_OPERATOR_XOR, all->objects, 7,
+                                       &all->operands[0]));
   CS_TRY(celspan_object_transform(context, all->operands[0], &half, &all->operands[1]));
   CS_TRY(celspan_object_fade(context, all->operands[1], 0.5, &all->objects[8]));
   celspan_cel_desc cel_desc = CELSPAN_CEL_DESC;

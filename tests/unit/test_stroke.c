@@ -97,7 +97,8 @@ static void random_sketch(test_random *random, sketch *s) {
   if (random_below(random, 3) == 0) {
     s->desc.taper[0] = random_between(random, 0, 60);
     s->desc.taper[1] = random_below(random, 2) == 0 ? 0 : random_between(random, 0, 60);
-    s->desc.profile = s->desc.taper[0] < 30 ? CELSPAN_PROFILE_STRAIGHT : CELSPAN_PROFILE_ROUND;
+    s->desc.profile =
+        s->desc.taper[0] < 30 ? CELSPAN_STROKE_PROFILE_STRAIGHT : CELSPAN_STROKE_PROFILE_ROUND;
   }
   if (random_below(random, 3) == 0) {
     s->desc.from = random_between(random, -0.2, 0.6);
@@ -482,7 +483,7 @@ static void test_swallowed(celspan_context *context) {
   desc.widths = bump;
   desc.point_count = 16;
   desc.degree = 15;
-  desc.cap = CELSPAN_CAP_ROUND;
+  desc.cap = CELSPAN_STROKE_CAP_ROUND;
   for (int number = 1; number <= 40; number++) {
     test_random random = {(uint64_t)number};
     int place = random_below(&random, 16);
@@ -707,7 +708,8 @@ static void test_object_stroke(celspan_context *context) {
   CHECK(celspan_object_create_stroke(context, &desc, &none) == CELSPAN_BAD_ARGUMENT);
   CHECK(strstr(celspan_context_error(context), "one of points, d and outline"));
   celspan_object *both[2] = {square, large}, *joined = NULL;
-  CHECK(celspan_object_create_boolean(context, CELSPAN_UNION, both, 2, &joined) == CELSPAN_OK);
+  CHECK(celspan_object_create_boolean(context, CELSPAN_OPERATOR_UNION, both, 2, &joined) ==
+        CELSPAN_OK);
   CHECK(celspan_object_stroke(context, joined, &desc, &none) == CELSPAN_BAD_ARGUMENT);
   CHECK(strstr(celspan_context_error(context), "a boolean object has none"));
   celspan_object_unref(joined);

@@ -62,7 +62,7 @@ static void check(celspan_context *context, const line *l, double begin, double 
   desc.width = WIDTH;
   desc.taper[0] = begin;
   desc.taper[1] = end;
-  desc.profile = is_round ? CELSPAN_PROFILE_ROUND : CELSPAN_PROFILE_STRAIGHT;
+  desc.profile = is_round ? CELSPAN_STROKE_PROFILE_ROUND : CELSPAN_STROKE_PROFILE_STRAIGHT;
   int wrong = 0;
   if (!CHECK(celspan_object_create_stroke(context, &desc, &object) == CELSPAN_OK))
     return;

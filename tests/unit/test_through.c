@@ -210,7 +210,7 @@ static celspan_object *random_leaf(void) {
 static celspan_object *random_tree(int depth) {
   celspan_object *operands[3];
   celspan_operator op = (celspan_operator)random_below(&numbers, 5);
-  int count = op == CELSPAN_CLIP ? 2 : 2 + random_below(&numbers, 2);
+  int count = op == CELSPAN_OPERATOR_CLIP ? 2 : 2 + random_below(&numbers, 2);
   if (depth == 0 || random_below(&numbers, 3) == 0)
     return random_leaf();
   for (int i = 0; i < count; i++)

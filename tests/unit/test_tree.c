@@ -34,14 +34,14 @@ static bool yields(celspan_operator op, const bool *is_here, uint32_t count) {
     later = later || (i > 0 && is_here[i]);
   }
   switch (op) {
-  case CELSPAN_UNION:
+  case CELSPAN_OPERATOR_UNION:
     return any;
-  case CELSPAN_INTERSECTION:
-  case CELSPAN_CLIP:
+  case CELSPAN_OPERATOR_INTERSECTION:
+  case CELSPAN_OPERATOR_CLIP:
     return all;
-  case CELSPAN_DIFFERENCE:
+  case CELSPAN_OPERATOR_DIFFERENCE:
     return count > 0 && is_here[0] && !later;
-  case CELSPAN_XOR:
+  case CELSPAN_OPERATOR_XOR:
     return odd;
   }
   return false;
@@ -54,15 +54,16 @@ static bool hide(celspan_operator op, const range *operands, const bool *is_here
   bool is_present = yields(op, is_here, count);
   for (uint32_t i = 0; i < count; i++)
     for (uint32_t layer = operands[i].first; layer < operands[i].end; layer++)
-      if (!is_present || (op == CELSPAN_CLIP && i > 0))
+      if (!is_present || (op == CELSPAN_OPERATOR_CLIP && i > 0))
         put(set, layer, false);
   return is_present;
 }
 
 /* ---------------------------------------------------------------- comparing */
 
-static const celspan_operator operators[] = {CELSPAN_UNION, CELSPAN_INTERSECTION,
-                                             CELSPAN_DIFFERENCE, CELSPAN_XOR, CELSPAN_CLIP};
+static const celspan_operator operators[] = {CELSPAN_OPERATOR_UNION, CELSPAN_OPERATOR_INTERSECTION,
+                                             CELSPAN_OPERATOR_DIFFERENCE, CELSPAN_OPERATOR_XOR,
+                                             CELSPAN_OPERATOR_CLIP};
 
 static const char *const densities[] = {"none", "one", "some", "all but one", "all"};
 
@@ -114,10 +115,10 @@ static void check_layers(celspan_operator op, range tree) {
 /* The layers of which a present operator needs one. */
 static range needed_by(celspan_operator op, range tree, uint32_t middle) {
   switch (op) {
-  case CELSPAN_DIFFERENCE:
+  case CELSPAN_OPERATOR_DIFFERENCE:
     return (range){tree.first, middle};
-  case CELSPAN_INTERSECTION:
-  case CELSPAN_CLIP:
+  case CELSPAN_OPERATOR_INTERSECTION:
+  case CELSPAN_OPERATOR_CLIP:
     return (range){middle, tree.end};
   default:
     return tree;
@@ -128,10 +129,11 @@ static range needed_by(celspan_operator op, range tree, uint32_t middle) {
 static void check_unions(celspan_operator op, range tree, uint32_t middle) {
   range operands[2] = {{tree.first, middle}, {middle, tree.end}};
   range needed = needed_by(op, tree, middle);
-  cs_step steps[4] = {{CS_STEP_GUARD, CELSPAN_UNION, needed.first, needed.end, 3},
-                      {CS_STEP_LAYERS, CELSPAN_UNION, tree.first, middle, middle - tree.first},
-                      {CS_STEP_LAYERS, CELSPAN_UNION, middle, tree.end, tree.end - middle},
-                      {CS_STEP_OPERATOR, op, tree.first, tree.end, 2}};
+  cs_step steps[4] = {
+      {CS_STEP_GUARD, CELSPAN_OPERATOR_UNION, needed.first, needed.end, 3},
+      {CS_STEP_LAYERS, CELSPAN_OPERATOR_UNION, tree.first, middle, middle - tree.first},
+      {CS_STEP_LAYERS, CELSPAN_OPERATOR_UNION, middle, tree.end, tree.end - middle},
+      {CS_STEP_OPERATOR, op, tree.first, tree.end, 2}};
   cs_tree only = {tree.first, tree.end, 0, 4};
   cs_stack stack = {.steps = steps, .trees = &only, .tree_count = 1, .layer_count = MOST};
   for (int density = 0; density < 5; density++) {
@@ -149,8 +151,8 @@ static void check_unions(celspan_operator op, range tree, uint32_t middle) {
 /* A rostrum that is an object: its frame, and a union inside. */
 static void check_frame(range tree) {
   cs_step steps[2] = {
-      {CS_STEP_LAYERS, CELSPAN_UNION, tree.first + 1, tree.end, tree.end - tree.first - 1},
-      {CS_STEP_FRAME, CELSPAN_UNION, tree.first, tree.end, 1}};
+      {CS_STEP_LAYERS, CELSPAN_OPERATOR_UNION, tree.first + 1, tree.end, tree.end - tree.first - 1},
+      {CS_STEP_FRAME, CELSPAN_OPERATOR_UNION, tree.first, tree.end, 1}};
   cs_tree only = {tree.first, tree.end, 0, 2};
   cs_stack stack = {.steps = steps, .trees = &only, .tree_count = 1, .layer_count = MOST};
   for (int density = 0; density < 5; density++) {
@@ -166,10 +168,10 @@ static void check_frame(range tree) {
 /* Steps after a guard whose layers are absent are not taken: here they would clear layers that are
  * not of the tree. */
 static void absent_operators_are_skipped(void) {
-  cs_step steps[4] = {{CS_STEP_GUARD, CELSPAN_UNION, 70, 72, 2},
-                      {CS_STEP_LAYERS, CELSPAN_INTERSECTION, 0, 72, 72},
-                      {CS_STEP_OPERATOR, CELSPAN_CLIP, 64, 72, 1},
-                      {CS_STEP_OPERATOR, CELSPAN_UNION, 64, 72, 1}};
+  cs_step steps[4] = {{CS_STEP_GUARD, CELSPAN_OPERATOR_UNION, 70, 72, 2},
+                      {CS_STEP_LAYERS, CELSPAN_OPERATOR_INTERSECTION, 0, 72, 72},
+                      {CS_STEP_OPERATOR, CELSPAN_OPERATOR_CLIP, 64, 72, 1},
+                      {CS_STEP_OPERATOR, CELSPAN_OPERATOR_UNION, 64, 72, 1}};
   cs_tree only = {64, 72, 0, 4};
   cs_stack stack = {.steps = steps, .trees = &only, .tree_count = 1, .layer_count = MOST};
   uint64_t before[WORDS] = {0}, expected[WORDS] = {0};

@@ -52,7 +52,7 @@ static void make(art *a, memory_watch *watch) {
   stroke.degree = 2;
   stroke.width = 4;
   CHECK(celspan_object_create_stroke(a->context, &stroke, &a->parts[2]) == CELSPAN_OK);
-  CHECK(celspan_object_create_boolean(a->context, CELSPAN_UNION, a->parts, 3, &a->whole) ==
+  CHECK(celspan_object_create_boolean(a->context, CELSPAN_OPERATOR_UNION, a->parts, 3, &a->whole) ==
         CELSPAN_OK);
 }
 

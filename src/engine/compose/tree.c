@@ -42,14 +42,14 @@ static bool is_operator_present(celspan_operator op, uint32_t operands, uint32_t
   if (present == 0)
     return false;
   switch (op) {
-  case CELSPAN_UNION:
+  case CELSPAN_OPERATOR_UNION:
     return true;
-  case CELSPAN_INTERSECTION:
-  case CELSPAN_CLIP:
+  case CELSPAN_OPERATOR_INTERSECTION:
+  case CELSPAN_OPERATOR_CLIP:
     return present == operands;
-  case CELSPAN_DIFFERENCE:
+  case CELSPAN_OPERATOR_DIFFERENCE:
     return first && present == 1;
-  case CELSPAN_XOR:
+  case CELSPAN_OPERATOR_XOR:
     return present % 2 == 1;
   }
   return first; /* a matte */
@@ -60,7 +60,7 @@ static bool is_operator_present(celspan_operator op, uint32_t operands, uint32_t
 static void clear_hidden(const cs_step *step, uint32_t first_end, bool is_present, uint64_t *set) {
   if (!is_present)
     clear_range(set, step->first, step->end);
-  else if (step->op == CELSPAN_CLIP)
+  else if (step->op == CELSPAN_OPERATOR_CLIP)
     clear_range(set, first_end, step->end);
 }
 
@@ -172,15 +172,15 @@ static cs_cull_presence combine(celspan_operator op, const operands *o) {
   if (o->count == 0)
     return (cs_cull_presence){0, 0};
   switch (op) {
-  case CELSPAN_UNION:
+  case CELSPAN_OPERATOR_UNION:
     return o->any;
-  case CELSPAN_INTERSECTION:
-  case CELSPAN_CLIP:
+  case CELSPAN_OPERATOR_INTERSECTION:
+  case CELSPAN_OPERATOR_CLIP:
     return o->both;
-  case CELSPAN_DIFFERENCE:
+  case CELSPAN_OPERATOR_DIFFERENCE:
     return (cs_cull_presence){o->first.certain & ~o->others.possible,
                               o->first.possible & ~o->others.certain};
-  case CELSPAN_XOR:
+  case CELSPAN_OPERATOR_XOR:
     return (cs_cull_presence){o->known & o->odd, (~o->known | o->odd) & o->any.possible};
   }
   return o->first; /* a matte */
@@ -216,9 +216,10 @@ static cs_tree_certain_result resolve_over_tiles(const tiles *t, const cs_step *
     for (uint32_t layer = step->first; layer < step->end; layer++)
       add_operand(&o, presence_of(t, layer));
   }
-  cs_cull_presence presence = combine(step->kind == CS_STEP_FRAME ? CELSPAN_UNION : step->op, &o);
+  cs_cull_presence presence =
+      combine(step->kind == CS_STEP_FRAME ? CELSPAN_OPERATOR_UNION : step->op, &o);
   restrict_layers(t, step->first, step->end, presence.certain);
-  if (step->kind != CS_STEP_FRAME && step->op == CELSPAN_CLIP)
+  if (step->kind != CS_STEP_FRAME && step->op == CELSPAN_OPERATOR_CLIP)
     restrict_layers(t, first_end, step->end, 0);
   return (cs_tree_certain_result){presence, step->end};
 }

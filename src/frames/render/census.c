@@ -57,7 +57,7 @@ static void count_object(counting *c, const celspan_object *object, const celspa
     return;
   }
   const cs_boolean *boolean = data->boolean;
-  bool cuts = boolean->op == CELSPAN_DIFFERENCE;
+  bool cuts = boolean->op == CELSPAN_OPERATOR_DIFFERENCE;
   for (size_t i = 0; i < boolean->operand_count; i++)
     count_object(c, boolean->operands[i], &matrix, may_hide && !(cuts && i > 0));
 }

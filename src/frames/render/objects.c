@@ -291,13 +291,13 @@ static uint32_t next_layer(const cs_compiler *c) { return (uint32_t)c->plan->sta
 /* Whether an operator is absent where its operand i is; of several such operands the last one. */
 static bool is_needed(const cs_boolean *boolean, size_t i) {
   switch (boolean->op) {
-  case CELSPAN_UNION:
-  case CELSPAN_XOR:
+  case CELSPAN_OPERATOR_UNION:
+  case CELSPAN_OPERATOR_XOR:
     return false;
-  case CELSPAN_INTERSECTION:
-  case CELSPAN_CLIP:
+  case CELSPAN_OPERATOR_INTERSECTION:
+  case CELSPAN_OPERATOR_CLIP:
     return i + 1 == boolean->operand_count; /* the shape of a clip */
-  case CELSPAN_DIFFERENCE:
+  case CELSPAN_OPERATOR_DIFFERENCE:
     break;
   }
   return i == 0; /* also of a matte */
@@ -360,8 +360,9 @@ static celspan_status add_guarded(cs_compiler *c, const cs_boolean *boolean,
   uint32_t first = next_layer(c), place = (uint32_t)stack->step_count;
   size_t count = o->end - o->begin;
   CS_TRY(append_step(c, (cs_step){.kind = CS_STEP_GUARD}));
-  CS_TRY(boolean->op == CELSPAN_UNION && count > PARTS ? add_unions(c, boolean, matrix, o, &count)
-                                                       : add_operands(c, boolean, matrix, o));
+  CS_TRY(boolean->op == CELSPAN_OPERATOR_UNION && count > PARTS
+             ? add_unions(c, boolean, matrix, o, &count)
+             : add_operands(c, boolean, matrix, o));
   o->guard.operands = (uint32_t)stack->step_count - place;
   stack->steps[place] = o->guard;
   return append_step(c, (cs_step){.kind = CS_STEP_OPERATOR,
@@ -396,7 +397,7 @@ static celspan_status add_operator(cs_compiler *c, const cs_primitive_data *data
 static bool is_plain_union(const cs_primitive_data *data) {
   if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
     return true;
-  if (data->boolean->op != CELSPAN_UNION && data->boolean->op != CS_OPERATOR_MATTE)
+  if (data->boolean->op != CELSPAN_OPERATOR_UNION && data->boolean->op != CS_OPERATOR_MATTE)
     return false;
   for (size_t i = 0; i < data->boolean->operand_count; i++)
     if (!is_plain_union(data->boolean->operands[i]->data))

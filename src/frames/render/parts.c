@@ -35,7 +35,7 @@ static bool is_open(const search *s, const celspan_object *object) {
   if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN || object->fade < 1)
     return false;
   const cs_boolean *boolean = data->boolean;
-  return boolean->op == CELSPAN_UNION && boolean->blend == CELSPAN_BLEND_NORMAL &&
+  return boolean->op == CELSPAN_OPERATOR_UNION && boolean->blend == CELSPAN_BLEND_NORMAL &&
          !(boolean->isolates && data->has_modes) && !cs_boolean_develops(boolean, s->view->space);
 }
 

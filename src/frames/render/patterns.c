@@ -144,7 +144,7 @@ static celspan_status copy_tile(cs_compiler *c, celspan_object *tile, const view
   celspan_status status =
       !copies && count > 0 ? cs_fail_memory(c->context) : copy_boxes(c, tile, v, copies, &made);
   if (status == CELSPAN_OK)
-    status = celspan_object_create_boolean(c->context, CELSPAN_UNION, copies, made, out);
+    status = celspan_object_create_boolean(c->context, CELSPAN_OPERATOR_UNION, copies, made, out);
   for (size_t i = 0; i < made; i++)
     celspan_object_unref(copies[i]);
   cs_mem_free(c->context->memory, copies, count * sizeof(celspan_object *));
@@ -325,7 +325,7 @@ static celspan_status make_rectangle(cs_compiler *c, const view *v, celspan_text
   celspan_status status = celspan_object_transform(c->context, plain, &v->repeat->matrix, &placed);
   celspan_object_unref(plain);
   if (status == CELSPAN_OK)
-    status = celspan_object_create_boolean(c->context, CELSPAN_UNION, &placed, 1, out);
+    status = celspan_object_create_boolean(c->context, CELSPAN_OPERATOR_UNION, &placed, 1, out);
   celspan_object_unref(placed);
   return status;
 }

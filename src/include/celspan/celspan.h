@@ -559,21 +559,21 @@ typedef struct celspan_path_desc {
 } celspan_path_desc;
 
 typedef enum celspan_stroke_cap {
-  CELSPAN_CAP_BUTT = 0,
-  CELSPAN_CAP_ROUND,
-  CELSPAN_CAP_SQUARE
+  CELSPAN_STROKE_CAP_BUTT = 0,
+  CELSPAN_STROKE_CAP_ROUND,
+  CELSPAN_STROKE_CAP_SQUARE
 } celspan_stroke_cap;
 
 typedef enum celspan_stroke_join {
-  CELSPAN_JOIN_MITER = 0,
-  CELSPAN_JOIN_ROUND,
-  CELSPAN_JOIN_BEVEL
+  CELSPAN_STROKE_JOIN_MITER = 0,
+  CELSPAN_STROKE_JOIN_ROUND,
+  CELSPAN_STROKE_JOIN_BEVEL
 } celspan_stroke_join;
 
 /* The width at the share u of the length of a taper, by the width without it. */
 typedef enum celspan_stroke_profile {
-  CELSPAN_PROFILE_STRAIGHT = 0, /* u */
-  CELSPAN_PROFILE_ROUND         /* u (2 - u): no corner where the taper ends */
+  CELSPAN_STROKE_PROFILE_STRAIGHT = 0, /* u */
+  CELSPAN_STROKE_PROFILE_ROUND         /* u (2 - u): no corner where the taper ends */
 } celspan_stroke_profile;
 
 /* A line and its width: of points, data and outline, one is given. The sides are the envelope of a
@@ -811,11 +811,11 @@ CELSPAN_API const celspan_glyph *celspan_glyphs_get(const celspan_glyphs *glyphs
 CELSPAN_API void celspan_glyphs_destroy(celspan_glyphs *glyphs);
 
 typedef enum celspan_operator {
-  CELSPAN_UNION = 0,    /* later over earlier */
-  CELSPAN_INTERSECTION, /* where all are; later over earlier */
-  CELSPAN_DIFFERENCE,   /* the first where no other is */
-  CELSPAN_XOR,          /* where an odd number are; the present ones, over */
-  CELSPAN_CLIP          /* two operands: the first where the second is; only the first is painted */
+  CELSPAN_OPERATOR_UNION = 0,    /* later over earlier */
+  CELSPAN_OPERATOR_INTERSECTION, /* where all are; later over earlier */
+  CELSPAN_OPERATOR_DIFFERENCE,   /* the first where no other is */
+  CELSPAN_OPERATOR_XOR,          /* where an odd number are; the present ones, over */
+  CELSPAN_OPERATOR_CLIP /* two operands: the first where the second is; only the first is painted */
 } celspan_operator;
 
 /* operands: kept, the list copied; an empty list is legal (except for CLIP) and draws nothing.
@@ -1056,7 +1056,7 @@ typedef struct celspan_outline_desc {
 static inline celspan_outline_desc celspan_outline_desc_default(void) {
   celspan_outline_desc desc = CELSPAN_ZERO;
   desc.struct_size = sizeof desc;
-  desc.join = CELSPAN_JOIN_ROUND;
+  desc.join = CELSPAN_STROKE_JOIN_ROUND;
   desc.opacity = 1;
   return desc;
 }

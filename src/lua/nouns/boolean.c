@@ -18,19 +18,19 @@ static void create(const cs_form *form, cs_userdata *value, celspan_operator op)
 }
 
 static void create_union(const cs_form *form, cs_userdata *value) {
-  create(form, value, CELSPAN_UNION);
+  create(form, value, CELSPAN_OPERATOR_UNION);
 }
 static void create_intersection(const cs_form *form, cs_userdata *value) {
-  create(form, value, CELSPAN_INTERSECTION);
+  create(form, value, CELSPAN_OPERATOR_INTERSECTION);
 }
 static void create_difference(const cs_form *form, cs_userdata *value) {
-  create(form, value, CELSPAN_DIFFERENCE);
+  create(form, value, CELSPAN_OPERATOR_DIFFERENCE);
 }
 static void create_xor(const cs_form *form, cs_userdata *value) {
-  create(form, value, CELSPAN_XOR);
+  create(form, value, CELSPAN_OPERATOR_XOR);
 }
 static void create_clip(const cs_form *form, cs_userdata *value) {
-  create(form, value, CELSPAN_CLIP);
+  create(form, value, CELSPAN_OPERATOR_CLIP);
 }
 
 static const cs_field no_fields[] = {{0}};
@@ -113,14 +113,16 @@ static int operate(lua_State *L, const cs_noun *noun, celspan_operator op, const
   return 1;
 }
 
-static int operate_union(lua_State *L) { return operate(L, &cs_noun_union, CELSPAN_UNION, "|"); }
+static int operate_union(lua_State *L) {
+  return operate(L, &cs_noun_union, CELSPAN_OPERATOR_UNION, "|");
+}
 static int operate_intersection(lua_State *L) {
-  return operate(L, &cs_noun_intersection, CELSPAN_INTERSECTION, "&");
+  return operate(L, &cs_noun_intersection, CELSPAN_OPERATOR_INTERSECTION, "&");
 }
 static int operate_difference(lua_State *L) {
-  return operate(L, &cs_noun_difference, CELSPAN_DIFFERENCE, "-");
+  return operate(L, &cs_noun_difference, CELSPAN_OPERATOR_DIFFERENCE, "-");
 }
-static int operate_xor(lua_State *L) { return operate(L, &cs_noun_xor, CELSPAN_XOR, "~"); }
+static int operate_xor(lua_State *L) { return operate(L, &cs_noun_xor, CELSPAN_OPERATOR_XOR, "~"); }
 
 const luaL_Reg cs_boolean_operators[] = {{"__bor", operate_union},
                                          {"__band", operate_intersection},

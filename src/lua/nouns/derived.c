@@ -32,7 +32,8 @@ static celspan_status fill(celspan_context *context, celspan_object *shape, cons
   const celspan_rect_desc desc = {box->x, box->y, box->width, box->height, 0, texture};
   celspan_object *pair[2] = {NULL, shape};
   CS_TRY(celspan_object_create_rect(context, &desc, &pair[0]));
-  celspan_status status = celspan_object_create_boolean(context, CELSPAN_CLIP, pair, 2, out);
+  celspan_status status =
+      celspan_object_create_boolean(context, CELSPAN_OPERATOR_CLIP, pair, 2, out);
   celspan_object_unref(pair[0]);
   return status;
 }

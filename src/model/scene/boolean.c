@@ -3,11 +3,11 @@
 #include "model/scene/primitive_data.h"
 
 const char *const cs_boolean_words[] = {
-    [CELSPAN_UNION] = "union",
-    [CELSPAN_INTERSECTION] = "intersection",
-    [CELSPAN_DIFFERENCE] = "difference",
-    [CELSPAN_XOR] = "xor",
-    [CELSPAN_CLIP] = "clip",
+    [CELSPAN_OPERATOR_UNION] = "union",
+    [CELSPAN_OPERATOR_INTERSECTION] = "intersection",
+    [CELSPAN_OPERATOR_DIFFERENCE] = "difference",
+    [CELSPAN_OPERATOR_XOR] = "xor",
+    [CELSPAN_OPERATOR_CLIP] = "clip",
     [CS_OPERATOR_MATTE] = "matte",
 };
 
@@ -29,9 +29,9 @@ static celspan_status fill(celspan_context *context, cs_primitive_data *data, co
 celspan_status celspan_object_create_boolean(celspan_context *context, celspan_operator op,
                                              celspan_object *const *operands, size_t operand_count,
                                              celspan_object **out) {
-  CS_TRY(cs_check_choice(context, "boolean", "op", (unsigned)op, CELSPAN_CLIP + 1));
+  CS_TRY(cs_check_choice(context, "boolean", "op", (unsigned)op, CELSPAN_OPERATOR_CLIP + 1));
   const char *noun = cs_boolean_words[op];
-  if (op == CELSPAN_CLIP && operand_count != 2)
+  if (op == CELSPAN_OPERATOR_CLIP && operand_count != 2)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "clip: %zu operands were given; it takes two",
                    operand_count);
   cs_primitive_data *data;
@@ -74,7 +74,7 @@ static bool is_identity(const celspan_matrix *matrix) {
 
 static bool is_extendable(const celspan_object *object) {
   const cs_primitive_data *data = object->data;
-  return data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op < CELSPAN_CLIP &&
+  return data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op < CELSPAN_OPERATOR_CLIP &&
          data->boolean->blend == CELSPAN_BLEND_NORMAL && !data->boolean->isolates &&
          data->boolean->space == CELSPAN_SPACE_AROUND && is_identity(object->matrix) &&
          object->fade == 1;

@@ -89,13 +89,13 @@ static bool data_bounds(finder *f, const cs_primitive_data *data, const celspan_
     return cs_outline_bounds(cs_primitive_data_outline(data, &room), matrix, out);
   const cs_boolean *boolean = data->boolean;
   switch (boolean->op) {
-  case CELSPAN_UNION:
-  case CELSPAN_XOR:
+  case CELSPAN_OPERATOR_UNION:
+  case CELSPAN_OPERATOR_XOR:
     return list_around(f, boolean->operands, boolean->operand_count, matrix, out);
-  case CELSPAN_INTERSECTION:
-  case CELSPAN_CLIP:
+  case CELSPAN_OPERATOR_INTERSECTION:
+  case CELSPAN_OPERATOR_CLIP:
     return list_common(f, boolean->operands, boolean->operand_count, matrix, out);
-  case CELSPAN_DIFFERENCE:
+  case CELSPAN_OPERATOR_DIFFERENCE:
     break;
   }
   return object_bounds(f, boolean->operands[0], matrix, out);

@@ -347,7 +347,8 @@ static celspan_status check_outline(celspan_context *context, const celspan_obje
   CS_TRY(cs_check_version(context, "outline", desc->struct_size, sizeof *desc));
   CS_TRY(check_blur(context, "outline", "width", desc->width));
   CS_TRY(check_blur(context, "outline", "blur", desc->blur));
-  CS_TRY(cs_check_choice(context, "outline", "join", (unsigned)desc->join, CELSPAN_JOIN_BEVEL + 1));
+  CS_TRY(cs_check_choice(context, "outline", "join", (unsigned)desc->join,
+                         CELSPAN_STROKE_JOIN_BEVEL + 1));
   return cs_check_share(context, "outline", "opacity", desc->opacity, &opacity);
 }
 
@@ -364,7 +365,7 @@ static celspan_status outline_vector(celspan_context *context, celspan_object *o
     status = make_ground(context, &box, 0, texture, &ground);
   celspan_object *const both[] = {ground, grown};
   if (status == CELSPAN_OK)
-    status = celspan_object_create_boolean(context, CELSPAN_CLIP, both, 2, out);
+    status = celspan_object_create_boolean(context, CELSPAN_OPERATOR_CLIP, both, 2, out);
   celspan_object_unref(ground);
   celspan_object_unref(grown);
   return status;

@@ -54,7 +54,7 @@ static celspan_status make_piece(celspan_context *context, celspan_object *art, 
   if (status == CELSPAN_OK)
     status = make_area(context, f, piece % 3, piece / 3, &both[1]);
   if (status == CELSPAN_OK)
-    status = celspan_object_create_boolean(context, CELSPAN_CLIP, both, 2, out);
+    status = celspan_object_create_boolean(context, CELSPAN_OPERATOR_CLIP, both, 2, out);
   celspan_object_unref(both[0]);
   celspan_object_unref(both[1]);
   return status;

@@ -66,7 +66,7 @@ static celspan_status check_group(celspan_context *context, const celspan_group_
 celspan_status celspan_object_create_group(celspan_context *context, const celspan_group_desc *desc,
                                            celspan_object **out) {
   CS_TRY(check_group(context, desc));
-  const cs_boolean look = {.op = CELSPAN_UNION,
+  const cs_boolean look = {.op = CELSPAN_OPERATOR_UNION,
                            .blend = desc->blend,
                            .space = desc->space,
                            .grade = desc->grade,
@@ -141,7 +141,7 @@ static celspan_status set_mode(celspan_context *context, celspan_object *object,
     *out = celspan_object_ref(object);
     return CELSPAN_OK;
   }
-  const cs_boolean look = {.op = CELSPAN_UNION, .blend = mode, .isolates = true};
+  const cs_boolean look = {.op = CELSPAN_OPERATOR_UNION, .blend = mode, .isolates = true};
   cs_primitive_data *data;
   CS_TRY(cs_primitive_data_of_operands(context, "blend", &look, &object, 1, &data));
   CS_TRY(cs_primitive_data_wrap(context, data, CELSPAN_OK, out));
@@ -169,7 +169,7 @@ celspan_status cs_object_blend_within(celspan_context *context, celspan_object *
 /* Any other object is put into a group. */
 static bool is_union(const celspan_object *object) {
   const cs_primitive_data *data = object->data;
-  return data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op == CELSPAN_UNION;
+  return data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op == CELSPAN_OPERATOR_UNION;
 }
 
 /* The look of such an object does not depend on the space around it. */
@@ -179,7 +179,7 @@ static bool has_space(const celspan_object *object) {
 
 celspan_status cs_object_in_space(celspan_context *context, celspan_object *object,
                                   celspan_space space, celspan_object **out) {
-  const cs_boolean alone = {.op = CELSPAN_UNION, .space = space};
+  const cs_boolean alone = {.op = CELSPAN_OPERATOR_UNION, .space = space};
   cs_primitive_data *data;
   if (space == CELSPAN_SPACE_AROUND || object->data->mixing < CS_MIXING_MIXED ||
       has_space(object)) {

@@ -55,8 +55,9 @@ static celspan_status combine(const grower *g, celspan_operator op, celspan_obje
 static celspan_status add_rim(const grower *g, celspan_object *shape, celspan_object *rim,
                               wanted want, sizes *out) {
   if (want.grown)
-    CS_TRY(combine(g, CELSPAN_UNION, shape, rim, &out->grown));
-  return want.shrunk ? combine(g, CELSPAN_DIFFERENCE, shape, rim, &out->shrunk) : CELSPAN_OK;
+    CS_TRY(combine(g, CELSPAN_OPERATOR_UNION, shape, rim, &out->grown));
+  return want.shrunk ? combine(g, CELSPAN_OPERATOR_DIFFERENCE, shape, rim, &out->shrunk)
+                     : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- primitives */
@@ -160,7 +161,7 @@ static celspan_status grow_operands(const grower *g, const cs_boolean *boolean,
   const size_t count = boolean->operand_count;
   for (size_t i = 0; i < count; i++) {
     sizes both = {NULL, NULL};
-    const bool is_taken_off = boolean->op == CELSPAN_DIFFERENCE && i > 0;
+    const bool is_taken_off = boolean->op == CELSPAN_OPERATOR_DIFFERENCE && i > 0;
     const wanted of_it = is_taken_off ? (wanted){want.shrunk, want.grown} : want;
     celspan_status status = grow_any(g, boolean->operands[i], around, of_it, &both);
     list[i] = is_taken_off ? both.shrunk : both.grown;
@@ -178,11 +179,11 @@ static celspan_status grow_xor(const grower *g, celspan_object *object,
   celspan_object *shape = NULL, *rim = NULL;
   for (size_t i = 0; i < count; i++) {
     celspan_object *border;
-    CS_TRY(combine(g, CELSPAN_DIFFERENCE, list[i], list[count + i], &border));
+    CS_TRY(combine(g, CELSPAN_OPERATOR_DIFFERENCE, list[i], list[count + i], &border));
     celspan_object_unref(list[i]);
     list[i] = border;
   }
-  CS_TRY(celspan_object_create_boolean(g->context, CELSPAN_UNION, list, count, &rim));
+  CS_TRY(celspan_object_create_boolean(g->context, CELSPAN_OPERATOR_UNION, list, count, &rim));
   celspan_status status = celspan_object_transform(g->context, object, around, &shape);
   if (status == CELSPAN_OK)
     status = add_rim(g, shape, rim, want, out);
@@ -194,7 +195,8 @@ static celspan_status grow_xor(const grower *g, celspan_object *object,
 static celspan_status join_operands(const grower *g, const cs_boolean *boolean, wanted want,
                                     celspan_object **list, sizes *out) {
   const size_t count = boolean->operand_count;
-  const celspan_operator op = boolean->op == CELSPAN_CLIP ? CELSPAN_INTERSECTION : boolean->op;
+  const celspan_operator op =
+      boolean->op == CELSPAN_OPERATOR_CLIP ? CELSPAN_OPERATOR_INTERSECTION : boolean->op;
   celspan_object **shrunk = count > 0 ? list + count : NULL; /* one of nothing has no list */
   if (want.grown)
     CS_TRY(celspan_object_create_boolean(g->context, op, list, count, &out->grown));
@@ -205,7 +207,7 @@ static celspan_status join_operands(const grower *g, const cs_boolean *boolean, 
 static celspan_status grow_boolean(const grower *g, celspan_object *object,
                                    const celspan_matrix *around, wanted want, sizes *out) {
   const cs_boolean *boolean = object->data->boolean;
-  const wanted both = {true, true}, of_them = boolean->op == CELSPAN_XOR ? both : want;
+  const wanted both = {true, true}, of_them = boolean->op == CELSPAN_OPERATOR_XOR ? both : want;
   const celspan_matrix whole = celspan_matrix_then(*object->matrix, *around);
   const size_t count = 2 * boolean->operand_count;
   celspan_object **list = cs_mem_array(g->context->memory, count, sizeof *list);
@@ -213,8 +215,8 @@ static celspan_status grow_boolean(const grower *g, celspan_object *object,
     return cs_fail_memory(g->context);
   celspan_status status = grow_operands(g, boolean, &whole, of_them, list);
   if (status == CELSPAN_OK)
-    status = boolean->op == CELSPAN_XOR ? grow_xor(g, object, around, want, list, out)
-                                        : join_operands(g, boolean, want, list, out);
+    status = boolean->op == CELSPAN_OPERATOR_XOR ? grow_xor(g, object, around, want, list, out)
+                                                 : join_operands(g, boolean, want, list, out);
   cs_primitive_data_list_free(g->context->memory, list, count);
   return status;
 }
@@ -240,7 +242,7 @@ static bool find_scale(const celspan_matrix *matrix, double *scale) {
 /* An object with a mode, or a named group, may be around an object that has a core. */
 static const celspan_object *find_inner(const celspan_object *object, celspan_matrix *matrix) {
   const cs_primitive_data *data = object->data;
-  while (data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op == CELSPAN_UNION &&
+  while (data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op == CELSPAN_OPERATOR_UNION &&
          data->boolean->operand_count == 1 && !data->boolean->core.object) {
     object = data->boolean->operands[0];
     data = object->data;
@@ -258,7 +260,7 @@ static bool find_core(const cs_grow *how, const celspan_object *object,
   if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN || !data->boolean->core.object)
     return false;
   const cs_core *core = &data->boolean->core;
-  if ((core->join != CELSPAN_JOIN_ROUND && core->join != how->join) ||
+  if ((core->join != CELSPAN_STROKE_JOIN_ROUND && core->join != how->join) ||
       !find_scale(&out->matrix, &scale))
     return false;
   out->object = core->object;

@@ -41,15 +41,15 @@ static inline bool cs_inside_primitive(const cs_primitive_data *data, celspan_po
 static inline bool cs_inside_is_present(celspan_operator op, size_t present, size_t operand_count,
                                         bool first) {
   switch (op) {
-  case CELSPAN_UNION:
+  case CELSPAN_OPERATOR_UNION:
     return present > 0;
-  case CELSPAN_INTERSECTION:
+  case CELSPAN_OPERATOR_INTERSECTION:
     return present > 0 && present == operand_count;
-  case CELSPAN_DIFFERENCE:
+  case CELSPAN_OPERATOR_DIFFERENCE:
     return first && present == 1;
-  case CELSPAN_XOR:
+  case CELSPAN_OPERATOR_XOR:
     return present % 2 == 1;
-  case CELSPAN_CLIP:
+  case CELSPAN_OPERATOR_CLIP:
     return first && present == 2;
   }
   return first; /* a matte */
@@ -58,5 +58,5 @@ static inline bool cs_inside_is_present(celspan_operator op, size_t present, siz
 /* Whether a boolean object is painted with its operand of this index where that operand is
  * present. */
 static inline bool cs_inside_shows(celspan_operator op, size_t index) {
-  return index == 0 || (op != CELSPAN_DIFFERENCE && op < CELSPAN_CLIP);
+  return index == 0 || (op != CELSPAN_OPERATOR_DIFFERENCE && op < CELSPAN_OPERATOR_CLIP);
 }

@@ -279,9 +279,9 @@ static bool is_in_square(const piece_end *e) {
 
 static bool is_in_cap(const cs_stroke *stroke, const piece_end *e) {
   double distance = distance_to(e);
-  if (stroke->cap == CELSPAN_CAP_ROUND)
+  if (stroke->cap == CELSPAN_STROKE_CAP_ROUND)
     return distance <= e->radius && along(e) >= -e->slope * distance;
-  return is_in_butt(e) || (stroke->cap == CELSPAN_CAP_SQUARE && is_in_square(e));
+  return is_in_butt(e) || (stroke->cap == CELSPAN_STROKE_CAP_SQUARE && is_in_square(e));
 }
 
 /* ---------------------------------------------------------------- corners */
@@ -331,8 +331,8 @@ static bool is_in_wedge(const cs_stroke *stroke, const piece_end *in, const piec
   double second = (ax * in->y - ay * in->x) / sine;
   if (first < 0 || second < 0)
     return false;
-  bool is_miter =
-      stroke->join == CELSPAN_JOIN_MITER && 2 <= stroke->miter * stroke->miter * (1 + cosine);
+  bool is_miter = stroke->join == CELSPAN_STROKE_JOIN_MITER &&
+                  2 <= stroke->miter * stroke->miter * (1 + cosine);
   return is_miter ? first + second * cosine <= in->radius && second + first * cosine <= in->radius
                   : first + second <= in->radius;
 }
@@ -341,7 +341,7 @@ static bool is_in_corner(const cs_stroke *stroke, const piece_end *in, const pie
   double turn = angle_between(in->away_x, in->away_y, -out->away_x, -out->away_y);
   if (fabs(in->radius - out->radius) > 1e-12 * (in->radius + out->radius))
     return is_in_jump(in, out);
-  if (fabs(turn) <= AT_REST || stroke->join == CELSPAN_JOIN_ROUND)
+  if (fabs(turn) <= AT_REST || stroke->join == CELSPAN_STROKE_JOIN_ROUND)
     return is_in_round(in, out, fabs(turn) > PI - AT_REST ? fabs(turn) : turn);
   return is_in_butt(in) || is_in_butt(out) || is_in_wedge(stroke, in, out, turn);
 }
@@ -389,9 +389,9 @@ static bool is_in_dot(const cs_stroke *stroke, const cs_stroke_part *part, celsp
   rest.end = 1;
   around a = load(stroke, is_end ? &whole : &rest, 0, point);
   piece_end e = end_of(&a, is_end);
-  if (stroke->cap == CELSPAN_CAP_ROUND)
+  if (stroke->cap == CELSPAN_STROKE_CAP_ROUND)
     return distance_to(&e) <= e.radius;
-  return stroke->cap == CELSPAN_CAP_SQUARE && fabs(along(&e)) <= e.radius &&
+  return stroke->cap == CELSPAN_STROKE_CAP_SQUARE && fabs(along(&e)) <= e.radius &&
          fabs(across(&e)) <= e.radius;
 }
 

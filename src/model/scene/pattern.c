@@ -131,7 +131,7 @@ static celspan_status make_shape(celspan_context *context, cs_primitive_data *da
 
 /* Replaces *data by the clip, and releases it. */
 static celspan_status fill(celspan_context *context, cs_primitive_data **data) {
-  const cs_boolean look = {.op = CELSPAN_CLIP, .is_filled = true};
+  const cs_boolean look = {.op = CELSPAN_OPERATOR_CLIP, .is_filled = true};
   celspan_object *both[2] = {NULL, NULL};
   cs_primitive_data *clip = NULL;
   celspan_status status = (*data)->is_empty ? CELSPAN_OK : make_plane(context, *data, &both[0]);

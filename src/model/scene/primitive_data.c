@@ -46,7 +46,8 @@ static bool has_formula(const cs_boolean *boolean) {
 /* For operands that come after others. */
 static void measure_mixing(celspan_object *const *objects, size_t count, cs_primitive_data *data) {
   const cs_boolean *boolean = data->boolean;
-  bool is_first = boolean->op == CELSPAN_DIFFERENCE || boolean->op == CELSPAN_CLIP;
+  bool is_first =
+      boolean->op == CELSPAN_OPERATOR_DIFFERENCE || boolean->op == CELSPAN_OPERATOR_CLIP;
   bool is_only = is_first || boolean->operand_count == 1;
   if (!is_only && data->mixing == CS_MIXING_SINGLE)
     data->mixing = CS_MIXING_MIXED;
@@ -397,7 +398,7 @@ static uint16_t sum_of(uint16_t a, uint16_t b) {
 /* Adds the shapes of an operand. */
 static void add_shapes(const cs_primitive_data *item, cs_primitive_data *data) {
   bool is_cut = data->kind == CS_PRIMITIVE_DATA_BOOLEAN &&
-                data->boolean->op == CELSPAN_DIFFERENCE && data->primitive_count > 0;
+                data->boolean->op == CELSPAN_OPERATOR_DIFFERENCE && data->primitive_count > 0;
   data->shape_count = sum_of(data->shape_count, item->shape_count);
   data->cut_count = sum_of(data->cut_count, is_cut ? item->shape_count : item->cut_count);
 }

@@ -83,7 +83,7 @@ typedef enum cs_primitive_data_kind {
 
 /* A matte among the operators: it has two operands. The second is never painted; its strength at a
  * point fades the first. */
-#define CS_OPERATOR_MATTE ((celspan_operator)(CELSPAN_CLIP + 1))
+#define CS_OPERATOR_MATTE ((celspan_operator)(CELSPAN_OPERATOR_CLIP + 1))
 
 /* A known fact about where a boolean is present: where an object is present that is grown
  * (model/scene/grow.h). */

@@ -43,14 +43,15 @@ static celspan_status check_dashes(celspan_context *context, const celspan_strok
 
 static celspan_status check_numbers(celspan_context *context, const celspan_stroke_desc *desc) {
   CS_TRY(cs_check_size(context, NOUN, "width", desc->width));
-  CS_TRY(cs_check_choice(context, NOUN, "cap", (unsigned)desc->cap, CELSPAN_CAP_SQUARE + 1));
-  CS_TRY(cs_check_choice(context, NOUN, "join", (unsigned)desc->join, CELSPAN_JOIN_BEVEL + 1));
+  CS_TRY(cs_check_choice(context, NOUN, "cap", (unsigned)desc->cap, CELSPAN_STROKE_CAP_SQUARE + 1));
+  CS_TRY(
+      cs_check_choice(context, NOUN, "join", (unsigned)desc->join, CELSPAN_STROKE_JOIN_BEVEL + 1));
   CS_TRY(cs_check_range(context, NOUN, "miter", desc->miter, 1, 1e6));
   CS_TRY(cs_check_number(context, NOUN, "dash_offset", desc->dash_offset));
   CS_TRY(cs_check_size(context, NOUN, "taper[1]", desc->taper[0]));
   CS_TRY(cs_check_size(context, NOUN, "taper[2]", desc->taper[1]));
   CS_TRY(cs_check_choice(context, NOUN, "profile", (unsigned)desc->profile,
-                         CELSPAN_PROFILE_ROUND + 1));
+                         CELSPAN_STROKE_PROFILE_ROUND + 1));
   CS_TRY(cs_check_number(context, NOUN, "from", desc->from));
   CS_TRY(cs_check_number(context, NOUN, "to", desc->to));
   return check_dashes(context, desc);

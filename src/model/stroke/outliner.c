@@ -267,7 +267,7 @@ static bool find_line(cs_parts *parts, size_t begin, size_t end, cs_curve *line)
 
 /* The box around parts that lie on a stretch of one piece: they have no joins. */
 static celspan_box box_around(const cs_stroke *stroke, const cs_curve *line) {
-  if (stroke->cap != CELSPAN_CAP_BUTT || line->radius_degree > 0 ||
+  if (stroke->cap != CELSPAN_STROKE_CAP_BUTT || line->radius_degree > 0 ||
       !cs_curve_is_straight(&line->line))
     return cs_curve_box(line, cs_stroke_extent_of_caps(stroke));
   celspan_box box = cs_curve_box(line, 0); /* they end where the line does */

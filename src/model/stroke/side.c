@@ -295,7 +295,7 @@ static celspan_status go_outside(cs_side *side, const cs_stroke *stroke, const c
   celspan_point a = cs_spoke_right(in->tangent), b = cs_spoke_right(out->tangent);
   double cosine = cs_spoke_dot(a, b), limit = stroke->miter;
   CS_TRY(cs_side_go(side, rim(in, a)));
-  if (stroke->join == CELSPAN_JOIN_MITER && 2 <= limit * limit * (1 + cosine))
+  if (stroke->join == CELSPAN_STROKE_JOIN_MITER && 2 <= limit * limit * (1 + cosine))
     CS_TRY(cs_side_go(side, cs_spoke_add(in->centre, in->radius / (1 + cosine),
                                          (celspan_point){a.x + b.x, a.y + b.y})));
   return cs_side_go(side, rim(out, b));
@@ -311,7 +311,7 @@ celspan_status cs_corner_turn(cs_side *side, const cs_stroke *stroke, const cs_s
   /* Of a half turn one side is the outside, whichever way the line is followed. */
   if (fabs(turn) > PI - 1e-9)
     turn = side->is_turned ? -fabs(turn) : fabs(turn);
-  if (stroke->join == CELSPAN_JOIN_ROUND)
+  if (stroke->join == CELSPAN_STROKE_JOIN_ROUND)
     return turn_round(side, in, out, turn);
   CS_TRY(come_in(side, in));
   if (turn > 0)
@@ -334,7 +334,7 @@ static celspan_status add_straight_end(cs_side *side, const cs_spoke *end) {
 
 celspan_status cs_corner_turn_more(cs_side *side, const cs_stroke *stroke, const cs_spoke *in,
                                    const cs_spoke *out) {
-  bool is_round = stroke->join == CELSPAN_JOIN_ROUND || is_smooth(in, out) ||
+  bool is_round = stroke->join == CELSPAN_STROKE_JOIN_ROUND || is_smooth(in, out) ||
                   fabs(in->radius - out->radius) > EQUAL * (in->radius + out->radius);
   if (is_round)
     return CELSPAN_OK;
@@ -359,9 +359,9 @@ celspan_status cs_corner_cap(cs_side *side, const cs_stroke *stroke, const cs_sp
   cs_spoke turned = cs_spoke_turned(end);
   double lean = cs_spoke_lean(end);
   celspan_point left = cs_spoke_left(end->tangent);
-  if (stroke->cap == CELSPAN_CAP_ROUND)
+  if (stroke->cap == CELSPAN_STROKE_CAP_ROUND)
     return cs_side_arc(side, end, end->direction, turned.direction, 2 * lean);
-  bool is_square = stroke->cap == CELSPAN_CAP_SQUARE;
+  bool is_square = stroke->cap == CELSPAN_STROKE_CAP_SQUARE;
   if (end->slope < 0 || (end->slope == 0 && !is_square))
     return cs_side_go(side, turned.tip);
   CS_TRY(come_in(side, end));
@@ -371,7 +371,7 @@ celspan_status cs_corner_cap(cs_side *side, const cs_stroke *stroke, const cs_sp
 }
 
 celspan_status cs_corner_cap_more(cs_side *side, const cs_stroke *stroke, const cs_spoke *end) {
-  if (stroke->cap != CELSPAN_CAP_SQUARE || !(end->slope < 0) || !(end->radius > 0))
+  if (stroke->cap != CELSPAN_STROKE_CAP_SQUARE || !(end->slope < 0) || !(end->radius > 0))
     return CELSPAN_OK;
   CS_TRY(go_square(side, end));
   return cs_side_close(side);
@@ -384,9 +384,9 @@ celspan_status cs_corner_cut(cs_side *side, const cs_spoke *end) {
 }
 
 celspan_status cs_corner_dot(cs_side *side, const cs_stroke *stroke, const cs_spoke *place) {
-  if (stroke->cap == CELSPAN_CAP_BUTT || !(place->radius > 0))
+  if (stroke->cap == CELSPAN_STROKE_CAP_BUTT || !(place->radius > 0))
     return CELSPAN_OK;
-  if (stroke->cap == CELSPAN_CAP_ROUND)
+  if (stroke->cap == CELSPAN_STROKE_CAP_ROUND)
     CS_TRY(cs_side_arc(side, place, place->tangent, place->tangent, 2 * PI));
   else {
     const cs_spoke back =

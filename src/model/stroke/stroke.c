@@ -16,12 +16,12 @@ size_t cs_stroke_piece(const cs_stroke *stroke, const cs_stroke_part *part, size
 }
 
 double cs_stroke_extent_of_caps(const cs_stroke *stroke) {
-  return stroke->cap == CELSPAN_CAP_SQUARE ? sqrt(2) : 1;
+  return stroke->cap == CELSPAN_STROKE_CAP_SQUARE ? sqrt(2) : 1;
 }
 
 double cs_stroke_extent(const cs_stroke *stroke) {
   double extent = cs_stroke_extent_of_caps(stroke);
-  return stroke->join == CELSPAN_JOIN_MITER ? fmax(extent, stroke->miter) : extent;
+  return stroke->join == CELSPAN_STROKE_JOIN_MITER ? fmax(extent, stroke->miter) : extent;
 }
 
 void cs_stroke_finish(cs_stroke *stroke, cs_memory *memory) {

@@ -182,7 +182,7 @@ celspan_status cs_stroke_taper(celspan_context *context, cs_stroke *stroke,
   cs_stroke made = {.cap = stroke->cap, .join = stroke->join, .miter = stroke->miter};
   cs_outline_init(&made.line);
   tapering t = {
-      .context = context, .out = &made, .is_round = desc->profile == CELSPAN_PROFILE_ROUND};
+      .context = context, .out = &made, .is_round = desc->profile == CELSPAN_STROKE_PROFILE_ROUND};
   celspan_status status = taper_parts(&t, stroke, desc->taper);
   if (status == CELSPAN_OK) {
     made.parts = stroke->parts;

@@ -68,7 +68,8 @@ static celspan_status cut(cutter *c, celspan_object **out) {
   if (status == CELSPAN_OK)
     status = cut_triangles(c, false);
   if (status == CELSPAN_OK)
-    status = celspan_object_create_boolean(c->context, CELSPAN_UNION, c->objects, c->count, out);
+    status = celspan_object_create_boolean(c->context, CELSPAN_OPERATOR_UNION, c->objects, c->count,
+                                           out);
   for (size_t i = 0; i < c->count; i++)
     celspan_object_unref(c->objects[i]);
   cs_mem_free(c->context->memory, c->objects, most * sizeof *c->objects);

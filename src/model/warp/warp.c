@@ -66,7 +66,7 @@ static celspan_status bend_texture(const cs_warp_map *map, const cs_primitive_da
   celspan_status status =
       cs_warp_pieces(map->context, mesh, data->texture, &data->bounds, matrix, &both[0]);
   if (status == CELSPAN_OK)
-    status = celspan_object_create_boolean(map->context, CELSPAN_CLIP, both, 2, out);
+    status = celspan_object_create_boolean(map->context, CELSPAN_OPERATOR_CLIP, both, 2, out);
   celspan_object_unref(both[0]);
   celspan_object_unref(both[1]);
   return status;
@@ -122,7 +122,7 @@ static celspan_status bend_primitive(const cs_warp_map *map, const cs_primitive_
     return cs_warp_fail_at_horizon(map);
   if (is_there && box.width > 0 && box.height > 0)
     return bend_in_mesh(map, data, matrix, &box, out);
-  return celspan_object_create_boolean(map->context, CELSPAN_UNION, NULL, 0, out);
+  return celspan_object_create_boolean(map->context, CELSPAN_OPERATOR_UNION, NULL, 0, out);
 }
 
 /* ---------------------------------------------------------------- objects */

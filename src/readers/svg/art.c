@@ -112,7 +112,7 @@ static celspan_status unite(celspan_context *context, const cs_svg_item *item,
   if (count == 1 && cs_object_mode(objects[0]) == CELSPAN_BLEND_NORMAL)
     *out = celspan_object_ref(objects[0]);
   else
-    status = celspan_object_create_boolean(context, CELSPAN_UNION, objects, count, out);
+    status = celspan_object_create_boolean(context, CELSPAN_OPERATOR_UNION, objects, count, out);
   cs_mem_free(context->memory, objects, most * sizeof(celspan_object *));
   return status;
 }
@@ -122,7 +122,7 @@ static celspan_status clip(celspan_context *context, celspan_object *shape,
   celspan_object *both[2] = {*object, shape}, *made = NULL;
   celspan_status status = CELSPAN_OK;
   if (shape)
-    status = celspan_object_create_boolean(context, CELSPAN_CLIP, both, 2, &made);
+    status = celspan_object_create_boolean(context, CELSPAN_OPERATOR_CLIP, both, 2, &made);
   return replace(status, made, object);
 }
 
@@ -361,7 +361,7 @@ celspan_status cs_svg_art_complete(celspan_context *context, celspan_svg *art) {
   if (art->root->object)
     CS_TRY(cs_object_in_space(context, art->root->object, art->space, &art->object));
   else
-    CS_TRY(celspan_object_create_boolean(context, CELSPAN_UNION, NULL, 0, &art->object));
+    CS_TRY(celspan_object_create_boolean(context, CELSPAN_OPERATOR_UNION, NULL, 0, &art->object));
   return make_parts(context, art);
 }
 

@@ -288,8 +288,8 @@ static celspan_status take_mask(builder *b, const cs_svg_region *region, cs_svg_
   if (!both[0])
     return CELSPAN_OK;
   CS_TRY(cs_svg_rectangle(b->reading->context, &region->box, &region->own, &both[1]));
-  celspan_status status =
-      celspan_object_create_boolean(b->reading->context, CELSPAN_CLIP, both, 2, &item->mask);
+  celspan_status status = celspan_object_create_boolean(b->reading->context, CELSPAN_OPERATOR_CLIP,
+                                                        both, 2, &item->mask);
   celspan_object_unref(both[1]);
   return status;
 }

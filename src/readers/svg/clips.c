@@ -25,7 +25,8 @@ celspan_status cs_svg_intersect(cs_svg_reading *reading, celspan_object *a, cels
   celspan_status status = CELSPAN_OK;
   *out = NULL;
   if (a && b)
-    status = celspan_object_create_boolean(reading->context, CELSPAN_INTERSECTION, both, 2, out);
+    status = celspan_object_create_boolean(reading->context, CELSPAN_OPERATOR_INTERSECTION, both, 2,
+                                           out);
   celspan_object_unref(a);
   celspan_object_unref(b);
   return status;
@@ -275,7 +276,8 @@ static celspan_status unite_children(cs_svg_reading *reading, const cs_svg_node 
     count += status == CELSPAN_OK && objects[count];
   }
   if (status == CELSPAN_OK && count > 0)
-    status = celspan_object_create_boolean(reading->context, CELSPAN_UNION, objects, count, out);
+    status = celspan_object_create_boolean(reading->context, CELSPAN_OPERATOR_UNION, objects, count,
+                                           out);
   for (size_t i = 0; i < count; i++)
     celspan_object_unref(objects[i]);
   cs_mem_free(reading->context->memory, objects, capacity * sizeof(celspan_object *));

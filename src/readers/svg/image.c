@@ -74,8 +74,8 @@ static celspan_status show_art(image *of, const celspan_svg *art) {
   if (!(size.x > 0) || !(size.y > 0))
     return CELSPAN_OK;
   CS_TRY(cs_svg_rectangle(of->reading->context, &box, &identity, &both[1]));
-  celspan_status status =
-      celspan_object_create_boolean(of->reading->context, CELSPAN_CLIP, both, 2, &of->object);
+  celspan_status status = celspan_object_create_boolean(of->reading->context, CELSPAN_OPERATOR_CLIP,
+                                                        both, 2, &of->object);
   celspan_object_unref(both[1]);
   return status;
 }
@@ -202,7 +202,7 @@ static celspan_status cut(const image *of, const celspan_box *box, const celspan
   CS_TRY(cs_svg_rectangle(of->reading->context, box, user, &both[1]));
   *object = NULL;
   celspan_status status =
-      celspan_object_create_boolean(of->reading->context, CELSPAN_CLIP, both, 2, object);
+      celspan_object_create_boolean(of->reading->context, CELSPAN_OPERATOR_CLIP, both, 2, object);
   celspan_object_unref(both[0]);
   celspan_object_unref(both[1]);
   return status;

@@ -130,7 +130,8 @@ static celspan_status cut(const applying *a, const celspan_box *box, celspan_obj
   if (!(box->width > 0) || !(box->height > 0))
     return cs_svg_object_replace(CELSPAN_OK, NULL, object);
   CS_TRY(cs_svg_rectangle(a->context, box, &identity, &both[1]));
-  celspan_status status = celspan_object_create_boolean(a->context, CELSPAN_CLIP, both, 2, &made);
+  celspan_status status =
+      celspan_object_create_boolean(a->context, CELSPAN_OPERATOR_CLIP, both, 2, &made);
   celspan_object_unref(both[1]);
   return cs_svg_object_replace(status, made, object);
 }

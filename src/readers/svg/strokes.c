@@ -140,8 +140,9 @@ static celspan_status clip_cover(stroking *p, const cs_svg_server *server, celsp
   celspan_object *both[2] = {NULL, stroke};
   CS_TRY(cover(p, server, box, &both[0]));
   celspan_status status =
-      both[0] ? celspan_object_create_boolean(p->reading->context, CELSPAN_CLIP, both, 2, out)
-              : CELSPAN_OK;
+      both[0]
+          ? celspan_object_create_boolean(p->reading->context, CELSPAN_OPERATOR_CLIP, both, 2, out)
+          : CELSPAN_OK;
   celspan_object_unref(both[0]);
   return status;
 }

@@ -126,18 +126,18 @@ static void inherit(const cs_svg_style *parent, cs_svg_style *out) {
 
 static void read_cap_and_join(const char *cap, const char *join, cs_svg_style *out) {
   if (cap && cs_svg_is_word(cap, "butt"))
-    out->cap = CELSPAN_CAP_BUTT;
+    out->cap = CELSPAN_STROKE_CAP_BUTT;
   else if (cap && cs_svg_is_word(cap, "round"))
-    out->cap = CELSPAN_CAP_ROUND;
+    out->cap = CELSPAN_STROKE_CAP_ROUND;
   else if (cap && cs_svg_is_word(cap, "square"))
-    out->cap = CELSPAN_CAP_SQUARE;
+    out->cap = CELSPAN_STROKE_CAP_SQUARE;
   if (join && (cs_svg_is_word(join, "miter") || cs_svg_is_word(join, "miter-clip") ||
                cs_svg_is_word(join, "arcs")))
-    out->join = CELSPAN_JOIN_MITER; /* browsers have no other join here */
+    out->join = CELSPAN_STROKE_JOIN_MITER; /* browsers have no other join here */
   else if (join && cs_svg_is_word(join, "round"))
-    out->join = CELSPAN_JOIN_ROUND;
+    out->join = CELSPAN_STROKE_JOIN_ROUND;
   else if (join && cs_svg_is_word(join, "bevel"))
-    out->join = CELSPAN_JOIN_BEVEL;
+    out->join = CELSPAN_STROKE_JOIN_BEVEL;
 }
 
 static const cs_svg_layer normal_order[3] = {CS_SVG_LAYER_FILL, CS_SVG_LAYER_STROKE,

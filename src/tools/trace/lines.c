@@ -304,7 +304,7 @@ celspan_stroke_desc cs_lines_stroke(const cs_shape *shape) {
   desc.point_count = shape->point_count;
   desc.degree = 3;
   desc.closed = shape->is_closed;
-  desc.cap = CELSPAN_CAP_ROUND;
-  desc.join = CELSPAN_JOIN_ROUND;
+  desc.cap = CELSPAN_STROKE_CAP_ROUND;
+  desc.join = CELSPAN_STROKE_JOIN_ROUND;
   return desc;
 }

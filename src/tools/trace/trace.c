@@ -216,8 +216,8 @@ static celspan_status unite(celspan_context *context, celspan_trace *trace) {
   CS_TRY(CS_MAKE(context, objects, trace->count + 1));
   for (size_t i = 0; i < trace->count; i++)
     objects[i] = trace->shapes[i].object;
-  celspan_status status =
-      celspan_object_create_boolean(context, CELSPAN_UNION, objects, trace->count, &trace->object);
+  celspan_status status = celspan_object_create_boolean(context, CELSPAN_OPERATOR_UNION, objects,
+                                                        trace->count, &trace->object);
   cs_mem_free(context->memory, objects, (trace->count + 1) * sizeof *objects);
   return status;
 }
