@@ -28,9 +28,9 @@ static void show(const window *w) {
 
 /* Draws a frame into the window. Premultiplied pixels are the picture over black. */
 static celspan_status draw(lua_State *L, int64_t number, const window *w) {
-  celspan_coding coding = CELSPAN_ZERO;
+  celspan_coding coding = CELSPAN_CODING;
   coding.alpha = CELSPAN_ALPHA_PREMULTIPLIED;
-  celspan_frame_desc frame;
+  celspan_frame_desc frame = CELSPAN_FRAME_DESC;
   celspan_status status = celspan_lua_frame(L, -1, number, &frame);
   if (status != CELSPAN_OK)
     return status;
@@ -43,8 +43,8 @@ static celspan_status draw(lua_State *L, int64_t number, const window *w) {
 }
 
 static celspan_status play(lua_State *L, const window *w) {
-  const celspan_film film = celspan_lua_film(L, -1);
-  celspan_status status = film.count > 0 ? CELSPAN_OK : CELSPAN_BAD_ARGUMENT;
+  celspan_film film = CELSPAN_FILM;
+  celspan_status status = celspan_lua_film(L, -1, &film);
   for (int64_t i = 0; i < film.count && status == CELSPAN_OK; i++)
     if ((status = draw(L, film.first + i, w)) == CELSPAN_OK)
       show(w);

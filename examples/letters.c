@@ -3,6 +3,7 @@
  *   cc letters.c $(pkg-config --cflags --libs celspan) -o letters && ./letters FONT.ttf WORD
  */
 #include <celspan/celspan.h>
+#include <celspan/text.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -24,11 +25,11 @@ static void print_picture(const celspan_object *word) {
 }
 
 static celspan_status print_word(celspan_context *context, const char *file, const char *word) {
-  const celspan_font font = {file, NULL};
+  const char *const fonts[] = {file};
   celspan_text_desc desc = CELSPAN_TEXT_DESC;
   desc.text = word;
   desc.text_size = strlen(word);
-  desc.fonts = &font;
+  desc.fonts = fonts;
   desc.font_count = 1;
   desc.size = 28;
   celspan_object *object;

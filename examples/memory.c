@@ -31,14 +31,14 @@ static celspan_status make_objects(celspan_context *context, scene *s) {
   TRY(celspan_texture_create_paint(context, &ivory, &s->ivory));
   TRY(celspan_texture_create_linear(context, (celspan_point){0, 0}, (celspan_point){0, 240}, stops,
                                     2, &s->dusk));
-  TRY(celspan_object_create_ellipse(context, &(celspan_ellipse_desc){{200, 110}, 80, 80, s->ivory},
-                                    &s->disc));
-  TRY(celspan_object_create_ellipse(context, &(celspan_ellipse_desc){{235, 95}, 70, 70, NULL},
-                                    &s->shadow));
+  TRY(celspan_object_create_ellipse(
+      context, &CELSPAN_DESC(celspan_ellipse_desc, {200, 110}, 80, 80, s->ivory), &s->disc));
+  TRY(celspan_object_create_ellipse(
+      context, &CELSPAN_DESC(celspan_ellipse_desc, {235, 95}, 70, 70, NULL), &s->shadow));
   celspan_object *const operands[] = {s->disc, s->shadow};
   TRY(celspan_object_create_boolean(context, CELSPAN_OPERATOR_DIFFERENCE, operands, 2, &s->moon));
-  return celspan_object_create_rect(context, &(celspan_rect_desc){0, 0, 320, 240, 0, s->dusk},
-                                    &s->sky);
+  return celspan_object_create_rect(
+      context, &CELSPAN_DESC(celspan_rect_desc, 0, 0, 320, 240, 0, s->dusk), &s->sky);
 }
 
 static celspan_status make_glow(celspan_context *context, scene *s) {
@@ -83,8 +83,10 @@ static void drop_scene(scene *s) {
 static celspan_status render(celspan_context *context, const scene *s,
                              unsigned char pixels[HEIGHT][WIDTH][4]) {
   const celspan_exposure exposure = {s->rostrum, 1};
-  const celspan_coding coding = {
-      .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
+  const celspan_coding coding = {.struct_size = sizeof coding,
+                                 .depth = CELSPAN_DEPTH_8,
+                                 .transfer = CELSPAN_TRANSFER_SRGB,
+                                 .alpha = CELSPAN_ALPHA_STRAIGHT};
   celspan_frame_desc frame = CELSPAN_FRAME_DESC;
   frame.exposures = &exposure;
   frame.exposure_count = 1;

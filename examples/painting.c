@@ -3,6 +3,7 @@
  *   cc painting.c $(pkg-config --cflags --libs celspan) -o painting && ./painting forest.kra
  */
 #include <celspan/celspan.h>
+#include <celspan/layers.h>
 #include <stdio.h>
 
 enum { WIDTH = 72, HEIGHT = 24 };
@@ -17,15 +18,17 @@ enum { WIDTH = 72, HEIGHT = 24 };
 /* Adds a cel for a layer to a rostrum: its picture on a rectangle of its size and position. */
 static celspan_status add_cel(celspan_context *context, const celspan_painting_layer *layer,
                               celspan_cel **out) {
-  celspan_picture_desc picture = {.surface = layer->surface, .colour = layer->colour};
+  celspan_picture_desc picture = {
+      .struct_size = sizeof picture, .surface = layer->surface, .colour = layer->colour};
   celspan_cel_desc cel = CELSPAN_CEL_DESC;
   celspan_texture *texture = NULL;
   celspan_object *object = NULL;
   celspan_status status = celspan_texture_create_picture(context, &picture, &texture);
   if (status == CELSPAN_OK)
-    status = celspan_object_create_rect(
-        context, &(celspan_rect_desc){layer->x, layer->y, layer->width, layer->height, 0, texture},
-        &object);
+    status = celspan_object_create_rect(context,
+                                        &CELSPAN_DESC(celspan_rect_desc, layer->x, layer->y,
+                                                      layer->width, layer->height, 0, texture),
+                                        &object);
   cel.objects = &object;
   cel.object_count = 1;
   cel.opacity = layer->opacity;
@@ -62,8 +65,10 @@ static celspan_status render(celspan_context *context, const celspan_painting *p
   desc.cel_count = count;
   TRY(celspan_rostrum_create(context, &desc, &rostrum));
   const celspan_exposure exposure = {rostrum, 1};
-  const celspan_coding coding = {
-      .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
+  const celspan_coding coding = {.struct_size = sizeof coding,
+                                 .depth = CELSPAN_DEPTH_8,
+                                 .transfer = CELSPAN_TRANSFER_SRGB,
+                                 .alpha = CELSPAN_ALPHA_STRAIGHT};
   celspan_frame_desc frame = CELSPAN_FRAME_DESC;
   frame.exposures = &exposure;
   frame.exposure_count = 1;

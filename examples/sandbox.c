@@ -37,8 +37,8 @@ static void give_up(void *user, const char *message) {
 
 static celspan_status draw(lua_State *L, int64_t number) {
   static unsigned char pixels[ROW * HEIGHT];
-  celspan_coding coding = CELSPAN_ZERO;
-  celspan_frame_desc frame;
+  celspan_coding coding = CELSPAN_CODING;
+  celspan_frame_desc frame = CELSPAN_FRAME_DESC;
   celspan_status status = celspan_lua_frame(L, -1, number, &frame);
   if (status != CELSPAN_OK)
     return status;
@@ -57,7 +57,8 @@ static celspan_status play(lua_State *L, const char *path, const celspan_lua_lim
   status = celspan_lua_run(L, path, 0, NULL);
   if (status != CELSPAN_OK)
     return status;
-  const celspan_film film = celspan_lua_film(L, -1);
+  celspan_film film = CELSPAN_FILM;
+  status = celspan_lua_film(L, -1, &film);
   for (int64_t i = 0; i < film.count && status == CELSPAN_OK; i++)
     status = draw(L, film.first + i);
   if (status == CELSPAN_OK)

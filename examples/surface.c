@@ -65,7 +65,8 @@ static celspan_status make_checks(celspan_context *context, celspan_surface **ou
 /* A circle of water on a ground of checks. Each value holds references to its parts. */
 static celspan_status make_cel(celspan_context *context, celspan_surface *water_surface,
                                celspan_surface *checks, celspan_cel **out) {
-  celspan_picture_desc ground = {.surface = checks,
+  celspan_picture_desc ground = {.struct_size = sizeof ground,
+                                 .surface = checks,
                                  .sampling = CELSPAN_SAMPLING_NEAREST,
                                  .wrap = CELSPAN_WRAP_REPEAT,
                                  .has_box = true,
@@ -78,13 +79,14 @@ static celspan_status make_cel(celspan_context *context, celspan_surface *water_
   celspan_status status = celspan_texture_create_picture(context, &ground, &textures[0]);
   if (status == CELSPAN_OK)
     status = celspan_texture_create_picture(
-        context, &(celspan_picture_desc){.surface = water_surface}, &textures[1]);
+        context, &CELSPAN_DESC(celspan_picture_desc, .surface = water_surface), &textures[1]);
   if (status == CELSPAN_OK)
     status = celspan_object_create_rect(
-        context, &(celspan_rect_desc){0, 0, 320, 240, 0, textures[0]}, &objects[0]);
+        context, &CELSPAN_DESC(celspan_rect_desc, 0, 0, 320, 240, 0, textures[0]), &objects[0]);
   if (status == CELSPAN_OK)
     status = celspan_object_create_ellipse(
-        context, &(celspan_ellipse_desc){{160, 120}, 100, 100, textures[1]}, &objects[1]);
+        context, &CELSPAN_DESC(celspan_ellipse_desc, {160, 120}, 100, 100, textures[1]),
+        &objects[1]);
   if (status == CELSPAN_OK)
     status = celspan_cel_create(context, &cel, out);
   for (int i = 0; i < 2; i++) {
@@ -102,8 +104,10 @@ static celspan_status render(celspan_context *context, celspan_cel *cel,
   desc.cel_count = 1;
   TRY(celspan_rostrum_create(context, &desc, &rostrum));
   const celspan_exposure exposure = {rostrum, 1};
-  const celspan_coding coding = {
-      .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
+  const celspan_coding coding = {.struct_size = sizeof coding,
+                                 .depth = CELSPAN_DEPTH_8,
+                                 .transfer = CELSPAN_TRANSFER_SRGB,
+                                 .alpha = CELSPAN_ALPHA_STRAIGHT};
   celspan_frame_desc frame = CELSPAN_FRAME_DESC;
   frame.exposures = &exposure;
   frame.exposure_count = 1;

@@ -277,12 +277,7 @@ celspan_status cs_fail_memory(celspan_context *context) {
 
 /* ---------------------------------------------------------------- context */
 
-celspan_status celspan_context_create(const celspan_context_desc *desc, celspan_context **out) {
-  celspan_context_desc defaults = {.struct_size = sizeof defaults};
-  if (!desc)
-    desc = &defaults;
-  if (desc->struct_size != sizeof *desc)
-    return CELSPAN_BAD_ARGUMENT;
+celspan_status cs_context_make(const celspan_context_desc *desc, celspan_context **out) {
   cs_memory *memory = memory_create(desc->resize, desc->resize_user);
   if (!memory)
     return CELSPAN_NO_MEMORY;
@@ -293,10 +288,9 @@ celspan_status celspan_context_create(const celspan_context_desc *desc, celspan_
   }
   context->memory = memory;
   context->root = context;
-  context->picture_bytes = desc->picture_bytes ? desc->picture_bytes : (size_t)512 << 20;
-  size_t kept = desc->defocus_bytes ? desc->defocus_bytes : (size_t)256 << 20;
-  context->map_bytes = kept / 4;
-  context->defocus_bytes = kept - context->map_bytes;
+  context->picture_bytes = desc->picture_bytes;
+  context->map_bytes = desc->defocus_bytes / 4;
+  context->defocus_bytes = desc->defocus_bytes - context->map_bytes;
   *out = context;
   return CELSPAN_OK;
 }

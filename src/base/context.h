@@ -153,6 +153,9 @@ celspan_status cs_fail(celspan_context *context, celspan_status status, const ch
     __attribute__((format(printf, 3, 4)));
 celspan_status cs_fail_memory(celspan_context *context);
 
+/* celspan_context_create of a whole description. */
+CELSPAN_CHECKED celspan_status cs_context_make(const celspan_context_desc *desc,
+                                               celspan_context **out);
 /* Makes *branch a context for a worker thread: it shares the memory of `from` and has an error text
  * of its own. It is not counted and must not outlive `from`. */
 void cs_context_branch(celspan_context *branch, celspan_context *from);

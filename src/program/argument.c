@@ -203,7 +203,7 @@ static bool read_antialias(const cs_argument *kind, const char *text, void *fiel
       {"area", CELSPAN_ANTIALIAS_AREA}, {"none", CELSPAN_ANTIALIAS_NONE}, {NULL, 0}};
   static const cs_argument mode = {.choices = modes};
   static const cs_argument rows = {.least = 1, .most = 256};
-  cs_given_antialias given = {.mode = CELSPAN_ANTIALIAS_FILTER};
+  cs_given_antialias given = {CELSPAN_ANTIALIAS_FILTER, CELSPAN_FILTER_DESC};
   char name[16];
   size_t length = strcspn(text, ":");
   if (length >= sizeof name)

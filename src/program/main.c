@@ -62,7 +62,7 @@ static bool is_in_lua(const cs_request *request) {
 
 static cs_exit run(const cs_request *request) {
   celspan_context *context = NULL;
-  celspan_context_desc desc = {.struct_size = sizeof desc};
+  celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
   CS_TRY_EXIT(cs_confine_memory(request, &desc));
   if (celspan_context_create(&desc, &context) != CELSPAN_OK) {
     cs_report_error("not enough memory to start");

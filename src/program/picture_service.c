@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/context.h"
+#include "celspan/plane.h"
 #include "frames/process/interrupt.h"
 #include "frames/still/still.h"
 #include "lua/bind/put.h"
@@ -270,8 +271,10 @@ static void compare_columns(comparison *c, int32_t y, const celspan_span *a, con
 
 /* The row of the picture of differences before anything is marked. */
 static void begin_row(const comparison *c, const celspan_span *spans, size_t count) {
-  static const celspan_coding coding = {
-      .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
+  static const celspan_coding coding = {.struct_size = sizeof coding,
+                                        .depth = CELSPAN_DEPTH_8,
+                                        .transfer = CELSPAN_TRANSFER_SRGB,
+                                        .alpha = CELSPAN_ALPHA_STRAIGHT};
   cs_pixels_row(&coding, spans, count, c->picture);
   cs_difference_pale(c->picture, (size_t)c->width);
 }
@@ -342,7 +345,7 @@ static celspan_status compare_into(celspan_context *context, comparison *c, cons
     return compare_stills(context, c, NULL, still_a, frame_a, still_b, frame_b);
   size_t channels = 4 * (size_t)c->width;
   celspan_file_desc file = CELSPAN_FILE_DESC;
-  celspan_sink sink;
+  celspan_sink sink = CELSPAN_SINK;
   file.is_opaque = true;
   c->picture = cs_mem_array(context->memory, channels, sizeof *c->picture);
   c->linear = cs_mem_array(context->memory, channels, sizeof *c->linear);
@@ -407,7 +410,8 @@ static void open_compared(lua_State *L, const char *path, cs_still *out) {
 static celspan_coding coding_of(const cs_still stills[2]) {
   bool is_float = stills[0].info.is_float || stills[1].info.is_float;
   bool has_plane = stills[0].plane || stills[1].plane;
-  return (celspan_coding){.depth = is_float ? CELSPAN_DEPTH_FLOAT : CELSPAN_DEPTH_16,
+  return (celspan_coding){.struct_size = sizeof(celspan_coding),
+                          .depth = is_float ? CELSPAN_DEPTH_FLOAT : CELSPAN_DEPTH_16,
                           .transfer = CELSPAN_TRANSFER_SRGB,
                           .alpha =
                               has_plane ? CELSPAN_ALPHA_PREMULTIPLIED : CELSPAN_ALPHA_STRAIGHT};
@@ -442,7 +446,7 @@ static int compare(lua_State *L) {
 static int write_plane(lua_State *L, const celspan_frame_desc *frame, const char *path,
                        const celspan_file_desc *file) {
   cs_service_try(L, cs_plane_write_frame(cs_service_session(L)->context, frame, path,
-                                         cs_plane_depth(file->coding.depth)));
+                                         cs_plane_depth(file->coding->depth)));
   return 0;
 }
 
@@ -452,7 +456,8 @@ static int convert(lua_State *L) {
   const char *input = luaL_checkstring(L, 1), *output = luaL_checkstring(L, 2);
   cs_still *stills =
       cs_userdata_push_holder(L, "celspan.program.stills", 2 * sizeof *stills, close_stills);
-  celspan_file_desc file = cs_target_file(session->request);
+  celspan_coding coding;
+  celspan_file_desc file = cs_target_file(session->request, &coding);
   celspan_frame_desc frame;
   bool is_plane = cs_plane_is_wanted(output, file.format);
   if (is_plane && !cs_shown_is_film(input))
@@ -470,7 +475,8 @@ static int convert(lua_State *L) {
 /* pixels(path) -> what a file shows: RGBA of 16 bits, sRGB, straight; width, height, whether it has
  * alpha */
 static int read_pixels(lua_State *L) {
-  static const celspan_coding coding = {.depth = CELSPAN_DEPTH_16,
+  static const celspan_coding coding = {.struct_size = sizeof coding,
+                                        .depth = CELSPAN_DEPTH_16,
                                         .transfer = CELSPAN_TRANSFER_SRGB,
                                         .alpha = CELSPAN_ALPHA_STRAIGHT};
   const cs_session *session = cs_service_session(L);
@@ -478,7 +484,7 @@ static int read_pixels(lua_State *L) {
   cs_still *stills =
       cs_userdata_push_holder(L, "celspan.program.stills", 2 * sizeof *stills, close_stills);
   celspan_frame_desc frame;
-  celspan_sink sink;
+  celspan_sink sink = CELSPAN_SINK;
   cs_service_require(L, cs_shown_open(session->context, session->request, path, true, stills));
   cs_service_require(L, cs_shown_frame(session->request, stills, &frame));
   if ((int64_t)frame.width * frame.height > PIXELS_MOST)
@@ -507,7 +513,8 @@ static int finish_frame(lua_State *L) {
 static int write_frame(lua_State *L) {
   const cs_session *session = cs_service_session(L);
   const char *path = luaL_checkstring(L, 2);
-  celspan_file_desc file = cs_target_file(session->request);
+  celspan_coding coding;
+  celspan_file_desc file = cs_target_file(session->request, &coding);
   celspan_frame_desc desc;
   cs_film_info film;
   luaL_argcheck(L, cs_lua_film_push(L, 1), 1, "must be a film or a rostrum");

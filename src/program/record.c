@@ -27,9 +27,11 @@ static celspan_status fail(const cs_record *record, const char *what) {
 
 static cs_hash hash_options(const cs_script *script, const cs_request *request,
                             const celspan_frame_desc *frame) {
-  const int32_t numbers[] = {frame->width,       frame->height,           frame->crop_x,
-                             frame->crop_y,      frame->crop_width,       frame->crop_height,
-                             frame->filter.rows, frame->filter.has_radius};
+  const celspan_filter_desc none = CELSPAN_FILTER_DESC;
+  const celspan_filter_desc *filter = frame->filter ? frame->filter : &none;
+  const int32_t numbers[] = {frame->width,  frame->height,     frame->crop_x,
+                             frame->crop_y, frame->crop_width, frame->crop_height,
+                             filter->rows,  filter->has_radius};
   const celspan_coding asked = cs_target_coding(request), *coding = &asked;
   cs_hash hash = cs_hash_begin(1);
   cs_hash_text(&hash, celspan_version());
@@ -38,9 +40,9 @@ static cs_hash hash_options(const cs_script *script, const cs_request *request,
   cs_hash_number(&hash, frame->film_width);
   cs_hash_number(&hash, frame->film_height);
   cs_hash_word(&hash, frame->space);
-  cs_hash_word(&hash, frame->antialias ? 1 + (uint64_t)*frame->antialias : 0);
-  cs_hash_word(&hash, (uint64_t)frame->filter.kernel);
-  cs_hash_number(&hash, frame->filter.radius);
+  cs_hash_word(&hash, frame->has_antialias ? 1 + (uint64_t)frame->antialias : 0);
+  cs_hash_word(&hash, (uint64_t)filter->kernel);
+  cs_hash_number(&hash, filter->radius);
   cs_hash_word(&hash, (uint64_t)coding->depth);
   cs_hash_word(&hash, (uint64_t)coding->transfer);
   cs_hash_word(&hash, (uint64_t)coding->alpha);

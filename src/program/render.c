@@ -25,6 +25,7 @@
 #include "program/whole.h"
 
 typedef struct render_job {
+  celspan_coding coding; /* of its files */
   cs_script *script;
   const cs_request *request;
   const char *output; /* NULL: digests alone */
@@ -104,7 +105,7 @@ static celspan_sink raw_sink(raw_rows *raw, const celspan_coding *coding,
   bool takes_codes = !dithers && cs_pixels_takes_codes(&raw->coding);
   if (dithers)
     raw->coding.depth = CELSPAN_DEPTH_8_DITHER;
-  return (celspan_sink){raw, begin_raw, put_raw_row, end_raw, takes_codes};
+  return (celspan_sink){sizeof(celspan_sink), raw, begin_raw, put_raw_row, end_raw, takes_codes};
 }
 
 /* ---------------------------------------------------------------- frames */
@@ -247,8 +248,8 @@ static cs_exit report_end(render_job *job, cs_exit outcome) {
 
 /* ---------------------------------------------------------------- the run */
 
-static celspan_file_desc describe_file(const render_job *job) {
-  celspan_file_desc file = cs_target_file(job->request);
+static celspan_file_desc describe_file(render_job *job) {
+  celspan_file_desc file = cs_target_file(job->request, &job->coding);
   bool is_strip = cs_request_has(job->request, "--strip");
   file.strip_row = is_strip ? job->frame.crop_y : 0;
   file.strip_height = is_strip ? job->frame.height : 0;

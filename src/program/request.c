@@ -149,6 +149,8 @@ cs_exit cs_request_parse(const cs_verb *verb, size_t count, char *const *words, 
   }
   if (outcome == CS_EXIT_OK)
     outcome = take_script_arguments(&r, out);
+  if (outcome == CS_EXIT_OK)
+    cs_request_read(out, "--antialias", &out->antialias);
   if (outcome == CS_EXIT_OK && out->operand_count < verb->operand_least)
     return cs_report_usage("usage: celspan %s %s [options] ('celspan help %s' describes them)",
                            verb->name, verb->operands, verb->name);

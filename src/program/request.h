@@ -45,6 +45,7 @@ typedef struct cs_request {
   size_t operand_count;
   char *const *script_arguments; /* the arguments after "--" */
   size_t script_argument_count;
+  cs_given_antialias antialias; /* of --antialias: kept, because frames point to it */
 } cs_request;
 
 /* words: the words after the verb. OK, or reported and CS_EXIT_USAGE. */

@@ -56,8 +56,8 @@ static void print_statistics(const celspan_statistics *s, cs_cache_counts kept, 
 
 static celspan_status measure(celspan_context *context, const cs_request *request,
                               const celspan_frame_desc *frame) {
-  celspan_coding coding = CELSPAN_ZERO;
-  const celspan_sink nowhere = {.row = NULL};
+  celspan_coding coding = {.struct_size = sizeof coding};
+  const celspan_sink nowhere = {.struct_size = sizeof nowhere, .row = NULL};
   celspan_statistics statistics;
   memset(&statistics, 0, sizeof statistics);
   double started = cs_clock_seconds();
@@ -71,7 +71,7 @@ static celspan_status measure(celspan_context *context, const cs_request *reques
 
 static celspan_status print_spans(celspan_context *context, const celspan_frame_desc *frame) {
   int32_t first_row = frame->crop_y;
-  celspan_sink sink = {.user = &first_row, .row = print_row};
+  celspan_sink sink = {.struct_size = sizeof sink, .user = &first_row, .row = print_row};
   return celspan_frame_render(context, frame, &sink, NULL);
 }
 
@@ -104,7 +104,7 @@ static cs_exit print_still(celspan_context *context, const cs_request *request,
   celspan_frame_desc frame;
   CS_TRY_EXIT(cs_shown_frame(request, still, &frame));
   CS_TRY_EXIT(set_rows(request, &frame));
-  celspan_sink sink = {.user = &frame.crop_y, .row = print_row};
+  celspan_sink sink = {.struct_size = sizeof sink, .user = &frame.crop_y, .row = print_row};
   celspan_status status = cs_still_render(context, still, &frame, &sink);
   return ferror(stdout) ? cs_report_flush_output(CS_EXIT_OK)
                         : cs_report_failure(context, status, NULL);

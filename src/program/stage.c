@@ -20,8 +20,10 @@
 
 enum { CODES, PNG, KINDS, RUNS }; /* the contents and the form of a picture */
 
-static const celspan_coding coding = {
-    .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
+static const celspan_coding coding = {.struct_size = sizeof coding,
+                                      .depth = CELSPAN_DEPTH_8,
+                                      .transfer = CELSPAN_TRANSFER_SRGB,
+                                      .alpha = CELSPAN_ALPHA_STRAIGHT};
 
 /* ---------------------------------------------------------------- bytes */
 
@@ -184,12 +186,16 @@ static celspan_status pack(picture *p) {
 static celspan_status render(picture *p, const celspan_frame_desc *desc, int kind) {
   p->coding = coding;
   p->coding.space = desc->space;
-  celspan_sink sink = {
-      .user = p, .begin = begin_png, .row = put_png_row, .end = end_png, .takes_codes = true};
+  celspan_sink sink = {.struct_size = sizeof sink,
+                       .user = p,
+                       .begin = begin_png,
+                       .row = put_png_row,
+                       .end = end_png,
+                       .takes_codes = true};
   if (kind != PNG)
     CS_TRY(reserve_rows(p, desc));
   if (kind == KINDS)
-    sink = (celspan_sink){.user = p, .row = put_kinds_row};
+    sink = (celspan_sink){.struct_size = sizeof(celspan_sink), .user = p, .row = put_kinds_row};
   if (kind == CODES || kind == RUNS)
     CS_TRY(cs_sink_memory(p->context, &p->coding, p->bytes, p->stride, &sink));
   CS_TRY(celspan_frame_render(p->context, desc, &sink, NULL));

@@ -8,7 +8,7 @@
 #include "program/video_target.h"
 
 celspan_coding cs_target_coding(const cs_request *request) {
-  celspan_coding coding = CELSPAN_ZERO;
+  celspan_coding coding = {.struct_size = sizeof coding};
   cs_request_read(request, "--depth", &coding.depth);
   cs_request_read(request, "--colour", &coding.transfer);
   cs_request_read(request, "--alpha", &coding.alpha);
@@ -17,10 +17,11 @@ celspan_coding cs_target_coding(const cs_request *request) {
   return coding;
 }
 
-celspan_file_desc cs_target_file(const cs_request *request) {
+celspan_file_desc cs_target_file(const cs_request *request, celspan_coding *coding) {
   celspan_file_desc file = CELSPAN_FILE_DESC;
   file.format = cs_request_text(request, "--format");
-  file.coding = cs_target_coding(request);
+  *coding = cs_target_coding(request);
+  file.coding = coding;
   int32_t strip[2];
   if (cs_request_strip(request, strip))
     file.strip_height = strip[1]; /* rows at least, until the view is known */
@@ -40,8 +41,9 @@ static cs_exit refuse_format(const char *path, const char *name) {
 
 /* Makes a sink and discards it: a sink opens no file before its first row. */
 static cs_exit refuse_file(celspan_context *context, const char *path, const cs_request *request) {
-  celspan_file_desc file = cs_target_file(request);
-  celspan_sink sink;
+  celspan_coding coding;
+  celspan_file_desc file = cs_target_file(request, &coding);
+  celspan_sink sink = CELSPAN_SINK;
   const char *name = file.format ? file.format : cs_file_ending(path);
   if (name[0] && !cs_sink_file_knows(path, &file))
     return refuse_format(path, name);

@@ -11,7 +11,7 @@ cs_exit cs_target_refuse(celspan_context *context, const char *path, const cs_re
 celspan_coding cs_target_coding(const cs_request *request);
 /* The description of a file under the options, without a frame's own metadata, and without the
  * place of a strip. */
-celspan_file_desc cs_target_file(const cs_request *request);
+celspan_file_desc cs_target_file(const cs_request *request, celspan_coding *coding);
 /* The frames of --frames, or all, and of these only the share of --task, which may be empty. Each
  * is in the film and has a name of its own in the output, unless that is NULL. out: new. OK, or
  * reported. */

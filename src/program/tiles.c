@@ -240,7 +240,8 @@ static cs_exit open_log(tiles_job *job) {
 
 static void code_background(const tiles_job *job, char out[8]) {
   unsigned char pixel[4];
-  const celspan_coding coding = {.depth = CELSPAN_DEPTH_8,
+  const celspan_coding coding = {.struct_size = sizeof coding,
+                                 .depth = CELSPAN_DEPTH_8,
                                  .transfer = CELSPAN_TRANSFER_SRGB,
                                  .alpha = CELSPAN_ALPHA_STRAIGHT,
                                  .space = job->frame.space};

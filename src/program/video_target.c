@@ -26,10 +26,12 @@ static bool is_dithered(const cs_request *request) {
 
 static cs_video_options options_of(const cs_request *request) {
   bool has_8 = cs_request_has(request, "--dither");
-  cs_video_options options = {.coding.depth = has_8 ? CELSPAN_DEPTH_8 : CELSPAN_DEPTH_DEFAULT,
+  cs_video_options options = {.coding = CELSPAN_CODING,
                               .dithers = is_dithered(request),
                               .is_opaque = cs_request_has(request, "--background"),
                               .quality = QUALITY};
+  if (has_8)
+    options.coding.depth = CELSPAN_DEPTH_8;
   cs_request_read(request, "--depth", &options.coding.depth);
   cs_request_read(request, "--colour", &options.coding.transfer);
   cs_request_read(request, "--alpha", &options.coding.alpha);

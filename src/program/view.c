@@ -71,15 +71,10 @@ static cs_exit set_part(const cs_request *request, celspan_frame_desc *out) {
 }
 
 static void set_antialias(const cs_request *request, celspan_frame_desc *out) {
-  static const celspan_antialias_mode modes[] = {CELSPAN_ANTIALIAS_AREA, CELSPAN_ANTIALIAS_NONE,
-                                                 CELSPAN_ANTIALIAS_FILTER};
-  cs_given_antialias given;
-  if (cs_request_has(request, "--draft"))
-    out->antialias = &modes[CELSPAN_ANTIALIAS_NONE];
-  if (!cs_request_read(request, "--antialias", &given))
-    return;
-  out->antialias = &modes[given.mode];
-  out->filter = given.filter;
+  bool is_given = cs_request_has(request, "--antialias");
+  out->has_antialias = is_given || cs_request_has(request, "--draft");
+  out->antialias = is_given ? request->antialias.mode : CELSPAN_ANTIALIAS_NONE;
+  out->filter = &request->antialias.filter;
 }
 
 cs_exit cs_view_frame(const cs_request *request, double film_width, double film_height,

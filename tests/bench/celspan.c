@@ -94,7 +94,7 @@ int main(int argc, char **argv) {
     verb++;
   if (argc < 2 || verb == count)
     bench_stop("usage: %s shapes|look|digest|soft|picture|backed|planes|film|plane ...", argv[0]);
-  celspan_context_desc desc = {.struct_size = sizeof desc};
+  celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
   if (verbs[verb].run == measure_soft)
     desc.defocus_bytes = 1; /* nothing is kept between runs */
   if (celspan_context_create(&desc, &job.context) != CELSPAN_OK)

@@ -7,10 +7,14 @@
 #include "measure.h"
 #include "scene.h"
 
-const celspan_coding bench_coded = {
-    .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
-const celspan_coding bench_uncoded = {
-    .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_LINEAR, .alpha = CELSPAN_ALPHA_STRAIGHT};
+const celspan_coding bench_coded = {.struct_size = sizeof bench_coded,
+                                    .depth = CELSPAN_DEPTH_8,
+                                    .transfer = CELSPAN_TRANSFER_SRGB,
+                                    .alpha = CELSPAN_ALPHA_STRAIGHT};
+const celspan_coding bench_uncoded = {.struct_size = sizeof bench_uncoded,
+                                      .depth = CELSPAN_DEPTH_8,
+                                      .transfer = CELSPAN_TRANSFER_LINEAR,
+                                      .alpha = CELSPAN_ALPHA_STRAIGHT};
 
 static void choose_antialias(bench_frame_job *job, const char *antialias) {
   static const char *const kernels[] = {"box", "gaussian", "mitchell", "lanczos"};
@@ -21,7 +25,9 @@ static void choose_antialias(bench_frame_job *job, const char *antialias) {
   for (size_t i = 0; i < sizeof kernels / sizeof *kernels; i++)
     if (strcmp(antialias, kernels[i]) == 0) {
       job->mode = CELSPAN_ANTIALIAS_FILTER;
-      job->desc.filter.kernel = numbers[i];
+      job->filter = CELSPAN_FILTER_DESC;
+      job->filter.kernel = numbers[i];
+      job->desc.filter = &job->filter;
     }
 }
 
@@ -49,7 +55,7 @@ void bench_job_open(bench_frame_job *job, int width, int height, const char *ant
 
 void bench_job_render(void *user) {
   bench_frame_job *job = user;
-  const celspan_sink nowhere = {.row = NULL};
+  const celspan_sink nowhere = {.struct_size = sizeof nowhere, .row = NULL};
   celspan_context *context = job->context;
   celspan_statistics *statistics = &job->statistics;
   size_t stride = 4 * (size_t)job->desc.width;
@@ -108,12 +114,15 @@ static celspan_status take_spans(void *user, celspan_context *context, int32_t y
 static void tell_digests(bench_frame_job *job) {
   frame_digests digests = {malloc(4 * (size_t)job->desc.width), BENCH_DIGEST_BEGIN,
                            BENCH_DIGEST_BEGIN};
-  celspan_sink sink = {.user = &digests, .row = take_spans};
+  celspan_sink sink = {.struct_size = sizeof sink, .user = &digests, .row = take_spans};
   bench_check(job->context, celspan_frame_render(job->context, &job->desc, &sink, NULL));
   bench_tell_digest(digests.of_pixels);
   printf("span_digest %016llx ", (unsigned long long)digests.of_spans);
   digests.of_pixels = BENCH_DIGEST_BEGIN;
-  sink = (celspan_sink){.user = &digests, .row = take_pixels, .takes_codes = true};
+  sink = (celspan_sink){.struct_size = sizeof(celspan_sink),
+                        .user = &digests,
+                        .row = take_pixels,
+                        .takes_codes = true};
   bench_check(job->context, celspan_frame_render(job->context, &job->desc, &sink, NULL));
   printf("code_digest %016llx ", (unsigned long long)digests.of_pixels);
   free(digests.pixels);

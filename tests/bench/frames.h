@@ -14,6 +14,7 @@ typedef struct bench_frame_job {
   celspan_rostrum *rostrum; /* released by close */
   celspan_exposure exposure;
   celspan_antialias_mode mode;
+  celspan_filter_desc filter; /* of the frame, where it has one */
   celspan_frame_desc desc;
   celspan_statistics statistics; /* of the last frame */
   const char *output, *file;

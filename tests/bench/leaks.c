@@ -26,7 +26,8 @@ static celspan_object *make_polygon(celspan_context *context, const celspan_poin
   celspan_texture *texture;
   celspan_object *object;
   bench_check(context, celspan_texture_create_paint(context, &black, &texture));
-  celspan_polygon_desc desc = {.points = points, .point_count = count, .texture = texture};
+  celspan_polygon_desc desc = {
+      .struct_size = sizeof desc, .points = points, .point_count = count, .texture = texture};
   bench_check(context, celspan_object_create_polygon(context, &desc, &object));
   celspan_texture_unref(texture);
   return object;

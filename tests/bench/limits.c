@@ -24,8 +24,10 @@ typedef struct frame_runs {
 } frame_runs;
 
 static uint32_t code(const celspan_span *span) {
-  static const celspan_coding coded = {
-      .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
+  static const celspan_coding coded = {.struct_size = sizeof coded,
+                                       .depth = CELSPAN_DEPTH_8,
+                                       .transfer = CELSPAN_TRANSFER_SRGB,
+                                       .alpha = CELSPAN_ALPHA_STRAIGHT};
   celspan_span one = *span;
   uint32_t pixel;
   one.x0 = 0;

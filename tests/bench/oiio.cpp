@@ -109,7 +109,7 @@ void flush(Writer &writer) {
 
 celspan_status put_row(void *user, celspan_context *, int32_t, const celspan_span *spans,
                        size_t span_count) {
-  celspan_coding coded = CELSPAN_ZERO;
+  celspan_coding coded = {.struct_size = sizeof coded};
   coded.depth = CELSPAN_DEPTH_8;
   auto *writer = static_cast<Writer *>(user);
   celspan_spans_code(&coded, spans, span_count, writer->row.data());

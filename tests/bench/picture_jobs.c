@@ -14,7 +14,9 @@ static celspan_object *load(celspan_context *context, const char *folder, const 
   char path[4096];
   celspan_object *object;
   snprintf(path, sizeof path, "%s%s%s", folder ? folder : "", folder ? "/" : "", name);
-  desc.picture.file = path;
+  celspan_picture_desc picture = *desc.picture;
+  picture.file = path;
+  desc.picture = &picture;
   bench_check(context, celspan_object_create_image(context, &desc, &object));
   return object;
 }
@@ -45,7 +47,9 @@ static celspan_rostrum *mount(celspan_context *context, celspan_object **objects
 /* colour: what the files' values mean; NULL: sRGB. */
 static void open_picture(bench_frame_job *job, char **words, const char *colour) {
   bench_job asked = bench_job_make(words[0], 0);
-  celspan_image_desc image = {.picture = {.colour = colour, .sampling = CELSPAN_SAMPLING_BILINEAR}};
+  const celspan_picture_desc picture = {
+      .struct_size = sizeof picture, .colour = colour, .sampling = CELSPAN_SAMPLING_BILINEAR};
+  const celspan_image_desc image = {.struct_size = sizeof image, .picture = &picture};
   celspan_matrix matrix;
   memcpy(matrix.m, asked.matrix, sizeof matrix.m);
   celspan_object *objects[2] = {
@@ -98,8 +102,10 @@ void bench_backed(bench_frame_job *job, int count, char **words) {
   int side = atoi(words[2]);
   celspan_object *objects[2];
   size_t object_count = 0;
-  celspan_image_desc image = {.width = 1, .height = 1};
-  image.picture.sampling =
+  celspan_picture_desc picture = CELSPAN_PICTURE_DESC;
+  const celspan_image_desc image = {
+      .struct_size = sizeof image, .picture = &picture, .width = 1, .height = 1};
+  picture.sampling =
       strcmp(words[1], "nearest") == 0 ? CELSPAN_SAMPLING_NEAREST : CELSPAN_SAMPLING_BILINEAR;
   if (!is_none(words[0]))
     objects[object_count++] = load(job->context, NULL, words[0], image);
@@ -118,7 +124,10 @@ void bench_backed(bench_frame_job *job, int count, char **words) {
 static celspan_object *make_plane(celspan_context *context, const char *folder, int index) {
   static const char *const names[] = {"village.png", "canal.png", "wood.png"};
   const double width = 1920, height = 1080, scale = 0.6 + 0.08 * index;
-  celspan_image_desc image = {.picture = {.sampling = CELSPAN_SAMPLING_BILINEAR},
+  const celspan_picture_desc smooth = {.struct_size = sizeof smooth,
+                                       .sampling = CELSPAN_SAMPLING_BILINEAR};
+  celspan_image_desc image = {.struct_size = sizeof image,
+                              .picture = &smooth,
                               .width = 1.6 * width,
                               .height = 1.6 * height};
   celspan_object *picture = load(context, folder, names[(index + 1) % 3], image);
@@ -128,6 +137,7 @@ static celspan_object *make_plane(celspan_context *context, const char *folder, 
   picture = moved(context, picture, celspan_matrix_rotation(0.05 * index, (celspan_point){0, 0}));
   operands[0] = moved(context, picture, celspan_matrix_translation(-0.3 * width, -0.2 * height));
   celspan_ellipse_desc window = {
+      .struct_size = sizeof window,
       .centre = {0.3 * width * (index % 4), height * (0.2 + index % 3 * 0.4)},
       .radius_x = 0.4 * width,
       .radius_y = 0.5 * height};

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "celspan/plane.h"
 #include "drawing.h"
 #include "measure.h"
 #include "scene.h"

@@ -38,11 +38,16 @@ static celspan_object *make_shape(celspan_context *context, const bench_shape *s
     celspan_point points[4];
     for (int i = 0; i < 4; i++)
       points[i] = (celspan_point){shape->spline[i].x, shape->spline[i].y};
-    celspan_nurbs_desc desc = {
-        .points = points, .point_count = 4, .degree = 3, .rule = rule, .texture = texture};
+    celspan_nurbs_desc desc = {.struct_size = sizeof desc,
+                               .points = points,
+                               .point_count = 4,
+                               .degree = 3,
+                               .rule = rule,
+                               .texture = texture};
     bench_check(context, celspan_object_create_nurbs(context, &desc, &object));
   } else {
-    celspan_path_desc desc = {.data = shape->data, .rule = rule, .texture = texture};
+    celspan_path_desc desc = {
+        .struct_size = sizeof desc, .data = shape->data, .rule = rule, .texture = texture};
     bench_check(context, celspan_object_create_path(context, &desc, &object));
   }
   celspan_texture_unref(texture);
@@ -138,7 +143,8 @@ celspan_frame_desc bench_frame(const celspan_exposure *exposure, int width, int 
   desc.film_width = desc.film_height = 1;
   desc.width = width;
   desc.height = height;
-  desc.antialias = mode;
+  desc.has_antialias = mode != NULL;
+  desc.antialias = mode ? *mode : CELSPAN_ANTIALIAS_AREA;
   desc.workers = 1;
   return desc;
 }

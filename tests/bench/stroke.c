@@ -114,7 +114,7 @@ static celspan_object *make_filled(celspan_context *context, const celspan_objec
   check(context, cs_stroke_outline(context, stroke->data->stroke, &view, &outline));
   *curves = outline.piece_count;
   char *text = write_outline(&outline);
-  const celspan_path_desc desc = {.data = text};
+  const celspan_path_desc desc = {.struct_size = sizeof desc, .data = text};
   check(context, celspan_object_create_path(context, &desc, &object));
   free(text);
   cs_outline_finish(&outline, context->memory);

@@ -69,7 +69,7 @@ static celspan_status fill(void *user, celspan_context *context, const celspan_r
 }
 
 static celspan_status show(stage *s, celspan_texture *texture) {
-  const celspan_rect_desc rect = {1, 1, 22, 16, 0, texture};
+  const celspan_rect_desc rect = {sizeof rect, 1, 1, 22, 16, 0, texture};
   celspan_object *object;
   celspan_cel *cel;
   celspan_cel_desc cel_desc = CELSPAN_CEL_DESC;
@@ -98,7 +98,7 @@ static celspan_status make_surface(stage *s) {
   desc.user = s;
   desc.has_key = true;
   CS_TRY(celspan_surface_create(s->context, &desc, &surface));
-  const celspan_picture_desc picture = {.surface = surface};
+  const celspan_picture_desc picture = {.struct_size = sizeof picture, .surface = surface};
   celspan_status status = celspan_texture_create_picture(s->context, &picture, &texture);
   celspan_surface_unref(surface);
   if (status != CELSPAN_OK)
@@ -235,7 +235,8 @@ static celspan_status end(void *user, celspan_context *context, celspan_status o
 
 static celspan_status to_sink(stage *s, const celspan_frame_desc *frame, stage_outcome *out) {
   own_sink own = {s, out};
-  const celspan_sink sink = {.user = &own, .begin = begin, .row = row, .end = end};
+  const celspan_sink sink = {
+      .struct_size = sizeof sink, .user = &own, .begin = begin, .row = row, .end = end};
   begin_digest(out);
   return celspan_frame_render(s->context, frame, &sink, NULL);
 }
@@ -256,7 +257,7 @@ static celspan_status to_rows(stage *s, const celspan_frame_desc *frame, stage_o
 }
 
 static celspan_status to_floats(stage *s, const celspan_frame_desc *frame, stage_outcome *out) {
-  const celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT};
+  const celspan_coding coding = {.struct_size = sizeof coding, .depth = CELSPAN_DEPTH_FLOAT};
   size_t stride = (size_t)frame->width * FLOATS * sizeof(float);
   void *pixels = calloc((size_t)frame->height, stride);
   celspan_status status = celspan_frame_pixels(s->context, frame, &coding, pixels, stride, NULL);
@@ -296,10 +297,12 @@ static void take_file(const char *path, stage_outcome *out) {
 static celspan_status to_file(stage *s, const celspan_frame_desc *frame, const char *sink,
                               char path[PATH_SIZE]) {
   celspan_file_desc file = CELSPAN_FILE_DESC;
+  celspan_coding coded = CELSPAN_CODING;
+  file.coding = &coded;
   bool is_deep = strcmp(sink, "png16") == 0, dithers = strncmp(sink, "dither.", 7) == 0;
-  file.coding.depth = is_deep   ? CELSPAN_DEPTH_16
-                      : dithers ? CELSPAN_DEPTH_8_DITHER
-                                : CELSPAN_DEPTH_DEFAULT;
+  coded.depth = is_deep   ? CELSPAN_DEPTH_16
+                : dithers ? CELSPAN_DEPTH_8_DITHER
+                          : CELSPAN_DEPTH_DEFAULT;
   snprintf(path, PATH_SIZE, "%s/frame.%s", s->folder, is_deep ? "png" : dithers ? sink + 7 : sink);
   return celspan_frame_write(s->context, frame, path, &file, NULL);
 }

@@ -12,6 +12,8 @@
  */
 #include "tests/fuzz/target.h"
 
+#include "celspan/trace.h"
+
 #include "base/number.h"
 #include "tests/fuzz/bytes.h"
 #include "tests/fuzz/meter.h"
@@ -136,7 +138,7 @@ static void make_surface(program *p) {
 }
 
 static celspan_picture_desc picture(program *p) {
-  celspan_picture_desc desc = CELSPAN_ZERO;
+  celspan_picture_desc desc = {.struct_size = sizeof desc};
   desc.surface = ANY(p, surfaces);
   desc.colour = take(p, 4) == 3 ? "rec709" : NULL;
   desc.subimage = take(p, 16) == 15 ? cs_number_to_int32(number(p)) : 0;
@@ -228,6 +230,7 @@ static celspan_status make_curve(program *p, celspan_object **out) {
   arrays a;
   fill_arrays(p, &a);
   celspan_nurbs_desc desc = {
+      .struct_size = sizeof desc,
       .points = a.points,
       .weights = take(p, 2) ? a.numbers : NULL,
       .point_count = count(p, POINTS, sizeof *a.points),
@@ -271,10 +274,12 @@ static celspan_status make_stroke(program *p, celspan_object **out) {
 }
 
 static celspan_status make_shape(program *p, celspan_object **out) {
-  const celspan_rect_desc rect = {number(p), number(p), number(p),
-                                  number(p), number(p), ANY(p, textures)};
-  const celspan_triangle_desc triangle = {{point(p), point(p), point(p)}, ANY(p, textures)};
-  const celspan_ellipse_desc ellipse = {point(p), number(p), number(p), ANY(p, textures)};
+  const celspan_rect_desc rect = {sizeof rect, number(p), number(p),       number(p),
+                                  number(p),   number(p), ANY(p, textures)};
+  const celspan_triangle_desc triangle = {
+      sizeof triangle, {point(p), point(p), point(p)}, ANY(p, textures)};
+  const celspan_ellipse_desc ellipse = {sizeof ellipse, point(p), number(p), number(p),
+                                        ANY(p, textures)};
   switch (take(p, 3)) {
   case 0:
     return celspan_object_create_rect(p->context, &rect, out);
@@ -288,14 +293,15 @@ static celspan_status make_shape(program *p, celspan_object **out) {
 static celspan_status make_polygon(program *p, celspan_object **out) {
   arrays a;
   fill_arrays(p, &a);
-  const celspan_polygon_desc desc = {a.points, count(p, POINTS, sizeof *a.points),
+  const celspan_polygon_desc desc = {sizeof desc, a.points, count(p, POINTS, sizeof *a.points),
                                      (celspan_rule)word(p, 2), ANY(p, textures)};
   return celspan_object_create_polygon(p->context, &desc, out);
 }
 
 static celspan_status make_image(program *p, celspan_object **out) {
-  const celspan_image_desc desc = {picture(p), number(p), number(p),
-                                   number(p),  number(p), (celspan_fit)word(p, 3)};
+  const celspan_picture_desc shown = picture(p);
+  const celspan_image_desc desc = {
+      sizeof desc, &shown, number(p), number(p), number(p), number(p), (celspan_fit)word(p, 3)};
   return celspan_object_create_image(p->context, &desc, out);
 }
 
@@ -314,7 +320,7 @@ static celspan_status emit(void *user, celspan_context *context, double y,
 static celspan_status make_procedure(program *p, celspan_object **out) {
   celspan_paint *user = malloc(sizeof *user);
   *user = paint(p);
-  const celspan_scanline_desc desc = {box(p), emit, user, free, take(p, 2)};
+  const celspan_scanline_desc desc = {sizeof desc, box(p), emit, user, free, take(p, 2)};
   celspan_status status = celspan_object_create_scanline(p->context, &desc, out);
   if (status != CELSPAN_OK)
     free(user);
@@ -423,9 +429,13 @@ static celspan_status kernel(void *user, celspan_context *context, double x, dou
 }
 
 static celspan_filter_desc filter(program *p) {
-  return (celspan_filter_desc){
-      (celspan_kernel)word(p, 5), take(p, 2),           fabs(number(p)), take(p, 40) - 1,
-      take(p, 2) ? kernel : NULL, take(p, 2) ? p : NULL};
+  return (celspan_filter_desc){sizeof(celspan_filter_desc),
+                               (celspan_kernel)word(p, 5),
+                               take(p, 2),
+                               fabs(number(p)),
+                               take(p, 40) - 1,
+                               take(p, 2) ? kernel : NULL,
+                               take(p, 2) ? p : NULL};
 }
 
 static void make_rostrum(program *p) {
@@ -444,7 +454,8 @@ static void make_rostrum(program *p) {
   desc.camera_width = number(p);
   desc.camera_rotation = take(p, 4) == 3 ? number(p) : 0;
   desc.antialias = (celspan_antialias_mode)word(p, 3);
-  desc.filter = filter(p);
+  const celspan_filter_desc kernel_of = filter(p);
+  desc.filter = &kernel_of;
   desc.front_texture = light_texture(p);
   desc.back_texture = light_texture(p);
   desc.has_size = take(p, 2);
@@ -472,6 +483,7 @@ typedef struct frame {
   celspan_frame_desc desc;
   celspan_exposure exposures[2];
   celspan_antialias_mode antialias;
+  celspan_filter_desc filter;
 } frame;
 
 static void describe_frame(program *p, frame *f) {
@@ -487,8 +499,10 @@ static void describe_frame(program *p, frame *f) {
     f->desc.crop_width = f->desc.crop_height = take(p, SIDE + 2) - 1;
   }
   f->antialias = (celspan_antialias_mode)word(p, 3);
-  f->desc.antialias = take(p, 2) ? &f->antialias : NULL;
-  f->desc.filter = filter(p);
+  f->desc.antialias = f->antialias;
+  f->desc.has_antialias = take(p, 2);
+  f->filter = filter(p);
+  f->desc.filter = &f->filter;
   f->desc.workers = 1;
 }
 
@@ -498,7 +512,7 @@ static int32_t width_of(const celspan_frame_desc *desc) {
 
 /* The same frame by rows, from the last to the first. */
 static void compare_rows(program *p, const celspan_frame_desc *desc, float (*wanted)[4]) {
-  const celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT};
+  const celspan_coding coding = {.struct_size = sizeof coding, .depth = CELSPAN_DEPTH_FLOAT};
   celspan_rows *rows = NULL;
   int32_t width = width_of(desc), height = desc->crop_height ? desc->crop_height : desc->height;
   float got[SIDE][4];
@@ -525,7 +539,7 @@ static void compare_rows(program *p, const celspan_frame_desc *desc, float (*wan
 
 static void render(program *p) {
   float made[SIDE * SIDE][4];
-  const celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT};
+  const celspan_coding coding = {.struct_size = sizeof coding, .depth = CELSPAN_DEPTH_FLOAT};
   double rgba[4];
   frame f;
   describe_frame(p, &f);
@@ -547,11 +561,14 @@ static void misuse_sink(program *p) {
   static const char *const paths[] = {"/dev/null/no.png", "/dev/shm/celspan-fuzz.png",
                                       "/dev/shm/celspan-fuzz.tga", "/dev/shm/celspan-fuzz.span"};
   const float array[4 * SIDE] = {0};
-  celspan_sink sink;
+  celspan_sink sink = CELSPAN_SINK;
   celspan_file_desc file = CELSPAN_FILE_DESC;
+  celspan_coding coded = CELSPAN_CODING;
+  file.coding = &coded;
   file.workers = 1;
-  file.coding = (celspan_coding){(celspan_depth)word(p, 6), (celspan_transfer)word(p, 5),
-                                 (celspan_alpha)word(p, 3), (celspan_space)word(p, 3)};
+  coded = (celspan_coding){sizeof(celspan_coding), (celspan_depth)word(p, 6),
+                           (celspan_transfer)word(p, 5), (celspan_alpha)word(p, 3),
+                           (celspan_space)word(p, 3)};
   if (celspan_file_sink_create(p->context, paths[take(p, 4)], take(p, 4) ? &file : NULL, &sink) !=
       CELSPAN_OK)
     return;
@@ -571,7 +588,8 @@ static void misuse_sink(program *p) {
 static void trace(program *p) {
   celspan_trace_desc desc = CELSPAN_TRACE_DESC;
   celspan_trace *made = NULL;
-  desc.picture = picture(p);
+  const celspan_picture_desc shown = picture(p);
+  desc.picture = &shown;
   desc.colours = take(p, 70) - 1;
   desc.smooth = number(p);
   desc.speckle = take(p, 5) - 1;

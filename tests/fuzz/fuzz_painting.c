@@ -11,6 +11,8 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include "celspan/layers.h"
+
 #include "model/pictures/surface.h"
 #include "tests/fuzz/meter.h"
 

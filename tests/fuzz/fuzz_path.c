@@ -42,13 +42,14 @@ static void draw(celspan_context *context, celspan_object *object, int how) {
   celspan_antialias_mode mode = (celspan_antialias_mode)(how % 3);
   celspan_exposure exposure = {make_rostrum(context, object), 1};
   float pixels[SIDE * SIDE][4];
-  const celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT};
+  const celspan_coding coding = {.struct_size = sizeof coding, .depth = CELSPAN_DEPTH_FLOAT};
   celspan_frame_desc frame = CELSPAN_FRAME_DESC;
   frame.exposures = &exposure;
   frame.exposure_count = 1;
   frame.width = frame.height = SIDE;
   frame.workers = 1;
-  frame.antialias = &mode;
+  frame.has_antialias = true;
+  frame.antialias = mode;
   if (!exposure.rostrum)
     return;
   celspan_status status =
@@ -87,7 +88,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   int how = size > 0 ? data[0] : 0;
   if (size > 1)
     memcpy(text, data + 1, size - 1);
-  const celspan_path_desc desc = {.data = text, .rule = (celspan_rule)(how & 1)};
+  const celspan_path_desc desc = {
+      .struct_size = sizeof desc, .data = text, .rule = (celspan_rule)(how & 1)};
   celspan_object *object = NULL;
   celspan_status status = celspan_object_create_path(context, &desc, &object);
   demand(is_expected(status), "a refusal of another kind");

@@ -32,7 +32,8 @@ static void check_outcome(const celspan_context *context, celspan_status status,
 /* The picture over the whole frame; the rostrum keeps the values made on the way. */
 static celspan_status stage(celspan_context *context, const celspan_picture_desc *picture,
                             celspan_rostrum **out) {
-  const celspan_image_desc image = {.picture = *picture, .width = SIDE, .height = SIDE};
+  const celspan_image_desc image = {
+      .struct_size = sizeof image, .picture = picture, .width = SIDE, .height = SIDE};
   celspan_object *object = NULL;
   celspan_cel *cel = NULL;
   celspan_status status = celspan_object_create_image(context, &image, &object);
@@ -54,7 +55,7 @@ static celspan_status stage(celspan_context *context, const celspan_picture_desc
 static void show(celspan_context *context, const celspan_picture_desc *picture) {
   celspan_exposure exposure = {NULL, 1};
   float pixels[SIDE * SIDE][4];
-  const celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT};
+  const celspan_coding coding = {.struct_size = sizeof coding, .depth = CELSPAN_DEPTH_FLOAT};
   celspan_frame_desc frame = CELSPAN_FRAME_DESC;
   frame.exposures = &exposure;
   frame.exposure_count = 1;
@@ -72,7 +73,7 @@ static void show(celspan_context *context, const celspan_picture_desc *picture) 
 static void read_file(const char *path) {
   meter m = {.limit = MOST_BYTES};
   celspan_context *context = meter_context(&m);
-  celspan_picture_desc picture = CELSPAN_ZERO;
+  celspan_picture_desc picture = {.struct_size = sizeof picture};
   celspan_picture_info info;
   demand(context, "no context");
   picture.file = path;

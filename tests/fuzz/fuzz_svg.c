@@ -3,6 +3,8 @@
  */
 #include "tests/fuzz/target.h"
 
+#include "celspan/svg.h"
+
 #include "tests/fuzz/meter.h"
 
 #define MOST_BYTES ((size_t)512 << 20)
@@ -61,7 +63,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   desc.bytes = size > 0 ? (const void *)data : "";
   desc.size = size;
   desc.name = "fuzz.svg";
-  const celspan_svg_font font = {"default", {.file = TEST_ROOT "/scripts/type/block.ttf"}};
+  const celspan_svg_font font = {"default", TEST_ROOT "/scripts/type/block.ttf"};
   desc.fonts = &font;
   desc.font_count = 1;
   if (context) {

@@ -11,6 +11,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "celspan/text.h"
 #include "tests/support/memory.h"
 
 enum { WRAPS = 1, LEFTWARD = 2, VARIES = 4, FEATURES = 8, LANGUAGE = 16, TWICE = 32, TRACKED = 64 };
@@ -84,7 +85,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   demand(descriptor >= 0 && write(descriptor, data + 2 + text_size, font_size) >= 0,
          "the file cannot be written");
   snprintf(path, sizeof path, "/proc/self/fd/%d", descriptor);
-  const celspan_font fonts[] = {{path, NULL}, {path, NULL}};
+  const char *const fonts[] = {path, path};
   celspan_text_desc desc = describe(data, text_size);
   desc.fonts = fonts;
   desc.font_count = data[0] & TWICE ? 2 : 1;
@@ -94,5 +95,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
 }
 
 #ifdef REPLAY_MAIN
+#include "celspan/text.h"
 #include "tests/fuzz/replay.h"
 #endif

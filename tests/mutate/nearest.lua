@@ -32,7 +32,8 @@ return {
   sample = { "unit/sampler", "unit/picture_rows", "property/pictures", "golden/golden" },
   colour = { "unit/pixels", "spec/span", "golden/golden" },
   span = { "unit/over_row", "unit/span_sink", "spec/span", "golden/golden" },
-  base = { "unit/error_text", "spec/container", "unit/scene", "unit/over_row", "golden/golden" },
+  base = { "unit/description", "unit/error_text", "spec/container", "unit/scene", "unit/over_row",
+    "golden/golden" },
   sinks = { "unit/ycbcr", "unit/pixels", "unit/file", "unit/tga", "unit/picture_sink", "unit/guard",
     "unit/span_sink", "unit/inspect", "unit/embedding", "spec/formats", "property/spanfile",
     "spec/cli" },
@@ -96,7 +97,7 @@ return {
   png = { "unit/png_bytes", "unit/png", "spec/formats" },
   join = { "spec/join" },
   relight = { "spec/relight", "property/stack" },
-  include = { "unit/embedding", "example/memory", "example/host", "spec/embedding" },
+  include = { "spec/hosts", "unit/embedding", "example/memory", "example/host", "spec/embedding" },
 
   ["docs"] = { "spec/docs" },
   ["README.md"] = { "spec/docs" },

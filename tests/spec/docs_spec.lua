@@ -343,8 +343,9 @@ end)
 
 describe("the C reference", function()
   local text = markdown.read "docs/c.md"
-  local header = markdown.read "src/include/celspan/celspan.h"
-    .. markdown.read "src/include/celspan/lua.h"
+  -- Without the functions behind the macros of initial values, such as CELSPAN_CODING.
+  local header = system.output("cat src/include/celspan/*.h"):gsub("%f[%w_]%g+_initial%(", "(")
+  header = header .. header:gsub("CELSPAN_DESCRIPTION%(([%l_]+)%)", "%1_default(")
 
   it("names every function of the header, and no other", function()
     for name in header:gmatch "%f[%w_](celspan_%l[%w_]*)%(" do

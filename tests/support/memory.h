@@ -46,8 +46,9 @@ static inline void *memory_watch_resize(void *user, void *block, size_t old_size
 }
 
 static inline celspan_context *memory_watch_context(memory_watch *watch) {
-  celspan_context_desc desc = {
-      .struct_size = sizeof desc, .resize = memory_watch_resize, .resize_user = watch};
+  celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
+  desc.resize = memory_watch_resize;
+  desc.resize_user = watch;
   celspan_context *context = NULL;
   return celspan_context_create(&desc, &context) == CELSPAN_OK ? context : NULL;
 }

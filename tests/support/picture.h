@@ -26,9 +26,11 @@ static inline celspan_status picture_write(celspan_context *context, const char 
                                            const celspan_coding *coding, int width, int height,
                                            picture_paint paint) {
   celspan_file_desc file = CELSPAN_FILE_DESC;
+  celspan_coding coded = CELSPAN_CODING;
+  file.coding = &coded;
   celspan_sink sink;
   if (coding)
-    file.coding = *coding;
+    coded = *coding;
   CS_TRY(cs_sink_file(context, path, &file, &sink));
   celspan_status status = sink.begin(sink.user, context, width, height);
   if (status != CELSPAN_OK) {
@@ -48,7 +50,7 @@ static inline celspan_status picture_write(celspan_context *context, const char 
 
 static inline celspan_status picture_open(celspan_context *context, const char *path,
                                           cs_picture **out, celspan_picture_info *info) {
-  celspan_picture_desc desc = {.file = path};
+  celspan_picture_desc desc = {.struct_size = sizeof desc, .file = path};
   cs_picture *picture;
   CS_TRY(cs_picture_create(context, &desc, &picture));
   celspan_status status = cs_store_info(context, picture, info);
@@ -73,7 +75,7 @@ static inline celspan_status picture_texel(celspan_context *context, const cs_pi
 /* Whether pictures can be read and written: the context's error says why not. */
 static inline bool picture_module_is_there(celspan_context *context) {
   celspan_picture_info info;
-  celspan_picture_desc desc = {.file = "/nonexistent"};
+  celspan_picture_desc desc = {.struct_size = sizeof desc, .file = "/nonexistent"};
   return celspan_picture_inspect(context, &desc, &info) == CELSPAN_INPUT &&
          !strstr(celspan_context_error(context), "module");
 }

@@ -73,27 +73,27 @@ static inline celspan_texture *studio_gradient(studio *s, const celspan_point po
 
 static inline celspan_object *studio_rect(studio *s, double x, double y, double width,
                                           double height, celspan_texture *texture) {
-  celspan_rect_desc desc = {x, y, width, height, 0, texture};
+  celspan_rect_desc desc = {sizeof desc, x, y, width, height, 0, texture};
   STUDIO_TAKE(s, objects, object_count, celspan_object,
               celspan_object_create_rect(s->context, &desc, &made));
 }
 
 static inline celspan_object *studio_circle(studio *s, double x, double y, double radius,
                                             celspan_texture *texture) {
-  celspan_ellipse_desc desc = {{x, y}, radius, radius, texture};
+  celspan_ellipse_desc desc = {sizeof desc, {x, y}, radius, radius, texture};
   STUDIO_TAKE(s, objects, object_count, celspan_object,
               celspan_object_create_ellipse(s->context, &desc, &made));
 }
 
 static inline celspan_object *studio_polygon(studio *s, const celspan_point *points, size_t count,
                                              celspan_rule rule, celspan_texture *texture) {
-  celspan_polygon_desc desc = {points, count, rule, texture};
+  celspan_polygon_desc desc = {sizeof desc, points, count, rule, texture};
   STUDIO_TAKE(s, objects, object_count, celspan_object,
               celspan_object_create_polygon(s->context, &desc, &made));
 }
 
 static inline celspan_object *studio_path(studio *s, const char *data, celspan_texture *texture) {
-  celspan_path_desc desc = {data, CELSPAN_RULE_NONZERO, texture};
+  celspan_path_desc desc = {sizeof desc, data, CELSPAN_RULE_NONZERO, texture};
   STUDIO_TAKE(s, objects, object_count, celspan_object,
               celspan_object_create_path(s->context, &desc, &made));
 }
@@ -154,8 +154,8 @@ static inline celspan_rostrum *studio_show(studio *s, celspan_object *object) {
 
 #undef STUDIO_TAKE
 
-/* A frame as large as the film, of exposures that the caller keeps; mode: borrowed likewise, NULL
- * for the default. Everything else at its default. */
+/* A frame as large as the film, of exposures that the caller keeps; mode: NULL for the
+ * default. Everything else at its default. */
 static inline celspan_frame_desc studio_frame(const celspan_exposure *exposures, size_t count,
                                               int32_t width, int32_t height,
                                               const celspan_antialias_mode *mode) {
@@ -164,6 +164,7 @@ static inline celspan_frame_desc studio_frame(const celspan_exposure *exposures,
   desc.exposure_count = count;
   desc.width = width;
   desc.height = height;
-  desc.antialias = mode;
+  desc.has_antialias = mode != NULL;
+  desc.antialias = mode ? *mode : CELSPAN_ANTIALIAS_AREA;
   return desc;
 }

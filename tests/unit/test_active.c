@@ -21,7 +21,8 @@ static void add_blob(cs_boundary_builder *builder, test_random *random, uint32_t
   cs_outline_init(&outline);
   for (int i = 0; i < 6; i++)
     points[i] = random_point(random, -30, WIDTH + 30, -30, HEIGHT + 30);
-  celspan_nurbs_desc desc = {.points = points, .point_count = 6, .degree = 3};
+  celspan_nurbs_desc desc = {
+      .struct_size = sizeof desc, .points = points, .point_count = 6, .degree = 3};
   celspan_status status = layer % 3 == 0 ? cs_outline_polygon(context, &outline, points, 6)
                                          : cs_outline_nurbs(context, &outline, &desc);
   CHECK(status == CELSPAN_OK);

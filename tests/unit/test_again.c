@@ -45,7 +45,8 @@ static void begin(studio *s, celspan_rostrum *rostrum, celspan_antialias_mode mo
   desc.exposure_count = 1;
   desc.film_width = desc.width = WIDTH;
   desc.film_height = desc.height = HEIGHT;
-  desc.antialias = &mode;
+  desc.has_antialias = true;
+  desc.antialias = mode;
   studio_check(s, cs_frame_create(s->context, &desc, frame));
   studio_check(s, cs_row_worker_init(worker, s->context, frame));
 }

@@ -108,7 +108,7 @@ static void names_are_what_they_say(void) {
   CHECK(reads(&cs_argument_layout, "iiif", &f) && *value == CS_PYRAMID_IIIF);
   CHECK(reads(&cs_argument_progress, "openjd", &f) && *value == CS_PROGRESS_OPENJD);
   CHECK(reads(&cs_argument_antialias, "none", &f) && antialias->mode == CELSPAN_ANTIALIAS_NONE);
-  CHECK(reads(&cs_argument_antialias, "lanczos", &f) && antialias->filter.rows == 0 &&
+  CHECK(reads(&cs_argument_antialias, "lanczos", &f) && antialias->filter.rows == 16 &&
         antialias->mode == CELSPAN_ANTIALIAS_FILTER);
   CHECK(reads(&cs_argument_antialias, "mitchell:256", &f) && antialias->filter.rows == 256 &&
         antialias->filter.kernel == CELSPAN_KERNEL_MITCHELL);

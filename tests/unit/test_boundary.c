@@ -48,7 +48,8 @@ static void random_nurbs(test_random *random, cs_outline *outline) {
     knots[i] = knots[i - 1] + (again ? 0 : random_between(random, 0.1, 2));
   }
   bool has_weights = random_below(random, 2), has_knots = random_below(random, 2);
-  celspan_nurbs_desc desc = {.points = points,
+  celspan_nurbs_desc desc = {.struct_size = sizeof desc,
+                             .points = points,
                              .weights = has_weights ? weights : NULL,
                              .point_count = (size_t)count,
                              .degree = degree,

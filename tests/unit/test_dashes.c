@@ -55,7 +55,8 @@ typedef float sheet[HEIGHT][WIDTH][4];
 
 static celspan_statistics render(studio *s, const celspan_frame_desc *desc, void *out,
                                  size_t stride) {
-  const celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT,
+  const celspan_coding coding = {.struct_size = sizeof coding,
+                                 .depth = CELSPAN_DEPTH_FLOAT,
                                  .transfer = CELSPAN_TRANSFER_LINEAR,
                                  .alpha = CELSPAN_ALPHA_PREMULTIPLIED};
   celspan_statistics statistics = {0};
@@ -157,7 +158,8 @@ static void test_panes(studio *s) {
       continue;
     celspan_antialias_mode mode = (celspan_antialias_mode)(k % 3);
     celspan_frame_desc desc = k < 6 ? frame_of(exposures, 1) : frame_of(exposures + 1, 2);
-    desc.antialias = &mode;
+    desc.has_antialias = true;
+    desc.antialias = mode;
     if (k >= 3) {
       desc.crop_x = 3;
       desc.crop_y = 1;
@@ -204,7 +206,8 @@ static void test_crops(studio *s) {
       continue;
     celspan_antialias_mode mode = (celspan_antialias_mode)k;
     celspan_frame_desc desc = frame_of(&exposure, 1);
-    desc.antialias = &mode;
+    desc.has_antialias = true;
+    desc.antialias = mode;
     (void)render(s, &desc, whole, sizeof whole[0]);
     for (size_t i = 0; i < sizeof crops / sizeof crops[0]; i++) {
       desc.crop_x = crops[i][0];

@@ -20,7 +20,8 @@ static celspan_span single(int32_t x0, int32_t x1, const float rgba[4]) {
 static void test_mean(void) {
   test_random random = {1};
   for (int round = 0; round < 400; round++) {
-    celspan_coding coding = {.depth = CELSPAN_DEPTH_8_DITHER,
+    celspan_coding coding = {.struct_size = sizeof coding,
+                             .depth = CELSPAN_DEPTH_8_DITHER,
                              .transfer = (celspan_transfer)(1 + round % 4),
                              .alpha = (celspan_alpha)(1 + round / 4 % 2)};
     celspan_coding plain = cs_pixels_resolve(&coding, CELSPAN_DEPTH_8);
@@ -48,7 +49,8 @@ static void test_mean(void) {
 /* Colours that 8 bits represent exactly are not changed: black, white, clear, and every code of a
  * picture. */
 static void test_exact(void) {
-  celspan_coding dither = {.depth = CELSPAN_DEPTH_8_DITHER}, plain = {.depth = CELSPAN_DEPTH_8};
+  celspan_coding dither = {.struct_size = sizeof dither, .depth = CELSPAN_DEPTH_8_DITHER},
+                 plain = {.struct_size = sizeof plain, .depth = CELSPAN_DEPTH_8};
   for (int code = 0; code < 256; code++) {
     char text[10];
     celspan_paint paint;
@@ -68,7 +70,7 @@ static void test_exact(void) {
 
 /* Singles, gradients and arrays of the same colours give the same bytes, wherever rows are cut. */
 static void test_place(void) {
-  celspan_coding coding = {.depth = CELSPAN_DEPTH_8_DITHER};
+  celspan_coding coding = {.struct_size = sizeof coding, .depth = CELSPAN_DEPTH_8_DITHER};
   const float grey[4] = {0.2003f, 0.2003f, 0.2003f, 1};
   float array[64][4];
   unsigned char whole[64][4], part[64][4];
@@ -108,7 +110,7 @@ static void test_frames(void) {
   rostrum_desc.cel_count = 1;
   celspan_exposure exposure = {.weight = 1};
   studio_check(&s, celspan_rostrum_create(context, &rostrum_desc, &exposure.rostrum));
-  const celspan_coding coding = {.depth = CELSPAN_DEPTH_8_DITHER};
+  const celspan_coding coding = {.struct_size = sizeof coding, .depth = CELSPAN_DEPTH_8_DITHER};
   celspan_frame_desc frame = CELSPAN_FRAME_DESC;
   frame.exposures = &exposure;
   frame.exposure_count = 1;
@@ -138,7 +140,7 @@ static void test_failing_allocations(void) {
   for (size_t n = 1; n < 4; n++) {
     memory_watch watch = {0};
     celspan_context *context = memory_watch_context(&watch);
-    const celspan_coding coding = {.depth = CELSPAN_DEPTH_8_DITHER};
+    const celspan_coding coding = {.struct_size = sizeof coding, .depth = CELSPAN_DEPTH_8_DITHER};
     celspan_coding plain = cs_pixels_resolve(&coding, CELSPAN_DEPTH_8);
     uint64_t digest[2];
     celspan_sink sink;

@@ -82,14 +82,15 @@ static void check_films(void) {
   size_t before = h.watch.blocks;
   run(&h, FILM);
   CHECK(h.watch.blocks > before); /* the scene went through the host's function */
-  const celspan_film film = celspan_lua_film(h.L, -1);
+  celspan_film film = CELSPAN_FILM;
+  CHECK(celspan_lua_film(h.L, -1, &film) == CELSPAN_OK);
   CHECK(film.width == 16 && film.height == 12 && film.frames_second == 12);
   CHECK(film.first == 5 && film.count == 4 && film.sound_offset == 0.5);
   CHECK_TEXT(film.title, "Dots");
   CHECK_TEXT(film.sound, "dots.wav");
   CHECK(!celspan_lua_rostrum(h.L, -1));
 
-  celspan_frame_desc frame, second;
+  celspan_frame_desc frame = CELSPAN_FRAME_DESC, second = CELSPAN_FRAME_DESC;
   CHECK(celspan_lua_frame(h.L, 1, 5, &frame) == CELSPAN_OK);
   CHECK(frame.exposure_count == 1 && frame.film_width == 16 && frame.width == 16);
   CHECK(celspan_lua_frame(h.L, -1, 7, &second) == CELSPAN_OK);
@@ -110,8 +111,9 @@ static void check_rostrums(void) {
   open_host(&h);
   run(&h, STILL);
   celspan_rostrum *rostrum = celspan_lua_rostrum(h.L, -1);
-  const celspan_film film = celspan_lua_film(h.L, -1);
-  celspan_frame_desc frame;
+  celspan_film film = CELSPAN_FILM;
+  CHECK(celspan_lua_film(h.L, -1, &film) == CELSPAN_OK);
+  celspan_frame_desc frame = CELSPAN_FRAME_DESC;
   CHECK(rostrum && film.count == 1 && film.width == 1920 && film.height == 1080 && !film.title);
   CHECK(celspan_lua_frame(h.L, -1, 1, &frame) == CELSPAN_OK);
   CHECK(frame.exposures[0].rostrum == rostrum && frame.exposures[0].weight == 1);
@@ -123,7 +125,7 @@ static void check_rostrums(void) {
 
 static void check_procedures(void) {
   host h;
-  celspan_frame_desc frame;
+  celspan_frame_desc frame = CELSPAN_FRAME_DESC;
   open_host(&h);
   run(&h, SCANLINE);
   CHECK(celspan_lua_frame(h.L, -1, 1, &frame) == CELSPAN_OK);
@@ -157,7 +159,8 @@ static void check_faults(void) {
   CHECK(!frame.exposures && lua_gettop(h.L) == 1);
 
   lua_pushinteger(h.L, 12);
-  CHECK(celspan_lua_film(h.L, -1).count == 0);
+  celspan_film none = CELSPAN_FILM;
+  CHECK(celspan_lua_film(h.L, -1, &none) == CELSPAN_BAD_ARGUMENT && none.count == 0);
   CHECK_TEXT(celspan_context_error(h.context), "a film or a rostrum is needed, got number");
   CHECK(!celspan_lua_rostrum(h.L, -1));
   CHECK(celspan_lua_frame(h.L, -1, 1, &frame) == CELSPAN_BAD_ARGUMENT);
@@ -213,7 +216,7 @@ static void check_refusals(host *h) {
 static void check_sandbox(void) {
   host h;
   celspan_lua_limits limits = CELSPAN_LUA_LIMITS;
-  celspan_frame_desc frame;
+  celspan_frame_desc frame = CELSPAN_FRAME_DESC;
   open_host(&h);
   run(&h, "kept = require 'celspan.ease' return 1"); /* before, with the whole of Lua */
   check_refusals(&h);
@@ -269,7 +272,9 @@ static bool visit(size_t lua, size_t core, bool is_sandboxed) {
   if (status == CELSPAN_OK && is_sandboxed)
     status = celspan_lua_sandbox(h.L, NULL);
   if (status == CELSPAN_OK && lua_pcall(h.L, 0, 1, 0) == LUA_OK) {
-    celspan_film film = celspan_lua_film(h.L, -1);
+    celspan_film film = CELSPAN_FILM;
+    status = celspan_lua_film(h.L, -1, &film);
+    CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY);
     status = celspan_lua_frame(h.L, -1, film.count ? film.first : 5, &frame);
     CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY);
     CHECK(lua_gettop(h.L) == 1);

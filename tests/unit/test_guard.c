@@ -18,8 +18,10 @@ static const celspan_span whole = {.x1 = WIDTH, .colour = {1, 1, 1, 1}};
 
 static celspan_sink make(const char *path, bool dithers) {
   celspan_file_desc file = CELSPAN_FILE_DESC;
-  celspan_sink sink = {0};
-  file.coding.depth = dithers ? CELSPAN_DEPTH_8_DITHER : CELSPAN_DEPTH_DEFAULT;
+  celspan_coding coded = CELSPAN_CODING;
+  file.coding = &coded;
+  celspan_sink sink = {.struct_size = sizeof sink};
+  coded.depth = dithers ? CELSPAN_DEPTH_8_DITHER : CELSPAN_DEPTH_DEFAULT;
   CHECK(celspan_file_sink_create(context, path, &file, &sink) == CELSPAN_OK);
   return sink;
 }
@@ -156,7 +158,7 @@ static void check_strips(const char *path) {
                 {INT32_MAX / UNIT * UNIT, 2 * UNIT, UNIT, false}};
   for (size_t i = 0; i < sizeof strips / sizeof *strips; i++) {
     celspan_file_desc file = CELSPAN_FILE_DESC;
-    celspan_sink sink;
+    celspan_sink sink = CELSPAN_SINK;
     file.strip_row = strips[i].row;
     file.strip_height = strips[i].whole;
     CHECK(celspan_file_sink_create(context, path, &file, &sink) == CELSPAN_OK);
@@ -182,20 +184,23 @@ static void check_format(const char *format, bool dithers) {
 
 static void check_names(void) {
   celspan_file_desc file = CELSPAN_FILE_DESC;
-  celspan_sink sink;
+  celspan_coding coded = CELSPAN_CODING;
+  file.coding = &coded;
+  celspan_sink sink = CELSPAN_SINK;
   CHECK(celspan_file_sink_create(context, NULL, &file, &sink) == CELSPAN_BAD_ARGUMENT);
   CHECK(celspan_file_sink_create(context, "", &file, &sink) == CELSPAN_BAD_ARGUMENT);
-  file.coding.depth = (celspan_depth)99;
+  coded.depth = (celspan_depth)99;
   CHECK(celspan_file_sink_create(context, "x.exr", &file, &sink) == CELSPAN_BAD_ARGUMENT);
-  file.coding.depth = CELSPAN_DEPTH_8;
-  file.coding.transfer = (celspan_transfer)-1;
+  coded.depth = CELSPAN_DEPTH_8;
+  coded.transfer = (celspan_transfer)-1;
   CHECK(celspan_file_sink_create(context, "x.png", &file, &sink) == CELSPAN_BAD_ARGUMENT);
 }
 
 int main(void) {
   memory_watch watch = {0};
-  celspan_context_desc desc = {
-      .struct_size = sizeof desc, .resize = memory_watch_resize, .resize_user = &watch};
+  celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
+  desc.resize = memory_watch_resize;
+  desc.resize_user = &watch;
   if (celspan_context_create(&desc, &context) != CELSPAN_OK)
     return 1;
   for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)

@@ -258,7 +258,8 @@ static celspan_status no_spans(void *user, celspan_context *context, double y,
 }
 
 static void test_procedures(studio *s) {
-  const celspan_scanline_desc desc = {.bounds = {0, 0, 9, 9}, .spans = no_spans};
+  const celspan_scanline_desc desc = {
+      .struct_size = sizeof desc, .bounds = {0, 0, 9, 9}, .spans = no_spans};
   celspan_object *fire = studio_scanline(s, &desc), *rect = studio_rect(s, 0, 0, 9, 9, NULL);
   halves h = of_object(fire), again = of_object(studio_scanline(s, &desc));
   CHECK(!h.is_known && !again.is_known);

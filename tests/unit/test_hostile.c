@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "celspan/text.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
 #include "tests/support/probe.h"
@@ -45,11 +46,17 @@ static void check_outlines(void) {
   const double number = 1;
   celspan_object *object;
   for (size_t i = 0; i < COUNTS; i++) {
-    const celspan_polygon_desc polygon = {.points = points, .point_count = counts[i]};
-    const celspan_polygon_desc nowhere = {.point_count = counts[i]};
-    const celspan_nurbs_desc nurbs = {.points = points, .point_count = counts[i]};
-    const celspan_nurbs_desc knots = {
-        .points = points, .point_count = 4, .knots = &number, .knot_count = counts[i]};
+    const celspan_polygon_desc polygon = {
+        .struct_size = sizeof polygon, .points = points, .point_count = counts[i]};
+    const celspan_polygon_desc nowhere = {.struct_size = sizeof nowhere, .point_count = counts[i]};
+    const celspan_nurbs_desc nurbs = {
+        .struct_size = sizeof nurbs, .degree = 3, .points = points, .point_count = counts[i]};
+    const celspan_nurbs_desc knots = {.struct_size = sizeof knots,
+                                      .degree = 3,
+                                      .points = points,
+                                      .point_count = 4,
+                                      .knots = &number,
+                                      .knot_count = counts[i]};
     celspan_stroke_desc stroke = CELSPAN_STROKE_DESC;
     stroke.points = points;
     stroke.point_count = counts[i];
@@ -64,7 +71,7 @@ static void check_outlines(void) {
     stroke.dashes = &number;
     REFUSED(celspan_object_create_stroke(context, &stroke, &object));
   }
-  const celspan_path_desc path = {0};
+  const celspan_path_desc path = {.struct_size = sizeof path};
   REFUSED(celspan_object_create_path(context, &path, &object));
   REFUSED(celspan_object_create_path(context, NULL, &object));
   REFUSED(celspan_object_create_polygon(context, NULL, &object));
@@ -75,7 +82,7 @@ static void check_outlines(void) {
 }
 
 static celspan_object *make_square(void) {
-  const celspan_rect_desc rect = {.width = 1, .height = 1};
+  const celspan_rect_desc rect = {.struct_size = sizeof rect, .width = 1, .height = 1};
   celspan_object *object = NULL;
   CHECK(celspan_object_create_rect(context, &rect, &object) == CELSPAN_OK);
   return object;
@@ -125,8 +132,8 @@ static celspan_rostrum *make_rostrum(void) {
 
 /* Every function that renders a frame refuses the description. */
 static void refuse_frame(const celspan_frame_desc *frame) {
-  celspan_coding coding = {0};
-  celspan_sink sink = {0};
+  celspan_coding coding = {.struct_size = sizeof coding};
+  celspan_sink sink = {.struct_size = sizeof sink};
   celspan_rows *rows;
   uint64_t digest[2];
   unsigned char pixels[64 * 4];
@@ -173,7 +180,7 @@ static void check_frames(void) {
   celspan_rostrum *rostrum = make_rostrum();
   celspan_exposure exposure = {rostrum, 1};
   celspan_frame_desc frame = CELSPAN_FRAME_DESC;
-  const celspan_coding odd = {.depth = (celspan_depth)99};
+  const celspan_coding odd = {.struct_size = sizeof odd, .depth = (celspan_depth)99};
   const celspan_span *spans;
   celspan_rows *rows;
   uint64_t digest[2];
@@ -234,7 +241,7 @@ static void check_surfaces(void) {
 }
 
 static void check_texts(void) {
-  const celspan_font font = {.file = "/nowhere/font.ttf"};
+  const char *const font = "/nowhere/font.ttf";
   const celspan_feature feature = {"liga", 1};
   const celspan_variation variation = {"wght", 1};
   celspan_object *object;
@@ -275,8 +282,9 @@ static void check_texts(void) {
 
 int main(void) {
   memory_watch watch = {0};
-  celspan_context_desc desc = {
-      .struct_size = sizeof desc, .resize = memory_watch_resize, .resize_user = &watch};
+  celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
+  desc.resize = memory_watch_resize;
+  desc.resize_user = &watch;
   if (celspan_context_create(&desc, &context) != CELSPAN_OK)
     return 1;
   check_textures();

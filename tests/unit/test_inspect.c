@@ -18,7 +18,7 @@ static void paint(int x, int y, float rgba[4]) {
 }
 
 static celspan_texture *slide_texture(const char *path) {
-  celspan_picture_desc desc = {.file = path};
+  celspan_picture_desc desc = {.struct_size = sizeof desc, .file = path};
   celspan_texture *texture = NULL;
   studio_check(&s, celspan_texture_create_picture(s.context, &desc, &texture));
   return texture;
@@ -156,7 +156,7 @@ static void test_surface(void) {
   memory.has_key = true;
   celspan_surface *surface = NULL;
   studio_check(&s, celspan_surface_create(s.context, &memory, &surface));
-  celspan_picture_desc desc = {.surface = surface};
+  celspan_picture_desc desc = {.struct_size = sizeof desc, .surface = surface};
   celspan_texture *texture = NULL;
   studio_check(&s, celspan_texture_create_picture(s.context, &desc, &texture));
   celspan_object *rect = studio_rect(&s, 0, 0, 20, 20, texture);
@@ -181,7 +181,11 @@ static void test_memory(void) {
     char name[64];
     snprintf(name, sizeof name, "/nonexistent/%d.png", i);
     cs_picture *picture = NULL;
-    studio_check(&s, cs_picture_create(s.context, &(celspan_picture_desc){.file = name}, &picture));
+    studio_check(
+        &s, cs_picture_create(
+                s.context,
+                &(celspan_picture_desc){.struct_size = sizeof(celspan_picture_desc), .file = name},
+                &picture));
     CHECK(cs_inspection_examine(&inspection, picture) == CELSPAN_INPUT);
     CHECK(i % 1000 || (cs_inspection_examine(&inspection, picture) == CELSPAN_INPUT &&
                        strstr(celspan_context_error(s.context), name)));

@@ -12,7 +12,11 @@
 #define SIDE 40
 
 static celspan_filter_desc filter(celspan_kernel kernel, double radius) {
-  return (celspan_filter_desc){.kernel = kernel, .has_radius = radius >= 0, .radius = radius};
+  return (celspan_filter_desc){.struct_size = sizeof(celspan_filter_desc),
+                               .rows = 16,
+                               .kernel = kernel,
+                               .has_radius = radius >= 0,
+                               .radius = radius};
 }
 
 /* A part of the frame: the rows 0, step, 2 step .. before the others. kernel: NULL for the default
@@ -26,8 +30,7 @@ static image make(studio *s, celspan_rostrum *rostrum, const celspan_filter_desc
   desc.crop_y = y0;
   desc.crop_width = width;
   desc.crop_height = height;
-  if (kernel)
-    desc.filter = *kernel;
+  desc.filter = kernel;
   return make_image(s, &desc, step);
 }
 
@@ -177,12 +180,28 @@ static void check_slanted(void) {
 /* On average over the position of a shape between the pixels, which are the kernel's samples. */
 static void check_light(void) {
   static const celspan_filter_desc kernels[] = {
-      {.kernel = CELSPAN_KERNEL_BOX},
-      {.kernel = CELSPAN_KERNEL_BOX, .has_radius = true, .radius = 2.3},
-      {.kernel = CELSPAN_KERNEL_GAUSSIAN},
-      {.kernel = CELSPAN_KERNEL_GAUSSIAN, .has_radius = true, .radius = 0.4},
-      {.kernel = CELSPAN_KERNEL_GAUSSIAN, .has_radius = true, .radius = 7},
-      {.kernel = CELSPAN_KERNEL_MITCHELL, .has_radius = true, .radius = 0.6}};
+      {.struct_size = sizeof *kernels, .rows = 16, .kernel = CELSPAN_KERNEL_BOX},
+      {.struct_size = sizeof *kernels,
+       .rows = 16,
+       .kernel = CELSPAN_KERNEL_BOX,
+       .has_radius = true,
+       .radius = 2.3},
+      {.struct_size = sizeof *kernels, .rows = 16, .kernel = CELSPAN_KERNEL_GAUSSIAN},
+      {.struct_size = sizeof *kernels,
+       .rows = 16,
+       .kernel = CELSPAN_KERNEL_GAUSSIAN,
+       .has_radius = true,
+       .radius = 0.4},
+      {.struct_size = sizeof *kernels,
+       .rows = 16,
+       .kernel = CELSPAN_KERNEL_GAUSSIAN,
+       .has_radius = true,
+       .radius = 7},
+      {.struct_size = sizeof *kernels,
+       .rows = 16,
+       .kernel = CELSPAN_KERNEL_MITCHELL,
+       .has_radius = true,
+       .radius = 0.6}};
   static studio s;
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
   for (size_t k = 0; k < sizeof kernels / sizeof *kernels; k++) {
@@ -347,7 +366,7 @@ static void refuse(celspan_context *context, const celspan_filter_desc *f, celsp
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
   celspan_rostrum *rostrum = NULL;
   desc.antialias = CELSPAN_ANTIALIAS_FILTER;
-  desc.filter = *f;
+  desc.filter = f;
   CHECK(celspan_rostrum_create(context, &desc, &rostrum) == status && !rostrum);
   CHECK_TEXT(celspan_context_error(context), message);
 }

@@ -15,8 +15,7 @@ static double total(studio *s, celspan_rostrum *rostrum, const celspan_filter_de
   celspan_exposure exposure = {rostrum, 1};
   celspan_antialias_mode mode = CELSPAN_ANTIALIAS_FILTER;
   celspan_frame_desc desc = studio_frame(&exposure, 1, side, side, kernel ? &mode : NULL);
-  if (kernel)
-    desc.filter = *kernel;
+  desc.filter = kernel;
   image whole = make_image(s, &desc, 1);
   double sum = 0;
   for (int32_t i = 0; i < side * side; i++)
@@ -112,7 +111,9 @@ static void check_kernels(void) {
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
   for (size_t i = 0; i < 30; i++) {
     double radius = kept[i / 10].radii[i % 10];
-    celspan_filter_desc kernel = {.kernel = kept[i / 10].kernel,
+    celspan_filter_desc kernel = {.struct_size = sizeof kernel,
+                                  .rows = 16,
+                                  .kernel = kept[i / 10].kernel,
                                   .has_radius = true,
                                   .radius = radius,
                                   .function = tent,
@@ -130,7 +131,9 @@ static void check_signed(void) {
   static studio s;
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
   for (int i = 0; i < 12; i++) {
-    celspan_filter_desc kernel = {.kernel =
+    celspan_filter_desc kernel = {.struct_size = sizeof kernel,
+                                  .rows = 16,
+                                  .kernel =
                                       i % 2 ? CELSPAN_KERNEL_LANCZOS : CELSPAN_KERNEL_MITCHELL,
                                   .has_radius = true,
                                   .radius = radii[i / 2]};
@@ -148,7 +151,9 @@ static void check_narrow(void) {
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
   for (int i = 0; i < 15; i++) {
     double radius = radii[i / 3];
-    celspan_filter_desc kernel = {.kernel = kept[i % 3].kernel,
+    celspan_filter_desc kernel = {.struct_size = sizeof kernel,
+                                  .rows = 16,
+                                  .kernel = kept[i % 3].kernel,
                                   .has_radius = true,
                                   .radius = radius,
                                   .function = tent,

@@ -91,7 +91,7 @@ static void read_row(const cs_row *row, int32_t width, float (*out)[4]) {
 static void make(studio *s, const setting *seen, int32_t x, int32_t width, pixels out) {
   celspan_exposure exposure = {show(s, seen, x), 1};
   celspan_frame_desc desc = studio_frame(&exposure, 1, width, HEIGHT, &seen->mode);
-  desc.filter = seen->filter;
+  desc.filter = &seen->filter;
   frame_rows rows;
   frame_rows_open(&rows, s, &desc);
   for (int32_t y = 0; y < HEIGHT; y++)
@@ -141,7 +141,9 @@ static void check_filters(studio *s) {
       compare(s, (setting){.seed = 4,
                            .kind = (fill)kind,
                            .mode = CELSPAN_ANTIALIAS_FILTER,
-                           .filter.kernel = (celspan_kernel)kernel});
+                           .filter = {.struct_size = sizeof(celspan_filter_desc),
+                                      .kernel = (celspan_kernel)kernel,
+                                      .rows = 16}});
 }
 
 static void check_defocus(studio *s) {

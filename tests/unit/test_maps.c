@@ -215,7 +215,7 @@ static void force(studio *s, cs_ways_forced way) { s->context->forced_way = way;
 
 static celspan_statistics count(studio *s, const celspan_frame_desc *desc) {
   celspan_statistics statistics = {0};
-  const celspan_sink nowhere = {0};
+  const celspan_sink nowhere = {.struct_size = sizeof nowhere};
   studio_check(s, celspan_frame_render(s->context, desc, &nowhere, &statistics));
   return statistics;
 }
@@ -751,7 +751,7 @@ static void check_number(studio *s) {
                          studio_cel(s, far, objects, 1)};
   celspan_exposure exposure = {studio_rostrum(s, CELSPAN_ROSTRUM_DESC, cels, 2), 1};
   celspan_frame_desc desc = frame_of(&exposure);
-  const celspan_sink nowhere = {0};
+  const celspan_sink nowhere = {.struct_size = sizeof nowhere};
   CHECK(celspan_frame_render(s->context, &desc, &nowhere, NULL) == CELSPAN_BAD_ARGUMENT);
   CHECK(strncmp(celspan_context_error(s->context), "cel 2:", 6) == 0);
   studio_finish(s);

@@ -101,7 +101,8 @@ static void pieces_equal_the_definition(void) {
       knots[i] = knots[i - 1] + (again ? 0 : random_between(&random, 0.2, 2));
     }
     bool has_weights = random_below(&random, 2), has_knots = random_below(&random, 3);
-    celspan_nurbs_desc desc = {.points = points,
+    celspan_nurbs_desc desc = {.struct_size = sizeof desc,
+                               .points = points,
                                .weights = has_weights ? weights : NULL,
                                .point_count = (size_t)count,
                                .degree = degree,
@@ -126,8 +127,11 @@ static void pieces_equal_the_definition(void) {
 
 static void a_clamped_curve_runs_from_end_to_end(void) {
   const celspan_point points[5] = {{0, 0}, {10, 30}, {30, 40}, {50, 20}, {60, 5}};
-  celspan_nurbs_desc desc = {
-      .points = points, .point_count = 5, .closure = CELSPAN_NURBS_CLAMPED}; /* degree 0 means 3 */
+  celspan_nurbs_desc desc = {.struct_size = sizeof desc,
+                             .degree = 3,
+                             .points = points,
+                             .point_count = 5,
+                             .closure = CELSPAN_NURBS_CLAMPED}; /* degree 0 means 3 */
   cs_outline outline;
   cs_outline_init(&outline);
   CHECK(cs_outline_nurbs(context, &outline, &desc) == CELSPAN_OK);
@@ -139,7 +143,8 @@ static void a_clamped_curve_runs_from_end_to_end(void) {
 
 static void four_points_make_four_pieces(void) {
   const celspan_point points[4] = {{0, 0}, {30, 0}, {30, 30}, {0, 30}};
-  celspan_nurbs_desc desc = {.points = points, .point_count = 4, .degree = 3};
+  celspan_nurbs_desc desc = {
+      .struct_size = sizeof desc, .points = points, .point_count = 4, .degree = 3};
   cs_outline outline;
   cs_outline_init(&outline);
   CHECK(cs_outline_nurbs(context, &outline, &desc) == CELSPAN_OK);
@@ -154,7 +159,8 @@ static void four_points_make_four_pieces(void) {
 static void equal_weights_are_no_weights(void) {
   const celspan_point points[4] = {{0, 0}, {30, 0}, {31, 33}, {0, 30}};
   const double weights[4] = {0.3, 0.3, 0.3, 0.3};
-  celspan_nurbs_desc desc = {.points = points, .point_count = 4, .degree = 3};
+  celspan_nurbs_desc desc = {
+      .struct_size = sizeof desc, .points = points, .point_count = 4, .degree = 3};
   cs_outline one, two;
   cs_outline_init(&one);
   cs_outline_init(&two);
@@ -176,7 +182,8 @@ static void check_refused(const celspan_nurbs_desc *desc, const char *sentence) 
 
 static void mistakes_are_named(void) {
   const celspan_point points[5] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 2}};
-  celspan_nurbs_desc desc = {.points = points, .point_count = 5, .degree = 2};
+  celspan_nurbs_desc desc = {
+      .struct_size = sizeof desc, .points = points, .point_count = 5, .degree = 2};
   desc.degree = 16;
   check_refused(&desc, "the degree is 16; it must be from 1 to 15");
   desc.degree = -1;

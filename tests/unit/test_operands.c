@@ -138,7 +138,7 @@ static void test_nothing_is_held(void) {
       chain_of(s.context, CELSPAN_OPERATOR_UNION, studio_rect(&s, 0, 0, 1, 1, NULL), 3);
   size_t blocks = watch.blocks;
   celspan_object *added = NULL;
-  celspan_rect_desc desc = {0, 0, 3, 3, 0, NULL};
+  celspan_rect_desc desc = {sizeof desc, 0, 0, 3, 3, 0, NULL};
   CHECK(celspan_object_create_rect(s.context, &desc, &added) == CELSPAN_OK);
   celspan_object *longer = extend(s.context, base, added);
   celspan_object_unref(added);
@@ -192,8 +192,9 @@ static void *metered_resize(void *user, void *block, size_t old_size, size_t new
 
 static size_t bytes_asked(celspan_operator op, size_t count) {
   meter m = {0};
-  celspan_context_desc desc = {
-      .struct_size = sizeof desc, .resize = metered_resize, .resize_user = &m};
+  celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
+  desc.resize = metered_resize;
+  desc.resize_user = &m;
   celspan_context *context = NULL;
   CHECK(celspan_context_create(&desc, &context) == CELSPAN_OK);
   studio s = {.context = context};

@@ -108,7 +108,11 @@ static void boxes_are_tight_in_perspective(void) {
       points[i] = random_point(&random, 0, 100, 0, 100);
       weights[i] = random_between(&random, 0.1, 5);
     }
-    celspan_nurbs_desc desc = {.points = points, .weights = weights, .point_count = 7, .degree = 4};
+    celspan_nurbs_desc desc = {.struct_size = sizeof desc,
+                               .points = points,
+                               .weights = weights,
+                               .point_count = 7,
+                               .degree = 4};
     cs_outline outline;
     cs_outline_init(&outline);
     CHECK(cs_outline_nurbs(context, &outline, &desc) == CELSPAN_OK);

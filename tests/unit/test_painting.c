@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "celspan/layers.h"
 #include "tests/support/memory.h"
 #include "tests/support/scene.h"
 
@@ -61,7 +62,7 @@ static void write_document(const char *path, long missing) {
 static celspan_status shoot_with(celspan_context *context, celspan_surface *surface, int workers,
                                  memory_watch *watch, size_t n, unsigned char *pixels) {
   studio s = {.context = context};
-  celspan_picture_desc picture = {.surface = surface};
+  celspan_picture_desc picture = {.struct_size = sizeof picture, .surface = surface};
   celspan_texture *texture = NULL;
   studio_check(&s, celspan_texture_create_picture(context, &picture, &texture));
   celspan_object *object = studio_rect(&s, 0, 0, WIDTH, HEIGHT, texture);
@@ -76,8 +77,10 @@ static celspan_status shoot_with(celspan_context *context, celspan_surface *surf
   celspan_rostrum *rostrum = NULL;
   studio_check(&s, celspan_rostrum_create(context, &rostrum_desc, &rostrum));
   const celspan_exposure exposure = {rostrum, 1};
-  const celspan_coding coding = {
-      .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
+  const celspan_coding coding = {.struct_size = sizeof coding,
+                                 .depth = CELSPAN_DEPTH_8,
+                                 .transfer = CELSPAN_TRANSFER_SRGB,
+                                 .alpha = CELSPAN_ALPHA_STRAIGHT};
   celspan_frame_desc frame = CELSPAN_FRAME_DESC;
   frame.exposures = &exposure;
   frame.exposure_count = 1;
@@ -281,7 +284,8 @@ static celspan_status use(celspan_context *context, const char *path) {
   celspan_status status = celspan_painting_read(context, path, &painting);
   CHECK(status == CELSPAN_OK || !painting);
   for (size_t i = 0; status == CELSPAN_OK && celspan_painting_layer_at(painting, i, &layer); i++) {
-    celspan_picture_desc picture = {.surface = layer.surface, .colour = layer.colour};
+    celspan_picture_desc picture = {
+        .struct_size = sizeof picture, .surface = layer.surface, .colour = layer.colour};
     celspan_texture *texture = NULL;
     if (layer.surface)
       status = celspan_texture_create_picture(context, &picture, &texture);

@@ -73,7 +73,7 @@ typedef struct round_trip {
 
 static void test_round_trip(const round_trip *t) {
   const char *path = picture_path(t->name);
-  celspan_coding coding = {.depth = t->depth};
+  celspan_coding coding = {.struct_size = sizeof coding, .depth = t->depth};
   cs_picture *picture;
   celspan_picture_info info;
   if (!CHECK(picture_write(context, path, &coding, 150, 100, t->paint) == CELSPAN_OK) ||
@@ -165,7 +165,7 @@ static void check_levels(const cs_picture *picture, int width, int height, pictu
 
 static void test_levels(void) {
   const char *path = picture_path("levels.exr");
-  celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT};
+  celspan_coding coding = {.struct_size = sizeof coding, .depth = CELSPAN_DEPTH_FLOAT};
   cs_picture *picture;
   celspan_picture_info info;
   CHECK(picture_write(context, path, &coding, 333, 157, paint_waves) == CELSPAN_OK);
@@ -218,7 +218,8 @@ static void *read_all(void *user) {
 }
 
 static uint64_t digest_with(const char *path, size_t budget, int threads) {
-  celspan_context_desc desc = {.struct_size = sizeof desc, .picture_bytes = budget};
+  celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
+  desc.picture_bytes = budget;
   celspan_context *own, branches[4];
   cs_picture *picture;
   celspan_picture_info info;
@@ -525,26 +526,29 @@ static void test_changed(void) {
 
 static void test_arguments(void) {
   celspan_picture_info info;
-  celspan_picture_desc desc = {.file = ""};
+  celspan_picture_desc desc = {.struct_size = sizeof desc, .file = ""};
   unsetenv("OCIO");
   CHECK(celspan_picture_inspect(context, &desc, &info) == CELSPAN_BAD_ARGUMENT);
-  desc = (celspan_picture_desc){.file = "a.png", .colour = "mauve"};
+  desc = (celspan_picture_desc){
+      .struct_size = sizeof(celspan_picture_desc), .file = "a.png", .colour = "mauve"};
   CHECK(celspan_picture_inspect(context, &desc, &info) == CELSPAN_BAD_ARGUMENT);
   CHECK(strstr(celspan_context_error(context), "mauve"));
-  desc = (celspan_picture_desc){.file = "a.png", .subimage = -1};
+  desc = (celspan_picture_desc){
+      .struct_size = sizeof(celspan_picture_desc), .file = "a.png", .subimage = -1};
   CHECK(celspan_picture_inspect(context, &desc, &info) == CELSPAN_BAD_ARGUMENT);
 }
 
 static void test_hash(void) {
-  const celspan_picture_desc descs[] = {{.file = "a"},
-                                        {.file = "b"},
-                                        {.file = "a", .colour = "srgb"},
-                                        {.file = "a", .layer = "srgb"},
-                                        {.file = "a", .subimage = 1},
-                                        {.file = "a", .has_source = true, .source = {0, 0, 2, 3}},
-                                        {.file = "a", .has_source = true, .source = {0, 0, 3, 2}},
-                                        {.file = "a", .has_source = true, .source = {1, 0, 2, 3}},
-                                        {.file = "b", .has_source = true, .source = {0, 0, 2, 3}}};
+  const celspan_picture_desc descs[] = {
+      {.struct_size = sizeof *descs, .file = "a"},
+      {.struct_size = sizeof *descs, .file = "b"},
+      {.struct_size = sizeof *descs, .file = "a", .colour = "srgb"},
+      {.struct_size = sizeof *descs, .file = "a", .layer = "srgb"},
+      {.struct_size = sizeof *descs, .file = "a", .subimage = 1},
+      {.struct_size = sizeof *descs, .file = "a", .has_source = true, .source = {0, 0, 2, 3}},
+      {.struct_size = sizeof *descs, .file = "a", .has_source = true, .source = {0, 0, 3, 2}},
+      {.struct_size = sizeof *descs, .file = "a", .has_source = true, .source = {1, 0, 2, 3}},
+      {.struct_size = sizeof *descs, .file = "b", .has_source = true, .source = {0, 0, 2, 3}}};
   cs_hash hashes[9];
   for (int i = 0; i < 9; i++) {
     cs_picture *picture;
@@ -557,7 +561,8 @@ static void test_hash(void) {
 }
 
 static void test_part_in_memory(const char *path, celspan_context *own, size_t *status_count) {
-  const celspan_picture_desc desc = {.file = path, .has_source = true, .source = {50, 3, 40, 66}};
+  const celspan_picture_desc desc = {
+      .struct_size = sizeof desc, .file = path, .has_source = true, .source = {50, 3, 40, 66}};
   cs_picture *part = NULL;
   float rgba[4], whole[4];
   celspan_status status = cs_picture_create(own, &desc, &part);
@@ -587,7 +592,8 @@ static void test_parts(void) {
   }
   CHECK(good == 1);
   celspan_picture_info info;
-  celspan_picture_desc desc = {.file = path, .has_source = true, .source = {90, 60, 10, 10}};
+  celspan_picture_desc desc = {
+      .struct_size = sizeof desc, .file = path, .has_source = true, .source = {90, 60, 10, 10}};
   CHECK(celspan_picture_inspect(context, &desc, &info) == CELSPAN_OK);
   CHECK(info.width == 10 && info.height == 10);
   desc.source.height = 11;
@@ -665,7 +671,7 @@ static void test_orientation(void) {
   for (unsigned orientation = 1; orientation <= 8; orientation++) {
     const char *path = picture_path("turned.tif");
     write_oriented(path, orientation);
-    celspan_picture_desc desc = {.file = path, .colour = "linear"};
+    celspan_picture_desc desc = {.struct_size = sizeof desc, .file = path, .colour = "linear"};
     celspan_context *own;
     cs_picture *picture;
     celspan_picture_info info;
@@ -742,7 +748,7 @@ static void check_texel(const char *name, const char *layer, int width, int heig
   const char *path = material_path(name);
   if (!path)
     return;
-  celspan_picture_desc desc = {.file = path, .layer = layer};
+  celspan_picture_desc desc = {.struct_size = sizeof desc, .file = path, .layer = layer};
   cs_picture *picture;
   celspan_picture_info info;
   float rgba[4] = {0};
@@ -809,7 +815,8 @@ static void test_psd(void) {
   const char *path = material_path("psd/group.psd");
   if (path) {
     CHECK(read_file(path) == CELSPAN_OK);
-    celspan_picture_desc desc = {.file = path, .layer = "no such layer"};
+    celspan_picture_desc desc = {
+        .struct_size = sizeof desc, .file = path, .layer = "no such layer"};
     celspan_picture_info info;
     CHECK(celspan_picture_inspect(context, &desc, &info) == CELSPAN_INPUT);
     CHECK(strstr(celspan_context_error(context), "no such layer"));

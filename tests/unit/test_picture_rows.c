@@ -30,7 +30,8 @@ static void paint_tiles(int x, int y, float rgba[4]) {
 
 static celspan_cel *picture_cel(studio *s, const char *file, celspan_matrix placement,
                                 double opacity) {
-  celspan_image_desc desc = {.picture = {.file = file}};
+  const celspan_picture_desc picture = {.struct_size = sizeof picture, .file = file};
+  celspan_image_desc desc = {.struct_size = sizeof desc, .picture = &picture};
   celspan_object *plain = NULL, *placed = NULL;
   studio_check(s, celspan_object_create_image(s->context, &desc, &plain));
   studio_check(s, celspan_object_transform(s->context, plain, &placement, &placed));
@@ -67,7 +68,8 @@ static void render(studio *s, celspan_rostrum *rostrum, int workers, bool takes_
   celspan_exposure exposure = {rostrum, 1};
   celspan_frame_desc desc = studio_frame(&exposure, 1, WIDTH, HEIGHT, NULL);
   celspan_statistics statistics;
-  celspan_sink sink = {.user = to, .row = take_row, .takes_codes = takes_codes};
+  celspan_sink sink = {
+      .struct_size = sizeof sink, .user = to, .row = take_row, .takes_codes = takes_codes};
   desc.workers = workers;
   desc.strip_rows = 7;
   memset(to, 0, sizeof *to);

@@ -55,10 +55,12 @@ static void test_limits(void) {
 static celspan_status create(const char *path, const char *format, celspan_depth depth,
                              celspan_alpha alpha) {
   celspan_file_desc file = CELSPAN_FILE_DESC;
+  celspan_coding coded = CELSPAN_CODING;
+  file.coding = &coded;
   celspan_sink sink;
   file.format = format;
-  file.coding.depth = depth;
-  file.coding.alpha = alpha;
+  coded.depth = depth;
+  coded.alpha = alpha;
   celspan_status status = cs_sink_picture(context, path, &file, &sink);
   if (status == CELSPAN_OK)
     cs_sink_discard(context, &sink);

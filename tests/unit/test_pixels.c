@@ -18,7 +18,8 @@ static float half_value(uint16_t half) {
 }
 
 static uint16_t code_half(float x) {
-  celspan_coding coding = {.depth = CELSPAN_DEPTH_HALF,
+  celspan_coding coding = {.struct_size = sizeof coding,
+                           .depth = CELSPAN_DEPTH_HALF,
                            .transfer = CELSPAN_TRANSFER_LINEAR,
                            .alpha = CELSPAN_ALPHA_PREMULTIPLIED};
   float rgba[4] = {x, 0, 0, 1};
@@ -52,10 +53,12 @@ static void check_defaults(void) {
   celspan_coding made = cs_pixels_resolve(NULL, CELSPAN_DEPTH_DEFAULT);
   CHECK(made.depth == CELSPAN_DEPTH_8 && made.transfer == CELSPAN_TRANSFER_SRGB &&
         made.alpha == CELSPAN_ALPHA_STRAIGHT);
-  made = cs_pixels_resolve(&(celspan_coding){0}, CELSPAN_DEPTH_HALF);
+  made = cs_pixels_resolve(&(celspan_coding){.struct_size = sizeof(celspan_coding)},
+                           CELSPAN_DEPTH_HALF);
   CHECK(made.depth == CELSPAN_DEPTH_HALF && made.transfer == CELSPAN_TRANSFER_LINEAR &&
         made.alpha == CELSPAN_ALPHA_PREMULTIPLIED);
-  made = cs_pixels_resolve(&(celspan_coding){.depth = CELSPAN_DEPTH_16,
+  made = cs_pixels_resolve(&(celspan_coding){.struct_size = sizeof(celspan_coding),
+                                             .depth = CELSPAN_DEPTH_16,
                                              .transfer = CELSPAN_TRANSFER_CINEON,
                                              .alpha = CELSPAN_ALPHA_PREMULTIPLIED},
                            CELSPAN_DEPTH_8);
@@ -63,7 +66,8 @@ static void check_defaults(void) {
         made.alpha == CELSPAN_ALPHA_PREMULTIPLIED);
   static const size_t sizes[] = {4, 4, 8, 8, 16};
   for (int depth = 0; depth < 5; depth++)
-    CHECK(celspan_coding_pixel_size(&(celspan_coding){.depth = (celspan_depth)depth}) ==
+    CHECK(celspan_coding_pixel_size(&(celspan_coding){.struct_size = sizeof(celspan_coding),
+                                                      .depth = (celspan_depth)depth}) ==
           sizes[depth]);
 }
 
@@ -81,7 +85,8 @@ static void check_straight(void) {
   coding.alpha = CELSPAN_ALPHA_PREMULTIPLIED;
   cs_pixels_code(&coding, half_covered, pixel);
   CHECK(pixel[0] == 137 && pixel[1] == 188 && pixel[2] == 0 && pixel[3] == 128);
-  coding = (celspan_coding){.depth = CELSPAN_DEPTH_FLOAT,
+  coding = (celspan_coding){.struct_size = sizeof(celspan_coding),
+                            .depth = CELSPAN_DEPTH_FLOAT,
                             .transfer = CELSPAN_TRANSFER_LINEAR,
                             .alpha = CELSPAN_ALPHA_STRAIGHT};
   float floats[4];
@@ -113,7 +118,8 @@ static void check_premultiplied(void) {
 }
 
 static void check_16(void) {
-  celspan_coding coding = {.depth = CELSPAN_DEPTH_16,
+  celspan_coding coding = {.struct_size = sizeof coding,
+                           .depth = CELSPAN_DEPTH_16,
                            .transfer = CELSPAN_TRANSFER_LINEAR,
                            .alpha = CELSPAN_ALPHA_STRAIGHT};
   int wrong = 0;
@@ -201,8 +207,9 @@ static void check_rows(void) {
     for (int transfer = CELSPAN_TRANSFER_LINEAR; transfer <= CELSPAN_TRANSFER_CINEON; transfer++)
       for (int alpha = CELSPAN_ALPHA_STRAIGHT; alpha <= CELSPAN_ALPHA_PREMULTIPLIED; alpha++)
         for (int space = CELSPAN_SPACE_LINEAR; space <= CELSPAN_SPACE_SRGB; space++)
-          check_row((celspan_coding){(celspan_depth)depth, (celspan_transfer)transfer,
-                                     (celspan_alpha)alpha, (celspan_space)space},
+          check_row((celspan_coding){sizeof(celspan_coding), (celspan_depth)depth,
+                                     (celspan_transfer)transfer, (celspan_alpha)alpha,
+                                     (celspan_space)space},
                     spans, count);
 }
 
@@ -312,7 +319,9 @@ static void check_digest_sink(celspan_context *context, const celspan_span *span
   CHECK((first[0] == cut[0]) == (memcmp(spans[0].colour, spans[1].colour, 16) == 0));
   digest_of(context, spans, 5, NULL, taller);
   CHECK(first[0] != taller[0] && first[1] != taller[1]);
-  digest_of(context, spans, 4, &(celspan_coding){.depth = CELSPAN_DEPTH_16}, other);
+  digest_of(context, spans, 4,
+            &(celspan_coding){.struct_size = sizeof(celspan_coding), .depth = CELSPAN_DEPTH_16},
+            other);
   CHECK(first[0] != other[0]);
 }
 
@@ -332,13 +341,16 @@ int main(void) {
   check_premultiplied();
   check_16();
   check_rows();
-  check_lengths((celspan_coding){.depth = CELSPAN_DEPTH_8,
+  check_lengths((celspan_coding){.struct_size = sizeof(celspan_coding),
+                                 .depth = CELSPAN_DEPTH_8,
                                  .transfer = CELSPAN_TRANSFER_SRGB,
                                  .alpha = CELSPAN_ALPHA_STRAIGHT});
-  check_lengths((celspan_coding){.depth = CELSPAN_DEPTH_16,
+  check_lengths((celspan_coding){.struct_size = sizeof(celspan_coding),
+                                 .depth = CELSPAN_DEPTH_16,
                                  .transfer = CELSPAN_TRANSFER_LINEAR,
                                  .alpha = CELSPAN_ALPHA_STRAIGHT});
-  check_lengths((celspan_coding){.depth = CELSPAN_DEPTH_FLOAT,
+  check_lengths((celspan_coding){.struct_size = sizeof(celspan_coding),
+                                 .depth = CELSPAN_DEPTH_FLOAT,
                                  .transfer = CELSPAN_TRANSFER_LINEAR,
                                  .alpha = CELSPAN_ALPHA_PREMULTIPLIED});
   for (cs_isa isa = CS_ISA_ANY; isa <= cs_isa_best(); isa++)

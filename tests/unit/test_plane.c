@@ -3,6 +3,7 @@
  */
 #include <math.h>
 
+#include "celspan/plane.h"
 #include "frames/plane/plane.h"
 #include "tests/support/frame_rows.h"
 #include "tests/support/memory.h"
@@ -70,7 +71,8 @@ static celspan_texture *random_picture(studio *s, test_random *random) {
   unsigned char *pixels = calloc((size_t)surface.width * (size_t)surface.height, 16);
   fill_surface(random, &surface, pixels);
   surface.pixels = pixels;
-  celspan_picture_desc desc = {.sampling = (celspan_sampling)random_below(random, 4)};
+  celspan_picture_desc desc = {.struct_size = sizeof desc,
+                               .sampling = (celspan_sampling)random_below(random, 4)};
   desc.wrap = (celspan_wrap)random_below(random, 3);
   studio_check(s, celspan_surface_create(s->context, &surface, &desc.surface));
   free(pixels);
@@ -196,7 +198,7 @@ static celspan_plane_desc desc_of(int32_t depth) {
 }
 
 static celspan_plane *make_plane(studio *s, const celspan_rostrum *rostrum) {
-  const celspan_plane_desc desc = desc_of(0);
+  const celspan_plane_desc desc = desc_of(16);
   celspan_plane *plane = NULL;
   studio_check(s, celspan_plane_create(s->context, rostrum, &desc, &plane));
   return plane;
@@ -204,7 +206,8 @@ static celspan_plane *make_plane(studio *s, const celspan_rostrum *rostrum) {
 
 /* The floats of a view; the caller frees them. */
 static float (*draw(studio *s, const celspan_plane *plane, celspan_plane_view view))[4] {
-  const celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT,
+  const celspan_coding coding = {.struct_size = sizeof coding,
+                                 .depth = CELSPAN_DEPTH_FLOAT,
                                  .transfer = CELSPAN_TRANSFER_LINEAR,
                                  .alpha = CELSPAN_ALPHA_PREMULTIPLIED};
   int32_t width = view.crop_width ? view.crop_width : view.width;
@@ -509,7 +512,7 @@ static void check_scenes_refused(studio *s) {
 static void check_views_refused(studio *s) {
   celspan_plane *plane = make_plane(s, random_rostrum(s, 1, FLAT));
   celspan_plane_view view = view_of(0, 5);
-  const celspan_sink nowhere = {0};
+  const celspan_sink nowhere = {.struct_size = sizeof nowhere};
   CHECK(celspan_plane_render(s->context, plane, &view, &nowhere) == CELSPAN_LIMIT);
   view = view_of(9, 5);
   view.crop_x = 5;

@@ -89,11 +89,13 @@ static void check_frame(celspan_context *context, int32_t width, int32_t height,
   frame made = {
       .width = width, .height = height, .style = style, .is_opaque = random_below(&numbers, 2)};
   celspan_file_desc file = CELSPAN_FILE_DESC;
+  celspan_coding coded = CELSPAN_CODING;
+  file.coding = &coded;
   file.format = "png";
   char paths[3][40];
   made.arrays = calloc((size_t)width, 4 * sizeof(float));
   made.spans = calloc((size_t)width, sizeof *made.spans);
-  file.coding = asked;
+  coded = asked;
   file.title = title;
   file.is_opaque = made.is_opaque;
   for (int i = 0; i < 3; i++) {
@@ -132,13 +134,16 @@ static void check_clear_refused(celspan_context *context, int style, int workers
 
 static void check_refusals(celspan_context *context) {
   celspan_file_desc file = CELSPAN_FILE_DESC;
+  celspan_coding coded = CELSPAN_CODING;
+  file.coding = &coded;
   file.format = "png";
   celspan_sink sink;
-  file.coding.depth = CELSPAN_DEPTH_HALF;
+  coded.depth = CELSPAN_DEPTH_HALF;
   CHECK(cs_sink_png(context, "x.png", &file, &sink) == CELSPAN_BAD_ARGUMENT);
-  file.coding = (celspan_coding){.alpha = CELSPAN_ALPHA_PREMULTIPLIED};
+  coded =
+      (celspan_coding){.struct_size = sizeof(celspan_coding), .alpha = CELSPAN_ALPHA_PREMULTIPLIED};
   CHECK(cs_sink_png(context, "x.png", &file, &sink) == CELSPAN_BAD_ARGUMENT);
-  file.coding = (celspan_coding){0};
+  coded = (celspan_coding){.struct_size = sizeof(celspan_coding)};
   CHECK(cs_sink_png(context, "/dev/null/x.png", &file, &sink) == CELSPAN_OK);
   CHECK(sink.begin(sink.user, context, 1, 1) == CELSPAN_OUTPUT);
   cs_sink_discard(context, &sink);
@@ -168,7 +173,8 @@ static void check_without_memory(int style, int workers, int32_t height) {
   file.format = "png";
   frame made = {.width = 500, .height = height, .style = style, .arrays = arrays, .spans = spans};
   file.workers = workers;
-  celspan_context_desc desc = {.struct_size = sizeof desc, .resize = failing_resize};
+  celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
+  desc.resize = failing_resize;
   celspan_context *context;
   char path[] = "/tmp/celspan-test-png-XXXXXX";
   allocations_left = 0;
@@ -243,12 +249,14 @@ static void check_no_room(celspan_context *context) {
 
 static void try_frame(celspan_context *context, int32_t width, int32_t height, int style,
                       int coding, const char *title) {
-  static const celspan_coding codings[] = {{0},
-                                           {.depth = CELSPAN_DEPTH_16},
-                                           {.transfer = CELSPAN_TRANSFER_LINEAR},
-                                           {.depth = CELSPAN_DEPTH_16,
-                                            .transfer = CELSPAN_TRANSFER_REC709,
-                                            .alpha = CELSPAN_ALPHA_STRAIGHT}};
+  static const celspan_coding codings[] = {
+      {.struct_size = sizeof *codings},
+      {.struct_size = sizeof *codings, .depth = CELSPAN_DEPTH_16},
+      {.struct_size = sizeof *codings, .transfer = CELSPAN_TRANSFER_LINEAR},
+      {.struct_size = sizeof *codings,
+       .depth = CELSPAN_DEPTH_16,
+       .transfer = CELSPAN_TRANSFER_REC709,
+       .alpha = CELSPAN_ALPHA_STRAIGHT}};
   static int number;
   bool is_large = (int64_t)width * height > 1 << 18;
   if (check_is_drawn(number++) && !(is_large && check_is_for_threads()))

@@ -44,7 +44,8 @@ static void random_outline(test_random *random, double size, cs_outline *outline
   celspan_point centre = random_point(random, 0, SIDE, 0, SIDE), points[7];
   double rx = random_between(random, 0.05, 1) * size, ry = random_between(random, 0.05, 1) * size;
   int count = 4 + random_below(random, 4);
-  celspan_nurbs_desc spline = {.points = points,
+  celspan_nurbs_desc spline = {.struct_size = sizeof spline,
+                               .points = points,
                                .point_count = (size_t)count,
                                .degree = 2 + random_below(random, 2),
                                .closure = CELSPAN_NURBS_PERIODIC};

@@ -383,7 +383,8 @@ static celspan_status stripes(void *user, celspan_context *context, double y,
 
 static void test_scanline(studio *s) {
   double y = -1;
-  celspan_scanline_desc desc = {.bounds = {0, 0, 10, 5}, .spans = stripes, .user = &y};
+  celspan_scanline_desc desc = {
+      .struct_size = sizeof desc, .bounds = {0, 0, 10, 5}, .spans = stripes, .user = &y};
   celspan_object *object = studio_scanline(s, &desc);
   celspan_object *placed = studio_transform(s, object, celspan_matrix_scaling(2, 2));
   celspan_rostrum *r = studio_show(s, placed);
@@ -419,7 +420,8 @@ static celspan_status fail_silently(void *user, celspan_context *context, double
 }
 
 static void expect_callback_error(studio *s, celspan_scanline_spans spans, const char *message) {
-  celspan_scanline_desc desc = {.bounds = {0, 0, 10, 5}, .spans = spans};
+  celspan_scanline_desc desc = {
+      .struct_size = sizeof desc, .bounds = {0, 0, 10, 5}, .spans = spans};
   celspan_exposure exposure = {studio_show(s, studio_scanline(s, &desc)), 1};
   double rgba[4] = {7, 7, 7, 7};
   CHECK(probe_film(s->context, &exposure, 1, 100, 50, (celspan_point){1, 1.5}, rgba) ==
@@ -489,7 +491,8 @@ static void check_picture(studio *s, celspan_picture_desc desc) {
 }
 
 static void test_pictures(studio *s) {
-  celspan_picture_desc desc = {.file = "4x2.probe.tga", .colour = "linear"};
+  celspan_picture_desc desc = {
+      .struct_size = sizeof desc, .file = "4x2.probe.tga", .colour = "linear"};
   celspan_picture_info info;
   CHECK(write_picture(desc.file));
   if (celspan_picture_inspect(s->context, &desc, &info) == CELSPAN_OK)
@@ -501,12 +504,13 @@ static void test_pictures(studio *s) {
 
 /* A box of no size draws nothing, and its picture file is not even opened. */
 static void test_picture_without_size(studio *s) {
-  celspan_picture_desc desc = {.file = "there/is/no/such.png", .has_box = true};
+  celspan_picture_desc desc = {
+      .struct_size = sizeof desc, .file = "there/is/no/such.png", .has_box = true};
   EXPECT(s, show_picture(s, desc), 15, 15, 0, 0, 0, 0);
 }
 
 static void test_hidden_picture_is_not_read(studio *s) {
-  celspan_picture_desc desc = {.file = "there/is/no/such.png"};
+  celspan_picture_desc desc = {.struct_size = sizeof desc, .file = "there/is/no/such.png"};
   celspan_texture *texture = NULL;
   studio_check(s, celspan_texture_create_picture(s->context, &desc, &texture));
   celspan_object *const objects[] = {studio_rect(s, 0, 0, 50, 50, texture),

@@ -42,8 +42,11 @@ static celspan_paint random_paint(test_random *random) {
 }
 
 static celspan_object *random_stripes(studio *s, test_random *random, stripes *out) {
-  celspan_scanline_desc desc = {
-      .bounds = {-50, -1, 200, HEIGHT + 2}, .spans = play, .user = out, .any_thread = true};
+  celspan_scanline_desc desc = {.struct_size = sizeof desc,
+                                .bounds = {-50, -1, 200, HEIGHT + 2},
+                                .spans = play,
+                                .user = out,
+                                .any_thread = true};
   out->x[0] = random_place(random, -4, 8);
   for (int i = 0; i < SPANS; i++) {
     out->x[i + 1] = out->x[i] + 0.125 + random_place(random, 0, 10);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "celspan/celspan.h"
+#include "celspan/relight.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
@@ -39,7 +40,7 @@ static void light_card(const float front[3], const float behind[3], pixels out) 
 static celspan_status make_texture(celspan_context *context, const void *values, int32_t height,
                                    celspan_texture **out) {
   celspan_surface_desc surface = CELSPAN_SURFACE_DESC;
-  celspan_picture_desc desc = CELSPAN_ZERO;
+  celspan_picture_desc desc = {.struct_size = sizeof desc};
   surface.width = WIDTH;
   surface.height = height;
   surface.format = CELSPAN_SURFACE_RGBAF;
@@ -57,7 +58,8 @@ static celspan_status render(celspan_context *context, celspan_texture *texture,
   celspan_object *object = NULL;
   celspan_cel *cel = NULL;
   celspan_rostrum *rostrum = NULL;
-  celspan_rect_desc rect = {.width = WIDTH, .height = HEIGHT, .texture = texture};
+  celspan_rect_desc rect = {
+      .struct_size = sizeof rect, .width = WIDTH, .height = HEIGHT, .texture = texture};
   celspan_cel_desc of_cel = CELSPAN_CEL_DESC;
   celspan_rostrum_desc of_rostrum = CELSPAN_ROSTRUM_DESC;
   celspan_status status = celspan_object_create_rect(context, &rect, &object);
@@ -79,7 +81,7 @@ static celspan_status render(celspan_context *context, celspan_texture *texture,
   frame.width = WIDTH;
   frame.height = HEIGHT;
   frame.workers = 1;
-  celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT};
+  celspan_coding coding = {.struct_size = sizeof coding, .depth = CELSPAN_DEPTH_FLOAT};
   if (status == CELSPAN_OK)
     status = celspan_frame_pixels(context, &frame, &coding, out, sizeof out[0] * WIDTH, NULL);
   celspan_rostrum_unref(rostrum);
@@ -251,7 +253,7 @@ static void lights_are_checked(celspan_context *context, celspan_texture *pictur
 static void textures_are_checked(celspan_context *context, celspan_texture *picture) {
   celspan_texture *out, *paint = NULL, *small = NULL;
   celspan_light_field light = celspan_light_field_flat(1, 1, 1);
-  celspan_picture_desc medium = {.file = "none.exr"};
+  celspan_picture_desc medium = {.struct_size = sizeof medium, .file = "none.exr"};
   const celspan_paint red = celspan_paint_rgb(1, 0, 0, 1);
   if (!CHECK(celspan_texture_create_paint(context, &red, &paint) == CELSPAN_OK) ||
       !CHECK(make_texture(context, room[0], HEIGHT - 1, &small) == CELSPAN_OK))
@@ -359,7 +361,8 @@ static celspan_status make_cel(celspan_context *context, scene *s, int i,
   const celspan_paint paint = celspan_paint_rgb(0.9f, 0.2f * (float)i, 0.4f, 0.6f);
   celspan_status status =
       i == 1 ? CELSPAN_OK : celspan_texture_create_paint(context, &paint, &texture);
-  celspan_ellipse_desc disc = {.centre = {14 + 9 * i, 20 + 5 * i},
+  celspan_ellipse_desc disc = {.struct_size = sizeof disc,
+                               .centre = {14 + 9 * i, 20 + 5 * i},
                                .radius_x = 13,
                                .radius_y = 13,
                                .texture = i == 1 ? s->card : texture};
@@ -412,7 +415,7 @@ static void compare_lights(celspan_context *context, const celspan_stack *stack,
                            const celspan_stack_light *lights) {
   static float expected[SIDE * SIDE][4], found[SIDE * SIDE][4];
   scene s;
-  celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT};
+  celspan_coding coding = {.struct_size = sizeof coding, .depth = CELSPAN_DEPTH_FLOAT};
   if (!CHECK(make_scene(context, lights, &s) == CELSPAN_OK))
     return;
   celspan_exposure exposure = {s.rostrum, 1};
@@ -457,6 +460,7 @@ static void stacks_take_any_light(celspan_context *context) {
   frame.exposure_count = 0;
   CHECK(celspan_stack_create(context, &frame, &stack) == CELSPAN_BAD_ARGUMENT);
   frame.exposure_count = 1;
+  frame.has_tolerance = true;
   frame.tolerance = 2;
   CHECK(celspan_stack_create(context, &frame, &stack) == CELSPAN_BAD_ARGUMENT);
   free_scene(&s);

@@ -10,7 +10,8 @@
 #define HEIGHT 71
 #define PIXEL_COUNT (WIDTH * HEIGHT)
 
-static const celspan_coding float_coding = {.depth = CELSPAN_DEPTH_FLOAT,
+static const celspan_coding float_coding = {.struct_size = sizeof float_coding,
+                                            .depth = CELSPAN_DEPTH_FLOAT,
                                             .transfer = CELSPAN_TRANSFER_LINEAR,
                                             .alpha = CELSPAN_ALPHA_PREMULTIPLIED};
 
@@ -198,7 +199,7 @@ static void check_sinks(studio *s) {
   celspan_frame_desc desc = frame_of(&exposure, NULL);
   for (desc.workers = 1; desc.workers <= 4; desc.workers++) {
     tally whole = {.fail_at = -1, .outcome = CELSPAN_INTERNAL}, failed = {.fail_at = 30};
-    celspan_sink sink = {&whole, tally_begin, tally_row, tally_end, false};
+    celspan_sink sink = {sizeof sink, &whole, tally_begin, tally_row, tally_end, false};
     celspan_statistics statistics = {0};
     studio_check(s, celspan_frame_render(s->context, &desc, &sink, &statistics));
     CHECK(whole.begins == 1 && whole.ends == 1 && whole.rows == HEIGHT && whole.is_tiled);
@@ -224,7 +225,7 @@ static void check_touching_corner(studio *s, double x) {
   celspan_exposure exposure = {studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &cel, 1), 1};
   celspan_frame_desc desc = frame_of(&exposure, NULL);
   tally t = {.fail_at = -1};
-  const celspan_sink sink = {&t, tally_begin, tally_row, tally_end, false};
+  const celspan_sink sink = {sizeof sink, &t, tally_begin, tally_row, tally_end, false};
   studio_check(s, celspan_frame_render(s->context, &desc, &sink, NULL));
   CHECK(t.is_tiled);
 }
@@ -243,7 +244,7 @@ static void check_cancel(studio *s) {
   desc.strip_rows = 4;
   for (desc.workers = 1; desc.workers <= 3; desc.workers++) {
     tally t = {.fail_at = -1};
-    celspan_sink sink = {&t, tally_begin, tally_row, tally_end, false};
+    celspan_sink sink = {sizeof sink, &t, tally_begin, tally_row, tally_end, false};
     CHECK(celspan_frame_render(s->context, &desc, &sink, NULL) == CELSPAN_CANCELLED);
     CHECK(reached >= HEIGHT / 2 && reached < HEIGHT && t.rows < HEIGHT);
     CHECK(t.ends == 1 && t.outcome == CELSPAN_CANCELLED);
@@ -259,7 +260,7 @@ static bool stop_third(void *user, int32_t rows_done, int32_t rows_total) {
 static void check_cancel_shares(studio *s) {
   celspan_exposure exposure = {random_rostrum(s, 18), 1};
   celspan_frame_desc desc = frame_of(&exposure, NULL);
-  const celspan_sink nowhere = {.row = NULL};
+  const celspan_sink nowhere = {.struct_size = sizeof nowhere, .row = NULL};
   desc.height = 5000;
   desc.progress = stop_third;
   for (desc.workers = 2; desc.workers <= 4; desc.workers++) {

@@ -48,7 +48,8 @@ static void paint_coded(int x, int y, float rgba[4]) {
 
 static cs_picture *make_picture(const char *name, int width, int height, picture_paint paint) {
   const char *path = picture_path(name);
-  celspan_coding coding = {.depth = paint == paint_coded ? CELSPAN_DEPTH_8 : CELSPAN_DEPTH_FLOAT};
+  celspan_coding coding = {.struct_size = sizeof coding,
+                           .depth = paint == paint_coded ? CELSPAN_DEPTH_8 : CELSPAN_DEPTH_FLOAT};
   cs_picture *picture = NULL;
   celspan_picture_info info;
   CHECK(picture_write(context, path, &coding, width, height, paint) == CELSPAN_OK);
@@ -611,7 +612,7 @@ static void test_coded(void) {
 }
 
 static void test_errors(void) {
-  celspan_picture_desc desc = {.file = "/nonexistent/picture.png"};
+  celspan_picture_desc desc = {.struct_size = sizeof desc, .file = "/nonexistent/picture.png"};
   cs_picture *picture;
   CHECK(cs_picture_create(context, &desc, &picture) == CELSPAN_OK);
   cs_sampler s = make_sampler(picture, 10, 10, affine(1, 0, 0, 0, 1, 0), CELSPAN_SAMPLING_AUTO,

@@ -29,7 +29,8 @@ static celspan_status play(void *user, celspan_context *context, double y,
 
 static celspan_status collect(celspan_context *context, script *played, double y,
                               celspan_scanline_output *output) {
-  celspan_scanline_desc desc = {.bounds = {0, 0, 10, 5}, .spans = play, .user = played};
+  celspan_scanline_desc desc = {
+      .struct_size = sizeof desc, .bounds = {0, 0, 10, 5}, .spans = play, .user = played};
   celspan_scanline_row row = {0, 10, 1};
   return cs_scanline_collect(context, &desc, y, &row, output);
 }
@@ -81,7 +82,8 @@ static celspan_status emit_bad_paint(void *user, celspan_context *context, doubl
 static void test_bad_paint_is_refused(celspan_context *context) {
   celspan_scanline_output output;
   cs_scanline_init(&output);
-  celspan_scanline_desc desc = {.bounds = {0, 0, 10, 5}, .spans = emit_bad_paint};
+  celspan_scanline_desc desc = {
+      .struct_size = sizeof desc, .bounds = {0, 0, 10, 5}, .spans = emit_bad_paint};
   celspan_scanline_row row = {0, 10, 1};
   CHECK(cs_scanline_collect(context, &desc, 2.5, &row, &output) == CELSPAN_CALLBACK);
   CHECK_TEXT(celspan_context_error(context),
@@ -129,7 +131,8 @@ static celspan_status emit_without_looking(void *user, celspan_context *context,
 static void test_refusal_lasts(celspan_context *context) {
   celspan_scanline_output output;
   cs_scanline_init(&output);
-  celspan_scanline_desc desc = {.bounds = {0, 0, 10, 5}, .spans = emit_without_looking};
+  celspan_scanline_desc desc = {
+      .struct_size = sizeof desc, .bounds = {0, 0, 10, 5}, .spans = emit_without_looking};
   celspan_scanline_row row = {0, 10, 1};
   CHECK(cs_scanline_collect(context, &desc, 1, &row, &output) == CELSPAN_CALLBACK);
   CHECK(strstr(celspan_context_error(context), "span 2 at y = 1 begins at 3"));

@@ -59,10 +59,12 @@ static void test_gradient_doors(studio *s) {
 
 static void test_picture_door(studio *s) {
   celspan_texture *out = NULL;
-  celspan_picture_desc desc = {.file = "a.png", .has_box = true, .box = {0, 0, -2, 1}};
+  celspan_picture_desc desc = {
+      .struct_size = sizeof desc, .file = "a.png", .has_box = true, .box = {0, 0, -2, 1}};
   REFUSED(s, celspan_texture_create_picture(s->context, &desc, &out),
           "picture: box.width is -2; it must be 0 or more");
-  desc = (celspan_picture_desc){.file = "a.png", .wrap = (celspan_wrap)9};
+  desc = (celspan_picture_desc){
+      .struct_size = sizeof(celspan_picture_desc), .file = "a.png", .wrap = (celspan_wrap)9};
   REFUSED(s, celspan_texture_create_picture(s->context, &desc, &out),
           "picture: wrap is 9; it must be between 0 and 2");
   CHECK(out == NULL);
@@ -72,16 +74,16 @@ static void test_picture_door(studio *s) {
 
 static void test_rect_door(studio *s) {
   celspan_object *out = NULL;
-  celspan_rect_desc desc = {1, 2, -3, 4, 0, NULL};
+  celspan_rect_desc desc = {sizeof desc, 1, 2, -3, 4, 0, NULL};
   REFUSED(s, celspan_object_create_rect(s->context, &desc, &out),
           "rect: w is -3; it must be 0 or more");
-  desc = (celspan_rect_desc){INFINITY, 2, 3, 4, 0, NULL};
+  desc = (celspan_rect_desc){sizeof(celspan_rect_desc), INFINITY, 2, 3, 4, 0, NULL};
   REFUSED(s, celspan_object_create_rect(s->context, &desc, &out),
           "rect: x must be a finite number, got inf");
-  desc = (celspan_rect_desc){1, 2, 3, 1.5e12, 0, NULL};
+  desc = (celspan_rect_desc){sizeof(celspan_rect_desc), 1, 2, 3, 1.5e12, 0, NULL};
   REFUSED(s, celspan_object_create_rect(s->context, &desc, &out),
           "rect: h is 1.5e12; it must be at most 1e12");
-  desc = (celspan_rect_desc){1, 2, 3, 4, -1, NULL};
+  desc = (celspan_rect_desc){sizeof(celspan_rect_desc), 1, 2, 3, 4, -1, NULL};
   REFUSED(s, celspan_object_create_rect(s->context, &desc, &out),
           "rect: radius is -1; it must be 0 or more");
   CHECK(out == NULL);
@@ -89,39 +91,42 @@ static void test_rect_door(studio *s) {
 
 static void test_outline_doors(studio *s) {
   celspan_object *out = NULL;
-  celspan_ellipse_desc ellipse = {{0, 0}, 1, -3, NULL};
+  celspan_ellipse_desc ellipse = {sizeof ellipse, {0, 0}, 1, -3, NULL};
   REFUSED(s, celspan_object_create_ellipse(s->context, &ellipse, &out),
           "ellipse: radii[2] is -3; it must be 0 or more");
-  ellipse = (celspan_ellipse_desc){{0, NAN}, 1, 3, NULL};
+  ellipse = (celspan_ellipse_desc){sizeof(celspan_ellipse_desc), {0, NAN}, 1, 3, NULL};
   REFUSED(s, celspan_object_create_ellipse(s->context, &ellipse, &out),
           "ellipse: centre.y must be a finite number, got nan");
   celspan_point points[4] = {{0, 0}, {1, 0}, {1, 1}, {NAN, 1}};
-  celspan_polygon_desc polygon = {points, 4, CELSPAN_RULE_NONZERO, NULL};
+  celspan_polygon_desc polygon = {sizeof polygon, points, 4, CELSPAN_RULE_NONZERO, NULL};
   REFUSED(s, celspan_object_create_polygon(s->context, &polygon, &out),
           "polygon: points[4].x must be a finite number, got nan");
-  polygon = (celspan_polygon_desc){points, 3, (celspan_rule)2, NULL};
+  polygon = (celspan_polygon_desc){sizeof(celspan_polygon_desc), points, 3, (celspan_rule)2, NULL};
   REFUSED(s, celspan_object_create_polygon(s->context, &polygon, &out),
           "polygon: rule is 2; it must be between 0 and 1");
-  polygon = (celspan_polygon_desc){NULL, 3, CELSPAN_RULE_NONZERO, NULL};
+  polygon =
+      (celspan_polygon_desc){sizeof(celspan_polygon_desc), NULL, 3, CELSPAN_RULE_NONZERO, NULL};
   REFUSED(s, celspan_object_create_polygon(s->context, &polygon, &out),
           "polygon: points is missing");
-  celspan_triangle_desc triangle = {{{0, 0}, {0, -2e12}, {1, 1}}, NULL};
+  celspan_triangle_desc triangle = {sizeof triangle, {{0, 0}, {0, -2e12}, {1, 1}}, NULL};
   REFUSED(s, celspan_object_create_triangle(s->context, &triangle, &out),
           "triangle: points[2].y is -2e12; it must be between -1e12 and 1e12");
-  celspan_nurbs_desc nurbs = {.points = points, .point_count = 4};
+  celspan_nurbs_desc nurbs = {
+      .struct_size = sizeof nurbs, .degree = 3, .points = points, .point_count = 4};
   REFUSED(s, celspan_object_create_nurbs(s->context, &nurbs, &out),
           "nurbs: points[4].x must be a finite number, got nan");
-  celspan_path_desc path = {NULL, CELSPAN_RULE_NONZERO, NULL};
+  celspan_path_desc path = {sizeof path, NULL, CELSPAN_RULE_NONZERO, NULL};
   REFUSED(s, celspan_object_create_path(s->context, &path, &out), "path: d is missing");
   path.data = "M0 0 h1e12 h1e12 h1e12 v5";
   CHECK(celspan_object_create_path(s->context, &path, &out) == CELSPAN_BAD_ARGUMENT);
-  celspan_scanline_desc scanline = {.bounds = {0, 0, 1, 1}};
+  celspan_scanline_desc scanline = {.struct_size = sizeof scanline, .bounds = {0, 0, 1, 1}};
   REFUSED(s, celspan_object_create_scanline(s->context, &scanline, &out),
           "scanline: spans is missing");
   scanline.bounds.height = -1;
   REFUSED(s, celspan_object_create_scanline(s->context, &scanline, &out),
           "scanline: bounds.height is -1; it must be 0 or more");
-  celspan_image_desc image = {.picture = {.file = "a.png"}, .width = -4};
+  const celspan_picture_desc picture = {.struct_size = sizeof picture, .file = "a.png"};
+  celspan_image_desc image = {.struct_size = sizeof image, .picture = &picture, .width = -4};
   REFUSED(s, celspan_object_create_image(s->context, &image, &out),
           "image: w is -4; it must be 0 or more");
   CHECK(out == NULL);
@@ -301,7 +306,7 @@ static void test_cel_values(studio *s) {
 
 /* A corner's radius is limited to half the shorter side. */
 static void test_rounded_rect(studio *s) {
-  celspan_rect_desc desc = {0, 0, 20, 10, 100, NULL};
+  celspan_rect_desc desc = {sizeof desc, 0, 0, 20, 10, 100, NULL};
   celspan_object *pill = NULL;
   studio_check(s, celspan_object_create_rect(s->context, &desc, &pill));
   check_bounds(pill, 0, 0, 20, 10);
@@ -314,8 +319,10 @@ static void test_rounded_rect(studio *s) {
 /* ---------------------------------------------------------------- images */
 
 static void test_image_without_reading(studio *s) {
+  const celspan_picture_desc picture = {.struct_size = sizeof picture,
+                                        .file = "there/is/no/such.png"};
   celspan_image_desc desc = {
-      .picture = {.file = "there/is/no/such.png"}, .x = 1, .y = 2, .width = 30, .height = 40};
+      .struct_size = sizeof desc, .picture = &picture, .x = 1, .y = 2, .width = 30, .height = 40};
   celspan_object *image = NULL;
   studio_check(s, celspan_object_create_image(s->context, &desc, &image));
   check_bounds(image, 1, 2, 30, 40);
@@ -351,22 +358,39 @@ static void check_image(studio *s, celspan_image_desc desc, celspan_box frame, c
 
 static void test_image_sizes(studio *s) {
   const char *path = "4x2.scene.tga";
-  celspan_picture_desc picture = {.file = path};
+  celspan_picture_desc picture = {.struct_size = sizeof picture, .file = path};
   celspan_picture_info info;
   CHECK(write_picture(path));
   if (celspan_picture_inspect(s->context, &picture, &info) == CELSPAN_OK) {
     celspan_box box = {10, 20, 4, 2};
-    check_image(s, (celspan_image_desc){.picture = picture, .x = 10, .y = 20}, box, box);
+    check_image(
+        s,
+        (celspan_image_desc){
+            .struct_size = sizeof(celspan_image_desc), .picture = &picture, .x = 10, .y = 20},
+        box, box);
     box = (celspan_box){10, 20, 100, 50};
-    check_image(s, (celspan_image_desc){.picture = picture, .x = 10, .y = 20, .width = 100}, box,
-                box);
-    check_image(s, (celspan_image_desc){.picture = picture, .x = 10, .y = 20, .height = 50}, box,
-                box);
-    celspan_image_desc fitted = {
-        .picture = picture, .width = 40, .height = 40, .fit = CELSPAN_FIT_CONTAIN};
+    check_image(s,
+                (celspan_image_desc){.struct_size = sizeof(celspan_image_desc),
+                                     .picture = &picture,
+                                     .x = 10,
+                                     .y = 20,
+                                     .width = 100},
+                box, box);
+    check_image(s,
+                (celspan_image_desc){.struct_size = sizeof(celspan_image_desc),
+                                     .picture = &picture,
+                                     .x = 10,
+                                     .y = 20,
+                                     .height = 50},
+                box, box);
+    celspan_image_desc fitted = {.struct_size = sizeof fitted,
+                                 .picture = &picture,
+                                 .width = 40,
+                                 .height = 40,
+                                 .fit = CELSPAN_FIT_CONTAIN};
     box = (celspan_box){0, 10, 40, 20};
     check_image(s, fitted, box, box);
-    fitted.picture.wrap = CELSPAN_WRAP_REPEAT;
+    picture.wrap = CELSPAN_WRAP_REPEAT;
     check_image(s, fitted, (celspan_box){0, 0, 40, 40}, box);
     fitted.fit = CELSPAN_FIT_COVER;
     check_image(s, fitted, (celspan_box){0, 0, 40, 40}, (celspan_box){-20, 0, 80, 40});
@@ -556,7 +580,7 @@ static void test_primitive_limit(studio *s) {
 }
 
 static void test_count(studio *s) {
-  celspan_picture_desc desc = {.file = "there/is/no/such.png"};
+  celspan_picture_desc desc = {.struct_size = sizeof desc, .file = "there/is/no/such.png"};
   celspan_texture *picture = NULL;
   studio_check(s, celspan_texture_create_picture(s->context, &desc, &picture));
   celspan_object *a = studio_rect(s, 0, 0, 1, 1, NULL), *b = studio_rect(s, 0, 0, 1, 1, picture);
@@ -582,7 +606,8 @@ static void count_release(void *user) { ++*(int *)user; }
 
 static void test_procedure_is_released_once(studio *s) {
   int released = 0;
-  celspan_scanline_desc desc = {{0, 0, 1, 1}, no_spans, &released, count_release, false};
+  celspan_scanline_desc desc = {sizeof desc, {0, 0, 1, 1},  no_spans,
+                                &released,   count_release, false};
   celspan_object *object = NULL, *faded = NULL;
   studio_check(s, celspan_object_create_scanline(s->context, &desc, &object));
   studio_check(s, celspan_object_fade(s->context, object, 0.5, &faded));
@@ -624,31 +649,53 @@ static celspan_status build_textures(celspan_context *context, everything *all) 
   CS_TRY(celspan_texture_create_gradient(context, square, paints, &all->textures[0]));
   CS_TRY(celspan_texture_create_linear(context, square[0], square[2], stops, 2, &all->textures[1]));
   CS_TRY(celspan_texture_create_radial(context, square[0], 5, stops, 2, &all->textures[2]));
-  CS_TRY(celspan_texture_create_picture(context, &(celspan_picture_desc){.file = "a.png"},
-                                        &all->textures[3]));
+  CS_TRY(celspan_texture_create_picture(
+      context,
+      &(celspan_picture_desc){.struct_size = sizeof(celspan_picture_desc), .file = "a.png"},
+      &all->textures[3]));
   return CELSPAN_OK;
 }
 
 static celspan_status build_primitives(celspan_context *context, everything *all) {
-  CS_TRY(celspan_object_create_rect(context, &(celspan_rect_desc){0, 0, 9, 9, 2, all->textures[0]},
-                                    &all->objects[0]));
-  CS_TRY(celspan_object_create_triangle(
-      context, &(celspan_triangle_desc){{{0, 0}, {9, 0}, {0, 9}}, all->textures[1]},
-      &all->objects[1]));
+  CS_TRY(celspan_object_create_rect(
+      context, &(celspan_rect_desc){sizeof(celspan_rect_desc), 0, 0, 9, 9, 2, all->textures[0]},
+      &all->objects[0]));
+  CS_TRY(celspan_object_create_triangle(context,
+                                        &(celspan_triangle_desc){sizeof(celspan_triangle_desc),
+                                                                 {{0, 0}, {9, 0}, {0, 9}},
+                                                                 all->textures[1]},
+                                        &all->objects[1]));
   CS_TRY(celspan_object_create_ellipse(
-      context, &(celspan_ellipse_desc){{9, 9}, 4, 5, all->textures[2]}, &all->objects[2]));
+      context,
+      &(celspan_ellipse_desc){sizeof(celspan_ellipse_desc), {9, 9}, 4, 5, all->textures[2]},
+      &all->objects[2]));
   CS_TRY(celspan_object_create_polygon(
-      context, &(celspan_polygon_desc){square, 4, CELSPAN_RULE_EVENODD, NULL}, &all->objects[3]));
-  CS_TRY(celspan_object_create_nurbs(
-      context, &(celspan_nurbs_desc){.points = square, .point_count = 4}, &all->objects[4]));
-  CS_TRY(celspan_object_create_path(
-      context, &(celspan_path_desc){"M0 0 C 1 2 3 4 5 6 A 3 3 0 1 1 2 2Z", 0, NULL},
-      &all->objects[5]));
+      context,
+      &(celspan_polygon_desc){sizeof(celspan_polygon_desc), square, 4, CELSPAN_RULE_EVENODD, NULL},
+      &all->objects[3]));
+  CS_TRY(
+      celspan_object_create_nurbs(context,
+                                  &(celspan_nurbs_desc){.struct_size = sizeof(celspan_nurbs_desc),
+                                                        .degree = 3,
+                                                        .points = square,
+                                                        .point_count = 4},
+                                  &all->objects[4]));
+  CS_TRY(celspan_object_create_path(context,
+                                    &(celspan_path_desc){sizeof(celspan_path_desc),
+                                                         "M0 0 C 1 2 3 4 5 6 A 3 3 0 1 1 2 2Z", 0,
+                                                         NULL},
+                                    &all->objects[5]));
   CS_TRY(celspan_object_create_scanline(
-      context, &(celspan_scanline_desc){{0, 0, 9, 9}, no_spans, NULL, NULL, false},
+      context,
+      &(celspan_scanline_desc){
+          sizeof(celspan_scanline_desc), {0, 0, 9, 9}, no_spans, NULL, NULL, false},
       &all->objects[6]));
   CS_TRY(celspan_object_create_image(
-      context, &(celspan_image_desc){.picture = {.file = "b.png"}, .width = 3, .height = 3},
+      context,
+      &(celspan_image_desc){.struct_size = sizeof(celspan_image_desc),
+                            .picture = &CELSPAN_DESC(celspan_picture_desc, .file = "b.png"),
+                            .width = 3,
+                            .height = 3},
       &all->objects[7]));
   return CELSPAN_OK;
 }

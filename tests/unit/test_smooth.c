@@ -43,7 +43,10 @@ static cs_picture *make_glow(celspan_context *own, celspan_surface_format format
   cs_picture *picture = NULL;
   celspan_status status = celspan_surface_create(own, &desc, &surface);
   if (status == CELSPAN_OK)
-    status = cs_picture_create(own, &(celspan_picture_desc){.surface = surface, .smooth = true},
+    status = cs_picture_create(own,
+                               &(celspan_picture_desc){.struct_size = sizeof(celspan_picture_desc),
+                                                       .surface = surface,
+                                                       .smooth = true},
                                &picture);
   CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY);
   celspan_surface_unref(surface);
@@ -101,10 +104,10 @@ static void test_more_bits(void) {
 /* ---------------------------------------------------------------- parts, budgets, memory */
 
 static celspan_context *small_context(memory_watch *watch) {
-  celspan_context_desc desc = {.struct_size = sizeof desc,
-                               .resize = memory_watch_resize,
-                               .resize_user = watch,
-                               .picture_bytes = 1};
+  celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
+  desc.resize = memory_watch_resize;
+  desc.resize_user = watch;
+  desc.picture_bytes = 1;
   celspan_context *own = NULL;
   return celspan_context_create(&desc, &own) == CELSPAN_OK ? own : NULL;
 }
@@ -115,7 +118,8 @@ static void test_same_bits(void) {
   celspan_context *own = small_context(&watch);
   cs_picture *a = make_glow(context, CELSPAN_SURFACE_RGBA8, false);
   cs_picture *b = make_glow(own, CELSPAN_SURFACE_RGBA8, false), *part = NULL;
-  const celspan_picture_desc desc = {.surface = a->surface,
+  const celspan_picture_desc desc = {.struct_size = sizeof desc,
+                                     .surface = a->surface,
                                      .smooth = true,
                                      .has_source = true,
                                      .source = {100, 30, WIDTH - 100, HEIGHT - 30}};

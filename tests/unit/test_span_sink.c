@@ -130,14 +130,16 @@ static void check_case(celspan_context *context, uint64_t seed) {
   test_random random = {seed};
   int32_t width = 1 + random_below(&random, seed % 20 ? 300 : WIDTH_MOST), height = 12;
   celspan_file_desc file = CELSPAN_FILE_DESC;
+  celspan_coding coded = CELSPAN_CODING;
+  file.coding = &coded;
   file.format = "span";
-  file.coding.depth = seed % 2 ? CELSPAN_DEPTH_8 : CELSPAN_DEPTH_HALF;
-  size_t row_size = (size_t)width * celspan_coding_pixel_size(&file.coding);
+  coded.depth = seed % 2 ? CELSPAN_DEPTH_8 : CELSPAN_DEPTH_HALF;
+  size_t row_size = (size_t)width * celspan_coding_pixel_size(&coded);
   unsigned char *pixels = calloc((size_t)height, row_size);
   frame_row row = {.colours = calloc((size_t)width, 4 * sizeof(float))};
-  celspan_sink sinks[2];
+  celspan_sink sinks[2] = {CELSPAN_SINK, CELSPAN_SINK};
   CHECK(celspan_file_sink_create(context, path, &file, &sinks[0]) == CELSPAN_OK);
-  CHECK(cs_sink_memory(context, &file.coding, pixels, row_size, &sinks[1]) == CELSPAN_OK);
+  CHECK(cs_sink_memory(context, &coded, pixels, row_size, &sinks[1]) == CELSPAN_OK);
   for (int i = 0; i < 2; i++)
     CHECK(sinks[i].begin(sinks[i].user, context, width, height) == CELSPAN_OK);
   for (int32_t y = 0; y < height; y++) {
@@ -160,15 +162,19 @@ static void check_case(celspan_context *context, uint64_t seed) {
 
 static void test_codings(celspan_context *context) {
   celspan_file_desc file = CELSPAN_FILE_DESC;
-  celspan_sink sink;
-  file.coding.depth = CELSPAN_DEPTH_16;
+  celspan_coding coded = CELSPAN_CODING;
+  file.coding = &coded;
+  celspan_sink sink = CELSPAN_SINK;
+  coded.depth = CELSPAN_DEPTH_16;
   CHECK(celspan_file_sink_create(context, "a.span", &file, &sink) == CELSPAN_BAD_ARGUMENT);
   CHECK(strstr(celspan_context_error(context), "a.span: span files hold depth 8"));
-  file.coding = (celspan_coding){.transfer = CELSPAN_TRANSFER_LINEAR};
+  coded =
+      (celspan_coding){.struct_size = sizeof(celspan_coding), .transfer = CELSPAN_TRANSFER_LINEAR};
   CHECK(celspan_file_sink_create(context, "a.span", &file, &sink) == CELSPAN_BAD_ARGUMENT);
-  file.coding = (celspan_coding){.depth = CELSPAN_DEPTH_HALF,
-                                 .transfer = CELSPAN_TRANSFER_DEFAULT,
-                                 .alpha = CELSPAN_ALPHA_STRAIGHT};
+  coded = (celspan_coding){.struct_size = sizeof(celspan_coding),
+                           .depth = CELSPAN_DEPTH_HALF,
+                           .transfer = CELSPAN_TRANSFER_DEFAULT,
+                           .alpha = CELSPAN_ALPHA_STRAIGHT};
   CHECK(celspan_file_sink_create(context, "a.span", &file, &sink) == CELSPAN_BAD_ARGUMENT);
 }
 
@@ -176,7 +182,7 @@ static void test_codings(celspan_context *context) {
 static void test_unfinished(celspan_context *context) {
   char name[sizeof path + 16];
   snprintf(name, sizeof name, "%s-none.span", path);
-  celspan_sink sink;
+  celspan_sink sink = CELSPAN_SINK;
   const celspan_span span = {.x1 = 4};
   CHECK(celspan_file_sink_create(context, name, NULL, &sink) == CELSPAN_OK);
   CHECK(sink.begin(sink.user, context, 4, 2) == CELSPAN_OK);

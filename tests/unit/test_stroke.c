@@ -670,7 +670,7 @@ static void test_cost(celspan_context *context) {
 /* ---------------------------------------------------------------- strokes of objects */
 
 static void test_object_stroke(celspan_context *context) {
-  const celspan_path_desc path = {.data = "M0 0H10V10H0Z"};
+  const celspan_path_desc path = {.struct_size = sizeof path, .data = "M0 0H10V10H0Z"};
   celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
   celspan_object *square = NULL, *large = NULL, *pale = NULL, *ring = NULL, *none = NULL;
   desc.width = 2;

@@ -107,7 +107,7 @@ static cs_picture *make_picture(celspan_context *context, const celspan_surface_
   celspan_surface *surface = NULL;
   cs_picture *picture = NULL;
   CHECK(celspan_surface_create(context, desc, &surface) == CELSPAN_OK);
-  celspan_picture_desc shown = {.surface = surface, .colour = colour};
+  celspan_picture_desc shown = {.struct_size = sizeof shown, .surface = surface, .colour = colour};
   if (!CHECK(cs_picture_create(context, &shown, &picture) == CELSPAN_OK))
     fprintf(stderr, "  %s\n", celspan_context_error(context));
   celspan_surface_unref(surface);
@@ -152,7 +152,10 @@ static void check_file(celspan_context *context, celspan_surface_desc desc, cons
   const char *path = picture_path("surface.tif");
   write_tiff(path, &desc);
   cs_picture *memory = make_picture(context, &desc, colour), *file = NULL;
-  CHECK(cs_picture_create(context, &(celspan_picture_desc){.file = path, .colour = colour},
+  CHECK(cs_picture_create(context,
+                          &(celspan_picture_desc){.struct_size = sizeof(celspan_picture_desc),
+                                                  .file = path,
+                                                  .colour = colour},
                           &file) == CELSPAN_OK);
   if (memory && file) {
     check_info(context, memory, file);
@@ -172,7 +175,8 @@ static void test_files(size_t budget) {
     for (int alpha = 0; alpha <= CELSPAN_ALPHA_PREMULTIPLIED; alpha++)
       for (int colour = 0; colour < (budget ? 1 : 5); colour++) {
         celspan_context *context = NULL;
-        celspan_context_desc own = {.struct_size = sizeof own, .picture_bytes = budget};
+        celspan_context_desc own = CELSPAN_CONTEXT_DESC;
+        own.picture_bytes = budget;
         CHECK(celspan_context_create(&own, &context) == CELSPAN_OK);
         celspan_surface_desc desc = desc_of((celspan_surface_format)format, pixels);
         desc.alpha = (celspan_alpha)alpha;
@@ -252,7 +256,8 @@ static celspan_object *show(studio *s, const celspan_surface_desc *desc, double 
                             double scale) {
   celspan_surface *surface = NULL;
   studio_check(s, celspan_surface_create(s->context, desc, &surface));
-  celspan_image_desc image = {.picture = {.surface = surface}};
+  const celspan_picture_desc picture = {.struct_size = sizeof picture, .surface = surface};
+  celspan_image_desc image = {.struct_size = sizeof image, .picture = &picture};
   celspan_object *object = NULL;
   studio_check(s, celspan_object_create_image(s->context, &image, &object));
   celspan_surface_unref(surface);
@@ -291,7 +296,8 @@ static void test_ways(celspan_surface_format format, size_t budget) {
     memcpy(apart + y * (row + 13), pixels + y * row, row);
   for (int i = 0; i < 6; i++) {
     host h;
-    celspan_context_desc own = {.struct_size = sizeof own, .picture_bytes = budget};
+    celspan_context_desc own = CELSPAN_CONTEXT_DESC;
+    own.picture_bytes = budget;
     studio s = {0};
     CHECK(celspan_context_create(&own, &s.context) == CELSPAN_OK);
     celspan_surface_desc buffer = desc_of(format, apart);
@@ -346,7 +352,8 @@ static celspan_texture *shown_by(studio *s, host *h, uint64_t key) {
   celspan_surface_desc desc = filled_by(h, key);
   celspan_surface *surface = NULL;
   celspan_texture *texture = NULL;
-  celspan_picture_desc shown = {.has_box = true, .box = {0, 0, 200, 160}};
+  celspan_picture_desc shown = {
+      .struct_size = sizeof shown, .has_box = true, .box = {0, 0, 200, 160}};
   studio_check(s, celspan_surface_create(s->context, &desc, &surface));
   shown.surface = surface;
   studio_check(s, celspan_texture_create_picture(s->context, &shown, &texture));
@@ -422,8 +429,10 @@ static void test_map(void) {
   celspan_exposure exposure = {studio_show(&s, object), 1};
   celspan_frame_desc frame = frame_of(&exposure, 1);
   unsigned char pixels[160][200][4];
-  const celspan_coding coding = {
-      .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
+  const celspan_coding coding = {.struct_size = sizeof coding,
+                                 .depth = CELSPAN_DEPTH_8,
+                                 .transfer = CELSPAN_TRANSFER_SRGB,
+                                 .alpha = CELSPAN_ALPHA_STRAIGHT};
   studio_check(&s,
                celspan_frame_pixels(s.context, &frame, &coding, pixels, sizeof pixels[0], NULL));
   int wrong = 0;
@@ -481,8 +490,10 @@ static void test_failures(void) {
  * writes. */
 static void test_wide_failure(void) {
   enum { WIDE = 16384, HIGH = 4 };
-  const celspan_coding coding = {
-      .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
+  const celspan_coding coding = {.struct_size = sizeof coding,
+                                 .depth = CELSPAN_DEPTH_8,
+                                 .transfer = CELSPAN_TRANSFER_SRGB,
+                                 .alpha = CELSPAN_ALPHA_STRAIGHT};
   unsigned char *pixels = malloc((size_t)WIDE * HIGH * 4);
   host h;
   studio s = {0};
@@ -524,7 +535,7 @@ static void test_refusals(void) {
   bad[8].has_key = false;
   bad[9].width = -1;
   const char *const sentences[10] = {
-      "surface: struct_size is 8; it must be",
+      "surface: struct_size is 8, so that fields are missing that it needs",
       "surface: its size is 0 x 1; it must be 1 to 1048576 pixels a side",
       "surface: its size is 1 x 1048577",
       "surface: format is 5; it must be 0 to 4",
@@ -555,7 +566,7 @@ static void test_pictures_refused(void) {
   celspan_surface_desc desc = {
       .struct_size = sizeof desc, .width = 1, .height = 1, .pixels = pixel};
   CHECK(celspan_surface_create(context, &desc, &surface) == CELSPAN_OK);
-  const celspan_picture_desc good = {.surface = surface};
+  const celspan_picture_desc good = {.struct_size = sizeof good, .surface = surface};
   celspan_picture_desc bad[4] = {good, good, good, good};
   bad[0].file = "a.png";
   bad[1].layer = "ink";
@@ -650,10 +661,10 @@ static void test_copies(void) {
 static void test_live(void) {
   unsigned char *pixels = make_pixels(CELSPAN_SURFACE_RGBA8);
   memory_watch watch = {0};
-  celspan_context_desc own = {.struct_size = sizeof own,
-                              .resize = memory_watch_resize,
-                              .resize_user = &watch,
-                              .picture_bytes = 4 << 20};
+  celspan_context_desc own = CELSPAN_CONTEXT_DESC;
+  own.resize = memory_watch_resize;
+  own.resize_user = &watch;
+  own.picture_bytes = 4 << 20;
   celspan_context *context = NULL;
   CHECK(celspan_context_create(&own, &context) == CELSPAN_OK);
   size_t blocks = 0;
@@ -691,10 +702,13 @@ static void *use_surfaces(void *user) {
     celspan_surface *surface = NULL;
     cs_picture *picture = NULL;
     cs_picture_block *block = NULL;
-    bool good = celspan_surface_create(&branch, &desc, &surface) == CELSPAN_OK &&
-                cs_picture_create(&branch, &(celspan_picture_desc){.surface = surface}, &picture) ==
-                    CELSPAN_OK &&
-                cs_load_block(&branch, picture, i % 2, 1, 0, &block) == CELSPAN_OK;
+    bool good =
+        celspan_surface_create(&branch, &desc, &surface) == CELSPAN_OK &&
+        cs_picture_create(&branch,
+                          &(celspan_picture_desc){.struct_size = sizeof(celspan_picture_desc),
+                                                  .surface = surface},
+                          &picture) == CELSPAN_OK &&
+        cs_load_block(&branch, picture, i % 2, 1, 0, &block) == CELSPAN_OK;
     failures += !good;
     if (block)
       cs_store_release(block);
@@ -706,7 +720,8 @@ static void *use_surfaces(void *user) {
 }
 
 static void test_threads(void) {
-  celspan_context_desc own = {.struct_size = sizeof own, .picture_bytes = 2 << 20};
+  celspan_context_desc own = CELSPAN_CONTEXT_DESC;
+  own.picture_bytes = 2 << 20;
   celspan_context *context = NULL;
   pthread_t threads[4];
   CHECK(celspan_context_create(&own, &context) == CELSPAN_OK);
@@ -728,7 +743,8 @@ static celspan_status render(celspan_context *context, host *h, bool is_filled,
   celspan_cel *cel = NULL;
   celspan_rostrum *rostrum = NULL;
   celspan_status status = celspan_surface_create(context, &desc, &surface);
-  celspan_image_desc image = {.picture = {.surface = surface}, .width = 90};
+  const celspan_picture_desc picture = {.struct_size = sizeof picture, .surface = surface};
+  celspan_image_desc image = {.struct_size = sizeof image, .picture = &picture, .width = 90};
   if (status == CELSPAN_OK)
     status = celspan_object_create_image(context, &image, &object);
   celspan_surface_unref(surface);

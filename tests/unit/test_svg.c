@@ -1,6 +1,7 @@
 /* Drawings through the C interface: reading, questions, changed parts, and allocations that
  * fail. */
 #include "celspan/celspan.h"
+#include "celspan/svg.h"
 #include "readers/svg/colours.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
@@ -18,7 +19,7 @@ static const char drawing[] =
 
 static celspan_status read_bytes(celspan_context *context, const char *text, celspan_svg **out) {
   static const celspan_svg_font font = {.family = "default",
-                                        .font = {.file = TEST_ROOT "/scripts/type/block.ttf"}};
+                                        .file = TEST_ROOT "/scripts/type/block.ttf"};
   celspan_svg_desc desc = CELSPAN_SVG_DESC;
   desc.fonts = &font;
   desc.font_count = 1;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "celspan/text.h"
 #include "readers/text/layout.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
@@ -33,7 +34,7 @@ static bool is_there(const char *path) {
   return false;
 }
 
-static celspan_text_desc text_of(const char *text, const celspan_font *fonts, size_t count) {
+static celspan_text_desc text_of(const char *text, const char *const *fonts, size_t count) {
   celspan_text_desc desc = CELSPAN_TEXT_DESC;
   desc.text = text;
   desc.text_size = strlen(text);
@@ -81,7 +82,7 @@ static size_t ask(const piece *wanted, double *x, placed *out) {
 }
 
 /* The whole text, in the order in which its pieces are seen, against celspan's one line. */
-static void check_line(const char *text, const celspan_font *fonts, size_t font_count, double size,
+static void check_line(const char *text, const char *const *fonts, size_t font_count, double size,
                        const piece *pieces, size_t piece_count) {
   static placed expected[MOST];
   celspan_text_desc desc = text_of(text, fonts, font_count);
@@ -106,7 +107,7 @@ static void check_line(const char *text, const celspan_font *fonts, size_t font_
 
 /* A text of one script in one font whose em has `units`. */
 static void check_text_of(const char *font, double units, const char *text, const char *options) {
-  const celspan_font fonts[] = {{font, NULL}};
+  const char *const fonts[] = {font};
   const piece whole = {font, text, options};
   if (is_there(font))
     check_line(text, fonts, 1, units, &whole, 1);
@@ -144,7 +145,7 @@ static void mixed_lines_are_those_of_hb_shape(void) {
   if (!has_all)
     return;
   /* Hebrew and its digits in a line of Latin. */
-  const celspan_font dejavu[] = {{DEJAVU, NULL}};
+  const char *const dejavu[] = {DEJAVU};
   const piece inside[] = {{DEJAVU, "abc ", "--direction=ltr --script=Latn"},
                           {DEJAVU, " גם", "--direction=rtl --script=Hebr"},
                           {DEJAVU, "123", "--direction=ltr --script=Hebr"},
@@ -159,7 +160,7 @@ static void mixed_lines_are_those_of_hb_shape(void) {
                           {DEJAVU, "السلام ", "--direction=rtl --script=Arab"}};
   check_line("السلام office عليكم", dejavu, 1, 2048, around, 4);
   /* Three scripts from three fonts. */
-  const celspan_font others[] = {{ARABIC, NULL}, {DEVANAGARI, NULL}, {JAPANESE, NULL}};
+  const char *const others[] = {ARABIC, DEVANAGARI, JAPANESE};
   const piece turned[] = {{DEVANAGARI, "नमस्ते", "--direction=ltr --script=Deva"},
                           {ARABIC, "السلام ", "--direction=rtl --script=Arab"}};
   check_line("السلام नमस्ते", others, 3, 1000, turned, 2);
@@ -265,7 +266,7 @@ static bool draw_by_freetype(FT_Face face, FT_UInt glyph, contours *c) {
 
 /* Every `step`th glyph of a font at size 200. weight: of a variable font, 0: none. */
 static void check_outlines(FT_Library library, const char *path, double weight, uint32_t step) {
-  const celspan_font fonts[] = {{path, NULL}};
+  const char *const fonts[] = {path};
   const celspan_variation variations[] = {{"wght", weight}};
   celspan_text_desc desc = text_of("", fonts, 1);
   desc.variations = variations;
@@ -325,7 +326,7 @@ static void outlines_are_those_of_freetype(void) { check_skip("FreeType"); }
 /* ---------------------------------------------------------------- the context */
 
 static void fonts_are_kept_and_let_go(void) {
-  const celspan_font fonts[] = {{OWN, NULL}};
+  const char *const fonts[] = {OWN};
   celspan_text_desc desc = text_of("Again and again", fonts, 1);
   celspan_object *first = NULL, *second = NULL;
   size_t before, after, peak;
@@ -353,8 +354,8 @@ static void refuse(celspan_text_desc desc, celspan_status status, const char *se
 }
 
 static void bad_arguments_are_refused(void) {
-  const celspan_font fonts[17] = {{OWN, NULL}, {OWN, NULL}}, none[] = {{"/nowhere.ttf", NULL}};
-  const celspan_font no_name[] = {{NULL, NULL}}, no_font[] = {{TEST_ROOT "/meson.build", NULL}};
+  const char *const fonts[17] = {OWN, OWN}, *const none[] = {"/nowhere.ttf"};
+  const char *const no_name[] = {NULL}, *const no_font[] = {TEST_ROOT "/meson.build"};
   const celspan_feature feature[] = {{"li", 1}};
   const celspan_variation axis[] = {{"ital", 1}}, not_finite[] = {{"wght", NAN}};
   const celspan_text_desc good = text_of("ab", fonts, 1);
@@ -409,7 +410,7 @@ static void bad_arguments_are_refused(void) {
 
 /* Every choice moves the whole text, by what its measures say. */
 static void valign_moves_by_measures(void) {
-  const celspan_font fonts[] = {{OWN, NULL}};
+  const char *const fonts[] = {OWN};
   celspan_text_desc desc = text_of("Hx\nHgHHH", fonts, 1);
   celspan_text_metrics m;
   desc.size = 60;
@@ -438,7 +439,7 @@ static void valign_moves_by_measures(void) {
 
 /* Letters live as long as somebody keeps them, whatever becomes of the list. */
 static void letters_outlive_their_list(void) {
-  const celspan_font fonts[] = {{OWN, NULL}};
+  const char *const fonts[] = {OWN};
   celspan_text_desc desc = text_of("Ab c\nd", fonts, 1);
   celspan_glyphs *glyphs = NULL;
   celspan_box box = {0, 0, 0, 0};
@@ -462,7 +463,7 @@ static void letters_outlive_their_list(void) {
 /* Whichever allocation fails, alone or with all that follow, the status says so, nothing leaks, and
  * the context stays usable. */
 static void every_allocation_may_fail(bool is_for_good) {
-  const celspan_font fonts[] = {{OWN, NULL}, {OWN, NULL}};
+  const char *const fonts[] = {OWN, OWN};
   const celspan_variation variations[] = {{"wght", 700}};
   celspan_text_desc desc = text_of("ab שלום, AVE ->\nc d e", fonts, 2);
   desc.has_width = true;

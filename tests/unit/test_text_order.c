@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "celspan/text.h"
 #include "readers/text/runs.h"
 #include "readers/xml/artwork.h"
 #include "tests/support/check.h"

@@ -103,10 +103,12 @@ static void check_frame(celspan_context *context, int32_t width, int32_t height,
   bool is_opaque = random_below(&numbers, 2), is_long = random_below(&numbers, 2);
   frame made = {.width = width, .height = height, .style = style, .is_opaque = is_opaque};
   celspan_file_desc file = CELSPAN_FILE_DESC;
+  celspan_coding coded = CELSPAN_CODING;
+  file.coding = &coded;
   made.arrays = calloc((size_t)width, 4 * sizeof(float));
   made.spans = calloc((size_t)width, sizeof *made.spans);
   file.format = "tga";
-  file.coding = coding;
+  coded = coding;
   file.is_opaque = made.is_opaque;
   file.title = is_long ? long_title : NULL;
   const char *path = "/tmp/celspan-test.tga";
@@ -140,11 +142,13 @@ static void check_size(celspan_context *context) {
 static void check_refusals(celspan_context *context) {
   celspan_span clear = {.x0 = 0, .x1 = 4};
   celspan_file_desc file = CELSPAN_FILE_DESC;
+  celspan_coding coded = CELSPAN_CODING;
+  file.coding = &coded;
   celspan_sink sink;
   const char *path = "/tmp/celspan-test-refused.tga";
-  file.coding.depth = CELSPAN_DEPTH_16;
+  coded.depth = CELSPAN_DEPTH_16;
   CHECK(cs_sink_tga(context, path, &file, &sink) == CELSPAN_BAD_ARGUMENT);
-  file.coding.depth = CELSPAN_DEPTH_DEFAULT;
+  coded.depth = CELSPAN_DEPTH_DEFAULT;
   for (int32_t side = 65535; side <= 65536; side++)
     for (int turned = 0; turned < 2; turned++) {
       CHECK(cs_sink_tga(context, path, &file, &sink) == CELSPAN_OK);
@@ -164,8 +168,10 @@ static void check_refusals(celspan_context *context) {
 }
 
 int main(void) {
-  static const celspan_coding codings[] = {
-      {0}, {.transfer = CELSPAN_TRANSFER_LINEAR, .alpha = CELSPAN_ALPHA_PREMULTIPLIED}};
+  static const celspan_coding codings[] = {{.struct_size = sizeof *codings},
+                                           {.struct_size = sizeof *codings,
+                                            .transfer = CELSPAN_TRANSFER_LINEAR,
+                                            .alpha = CELSPAN_ALPHA_PREMULTIPLIED}};
   celspan_context *context;
   size_t before, after, peak;
   uint64_t allocations;

@@ -174,7 +174,7 @@ static celspan_frame_desc frame_of(celspan_rostrum *rostrum, celspan_exposure *e
 static celspan_texture *make_picture(bool has_alpha, celspan_picture_use use) {
   unsigned char pixels[16] = {200, 90, 30, 255, 10, 90, 230, 0, 50, 90, 30, 255, 200, 10, 30, 255};
   celspan_surface_desc surface = CELSPAN_SURFACE_DESC;
-  celspan_picture_desc desc = {.wrap = CELSPAN_WRAP_REPEAT};
+  celspan_picture_desc desc = {.struct_size = sizeof desc, .wrap = CELSPAN_WRAP_REPEAT};
   celspan_texture *texture = NULL;
   surface.width = surface.height = 2;
   surface.format = has_alpha ? CELSPAN_SURFACE_RGBA8 : CELSPAN_SURFACE_RGB8;

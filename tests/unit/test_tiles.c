@@ -94,11 +94,14 @@ static void mean(const float *base, int32_t width, int32_t height, const double 
     out[c] = (float)(sum[c] / area);
 }
 
-static const celspan_coding LIGHT = {.depth = CELSPAN_DEPTH_FLOAT,
+static const celspan_coding LIGHT = {.struct_size = sizeof LIGHT,
+                                     .depth = CELSPAN_DEPTH_FLOAT,
                                      .transfer = CELSPAN_TRANSFER_LINEAR,
                                      .alpha = CELSPAN_ALPHA_PREMULTIPLIED};
-static const celspan_coding CODES = {
-    .depth = CELSPAN_DEPTH_8, .transfer = CELSPAN_TRANSFER_SRGB, .alpha = CELSPAN_ALPHA_STRAIGHT};
+static const celspan_coding CODES = {.struct_size = sizeof CODES,
+                                     .depth = CELSPAN_DEPTH_8,
+                                     .transfer = CELSPAN_TRANSFER_SRGB,
+                                     .alpha = CELSPAN_ALPHA_STRAIGHT};
 
 /* The small levels, from the largest level within MEAN_BASE pixels. */
 static void set_means(subject *s, int32_t base_level) {
@@ -254,8 +257,6 @@ static int run(subject *s, const cs_pyramid_box *crop, size_t *rows) {
 
 /* ---------------------------------------------------------------- one pyramid */
 
-static const celspan_antialias_mode MODE = CELSPAN_ANTIALIAS_NONE;
-
 /* Sides at which levels or tiles begin or end, and any others. */
 static int32_t draw_side(test_random *random) {
   static const int32_t SIDES[] = {255, 256, 257, 508, 510, 511, 512, 513, 1020, 1021, 1024, 1025};
@@ -274,7 +275,8 @@ static bool open_subject(subject *s, celspan_context *context, int number) {
   s->frame.exposure_count = 1;
   s->frame.film_width = s->frame.width = width;
   s->frame.film_height = s->frame.height = height;
-  s->frame.antialias = &MODE;
+  s->frame.has_antialias = true;
+  s->frame.antialias = CELSPAN_ANTIALIAS_NONE;
   s->frame.workers = 1;
   snprintf(s->folder, sizeof s->folder, "%s/celspan-tiles-XXXXXX",
            access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp");

@@ -70,7 +70,8 @@ static celspan_rostrum *make_scene(studio *s, double radius) {
   for (int i = 0; i < 12; i++)
     objects[i] = random_blob(s, &random);
   objects[3] = studio_pair(s, CELSPAN_OPERATOR_DIFFERENCE, objects[3], random_blob(s, &random));
-  celspan_scanline_desc desc = {.bounds = {5, 5, 40, 30}, .spans = stripes, .any_thread = true};
+  celspan_scanline_desc desc = {
+      .struct_size = sizeof desc, .bounds = {5, 5, 40, 30}, .spans = stripes, .any_thread = true};
   celspan_object *lines = NULL;
   studio_check(s, celspan_object_create_scanline(s->context, &desc, &lines));
   if (lines)

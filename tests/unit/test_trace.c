@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "celspan/trace.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
@@ -49,13 +50,15 @@ static celspan_status trace(celspan_context *context, const drawing *from, celsp
   surface.width = from->width;
   surface.height = from->height;
   surface.pixels = from->pixels;
-  celspan_status status = celspan_surface_create(context, &surface, &desc.picture.surface);
+  celspan_picture_desc picture = CELSPAN_PICTURE_DESC;
+  celspan_status status = celspan_surface_create(context, &surface, &picture.surface);
+  desc.picture = &picture;
   if (status != CELSPAN_OK)
     return status;
   desc.codes = codes;
   desc.colours = COLOURS;
   status = celspan_trace_create(context, &desc, out);
-  celspan_surface_unref(desc.picture.surface);
+  celspan_surface_unref(picture.surface);
   return status;
 }
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "celspan/celspan.h"
+#include "celspan/track.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
@@ -96,7 +97,8 @@ static void draw_frame(const sequence *s, int i, float *out) {
 
 static celspan_tracker *start(celspan_context *context, const sequence *s, float *values) {
   celspan_matrix first = pose(s, 0);
-  celspan_tracker_desc desc = {.model = s->model,
+  celspan_tracker_desc desc = {.struct_size = sizeof desc,
+                               .model = s->model,
                                .region = {first.m[2] - 68, first.m[5] - 48, 136, 96}};
   celspan_tracker *tracker = NULL;
   draw_frame(s, 0, values);
@@ -262,7 +264,7 @@ static void a_mask_leaves_out_what_it_does_not_cover(celspan_context *context) {
   float *values = malloc(COUNT * sizeof *values);
   uint8_t *mask = calloc(COUNT, 1);
   sequence s = {.model = CELSPAN_MOTION_SIMILARITY};
-  celspan_tracker_desc desc = {s.model, {0, 0, WIDTH, HEIGHT}, mask};
+  celspan_tracker_desc desc = {sizeof desc, s.model, {0, 0, WIDTH, HEIGHT}, mask};
   celspan_matrix back;
   draw_frame(&s, 0, values);
   CHECK(celspan_matrix_inverse(pose(&s, 0), &back));
@@ -317,15 +319,27 @@ static void wrong_arguments_are_refused(celspan_context *context) {
   sequence s = {.model = CELSPAN_MOTION_SIMILARITY};
   celspan_tracker *tracker = start(context, &s, values);
   celspan_luma luma = {WIDTH, HEIGHT, values};
-  celspan_tracker_desc desc = {s.model, {80, 60, 160, 120}, NULL};
+  celspan_tracker_desc desc = {sizeof desc, s.model, {80, 60, 160, 120}, NULL};
   celspan_sighting sighting;
-  check_refused(context, luma, (celspan_tracker_desc){s.model, {5, 5, 10, 30}, NULL}, "10 x 30");
-  check_refused(context, luma, (celspan_tracker_desc){s.model, {900, 5, 30, 30}, NULL},
-                "of the region 0 x 30 pixels");
-  check_refused(context, luma, (celspan_tracker_desc){s.model, {5, 5, NAN, 30}, NULL}, "nan x 30");
-  check_refused(context, luma, (celspan_tracker_desc){s.model, {NAN, 5, 30, 30}, NULL}, "finite");
-  check_refused(context, luma, (celspan_tracker_desc){(celspan_motion)7, {5, 5, 50, 50}, NULL},
-                "model 7");
+  check_refused(context, luma,
+                (celspan_tracker_desc){sizeof(celspan_tracker_desc), s.model, {5, 5, 10, 30}, NULL},
+                "10 x 30");
+  check_refused(
+      context, luma,
+      (celspan_tracker_desc){sizeof(celspan_tracker_desc), s.model, {900, 5, 30, 30}, NULL},
+      "of the region 0 x 30 pixels");
+  check_refused(
+      context, luma,
+      (celspan_tracker_desc){sizeof(celspan_tracker_desc), s.model, {5, 5, NAN, 30}, NULL},
+      "nan x 30");
+  check_refused(
+      context, luma,
+      (celspan_tracker_desc){sizeof(celspan_tracker_desc), s.model, {NAN, 5, 30, 30}, NULL},
+      "finite");
+  check_refused(
+      context, luma,
+      (celspan_tracker_desc){sizeof(celspan_tracker_desc), (celspan_motion)7, {5, 5, 50, 50}, NULL},
+      "model 7");
   check_refused(context, (celspan_luma){0, HEIGHT, values}, desc, "1 to 65536");
   check_refused(context, (celspan_luma){WIDTH, HEIGHT, NULL}, desc, "values");
   values[1000] = NAN;
@@ -344,7 +358,7 @@ static void wrong_arguments_are_refused(celspan_context *context) {
 
 static celspan_status create_and_follow(celspan_context *context, const float *values) {
   celspan_luma luma = {WIDTH, HEIGHT, values};
-  celspan_tracker_desc desc = {CELSPAN_MOTION_SIMILARITY, {92, 72, 136, 96}, NULL};
+  celspan_tracker_desc desc = {sizeof desc, CELSPAN_MOTION_SIMILARITY, {92, 72, 136, 96}, NULL};
   celspan_tracker *tracker;
   celspan_sighting sighting;
   celspan_status status = celspan_tracker_create(context, &luma, &desc, &tracker);

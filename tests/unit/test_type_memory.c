@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "celspan/celspan.h"
+#include "celspan/text.h"
 #include "tests/support/check.h"
 
 #define OWN TEST_ROOT "/scripts/type/block.ttf"
@@ -45,7 +46,7 @@ typedef struct written {
 static written write_text(celspan_context *context, const char *path) {
   written out = {.status = CELSPAN_OK};
   uint64_t placement[2];
-  const celspan_font font = {.file = path};
+  const char *const font = path;
   celspan_text_desc desc = CELSPAN_TEXT_DESC;
   celspan_object *object = NULL;
   desc.text = "HAVE AT IT";

@@ -43,10 +43,13 @@ static void make(art *a, memory_watch *watch) {
   a->context = memory_watch_context(watch);
   CHECK(celspan_texture_create_linear(a->context, (celspan_point){0, 0}, (celspan_point){40, 0},
                                       stops, 2, &a->texture) == CELSPAN_OK);
-  CHECK(celspan_object_create_rect(a->context, &(celspan_rect_desc){0, 0, 40, 20, 0, a->texture},
-                                   &a->parts[0]) == CELSPAN_OK);
-  CHECK(celspan_object_create_ellipse(a->context, &(celspan_ellipse_desc){{20, 20}, 9, 5, NULL},
-                                      &a->parts[1]) == CELSPAN_OK);
+  CHECK(celspan_object_create_rect(
+            a->context,
+            &(celspan_rect_desc){sizeof(celspan_rect_desc), 0, 0, 40, 20, 0, a->texture},
+            &a->parts[0]) == CELSPAN_OK);
+  CHECK(celspan_object_create_ellipse(
+            a->context, &(celspan_ellipse_desc){sizeof(celspan_ellipse_desc), {20, 20}, 9, 5, NULL},
+            &a->parts[1]) == CELSPAN_OK);
   stroke.points = points;
   stroke.point_count = 3;
   stroke.degree = 2;

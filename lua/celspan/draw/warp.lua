@@ -360,7 +360,7 @@ function warp.apply(object, options)
   local box = { object:bounds() }
   if not box[1] then return object end
   return core.warp(object, maps[kind](options[kind], options, box), options.within or 0,
-    options.pieces or 0)
+    options.pieces)
 end
 
 -- ---------------------------------------------------------------- boiling lines

@@ -117,10 +117,9 @@ function trace.picture(path, options)
   fields.check("trace: picture", options, known)
   local checked, refused = check(options)
   if not checked then core.refuse(refused) end
-  local found_at, tried = core.find(path)
-  local found, message = core.trace(found_at, checked)
+  local found, message = core.trace(core.find(path), checked)
   if found then return wrap(found) end
-  return nil, tried and ("%s; also looked for at %s"):format(message, tried) or message
+  return nil, message
 end
 
 return fields.publish("trace", trace)

@@ -122,15 +122,16 @@ static celspan_status make_both(celspan_context *context, const celspan_frame_de
                                 uint64_t digest[2]) {
   cs_tee tee;
   celspan_file_desc placed = *file;
-  celspan_coding coding = cs_pixels_resolve(&file->coding, CELSPAN_DEPTH_8);
-  coding.space = placed.coding.space = frame->space;
+  celspan_coding coding = cs_pixels_resolve(file->coding, CELSPAN_DEPTH_8);
+  celspan_coding asked = file->coding ? *file->coding : CELSPAN_CODING;
+  coding.space = asked.space = frame->space;
+  placed.coding = &asked;
   placed.place_x = frame->crop_x;
   placed.place_y = frame->crop_y;
   CS_TRY(cs_sink_file(context, path, &placed, &tee.sinks[0]));
   celspan_status status = cs_sink_digest(context, &coding, digest, &tee.sinks[1]);
   if (status == CELSPAN_OK)
-    status = cs_dither_sink(context, &file->coding, &coding, frame->crop_x, frame->crop_y,
-                            &tee.sinks[1]);
+    status = cs_dither_sink(context, &asked, &coding, frame->crop_x, frame->crop_y, &tee.sinks[1]);
   if (status != CELSPAN_OK) {
     cs_sink_discard(context, &tee.sinks[0]);
     return status;
@@ -159,10 +160,11 @@ static celspan_status make_frame(const job *j, celspan_context *context,
   if (shoot->put)
     return shoot->put(shoot->user, desc, frame);
   if (!shoot->pattern)
-    return celspan_frame_digest(context, desc, &shoot->file.coding, frame->digest);
+    return celspan_frame_digest(context, desc, shoot->file.coding, frame->digest);
   if (cs_plane_is_wanted(frame->path, shoot->file.format))
-    return cs_plane_write_frame(context, desc, frame->path,
-                                cs_plane_depth(shoot->file.coding.depth));
+    return cs_plane_write_frame(
+        context, desc, frame->path,
+        cs_plane_depth(shoot->file.coding ? shoot->file.coding->depth : CELSPAN_DEPTH_DEFAULT));
   celspan_file_desc file = describe_file(j, frame->number, desc);
   return shoot->has_digests ? make_both(context, desc, frame->path, &file, frame->digest)
                             : celspan_frame_write(context, desc, frame->path, &file, NULL);

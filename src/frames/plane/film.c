@@ -1,4 +1,5 @@
 /* Frames as plane files, one each or all of a film in one. */
+#include "celspan/plane.h"
 #include "frames/plane/plane.h"
 #include "frames/plane/plane_data.h"
 #include "output/record/record.h"

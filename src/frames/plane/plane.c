@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/description.h"
 #include "base/open.h"
 #include "frames/plane/plane.h"
 #include "frames/plane/plane_data.h"
@@ -150,7 +151,7 @@ static celspan_status check_desc(celspan_context *context, const celspan_plane_d
                                  size_t count) {
   CS_TRY(cs_check_positive(context, "plane", "width", desc->width));
   CS_TRY(cs_check_positive(context, "plane", "height", desc->height));
-  if (desc->depth != 0 && desc->depth != 8 && desc->depth != 16)
+  if (desc->depth != 8 && desc->depth != 16)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "plane: the depth is %d; it is 8 or 16",
                    (int)desc->depth);
   CS_TRY(cs_check_choice(context, "plane", "space", (unsigned)desc->space, CELSPAN_SPACE_SRGB + 1));
@@ -238,11 +239,10 @@ celspan_status cs_plane_expose(celspan_context *context, const celspan_exposure 
 
 celspan_status celspan_plane_create(celspan_context *context, const celspan_rostrum *rostrum,
                                     const celspan_plane_desc *desc, celspan_plane **out) {
+  CS_READ(context, "plane", celspan_plane_desc, desc);
   const celspan_exposure whole = {.rostrum = (celspan_rostrum *)rostrum, .weight = 1};
   *out = NULL;
   CS_TRY(cs_check_given(context, "plane", "the rostrum", rostrum));
-  CS_TRY(cs_check_given(context, "plane", "the description", desc));
-  CS_TRY(cs_check_version(context, "plane", desc->struct_size, sizeof *desc));
   return cs_plane_expose(context, &whole, 1, desc, out);
 }
 

@@ -4,6 +4,7 @@
 #include "base/context.h"
 #include "base/hash.h"
 #include "celspan/celspan.h"
+#include "celspan/plane.h"
 
 /* Whether a file is read as a plane: it begins as plane files do, or its name ends as theirs. */
 bool cs_plane_accepts(const char *path);

@@ -8,6 +8,7 @@
 #include <stdatomic.h>
 
 #include "base/context.h"
+#include "celspan/plane.h"
 #include "engine/row/plan.h"
 #include "output/record/recording.h"
 

@@ -1,4 +1,6 @@
 /* Rows of planes: spans of the subproject become spans of rows. */
+#include "base/description.h"
+#include "celspan/plane.h"
 #include "engine/span/row.h"
 #include "frames/plane/plane.h"
 #include "frames/plane/plane_data.h"
@@ -19,8 +21,6 @@ struct cs_plane_rows {
 
 static celspan_status check_view(celspan_context *context, const celspan_plane_view *view,
                                  planefile_view *out) {
-  CS_TRY(cs_check_given(context, "plane", "the view", view));
-  CS_TRY(cs_check_version(context, "plane", view->struct_size, sizeof *view));
   if (view->width < 1 || view->height < 1)
     return cs_fail(context, CELSPAN_LIMIT,
                    "plane: size is %d x %d; each side must be 1 to 2147483647 pixels",
@@ -142,7 +142,8 @@ celspan_status celspan_plane_render(celspan_context *context, const celspan_plan
                                     const celspan_plane_view *view, const celspan_sink *sink) {
   cs_plane_rows *rows;
   bool ended;
-  CS_TRY(cs_check_given(context, "plane", "the sink", sink));
+  CS_READ(context, "plane", celspan_plane_view, view);
+  CS_READ(context, "plane: sink", celspan_sink, sink);
   CS_TRY(cs_plane_rows_create(context, plane, view, &rows));
   celspan_status status = feed(context, rows, sink, &ended);
   cs_plane_rows_destroy(rows);
@@ -155,8 +156,10 @@ celspan_status celspan_plane_pixels(celspan_context *context, const celspan_plan
   cs_plane_rows *rows;
   celspan_sink sink;
   bool ended = false;
+  CS_READ(context, "plane", celspan_plane_view, view);
+  celspan_coding whole;
+  CS_TRY(cs_pixels_read(context, &coding, &whole));
   celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
-  CS_TRY(cs_pixels_check(context, coding));
   resolved.space = CELSPAN_SPACE_LINEAR;
   CS_TRY(cs_plane_rows_create(context, plane, view, &rows));
   celspan_status status = cs_sink_memory(context, &resolved, pixels, stride, &sink);

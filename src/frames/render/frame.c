@@ -11,7 +11,6 @@
 /* ---------------------------------------------------------------- checking */
 
 static celspan_status check_size(celspan_context *context, const celspan_frame_desc *desc) {
-  CS_TRY(cs_check_version(context, "frame", desc->struct_size, sizeof *desc));
   if (desc->width < 1 || desc->height < 1 || desc->width > SIDE_LIMIT || desc->height > SIDE_LIMIT)
     return cs_fail(context, CELSPAN_LIMIT,
                    "frame: size is %d x %d; each side must be 1 to %d pixels", (int)desc->width,
@@ -143,7 +142,7 @@ static void set_view(cs_frame *frame, const celspan_frame_desc *desc) {
                           .end_row = frame->crop_y + frame->crop_height,
                           .end_column = desc->width,
                           .most_dashes = CS_COMPILE_DASHES,
-                          .span_error = (float)desc->tolerance,
+                          .span_error = desc->has_tolerance ? (float)desc->tolerance : 0,
                           .space = cs_space_inside(desc->space, CELSPAN_SPACE_LINEAR)};
 }
 
@@ -162,10 +161,10 @@ static celspan_status set_exposures(celspan_context *context, const celspan_fram
       frame->rostrums[frame->count++] = desc->exposures[i].rostrum;
     }
   frame->repeats = desc->repeats;
-  frame->has_antialias = desc->antialias != NULL;
-  return desc->antialias ? cs_antialias_make(context, "frame: antialias", *desc->antialias,
-                                             &desc->filter, &frame->antialias)
-                         : CELSPAN_OK;
+  frame->has_antialias = desc->has_antialias;
+  return desc->has_antialias ? cs_antialias_make(context, "frame: antialias", desc->antialias,
+                                                 desc->filter, &frame->antialias)
+                             : CELSPAN_OK;
 }
 
 static celspan_status fill_frame(celspan_context *context, const celspan_frame_desc *desc,
@@ -181,10 +180,9 @@ static celspan_status fill_frame(celspan_context *context, const celspan_frame_d
 }
 
 celspan_status cs_frame_check(celspan_context *context, const celspan_frame_desc *desc) {
-  CS_TRY(cs_check_given(context, "frame", "the description", desc));
   CS_TRY(check_size(context, desc));
   CS_TRY(check_crop(context, desc));
-  if (desc->tolerance != 0)
+  if (desc->has_tolerance)
     CS_TRY(cs_check_item(context, (cs_check_field){"frame", "tolerance", 0, ""}, desc->tolerance,
                          1.0 / 1048576, 1));
   CS_TRY(cs_check_choice(context, "frame", "space", (unsigned)desc->space, CELSPAN_SPACE_SRGB + 1));

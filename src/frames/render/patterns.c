@@ -232,7 +232,10 @@ static celspan_status make_desc(cs_compiler *c, const cs_defocus_job *job, const
   cs_v4 *texels;
   size_t count = (size_t)job->width * (size_t)job->height;
   CS_TRY(CS_MAKE(c->context, texels, count));
-  *out = (celspan_picture_desc){.wrap = CELSPAN_WRAP_REPEAT, .has_box = true, .box = *box};
+  *out = (celspan_picture_desc){.struct_size = sizeof(celspan_picture_desc),
+                                .wrap = CELSPAN_WRAP_REPEAT,
+                                .has_box = true,
+                                .box = *box};
   celspan_status status = make_surface(c, job, texels, &out->surface);
   cs_mem_free(c->context->memory, texels, count * sizeof *texels);
   return status;
@@ -314,7 +317,8 @@ static celspan_status find_picture(cs_compiler *c, const cs_primitive_data *plan
 static celspan_status make_rectangle(cs_compiler *c, const view *v, celspan_texture *texture,
                                      celspan_object **out) {
   const celspan_box *box = &v->repeat->box;
-  const celspan_rect_desc desc = {box->x + v->left * box->width,
+  const celspan_rect_desc desc = {sizeof desc,
+                                  box->x + v->left * box->width,
                                   box->y + v->top * box->height,
                                   v->columns * box->width,
                                   v->rows * box->height,

@@ -1,5 +1,6 @@
 /* The public entries: a frame into a sink, into pixels, into a file, into a digest, or row by
  * row. */
+#include "base/description.h"
 #include "frames/render/drawings.h"
 #include "frames/render/strips.h"
 #include "model/scene/check.h"
@@ -93,8 +94,9 @@ static celspan_status render(celspan_context *context, const celspan_frame_desc 
 
 celspan_status celspan_frame_render(celspan_context *context, const celspan_frame_desc *desc,
                                     const celspan_sink *sink, celspan_statistics *statistics) {
+  CS_READ(context, "frame", celspan_frame_desc, desc);
   bool ended = false;
-  CS_TRY(cs_check_given(context, "frame", "the sink", sink));
+  CS_READ(context, "frame: sink", celspan_sink, sink);
   return render(context, desc, sink, statistics, &ended);
 }
 
@@ -117,8 +119,11 @@ void celspan_spans_code(const celspan_coding *coding, const celspan_span *spans,
 
 void celspan_spans_code_at(const celspan_coding *coding, int32_t x, int32_t y,
                            const celspan_span *spans, size_t span_count, void *pixels) {
+  celspan_coding whole;
+  if (cs_pixels_read(NULL, &coding, &whole) != CELSPAN_OK)
+    return;
   celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
-  if (coding && coding->depth == CELSPAN_DEPTH_8_DITHER)
+  if (coding->depth == CELSPAN_DEPTH_8_DITHER)
     cs_dither_row(&resolved, x, y, spans, span_count, pixels);
   else
     cs_pixels_row(&resolved, spans, span_count, pixels);
@@ -127,10 +132,12 @@ void celspan_spans_code_at(const celspan_coding *coding, int32_t x, int32_t y,
 celspan_status celspan_frame_pixels(celspan_context *context, const celspan_frame_desc *desc,
                                     const celspan_coding *coding, void *pixels, size_t stride,
                                     celspan_statistics *statistics) {
+  CS_READ(context, "frame", celspan_frame_desc, desc);
   celspan_sink sink;
-  celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
   CS_TRY(cs_frame_check(context, desc));
-  CS_TRY(cs_pixels_check(context, coding));
+  celspan_coding whole;
+  CS_TRY(cs_pixels_read(context, &coding, &whole));
+  celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
   resolved.space = desc->space;
   CS_TRY(cs_sink_memory(context, &resolved, pixels, stride, &sink));
   CS_TRY(cs_dither_sink(context, coding, &resolved, desc->crop_x, desc->crop_y, &sink));
@@ -148,24 +155,38 @@ static bool is_backed(const celspan_rostrum *rostrum) {
 
 /* The alphas of exposures add up. The weights of a shutter of many exposures sum to 1, except for
  * rounding. */
-bool celspan_frame_is_opaque(const celspan_frame_desc *desc) {
+static bool is_opaque(const celspan_frame_desc *desc) {
   double alpha = 0;
-  size_t count = desc && desc->exposures ? desc->exposure_count : 0;
+  size_t count = desc->exposures ? desc->exposure_count : 0;
   for (size_t i = 0; i < count && count <= CS_CHECK_ITEMS; i++)
     if (desc->exposures[i].rostrum && is_backed(desc->exposures[i].rostrum))
       alpha += desc->exposures[i].weight;
   return alpha > 1 - 1e-9;
 }
 
+bool celspan_frame_is_opaque(const celspan_frame_desc *desc) {
+  celspan_frame_desc whole;
+  return cs_description_read(NULL, "frame", &cs_celspan_frame_desc_description, desc, &whole) ==
+             CELSPAN_OK &&
+         is_opaque(&whole);
+}
+
 celspan_status celspan_frame_write(celspan_context *context, const celspan_frame_desc *desc,
                                    const char *path, const celspan_file_desc *file,
                                    celspan_statistics *statistics) {
+  CS_READ(context, "frame", celspan_frame_desc, desc);
   celspan_sink sink;
   CS_TRY(cs_frame_check(context, desc));
-  celspan_file_desc known = file ? *file : CELSPAN_FILE_DESC;
-  known.is_opaque = known.is_opaque || celspan_frame_is_opaque(desc);
+  celspan_file_desc known = CELSPAN_FILE_DESC;
+  if (file)
+    CS_TRY(cs_description_read(context, "file", &cs_celspan_file_desc_description, file, &known));
+  const celspan_coding *asked = known.coding;
+  celspan_coding coding;
+  CS_TRY(cs_pixels_read(context, &asked, &coding));
+  known.coding = &coding;
+  known.is_opaque = known.is_opaque || is_opaque(desc);
   known.workers = known.workers ? known.workers : desc->workers;
-  known.coding.space = desc->space;
+  coding.space = desc->space;
   known.place_x += desc->crop_x;
   known.place_y += desc->crop_y;
   CS_TRY(cs_sink_file(context, path, &known, &sink));
@@ -174,15 +195,52 @@ celspan_status celspan_frame_write(celspan_context *context, const celspan_frame
 
 celspan_status celspan_frame_digest(celspan_context *context, const celspan_frame_desc *desc,
                                     const celspan_coding *coding, uint64_t digest[2]) {
+  CS_READ(context, "frame", celspan_frame_desc, desc);
   celspan_sink sink;
-  celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
   CS_TRY(cs_frame_check(context, desc));
-  CS_TRY(cs_pixels_check(context, coding));
+  celspan_coding whole;
+  CS_TRY(cs_pixels_read(context, &coding, &whole));
+  celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
   resolved.space = desc->space;
   CS_TRY(cs_check_given(context, "frame", "the digest", digest));
   CS_TRY(cs_sink_digest(context, &resolved, digest, &sink));
   CS_TRY(cs_dither_sink(context, coding, &resolved, desc->crop_x, desc->crop_y, &sink));
   return render_own(context, desc, &sink, NULL);
+}
+
+/* ---------------------------------------------------------------- the short way */
+
+/* A frame of one rostrum with all defaults. */
+static celspan_status describe(celspan_context *context, const celspan_exposure *exposure,
+                               int32_t width, int32_t height, celspan_frame_desc *out) {
+  CS_TRY(cs_check_given(context, "frame", "the rostrum", exposure->rostrum));
+  *out = CELSPAN_FRAME_DESC;
+  out->exposures = exposure;
+  out->exposure_count = 1;
+  out->width = width;
+  out->height = height;
+  if (exposure->rostrum->has_size) {
+    out->film_width = exposure->rostrum->width;
+    out->film_height = exposure->rostrum->height;
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status celspan_rostrum_write(celspan_context *context, celspan_rostrum *rostrum,
+                                     int32_t width, int32_t height, const char *path) {
+  const celspan_exposure exposure = {rostrum, 1};
+  celspan_frame_desc frame;
+  CS_TRY(describe(context, &exposure, width, height, &frame));
+  return celspan_frame_write(context, &frame, path, NULL, NULL);
+}
+
+celspan_status celspan_rostrum_pixels(celspan_context *context, celspan_rostrum *rostrum,
+                                      int32_t width, int32_t height, unsigned char *pixels) {
+  const celspan_exposure exposure = {rostrum, 1};
+  celspan_frame_desc frame;
+  CS_TRY(describe(context, &exposure, width, height, &frame));
+  CS_TRY(cs_check_given(context, "frame", "the pixels", pixels));
+  return celspan_frame_pixels(context, &frame, NULL, pixels, 4 * (size_t)width, NULL);
 }
 
 /* ---------------------------------------------------------------- row by row */
@@ -196,6 +254,7 @@ struct celspan_rows {
 
 celspan_status celspan_rows_create(celspan_context *context, const celspan_frame_desc *desc,
                                    celspan_rows **out) {
+  CS_READ(context, "frame", celspan_frame_desc, desc);
   celspan_rows *rows;
   CS_TRY(CS_MAKE(context, rows, 1));
   rows->context = context;

@@ -25,7 +25,8 @@ static celspan_status make_rostrum(celspan_context *context, celspan_cel *cel, b
 
 static celspan_status make_scene(celspan_context *context, const celspan_picture_desc *picture,
                                  const celspan_picture_info *info, celspan_rostrum **out) {
-  celspan_image_desc desc = {.picture = *picture, .width = info->width, .height = info->height};
+  celspan_image_desc desc = {
+      .struct_size = sizeof desc, .picture = picture, .width = info->width, .height = info->height};
   celspan_object *object = NULL;
   celspan_cel *cel = NULL;
   celspan_status status = celspan_object_create_image(context, &desc, &object);
@@ -77,8 +78,7 @@ static celspan_status open_plane(celspan_context *context, const char *path, cs_
 }
 
 static celspan_status open_picture(celspan_context *context, const char *path, cs_still *still) {
-  celspan_picture_desc picture;
-  memset(&picture, 0, sizeof picture);
+  celspan_picture_desc picture = CELSPAN_PICTURE_DESC;
   picture.file = path;
   celspan_status status = celspan_picture_inspect(context, &picture, &still->info);
   if (status == CELSPAN_OK)
@@ -145,7 +145,7 @@ static celspan_status create_drawn(celspan_context *context, const cs_still *sti
   view.crop_y = frame->crop_y;
   view.crop_width = frame->crop_width;
   view.crop_height = frame->crop_height;
-  view.antialias = frame->antialias ? *frame->antialias : CELSPAN_ANTIALIAS_AREA;
+  view.antialias = frame->has_antialias ? frame->antialias : CELSPAN_ANTIALIAS_AREA;
   return cs_plane_rows_create(context, still->plane, &view, out);
 }
 
@@ -229,7 +229,7 @@ celspan_status cs_still_write(celspan_context *context, const cs_still *still,
                               const celspan_file_desc *file) {
   if (still->exposure.rostrum)
     return celspan_frame_write(context, frame, path, file, NULL);
-  celspan_sink sink;
+  celspan_sink sink = CELSPAN_SINK;
   bool is_begun = false;
   celspan_status status = celspan_file_sink_create(context, path, file, &sink);
   if (status == CELSPAN_OK) {

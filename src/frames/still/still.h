@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "celspan/plane.h"
 #include "frames/plane/plane.h"
 #include "frames/still/span_view.h"
 

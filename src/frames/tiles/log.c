@@ -83,9 +83,9 @@ static cs_hash digest_of(const cs_tile_inputs *inputs, const cs_pyramid *pyramid
   cs_hash_number(&hash, frame->film_width);
   cs_hash_number(&hash, frame->film_height);
   cs_hash_word(&hash, frame->space);
-  cs_hash_word(&hash, frame->antialias ? 1 + (uint64_t)*frame->antialias : 0);
-  cs_hash_word(&hash, (uint64_t)frame->filter.kernel);
-  cs_hash_word(&hash, (uint64_t)frame->filter.rows);
+  cs_hash_word(&hash, frame->has_antialias ? 1 + (uint64_t)frame->antialias : 0);
+  cs_hash_word(&hash, frame->filter ? (uint64_t)frame->filter->kernel : 0);
+  cs_hash_word(&hash, frame->filter ? (uint64_t)frame->filter->rows : 0);
   cs_hash_word(&hash, inputs->skips_empty);
   if (inputs->is_script)
     add_scene(&hash, inputs);

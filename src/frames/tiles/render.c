@@ -27,7 +27,8 @@ static void free_means(celspan_context *context, cs_tile_means *base) {
 /* Allocates the base, and makes the sink that fills it. */
 static celspan_status begin_means(celspan_context *context, int32_t width, int32_t height,
                                   cs_tile_means *out, celspan_sink *sink) {
-  const celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT,
+  const celspan_coding coding = {.struct_size = sizeof coding,
+                                 .depth = CELSPAN_DEPTH_FLOAT,
                                  .transfer = CELSPAN_TRANSFER_LINEAR,
                                  .alpha = CELSPAN_ALPHA_PREMULTIPLIED};
   cs_tile_means made = {.width = width, .height = height};
@@ -214,8 +215,10 @@ static celspan_status keep_finished(cs_tile_render *render, celspan_status statu
 
 celspan_status cs_tile_render_run(cs_tile_render *render) {
   celspan_file_desc file = CELSPAN_FILE_DESC;
+  celspan_coding coding = CELSPAN_CODING;
   file.format = render->pyramid->ending;
-  file.coding.space = render->frame->space;
+  coding.space = render->frame->space;
+  file.coding = &coding;
   cs_tile_output_init(&render->output, render->context, render->pyramid, &file);
   if (render->skips_empty)
     cs_tile_output_skip(&render->output, render->background);

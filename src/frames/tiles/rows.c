@@ -63,7 +63,8 @@ static celspan_status add_known(cs_tile_known *known, celspan_context *context, 
 void cs_tile_output_init(cs_tile_output *output, celspan_context *context,
                          const cs_pyramid *pyramid, const celspan_file_desc *file) {
   *output = (cs_tile_output){.context = context, .pyramid = pyramid, .file = *file};
-  output->file.coding = cs_pixels_resolve(&file->coding, CELSPAN_DEPTH_8);
+  output->coding = cs_pixels_resolve(file->coding, CELSPAN_DEPTH_8);
+  output->file.coding = &output->coding;
   init_known(&output->known);
 }
 
@@ -73,7 +74,7 @@ void cs_tile_output_finish(cs_tile_output *output) {
 
 void cs_tile_output_skip(cs_tile_output *output, const float rgba[4]) {
   output->skips_empty = true;
-  cs_pixels_code(&output->file.coding, rgba, output->empty);
+  cs_pixels_code(&output->coding, rgba, output->empty);
 }
 
 /* ---------------------------------------------------------------- links */
@@ -181,8 +182,8 @@ static bool is_all(const unsigned char *row, size_t size, const unsigned char *p
 static celspan_status read_content(cs_tile_writer *writer, const cs_pyramid_box *box,
                                    tile_content *out) {
   const cs_tile_output *output = writer->output;
-  const celspan_coding *coding = &output->file.coding;
-  size_t pixel_size = celspan_coding_pixel_size(coding);
+  const celspan_coding *coding = &output->coding;
+  size_t pixel_size = cs_pixels_size(coding);
   size_t size = (size_t)(box->x1 - box->x0) * pixel_size, count;
   CS_TRY(CS_RESERVE(&writer->context, writer->pixels, writer->pixel_capacity, size));
   cs_hash hash = cs_hash_begin((uint64_t)(box->x1 - box->x0));
@@ -350,5 +351,5 @@ static celspan_status end(void *user, celspan_context *context, celspan_status o
 celspan_sink cs_tile_rows_sink(cs_tile_rows *rows) {
   rows->ring = NULL;
   rows->writers = NULL;
-  return (celspan_sink){rows, begin, put_row, end, false};
+  return (celspan_sink){sizeof(celspan_sink), rows, begin, put_row, end, false};
 }

@@ -107,7 +107,8 @@ static celspan_sink planes_sink(yuv_planes *planes, const celspan_coding *coding
   bool takes_codes = !dithers && cs_pixels_takes_codes(&planes->coding);
   if (dithers)
     planes->coding.depth = CELSPAN_DEPTH_8_DITHER;
-  return (celspan_sink){planes, begin_planes, put_row, end_planes, takes_codes};
+  return (celspan_sink){sizeof(celspan_sink), planes,     begin_planes, put_row,
+                        end_planes,           takes_codes};
 }
 
 /* ---------------------------------------------------------------- opening */
@@ -146,7 +147,7 @@ celspan_status cs_video_open(cs_video *out, celspan_context *context, const cs_v
                     .layout = cs_video_layout_of(desc->format, &desc->options),
                     .has_digests = desc->has_digests,
                     .keeps_nothing = desc->keeps_nothing};
-  out->stride = (size_t)frames->width * celspan_coding_pixel_size(&out->coding);
+  out->stride = (size_t)frames->width * cs_pixels_size(&out->coding);
   cs_sound_stream samples = desc->sound;
   celspan_status status = open_file(out, &name);
   if (status == CELSPAN_OK) {

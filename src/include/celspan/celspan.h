@@ -1,10 +1,10 @@
 /* celspan - a compositing engine for cel animation: scenes in, rows of colour spans out.
  *
- * The whole public C interface. A program builds a scene from immutable values (textures, objects,
- * cels, a rostrum), describes a frame (size, crop, exposures) and renders it into a sink, into
- * pixels, into a file, or row by row. There is no frame buffer: work and memory follow the number
- * of colour spans, so a frame may be a million pixels a side. One header, because a host takes it
- * whole: values are made of each other, and every call takes them.
+ * What draws a frame. A program builds a scene from immutable values (textures, objects, cels, a
+ * rostrum), describes a frame (size, crop, exposures) and renders it into a sink, into pixels, into
+ * a file, or row by row. There is no frame buffer: work and memory follow the number of colour
+ * spans, so a frame may be a million pixels a side. Tools have headers of their own beside this
+ * one: text.h, svg.h, layers.h, trace.h, plane.h, relight.h, track.h, and lua.h for Lua.
  *
  * Conventions
  *   Coordinates  origin top left, x right, y down, in film units. Pixel i covers [i, i+1).
@@ -28,6 +28,21 @@
  *
  * Threads: a context belongs to one thread at a time. Scene values are immutable and counted
  * atomically: they may be shared by all threads ("shared read").
+ *
+ * Descriptions: structures that a program fills begin with struct_size, the size that the structure
+ * has in the header that the program was compiled with, so that a later library knows which fields
+ * there are. Begin with the defaults, then set what differs:
+ *
+ *   celspan_cel_desc desc = CELSPAN_CEL_DESC;
+ *   desc.opacity = 0.5;
+ *
+ * In C, CELSPAN_DESC(celspan_rect_desc, .width = 3, .height = 2) is a description in one
+ * expression; fields that are not named are 0 there, so it is for those whose defaults are all 0.
+ * A description may end after any field that it needs: the rest has its defaults. It may be longer
+ * than the library knows if all bytes behind its last field are 0. Other sizes are BAD_ARGUMENT.
+ *
+ * Not given: a pointer that is NULL, or a value whose flag has_... is false. All other fields have
+ * the default that is named beside them, 0 if none is.
  *
  * One file, because it is the manual too: read from top to bottom it goes from values to frames,
  * and no part of it can be used without the one before.
@@ -57,6 +72,21 @@ extern "C" {
 #else
 #define CELSPAN_ZERO                                                                               \
   { 0 }
+#endif
+
+/* The functions of a description: _default writes the defaults of its first struct_size bytes,
+ * struct_size among them, and zeros what the library does not know; _initial returns them. Any
+ * thread. */
+#define CELSPAN_DESCRIPTION(type)                                                                  \
+  CELSPAN_API void type##_default(type *out, size_t struct_size);                                  \
+  static inline type type##_initial(void) {                                                        \
+    type desc;                                                                                     \
+    type##_default(&desc, sizeof desc);                                                            \
+    return desc;                                                                                   \
+  }
+
+#ifndef __cplusplus
+#define CELSPAN_DESC(type, ...) ((type){.struct_size = sizeof(type), __VA_ARGS__})
 #endif
 
 #define CELSPAN_VERSION_MAJOR 0
@@ -90,21 +120,16 @@ typedef struct celspan_context celspan_context;
 typedef void *(*celspan_resize)(void *user, void *block, size_t old_size, size_t new_size);
 
 typedef struct celspan_context_desc {
-  size_t struct_size;    /* sizeof(celspan_context_desc) */
+  size_t struct_size;
   celspan_resize resize; /* NULL: the C library's */
   void *resize_user;
-  size_t picture_bytes; /* decoded picture tiles kept in memory; 0: 512 MiB */
+  size_t picture_bytes; /* decoded picture tiles kept in memory; 512 MiB */
   size_t defocus_bytes; /* defocused cels, and maps of drawings (a quarter of it), kept from frame
-                           to frame; 0: 256 MiB */
+                           to frame; 256 MiB */
 } celspan_context_desc;
 
-/* A description with every field at its default, here and below; set what differs. */
-static inline celspan_context_desc celspan_context_desc_default(void) {
-  celspan_context_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  return desc;
-}
-#define CELSPAN_CONTEXT_DESC (celspan_context_desc_default())
+CELSPAN_DESCRIPTION(celspan_context_desc)
+#define CELSPAN_CONTEXT_DESC (celspan_context_desc_initial())
 
 /* desc  borrowed, NULL for the defaults      out  new
  * Errors: NO_MEMORY, BAD_ARGUMENT. */
@@ -258,6 +283,7 @@ typedef enum celspan_picture_use {
 typedef struct celspan_surface celspan_surface; /* a picture in memory: see below */
 
 typedef struct celspan_picture_desc {
+  size_t struct_size;
   const char *file;   /* copied; NULL where there is a surface */
   const char *colour; /* NULL: by the file; "srgb" "linear" "rec709" "cineon"; copied */
   const char *layer;  /* NULL, or the name of a subimage; copied */
@@ -268,8 +294,6 @@ typedef struct celspan_picture_desc {
   bool has_box; /* false: the primitive's own tight bounding rectangle */
   celspan_box box;
   celspan_surface *surface; /* kept; instead of a file. colour NULL: integers sRGB, floats linear */
-  const char *tried;        /* NULL, or a path that was tried before: reported when `file` does
-                        not exist either; copied */
   /* A part of the picture, as if it were a file of its own: whole pixels, inside the picture, whose
    * header is read at once. */
   bool has_source;
@@ -278,6 +302,9 @@ typedef struct celspan_picture_desc {
    * that fades slowly shows no rings. Alpha of more bits, and 0 and 1, stay as they are. */
   bool smooth;
 } celspan_picture_desc;
+
+CELSPAN_DESCRIPTION(celspan_picture_desc)
+#define CELSPAN_PICTURE_DESC (celspan_picture_desc_initial())
 
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_paint(celspan_context *context,
                                                                         const celspan_paint *paint,
@@ -341,12 +368,8 @@ typedef struct celspan_pattern_desc {
   celspan_matrix matrix; /* the art's units to the object's; affine, regular */
 } celspan_pattern_desc;
 
-static inline celspan_pattern_desc celspan_pattern_desc_default(void) {
-  celspan_pattern_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  return desc;
-}
-#define CELSPAN_PATTERN_DESC (celspan_pattern_desc_default())
+CELSPAN_DESCRIPTION(celspan_pattern_desc)
+#define CELSPAN_PATTERN_DESC (celspan_pattern_desc_initial())
 
 /* A pattern: the box of the art repeated over the plane, for primitives. It is sharp at every size,
  * and what is drawn of it is what is seen. A primitive with a pattern is a level of nesting, like
@@ -437,12 +460,8 @@ typedef struct celspan_surface_desc {
   uint64_t key[2];
 } celspan_surface_desc;
 
-static inline celspan_surface_desc celspan_surface_desc_default(void) {
-  celspan_surface_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  return desc;
-}
-#define CELSPAN_SURFACE_DESC (celspan_surface_desc_default())
+CELSPAN_DESCRIPTION(celspan_surface_desc)
+#define CELSPAN_SURFACE_DESC (celspan_surface_desc_initial())
 
 /* Premultiplied integers are coded colours multiplied by alpha, as in TIFF and most window systems.
  * In floats NaN becomes 0, larger values become 65504, and alpha is clamped to 0..1, as in
@@ -456,51 +475,6 @@ CELSPAN_API void celspan_surface_unref(celspan_surface *surface);
 /* Bytes of a pixel: 4, 3, 1, 8 or 16; 0 for what is no format. Any thread. */
 CELSPAN_API size_t celspan_surface_pixel_size(celspan_surface_format format);
 
-/* ---- layered paintings */
-
-/* The contents of an OpenRaster file (.ora), a Krita document (.kra) or a Photoshop document (.psd,
- * .psb, with 8 or 16 bits per channel, RGB or grey): layers and groups of them. Only the file's
- * tables are read at first; the pixels of a layer are read when they are first visible, and then
- * kept like those of any picture. The file must not change while surfaces of it are in use. */
-typedef struct celspan_painting celspan_painting;
-
-typedef struct celspan_painting_layer {
-  const char *name;  /* UTF-8; may be "". This and blend live as long as the painting */
-  const char *blend; /* "normal", "multiply", "add", "screen", "pass-through", ... */
-  size_t parent;     /* the place of the group that it lies in, after its own; the count: in none */
-  bool is_group, is_visible;
-  double opacity;              /* 0..1 */
-  int32_t x, y, width, height; /* where its pixels lie, from the painting's top left corner */
-  celspan_surface *surface;    /* borrowed; NULL: a group, or a layer without pixels */
-  const char *colour; /* "srgb" or "linear": for the picture that is made of the surface, whose
-                                  pixels are converted by the file's colour profile */
-} celspan_painting_layer;
-
-/* file: borrowed      out: new
- * Errors: INPUT for a file that is missing, damaged or of another format, with the byte or line;
- * LIMIT for more than 65,536 layers, groups more than 100 deep, pictures of more than 1,048,576
- * pixels a side or 268,435,456 in all, XML of more than 16 MiB; NO_MEMORY, BAD_ARGUMENT. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_painting_read(celspan_context *context,
-                                                                 const char *file,
-                                                                 celspan_painting **out);
-/* Surfaces of its layers live on, where they are kept. NULL is ignored. */
-CELSPAN_API celspan_painting *celspan_painting_ref(celspan_painting *painting);
-CELSPAN_API void celspan_painting_unref(celspan_painting *painting);
-/* Its size in pixels. Shared read, as all that follow. */
-CELSPAN_API void celspan_painting_size(const celspan_painting *painting, int32_t *width,
-                                       int32_t *height);
-CELSPAN_API size_t celspan_painting_layer_count(const celspan_painting *painting);
-/* The layer at a place, from 0, rearmost first, a group after all that lies in it; false where
- * there is none. */
-CELSPAN_API bool celspan_painting_layer_at(const celspan_painting *painting, size_t index,
-                                           celspan_painting_layer *out);
-/* What of the file is not shown as the program that made it does, in sentences; *layer: the place
- * of the layer, or the count of layers where it is about the whole painting. NULL where there is no
- * such note. */
-CELSPAN_API size_t celspan_painting_note_count(const celspan_painting *painting);
-CELSPAN_API const char *celspan_painting_note_at(const celspan_painting *painting, size_t index,
-                                                 size_t *layer);
-
 /* ---------------------------------------------------------------- objects
  * Primitives and boolean trees of them: one type. texture NULL is opaque black; textures and
  * operands are kept. A shape of no size, an empty boolean or a singular transform is legal and
@@ -512,28 +486,44 @@ typedef struct celspan_object celspan_object;
 typedef enum celspan_rule { CELSPAN_RULE_NONZERO = 0, CELSPAN_RULE_EVENODD } celspan_rule;
 
 typedef struct celspan_rect_desc {
+  size_t struct_size;
   double x, y, width, height;
   double radius; /* of the corners; clamped to half the shorter side */
   celspan_texture *texture;
 } celspan_rect_desc;
 
+CELSPAN_DESCRIPTION(celspan_rect_desc)
+#define CELSPAN_RECT_DESC (celspan_rect_desc_initial())
+
 typedef struct celspan_triangle_desc {
+  size_t struct_size;
   celspan_point points[3];
   celspan_texture *texture;
 } celspan_triangle_desc;
 
+CELSPAN_DESCRIPTION(celspan_triangle_desc)
+#define CELSPAN_TRIANGLE_DESC (celspan_triangle_desc_initial())
+
 typedef struct celspan_ellipse_desc { /* a circle: radius_x == radius_y */
+  size_t struct_size;
   celspan_point centre;
   double radius_x, radius_y;
   celspan_texture *texture;
 } celspan_ellipse_desc;
 
+CELSPAN_DESCRIPTION(celspan_ellipse_desc)
+#define CELSPAN_ELLIPSE_DESC (celspan_ellipse_desc_initial())
+
 typedef struct celspan_polygon_desc {
+  size_t struct_size;
   const celspan_point *points; /* copied */
   size_t point_count;
   celspan_rule rule;
   celspan_texture *texture;
 } celspan_polygon_desc;
+
+CELSPAN_DESCRIPTION(celspan_polygon_desc)
+#define CELSPAN_POLYGON_DESC (celspan_polygon_desc_initial())
 
 typedef enum celspan_nurbs_closure {
   CELSPAN_NURBS_PERIODIC = 0, /* knots: point_count + 1 values of one period */
@@ -541,10 +531,11 @@ typedef enum celspan_nurbs_closure {
 } celspan_nurbs_closure;
 
 typedef struct celspan_nurbs_desc {
+  size_t struct_size;
   const celspan_point *points; /* the points themselves, not multiplied by weight; copied */
   const double *weights;       /* NULL: all 1; else > 0, largest/smallest <= 1e6; copied */
   size_t point_count;          /* at least degree + 1, at most 100,000 */
-  int degree;                  /* 1..15; 0 means 3 */
+  int degree;                  /* 1..15; 3 */
   const double *knots;         /* NULL: uniform; copied */
   size_t knot_count;
   celspan_nurbs_closure closure;
@@ -552,11 +543,18 @@ typedef struct celspan_nurbs_desc {
   celspan_texture *texture;
 } celspan_nurbs_desc;
 
+CELSPAN_DESCRIPTION(celspan_nurbs_desc)
+#define CELSPAN_NURBS_DESC (celspan_nurbs_desc_initial())
+
 typedef struct celspan_path_desc {
+  size_t struct_size;
   const char *data; /* SVG path data; open subpaths are closed; copied */
   celspan_rule rule;
   celspan_texture *texture;
 } celspan_path_desc;
+
+CELSPAN_DESCRIPTION(celspan_path_desc)
+#define CELSPAN_PATH_DESC (celspan_path_desc_initial())
 
 typedef enum celspan_stroke_cap {
   CELSPAN_STROKE_CAP_BUTT = 0,
@@ -581,7 +579,7 @@ typedef enum celspan_stroke_profile {
  * smooth point has no join. The outline is made again for every frame, as fine as that frame needs.
  * Lengths are measured in the stroke's own units, along the line. */
 typedef struct celspan_stroke_desc {
-  size_t struct_size;          /* sizeof(celspan_stroke_desc) */
+  size_t struct_size;
   const celspan_point *points; /* of a spline, clamped or, when closed, periodic; copied */
   const double *widths;        /* one for each point; NULL: all `width`; copied */
   size_t point_count;
@@ -605,15 +603,8 @@ typedef struct celspan_stroke_desc {
   celspan_stroke_profile profile; /* of tapers */
 } celspan_stroke_desc;
 
-static inline celspan_stroke_desc celspan_stroke_desc_default(void) {
-  celspan_stroke_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  desc.degree = 1;
-  desc.width = desc.to = 1;
-  desc.miter = 4;
-  return desc;
-}
-#define CELSPAN_STROKE_DESC celspan_stroke_desc_default()
+CELSPAN_DESCRIPTION(celspan_stroke_desc)
+#define CELSPAN_STROKE_DESC (celspan_stroke_desc_initial())
 
 typedef enum celspan_fit {
   CELSPAN_FIT_FILL = 0,
@@ -627,10 +618,14 @@ typedef enum celspan_fit {
  * rectangle bare. Reads the picture's header when either is 0 or fit is not FILL: then Errors
  * INPUT, LIMIT. */
 typedef struct celspan_image_desc {
-  celspan_picture_desc picture; /* its box is not used */
+  size_t struct_size;
+  const celspan_picture_desc *picture; /* borrowed; its box is not used */
   double x, y, width, height;
   celspan_fit fit;
 } celspan_image_desc;
+
+CELSPAN_DESCRIPTION(celspan_image_desc)
+#define CELSPAN_IMAGE_DESC (celspan_image_desc_initial())
 
 /* The paper's extension point: a primitive given by a procedure that returns its spans on a row. */
 typedef struct celspan_scanline_row {
@@ -652,12 +647,16 @@ typedef celspan_status (*celspan_scanline_spans)(void *user, celspan_context *co
                                                  celspan_scanline_output *output);
 
 typedef struct celspan_scanline_desc {
+  size_t struct_size;
   celspan_box bounds;
   celspan_scanline_spans spans; /* a pure function of y */
   void *user;
   void (*release)(void *user); /* NULL, or called once when the object is destroyed */
   bool any_thread; /* spans may be called by workers; false: the rendering thread alone */
 } celspan_scanline_desc;
+
+CELSPAN_DESCRIPTION(celspan_scanline_desc)
+#define CELSPAN_SCANLINE_DESC (celspan_scanline_desc_initial())
 
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_rect(celspan_context *context,
                                                                       const celspan_rect_desc *desc,
@@ -686,129 +685,6 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_image(
     celspan_context *context, const celspan_image_desc *desc, celspan_object **out);
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_scanline(
     celspan_context *context, const celspan_scanline_desc *desc, celspan_object **out);
-
-/* ---- text: outlines of the letters of fonts (TrueType, OpenType, collections of them) */
-
-typedef struct celspan_font {
-  const char *file;  /* copied */
-  const char *tried; /* NULL, or a path that was tried before: reported when `file` does
-                        not exist either */
-} celspan_font;
-
-typedef struct celspan_feature { /* of OpenType, for the whole text */
-  const char *tag;               /* four printable characters: "liga", "ss01" */
-  uint32_t value;                /* 0: off, 1: on, or which of several alternates */
-} celspan_feature;
-
-typedef struct celspan_variation { /* an axis of variable fonts */
-  const char *tag;                 /* four printable characters: "wght", "wdth" */
-  double value;                    /* in the axis's own units; clamped to its range */
-} celspan_variation;
-
-typedef enum celspan_align {
-  CELSPAN_ALIGN_LEFT = 0, /* in every script */
-  CELSPAN_ALIGN_CENTRE,
-  CELSPAN_ALIGN_RIGHT
-} celspan_align;
-
-typedef enum celspan_valign { /* what lies at at.y; heights are those of the first font */
-                              CELSPAN_VALIGN_BASELINE = 0, /* of the first line */
-                              CELSPAN_VALIGN_TOP,          /* the ascent of the first line */
-                              CELSPAN_VALIGN_CAP,    /* the top of the capitals of the first line */
-                              CELSPAN_VALIGN_MIDDLE, /* halfway between TOP and BOTTOM */
-                              CELSPAN_VALIGN_BOTTOM  /* the descent of the last line */
-} celspan_valign;
-
-typedef enum celspan_direction {
-  CELSPAN_DIRECTION_AUTO = 0, /* of each line that was typed: by its first letter */
-  CELSPAN_DIRECTION_LTR,
-  CELSPAN_DIRECTION_RTL
-} celspan_direction;
-
-/* Lines end at each "\n", U+2028 and U+2029, and with a width where the language allows it before
- * they are longer; a word that is longer than that sticks out. Spaces at a line's end count for
- * nothing. Every letter is taken from the first font that has it. */
-typedef struct celspan_text_desc {
-  size_t struct_size;
-  const char *text; /* UTF-8 without other control characters, at most 100,000 characters */
-  size_t text_size; /* bytes */
-  const celspan_font *fonts;
-  size_t font_count;   /* 1..16 */
-  double size;         /* the em, in film units */
-  celspan_point at;    /* the first line's baseline, or as valign says */
-  celspan_align align; /* about at.x; with a width, within at.x .. at.x + width */
-  bool has_width;      /* lines wrap */
-  double width;        /* >= 0 */
-  double leading;      /* from baseline to baseline, times size */
-  double tracking;     /* thousandths of an em after each letter */
-  const celspan_feature *features;
-  size_t feature_count; /* at most 64 */
-  const celspan_variation *variations;
-  size_t variation_count; /* at most 64 */
-  const char *language;   /* a BCP 47 tag such as "tr"; NULL: none */
-  celspan_direction direction;
-  celspan_texture *texture; /* kept; NULL: opaque black */
-  uint32_t face;            /* of fonts that are collections: which of theirs, from 0 */
-  celspan_valign valign;
-} celspan_text_desc;
-
-static inline celspan_text_desc celspan_text_desc_default(void) {
-  celspan_text_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  desc.size = 48;
-  desc.leading = 1.2;
-  return desc;
-}
-#define CELSPAN_TEXT_DESC (celspan_text_desc_default())
-
-/* All letters as one primitive, filled by the non-zero rule. Fonts are read at once and kept in the
- * context. Text without letters, and of size 0, draws nothing.
- * desc: borrowed, except for the texture      out: new
- * Errors: NO_MEMORY; INPUT for a font that is missing, cut or not a font at all, and where the art
- * module is missing; BAD_ARGUMENT for numbers, for what is not UTF-8, for a character that no font
- * has, for an axis that no font has, and for fonts of coloured glyphs; LIMIT for more than 100,000
- * characters, 16,777,216 points of outline, or 256 MiB of a font's file. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_text(celspan_context *context,
-                                                                      const celspan_text_desc *desc,
-                                                                      celspan_object **out);
-
-/* Measures of a text in film units. Heights are those of the first font, 0 or more as a rule, from
- * the baseline; those that the file does not tell are measured on its letters H and x. */
-typedef struct celspan_text_metrics {
-  double ascent, descent; /* of a line: above the baseline and below it */
-  double cap_height, x_height;
-  double width;  /* of the widest line */
-  double height; /* from the ascent of the first line to the descent of the last one */
-  int32_t lines; /* 1 or more */
-} celspan_text_metrics;
-
-/* desc, Errors: as above. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_text_measure(celspan_context *context,
-                                                                const celspan_text_desc *desc,
-                                                                celspan_text_metrics *out);
-
-/* The text letter by letter: a letter is a user-perceived character with its marks, or a ligature.
- * Line ends are not letters; spaces are, and draw nothing. */
-typedef struct celspan_glyph {
-  celspan_object *object; /* borrowed; it lies where the text has it, its texture as in the text */
-  double x, y;            /* its left end, on the baseline */
-  double advance;         /* its width, without tracking */
-  const char *text;       /* its characters: text_size bytes of UTF-8, borrowed, without a zero */
-  size_t text_size;
-  int32_t line; /* from 1 */
-} celspan_glyph;
-
-typedef struct celspan_glyphs celspan_glyphs;
-
-/* In the order of reading. desc, Errors: as above; out: new. One thread at a time. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_glyphs_create(celspan_context *context,
-                                                                 const celspan_text_desc *desc,
-                                                                 celspan_glyphs **out);
-CELSPAN_API size_t celspan_glyphs_count(const celspan_glyphs *glyphs);
-/* index: below the count. Valid as long as the glyphs. */
-CELSPAN_API const celspan_glyph *celspan_glyphs_get(const celspan_glyphs *glyphs, size_t index);
-/* NULL is ignored. */
-CELSPAN_API void celspan_glyphs_destroy(celspan_glyphs *glyphs);
 
 typedef enum celspan_operator {
   CELSPAN_OPERATOR_UNION = 0,    /* later over earlier */
@@ -870,10 +746,10 @@ typedef struct celspan_grade celspan_grade;
 #define CELSPAN_GRADE_GAMMA 1024 /* gammas are within 1 through this, and this */
 
 typedef struct celspan_grade_desc {
-  size_t struct_size; /* sizeof(celspan_grade_desc) */
-  double exposure;    /* times 2 to the power of this */
-  double contrast;    /* (c - pivot) * contrast + pivot; 0 or more */
-  bool has_pivot;     /* else 0.18, and 0.46 in SRGB */
+  size_t struct_size;
+  double exposure; /* times 2 to the power of this */
+  double contrast; /* (c - pivot) * contrast + pivot; 0 or more */
+  bool has_pivot;  /* else 0.18, and 0.46 in SRGB */
   double pivot;
   double saturation,
       hue; /* the matrices of SVG's and CSS's filters, with 0.2126, 0.7152 and 0.0722;
@@ -888,16 +764,10 @@ typedef struct celspan_grade_desc {
   size_t curve_count[3];         /* 0: none, else 2..1024 */
   const char *lut;               /* the name of a .cube file, or NULL: colours are clamped to its
                                     domain, and interpolated trilinearly */
-  const char *lut_tried;         /* where else it was looked for, for messages; or NULL */
 } celspan_grade_desc;
 
-static inline celspan_grade_desc celspan_grade_desc_default(void) {
-  celspan_grade_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  desc.contrast = desc.saturation = desc.gamma = 1;
-  return desc;
-}
-#define CELSPAN_GRADE_DESC (celspan_grade_desc_default())
+CELSPAN_DESCRIPTION(celspan_grade_desc)
+#define CELSPAN_GRADE_DESC (celspan_grade_desc_initial())
 
 /* desc: borrowed. Errors: NO_MEMORY, BAD_ARGUMENT; INPUT, with the line, for a file that cannot be
  * read or is damaged; LIMIT. */
@@ -916,7 +786,7 @@ typedef enum celspan_isolation {
 } celspan_isolation;
 
 typedef struct celspan_group_desc {
-  size_t struct_size;             /* sizeof(celspan_group_desc) */
+  size_t struct_size;
   celspan_object *const *objects; /* kept; later is nearer */
   size_t object_count;
   double opacity; /* 0..1 */
@@ -926,13 +796,8 @@ typedef struct celspan_group_desc {
   celspan_grade *grade; /* kept; NULL: none */
 } celspan_group_desc;
 
-static inline celspan_group_desc celspan_group_desc_default(void) {
-  celspan_group_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  desc.opacity = 1;
-  return desc;
-}
-#define CELSPAN_GROUP_DESC (celspan_group_desc_default())
+CELSPAN_DESCRIPTION(celspan_group_desc)
+#define CELSPAN_GROUP_DESC (celspan_group_desc_initial())
 
 /* Objects that are composited by themselves and then put into the picture as one. Errors:
  * NO_MEMORY, BAD_ARGUMENT, LIMIT. */
@@ -976,18 +841,14 @@ typedef enum celspan_blur_edge {
 #define CELSPAN_BLUR_MOST 1e6 /* units: the greatest radius of an effect */
 
 typedef struct celspan_blur_desc {
-  size_t struct_size; /* sizeof(celspan_blur_desc) */
-  double radius;      /* as that of a cel's defocus, but in the object's units, 0..1e6 */
+  size_t struct_size;
+  double radius; /* as that of a cel's defocus, but in the object's units, 0..1e6 */
   celspan_defocus_kernel kernel;
   celspan_blur_edge edge;
 } celspan_blur_desc;
 
-static inline celspan_blur_desc celspan_blur_desc_default(void) {
-  celspan_blur_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  return desc;
-}
-#define CELSPAN_BLUR_DESC (celspan_blur_desc_default())
+CELSPAN_DESCRIPTION(celspan_blur_desc)
+#define CELSPAN_BLUR_DESC (celspan_blur_desc_initial())
 
 /* The object out of focus. Its shape is the rectangle that the blur reaches; with EXTEND, its
  * bounds. A mode stays outermost. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
@@ -997,7 +858,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_blur(celspan_context *
                                                                celspan_object **out);
 
 typedef struct celspan_shadow_desc {
-  size_t struct_size; /* sizeof(celspan_shadow_desc) */
+  size_t struct_size;
   celspan_point offset;
   double blur;             /* a radius, 0..1e6 */
   celspan_texture *colour; /* NULL: black */
@@ -1006,13 +867,8 @@ typedef struct celspan_shadow_desc {
   bool is_alone;           /* without the object */
 } celspan_shadow_desc;
 
-static inline celspan_shadow_desc celspan_shadow_desc_default(void) {
-  celspan_shadow_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  desc.opacity = 1;
-  return desc;
-}
-#define CELSPAN_SHADOW_DESC (celspan_shadow_desc_default())
+CELSPAN_DESCRIPTION(celspan_shadow_desc)
+#define CELSPAN_SHADOW_DESC (celspan_shadow_desc_initial())
 
 /* The object with its shape in a colour, moved and blurred, behind it. A mode stays outermost.
  * Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
@@ -1022,19 +878,14 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_shadow(celspan_context
                                                                  celspan_object **out);
 
 typedef struct celspan_glow_desc {
-  size_t struct_size;      /* sizeof(celspan_glow_desc) */
+  size_t struct_size;
   double radius;           /* 0..1e6 */
   celspan_texture *colour; /* NULL: black */
   double gain;             /* >= 0; multiplies the light */
 } celspan_glow_desc;
 
-static inline celspan_glow_desc celspan_glow_desc_default(void) {
-  celspan_glow_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  desc.gain = 1;
-  return desc;
-}
-#define CELSPAN_GLOW_DESC (celspan_glow_desc_default())
+CELSPAN_DESCRIPTION(celspan_glow_desc)
+#define CELSPAN_GLOW_DESC (celspan_glow_desc_initial())
 
 /* The object with its shape in a colour, blurred, behind it in the mode ADD. A mode of the object
  * stays outermost. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
@@ -1044,7 +895,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_glow(celspan_context *
                                                                celspan_object **out);
 
 typedef struct celspan_outline_desc {
-  size_t struct_size;       /* sizeof(celspan_outline_desc) */
+  size_t struct_size;
   double width;             /* how far it reaches beyond the shape, 0..1e6 */
   celspan_texture *texture; /* NULL: black */
   celspan_stroke_join join; /* at the corners of shapes; ROUND */
@@ -1053,14 +904,8 @@ typedef struct celspan_outline_desc {
   bool is_alone;            /* without the object */
 } celspan_outline_desc;
 
-static inline celspan_outline_desc celspan_outline_desc_default(void) {
-  celspan_outline_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  desc.join = CELSPAN_STROKE_JOIN_ROUND;
-  desc.opacity = 1;
-  return desc;
-}
-#define CELSPAN_OUTLINE_DESC (celspan_outline_desc_default())
+CELSPAN_DESCRIPTION(celspan_outline_desc)
+#define CELSPAN_OUTLINE_DESC (celspan_outline_desc_initial())
 
 /* The object with its shape, grown by a width, behind it: exactly, or, where there are pictures,
  * mattes, compositions or procedures in it, with its alpha spread by the width. A mode stays
@@ -1077,20 +922,16 @@ typedef celspan_status (*celspan_warp_map)(void *user, celspan_context *context,
                                            celspan_point *to);
 
 typedef struct celspan_warp_desc {
-  size_t struct_size; /* sizeof(celspan_warp_desc) */
+  size_t struct_size;
   celspan_warp_map map;
   void *user;
   double within; /* units that outlines may lie from their place; 0: 2^-27 of the object's size,
                   * 1/100 pixel where that is 1,048,576 pixels */
-  size_t pieces; /* triangles, 18..20000, that a picture or a gradient becomes at most; 0: 400 */
+  size_t pieces; /* triangles, 18..20000, that a picture or a gradient becomes at most; 400 */
 } celspan_warp_desc;
 
-static inline celspan_warp_desc celspan_warp_desc_default(void) {
-  celspan_warp_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  return desc;
-}
-#define CELSPAN_WARP_DESC (celspan_warp_desc_default())
+CELSPAN_DESCRIPTION(celspan_warp_desc)
+#define CELSPAN_WARP_DESC (celspan_warp_desc_initial())
 
 /* The object bent by a map: outlines and strokes stay curves; pictures and gradients become meshes
  * of triangles that abut exactly. Fades, modes and names stay. The map is called by this thread,
@@ -1138,174 +979,6 @@ CELSPAN_API bool celspan_object_contains(const celspan_object *object, celspan_p
 CELSPAN_API bool celspan_object_hash(const celspan_object *object, uint64_t drawing[2],
                                      uint64_t placement[2]);
 
-/* ---------------------------------------------------------------- drawings in SVG */
-
-/* A drawing that was read from an SVG file: one object, and its parts by name. Immutable and
- * counted like a scene value. _skipped lists the parts that are not drawn (see the reference,
- * "svg"), with their lines. Blending is in linear light, as everywhere; colours and gradients are
- * those a browser shows.
- *
- * Limits: a file of 256 MiB, 1,000,000 elements, nested 128 deep, 1,000,000 drawn when those of
- * `use` count each time, 65,536 rules of style; entities of plain text and elements, of 1,024 bytes
- * each, that make the file at most twice as large or a MiB. */
-typedef struct celspan_svg celspan_svg;
-
-/* A font for the texts of a drawing. */
-typedef struct celspan_svg_font {
-  const char
-      *family; /* as font-family names it, capital or small; "Family Bold", "Family Italic" and
-                         "Family Bold Italic" are faces of it; "default": for every other family */
-  celspan_font font;
-} celspan_svg_font;
-
-typedef struct celspan_svg_desc {
-  size_t struct_size; /* sizeof(celspan_svg_desc) */
-  const char *file;   /* read from the disc; NULL where there are bytes */
-  const void *bytes;  /* borrowed */
-  size_t size;
-  const char *name;              /* for messages, of bytes; NULL: "the drawing" */
-  const celspan_svg_font *fonts; /* no others are used: texts without one of these are not drawn */
-  size_t font_count;             /* at most 64 */
-  celspan_space space; /* of the drawing, and of each of its parts, which are groups; LINEAR: the
-                          colours of translucent shapes and of gradients are mixed as light */
-} celspan_svg_desc;
-
-static inline celspan_svg_desc celspan_svg_desc_default(void) {
-  celspan_svg_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  desc.space = CELSPAN_SPACE_SRGB;
-  return desc;
-}
-#define CELSPAN_SVG_DESC (celspan_svg_desc_default())
-
-/* A file that was read before and has not changed since is not read again.
- * desc: borrowed      out: new
- * Errors: INPUT with the file's line for what is missing, malformed or refused; LIMIT; NO_MEMORY;
- * BAD_ARGUMENT for the description. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_svg_read(celspan_context *context,
-                                                            const celspan_svg_desc *desc,
-                                                            celspan_svg **out);
-CELSPAN_API celspan_svg *celspan_svg_ref(celspan_svg *svg);
-CELSPAN_API void celspan_svg_unref(celspan_svg *svg);
-/* The whole drawing, from (0, 0) to its size, in px of the file; what lies beyond is drawn too.
- * Borrowed from the drawing, as everything that the next four give. Shared read. */
-CELSPAN_API celspan_object *celspan_svg_object(const celspan_svg *svg);
-CELSPAN_API celspan_point celspan_svg_size(const celspan_svg *svg);
-/* Parts are the elements that have an id or, where it is the only one, a label of Inkscape's: in
- * the drawing's units, with the transforms of what they are in, but without its clips and opacity.
- * What only `use` shows is a part where it stands in the file. */
-CELSPAN_API size_t celspan_svg_part_count(const celspan_svg *svg);
-CELSPAN_API celspan_object *celspan_svg_part(const celspan_svg *svg, size_t index,
-                                             const char **name);
-/* An element that is drawn, with or without a name of its own. Its texts and its object live as
- * long as the call of the visitor. */
-typedef struct celspan_svg_element {
-  const char *name; /* "#7": its number among the elements of the file, for celspan_svg_with */
-  const char *tag;
-  const char *id, *label, *classes; /* NULL: none */
-  const char *fill;                 /* "#rrggbb" of a shape or a text; NULL: no flat colour */
-  int32_t line;
-  int32_t depth;          /* how many of the elements visited before it contain it */
-  celspan_object *object; /* as that of a part */
-} celspan_svg_element;
-typedef celspan_status (*celspan_svg_visit)(void *user, const celspan_svg_element *element);
-/* Visits the elements in the order in which they are drawn, each once; those that only `use` shows
- * come last. Errors: NO_MEMORY; those of the visitor. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_svg_elements(celspan_context *context,
-                                                                const celspan_svg *svg,
-                                                                celspan_svg_visit visit,
-                                                                void *user);
-/* What was not drawn, in the order of the file. */
-CELSPAN_API size_t celspan_svg_skipped_count(const celspan_svg *svg);
-CELSPAN_API const char *celspan_svg_skipped(const celspan_svg *svg, size_t index, int32_t *line);
-
-/* Makes another object of a part: *out is new, and may be the part, counted once more. Called for
- * every place where the part is drawn. */
-typedef celspan_status (*celspan_svg_change)(void *user, celspan_context *context,
-                                             celspan_object *part, celspan_object **out);
-typedef struct celspan_svg_changed {
-  const char *name; /* of a part or an element */
-  celspan_svg_change change;
-  void *user;
-} celspan_svg_changed;
-
-/* The drawing with parts changed, inner ones first; the clips, the opacity and the order of what
- * they are in stay, and so does the drawing itself.
- * out: new      Errors: NO_MEMORY, LIMIT; BAD_ARGUMENT for a name that is no part; those of the
- * functions. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_svg_with(celspan_context *context,
-                                                            const celspan_svg *svg,
-                                                            const celspan_svg_changed *changes,
-                                                            size_t change_count, celspan_svg **out);
-
-/* ---------------------------------------------------------------- tracing */
-
-/* A picture as shapes: the areas of a flat-coloured drawing or of scanned line art as closed paths
- * of lines and cubics, one for each area that hangs together, or its lines as strokes. The border
- * between two areas is one curve, used by both of them in opposite directions, so that nothing
- * shows between them, at any size. Immutable and counted like a scene value.
- *
- * Limits: a picture of 268,435,456 pixels, 1,048,576 shapes. */
-typedef struct celspan_trace celspan_trace;
-
-typedef struct celspan_trace_desc {
-  size_t struct_size;           /* sizeof(celspan_trace_desc) */
-  celspan_picture_desc picture; /* what is traced; its sampling, use, wrap and box do not matter */
-  int32_t colours; /* as many are found in the picture, or fewer where it has no more; 1..64; 2 */
-  const unsigned char *codes; /* or those that are given: `colours` times 3 bytes, sRGB; borrowed */
-  /* How far curves may leave the edges: 1 stands for 0.15 pixels; 0..16; 1. 0: they are the sides
-   * of the pixels. In a picture without mixed pixels an edge is known to half a pixel, and that is
-   * allowed for. */
-  double smooth;
-  int32_t speckle; /* areas of at most this many pixels go to their neighbours; 2 */
-  bool lines;      /* strokes along the middle of what is drawn on the ground, instead of areas */
-} celspan_trace_desc;
-
-static inline celspan_trace_desc celspan_trace_desc_default(void) {
-  celspan_trace_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  desc.colours = desc.speckle = 2;
-  desc.smooth = 1;
-  return desc;
-}
-#define CELSPAN_TRACE_DESC (celspan_trace_desc_default())
-
-typedef struct celspan_trace_shape {
-  celspan_object *object;      /* borrowed from the tracing, as all pointers here */
-  unsigned char colour[3];     /* sRGB; the object is painted with it, opaque */
-  int32_t x, y;                /* a pixel of it */
-  double area;                 /* in pixels of the picture */
-  const char *data;            /* of a closed path; NULL: a stroke */
-  const celspan_point *points; /* of a stroke: of a spline of degree 3 */
-  const double *widths;        /* one for each point */
-  size_t point_count;
-  bool is_closed; /* the stroke */
-} celspan_trace_shape;
-
-/* Where alpha is below one half there is nothing. Shapes are in pixels of the picture, from its top
- * left corner; their coordinates are whole thousandths.
- * desc: borrowed      out: new
- * Errors: INPUT for a picture that is missing or cannot be read; LIMIT; NO_MEMORY; BAD_ARGUMENT for
- * the description; CALLBACK of a surface. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_trace_create(celspan_context *context,
-                                                                const celspan_trace_desc *desc,
-                                                                celspan_trace **out);
-CELSPAN_API celspan_trace *celspan_trace_ref(celspan_trace *trace);
-CELSPAN_API void celspan_trace_unref(celspan_trace *trace);
-/* Its picture's size in pixels. Shared read, as all that follow. */
-CELSPAN_API void celspan_trace_size(const celspan_trace *trace, int32_t *width, int32_t *height);
-/* The union of all shapes; borrowed. */
-CELSPAN_API celspan_object *celspan_trace_object(const celspan_trace *trace);
-/* Areas from the largest on, strokes from the longest on. _at: false where there is none. */
-CELSPAN_API size_t celspan_trace_shape_count(const celspan_trace *trace);
-CELSPAN_API bool celspan_trace_shape_at(const celspan_trace *trace, size_t index,
-                                        celspan_trace_shape *out);
-/* Writes an SVG drawing (.svg) or a script (.lua: a film of one frame, and a module with the
- * shapes), whole or not at all. Errors: OUTPUT; BAD_ARGUMENT for another ending; NO_MEMORY. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_trace_write(celspan_context *context,
-                                                               const celspan_trace *trace,
-                                                               const char *path);
-
 /* ---------------------------------------------------------------- cels and rostrum */
 
 typedef struct celspan_cel celspan_cel;
@@ -1332,15 +1005,8 @@ typedef struct celspan_cel_desc {
   celspan_blur_edge defocus_edge;
 } celspan_cel_desc;
 
-static inline celspan_cel_desc celspan_cel_desc_default(void) {
-  celspan_cel_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  desc.opacity = 1;
-  desc.front_texture.gain = desc.back_texture.gain = 1;
-  desc.front_texture.matte = desc.back_texture.matte = 1;
-  return desc;
-}
-#define CELSPAN_CEL_DESC (celspan_cel_desc_default())
+CELSPAN_DESCRIPTION(celspan_cel_desc)
+#define CELSPAN_CEL_DESC (celspan_cel_desc_initial())
 
 /* desc: borrowed, except for the objects. Errors: NO_MEMORY; BAD_ARGUMENT for lights below 0, a
  * matte outside 0..1, a viewport without size. */
@@ -1395,15 +1061,19 @@ typedef celspan_status (*celspan_kernel_function)(void *user, celspan_context *c
  * in y by cutting slanted ones into up to `rows` pieces a pixel. Where a kernel is negative, alpha
  * is clamped to 0..1 and each channel to the range of the values under the kernel. */
 typedef struct celspan_filter_desc {
+  size_t struct_size;
   celspan_kernel kernel;
   bool has_radius; /* false: the kernel's own, named above; FUNCTION has none */
   double radius;   /* pixels, at most 256; 0: no filter, pixel centres */
-  int rows;        /* 1..256; 0: 16 */
+  int rows;        /* 1..256; 16 */
   /* FUNCTION: called 2048 times while the value is made, at places spread evenly over the
    * diameter, and never again; its values are copied. */
   celspan_kernel_function function;
   void *function_user;
 } celspan_filter_desc;
+
+CELSPAN_DESCRIPTION(celspan_filter_desc)
+#define CELSPAN_FILTER_DESC (celspan_filter_desc_initial())
 
 typedef struct celspan_rostrum_desc {
   size_t struct_size;
@@ -1418,7 +1088,7 @@ typedef struct celspan_rostrum_desc {
   double camera_width;
   double camera_rotation; /* radians; turns the camera, so the picture turns back */
   celspan_antialias_mode antialias;
-  celspan_filter_desc filter;                        /* where antialias is FILTER */
+  const celspan_filter_desc *filter;                 /* where antialias is FILTER; borrowed */
   celspan_light_texture front_texture, back_texture; /* instead of front and back; back: on the
                                                         frame only */
   bool has_size; /* its own size in film units: needed for celspan_object_create_rostrum */
@@ -1428,15 +1098,8 @@ typedef struct celspan_rostrum_desc {
   celspan_grade *grade; /* of the whole; kept; NULL: none */
 } celspan_rostrum_desc;
 
-static inline celspan_rostrum_desc celspan_rostrum_desc_default(void) {
-  celspan_rostrum_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  desc.brightness = 1;
-  desc.front_texture.gain = desc.back_texture.gain = 1;
-  desc.front_texture.matte = desc.back_texture.matte = 1;
-  return desc;
-}
-#define CELSPAN_ROSTRUM_DESC (celspan_rostrum_desc_default())
+CELSPAN_DESCRIPTION(celspan_rostrum_desc)
+#define CELSPAN_ROSTRUM_DESC (celspan_rostrum_desc_initial())
 
 /* desc: borrowed, except for the cels. Errors: NO_MEMORY; BAD_ARGUMENT for lights or a brightness
  * below 0, a camera without width, a kernel that sums to nothing; what its function returns. */
@@ -1487,8 +1150,8 @@ typedef struct celspan_fault {
 } celspan_fault;
 
 typedef struct celspan_inspect_desc {
-  size_t struct_size; /* sizeof(celspan_inspect_desc) */
-  bool is_deep;       /* pictures are read whole, not only their headers */
+  size_t struct_size;
+  bool is_deep; /* pictures are read whole, not only their headers */
   /* Called for every fault, in the order of cels and primitives; false: stop. NULL:
    * faults are only counted. */
   bool (*report)(void *user, const celspan_fault *fault);
@@ -1497,12 +1160,8 @@ typedef struct celspan_inspect_desc {
   void *user;
 } celspan_inspect_desc;
 
-static inline celspan_inspect_desc celspan_inspect_desc_default(void) {
-  celspan_inspect_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  return desc;
-}
-#define CELSPAN_INSPECT_DESC (celspan_inspect_desc_default())
+CELSPAN_DESCRIPTION(celspan_inspect_desc)
+#define CELSPAN_INSPECT_DESC (celspan_inspect_desc_initial())
 
 /* Looks at every picture, hidden or not, and reports all that cannot be read; nothing is kept of
  * them. The answer is OK, or the status and sentence of the first fault. Other errors: NO_MEMORY,
@@ -1551,16 +1210,18 @@ typedef struct celspan_frame_desc {
   double film_width, film_height; /* film units; 0 0: the size in pixels */
   int32_t width, height;          /* pixels of the whole frame, 1..1,048,576 */
   int32_t crop_x, crop_y;
-  int32_t crop_width, crop_height;         /* 0 0: the whole frame */
-  const celspan_antialias_mode *antialias; /* NULL: each rostrum's own */
-  celspan_filter_desc filter;              /* where *antialias is FILTER */
-  int workers;                             /* 0: one per processor; 1: the calling thread alone */
-  int strip_rows;                          /* rows handed to a worker at a time; 0: chosen */
+  int32_t crop_width, crop_height; /* 0 0: the whole frame */
+  bool has_antialias;              /* false: each rostrum's own */
+  celspan_antialias_mode antialias;
+  const celspan_filter_desc *filter; /* where antialias is FILTER; borrowed */
+  int workers;                       /* 0: one per processor; 1: the calling thread alone */
+  int strip_rows;                    /* rows handed to a worker at a time; 0: chosen */
   /* Called by the rendering thread between strips; false stops with CANCELLED. NULL: never. */
   bool (*progress)(void *user, int32_t rows_done, int32_t rows_total);
   void *progress_user;
   /* How far gradient spans may be from the colours that they stand for, as a share of full scale:
-   * 2^-20 .. 1; 0: 1/1023. Finer ones are more spans. */
+   * 2^-20 .. 1. Finer ones are more spans. */
+  bool has_tolerance; /* false: 1/1023 */
   double tolerance;
   celspan_space
       space; /* in which pixels are antialiased, and of the numbers in spans; exposures add
@@ -1571,12 +1232,8 @@ typedef struct celspan_frame_desc {
   bool repeats;
 } celspan_frame_desc;
 
-static inline celspan_frame_desc celspan_frame_desc_default(void) {
-  celspan_frame_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  return desc;
-}
-#define CELSPAN_FRAME_DESC (celspan_frame_desc_default())
+CELSPAN_DESCRIPTION(celspan_frame_desc)
+#define CELSPAN_FRAME_DESC (celspan_frame_desc_initial())
 
 /* One point by direct evaluation of the tree: no sweep, no spans, no antialiasing, no defocus.
  * desc: borrowed; its exposures, its film and its space count. x, y: film units. rgba: linear,
@@ -1602,6 +1259,7 @@ typedef struct celspan_statistics {
  * without `row` rows are made, and counted in the statistics, and go nowhere.
  */
 typedef struct celspan_sink {
+  size_t struct_size;
   void *user;
   celspan_status (*begin)(void *user, celspan_context *context, int32_t width, int32_t height);
   celspan_status (*row)(void *user, celspan_context *context, int32_t y, const celspan_span *spans,
@@ -1610,6 +1268,9 @@ typedef struct celspan_sink {
   bool takes_codes; /* row is content with codes where pictures are copied, and codes to 8 bits,
                        sRGB, straight (celspan_spans_code takes them) */
 } celspan_sink;
+
+CELSPAN_DESCRIPTION(celspan_sink)
+#define CELSPAN_SINK (celspan_sink_initial())
 
 /* Renders a frame into a sink. statistics may be NULL.
  * Errors: any; BAD_ARGUMENT for a singular viewport or camera. */
@@ -1655,12 +1316,16 @@ typedef enum celspan_transfer {
 /* How colours are coded. Straight: un-premultiplied in the space of the spans, then coded, then
  * rounded to nearest. */
 typedef struct celspan_coding {
+  size_t struct_size;
   celspan_depth depth;
   celspan_transfer transfer;
   celspan_alpha alpha;
   celspan_space space; /* of the spans. SRGB: codes of sRGB are their numbers, others are made of
                           the light that these stand for. What renders a frame sets it */
 } celspan_coding;
+
+CELSPAN_DESCRIPTION(celspan_coding)
+#define CELSPAN_CODING (celspan_coding_initial())
 
 /* Bytes of one RGBA pixel: 4, 8, 8 or 16. */
 CELSPAN_API size_t celspan_coding_pixel_size(const celspan_coding *coding);
@@ -1687,12 +1352,12 @@ typedef struct celspan_file_desc {
   size_t struct_size;
   /* NULL: by the ending of the path; "png", "span", "exr", "tiff", "dpx", ... */
   const char *format;
-  celspan_coding coding;
-  const char *title;    /* metadata; NULL: none */
-  double frames_second; /* metadata; 0: none */
-  int32_t frame;        /* metadata: the frame's number */
-  bool is_opaque;       /* every pixel's alpha is 1: formats that can leave it out */
-  int workers;          /* threads that compress; 0: one per processor; the bytes do not change */
+  const celspan_coding *coding; /* borrowed; NULL: by the format */
+  const char *title;            /* metadata; NULL: none */
+  double frames_second;         /* metadata; 0: none */
+  int32_t frame;                /* metadata: the frame's number */
+  bool is_opaque;               /* every pixel's alpha is 1: formats that can leave it out */
+  int workers; /* threads that compress; 0: one per processor; the bytes do not change */
   /* Of the sink's first pixel in the whole frame, where the depth dithers; celspan_frame_write adds
    * the corner of the crop. */
   int32_t place_x, place_y;
@@ -1702,12 +1367,8 @@ typedef struct celspan_file_desc {
   int32_t strip_row, strip_height;
 } celspan_file_desc;
 
-static inline celspan_file_desc celspan_file_desc_default(void) {
-  celspan_file_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  return desc;
-}
-#define CELSPAN_FILE_DESC (celspan_file_desc_default())
+CELSPAN_DESCRIPTION(celspan_file_desc)
+#define CELSPAN_FILE_DESC (celspan_file_desc_initial())
 
 /* Whether every pixel of the frame is certain to have alpha 1, because a back light of matte 1
  * is behind everything. Shared read. */
@@ -1733,294 +1394,24 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_file_sink_create(celspan_cont
                                                                     const celspan_file_desc *file,
                                                                     celspan_sink *out);
 
+/* The short way: the rostrum as a picture of width x height pixels. Its film has its own size, or
+ * else a unit for each pixel; everything else has its default.
+ * _write: into a file. _pixels: into width * height RGBA pixels of 8 bits, sRGB, straight.
+ * Errors: any. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_rostrum_write(celspan_context *context,
+                                                                 celspan_rostrum *rostrum,
+                                                                 int32_t width, int32_t height,
+                                                                 const char *path);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_rostrum_pixels(celspan_context *context,
+                                                                  celspan_rostrum *rostrum,
+                                                                  int32_t width, int32_t height,
+                                                                  unsigned char *pixels);
+
 /* A digest of a frame's pixels in a coding: 128 bits, for comparing runs and machines. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_digest(celspan_context *context,
                                                                 const celspan_frame_desc *desc,
                                                                 const celspan_coding *coding,
                                                                 uint64_t digest[2]);
-
-/* ---------------------------------------------------------------- planes */
-
-/* A plane is a frame without a resolution: what can be seen of it, as curves with a colour or
- * gradients or pictures on each side. It is made once, and drawn at any size, whole or any crop of
- * it, without its rostrum. It is kept in plane files (docs/planefile.md).
- *
- * It is as exact as a frame of 16,381 pixels a side: curves are the rostrum's own, but where two of
- * them cross may be off by 1/50 of such a pixel. Colours are multiples of 1/65,535, and pixels are
- * means of linear light. Immutable; shared read. */
-typedef struct celspan_plane celspan_plane;
-
-typedef struct celspan_plane_desc {
-  size_t struct_size;
-  double width, height; /* film units, above 0 */
-  int32_t depth;        /* 8: colours are 8-bit sRGB codes, which makes a smaller file; 0: 16 */
-  celspan_space space;  /* of the film: of a rostrum that has none. Pixels are means of light */
-} celspan_plane_desc;
-
-static inline celspan_plane_desc celspan_plane_desc_default(void) {
-  celspan_plane_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  return desc;
-}
-#define CELSPAN_PLANE_DESC (celspan_plane_desc_default())
-
-/* rostrum: borrowed; its antialiasing does not count      desc: borrowed      out: new
- * Errors: those of rendering; BAD_ARGUMENT for a depth that is not allowed, and for what a plane
- * cannot keep: scan-line procedures, objects blurred in perspective or very little, pictures with a
- * medium of their own or composited in sRGB, and, where several gradients or pictures lie over each
- * other, grades, modes other than multiply and screen, and glass inside a group that is faded. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_create(celspan_context *context,
-                                                                const celspan_rostrum *rostrum,
-                                                                const celspan_plane_desc *desc,
-                                                                celspan_plane **out);
-/* A plane file; of a film its first frame. out: new      Errors: NO_MEMORY; INPUT; LIMIT for more
- * than 1 GiB. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_read(celspan_context *context,
-                                                              const char *path,
-                                                              celspan_plane **out);
-CELSPAN_API celspan_plane *celspan_plane_ref(celspan_plane *plane);
-CELSPAN_API void celspan_plane_unref(celspan_plane *plane);
-/* In film units. */
-CELSPAN_API void celspan_plane_size(const celspan_plane *plane, double *width, double *height);
-/* Whether its alpha is certain to be 1 everywhere. */
-CELSPAN_API bool celspan_plane_is_opaque(const celspan_plane *plane);
-/* The frames of its file, 1 of a single plane, and their rate, 0 of a single plane. */
-CELSPAN_API int32_t celspan_plane_frames(const celspan_plane *plane, double *frames_second);
-/* Another frame of the file, from 0. out: new      Errors: NO_MEMORY; INPUT; BAD_ARGUMENT: there is
- * no such frame. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_frame(celspan_context *context,
-                                                               const celspan_plane *plane,
-                                                               int32_t frame, celspan_plane **out);
-/* Of its file. */
-CELSPAN_API size_t celspan_plane_bytes(const celspan_plane *plane);
-/* The file appears under its name whole or not at all; of a frame of a film, with the whole film.
- * Errors: NO_MEMORY; OUTPUT. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_write(celspan_context *context,
-                                                               const celspan_plane *plane,
-                                                               const char *path);
-
-typedef struct celspan_plane_view {
-  size_t struct_size;
-  int32_t width, height; /* pixels of the whole frame, 1..2,147,483,647 */
-  int32_t crop_x, crop_y;
-  int32_t crop_width, crop_height;  /* 0 0: the whole frame */
-  celspan_antialias_mode antialias; /* AREA or NONE */
-} celspan_plane_view;
-
-static inline celspan_plane_view celspan_plane_view_default(void) {
-  celspan_plane_view view = CELSPAN_ZERO;
-  view.struct_size = sizeof view;
-  return view;
-}
-#define CELSPAN_PLANE_VIEW (celspan_plane_view_default())
-
-/* Draws a view into a sink, as celspan_frame_render does. The pixels of a crop are those of the
- * whole, to the bit. Errors: NO_MEMORY; LIMIT, BAD_ARGUMENT for the view; those of the sink. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_render(celspan_context *context,
-                                                                const celspan_plane *plane,
-                                                                const celspan_plane_view *view,
-                                                                const celspan_sink *sink);
-/* Into memory, as celspan_frame_pixels does. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_pixels(celspan_context *context,
-                                                                const celspan_plane *plane,
-                                                                const celspan_plane_view *view,
-                                                                const celspan_coding *coding,
-                                                                void *pixels, size_t stride);
-
-/* ---------------------------------------------------------------- relighting */
-
-/* The light in which a picture was taken: one colour, or a field that changes slowly over the
- * picture. At x and y, from -1 at the left and the top edge of the picture to 1 at the right and
- * the bottom one, channel c is
- *
- *   colour[c] * exp(sum over k of terms[c][k] * b[k]),  b = x, y, xx, xy, yy, xxx, xxy, xyy, yyy
- *
- * A plain value, checked where it is used: colours are above 0, and so is the field everywhere. */
-#define CELSPAN_LIGHT_FIELD_TERMS 9
-typedef struct celspan_light_field {
-  double colour[3];
-  double terms[3][CELSPAN_LIGHT_FIELD_TERMS];
-} celspan_light_field;
-
-/* The same light everywhere. Any thread. */
-CELSPAN_API celspan_light_field celspan_light_field_flat(double r, double g, double b);
-/* The light at a place, from 0, 0 at the picture's top left corner to 1, 1. Any thread. */
-CELSPAN_API void celspan_light_field_at(const celspan_light_field *field, double u, double v,
-                                        double rgb[3]);
-/* The field as a light with a shape, or as the paint that shows it: an opaque picture of that many
- * pixels. out: new      Errors: NO_MEMORY; BAD_ARGUMENT for the field or the size. */
-CELSPAN_API CELSPAN_CHECKED celspan_status
-celspan_light_field_texture(celspan_context *context, const celspan_light_field *field,
-                            int32_t width, int32_t height, celspan_texture **out);
-
-/* What is known of a picture whose light celspan must find. */
-typedef enum celspan_light_clue {
-  CELSPAN_LIGHT_CLUE_GREY = 0, /* the mean pigment of the picture is `colour` */
-  CELSPAN_LIGHT_CLUE_PATCH,    /* the pigment of a patch is `colour` */
-  CELSPAN_LIGHT_CLUE_LIGHT     /* the mean of the light is `colour` */
-} celspan_light_clue;
-
-typedef struct celspan_light_estimate_desc {
-  size_t struct_size;             /* sizeof(celspan_light_estimate_desc) */
-  const celspan_texture *picture; /* borrowed; a picture, of which its pixels count */
-  celspan_light_clue clue;
-  double colour[3];  /* above 0; 0.18 each, which light meters treat as grey */
-  celspan_box patch; /* pixels of the picture */
-  /* The light is uneven, so that a field is fitted: to the picture, whose pigments are then taken
-   * to be alike in every part of it, or to `blank`, the same light on something white or grey. */
-  bool is_uneven;
-  const celspan_texture *blank; /* borrowed; NULL: the picture itself */
-} celspan_light_estimate_desc;
-
-static inline celspan_light_estimate_desc celspan_light_estimate_desc_default(void) {
-  celspan_light_estimate_desc desc = CELSPAN_ZERO;
-  desc.struct_size = sizeof desc;
-  desc.colour[0] = desc.colour[1] = desc.colour[2] = 0.18;
-  return desc;
-}
-#define CELSPAN_LIGHT_ESTIMATE_DESC (celspan_light_estimate_desc_default())
-
-/* Finds the light of a picture. desc: borrowed Errors: those of pictures; BAD_ARGUMENT for the
- * description, and where the picture has too little information: a patch or a channel without
- * light, too few places that are lit for a field. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_light_estimate(
-    celspan_context *context, const celspan_light_estimate_desc *desc, celspan_light_field *out);
-
-/* Light taken off pictures, R = S F + T I at every pixel: textures of their own S, T and beta,
- * which take any light. Values of S above 1, such as highlights, are kept; up to 65504. The
- * textures are pictures in memory, of 16 bytes a pixel, or of 32 with a medium; at most 268,435,456
- * pixels. All that are given are textures that are pictures, borrowed, and so are fields; the
- * sampling, the wrap and the box of the first one are those of the texture that is made. out: new
- * Errors: those of pictures; BAD_ARGUMENT for a field, for pictures of different sizes, and where
- * the pictures cannot have been taken in that light, with what was found; LIMIT; NO_MEMORY.
- *
- * _picture: one picture, its alpha the share of it that is paint, and the rest clear.
- * _exposures: lit from the front alone, and from behind alone.
- * _grounds: twice in the same light, before two different grounds. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_relight_picture(celspan_context *context,
-                                                                   const celspan_texture *picture,
-                                                                   const celspan_light_field *light,
-                                                                   celspan_texture **out);
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_relight_exposures(
-    celspan_context *context, const celspan_texture *front, const celspan_light_field *front_light,
-    const celspan_texture *back, const celspan_light_field *back_light, celspan_texture **out);
-
-typedef struct celspan_relight_ground {
-  const celspan_texture *picture; /* what is relit, before the ground */
-  const celspan_texture *ground;  /* the ground alone, in the same light */
-  double colour[3];               /* the light that it sends, where `ground` is NULL */
-} celspan_relight_ground;
-
-CELSPAN_API CELSPAN_CHECKED celspan_status
-celspan_relight_grounds(celspan_context *context, const celspan_relight_ground grounds[2],
-                        const celspan_light_field *light, celspan_texture **out);
-
-/* Writes a picture texture as an EXR of 32-bit floats with seven channels, whole or not at all: R,
- * G, B are S and A is beta, so that other programs show it in white light; medium.R, medium.G and
- * medium.B are T. Errors: those of pictures; OUTPUT; BAD_ARGUMENT for a texture that is no picture
- * used as paint, and for another ending than .exr. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_relight_write(celspan_context *context,
-                                                                 const celspan_texture *texture,
-                                                                 const char *path);
-/* Such a file as a texture. Its header is read at once. tried: as in celspan_picture_desc
- * out: new      Errors: those of pictures; INPUT for a file without these channels. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_relight_read(celspan_context *context,
-                                                                const char *path, const char *tried,
-                                                                celspan_texture **out);
-
-/* A rendered frame of which every light can be changed without rendering it again: for each cel,
- * composed first and then antialiased, what a unit of its front light and of its back light adds to
- * each pixel, as rows of spans; a frame is the sum of these, weighted with the lights. It holds
- * flat lights only, and agrees with a frame of the same tolerance within 1/65535 of the brightest
- * light. Filters with negative lobes hold their values frame by frame, so that edges differ there.
- * Immutable; shared read. */
-typedef struct celspan_stack celspan_stack;
-
-/* The lights of one cel. */
-typedef struct celspan_stack_light {
-  celspan_light front, back;
-} celspan_stack_light;
-
-/* desc: borrowed; one exposure, whose weight is not used. The tolerance is 2^-18 where it is 0.
- * out: new      Errors: those of rendering; BAD_ARGUMENT for a light that is a texture, naming the
- * cel, and for another number of exposures; LIMIT for more than 4,096 cels. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_stack_create(celspan_context *context,
-                                                                const celspan_frame_desc *desc,
-                                                                celspan_stack **out);
-CELSPAN_API celspan_stack *celspan_stack_ref(celspan_stack *stack);
-CELSPAN_API void celspan_stack_unref(celspan_stack *stack);
-/* The size in pixels, of the crop. */
-CELSPAN_API void celspan_stack_size(const celspan_stack *stack, int32_t *width, int32_t *height);
-/* How many lights it takes: one for the back light of the rostrum itself, whose front does not
- * count, then one for each cel from the rear. */
-CELSPAN_API size_t celspan_stack_light_count(const celspan_stack *stack);
-/* Those that the rostrum has, brightness included. lights: room for that many */
-CELSPAN_API void celspan_stack_lights(const celspan_stack *stack, celspan_stack_light *lights);
-/* Bytes that its rows of spans take. */
-CELSPAN_API size_t celspan_stack_bytes(const celspan_stack *stack);
-/* The frame in these lights, as many as it takes, into width x height RGBA floats, linear and
- * premultiplied, rows from top to bottom. workers: threads at most; 0: one per processor
- * rgba: best where 16 divides its address: pixels then go past the caches
- * Errors: BAD_ARGUMENT for a light that is negative or not finite; NO_MEMORY. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_stack_pixels(celspan_context *context,
-                                                                const celspan_stack *stack,
-                                                                const celspan_stack_light *lights,
-                                                                int workers, float *rgba);
-
-/* ---------------------------------------------------------------- following what moves */
-
-/* A tracker follows a region of a first frame through others: from the motion of its corners it
- * says where the region lies. A tracker belongs to one thread and keeps what it needs of the first
- * frame; it is no scene value. */
-typedef struct celspan_tracker celspan_tracker;
-
-typedef enum celspan_motion {
-  CELSPAN_MOTION_TRANSLATION = 0,
-  CELSPAN_MOTION_SIMILARITY, /* turned and scaled as well */
-  CELSPAN_MOTION_PERSPECTIVE /* of a plane that is seen from elsewhere */
-} celspan_motion;
-
-/* A grey picture: width x height values (at most 65,536 a side), rows from top to bottom without
- * gaps, of about 0..1. Coded values such as sRGB's serve better than linear light, because noise is
- * as large in the dark as in the light then. */
-typedef struct celspan_luma {
-  int32_t width, height;
-  const float *values;
-} celspan_luma;
-
-typedef struct celspan_tracker_desc {
-  celspan_motion model;
-  celspan_box region;  /* pixels of the first frame; 18 x 18 or larger; cut to the frame */
-  const uint8_t *mask; /* NULL, or a byte a pixel of the frame: 0 is not followed; borrowed */
-} celspan_tracker_desc;
-
-typedef struct celspan_sighting {
-  bool is_found;         /* false: lost, and the matrix means nothing */
-  celspan_matrix matrix; /* takes places of the first frame to places of this one; the centre of the
-                            first pixel is (0, 0) */
-  uint32_t corner_count; /* that are followed, at most 240 */
-  uint32_t agreeing_count;
-  double error; /* pixels, the root of the mean square over those that agree */
-} celspan_sighting;
-
-/* first, desc: borrowed      out: new
- * Errors: BAD_ARGUMENT for a region that is too small or has too little texture, and for values
- * that are not finite; NO_MEMORY. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_tracker_create(celspan_context *context,
-                                                                  const celspan_luma *first,
-                                                                  const celspan_tracker_desc *desc,
-                                                                  celspan_tracker **out);
-/* Finds the region in the next frame, of the size of the first one. Where it was lost it is sought
- * where it was last. Errors: BAD_ARGUMENT, NO_MEMORY; a region that is lost is no error. */
-CELSPAN_API CELSPAN_CHECKED celspan_status celspan_tracker_follow(celspan_tracker *tracker,
-                                                                  const celspan_luma *frame,
-                                                                  celspan_sighting *out);
-/* Begins again at the first frame, to follow the region the other way. */
-CELSPAN_API void celspan_tracker_rewind(celspan_tracker *tracker);
-CELSPAN_API void celspan_tracker_destroy(celspan_tracker *tracker); /* NULL is ignored */
-
-/* ---------------------------------------------------------------- Lua
- * A Lua state's films and rostrums as values of this header: celspan/lua.h. */
 
 #ifdef __cplusplus
 }

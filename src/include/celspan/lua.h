@@ -3,7 +3,9 @@
  *   celspan_lua_open(L, context)              celspan in a state, under the host's context
  *   celspan_lua_sandbox(L, NULL)             confines scripts of strangers
  *   celspan_lua_run(L, "film.lua", 0, NULL)  a script, which leaves its film on the stack
- *   celspan_film film = celspan_lua_film(L, -1)      what a script returned
+ *   celspan_film film = CELSPAN_FILM;
+ *   celspan_lua_film(L, -1, &film)                   what a script returned
+ *   celspan_frame_desc frame = CELSPAN_FRAME_DESC;
  *   celspan_lua_frame(L, -1, film.first, &frame)     a frame of it, to render by the C interface
  *
  * `require "celspan"` then finds the module, and the animation library (celspan.ease, celspan.keys,
@@ -41,7 +43,7 @@ CELSPAN_API celspan_context *celspan_lua_context(lua_State *L);
 /* The sandbox of the program celspan (docs/sandbox.md), for hosts that load strangers' films: what
  * a script may do, and how much of it. */
 typedef struct celspan_lua_limits {
-  size_t struct_size; /* sizeof(celspan_lua_limits) */
+  size_t struct_size;
   /* 0: without limit */
   size_t memory;  /* bytes of Lua and of what the script makes; default: 512 MiB */
   uint64_t steps; /* instructions, and the work of functions, in a run or a frame; 2e9 */
@@ -64,8 +66,8 @@ typedef struct celspan_lua_limits {
 } celspan_lua_limits;
 
 /* The limits of the program. */
-CELSPAN_API celspan_lua_limits celspan_lua_limits_default(void);
-#define CELSPAN_LUA_LIMITS (celspan_lua_limits_default())
+CELSPAN_DESCRIPTION(celspan_lua_limits)
+#define CELSPAN_LUA_LIMITS (celspan_lua_limits_initial())
 
 /* Confines what runs in the state from now on: its globals are new, with the functions of the
  * sandbox alone, and the methods of strings are the sandbox's. Functions of yours that scripts may
@@ -96,6 +98,7 @@ CELSPAN_API celspan_rostrum *celspan_lua_rostrum(lua_State *L, int index);
 
 /* What a film says of itself. */
 typedef struct celspan_film {
+  size_t struct_size;
   int32_t width, height; /* film units, and pixels unless another size is wanted */
   double frames_second;
   int64_t first, count; /* the frames are first .. first + count - 1; count 0: not a film */
@@ -104,17 +107,26 @@ typedef struct celspan_film {
   double sound_offset;  /* seconds by which all sounds begin later */
 } celspan_film;
 
+static inline celspan_film celspan_film_initial(void) {
+  celspan_film film = CELSPAN_ZERO;
+  film.struct_size = sizeof film;
+  return film;
+}
+#define CELSPAN_FILM (celspan_film_initial())
+
 /* The film at index. A rostrum is a film of one frame, 1920 x 1080, 24 a second, as on the command
- * line. For anything else, and without memory, count is 0 and the sentence says what was found. */
-CELSPAN_API celspan_film celspan_lua_film(lua_State *L, int index);
+ * line. out: begun with CELSPAN_FILM. Errors: BAD_ARGUMENT for anything else, NO_MEMORY. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_film(lua_State *L, int index,
+                                                            celspan_film *out);
 
 /* Calls the frame function of the film, or takes the rostrum, at index, for a frame's number. out:
- * new, for celspan_lua_frame_drop: the exposures, and the film's size as that of the film and of
- * the frame; set size, crop, workers and progress as you like and render it by any call that takes
- * a frame. Whatever Lua does meanwhile, its scene lives until it is dropped. Any thread may render
- * it with a context of its own, unless the film uses scan-line procedures, which enter Lua. Errors:
- * BAD_ARGUMENT for a number outside the film or a value that is not one; CALLBACK for an error of
- * the script, "shot.lua:12: frame 37: ..."; the core's own where it refused the scene. */
+ * begun with CELSPAN_FRAME_DESC; new, for celspan_lua_frame_drop: the exposures, and the film's
+ * size as that of the film and of the frame; set size, crop, workers and progress as you like and
+ * render it by any call that takes a frame. Whatever Lua does meanwhile, its scene lives until it
+ * is dropped. Any thread may render it with a context of its own, unless the film uses scan-line
+ * procedures, which enter Lua. Errors: BAD_ARGUMENT for a number outside the film or a value that
+ * is not one; CALLBACK for an error of the script, "shot.lua:12: frame 37: ..."; the core's own
+ * where it refused the scene. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_frame(lua_State *L, int index,
                                                              int64_t number,
                                                              celspan_frame_desc *out);

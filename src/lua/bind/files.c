@@ -3,6 +3,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/tried.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/host.h"
 
@@ -33,13 +34,16 @@ const char *cs_files_find_from(lua_State *L, const char *folder, const char *nam
   if (!is_near)
     cs_host_admit(L, beside);
   bool is_found = is_near || !near || exists(beside);
-  *tried = is_found ? NULL : beside;
   const char *path = is_near || !is_found ? near : beside;
+  const char *other = is_found ? NULL : beside;
+  if (other)
+    cs_tried_note(cs_host_context(L), path, other);
   lua_pushstring(L, path);
-  lua_pushstring(L, *tried);
+  lua_pushstring(L, other);
   for (int i = !!near + !!beside; i > 0; i--)
     lua_remove(L, -3);
-  *tried = lua_tostring(L, -1);
+  if (tried)
+    *tried = lua_tostring(L, -1);
   return lua_tostring(L, -2);
 }
 

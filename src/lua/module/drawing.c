@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "celspan/svg.h"
 #include "lua/bind/bare.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/form.h"
@@ -253,7 +254,7 @@ static const celspan_svg_font *read_fonts(lua_State *L, size_t *count) {
   celspan_svg_font *fonts = cs_form_scratch(L, *count + 1, sizeof *fonts);
   for (size_t i = 0; i < *count; i++) {
     lua_rawgeti(L, 2, (lua_Integer)i + 1);
-    fonts[i] = (celspan_svg_font){entry_string(L, 1), {entry_string(L, 2), entry_string(L, 3)}};
+    fonts[i] = (celspan_svg_font){entry_string(L, 1), entry_string(L, 2)};
     lua_pop(L, 1);
   }
   return fonts;

@@ -4,7 +4,9 @@
  * because a call may need memory; the stack does not change.
  */
 #include <lauxlib.h>
+#include <string.h>
 
+#include "base/description.h"
 #include "celspan/lua.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
@@ -94,18 +96,20 @@ static int read_film(lua_State *L) {
   return 1;
 }
 
-celspan_film celspan_lua_film(lua_State *L, int index) {
+celspan_status celspan_lua_film(lua_State *L, int index, celspan_film *out) {
   cs_film_info info = {0};
-  if (visit(L, index, read_film, &info, 0) != CELSPAN_OK)
-    return (celspan_film){0};
-  return (celspan_film){.width = info.width,
-                        .height = info.height,
-                        .frames_second = info.frames_second,
-                        .first = info.first,
-                        .count = info.count,
-                        .title = info.title,
-                        .sound = info.sound,
-                        .sound_offset = info.sound_offset};
+  CS_TRY(visit(L, index, read_film, &info, 0));
+  const celspan_film film = {.struct_size = out->struct_size,
+                             .width = info.width,
+                             .height = info.height,
+                             .frames_second = info.frames_second,
+                             .first = info.first,
+                             .count = info.count,
+                             .title = info.title,
+                             .sound = info.sound,
+                             .sound_offset = info.sound_offset};
+  memcpy(out, &film, film.struct_size < sizeof film ? film.struct_size : sizeof film);
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- frames */
@@ -119,15 +123,19 @@ static celspan_status build(lua_State *L, const cs_film_info *film, int64_t numb
                    "frame %lld: the film has frames %lld to %lld", (long long)number,
                    (long long)film->first, (long long)(film->first + film->count - 1));
   CS_TRY(cs_lua_film_build(L, -1, number, &frame));
-  *out = CELSPAN_FRAME_DESC;
-  cs_film_expose(film, &frame, out);
-  out->width = film->width;
-  out->height = film->height;
+  celspan_frame_desc desc = CELSPAN_FRAME_DESC;
+  cs_film_expose(film, &frame, &desc);
+  desc.width = film->width;
+  desc.height = film->height;
+  cs_description_write(&cs_celspan_frame_desc_description, &desc, out, out->struct_size);
   return CELSPAN_OK;
 }
 
 celspan_status celspan_lua_frame(lua_State *L, int index, int64_t number, celspan_frame_desc *out) {
   cs_film_info film;
+  celspan_frame_desc given;
+  CS_TRY(cs_description_read(celspan_lua_context(L), "frame", &cs_celspan_frame_desc_description,
+                             out, &given));
   CS_TRY(visit(L, index, read_film, &film, 1));
   celspan_status status = build(L, &film, number, out);
   lua_pop(L, 1);

@@ -1,4 +1,5 @@
 /* Layered documents. */
+#include "celspan/layers.h"
 #include "lua/bind/host.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"

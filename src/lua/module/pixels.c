@@ -100,7 +100,7 @@ static int write_image(lua_State *L) {
   cs_options options;
   cs_options_read(L, &cs_noun_write, 3, &options);
   celspan_file_desc file = CELSPAN_FILE_DESC;
-  file.coding = options.coding;
+  file.coding = &options.coding;
   file.format = options.format;
   file.is_opaque = picture->is_opaque;
   file.place_x = picture->x;
@@ -108,7 +108,7 @@ static int write_image(lua_State *L) {
   celspan_context *context = cs_host_context(L);
   if (!cs_host_may_write(L, lua_tostring(L, 2)))
     return cs_host_fail(L, CELSPAN_CALLBACK);
-  celspan_sink sink;
+  celspan_sink sink = CELSPAN_SINK;
   celspan_status status = celspan_file_sink_create(context, lua_tostring(L, 2), &file, &sink);
   if (status == CELSPAN_OK)
     status = sink.end(sink.user, context, write_rows(context, &sink, picture));
@@ -186,7 +186,8 @@ int cs_pixels_make(lua_State *L) {
     return cs_host_fail(L, status);
   float *out = push_image(&options.form, desc);
   int32_t width = desc->crop_width ? desc->crop_width : desc->width;
-  celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT,
+  celspan_coding coding = {.struct_size = sizeof coding,
+                           .depth = CELSPAN_DEPTH_FLOAT,
                            .transfer = CELSPAN_TRANSFER_LINEAR,
                            .alpha = CELSPAN_ALPHA_PREMULTIPLIED};
   lua_State *before = cs_host_enter(L);

@@ -1,6 +1,7 @@
 /* celspan.plane and celspan.plane_read: frames without a size, drawn at any size. */
 #include <string.h>
 
+#include "celspan/plane.h"
 #include "frames/plane/plane.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/files.h"
@@ -111,13 +112,14 @@ static celspan_plane_view read_view(lua_State *L, const celspan_plane *plane, cs
   view.crop_y = options->crop[1];
   view.crop_width = options->crop[2];
   view.crop_height = options->crop[3];
-  view.antialias = options->desc.antialias ? *options->desc.antialias : CELSPAN_ANTIALIAS_AREA;
+  view.antialias = options->desc.antialias;
   return view;
 }
 
 /* plane:pixels{ size =, crop =, antialias = } -> image | nil, message */
 static int pixels(lua_State *L) {
-  static const celspan_coding coding = {.depth = CELSPAN_DEPTH_FLOAT,
+  static const celspan_coding coding = {.struct_size = sizeof coding,
+                                        .depth = CELSPAN_DEPTH_FLOAT,
                                         .transfer = CELSPAN_TRANSFER_LINEAR,
                                         .alpha = CELSPAN_ALPHA_PREMULTIPLIED};
   const celspan_plane *plane = self(L, "pixels");

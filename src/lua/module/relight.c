@@ -1,6 +1,7 @@
 /* Light removed from pictures, for celspan.relight. */
 #include <lauxlib.h>
 
+#include "celspan/relight.h"
 #include "lua/bind/bare.h"
 #include "lua/bind/files.h"
 #include "lua/bind/form.h"
@@ -186,11 +187,10 @@ int cs_relight_write(lua_State *L) {
 }
 
 int cs_relight_read(lua_State *L) {
-  const char *tried;
-  const char *path = cs_files_find(L, luaL_checkstring(L, 1), &tried);
+  const char *path = cs_files_find(L, luaL_checkstring(L, 1), NULL);
   celspan_context *context = cs_host_context(L);
   celspan_texture *texture = NULL;
   cs_userdata *value = push_value(L, context);
-  celspan_status status = celspan_relight_read(context, path, tried, &texture);
+  celspan_status status = celspan_relight_read(context, path, &texture);
   return finish(L, context, value, status, texture);
 }

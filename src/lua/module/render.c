@@ -150,7 +150,7 @@ int cs_render_make(lua_State *L) {
   cs_options_read(L, &cs_noun_render, 3, &j->options);
   j->pattern = lua_tostring(L, 2);
   j->file = CELSPAN_FILE_DESC;
-  j->file.coding = j->options.coding;
+  j->file.coding = &j->options.coding;
   j->file.format = j->options.format;
   read_progress(&j->options.form, j);
   read_film(L, j);

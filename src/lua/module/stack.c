@@ -1,6 +1,7 @@
 /* Frames taken apart by their lights, celspan_stack, for relight.stack. */
 #include <lauxlib.h>
 
+#include "celspan/relight.h"
 #include "lua/bind/host.h"
 #include "lua/bind/put.h"
 #include "lua/bind/userdata.h"

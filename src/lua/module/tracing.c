@@ -2,6 +2,7 @@
 #include <lauxlib.h>
 #include <stdio.h>
 
+#include "celspan/trace.h"
 #include "lua/bind/host.h"
 #include "lua/bind/list.h"
 #include "lua/bind/put.h"
@@ -53,9 +54,11 @@ static void read_picture(lua_State *L, celspan_picture_desc *out) {
 }
 
 /* Argument 2. codes: room for all colours. */
-static celspan_trace_desc read_options(lua_State *L, unsigned char codes[3 * MOST_COLOURS]) {
+static celspan_trace_desc read_options(lua_State *L, celspan_picture_desc *picture,
+                                       unsigned char codes[3 * MOST_COLOURS]) {
   celspan_trace_desc desc = CELSPAN_TRACE_DESC;
-  read_picture(L, &desc.picture);
+  read_picture(L, picture);
+  desc.picture = picture;
   luaL_checktype(L, 2, LUA_TTABLE);
   if (lua_getfield(L, 2, "colours") == LUA_TTABLE) {
     desc.colours = (int32_t)cs_list_length(L, -1);
@@ -137,7 +140,8 @@ static void push_result(lua_State *L, const celspan_trace *trace) {
 /* Pushes a holder of the tracing of arguments 1 and 2. */
 static celspan_status push_tracing(lua_State *L, const celspan_trace **out) {
   unsigned char codes[3 * MOST_COLOURS];
-  celspan_trace_desc desc = read_options(L, codes);
+  celspan_picture_desc picture = CELSPAN_PICTURE_DESC;
+  celspan_trace_desc desc = read_options(L, &picture, codes);
   celspan_trace **trace = push_holder(L);
   celspan_status status = cs_result_make(cs_host_context(L), &desc, trace);
   *out = *trace;

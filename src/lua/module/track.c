@@ -2,6 +2,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "celspan/track.h"
 #include "lua/bind/form.h"
 #include "lua/bind/host.h"
 #include "lua/bind/userdata.h"
@@ -67,7 +68,8 @@ static double number_in(lua_State *L, int index, int i) {
 int cs_track_tracker(lua_State *L) {
   lua_settop(L, 6);
   int32_t width = (int32_t)luaL_checkinteger(L, 2), height = (int32_t)luaL_checkinteger(L, 3);
-  celspan_tracker_desc desc = {.model = (celspan_motion)luaL_checkinteger(L, 4)};
+  celspan_tracker_desc desc = {.struct_size = sizeof desc,
+                               .model = (celspan_motion)luaL_checkinteger(L, 4)};
   luaL_checktype(L, 5, LUA_TTABLE);
   desc.region =
       (celspan_box){number_in(L, 5, 1), number_in(L, 5, 2), number_in(L, 5, 3), number_in(L, 5, 4)};

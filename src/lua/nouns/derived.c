@@ -29,7 +29,7 @@ static const cs_noun argument = {.name = "paint", .fields = cs_bare_fields};
 /* The shape cut out of a rectangle that just covers it. */
 static celspan_status fill(celspan_context *context, celspan_object *shape, const celspan_box *box,
                            celspan_texture *texture, celspan_object **out) {
-  const celspan_rect_desc desc = {box->x, box->y, box->width, box->height, 0, texture};
+  const celspan_rect_desc desc = {sizeof desc, box->x, box->y, box->width, box->height, 0, texture};
   celspan_object *pair[2] = {NULL, shape};
   CS_TRY(celspan_object_create_rect(context, &desc, &pair[0]));
   celspan_status status =
@@ -137,7 +137,7 @@ int cs_derived_warp(lua_State *L) {
   desc.map = map_point;
   desc.user = &m;
   desc.within = luaL_checknumber(L, 3);
-  desc.pieces = (size_t)fmin(fmax(luaL_checknumber(L, 4), 0), 1e9);
+  desc.pieces = (size_t)fmin(fmax(luaL_optnumber(L, 4, (double)desc.pieces), 0), 1e9);
   lua_settop(L, 2);
   luaL_checkstack(L, 20, "warp");
   cs_userdata *value = cs_bare_push(L, &noun_warped);

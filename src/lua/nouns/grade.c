@@ -133,7 +133,7 @@ celspan_grade *cs_grade_of(const cs_form *outer) {
   read_matrix(&form, &read.desc);
   read_curves(&form, &read.desc);
   if (read.lut)
-    read.desc.lut = cs_files_find(L, read.lut, &read.desc.lut_tried);
+    read.desc.lut = cs_files_find(L, read.lut, NULL);
   cs_form_try(&form, celspan_grade_create(cs_host_context(L), &read.desc, &grade));
   return grade;
 }

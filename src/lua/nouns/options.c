@@ -66,26 +66,28 @@ const cs_noun cs_noun_filter = {
     .fields = kernel_fields};
 
 /* { kernel =, radius =, rows = } on top of the stack; pushed values are left there. */
-static void read_kernel(const cs_form *outer, celspan_filter_desc *filter) {
+static const celspan_filter_desc *read_kernel(const cs_form *outer) {
   lua_State *L = outer->L;
   int table = lua_gettop(L);
   cs_noun named = cs_noun_filter;
   named.name = lua_pushfstring(L, "%s: antialias", outer->noun->name);
   cs_form form = cs_form_open(L, &named, table);
-  *filter = (celspan_filter_desc){.kernel = CELSPAN_KERNEL_BOX};
+  celspan_filter_desc *filter = cs_form_scratch(L, 1, sizeof *filter);
+  *filter = CELSPAN_FILTER_DESC;
   cs_fields_read(&form, filter);
   if (cs_form_get(&form, "kernel") == LUA_TFUNCTION)
     sample_function(&form, filter);
   else
     filter->kernel = (celspan_kernel)cs_fields_word(&form, "kernel", kernels);
+  return filter;
 }
 
 bool cs_options_antialias(const cs_form *form, celspan_antialias_mode *mode,
-                          celspan_filter_desc *filter) {
+                          const celspan_filter_desc **filter) {
   static const char *const modes[] = {"area", "none", NULL};
   int type = cs_form_get(form, "antialias");
   if (type == LUA_TTABLE) {
-    read_kernel(form, filter);
+    *filter = read_kernel(form);
     *mode = CELSPAN_ANTIALIAS_FILTER;
     return true;
   }
@@ -154,7 +156,7 @@ static const cs_field frame_fields[] = {
     {"workers", CS_WHOLE(cs_options, desc.workers), CS_FROM(0), .about = "Threads",
      .fallback = "0: one for each processor"},
     {"antialias", CS_OWN("celspan.antialias"), .about = "Instead of that of each rostrum"},
-    {"tolerance", CS_NUMBER(cs_options, desc.tolerance),
+    {"tolerance", CS_NUMBER(cs_options, desc.tolerance), CS_HAS(cs_options, desc.has_tolerance),
      .about = "How far gradient spans may be from the exact colours, 2^-20 to 1",
      .fallback = "1/1023"},
     {0}};
@@ -225,17 +227,17 @@ void cs_options_read(lua_State *L, const cs_noun *noun, int index, cs_options *o
     index = lua_gettop(L);
   }
   const cs_form form = cs_form_open(L, noun, index);
-  *out = (cs_options){.form = form, .desc = CELSPAN_FRAME_DESC, .size = {1920, 1080}};
+  *out = (cs_options){
+      .form = form, .desc = CELSPAN_FRAME_DESC, .coding = CELSPAN_CODING, .size = {1920, 1080}};
   cs_fields_read(&form, out);
   out->coding.depth = read_depth(&form);
   check_dither(&form, out);
   set_sizes(out);
   double tolerance = out->desc.tolerance;
-  if (tolerance != 0 && !(tolerance >= 0x1p-20 && tolerance <= 1))
+  if (out->desc.has_tolerance && !(tolerance >= 0x1p-20 && tolerance <= 1))
     cs_form_fail(&form, "field 'tolerance' must be from 2^-20 to 1, got %s",
                  cs_form_digits(L, tolerance));
-  if (cs_options_antialias(&form, &out->antialias, &out->desc.filter))
-    out->desc.antialias = &out->antialias;
+  out->desc.has_antialias = cs_options_antialias(&form, &out->desc.antialias, &out->desc.filter);
 }
 
 void cs_options_use_film(cs_options *options, const cs_film_info *film) {

@@ -9,7 +9,6 @@
 typedef struct cs_options {
   cs_form form; /* of the table */
   celspan_frame_desc desc;
-  celspan_antialias_mode antialias;
   celspan_coding coding;
   const char *format;
   int frame;
@@ -29,7 +28,7 @@ void cs_options_use_film(cs_options *options, const cs_film_info *film);
 /* Reads the field `antialias`; false if it is missing. A kernel function is called here, and its
  * values are scratch memory left on the stack: *filter points to them. */
 bool cs_options_antialias(const cs_form *form, celspan_antialias_mode *mode,
-                          celspan_filter_desc *filter);
+                          const celspan_filter_desc **filter);
 /* The value at index, a rostrum or {{rostrum, weight}, ...}, as exposures of *desc: scratch memory,
  * left on the stack; the rostrums are borrowed from the value. name: for messages. */
 void cs_options_exposures(lua_State *L, int index, const char *name, celspan_frame_desc *desc);

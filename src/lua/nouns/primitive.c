@@ -31,7 +31,8 @@ static void check_length(const cs_form *form, int wanted, const char *shape) {
 }
 
 static void create_rect(const cs_form *form, cs_userdata *value) {
-  celspan_rect_desc desc = {.x = corner(form, 1, "x"),
+  celspan_rect_desc desc = {.struct_size = sizeof desc,
+                            .x = corner(form, 1, "x"),
                             .y = corner(form, 2, "y"),
                             .width = corner(form, 3, "width"),
                             .height = corner(form, 4, "height")};
@@ -52,7 +53,8 @@ static const cs_field rect_fields[] = {{"radius", CS_NUMBER(celspan_rect_desc, r
 static void create_triangle(const cs_form *form, cs_userdata *value) {
   check_length(form, 3, "three points {x, y}");
   const celspan_point *points = cs_form_points(form, form->table, 3, NULL);
-  celspan_triangle_desc desc = {.points = {points[0], points[1], points[2]}};
+  celspan_triangle_desc desc = {.struct_size = sizeof desc,
+                                .points = {points[0], points[1], points[2]}};
   cs_fields_read(form, &desc);
   celspan_object *object = NULL;
   cs_form_try(form, celspan_object_create_triangle(cs_host_context(form->L), &desc, &object));
@@ -63,7 +65,8 @@ static const cs_field triangle_fields[] = {{CS_TEXTURE(celspan_triangle_desc, te
 
 static void create_polygon(const cs_form *form, cs_userdata *value) {
   int count = cs_form_length(form);
-  celspan_polygon_desc desc = {.points = cs_form_points(form, form->table, (size_t)count, NULL),
+  celspan_polygon_desc desc = {.struct_size = sizeof desc,
+                               .points = cs_form_points(form, form->table, (size_t)count, NULL),
                                .point_count = (size_t)count};
   cs_fields_read(form, &desc);
   celspan_object *object = NULL;
@@ -77,7 +80,7 @@ static const cs_field polygon_fields[] = {
 /* ---------------------------------------------------------------- circle, ellipse */
 
 static void create_circle(const cs_form *form, cs_userdata *value) {
-  celspan_ellipse_desc desc = {.texture = NULL};
+  celspan_ellipse_desc desc = {.struct_size = sizeof desc, .texture = NULL};
   cs_fields_read(form, &desc);
   desc.radius_y = desc.radius_x;
   celspan_object *object = NULL;
@@ -100,7 +103,7 @@ typedef struct ellipse {
 static void create_ellipse(const cs_form *form, cs_userdata *value) {
   ellipse e = {.texture = NULL};
   cs_fields_read(form, &e);
-  const celspan_ellipse_desc desc = {e.centre, e.radii[0], e.radii[1], e.texture};
+  const celspan_ellipse_desc desc = {sizeof desc, e.centre, e.radii[0], e.radii[1], e.texture};
   celspan_object *object = NULL;
   cs_form_try(form, celspan_object_create_ellipse(cs_host_context(form->L), &desc, &object));
   value->handle = object;
@@ -116,7 +119,7 @@ static const cs_field ellipse_fields[] = {
 
 static void create_nurbs(const cs_form *form, cs_userdata *value) {
   lua_State *L = form->L;
-  celspan_nurbs_desc desc = {.texture = NULL};
+  celspan_nurbs_desc desc = {.struct_size = sizeof desc, .degree = 3, .texture = NULL};
   cs_fields_read(form, &desc);
   if (cs_form_get(form, "points") != LUA_TTABLE)
     cs_form_fail(form, "field 'points' must be an array of points {x, y} or {x, y, weight}, got %s",
@@ -141,7 +144,7 @@ static const cs_field nurbs_fields[] = {
     {0}};
 
 static void create_path(const cs_form *form, cs_userdata *value) {
-  celspan_path_desc desc = {.data = NULL};
+  celspan_path_desc desc = {.struct_size = sizeof desc, .data = NULL};
   cs_fields_read(form, &desc);
   celspan_object *object = NULL;
   cs_form_try(form, celspan_object_create_path(cs_host_context(form->L), &desc, &object));
@@ -157,7 +160,8 @@ static const cs_field path_fields[] = {{"d", CS_TEXT(celspan_path_desc, data), .
 /* ---------------------------------------------------------------- image */
 
 static void create_image(const cs_form *form, cs_userdata *value) {
-  cs_texture_picture read = CELSPAN_ZERO;
+  cs_texture_picture read = {.picture = CELSPAN_PICTURE_DESC, .image = CELSPAN_IMAGE_DESC};
+  read.image.picture = &read.picture;
   cs_texture_read_picture(form, lua_gettop(form->L), &read);
   celspan_object *object = NULL;
   cs_form_try(form, celspan_object_create_image(cs_host_context(form->L), &read.image, &object));

@@ -159,7 +159,7 @@ static void release(void *user) {
 static void create(const cs_form *form, cs_userdata *value) {
   lua_State *L = form->L;
   cs_host *host = cs_host_get(L);
-  celspan_scanline_desc desc = {.spans = spans, .release = release};
+  celspan_scanline_desc desc = {.struct_size = sizeof desc, .spans = spans, .release = release};
   cs_fields_read(form, &desc);
   if (cs_form_get(form, "spans") != LUA_TFUNCTION)
     cs_form_fail(form, "field 'spans' must be a function(y, row), got %s", cs_userdata_type(L, -1));

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "celspan/text.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/construct.h"
 #include "lua/bind/fields.h"
@@ -35,7 +36,7 @@ static void read_string(const cs_form *form, celspan_text_desc *desc) {
 }
 
 /* The font on top of the stack; values pushed by the search are left above it. */
-static celspan_font read_font(const cs_form *form) {
+static const char *read_font(const cs_form *form) {
   lua_State *L = form->L;
   if (lua_type(L, -1) != LUA_TSTRING)
     cs_form_fail(form, "field 'font' must be the name of a file, or a list of them, got %s",
@@ -43,14 +44,12 @@ static celspan_font read_font(const cs_form *form) {
   const char *name = lua_tostring(L, -1);
   if (strlen(name) != lua_rawlen(L, -1))
     cs_form_fail(form, "field 'font' must not hold a zero byte");
-  celspan_font font = {0};
-  font.file = cs_files_find(L, name, &font.tried);
-  return font;
+  return cs_files_find(L, name, NULL);
 }
 
 static void read_fonts(const cs_form *form, celspan_text_desc *desc) {
   lua_State *L = form->L;
-  celspan_font *fonts = cs_form_scratch(L, MOST_FONTS, sizeof *fonts);
+  const char **fonts = cs_form_scratch(L, MOST_FONTS, sizeof *fonts);
   desc->fonts = fonts;
   luaL_checkstack(L, 3 * MOST_FONTS, "fonts");
   if (cs_form_get(form, "font") == LUA_TNIL)

@@ -129,24 +129,24 @@ static const char *name_of_file(const cs_form *form, const cs_texture_picture *r
 }
 
 void cs_texture_read_picture(const cs_form *form, int holder, cs_texture_picture *out) {
-  celspan_picture_desc *desc = &out->image.picture;
+  celspan_picture_desc *desc = &out->picture;
   cs_fields_read(form, out);
   if (out->has_frame && !out->file)
     cs_form_fail(form, "field 'frame' needs field 'file'");
   if (cs_form_has(form, "pixels"))
     desc->surface = cs_pixel_string_surface(form, &out->pixels, holder);
   else if (out->file)
-    desc->file = cs_files_find(form->L, name_of_file(form, out), &desc->tried);
+    desc->file = cs_files_find(form->L, name_of_file(form, out), NULL);
   else
     cs_form_fail(form, "field 'file' must be a string, got nil");
 }
 
 static void create_picture(const cs_form *form, cs_userdata *value) {
-  cs_texture_picture read = CELSPAN_ZERO;
+  cs_texture_picture read = {.picture = CELSPAN_PICTURE_DESC};
   cs_texture_read_picture(form, lua_gettop(form->L), &read);
   celspan_texture *texture = NULL;
-  cs_form_try(form, celspan_texture_create_picture(cs_host_context(form->L), &read.image.picture,
-                                                   &texture));
+  cs_form_try(form,
+              celspan_texture_create_picture(cs_host_context(form->L), &read.picture, &texture));
   value->handle = texture;
 }
 
@@ -160,18 +160,17 @@ const cs_field cs_texture_picture_fields[] = {
      .about = "Relative to the script; required unless `pixels` is given"},
     {"frame", CS_WHOLE(READ, frame), CS_HAS(READ, has_frame),
      .about = "The number in the name of the file, where the name has #### or %04d"},
-    {"colour", CS_TEXT(READ, image.picture.colour),
+    {"colour", CS_TEXT(READ, picture.colour),
      .about = "\"srgb\", \"linear\", \"rec709\" or \"cineon\"", .fallback = "by the file"},
-    {"sampling", CS_CHOICE(READ, image.picture.sampling, samplings), .preset = "auto"},
-    {"as", CS_CHOICE(READ, image.picture.use, uses), .preset = "paint",
+    {"sampling", CS_CHOICE(READ, picture.sampling, samplings), .preset = "auto"},
+    {"as", CS_CHOICE(READ, picture.use, uses), .preset = "paint",
      .about = "Paint, or a slide lit from behind"},
-    {"wrap", CS_CHOICE(READ, image.picture.wrap, wraps), .preset = "clear",
-     .about = "Outside the box"},
-    {"subimage", CS_WHOLE(READ, image.picture.subimage), .about = "From 0", .fallback = "0"},
-    {"layer", CS_TEXT(READ, image.picture.layer), .about = "The name of a subimage"},
-    {"source", CS_BOX(READ, image.picture.source), CS_HAS(READ, image.picture.has_source),
+    {"wrap", CS_CHOICE(READ, picture.wrap, wraps), .preset = "clear", .about = "Outside the box"},
+    {"subimage", CS_WHOLE(READ, picture.subimage), .about = "From 0", .fallback = "0"},
+    {"layer", CS_TEXT(READ, picture.layer), .about = "The name of a subimage"},
+    {"source", CS_BOX(READ, picture.source), CS_HAS(READ, picture.has_source),
      .written = "integer[]", .about = "A part of the picture, in its pixels"},
-    {"smooth", CS_FLAG(READ, image.picture.smooth),
+    {"smooth", CS_FLAG(READ, picture.smooth),
      .about = "Alpha of 8 bits without steps, for painted glows"},
     {"pixels", CS_OWN("string"), .about = "Pixels in memory, rows from top to bottom without gaps"},
     {"size", CS_PIXELS(READ, pixels.size), CS_HAS(READ, pixels.has_size), .least = 1,
@@ -181,8 +180,8 @@ const cs_field cs_texture_picture_fields[] = {
     {"alpha", CS_CHOICE(READ, pixels.alpha, cs_pixel_string_alphas), CS_HAS(READ, pixels.has_alpha),
      .about = "Of the pixels", .fallback = "integers straight, floats premultiplied"},
     {0}};
-static const cs_field picture_fields[] = {{"box", CS_BOX(READ, image.picture.box),
-                                           CS_HAS(READ, image.picture.has_box),
+static const cs_field picture_fields[] = {{"box", CS_BOX(READ, picture.box),
+                                           CS_HAS(READ, picture.has_box),
                                            .fallback = "the bounding rectangle of the primitive"},
                                           {.more = cs_texture_picture_fields}};
 

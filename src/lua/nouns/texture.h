@@ -5,7 +5,8 @@
 
 /* The fields, while they are read. */
 typedef struct cs_texture_picture {
-  celspan_image_desc image; /* celspan.picture uses its picture alone */
+  celspan_picture_desc picture;
+  celspan_image_desc image; /* not of celspan.picture */
   const char *file;         /* NULL: there are pixels */
   int frame;                /* of a file such as roto.####.png */
   bool has_frame;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/context.h"
+#include "base/description.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/require.h"
@@ -337,12 +338,28 @@ cs_sandbox *cs_sandbox_open(lua_State *L, const celspan_lua_limits *limits, bool
 
 /* ---------------------------------------------------------------- hosts */
 
-celspan_lua_limits celspan_lua_limits_default(void) {
-  return (celspan_lua_limits){.struct_size = sizeof(celspan_lua_limits),
-                              .memory = (size_t)512 << 20,
-                              .steps = UINT64_C(2000000000),
-                              .seconds = 60,
-                              .print = (size_t)1 << 20};
+static const celspan_lua_limits usual = {.struct_size = sizeof usual,
+                                         .memory = (size_t)512 << 20,
+                                         .steps = UINT64_C(2000000000),
+                                         .seconds = 60,
+                                         .print = (size_t)1 << 20};
+
+#define FIELD(name)                                                                                \
+  { offsetof(celspan_lua_limits, name), offsetof(celspan_lua_limits, name) + sizeof usual.name }
+static const cs_description_field fields[] = {
+    FIELD(struct_size),    FIELD(memory),  FIELD(steps),        FIELD(seconds),
+    FIELD(print),          FIELD(folders), FIELD(folder_count), FIELD(search),
+    FIELD(is_interrupted), FIELD(overdue), FIELD(user)};
+#undef FIELD
+static const cs_description description = {.type = "celspan_lua_limits",
+                                           .defaults = &usual,
+                                           .size = sizeof usual,
+                                           .needed = sizeof usual.struct_size,
+                                           .fields = fields,
+                                           .field_count = sizeof fields / sizeof *fields};
+
+void celspan_lua_limits_default(celspan_lua_limits *out, size_t struct_size) {
+  cs_description_write(&description, &usual, out, struct_size);
 }
 
 /* light userdata: limits. Runs protected. */
@@ -352,12 +369,13 @@ static int open_sandbox(lua_State *L) {
 }
 
 celspan_status celspan_lua_sandbox(lua_State *L, const celspan_lua_limits *limits) {
-  const celspan_lua_limits usual = celspan_lua_limits_default();
+  celspan_lua_limits whole;
   const cs_host *host = lua_checkstack(L, 4) ? cs_host_find(L) : NULL;
   if (!host)
     return CELSPAN_BAD_ARGUMENT;
-  limits = limits ? limits : &usual;
-  CS_TRY(cs_check_version(host->context, "sandbox", limits->struct_size, sizeof *limits));
+  CS_TRY(cs_description_read(host->context, "sandbox", &description, limits ? limits : &usual,
+                             &whole));
+  limits = &whole;
   if (host->rules)
     return cs_fail(host->context, CELSPAN_BAD_ARGUMENT, "sandbox: the Lua state has one already");
   if (!(limits->seconds >= 0) || (limits->folder_count && !limits->folders))

@@ -12,6 +12,7 @@
 #include "base/error_text.h"
 #include "base/number.h"
 #include "base/open.h"
+#include "base/tried.h"
 
 #define BUDGET ((size_t)64 << 20)  /* of tables that are kept while no grade uses them */
 #define FILE_MOST ((off_t)1 << 30) /* bytes; the largest table there may be fits */
@@ -184,8 +185,8 @@ static celspan_status parse(reader *r) {
 
 /* ---------------------------------------------------------------- files */
 
-static celspan_status fail_file(celspan_context *context, const char *file, int error,
-                                const char *tried) {
+static celspan_status fail_file(celspan_context *context, const char *file, int error) {
+  const char *tried = cs_tried_find(context, file);
   char text[CS_ERROR_TEXT_SIZE];
   return cs_fail(context, CELSPAN_INPUT, "%s: %s%s%s", file, cs_error_text(error, text),
                  tried ? "; also looked for at " : "", tried ? tried : "");
@@ -198,7 +199,7 @@ static celspan_status read_text(celspan_context *context, const char *file, char
   int error = got < 0 ? errno : ENODATA;
   if (descriptor >= 0)
     close(descriptor);
-  return got == (ssize_t)size ? CELSPAN_OK : fail_file(context, file, error, NULL);
+  return got == (ssize_t)size ? CELSPAN_OK : fail_file(context, file, error);
 }
 
 static celspan_status read_cube(celspan_context *context, const char *file, size_t size,
@@ -287,11 +288,10 @@ static cs_cache_key key_of(const char *file, const struct stat *found) {
   return (cs_cache_key){hash.a, hash.b, (uint64_t)found->st_size};
 }
 
-celspan_status cs_cube_read(celspan_context *context, const char *file, const char *tried,
-                            cs_cube **out) {
+celspan_status cs_cube_read(celspan_context *context, const char *file, cs_cube **out) {
   struct stat found;
   if (stat(file, &found) != 0)
-    return fail_file(context, file, errno, tried);
+    return fail_file(context, file, errno);
   if (!S_ISREG(found.st_mode))
     return cs_fail(context, CELSPAN_INPUT, "%s: is not a file; a table of colours must be one",
                    file);

@@ -30,10 +30,10 @@ typedef struct cs_cube {
   size_t count; /* side, or side * side * side */
 } cs_cube;
 
-/* The table of a file; it is read again only after the file has changed. tried: where else it was
- * looked for, or NULL. *out: a new reference. Errors: INPUT, with the line; LIMIT, NO_MEMORY. */
+/* The table of a file; it is read again only after the file has changed. *out: a new
+ * reference. Errors: INPUT, with the line; LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_cube_read(celspan_context *context, const char *file,
-                                            const char *tried, cs_cube **out);
+                                            cs_cube **out);
 cs_cube *cs_cube_ref(cs_cube *cube);
 void cs_cube_unref(cs_cube *cube);
 

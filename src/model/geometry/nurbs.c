@@ -22,7 +22,6 @@
 
 #define COUNT_LIMIT 100000
 #define WEIGHT_RATIO 1e6
-#define DEFAULT_DEGREE 3
 
 /* A checked description, with its defaults filled in. */
 typedef struct curve {
@@ -37,7 +36,7 @@ typedef struct curve {
 /* ---------------------------------------------------------------- checks */
 
 static celspan_status check_counts(celspan_context *context, const celspan_nurbs_desc *desc) {
-  int degree = desc->degree ? desc->degree : DEFAULT_DEGREE;
+  int degree = desc->degree;
   if (degree < 1 || degree > CS_BEZIER_DEGREE)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "the degree is %d; it must be from 1 to %d",
                    degree, CS_BEZIER_DEGREE);
@@ -225,7 +224,7 @@ celspan_status cs_outline_nurbs(celspan_context *context, cs_outline *outline,
   CS_TRY(check_counts(context, desc));
   curve c = {.desc = desc,
              .count = desc->point_count,
-             .degree = (size_t)(desc->degree ? desc->degree : DEFAULT_DEGREE),
+             .degree = (size_t)desc->degree,
              .knot_count = desc->knots ? desc->knot_count : 0,
              .is_periodic = desc->closure == CELSPAN_NURBS_PERIODIC};
   CS_TRY(check_weights(context, desc, &c.largest_weight));

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/description.h"
+#include "base/tried.h"
 #include "model/colour/transfer.h"
 #include "model/pictures/surface.h"
 
@@ -88,14 +90,15 @@ static celspan_status create(celspan_context *context, const celspan_picture_des
   atomic_init(&picture->references, 1);
   picture->memory = cs_memory_ref(context->memory);
   picture->hash = hash_of(desc);
+  const char *tried = desc->surface ? NULL : cs_tried_find(context, desc->file);
   picture->subimage = desc->layer ? 0 : desc->subimage;
   picture->surface = desc->surface ? celspan_surface_ref(desc->surface) : NULL;
   picture->file = copy_text(picture->memory, desc->surface ? "" : desc->file);
   picture->colour = desc->colour ? copy_text(picture->memory, desc->colour) : NULL;
   picture->layer = desc->layer ? copy_text(picture->memory, desc->layer) : NULL;
-  picture->tried = desc->tried ? copy_text(picture->memory, desc->tried) : NULL;
+  picture->tried = tried ? copy_text(picture->memory, tried) : NULL;
   if (!picture->file || !picture->colour != !desc->colour || !picture->layer != !desc->layer ||
-      !picture->tried != !desc->tried) {
+      !picture->tried != !tried) {
     cs_picture_unref(picture);
     return cs_fail_memory(context);
   }
@@ -130,6 +133,7 @@ static celspan_status cut(celspan_context *context, const celspan_picture_desc *
 
 celspan_status cs_picture_create(celspan_context *context, const celspan_picture_desc *desc,
                                  cs_picture **out) {
+  CS_READ(context, "picture", celspan_picture_desc, desc);
   CS_TRY(check(context, desc));
   cs_picture *picture;
   CS_TRY(create(context, desc, &picture));

@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/description.h"
+
 typedef struct layout {
   size_t size;  /* bytes of a pixel */
   int channels; /* 1 grey, 3, 4 with alpha */
@@ -50,11 +52,6 @@ static celspan_status check_numbers(celspan_context *context, const celspan_surf
 }
 
 static celspan_status check(celspan_context *context, const celspan_surface_desc *desc) {
-  if (!desc || desc->struct_size != sizeof *desc)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "surface: struct_size is %zu; it must be %zu: begin with the description's "
-                   "default",
-                   desc ? desc->struct_size : 0, sizeof *desc);
   if (!desc->pixels == !desc->fill)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "surface: give pixels or a fill function%s",
                    desc->pixels ? ", not both" : "");
@@ -129,6 +126,7 @@ static celspan_status create(celspan_context *context, const celspan_surface_des
 
 celspan_status celspan_surface_create(celspan_context *context, const celspan_surface_desc *desc,
                                       celspan_surface **out) {
+  CS_READ(context, "surface", celspan_surface_desc, desc);
   return create(context, desc, false, out);
 }
 

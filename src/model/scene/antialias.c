@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/description.h"
 #include "base/elementary.h"
 #include "base/number.h"
 #include "model/scene/check.h"
@@ -92,8 +93,7 @@ static celspan_status check(celspan_context *context, const char *noun,
                    "%s: radius is missing; a kernel given as a function needs one", noun);
   if (desc->has_radius)
     CS_TRY(cs_check_range(context, noun, "radius", desc->radius, 0, RADIUS_LIMIT));
-  return desc->rows == 0 ? CELSPAN_OK
-                         : cs_check_range(context, noun, "rows", desc->rows, 1, ROWS_LIMIT);
+  return cs_check_range(context, noun, "rows", desc->rows, 1, ROWS_LIMIT);
 }
 
 celspan_status cs_antialias_make(celspan_context *context, const char *noun,
@@ -104,9 +104,12 @@ celspan_status cs_antialias_make(celspan_context *context, const char *noun,
   *out = (cs_antialias){.mode = mode};
   if (mode != CELSPAN_ANTIALIAS_FILTER)
     return CELSPAN_OK;
+  if (!desc)
+    desc = cs_celspan_filter_desc_description.defaults;
+  CS_READ(context, noun, celspan_filter_desc, desc);
   CS_TRY(check(context, noun, desc));
   out->radius = desc->has_radius ? desc->radius : radii[desc->kernel];
-  out->rows = desc->rows ? desc->rows : ROWS;
+  out->rows = desc->rows;
   if (out->radius == 0) {
     *out = (cs_antialias){.mode = CELSPAN_ANTIALIAS_NONE};
     return CELSPAN_OK;

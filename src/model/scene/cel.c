@@ -1,6 +1,7 @@
 /* Cels: checked, hashed, and made again with a transform, a fade or a name. */
 #include <string.h>
 
+#include "base/description.h"
 #include "base/number.h"
 #include "model/colour/blend.h"
 #include "model/scene/check.h"
@@ -8,8 +9,6 @@
 #include "model/scene/value.h"
 
 static celspan_status check(celspan_context *context, const celspan_cel_desc *desc) {
-  CS_TRY(cs_check_given(context, "cel", "the description", desc));
-  CS_TRY(cs_check_version(context, "cel", desc->struct_size, sizeof *desc));
   if (desc->has_viewport) {
     CS_TRY(cs_check_box(context, "cel", "viewport", &desc->viewport));
     CS_TRY(cs_check_positive(context, "cel", "viewport.width", desc->viewport.width));
@@ -129,6 +128,7 @@ static celspan_status make_lights(celspan_context *context, const celspan_cel_de
 
 celspan_status celspan_cel_create(celspan_context *context, const celspan_cel_desc *desc,
                                   celspan_cel **out) {
+  CS_READ(context, "cel", celspan_cel_desc, desc);
   CS_TRY(check(context, desc));
   celspan_cel fields = {
       .matrix = celspan_matrix_identity(),

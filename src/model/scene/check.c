@@ -160,12 +160,3 @@ celspan_status cs_check_list(celspan_context *context, const char *noun, const c
                    field, most);
   return count > 0 ? cs_check_given(context, noun, field, items) : CELSPAN_OK;
 }
-
-celspan_status cs_check_version(celspan_context *context, const char *noun, size_t given,
-                                size_t expected) {
-  if (given == expected)
-    return CELSPAN_OK;
-  return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                 "%s: struct_size is %zu; it must be %zu: begin with the description's default",
-                 noun, given, expected);
-}

@@ -74,6 +74,3 @@ CELSPAN_CHECKED celspan_status cs_check_given(celspan_context *context, const ch
 CELSPAN_CHECKED celspan_status cs_check_list(celspan_context *context, const char *noun,
                                              const char *field, const void *items, size_t count,
                                              size_t most);
-/* given: the struct_size of a description. */
-CELSPAN_CHECKED celspan_status cs_check_version(celspan_context *context, const char *noun,
-                                                size_t given, size_t expected);

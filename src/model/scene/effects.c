@@ -14,6 +14,7 @@
  */
 #include <math.h>
 
+#include "base/description.h"
 #include "model/scene/bounds.h"
 #include "model/scene/check.h"
 #include "model/scene/extend.h"
@@ -198,9 +199,8 @@ static celspan_status check_blur(celspan_context *context, const char *noun, con
 
 celspan_status celspan_object_blur(celspan_context *context, celspan_object *object,
                                    const celspan_blur_desc *desc, celspan_object **out) {
+  CS_READ(context, "blur", celspan_blur_desc, desc);
   CS_TRY(cs_check_given(context, "blur", "the object", object));
-  CS_TRY(cs_check_given(context, "blur", "the description", desc));
-  CS_TRY(cs_check_version(context, "blur", desc->struct_size, sizeof *desc));
   CS_TRY(check_blur(context, "blur", "radius", desc->radius));
   CS_TRY(
       cs_check_choice(context, "blur", "kernel", (unsigned)desc->kernel, CELSPAN_DEFOCUS_DISC + 1));
@@ -214,7 +214,8 @@ celspan_status celspan_object_blur(celspan_context *context, celspan_object *obj
 static celspan_status make_ground(celspan_context *context, const celspan_box *box, double grow,
                                   celspan_texture *texture, celspan_object **out) {
   const celspan_rect_desc desc = {
-      box->x - grow, box->y - grow, box->width + 2 * grow, box->height + 2 * grow, 0, texture};
+      sizeof desc, box->x - grow, box->y - grow, box->width + 2 * grow, box->height + 2 * grow,
+      0,           texture};
   return celspan_object_create_rect(context, &desc, out);
 }
 
@@ -276,8 +277,6 @@ static celspan_status check_shadow(celspan_context *context, const celspan_objec
                                    const celspan_shadow_desc *desc) {
   double opacity;
   CS_TRY(cs_check_given(context, "shadow", "the object", object));
-  CS_TRY(cs_check_given(context, "shadow", "the description", desc));
-  CS_TRY(cs_check_version(context, "shadow", desc->struct_size, sizeof *desc));
   CS_TRY(cs_check_point(context, "shadow", "offset", 0, desc->offset));
   CS_TRY(check_blur(context, "shadow", "blur", desc->blur));
   return cs_check_share(context, "shadow", "opacity", desc->opacity, &opacity);
@@ -302,6 +301,7 @@ static celspan_status add_shadow(celspan_context *context, celspan_object *objec
 
 celspan_status celspan_object_shadow(celspan_context *context, celspan_object *object,
                                      const celspan_shadow_desc *desc, celspan_object **out) {
+  CS_READ(context, "shadow", celspan_shadow_desc, desc);
   CS_TRY(check_shadow(context, object, desc));
   return make(context, object, add_shadow, desc, out);
 }
@@ -311,8 +311,6 @@ celspan_status celspan_object_shadow(celspan_context *context, celspan_object *o
 static celspan_status check_glow(celspan_context *context, const celspan_object *object,
                                  const celspan_glow_desc *desc) {
   CS_TRY(cs_check_given(context, "glow", "the object", object));
-  CS_TRY(cs_check_given(context, "glow", "the description", desc));
-  CS_TRY(cs_check_version(context, "glow", desc->struct_size, sizeof *desc));
   CS_TRY(check_blur(context, "glow", "radius", desc->radius));
   return cs_check_size(context, "glow", "gain", desc->gain);
 }
@@ -328,6 +326,7 @@ static celspan_status add_glow(celspan_context *context, celspan_object *object,
 
 celspan_status celspan_object_glow(celspan_context *context, celspan_object *object,
                                    const celspan_glow_desc *desc, celspan_object **out) {
+  CS_READ(context, "glow", celspan_glow_desc, desc);
   CS_TRY(check_glow(context, object, desc));
   return make(context, object, add_glow, desc, out);
 }
@@ -343,8 +342,6 @@ static celspan_status check_outline(celspan_context *context, const celspan_obje
                                     const celspan_outline_desc *desc) {
   double opacity;
   CS_TRY(cs_check_given(context, "outline", "the object", object));
-  CS_TRY(cs_check_given(context, "outline", "the description", desc));
-  CS_TRY(cs_check_version(context, "outline", desc->struct_size, sizeof *desc));
   CS_TRY(check_blur(context, "outline", "width", desc->width));
   CS_TRY(check_blur(context, "outline", "blur", desc->blur));
   CS_TRY(cs_check_choice(context, "outline", "join", (unsigned)desc->join,
@@ -437,6 +434,7 @@ static celspan_status add_outline(celspan_context *context, celspan_object *obje
 
 celspan_status celspan_object_outline(celspan_context *context, celspan_object *object,
                                       const celspan_outline_desc *desc, celspan_object **out) {
+  CS_READ(context, "outline", celspan_outline_desc, desc);
   CS_TRY(check_outline(context, object, desc));
   return make(context, object, add_outline, desc, out);
 }

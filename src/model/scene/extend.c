@@ -35,7 +35,7 @@ static void set_stretch(frame *f, int axis, double reach) {
 static celspan_status make_area(celspan_context *context, const frame *f, int column, int row,
                                 celspan_object **out) {
   const double *x = f->sides[0] + column, *y = f->sides[1] + row;
-  const celspan_rect_desc desc = {x[0], y[0], x[1] - x[0], y[1] - y[0], 0, NULL};
+  const celspan_rect_desc desc = {sizeof desc, x[0], y[0], x[1] - x[0], y[1] - y[0], 0, NULL};
   celspan_object *rect;
   CS_TRY(celspan_object_create_rect(context, &desc, &rect));
   celspan_status status = celspan_object_transform(context, rect, &f->back, out);

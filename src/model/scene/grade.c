@@ -1,5 +1,6 @@
 #include "model/scene/grade.h"
 
+#include "base/description.h"
 #include "model/scene/check.h"
 #include "model/scene/value.h"
 
@@ -33,8 +34,6 @@ static celspan_status check_matrix(celspan_context *context, const celspan_grade
 }
 
 static celspan_status check(celspan_context *context, const celspan_grade_desc *desc) {
-  CS_TRY(cs_check_given(context, "grade", "the description", desc));
-  CS_TRY(cs_check_version(context, "grade", desc->struct_size, sizeof *desc));
   CS_TRY(cs_check_range(context, "grade", "exposure", desc->exposure, -CELSPAN_GRADE_STOPS,
                         CELSPAN_GRADE_STOPS));
   CS_TRY(cs_check_size(context, "grade", "contrast", desc->contrast));
@@ -76,6 +75,7 @@ static cs_hash hash_grade(const cs_grade *steps) {
 
 celspan_status celspan_grade_create(celspan_context *context, const celspan_grade_desc *desc,
                                     celspan_grade **out) {
+  CS_READ(context, "grade", celspan_grade_desc, desc);
   CS_TRY(check(context, desc));
   celspan_grade *grade;
   CS_TRY(CS_MAKE(context, grade, 1));
@@ -83,13 +83,13 @@ celspan_status celspan_grade_create(celspan_context *context, const celspan_grad
   grade->memory = cs_memory_ref(context->memory);
   celspan_status status = cs_grade_make(context, desc, &grade->steps);
   if (status == CELSPAN_OK && desc->lut)
-    status = cs_cube_read(context, desc->lut, desc->lut_tried, &grade->steps.cube);
+    status = cs_cube_read(context, desc->lut, &grade->steps.cube);
   if (status != CELSPAN_OK) {
     celspan_grade_unref(grade);
     return status;
   }
   grade->desc = *desc;
-  grade->desc.lut = grade->desc.lut_tried = NULL;
+  grade->desc.lut = NULL;
   for (int c = 0; c < 3; c++)
     grade->desc.curve[c] = grade->steps.curves[c].points;
   grade->hash = hash_grade(&grade->steps);

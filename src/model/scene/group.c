@@ -9,6 +9,7 @@
  *     a:blend(m)                    a union of one object, with a mode; it isolates
  *     matte(art, by)                two operands, of which only the first is painted; it isolates
  */
+#include "base/description.h"
 #include "model/colour/blend.h"
 #include "model/scene/check.h"
 #include "model/scene/operands.h"
@@ -42,8 +43,6 @@ celspan_status cs_primitive_data_of_operands(celspan_context *context, const cha
 /* ---------------------------------------------------------------- groups */
 
 static celspan_status check_group(celspan_context *context, const celspan_group_desc *desc) {
-  CS_TRY(cs_check_given(context, "group", "the description", desc));
-  CS_TRY(cs_check_version(context, "group", desc->struct_size, sizeof *desc));
   double opacity;
   CS_TRY(cs_check_share(context, "group", "opacity", desc->opacity, &opacity));
   CS_TRY(cs_check_choice(context, "group", "blend", (unsigned)desc->blend, CS_BLEND_COUNT));
@@ -65,6 +64,7 @@ static celspan_status check_group(celspan_context *context, const celspan_group_
 
 celspan_status celspan_object_create_group(celspan_context *context, const celspan_group_desc *desc,
                                            celspan_object **out) {
+  CS_READ(context, "group", celspan_group_desc, desc);
   CS_TRY(check_group(context, desc));
   const cs_boolean look = {.op = CELSPAN_OPERATOR_UNION,
                            .blend = desc->blend,

@@ -10,11 +10,11 @@
  */
 #include <math.h>
 
+#include "base/description.h"
 #include "model/pictures/picture.h"
 #include "model/scene/check.h"
 
 static celspan_status check(celspan_context *context, const celspan_image_desc *desc) {
-  CS_TRY(cs_check_given(context, "image", "the description", desc));
   CS_TRY(cs_check_number(context, "image", "x", desc->x));
   CS_TRY(cs_check_number(context, "image", "y", desc->y));
   CS_TRY(cs_check_size(context, "image", "w", desc->width));
@@ -25,7 +25,7 @@ static celspan_status check(celspan_context *context, const celspan_image_desc *
 static celspan_status read_size(celspan_context *context, const celspan_image_desc *desc,
                                 double *width, double *height) {
   celspan_picture_info info;
-  CS_TRY(celspan_picture_inspect(context, &desc->picture, &info));
+  CS_TRY(celspan_picture_inspect(context, desc->picture, &info));
   *width = info.width;
   *height = info.height;
   return CELSPAN_OK;
@@ -55,7 +55,7 @@ static celspan_status place(celspan_context *context, const celspan_image_desc *
   if (has_width && has_height) {
     *picture = fitted(*frame, width, height, desc->fit);
     /* The edge of the picture becomes the outline of the rectangle, so that it is antialiased. */
-    if (desc->fit == CELSPAN_FIT_CONTAIN && desc->picture.wrap == CELSPAN_WRAP_CLEAR)
+    if (desc->fit == CELSPAN_FIT_CONTAIN && desc->picture->wrap == CELSPAN_WRAP_CLEAR)
       *frame = *picture;
     return CELSPAN_OK;
   }
@@ -67,9 +67,13 @@ static celspan_status place(celspan_context *context, const celspan_image_desc *
 
 celspan_status celspan_object_create_image(celspan_context *context, const celspan_image_desc *desc,
                                            celspan_object **out) {
+  CS_READ(context, "image", celspan_image_desc, desc);
+  const celspan_picture_desc *shown = desc->picture;
+  CS_READ(context, "image: picture", celspan_picture_desc, shown);
+  desc_whole.picture = shown;
   CS_TRY(check(context, desc));
   celspan_box frame;
-  celspan_picture_desc picture = desc->picture;
+  celspan_picture_desc picture = *desc->picture;
   picture.has_box = true;
   CS_TRY(place(context, desc, &frame, &picture.box));
   /* The picture now fills the rectangle, and the rectangle's outline decides where it ends. Because
@@ -79,7 +83,7 @@ celspan_status celspan_object_create_image(celspan_context *context, const celsp
     picture.wrap = CELSPAN_WRAP_CLAMP;
   celspan_texture *texture;
   CS_TRY(celspan_texture_create_picture(context, &picture, &texture));
-  celspan_rect_desc rect = {frame.x, frame.y, frame.width, frame.height, 0, texture};
+  celspan_rect_desc rect = {sizeof rect, frame.x, frame.y, frame.width, frame.height, 0, texture};
   celspan_status status = celspan_object_create_rect(context, &rect, out);
   celspan_texture_unref(texture);
   return status;

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/description.h"
 #include "model/pictures/store.h"
 #include "model/pictures/surface.h"
 #include "model/scene/check.h"
@@ -114,9 +115,8 @@ static bool report_nobody(void *user, const celspan_fault *fault) {
 
 celspan_status celspan_rostrum_inspect(celspan_context *context, const celspan_rostrum *rostrum,
                                        const celspan_inspect_desc *desc) {
+  CS_READ(context, "inspect", celspan_inspect_desc, desc);
   CS_TRY(cs_check_given(context, "inspect", "rostrum", rostrum));
-  CS_TRY(cs_check_given(context, "inspect", "desc", desc));
-  CS_TRY(cs_check_version(context, "inspect", desc->struct_size, sizeof *desc));
   cs_inspection inspection = {
       .context = context, .is_deep = desc->is_deep, .progress = desc->progress, .user = desc->user};
   celspan_status status = cs_inspect_rostrum(

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/description.h"
 #include "model/geometry/matrix.h"
 #include "model/scene/check.h"
 #include "model/scene/primitive_data.h"
@@ -13,8 +14,6 @@
 
 static celspan_status check(celspan_context *context, const celspan_pattern_desc *desc) {
   celspan_matrix inverse;
-  CS_TRY(cs_check_given(context, NOUN, "the description", desc));
-  CS_TRY(cs_check_version(context, NOUN, desc->struct_size, sizeof *desc));
   CS_TRY(cs_check_given(context, NOUN, "art", desc->art));
   CS_TRY(cs_check_box(context, NOUN, "box", &desc->box));
   if (!(desc->box.width > 0 && desc->box.height > 0))
@@ -70,6 +69,7 @@ static const cs_texture_tile_calls tile_calls = {celspan_rostrum_ref, celspan_ro
 celspan_status celspan_texture_create_pattern(celspan_context *context,
                                               const celspan_pattern_desc *desc,
                                               celspan_texture **out) {
+  CS_READ(context, NOUN, celspan_pattern_desc, desc);
   celspan_rostrum *tile;
   celspan_texture *texture;
   CS_TRY(check(context, desc));

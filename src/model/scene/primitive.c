@@ -1,5 +1,6 @@
 /* The public constructors of primitives: they check the description and make the primitive data,
  * that is outline, bounds and texture. */
+#include "base/description.h"
 #include "model/scene/check.h"
 #include "model/scene/pattern.h"
 #include "model/scene/primitive_data.h"
@@ -56,7 +57,7 @@ static celspan_status create_rounded(celspan_context *context, cs_primitive_data
 
 celspan_status celspan_object_create_rect(celspan_context *context, const celspan_rect_desc *desc,
                                           celspan_object **out) {
-  CS_TRY(cs_check_given(context, "rect", "the description", desc));
+  CS_READ(context, "rect", celspan_rect_desc, desc);
   CS_TRY(cs_check_number(context, "rect", "x", desc->x));
   CS_TRY(cs_check_number(context, "rect", "y", desc->y));
   CS_TRY(cs_check_size(context, "rect", "w", desc->width));
@@ -92,22 +93,23 @@ static celspan_status create_polygon(celspan_context *context, const char *noun,
 celspan_status celspan_object_create_polygon(celspan_context *context,
                                              const celspan_polygon_desc *desc,
                                              celspan_object **out) {
-  CS_TRY(cs_check_given(context, "polygon", "the description", desc));
+  CS_READ(context, "polygon", celspan_polygon_desc, desc);
   return create_polygon(context, "polygon", desc, out);
 }
 
 celspan_status celspan_object_create_triangle(celspan_context *context,
                                               const celspan_triangle_desc *desc,
                                               celspan_object **out) {
-  CS_TRY(cs_check_given(context, "triangle", "the description", desc));
-  celspan_polygon_desc polygon = {desc->points, 3, CELSPAN_RULE_NONZERO, desc->texture};
+  CS_READ(context, "triangle", celspan_triangle_desc, desc);
+  celspan_polygon_desc polygon = {sizeof polygon, desc->points, 3, CELSPAN_RULE_NONZERO,
+                                  desc->texture};
   return create_polygon(context, "triangle", &polygon, out);
 }
 
 celspan_status celspan_object_create_ellipse(celspan_context *context,
                                              const celspan_ellipse_desc *desc,
                                              celspan_object **out) {
-  CS_TRY(cs_check_given(context, "ellipse", "the description", desc));
+  CS_READ(context, "ellipse", celspan_ellipse_desc, desc);
   CS_TRY(cs_check_point(context, "ellipse", "centre", 0, desc->centre));
   CS_TRY(cs_check_size(context, "ellipse", "radii[1]", desc->radius_x));
   CS_TRY(cs_check_size(context, "ellipse", "radii[2]", desc->radius_y));
@@ -122,7 +124,7 @@ celspan_status celspan_object_create_ellipse(celspan_context *context,
 
 celspan_status celspan_object_create_nurbs(celspan_context *context, const celspan_nurbs_desc *desc,
                                            celspan_object **out) {
-  CS_TRY(cs_check_given(context, "nurbs", "the description", desc));
+  CS_READ(context, "nurbs", celspan_nurbs_desc, desc);
   CS_TRY(check_points(context, "nurbs", desc->points, desc->point_count));
   CS_TRY(cs_check_choice(context, "nurbs", "closed", (unsigned)desc->closure,
                          CELSPAN_NURBS_CLAMPED + 1));
@@ -136,7 +138,7 @@ celspan_status celspan_object_create_nurbs(celspan_context *context, const celsp
 
 celspan_status celspan_object_create_path(celspan_context *context, const celspan_path_desc *desc,
                                           celspan_object **out) {
-  CS_TRY(cs_check_given(context, "path", "the description", desc));
+  CS_READ(context, "path", celspan_path_desc, desc);
   CS_TRY(cs_check_given(context, "path", "d", desc->data));
   cs_primitive_data *data;
   CS_TRY(begin(context, "path", desc->rule, desc->texture, &data));
@@ -161,7 +163,7 @@ celspan_status cs_primitive_data_of_outline(celspan_context *context, cs_outline
 celspan_status celspan_object_create_scanline(celspan_context *context,
                                               const celspan_scanline_desc *desc,
                                               celspan_object **out) {
-  CS_TRY(cs_check_given(context, "scanline", "the description", desc));
+  CS_READ(context, "scanline", celspan_scanline_desc, desc);
   CS_TRY(cs_check_box(context, "scanline", "bounds", &desc->bounds));
   if (!desc->spans)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "scanline: spans is missing");

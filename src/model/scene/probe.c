@@ -18,6 +18,7 @@
  */
 #include <math.h>
 
+#include "base/description.h"
 #include "base/number.h"
 #include "model/scene/check.h"
 #include "model/scene/inside.h"
@@ -375,8 +376,6 @@ static celspan_status add_exposure(const probe_call *probe, const celspan_exposu
 
 static celspan_status check(celspan_context *context, const celspan_frame_desc *desc,
                             celspan_point point) {
-  CS_TRY(cs_check_given(context, "probe", "the description", desc));
-  CS_TRY(cs_check_version(context, "probe", desc->struct_size, sizeof *desc));
   CS_TRY(cs_check_list(context, "probe", "exposures", desc->exposures, desc->exposure_count,
                        CS_CHECK_ITEMS));
   for (size_t i = 0; i < desc->exposure_count; i++) {
@@ -394,6 +393,7 @@ static celspan_status check(celspan_context *context, const celspan_frame_desc *
 
 celspan_status celspan_probe(celspan_context *context, const celspan_frame_desc *desc,
                              celspan_point point, double rgba[4]) {
+  CS_READ(context, "probe", celspan_frame_desc, desc);
   CS_TRY(check(context, desc, point));
   const probe_call probe = {context, desc->film_width, desc->film_height, point,
                             cs_space_inside(desc->space, CELSPAN_SPACE_LINEAR)};

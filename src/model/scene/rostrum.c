@@ -1,4 +1,5 @@
 /* Rostrums: the description of a composition, checked, copied and hashed. */
+#include "base/description.h"
 #include "model/scene/scene.h"
 
 #include "base/number.h"
@@ -17,8 +18,6 @@ static celspan_status check_cels(celspan_context *context, const celspan_rostrum
 }
 
 static celspan_status check(celspan_context *context, const celspan_rostrum_desc *desc) {
-  CS_TRY(cs_check_given(context, "rostrum", "the description", desc));
-  CS_TRY(cs_check_version(context, "rostrum", desc->struct_size, sizeof *desc));
   CS_TRY(check_cels(context, desc));
   if (desc->back_texture.texture && desc->back_texture.on == CELSPAN_LIGHT_ON_CEL)
     return cs_fail(
@@ -97,7 +96,7 @@ static celspan_status make_parts(celspan_context *context, const celspan_rostrum
   if (status == CELSPAN_OK)
     status = cs_light_make(context, &back, &parts->back);
   if (status == CELSPAN_OK)
-    status = cs_antialias_make(context, "rostrum: antialias", desc->antialias, &desc->filter,
+    status = cs_antialias_make(context, "rostrum: antialias", desc->antialias, desc->filter,
                                &parts->antialias);
   parts->cels = cs_mem_array(context->memory, desc->cel_count, sizeof(celspan_cel *));
   if (status == CELSPAN_OK && !parts->cels && desc->cel_count > 0)
@@ -120,6 +119,7 @@ static void free_parts(celspan_rostrum *rostrum, cs_memory *memory) {
 
 celspan_status celspan_rostrum_create(celspan_context *context, const celspan_rostrum_desc *desc,
                                       celspan_rostrum **out) {
+  CS_READ(context, "rostrum", celspan_rostrum_desc, desc);
   CS_TRY(check(context, desc));
   celspan_rostrum *rostrum;
   CS_TRY(CS_MAKE(context, rostrum, 1));

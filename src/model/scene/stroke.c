@@ -1,4 +1,5 @@
 /* Strokes: the constructors, which check the description. */
+#include "base/description.h"
 #include "model/scene/check.h"
 #include "model/scene/pattern.h"
 #include "model/scene/primitive_data.h"
@@ -127,8 +128,7 @@ celspan_status cs_primitive_data_of_line(celspan_context *context, const cs_outl
 
 celspan_status celspan_object_create_stroke(celspan_context *context,
                                             const celspan_stroke_desc *desc, celspan_object **out) {
-  CS_TRY(cs_check_given(context, NOUN, "the description", desc));
-  CS_TRY(cs_check_version(context, NOUN, desc->struct_size, sizeof *desc));
+  CS_READ(context, NOUN, celspan_stroke_desc, desc);
   int given = (desc->points != NULL) + (desc->data != NULL) + (desc->outline != NULL);
   if (given != 1)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
@@ -139,9 +139,8 @@ celspan_status celspan_object_create_stroke(celspan_context *context,
 
 celspan_status celspan_object_stroke(celspan_context *context, celspan_object *object,
                                      const celspan_stroke_desc *desc, celspan_object **out) {
+  CS_READ(context, NOUN, celspan_stroke_desc, desc);
   CS_TRY(cs_check_given(context, NOUN, "the object", object));
-  CS_TRY(cs_check_given(context, NOUN, "the description", desc));
-  CS_TRY(cs_check_version(context, NOUN, desc->struct_size, sizeof *desc));
   if (desc->points || desc->data)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "stroke: the line is the object's outline; points and d do not go with it");

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/description.h"
 #include "base/self_check.h"
 #include "model/colour/space.h"
 #include "model/pictures/store.h"
@@ -254,7 +255,6 @@ celspan_status celspan_texture_create_focal(celspan_context *context, celspan_po
 /* ---------------------------------------------------------------- pictures */
 
 static celspan_status check_picture(celspan_context *context, const celspan_picture_desc *desc) {
-  CS_TRY(cs_check_given(context, "picture", "the description", desc));
   CS_TRY(cs_check_choice(context, "picture", "sampling", (unsigned)desc->sampling,
                          CELSPAN_SAMPLING_BICUBIC + 1));
   CS_TRY(cs_check_choice(context, "picture", "use", (unsigned)desc->use, CELSPAN_PICTURE_GEL + 1));
@@ -266,6 +266,7 @@ static celspan_status check_picture(celspan_context *context, const celspan_pict
 celspan_status celspan_texture_create_picture(celspan_context *context,
                                               const celspan_picture_desc *desc,
                                               celspan_texture **out) {
+  CS_READ(context, "picture", celspan_picture_desc, desc);
   const cs_paint clear = CS_PAINT_CLEAR;
   CS_TRY(check_picture(context, desc));
   cs_picture *picture;
@@ -313,6 +314,7 @@ celspan_status cs_texture_copy_medium(celspan_context *context, const celspan_te
 celspan_status celspan_texture_with_medium(celspan_context *context, celspan_texture *texture,
                                            const celspan_picture_desc *medium,
                                            celspan_texture **out) {
+  CS_READ(context, "medium", celspan_picture_desc, medium);
   CS_TRY(cs_check_given(context, "medium", "the texture", texture));
   CS_TRY(check_picture(context, medium));
   if (texture->kind != CS_TEXTURE_PICTURE || texture->variation->use != CELSPAN_PICTURE_PAINT)

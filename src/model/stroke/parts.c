@@ -150,7 +150,8 @@ static celspan_status add_spline(celspan_context *context, cs_outline *line,
   int degree = (size_t)desc->degree < most ? desc->degree : (int)most;
   if (degree == 1)
     return add_polyline(context, line, points, count, desc->closed);
-  const celspan_nurbs_desc spline = {.points = points,
+  const celspan_nurbs_desc spline = {.struct_size = sizeof spline,
+                                     .points = points,
                                      .point_count = count,
                                      .degree = degree,
                                      .closure = desc->closed ? CELSPAN_NURBS_PERIODIC

@@ -38,7 +38,7 @@ static celspan_status cut_triangle(cutter *c, size_t i, size_t j, size_t k) {
   const celspan_matrix matrix = affine(before, after);
   celspan_texture *texture;
   CS_TRY(celspan_texture_with_matrix(c->context, c->texture, &matrix, &texture));
-  const celspan_triangle_desc desc = {{after[0], after[1], after[2]}, texture};
+  const celspan_triangle_desc desc = {sizeof desc, {after[0], after[1], after[2]}, texture};
   celspan_status status = celspan_object_create_triangle(c->context, &desc, &c->objects[c->count]);
   celspan_texture_unref(texture);
   if (status == CELSPAN_OK)

@@ -10,6 +10,7 @@
  */
 #include <math.h>
 
+#include "base/description.h"
 #include "model/scene/bounds.h"
 #include "model/scene/check.h"
 #include "model/scene/primitive_data.h"
@@ -176,18 +177,15 @@ static celspan_status bend_object(const cs_warp_map *map, const celspan_object *
 static celspan_status check(celspan_context *context, const celspan_object *object,
                             const celspan_warp_desc *desc) {
   CS_TRY(cs_check_given(context, "warp", "the object", object));
-  CS_TRY(cs_check_given(context, "warp", "the description", desc));
-  CS_TRY(cs_check_version(context, "warp", desc->struct_size, sizeof *desc));
   if (!desc->map)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "warp: map is missing");
   CS_TRY(cs_check_size(context, "warp", "within", desc->within));
-  if (desc->pieces == 0)
-    return CELSPAN_OK;
   return cs_check_range(context, "warp", "pieces", (double)desc->pieces, PIECES_LEAST, PIECES_MOST);
 }
 
 celspan_status celspan_object_warp(celspan_context *context, celspan_object *object,
                                    const celspan_warp_desc *desc, celspan_object **out) {
+  CS_READ(context, "warp", celspan_warp_desc, desc);
   CS_TRY(check(context, object, desc));
   const celspan_matrix identity = celspan_matrix_identity();
   celspan_box box = {0};
@@ -203,6 +201,6 @@ celspan_status celspan_object_warp(celspan_context *context, celspan_object *obj
                            .user = desc->user,
                            .within = desc->within > 0 ? desc->within : WITHIN * extent,
                            .extent = extent,
-                           .pieces = desc->pieces > 0 ? desc->pieces : PIECES};
+                           .pieces = desc->pieces};
   return bend_object(&map, object, &identity, out);
 }

@@ -139,7 +139,7 @@ static celspan_status check_coding(celspan_context *context, const char *path,
 
 celspan_status cs_sink_png(celspan_context *context, const char *path,
                            const celspan_file_desc *file, celspan_sink *out) {
-  celspan_coding coding = cs_pixels_resolve(&file->coding, CELSPAN_DEPTH_8);
+  celspan_coding coding = cs_pixels_resolve(file->coding, CELSPAN_DEPTH_8);
   CS_TRY(check_coding(context, path, &coding));
   size_t path_size = strlen(path) + 1, title = file->title ? strlen(file->title) : 0;
   size_t title_size = title > 0 ? sizeof title_head + title : 0;
@@ -158,7 +158,8 @@ celspan_status cs_sink_png(celspan_context *context, const char *path,
     memcpy(sink->title + sizeof title_head, file->title, title);
   }
   sink->path = memcpy(sink->title + title_size, path, path_size);
-  *out = (celspan_sink){.user = sink,
+  *out = (celspan_sink){.struct_size = sizeof(celspan_sink),
+                        .user = sink,
                         .begin = begin,
                         .row = put_row,
                         .end = end,

@@ -283,7 +283,7 @@ static CELSPAN_CHECKED celspan_status put_filtered_bytes(cs_deflate *deflate,
 enum { CHUNK = 64, LONG_SPAN = 16, DENSE_SHARE = 8 };
 
 void cs_png_rows_begin(cs_png_rows *rows, celspan_coding coding, int32_t width, bool is_opaque) {
-  size_t coded_size = celspan_coding_pixel_size(&coding);
+  size_t coded_size = cs_pixels_size(&coding);
   *rows = (cs_png_rows){.coding = coding,
                         .width = width,
                         .coded_size = coded_size,

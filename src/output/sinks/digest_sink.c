@@ -18,7 +18,7 @@ static void destroy(digest_sink *sink, celspan_context *context) {
 
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
   digest_sink *sink = user;
-  sink->row_size = (size_t)width * celspan_coding_pixel_size(&sink->coding);
+  sink->row_size = (size_t)width * cs_pixels_size(&sink->coding);
   sink->row = cs_mem_resize(context->memory, NULL, 0, sink->row_size);
   if (!sink->row)
     return cs_fail_memory(context);
@@ -57,7 +57,8 @@ celspan_status cs_sink_digest(celspan_context *context, const celspan_coding *co
   sink->coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
   sink->digest = digest;
   sink->hash = cs_hash_begin(1);
-  *out = (celspan_sink){.user = sink,
+  *out = (celspan_sink){.struct_size = sizeof(celspan_sink),
+                        .user = sink,
                         .begin = begin,
                         .row = put_row,
                         .end = end,

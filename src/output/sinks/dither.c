@@ -101,6 +101,10 @@ celspan_status cs_dither_sink(celspan_context *context, const celspan_coding *as
     return cs_fail_memory(context);
   }
   *dither = (dither_sink){.inner = *sink, .coding = *coding, .x = x, .y = y};
-  *sink = (celspan_sink){.user = dither, .begin = begin, .row = put_row, .end = end};
+  *sink = (celspan_sink){.struct_size = sizeof(celspan_sink),
+                         .user = dither,
+                         .begin = begin,
+                         .row = put_row,
+                         .end = end};
   return CELSPAN_OK;
 }

@@ -4,6 +4,7 @@
 #include <strings.h>
 
 #include "base/context.h"
+#include "base/description.h"
 #include "output/sinks/dither.h"
 #include "output/sinks/file.h"
 #include "output/sinks/pixels.h"
@@ -166,8 +167,12 @@ static CELSPAN_CHECKED celspan_status guard_sink(celspan_context *context, const
   g->allocated = size;
   g->takes_codes = sink->takes_codes;
   memcpy(g->path, path, path_size);
-  *sink = (celspan_sink){
-      .user = g, .begin = begin, .row = put_row, .end = end, .takes_codes = g->takes_codes};
+  *sink = (celspan_sink){.struct_size = sizeof(celspan_sink),
+                         .user = g,
+                         .begin = begin,
+                         .row = put_row,
+                         .end = end,
+                         .takes_codes = g->takes_codes};
   return CELSPAN_OK;
 }
 
@@ -249,8 +254,8 @@ static celspan_status create(celspan_context *context, const char *path,
   celspan_sink sink;
   CS_TRY(format->create(context, path, file, &sink));
   if (format->is_dithered) {
-    celspan_coding coding = cs_pixels_resolve(&file->coding, CELSPAN_DEPTH_8);
-    CS_TRY(cs_dither_sink(context, &file->coding, &coding, file->place_x, file->place_y, &sink));
+    celspan_coding coding = cs_pixels_resolve(file->coding, CELSPAN_DEPTH_8);
+    CS_TRY(cs_dither_sink(context, file->coding, &coding, file->place_x, file->place_y, &sink));
   }
   *out = sink;
   return CELSPAN_OK;
@@ -258,11 +263,15 @@ static celspan_status create(celspan_context *context, const char *path,
 
 celspan_status cs_sink_file(celspan_context *context, const char *path,
                             const celspan_file_desc *file, celspan_sink *out) {
+  const celspan_coding plain = CELSPAN_CODING;
+  celspan_file_desc known = *file;
   celspan_sink sink;
+  if (!known.coding)
+    known.coding = &plain;
   if (!path || !*path)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "the file to write has no name");
-  CS_TRY(cs_pixels_check(context, &file->coding));
-  CS_TRY(create(context, path, file, &sink));
+  CS_TRY(cs_pixels_check(context, known.coding));
+  CS_TRY(create(context, path, &known, &sink));
   CS_TRY(guard_sink(context, path, &sink));
   *out = sink;
   return CELSPAN_OK;
@@ -270,8 +279,16 @@ celspan_status cs_sink_file(celspan_context *context, const char *path,
 
 celspan_status celspan_file_sink_create(celspan_context *context, const char *path,
                                         const celspan_file_desc *file, celspan_sink *out) {
-  celspan_file_desc defaults = CELSPAN_FILE_DESC;
-  return cs_sink_file(context, path, file ? file : &defaults, out);
+  celspan_sink sink;
+  if (!file)
+    file = cs_celspan_file_desc_description.defaults;
+  CS_READ(context, "file", celspan_file_desc, file);
+  celspan_coding coding;
+  CS_TRY(cs_pixels_read(context, &file_whole.coding, &coding));
+  CS_TRY(cs_description_read(context, "sink", &cs_celspan_sink_description, out, &sink));
+  CS_TRY(cs_sink_file(context, path, file, &sink));
+  cs_description_write(&cs_celspan_sink_description, &sink, out, out->struct_size);
+  return CELSPAN_OK;
 }
 
 bool cs_sink_shares(const celspan_sink *sink, cs_shares *out) {

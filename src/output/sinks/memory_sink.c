@@ -16,7 +16,7 @@ typedef struct memory_sink {
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
   memory_sink *sink = user;
   (void)height;
-  sink->row_size = (size_t)width * celspan_coding_pixel_size(&sink->coding);
+  sink->row_size = (size_t)width * cs_pixels_size(&sink->coding);
   if (!sink->pixels)
     sink->row = cs_mem_array(context->memory, 1, sink->row_size);
   if (sink->pixels ? sink->stride >= sink->row_size : sink->row != NULL)
@@ -62,7 +62,8 @@ celspan_status cs_sink_memory(celspan_context *context, const celspan_coding *co
   sink->coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
   sink->pixels = pixels;
   sink->stride = stride;
-  *out = (celspan_sink){.user = sink,
+  *out = (celspan_sink){.struct_size = sizeof(celspan_sink),
+                        .user = sink,
                         .begin = begin,
                         .row = put_row,
                         .end = end,

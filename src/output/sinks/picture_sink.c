@@ -168,7 +168,7 @@ static void pack_film(const float *pixels, int32_t width, uint16_t *out) {
 }
 
 static void pack_row(const picture_sink *sink, unsigned char *out) {
-  size_t from = celspan_coding_pixel_size(&sink->coding);
+  size_t from = cs_pixels_size(&sink->coding);
   if (sink->bits) {
     pack_film((const float *)(const void *)sink->pixels, sink->width, (uint16_t *)(void *)out);
     return;
@@ -199,8 +199,7 @@ static void destroy(picture_sink *sink, celspan_context *context) {
   cs_memory *memory = context->memory;
   cs_picture_file_discard(&sink->file, context);
   if (sink->pixels)
-    cs_mem_free(memory, sink->pixels,
-                (size_t)sink->width * celspan_coding_pixel_size(&sink->coding));
+    cs_mem_free(memory, sink->pixels, (size_t)sink->width * cs_pixels_size(&sink->coding));
   cs_mem_free(memory, sink->batch, (size_t)sink->batch_rows * row_size(sink));
   free_text(memory, sink->path);
   free_text(memory, sink->title);
@@ -230,8 +229,7 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
   sink->height = height;
   size_t fitting = BATCH_BYTES / row_size(sink);
   sink->batch_rows = fitting < 1 ? 1 : fitting > BATCH_ROWS ? BATCH_ROWS : (int32_t)fitting;
-  sink->pixels =
-      cs_mem_array(context->memory, (size_t)width, celspan_coding_pixel_size(&sink->coding));
+  sink->pixels = cs_mem_array(context->memory, (size_t)width, cs_pixels_size(&sink->coding));
   sink->batch = cs_mem_array(context->memory, (size_t)sink->batch_rows, row_size(sink));
   if (!sink->pixels || !sink->batch)
     return cs_fail_memory(context);
@@ -282,7 +280,7 @@ celspan_status cs_sink_picture(celspan_context *context, const char *path,
   if (!made.format)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: the format \"%s\" cannot be written", path,
                    name);
-  CS_TRY(choose_coding(context, path, &file->coding, &made));
+  CS_TRY(choose_coding(context, path, file->coding, &made));
   made.path = copy_text(context->memory, path);
   made.title = file->title ? copy_text(context->memory, file->title) : NULL;
   picture_sink *sink = cs_mem_array(context->memory, 1, sizeof *sink);
@@ -293,10 +291,11 @@ celspan_status cs_sink_picture(celspan_context *context, const char *path,
     return cs_fail_memory(context);
   }
   *sink = made;
-  *out = (celspan_sink){.user = sink,
+  *out = (celspan_sink){.struct_size = sizeof(celspan_sink),
+                        .user = sink,
                         .begin = begin,
                         .row = put_row,
                         .end = end,
                         .takes_codes = cs_pixels_takes_codes(&sink->coding)};
-  return cs_dither_sink(context, &file->coding, &sink->coding, file->place_x, file->place_y, out);
+  return cs_dither_sink(context, file->coding, &sink->coding, file->place_x, file->place_y, out);
 }

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/description.h"
 #include "base/vector.h"
 #include "model/colour/space.h"
 #include "model/colour/srgb8_lanes.h"
@@ -20,6 +21,11 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "pixels are written lit
 enum { CHUNK = 64 };
 
 size_t celspan_coding_pixel_size(const celspan_coding *coding) {
+  celspan_coding whole;
+  return cs_pixels_read(NULL, &coding, &whole) == CELSPAN_OK ? cs_pixels_size(coding) : 0;
+}
+
+size_t cs_pixels_size(const celspan_coding *coding) {
   switch (coding->depth) {
   case CELSPAN_DEPTH_16:
   case CELSPAN_DEPTH_HALF:
@@ -29,6 +35,15 @@ size_t celspan_coding_pixel_size(const celspan_coding *coding) {
   default:
     return 4;
   }
+}
+
+celspan_status cs_pixels_read(celspan_context *context, const celspan_coding **coding,
+                              celspan_coding *whole) {
+  *whole = CELSPAN_CODING;
+  if (*coding)
+    CS_TRY(cs_description_read(context, "coding", &cs_celspan_coding_description, *coding, whole));
+  *coding = whole;
+  return context ? cs_pixels_check(context, whole) : CELSPAN_OK;
 }
 
 celspan_status cs_pixels_check(celspan_context *context, const celspan_coding *coding) {
@@ -43,7 +58,8 @@ celspan_status cs_pixels_check(celspan_context *context, const celspan_coding *c
 }
 
 celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth default_depth) {
-  celspan_coding resolved = coding ? *coding : (celspan_coding){0};
+  celspan_coding resolved = coding ? *coding : CELSPAN_CODING;
+  resolved.struct_size = sizeof resolved;
   if (resolved.depth == CELSPAN_DEPTH_DEFAULT)
     resolved.depth = default_depth == CELSPAN_DEPTH_DEFAULT ? CELSPAN_DEPTH_8 : default_depth;
   if (resolved.depth == CELSPAN_DEPTH_8_DITHER)
@@ -278,7 +294,7 @@ static void code_span(const celspan_coding *coding, coder code, const celspan_sp
 static void code_spans(const celspan_coding *coding, const celspan_span *spans, size_t span_count,
                        unsigned char *row) {
   coder code = choose_coder(coding);
-  size_t pixel_size = celspan_coding_pixel_size(coding);
+  size_t pixel_size = cs_pixels_size(coding);
   gathered waiting;
   waiting.count = 0;
   for (const celspan_span *span = spans; span < spans + span_count; span++) {

@@ -20,6 +20,12 @@
  * coding. Errors: BAD_ARGUMENT. */
 CELSPAN_CHECKED celspan_status cs_pixels_check(celspan_context *context,
                                                const celspan_coding *coding);
+/* The door for codings: *coding, from outside, or NULL for the defaults, is made to point to its
+ * copy, *whole. Its numbers are checked if there is a context to say what is wrong with them. */
+CELSPAN_CHECKED celspan_status cs_pixels_read(celspan_context *context,
+                                              const celspan_coding **coding, celspan_coding *whole);
+/* Bytes of a pixel. */
+size_t cs_pixels_size(const celspan_coding *coding);
 /* An alpha of codings inside: the colour of the light, divided by alpha, is coded, and the code is
  * multiplied by alpha. Readers of files that hold alpha take it so. Where alpha is 0 the light is
  * coded as if it were opaque. */

@@ -36,6 +36,10 @@ static celspan_status end(void *user, celspan_context *context, celspan_status o
 
 celspan_sink cs_tee_sink(cs_tee *tee) {
   tee->is_ended = false;
-  return (celspan_sink){tee, begin, put_row, end,
+  return (celspan_sink){sizeof(celspan_sink),
+                        tee,
+                        begin,
+                        put_row,
+                        end,
                         tee->sinks[0].takes_codes && tee->sinks[1].takes_codes};
 }

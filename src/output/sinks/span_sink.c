@@ -80,7 +80,7 @@ static spanfile_status put_varying(packer *p, const celspan_span *span) {
 
 /* At most CS_SINGLE_COLOURS_MOST spans. */
 static spanfile_status put_group(packer *p, const celspan_span *spans, size_t count) {
-  size_t pixel_size = celspan_coding_pixel_size(p->coding), run_count = 0;
+  size_t pixel_size = cs_pixels_size(p->coding), run_count = 0;
   spanfile_status status = SPANFILE_OK;
   cs_single_colours_code(&p->colours, p->coding, spans, count);
   for (size_t i = 0; i < count; i++)
@@ -164,8 +164,8 @@ static bool is_storable(const celspan_coding *coding) {
 
 celspan_status cs_sink_span(celspan_context *context, const char *path,
                             const celspan_file_desc *file, celspan_sink *out) {
-  celspan_coding coding = cs_pixels_resolve(&file->coding, CELSPAN_DEPTH_8);
-  if (file->coding.depth == CELSPAN_DEPTH_8_DITHER)
+  celspan_coding coding = cs_pixels_resolve(file->coding, CELSPAN_DEPTH_8);
+  if (file->coding->depth == CELSPAN_DEPTH_8_DITHER)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "%s: span files hold the colours of spans, which dithering would break into "
                    "pixels; dither PNG, Targa or another format of pixels",
@@ -184,7 +184,11 @@ celspan_status cs_sink_span(celspan_context *context, const char *path,
   sink->strip = cs_strip_of(file);
   sink->packer.coding = &sink->coding;
   memcpy(sink->path, path, path_size);
-  *out = (celspan_sink){.user = sink, .begin = begin, .row = put_row, .end = end};
+  *out = (celspan_sink){.struct_size = sizeof(celspan_sink),
+                        .user = sink,
+                        .begin = begin,
+                        .row = put_row,
+                        .end = end};
   return CELSPAN_OK;
 }
 

@@ -198,7 +198,7 @@ static celspan_status end(void *user, celspan_context *context, celspan_status o
 
 celspan_status cs_sink_tga(celspan_context *context, const char *path,
                            const celspan_file_desc *file, celspan_sink *out) {
-  celspan_coding coding = cs_pixels_resolve(&file->coding, CELSPAN_DEPTH_8);
+  celspan_coding coding = cs_pixels_resolve(file->coding, CELSPAN_DEPTH_8);
   if (coding.depth != CELSPAN_DEPTH_8)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "%s: targa files hold depth 8; for more use PNG, EXR or TIFF", path);
@@ -214,7 +214,8 @@ celspan_status cs_sink_tga(celspan_context *context, const char *path,
   sink->pixel_size = file->is_opaque ? 3 : 4;
   sink->path = memcpy(sink->text, path, path_size);
   sink->title = memcpy(sink->text + path_size, title, title_size);
-  *out = (celspan_sink){.user = sink,
+  *out = (celspan_sink){.struct_size = sizeof(celspan_sink),
+                        .user = sink,
                         .begin = begin,
                         .row = put_row,
                         .end = end,

@@ -1,4 +1,5 @@
 /* The order of characters (FriBidi) and where lines may break (libunibreak). */
+#include "celspan/text.h"
 #include "plugins/type/type.h"
 
 #include <fribidi.h>

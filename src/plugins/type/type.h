@@ -2,6 +2,7 @@
  * readers/xml/type.h. */
 #pragma once
 
+#include "celspan/text.h"
 #include "readers/xml/module.h"
 
 /* XML through expat. */

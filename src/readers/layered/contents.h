@@ -12,6 +12,7 @@
  */
 #pragma once
 
+#include "celspan/layers.h"
 #include "readers/layered/rows.h"
 
 #define CS_CONTENTS_LAYERS 65536

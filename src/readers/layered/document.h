@@ -12,6 +12,7 @@
  */
 #pragma once
 
+#include "celspan/layers.h"
 #include "readers/layered/contents.h"
 #include "readers/layered/profile.h"
 #include "readers/layered/zip.h"

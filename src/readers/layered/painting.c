@@ -1,4 +1,5 @@
 /* Layered paintings: the format of a file, and its layers. */
+#include "celspan/layers.h"
 #include "readers/layered/document.h"
 #include "readers/layered/layer_surface.h"
 #include "readers/layered/profile_table.h"

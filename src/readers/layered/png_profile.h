@@ -7,6 +7,7 @@
  */
 #pragma once
 
+#include "celspan/layers.h"
 #include "readers/layered/profile.h"
 #include "readers/layered/zip.h"
 

@@ -13,6 +13,7 @@
  */
 #pragma once
 
+#include "celspan/layers.h"
 #include "readers/layered/contents.h"
 #include "readers/layered/profile_table.h"
 

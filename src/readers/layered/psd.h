@@ -11,6 +11,7 @@
  */
 #pragma once
 
+#include "celspan/layers.h"
 #include "readers/layered/contents.h"
 
 /* Whether the first bytes are the beginning of such a document. */

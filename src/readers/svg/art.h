@@ -12,6 +12,7 @@
 #pragma once
 
 #include "base/arena.h"
+#include "celspan/svg.h"
 #include "readers/svg/recipe.h"
 
 /* The facts about an element of the file, also for elements without a name. */

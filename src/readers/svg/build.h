@@ -1,6 +1,7 @@
 /* From the elements of a document to the items of a drawing. */
 #pragma once
 
+#include "celspan/svg.h"
 #include "readers/svg/art.h"
 #include "readers/svg/reading.h"
 

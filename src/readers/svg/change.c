@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "celspan/svg.h"
 #include "model/scene/check.h"
 #include "readers/svg/art.h"
 

@@ -3,6 +3,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "celspan/svg.h"
 #include "readers/svg/values.h"
 
 #define FAMILIES 64 /* of one list that are looked for */
@@ -46,11 +47,11 @@ static void add(cs_svg_faces *faces, const celspan_svg_font *found, bool is_plai
   if (!found || faces->count == CS_TEXT_FONTS)
     return;
   for (size_t i = 0; i < faces->count; i++)
-    if (strcmp(faces->fonts[i].file, found->font.file) == 0)
+    if (strcmp(faces->fonts[i], found->file) == 0)
       return;
   if (faces->count == 0)
     faces->is_plain = is_plain;
-  faces->fonts[faces->count++] = found->font;
+  faces->fonts[faces->count++] = found->file;
 }
 
 static void add_family(const cs_svg_source *source, const cs_svg_style *style, family wanted,

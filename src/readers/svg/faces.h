@@ -10,10 +10,10 @@
 #include "readers/text/layout.h"
 
 typedef struct cs_svg_faces {
-  celspan_font fonts[CS_TEXT_FONTS]; /* borrowed from the source; each is used for letters that the
-                                        fonts before it lack */
-  size_t count;                      /* 0: none was given */
-  bool is_plain;                     /* the first is bold or italic less than it should be */
+  const char *fonts[CS_TEXT_FONTS]; /* borrowed from the source; each is used for letters that the
+                                       fonts before it lack */
+  size_t count;                     /* 0: none was given */
+  bool is_plain;                    /* the first is bold or italic less than it should be */
 } cs_svg_faces;
 
 void cs_svg_faces_find(const cs_svg_source *source, const cs_svg_style *style, cs_svg_faces *out);

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "celspan/svg.h"
 #include "readers/svg/image_picture.h"
 #include "readers/svg/image_source.h"
 #include "readers/svg/shapes.h"
@@ -37,14 +38,17 @@ static celspan_status show_picture(image *of, celspan_picture_desc *picture) {
   CS_TRY(celspan_picture_inspect(context, picture, &info));
   of->width = info.width;
   of->height = info.height;
-  const celspan_image_desc desc = {
-      .picture = *picture, .width = of->width, .height = of->height, .fit = CELSPAN_FIT_FILL};
+  const celspan_image_desc desc = {.struct_size = sizeof desc,
+                                   .picture = picture,
+                                   .width = of->width,
+                                   .height = of->height,
+                                   .fit = CELSPAN_FIT_FILL};
   return celspan_object_create_image(context, &desc, &of->object);
 }
 
 /* A picture that lies in the drawing itself. */
 static celspan_status show_bytes(image *of, const cs_svg_image_data *data) {
-  celspan_picture_desc picture = {.file = NULL};
+  celspan_picture_desc picture = {.struct_size = sizeof picture, .file = NULL};
   CS_TRY(cs_svg_image_picture(of->reading, of->node, data->bytes, data->size, &picture.surface));
   if (!picture.surface)
     return CELSPAN_OK;
@@ -167,7 +171,7 @@ static celspan_status show_linked(image *of, const char *href) {
     return status;
   if (!reason && cs_svg_image_is_drawing(file.head, file.head_size))
     return show_drawing_file(of, &file);
-  celspan_picture_desc picture = {.file = file.path};
+  celspan_picture_desc picture = {.struct_size = sizeof picture, .file = file.path};
   status = reason ? cs_svg_skip(reading, of->node, "image %.40s: %s", href, reason)
                   : show_picture(of, &picture);
   reading->has_other_files = reading->has_other_files || reason || status != CELSPAN_OK;

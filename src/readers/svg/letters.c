@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/number.h"
+#include "celspan/text.h"
 #include "readers/svg/faces.h"
 #include "readers/text/layout.h"
 

@@ -1,6 +1,7 @@
 /* The names that an element gives its item, by which it is a part. */
 #pragma once
 
+#include "celspan/svg.h"
 #include "readers/svg/art.h"
 #include "readers/svg/reading.h"
 

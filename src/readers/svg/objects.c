@@ -32,7 +32,7 @@ celspan_status cs_svg_object_mask(celspan_context *context, celspan_object *art,
 
 celspan_status cs_svg_object_fill(celspan_context *context, const celspan_box *box,
                                   celspan_texture *texture, celspan_object **out) {
-  const celspan_rect_desc desc = {box->x, box->y, box->width, box->height, 0, texture};
+  const celspan_rect_desc desc = {sizeof desc, box->x, box->y, box->width, box->height, 0, texture};
   return celspan_object_create_rect(context, &desc, out);
 }
 

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/description.h"
 #include "base/hash.h"
 #include "base/open.h"
 #include "model/scene/check.h"
@@ -240,9 +241,9 @@ static void hash_about(cs_hash *hash, const struct stat *about) {
 /* A font that is not there has no facts; it is missed when a text needs it. */
 static void hash_font(cs_hash *hash, const celspan_svg_font *font) {
   struct stat about = {0};
-  (void)stat(font->font.file, &about);
+  (void)stat(font->file, &about);
   cs_hash_text(hash, font->family);
-  cs_hash_text(hash, font->font.file);
+  cs_hash_text(hash, font->file);
   hash_about(hash, &about);
 }
 
@@ -291,7 +292,7 @@ static celspan_status read_or_find(celspan_context *context, const char *file, i
 static celspan_status check_fonts(celspan_context *context, const cs_svg_options *options) {
   CS_TRY(cs_check_list(context, "svg", "fonts", options->fonts, options->font_count, FONTS));
   for (size_t i = 0; i < options->font_count; i++)
-    if (!options->fonts[i].family || !options->fonts[i].font.file)
+    if (!options->fonts[i].family || !options->fonts[i].file)
       return cs_fail(context, CELSPAN_BAD_ARGUMENT, "svg: fonts[%zu] has no family or no file",
                      i + 1);
   return CELSPAN_OK;
@@ -313,8 +314,7 @@ celspan_status cs_svg_read_file(celspan_context *context, const char *file,
 
 celspan_status celspan_svg_read(celspan_context *context, const celspan_svg_desc *desc,
                                 celspan_svg **out) {
-  CS_TRY(cs_check_given(context, "svg", "the description", desc));
-  CS_TRY(cs_check_version(context, "svg", desc->struct_size, sizeof *desc));
+  CS_READ(context, "svg", celspan_svg_desc, desc);
   if (!desc->file == !desc->bytes)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "svg: give a file or bytes, one of them");
   CS_TRY(cs_check_choice(context, "svg", "space", (unsigned)desc->space, CELSPAN_SPACE_SRGB + 1));

@@ -1,6 +1,7 @@
 /* Reading drawings from files. */
 #pragma once
 
+#include "celspan/svg.h"
 #include "readers/svg/reading.h"
 
 /* The fonts and the space for reading a drawing. */

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "base/hash_table.h"
+#include "celspan/svg.h"
 #include "readers/svg/style.h"
 
 #define CS_SVG_DRAWN 1000000             /* elements drawn, counted again at each `use` */

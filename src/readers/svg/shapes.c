@@ -272,7 +272,7 @@ celspan_matrix cs_svg_box_matrix(const celspan_box *box) {
 
 celspan_status cs_svg_rectangle(celspan_context *context, const celspan_box *box,
                                 const celspan_matrix *matrix, celspan_object **out) {
-  const celspan_rect_desc desc = {box->x, box->y, box->width, box->height, 0, NULL};
+  const celspan_rect_desc desc = {sizeof desc, box->x, box->y, box->width, box->height, 0, NULL};
   celspan_object *object;
   CS_TRY(celspan_object_create_rect(context, &desc, &object));
   celspan_status status = celspan_object_transform(context, object, matrix, out);

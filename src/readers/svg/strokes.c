@@ -87,7 +87,7 @@ static celspan_status read_dashes(stroking *p) {
 
 static celspan_status read_desc(stroking *p) {
   const cs_svg_style *style = &p->place->style;
-  p->desc = celspan_stroke_desc_default();
+  p->desc = CELSPAN_STROKE_DESC;
   p->desc.width = cs_svg_resolve(style->stroke_width, CS_SVG_AXIS_BOTH, &p->place->measure);
   p->desc.cap = style->cap;
   p->desc.join = style->join;
@@ -128,7 +128,8 @@ static celspan_status cover(stroking *p, const cs_svg_server *server, const cels
   if (!cs_number_is_sane(area.x) || !cs_number_is_sane(area.y) ||
       !cs_number_is_sane(area.x + area.width) || !cs_number_is_sane(area.y + area.height))
     return CELSPAN_OK;
-  const celspan_rect_desc desc = {area.x, area.y, area.width, area.height, 0, server->texture};
+  const celspan_rect_desc desc = {sizeof desc, area.x, area.y,         area.width,
+                                  area.height, 0,      server->texture};
   CS_TRY(celspan_object_create_rect(context, &desc, &object));
   celspan_status status = celspan_object_transform(context, object, &whole, out);
   celspan_object_unref(object);

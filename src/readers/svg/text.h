@@ -5,6 +5,7 @@
  * An element inside of a text becomes an item inside of the text's item, and so may be a part. */
 #pragma once
 
+#include "celspan/svg.h"
 #include "model/geometry/outline.h"
 #include "readers/svg/art.h"
 #include "readers/svg/reading.h"

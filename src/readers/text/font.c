@@ -98,8 +98,8 @@ static cs_cache_key key_of(const request *wanted, const struct stat *found) {
 celspan_status cs_font_acquire(celspan_context *context, const celspan_text_desc *desc,
                                size_t index, cs_font **out) {
   struct stat found;
-  CS_TRY(cs_font_file_stat(context, &desc->fonts[index], &found));
-  request wanted = {desc, desc->fonts[index].file, (size_t)found.st_size};
+  CS_TRY(cs_font_file_stat(context, desc->fonts[index], &found));
+  request wanted = {desc, desc->fonts[index], (size_t)found.st_size};
   cs_service *service;
   CS_TRY(cs_context_service(context, &store_kind, &service));
   cs_cache_entry *entry;

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "base/cache.h"
+#include "celspan/text.h"
 #include "model/geometry/outline.h"
 #include "readers/xml/type.h"
 

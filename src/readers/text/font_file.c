@@ -7,6 +7,7 @@
 
 #include "base/error_text.h"
 #include "base/open.h"
+#include "base/tried.h"
 #include "readers/xml/type.h"
 
 /* ---------------------------------------------------------------- reading */
@@ -17,25 +18,25 @@ static bool is_family(const char *file) {
   return !strchr(slash ? slash : file, '.');
 }
 
-static celspan_status fail_missing(celspan_context *context, const celspan_font *font, int error) {
+static celspan_status fail_missing(celspan_context *context, const char *file, int error) {
+  const char *tried = cs_tried_find(context, file);
   char text[CS_ERROR_TEXT_SIZE];
-  return cs_fail(context, CELSPAN_INPUT, "%s: %s%s%s%s", font->file, cs_error_text(error, text),
-                 font->tried ? "; also looked for at " : "", font->tried ? font->tried : "",
-                 is_family(font->file) ? "; a font is given by its file, such as \"arial.ttf\" "
-                                         "beside the script, or one of the system's with "
-                                         "--allow-system-fonts"
-                                       : "");
+  return cs_fail(context, CELSPAN_INPUT, "%s: %s%s%s%s", file, cs_error_text(error, text),
+                 tried ? "; also looked for at " : "", tried ? tried : "",
+                 is_family(file) ? "; a font is given by its file, such as \"arial.ttf\" "
+                                   "beside the script, or one of the system's with "
+                                   "--allow-system-fonts"
+                                 : "");
 }
 
-celspan_status cs_font_file_stat(celspan_context *context, const celspan_font *font,
-                                 struct stat *out) {
-  if (stat(font->file, out) != 0)
-    return fail_missing(context, font, errno);
+celspan_status cs_font_file_stat(celspan_context *context, const char *file, struct stat *out) {
+  if (stat(file, out) != 0)
+    return fail_missing(context, file, errno);
   if (!S_ISREG(out->st_mode))
-    return cs_fail(context, CELSPAN_INPUT, "%s: is not a file; a font must be one", font->file);
+    return cs_fail(context, CELSPAN_INPUT, "%s: is not a file; a font must be one", file);
   if (out->st_size > (off_t)CS_FONT_FILE_BYTES)
-    return cs_fail(context, CELSPAN_LIMIT, "%s: the font has %lld bytes; the limit is %zu",
-                   font->file, (long long)out->st_size, CS_FONT_FILE_BYTES);
+    return cs_fail(context, CELSPAN_LIMIT, "%s: the font has %lld bytes; the limit is %zu", file,
+                   (long long)out->st_size, CS_FONT_FILE_BYTES);
   return CELSPAN_OK;
 }
 

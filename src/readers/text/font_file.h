@@ -16,7 +16,7 @@
 #define CS_FONT_FILE_BYTES ((size_t)256 << 20)
 
 /* Errors: INPUT when it is missing, unreadable or no file. */
-CELSPAN_CHECKED celspan_status cs_font_file_stat(celspan_context *context, const celspan_font *font,
+CELSPAN_CHECKED celspan_status cs_font_file_stat(celspan_context *context, const char *file,
                                                  struct stat *out);
 /* *bytes: new, of `size` bytes, the size that was found above. Errors: NO_MEMORY, INPUT, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_font_file_read(celspan_context *context, const char *file,

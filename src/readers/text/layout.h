@@ -15,6 +15,7 @@
  */
 #pragma once
 
+#include "celspan/text.h"
 #include "readers/text/font.h"
 
 #define CS_TEXT_CHARACTERS 100000

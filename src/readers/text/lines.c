@@ -5,6 +5,7 @@
  *   |H |e |l |l |o |_|        a line: from the left end of its leftmost letter to the right end of
  *    <------------->          the rightmost, without the spaces at its end
  */
+#include "celspan/text.h"
 #include "readers/text/layout.h"
 
 #include <math.h>

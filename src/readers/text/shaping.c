@@ -9,6 +9,7 @@
 
 #include <string.h>
 
+#include "celspan/text.h"
 #include "readers/text/runs.h"
 #include "readers/text/utf8.h"
 
@@ -90,7 +91,7 @@ static celspan_status fail_missing(const part *p) {
   bool is_one = layout->font_count == 1;
   return cs_fail(layout->context, CELSPAN_BAD_ARGUMENT,
                  "%s: %s has %s glyph for \"%s\" (U+%04X) at byte %u%s", layout->noun,
-                 is_one ? layout->desc->fonts[0].file : "none of the fonts", is_one ? "no" : "a",
+                 is_one ? layout->desc->fonts[0] : "none of the fonts", is_one ? "no" : "a",
                  cs_utf8_encode(character).text, character, layout->places[at] + 1,
                  is_one ? "; name another font after it, { file, other }" : "");
 }

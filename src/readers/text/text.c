@@ -1,6 +1,8 @@
 /* The public constructors of text: all letters as one primitive, or one primitive a letter. */
 #include <string.h>
 
+#include "base/description.h"
+#include "celspan/text.h"
 #include "model/scene/primitive_data.h"
 #include "readers/text/layout.h"
 
@@ -46,6 +48,7 @@ static celspan_status create_object(cs_layout *layout, size_t first, size_t coun
 
 celspan_status celspan_object_create_text(celspan_context *context, const celspan_text_desc *desc,
                                           celspan_object **out) {
+  CS_READ(context, "text", celspan_text_desc, desc);
   cs_layout layout;
   celspan_status status = cs_typeset_make(&layout, context, "text", desc);
   if (status == CELSPAN_OK)
@@ -56,6 +59,7 @@ celspan_status celspan_object_create_text(celspan_context *context, const celspa
 
 celspan_status celspan_text_measure(celspan_context *context, const celspan_text_desc *desc,
                                     celspan_text_metrics *out) {
+  CS_READ(context, "text", celspan_text_desc, desc);
   cs_layout layout;
   celspan_status status = cs_typeset_make(&layout, context, "text", desc);
   if (status == CELSPAN_OK)
@@ -155,6 +159,7 @@ static celspan_status make_glyphs(cs_layout *layout, celspan_glyphs **out) {
 
 celspan_status celspan_glyphs_create(celspan_context *context, const celspan_text_desc *desc,
                                      celspan_glyphs **out) {
+  CS_READ(context, "glyphs", celspan_text_desc, desc);
   cs_layout layout;
   celspan_status status = cs_typeset_make(&layout, context, "glyphs", desc);
   if (status == CELSPAN_OK)

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "celspan/text.h"
 #include "model/scene/check.h"
 #include "readers/text/utf8.h"
 
@@ -74,8 +75,6 @@ static celspan_status check_language(celspan_context *context, const char *noun,
 
 static celspan_status check(celspan_context *context, const char *noun,
                             const celspan_text_desc *desc) {
-  CS_TRY(cs_check_given(context, noun, "the description", desc));
-  CS_TRY(cs_check_version(context, noun, desc->struct_size, sizeof *desc));
   CS_TRY(check_numbers(context, noun, desc));
   CS_TRY(check_settings(context, noun, desc));
   CS_TRY(check_language(context, noun, desc->language));
@@ -86,7 +85,7 @@ static celspan_status check(celspan_context *context, const char *noun,
                    noun);
   CS_TRY(cs_check_list(context, noun, "fonts", desc->fonts, desc->font_count, CS_TEXT_FONTS));
   for (size_t i = 0; i < desc->font_count; i++)
-    CS_TRY(cs_check_given(context, noun, "font", desc->fonts[i].file));
+    CS_TRY(cs_check_given(context, noun, "font", desc->fonts[i]));
   return CELSPAN_OK;
 }
 
@@ -104,7 +103,7 @@ static celspan_status acquire_fonts(cs_layout *layout) {
   for (size_t i = 0; i < desc->variation_count; i++)
     if (!(known >> i & 1))
       return cs_fail(layout->context, CELSPAN_BAD_ARGUMENT, "%s: %s has %s axis \"%s\"",
-                     layout->noun, is_one ? desc->fonts[0].file : "none of the fonts",
+                     layout->noun, is_one ? desc->fonts[0] : "none of the fonts",
                      is_one ? "no" : "an", desc->variations[i].tag);
   return CELSPAN_OK;
 }

@@ -14,6 +14,7 @@
 #pragma once
 
 #include "celspan/celspan.h"
+#include "celspan/text.h"
 
 /* "Latn" as a number. */
 #define CS_TYPE_TAG(a, b, c, d)                                                                    \

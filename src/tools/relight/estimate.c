@@ -7,8 +7,10 @@
  */
 #include <math.h>
 
+#include "base/description.h"
 #include "base/elementary.h"
 #include "base/solve.h"
+#include "celspan/relight.h"
 #include "model/scene/check.h"
 #include "tools/relight/light_field.h"
 #include "tools/relight/original.h"
@@ -283,8 +285,6 @@ static void scale_to_mean(const double mean[3], celspan_light_field *field) {
 
 static celspan_status check_desc(celspan_context *context,
                                  const celspan_light_estimate_desc *desc) {
-  CS_TRY(cs_check_given(context, "light", "the description", desc));
-  CS_TRY(cs_check_version(context, "light", desc->struct_size, sizeof *desc));
   CS_TRY(cs_check_choice(context, "light", "clue", (unsigned)desc->clue,
                          CELSPAN_LIGHT_CLUE_LIGHT + 1));
   celspan_light_field colour =
@@ -324,6 +324,7 @@ static celspan_status estimate(celspan_context *context, const celspan_light_est
 celspan_status celspan_light_estimate(celspan_context *context,
                                       const celspan_light_estimate_desc *desc,
                                       celspan_light_field *out) {
+  CS_READ(context, "light", celspan_light_estimate_desc, desc);
   CS_TRY(check_desc(context, desc));
   celspan_light_field field = celspan_light_field_flat(1, 1, 1);
   cs_original original;

@@ -5,6 +5,7 @@
  */
 #include <strings.h>
 
+#include "celspan/relight.h"
 #include "model/scene/check.h"
 #include "output/sinks/file.h"
 #include "output/sinks/picture_file.h"
@@ -119,10 +120,10 @@ static celspan_status check_file(celspan_context *context, const celspan_texture
   return CELSPAN_OK;
 }
 
-celspan_status celspan_relight_read(celspan_context *context, const char *path, const char *tried,
+celspan_status celspan_relight_read(celspan_context *context, const char *path,
                                     celspan_texture **out) {
   CS_TRY(cs_check_given(context, "relight", "the path", path));
-  celspan_picture_desc desc = {.file = path, .tried = tried, .colour = "linear"};
+  celspan_picture_desc desc = {.struct_size = sizeof desc, .file = path, .colour = "linear"};
   celspan_texture *paint, *texture;
   CS_TRY(celspan_texture_create_picture(context, &desc, &paint));
   desc.layer = MEDIUM;

@@ -12,6 +12,7 @@
 #pragma once
 
 #include "base/context.h"
+#include "celspan/relight.h"
 
 /* Refuses what is no light to divide by. noun: what it belongs to, for the sentence.
  * Errors: BAD_ARGUMENT, naming the channel. */

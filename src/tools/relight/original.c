@@ -140,7 +140,7 @@ static celspan_status make_surface(celspan_context *context, const cs_unlit *unl
 /* ---------------------------------------------------------------- the texture */
 
 static celspan_picture_desc desc_like(const celspan_texture *like) {
-  celspan_picture_desc desc = {0};
+  celspan_picture_desc desc = {.struct_size = sizeof desc};
   if (like) {
     desc.sampling = like->variation->sampling;
     desc.wrap = like->variation->wrap;
@@ -162,7 +162,7 @@ static celspan_status make_paint(celspan_context *context, cs_unlit *unlit,
 /* *texture is exchanged for one with the medium. */
 static celspan_status add_medium(celspan_context *context, cs_unlit *unlit,
                                  celspan_texture **texture) {
-  celspan_picture_desc desc = {0};
+  celspan_picture_desc desc = {.struct_size = sizeof desc};
   celspan_texture *whole;
   CS_TRY(make_surface(context, unlit, &unlit->medium, &desc.surface));
   celspan_status status = celspan_texture_with_medium(context, *texture, &desc, &whole);

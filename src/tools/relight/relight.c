@@ -11,6 +11,7 @@
  * Measured pictures have noise, so S and T are clamped to possible values; where more than a few
  * pixels are far from them, the given lights cannot be right, which is an error.
  */
+#include "celspan/relight.h"
 #include "base/number.h"
 #include "model/scene/check.h"
 #include "tools/relight/light_field.h"

@@ -15,7 +15,9 @@
 #include <stdatomic.h>
 #include <string.h>
 
+#include "base/description.h"
 #include "base/thread_pool.h"
+#include "celspan/relight.h"
 #include "frames/render/frame.h"
 #include "model/scene/check.h"
 #include "model/scene/scene.h"
@@ -114,10 +116,11 @@ static celspan_status render(celspan_context *context, celspan_rostrum *rostrum,
   const celspan_exposure exposure = {rostrum, 1};
   celspan_frame_desc frame = *t->frame;
   frame.exposures = &exposure;
-  frame.tolerance = frame.tolerance > 0 ? frame.tolerance : TOLERANCE;
+  frame.tolerance = frame.has_tolerance ? frame.tolerance : TOLERANCE;
+  frame.has_tolerance = true;
   frame.progress = pass_progress;
   frame.progress_user = t;
-  const celspan_sink sink = {.user = t, .row = take_row};
+  const celspan_sink sink = {.struct_size = sizeof sink, .user = t, .row = take_row};
   return celspan_frame_render(context, &frame, &sink, NULL);
 }
 
@@ -355,6 +358,7 @@ static celspan_status check(celspan_context *context, const celspan_frame_desc *
 
 celspan_status celspan_stack_create(celspan_context *context, const celspan_frame_desc *desc,
                                     celspan_stack **out) {
+  CS_READ(context, "stack", celspan_frame_desc, desc);
   CS_TRY(check(context, desc));
   celspan_stack *stack;
   CS_TRY(CS_MAKE(context, stack, 1));

@@ -11,6 +11,7 @@
  */
 #pragma once
 
+#include "celspan/trace.h"
 #include "tools/trace/regions.h"
 #include "tools/trace/result.h"
 

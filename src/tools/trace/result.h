@@ -6,6 +6,7 @@
 #pragma once
 
 #include "base/context.h"
+#include "celspan/trace.h"
 
 typedef struct cs_shape {
   unsigned char colour[3];

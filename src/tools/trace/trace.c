@@ -6,7 +6,9 @@
  */
 #include <string.h>
 
+#include "base/description.h"
 #include "base/sort.h"
+#include "celspan/trace.h"
 #include "model/scene/check.h"
 #include "tools/trace/borders.h"
 #include "tools/trace/colours.h"
@@ -199,7 +201,8 @@ static celspan_status make_object(celspan_context *context, cs_shape *shape) {
   celspan_status status;
   CS_TRY(make_texture(context, shape->colour, &texture));
   if (shape->data) {
-    const celspan_path_desc path = {.data = shape->data, .texture = texture};
+    const celspan_path_desc path = {
+        .struct_size = sizeof path, .data = shape->data, .texture = texture};
     status = celspan_object_create_path(context, &path, &shape->object);
   } else {
     celspan_stroke_desc stroke = cs_lines_stroke(shape);
@@ -279,7 +282,7 @@ static celspan_status trace_picture(celspan_context *context, const celspan_trac
                                     celspan_trace *out) {
   cs_picture *picture;
   cs_scan scan;
-  CS_TRY(cs_picture_create(context, &desc->picture, &picture));
+  CS_TRY(cs_picture_create(context, desc->picture, &picture));
   celspan_status status = cs_scan_read(context, picture, &scan);
   if (status == CELSPAN_OK) {
     status = trace_scan(context, desc, &scan, out);
@@ -290,7 +293,6 @@ static celspan_status trace_picture(celspan_context *context, const celspan_trac
 }
 
 static celspan_status check(celspan_context *context, const celspan_trace_desc *desc) {
-  CS_TRY(cs_check_version(context, "trace", desc->struct_size, sizeof *desc));
   if (desc->colours < 1 || desc->colours > CS_COLOURS_MOST)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "trace: colours must be 1 to %d, got %d",
                    CS_COLOURS_MOST, desc->colours);
@@ -320,6 +322,7 @@ celspan_status cs_result_make(celspan_context *context, const celspan_trace_desc
 
 celspan_status celspan_trace_create(celspan_context *context, const celspan_trace_desc *desc,
                                     celspan_trace **out) {
+  CS_READ(context, "trace", celspan_trace_desc, desc);
   celspan_trace *trace;
   CS_TRY(cs_result_make(context, desc, &trace));
   celspan_status status = make_objects(context, trace);

@@ -6,6 +6,7 @@
 
 #include "base/elementary.h"
 #include "base/number.h"
+#include "celspan/trace.h"
 #include "output/sinks/file.h"
 #include "tools/trace/fit.h"
 #include "tools/trace/result.h"

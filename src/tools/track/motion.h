@@ -12,6 +12,7 @@
 #pragma once
 
 #include "base/context.h"
+#include "celspan/track.h"
 
 enum { CS_MOTION_MOST = 256 }; /* pairs */
 

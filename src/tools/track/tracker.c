@@ -17,7 +17,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/description.h"
 #include "base/number.h"
+#include "celspan/track.h"
 #include "tools/track/motion.h"
 #include "tools/track/patch.h"
 #include "tools/track/plane.h"
@@ -315,6 +317,7 @@ static celspan_status fill(celspan_tracker *tracker, const celspan_luma *luma,
 
 celspan_status celspan_tracker_create(celspan_context *context, const celspan_luma *first,
                                       const celspan_tracker_desc *desc, celspan_tracker **out) {
+  CS_READ(context, "track", celspan_tracker_desc, desc);
   *out = NULL;
   celspan_tracker *tracker;
   CS_TRY(CS_MAKE(context, tracker, 1));

@@ -1,0 +1,63 @@
+#include "base/description.h"
+
+#include <string.h>
+
+enum { SIZE_MOST = 4096 }; /* of any description: a larger size is a number that was never set */
+
+static celspan_status refuse(celspan_context *context, const char *noun,
+                             const cs_description *description, size_t size, const char *what) {
+  if (!context)
+    return CELSPAN_BAD_ARGUMENT;
+  return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                 "%s: struct_size is %zu, %s: begin with the defaults that %s_default sets, or set "
+                 "it to sizeof(%s), which is %zu",
+                 noun, size, what, description->type, description->type, description->size);
+}
+
+/* Whether one field has bytes on both sides of the end. */
+static bool is_cut(const cs_description *description, size_t size) {
+  for (size_t i = 0; i < description->field_count; i++)
+    if (description->fields[i].begin < size && size < description->fields[i].end)
+      return true;
+  return false;
+}
+
+static bool is_zero(const void *given, size_t begin, size_t end) {
+  const unsigned char *bytes = given;
+  while (begin < end && bytes[begin] == 0)
+    begin++;
+  return begin == end;
+}
+
+celspan_status cs_description_read(celspan_context *context, const char *noun,
+                                   const cs_description *description, const void *given,
+                                   void *out) {
+  if (!given)
+    return context ? cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: the description is missing", noun)
+                   : CELSPAN_BAD_ARGUMENT;
+  size_t size;
+  memcpy(&size, given, sizeof size);
+  if (size < sizeof size || size > SIZE_MOST || size % sizeof size != 0)
+    return refuse(context, noun, description, size, "which no description has");
+  if (is_cut(description, size))
+    return refuse(context, noun, description, size, "which ends inside a field");
+  if (size < description->needed)
+    return refuse(context, noun, description, size, "so that fields are missing that it needs");
+  if (size > description->size && !is_zero(given, description->size, size))
+    return refuse(context, noun, description, size,
+                  "and fields that this version of the library does not have are not zero");
+  cs_description_write(description, description->defaults, out, description->size);
+  memcpy(out, given, size < description->size ? size : description->size);
+  memcpy(out, &description->size, sizeof description->size);
+  return CELSPAN_OK;
+}
+
+void cs_description_write(const cs_description *description, const void *full, void *out,
+                          size_t size) {
+  size_t known = size < description->size ? size : description->size;
+  if (size < sizeof size)
+    return;
+  memcpy(out, full, known);
+  memset((char *)out + known, 0, size - known);
+  memcpy(out, &size, sizeof size);
+}

@@ -1,0 +1,84 @@
+/* Descriptions from outside, read into full ones. A host may have been built with an earlier or a
+ * later header: struct_size says how many bytes of the description there are.
+ *
+ *     host's      size | a | b | c |            the library is later: d has its default
+ *     library's   size | a | b | c | d |
+ *     host's      size | a | b | c | d | 0 |    the host is later: its further fields must be 0
+ *
+ * INVARIANT: behind the door every description is full, so nothing else looks at struct_size, and a
+ * field is read only if the host has it.
+ */
+#pragma once
+
+#include "base/context.h"
+
+/* Bytes of a description from its beginning. */
+typedef struct cs_description_field {
+  uint16_t begin, end;
+} cs_description_field;
+
+typedef struct cs_description {
+  const char *type;
+  const void *defaults;
+  size_t size;   /* of the whole */
+  size_t needed; /* up to the end of the last field that it cannot do without */
+  const cs_description_field *fields;
+  size_t field_count;
+} cs_description;
+
+#define CS_DESCRIPTIONS(EACH)                                                                      \
+  EACH(celspan_context_desc)                                                                       \
+  EACH(celspan_picture_desc)                                                                       \
+  EACH(celspan_pattern_desc)                                                                       \
+  EACH(celspan_surface_desc)                                                                       \
+  EACH(celspan_rect_desc)                                                                          \
+  EACH(celspan_triangle_desc)                                                                      \
+  EACH(celspan_ellipse_desc)                                                                       \
+  EACH(celspan_polygon_desc)                                                                       \
+  EACH(celspan_nurbs_desc)                                                                         \
+  EACH(celspan_path_desc)                                                                          \
+  EACH(celspan_stroke_desc)                                                                        \
+  EACH(celspan_image_desc)                                                                         \
+  EACH(celspan_scanline_desc)                                                                      \
+  EACH(celspan_grade_desc)                                                                         \
+  EACH(celspan_group_desc)                                                                         \
+  EACH(celspan_blur_desc)                                                                          \
+  EACH(celspan_shadow_desc)                                                                        \
+  EACH(celspan_glow_desc)                                                                          \
+  EACH(celspan_outline_desc)                                                                       \
+  EACH(celspan_warp_desc)                                                                          \
+  EACH(celspan_cel_desc)                                                                           \
+  EACH(celspan_filter_desc)                                                                        \
+  EACH(celspan_rostrum_desc)                                                                       \
+  EACH(celspan_inspect_desc)                                                                       \
+  EACH(celspan_frame_desc)                                                                         \
+  EACH(celspan_sink)                                                                               \
+  EACH(celspan_coding)                                                                             \
+  EACH(celspan_file_desc)                                                                          \
+  EACH(celspan_text_desc)                                                                          \
+  EACH(celspan_svg_desc)                                                                           \
+  EACH(celspan_trace_desc)                                                                         \
+  EACH(celspan_plane_desc)                                                                         \
+  EACH(celspan_plane_view)                                                                         \
+  EACH(celspan_light_estimate_desc)                                                                \
+  EACH(celspan_tracker_desc)
+
+#define CS_DECLARE_DESCRIPTION(type) extern const cs_description cs_##type##_description;
+CS_DESCRIPTIONS(CS_DECLARE_DESCRIPTION)
+#undef CS_DECLARE_DESCRIPTION
+
+/* Makes *out the whole of what is given. noun: for messages. context: NULL if there is none yet.
+ * Errors: BAD_ARGUMENT. */
+CELSPAN_CHECKED celspan_status cs_description_read(celspan_context *context, const char *noun,
+                                                   const cs_description *description,
+                                                   const void *given, void *out);
+/* Writes the first `size` bytes of a full description into one from outside, which has that size;
+ * the rest is 0. */
+void cs_description_write(const cs_description *description, const void *full, void *out,
+                          size_t size);
+
+/* The door: `desc`, a parameter, is made to point to a full copy of itself. */
+#define CS_READ(context, noun, type, desc)                                                         \
+  type desc##_whole;                                                                               \
+  CS_TRY(cs_description_read(context, noun, &cs_##type##_description, desc, &desc##_whole));       \
+  (desc) = &desc##_whole
