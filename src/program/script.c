@@ -1,20 +1,26 @@
 #include "program/script.h"
 
+#include <errno.h>
 #include <lauxlib.h>
+#include <lua.h>
 #include <lualib.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/context.h"
+#include "base/hash.h"
 #include "celspan/lua.h"
 #include "frames/process/interrupt.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/named.h"
+#include "lua/bind/put.h"
+#include "lua/bind/userdata.h"
 #include "lua/bind/warnings.h"
+#include "lua/module/core.h"
+#include "plugins/sound/loudness.h"
 #include "program/confine.h"
-#include "program/hear.h"
-#include "program/settings.h"
+#include "program/request.h"
 #include "program/view.h"
 
 /* The states that a signal interrupts: of the verb, and of the script that ran last; NULL: none. */
@@ -44,6 +50,170 @@ static void watch_script(lua_State *L) {
   states[1] = L;
   cs_interrupt_call(interrupt_states);
 }
+
+/* ---------------------------------------------------------------- settings */
+
+/* The values that --set and --set-from give to the parameters of a script (celspan.parameters).
+ *
+ *   options --> settings --> registry of the script's state --> lua/celspan/film/parameters.lua
+ *                                                                    |
+ *   wrong usage, reported <-- the sentence that refuses a setting <--+
+ */
+
+typedef struct script_settings {
+  const cs_request *request; /* borrowed */
+  const char *path;          /* of --set-from; NULL: it was not given */
+  char *json;                /* its text; owned */
+  size_t size, capacity;
+} script_settings;
+
+#define SETTINGS_MOST ((size_t)64 << 20)
+#define SETTINGS_PIECE ((size_t)1 << 16)
+
+static cs_exit fail_reading(const script_settings *s, const char *why) {
+  cs_report_error("--set-from %s: %s", s->path, why);
+  return CS_EXIT_INPUT;
+}
+
+static cs_exit read_pieces(celspan_context *context, FILE *file, script_settings *out) {
+  for (size_t got = 1; got > 0; out->size += got) {
+    if (out->size > SETTINGS_MOST)
+      return fail_reading(out, "it has more than 64 MiB");
+    celspan_status status = cs_mem_reserve(context, (void **)&out->json, &out->capacity,
+                                           out->size + SETTINGS_PIECE, sizeof *out->json);
+    if (status != CELSPAN_OK)
+      return cs_report_failure(context, status, NULL);
+    got = fread(out->json + out->size, 1, SETTINGS_PIECE, file);
+  }
+  return ferror(file) ? fail_reading(out, strerror(errno)) : CS_EXIT_OK;
+}
+
+/* Reads the file of --set-from, before the script's rules forbid that. OK, or reported; either way
+ * *out may be closed. */
+static cs_exit open_settings(celspan_context *context, const cs_request *request,
+                             script_settings *out) {
+  *out = (script_settings){.request = request, .path = cs_request_text(request, "--set-from")};
+  if (!out->path)
+    return CS_EXIT_OK;
+  FILE *file = fopen(out->path, "rbe");
+  if (!file)
+    return fail_reading(out, strerror(errno));
+  cs_exit outcome = read_pieces(context, file, out);
+  fclose(file);
+  return outcome;
+}
+
+static void close_settings(celspan_context *context, script_settings *settings) {
+  cs_mem_free(context->memory, settings->json, settings->capacity * sizeof *settings->json);
+  settings->json = NULL;
+}
+
+static void hash_one(void *user, const char *name, const char *value) {
+  if (strcmp(name, "--set") == 0)
+    cs_hash_text(user, value);
+}
+
+/* Of all that the script is given: its arguments, and the values of its parameters. */
+static cs_hash hash_settings(const script_settings *settings) {
+  const cs_request *request = settings->request;
+  cs_hash hash = cs_hash_begin(request->script_argument_count);
+  for (size_t i = 0; i < request->script_argument_count; i++)
+    cs_hash_text(&hash, request->script_arguments[i]);
+  cs_hash_bytes(&hash, settings->json, settings->size);
+  cs_request_each(request, hash_one, &hash);
+  return cs_hash_end(hash);
+}
+
+/* Appends the table on top of the stack to the table below it. */
+static void append(lua_State *L) { lua_rawseti(L, -2, (lua_Integer)lua_rawlen(L, -2) + 1); }
+
+static void give_one(void *user, const char *name, const char *value) {
+  lua_State *L = user;
+  if (strcmp(name, "--set") != 0)
+    return;
+  size_t length = strcspn(value, "=");
+  lua_newtable(L);
+  lua_pushlstring(L, value, length);
+  lua_setfield(L, -2, "name");
+  cs_put_text(L, "text", value + length + 1);
+  append(L);
+}
+
+/* light userdata: the settings. Puts them into the registry of a state that has celspan. Runs
+ * protected. */
+static int give_settings(lua_State *L) {
+  const script_settings *settings = lua_touserdata(L, 1);
+  cs_core_settings(L);
+  if (settings->path) {
+    lua_newtable(L);
+    cs_put_text(L, "path", settings->path);
+    lua_pushlstring(L, settings->json, settings->size);
+    lua_setfield(L, -2, "json");
+    append(L);
+  }
+  cs_request_each(settings->request, give_one, L);
+  return 0;
+}
+
+/* Whether the script came to its end, a boolean -> the sentence that refuses the settings, or
+ * nothing. Runs protected. */
+static int find_refusal(lua_State *L) {
+  bool has_ended = lua_toboolean(L, 1);
+  cs_core_settings(L);
+  lua_getfield(L, -1, "refused");
+  if (!lua_isnil(L, -1))
+    return 1;
+  bool is_declared = lua_getfield(L, -2, "declared") != LUA_TNIL;
+  if (is_declared || !has_ended || lua_rawlen(L, -3) == 0)
+    return 0;
+  lua_pushliteral(L, "--set and --set-from give values to parameters, and the script declares none "
+                     "(celspan.parameters)");
+  return 1;
+}
+
+/* After the script: wrong usage, reported, where a setting was refused; or where no parameters were
+ * declared, if the script came to its end, because its own error says more; else OK. Never raises.
+ */
+static cs_exit judge_settings(lua_State *L, bool has_ended) {
+  lua_pushcfunction(L, find_refusal);
+  lua_pushboolean(L, has_ended);
+  cs_exit outcome = CS_EXIT_OK;
+  if (lua_pcall(L, 1, 1, 0) == LUA_OK && lua_isstring(L, -1))
+    outcome = cs_report_usage("%s", lua_tostring(L, -1));
+  lua_pop(L, 1);
+  return outcome;
+}
+
+/* ---------------------------------------------------------------- sounds */
+
+static int release(lua_State *L) {
+  cs_loudness *loudness = lua_touserdata(L, 1);
+  if (loudness->sums)
+    cs_loudness_finish(loudness, cs_host_context(L));
+  return 0;
+}
+
+/* (path, tried | nil) -> seconds, sums | nil, message */
+static int hear(lua_State *L) {
+  const char *path = luaL_checkstring(L, 1), *tried = luaL_optstring(L, 2, NULL);
+  cs_loudness *loudness =
+      cs_userdata_push_holder(L, "celspan.program.loudness", sizeof *loudness, release);
+  celspan_status status = cs_loudness_measure(cs_host_context(L), path, tried, loudness);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
+  lua_pushnumber(L, (double)loudness->moments / CS_LOUDNESS_RATE);
+  lua_pushlstring(L, (const char *)loudness->sums, loudness->count * sizeof *loudness->sums);
+  return 2;
+}
+
+/* Gives the scripts of a state, which has a context, how loud a file is (CS_CORE_HEAR), for
+ * lua/celspan/read/sound.lua. Raises. */
+static void give_sounds(lua_State *L) {
+  lua_pushcfunction(L, hear);
+  lua_setfield(L, LUA_REGISTRYINDEX, CS_CORE_HEAR);
+}
+
+/* ---------------------------------------------------------------- the state */
 
 /* Text printed by a script goes to standard error, because standard output is for results. A script
  * cannot end the program: otherwise a run that did nothing could seem to have done everything. */
@@ -92,7 +262,7 @@ static int prepare(lua_State *L) {
     script->sandbox->guard.has_options = true;
   }
   luaL_requiref(L, "celspan", luaopen_celspan, 0);
-  cs_hear_give(L);
+  give_sounds(L);
   if (script->is_silent) {
     lua_pushcfunction(L, print_nothing);
     lua_setglobal(L, "print");
@@ -136,18 +306,12 @@ static int read_film(lua_State *L) {
   return 0;
 }
 
-/* Runs protected. */
-static int give_settings(lua_State *L) {
-  cs_settings_give(L, lua_touserdata(L, 1));
-  return 0;
-}
-
 /* Reads the settings before the sandbox is entered, in which their file may not be read. */
 static cs_exit start_script(cs_script *out, const cs_request *request, const char *path) {
-  cs_settings settings;
+  script_settings settings;
   cs_confined confined;
   bool is_confined = cs_confine_is_needed(request);
-  cs_exit outcome = cs_settings_open(out->context, request, &settings);
+  cs_exit outcome = open_settings(out->context, request, &settings);
   if (outcome == CS_EXIT_OK && is_confined)
     outcome = cs_confine_open(request, path, &confined);
   if (outcome == CS_EXIT_OK)
@@ -158,8 +322,8 @@ static cs_exit start_script(cs_script *out, const cs_request *request, const cha
     if (lua_pcall(out->L, 1, 0, 0) != LUA_OK)
       outcome = cs_script_report_start(out->L);
   }
-  out->given = cs_settings_hash(&settings);
-  cs_settings_close(out->context, &settings);
+  out->given = hash_settings(&settings);
+  close_settings(out->context, &settings);
   return outcome;
 }
 
@@ -173,7 +337,7 @@ static cs_exit open_script(celspan_context *context, const cs_request *request, 
   CS_TRY_EXIT(start_script(out, request, path));
   celspan_status status = celspan_lua_run(out->L, path, (int)request->script_argument_count,
                                           (const char *const *)request->script_arguments);
-  CS_TRY_EXIT(cs_settings_outcome(out->L, status == CELSPAN_OK));
+  CS_TRY_EXIT(judge_settings(out->L, status == CELSPAN_OK));
   if (status != CELSPAN_OK)
     return cs_report_failure(context, status, NULL);
   lua_pushcfunction(out->L, read_film);

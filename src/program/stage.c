@@ -1,9 +1,11 @@
 #include "program/stage.h"
 
 #include <poll.h>
+#include <stdint.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "celspan/celspan.h"
 #include "frames/process/interrupt.h"
 #include "lua/bind/host.h"
 #include "lua/bind/named.h"
@@ -13,7 +15,6 @@
 #include "output/png/strips.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/sink.h"
-#include "program/runs.h"
 #include "program/service.h"
 
 #define PIXELS_MOST (1 << 25) /* of a picture in memory */
@@ -24,6 +25,73 @@ static const celspan_coding coding = {.struct_size = sizeof coding,
                                       .depth = CELSPAN_DEPTH_8,
                                       .transfer = CELSPAN_TRANSFER_SRGB,
                                       .alpha = CELSPAN_ALPHA_STRAIGHT};
+
+/* ---------------------------------------------------------------- runs */
+
+/* Pixels as they travel to the page of celspan watch: few bytes for flat colours, and fewer still
+ * where a row is like the one above; made and read at the speed of memory.
+ *
+ *   head, pixel, pixel, ...   LITERAL: `count` pixels as they are
+ *   head, pixel               FILL: `count` times this pixel
+ *   head                      ABOVE: `count` pixels like those a row higher
+ *
+ * All are words of 32 bits in the order of this machine: both ends are on it. The two highest bits
+ * of a head say which it is, the others are `count`. A run may continue in the next row.
+ */
+
+enum { LITERAL, FILL, ABOVE };
+
+/* The words that `count` pixels can need at most. A run saves at least one word, and the head of
+ * the literals after it needs one. */
+static inline size_t runs_words(size_t count) { return count + 1; }
+
+/* The shortest runs: shorter ones cost more time than they save bytes. */
+enum { RUN_LEAST = 4 };
+
+/* At how many of `most` places a and b are equal, from the first on. */
+static size_t equal(const uint32_t *a, const uint32_t *b, size_t most) {
+  size_t count = 0;
+  for (uint64_t x, y; count + 2 <= most; count += 2) {
+    memcpy(&x, a + count, sizeof x);
+    memcpy(&y, b + count, sizeof y);
+    if (x != y)
+      break;
+  }
+  while (count < most && a[count] == b[count])
+    count++;
+  return count;
+}
+
+static uint32_t head(uint32_t kind, size_t count) { return kind << 30 | (uint32_t)count; }
+
+/* Puts the pixels [from, to) unchanged. Returns the words used. */
+static size_t put_literals(const uint32_t *pixels, size_t from, size_t to, uint32_t *out) {
+  if (from == to)
+    return 0;
+  out[0] = head(LITERAL, to - from);
+  memcpy(out + 1, pixels + from, (to - from) * sizeof *out);
+  return to - from + 1;
+}
+
+/* Packs rows of `width` pixels. out: room for runs_words(count). Returns the words used. */
+static size_t pack_runs(const uint32_t *pixels, size_t count, size_t width, uint32_t *out) {
+  size_t used = 0, literal = 0; /* the pixels [literal, at) have not been put */
+  for (size_t at = 0; at < count;) {
+    size_t above = at >= width ? equal(pixels + at, pixels + at - width, count - at) : 0;
+    size_t fill = above < RUN_LEAST ? equal(pixels + at + 1, pixels + at, count - at - 1) + 1 : 0;
+    size_t run = above > fill ? above : fill;
+    if (run < RUN_LEAST) {
+      at++;
+      continue;
+    }
+    used += put_literals(pixels, literal, at, out + used);
+    out[used++] = head(run == above ? ABOVE : FILL, run);
+    if (run != above)
+      out[used++] = pixels[at];
+    literal = at += run;
+  }
+  return used + put_literals(pixels, literal, count, out + used);
+}
 
 /* ---------------------------------------------------------------- bytes */
 
@@ -174,8 +242,8 @@ static celspan_status reserve_rows(picture *p, const celspan_frame_desc *desc) {
 static celspan_status pack(picture *p) {
   size_t count = p->size / sizeof(uint32_t), capacity = 0;
   uint32_t *words = NULL;
-  CS_TRY(CS_RESERVE(p->context, words, capacity, cs_runs_words(count)));
-  size_t used = cs_runs_pack((const uint32_t *)p->bytes, count, p->stride / sizeof *words, words);
+  CS_TRY(CS_RESERVE(p->context, words, capacity, runs_words(count)));
+  size_t used = pack_runs((const uint32_t *)p->bytes, count, p->stride / sizeof *words, words);
   cs_mem_free(p->context->memory, p->bytes, p->capacity);
   p->bytes = (unsigned char *)words;
   p->size = used * sizeof *words;
@@ -204,7 +272,7 @@ static celspan_status render(picture *p, const celspan_frame_desc *desc, int kin
 
 /* film:picture(width, height, x, y, w, h, what) -> the part of the frame that was built last, of
  * the frame at that size, 8 bits, sRGB, straight alpha, as "rgba", as a "png", or as "runs"
- * (runs.h); "spans": as RGBA, the kinds of its spans | nil, message */
+ * (see above); "spans": as RGBA, the kinds of its spans | nil, message */
 int cs_stage_picture(lua_State *L, cs_script *script) {
   static const char *const kinds[] = {"rgba", "png", "spans", "runs", NULL};
   celspan_frame_desc desc;

@@ -57,7 +57,6 @@ return {
   ["info.lua"] = { "spec/info" },
   ["init.lua"] = { "spec/desk" },
   ["join.lua"] = { "spec/join" },
-  ["onion.c"] = { "spec/desk" },
   ["onion.lua"] = { "spec/desk" },
   ["relight.lua"] = { "spec/relight" },
   ["recipes.lua"] = { "spec/help", "spec/docs" },

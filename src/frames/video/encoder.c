@@ -14,6 +14,77 @@
 #define NANOSECONDS 1000000000     /* in a second */
 #define PAUSE_NANOSECONDS 50000000 /* between two checks for a signal */
 #define LAST_SECONDS 2.0 /* for an encoder that has stopped reading to write its message and end */
+#define PART 8192        /* samples that are read at a time */
+
+/* ---------------------------------------------------------------- the feeder */
+
+/* An encoder that has enough of the sound closes its end. *is_over: it has. */
+static celspan_status put(cs_feeder *feeder, const void *bytes, size_t size, bool *is_over) {
+  int error = cs_child_write(feeder->descriptor, bytes, size);
+  *is_over = error != 0;
+  if (error == 0 || error == EPIPE)
+    return CELSPAN_OK;
+  return cs_fail(&feeder->branch, CELSPAN_OUTPUT, "the sound cannot be written to ffmpeg: %s",
+                 strerror(error));
+}
+
+static celspan_status feed(cs_feeder *feeder) {
+  float part[PART];
+  const cs_sound_stream *samples = &feeder->samples;
+  size_t moments = PART / (size_t)samples->channels, got = moments;
+  bool is_over = false;
+  while (!is_over && got == moments) {
+    CS_TRY(samples->read(samples->user, &feeder->branch, part, moments, &got));
+    CS_TRY(put(feeder, part, got * (size_t)samples->channels * sizeof *part, &is_over));
+  }
+  return CELSPAN_OK;
+}
+
+static void run(void *user, int worker) {
+  cs_feeder *feeder = user;
+  (void)worker;
+  atomic_store(&feeder->status, (int)feed(feeder));
+  close(feeder->descriptor);
+}
+
+/* Starts to write the samples to the descriptor, which it closes in any case. *samples: moved to
+ * the feeder. out: must not move while it is open. Errors: LIMIT. */
+static celspan_status start_feeder(cs_feeder *out, celspan_context *context,
+                                   cs_sound_stream *samples, int descriptor) {
+  out->samples = *samples;
+  samples->user = NULL;
+  out->descriptor = descriptor;
+  atomic_init(&out->status, CELSPAN_OK);
+  cs_context_branch(&out->branch, context);
+  out->is_open = cs_threads_start(&out->thread, 1, run, out) == 1;
+  if (out->is_open)
+    return CELSPAN_OK;
+  close(descriptor);
+  cs_sound_stream_close(&out->samples);
+  return cs_fail(context, CELSPAN_NO_MEMORY, "no thread can be started for the sound");
+}
+
+/* Whether the samples cannot be read or written. */
+static bool feeder_has_failed(const cs_feeder *feeder) {
+  return atomic_load(&feeder->status) != CELSPAN_OK;
+}
+
+/* Ends the thread after the encoder has ended, and closes the samples; does nothing if it is not
+ * open. */
+static void end_feeder(cs_feeder *feeder) {
+  if (!feeder->is_open)
+    return;
+  feeder->samples.stop(feeder->samples.user);
+  cs_threads_join(&feeder->thread, 1);
+  cs_sound_stream_close(&feeder->samples);
+  feeder->is_open = false;
+}
+
+/* The outcome of a feeder that has ended. Errors: those of the samples; OUTPUT. */
+static celspan_status outcome_of_feeder(const cs_feeder *feeder, celspan_context *context) {
+  celspan_status status = (celspan_status)atomic_load(&feeder->status);
+  return status == CELSPAN_OK ? status : cs_fail(context, status, "%s", feeder->branch.error);
+}
 
 /* ---------------------------------------------------------------- the writing thread */
 
@@ -87,14 +158,14 @@ static celspan_status start_writer(cs_encoder *encoder) {
 static celspan_status start_threads(cs_encoder *encoder, cs_sound_stream *samples) {
   celspan_status status = CELSPAN_OK;
   if (samples->user)
-    status = cs_feeder_open(&encoder->feeder, encoder->context, samples, encoder->process.samples);
+    status = start_feeder(&encoder->feeder, encoder->context, samples, encoder->process.samples);
   if (status == CELSPAN_OK)
     status = start_writer(encoder);
   if (status == CELSPAN_OK)
     return status;
   close(encoder->process.input);
   cs_child_end(&encoder->process, 0);
-  cs_feeder_end(&encoder->feeder);
+  end_feeder(&encoder->feeder);
   return status;
 }
 
@@ -139,7 +210,7 @@ static bool close_encoder(cs_encoder *encoder, double seconds) {
   pthread_cond_broadcast(&encoder->changed);
   pthread_mutex_unlock(&encoder->mutex);
   cs_threads_join(&encoder->writer, 1);
-  cs_feeder_end(&encoder->feeder);
+  end_feeder(&encoder->feeder);
   free_all(encoder);
   encoder->is_open = false;
   return is_over;
@@ -168,11 +239,11 @@ static celspan_status fail_threads(const cs_encoder *encoder) {
 static celspan_status end(cs_encoder *encoder, bool has_read_all) {
   char how[CS_WORDS + 64];
   const cs_child *process = &encoder->process;
-  bool has_failed = cs_feeder_has_failed(&encoder->feeder);
+  bool has_failed = feeder_has_failed(&encoder->feeder);
   bool is_over = close_encoder(encoder, has_read_all ? INFINITY : has_failed ? 0 : LAST_SECONDS);
   if (!is_over && cs_interrupt_signal())
     return stop(encoder);
-  CS_TRY(cs_feeder_outcome(&encoder->feeder, encoder->context));
+  CS_TRY(outcome_of_feeder(&encoder->feeder, encoder->context));
   if (has_read_all && process->ending == 0)
     return CELSPAN_OK;
   if (WIFEXITED(process->ending) && !cs_threads_are_free(THREADS_NEEDED))
@@ -193,7 +264,7 @@ static celspan_status end(cs_encoder *encoder, bool has_read_all) {
 static bool wait_while(cs_encoder *encoder, bool (*holds)(const cs_encoder *encoder)) {
   while (holds(encoder) && !encoder->is_broken) {
     struct timespec until;
-    encoder->is_broken = cs_feeder_has_failed(&encoder->feeder);
+    encoder->is_broken = feeder_has_failed(&encoder->feeder);
     if (cs_interrupt_signal())
       return false;
     clock_gettime(CLOCK_MONOTONIC, &until);

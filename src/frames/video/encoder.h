@@ -2,7 +2,7 @@
  *
  *   take: a free place --> pixels --> give --> queue --thread--> the encoder's standard input
  *                                    repeat --^                  (frames/process/child.h)
- *   samples --feeder.h--thread--> its second pipe
+ *   samples --feeder: a thread--> its second pipe
  *
  * There are places for three frames: one that is written, one that waits, one that is made. A frame
  * that is shown again is queued again, not copied.
@@ -13,9 +13,27 @@
 #pragma once
 
 #include <pthread.h>
+#include <stdatomic.h>
 
+#include "base/context.h"
 #include "frames/process/child.h"
-#include "frames/video/feeder.h"
+#include "frames/video/sound_stream.h"
+
+/* A thread that writes the samples of a sound to an encoder, as they are wanted.
+ *
+ *   cs_sound_stream --read--> feeder --pipe--> encoder, which may want only the first of them
+ *
+ * INVARIANT: the descriptor is closed when the thread has ended, and the samples when the feeder is
+ * finished.
+ */
+typedef struct cs_feeder {
+  celspan_context branch;  /* of the thread */
+  cs_sound_stream samples; /* owned */
+  int descriptor;
+  cs_thread thread;
+  atomic_int status; /* a celspan_status; its sentence is in the branch */
+  bool is_open;
+} cs_feeder;
 
 enum { CS_ENCODER_PLACES = 3, CS_ENCODER_QUEUE = 64 };
 

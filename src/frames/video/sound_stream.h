@@ -1,6 +1,6 @@
 /* A stream of samples: a decoded sound.
  *
- *   sound file --plugins/sound/sound.h--> cs_sound_stream --feeder.h--> the encoder of a video
+ *   sound file --plugins/sound/sound.h--> cs_sound_stream --encoder.h--> the encoder of a video
  *
  * A moment has a sample for each channel, which is a float from -1 to 1; louder ones may be beyond.
  *

@@ -5,6 +5,9 @@
 #include <poll.h>
 #include <signal.h>
 #include <stdatomic.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/socket.h>
@@ -15,10 +18,10 @@
 #include "frames/process/interrupt.h"
 #include "frames/process/spawn.h"
 #include "frames/process/words.h"
+#include "frames/video/sound_stream.h"
 #include "plugins/isolate/client.h"
 #include "plugins/isolate/sound_worker.h"
 #include "plugins/isolate/worker.h"
-#include "plugins/sound/wave.h"
 
 enum { PAUSE = 50 /* milliseconds between two checks for a signal to stop */ };
 
@@ -221,23 +224,91 @@ static celspan_status start_worker(decoder *d, celspan_context *context,
   return CELSPAN_OK;
 }
 
+/* ---------------------------------------------------------------- the form of the samples */
+
+/* The beginning of a WAV file of 32-bit float samples without a known end: the form in which
+ * samples come through a pipe from ffmpeg.
+ *
+ *   "RIFF" size "WAVE" | "fmt " size, form of the samples | ... | "data" size | samples
+ *
+ * INVARIANT: sizes of the whole are not read, because a pipe has none; all other numbers are
+ * checked.
+ */
+
+typedef struct wave {
+  int32_t rate, channels;
+  uint32_t places; /* see sound_stream.h */
+} wave;
+
+enum {
+  EXTENSIBLE = 0xfffe, /* the form is in a longer chunk, which has the places */
+  WAVE_FORM = 40,      /* bytes of that chunk */
+  PLAIN_FORM = 16,     /* the fewest bytes of the chunk */
+  CHUNK_MOST = 4096,   /* bytes of other chunks before the samples */
+  CHUNKS_MOST = 16
+};
+
+/* Samples are floats: the identifier's first word is the plain number of the form. */
+static const unsigned char FLOATS[16] = {3,    0, 0, 0,    0, 0,    0x10, 0,
+                                         0x80, 0, 0, 0xaa, 0, 0x38, 0x9b, 0x71};
+
 typedef struct beginning {
   decoder *d;
   celspan_context *context;
   celspan_status status;
 } beginning;
 
-static bool read_beginning(void *user, unsigned char *bytes, size_t size) {
-  beginning *b = user;
+/* false: there are no `size` more bytes. */
+static bool read_beginning(beginning *b, unsigned char *bytes, size_t size) {
   size_t got = 0;
   b->status = read_bytes(b->d, b->context, bytes, size, &got);
   return b->status == CELSPAN_OK && got == size;
 }
 
+static uint32_t get(const unsigned char *at, int bytes) {
+  uint32_t value = 0;
+  for (int i = 0; i < bytes; i++)
+    value |= (uint32_t)at[i] << (8 * i);
+  return value;
+}
+
+static bool read_wave_form(const unsigned char *form, uint32_t size, wave *out) {
+  bool is_longer = get(form, 2) == EXTENSIBLE;
+  if (size < PLAIN_FORM || (is_longer && size < WAVE_FORM))
+    return false;
+  uint32_t channels = get(form + 2, 2), rate = get(form + 4, 4);
+  *out = (wave){.rate = rate <= CS_SOUND_STREAM_RATE ? (int32_t)rate : 0,
+                .channels = channels <= CS_SOUND_STREAM_CHANNELS ? (int32_t)channels : 0,
+                .places = is_longer ? get(form + 20, 4) : 0};
+  bool is_float = is_longer ? memcmp(form + 24, FLOATS, sizeof FLOATS) == 0 : get(form, 2) == 3;
+  return is_float && get(form + 14, 2) == 32 && out->rate > 0 && out->channels > 0;
+}
+
+/* Reads the beginning, up to the first sample. false: it is missing, or not in this form. */
+static bool read_wave(beginning *b, wave *out) {
+  unsigned char head[12], chunk[CHUNK_MOST];
+  *out = (wave){0};
+  if (!read_beginning(b, head, 12) || memcmp(head, "RIFF", 4) != 0 ||
+      memcmp(head + 8, "WAVE", 4) != 0)
+    return false;
+  for (int i = 0; i < CHUNKS_MOST; i++) {
+    if (!read_beginning(b, head, 8))
+      return false;
+    uint32_t size = get(head + 4, 4);
+    if (memcmp(head, "data", 4) == 0)
+      return out->rate > 0;
+    if (size > CHUNK_MOST || !read_beginning(b, chunk, size + size % 2))
+      return false;
+    if (memcmp(head, "fmt ", 4) == 0 && !read_wave_form(chunk, size, out))
+      return false;
+  }
+  return false;
+}
+
 /* ffmpeg writes the form of the samples when it has decoded the first ones. */
-static celspan_status read_form(decoder *d, celspan_context *context, cs_wave *out) {
+static celspan_status read_form(decoder *d, celspan_context *context, wave *out) {
   beginning b = {d, context, CELSPAN_OK};
-  if (cs_wave_read(out, read_beginning, &b))
+  if (read_wave(&b, out))
     return CELSPAN_OK;
   CS_TRY(b.status);
   CS_TRY(d->pipe >= 0 ? CELSPAN_OK : conclude(d, context));
@@ -248,7 +319,7 @@ static celspan_status read_form(decoder *d, celspan_context *context, cs_wave *o
 }
 
 static celspan_status begin(decoder *d, celspan_context *context, const cs_decoder_desc *desc,
-                            cs_wave *form) {
+                            wave *form) {
   CS_TRY(start_worker(d, context, desc));
   CS_TRY(read_form(d, context, form));
   d->moment = (size_t)form->channels * sizeof(float);
@@ -257,7 +328,7 @@ static celspan_status begin(decoder *d, celspan_context *context, const cs_decod
 
 celspan_status cs_decoder_open(celspan_context *context, const cs_decoder_desc *desc,
                                cs_sound_stream *out) {
-  cs_wave form;
+  wave form;
   decoder *d = create(context, desc->path);
   if (!d)
     return cs_fail_memory(context);

@@ -10,7 +10,7 @@
 -- still one opaque drawing, the skins lie over it.
 --
 -- A skin is made of what the frame itself does not hold, and of its pixels only those that differ
--- from the frame's drawing (program/onion.c). It is made at the size of the output, and tinted
+-- from the frame's drawing (program/change.c). It is made at the size of the output, and tinted
 -- twice: its colours under a light of the tint, and half over them its outline filled with the
 -- tint, so that black lines show too.
 --

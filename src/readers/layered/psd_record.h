@@ -9,7 +9,7 @@
 #pragma once
 
 #include "readers/layered/contents.h"
-#include "readers/layered/cursor.h"
+#include "readers/layered/input.h"
 
 typedef enum cs_psd_role { CS_PSD_LAYER = 0, CS_PSD_GROUP, CS_PSD_GROUP_START } cs_psd_role;
 

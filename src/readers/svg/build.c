@@ -5,9 +5,9 @@
 
 #include "base/number.h"
 #include "readers/svg/boxes.h"
+#include "readers/svg/cascade.h"
 #include "readers/svg/clips.h"
 #include "readers/svg/filters.h"
-#include "readers/svg/geometry.h"
 #include "readers/svg/image.h"
 #include "readers/svg/markers.h"
 #include "readers/svg/naming.h"
@@ -474,7 +474,7 @@ celspan_status cs_svg_build(cs_svg_reading *reading, celspan_svg *art) {
   const cs_svg_open open = {node, NULL};
   reading->draw = draw;
   reading->builder = &b;
-  CS_TRY(cs_svg_geometry_apply(reading->context, reading->document, &reading->tests));
+  CS_TRY(cs_svg_cascade_geometry(reading->context, reading->document, &reading->tests));
   if (value)
     (void)cs_svg_parse_view_box(value, &box);
   CS_TRY(read_size(&b, node, &box));

@@ -22,3 +22,9 @@ CELSPAN_CHECKED celspan_status cs_svg_cascade_collect(celspan_context *context,
                                                       const cs_svg_node *node,
                                                       const cs_svg_variable *inherited,
                                                       uint64_t *tests, cs_svg_cascade *out);
+
+/* Places and sizes that styles give: writes x, y, cx, cy, width, height, r, rx, ry and d into the
+ * attributes of the elements that have such a property, so that all other code reads only
+ * attributes. Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_svg_cascade_geometry(celspan_context *context,
+                                                       cs_svg_document *document, uint64_t *tests);

@@ -1,7 +1,20 @@
-/* The elements that gradients and patterns paint, and the resulting textures. */
+/* Gradients and patterns: from an element of the file to a texture for the shape that is painted.
+ *
+ *      gradient's own units --gradientTransform--> --objectBoundingBox--> user units of the shape
+ *
+ * The texture stays in the gradient's own units, where a circle is a circle; so the shape is
+ * brought there and taken back as an object. SVG interpolates colours as they are coded and with
+ * straight alpha; stops are added until what lies between two of them differs from that by less
+ * than 1/255.
+ *
+ *      contents --viewBox or patternContentUnits--> the pattern's units --patternTransform--> user
+ *                                                   x, y, width, height: the box that repeats
+ */
 #pragma once
 
 #include "readers/svg/reading.h"
+
+#define CS_SVG_STOPS 4096 /* of one texture */
 
 typedef enum cs_svg_server_kind {
   CS_SVG_SERVER_NOTHING, /* nothing is painted */
@@ -25,3 +38,19 @@ typedef struct cs_svg_painted {
   const celspan_matrix *matrix; /* the same units to the drawing's */
   const cs_svg_open *open;      /* the element itself and the open elements around it */
 } cs_svg_painted;
+
+static inline bool cs_svg_is_gradient(const cs_svg_node *node) {
+  return node->element == CS_SVG_ELEMENT_LINEAR_GRADIENT ||
+         node->element == CS_SVG_ELEMENT_RADIAL_GRADIENT;
+}
+
+/* The texture of a gradient, or of a pattern. *is_missing: nothing is painted, since units are
+ * shares of a box without a size, or the repeated box has none. Errors: NO_MEMORY, LIMIT (of
+ * patterns: too deep inside each other), INPUT. */
+CELSPAN_CHECKED celspan_status cs_svg_gradient_make(cs_svg_reading *reading,
+                                                    const cs_svg_node *node,
+                                                    const cs_svg_painted *shape, bool *is_missing,
+                                                    cs_svg_server *out);
+CELSPAN_CHECKED celspan_status cs_svg_pattern_make(cs_svg_reading *reading, const cs_svg_node *node,
+                                                   const cs_svg_painted *shape, bool *is_missing,
+                                                   cs_svg_server *out);

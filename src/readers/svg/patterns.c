@@ -1,4 +1,5 @@
-#include "readers/svg/patterns.h"
+/* Patterns: an element whose contents are drawn as art that repeats, for one shape. */
+#include "readers/svg/painted.h"
 
 #include "base/number.h"
 #include "readers/svg/shapes.h"

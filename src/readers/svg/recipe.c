@@ -2,10 +2,10 @@
 
 #include <math.h>
 
+#include "base/context.h"
 #include "model/scene/bounds.h"
 #include "model/scene/primitive_data.h"
 #include "model/scene/value.h"
-#include "readers/svg/morphology.h"
 #include "readers/svg/objects.h"
 #include "readers/svg/shapes.h"
 
@@ -279,12 +279,6 @@ static celspan_status blur(const applying *a, celspan_object **object) {
   return convert(a, a->step->space, object);
 }
 
-static celspan_status make_morphology(const applying *a, celspan_object **out) {
-  const cs_svg_step *step = a->step;
-  const cs_svg_morphology look = {step->kind == CS_SVG_STEP_SHRINK, step->radius, step->paint};
-  return cs_svg_morphology_make(a->context, input(a, 0), &look, out);
-}
-
 static celspan_status make_blur(const applying *a, celspan_object **out) {
   *out = kept(input(a, 0));
   return blur(a, out);
@@ -315,6 +309,85 @@ static celspan_status make_tile(const applying *a, celspan_object **out) {
   celspan_status status = cs_svg_object_fill(a->context, &a->step->box, texture, out);
   celspan_texture_unref(texture);
   return status;
+}
+
+/* ---------------------------------------------------------------- morphology */
+
+/* feMorphology of an input of one colour, which is the step's paint: the points around which the
+ * rectangle of two radii contains some of the input, or nothing but the input.
+ *
+ *     input --> light of 1 where it is --> mean of the rectangle --> much brighter --> matte
+ *
+ * INVARIANT: a rectangle counts as touched when the input fills 1/256 of it.
+ */
+
+/* How many times brighter a mean is made. */
+#define ALL_THERE 256
+
+/* *object as a group with `factor` times its light. */
+static celspan_status brighten(celspan_context *context, double factor, celspan_object **object) {
+  celspan_grade_desc fields = CELSPAN_GRADE_DESC;
+  celspan_object *made = NULL;
+  fields.has_matrix = true;
+  for (int c = 0; c < 3; c++)
+    fields.matrix[c][c] = factor;
+  celspan_status status = cs_object_graded(context, *object, &fields, &made);
+  return cs_svg_object_replace(status, made, object);
+}
+
+/* The paint in a box as far as there is light, or as far as it is dark. */
+static celspan_status paint_by(celspan_context *context, const celspan_box *box,
+                               const celspan_paint *paint, celspan_object *light, bool inverts,
+                               celspan_object **out) {
+  celspan_object *ground;
+  CS_TRY(cs_svg_object_flood(context, box, paint, &ground));
+  celspan_status status =
+      celspan_object_create_matte(context, ground, light, CELSPAN_MATTE_LUMA, inverts, out);
+  celspan_object_unref(ground);
+  return status;
+}
+
+/* Light of 1 in a box: where the input is, or for shrinking, where it is not. */
+static celspan_status light_up(const applying *a, const celspan_box *box, celspan_object **out) {
+  const cs_svg_step *step = a->step;
+  const celspan_paint white = celspan_paint_rgb(1, 1, 1, 1);
+  celspan_object *light;
+  CS_TRY(cs_svg_object_silhouette(a->context, input(a, 0), &white, &light));
+  celspan_status status = brighten(a->context, 1 / (double)step->paint.beta, &light);
+  if (status == CELSPAN_OK)
+    status = paint_by(a->context, box, &white, light, step->kind == CS_SVG_STEP_SHRINK, out);
+  celspan_object_unref(light);
+  return status;
+}
+
+static celspan_status paint_near(const applying *a, const celspan_box *box, celspan_object **out) {
+  const cs_svg_step *step = a->step;
+  celspan_object *light = NULL;
+  CS_TRY(light_up(a, box, &light));
+  celspan_status status =
+      cs_svg_object_blur(a->context, &step->radius, CELSPAN_DEFOCUS_BOX, &light);
+  if (status == CELSPAN_OK)
+    status = brighten(a->context, ALL_THERE, &light);
+  if (status == CELSPAN_OK)
+    status = paint_by(a->context, box, &step->paint, light, step->kind == CS_SVG_STEP_SHRINK, out);
+  celspan_object_unref(light);
+  return status;
+}
+
+static celspan_status make_morphology(const applying *a, celspan_object **out) {
+  const cs_svg_step *step = a->step;
+  const double x = fmin(step->radius.x, CELSPAN_BLUR_MOST),
+               y = fmin(step->radius.y, CELSPAN_BLUR_MOST);
+  celspan_box box;
+  bool is_there = false;
+  if (input(a, 0))
+    CS_TRY(cs_bounds_object(a->context, input(a, 0), &is_there, &box));
+  if (!is_there || !(fmax(x, y) > 0)) {
+    *out = kept(input(a, 0));
+    return CELSPAN_OK;
+  }
+  box = (celspan_box){box.x - x, box.y - y, box.width + 2 * x, box.height + 2 * y};
+  return step->paint.beta > 0 ? paint_near(a, &box, out) : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- steps without inputs */

@@ -66,7 +66,7 @@ typedef struct cs_type_outliner {
 enum { CS_TYPE_NO_BREAK = 0, CS_TYPE_MAY_BREAK, CS_TYPE_MUST_BREAK };
 
 typedef struct cs_type_functions {
-  /* bytes: borrowed until close; a font that was found sound (readers/text/font_file.h). face: of a
+  /* bytes: borrowed until close; a font that was found sound (readers/text/font.c). face: of a
    * collection, else 0. variations: at most 64; values are clamped to the range of their axes.
    * Errors: NO_MEMORY. */
   celspan_status (*open)(const void *bytes, size_t size, uint32_t face,

@@ -1,4 +1,4 @@
-// Pixels as they travel to the page (program/runs.h): runs of one pixel, and of the pixels above.
+// Pixels as they travel to the page (program/stage.c): runs of one pixel, and of the pixels above.
 const LITERAL = 0, FILL = 1;
 const SHORT = 24; // pixels below which a loop is faster than a call
 
