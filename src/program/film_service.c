@@ -376,7 +376,7 @@ static int keep_callers(lua_State *L) {
 static int silence(lua_State *L) {
   cs_sandbox *sandbox = self(L)->script.sandbox;
   if (sandbox)
-    sandbox->guard.is_silent = lua_toboolean(L, 2);
+    sandbox->guard.limits.printed = lua_toboolean(L, 2) ? NULL : cs_report_printed;
   return 0;
 }
 

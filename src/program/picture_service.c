@@ -1,4 +1,5 @@
-/* Pictures for verbs in Lua: their facts, two compared, one converted, a frame written.
+/* Pictures for verbs in Lua: their facts, two compared, one converted, a frame written. One file,
+ * because comparing, converting and writing read a picture in the same way.
  *
  * Whether two pictures show the same is decided row by row, span by span.
  * Coded values are compared: sRGB, straight, at 16 bits when both pictures hold integers and as

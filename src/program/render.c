@@ -1,4 +1,5 @@
-/* celspan render SCRIPT -o OUT: the frames of a film.
+/* celspan render SCRIPT -o OUT: the frames of a film. One file, because all steps share the state
+ * of one run.
  *
  *   target (where to) -> shoot (frames/film/shoot.h: build, make, copy) -> finished, frame by frame
  *

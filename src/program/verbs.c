@@ -1,5 +1,5 @@
 /* The verbs: what each takes, and what its help says. Texts are wrapped when they are printed;
- * lines that begin with a space are not wrapped. */
+ * lines that begin with a space are not wrapped. One list, as long as the list of options. */
 #include "program/verbs.h"
 
 /* ---------------------------------------------------------------- options of several verbs */

@@ -1,4 +1,5 @@
--- Films made of films: which frames of which shots are seen, built and drawn, and where.
+-- Films made of films: which frames of which shots are seen, built and drawn, and where. One list
+-- of cases, as long as the options of a cut and its transitions.
 local celspan = require "celspan"
 local cut = require "celspan.cut"
 local workbench = require "tests.support.workbench"

@@ -1,4 +1,5 @@
--- The animator's desk: test, init, contact, onion skin and pictures of differences.
+-- The animator's desk: test, init, contact, onion skin and pictures of differences. One file,
+-- because its verbs are tried on the same film.
 local json = require "celspan.json"
 local celspan = require "celspan"
 local workbench = require "tests.support.workbench"

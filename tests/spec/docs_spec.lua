@@ -1,4 +1,5 @@
--- The documentation: its examples run, its commands exist, its names are those of the code.
+-- The documentation: its examples run, its commands exist, its names are those of the code. One
+-- file, because all pages are read in the same way.
 --
 --   ```lua   a complete script or program; its first lines may say
 --              -- name.lua          its file name, else example.lua

@@ -1,5 +1,5 @@
 -- The sounds of a film: their mix is compared with a sum that is computed here in doubles, their
--- loudness with that of ffmpeg.
+-- loudness with that of ffmpeg. One file, because all cases share that sum.
 
 local present = require "tests.support.present"
 local prng = require "tests.support.prng"

@@ -1,4 +1,5 @@
--- Puppets: bones, poses and targets, and the motion that follows others.
+-- Puppets: bones, poses and targets, and the motion that follows others. One list of cases, as long
+-- as the options of a puppet.
 local celspan = require "celspan"
 local layers = require "celspan.layers"
 local motion = require "celspan.motion"

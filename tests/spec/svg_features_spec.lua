@@ -1,6 +1,6 @@
 -- Features of SVG and CSS, a small drawing for each: it is drawn like another drawing without the
 -- feature, or the drawing says that it is left out. A feature that is neither is drawn wrongly
--- without a word, which this list is there to prevent.
+-- without a word, which this list is there to prevent. One list, as long as the list of features.
 local celspan = require "celspan"
 local svg = require "celspan.svg"
 local present = require "tests.support.present"

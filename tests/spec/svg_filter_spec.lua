@@ -1,4 +1,5 @@
 -- Filters of drawings: each primitive against its formula, in the numbers that the drawing names.
+-- One list, as long as the list of primitives.
 local celspan = require "celspan"
 local images = require "tests.support.images"
 local present = require "tests.support.present"

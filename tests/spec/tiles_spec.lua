@@ -1,5 +1,5 @@
 -- celspan tiles: the pyramid's shape, its tiles compared with the frame's pixels, linked, omitted
--- and kept tiles, and the page in a browser.
+-- and kept tiles, and the page in a browser. One file, because all tests cut the same frames.
 
 local present = require "tests.support.present"
 local system = require "tests.support.system"

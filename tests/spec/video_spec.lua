@@ -1,4 +1,5 @@
--- Videos: what ffmpeg reads back from them, and failures of ffmpeg.
+-- Videos: what ffmpeg reads back from them, and failures of ffmpeg. One list of cases: formats,
+-- options, sound and failures.
 
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"

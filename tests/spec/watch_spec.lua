@@ -1,4 +1,5 @@
--- celspan watch: its server as programs and strangers meet it, and its page in a browser.
+-- celspan watch: its server as programs and strangers meet it, and its page in a browser. One file,
+-- because a server is begun once for many tests.
 local json = require "celspan.json"
 local present = require "tests.support.present"
 local system = require "tests.support.system"

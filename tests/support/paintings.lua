@@ -1,4 +1,5 @@
---- Writes layered paintings for tests: OpenRaster, Krita and Photoshop files, as strings.
+--- Writes layered paintings for tests: OpenRaster, Krita and Photoshop files, as strings. One file,
+-- because the three formats share their layers and their checksums.
 --
 --   paintings.openraster { w = 64, h = 48, layers = { {...}, ... } }     rearmost first in all
 --   paintings.krita { ... }     paintings.psd { ... }

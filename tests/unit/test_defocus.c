@@ -1,4 +1,5 @@
-/* Defocused cels against a brute-force convolution of probe samples; and their invariants.
+/* Defocused cels against a brute-force convolution of probe samples; and their invariants. One
+ * file, because all tests share the brute force.
  */
 #include <stdlib.h>
 

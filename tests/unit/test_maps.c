@@ -1,5 +1,6 @@
 /* Frames that are drawn from maps: as the sweep draws them, to the bit the same whatever was kept
- * and in whatever order rows are made, and without leaks between cels that abut.
+ * and in whatever order rows are made, and without leaks between cels that abut. One file, because
+ * all tests compare the same two ways of drawing.
  */
 #include "engine/map/keep.h"
 #include "engine/map/turn.h"

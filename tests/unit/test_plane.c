@@ -1,5 +1,6 @@
 /* Planes: drawn at any size as the frame of that size is rendered, as a point is probed, and as
- * what is read of their files; what they cannot keep is refused.
+ * what is read of their files; what they cannot keep is refused. One file, because all tests
+ * compare the same scenes.
  */
 #include <math.h>
 

@@ -1,6 +1,7 @@
 /* Glyphs and their places, against hb-shape (package libharfbuzz-bin), and outlines, against
  * FreeType, for the fonts that are there: the project's own, and those of Debian's packages. The
- * fonts and programs that are missing are named and counted as skipped.
+ * fonts and programs that are missing are named and counted as skipped. One file, because all tests
+ * go through the same fonts.
  */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,5 @@
---- Assertions about films for busted: about frames, points, cels and rows.
+--- Assertions about films for busted: about frames, points, cels and rows. One file, because all
+-- assertions share how they read frames and what their failures say.
 --
 --   require "celspan.spec"                         -- adds them to luassert
 --   assert.frame(film, 12).looks_like "walk.png"

@@ -1,4 +1,5 @@
---- Two outlines point by point, for celspan.morph.
+--- Two outlines point by point, for celspan.morph. One file, because measuring, matching and
+-- joining are steps of one function.
 --
 -- A contour is a list of numbers: x, y, and six for each of its cubics. Both are measured by their
 -- length; nodes are set on them in equal steps and at their corners; and the best way through the

@@ -1,4 +1,5 @@
---- Layered paintings as objects and cels, layer by layer.
+--- Layered paintings as objects and cels, layer by layer. One file, because objects, cels and
+-- searches are methods of the same tree.
 --
 --   local tree = assert(layers.read "forest.kra") -- .ora, .psd, an OCA folder, numbered pictures
 --   tree:find("far/hills").object

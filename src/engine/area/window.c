@@ -1,4 +1,5 @@
-/* Closing windows: how the pixels of one are made from its borders.
+/* Closing windows: how the pixels of one are made from its borders. One file, because the four ways
+ * begin with the same borders and sums.
  *
  *   one border over several columns , flat cells    its ends and a ramp            close_lone
  *   flat cells, few columns                         the sums made on the way       close_narrow

@@ -1,3 +1,4 @@
+/* One file, because every row calls it, and its steps are inlined into one another. */
 #include "engine/map/frame_rows.h"
 
 #include "base/self_check.h"

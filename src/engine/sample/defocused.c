@@ -1,3 +1,4 @@
+/* One file, because polylines, bands and rows are three steps over the same nodes. */
 #include "engine/sample/defocused.h"
 
 #include "base/number.h"

@@ -4,7 +4,8 @@
  * rostrum), describes a frame (size, crop, exposures) and renders it into a sink, into pixels, into
  * a file, or row by row. There is no frame buffer: work and memory follow the number of colour
  * spans, so a frame may be a million pixels a side. Tools have headers of their own beside this
- * one: text.h, svg.h, layers.h, trace.h, plane.h, relight.h, track.h, and lua.h for Lua.
+ * one: text.h, svg.h, layers.h, trace.h, plane.h, relight.h, track.h, and lua.h for Lua. It is one
+ * header, because a frame needs all of it.
  *
  * Conventions
  *   Coordinates  origin top left, x right, y down, in film units. Pixel i covers [i, i+1).

@@ -253,7 +253,7 @@ void cs_guard_print(lua_State *L, const char *text, size_t size) {
              limits->print >> 10, cs_guard_hint(guard, " (--limit print=SIZE allows more)"));
     raise_limit(L, guard);
   }
-  if (limits->printed && !guard->is_silent)
+  if (limits->printed)
     limits->printed(limits->user, text, size);
 }
 

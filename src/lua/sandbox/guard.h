@@ -48,7 +48,6 @@ typedef struct cs_guard {
   char reason[256];        /* why it was refused last, where that limit was not; "" */
   uint64_t steps, checked; /* in this frame; at the last reading of the clock */
   size_t printed;
-  bool is_silent;              /* printed text is counted, and not shown */
   char tripped[CS_ERROR_SIZE]; /* the sentence of the exceeded limit; "": none */
   /* The beginning of the call, in nanoseconds of the monotonic clock, 0: nothing is measured; and
    * of the processor clock of its thread. Written by that thread, read by the watchdog, too. */

@@ -1,3 +1,5 @@
+/* Textures as values: what they are made of, checked, hashed and copied. One file, because all
+ * kinds are one structure. */
 #include "model/scene/texture.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* One file, because every step of a program is added to the same state. */
 #include "output/record/programs.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 -- A decoder of plane files, written only from docs/planefile.md: all bytes in; all pixels of a size
--- and a frame out, as means of linear light. Pictures of a name are asked for by a function.
+-- and a frame out, as means of linear light. Pictures of a name are asked for by a function. One
+-- file, so that a reader can follow it beside the page from top to bottom.
 
 local SIDE = 1 << 26
 

@@ -1,4 +1,4 @@
-// The page of celspan watch.
+// The page of celspan watch. One file, because its parts share the view and the wishes.
 //
 //   /state.json ---news--> film, errors          keys, wheel, buttons --> view, frame
 //                            \                      /
