@@ -22,7 +22,6 @@
 #include <mutex>
 #include <vector>
 
-#include "plugins/oiio/checks.h"
 #include "plugins/oiio/shared.h"
 #include "plugins/oiio/sniff.h"
 #include "plugins/oiio/source.h"

@@ -1,4 +1,4 @@
-/* The format of a file by its first bytes, before any library sees it.
+/* What is found in a file before any library sees it: its format, by its first bytes, and damage.
  *
  * INVARIANT: only formats named in sniff.cpp are read. Where the reader of a format allocates the
  * whole picture when it is opened, the size is found here, so that a header with an absurd size is
@@ -19,3 +19,9 @@ struct Sniffed {
 
 /* Throws Failure for other files; it names those that are known. */
 Sniffed sniff(Source &source);
+
+/* To be called before the library opens the file. format: by the library's name. Throws Failure for
+ * a damaged file that the library's readers would not report, or for which they would allocate far
+ * more memory than the file has bytes, and hides from them parts that they should not read. No file
+ * that is complete and undamaged is refused. */
+void check_file(Source &source, const std::string &format);

@@ -1,19 +1,154 @@
 /* Requests: from the callbacks of libmicrohttpd, which come while the daemon runs, to a list that
  * the program takes them from. A connection whose request is whole is suspended until the answer.
+ *
+ *   connection: reading --whole--> waiting --answer--> sending --sent--> reading
+ *                  \--too slow, or its place is taken--> closing    \--too slow--> closing
  */
-#include "plugins/web/web.h"
-
 #include <arpa/inet.h>
 #include <errno.h>
+#include <microhttpd.h>
 #include <netinet/in.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/socket.h>
+#include <time.h>
+
+#include "plugins/web/module.h"
 
 enum {
   POOL = 16384, /* bytes that the library reads a request into; beyond them it answers 431 or 414 */
   SPARE = 32    /* connections that are being closed */
 };
+
+typedef enum web_state { WEB_READING, WEB_WAITING, WEB_SENDING, WEB_CLOSING } web_state;
+
+typedef struct web_connection {
+  struct web_connection *next, *previous;
+  int socket; /* borrowed from the library */
+  web_state state;
+  double since; /* the state */
+} web_connection;
+
+typedef struct web_request {
+  struct web_request *next;       /* of all that are not finished */
+  struct MHD_Connection *library; /* the library's name for the connection */
+  web_connection *connection;     /* borrowed */
+  cs_web_request whole;           /* the request as the program gets it */
+  bool has_begun, is_long, is_taken, is_answered;
+  char body[CS_WEB_BODY];
+  char target[]; /* as it was sent */
+} web_request;
+
+struct cs_web {
+  struct MHD_Daemon *daemon;
+  web_connection *connections; /* newest first */
+  web_request *requests;       /* newest first */
+  uint64_t last_id;
+  cs_web_counts counts;
+};
+
+/* Seconds since some moment, which never go back. */
+static double now_seconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
+}
+
+static void enter(web_connection *connection, web_state state) {
+  if (connection->state == WEB_CLOSING)
+    return;
+  connection->state = state;
+  connection->since = now_seconds();
+}
+
+/* ---------------------------------------------------------------- connections */
+
+/* The library notices that the socket has ended, and closes it. */
+static void end_connection(web_connection *connection) {
+  enter(connection, WEB_CLOSING);
+  shutdown(connection->socket, SHUT_RDWR);
+}
+
+/* The oldest that has no whole request: the list is newest first. */
+static web_connection *find_oldest(const cs_web *web, size_t *open) {
+  web_connection *oldest = NULL;
+  *open = 0;
+  for (web_connection *one = web->connections; one; one = one->next) {
+    *open += one->state != WEB_CLOSING;
+    if (one->state == WEB_READING && (!oldest || one->since <= oldest->since))
+      oldest = one;
+  }
+  return oldest;
+}
+
+static enum MHD_Result admit(void *user, const struct sockaddr *from, socklen_t size) {
+  cs_web *web = user;
+  size_t open;
+  web_connection *oldest = find_oldest(web, &open);
+  (void)from;
+  (void)size;
+  if (open < CS_WEB_CONNECTIONS)
+    return MHD_YES;
+  web->counts.displaced += oldest != NULL;
+  web->counts.refused += oldest == NULL;
+  if (oldest)
+    end_connection(oldest);
+  return oldest ? MHD_YES : MHD_NO;
+}
+
+static void add_connection(cs_web *web, struct MHD_Connection *library, void **context) {
+  const union MHD_ConnectionInfo *info =
+      MHD_get_connection_info(library, MHD_CONNECTION_INFO_CONNECTION_FD);
+  web_connection *added = calloc(1, sizeof *added);
+  *context = added;
+  if (!added)
+    return;
+  *added = (web_connection){
+      .next = web->connections, .socket = info->connect_fd, .since = now_seconds()};
+  if (added->next)
+    added->next->previous = added;
+  web->connections = added;
+}
+
+static void remove_connection(cs_web *web, web_connection *removed) {
+  if (removed->next)
+    removed->next->previous = removed->previous;
+  if (removed->previous)
+    removed->previous->next = removed->next;
+  else
+    web->connections = removed->next;
+  free(removed);
+}
+
+static void notify(void *user, struct MHD_Connection *library, void **context,
+                   enum MHD_ConnectionNotificationCode code) {
+  if (code == MHD_CONNECTION_NOTIFY_STARTED)
+    add_connection(user, library, context);
+  else if (*context)
+    remove_connection(user, *context);
+}
+
+/* Seconds that a connection may stay in its state; 0: as long as the program needs. */
+static double most_seconds(web_state state) {
+  return state == WEB_READING ? CS_WEB_IDLE : state == WEB_SENDING ? CS_WEB_SENDING : 0;
+}
+
+/* Closes connections that are too slow. Returns the milliseconds until the next connection may be
+ * too slow; -1: none can be. */
+static int sweep(cs_web *web) {
+  double next = -1, now = now_seconds();
+  for (web_connection *one = web->connections; one; one = one->next) {
+    double most = most_seconds(one->state), left = one->since + most - now;
+    if (most > 0 && left <= 0) {
+      web->counts.late++;
+      end_connection(one);
+    } else if (most > 0 && (next < 0 || left < next)) {
+      next = left;
+    }
+  }
+  return next < 0 ? -1 : (int)(next * 1000) + 1;
+}
 
 /* ---------------------------------------------------------------- reading */
 
@@ -84,7 +219,7 @@ static void complete(cs_web *web, web_request *request, const char *method) {
   request->whole.token = header(request, CS_WEB_TOKEN);
   request->whole.site = header(request, "Sec-Fetch-Site");
   request->whole.body = request->body;
-  web_enter(request->connection, WEB_WAITING);
+  enter(request->connection, WEB_WAITING);
   MHD_suspend_connection(request->library);
 }
 
@@ -145,7 +280,7 @@ static void finish_request(void *user, struct MHD_Connection *library, void **co
   for (web_request **at = &web->requests; *at && finished; at = &(*at)->next)
     if (*at == finished) {
       *at = finished->next;
-      web_enter(finished->connection, WEB_READING);
+      enter(finished->connection, WEB_READING);
       free(finished);
       break;
     }
@@ -190,7 +325,7 @@ static bool answer_request(web_request *request, const cs_web_answer *answer) {
   if (response)
     MHD_destroy_response(response);
   request->is_answered = true;
-  web_enter(request->connection, is_good ? WEB_SENDING : WEB_CLOSING);
+  enter(request->connection, is_good ? WEB_SENDING : WEB_CLOSING);
   if (!is_good)
     shutdown(request->connection->socket, SHUT_RDWR);
   MHD_resume_connection(request->library);
@@ -208,11 +343,11 @@ static bool answer(cs_web *web, uint64_t id, const cs_web_answer *answer) {
 
 static struct MHD_Daemon *start(cs_web *web, const struct sockaddr_in *at) {
   return MHD_start_daemon(
-      MHD_USE_EPOLL | MHD_ALLOW_SUSPEND_RESUME, 0, web_admit, web, handle, web,
-      MHD_OPTION_SOCK_ADDR, at, MHD_OPTION_CONNECTION_LIMIT, (unsigned)(CS_WEB_CONNECTIONS + SPARE),
+      MHD_USE_EPOLL | MHD_ALLOW_SUSPEND_RESUME, 0, admit, web, handle, web, MHD_OPTION_SOCK_ADDR,
+      at, MHD_OPTION_CONNECTION_LIMIT, (unsigned)(CS_WEB_CONNECTIONS + SPARE),
       MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)POOL, MHD_OPTION_URI_LOG_CALLBACK, begin_request,
-      web, MHD_OPTION_NOTIFY_COMPLETED, finish_request, web, MHD_OPTION_NOTIFY_CONNECTION,
-      web_notify, web, MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_END);
+      web, MHD_OPTION_NOTIFY_COMPLETED, finish_request, web, MHD_OPTION_NOTIFY_CONNECTION, notify,
+      web, MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_END);
 }
 
 static int open_web(uint16_t port, cs_web **out) {
@@ -240,7 +375,7 @@ static int descriptor(const cs_web *web) {
 
 static int run(cs_web *web) {
   MHD_UNSIGNED_LONG_LONG library;
-  int own = web_sweep(web);
+  int own = sweep(web);
   MHD_run(web->daemon);
   if (find_waiting(web))
     return 0;

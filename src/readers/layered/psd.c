@@ -3,8 +3,6 @@
 #include <string.h>
 
 #include "readers/layered/profile.h"
-#include "readers/layered/psd_record.h"
-#include "readers/layered/psd_rows.h"
 
 typedef struct document {
   celspan_context *context;

@@ -13,9 +13,104 @@
 
 #include "celspan/layers.h"
 #include "readers/layered/contents.h"
+#include "readers/layered/input.h"
+#include "readers/layered/rows.h"
 
 /* Whether the first bytes are the beginning of such a document. */
 bool cs_psd_is(const unsigned char start[4]);
 /* Errors: INPUT, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_psd_read(celspan_context *context, const cs_input *input,
                                            celspan_painting *painting);
+
+/* ---------------------------------------------------------------- the record of a layer */
+
+/* The record of a layer in a Photoshop file: everything except its pixels.
+ *
+ * Photoshop writes a group as two records, in the order of painting:
+ *
+ *   hidden divider    CS_PSD_GROUP_START     the layers of the group begin here
+ *   ...
+ *   the group         CS_PSD_GROUP           its name, opacity and blend mode
+ */
+typedef enum cs_psd_role { CS_PSD_LAYER = 0, CS_PSD_GROUP, CS_PSD_GROUP_START } cs_psd_role;
+
+#define CS_PSD_MOST_CHANNELS 56 /* the format's own limit */
+
+typedef struct cs_psd_record {
+  cs_psd_role role;
+  int32_t left, top, right, bottom;
+  int channel_count;
+  /* 0..2 colour, -1 alpha, -2 mask, -3 mask before a vector mask. */
+  int16_t ids[CS_PSD_MOST_CHANNELS];
+  uint64_t sizes[CS_PSD_MOST_CHANNELS];
+  char blend[5], group_blend[5]; /* keys of four letters; "": the file has none */
+  unsigned char opacity, fill;
+  bool is_hidden, is_clipped;
+  bool has_mask, mask_is_off, mask_is_inverted, mask_is_altered;
+  int32_t mask_left, mask_top, mask_right, mask_bottom;
+  unsigned char mask_beyond, mask_density;
+  bool has_vector_mask, has_effects, has_conditions;
+  char adjustment[5], fill_content[5]; /* the key of the adjustment or fill that makes its pixels;
+                                          "": painted */
+  char name[CS_CONTENTS_TEXT];
+  size_t name_size;
+} cs_psd_record;
+
+/* Reads the record at the cursor, whose status is the result. is_large: a large document, with
+ * some lengths of 8 bytes. */
+void cs_psd_record_read(cs_cursor *cursor, bool is_large, cs_psd_record *out);
+/* The word of celspan for a blend key; "" does not change, and neither do keys without a word. */
+void cs_psd_record_blend(const char key[5], char out[32]);
+/* Reads the signature, key and length of a tagged block at the cursor; false where there is none.
+ */
+bool cs_psd_record_tag(cs_cursor *cursor, bool is_large, char key[5], uint64_t *size);
+
+/* ---------------------------------------------------------------- the rows of a layer */
+
+/* The rows of a layer of a Photoshop file: its channels, each packed in a way of its own, put
+ * together.
+ *
+ *   red     raw       | row | row | row |
+ *   green   PackBits  | sizes of the rows | packed row | packed row | ...
+ *   blue    ZIP       | one zlib stream; with prediction each value is a difference to its left |
+ *   alpha   ...
+ *   mask    ...         a rectangle of its own, which alpha is multiplied by
+ *
+ * A channel that is missing is full. Grey has one colour channel.
+ */
+typedef enum cs_psd_packing {
+  CS_PSD_RAW = 0, /* the numbers of the file */
+  CS_PSD_PACK_BITS = 1,
+  CS_PSD_ZIP = 2,
+  CS_PSD_ZIP_PREDICTED = 3
+} cs_psd_packing;
+
+/* In the order of cs_psd_layer's channels; of grey the first is the only colour. */
+enum { CS_PSD_RED, CS_PSD_GREEN, CS_PSD_BLUE, CS_PSD_ALPHA, CS_PSD_MASK, CS_PSD_CHANNELS };
+
+typedef struct cs_psd_channel {
+  bool is_there;
+  cs_psd_packing packing;
+  int64_t at, end;       /* of the packed rows */
+  int64_t sizes;         /* PACK_BITS: of the table of their sizes */
+  int32_t width, height; /* pixels */
+} cs_psd_channel;
+
+typedef struct cs_psd_mask {
+  int32_t x, y;          /* of its rectangle, from the layer's corner */
+  unsigned char beyond;  /* its value outside the rectangle */
+  unsigned char density; /* how much it counts, 255: wholly */
+  bool is_inverted;
+} cs_psd_mask;
+
+typedef struct cs_psd_layer {
+  cs_rows_source base;
+  bool is_grey;
+  int size_bytes; /* of an entry in a table of row sizes: 2, or 4 in large documents */
+  cs_psd_channel channels[CS_PSD_CHANNELS];
+  cs_psd_mask mask;
+} cs_psd_layer;
+
+/* A source of the layer's rows. layer: copied. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_psd_rows_create(celspan_context *context,
+                                                  const cs_psd_layer *layer, cs_rows_source **out);

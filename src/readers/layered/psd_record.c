@@ -1,4 +1,5 @@
-#include "readers/layered/psd_record.h"
+/* The record of a layer in a Photoshop file: everything except its pixels. */
+#include "readers/layered/psd.h"
 
 #include <stdio.h>
 #include <string.h>

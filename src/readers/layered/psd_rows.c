@@ -1,4 +1,5 @@
-#include "readers/layered/psd_rows.h"
+/* The rows of a layer in a Photoshop file. */
+#include "readers/layered/psd.h"
 
 #include <string.h>
 

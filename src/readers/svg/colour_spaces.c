@@ -1,4 +1,5 @@
-#include "readers/svg/colour_spaces.h"
+/* Colours of other spaces than sRGB's codes, as CSS writes them. */
+#include "readers/svg/colours.h"
 
 #include <math.h>
 #include <string.h>

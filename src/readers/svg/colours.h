@@ -1,9 +1,20 @@
 /* Colours as SVG and CSS write them: sRGB-coded, 0..1, alpha straight. */
 #pragma once
 
-#include "readers/svg/colour_spaces.h"
+#include "celspan/celspan.h"
 
-/* "#rgb", "#rrggbb" and with alpha, rgb(), rgba(), hsl(), hsla(), those of colour_spaces.h, a name,
- * transparent: reads the colour at *text and moves *text behind it. False when there is no
- * colour. */
+/* sRGB-coded, 0..1, alpha straight. */
+typedef struct cs_svg_colour {
+  double rgb[3], alpha;
+} cs_svg_colour;
+
+/* "#rgb", "#rrggbb" and with alpha, rgb(), rgba(), hsl(), hsla(), hwb(), lab(), lch(), oklab(),
+ * oklch(), color(), a name, transparent: reads the colour at *text and moves *text behind it. False
+ * when there is no colour. */
 bool cs_svg_take_colour(const char **text, cs_svg_colour *out);
+/* The same for hwb() to color() alone: the colours of other spaces than sRGB's codes. Colours
+ * outside of sRGB are clamped channel by channel. */
+bool cs_svg_take_space_colour(const char **text, cs_svg_colour *out);
+
+/* The colour of a hue in degrees; alpha stays. */
+void cs_svg_colour_of_hue(double hue, double saturation, double lightness, cs_svg_colour *out);

@@ -11,7 +11,6 @@
 #pragma once
 
 #include "readers/svg/names.h"
-#include "readers/svg/unread.h"
 
 #define CS_CSS_RULES 65536
 

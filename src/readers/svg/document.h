@@ -10,7 +10,7 @@
 #include "base/hash_table.h"
 #include "readers/svg/css.h"
 #include "readers/svg/names.h"
-#include "readers/svg/variables.h"
+#include "readers/svg/values.h"
 
 #define CS_SVG_DEPTH 128
 #define CS_SVG_ELEMENTS 1000000

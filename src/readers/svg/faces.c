@@ -1,4 +1,5 @@
-#include "readers/svg/faces.h"
+/* The fonts of a text. */
+#include "readers/svg/letters.h"
 
 #include <string.h>
 #include <strings.h>

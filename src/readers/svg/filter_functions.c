@@ -1,4 +1,5 @@
-#include "readers/svg/filter_functions.h"
+/* Functions of the property `filter` as steps of recipes. */
+#include "readers/svg/filters.h"
 
 #include <math.h>
 

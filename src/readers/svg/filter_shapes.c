@@ -1,4 +1,5 @@
-#include "readers/svg/filter_shapes.h"
+/* The inputs of filters that have one colour. */
+#include "readers/svg/filters.h"
 
 #include "readers/svg/shapes.h"
 

@@ -6,8 +6,6 @@
 #include "base/number.h"
 #include "model/colour/blend.h"
 #include "readers/svg/filter_colours.h"
-#include "readers/svg/filter_functions.h"
-#include "readers/svg/filter_shapes.h"
 #include "readers/svg/image.h"
 #include "readers/svg/regions.h"
 #include "readers/svg/shapes.h"

@@ -3,8 +3,6 @@
 #include <string.h>
 
 #include "celspan/svg.h"
-#include "readers/svg/image_picture.h"
-#include "readers/svg/image_source.h"
 #include "readers/svg/shapes.h"
 
 /* The contents of an image, before it is put in its place. */

@@ -1,4 +1,5 @@
-#include "readers/svg/image_picture.h"
+/* Pictures of drawings: from the bytes of a file to pixels. */
+#include "readers/svg/image.h"
 
 #include <errno.h>
 #include <stdio.h>

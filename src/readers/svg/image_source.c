@@ -1,4 +1,5 @@
-#include "readers/svg/image_source.h"
+/* The bytes of images: in an href itself, or in a file. */
+#include "readers/svg/image.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -4,7 +4,6 @@
 
 #include "base/number.h"
 #include "celspan/text.h"
-#include "readers/svg/faces.h"
 #include "readers/text/layout.h"
 
 /* Sizes of letters beyond this make no picture. */

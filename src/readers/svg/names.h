@@ -1,12 +1,15 @@
 /* The names of SVG that mean something here, as numbers: elements, attributes and properties, with
  * the values that are read of them. Only these lists say what is drawn: all other names in a
- * document are noted (unread.h).
+ * document are noted.
  *
  * Invariant: all lists are sorted as strcmp sorts their texts, which is how they are searched.
  */
 #pragma once
 
 #include <stdbool.h>
+
+#include "base/arena.h"
+#include "base/hash_table.h"
 
 /* Each element: its enumerator after CS_SVG_ELEMENT_, its text. */
 #define CS_SVG_ELEMENT_LIST(ELEMENT)                                                               \
@@ -224,3 +227,27 @@ const char *cs_svg_name_text(cs_svg_name name);
 /* Whether one of the words, with '|' between them, is the value; letters may be of either case.
  * words: NULL: none. */
 bool cs_svg_words_have(const char *words, const char *value);
+
+/* A name in a document that is not drawn: an attribute, a property, an element, or a value of one
+ * of them; once for each name, at the line where it appears first.
+ */
+#define CS_SVG_UNREAD 1000 /* names; more are not noted */
+
+typedef struct cs_svg_unread_name {
+  const char *what; /* name, or: name "value" */
+  uint32_t line;
+} cs_svg_unread_name;
+
+/* All zero is an empty list. */
+typedef struct cs_svg_unread {
+  cs_svg_unread_name *items;
+  size_t count, capacity;
+  cs_hash_table names;
+} cs_svg_unread;
+
+/* value: NULL where the name alone is not known. Texts are copied to the arena. Errors: NO_MEMORY.
+ */
+CELSPAN_CHECKED celspan_status cs_svg_unread_add(cs_svg_unread *list, celspan_context *context,
+                                                 cs_arena *arena, uint32_t line, const char *name,
+                                                 const char *value);
+void cs_svg_unread_finish(cs_svg_unread *list, celspan_context *context);
