@@ -5,6 +5,7 @@
 
 #include "frames/film/sequence.h"
 #include "tests/support/check.h"
+#include "tests/support/memory.h"
 
 /* The frames of a list, separated by blanks, or the sentence of the refusal. */
 static const char *read_list(celspan_context *context, const char *list, const cs_film_info *film,
@@ -245,6 +246,24 @@ static void files_are_found_by_their_pattern(celspan_context *context) {
   free(longest);
 }
 
+/* Each allocation of a list fails once: they are the context's, and all are given back. */
+static void lists_use_the_memory_of_the_context(void) {
+  memory_watch watch = {0};
+  celspan_context *context = memory_watch_context(&watch);
+  celspan_status status = CELSPAN_NO_MEMORY;
+  cs_sequence sequence = {0};
+  size_t blocks = watch.blocks, first = watch.allocations, failed = 0;
+  for (; status == CELSPAN_NO_MEMORY && failed < 9; failed++) {
+    watch.fail_at = watch.allocations + failed + 1;
+    status = cs_sequence_parse(context, "1-9,20-90,200", NULL, &sequence);
+    CHECK(status == CELSPAN_OK || (watch.blocks == blocks && !sequence.frames));
+  }
+  CHECK(status == CELSPAN_OK && failed >= 3 && watch.allocations > first && sequence.count == 81);
+  cs_sequence_finish(&sequence);
+  CHECK(watch.blocks == blocks && watch.size_errors == 0);
+  celspan_context_destroy(context);
+}
+
 int main(void) {
   celspan_context *context;
   if (!CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK))
@@ -258,5 +277,6 @@ int main(void) {
   names_have_their_number_in_one_place(context);
   files_are_found_by_their_pattern(context);
   celspan_context_destroy(context);
+  lists_use_the_memory_of_the_context();
   return check_done();
 }

@@ -50,7 +50,7 @@ static celspan_status shoot(run *r, int workers, bool keeps_nothing) {
   int64_t numbers[FRAMES];
   for (int i = 0; i < FRAMES; i++)
     numbers[i] = i;
-  const cs_sequence frames = {numbers, FRAMES};
+  const cs_sequence frames = {.frames = numbers, .count = FRAMES};
   cs_shoot job = {.context = r->scenes->context,
                   .film = {.width = 32, .height = 24, .frames_second = 24, .count = FRAMES},
                   .frames = &frames,

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/context.h"
 #include "base/open.h"
 
 #define MOST_FRAMES 10000000 /* of one list; 80 MB of numbers */
@@ -63,10 +62,7 @@ static celspan_status append(reader *r, cs_sequence *out, int64_t from, int64_t 
     return celspan_context_fail(r->context, CELSPAN_LIMIT,
                                 "frames \"%.200s\": more than %d frames in one list", r->list,
                                 MOST_FRAMES);
-  int64_t *grown = realloc(out->frames, (out->count + added) * sizeof *grown);
-  if (!grown)
-    return celspan_context_fail(r->context, CELSPAN_NO_MEMORY, "not enough memory for the frames");
-  out->frames = grown;
+  CS_TRY(CS_RESERVE(r->context, out->frames, out->capacity, out->count + added));
   for (size_t i = 0; i < added; i++)
     out->frames[out->count++] = from + (int64_t)i * step;
   return CELSPAN_OK;
@@ -207,9 +203,8 @@ static int compare(const void *a, const void *b) {
 }
 
 static celspan_status check_overlaps(const reader *r, const cs_sequence *sequence) {
-  int64_t *sorted = malloc(sequence->count * sizeof *sorted);
-  if (!sorted)
-    return celspan_context_fail(r->context, CELSPAN_NO_MEMORY, "not enough memory for the frames");
+  int64_t *sorted;
+  CS_TRY(CS_MAKE(r->context, sorted, sequence->count));
   memcpy(sorted, sequence->frames, sequence->count * sizeof *sorted);
   qsort(sorted, sequence->count, sizeof *sorted, compare);
   celspan_status status = CELSPAN_OK;
@@ -218,14 +213,14 @@ static celspan_status check_overlaps(const reader *r, const cs_sequence *sequenc
       status = celspan_context_fail(r->context, CELSPAN_BAD_ARGUMENT,
                                     "frames \"%.200s\": frame %lld is listed twice", r->list,
                                     (long long)sorted[i]);
-  free(sorted);
+  cs_mem_free(r->context->memory, sorted, sequence->count * sizeof *sorted);
   return status;
 }
 
 celspan_status cs_sequence_parse(celspan_context *context, const char *list,
                                  const cs_film_info *film, cs_sequence *out) {
   reader r = {context, list, list, film};
-  cs_sequence sequence = {0};
+  cs_sequence sequence = {.memory = context->memory};
   celspan_status status;
   do
     status = read_element(&r, &sequence);
@@ -244,7 +239,7 @@ celspan_status cs_sequence_parse(celspan_context *context, const char *list,
 celspan_status cs_sequence_count(celspan_context *context, int64_t first, int64_t count,
                                  cs_sequence *out) {
   reader r = {context, "all", "all", NULL};
-  cs_sequence sequence = {0};
+  cs_sequence sequence = {.memory = context->memory};
   celspan_status status = append(&r, &sequence, first, first + count - 1, 1);
   if (status == CELSPAN_OK)
     *out = sequence;
@@ -252,7 +247,7 @@ celspan_status cs_sequence_count(celspan_context *context, int64_t first, int64_
 }
 
 void cs_sequence_finish(cs_sequence *sequence) {
-  free(sequence->frames);
+  cs_mem_free(sequence->memory, sequence->frames, sequence->capacity * sizeof *sequence->frames);
   *sequence = (cs_sequence){0};
 }
 
@@ -360,7 +355,7 @@ celspan_status cs_sequence_list(celspan_context *context, const char *pattern, c
   if (!folder)
     return fail_folder(context, pattern, length < PATH_SIZE ? errno : ENAMETOOLONG);
   reader r = {context, pattern, pattern, NULL};
-  cs_sequence sequence = {0};
+  cs_sequence sequence = {.memory = context->memory};
   celspan_status status = CELSPAN_OK;
   for (struct dirent *entry; status == CELSPAN_OK && (entry = cs_open_entry(folder));)
     status = add_file(&r, name, entry->d_name, &sequence);

@@ -13,11 +13,13 @@
  */
 #pragma once
 
+#include "base/context.h"
 #include "frames/film/film.h"
 
 typedef struct cs_sequence {
   int64_t *frames; /* owned */
-  size_t count;
+  size_t count, capacity;
+  cs_memory *memory; /* borrowed from the context; NULL: there are no frames */
 } cs_sequence;
 
 /* film: whose times and marks the list may name; NULL: of none, and a list of numbers alone. out:
