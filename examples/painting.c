@@ -42,7 +42,7 @@ static celspan_status add_cel(celspan_context *context, const celspan_painting_l
 /* All visible layers with pixels, rearmost first. */
 static celspan_status add_cels(celspan_context *context, const celspan_painting *painting,
                                celspan_cel **cels, size_t most, size_t *count) {
-  celspan_painting_layer layer;
+  celspan_painting_layer layer = CELSPAN_PAINTING_LAYER;
   for (size_t i = 0; celspan_painting_layer_at(painting, i, &layer) && *count < most; i++) {
     printf("%s %s, %s, opacity %.2f\n", layer.is_group ? "group" : "layer", layer.name, layer.blend,
            layer.opacity);

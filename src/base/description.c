@@ -14,6 +14,11 @@ static celspan_status refuse(celspan_context *context, const char *noun,
                  noun, size, what, description->type, description->type, description->size);
 }
 
+/* Whether a structure that begins with a size_t can have this size. */
+static bool is_size(size_t size) {
+  return size >= sizeof size && size <= SIZE_MOST && size % sizeof size == 0;
+}
+
 /* Whether one field has bytes on both sides of the end. */
 static bool is_cut(const cs_description *description, size_t size) {
   for (size_t i = 0; i < description->field_count; i++)
@@ -37,7 +42,7 @@ celspan_status cs_description_read(celspan_context *context, const char *noun,
                    : CELSPAN_BAD_ARGUMENT;
   size_t size;
   memcpy(&size, given, sizeof size);
-  if (size < sizeof size || size > SIZE_MOST || size % sizeof size != 0)
+  if (!is_size(size))
     return refuse(context, noun, description, size, "which no description has");
   if (is_cut(description, size))
     return refuse(context, noun, description, size, "which ends inside a field");
@@ -52,12 +57,33 @@ celspan_status cs_description_read(celspan_context *context, const char *noun,
   return CELSPAN_OK;
 }
 
-void cs_description_write(const cs_description *description, const void *full, void *out,
-                          size_t size) {
-  size_t known = size < description->size ? size : description->size;
-  if (size < sizeof size)
-    return;
+/* The first bytes of a whole into one of another size. */
+static void write_part(const void *full, size_t known, void *out, size_t size) {
+  if (known > size)
+    known = size;
   memcpy(out, full, known);
   memset((char *)out + known, 0, size - known);
   memcpy(out, &size, sizeof size);
+}
+
+void cs_description_write(const cs_description *description, const void *full, void *out,
+                          size_t size) {
+  if (size >= sizeof size)
+    write_part(full, description->size, out, size);
+}
+
+celspan_status cs_result_write(celspan_context *context, const char *noun, const char *type,
+                               const void *full, size_t size, void *out) {
+  size_t given;
+  memcpy(&given, out, sizeof given);
+  if (is_size(given)) {
+    write_part(full, size, out, given);
+    return CELSPAN_OK;
+  }
+  if (!context)
+    return CELSPAN_BAD_ARGUMENT;
+  return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                 "%s: struct_size of the result is %zu: begin with %s_initial, or set it to "
+                 "sizeof(%s), which is %zu",
+                 noun, given, type, type, size);
 }

@@ -77,6 +77,15 @@ CELSPAN_CHECKED celspan_status cs_description_read(celspan_context *context, con
 void cs_description_write(const cs_description *description, const void *full, void *out,
                           size_t size);
 
+/* Writes a result, `size` bytes from `full`, into a structure from outside that begins with its own
+ * struct_size: an earlier one gets the fields that it has, of a later one the further fields are 0.
+ * noun, type: for messages. context: NULL if there is none. Errors: BAD_ARGUMENT. */
+CELSPAN_CHECKED celspan_status cs_result_write(celspan_context *context, const char *noun,
+                                               const char *type, const void *full, size_t size,
+                                               void *out);
+#define CS_RESULT(context, noun, type, full, out)                                                  \
+  cs_result_write(context, noun, #type, full, sizeof(type), out)
+
 /* The door: `desc`, a parameter, is made to point to a full copy of itself. */
 #define CS_READ(context, noun, type, desc)                                                         \
   type desc##_whole;                                                                               \

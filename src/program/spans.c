@@ -58,8 +58,7 @@ static celspan_status measure(celspan_context *context, const cs_request *reques
                               const celspan_frame_desc *frame) {
   celspan_coding coding = {.struct_size = sizeof coding};
   const celspan_sink nowhere = {.struct_size = sizeof nowhere, .row = NULL};
-  celspan_statistics statistics;
-  memset(&statistics, 0, sizeof statistics);
+  celspan_statistics statistics = CELSPAN_STATISTICS;
   double started = cs_clock_seconds();
   celspan_status status = cs_request_read(request, "--pixels", &coding.depth)
                               ? celspan_frame_pixels(context, frame, &coding, NULL, 0, &statistics)

@@ -60,6 +60,7 @@ void bench_job_render(void *user) {
   celspan_statistics *statistics = &job->statistics;
   size_t stride = 4 * (size_t)job->desc.width;
   celspan_status status;
+  *statistics = CELSPAN_STATISTICS;
   if (strcmp(job->output, "file") == 0)
     status = celspan_frame_write(context, &job->desc, job->file, NULL, statistics);
   else if (strcmp(job->output, "spans") == 0)

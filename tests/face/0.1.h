@@ -93,8 +93,8 @@ celspan_status celspan_texture_named(celspan_context *context, celspan_texture *
   *name, celspan_texture **out);
 const char *celspan_texture_name(const celspan_texture *texture);
 celspan_origin celspan_texture_origin(const celspan_texture *texture);
-typedef struct celspan_picture_info { int32_t width, height; int channels; bool has_alpha; bool
-  is_float; char format[16]; char colour[16]; } celspan_picture_info;
+typedef struct celspan_picture_info { size_t struct_size; int32_t width, height; int channels; bool
+  has_alpha; bool is_float; char format[16]; char colour[16]; } celspan_picture_info;
 celspan_status celspan_picture_inspect(celspan_context *context, const celspan_picture_desc *desc,
   celspan_picture_info *out);
 typedef enum celspan_surface_format { CELSPAN_SURFACE_RGBA8 = 0, CELSPAN_SURFACE_RGB8,
@@ -341,9 +341,9 @@ typedef struct celspan_frame_desc { size_t struct_size; const celspan_exposure *
 void celspan_frame_desc_default(celspan_frame_desc *out, size_t struct_size);
 celspan_status celspan_probe(celspan_context *context, const celspan_frame_desc *desc,
   celspan_point point, double rgba[4]);
-typedef struct celspan_statistics { uint64_t rows, spans, single, gradient, array; uint64_t
-  pixels_in_arrays; uint64_t colour_evaluations; uint64_t allocations; uint64_t peak_bytes;
-  uint64_t maps; uint64_t maps_made; uint64_t swept; } celspan_statistics;
+typedef struct celspan_statistics { size_t struct_size; uint64_t rows, spans, single, gradient,
+  array; uint64_t pixels_in_arrays; uint64_t colour_evaluations; uint64_t allocations; uint64_t
+  peak_bytes; uint64_t maps; uint64_t maps_made; uint64_t swept; } celspan_statistics;
 typedef struct celspan_sink { size_t struct_size; void *user; celspan_status (*begin)(void *user,
   celspan_context *context, int32_t width, int32_t height); celspan_status (*row)(void *user,
   celspan_context *context, int32_t y, const celspan_span *spans, size_t span_count);
@@ -404,8 +404,8 @@ typedef struct celspan_text_desc { size_t struct_size; const char *text; size_t 
 void celspan_text_desc_default(celspan_text_desc *out, size_t struct_size);
 celspan_status celspan_object_create_text(celspan_context *context, const celspan_text_desc *desc,
   celspan_object **out);
-typedef struct celspan_text_metrics { double ascent, descent; double cap_height, x_height; double
-  width; double height; int32_t lines; } celspan_text_metrics;
+typedef struct celspan_text_metrics { size_t struct_size; double ascent, descent; double
+  cap_height, x_height; double width; double height; int32_t lines; } celspan_text_metrics;
 celspan_status celspan_text_measure(celspan_context *context, const celspan_text_desc *desc,
   celspan_text_metrics *out);
 typedef struct celspan_glyph { celspan_object *object; double x, y; double advance; const char
@@ -445,9 +445,9 @@ typedef struct celspan_svg_changed { const char *name; celspan_svg_change change
 celspan_status celspan_svg_with(celspan_context *context, const celspan_svg *svg, const
   celspan_svg_changed *changes, size_t change_count, celspan_svg **out);
 typedef struct celspan_painting celspan_painting;
-typedef struct celspan_painting_layer { const char *name; const char *blend; size_t parent; bool
-  is_group, is_visible; double opacity; int32_t x, y, width, height; celspan_surface *surface;
-  const char *colour; } celspan_painting_layer;
+typedef struct celspan_painting_layer { size_t struct_size; const char *name; const char *blend;
+  size_t parent; bool is_group, is_visible; double opacity; int32_t x, y, width, height;
+  celspan_surface *surface; const char *colour; } celspan_painting_layer;
 celspan_status celspan_painting_read(celspan_context *context, const char *file, celspan_painting
   **out);
 celspan_painting *celspan_painting_ref(celspan_painting *painting);
@@ -464,9 +464,9 @@ typedef struct celspan_trace_desc { size_t struct_size; const celspan_picture_de
   int32_t colours; const unsigned char *codes; double smooth; int32_t speckle; bool lines; }
   celspan_trace_desc;
 void celspan_trace_desc_default(celspan_trace_desc *out, size_t struct_size);
-typedef struct celspan_trace_shape { celspan_object *object; unsigned char colour[3]; int32_t x, y;
-  double area; const char *data; const celspan_point *points; const double *widths; size_t
-  point_count; bool is_closed; } celspan_trace_shape;
+typedef struct celspan_trace_shape { size_t struct_size; celspan_object *object; unsigned char
+  colour[3]; int32_t x, y; double area; const char *data; const celspan_point *points; const double
+  *widths; size_t point_count; bool is_closed; } celspan_trace_shape;
 celspan_status celspan_trace_create(celspan_context *context, const celspan_trace_desc *desc,
   celspan_trace **out);
 celspan_trace *celspan_trace_ref(celspan_trace *trace);
@@ -546,11 +546,30 @@ typedef struct celspan_luma { int32_t width, height; const float *values; } cels
 typedef struct celspan_tracker_desc { size_t struct_size; celspan_motion model; celspan_box region;
   const uint8_t *mask; } celspan_tracker_desc;
 void celspan_tracker_desc_default(celspan_tracker_desc *out, size_t struct_size);
-typedef struct celspan_sighting { bool is_found; celspan_matrix matrix; uint32_t corner_count;
-  uint32_t agreeing_count; double error; } celspan_sighting;
+typedef struct celspan_sighting { size_t struct_size; bool is_found; celspan_matrix matrix;
+  uint32_t corner_count; uint32_t agreeing_count; double error; } celspan_sighting;
 celspan_status celspan_tracker_create(celspan_context *context, const celspan_luma *first, const
   celspan_tracker_desc *desc, celspan_tracker **out);
 celspan_status celspan_tracker_follow(celspan_tracker *tracker, const celspan_luma *frame,
   celspan_sighting *out);
 void celspan_tracker_rewind(celspan_tracker *tracker);
 void celspan_tracker_destroy(celspan_tracker *tracker);
+typedef struct lua_State lua_State;
+int luaopen_celspan(lua_State *L);
+celspan_status celspan_lua_open(lua_State *L, celspan_context *context);
+celspan_context *celspan_lua_context(lua_State *L);
+typedef struct celspan_lua_limits { size_t struct_size; size_t memory; uint64_t steps; double
+  seconds; size_t print; const char *const *folders; size_t folder_count; const char *search; bool
+  (*is_interrupted)(void *user); void (*overdue)(void *user, const char *message); void *user; }
+  celspan_lua_limits;
+void celspan_lua_limits_default(celspan_lua_limits *out, size_t struct_size);
+celspan_status celspan_lua_sandbox(lua_State *L, const celspan_lua_limits *limits);
+celspan_status celspan_lua_run(lua_State *L, const char *path, int argument_count, const char
+  *const *arguments);
+celspan_status celspan_lua_call(lua_State *L, int argument_count, int result_count);
+celspan_rostrum *celspan_lua_rostrum(lua_State *L, int index);
+typedef struct celspan_film { size_t struct_size; int32_t width, height; double frames_second;
+  int64_t first, count; const char *title; const char *sound; double sound_offset; } celspan_film;
+celspan_status celspan_lua_film(lua_State *L, int index, celspan_film *out);
+celspan_status celspan_lua_frame(lua_State *L, int index, int64_t number, celspan_frame_desc *out);
+void celspan_lua_frame_drop(celspan_frame_desc *frame);

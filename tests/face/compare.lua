@@ -8,6 +8,46 @@ local header = require "header"
 
 local compare = {}
 
+--- Structures without a size. The library lends the first ones by a pointer, one at a time, so they
+--- may grow at their end. The others are values, which never change: they lie in arrays and in
+--- other structures, or are returned.
+compare.LENT = { celspan_fault = true, celspan_glyph = true, celspan_svg_element = true }
+compare.VALUES = {}
+for name in ([[origin point box matrix paint light light_texture stop rectangle scanline_row
+  rostrum_counts exposure span feature variation svg_font svg_changed light_field relight_ground
+  stack_light luma sound_passage sound_ducker]]):gmatch "%S+" do
+  compare.VALUES["celspan_" .. name] = true
+end
+
+local function is_sized(struct) return struct.fields[1].name == "struct_size" end
+
+--- Structures of which it is not settled how they grow, as sentences.
+function compare.unsettled(face)
+  local faults, structs = {}, {}
+  local function say(...) faults[#faults + 1] = (...):format(select(2, ...)) end
+  for _, struct in ipairs(face.structs) do structs[struct.name] = struct end
+  for _, struct in ipairs(face.structs) do
+    local name = struct.name
+    if not (is_sized(struct) or compare.LENT[name] or compare.VALUES[name]) then
+      say("%s has no struct_size, and is no value that never changes", name)
+    end
+    for _, field in ipairs(struct.fields) do
+      local inner = structs[field.type:match "[%w_]+$"]
+      if inner and field.stars == "" and not compare.VALUES[inner.name] then
+        say("%s.%s lies in a structure, where it cannot grow", name, field.name)
+      end
+    end
+  end
+  for _, one in ipairs(face.functions) do
+    for const, name in one.arguments:gmatch "(%w*) ?(celspan_[%w_]+) %*[%w_]" do
+      if compare.LENT[name] and const ~= "const" then
+        say("%s fills a %s, which hosts know in another size", one.name, name)
+      end
+    end
+  end
+  return faults
+end
+
 --- "struct.field" -> { offset, size }, "struct" -> size, as a C compiler lays the declarations out.
 local function layout(text, face)
   local base = os.tmpname()
@@ -78,10 +118,10 @@ local function compare_enums(old, new, say)
   end
 end
 
---- A description may grow: behind all that it had, its padding included.
+--- A structure with a size may grow: behind all that it had, its padding included.
 local function compare_struct(old, new, places, say)
-  local name, can_grow = old.name, old.fields[1].name == "struct_size"
-  local had = places.old[name].size
+  local name, is_lent = old.name, compare.LENT[old.name]
+  local can_grow, had = is_lent or is_sized(old), is_lent and 0 or places.old[old.name].size
   for i, field in ipairs(old.fields) do
     local other = new.fields[i]
     local a, b = places.old[name .. "." .. field.name], places.new[name .. "." .. field.name]

@@ -7,6 +7,8 @@ local FOLDER = "src/include/celspan/"
 --- The headers of the C library, in an order in which each needs only those before it.
 header.FILES = { "celspan.h", "text.h", "svg.h", "layers.h", "trace.h", "plane.h", "relight.h",
   "track.h" }
+--- The header of the Lua face, which is a library of its own.
+header.LUA = "lua.h"
 
 local function read(path)
   local file = assert(io.open(path))
@@ -25,7 +27,7 @@ local function plain(text)
   text = text:gsub("static inline [^{]-%b{}", ""):gsub("__attribute__%s*%(%b()%)", "")
   text = text:gsub("CELSPAN_API", ""):gsub("CELSPAN_CHECKED", "")
   text = text:gsub("CELSPAN_DESCRIPTION%(([%w_]+)%)",
-    "void %1_default(%1 *out, size_t struct_size);")
+    "void %1_default(%1 *out, size_t struct_size);"):gsub("CELSPAN_RESULT%b()", "")
   return (text:gsub("%s+", " "))
 end
 
@@ -99,7 +101,7 @@ local function parse(text, all)
     all.callbacks[#all.callbacks + 1] = { name = name, result = result, arguments = list }
     return ""
   end)
-  for result, name, list in text:gmatch "([%w_][%w_%s]-[%s%*]+)(celspan_[%w_]+)(%b()) ?;" do
+  for result, name, list in text:gmatch "([%w_][%w_%s]-[%s%*]+)([%w_]*celspan[%w_]*)(%b()) ?;" do
     all.functions[#all.functions + 1] = { name = name, result = result, arguments = list }
   end
 end
@@ -125,11 +127,11 @@ local function wrapped(line)
   return table.concat(lines, "\n")
 end
 
---- The declarations of all headers, each on lines of its own, as other languages can take them.
---- `root`: of the checkout, with a slash at its end.
-function header.plain(root)
+--- The declarations of headers, by default of the library, each on lines of its own, as other
+--- languages can take them. `root`: of the checkout, with a slash at its end.
+function header.plain(root, files)
   local lines = {}
-  for _, name in ipairs(header.FILES) do
+  for _, name in ipairs(files or header.FILES) do
     local text, depth, first = plain(read(root .. FOLDER .. name)), 0, 1
     for at, mark in text:gmatch "()([{};])" do
       depth = depth + (mark == "{" and 1 or mark == "}" and -1 or 0)
@@ -141,6 +143,12 @@ function header.plain(root)
   end
   for i, line in ipairs(lines) do lines[i] = wrapped(line) end
   return table.concat(lines, "\n") .. "\n"
+end
+
+--- The whole interface: the library, then the Lua face.
+function header.whole(root)
+  return header.plain(root) .. "typedef struct lua_State lua_State;\n"
+    .. header.plain(root, { header.LUA })
 end
 
 return header

@@ -20,8 +20,12 @@ function show.fields()
 
 #define FIELD(type, name) {offsetof(type, name), offsetof(type, name) + sizeof(((type *)0)->name)}
 ]]
-  for _, struct in ipairs(header.parse(header.plain(root)).structs) do
-    if struct.fields[1].name == "struct_size" then
+  local face, described = header.parse(header.plain(root)), {}
+  for _, one in ipairs(face.functions) do
+    described[one.name:match "^(.*)_default$" or ""] = true
+  end
+  for _, struct in ipairs(face.structs) do
+    if described[struct.name] then
       print(("static const cs_description_field %s_fields[] = {"):format(struct.name))
       for _, field in ipairs(struct.fields) do
         print(("    FIELD(%s, %s),"):format(struct.name, field.name))
@@ -31,7 +35,7 @@ function show.fields()
   end
 end
 
-function show.plain() io.write(header.plain(root)) end
+function show.plain() io.write(header.whole(root)) end
 
 function show.python() io.write(require "python".text(header.parse(header.plain(root)))) end
 
@@ -41,7 +45,7 @@ end
 
 function show.compare()
   local file = assert(io.open(root .. "tests/face/0.1.h"))
-  local verdict, changes = require "compare".texts(file:read "a", header.plain(root))
+  local verdict, changes = require "compare".texts(file:read "a", header.whole(root))
   file:close()
   for _, change in ipairs(changes) do print(change) end
   print(verdict)

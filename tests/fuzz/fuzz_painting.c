@@ -139,7 +139,7 @@ static void read_in_two_contexts(celspan_context *context, const celspan_paintin
 
 static void check_layers(celspan_context *context, const celspan_painting *painting) {
   size_t count = celspan_painting_layer_count(painting), at;
-  celspan_painting_layer layer;
+  celspan_painting_layer layer = CELSPAN_PAINTING_LAYER;
   for (size_t i = 0; celspan_painting_layer_at(painting, i, &layer); i++) {
     demand(layer.parent > i && layer.parent <= count, "a group comes before its layers");
     demand(layer.opacity >= 0 && layer.opacity <= 1, "an opacity beyond 0 to 1");

@@ -74,7 +74,7 @@ static void read_file(const char *path) {
   meter m = {.limit = MOST_BYTES};
   celspan_context *context = meter_context(&m);
   celspan_picture_desc picture = {.struct_size = sizeof picture};
-  celspan_picture_info info;
+  celspan_picture_info info = CELSPAN_PICTURE_INFO;
   demand(context, "no context");
   picture.file = path;
   celspan_status status = celspan_picture_inspect(context, &picture, &info);

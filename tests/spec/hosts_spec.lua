@@ -32,7 +32,7 @@ teardown(function() bench:remove() end)
 describe("the interface", function()
   package.path = "tests/face/?.lua;" .. package.path
   local compare, header = require "compare", require "header"
-  local now = header.plain ""
+  local now = header.whole ""
 
   it("is the one that is kept", function()
     local verdict, changes = compare.texts(read(KEPT), now)
@@ -40,15 +40,39 @@ describe("the interface", function()
       .. "\nthis is a " .. verdict .. " change: see CONTRIBUTING.md, \"Change the C interface\"")
   end)
 
-  it("is what the library exports", function()
+  --- Compares the functions of headers with the symbols that nm lists, as far as they are public.
+  local function exports(declarations, command, ...)
     local wanted, found = {}, {}
-    for _, one in ipairs(header.parse(now).functions) do wanted[#wanted + 1] = one.name end
-    for name in good("nm -D --defined-only %s", LIBRARY):gmatch " T ([%w_]+)" do
-      found[#found + 1] = name
+    for _, one in ipairs(header.parse(declarations).functions) do wanted[#wanted + 1] = one.name end
+    for name in good(command, ...):gmatch " T ([%w_]+)" do
+      if not (name:find "^cs_" or name:find "^luaopen_celspan_") then found[#found + 1] = name end
     end
     table.sort(wanted)
     table.sort(found)
     assert.same(wanted, found)
+  end
+
+  it("is what the library exports", function()
+    exports(header.plain "", "nm -D --defined-only %s", LIBRARY)
+    assert.is_nil(good("nm -D --defined-only %s", LIBRARY):find " T cs_")
+    exports(header.plain("", { header.LUA }),
+      "nm -g --defined-only %s/src/lua/module/libcelspan_lua.a", BUILD)
+  end)
+
+  it("settles for every structure how it may grow", function()
+    assert.same({}, compare.unsettled(header.parse(now)))
+    local function fault(from, to)
+      local text = now:gsub("%s+", " ")
+      local first, last = assert(text:find(from, 1, true))
+      return compare.unsettled(header.parse(text:sub(1, first - 1) .. to .. text:sub(last + 1)))[1]
+    end
+    assert.equal("celspan_more has no struct_size, and is no value that never changes",
+      fault("typedef struct celspan_trace ",
+        "typedef struct celspan_more { int a; } celspan_more;\ntypedef struct celspan_trace "))
+    assert.equal("celspan_film.limits lies in a structure, where it cannot grow",
+      fault("} celspan_film;", "celspan_lua_limits limits; } celspan_film;"))
+    assert.equal("celspan_glyphs_count fills a celspan_glyph, which hosts know in another size",
+      fault("celspan_glyphs_count(", "celspan_glyphs_count(celspan_glyph *out, "))
   end)
 
   it("has fields that the library knows", function()
@@ -60,6 +84,14 @@ describe("the interface", function()
       return all
     end
     assert.same(list(good "lua5.4 tests/face/main.lua fields"), list(read "src/base/fields.h"))
+    local names, limits = {}, read "src/lua/sandbox/sandbox.c":match "fields%[%] = (%b{})"
+    for name in limits:gmatch "FIELD%(([%w_]+)%)" do names[#names + 1] = name end
+    for _, struct in ipairs(header.parse(now).structs) do
+      if struct.name == "celspan_lua_limits" then
+        for i, field in ipairs(struct.fields) do assert.equal(field.name, names[i]) end
+        assert.equal(#struct.fields, #names)
+      end
+    end
   end)
 
   --- The verdict on the kept interface with a part of it replaced.
@@ -73,6 +105,11 @@ describe("the interface", function()
     local glow = "double gain; } celspan_glow_desc"
     assert.equal("nothing", verdict(glow, glow))
     assert.equal("minor", verdict(glow, "double gain; double angle; } celspan_glow_desc"))
+    assert.equal("minor", verdict("uint64_t swept; }", "uint64_t swept, more; }"))
+    assert.equal("minor", verdict("int32_t line; } celspan_glyph;",
+      "int32_t line; int32_t column; } celspan_glyph;"))
+    assert.equal("minor", verdict("void *user; } celspan_lua_limits;",
+      "void *user; size_t files; } celspan_lua_limits;"))
     assert.equal("minor", verdict("void celspan_glyphs_destroy",
       "void celspan_glyphs_forget(int a);\nvoid celspan_glyphs_destroy"))
     assert.equal("minor", verdict("CELSPAN_SPREAD_REFLECT",
@@ -86,6 +123,8 @@ describe("the interface", function()
         "double angle; double radius; celspan_texture *colour; double gain; } celspan_glow_desc",
       ["bool is_alone; } celspan_shadow_desc"] = -- in its padding
         "bool is_alone; bool is_soft; } celspan_shadow_desc",
+      ["double matte; } celspan_light_texture"] = "double matte, hue; } celspan_light_texture",
+      ["celspan_lua_film(lua_State *L, int index"] = "celspan_lua_film(lua_State *L",
       ["double x, y; } celspan_point"] = "double x, y, z; } celspan_point",
       ["CELSPAN_RULE_NONZERO = 0"] = "CELSPAN_RULE_NONZERO = 5",
       ["celspan_matrix celspan_matrix_identity(void);"] = "",
@@ -113,6 +152,45 @@ describe("a host", function()
   it("in C draws a frame", function() compiled("c", "cc -std=c17") end)
   local in_cpp = present.program "c++" and it or pending
   in_cpp("in C++ draws the same", function() compiled("cpp", "c++ -std=c++17 -x c++") end)
+
+  --- The interface that is kept, with the structures that the host in C uses changed.
+  local function write_changed(name, change)
+    local text = read(KEPT):gsub("%s+", " "):gsub("%f[%w]typedef ", "\ntypedef ")
+    for _, struct in ipairs { "context_desc", "ellipse_desc", "cel_desc", "rostrum_desc",
+      "frame_desc", "sink", "statistics" } do
+      local count
+      text, count = text:gsub("(struct celspan_" .. struct .. " %{ size_t struct_size; )([^}]*)",
+        function(head, fields) return head .. change(fields) end)
+      assert.equal(1, count, struct)
+    end
+    bench:write(name .. ".h", text)
+  end
+
+  --- Builds the host with these declarations; it draws the same picture.
+  local function draws_changed(name)
+    good("cc -std=c17 -o %s/%s -DFACE='\"%s/%s.h\"' tests/face/host.c %s", folder, name, folder,
+      name, LIBRARY)
+    draws(name, "LD_LIBRARY_PATH=%s/src %s/%s %s/%s.png", BUILD, folder, name, folder, name)
+  end
+
+  it("that is built with the interface that is kept draws the same", function()
+    write_changed("kept", function(fields) return fields end)
+    draws_changed "kept"
+  end)
+
+  it("of an earlier header draws the same: the library's structures are longer", function()
+    write_changed("earlier", function(fields)
+      return (fields:gsub("[^;]*; $", ""))
+    end)
+    draws_changed "earlier"
+  end)
+
+  it("of a later header draws the same: the library's structures are shorter", function()
+    write_changed("later", function(fields)
+      return fields .. "double later; void *latest; "
+    end)
+    draws_changed "later"
+  end)
 
   local in_python = present.program "python3" and it or pending
   in_python("in Python, with a binding made from the headers, draws the same", function()

@@ -59,7 +59,7 @@ static celspan_statistics render(studio *s, const celspan_frame_desc *desc, void
                                  .depth = CELSPAN_DEPTH_FLOAT,
                                  .transfer = CELSPAN_TRANSFER_LINEAR,
                                  .alpha = CELSPAN_ALPHA_PREMULTIPLIED};
-  celspan_statistics statistics = {0};
+  celspan_statistics statistics = CELSPAN_STATISTICS;
   studio_check(s, celspan_frame_pixels(s->context, desc, &coding, out, stride, &statistics));
   return statistics;
 }

@@ -33,6 +33,19 @@ static celspan_status read_one(celspan_context *context, const cs_description *k
   return status;
 }
 
+/* A description whose byte `at` of `more` beyond the last field is not zero. */
+static celspan_status read_beyond(celspan_context *context, const cs_description *kind, size_t more,
+                                  size_t at) {
+  size_t size = kind->size + more;
+  unsigned char *given = calloc(size, 1), *out = malloc(kind->size);
+  memcpy(given, &size, sizeof size);
+  given[kind->size + at] = 1;
+  celspan_status status = cs_description_read(context, "noun", kind, given, out);
+  free(given);
+  free(out);
+  return status;
+}
+
 static void check_kind(celspan_context *context, const cs_description *kind) {
   unsigned char *out = malloc(kind->size);
   const unsigned char *defaults = kind->defaults;
@@ -49,8 +62,53 @@ static void check_kind(celspan_context *context, const cs_description *kind) {
     for (size_t i = sizeof whole; i < kind->size; i++)
       CHECK(out[i] == (i < size ? 0x40 : defaults[i]));
   }
-  CHECK(read_one(context, kind, kind->size + 8, 1, out) == CELSPAN_BAD_ARGUMENT);
+  for (size_t more = 8; more <= BEYOND; more += 8)
+    for (size_t at = 0; at < more; at++)
+      CHECK(read_beyond(context, kind, more, at) == CELSPAN_BAD_ARGUMENT);
   free(out);
+}
+
+/* The largest size of all; of a larger one nothing is read. */
+static void check_largest(celspan_context *context) {
+  static unsigned char given[4096];
+  celspan_rect_desc out;
+  size_t size = sizeof given;
+  memcpy(given, &size, sizeof size);
+  CHECK(cs_description_read(context, "noun", &cs_celspan_rect_desc_description, given, &out) ==
+        CELSPAN_OK);
+  size += sizeof size;
+  memcpy(given, &size, sizeof size);
+  CHECK(cs_description_read(context, "noun", &cs_celspan_rect_desc_description, given, &out) ==
+        CELSPAN_BAD_ARGUMENT);
+}
+
+typedef struct mark {
+  size_t struct_size;
+  const char *name;
+  int64_t first, last;
+} mark;
+
+/* Results for hosts that know less, or more. */
+static void check_results(celspan_context *context) {
+  const mark whole = {.struct_size = sizeof whole, .name = "a", .first = 3, .last = 4};
+  struct {
+    mark mark;
+    uint64_t more[2];
+  } room;
+  for (size_t size = 0; size <= sizeof room; size++) {
+    bool is_good = size >= 8 && size % 8 == 0;
+    memset(&room, 0x7f, sizeof room);
+    room.mark.struct_size = size;
+    celspan_status status = CS_RESULT(context, "noun", mark, &whole, &room);
+    CHECK(status == (is_good ? CELSPAN_OK : CELSPAN_BAD_ARGUMENT));
+    CHECK(room.mark.struct_size == size);
+    CHECK((room.mark.first == 3) == (is_good && size >= offsetof(mark, last)));
+    CHECK((room.mark.last == 4) == (is_good && size >= sizeof whole));
+    CHECK((room.more[0] == 0) == (is_good && size >= sizeof whole + 8));
+    CHECK((room.more[1] == 0) == (is_good && size == sizeof room));
+  }
+  room.mark.struct_size = (size_t)1 << 40; /* not filled */
+  CHECK(CS_RESULT(NULL, "noun", mark, &whole, &room) == CELSPAN_BAD_ARGUMENT);
 }
 
 static void check_messages(celspan_context *context) {
@@ -105,6 +163,8 @@ int main(void) {
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
   for (size_t i = 0; i < sizeof all / sizeof *all; i++)
     check_kind(context, all[i]);
+  check_largest(context);
+  check_results(context);
   check_messages(context);
   check_shorter(context);
   check_defaults();

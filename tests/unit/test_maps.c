@@ -215,7 +215,7 @@ static celspan_frame_desc frame_of(const celspan_exposure *exposure) {
 static void force(studio *s, cs_ways_forced way) { s->context->forced_way = way; }
 
 static celspan_statistics count(studio *s, const celspan_frame_desc *desc) {
-  celspan_statistics statistics = {0};
+  celspan_statistics statistics = CELSPAN_STATISTICS;
   const celspan_sink nowhere = {.struct_size = sizeof nowhere};
   studio_check(s, celspan_frame_render(s->context, desc, &nowhere, &statistics));
   return statistics;

@@ -116,7 +116,7 @@ static void check_frame(const char *path, size_t budget, int workers) {
   celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
   celspan_context *context = NULL;
   celspan_painting *painting = NULL;
-  celspan_painting_layer layer = {0};
+  celspan_painting_layer layer = CELSPAN_PAINTING_LAYER;
   size_t bytes, peak;
   uint64_t allocations;
   desc.picture_bytes = budget;
@@ -139,7 +139,7 @@ static void check_frame(const char *path, size_t budget, int workers) {
 static void check_failure(const char *path) {
   celspan_context *context = NULL;
   celspan_painting *painting = NULL;
-  celspan_painting_layer layer = {0};
+  celspan_painting_layer layer = CELSPAN_PAINTING_LAYER;
   unsigned char *pixels = malloc((size_t)WIDTH * HEIGHT * 4);
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
   CHECK(celspan_painting_read(context, path, &painting) == CELSPAN_OK);
@@ -194,7 +194,7 @@ static void check_arguments(void) {
 static void check_facts(const char *path) {
   celspan_context *context = NULL;
   celspan_painting *painting = NULL;
-  celspan_painting_layer layer = {0}, other = {.name = "as it was"};
+  celspan_painting_layer layer = CELSPAN_PAINTING_LAYER, other = {.name = "as it was"};
   int32_t width = 0, height = 0;
   size_t place = 7;
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
@@ -211,6 +211,7 @@ static void check_facts(const char *path) {
   CHECK(layer.x == 0 && layer.y == 0 && layer.width == WIDTH && layer.height == HEIGHT);
   CHECK(!celspan_painting_layer_at(painting, 1, &other) && other.name[0] == 'a');
   CHECK(!celspan_painting_layer_at(painting, SIZE_MAX, &other));
+  CHECK(!celspan_painting_layer_at(painting, 0, &other) && other.name[0] == 'a'); /* no size */
   CHECK(celspan_painting_note_count(painting) == 0);
   CHECK(!celspan_painting_note_at(painting, 0, &place) && place == 7);
   celspan_painting_unref(painting);
@@ -221,7 +222,7 @@ static void check_facts(const char *path) {
 static void check_lifetimes(const char *path) {
   celspan_context *context = NULL, *later = NULL;
   celspan_painting *painting = NULL;
-  celspan_painting_layer layer = {0};
+  celspan_painting_layer layer = CELSPAN_PAINTING_LAYER;
   unsigned char *pixels = malloc((size_t)WIDTH * HEIGHT * 4);
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
   CHECK(celspan_painting_read(context, path, &painting) == CELSPAN_OK);
@@ -280,7 +281,7 @@ static void check_claims(const char *path) {
 /* Reads the painting and shows a point of every layer. */
 static celspan_status use(celspan_context *context, const char *path) {
   celspan_painting *painting = NULL;
-  celspan_painting_layer layer;
+  celspan_painting_layer layer = CELSPAN_PAINTING_LAYER;
   celspan_status status = celspan_painting_read(context, path, &painting);
   CHECK(status == CELSPAN_OK || !painting);
   for (size_t i = 0; status == CELSPAN_OK && celspan_painting_layer_at(painting, i, &layer); i++) {
@@ -328,7 +329,7 @@ static void check_rows(const char *path, bool is_for_good) {
     memory_watch watch = {0};
     celspan_context *context = memory_watch_context(&watch);
     celspan_painting *painting = NULL;
-    celspan_painting_layer layer = {0};
+    celspan_painting_layer layer = CELSPAN_PAINTING_LAYER;
     CHECK(celspan_painting_read(context, path, &painting) == CELSPAN_OK);
     CHECK(celspan_painting_layer_at(painting, 0, &layer));
     watch.is_for_good = is_for_good;

@@ -75,7 +75,7 @@ static void test_round_trip(const round_trip *t) {
   const char *path = picture_path(t->name);
   celspan_coding coding = {.struct_size = sizeof coding, .depth = t->depth};
   cs_picture *picture;
-  celspan_picture_info info;
+  celspan_picture_info info = CELSPAN_PICTURE_INFO;
   if (!CHECK(picture_write(context, path, &coding, 150, 100, t->paint) == CELSPAN_OK) ||
       !CHECK(picture_open(context, path, &picture, &info) == CELSPAN_OK)) {
     fprintf(stderr, "%s: %s\n", t->name, celspan_context_error(context));
@@ -123,7 +123,7 @@ static void test_round_trips(void) {
 static void test_light_beyond_white(void) {
   const char *path = picture_path("bright.exr");
   cs_picture *picture;
-  celspan_picture_info info;
+  celspan_picture_info info = CELSPAN_PICTURE_INFO;
   float rgba[4];
   CHECK(picture_write(context, path, NULL, 70, 3, paint_bright) == CELSPAN_OK);
   if (!CHECK(picture_open(context, path, &picture, &info) == CELSPAN_OK))
@@ -167,7 +167,7 @@ static void test_levels(void) {
   const char *path = picture_path("levels.exr");
   celspan_coding coding = {.struct_size = sizeof coding, .depth = CELSPAN_DEPTH_FLOAT};
   cs_picture *picture;
-  celspan_picture_info info;
+  celspan_picture_info info = CELSPAN_PICTURE_INFO;
   CHECK(picture_write(context, path, &coding, 333, 157, paint_waves) == CELSPAN_OK);
   if (!CHECK(picture_open(context, path, &picture, &info) == CELSPAN_OK))
     return;
@@ -222,7 +222,7 @@ static uint64_t digest_with(const char *path, size_t budget, int threads) {
   desc.picture_bytes = budget;
   celspan_context *own, branches[4];
   cs_picture *picture;
-  celspan_picture_info info;
+  celspan_picture_info info = CELSPAN_PICTURE_INFO;
   pthread_t ids[4];
   reading readings[4];
   CHECK(celspan_context_create(&desc, &own) == CELSPAN_OK);
@@ -269,7 +269,7 @@ static void write_bytes(const char *path, const void *bytes, size_t size) {
 static celspan_status read_file(const char *path) {
   celspan_context *own;
   cs_picture *picture;
-  celspan_picture_info info;
+  celspan_picture_info info = CELSPAN_PICTURE_INFO;
   if (celspan_context_create(NULL, &own) != CELSPAN_OK)
     return CELSPAN_NO_MEMORY;
   celspan_status status = picture_open(own, path, &picture, &info);
@@ -512,7 +512,7 @@ static void test_rows_of_layers(void) {
 static void test_changed(void) {
   const char *path = picture_path("changed.tif");
   cs_picture *picture;
-  celspan_picture_info info;
+  celspan_picture_info info = CELSPAN_PICTURE_INFO;
   float rgba[4];
   CHECK(picture_write(context, path, NULL, 65, 40, paint_opaque) == CELSPAN_OK);
   if (!CHECK(picture_open(context, path, &picture, &info) == CELSPAN_OK))
@@ -525,7 +525,7 @@ static void test_changed(void) {
 }
 
 static void test_arguments(void) {
-  celspan_picture_info info;
+  celspan_picture_info info = CELSPAN_PICTURE_INFO;
   celspan_picture_desc desc = {.struct_size = sizeof desc, .file = ""};
   unsetenv("OCIO");
   CHECK(celspan_picture_inspect(context, &desc, &info) == CELSPAN_BAD_ARGUMENT);
@@ -591,11 +591,14 @@ static void test_parts(void) {
     CHECK(watch.blocks == 0 && watch.bytes == 0 && watch.size_errors == 0);
   }
   CHECK(good == 1);
-  celspan_picture_info info;
+  celspan_picture_info info = CELSPAN_PICTURE_INFO;
   celspan_picture_desc desc = {
       .struct_size = sizeof desc, .file = path, .has_source = true, .source = {90, 60, 10, 10}};
   CHECK(celspan_picture_inspect(context, &desc, &info) == CELSPAN_OK);
   CHECK(info.width == 10 && info.height == 10);
+  info.struct_size = 0;
+  CHECK(celspan_picture_inspect(context, &desc, &info) == CELSPAN_BAD_ARGUMENT);
+  info = CELSPAN_PICTURE_INFO;
   desc.source.height = 11;
   CHECK(celspan_picture_inspect(context, &desc, &info) == CELSPAN_BAD_ARGUMENT);
   CHECK(strstr(celspan_context_error(context), "source {90, 60, 10, 11} is not inside"));
@@ -612,7 +615,7 @@ static void test_memory(void) {
     memory_watch watch = {0};
     celspan_context *own = memory_watch_context(&watch);
     cs_picture *picture;
-    celspan_picture_info info;
+    celspan_picture_info info = CELSPAN_PICTURE_INFO;
     float rgba[4];
     watch.fail_at = watch.allocations + n;
     celspan_status status = picture_open(own, path, &picture, &info);
@@ -674,7 +677,7 @@ static void test_orientation(void) {
     celspan_picture_desc desc = {.struct_size = sizeof desc, .file = path, .colour = "linear"};
     celspan_context *own;
     cs_picture *picture;
-    celspan_picture_info info;
+    celspan_picture_info info = CELSPAN_PICTURE_INFO;
     float rgba[3][4];
     CHECK(celspan_context_create(NULL, &own) == CELSPAN_OK);
     CHECK(cs_picture_create(own, &desc, &picture) == CELSPAN_OK);
@@ -714,7 +717,7 @@ static void test_film_log(void) {
   const char *path = material_path("film-log/cannon_log10.dpx");
   const char *table = material_path("film-log/cannon_log10.samples.tsv");
   cs_picture *picture;
-  celspan_picture_info info;
+  celspan_picture_info info = CELSPAN_PICTURE_INFO;
   if (!path || !table)
     return;
   if (!CHECK(picture_open(context, path, &picture, &info) == CELSPAN_OK))
@@ -750,7 +753,7 @@ static void check_texel(const char *name, const char *layer, int width, int heig
     return;
   celspan_picture_desc desc = {.struct_size = sizeof desc, .file = path, .layer = layer};
   cs_picture *picture;
-  celspan_picture_info info;
+  celspan_picture_info info = CELSPAN_PICTURE_INFO;
   float rgba[4] = {0};
   CHECK(cs_picture_create(context, &desc, &picture) == CELSPAN_OK);
   bool is_right =
@@ -817,7 +820,7 @@ static void test_psd(void) {
     CHECK(read_file(path) == CELSPAN_OK);
     celspan_picture_desc desc = {
         .struct_size = sizeof desc, .file = path, .layer = "no such layer"};
-    celspan_picture_info info;
+    celspan_picture_info info = CELSPAN_PICTURE_INFO;
     CHECK(celspan_picture_inspect(context, &desc, &info) == CELSPAN_INPUT);
     CHECK(strstr(celspan_context_error(context), "no such layer"));
   }

@@ -67,7 +67,7 @@ static celspan_status take_row(void *user, celspan_context *context, int32_t y,
 static void render(studio *s, celspan_rostrum *rostrum, int workers, bool takes_codes, sheet *to) {
   celspan_exposure exposure = {rostrum, 1};
   celspan_frame_desc desc = studio_frame(&exposure, 1, WIDTH, HEIGHT, NULL);
-  celspan_statistics statistics;
+  celspan_statistics statistics = CELSPAN_STATISTICS;
   celspan_sink sink = {
       .struct_size = sizeof sink, .user = to, .row = take_row, .takes_codes = takes_codes};
   desc.workers = workers;

@@ -493,7 +493,7 @@ static void check_picture(studio *s, celspan_picture_desc desc) {
 static void test_pictures(studio *s) {
   celspan_picture_desc desc = {
       .struct_size = sizeof desc, .file = "4x2.probe.tga", .colour = "linear"};
-  celspan_picture_info info;
+  celspan_picture_info info = CELSPAN_PICTURE_INFO;
   CHECK(write_picture(desc.file));
   if (celspan_picture_inspect(s->context, &desc, &info) == CELSPAN_OK)
     check_picture(s, desc);

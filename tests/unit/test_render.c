@@ -200,7 +200,7 @@ static void check_sinks(studio *s) {
   for (desc.workers = 1; desc.workers <= 4; desc.workers++) {
     tally whole = {.fail_at = -1, .outcome = CELSPAN_INTERNAL}, failed = {.fail_at = 30};
     celspan_sink sink = {sizeof sink, &whole, tally_begin, tally_row, tally_end, false};
-    celspan_statistics statistics = {0};
+    celspan_statistics statistics = CELSPAN_STATISTICS;
     studio_check(s, celspan_frame_render(s->context, &desc, &sink, &statistics));
     CHECK(whole.begins == 1 && whole.ends == 1 && whole.rows == HEIGHT && whole.is_tiled);
     CHECK(whole.outcome == CELSPAN_OK && statistics.rows == HEIGHT);
@@ -271,7 +271,7 @@ static void check_cancel_shares(studio *s) {
     calls = 0;
     CHECK(celspan_frame_render(s->context, &desc, &nowhere, NULL) == CELSPAN_CANCELLED);
     calls = -1000000;
-    celspan_statistics statistics;
+    celspan_statistics statistics = CELSPAN_STATISTICS;
     studio_check(s, celspan_frame_render(s->context, &desc, &nowhere, &statistics));
     CHECK(statistics.rows == 5000 && statistics.spans > 5000);
   }

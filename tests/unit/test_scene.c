@@ -359,7 +359,7 @@ static void check_image(studio *s, celspan_image_desc desc, celspan_box frame, c
 static void test_image_sizes(studio *s) {
   const char *path = "4x2.scene.tga";
   celspan_picture_desc picture = {.struct_size = sizeof picture, .file = path};
-  celspan_picture_info info;
+  celspan_picture_info info = CELSPAN_PICTURE_INFO;
   CHECK(write_picture(path));
   if (celspan_picture_inspect(s->context, &picture, &info) == CELSPAN_OK) {
     celspan_box box = {10, 20, 4, 2};

@@ -561,7 +561,7 @@ static void test_pictures_refused(void) {
   static const unsigned char pixel[4];
   celspan_context *context = NULL;
   celspan_surface *surface = NULL;
-  celspan_picture_info info;
+  celspan_picture_info info = CELSPAN_PICTURE_INFO;
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
   celspan_surface_desc desc = {
       .struct_size = sizeof desc, .width = 1, .height = 1, .pixels = pixel};

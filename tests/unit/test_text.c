@@ -413,11 +413,12 @@ static void bad_arguments_are_refused(void) {
 static void valign_moves_by_measures(void) {
   const char *const fonts[] = {OWN};
   celspan_text_desc desc = text_of("Hx\nHgHHH", fonts, 1);
-  celspan_text_metrics m;
+  celspan_text_metrics m = CELSPAN_TEXT_METRICS;
   desc.size = 60;
   CHECK(celspan_text_measure(context, &desc, &m) == CELSPAN_OK);
   CHECK(m.lines == 2 && m.ascent > m.cap_height && m.cap_height > m.x_height && m.x_height > 0);
   CHECK_NEAR(m.height, m.ascent + 1.2 * 60 + m.descent, 1e-9);
+  CHECK(celspan_text_measure(context, &desc, &(celspan_text_metrics){0}) == CELSPAN_BAD_ARGUMENT);
   const double drops[] = {0, m.ascent, m.cap_height, m.ascent - m.height / 2, m.ascent - m.height};
   for (int i = 0; i <= CELSPAN_VALIGN_BOTTOM; i++) {
     celspan_glyphs *glyphs = NULL;

@@ -64,7 +64,7 @@ static celspan_status trace(celspan_context *context, const drawing *from, celsp
 
 /* How many shapes contain a point, and the colour of one of them. */
 static int shapes_at(const celspan_trace *traced, celspan_point point, unsigned char colour[3]) {
-  celspan_trace_shape shape;
+  celspan_trace_shape shape = CELSPAN_TRACE_SHAPE;
   int count = 0;
   for (size_t i = 0; celspan_trace_shape_at(traced, i, &shape); i++) {
     if (!celspan_object_contains(shape.object, point))
@@ -118,7 +118,7 @@ static void all_is_covered(celspan_context *context, test_random *random, const 
 static void lines_are_sound(celspan_context *context, const drawing *d) {
   celspan_trace_desc desc = CELSPAN_TRACE_DESC;
   celspan_trace *traced;
-  celspan_trace_shape shape;
+  celspan_trace_shape shape = CELSPAN_TRACE_SHAPE;
   desc.lines = true;
   if (!CHECK(trace(context, d, desc, &traced) == CELSPAN_OK))
     return;
@@ -146,7 +146,7 @@ static void speckles_within_speckles_are_dropped(celspan_context *context) {
   celspan_trace_desc desc = CELSPAN_TRACE_DESC;
   drawing d = {.width = 12, .height = 12};
   celspan_trace *traced;
-  celspan_trace_shape shape;
+  celspan_trace_shape shape = CELSPAN_TRACE_SHAPE;
   put_square(&d, 0, 0, 12, 0);
   put_square(&d, 4, 4, 3, 1);
   put_square(&d, 5, 5, 1, 2);
@@ -154,6 +154,7 @@ static void speckles_within_speckles_are_dropped(celspan_context *context) {
   if (!CHECK(trace(context, &d, desc, &traced) == CELSPAN_OK))
     return;
   CHECK(celspan_trace_shape_at(traced, 0, &shape) && memcmp(shape.colour, codes, 3) == 0);
+  CHECK(!celspan_trace_shape_at(traced, 0, &(celspan_trace_shape){.struct_size = 9}));
   CHECK(!celspan_trace_shape_at(traced, 1, &shape));
   celspan_trace_unref(traced);
 }

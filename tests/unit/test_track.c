@@ -127,7 +127,7 @@ static void follow_sequence(celspan_context *context, const char *name, sequence
   double squares = 0;
   int found = 0, lost = 0, wrong = 0;
   for (int i = 1; tracker && i < frames; i++) {
-    celspan_sighting sighting;
+    celspan_sighting sighting = CELSPAN_SIGHTING;
     draw_frame(&s, i, values);
     CHECK(celspan_tracker_follow(tracker, &(celspan_luma){WIDTH, HEIGHT, values}, &sighting) ==
           CELSPAN_OK);
@@ -178,7 +178,7 @@ static void a_leap_is_followed(celspan_context *context) {
   float *values = malloc(COUNT * sizeof *values);
   sequence s = {.model = CELSPAN_MOTION_TRANSLATION};
   celspan_tracker *tracker = start(context, &s, values);
-  celspan_sighting sighting;
+  celspan_sighting sighting = CELSPAN_SIGHTING;
   draw_frame(&s, 15, values); /* 30 pixels to the right, and 17 down */
   CHECK(celspan_tracker_follow(tracker, &(celspan_luma){WIDTH, HEIGHT, values}, &sighting) ==
             CELSPAN_OK &&
@@ -249,7 +249,7 @@ static void another_scene_is_no_sighting(celspan_context *context) {
   sequence s = {.model = CELSPAN_MOTION_PERSPECTIVE};
   celspan_tracker *tracker = start(context, &s, values);
   for (uint32_t seed = 100; seed < 110; seed++) {
-    celspan_sighting sighting;
+    celspan_sighting sighting = CELSPAN_SIGHTING;
     for (int i = 0; i < COUNT; i++)
       values[i] = (float)pattern(i % WIDTH, i / WIDTH, seed);
     CHECK(celspan_tracker_follow(tracker, &(celspan_luma){WIDTH, HEIGHT, values}, &sighting) ==
@@ -274,7 +274,7 @@ static void a_mask_leaves_out_what_it_does_not_cover(celspan_context *context) {
   }
   celspan_luma luma = {WIDTH, HEIGHT, values};
   celspan_tracker *tracker = NULL;
-  celspan_sighting sighting;
+  celspan_sighting sighting = CELSPAN_SIGHTING;
   CHECK(celspan_tracker_create(context, &luma, &desc, &tracker) == CELSPAN_OK);
   draw_frame(&s, 3, values); /* most of the whole frame does not move */
   CHECK(celspan_tracker_follow(tracker, &luma, &sighting) == CELSPAN_OK && sighting.is_found);
@@ -290,7 +290,7 @@ static void a_rewound_tracker_goes_the_other_way(celspan_context *context) {
   celspan_tracker *tracker = start(context, &s, values);
   for (int way = 1; way >= -1; way -= 2) {
     for (int i = 1; i < 12; i++) {
-      celspan_sighting sighting;
+      celspan_sighting sighting = CELSPAN_SIGHTING;
       draw_frame(&s, way * i, values);
       CHECK(celspan_tracker_follow(tracker, &(celspan_luma){WIDTH, HEIGHT, values}, &sighting) ==
                 CELSPAN_OK &&
@@ -320,7 +320,7 @@ static void wrong_arguments_are_refused(celspan_context *context) {
   celspan_tracker *tracker = start(context, &s, values);
   celspan_luma luma = {WIDTH, HEIGHT, values};
   celspan_tracker_desc desc = {sizeof desc, s.model, {80, 60, 160, 120}, NULL};
-  celspan_sighting sighting;
+  celspan_sighting sighting = CELSPAN_SIGHTING;
   check_refused(context, luma,
                 (celspan_tracker_desc){sizeof(celspan_tracker_desc), s.model, {5, 5, 10, 30}, NULL},
                 "10 x 30");
@@ -348,6 +348,10 @@ static void wrong_arguments_are_refused(celspan_context *context) {
   CHECK(celspan_tracker_follow(tracker, &(celspan_luma){WIDTH, 100, values + WIDTH * 10},
                                &sighting) == CELSPAN_BAD_ARGUMENT &&
         strstr(celspan_context_error(context), "320 x 100"));
+  values[1000] = 0;
+  sighting.struct_size = 0;
+  CHECK(celspan_tracker_follow(tracker, &luma, &sighting) == CELSPAN_BAD_ARGUMENT &&
+        strstr(celspan_context_error(context), "track: struct_size of the result is 0"));
   for (int i = 0; i < COUNT; i++)
     values[i] = 0.5F;
   check_refused(context, luma, desc, "0 corners were found, and 4 are needed");
@@ -360,7 +364,7 @@ static celspan_status create_and_follow(celspan_context *context, const float *v
   celspan_luma luma = {WIDTH, HEIGHT, values};
   celspan_tracker_desc desc = {sizeof desc, CELSPAN_MOTION_SIMILARITY, {92, 72, 136, 96}, NULL};
   celspan_tracker *tracker;
-  celspan_sighting sighting;
+  celspan_sighting sighting = CELSPAN_SIGHTING;
   celspan_status status = celspan_tracker_create(context, &luma, &desc, &tracker);
   if (status == CELSPAN_OK)
     status = celspan_tracker_follow(tracker, &luma, &sighting);

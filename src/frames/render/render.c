@@ -71,6 +71,8 @@ static celspan_status render(celspan_context *context, const celspan_frame_desc 
                              bool *ended) {
   celspan_statistics counted = {0};
   meter m = {0};
+  if (statistics) /* before any work: whether it has a size */
+    CS_TRY(CS_RESULT(context, "statistics", celspan_statistics, &counted, statistics));
   if (statistics) /* otherwise other frames may be made at the same time and change the peak too */
     m = meter_begin(context);
   cs_account_kind before = cs_account_begin_rendering(context->memory);
@@ -85,11 +87,12 @@ static celspan_status render(celspan_context *context, const celspan_frame_desc 
   cs_account_end_rendering(context->memory, before);
   if (status == CELSPAN_INPUT)
     status = cs_blame_picture(context, desc->exposures, desc->exposure_count, status);
-  if (statistics) {
-    meter_end(context, &m, &counted);
-    *statistics = counted;
-  }
-  return status;
+  if (!statistics)
+    return status;
+  meter_end(context, &m, &counted);
+  celspan_status written =
+      CS_RESULT(context, "statistics", celspan_statistics, &counted, statistics);
+  return status == CELSPAN_OK ? written : status;
 }
 
 celspan_status celspan_frame_render(celspan_context *context, const celspan_frame_desc *desc,

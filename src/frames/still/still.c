@@ -80,6 +80,7 @@ static celspan_status open_plane(celspan_context *context, const char *path, cs_
 static celspan_status open_picture(celspan_context *context, const char *path, cs_still *still) {
   celspan_picture_desc picture = CELSPAN_PICTURE_DESC;
   picture.file = path;
+  still->info = CELSPAN_PICTURE_INFO;
   celspan_status status = celspan_picture_inspect(context, &picture, &still->info);
   if (status == CELSPAN_OK)
     status = make_scene(context, &picture, &still->info, &still->exposure.rostrum);

@@ -4,8 +4,8 @@
  * rostrum), describes a frame (size, crop, exposures) and renders it into a sink, into pixels, into
  * a file, or row by row. There is no frame buffer: work and memory follow the number of colour
  * spans, so a frame may be a million pixels a side. Tools have headers of their own beside this
- * one: text.h, svg.h, layers.h, trace.h, plane.h, relight.h, track.h, and lua.h for Lua. It is one
- * header, because a frame needs all of it.
+ * one: text.h, svg.h, layers.h, trace.h, plane.h, relight.h, track.h, film.h, and lua.h for Lua. It
+ * is one header, because a frame needs all of it.
  *
  * Conventions
  *   Coordinates  origin top left, x right, y down, in film units. Pixel i covers [i, i+1).
@@ -41,6 +41,11 @@
  * expression; fields that are not named are 0 there, so it is for those whose defaults are all 0.
  * A description may end after any field that it needs: the rest has its defaults. It may be longer
  * than the library knows if all bytes behind its last field are 0. Other sizes are BAD_ARGUMENT.
+ *
+ * Results: structures that the library fills for a program begin with struct_size too, so that it
+ * fills what the program has. Begin with their macro: celspan_statistics s = CELSPAN_STATISTICS.
+ * Those that it lends by a pointer, one at a time (celspan_fault, celspan_glyph and
+ * celspan_svg_element), may get fields at their end. All others, as celspan_point, never change.
  *
  * Not given: a pointer that is NULL, or a value whose flag has_... is false. All other fields have
  * the default that is named beside them, 0 if none is.
@@ -84,6 +89,14 @@ extern "C" {
     type desc;                                                                                     \
     type##_default(&desc, sizeof desc);                                                            \
     return desc;                                                                                   \
+  }
+
+/* A structure that the library fills: _initial returns one with its struct_size, for the call. */
+#define CELSPAN_RESULT(type)                                                                       \
+  static inline type type##_initial(void) {                                                        \
+    type result = CELSPAN_ZERO;                                                                    \
+    result.struct_size = sizeof result;                                                            \
+    return result;                                                                                 \
   }
 
 #ifndef __cplusplus
@@ -238,7 +251,8 @@ typedef struct celspan_light {
 /* A light with a shape, instead of one colour everywhere: at each point it is gain * beta * pigment
  * of its texture there, and as a back light its matte is matte * beta: with a matte of 0 it adds
  * light to the layers behind and leaves their alpha. Media are not used. Beyond a picture there is
- * no light; a picture without a box lies on the film's frame. */
+ * no light; a picture without a box lies on the film's frame. The structure lies in others, so it
+ * never changes: what else a light may have becomes a field of the cel and of the rostrum. */
 typedef enum celspan_light_place {
   CELSPAN_LIGHT_ON_FRAME = 0, /* film units after the viewport: the camera moves it */
   CELSPAN_LIGHT_ON_CEL        /* the cel's own units: it moves with the cel */
@@ -396,6 +410,7 @@ CELSPAN_API const char *celspan_texture_name(const celspan_texture *texture);
 CELSPAN_API celspan_origin celspan_texture_origin(const celspan_texture *texture);
 
 typedef struct celspan_picture_info {
+  size_t struct_size;
   int32_t width, height; /* the display window, in pixels, after the orientation tag */
   int channels;
   bool has_alpha;
@@ -403,6 +418,9 @@ typedef struct celspan_picture_info {
   char format[16]; /* "png", "openexr", ...; "memory" for a surface */
   char colour[16]; /* how it would be read by default: "srgb", "linear", "cineon" */
 } celspan_picture_info;
+
+CELSPAN_RESULT(celspan_picture_info)
+#define CELSPAN_PICTURE_INFO (celspan_picture_info_initial())
 
 /* Reads a picture's header; describes a surface without asking for its pixels. Errors: INPUT,
  * LIMIT, NO_MEMORY, BAD_ARGUMENT. */
@@ -1089,7 +1107,7 @@ typedef struct celspan_rostrum_desc {
   double camera_width;
   double camera_rotation; /* radians; turns the camera, so the picture turns back */
   celspan_antialias_mode antialias;
-  const celspan_filter_desc *filter;                 /* where antialias is FILTER; borrowed */
+  const celspan_filter_desc *filter; /* where antialias is FILTER; borrowed; NULL: a box */
   celspan_light_texture front_texture, back_texture; /* instead of front and back; back: on the
                                                         frame only */
   bool has_size; /* its own size in film units: needed for celspan_object_create_rostrum */
@@ -1214,7 +1232,7 @@ typedef struct celspan_frame_desc {
   int32_t crop_width, crop_height; /* 0 0: the whole frame */
   bool has_antialias;              /* false: each rostrum's own */
   celspan_antialias_mode antialias;
-  const celspan_filter_desc *filter; /* where antialias is FILTER; borrowed */
+  const celspan_filter_desc *filter; /* where antialias is FILTER; borrowed; NULL: a box */
   int workers;                       /* 0: one per processor; 1: the calling thread alone */
   int strip_rows;                    /* rows handed to a worker at a time; 0: chosen */
   /* Called by the rendering thread between strips; false stops with CANCELLED. NULL: never. */
@@ -1244,6 +1262,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_probe(celspan_context *contex
                                                          celspan_point point, double rgba[4]);
 
 typedef struct celspan_statistics {
+  size_t struct_size;
   uint64_t rows, spans, single, gradient, array;
   uint64_t pixels_in_arrays;
   uint64_t colour_evaluations; /* times a colour was composed from layers */
@@ -1253,6 +1272,9 @@ typedef struct celspan_statistics {
   uint64_t maps_made;          /* how many of these maps were not kept from another frame */
   uint64_t swept;              /* those that were not drawn from maps */
 } celspan_statistics;
+
+CELSPAN_RESULT(celspan_statistics)
+#define CELSPAN_STATISTICS (celspan_statistics_initial())
 
 /* Where rows go. Called by one thread, rows from top to bottom; spans are borrowed, sorted,
  * disjoint, without gap from column 0 to width-1 of the crop. `end` is called once after a
@@ -1273,7 +1295,7 @@ typedef struct celspan_sink {
 CELSPAN_DESCRIPTION(celspan_sink)
 #define CELSPAN_SINK (celspan_sink_initial())
 
-/* Renders a frame into a sink. statistics may be NULL.
+/* Renders a frame into a sink. statistics: begun with CELSPAN_STATISTICS, or NULL.
  * Errors: any; BAD_ARGUMENT for a singular viewport or camera. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_frame_render(celspan_context *context,
                                                                 const celspan_frame_desc *desc,

@@ -16,6 +16,7 @@ extern "C" {
 typedef struct celspan_painting celspan_painting;
 
 typedef struct celspan_painting_layer {
+  size_t struct_size;
   const char *name;  /* UTF-8; may be "". This and blend live as long as the painting */
   const char *blend; /* "normal", "multiply", "add", "screen", "pass-through", ... */
   size_t parent;     /* the place of the group that it lies in, after its own; the count: in none */
@@ -26,6 +27,9 @@ typedef struct celspan_painting_layer {
   const char *colour; /* "srgb" or "linear": for the picture that is made of the surface, whose
                                   pixels are converted by the file's colour profile */
 } celspan_painting_layer;
+
+CELSPAN_RESULT(celspan_painting_layer)
+#define CELSPAN_PAINTING_LAYER (celspan_painting_layer_initial())
 
 /* file: borrowed      out: new
  * Errors: INPUT for a file that is missing, damaged or of another format, with the byte or line;
@@ -41,8 +45,8 @@ CELSPAN_API void celspan_painting_unref(celspan_painting *painting);
 CELSPAN_API void celspan_painting_size(const celspan_painting *painting, int32_t *width,
                                        int32_t *height);
 CELSPAN_API size_t celspan_painting_layer_count(const celspan_painting *painting);
-/* The layer at a place, from 0, rearmost first, a group after all that lies in it; false where
- * there is none. */
+/* The layer at a place, from 0, rearmost first, a group after all that lies in it. false, and
+ * *out is unchanged: there is none, or *out has no size. */
 CELSPAN_API bool celspan_painting_layer_at(const celspan_painting *painting, size_t index,
                                            celspan_painting_layer *out);
 /* What of the file is not shown as the program that made it does, in sentences; *layer: the place

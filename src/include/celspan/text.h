@@ -83,12 +83,16 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_text(celspan_co
 /* Measures of a text in film units. Heights are those of the first font, 0 or more as a rule, from
  * the baseline; those that the file does not tell are measured on its letters H and x. */
 typedef struct celspan_text_metrics {
+  size_t struct_size;
   double ascent, descent; /* of a line: above the baseline and below it */
   double cap_height, x_height;
   double width;  /* of the widest line */
   double height; /* from the ascent of the first line to the descent of the last one */
   int32_t lines; /* 1 or more */
 } celspan_text_metrics;
+
+CELSPAN_RESULT(celspan_text_metrics)
+#define CELSPAN_TEXT_METRICS (celspan_text_metrics_initial())
 
 /* desc, Errors: as above. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_text_measure(celspan_context *context,

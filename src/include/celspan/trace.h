@@ -35,6 +35,7 @@ CELSPAN_DESCRIPTION(celspan_trace_desc)
 #define CELSPAN_TRACE_DESC (celspan_trace_desc_initial())
 
 typedef struct celspan_trace_shape {
+  size_t struct_size;
   celspan_object *object;      /* borrowed from the tracing, as all pointers here */
   unsigned char colour[3];     /* sRGB; the object is painted with it, opaque */
   int32_t x, y;                /* a pixel of it */
@@ -45,6 +46,9 @@ typedef struct celspan_trace_shape {
   size_t point_count;
   bool is_closed; /* the stroke */
 } celspan_trace_shape;
+
+CELSPAN_RESULT(celspan_trace_shape)
+#define CELSPAN_TRACE_SHAPE (celspan_trace_shape_initial())
 
 /* Where alpha is below one half there is nothing. Shapes are in pixels of the picture, from its top
  * left corner; their coordinates are whole thousandths.
@@ -60,7 +64,8 @@ CELSPAN_API void celspan_trace_unref(celspan_trace *trace);
 CELSPAN_API void celspan_trace_size(const celspan_trace *trace, int32_t *width, int32_t *height);
 /* The union of all shapes; borrowed. */
 CELSPAN_API celspan_object *celspan_trace_object(const celspan_trace *trace);
-/* Areas from the largest on, strokes from the longest on. _at: false where there is none. */
+/* Areas from the largest on, strokes from the longest on. _at: false, and *out is unchanged, where
+ * there is none, or *out has no size. */
 CELSPAN_API size_t celspan_trace_shape_count(const celspan_trace *trace);
 CELSPAN_API bool celspan_trace_shape_at(const celspan_trace *trace, size_t index,
                                         celspan_trace_shape *out);

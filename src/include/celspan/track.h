@@ -39,6 +39,7 @@ CELSPAN_DESCRIPTION(celspan_tracker_desc)
 #define CELSPAN_TRACKER_DESC (celspan_tracker_desc_initial())
 
 typedef struct celspan_sighting {
+  size_t struct_size;
   bool is_found;         /* false: lost, and the matrix means nothing */
   celspan_matrix matrix; /* takes places of the first frame to places of this one; the centre of the
                             first pixel is (0, 0) */
@@ -46,6 +47,9 @@ typedef struct celspan_sighting {
   uint32_t agreeing_count;
   double error; /* pixels, the root of the mean square over those that agree */
 } celspan_sighting;
+
+CELSPAN_RESULT(celspan_sighting)
+#define CELSPAN_SIGHTING (celspan_sighting_initial())
 
 /* first, desc: borrowed      out: new
  * Errors: BAD_ARGUMENT for a region that is too small or has too little texture, and for values

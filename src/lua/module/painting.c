@@ -46,7 +46,7 @@ static void push_layer(lua_State *L, const celspan_painting_layer *layer, size_t
 
 static void push_layers(lua_State *L, const celspan_painting *painting) {
   size_t count = celspan_painting_layer_count(painting);
-  celspan_painting_layer layer;
+  celspan_painting_layer layer = CELSPAN_PAINTING_LAYER;
   lua_createtable(L, (int)count, 0);
   for (size_t i = 0; celspan_painting_layer_at(painting, i, &layer); i++) {
     push_layer(L, &layer, count);

@@ -124,7 +124,7 @@ static void push_shape(lua_State *L, const celspan_trace_shape *shape) {
 
 static void push_result(lua_State *L, const celspan_trace *trace) {
   int32_t width, height;
-  celspan_trace_shape shape;
+  celspan_trace_shape shape = CELSPAN_TRACE_SHAPE;
   celspan_trace_size(trace, &width, &height);
   lua_createtable(L, 0, 3);
   set_number(L, "width", width);

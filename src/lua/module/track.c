@@ -106,7 +106,7 @@ int cs_track_follow(lua_State *L) {
   celspan_tracker *tracker = tracker_at(L, 1);
   celspan_luma luma =
       push_luma(L, 2, (int32_t)luaL_checkinteger(L, 3), (int32_t)luaL_checkinteger(L, 4));
-  celspan_sighting sighting;
+  celspan_sighting sighting = CELSPAN_SIGHTING;
   celspan_status status = celspan_tracker_follow(tracker, &luma, &sighting);
   if (status != CELSPAN_OK)
     return cs_host_fail(L, status);

@@ -295,7 +295,7 @@ int cs_text_metrics(lua_State *L) {
   cs_userdata_push_fields(L, 1);
   cs_form form = cs_form_open(L, &cs_noun_text, -1);
   celspan_context *context = cs_host_context(L);
-  celspan_text_metrics metrics;
+  celspan_text_metrics metrics = CELSPAN_TEXT_METRICS;
   cs_named_begin(L, context);
   text_form read = read_text(&form);
   cs_form_try(&form, celspan_text_measure(context, &read.desc, &metrics));

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include "base/description.h"
 #include "base/module.h"
 #include "base/number.h"
 #include "model/colour/transfer.h"
@@ -399,10 +400,12 @@ celspan_status cs_store_info(celspan_context *context, const cs_picture *picture
 celspan_status celspan_picture_inspect(celspan_context *context, const celspan_picture_desc *desc,
                                        celspan_picture_info *out) {
   cs_picture *picture;
+  celspan_picture_info info;
   CS_TRY(cs_picture_create(context, desc, &picture));
-  celspan_status status = cs_store_info(context, picture, out);
+  celspan_status status = cs_store_info(context, picture, &info);
   cs_picture_unref(picture);
-  return status;
+  return status == CELSPAN_OK ? CS_RESULT(context, "picture", celspan_picture_info, &info, out)
+                              : status;
 }
 
 /* ---------------------------------------------------------------- readers */

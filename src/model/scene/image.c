@@ -24,7 +24,7 @@ static celspan_status check(celspan_context *context, const celspan_image_desc *
 
 static celspan_status read_size(celspan_context *context, const celspan_image_desc *desc,
                                 double *width, double *height) {
-  celspan_picture_info info;
+  celspan_picture_info info = CELSPAN_PICTURE_INFO;
   CS_TRY(celspan_picture_inspect(context, desc->picture, &info));
   *width = info.width;
   *height = info.height;

@@ -1,4 +1,5 @@
 /* Layered paintings: the format of a file, and its layers. */
+#include "base/description.h"
 #include <pthread.h>
 #include <string.h>
 
@@ -311,7 +312,7 @@ bool celspan_painting_layer_at(const celspan_painting *painting, size_t index,
     return false;
   const cs_contents_layer *layer = &painting->layers[index];
   bool has_pixels = layer->surface && !layer->is_group;
-  *out = (celspan_painting_layer){
+  const celspan_painting_layer whole = {
       .name = layer->name,
       .blend = layer->blend,
       .parent = layer->parent == CS_CONTENTS_NONE ? painting->count : layer->parent,
@@ -325,7 +326,7 @@ bool celspan_painting_layer_at(const celspan_painting *painting, size_t index,
       .surface = has_pixels ? layer->surface : NULL,
       .colour = layer->colour,
   };
-  return true;
+  return CS_RESULT(NULL, "painting", celspan_painting_layer, &whole, out) == CELSPAN_OK;
 }
 
 size_t celspan_painting_note_count(const celspan_painting *painting) {

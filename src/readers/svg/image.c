@@ -31,7 +31,7 @@ static celspan_status note_failure(const image *of, celspan_status status) {
 /* Makes the object of a picture, and takes its size. */
 static celspan_status show_picture(image *of, celspan_picture_desc *picture) {
   celspan_context *context = of->reading->context;
-  celspan_picture_info info;
+  celspan_picture_info info = CELSPAN_PICTURE_INFO;
   picture->colour = of->reading->is_coded ? "linear" : NULL;
   CS_TRY(celspan_picture_inspect(context, picture, &info));
   of->width = info.width;

@@ -61,11 +61,13 @@ celspan_status celspan_text_measure(celspan_context *context, const celspan_text
                                     celspan_text_metrics *out) {
   CS_READ(context, "text", celspan_text_desc, desc);
   cs_layout layout;
+  celspan_text_metrics metrics = {0};
   celspan_status status = cs_typeset_make(&layout, context, "text", desc);
   if (status == CELSPAN_OK)
-    *out = cs_typeset_measure(&layout);
+    metrics = cs_typeset_measure(&layout);
   cs_typeset_finish(&layout);
-  return status;
+  return status == CELSPAN_OK ? CS_RESULT(context, "text", celspan_text_metrics, &metrics, out)
+                              : status;
 }
 
 /* ---------------------------------------------------------------- letter by letter */

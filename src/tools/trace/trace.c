@@ -348,7 +348,7 @@ bool celspan_trace_shape_at(const celspan_trace *trace, size_t index, celspan_tr
   if (index >= trace->count)
     return false;
   const cs_shape *shape = &trace->shapes[index];
-  *out = (celspan_trace_shape){
+  const celspan_trace_shape whole = {
       .object = shape->object,
       .colour = {shape->colour[0], shape->colour[1], shape->colour[2]},
       .area = shape->area,
@@ -360,5 +360,5 @@ bool celspan_trace_shape_at(const celspan_trace *trace, size_t index, celspan_tr
       .point_count = shape->point_count,
       .is_closed = shape->is_closed,
   };
-  return true;
+  return CS_RESULT(NULL, "trace", celspan_trace_shape, &whole, out) == CELSPAN_OK;
 }

@@ -335,7 +335,8 @@ celspan_status celspan_tracker_create(celspan_context *context, const celspan_lu
 celspan_status celspan_tracker_follow(celspan_tracker *tracker, const celspan_luma *frame,
                                       celspan_sighting *out) {
   celspan_context *context = tracker->context;
-  *out = (celspan_sighting){0};
+  celspan_sighting found = {0};
+  CS_TRY(CS_RESULT(context, "track", celspan_sighting, &found, out));
   CS_TRY(check_luma(context, frame));
   const cs_plane *first = &tracker->first.levels[0];
   if (frame->width != first->width || frame->height != first->height)
@@ -345,9 +346,9 @@ celspan_status celspan_tracker_follow(celspan_tracker *tracker, const celspan_lu
   cs_plane_levels planes;
   CS_TRY(cs_plane_levels_make(context, frame->values, frame->width, frame->height,
                               tracker->first.count, &planes));
-  follow(tracker, &planes, out);
+  follow(tracker, &planes, &found);
   cs_plane_levels_finish(&planes);
-  return CELSPAN_OK;
+  return CS_RESULT(context, "track", celspan_sighting, &found, out);
 }
 
 void celspan_tracker_rewind(celspan_tracker *tracker) {
