@@ -14,10 +14,10 @@
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/named.h"
-#include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "lua/bind/warnings.h"
 #include "lua/module/core.h"
+#include "lua/module/parameters.h"
 #include "plugins/sound/loudness.h"
 #include "program/confine.h"
 #include "program/request.h"
@@ -53,12 +53,8 @@ static void watch_script(lua_State *L) {
 
 /* ---------------------------------------------------------------- settings */
 
-/* The values that --set and --set-from give to the parameters of a script (celspan.parameters).
- *
- *   options --> settings --> registry of the script's state --> lua/celspan/film/parameters.lua
- *                                                                    |
- *   wrong usage, reported <-- the sentence that refuses a setting <--+
- */
+/* The values that --set and --set-from give to the parameters of a script: read from the options
+ * and the file, then given to its state (lua/module/parameters.h). */
 
 typedef struct script_settings {
   const cs_request *request; /* borrowed */
@@ -124,64 +120,20 @@ static cs_hash hash_settings(const script_settings *settings) {
   return cs_hash_end(hash);
 }
 
-/* Appends the table on top of the stack to the table below it. */
-static void append(lua_State *L) { lua_rawseti(L, -2, (lua_Integer)lua_rawlen(L, -2) + 1); }
-
 static void give_one(void *user, const char *name, const char *value) {
-  lua_State *L = user;
   if (strcmp(name, "--set") != 0)
     return;
   size_t length = strcspn(value, "=");
-  lua_newtable(L);
-  lua_pushlstring(L, value, length);
-  lua_setfield(L, -2, "name");
-  cs_put_text(L, "text", value + length + 1);
-  append(L);
+  cs_parameters_give(user, "--set: ", value, length, value + length + 1);
 }
 
-/* light userdata: the settings. Puts them into the registry of a state that has celspan. Runs
- * protected. */
+/* light userdata: the settings. Gives them to a state that has celspan. Runs protected. */
 static int give_settings(lua_State *L) {
   const script_settings *settings = lua_touserdata(L, 1);
-  cs_core_settings(L);
-  if (settings->path) {
-    lua_newtable(L);
-    cs_put_text(L, "path", settings->path);
-    lua_pushlstring(L, settings->json, settings->size);
-    lua_setfield(L, -2, "json");
-    append(L);
-  }
+  if (settings->path)
+    cs_parameters_give_json(L, settings->path, settings->json, settings->size);
   cs_request_each(settings->request, give_one, L);
   return 0;
-}
-
-/* Whether the script came to its end, a boolean -> the sentence that refuses the settings, or
- * nothing. Runs protected. */
-static int find_refusal(lua_State *L) {
-  bool has_ended = lua_toboolean(L, 1);
-  cs_core_settings(L);
-  lua_getfield(L, -1, "refused");
-  if (!lua_isnil(L, -1))
-    return 1;
-  bool is_declared = lua_getfield(L, -2, "declared") != LUA_TNIL;
-  if (is_declared || !has_ended || lua_rawlen(L, -3) == 0)
-    return 0;
-  lua_pushliteral(L, "--set and --set-from give values to parameters, and the script declares none "
-                     "(celspan.parameters)");
-  return 1;
-}
-
-/* After the script: wrong usage, reported, where a setting was refused; or where no parameters were
- * declared, if the script came to its end, because its own error says more; else OK. Never raises.
- */
-static cs_exit judge_settings(lua_State *L, bool has_ended) {
-  lua_pushcfunction(L, find_refusal);
-  lua_pushboolean(L, has_ended);
-  cs_exit outcome = CS_EXIT_OK;
-  if (lua_pcall(L, 1, 1, 0) == LUA_OK && lua_isstring(L, -1))
-    outcome = cs_report_usage("%s", lua_tostring(L, -1));
-  lua_pop(L, 1);
-  return outcome;
 }
 
 /* ---------------------------------------------------------------- sounds */
@@ -337,7 +289,8 @@ static cs_exit open_script(celspan_context *context, const cs_request *request, 
   CS_TRY_EXIT(start_script(out, request, path));
   celspan_status status = celspan_lua_run(out->L, path, (int)request->script_argument_count,
                                           (const char *const *)request->script_arguments);
-  CS_TRY_EXIT(judge_settings(out->L, status == CELSPAN_OK));
+  if (status == CELSPAN_BAD_ARGUMENT && cs_parameters_are_refused(out->L))
+    return cs_report_usage("%s", celspan_context_error(context));
   if (status != CELSPAN_OK)
     return cs_report_failure(context, status, NULL);
   lua_pushcfunction(out->L, read_film);

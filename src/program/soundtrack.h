@@ -1,7 +1,6 @@
 /* The sounds of a script's film, mixed for videos and for `celspan sound`.
  *
- *   film --lua/celspan/film/soundtrack.lua--> a flat list
- *   cs_mix_sound --plugins/sound/mix.h--> stream
+ *   film --lua/module/heard.h--> a flat list --plugins/sound/mix.h--> stream
  */
 #pragma once
 
@@ -9,21 +8,14 @@
 #include "plugins/sound/mix.h"
 #include "program/script.h"
 
-typedef struct cs_soundtrack {
-  const cs_mix_sound *sounds; /* live as long as the script's Lua state */
-  size_t count;
-} cs_soundtrack;
-
-/* Reads the sounds of the film. Errors: CALLBACK, NO_MEMORY, LIMIT. */
-CELSPAN_CHECKED celspan_status cs_soundtrack_read(cs_script *script, cs_soundtrack *out);
 /* Adds to a hash what decides how the sounds are heard: they, and the sizes and times of their
- * files. Errors: those of cs_soundtrack_read. */
+ * files. Errors: those of celspan_lua_sounds. */
 CELSPAN_CHECKED celspan_status cs_soundtrack_hash(cs_script *script, cs_hash *hash);
 /* Finds the files and, if is_deep, decodes them up to the end of the film; OK without ffmpeg.
  * Errors: those of cs_mix_open. */
 CELSPAN_CHECKED celspan_status cs_soundtrack_check(cs_script *script, bool is_deep);
 /* Mixes the sound of `count` frames from number `first` on; *moments: how many there are. Errors:
- * those of cs_soundtrack_read and cs_mix_open. */
+ * those of celspan_lua_sounds and cs_mix_open. */
 CELSPAN_CHECKED celspan_status cs_soundtrack_mix(cs_script *script, int64_t first, int64_t count,
                                                  cs_sound_stream *out, int64_t *moments);
 /* Mixes the sound of a run of frames; *moments: how many there are. OK, or reported. */

@@ -554,6 +554,23 @@ celspan_status celspan_tracker_follow(celspan_tracker *tracker, const celspan_lu
   celspan_sighting *out);
 void celspan_tracker_rewind(celspan_tracker *tracker);
 void celspan_tracker_destroy(celspan_tracker *tracker);
+typedef struct celspan_film { size_t struct_size; int32_t width, height; double frames_second;
+  int64_t first, count; const char *title; size_t mark_count; } celspan_film;
+typedef enum celspan_parameter_kind { CELSPAN_PARAMETER_TEXT = 0, CELSPAN_PARAMETER_FILE,
+  CELSPAN_PARAMETER_NUMBER, CELSPAN_PARAMETER_BOOLEAN, CELSPAN_PARAMETER_CHOICE,
+  CELSPAN_PARAMETER_COLOUR } celspan_parameter_kind;
+typedef struct celspan_parameter { size_t struct_size; const char *name; celspan_parameter_kind
+  kind; const char *text; double number; double least, most; const char *const *choices; size_t
+  choice_count; const char *about; } celspan_parameter;
+typedef struct celspan_mark { size_t struct_size; const char *name; int64_t first, last; }
+  celspan_mark;
+typedef struct celspan_sound_passage { double begin, end; double fade_in, fade_out; }
+  celspan_sound_passage;
+typedef struct celspan_sound_ducker { size_t sound; double gain; double attack, release; }
+  celspan_sound_ducker;
+typedef struct celspan_sound { size_t struct_size; const char *path; double start; double speed;
+  double gain[2]; const celspan_sound_passage *passages; size_t passage_count; const
+  celspan_sound_ducker *duckers; size_t ducker_count; } celspan_sound;
 typedef struct lua_State lua_State;
 int luaopen_celspan(lua_State *L);
 celspan_status celspan_lua_open(lua_State *L, celspan_context *context);
@@ -566,10 +583,14 @@ void celspan_lua_limits_default(celspan_lua_limits *out, size_t struct_size);
 celspan_status celspan_lua_sandbox(lua_State *L, const celspan_lua_limits *limits);
 celspan_status celspan_lua_run(lua_State *L, const char *path, int argument_count, const char
   *const *arguments);
+celspan_status celspan_lua_set(lua_State *L, const char *name, const char *value);
+size_t celspan_lua_parameter_count(lua_State *L);
+celspan_status celspan_lua_parameter(lua_State *L, size_t place, celspan_parameter *out);
 celspan_status celspan_lua_call(lua_State *L, int argument_count, int result_count);
 celspan_rostrum *celspan_lua_rostrum(lua_State *L, int index);
-typedef struct celspan_film { size_t struct_size; int32_t width, height; double frames_second;
-  int64_t first, count; const char *title; const char *sound; double sound_offset; } celspan_film;
 celspan_status celspan_lua_film(lua_State *L, int index, celspan_film *out);
+celspan_status celspan_lua_mark(lua_State *L, int index, size_t place, celspan_mark *out);
+celspan_status celspan_lua_sounds(lua_State *L, int index, size_t *count);
+celspan_status celspan_lua_sound(lua_State *L, int index, size_t place, celspan_sound *out);
 celspan_status celspan_lua_frame(lua_State *L, int index, int64_t number, celspan_frame_desc *out);
 void celspan_lua_frame_drop(celspan_frame_desc *frame);

@@ -121,6 +121,41 @@ end }]])
   end
 end)
 
+describe("a host that asks what a film says", function()
+  local path = BUILD .. "/examples/example_facts"
+  local test = present.program(path) and it or pending
+  local film = [[
+local celspan = require "celspan"
+local p = celspan.parameters { speed = { 1, min = 0, max = 4 }, side = { "left", "right" } }
+return celspan.film { fps = 10, frames = 20, marks = { title = 1, chase = 1 + p.speed * 4 },
+  sound = { { "voice.wav", at = p.speed, gain = 0.5 } }, frame = function() end }
+]]
+
+  test("lists parameters, marks and sounds, with the values that it gives", function()
+    write("film.lua", film)
+    local parameters = "parameter side left of left, right\nparameter speed 1 (0 to 4)\n"
+    assert.equal(parameters .. "mark title 1-4\nmark chase 5-20\n"
+      .. "sound " .. folder .. "/voice.wav from 1 s on, 0.5 times as loud\n",
+      good("%s %s/film.lua", path, folder))
+    assert.equal(parameters .. "mark title 1-12\nmark chase 13-20\n"
+      .. "sound " .. folder .. "/voice.wav from 3 s on, 0.5 times as loud\n",
+      good("%s %s/film.lua side=right speed=3", path, folder))
+  end)
+
+  test("says which value is wrong", function()
+    write("film.lua", film)
+    for given, message in pairs {
+      ["speed=9"] = "set: speed is '9'; it must be a number from 0 to 4",
+      ["sped=1"] = "set: the script has no parameter 'sped'; did you mean 'speed'?",
+      speed = "'speed' is not NAME=VALUE",
+    } do
+      local ended_well, text = run("%s %s/film.lua %s", path, folder, given)
+      assert.is_false(ended_well)
+      assert.equal("facts: " .. message .. "\n", text)
+    end
+  end)
+end)
+
 describe("the module", function()
   local module = BUILD .. "/celspan.so"
 

@@ -81,8 +81,8 @@ describe("parameters", function()
   it("are refused where the script declares none, or catches the error", function()
     bench:write("film.lua", "return require 'celspan'.film { size = { 1, 1 }, frames = 1, "
       .. "frame = function() return require 'celspan'.rostrum {} end }")
-    assert.are.equal("--set and --set-from give values to parameters, and the script declares none "
-      .. "(celspan.parameters)", refusal(2, "--set a=1"))
+    assert.are.equal("--set: the script declares no parameters (celspan.parameters)",
+      refusal(2, "--set a=1"))
     bench:write("film.lua", "local celspan = require 'celspan'\nlocal x = = 1\n"
       .. "celspan.parameters { a = 1 }")
     local place = bench.folder .. "/film.lua:2: "

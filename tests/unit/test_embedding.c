@@ -4,6 +4,8 @@
 
 #include <lauxlib.h>
 #include <lualib.h>
+#include <math.h>
+#include <unistd.h>
 
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
@@ -13,7 +15,8 @@ static const char FILM[] =
     "local dot = celspan.circle{ centre = {8, 6}, radius = 5, texture = '#fff' }\n"
     "local cel = celspan.cel{ dot }\n"
     "return celspan.film{ size = {16, 12}, fps = 12, first = 5, frames = 4, title = 'Dots',\n"
-    "  sound = 'dots.wav', sound_offset = 0.5, frame = function(f)\n"
+    "  sound = 'dots.wav', sound_offset = 0.5, marks = { start = 5, [\"end\"] = {7, 8} },\n"
+    "  frame = function(f)\n"
     "    if f.number == 8 then celspan.circle{ centre = {0, 0}, radius = -1 } end\n"
     "    if f.number == 7 then return { {celspan.rostrum{ cel }, 0.5}, {celspan.rostrum{}, 0.5} } "
     "end\n"
@@ -85,9 +88,8 @@ static void check_films(void) {
   celspan_film film = CELSPAN_FILM;
   CHECK(celspan_lua_film(h.L, -1, &film) == CELSPAN_OK);
   CHECK(film.width == 16 && film.height == 12 && film.frames_second == 12);
-  CHECK(film.first == 5 && film.count == 4 && film.sound_offset == 0.5);
+  CHECK(film.first == 5 && film.count == 4 && film.mark_count == 2);
   CHECK_TEXT(film.title, "Dots");
-  CHECK_TEXT(film.sound, "dots.wav");
   CHECK(!celspan_lua_rostrum(h.L, -1));
 
   celspan_frame_desc frame = CELSPAN_FRAME_DESC, second = CELSPAN_FRAME_DESC;
@@ -103,6 +105,77 @@ static void check_films(void) {
   celspan_lua_frame_drop(&frame);
   celspan_lua_frame_drop(&frame);
   celspan_lua_frame_drop(&second);
+  close_host(&h);
+}
+
+static void check_marks(void) {
+  host h;
+  celspan_mark mark = CELSPAN_MARK;
+  open_host(&h);
+  run(&h, FILM);
+  CHECK(celspan_lua_mark(h.L, -1, 0, &mark) == CELSPAN_OK);
+  CHECK(mark.first == 5 && mark.last == 6);
+  CHECK_TEXT(mark.name, "start");
+  CHECK(celspan_lua_mark(h.L, -1, 1, &mark) == CELSPAN_OK && mark.first == 7 && mark.last == 8);
+  CHECK_TEXT(mark.name, "end");
+  CHECK(celspan_lua_mark(h.L, -1, 2, &mark) == CELSPAN_BAD_ARGUMENT && mark.first == 7);
+  CHECK_TEXT(celspan_context_error(h.context), "mark 2: the film has 2");
+  CHECK(celspan_lua_mark(h.L, -1, SIZE_MAX, &mark) == CELSPAN_BAD_ARGUMENT);
+  mark.struct_size = 0; /* as it is without CELSPAN_MARK */
+  CHECK(celspan_lua_mark(h.L, -1, 0, &mark) == CELSPAN_BAD_ARGUMENT && mark.first == 7);
+  CHECK_TEXT(celspan_context_error(h.context),
+             "mark: struct_size of the result is 0: begin with celspan_mark_initial, or set it to "
+             "sizeof(celspan_mark), which is 32");
+  mark.struct_size = offsetof(celspan_mark, last); /* of an earlier header */
+  mark.last = 99;
+  CHECK(celspan_lua_mark(h.L, -1, 0, &mark) == CELSPAN_OK && mark.first == 5 && mark.last == 99);
+  CHECK(lua_gettop(h.L) == 1);
+  run(&h, STILL);
+  CHECK(celspan_lua_mark(h.L, -1, 0, &mark) == CELSPAN_BAD_ARGUMENT);
+  close_host(&h);
+}
+
+/* A film whose sound is a film, four times as fast from second 10 on. */
+static const char SOUNDS[] =
+    "local celspan = require 'celspan'\n"
+    "local function still() return celspan.rostrum{} end\n"
+    "local shot = celspan.film{ duration = 8, frame = still,\n"
+    "  sound = { '/none/a.wav', at = 2, from = 1, to = 5, gain = 0.5, fade = {1, 0}, pan = -1 } }\n"
+    "return celspan.film{ duration = 20, frame = still, sound_offset = 10, sound = {\n"
+    "  { shot, at = 0, speed = 4 },\n"
+    "  { '/none/b.wav', name = 'b', under = 'voice', duck_depth = 20 },\n"
+    "  { '/none/c.wav', name = 'voice' } } }\n";
+
+static void check_sounds(void) {
+  host h;
+  size_t count = 9;
+  celspan_sound sound = CELSPAN_SOUND;
+  open_host(&h);
+  run(&h, SOUNDS);
+  CHECK(celspan_lua_sounds(h.L, 1, &count) == CELSPAN_OK && count == 3 && lua_gettop(h.L) == 2);
+  lua_remove(h.L, 1); /* the sounds outlive the film */
+  lua_gc(h.L, LUA_GCCOLLECT);
+  CHECK(celspan_lua_sound(h.L, -1, 0, &sound) == CELSPAN_OK);
+  CHECK_TEXT(sound.path, "/none/a.wav");
+  CHECK(sound.start == 10.25 && sound.speed == 4 && sound.duckers && sound.ducker_count == 0);
+  CHECK(sound.gain[0] > 0.7 && sound.gain[0] < 0.71 && sound.gain[1] < 1e-9);
+  CHECK(sound.passage_count == 2 && sound.passages[0].begin == 10.5);
+  CHECK(sound.passages[0].end == 11.5 && sound.passages[0].fade_in == 0.25);
+  CHECK(celspan_lua_sound(h.L, -1, 1, &sound) == CELSPAN_OK && sound.ducker_count == 1);
+  CHECK(sound.duckers[0].sound == 2 && sound.duckers[0].gain == 0.1 && sound.start == 10);
+  CHECK(isinf(sound.passages[0].end));
+  CHECK(celspan_lua_sound(h.L, -1, 3, &sound) == CELSPAN_BAD_ARGUMENT);
+  CHECK_TEXT(celspan_context_error(h.context), "sound 3: the film has 3");
+  sound.struct_size = 12;
+  CHECK(celspan_lua_sound(h.L, -1, 0, &sound) == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_lua_sounds(h.L, -1, &count) == CELSPAN_BAD_ARGUMENT && count == 3);
+  CHECK(lua_gettop(h.L) == 1);
+  run(&h, STILL);
+  CHECK(celspan_lua_sound(h.L, -1, 0, &sound) == CELSPAN_BAD_ARGUMENT);
+  CHECK_TEXT(celspan_context_error(h.context),
+             "sounds are needed, as celspan_lua_sounds pushes them");
+  CHECK(celspan_lua_sounds(h.L, -1, NULL) == CELSPAN_OK && lua_gettop(h.L) == 2);
+  CHECK(celspan_lua_sound(h.L, -1, 0, &sound) == CELSPAN_BAD_ARGUMENT);
   close_host(&h);
 }
 
@@ -155,7 +228,7 @@ static void check_faults(void) {
   CHECK(celspan_lua_frame(h.L, -1, INT64_MAX, &frame) == CELSPAN_BAD_ARGUMENT);
   CHECK(celspan_lua_frame(h.L, -1, 8, &frame) == CELSPAN_BAD_ARGUMENT);
   const char *sentence = celspan_context_error(h.context);
-  CHECK(strstr(sentence, "film:6: frame 8: circle: ") == sentence);
+  CHECK(strstr(sentence, "film:7: frame 8: circle: ") == sentence);
   CHECK(!frame.exposures && lua_gettop(h.L) == 1);
 
   lua_pushinteger(h.L, 12);
@@ -191,6 +264,126 @@ static int shown(lua_State *L) {
   lua_pushliteral(L, "by the host");
   return 1;
 }
+
+/* ---------------------------------------------------------------- parameters */
+
+static const char PARAMETERS[] =
+    "local p = require 'celspan'.parameters{ title = 'Hello', side = {'left', 'right'},\n"
+    "  speed = {1, min = 0, about = 'Widths in a second'}, on = true, tint = {colour = "
+    "'#f26419'},\n"
+    "  take = {file = 'a.wav'} }\n"
+    "seen = table.concat({ p.title, p.side, p.speed, tostring(p.on), p.tint, p.take }, ' ')\n"
+    "return require 'celspan'.rostrum{}\n";
+
+/* Runs the film of a file; its status. What it left on the stack is removed. */
+static celspan_status run_file(host *h, const char *path, const char *text) {
+  FILE *file = fopen(path, "w");
+  CHECK(file && fputs(text, file) >= 0 && fclose(file) == 0);
+  int top = lua_gettop(h->L);
+  celspan_status status = celspan_lua_run(h->L, path, 0, NULL);
+  CHECK(lua_gettop(h->L) == top + (status == CELSPAN_OK));
+  lua_settop(h->L, top);
+  return status;
+}
+
+static void check_seen(host *h, const char *expected) {
+  CHECK(lua_getglobal(h->L, "seen") == LUA_TSTRING);
+  CHECK_TEXT(lua_tostring(h->L, -1), expected);
+  lua_pop(h->L, 1);
+}
+
+static celspan_parameter parameter_at(host *h, size_t place) {
+  celspan_parameter parameter = CELSPAN_PARAMETER;
+  CHECK(celspan_lua_parameter(h->L, place, &parameter) == CELSPAN_OK);
+  return parameter;
+}
+
+static void check_listed(host *h) {
+  celspan_parameter one = CELSPAN_PARAMETER;
+  CHECK(celspan_lua_parameter_count(h->L) == 6); /* on, side, speed, take, tint, title */
+  one = parameter_at(h, 0);
+  CHECK(one.kind == CELSPAN_PARAMETER_BOOLEAN && one.number == 1 && !one.about && !one.choices);
+  CHECK_TEXT(one.text, "true");
+  one = parameter_at(h, 1);
+  CHECK(one.kind == CELSPAN_PARAMETER_CHOICE && one.choice_count == 2);
+  CHECK(one.choices == parameter_at(h, 1).choices); /* kept, so the first answer stays valid */
+  CHECK_TEXT(one.choices[1], "right");
+  one = parameter_at(h, 2);
+  CHECK(one.kind == CELSPAN_PARAMETER_NUMBER && one.number == 1 && one.least == 0);
+  CHECK(isinf(one.most) && one.most > 0);
+  CHECK_TEXT(one.name, "speed");
+  CHECK_TEXT(one.about, "Widths in a second");
+  CHECK(parameter_at(h, 3).kind == CELSPAN_PARAMETER_FILE);
+  CHECK(parameter_at(h, 4).kind == CELSPAN_PARAMETER_COLOUR);
+  CHECK(parameter_at(h, 5).kind == CELSPAN_PARAMETER_TEXT);
+  CHECK(celspan_lua_parameter(h->L, 6, &one) == CELSPAN_BAD_ARGUMENT);
+  CHECK_TEXT(celspan_context_error(h->context), "parameter 6: the script has 6");
+  one.struct_size = 1;
+  CHECK(celspan_lua_parameter(h->L, 0, &one) == CELSPAN_BAD_ARGUMENT);
+}
+
+static void check_wrong_values(host *h, const char *path) {
+  static const char *const wrong[][3] = {
+      {"speed", "-1", "set: speed is '-1'; it must be a number of 0 or more"},
+      {"side", "", "set: side is ''; it must be one of left, right"},
+      {"sped", "2", "set: the script has no parameter 'sped'; did you mean 'speed'?"},
+  };
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+    CHECK(celspan_lua_set(h->L, wrong[i][0], wrong[i][1]) == CELSPAN_OK);
+    CHECK(run_file(h, path, PARAMETERS) == CELSPAN_BAD_ARGUMENT);
+    CHECK_TEXT(celspan_context_error(h->context), wrong[i][2]);
+  }
+  CHECK(celspan_lua_set(h->L, NULL, "1") == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_lua_set(h->L, "speed", NULL) == CELSPAN_BAD_ARGUMENT);
+  CHECK_TEXT(celspan_context_error(h->context), "set: the value is missing");
+  CHECK(run_file(h, path, PARAMETERS) == CELSPAN_OK); /* each value was for one run */
+  CHECK(celspan_lua_set(h->L, "a", "1") == CELSPAN_OK);
+  CHECK(run_file(h, path, STILL) == CELSPAN_BAD_ARGUMENT);
+  CHECK_TEXT(celspan_context_error(h->context),
+             "set: the script declares no parameters (celspan.parameters)");
+  CHECK(celspan_lua_parameter_count(h->L) == 0);
+}
+
+static void check_parameters(bool is_sandboxed) {
+  host h;
+  char path[] = "/tmp/celspan-embedding-XXXXXX";
+  open_host(&h);
+  int file = mkstemp(path);
+  CHECK(file >= 0 && close(file) == 0);
+  CHECK(celspan_lua_parameter_count(h.L) == 0);
+  if (is_sandboxed)
+    CHECK(celspan_lua_sandbox(h.L, NULL) == CELSPAN_OK);
+  CHECK(run_file(&h, path, PARAMETERS) == CELSPAN_OK);
+  check_seen(&h, "Hello left 1 true #f26419 a.wav");
+  check_listed(&h);
+  CHECK(celspan_lua_set(h.L, "speed", "7") == CELSPAN_OK);
+  CHECK(celspan_lua_set(h.L, "side", "right") == CELSPAN_OK);
+  CHECK(celspan_lua_set(h.L, "speed", "2.5") == CELSPAN_OK);
+  CHECK(celspan_lua_set(h.L, "on", "no") == CELSPAN_OK);
+  CHECK(run_file(&h, path, PARAMETERS) == CELSPAN_OK);
+  check_seen(&h, "Hello right 2.5 false #f26419 a.wav");
+  check_wrong_values(&h, path);
+  unlink(path);
+  close_host(&h);
+}
+
+/* Nothing is asked of a state without celspan, or of one that is closed. */
+static void check_no_celspan(void) {
+  lua_State *L = luaL_newstate();
+  celspan_parameter parameter = CELSPAN_PARAMETER;
+  celspan_mark mark = CELSPAN_MARK;
+  celspan_sound sound = CELSPAN_SOUND;
+  lua_pushinteger(L, 1);
+  CHECK(celspan_lua_set(L, "a", "1") == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_lua_parameter_count(L) == 0);
+  CHECK(celspan_lua_parameter(L, 0, &parameter) == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_lua_mark(L, 1, 0, &mark) == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_lua_sounds(L, 1, NULL) == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_lua_sound(L, 1, 0, &sound) == CELSPAN_BAD_ARGUMENT && lua_gettop(L) == 1);
+  lua_close(L);
+}
+
+/* ---------------------------------------------------------------- calls */
 
 /* Calls a text within the limits: the first words of what went wrong, or its result. */
 static const char *call(host *h, const char *text, celspan_status status) {
@@ -255,6 +448,20 @@ static void check_own_context(void) {
 
 /* ---------------------------------------------------------------- memory */
 
+/* Gives a value, and reads a sound of the film on top of the stack, whose file a sandbox does not
+ * let it look for. */
+static celspan_status ask(host *h, bool is_sandboxed) {
+  celspan_sound sound = CELSPAN_SOUND;
+  celspan_status status = celspan_lua_set(h->L, "a", "1");
+  if (status == CELSPAN_OK && !is_sandboxed)
+    status = celspan_lua_sounds(h->L, -1, NULL);
+  if (status != CELSPAN_OK || is_sandboxed)
+    return status;
+  status = celspan_lua_sound(h->L, -1, 0, &sound);
+  lua_pop(h->L, 1);
+  return status;
+}
+
 /* Uses everything once, with `lua` more allocations of Lua allowed, or failing the context's
  * `core`-th allocation; true if nothing failed. (Without memory to record the line where a value
  * was made, the value is made nevertheless.) */
@@ -273,11 +480,19 @@ static bool visit(size_t lua, size_t core, bool is_sandboxed) {
     status = celspan_lua_sandbox(h.L, NULL);
   if (status == CELSPAN_OK && lua_pcall(h.L, 0, 1, 0) == LUA_OK) {
     celspan_film film = CELSPAN_FILM;
+    celspan_mark mark = CELSPAN_MARK;
     status = celspan_lua_film(h.L, -1, &film);
     CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY);
+    if (status == CELSPAN_OK)
+      status = celspan_lua_mark(h.L, -1, 1, &mark);
+    if (status == CELSPAN_OK)
+      status = ask(&h, is_sandboxed);
+    CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY);
+    bool is_asked = status == CELSPAN_OK;
     status = celspan_lua_frame(h.L, -1, film.count ? film.first : 5, &frame);
     CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY);
     CHECK(lua_gettop(h.L) == 1);
+    status = is_asked ? status : CELSPAN_NO_MEMORY;
   } else
     status = CELSPAN_NO_MEMORY;
   celspan_lua_frame_drop(&frame);
@@ -299,6 +514,11 @@ static void check_memory(bool is_sandboxed) {
 
 int main(void) {
   check_films();
+  check_marks();
+  check_sounds();
+  check_parameters(false);
+  check_parameters(true);
+  check_no_celspan();
   check_rostrums();
   check_procedures();
   check_faults();

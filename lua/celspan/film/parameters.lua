@@ -1,11 +1,12 @@
 --- celspan.parameters: values of a film that are given from outside.
 --
 --   parameters{...} --> declared: { { name =, kind =, default =, ... }, ... }, sorted by name
---   --set, --set-from --> settings --> checked against it --> values
+--   --set, --set-from, celspan_lua_set --> settings --> checked against it --> values
 --
--- The settings are a table in the registry of the Lua state. The program fills it before it runs
--- the script, with { name =, text = } or { path =, json = } for each option. Two fields are answers
--- to the program: `declared`, and `refused`, the sentence about a wrong setting.
+-- The settings are a table in the registry of the Lua state (src/lua/module/parameters.h). A host
+-- fills it before it runs the script, with { source =, name =, text = } or { source =, json = } for
+-- each value or file; `source` is the beginning of messages. Two fields are answers to the host:
+-- `declared`, and `refused`, the sentence about a wrong setting.
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
@@ -123,8 +124,8 @@ local function declare_one(name, given)
   local kind, default = kind_of_table(name, given)
   check_names(name, kind, given)
   local choices = kind == "choice" and read_choices(name, given) or nil
-  local one = { name = name, kind = kind, default = default, min = given.min, max = given.max,
-                about = given.about, choices = choices }
+  local one = { name = name, kind = kind, default = default, text = tostring(default),
+                min = given.min, max = given.max, about = given.about, choices = choices }
   for _, bound in ipairs { "min", "max" } do
     if one[bound] ~= nil and not fields.is_finite(one[bound]) then
       refuse(name, "has a field '%s' that is not a finite number", bound)
@@ -154,10 +155,7 @@ local function refuse_setting(settings, format, ...)
   error(settings.refused, 0)
 end
 
---- The sources of values: the beginning of messages about them, and whether all of them are texts.
-local from_option = { prefix = "--set: ", has_texts = true }
-local from_row = { prefix = "", has_texts = true }
-
+--- source: the beginning of messages.
 local function find(settings, declared, source, name)
   local names = {}
   for i, one in ipairs(declared) do
@@ -165,18 +163,19 @@ local function find(settings, declared, source, name)
     names[i] = one.name
   end
   local hint = core.nearest(name, names)
-  refuse_setting(settings, "%sthe script has no parameter '%s'%s", source.prefix, name,
+  refuse_setting(settings, "%sthe script has no parameter '%s'%s", source, name,
     hint and ("; did you mean '%s'?"):format(hint)
       or #names > 0 and "; there are " .. table.concat(names, ", ") or "")
 end
 
-local function set(settings, declared, values, source, name, value)
+--- is_text: the value is a text of whatever kind, and not one that has its type.
+local function set(settings, declared, values, source, name, value, is_text)
   local one = find(settings, declared, source, name)
   local kind = kinds[one.kind]
   local read
-  if source.has_texts or type(value) == kind.type then read = kind.read(one, value) end
+  if is_text or type(value) == kind.type then read = kind.read(one, value) end
   if read == nil then
-    refuse_setting(settings, "%s%s is %s; it must be %s", source.prefix, name, shown(value),
+    refuse_setting(settings, "%s%s is %s; it must be %s", source, name, shown(value),
       kind.allowed and kind.allowed(one) or "a text")
   end
   values[name] = read
@@ -184,16 +183,17 @@ end
 
 --- Sets the values of a JSON object.
 local function set_from(settings, declared, values, given)
-  local source = { prefix = ("--set-from %s: "):format(given.path) }
   local object, problem = json.decode(given.json)
-  if object == nil then refuse_setting(settings, "%s%s", source.prefix, problem) end
+  if object == nil then refuse_setting(settings, "%s%s", given.source, problem) end
   if type(object) ~= "table" or object == json.null or #object > 0 then
-    refuse_setting(settings, '%sit must be a JSON object, { "name": value }', source.prefix)
+    refuse_setting(settings, '%sit must be a JSON object, { "name": value }', given.source)
   end
   local names = {}
   for name in pairs(object) do names[#names + 1] = name end
   table.sort(names)
-  for _, name in ipairs(names) do set(settings, declared, values, source, name, object[name]) end
+  for _, name in ipairs(names) do
+    set(settings, declared, values, given.source, name, object[name])
+  end
 end
 
 --- Makes it an error to read an unknown name.
@@ -218,7 +218,7 @@ function parameters.declare(given)
     if one.json then
       set_from(settings, declared, values, one)
     else
-      set(settings, declared, values, from_option, one.name, one.text)
+      set(settings, declared, values, one.source, one.name, one.text, true)
     end
   end
   return sealed(values)
@@ -227,8 +227,8 @@ end
 --- Why "NAME=VALUE", from a row of a table, cannot be set; "" where it can.
 function parameters.fault(setting)
   local settings, name, value = core.settings(), setting:match "^(.-)=(.*)$"
-  local good, message = pcall(set, settings, settings.declared or {}, {}, from_row, name,
-    value)
+  local good, message = pcall(set, settings, settings.declared or {}, {}, "", name,
+    value, true)
   settings.refused = nil
   return good and "" or message
 end
@@ -278,7 +278,7 @@ function parameters.lines()
   local lines = {}
   for i, one in ipairs(core.settings().declared or {}) do
     local allowed = kinds[one.kind].allowed
-    lines[i] = ("parameter %s %s %s%s\n"):format(one.name, one.kind, in_line(one.default),
+    lines[i] = ("parameter %s %s %s%s\n"):format(one.name, one.kind, in_line(one.text),
       allowed and " (" .. allowed(one) .. ")" or "")
   end
   return table.concat(lines)

@@ -42,6 +42,17 @@ void cs_film_frame_finish(cs_film_frame *frame) {
   *frame = (cs_film_frame){0};
 }
 
+/* The mark's own last frame if it has one. Otherwise the frame before the next mark that is at a
+ * later frame; without such a mark the film's last frame. */
+int64_t cs_film_mark_last(const cs_film_info *film, size_t mark) {
+  if (film->marks[mark].has_last)
+    return film->marks[mark].last;
+  for (size_t i = mark + 1; i < film->mark_count; i++)
+    if (film->marks[i].frame > film->marks[mark].frame)
+      return film->marks[i].frame - 1;
+  return film->first + film->count - 1;
+}
+
 void cs_film_expose(const cs_film_info *film, const cs_film_frame *frame, celspan_frame_desc *out) {
   if (out->film_width == 0 && out->film_height == 0) {
     out->film_width = film->width;

@@ -12,7 +12,7 @@
 typedef struct cs_film_mark {
   const char *name;
   int64_t frame, last;
-  bool has_last; /* false: up to the frame before the next mark */
+  bool has_last; /* false: see cs_film_mark_last */
 } cs_film_mark;
 
 typedef struct cs_film_info {
@@ -21,8 +21,6 @@ typedef struct cs_film_info {
   double frames_second;
   int64_t first, count;      /* frames first .. first + count - 1 */
   const char *title;         /* NULL: none; the film's own, borrowed */
-  const char *sound;         /* of one file, as the script wrote it; NULL: none, or a list */
-  double sound_offset;       /* seconds */
   bool has_sound;            /* one file or more */
   const cs_film_mark *marks; /* in the order of their frames; the film's own, borrowed */
   size_t mark_count;
@@ -41,6 +39,8 @@ CELSPAN_CHECKED celspan_status cs_film_frame_init(cs_film_frame *out, celspan_co
                                                   const celspan_exposure *exposures, size_t count);
 /* A frame that is all zero, or finished already, may be finished too. */
 void cs_film_frame_finish(cs_film_frame *frame);
+/* The last frame of a mark. */
+int64_t cs_film_mark_last(const cs_film_info *film, size_t mark);
 /* Describes a frame of a film as far as the film says it: the space, the exposures, which are
  * borrowed, and the size in film units, unless *out has one. Whoever describes a frame of a film
  * does it here, so that no part of it is forgotten. */

@@ -161,17 +161,6 @@ static celspan_status refuse_mark(const reader *r, size_t length) {
       names, used < sizeof names ? "" : " ...");
 }
 
-/* The mark's own last frame if it has one. Otherwise the frame before the next mark that is at a
- * later frame; without such a mark the film's last frame. */
-static int64_t find_end(const cs_film_info *film, size_t mark) {
-  if (film->marks[mark].has_last)
-    return film->marks[mark].last;
-  for (size_t i = mark + 1; i < film->mark_count; i++)
-    if (film->marks[i].frame > film->marks[mark].frame)
-      return film->marks[i].frame - 1;
-  return film->first + film->count - 1;
-}
-
 static celspan_status read_mark(reader *r, cs_sequence *out) {
   size_t length = strcspn(r->at, ",:");
   while (length > 0 && strchr(" \t", r->at[length - 1]))
@@ -181,7 +170,7 @@ static celspan_status read_mark(reader *r, cs_sequence *out) {
     if (strlen(mark->name) != length || memcmp(mark->name, r->at, length) != 0)
       continue;
     r->at += length;
-    return append_steps(r, out, mark->frame, find_end(r->film, i));
+    return append_steps(r, out, mark->frame, cs_film_mark_last(r->film, i));
   }
   return refuse_mark(r, length);
 }

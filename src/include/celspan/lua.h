@@ -21,7 +21,7 @@
 #ifndef CELSPAN_LUA_H
 #define CELSPAN_LUA_H
 
-#include "celspan/celspan.h"
+#include "celspan/film.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -86,6 +86,18 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_run(lua_State *L, const c
                                                            int argument_count,
                                                            const char *const *arguments);
 
+/* The value of a parameter (celspan.parameters), for the script that is run next: a text as after
+ * `--set NAME=` of the program. Of two values for a name the later one holds. A value that the
+ * script refuses, or that it has no parameter for, ends it with BAD_ARGUMENT; after celspan_lua_run
+ * all values are forgotten. Errors: BAD_ARGUMENT without a name or a value; NO_MEMORY. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_set(lua_State *L, const char *name,
+                                                           const char *value);
+/* How many parameters the script that ran last has declared, and each of them, in the order of
+ * their names, from 0. Valid until the next celspan_lua_run. Errors: BAD_ARGUMENT; NO_MEMORY. */
+CELSPAN_API size_t celspan_lua_parameter_count(lua_State *L);
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_parameter(lua_State *L, size_t place,
+                                                                 celspan_parameter *out);
+
 /* Calls the function below the arguments on the stack, as lua_pcall does, within the limits of the
  * sandbox. On success exactly `result_count` values take their place; else nothing. Errors: as for
  * celspan_lua_run. */
@@ -96,28 +108,23 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_call(lua_State *L, int ar
  * celspan_rostrum_ref as long as you like. */
 CELSPAN_API celspan_rostrum *celspan_lua_rostrum(lua_State *L, int index);
 
-/* What a film says of itself. */
-typedef struct celspan_film {
-  size_t struct_size;
-  int32_t width, height; /* film units, and pixels unless another size is wanted */
-  double frames_second;
-  int64_t first, count; /* the frames are first .. first + count - 1; count 0: not a film */
-  const char *title;    /* NULL: none. Texts live as long as the film's value in Lua */
-  const char *sound;    /* the one file of it, as the script wrote it; NULL: none, or a list */
-  double sound_offset;  /* seconds by which all sounds begin later */
-} celspan_film;
-
-static inline celspan_film celspan_film_initial(void) {
-  celspan_film film = CELSPAN_ZERO;
-  film.struct_size = sizeof film;
-  return film;
-}
-#define CELSPAN_FILM (celspan_film_initial())
-
 /* The film at index. A rostrum is a film of one frame, 1920 x 1080, 24 a second, as on the command
  * line. out: begun with CELSPAN_FILM. Errors: BAD_ARGUMENT for anything else, NO_MEMORY. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_film(lua_State *L, int index,
                                                             celspan_film *out);
+
+/* A mark of the film at index, in the order of their frames, from 0. Errors: as above, and
+ * BAD_ARGUMENT where there is no such mark. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_mark(lua_State *L, int index, size_t place,
+                                                            celspan_mark *out);
+/* Pushes the sounds of the film at index, also those of films that are its sounds, as one value for
+ * celspan_lua_sound. count: how many; may be NULL. Files are looked for as the program does, beside
+ * the file that made the film. Errors, with nothing pushed: as above; those of celspan_lua_call. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_sounds(lua_State *L, int index,
+                                                              size_t *count);
+/* One of the sounds at index, from 0. Errors: as for celspan_lua_mark. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_sound(lua_State *L, int index, size_t place,
+                                                             celspan_sound *out);
 
 /* Calls the frame function of the film, or takes the rostrum, at index, for a frame's number. out:
  * begun with CELSPAN_FRAME_DESC; new, for celspan_lua_frame_drop: the exposures, and the film's

@@ -32,11 +32,6 @@ int cs_embedded_source(lua_State *L);
  * it looks by itself. Does nothing without the library package, and nothing when called again. */
 void cs_beside_open(lua_State *L);
 
-/* ---------------------------------------------------------------- parameters */
-
-/* () -> the settings of this state, which lua/celspan/film/parameters.lua describes */
-int cs_core_settings(lua_State *L);
-
 /* ---------------------------------------------------------------- files */
 
 /* (path, most) -> the text of a file of at most that many bytes | nil, message */

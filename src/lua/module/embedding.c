@@ -4,14 +4,13 @@
  * because a call may need memory; the stack does not change.
  */
 #include <lauxlib.h>
-#include <string.h>
 
 #include "base/description.h"
 #include "celspan/lua.h"
 #include "lua/bind/host.h"
-#include "lua/bind/lua_error.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/core.h"
+#include "lua/module/visit.h"
 #include "lua/nouns/lua_film.h"
 
 /* ---------------------------------------------------------------- opening */
@@ -57,23 +56,6 @@ celspan_context *celspan_lua_context(lua_State *L) {
 
 /* ---------------------------------------------------------------- values */
 
-/* Calls the function in protected mode with the value at index and `user`. On success `results`
- * values are left on the stack; otherwise the sentence is in the context. */
-static celspan_status visit(lua_State *L, int index, lua_CFunction function, void *user,
-                            int results) {
-  index = lua_absindex(L, index);
-  const cs_host *host = lua_checkstack(L, 4) ? cs_host_find(L) : NULL;
-  if (!host)
-    return CELSPAN_BAD_ARGUMENT;
-  lua_pushcfunction(L, function);
-  lua_pushvalue(L, index);
-  lua_pushlightuserdata(L, user);
-  int outcome = lua_pcall(L, 2, results, 0);
-  return outcome == LUA_OK       ? CELSPAN_OK
-         : outcome == LUA_ERRMEM ? cs_lua_error_report(L, outcome)
-                                 : cs_lua_error_report_as(L, CELSPAN_BAD_ARGUMENT);
-}
-
 /* value, light userdata: where the rostrum goes */
 static int read_rostrum(lua_State *L) {
   const cs_userdata *value = cs_userdata_test(L, 1, &cs_kind_rostrum);
@@ -85,31 +67,37 @@ static int read_rostrum(lua_State *L) {
 
 celspan_rostrum *celspan_lua_rostrum(lua_State *L, int index) {
   celspan_rostrum *rostrum = NULL;
-  return visit(L, index, read_rostrum, &rostrum, 0) == CELSPAN_OK ? rostrum : NULL;
-}
-
-/* value, light userdata: where the film's facts go -> film */
-static int read_film(lua_State *L) {
-  if (!cs_lua_film_push(L, 1))
-    return luaL_error(L, "a film or a rostrum is needed, got %s", cs_userdata_type(L, 1));
-  cs_lua_film_read(L, lua_gettop(L), lua_touserdata(L, 2));
-  return 1;
+  return cs_visit(L, index, read_rostrum, &rostrum, 0) == CELSPAN_OK ? rostrum : NULL;
 }
 
 celspan_status celspan_lua_film(lua_State *L, int index, celspan_film *out) {
-  cs_film_info info = {0};
-  CS_TRY(visit(L, index, read_film, &info, 0));
-  const celspan_film film = {.struct_size = out->struct_size,
+  cs_film_info info;
+  CS_TRY(cs_visit_film(L, index, &info));
+  lua_pop(L, 1);
+  const celspan_film film = {.struct_size = sizeof film,
                              .width = info.width,
                              .height = info.height,
                              .frames_second = info.frames_second,
                              .first = info.first,
                              .count = info.count,
                              .title = info.title,
-                             .sound = info.sound,
-                             .sound_offset = info.sound_offset};
-  memcpy(out, &film, film.struct_size < sizeof film ? film.struct_size : sizeof film);
-  return CELSPAN_OK;
+                             .mark_count = info.mark_count};
+  return CS_RESULT(celspan_lua_context(L), "film", celspan_film, &film, out);
+}
+
+celspan_status celspan_lua_mark(lua_State *L, int index, size_t place, celspan_mark *out) {
+  cs_film_info info;
+  CS_TRY(cs_visit_film(L, index, &info));
+  lua_pop(L, 1);
+  celspan_context *context = celspan_lua_context(L);
+  if (place >= info.mark_count)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT, "mark %zu: the film has %zu", place,
+                   info.mark_count);
+  const celspan_mark mark = {.struct_size = sizeof mark,
+                             .name = info.marks[place].name,
+                             .first = info.marks[place].frame,
+                             .last = cs_film_mark_last(&info, place)};
+  return CS_RESULT(context, "mark", celspan_mark, &mark, out);
 }
 
 /* ---------------------------------------------------------------- frames */
@@ -136,7 +124,7 @@ celspan_status celspan_lua_frame(lua_State *L, int index, int64_t number, celspa
   celspan_frame_desc given;
   CS_TRY(cs_description_read(celspan_lua_context(L), "frame", &cs_celspan_frame_desc_description,
                              out, &given));
-  CS_TRY(visit(L, index, read_film, &film, 1));
+  CS_TRY(cs_visit_film(L, index, &film));
   celspan_status status = build(L, &film, number, out);
   lua_pop(L, 1);
   return status;

@@ -15,6 +15,7 @@
 #include "lua/bind/lua_error.h"
 #include "lua/bind/userdata.h"
 #include "lua/module/artwork.h"
+#include "lua/module/parameters.h"
 #include "lua/nouns/lua_film.h"
 
 /* ---------------------------------------------------------------- what is a script */
@@ -115,6 +116,7 @@ static int refuse_file(lua_State *L, const char *path) {
 /* light userdata -> film. Runs protected. */
 static int run(lua_State *L) {
   call *c = lua_touserdata(L, 1);
+  cs_parameters_begin(L);
   const char *folder = cs_caller_push_folder_of(L, c->path);
   cs_host_set_folder(L, folder);
   cs_host_allow(L, folder);
@@ -161,8 +163,11 @@ celspan_status celspan_lua_run(lua_State *L, const char *path, int argument_coun
   lua_pushcfunction(L, run);
   lua_pushlightuserdata(L, &c);
   int outcome = call_limited(L, 1, 1);
-  if (outcome == LUA_OK)
-    return CELSPAN_OK;
+  celspan_status given = cs_parameters_end(L, outcome == LUA_OK);
+  if (given != CELSPAN_OK)
+    lua_pop(L, 1);
+  if (given != CELSPAN_OK || outcome == LUA_OK)
+    return given;
   return c.is_missing ? cs_lua_error_report_as(L, CELSPAN_INPUT) : cs_lua_error_report(L, outcome);
 }
 

@@ -12,6 +12,7 @@
 #include "lua/bind/suggest.h"
 #include "lua/bind/warnings.h"
 #include "lua/module/core.h"
+#include "lua/module/parameters.h"
 #include "lua/nouns/lua_film.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/placed.h"
@@ -68,11 +69,6 @@ static int outside(lua_State *L) {
   return 1;
 }
 
-int cs_core_settings(lua_State *L) {
-  luaL_getsubtable(L, LUA_REGISTRYINDEX, "celspan.settings");
-  return 1;
-}
-
 /* core.hear(path, tried), as core.h describes it. */
 static int hear(lua_State *L) {
   if (lua_getfield(L, LUA_REGISTRYINDEX, CS_CORE_HEAR) != LUA_TFUNCTION) {
@@ -94,7 +90,7 @@ static const luaL_Reg core_functions[] = {{"find", find},
                                           {"warn", cs_warnings_add},
                                           {"entry", entry},
                                           {"outside", outside},
-                                          {"settings", cs_core_settings},
+                                          {"settings", cs_parameters_settings},
                                           {"sounds", cs_lua_film_sounds},
                                           {"hear", hear},
                                           {"difference", cs_difference_of},

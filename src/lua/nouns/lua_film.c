@@ -12,6 +12,7 @@
 #include "lua/bind/list.h"
 #include "lua/bind/lua_error.h"
 #include "lua/bind/put.h"
+#include "lua/bind/take.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/options.h"
 #include "lua/nouns/random.h"
@@ -183,22 +184,8 @@ const cs_kind cs_kind_film = {.name = "celspan.film", .methods = methods, .kept 
 
 /* ---------------------------------------------------------------- reading */
 
-static double read_number(lua_State *L, int table, const char *name) {
-  lua_getfield(L, table, name);
-  double number = lua_tonumber(L, -1);
-  lua_pop(L, 1);
-  return number;
-}
-
-static const char *read_text(lua_State *L, int table, const char *name) {
-  lua_getfield(L, table, name);
-  const char *text = lua_tostring(L, -1); /* the film's fields keep it alive */
-  lua_pop(L, 1);
-  return text;
-}
-
 static celspan_space read_space(lua_State *L, int table) {
-  const char *word = read_text(L, table, "space");
+  const char *word = cs_take_text(L, table, "space");
   return word && strcmp(word, cs_space_words[1]) == 0 ? CELSPAN_SPACE_SRGB : CELSPAN_SPACE_LINEAR;
 }
 
@@ -211,13 +198,11 @@ void cs_lua_film_read(lua_State *L, int film, cs_film_info *out) {
   lua_rawgeti(L, -2, 2);
   *out = (cs_film_info){.width = (int32_t)lua_tonumber(L, -2),
                         .height = (int32_t)lua_tonumber(L, -1),
-                        .frames_second = read_number(L, table, "fps"),
-                        .first = (int64_t)read_number(L, table, "first"),
-                        .count = (int64_t)read_number(L, table, "frames"),
+                        .frames_second = cs_take_number(L, table, "fps", 0),
+                        .first = (int64_t)cs_take_number(L, table, "first", 0),
+                        .count = (int64_t)cs_take_number(L, table, "frames", 0),
                         .space = read_space(L, table),
-                        .title = read_text(L, table, "title"),
-                        .sound = read_text(L, table, "sound"),
-                        .sound_offset = read_number(L, table, "sound_offset")};
+                        .title = cs_take_text(L, table, "title")};
   int type = lua_getfield(L, table, "sound");
   out->has_sound = type == LUA_TSTRING || (type == LUA_TTABLE && cs_list_length(L, -1) > 0);
   lua_getiuservalue(L, film, MARKS);

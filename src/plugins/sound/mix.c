@@ -197,7 +197,7 @@ static double fade_at(double distance, double length) {
 static double passages_at(const part *p, double seconds) {
   double gain = 1;
   for (size_t i = 0; i < p->sound.passage_count; i++) {
-    const cs_mix_passage *passage = &p->sound.passages[i];
+    const celspan_sound_passage *passage = &p->sound.passages[i];
     gain *= fade_at(seconds - passage->begin, passage->fade_in) *
             fade_at(passage_end(p, i) - seconds, passage->fade_out);
   }
@@ -210,7 +210,7 @@ static double slope_at(double distance, double length) {
 }
 
 /* Lowers the gains, from a place on, to the gains that a ducker allows. */
-static void duck(mix *m, const cs_mix_ducker *ducker, int64_t place, size_t count) {
+static void duck(mix *m, const celspan_sound_ducker *ducker, int64_t place, size_t count) {
   const part *q = &m->parts[ducker->sound];
   double attack = ducker->attack * CS_MIX_RATE, release = ducker->release * CS_MIX_RATE;
   if (q->heard >= q->silent || (double)(q->heard - place) > (double)count + attack ||
@@ -402,7 +402,7 @@ static void hash_sound(cs_hash *hash, const cs_mix_sound *sound) {
     cs_hash_number(hash, numbers[i]);
   cs_hash_word(hash, sound->passage_count);
   for (size_t i = 0; i < sound->passage_count; i++) {
-    const cs_mix_passage *passage = &sound->passages[i];
+    const celspan_sound_passage *passage = &sound->passages[i];
     cs_hash_number(hash, passage->begin);
     cs_hash_number(hash, passage->end);
     cs_hash_number(hash, passage->fade_in);
@@ -410,7 +410,7 @@ static void hash_sound(cs_hash *hash, const cs_mix_sound *sound) {
   }
   cs_hash_word(hash, sound->ducker_count);
   for (size_t i = 0; i < sound->ducker_count; i++) {
-    const cs_mix_ducker *ducker = &sound->duckers[i];
+    const celspan_sound_ducker *ducker = &sound->duckers[i];
     cs_hash_word(hash, ducker->sound);
     cs_hash_number(hash, ducker->gain);
     cs_hash_number(hash, ducker->attack);
@@ -447,7 +447,7 @@ static void find_slope(mix *m) {
   m->slope = 0;
   for (size_t i = 0; i < m->count; i++)
     for (size_t k = 0; k < m->parts[i].sound.ducker_count; k++) {
-      const cs_mix_ducker *ducker = &m->parts[i].sound.duckers[k];
+      const celspan_sound_ducker *ducker = &m->parts[i].sound.duckers[k];
       m->slope = fmax(m->slope, fmax(ducker->attack, ducker->release));
     }
 }

@@ -16,6 +16,7 @@
 #pragma once
 
 #include "base/hash.h"
+#include "celspan/film.h"
 #include "frames/video/sound_stream.h"
 
 enum {
@@ -23,19 +24,6 @@ enum {
   CS_MIX_CHANNELS = 2,
   CS_MIX_OPEN = 64 /* sounds that are not kept may be heard at the same time */
 };
-
-/* A sound that makes another one lower while it is heard. */
-typedef struct cs_mix_ducker {
-  uint32_t sound;         /* of the list */
-  double gain;            /* of the other one, 0..1 */
-  double attack, release; /* seconds of the ramps before and after */
-} cs_mix_ducker;
-
-/* A part of the film in which a sound is heard, in its seconds, with linear fades at its ends. */
-typedef struct cs_mix_passage {
-  double begin, end; /* end: INFINITY where it is that of the sound */
-  double fade_in, fade_out;
-} cs_mix_passage;
 
 typedef struct cs_mix_sound {
   const char *path;
@@ -45,9 +33,10 @@ typedef struct cs_mix_sound {
   double from;       /* seconds of the file that are left out, for messages */
   int number;        /* in the film's list, for messages */
   double gain[CS_MIX_CHANNELS];
-  const cs_mix_passage *passages; /* of the sound itself, then those around it: all must be open */
+  /* Of the sound itself, then those around it: all must be open. */
+  const celspan_sound_passage *passages;
   size_t passage_count;
-  const cs_mix_ducker *duckers;
+  const celspan_sound_ducker *duckers;
   size_t ducker_count;
 } cs_mix_sound;
 

@@ -1,8 +1,8 @@
 /* Layered paintings: the format of a file, and its layers. */
-#include "base/description.h"
 #include <pthread.h>
 #include <string.h>
 
+#include "base/description.h"
 #include "base/hash.h"
 #include "celspan/layers.h"
 #include "model/pictures/surface.h"
