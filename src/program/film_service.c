@@ -43,12 +43,7 @@ static int close_film(lua_State *L) {
 }
 
 /* The film that is argument 1. */
-static film *self(lua_State *L) {
-  lua_getfield(L, 1, "open");
-  film *f = lua_touserdata(L, -1);
-  lua_pop(L, 1);
-  return f;
-}
+static film *self(lua_State *L) { return cs_service_opened(L); }
 
 /* ---------------------------------------------------------------- frames */
 

@@ -534,10 +534,5 @@ static cs_exit run(cs_script *script, const cs_request *request) {
 
 cs_exit cs_verb_render(celspan_context *context, const cs_request *request) {
   CS_TRY_EXIT(refuse_early(context, request));
-  cs_script script;
-  cs_exit outcome = cs_script_open(context, request, request->operands[0], &script);
-  if (outcome == CS_EXIT_OK)
-    outcome = run(&script, request);
-  cs_script_close(&script);
-  return outcome;
+  return cs_script_run(context, request, run);
 }

@@ -69,12 +69,7 @@ static int close_renderer(lua_State *L) {
 }
 
 /* The renderer that is argument 1. */
-static renderer *self(lua_State *L) {
-  lua_getfield(L, 1, "open");
-  renderer *r = lua_touserdata(L, -1);
-  lua_pop(L, 1);
-  return r;
-}
+static renderer *self(lua_State *L) { return cs_service_opened(L); }
 
 /* ---------------------------------------------------------------- messages */
 

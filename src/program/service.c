@@ -32,6 +32,13 @@ void cs_service_add(lua_State *L, const luaL_Reg *functions) {
   luaL_setfuncs(L, functions, 1);
 }
 
+void *cs_service_opened(lua_State *L) {
+  lua_getfield(L, 1, "open");
+  void *opened = lua_touserdata(L, -1);
+  lua_pop(L, 1);
+  return opened;
+}
+
 const char **cs_service_push_words(lua_State *L, int index) {
   luaL_checktype(L, index, LUA_TTABLE);
   size_t count = lua_rawlen(L, index);

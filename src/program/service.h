@@ -20,6 +20,9 @@ typedef struct cs_session {
 /* Adds services to the table on top of the stack. */
 void cs_service_add(lua_State *L, const luaL_Reg *functions);
 
+/* For methods: what the table that is argument 1 holds in its field `open`. */
+void *cs_service_opened(lua_State *L);
+
 /* "celspan" and the words of the list of strings at index, ended by NULL, as a value that is
  * pushed; the list keeps the strings. */
 const char **cs_service_push_words(lua_State *L, int index);

@@ -125,10 +125,5 @@ cs_exit cs_verb_spans(celspan_context *context, const cs_request *request) {
     return cs_report_usage("--pixels needs --stats");
   if (cs_plane_accepts(request->operands[0]))
     return run_plane(context, request, request->operands[0]);
-  cs_script script;
-  cs_exit outcome = cs_script_open(context, request, request->operands[0], &script);
-  if (outcome == CS_EXIT_OK)
-    outcome = run(&script, request);
-  cs_script_close(&script);
-  return outcome;
+  return cs_script_run(context, request, run);
 }

@@ -22,12 +22,7 @@ static int close_watcher(lua_State *L) {
 }
 
 /* The queue of the watcher that is argument 1. */
-static int self(lua_State *L) {
-  lua_getfield(L, 1, "open");
-  int queue = *(int *)lua_touserdata(L, -1);
-  lua_pop(L, 1);
-  return queue;
-}
+static int self(lua_State *L) { return *(int *)cs_service_opened(L); }
 
 /* watcher:add(folder) -> its number, the same for the same folder | nil, message */
 static int add(lua_State *L) {

@@ -28,12 +28,7 @@ static int close_server(lua_State *L) {
 }
 
 /* The server that is argument 1. */
-static server *self(lua_State *L) {
-  lua_getfield(L, 1, "open");
-  server *s = lua_touserdata(L, -1);
-  lua_pop(L, 1);
-  return s;
-}
+static server *self(lua_State *L) { return cs_service_opened(L); }
 
 /* ---------------------------------------------------------------- requests */
 

@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/counted.h"
 #include "base/description.h"
 #include "base/open.h"
 #include "frames/plane/plane.h"
@@ -52,23 +53,16 @@ static celspan_status create(celspan_context *context, celspan_plane **out) {
   return CELSPAN_OK;
 }
 
-celspan_plane *celspan_plane_ref(celspan_plane *plane) {
-  if (plane)
-    atomic_fetch_add_explicit(&plane->references, 1, memory_order_relaxed);
-  return plane;
-}
-
-void celspan_plane_unref(celspan_plane *plane) {
-  if (!plane || atomic_fetch_sub_explicit(&plane->references, 1, memory_order_acq_rel) > 1)
-    return;
+static void destroy(celspan_plane *plane) {
   cs_memory *memory = plane->memory;
   planefile_plane_destroy(plane->plane);
   if (!plane->whole)
     cs_mem_free(memory, plane->bytes, plane->capacity);
   celspan_plane_unref(plane->whole);
-  cs_mem_free(memory, plane, sizeof *plane);
-  cs_memory_unref(memory);
+  cs_counted_free(memory, plane, sizeof *plane);
 }
+
+CS_COUNTED(celspan_plane)
 
 void celspan_plane_size(const celspan_plane *plane, double *width, double *height) {
   planefile_info info = planefile_plane_info(plane->plane);

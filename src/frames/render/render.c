@@ -132,16 +132,25 @@ void celspan_spans_code_at(const celspan_coding *coding, int32_t x, int32_t y,
     cs_pixels_row(&resolved, spans, span_count, pixels);
 }
 
+/* Checks a frame and reads a coding into *whole, which *coding points to then. *resolved: without
+ * defaults, in the space of the frame. */
+static celspan_status read_coding(celspan_context *context, const celspan_frame_desc *desc,
+                                  const celspan_coding **coding, celspan_coding *whole,
+                                  celspan_coding *resolved) {
+  CS_TRY(cs_frame_check(context, desc));
+  CS_TRY(cs_pixels_read(context, coding, whole));
+  *resolved = cs_pixels_resolve(*coding, CELSPAN_DEPTH_8);
+  resolved->space = desc->space;
+  return CELSPAN_OK;
+}
+
 celspan_status celspan_frame_pixels(celspan_context *context, const celspan_frame_desc *desc,
                                     const celspan_coding *coding, void *pixels, size_t stride,
                                     celspan_statistics *statistics) {
   CS_READ(context, "frame", celspan_frame_desc, desc);
   celspan_sink sink;
-  CS_TRY(cs_frame_check(context, desc));
-  celspan_coding whole;
-  CS_TRY(cs_pixels_read(context, &coding, &whole));
-  celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
-  resolved.space = desc->space;
+  celspan_coding whole, resolved;
+  CS_TRY(read_coding(context, desc, &coding, &whole, &resolved));
   CS_TRY(cs_sink_memory(context, &resolved, pixels, stride, &sink));
   CS_TRY(cs_dither_sink(context, coding, &resolved, desc->crop_x, desc->crop_y, &sink));
   return render_own(context, desc, &sink, statistics);
@@ -200,11 +209,8 @@ celspan_status celspan_frame_digest(celspan_context *context, const celspan_fram
                                     const celspan_coding *coding, uint64_t digest[2]) {
   CS_READ(context, "frame", celspan_frame_desc, desc);
   celspan_sink sink;
-  CS_TRY(cs_frame_check(context, desc));
-  celspan_coding whole;
-  CS_TRY(cs_pixels_read(context, &coding, &whole));
-  celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
-  resolved.space = desc->space;
+  celspan_coding whole, resolved;
+  CS_TRY(read_coding(context, desc, &coding, &whole, &resolved));
   CS_TRY(cs_check_given(context, "frame", "the digest", digest));
   CS_TRY(cs_sink_digest(context, &resolved, digest, &sink));
   CS_TRY(cs_dither_sink(context, coding, &resolved, desc->crop_x, desc->crop_y, &sink));

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/cache.h"
+#include "base/counted.h"
 #include "base/decimal.h"
 #include "base/error_text.h"
 #include "base/number.h"
@@ -231,19 +232,13 @@ static celspan_status create(celspan_context *context, const char *file, size_t 
   return status;
 }
 
-cs_cube *cs_cube_ref(cs_cube *cube) {
-  atomic_fetch_add_explicit(&cube->references, 1, memory_order_relaxed);
-  return cube;
-}
-
-void cs_cube_unref(cs_cube *cube) {
-  if (!cube || atomic_fetch_sub_explicit(&cube->references, 1, memory_order_acq_rel) > 1)
-    return;
+static void destroy(cs_cube *cube) {
   cs_memory *memory = cube->memory;
   cs_mem_free(memory, cube->values, cube->count * sizeof *cube->values);
-  cs_mem_free(memory, cube, sizeof *cube);
-  cs_memory_unref(memory);
+  cs_counted_free(memory, cube, sizeof *cube);
 }
+
+CS_COUNTED(cs_cube)
 
 /* ---------------------------------------------------------------- the store */
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/counted.h"
 #include "base/description.h"
 #include "base/tried.h"
 #include "model/colour/transfer.h"
@@ -145,14 +146,7 @@ celspan_status cs_picture_create(celspan_context *context, const celspan_picture
   return CELSPAN_OK;
 }
 
-cs_picture *cs_picture_ref(cs_picture *picture) {
-  atomic_fetch_add_explicit(&picture->references, 1, memory_order_relaxed);
-  return picture;
-}
-
-void cs_picture_unref(cs_picture *picture) {
-  if (!picture || atomic_fetch_sub_explicit(&picture->references, 1, memory_order_acq_rel) != 1)
-    return;
+static void destroy(cs_picture *picture) {
   cs_memory *memory = picture->memory;
   celspan_surface_unref(picture->surface);
   cs_picture_unref(picture->whole);
@@ -160,9 +154,10 @@ void cs_picture_unref(cs_picture *picture) {
   free_text(memory, picture->colour);
   free_text(memory, picture->layer);
   free_text(memory, picture->tried);
-  cs_mem_free(memory, picture, sizeof *picture);
-  cs_memory_unref(memory);
+  cs_counted_free(memory, picture, sizeof *picture);
 }
+
+CS_COUNTED(cs_picture)
 
 cs_hash cs_picture_hash(const cs_picture *picture) { return picture->hash; }
 

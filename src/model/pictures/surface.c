@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/counted.h"
 #include "base/description.h"
 
 typedef struct layout {
@@ -135,22 +136,16 @@ celspan_status cs_surface_create_reader(celspan_context *context, const celspan_
   return create(context, desc, true, out);
 }
 
-celspan_surface *celspan_surface_ref(celspan_surface *surface) {
-  atomic_fetch_add_explicit(&surface->references, 1, memory_order_relaxed);
-  return surface;
-}
-
-void celspan_surface_unref(celspan_surface *surface) {
-  if (!surface || atomic_fetch_sub_explicit(&surface->references, 1, memory_order_acq_rel) != 1)
-    return;
+static void destroy(celspan_surface *surface) {
   cs_memory *memory = surface->memory;
   if (surface->desc.release)
     surface->desc.release(surface->desc.user);
   cs_mem_free(memory, surface->copied ? (void *)(uintptr_t)surface->desc.pixels : NULL,
               surface->copied);
-  cs_mem_free(memory, surface, sizeof *surface);
-  cs_memory_unref(memory);
+  cs_counted_free(memory, surface, sizeof *surface);
 }
+
+CS_COUNTED(celspan_surface)
 
 /* ---------------------------------------------------------------- facts */
 

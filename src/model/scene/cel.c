@@ -201,20 +201,14 @@ const char *celspan_cel_name(const celspan_cel *cel) { return cs_mark_name(cel->
 
 celspan_origin celspan_cel_origin(const celspan_cel *cel) { return cs_mark_origin(cel->mark); }
 
-celspan_cel *celspan_cel_ref(celspan_cel *cel) {
-  cs_value_keep(&cel->references);
-  return cel;
-}
-
-void celspan_cel_unref(celspan_cel *cel) {
-  if (!cel || !cs_value_drop(&cel->references))
-    return;
+static void destroy(celspan_cel *cel) {
   cs_memory *memory = cel->memory;
   cs_primitive_data_list_free(memory, cel->objects, cel->object_count);
   cs_light_unref(&cel->front);
   cs_light_unref(&cel->back);
   celspan_grade_unref(cel->grade);
   cs_mark_drop(cel->mark);
-  cs_mem_free(memory, cel, sizeof *cel);
-  cs_memory_unref(memory);
+  cs_counted_free(memory, cel, sizeof *cel);
 }
+
+CS_COUNTED(celspan_cel)

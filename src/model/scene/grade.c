@@ -97,17 +97,10 @@ celspan_status celspan_grade_create(celspan_context *context, const celspan_grad
   return CELSPAN_OK;
 }
 
-celspan_grade *celspan_grade_ref(celspan_grade *grade) {
-  if (grade)
-    cs_value_keep(&grade->references);
-  return grade;
-}
-
-void celspan_grade_unref(celspan_grade *grade) {
-  if (!grade || !cs_value_drop(&grade->references))
-    return;
+static void destroy(celspan_grade *grade) {
   cs_memory *memory = grade->memory;
   cs_grade_finish(&grade->steps, memory);
-  cs_mem_free(memory, grade, sizeof *grade);
-  cs_memory_unref(memory);
+  cs_counted_free(memory, grade, sizeof *grade);
 }
+
+CS_COUNTED(celspan_grade)

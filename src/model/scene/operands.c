@@ -53,7 +53,7 @@ static void unref_objects(celspan_object **objects, size_t count) {
 
 /* The last view gave all places back. */
 static void unref_list(cs_operands_list *list) {
-  if (!cs_value_drop(&list->references))
+  if (!cs_counted_drop(&list->references))
     return;
   cs_memory *memory = list->memory;
   pthread_mutex_destroy(&list->lock);
@@ -134,7 +134,7 @@ celspan_status cs_operands_extend(celspan_context *context, const char *noun,
   if (!list)
     return cs_fail_memory(context);
   if (is_shared)
-    cs_value_keep(&list->references);
+    cs_counted_keep(&list->references);
   keep_objects(list->objects + from->count, objects, count);
   *out = (cs_operands){list, list->objects, from->count + count};
   return CELSPAN_OK;

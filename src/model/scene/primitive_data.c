@@ -133,7 +133,7 @@ static void free_part(cs_primitive_data *data) {
 
 /* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
 void cs_primitive_data_unref(cs_primitive_data *data) {
-  if (!data || !cs_value_drop(&data->references))
+  if (!data || !cs_counted_drop(&data->references))
     return;
   cs_memory *memory = data->memory;
   free_part(data);
@@ -242,7 +242,7 @@ static celspan_status create_object(celspan_context *context, cs_primitive_data 
   object->mark = mark;
   atomic_init(&object->references, 1);
   object->memory = cs_memory_ref(context->memory);
-  cs_value_keep(&data->references);
+  cs_counted_keep(&data->references);
   object->data = data;
   object->fade = fade;
   cs_hash hash = cs_hash_begin(CS_VALUE_OBJECT);
@@ -346,20 +346,14 @@ celspan_origin celspan_object_origin(const celspan_object *object) {
   return cs_mark_origin(object->mark);
 }
 
-celspan_object *celspan_object_ref(celspan_object *object) {
-  cs_value_keep(&object->references);
-  return object;
-}
-
-void celspan_object_unref(celspan_object *object) {
-  if (!object || !cs_value_drop(&object->references))
-    return;
+static void destroy(celspan_object *object) {
   cs_memory *memory = object->memory;
   cs_primitive_data_unref(object->data);
   cs_mark_drop(object->mark);
-  cs_mem_free(memory, object, size_of(object));
-  cs_memory_unref(memory);
+  cs_counted_free(memory, object, size_of(object));
 }
+
+CS_COUNTED(celspan_object)
 
 /* ---------------------------------------------------------------- lists */
 

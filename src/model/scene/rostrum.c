@@ -218,20 +218,14 @@ celspan_origin celspan_rostrum_origin(const celspan_rostrum *rostrum) {
   return cs_mark_origin(rostrum->mark);
 }
 
-celspan_rostrum *celspan_rostrum_ref(celspan_rostrum *rostrum) {
-  cs_value_keep(&rostrum->references);
-  return rostrum;
-}
-
-void celspan_rostrum_unref(celspan_rostrum *rostrum) {
-  if (!rostrum || !cs_value_drop(&rostrum->references))
-    return;
+static void destroy(celspan_rostrum *rostrum) {
   cs_memory *memory = rostrum->memory;
   free_parts(rostrum, memory);
   cs_mark_drop(rostrum->mark);
-  cs_mem_free(memory, rostrum, sizeof *rostrum);
-  cs_memory_unref(memory);
+  cs_counted_free(memory, rostrum, sizeof *rostrum);
 }
+
+CS_COUNTED(celspan_rostrum)
 
 void celspan_rostrum_hash(const celspan_rostrum *rostrum, uint64_t out[2]) {
   cs_value_hash_give(rostrum->hash, out);

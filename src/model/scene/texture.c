@@ -505,14 +505,7 @@ celspan_origin celspan_texture_origin(const celspan_texture *texture) {
 
 /* ---------------------------------------------------------------- references */
 
-celspan_texture *celspan_texture_ref(celspan_texture *texture) {
-  cs_value_keep(&texture->references);
-  return texture;
-}
-
-void celspan_texture_unref(celspan_texture *texture) {
-  if (!texture || !cs_value_drop(&texture->references))
-    return;
+static void destroy(celspan_texture *texture) {
   cs_memory *memory = texture->memory;
   const cs_texture_variation *variation = texture->variation;
   cs_mem_free(memory, variation->stops, variation->stop_count * sizeof *variation->stops);
@@ -524,6 +517,7 @@ void celspan_texture_unref(celspan_texture *texture) {
   if (variation->calls)
     variation->calls->release(variation->tile);
   cs_mark_drop(texture->mark);
-  cs_mem_free(memory, texture, size_of(texture->kind));
-  cs_memory_unref(memory);
+  cs_counted_free(memory, texture, size_of(texture->kind));
 }
+
+CS_COUNTED(celspan_texture)

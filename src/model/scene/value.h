@@ -1,13 +1,9 @@
-/* Reference counts and hashes of scene values.
- *
- * A value is made with one reference, and dropping the last reference frees it. Only the count of
- * references ever changes in a value.
- */
+/* Counts and hashes of scene values. Only the count of references ever changes in a value. */
 #pragma once
 
 #include <string.h>
 
-#include "base/context.h"
+#include "base/counted.h"
 #include "base/hash.h"
 #include "model/colour/paint.h"
 
@@ -21,15 +17,6 @@ typedef enum cs_value_kind {
   CS_VALUE_ROSTRUM,
   CS_VALUE_GRADE
 } cs_value_kind;
-
-static inline void cs_value_keep(atomic_size_t *references) {
-  atomic_fetch_add_explicit(references, 1, memory_order_relaxed);
-}
-
-/* Returns whether this was the last reference. */
-static inline bool cs_value_drop(atomic_size_t *references) {
-  return atomic_fetch_sub_explicit(references, 1, memory_order_acq_rel) == 1;
-}
 
 /* Copies a value, whose first field is its reference count, except for the count, which other
  * threads may be changing: the count of the copy is 1. The references inside the value are not

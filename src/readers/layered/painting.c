@@ -2,6 +2,7 @@
 #include <pthread.h>
 #include <string.h>
 
+#include "base/counted.h"
 #include "base/description.h"
 #include "base/hash.h"
 #include "celspan/layers.h"
@@ -276,14 +277,7 @@ celspan_status celspan_painting_read(celspan_context *context, const char *file,
 
 /* ---------------------------------------------------------------- life */
 
-celspan_painting *celspan_painting_ref(celspan_painting *painting) {
-  atomic_fetch_add_explicit(&painting->references, 1, memory_order_relaxed);
-  return painting;
-}
-
-void celspan_painting_unref(celspan_painting *painting) {
-  if (!painting || atomic_fetch_sub_explicit(&painting->references, 1, memory_order_acq_rel) != 1)
-    return;
+static void destroy(celspan_painting *painting) {
   cs_memory *memory = painting->memory;
   for (size_t i = 0; i < painting->count; i++) {
     celspan_surface_unref(painting->layers[i].surface);
@@ -293,9 +287,10 @@ void celspan_painting_unref(celspan_painting *painting) {
   drop_tables(painting);
   cs_mem_free(memory, painting->layers, painting->capacity * sizeof *painting->layers);
   cs_mem_free(memory, painting->notes, painting->note_capacity * sizeof *painting->notes);
-  cs_mem_free(memory, painting, sizeof *painting);
-  cs_memory_unref(memory);
+  cs_counted_free(memory, painting, sizeof *painting);
 }
+
+CS_COUNTED(celspan_painting)
 
 /* ---------------------------------------------------------------- facts */
 

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/counted.h"
 #include "base/elementary.h"
 #include "base/module.h"
 #include "model/colour/transfer.h"
@@ -158,15 +159,9 @@ celspan_status cs_profile_table_create(celspan_context *context, const cs_input 
   return CELSPAN_OK;
 }
 
-cs_profile_table *cs_profile_table_ref(cs_profile_table *table) {
-  atomic_fetch_add_explicit(&table->references, 1, memory_order_relaxed);
-  return table;
-}
+static void destroy(cs_profile_table *table) { cs_mem_free(table->memory, table, sizeof *table); }
 
-void cs_profile_table_unref(cs_profile_table *table) {
-  if (table && atomic_fetch_sub_explicit(&table->references, 1, memory_order_acq_rel) == 1)
-    cs_mem_free(table->memory, table, sizeof *table);
-}
+CS_COUNTED(cs_profile_table)
 
 /* ---------------------------------------------------------------- converting */
 

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/counted.h"
 #include "base/hash_table.h"
 #include "model/scene/primitive_data.h"
 #include "model/scene/value.h"
@@ -19,11 +20,6 @@ celspan_status cs_svg_art_create(celspan_context *context, celspan_svg **out) {
   return CELSPAN_OK;
 }
 
-celspan_svg *celspan_svg_ref(celspan_svg *svg) {
-  cs_value_keep(&svg->references);
-  return svg;
-}
-
 /* Releases the contents of items, not the items. Recursion: the depth of items, which is limited by
  * the depth of the document. */
 void cs_svg_item_drop(cs_svg_item *item) {
@@ -37,9 +33,7 @@ void cs_svg_item_drop(cs_svg_item *item) {
   }
 }
 
-void celspan_svg_unref(celspan_svg *svg) {
-  if (!svg || !cs_value_drop(&svg->references))
-    return;
+static void destroy(celspan_svg *svg) {
   cs_svg_item_drop(svg->root);
   for (size_t i = 0; i < svg->part_count; i++)
     celspan_object_unref(svg->parts[i].object);
@@ -47,9 +41,10 @@ void celspan_svg_unref(celspan_svg *svg) {
   celspan_svg_unref(svg->origin);
   cs_memory *memory = svg->memory;
   cs_arena_finish(&svg->arena, memory);
-  cs_mem_free(memory, svg, sizeof *svg);
-  cs_memory_unref(memory);
+  cs_counted_free(memory, svg, sizeof *svg);
 }
+
+CS_COUNTED(celspan_svg)
 
 /* ---------------------------------------------------------------- items */
 

@@ -39,7 +39,7 @@ celspan_status cs_svg_recipe_append(celspan_context *context, cs_svg_recipe *rec
 
 cs_svg_recipe *cs_svg_recipe_ref(cs_svg_recipe *recipe) {
   if (recipe)
-    cs_value_keep(&recipe->references);
+    cs_counted_keep(&recipe->references);
   return recipe;
 }
 
@@ -54,7 +54,7 @@ static void drop(cs_svg_recipe *recipe) {
 }
 
 void cs_svg_recipe_unref(cs_svg_recipe *recipe) {
-  while (recipe && cs_value_drop(&recipe->references)) {
+  while (recipe && cs_counted_drop(&recipe->references)) {
     cs_svg_recipe *next = recipe->next;
     drop(recipe);
     recipe = next;

@@ -15,6 +15,7 @@
 #include <stdatomic.h>
 #include <string.h>
 
+#include "base/counted.h"
 #include "base/description.h"
 #include "base/thread_pool.h"
 #include "celspan/relight.h"
@@ -316,8 +317,7 @@ static void destroy(celspan_stack *stack) {
   cs_mem_free(memory, stack->own, stack->light_count * sizeof *stack->own);
   cs_addend_finish(&stack->base, memory);
   cs_addend_finish(&stack->through, memory);
-  cs_mem_free(memory, stack, sizeof *stack);
-  cs_memory_unref(memory);
+  cs_counted_free(memory, stack, sizeof *stack);
 }
 
 static celspan_status fill(celspan_context *context, const celspan_frame_desc *desc,
@@ -376,15 +376,7 @@ celspan_status celspan_stack_create(celspan_context *context, const celspan_fram
   return status;
 }
 
-celspan_stack *celspan_stack_ref(celspan_stack *stack) {
-  atomic_fetch_add_explicit(&stack->references, 1, memory_order_relaxed);
-  return stack;
-}
-
-void celspan_stack_unref(celspan_stack *stack) {
-  if (stack && atomic_fetch_sub_explicit(&stack->references, 1, memory_order_acq_rel) == 1)
-    destroy(stack);
-}
+CS_COUNTED(celspan_stack)
 
 /* ---------------------------------------------------------------- questions */
 

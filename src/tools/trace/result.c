@@ -1,5 +1,7 @@
 #include "tools/trace/result.h"
 
+#include "base/counted.h"
+
 #define SHAPES_MOST 1048576
 
 void cs_result_finish_shape(cs_memory *memory, cs_shape *shape) {
@@ -27,19 +29,13 @@ celspan_status cs_result_add(celspan_context *context, celspan_trace *trace,
   return status;
 }
 
-celspan_trace *celspan_trace_ref(celspan_trace *trace) {
-  atomic_fetch_add_explicit(&trace->references, 1, memory_order_relaxed);
-  return trace;
-}
-
-void celspan_trace_unref(celspan_trace *trace) {
-  if (!trace || atomic_fetch_sub_explicit(&trace->references, 1, memory_order_acq_rel) != 1)
-    return;
+static void destroy(celspan_trace *trace) {
   cs_memory *memory = trace->memory;
   for (size_t i = 0; i < trace->count; i++)
     cs_result_finish_shape(memory, &trace->shapes[i]);
   cs_mem_free(memory, trace->shapes, trace->capacity * sizeof *trace->shapes);
   celspan_object_unref(trace->object);
-  cs_mem_free(memory, trace, sizeof *trace);
-  cs_memory_unref(memory);
+  cs_counted_free(memory, trace, sizeof *trace);
 }
+
+CS_COUNTED(celspan_trace)
