@@ -96,7 +96,7 @@ void cs_memory_unref(cs_memory *memory);
  * sets the account of that thread. */
 cs_account_kind cs_account_set(const cs_memory *memory, cs_account_kind kind);
 cs_account_kind cs_account_of(const cs_memory *memory);
-/* A frame is rendered from now on. Returns the account before, for the end. */
+/* A frame is rendered from now on. Returns the previous account, for cs_account_end_rendering. */
 cs_account_kind cs_account_begin_rendering(cs_memory *memory);
 void cs_account_end_rendering(cs_memory *memory, cs_account_kind before);
 /* A cache has taken these bytes, which were allocated, or gives them up, to free them. */

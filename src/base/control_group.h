@@ -35,5 +35,5 @@ void cs_control_group_read(const char *process, const char *folder, cs_control_g
  * cached pages of files. usage, stat: descriptors of memory.current, or memory.usage_in_bytes, and
  * of memory.stat; -1: not there. 0: unknown. */
 uint64_t cs_control_group_used(int usage, int stat);
-/* Opens these two in the folder of a group. */
+/* Opens the files of `usage` and `stat` in the folder of a group. */
 void cs_control_group_open(const char *folder, int *usage, int *stat);

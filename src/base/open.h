@@ -1,6 +1,6 @@
-/* Opening files and reading from them, as all of the library does: programs that are started do not
- * inherit them, a pipe to which nobody writes is not waited for, and where a signal comes the call
- * is made again.
+/* Opening and reading files, in the way that the whole library uses. Started programs do not
+ * inherit the files. No call waits for a pipe to which nobody writes. A call that a signal
+ * interrupts is made again.
  */
 #pragma once
 
@@ -13,7 +13,7 @@
 
 #include "base/hash.h"
 
-/* A descriptor, or -1 and errno. */
+/* Opens a file for reading. Returns a descriptor, or -1 and errno. */
 static inline int cs_open_to_read(const char *path) {
   int descriptor;
   do
@@ -22,7 +22,8 @@ static inline int cs_open_to_read(const char *path) {
   return descriptor;
 }
 
-/* The bytes that were read, fewer than `size` at the file's end alone; -1 and errno. */
+/* Reads `size` bytes at an offset. Returns the number of bytes, which is less than `size` only at
+ * the end of the file, or -1 and errno. */
 static inline ssize_t cs_open_read_at(int descriptor, void *bytes, size_t size, off_t offset) {
   size_t done = 0;
   while (done < size) {
@@ -36,7 +37,8 @@ static inline ssize_t cs_open_read_at(int descriptor, void *bytes, size_t size, 
   return (ssize_t)done;
 }
 
-/* Adds to a hash whether a file is there, its size and its time, by which a change is seen. */
+/* Adds to a hash whether a file exists, its size and its time. A change of the file is recognised
+ * by these. */
 static inline void cs_open_hash(cs_hash *hash, const char *path) {
   struct stat found = {0};
   cs_hash_word(hash, stat(path, &found) == 0);
@@ -45,7 +47,8 @@ static inline void cs_open_hash(cs_hash *hash, const char *path) {
   cs_hash_word(hash, (uint64_t)found.st_mtim.tv_nsec);
 }
 
-/* The next entry of a folder. NULL: errno is 0 at its end, else it says why there is no other. */
+/* The next entry of a folder; NULL: there is no other entry. Then errno is 0 at the end of the
+ * folder; otherwise it is the error. */
 static inline struct dirent *cs_open_entry(DIR *folder) {
   errno = 0;
   return readdir(folder);

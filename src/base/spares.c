@@ -57,7 +57,7 @@ static size_t bytes_of(size_t class) {
   return (CS_SPARES_SMALLEST / 4 * (4 + class % 4)) << class / 4;
 }
 
-/* Of a size that has one. */
+/* The class of a size that has one. */
 static size_t class_of(size_t size) {
   size_t class = 0;
   while (bytes_of(class + 4) <= size)
@@ -69,7 +69,7 @@ static size_t class_of(size_t size) {
 
 /* ---------------------------------------------------------------- the C library */
 
-/* Asks the system for huge pages, of which it has to clear and map fewer. */
+/* Asks the system for huge pages: it then has fewer pages to clear and to map. */
 static void *advised(void *storage, size_t size) {
 #ifdef MADV_HUGEPAGE
   uintptr_t at = (uintptr_t)storage, first = (at + HUGE_PAGE - 1) & ~(HUGE_PAGE - 1);
@@ -82,7 +82,7 @@ static void *advised(void *storage, size_t size) {
   return storage;
 }
 
-/* realloc; kept memory is freed where memory is short. */
+/* As realloc. If memory is short, it frees the kept memory and tries again. */
 static void *request(cs_spares *spares, void *storage, size_t size) {
   void *made = realloc(storage, size);
   if (!made) {
@@ -136,7 +136,7 @@ void *cs_spares_resize(void *user, void *storage, size_t old_size, size_t new_si
     return storage;
   void *spare = take(spares, class);
   if (!spare)
-    return new_size < old_size ? storage : NULL; /* larger than its class is fine, too */
+    return new_size < old_size ? storage : NULL; /* a block may be larger than its class */
   if (storage) {
     memcpy(spare, storage, old_size < new_size ? old_size : new_size);
     release(spares, storage, old_size);

@@ -18,16 +18,17 @@ typedef struct cs_thread {
   int worker;
 } cs_thread;
 
-/* pthread_create, with that stack; signals are the caller's business. Returns an errno, or 0. */
+/* As pthread_create, with a stack of 8 MiB. The caller decides which signals the thread receives.
+ * Returns an errno, or 0. */
 int cs_thread_create(pthread_t *id, void *(*run)(void *), void *user);
-/* Starts up to `wanted` threads that call run(user, worker), workers being numbered from 1 on.
- * Returns how many there are: the first ones of `threads`, which stay where they are until the
- * threads are joined. */
+/* Starts up to `wanted` threads that call run(user, worker); workers are numbered from 1. Returns
+ * the number of started threads. They are the first items of `threads`, which must not be moved
+ * until the threads are joined. */
 int cs_threads_start(cs_thread *threads, int wanted, void (*run)(void *user, int worker),
                      void *user);
 void cs_threads_join(cs_thread *threads, int count);
 
-/* Whether the system allows as many more threads at a time, at most 64. */
+/* Whether the system allows `wanted` more threads at the same time; at most 64 are tried. */
 bool cs_threads_are_free(int wanted);
 
 /* Calls step(user, worker, i) once for every i in [0, count), in no particular order, from up to
