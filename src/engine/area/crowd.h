@@ -51,13 +51,14 @@ typedef struct cs_crowd_cover {
 
 /* ---- crowd_wide.c */
 
-/* A layer that winds `base` times around the left side of a pixel, whose other edges there are
- * `lines`. It is inside where (winding & mask) != 0. inside: room for all samples. */
+/* Finds the samples inside a layer. The layer winds `base` times around the left side of a pixel
+ * and has the edges `lines` in it. A sample is inside where (winding & mask) != 0. inside: room for
+ * all samples. */
 CS_WIDE_DECLARE(cs_crowd_cover, cs_crowd_find,
                 (const cs_crowd_lattice *lattice, const cs_crowd_line *lines, size_t line_count,
                  int32_t base, int32_t mask, int32_t *inside));
-/* Reduces the light that the samples inside let through by a share. Returns the sum of the light
- * that they let through before. */
+/* Dims the samples inside: the light that they still let through becomes smaller by the share
+ * `share`. Returns the sum of this light before the call. */
 CS_WIDE_DECLARE(float, cs_crowd_dim,
                 (float *through, const int32_t *inside, int32_t count, float share));
 
@@ -70,8 +71,8 @@ typedef struct cs_crowd_piece {
   float slope;      /* dx/dy */
 } cs_crowd_piece;
 
-/* A boundary in the row; or, where one has begun or ended further left, the step of winding below
- * that height. */
+/* A boundary in the row. Where a boundary has begun or ended further left, the member is the step
+ * of winding below that height. */
 typedef struct cs_crowd_member {
   uint32_t layer;
   uint32_t piece, piece_count;

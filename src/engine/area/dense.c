@@ -218,7 +218,7 @@ celspan_status cs_dense_draw(cs_dense *dense, cs_local_sweep *sweep, cs_extent e
   int all = height * SUB_ROWS > 1 ? (int)(height * SUB_ROWS) : 1; /* sub-rows */
   d.count = cs_edges_ceil(extent.high, width) - d.first;
   CS_TRY(reserve(&d));
-  if (d.count > 0) /* else nothing of them is in the frame, and there may be no room yet */
+  if (d.count > 0) /* otherwise no member is in the frame, and there may be no room yet */
     memset(dense->sums, 0, (size_t)d.count * sizeof *dense->sums);
   list_crossings(&d);
   for (int first = 0, end; first < all; first = end) {

@@ -1,21 +1,21 @@
 /* Direct edges: boundaries that are drawn into the row at once, from their measurements, without
- * the borders of a window. That works for an edge that shares its pixels with no other one, and for
- * a few that share pixels with each other and with nothing else. Nearly all edges of nearly all
- * rows are such.
+ * the borders of a window. This works for an edge that shares its pixels with no other edge, and
+ * for a few edges that share pixels only with each other. Nearly all edges of nearly all rows are
+ * of these two kinds.
  *
  *              first           end           first, end: the columns that the edge crosses
  *              |               |
  *      +---+---+---+---+---+---+---+---+
  *      | L | L |  .|-##|###|###| R | R |     L, R: the cells on its sides
  *      +---+---+---+---+---+---+---+---+
- *                one  sec +fall two          the share of a pixel right of the edge: one in the
- *                   \_______/                first column, two in the last; between them it is
- *                     ramp                   `second`, and `fall` more from column to column
+ *                one  sec +fall two          the share of a pixel right of the edge: `one` in the
+ *                   \_______/                first column, `two` in the last, `second` in the
+ *                     ramp                   second, then `fall` more in each column
  *
  *      pixel = L + share * (R - L)
  *
- * Invariant: what is drawn is what a window would sum, and the bits are the same whichever
- * instructions draw it.
+ * Invariant: the pixels are those that a window would sum, and the instructions that draw them do
+ * not change their bits.
  */
 #pragma once
 
@@ -24,8 +24,8 @@
 #include "engine/compose/composer.h"
 #include "engine/span/row_writer.h"
 
-/* How many spans an edge becomes at most, and how many columns edges that share pixels may cross
- * together. */
+/* The most spans that one edge becomes, and the most columns that edges with shared pixels may
+ * cross together. */
 #define CS_DIRECT_EACH 4
 #define CS_DIRECT_TOGETHER 32
 
@@ -52,7 +52,7 @@ typedef struct cs_direct_shares {
 } cs_direct_shares;
 
 /* Draws an edge over more than two columns, [first, last]: its ends, and a ramp between them. base:
- * the colour on its left; step: from there to its right. */
+ * the colour on its left; step: the difference to the colour on its right. */
 static inline void cs_direct_ramp(cs_row_writer *writer, int32_t first, int32_t last, cs_v4 base,
                                   cs_v4 step, cs_direct_shares shares) {
   cs_v4 ramp = base + step * shares.second, slope = step * shares.fall;
@@ -79,9 +79,10 @@ typedef struct cs_direct_piece {
   int32_t first, end;
 } cs_direct_piece;
 
-/* Adds a straight piece to sums by column: change[k] is by how much column `from` + k exceeds the
- * column before. step: of colour, from its left to its right. Which columns a piece crosses can
- * hardly be foreseen, so the only branch here is whether they are more than two. */
+/* Adds a straight piece to sums by column: change[k] is the difference between column `from` + k
+ * and the column before it. step: the difference between the colours on the right and on the left
+ * of the piece. Which columns a piece crosses can hardly be foreseen, so the only branch here is
+ * whether they are more than two. */
 static inline void cs_direct_add(cs_sum4 *change, int32_t from, cs_direct_piece piece,
                                  const cs_sum4 *step) {
   const int32_t first = piece.first, end = piece.end;

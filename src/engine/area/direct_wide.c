@@ -23,7 +23,7 @@
 
 /* ---------------------------------------------------------------- alone */
 
-/* The head of a span: where it begins, where it ends, its kind, and where it begins. */
+/* The head of a span: x0, x1, its kind, and its origin, which is the same as x0. */
 typedef int32_t head __attribute__((vector_size(16)));
 
 _Static_assert(offsetof(celspan_span, x0) == 0 && offsetof(celspan_span, x1) == 4 &&
@@ -39,8 +39,9 @@ static inline void put_span(celspan_span *span, head at, cs_v4 colour) {
   cs_v4_store(span->colour, colour);
 }
 
-/* The span between the ends of a straight edge over more than two columns: a ramp, or one pixel of
- * it. Returns false where it might have the colour of a neighbour, or has no slope. */
+/* Writes the span between the ends of a straight edge over more than two columns: a ramp, or one
+ * pixel of this ramp. Returns false if the span might have the colour of a neighbour, or if the
+ * ramp has no slope. */
 static inline bool put_middle(celspan_span *span, head at, int32_t columns, cs_v4 ramp, cs_v4 slope,
                               cs_v4 one, cs_v4 two) {
   bool is_ramp = columns > 3;
@@ -53,9 +54,9 @@ static inline bool put_middle(celspan_span *span, head at, int32_t columns, cs_v
 }
 
 /* Writes the spans of boundary i: its left cell from `start` on, and its columns from `first` on.
- * Of one or two columns the spans of both are written, so there is no branch on whether the second
- * counts. Returns the end of the spans; NULL where two neighbours would have the same colour, or
- * more must be known of the edge. */
+ * For an edge over one or two columns, the spans of two columns are written, so there is no branch
+ * on whether the second counts. Returns the end of the spans. NULL: two neighbours would have the
+ * same colour, or more must be known of the edge. */
 static inline celspan_span *put_plain(celspan_span *span, head start, int32_t first,
                                       const cs_edges *edges, size_t i, const cs_cell *left) {
   int32_t columns = edges->end[i] - first;
@@ -165,8 +166,8 @@ static inline void add_edge(cs_sum4 *change, int32_t from, const cs_direct_edges
   change[2] += step * (1 - rest);
 }
 
-/* How many boundaries from `done` on share pixels with each other and with nothing else; 0 where
- * that is not known, or they are too wide. *end: of their columns. */
+/* The number of boundaries from `done` on that share pixels only with each other; 0 if the number
+ * is not known, or if the boundaries are too wide. *end: the end of their columns. */
 static inline size_t find_group(const cs_direct_edges *s, size_t done, int32_t *end) {
   const cs_edges *edges = s->edges;
   const uint32_t *boundaries = s->boundaries;
@@ -184,7 +185,8 @@ static inline size_t find_group(const cs_direct_edges *s, size_t done, int32_t *
   return n - done;
 }
 
-/* Draws them. Out of line, because the loop along the row needs the registers. */
+/* Draws a group of boundaries. It is not inlined, because the loop along the row needs the
+ * registers. */
 static __attribute__((noinline)) size_t draw_group(cs_row_writer *writer, const cs_direct_edges *s,
                                                    size_t done) {
   int32_t end;
@@ -213,7 +215,8 @@ static __attribute__((noinline)) size_t draw_group(cs_row_writer *writer, const 
 
 /* ---------------------------------------------------------------- along the row */
 
-/* As draw_group, with the writer in registers. */
+/* As draw_group, which gets a copy of the writer, so that the writer itself can stay in
+ * registers. */
 static inline size_t try_group(cs_row_writer *writer, const cs_direct_edges *s, size_t done) {
   cs_row_writer lent = *writer;
   size_t drawn = draw_group(&lent, s, done);

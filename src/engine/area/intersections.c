@@ -70,7 +70,8 @@ static void find_batch_least(cs_intersections *m, size_t batch) {
 /* Whether there are enough places to keep the least share of every batch. */
 static inline bool has_batches(size_t count) { return count > BATCH + 1; }
 
-/* Finds all shares, and fills the last four up. Returns whether any two cross. */
+/* Finds the shares of all places, and fills up the last four. Returns whether any two boundaries
+ * cross. */
 static bool find_shares(cs_intersections *m, size_t count) {
   int64_t crossings = 0;
   for (size_t place = 0; place + 1 < count; place++) {
@@ -132,7 +133,8 @@ static inline void move_to(cs_active_edge *edge, double x, double y) {
   edge->last_y = y;
 }
 
-/* The boundaries at `place` and right of it change places, in that share of the step. */
+/* The boundaries at `place` and `place` + 1 cross, and change places in the order. share: the part
+ * of the step above the intersection; y: the height of the intersection. */
 static celspan_status swap_places(cs_intersections *m, celspan_context *context, size_t place,
                                   double share, double y) {
   if (m->count == m->capacity)
@@ -191,7 +193,7 @@ static inline double segment_x(const celspan_point *end, double y) {
 typedef struct way {
   cs_extent extent;
   double foot; /* x at the lower height */
-  uint32_t at; /* the segment on which that is */
+  uint32_t at; /* the segment at the lower height */
 } way;
 
 static inline way find_way(const cs_active_edge *edge, double x, double y0, double y1) {
@@ -220,8 +222,8 @@ static bool do_cross(const cs_active_edge *left, const cs_active_edge *right, do
   return false;
 }
 
-/* Goes down to y1 at once if no two neighbours cross on the way, as nearly always; false: some
- * cross, and nothing is changed. */
+/* Goes down to y1 at once if no two neighbours cross on the way, which is nearly always so. false:
+ * some neighbours cross, and nothing is changed. */
 static bool go_straight(cs_intersections *m, size_t count, double y0, double y1) {
   double high = -INFINITY;
   for (size_t i = 0; i < count; i++) {

@@ -133,8 +133,9 @@ static cs_v4 most_through(cs_composer *composer, const cs_layer *layer) {
   return cs_v4_all(1 - layer->fade);
 }
 
-/* Adds the front lights of a group and of the groups around it that are not entered yet, outermost
- * first. The fold has left all groups that do not contain this one. At most CS_STACK_GROUPS. */
+/* Adds the front lights of a group, and of the groups around it that are not entered yet, outermost
+ * first. The fold has left all groups that do not contain this group. The recursion is at most
+ * CS_STACK_GROUPS deep. */
 static celspan_status gather_front(cs_composer *composer, cs_over *over, uint32_t group) {
   if (group == over->group)
     return CELSPAN_OK;
@@ -160,8 +161,9 @@ static celspan_status gather_layer(cs_composer *composer, cs_over *over, uint32_
   return CELSPAN_OK;
 }
 
-/* Gathers the contributing layers from the front until nothing shines through. `filled` is the one
- * for the present layers: trees only remove layers. */
+/* Gathers the contributing layers from the front until nothing shines through. The member `filled`
+ * belongs to the set of present layers. It is right for `set` too, because trees only remove
+ * layers. */
 static celspan_status gather(cs_composer *composer, const uint64_t *set) {
   cs_over over;
   cs_over_begin(&over, composer->stack, composer->outers);
@@ -180,7 +182,8 @@ static inline bool group_varies(const cs_stack *stack, uint32_t group) {
   return group != CS_STACK_NONE && stack->groups[group].varies;
 }
 
-/* Folds them in the same way while all are flat; false where one is not. */
+/* Folds the contributing layers in the same way, if all of them are flat. Returns false if one
+ * layer is not flat. */
 static bool fold_flats(const cs_composer *composer, const uint64_t *set, cs_over *over) {
   const cs_layer *layers = composer->stack->layers;
   cs_over_begin(over, composer->stack, composer->outers);
@@ -199,7 +202,7 @@ static bool fold_flats(const cs_composer *composer, const uint64_t *set, cs_over
 
 static celspan_status keep_program(cs_composer *composer, cs_cell *cell) {
   size_t count = composer->gathered_count, needed = composer->item_count + count;
-  if (needed < ITEM_LIMIT) /* all that is kept from row to row, at once */
+  if (needed < ITEM_LIMIT) /* room at once for all items that are kept from row to row */
     needed = ITEM_LIMIT;
   CS_TRY(CS_RESERVE(composer->context, composer->items, composer->item_capacity, needed));
   memcpy(composer->items + composer->item_count, composer->gathered, count * sizeof(cs_item));
@@ -281,7 +284,7 @@ static celspan_status compose_here(cs_composer *composer, cs_cell *out) {
 
 void cs_composer_cell(cs_composer *composer, cs_cell *out) {
   if (composer->table) {
-    /* Nearly every set is new, and its colour found as soon as its memo. */
+    /* Nearly every set is new, and its colour is found as quickly as its memo. */
     compose_here(composer, out);
     return;
   }

@@ -10,8 +10,8 @@
  *     rear
  *
  * A cell of a row is described by the set of layers present in it, one bit a layer. Boolean trees
- * turn presence into contribution (engine/compose/tree.h); what contributes is laid one over the
- * other from the camera backwards, until nothing shines through (engine/compose/over.h).
+ * turn presence into contribution (engine/compose/tree.h). The contributing layers are laid over
+ * each other from the camera backwards, until nothing shines through (engine/compose/over.h).
  *
  * Invariants: layer i + 1 is nearer the camera than layer i; every group, tree and back light
  * covers or follows a range of neighbouring layers; nothing here changes while rows are made, so
@@ -36,7 +36,7 @@ typedef enum cs_step_kind {
   CS_STEP_LAYER,
   CS_STEP_LAYERS,
   CS_STEP_OPERATOR,
-  CS_STEP_FRAME /* of a rostrum that is an object: present where its first layer is */
+  CS_STEP_FRAME /* a rostrum that is an object: it is present where its first layer is present */
 } cs_step_kind;
 
 typedef struct cs_step {

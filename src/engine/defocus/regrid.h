@@ -6,8 +6,9 @@
  *     o    o  x o    o        rows, then the node from four columns
  *     o    o    o    o
  *
- * Differences from the nearest node before it are mixed, so that equal nodes keep their bits: where
- * the artwork is clear or of one colour, so is the frame. Beyond the nodes the last ones hold.
+ * The mixed values are differences from the nearest node before the place. So equal nodes keep
+ * their bits: where the artwork is clear or has one colour, the frame is the same. Beyond the
+ * nodes, the last nodes are used.
  */
 #pragma once
 
@@ -37,7 +38,7 @@ typedef struct cs_regrid_rows {
   const cs_defocused *to;
   celspan_context *context;
   cs_isa isa;
-  cs_defocus_band *bands[2]; /* acquired, one of an even and one of an odd number; NULL: none */
+  cs_defocus_band *bands[2]; /* acquired: one with an even, one with an odd number; NULL: none */
   int32_t numbers[2];
   cs_regrid_column *columns;
   float (*mixed)[4];  /* a row of the cel's own nodes, at the height of the row being made; its

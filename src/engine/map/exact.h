@@ -1,23 +1,23 @@
 /* The exact mean of a pixel in which several drawings are broken.
  *
  *     y0  +---------\----/--+
- *         |          \  /   |     heights at which a line begins or ends, or lines of two drawings
- *         |- - - - - -\/- - |     cross: between two of them the lines keep their order, so that
- *         |           /\    |     what lies between two lines is a trapezoid, of one colour
+ *         |          \  /   |     heights at which a line begins or ends, or at which lines of two
+ *         |- - - - - -\/- - |     drawings cross. Between two such heights the lines keep their
+ *         |           /\    |     order, so the area between two lines is a trapezoid of one colour
  *     y1  +----------/--\---+
  *
- * Where two drawings are broken, they need not be cut: a fold is linear in each of its layers, so
- * the mean is the fold of the means, corrected by the relation between the lines of the two. For
- * lines k and l the correction is the area right of both, less the product of the areas right of
- * each:
+ * Where only two drawings are broken, the pixel need not be cut at such heights. A fold is linear
+ * in each of its layers, so the mean is the fold of the means of the drawings, with a correction
+ * for each line k of one drawing and each line l of the other drawing. The correction is the area
+ * right of both lines, less the product of the area right of k and the area right of l:
  *
  *     +--------\--/-----+
  *     |   k     \/  l   |     #: right of both
  *     |         /\######|
  *     +--------/--\#####+
  *
- * Invariant: the mean is exact except for rounding, unless more than CS_MAP_EXACT_LINES lines meet:
- * then it is the mean of CS_MAP_EXACT_LINES heights, spaced evenly.
+ * Invariant: the mean is exact except for rounding. If more than CS_MAP_EXACT_LINES lines meet, it
+ * is the mean of CS_MAP_EXACT_LINES evenly spaced heights instead.
  */
 #pragma once
 
@@ -31,8 +31,8 @@
  * corner. */
 typedef struct cs_map_line {
   cs_segment at;
-  cs_v4 step;     /* right less left */
-  cs_v4 through;  /* the same for the light let through */
+  cs_v4 step;     /* the colour on the right less the colour on the left */
+  cs_v4 through;  /* the same for the transmission */
   uint32_t sheet; /* of the list */
 } cs_map_line;
 
@@ -40,14 +40,14 @@ typedef struct cs_map_exact {
   cs_map_line *lines;
   double *heights;
   cs_map_line **order;
-  bool is_coloured; /* a drawing among them is; else steps say how much more is let through */
+  bool is_coloured; /* one of the drawings is coloured; else -step[3] is the transmission */
   size_t line_count, line_capacity, height_count, height_capacity, order_capacity;
 } cs_map_exact;
 
 /* One of the drawings that can be shown in the pixel. */
 typedef struct cs_map_shown {
   const cs_map_sheet *sheet;
-  /* The mean, or for cs_map_exact_mean that at the pixel's left edge. */
+  /* The mean; for cs_map_exact_mean, the values at the pixel's left edge. */
   cs_v4 colour, through;
 } cs_map_shown;
 
@@ -57,9 +57,9 @@ static inline void cs_map_exact_clear(cs_map_exact *exact) {
   exact->line_count = 0;
   exact->is_coloured = false;
 }
-/* Adds the lines of a broken drawing to those of the pixel (column, row). index: of the drawing
- * among those shown; from: the column from which on it is broken. Errors: NO_MEMORY, and those of
- * painting. */
+/* Adds the lines of a broken drawing to the lines of the pixel (column, row). index: the number of
+ * the drawing among the drawings that are shown; from: the column from which on it is broken.
+ * Errors: NO_MEMORY, and the errors of painting. */
 CELSPAN_CHECKED celspan_status cs_map_exact_add(celspan_context *context, cs_map_exact *exact,
                                                 cs_map_rows *rows, uint32_t index, int32_t from,
                                                 int32_t column, int32_t row);

@@ -38,7 +38,7 @@ typedef struct cs_over_row_state {
 /* A group that has been entered and not yet left. */
 typedef struct cs_over_row_outer {
   cs_over_row_state *outer; /* of the group around it, put aside */
-  bool is_clear;            /* nothing has been added to that yet */
+  bool is_clear;            /* nothing has been added to `outer` yet */
   cs_over_row_state
       *head;         /* GROUND and MATTE: the composited head, not yet faded; NULL: no head was
                         met */
@@ -78,8 +78,8 @@ CELSPAN_CHECKED celspan_status cs_over_row_add_samples(cs_over_row *over, const 
                                                        const float (*rgba)[4]);
 CELSPAN_CHECKED celspan_status cs_over_row_add_paint(cs_over_row *over, const cs_layer *layer,
                                                      const float (*s)[4], const float (*t)[4]);
-/* Moves to a layer and adds it: a flat layer by its light, any other by its paints. Errors:
- * NO_MEMORY. */
+/* Moves to a layer and adds it: a flat layer with its light, any other layer with the paints s and
+ * t. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_over_row_layer(cs_over_row *over, uint32_t layer,
                                                  const float (*s)[4], const float (*t)[4]);
 /* Premultiplied RGBA of the pixels. */
@@ -123,7 +123,8 @@ CS_WIDE_DECLARE(void, cs_over_row_to_rgba,
 
 /* ---- over_blend_wide.c */
 
-/* Fades a source and puts it over its backdrop, which becomes both, as cs_over_blend. keep: of the
+/* Fades a source and blends it over its backdrop, as cs_over_blend does. The result replaces the
+ * backdrop. keep: the share of transparency that the mattes of back lights leave in the
  * backdrop. */
 CS_WIDE_DECLARE(void, cs_over_row_blend,
                 (const cs_over_row_state *source, int32_t count, float fade, celspan_blend mode,

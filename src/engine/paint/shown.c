@@ -63,7 +63,8 @@ static celspan_status bound_pixels(cs_painter *painter, const cs_layer *layer, c
   return CELSPAN_OK;
 }
 
-/* is_last: nothing that would have to be read or made is behind the item. */
+/* Finds a bound of a layer in some columns. is_last: no layer behind this one would have to be read
+ * or made. */
 static celspan_status find_bound(cs_painter *painter, const cs_layer *layer, bool is_last,
                                  cs_run run, bound *out) {
   *out = (bound){layer->role == CS_LAYER_FRONT ? clear : layer->t, .is_sure = true};
@@ -83,7 +84,7 @@ static cs_layer_kind kind_of(const cs_stack *stack, const cs_program *program, u
   return stack->layers[program->items[i].layer].kind;
 }
 
-/* How many items there are up to the rearmost that would have to be read or made. */
+/* The number of items up to the rearmost item that would have to be read or made. */
 static uint32_t count_dear(const cs_stack *stack, const cs_program *program) {
   uint32_t count = program->length;
   while (count > 0 && kind_of(stack, program, count - 1) != CS_LAYER_PICTURE &&

@@ -1,5 +1,5 @@
-/* Where texels begin along a row that is enlarged, by the very arithmetic that samples them: a
- * column belongs to the texel that its centre is found in.
+/* Finds where texels begin along a row of an enlarged picture, with the same arithmetic that
+ * samples the texels: a column belongs to the texel in which the centre of the column lies.
  *
  *     texels    |     0     |     1     |     2     |
  *     pixels    | . | . | . | . | . | . | . | . | . |

@@ -14,15 +14,15 @@
 
 #include "engine/sample/sampler_texel.h"
 
-/* Texels of the chosen level across the shorter side of a footprint: at least
- * this many, and less than twice that; and at most this many across the longer one. */
+/* The shorter side of a footprint has at least this many texels of the chosen level, and less than
+ * twice as many. The longer side has at most CS_SAMPLER_MOST_BOX or CS_SAMPLER_MOST_TAPS texels. */
 #define CS_SAMPLER_BOX_TEXELS 4
 #define CS_SAMPLER_TAP_TEXELS 2
 #define CS_SAMPLER_MOST_BOX 64
 #define CS_SAMPLER_MOST_TAPS 16
 
-/* The highest level that leaves `texels` or more across the shorter side, or a higher one if there
- * the longer is more than `most`. */
+/* The highest level that leaves at least `texels` across the shorter side. If the longer side then
+ * has more than `most` texels, a higher level is chosen. */
 static inline int cs_sampler_level(int level_count, double shorter, double longer, double texels,
                                    double most) {
   int level = 0;

@@ -23,7 +23,8 @@
 #include "engine/sample/sampler_texel.h"
 
 void cs_sampler_taps_run(const cs_sampling *run, cs_run pixels, float (*rgba)[4]);
-/* At most CS_SAMPLER_BATCH pixels as planes; false where they cannot be made so. */
+/* Makes at most CS_SAMPLER_BATCH pixels as planes. Returns false if that is not possible: it needs
+ * one tap for each pixel, and all taps inside the picture. */
 bool cs_sampler_taps_planes(const cs_sampling *run, cs_run pixels, float (*planes)[4]);
 
 /* Where the centres of a batch of pixels lie on the picture. */

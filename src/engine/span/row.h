@@ -10,8 +10,8 @@
  *   array     a colour for every column: four floats, or an 8-bit code in a row that allows codes
  *
  * Invariant: spans are sorted, disjoint and not empty; two neighbouring singles never have the same
- * colour; array colours lie in the row's arena, or where they will be put in the end, and are
- * not moved until the next clear.
+ * colour; array colours lie in the row's arena, or at their final place, and are not moved until
+ * the next clear.
  */
 #pragma once
 
@@ -41,7 +41,7 @@ typedef struct cs_row {
   size_t count, capacity;
   cs_varied varied;
   bool takes_codes; /* arrays may be codes: celspan_sink.takes_codes */
-  /* Where the codes of column 0 and those right of it will be put in the end; NULL: not known. */
+  /* The final place of the codes, from column 0 on; NULL: not known. */
   unsigned char *pixels;
   cs_arena colours;
   cs_row_mark made_by;
@@ -57,9 +57,10 @@ CELSPAN_CHECKED celspan_status cs_row_gradient(celspan_context *context, cs_row 
 /* *colours: room for x1 - x0 colours, to be filled by the caller. */
 CELSPAN_CHECKED celspan_status cs_row_array(celspan_context *context, cs_row *row, int32_t x0,
                                             int32_t x1, float **colours);
-/* The same with codes, 4 bytes a pixel, in a row that takes codes. They lie in their final places,
- * where those are known, if only arrays are on the left: other spans may be written beyond their
- * ends before the spans right of them are (output/sinks/pixels8_wide.c). */
+/* The same with codes, 4 bytes a pixel, in a row that takes codes. If the final places of the codes
+ * are known and there are only arrays on their left, the codes lie in these places. To the right of
+ * other spans they do not, because those spans may be written beyond their ends before the spans
+ * right of them are written (output/sinks/pixels8_wide.c). */
 CELSPAN_CHECKED celspan_status cs_row_codes(celspan_context *context, cs_row *row, int32_t x0,
                                             int32_t x1, unsigned char **codes);
 CELSPAN_CHECKED celspan_status cs_row_grow(celspan_context *context, cs_row *row);
@@ -108,7 +109,8 @@ CELSPAN_CHECKED celspan_status cs_row_append(celspan_context *context, cs_row *o
                                              const cs_row *row, int32_t x0, int32_t x1);
 
 /* out = sum of weights[i] * rows[i], alpha at most 1: the exposures of one frame. All rows cover
- * the same columns without gaps. space: of all colours; it is light that is added in any. */
+ * the same columns without gaps. space: the space of all colours; in every space, it is light that
+ * is added. */
 CELSPAN_CHECKED celspan_status cs_row_expose(celspan_context *context, cs_row *out,
                                              celspan_space space, const cs_row *rows,
                                              const float *weights, size_t count);

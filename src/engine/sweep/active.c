@@ -7,9 +7,9 @@
 #include "base/sort.h"
 #include "engine/sweep/order.h"
 
-/* Chains that begin together are inserted one by one up to this number; and so are boundaries that
- * have changed places, while not more than this number of others is moved for each boundary. Beyond
- * it all are sorted at once. */
+/* Up to this number, chains that begin together are inserted one by one. Boundaries that have
+ * changed places are inserted one by one, too, while not more than MOVED_EACH others are moved for
+ * each of them. Beyond these numbers all boundaries are sorted at once. */
 #define MANY_BEGIN 64
 #define MOVED_EACH 16
 
@@ -193,7 +193,7 @@ static size_t find_place(const cs_active *active, size_t i) {
   return low;
 }
 
-/* A boundary by what its place in the order depends on. */
+/* A boundary with the values that determine its place in the order. */
 typedef struct key {
   double x, slope;
   uint32_t chain, index;
@@ -254,7 +254,7 @@ static celspan_status sort(celspan_context *context, cs_active *active, cs_chang
 
 /* ---------------------------------------------------------------- heights */
 
-/* The height above which no chain begins and no other row of tiles does. */
+/* The height above which no chain begins and no other row of tiles begins. */
 static double find_calm(const cs_active *active) {
   const cs_cull *cull = active->cull;
   const cs_boundary_set *set = active->set;
@@ -435,7 +435,7 @@ static void move_to_next(cs_active *active) {
   active->y = active->y_next;
 }
 
-/* Removes, sorts and inserts what the new height needs. */
+/* Removes, sorts and inserts boundaries, as the new height requires. */
 static celspan_status settle_events(celspan_context *context, cs_active *active,
                                     cs_change *change) {
   int32_t tile_row = tile_row_of(active, active->y_next);

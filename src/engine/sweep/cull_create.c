@@ -26,7 +26,7 @@ static int32_t choose_rows(size_t layers, int32_t height) {
   return rows;
 }
 
-/* Finds the rows of tiles that every chain crosses, and gives it places for them. */
+/* Finds the rows of tiles that each chain crosses, and gives the chain a place for each row. */
 static void find_rows(cs_cull_grid *grid) {
   cs_cull *cull = grid->cull;
   size_t places = 0;
