@@ -18,14 +18,15 @@
  *                                            programs of the composer: where a tile is dead, the
  *                                            fold of colours has stopped before
  *                                            (of a picture by its header, which is read for it)
- *   group  faded, or lit by a light with a shape; sources, mattes and what they are the mattes of
+ *   group  faded, or lit by a light with a shape; sources, mattes and the groups that mattes fade
  *          hide nothing
  *   tree   where its layers are certain to be painted (engine/compose/tree.h)
  */
 
 #define LAYERS_LEAST 8
 #define ROWS_LEAST 20 /* of the frame, for each piece of the outlines, on the average */
-/* Pixels beside the columns asked for, for rounding: many dashes may be there. */
+/* How many pixels beside the requested columns are compiled too, because of rounding. The number is
+ * small, because many dashes may lie there. */
 #define BESIDE 0x1p-6
 #define DEPTH_LEAST 6   /* halvings of light; a tile dies at CS_THROUGH_OPAQUE */
 #define SOURCES_MOST 64 /* grounds inside each other; the cull would enter each */
@@ -90,8 +91,8 @@ static celspan_status cull(cs_compiler *c, const hidden *h) {
   return cs_cull_create(c->context, &desc, &c->plan->cull);
 }
 
-/* A chain costs the cull about as much as the sweep pays for it in some tens of rows, so it pays
- * where chains are long, and layers so deep that many tiles die. */
+/* A chain costs the cull about as much as it costs the sweep in some tens of rows. So the cull pays
+ * where chains are long, and where layers are so deep that many tiles die. */
 static bool pays(const cs_compiler *c) {
   return c->plan->stack.layer_count >= LAYERS_LEAST &&
          c->plan->stack.source_count <= SOURCES_MOST &&
@@ -162,7 +163,8 @@ static celspan_status compile_defocused(cs_compiler *c, const cs_defocus_cel *pl
 
 /* ---------------------------------------------------------------- cels */
 
-/* light: falls on the parts of the cel; NULL: none has a shape, or it falls on the whole. */
+/* light: the light with a shape that falls on the parts of the cel; NULL: no light has a shape, or
+ * it falls on the cel as a whole. */
 static celspan_status compile_sharp(cs_compiler *c, const celspan_cel *cel,
                                     const celspan_matrix *matrix, const cs_lights_front *light,
                                     const cs_compiler_film *film) {

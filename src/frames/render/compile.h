@@ -34,12 +34,13 @@ typedef struct cs_view {
   size_t most_dashes;       /* in view; with more, the plan is crowded (engine/row/plan.h) */
   float span_error;         /* see engine/compose/stack.h */
   celspan_space space;      /* of the rows */
-  celspan_space film_space; /* of a rostrum that has none; AROUND: the space of the rows */
-  /* Of planes, pixels: curves are kept (model/geometry/boundary.h), and objects lie at multiples
-   * of it, so that their curves are the same wherever they have been moved to. 0: neither. */
+  celspan_space film_space; /* for a rostrum without one; AROUND: the space of the rows */
+  /* For planes: a unit of the plane in pixels. Curves are kept (model/geometry/boundary.h), and
+   * objects lie at multiples of the unit, so that their curves are the same wherever the objects
+   * have been moved. 0: curves are not kept, and objects lie anywhere. */
   double unit;
   const size_t *cel_numbers; /* of the rostrum's cels, for messages; NULL: from 1 */
-  size_t pieces, points;     /* of the outlines of a drawing, about; 0: not known */
+  size_t pieces, points;     /* about how many the outlines of a drawing have; 0: not known */
 } cs_view;
 
 /* workers: threads at most. Errors: NO_MEMORY; LIMIT; BAD_ARGUMENT for a singular viewport or

@@ -83,8 +83,9 @@ static bool is_covered(const tiles *t, const range *r) {
 
 /* ---------------------------------------------------------------- the search */
 
-/* Whether nothing but its paint is lost with the object: pictures that cannot be read must be
- * reported, and procedures called, wherever they are. */
+/* Whether an object that nobody sees can be left out. It can if only its paint is lost. But a
+ * picture that cannot be read must be reported, and a procedure must be called, wherever they
+ * are. */
 static bool can_go(const cs_primitive_data *data) {
   return data->kind == CS_PRIMITIVE_DATA_OUTLINE && data->texture->kind != CS_TEXTURE_PICTURE;
 }

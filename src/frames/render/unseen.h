@@ -22,7 +22,7 @@ typedef struct cs_unseen {
   size_t count;
 } cs_unseen;
 
-/* matrix: of the list, to pixels. Short lists are not searched. Errors: NO_MEMORY. */
+/* matrix: from the units of the list to pixels. Short lists are not searched. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_unseen_find(const cs_compiler *c, celspan_object *const *objects,
                                               size_t count, const celspan_matrix *matrix,
                                               cs_unseen *out);

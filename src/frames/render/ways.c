@@ -24,7 +24,7 @@ bool cs_ways_is_uneven(const celspan_cel *cel) {
   return is_uneven;
 }
 
-/* The shapes that a cel adds to a sweep: of a defocused one, a box. */
+/* How many shapes a cel adds to a sweep: a defocused cel adds only its box. */
 static size_t count_shapes(const celspan_cel *cel) {
   return cel->defocus_radius > 0 ? 1 : cs_parts_shapes(cel->objects, cel->object_count);
 }

@@ -8,8 +8,8 @@
 
 enum {
   WORKERS_MOST = 64,
-  MEAN_BASE = 1024, /* maximal pixels a side of the base of means */
-  MEAN_SIDE = 255   /* and of a level of means */
+  MEAN_BASE = 1024, /* the most pixels on a side of the base of means */
+  MEAN_SIDE = 255   /* the most pixels on a side of a level of means */
 };
 
 /* ---------------------------------------------------------------- levels that are means */
