@@ -34,8 +34,9 @@ CELSPAN_API int luaopen_celspan(lua_State *L);
 /* Opens celspan as luaL_requiref would. All that scripts make and render then goes through
  * `context`: its memory function, its limits, its last error. context: borrowed until the state is
  * closed, NULL for one of the state's own. It must not be in use by another thread while Lua runs.
- * In a state that is open already it must be the same, or NULL. Errors: BAD_ARGUMENT when the state
- * has another context; NO_MEMORY. The sentence is in `context`. */
+ * If celspan is already open in the state, `context` must be the context of the state, or NULL.
+ * Errors: BAD_ARGUMENT when the state has another context; NO_MEMORY. The sentence is in
+ * `context`. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_open(lua_State *L, celspan_context *context);
 /* The context of a state; NULL when celspan was not opened in it, or is closed again. */
 CELSPAN_API celspan_context *celspan_lua_context(lua_State *L);
@@ -54,13 +55,14 @@ typedef struct celspan_lua_limits {
   const char *const *folders; /* NULL: none */
   size_t folder_count;
   const char *search; /* templates of modules, such as "/lib/?.lua;/more/?.lua"; NULL: none */
-  /* Given what scripts print, in complete lines. The characters are the script's choice: a terminal
-   * would obey them. NULL: it is dropped. */
+  /* Receives the text that scripts print, in complete lines. Scripts choose its characters, and a
+   * terminal would obey control characters. NULL: the text is dropped. */
   void (*printed)(void *user, const char *text, size_t size);
-  /* Asked while a script runs, whether it must end; NULL: nobody is asked. */
+  /* Called while a script runs. Returns whether the script must end. NULL: no script is
+   * interrupted. */
   bool (*is_interrupted)(void *user);
-  /* Called on a thread of its own while a call still runs a second after its time, as only a
-   * function of C can; may be NULL. The program celspan ends itself then. */
+  /* Called on a thread of its own while a call still runs one second after its time, which only a
+   * function of C can do. May be NULL. The program celspan ends itself in this function. */
   void (*overdue)(void *user, const char *message);
   void *user;
 } celspan_lua_limits;
@@ -137,8 +139,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_sound(lua_State *L, int i
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_frame(lua_State *L, int index,
                                                              int64_t number,
                                                              celspan_frame_desc *out);
-/* Lets the exposures go. Without scan-line procedures any thread, before or after the state is
- * closed. A desc that is all zero or was dropped may be dropped too. */
+/* Releases the exposures. Without scan-line procedures, any thread may call it, before or after the
+ * state is closed. A desc that is all zero or was dropped may be dropped too. */
 CELSPAN_API void celspan_lua_frame_drop(celspan_frame_desc *frame);
 
 #ifdef __cplusplus

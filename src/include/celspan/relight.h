@@ -42,12 +42,13 @@ typedef enum celspan_light_clue {
 
 typedef struct celspan_light_estimate_desc {
   size_t struct_size;
-  const celspan_texture *picture; /* borrowed; a picture, of which its pixels count */
+  const celspan_texture *picture; /* borrowed; a picture; only its pixels count */
   celspan_light_clue clue;
   double colour[3];  /* above 0; 0.18 each, which light meters treat as grey */
   celspan_box patch; /* pixels of the picture */
-  /* The light is uneven, so that a field is fitted: to the picture, whose pigments are then taken
-   * to be alike in every part of it, or to `blank`, the same light on something white or grey. */
+  /* Whether the light is uneven, so that a field is fitted. Without `blank`, the field is fitted to
+   * the picture, and its pigments are assumed to be alike in all its parts. With `blank`, the field
+   * is fitted to that picture, which shows something white or grey in the same light. */
   bool is_uneven;
   const celspan_texture *blank; /* borrowed; NULL: the picture itself */
 } celspan_light_estimate_desc;
@@ -103,12 +104,12 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_relight_read(celspan_context 
                                                                 const char *path,
                                                                 celspan_texture **out);
 
-/* A rendered frame of which every light can be changed without rendering it again: for each cel,
- * composed first and then antialiased, what a unit of its front light and of its back light adds to
- * each pixel, as rows of spans; a frame is the sum of these, weighted with the lights. It holds
- * flat lights only, and agrees with a frame of the same tolerance within 1/65535 of the brightest
- * light. Filters with negative lobes hold their values frame by frame, so that edges differ there.
- * Immutable; shared read. */
+/* A rendered frame of which every light can be changed without rendering it again. For each cel it
+ * keeps the light that a unit of the front light, and a unit of the back light, adds to each pixel.
+ * This light is composed first, then antialiased, and kept as rows of spans. A frame is the sum of
+ * the rows, weighted with the lights. All lights are flat. The sum agrees with a frame of the same
+ * tolerance within 1/65535 of the brightest light. Filters with negative lobes limit colours to
+ * the range under them, frame by frame, so that edges differ there. Immutable; shared read. */
 typedef struct celspan_stack celspan_stack;
 
 /* The lights of one cel. */
@@ -116,9 +117,10 @@ typedef struct celspan_stack_light {
   celspan_light front, back;
 } celspan_stack_light;
 
-/* desc: borrowed; one exposure, whose weight is not used. The tolerance is 2^-18 where it is 0.
- * out: new      Errors: those of rendering; BAD_ARGUMENT for a light that is a texture, naming the
- * cel, and for another number of exposures; LIMIT for more than 4,096 cels. */
+/* desc: borrowed; one exposure, whose weight is not used. A tolerance of 0 means 2^-18.
+ * out: new      Errors: those of rendering; BAD_ARGUMENT for a light that is a texture, and the
+ * sentence names the cel; BAD_ARGUMENT unless there is one exposure; LIMIT for more than 4,096
+ * cels. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_stack_create(celspan_context *context,
                                                                 const celspan_frame_desc *desc,
                                                                 celspan_stack **out);
@@ -129,7 +131,8 @@ CELSPAN_API void celspan_stack_size(const celspan_stack *stack, int32_t *width, 
 /* How many lights it takes: one for the back light of the rostrum itself, whose front does not
  * count, then one for each cel from the rear. */
 CELSPAN_API size_t celspan_stack_light_count(const celspan_stack *stack);
-/* Those that the rostrum has, brightness included. lights: room for that many */
+/* The lights of the rostrum, brightness included. lights: room for celspan_stack_light_count
+ * lights */
 CELSPAN_API void celspan_stack_lights(const celspan_stack *stack, celspan_stack_light *lights);
 /* Bytes that its rows of spans take. */
 CELSPAN_API size_t celspan_stack_bytes(const celspan_stack *stack);
