@@ -8,8 +8,8 @@
 
 /* ---------------------------------------------------------------- lines */
 
-/* Its address is a key of the registry: a list of texts, in which each text has its number too, and
- * [0] is whether more are kept. */
+/* The address of this variable is a key of the registry. Its value is a list of texts, which also
+ * has the number of each text under the text itself. Item 0 is true while callers are kept. */
 static const char callers_key = 0;
 
 void cs_named_keep_callers(lua_State *L, bool is_kept) {
@@ -51,7 +51,7 @@ static uint32_t number_of_callers(lua_State *L) {
   return number;
 }
 
-/* 0: they are not kept. */
+/* The number of the current callers; 0: callers are not kept. */
 static uint32_t find_callers(lua_State *L) {
   uint32_t number = 0;
   if (lua_rawgetp(L, LUA_REGISTRYINDEX, &callers_key) == LUA_TTABLE) {

@@ -77,7 +77,8 @@ static void add_number(lua_State *L, lua_Integer *count, double number) {
   lua_rawseti(L, -2, ++*count);
 }
 
-/* Appends the control points of a piece after its first one; of a line, those at its thirds. */
+/* Appends the points of a cubic piece after its first one. A line becomes a cubic whose control
+ * points are at the thirds of the line. */
 static void add_piece(lua_State *L, const cs_outline *outline, size_t i, lua_Integer *count) {
   const cs_hpoint *p = outline->points + outline->starts[i];
   if (outline->degrees[i] == 3) {
@@ -97,8 +98,8 @@ static void add_piece(lua_State *L, const cs_outline *outline, size_t i, lua_Int
 
 static bool is_point_same(cs_hpoint a, cs_hpoint b) { return a.x == b.x && a.y == b.y; }
 
-/* Pushes a contour of cubics: x, y, and six numbers a piece. is_open: it need not come back, and
- * the line that would close it is left out. */
+/* Pushes a contour of cubics: x, y, and six numbers a piece. is_open: the contour need not return
+ * to its beginning, and the line that would close it is left out. */
 static void push_contour(lua_State *L, const cs_outline *outline, size_t begin, size_t end,
                          bool is_open) {
   lua_Integer count = 0;
@@ -286,7 +287,7 @@ int cs_anatomy_of(lua_State *L) {
 
 /* ---------------------------------------------------------------- the way back */
 
-/* (object, { operands }) -> a boolean as the object is one, of these operands */
+/* (object, { operands }) -> a boolean like the object, with these operands */
 int cs_anatomy_rebuild(lua_State *L) {
   static const cs_noun noun = {.name = "morph", .fields = cs_bare_fields};
   const cs_userdata *like = cs_userdata_test(L, 1, &cs_kind_object);
