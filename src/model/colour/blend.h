@@ -26,6 +26,7 @@
 /* The words of celspan_blend, ended by NULL. */
 extern const char *const cs_blend_words[];
 
-/* Blends one colour of a source, s, with one of its backdrop, b; blend_lanes.h blends many at once.
- * ADD is the mode of sources within their backdrops. */
+/* Blends one colour of a source, s, and one colour of its backdrop, b; blend_lanes.h blends many
+ * colours at once. ADD is blended here only for sources within their backdrops
+ * (CS_BLEND_WITHIN). */
 cs_v4 cs_blend_colour(celspan_blend mode, cs_v4 b, cs_v4 s);

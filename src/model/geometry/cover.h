@@ -1,20 +1,20 @@
-/* Cover: the area right of a straight line in a pixel of a row, in doubles, for a line over a whole
- * row; that of a shorter one is as much less as it is.
+/* Cover: the area right of a straight line in a pixel of a row, in doubles. The line crosses the
+ * whole height of the row; for a shorter line, the area is smaller in proportion to its height.
  *
  *      low              high         low, high: its least and greatest x
  *       |                |
- *   +---`.--+-------+----|--+        first    the column on whose right side it goes on
- *   |   |#`.|#######|####|##|        last     the column that it has entered from the left
- *   |   |###|`.#####|####|##|        within   the same where it does not leave the column
- *   |   |###|##`.###|####|##|        passed   of all the columns up to some x, whichever they are
+ *   +---`.--+-------+----|--+        first    area in a column that it leaves on the right side
+ *   |   |#`.|#######|####|##|        last     area in a column that it enters on the left side
+ *   |   |###|`.#####|####|##|        within   area in the only column that it crosses
+ *   |   |###|##`.###|####|##|        passed   area in all columns up to some x
  *   |   |###|####`.#|####|##|
  *   |   |###|######`|.###|##|        by_twice: 1 / twice its width
  *   +---|---+-------+-`--|--+
  *     first            last
  *
- * Areas are rounded to multiples of 2^-28, as the heights of lines are, so sums of them are exact:
- * what lies left and right of lines in a pixel sums to the pixel, and one that abutting black
- * shapes cover together is black, not nearly so.
+ * Areas are rounded to multiples of 2^-28, as the heights of lines are, so sums of them are exact.
+ * The areas left and right of the lines in a pixel sum to the whole pixel. So a pixel that two
+ * black shapes with a common edge cover is black, and not nearly black.
  *
  * Invariants: the bits are the same whichever instructions compute them. All ways to the area of
  * one pixel differ by no more than rounding.
@@ -23,7 +23,7 @@
 
 #include "base/number.h"
 
-/* To the nearest multiple of 2^-28, for |x| < 2^22: sums of such numbers are exact. */
+/* Rounds to the nearest multiple of 2^-28, for |x| < 2^22: sums of such numbers are exact. */
 static inline double cs_cover_round(double x) {
   const double bias = 0x1.8p24;
   return (x + bias) - bias;
@@ -35,22 +35,23 @@ static inline double cs_cover_by_twice(double low, double high) {
   return 0.5 / cs_number_most(high - low, thin);
 }
 
-/* In the column that ends at `end` > low, where the line ends beyond it. */
+/* The area in the column that ends at `end` > low, for a line that ends right of this column. */
 static inline double cs_cover_first(double low, double end, double by_twice) {
   return (end - low) * (end - low) * by_twice;
 }
 
-/* In the column that ends at `end`, where the line is within it. */
+/* The area in the column that ends at `end`, for a line that lies within this column. */
 static inline double cs_cover_within(double low, double high, double end) {
   return end - 0.5 * (low + high);
 }
 
-/* In the column that begins at `begin` <= high, where the line begins before it. */
+/* The area in the column that begins at `begin` <= high, for a line that begins left of this
+ * column. */
 static inline double cs_cover_last(double high, double begin, double by_twice) {
   return 1 - (high - begin) * (high - begin) * by_twice;
 }
 
-/* In all columns up to x. */
+/* The area in all columns up to x. */
 static inline double cs_cover_passed(double low, double high, double by_twice, double x) {
   double until = cs_number_most(cs_number_least(x, high) - low, 0);
   return until * until * by_twice + cs_number_most(x - high, 0);

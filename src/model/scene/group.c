@@ -166,13 +166,14 @@ celspan_status cs_object_blend_within(celspan_context *context, celspan_object *
 
 /* ---------------------------------------------------------------- spaces */
 
-/* Any other object is put into a group. */
+/* Whether the object is a union. Any other object is put into a group. */
 static bool is_union(const celspan_object *object) {
   const cs_primitive_data *data = object->data;
   return data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op == CELSPAN_OPERATOR_UNION;
 }
 
-/* The look of such an object does not depend on the space around it. */
+/* Whether the object has a space of its own, so that its look does not depend on the space around
+ * it. */
 static bool has_space(const celspan_object *object) {
   return is_union(object) && object->data->boolean->space != CELSPAN_SPACE_AROUND;
 }

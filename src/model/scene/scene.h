@@ -85,8 +85,8 @@ typedef enum cs_primitive_data_kind {
  * point fades the first. */
 #define CS_OPERATOR_MATTE ((celspan_operator)(CELSPAN_OPERATOR_CLIP + 1))
 
-/* A known fact about where a boolean is present: where an object is present that is grown
- * (model/scene/grow.h). */
+/* A known fact about where a boolean is present: it is present wherever `object`, grown by `width`,
+ * is present (model/scene/grow.h). */
 typedef struct cs_core {
   celspan_object *object; /* in the boolean's units; NULL: nothing is known. A reference */
   double width;
@@ -105,7 +105,7 @@ typedef struct cs_boolean {
   bool is_luma;              /* MATTE: the strength is luma, not alpha */
   bool inverts;              /* MATTE: 1 less the strength */
   bool is_filled;            /* CLIP: the plane of a pattern, and the primitive that it fills */
-  cs_core core;              /* of an outline; no part of the hash, since it shows in nothing */
+  cs_core core;              /* of an outline; not in the hash, because it changes no pixel */
   cs_operands view;          /* keeps the operands */
   celspan_object **operands; /* the operands of the view */
   size_t operand_count;
@@ -139,23 +139,24 @@ typedef struct cs_primitive_data {
   cs_primitive_data_kind kind;
   celspan_rule rule;
   bool is_empty;            /* nothing to draw: no contour, or an operator without operands */
-  bool has_procedure;       /* below or with this one */
-  bool blends[CS_SPACES];   /* in that space, a mode below this one acts on its backdrop */
-  bool has_uneven;          /* below or with this one: a paint that does not dim the three
-                               channels alike, or stays on its thread; a procedure; a rostrum */
+  bool has_procedure;       /* this object or one below it is a procedure */
+  bool blends[CS_SPACES];   /* in that space, a mode below acts on the backdrop of this object */
+  bool has_uneven;          /* this object or one below it has a paint that does not dim the three
+                               channels alike, or stays on its thread; or is a procedure or a
+                               rostrum */
   uint8_t mixing;           /* a cs_mixing */
   bool has_modes;           /* any mode is below or with this one, except in a rostrum */
   bool is_box;              /* the outline is that of `box`, which has an area */
-  int16_t depth;            /* levels of booleans and rostrums below and with this one */
-  uint16_t shape_count;     /* as primitive_count, a mesh being one shape; 65535 at most */
+  int16_t depth;            /* levels of booleans and rostrums, with this object */
+  uint16_t shape_count;     /* as primitive_count, but a mesh is one shape; 65535 at most */
   uint16_t cut_count;       /* of these, primitives that a difference cuts away */
-  uint32_t primitive_count; /* below and with this one, each time it occurs */
+  uint32_t primitive_count; /* primitives of the tree; a shared one counts each time */
   celspan_texture *texture; /* OUTLINE; never NULL */
   celspan_box bounds; /* all but BOOLEAN: own units; tight, but of a stroke only where that shows */
   cs_stroke *stroke;  /* OUTLINE, instead of an outline; else NULL. Owned */
   union {
     celspan_box box;     /* is_box. SCANLINE: its bounds; ROSTRUM: its frame */
-    cs_outline *outline; /* else; packed and owned. NULL of strokes and booleans */
+    cs_outline *outline; /* not is_box: packed and owned. NULL for strokes and booleans */
   };
   union {
     cs_boolean *boolean;             /* BOOLEAN; owned */
@@ -187,8 +188,8 @@ static inline celspan_blend cs_object_mode(const celspan_object *object) {
   return data->kind == CS_PRIMITIVE_DATA_BOOLEAN ? data->boolean->blend : CELSPAN_BLEND_NORMAL;
 }
 
-/* The space in which the operands of a boolean are composited, inside a space. Where they are not
- * mixed it is that one, which looks the same and costs less. */
+/* The space in which the operands of a boolean are composited; around: the space that the boolean
+ * is in. Operands that are not mixed use the space around, which looks the same and costs less. */
 static inline celspan_space cs_boolean_space(const cs_boolean *boolean, celspan_space around) {
   return boolean->mixes ? cs_space_inside(boolean->space, around) : around;
 }
@@ -299,17 +300,17 @@ celspan_matrix cs_scene_camera(const celspan_rostrum *rostrum, double film_width
 cs_light cs_scene_front(const celspan_rostrum *rostrum, const celspan_cel *cel);
 /* A back light times the rostrum's brightness; the matte does not change. */
 cs_light cs_scene_back(const celspan_rostrum *rostrum, const cs_light *back);
-/* *out: new; a copy of `cel`, name and line included, without the parts named: its lights, so that
- * white light shines on it and none through it, or its defocus. For tools that show a part of the
- * work. Errors: NO_MEMORY. */
+/* *out: new; a copy of `cel`, name and line included, without the parts named. Without lights,
+ * white light shines on the cel and no light through it. For tools that show a part of the work.
+ * Errors: NO_MEMORY. */
 typedef struct cs_cel_without {
   bool lights, defocus;
 } cs_cel_without;
 CELSPAN_CHECKED celspan_status cs_cel_bare(celspan_context *context, const celspan_cel *cel,
                                            cs_cel_without without, celspan_cel **out);
-/* *out: new; like `from`, name and line included, with these cels, which are kept, and of
- * cs_rostrum_change with this back light. They are right already: for tools that show a part of a
- * frame, or show it before another ground. Errors: NO_MEMORY. */
+/* *out: new; like `from`, name and line included, with these cels, which are kept.
+ * cs_rostrum_change replaces the back light, too. Neither checks its arguments. For tools that show
+ * a part of a frame, or show it before another ground. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_rostrum_with(celspan_context *context,
                                                const celspan_rostrum *from,
                                                celspan_cel *const *cels, size_t cel_count,

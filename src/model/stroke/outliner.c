@@ -42,9 +42,9 @@ static celspan_status append_stretch(outliner *o, stretch s) {
   return CELSPAN_OK;
 }
 
-/* The spoke at a parameter. At a change the slope is 1 or -1, so both sides' tips are one point:
- * were it left to rounding, its root would set them millionths apart, and light would leak between
- * them. */
+/* The spoke at a parameter. At a change the slope is exactly 1 or -1, so the tips of both sides are
+ * one point. With a rounded slope, its root would put the tips millionths apart, and light would
+ * leak between them. */
 static cs_spoke spoke_at(const cs_curve *curve, double t, bool is_change) {
   cs_spoke spoke = cs_spoke_at(curve, t);
   return is_change
@@ -52,7 +52,7 @@ static cs_spoke spoke_at(const cs_curve *curve, double t, bool is_change) {
              : spoke;
 }
 
-/* base: the stretch that the curve is; from, to: of its own parameter. */
+/* base: the stretch that the whole curve covers; from, to: parameters of the curve. */
 static celspan_status add_between(outliner *o, const stretch *base, const cs_curve *curve,
                                   double from, double to) {
   stretch s = *base;
@@ -80,8 +80,8 @@ static celspan_status add_visible(outliner *o, const stretch *base, const cs_cur
   return add_between(o, base, curve, from, 1);
 }
 
-/* Whether it is worth while to look at parts of a curve. A curve that is shorter than wide looks
- * alike from both ends. */
+/* Whether it is worthwhile to look at the halves of a curve. If a curve is shorter than its stroke
+ * is wide, each half fills nearly the same place as the whole. */
 static bool is_long(const outliner *o, const cs_curve *curve, const celspan_box *box) {
   celspan_box line = cs_curve_box(curve, 0);
   return line.width + line.height > box->width - line.width &&
@@ -149,7 +149,7 @@ static celspan_status turn(outliner *o, const stretch *a, const stretch *b) {
   return cs_corner_turn(&o->side, o->stroke, &in, &out);
 }
 
-/* The right side of stretches [begin, end), on the way there or back. */
+/* Adds the right side of stretches [begin, end), on the way there or back. */
 static celspan_status add_side(outliner *o, size_t begin, size_t end, bool is_turned) {
   o->side.is_turned = is_turned;
   for (size_t i = begin; i < end; i++) {
@@ -178,7 +178,7 @@ static celspan_status add_end(outliner *o, const cs_spoke *end, bool is_cut) {
   return is_cut ? cs_corner_cut(&o->side, end) : cs_corner_cap(&o->side, o->stroke, end);
 }
 
-/* Stretches [begin, end), which follow each other. */
+/* Adds stretches [begin, end), which follow each other. */
 static celspan_status add_run(outliner *o, size_t begin, size_t end, bool is_cut_before,
                               bool is_cut_after) {
   const cs_spoke *last = &o->stretches[end - 1].last;
@@ -288,7 +288,8 @@ static bool are_hidden(outliner *o, size_t begin, size_t end) {
   return find_line(&o->parts, begin, end, &line) && is_line_hidden(o->view, o->stroke, &line);
 }
 
-/* Parts [begin, end). Of very many dashes, few may be in the frame: these are found by halving. */
+/* Adds parts [begin, end). If there are very many dashes, perhaps few of them are in the frame.
+ * These are found by halving. */
 static celspan_status add_parts(outliner *o, size_t begin, size_t end) {
   if (end - begin > FEW) {
     size_t middle = begin + (end - begin) / 2;

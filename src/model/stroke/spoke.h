@@ -3,8 +3,8 @@
  *   o tip                     The disc of the place touches the envelope of all discs at the tip.
  *    \ direction              slope = dr/ds: how fast the radius grows along the way.
  *     \                          direction = -slope * tangent + sqrt(1 - slope^2) * right
- * -----*-----> tangent        The envelope continues at a right angle to the spoke. Where the slope
- *    centre                   is beyond +-1 a disc is inside its neighbour: it is clamped to that.
+ * -----*-----> tangent        The envelope continues at a right angle to the spoke. If a disc is
+ *    centre                   inside its neighbour, the slope is beyond +-1, and is clamped to +-1.
  */
 #pragma once
 
@@ -55,7 +55,7 @@ cs_spoke cs_spoke_at(const cs_curve *curve, double t);
 cs_spoke_motion cs_spoke_move(const cs_curve *curve, double t, const cs_spoke *spoke);
 /* The same place seen on the way back: the spoke to the other side. */
 cs_spoke cs_spoke_turned(const cs_spoke *spoke);
-/* The angle from the tangent to the spoke, 0 .. pi, and that from one direction to another,
- * -pi .. pi, > 0 with the order of a contour. */
+/* The angle from the tangent to the spoke, 0 .. pi, and the angle from one direction to another
+ * direction, -pi .. pi, > 0 with the order of a contour. */
 double cs_spoke_lean(const cs_spoke *spoke);
 double cs_spoke_angle(celspan_point from, celspan_point to);
