@@ -37,9 +37,9 @@ typedef struct worker_loop {
 
 /* ---------------------------------------------------------------- faults */
 
-/* A failed allocation sets errno, which is still set where a library continued without memory until
- * it crashed, or ended the process by an uncaught exception. So does a thread that the limit of
- * processes does not allow. */
+/* A failed allocation sets errno. errno is still set if the library continued without memory until
+ * it crashed, or ended the process by an uncaught exception. A thread that the limit of processes
+ * does not allow sets errno, too. */
 static bool is_without_means(void) { return errno == ENOMEM || errno == EAGAIN; }
 
 static void end_by_fault(int number) {
@@ -51,8 +51,8 @@ static void end_by_fault(int number) {
 
 static bool is_serving; /* false while libraries are loaded */
 
-/* The zygote and workers end only by _exit. A library that calls exit while it is loaded has no
- * memory to start with, whatever value errno has by then. */
+/* The zygote and workers end only by _exit, so it is a library that has called exit. While
+ * libraries are loaded, the reason is a lack of memory, whatever value errno has by then. */
 static void end_by_library(void) {
   if (!is_serving || is_without_means())
     _exit(CS_WORKER_NO_MEMORY);

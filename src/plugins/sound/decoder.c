@@ -48,7 +48,8 @@ static celspan_status fail_late(const decoder *d, celspan_context *context) {
                  d->path, d->seconds);
 }
 
-/* Removes the name under which the worker has the file open, which begins many messages. */
+/* Removes the name under which the worker has opened the file. Many messages begin with this
+ * name. */
 static void remove_name(cs_words *words) {
   static const char name[] = CS_SOUND_WORKER_FILE ": ";
   for (char *at; (at = strstr(words->text, name));) {
@@ -96,8 +97,8 @@ static void hear(decoder *d) {
   }
 }
 
-/* Waits until the pipe has bytes or has ended, or, if it is closed, the socket has. false: at the
- * time limit, or because of a signal or `stop`. */
+/* Waits until the pipe has bytes or has ended. If the pipe is closed, waits for the socket instead.
+ * false: the time limit is reached, or a signal or `stop` has come. */
 static bool wait_for_more(decoder *d, bool *is_late) {
   double start = cs_clock_seconds();
   *is_late = false;
@@ -219,7 +220,7 @@ static celspan_status start_worker(decoder *d, celspan_context *context,
     return cs_fail(context, status, "the sound %s cannot be read: %s", d->path, failure.text);
   d->has_worker = true;
   snprintf(message.text, sizeof message.text, "%s", desc->kind);
-  /* A worker that cannot receive it has ended, which the first read finds. */
+  /* If the message cannot be sent, the worker has ended, and the first read finds this. */
   (void)!cs_message_send(d->socket, &message, desc->descriptor);
   return CELSPAN_OK;
 }

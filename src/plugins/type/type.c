@@ -1,6 +1,6 @@
-/* Without memory HarfBuzz continues with empty tables, and keeps them: text would be wrong from
- * then on. A failed allocation sets errno, which is checked after each call; a font for which one
- * failed is made again for the next call. */
+/* If HarfBuzz lacks memory, it continues with empty tables and keeps them, so text would be wrong
+ * from then on. A failed allocation sets errno, which is checked after each call. If an allocation
+ * has failed, the font is dropped, and the next call makes the font again. */
 #include "plugins/type/type.h"
 
 #include <errno.h>
@@ -142,8 +142,8 @@ static uint64_t find_axes(const cs_type_font *font) {
   return axes;
 }
 
-/* A height from the tables of the font; without it the height of one of its letters; without that
- * `other`. */
+/* A height from the tables of the font. If it is missing, the height of the letter `letter`; if the
+ * font lacks this letter, `other`. */
 static int32_t find_height(const cs_type_font *font, hb_ot_metrics_tag_t tag, uint32_t letter,
                            int32_t other) {
   hb_position_t height;
