@@ -17,15 +17,16 @@ typedef struct cs_confined {
   bool is_trusted; /* limits only */
 } cs_confined;
 
-/* Has pictures decoded by processes of their own, unless they are trusted. OK, or reported. */
+/* Lets processes of their own decode pictures, unless the pictures are trusted. OK, or reported. */
 cs_exit cs_confine_pictures(celspan_context *context, const cs_request *request);
 /* Finds how much memory this run may hold, and sets the sizes of the caches, before anything else.
  * OK, or reported. */
 cs_exit cs_confine_memory(const cs_request *request, celspan_context_desc *desc);
-/* Limits the memory that is held, and in it the memory of the frames that are rendered at a
- * time. */
+/* Limits the memory that is held. The frames that are rendered at a time have a limit of their own
+ * within this memory. */
 void cs_confine_rendering(celspan_context *context, const cs_request *request);
-/* Each process started from now on has a part of the memory that this one may hold. */
+/* Divides the memory that this process may hold: each process started from now on has one part of
+ * it. */
 void cs_confine_divide(unsigned parts);
 /* Refuses the options of scripts for a verb that reads a FILE and runs no script. OK, or reported.
  */

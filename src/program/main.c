@@ -32,7 +32,7 @@ static const cs_verb *find_verb(const char *name) {
   return NULL;
 }
 
-/* A file in the place of a verb. */
+/* Reports that a file was given in the place of a verb. */
 static cs_exit refuse_file(const char *name) {
   const char *dot = strrchr(name, '.');
   if (dot && strcmp(dot, ".lua") == 0)
@@ -87,7 +87,8 @@ static cs_exit parse_and_run(const cs_verb *verb, size_t count, char *const *wor
   return run(&request);
 }
 
-/* words: a verb, what is looked for, or an option of the help; none: it lists the verbs. */
+/* words: a verb, a text to look for, or an option of the help. Without words, it lists the
+ * verbs. */
 static cs_exit help(size_t count, char *const *words) {
   bool is_list = count > 0 && strcmp(words[0], "help") == 0;
   return parse_and_run(find_verb("help"), is_list ? 0 : count, words);
@@ -122,9 +123,9 @@ static cs_exit dispatch(int count, char **arguments) {
   return strchr(first, '.') ? refuse_file(first) : refuse_verb(first);
 }
 
-/* Daemons and farms start programs with descriptors 0 to 2 closed; the next file opened would then
- * take their place, and messages would be written into frames. /dev/null holds the places. It is
- * opened for reading alone where standard output was, so that what is written there still fails. */
+/* Daemons and farms start programs with descriptors 0 to 2 closed. The next opened file would then
+ * take such a place, and messages would be written into frames. So /dev/null takes the places. In
+ * the place of standard output it is opened only for reading, so that writing there still fails. */
 static bool hold_descriptors(void) {
   static const int modes[] = {O_RDONLY, O_RDONLY, O_WRONLY};
   for (int number = 0; number <= 2; number++)
@@ -136,8 +137,9 @@ static bool hold_descriptors(void) {
 #define STACK_USUAL ((rlim_t)8 << 20)
 #define STACK_LEAST ((rlim_t)1 << 20) /* scripts and drawings that are nested deeply need some */
 
-/* A stack that grows to the usual limit, as far as the process may raise its own. Returns false,
- * reported, where that is too little: beyond the limit the process would end with a signal. */
+/* Lets the stack grow to the usual limit, as far as the process may raise its limit. If the limit
+ * is too small after that, reports this and returns false: a larger stack would end the process
+ * with a signal. */
 static bool widen_stack(void) {
   struct rlimit limit;
   if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= STACK_USUAL)

@@ -109,7 +109,7 @@ static void hash_one(void *user, const char *name, const char *value) {
     cs_hash_text(user, value);
 }
 
-/* Of all that the script is given: its arguments, and the values of its parameters. */
+/* The hash of all that the script is given: its arguments, and the values of its parameters. */
 static cs_hash hash_settings(const script_settings *settings) {
   const cs_request *request = settings->request;
   cs_hash hash = cs_hash_begin(request->script_argument_count);
@@ -179,7 +179,8 @@ static const char HOUSE_RULES[] =
     "end\n"
     "function os.exit() error('os.exit: a script cannot end celspan; raise an error', 2) end\n";
 
-/* The functions of a trusted script: pcall and xpcall pass on limits where there are any. */
+/* Opens the functions of a trusted script. If the script has limits, its pcall and xpcall do not
+ * catch an exceeded limit, but propagate it. */
 static void open_trusted(lua_State *L, bool has_limits) {
   static const luaL_Reg catching[] = {
       {"pcall", cs_guard_pcall}, {"xpcall", cs_guard_xpcall}, {NULL, NULL}};
@@ -222,8 +223,9 @@ static int prepare(lua_State *L) {
   return 0;
 }
 
-/* Lua has no memory, or the core has none for the module and its first values: neither may have had
- * a context yet to say it to, but all say it. */
+/* Whether a message says that memory is missing, for Lua, or for the core to make the module and
+ * its first values. At these times there may be no context yet that has a status, but all such
+ * messages contain the word. */
 static bool lacks_memory(const char *message) { return !message || strstr(message, "memory"); }
 
 cs_exit cs_script_report_start(lua_State *L) {
@@ -258,7 +260,8 @@ static int read_film(lua_State *L) {
   return 0;
 }
 
-/* Reads the settings before the sandbox is entered, in which their file may not be read. */
+/* Reads the settings before the sandbox is entered, because the sandbox does not allow reading
+ * their file. */
 static cs_exit start_script(cs_script *out, const cs_request *request, const char *path) {
   script_settings settings;
   cs_confined confined;

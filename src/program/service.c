@@ -55,7 +55,7 @@ const char **cs_service_push_words(lua_State *L, int index) {
 
 /* ---------------------------------------------------------------- reports */
 
-/* The sentence at an index. A zero byte would end it; it is shown as report.c shows other controls.
+/* The sentence at an index. A zero byte would end it, so it is shown as report.c shows controls.
  */
 static const char *sentence_at(lua_State *L, int index) {
   size_t size;
@@ -94,8 +94,8 @@ static int fail(lua_State *L) {
   return cs_service_end(L, codes[kind]);
 }
 
-/* The exit code of a message that a function of celspan's returned. plain: of one that the core did
- * not set. A library may have caught Lua's own sentence about memory. */
+/* The exit code for a message that a function of celspan has returned. plain: the code for a
+ * message that the core did not set. A library may have caught Lua's own sentence about memory. */
 static cs_exit code_of(lua_State *L, const char *message, cs_exit plain) {
   celspan_status status = cs_host_blame(L, message);
   if (status == CELSPAN_NO_MEMORY || strstr(message, "not enough memory"))
@@ -143,14 +143,14 @@ static int reported(lua_State *L) {
   return 1;
 }
 
-/* outcome() -> the exit code of a service that failed where the verb caught that */
+/* outcome() -> the exit code of a failed service, if the verb caught the failure */
 static int outcome(lua_State *L) {
   lua_pushinteger(L, cs_service_session(L)->outcome);
   return 1;
 }
 
-/* is_stopped() -> whether a signal asked to stop. A verb that asks ends by itself: from then on its
- * Lua is not interrupted. */
+/* is_stopped() -> whether a signal asked to stop. A verb that calls is_stopped ends by itself, so
+ * from the first call on, signals do not interrupt its Lua. */
 static int is_stopped(lua_State *L) {
   cs_script_unwatch();
   lua_pushboolean(L, cs_interrupt_signal() != 0);

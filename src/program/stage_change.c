@@ -1,8 +1,8 @@
-/* A frame that is watched in another way: by the camera of another, without some cels, without
- * lights or defocus, or with nothing but what one line of the script made; and what each cel of it
- * costs.
+/* Changes of a watched frame: it can be shown by the camera of another frame, without some cels,
+ * without lights or defocus, or only with the objects that one line of the script made. And the
+ * costs of each cel of the frame.
  *
- * INVARIANT: the frame that was built last is changed, and the next one that is built is whole.
+ * INVARIANT: only the frame that was built last is changed; the next built frame is whole.
  */
 #include <stdio.h>
 #include <string.h>
@@ -41,8 +41,8 @@ static void drop_cels(celspan_context *context, celspan_cel **cels, size_t count
   cs_mem_free(context->memory, cels, most * sizeof(celspan_cel *));
 }
 
-/* *out: new; the rostrum with what `make` makes of each of its cels; NULL instead of a cel: the cel
- * is left out. */
+/* *out: new; the rostrum with the cels that `make` returns in place of its own. If `make` returns
+ * NULL, the cel is left out. */
 static celspan_status remake(celspan_context *context, const celspan_rostrum *from, maker make,
                              void *user, celspan_rostrum **out) {
   celspan_cel **cels;
@@ -160,7 +160,7 @@ static celspan_status add_made(made *m, celspan_object *object, const celspan_ma
 static celspan_status find_in_rostrum(made *m, const celspan_rostrum *rostrum,
                                       const celspan_matrix *matrix);
 
-/* is_all: they belong to something that the line made. Recursion ends: nesting is at most
+/* is_all: the objects belong to an object that the line made. Recursion ends: nesting is at most
  * CS_SCENE_DEPTH. */
 static celspan_status find_made(made *m, celspan_object *const *objects, size_t count, bool is_all,
                                 const celspan_matrix *matrix) {
@@ -194,8 +194,8 @@ static void drop_objects(made *m) {
     celspan_object_unref(m->objects[--m->count]);
 }
 
-/* A cel at the same place with the objects that the line made in it; none: the line made nothing
- * there. */
+/* A cel at the same place with only the objects that the line made in it; no cel if the line made
+ * nothing there. */
 static celspan_status keep_made(void *user, const celspan_rostrum *from, size_t i,
                                 celspan_cel **out) {
   made *m = user;
@@ -285,8 +285,9 @@ static void give_cost(lua_State *L, const char *name, cs_mark mark, const cost *
   lua_call(L, 1, 0);
 }
 
-/* film:costs(width, height, x, y, w, h, add) -> true | nil, message: calls add with what that part
- * of the frame costs as a whole, then each cel of its first exposure alone, CELS_MOST at most. */
+/* film:costs(width, height, x, y, w, h, add) -> true | nil, message: calls add with the costs of
+ * that part of the frame as a whole, then with the costs of each cel of its first exposure alone,
+ * for at most CELS_MOST cels. */
 int cs_stage_costs(lua_State *L, cs_script *script) {
   celspan_frame_desc desc;
   cost c;
