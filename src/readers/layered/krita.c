@@ -43,7 +43,9 @@ static celspan_status read_channels(cs_document *document) {
                               "alpha is inherited from the layers below: it is shown whole");
 }
 
-/* Layers lie in "folder/layers/": the folder has the image's name, or else whatever name it has. */
+/* Finds the folder of the layers, whose names begin with "folder/layers/". The folder normally has
+ * the image's name. If there is no such folder, the first folder that contains "layers/" is
+ * used. */
 static void find_folder(cs_document *document, const char *name) {
   static const char between[] = "/layers/";
   const cs_zip *zip = document->zip;

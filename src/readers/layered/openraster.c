@@ -87,7 +87,8 @@ static celspan_status read_packed(chunks *c) {
   return status;
 }
 
-/* The name, of 79 bytes at most, its NUL and the number of the packing. */
+/* Reads a profile chunk: a name of 79 bytes at most, its NUL, a byte for the compression method,
+ * and the compressed profile. */
 static celspan_status read_profile(chunks *c) {
   char name[80];
   size_t done = 0;

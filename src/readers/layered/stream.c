@@ -16,7 +16,7 @@ celspan_status cs_stream_read(cs_stream *stream, celspan_context *context, void 
 
 /* ---------------------------------------------------------------- all of it */
 
-/* Bytes that grow as they come. */
+/* Memory that grows while bytes arrive. */
 typedef struct loaded {
   void *bytes;
   size_t capacity, size, most;
@@ -36,7 +36,7 @@ static celspan_status load(cs_stream *stream, celspan_context *context, const ch
   return CELSPAN_OK;
 }
 
-/* The memory that was grown, shrunk to its contents. */
+/* Shrinks the memory to its contents and passes it to the caller. A NUL follows the contents. */
 static celspan_status shrink(celspan_context *context, loaded *found, unsigned char **out,
                              size_t *size) {
   unsigned char *bytes =

@@ -36,15 +36,15 @@ typedef struct cs_svg_item {
   double opacity;
   celspan_blend blend;
   bool isolates;              /* modes inside do not see its background */
-  bool is_moved;              /* shown by `use` elsewhere than where it stands in the file: */
-  celspan_matrix moved, back; /* from there to here, and the inverse */
+  bool is_moved;              /* `use` shows it in another place than the file has it */
+  celspan_matrix moved, back; /* from its place in the file to the shown place; the inverse */
   celspan_object *object;     /* NULL: nothing is drawn */
 } cs_svg_item;
 
 typedef struct cs_svg_part {
   const char *name;
   bool is_label;          /* the name is a label, and not an id */
-  celspan_object *object; /* where it stands in the file; owned */
+  celspan_object *object; /* at its place in the file; owned */
 } cs_svg_part;
 
 typedef struct cs_svg_note {

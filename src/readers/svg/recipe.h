@@ -26,7 +26,7 @@ typedef enum cs_svg_step_kind {
   CS_SVG_STEP_MERGE,  /* the inputs over each other, the first behind */
   CS_SVG_STEP_BLEND,  /* the first input in a mode over the second */
   CS_SVG_STEP_IN,     /* the first input where the second is */
-  CS_SVG_STEP_OUT,    /* or is not */
+  CS_SVG_STEP_OUT,    /* the first input where the second is not */
   CS_SVG_STEP_ATOP,   /* IN, and the second where the first is not */
   CS_SVG_STEP_XOR,    /* each where the other is not */
   CS_SVG_STEP_SUM,    /* both inputs, white and a product, by weights */
@@ -34,8 +34,8 @@ typedef enum cs_svg_step_kind {
   CS_SVG_STEP_LUMA,   /* black, as far as the input is light */
   CS_SVG_STEP_OFFSET,
   CS_SVG_STEP_BLUR,
-  CS_SVG_STEP_GROW,   /* the paint where the rectangle around a point has any of the input in it */
-  CS_SVG_STEP_SHRINK, /* or nothing but that */
+  CS_SVG_STEP_GROW,   /* the paint at each point whose rectangle contains some of the input */
+  CS_SVG_STEP_SHRINK, /* the paint at each point whose rectangle is full of the input */
   CS_SVG_STEP_SHADOW, /* the input over its silhouette, blurred and moved */
   CS_SVG_STEP_FLOOD,
   CS_SVG_STEP_TILE, /* a part of the input, repeated */
@@ -49,7 +49,7 @@ typedef struct cs_svg_step {
   size_t first_input, input_count;
   celspan_blend blend;    /* BLEND */
   double weights[4];      /* SUM: of the inputs, white and the product: 0..CS_SVG_SUM_MOST */
-  int flood;              /* SUM: the input that is one, if there is a product */
+  int flood;              /* SUM: the input that is a flood, if there is a product */
   celspan_grade *grade;   /* COLOUR, and SUM: of the other factor; owned; NULL: none */
   double opacity;         /* COLOUR */
   celspan_point offset;   /* OFFSET, SHADOW */

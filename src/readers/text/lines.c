@@ -14,7 +14,8 @@
 #define HIDDEN_HYPHEN 0x00ad
 /* The share of the width that rounding may add to the advances of a line. */
 #define SLACK 1e-9
-/* Lines that are shaped shorter again, because their ends made them longer than was measured. */
+/* How often a line is cut shorter and shaped again, because its new end made it longer than
+ * measured. */
 #define RETRIES 8
 
 /* ---------------------------------------------------------------- measuring */
@@ -160,8 +161,8 @@ static celspan_status shape_line(cs_layout *layout, uint8_t base, size_t begin, 
   return status;
 }
 
-/* Where a line that begins there ends at the latest: after as many words as fit, at least one.
- * limit: the first character that may not be in it any more. */
+/* Where a line that begins at `begin` ends at the latest: after as many words as fit, at least one.
+ * limit: the first character that is too far right to be in the line. */
 static size_t fitting_end(const cs_layout *layout, size_t begin, size_t limit, size_t end) {
   double most = layout->desc->width * (1 + SLACK) + tracking_of(layout), x = 0, visible = 0;
   size_t found = begin;
@@ -191,9 +192,9 @@ static void end_line(cs_layout *layout, double width) {
   layout->line++;
 }
 
-/* Adds the next line of a paragraph that wraps; *at: its first character; becomes the first
- * character of the next line. A cut may change the measures: letters that were joined are not any
- * more. */
+/* Adds the next line of a paragraph that wraps. *at: the first character of this line; then the
+ * first character of the next line. A cut may change the measures, because it separates joined
+ * letters. */
 static celspan_status wrap_line(cs_layout *layout, uint8_t base, size_t *at, size_t end) {
   size_t letter = layout->letter_count, glyph = layout->glyph_count, limit = end + 1;
   for (int retry = 0;; retry++) {
