@@ -22,8 +22,9 @@ typedef struct cs_original {
   int32_t first;
 } cs_original;
 
-/* The picture of a texture. noun: what is made, for sentences. Errors: those of pictures;
- * BAD_ARGUMENT for another texture; LIMIT; NO_MEMORY. On failure there is nothing to close. */
+/* Opens the picture of a texture. noun: the word with which sentences of errors begin. Errors:
+ * those of pictures; BAD_ARGUMENT for a texture that is no picture used as paint; LIMIT; NO_MEMORY.
+ * On failure there is nothing to close. */
 CELSPAN_CHECKED celspan_status cs_original_open(celspan_context *context, const char *noun,
                                                 const celspan_texture *texture, cs_original *out);
 /* Opens a known picture. Errors: those of pictures; LIMIT; NO_MEMORY. */
@@ -50,7 +51,7 @@ static inline int32_t cs_original_end(const cs_original *original, int32_t first
   return first + (rest < CS_ORIGINAL_ROWS ? rest : CS_ORIGINAL_ROWS);
 }
 
-/* What is left when light has been taken off: the pixels of a texture of its own S, T and beta.
+/* The result when light has been taken off: the pixels of a texture with S, T and beta of its own.
  *
  *   create --> pixels are written --> finish: two surfaces, shown by one texture
  *      \------------------------------ discard

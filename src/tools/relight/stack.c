@@ -6,11 +6,11 @@
  *   row = sum of addend * light, for every light that is on        or, where few lights differ,
  *   row = base + sum of addend * (light - own light)
  *
- * What a unit of a light adds does not depend on the other lights: composing is linear in all of
- * them, and so is antialiasing, in the space of the frame. What is summed are its numbers. What
- * comes through all cels is 1 - alpha of what the rearmost light shows; where all media are grey,
- * it is what a light behind them adds, so that the frame of a front light gives the addend of the
- * back light as well.
+ * The addend of a light does not depend on the other lights: composing is linear in all lights, and
+ * so is antialiasing, in the space of the frame. The numbers of this space are summed. The share of
+ * light that comes through all cels is 1 - alpha in the frame of the rearmost light. If all media
+ * are grey, this share is also the addend of a light behind the cels, so the frame of a front light
+ * gives the addend of the back light as well.
  */
 #include <stdatomic.h>
 #include <string.h>
@@ -36,7 +36,8 @@
 enum { PLANES = 4 };
 
 /* The lights are numbered from the rear: 0 is the back light of the rostrum itself, and has no
- * front; the first cel's back light lies where that is, so both have one addend. */
+ * front. The back light of the first cel lies in the same place as light 0, so both have one
+ * addend. */
 struct celspan_stack {
   atomic_size_t references;
   cs_memory *memory;
@@ -45,9 +46,9 @@ struct celspan_stack {
   size_t light_count;
   celspan_stack_light *own; /* the rostrum's lights */
   cs_addend *fronts, *backs;
-  cs_addend base; /* the frame in these */
+  cs_addend base; /* the frame in its own lights */
   cs_addend
-      through; /* what comes through all cels; where media are grey it is empty, and backs[0] */
+      through; /* the light through all cels; where media are grey, it is empty: backs[0] is used */
   bool is_grey;
 };
 
@@ -223,8 +224,8 @@ static void add_term(summing *s, const cs_addend *addend, const celspan_light *l
     s->terms[s->count++] = t;
 }
 
-/* Lists the terms of the lights. has_base: as changes to the base, which comes first. Returns the
- * bytes of the terms. */
+/* Lists the terms of the sum. has_base: the base comes first, and each light is a change to it.
+ * Returns the bytes of the addends. */
 static size_t list_terms(summing *s, const celspan_stack_light *lights, bool has_base) {
   const celspan_stack *stack = s->stack;
   const celspan_stack_light none = {{0, 0, 0, 0}, {0, 0, 0, 0}};
@@ -262,7 +263,7 @@ static void add_rows(const summing *s, const term *t, int32_t y, int32_t rows, f
   (t->addend, y + k, t->weights, s->stride, planes + (size_t)k * PLANES * s->stride);
 }
 
-/* Addend by addend, so that memory is read on and on. */
+/* Sums addend by addend, so that memory is read in its order. */
 static void sum_strip(void *user, int worker, int32_t strip) {
   const summing *s = user;
   const celspan_stack *stack = s->stack;
@@ -293,7 +294,7 @@ static celspan_status sum(celspan_context *context, const celspan_stack *stack,
   s.planes = cs_mem_array(context->memory, planes, sizeof *s.planes);
   bool is_ready = s.terms && s.planes;
   if (is_ready) {
-    size_t all = list_terms(&s, lights, false); /* whichever has less to go through */
+    size_t all = list_terms(&s, lights, false); /* the sum with fewer bytes is used */
     if (list_terms(&s, lights, true) >= all)
       (void)list_terms(&s, lights, false);
     s.keep = keep_of(stack, lights);

@@ -5,12 +5,13 @@
 #include "base/number.h"
 #include "base/solve.h"
 
-/* Times that parameters are brought to the curve; points that are asked in doing so, at most. */
+/* How often the parameters are moved nearer to the curve, and how many points are examined for
+ * that, at most. */
 enum { ROUNDS = 4, ASKED = 40 };
 /* A cubic whose error is this many times the allowed one will not come near enough. */
 #define HOPELESS 6.0
-/* The same for gates, which weights have to find; and the share of its weight that a point keeps
- * when the curve goes through it. */
+/* The same for gates, where the weights must be found, too; and the share of its weight that a
+ * point keeps when the curve goes right through it. */
 enum { THREAD_ROUNDS = 12 };
 #define THREAD_HOPELESS 20.0
 #define STAYS 0.05
@@ -111,7 +112,7 @@ static void add_point(sums *s, const cs_cubic_end ends[2], celspan_point point, 
   }
 }
 
-/* A third of the way to the other end. */
+/* Places each control point on the tangent of its end, a third of the way to the other end. */
 static void place_plainly(const cs_cubic_end ends[2], celspan_point control[2]) {
   double dx = (ends[1].point.x - ends[0].point.x) / 3, dy = (ends[1].point.y - ends[0].point.y) / 3;
   double third = cs_number_length(dx, dy);
@@ -173,7 +174,8 @@ typedef struct distances {
   double most, mean;
 } distances;
 
-/* After parameters have come nearer. step: of points. */
+/* Moves the parameters nearer to the curve, and returns the distances after that. step: one point
+ * in `step` is examined. */
 static distances bring_nearer(const cubic *c, const cs_edge_point *points, size_t count,
                               size_t step, cs_cubic_station *stations) {
   double most = 0, squares = 0, asked = 0;
@@ -188,7 +190,7 @@ static distances bring_nearer(const cubic *c, const cs_edge_point *points, size_
   return (distances){most, sqrt(squares / asked)};
 }
 
-/* The cubic of least squares where the points are said to be. */
+/* The cubic of least squares for points at the parameters of their stations. */
 static cubic solve(const cs_edge_point *points, size_t count, size_t step,
                    const cs_cubic_end ends[2], const cs_cubic_station *stations,
                    celspan_point control[2]) {
@@ -225,8 +227,9 @@ bool cs_cubic_fit(const cs_edge_point *points, size_t count, const cs_cubic_end 
 
 /* ---------------------------------------------------------------- through gates */
 
-/* How far aside a point is passed, as a share of the room that its gate leaves: 1 is just through.
- * Beyond an end, where nothing is across the curve, the distance is that from the end. */
+/* The distance of the curve from a point, as a share of the room in the gate of this point: at 1,
+ * the curve just goes through the gate. The distance is measured across the curve, and beyond its
+ * ends as the distance from the end. */
 static double pass(const cubic *c, const cs_edge_point *point, cs_cubic_station *station) {
   double t = nearer(c, point->at, station->parameter);
   celspan_point at = point_at(c, t), slope = slope_at(c, t);
@@ -241,7 +244,8 @@ static double pass(const cubic *c, const cs_edge_point *point, cs_cubic_station 
   return (is_across ? fabs(dx * along.y - dy * along.x) : cs_number_length(dx, dy)) / station->room;
 }
 
-/* Passes all gates and weighs them again; returns the largest distance by which one is missed. */
+/* Measures how the curve passes all gates, and weighs the points again. Returns the largest
+ * share. */
 static double pass_all(const cubic *c, const cs_edge_point *points, size_t count,
                        cs_cubic_station *stations) {
   double most = 0, total = 0;

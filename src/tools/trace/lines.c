@@ -32,7 +32,7 @@ typedef struct liner {
 
 /* ---------------------------------------------------------------- the ground */
 
-/* The most frequent label along the rim; of equal ones the first. */
+/* The most frequent label along the rim; the first one, if several labels are equally frequent. */
 static unsigned char ground_of(const cs_labels *labels) {
   size_t counts[256] = {0}, best = 0;
   for (int32_t x = 0; x < labels->width; x++) {
@@ -63,7 +63,7 @@ static double share_of(const liner *l, int32_t x, int32_t y, unsigned char label
   return (double)cs_labels_share(&light, &list[l->ground].light, &list[label].light);
 }
 
-/* Between the middles of four pixels. */
+/* The share at a place between the middles of four pixels. */
 static double share_at(const liner *l, double x, double y, unsigned char label) {
   double fx = floor(x - 0.5), fy = floor(y - 0.5), u = x - 0.5 - fx, v = y - 0.5 - fy;
   int32_t ix = (int32_t)fx, iy = (int32_t)fy;
@@ -71,8 +71,8 @@ static double share_at(const liner *l, double x, double y, unsigned char label) 
          v * ((1 - u) * share_of(l, ix, iy + 1, label) + u * share_of(l, ix + 1, iy + 1, label));
 }
 
-/* From a place along a direction: the sum of shares until there is nothing any more. Negative where
- * the line does not end in time, as at forks. */
+/* The sum of the shares from a place along a direction, up to the first share that is noise.
+ * Negative if the line does not end in time, as at forks. */
 static double extent(const liner *l, const cs_station *from, double nx, double ny, double most,
                      unsigned char label) {
   double sum = 0;
@@ -85,7 +85,7 @@ static double extent(const liner *l, const cs_station *from, double nx, double n
   return -1;
 }
 
-/* Moves a place to the middle of its line and sets the width; false where that cannot be found. */
+/* Moves a place to the middle of its line and sets the width; false: the middle cannot be found. */
 static bool centre(const liner *l, cs_station *place, celspan_point along, double depth,
                    unsigned char label) {
   double most = BEYOND * depth + 2;
@@ -137,8 +137,8 @@ static celspan_point along_at(const line *n, size_t i) {
   return length > 0 ? (celspan_point){dx / length, dy / length} : (celspan_point){1, 0};
 }
 
-/* How many places at an end could not be found, counted from it; 0 where they are more than a fork
- * can have spoilt: then they stay as they are. */
+/* The number of places next to an end that could not be found. 0: there are more than a fork can
+ * have spoilt, so they stay as they are. */
 static size_t spoilt_at(const line *n, bool at_last) {
   size_t count = 0, most = (size_t)n->places[at_last ? n->count - 1 : 0].v[2] + 4;
   while (count < n->count && !n->is_told[at_last ? n->count - 1 - count : count])
@@ -146,8 +146,8 @@ static size_t spoilt_at(const line *n, bool at_last) {
   return count < n->count && count <= most ? count : 0;
 }
 
-/* Near a fork thinned lines are drawn to each other: places that could not be found there lie on
- * the line from the end to the first that could. */
+/* Thinned lines are drawn to each other near a fork. Places there that could not be found are put
+ * on the straight line from the end to the first place that could be found. */
 static void straighten_end(line *n, bool at_last) {
   size_t count = n->is_closed ? 0 : spoilt_at(n, at_last);
   size_t end = at_last ? n->count - 1 : 0, told = at_last ? end - count : count;
@@ -159,8 +159,9 @@ static void straighten_end(line *n, bool at_last) {
   }
 }
 
-/* Widths that could not be measured become those of the nearest places where they could; without
- * any they stay the depths. */
+/* A place without a measured width gets the width of the last measured place before it; the places
+ * before the first measured one get its width. If no width was measured, all places keep their
+ * depths. */
 static void fill_widths(line *n) {
   size_t known = n->count;
   for (size_t pass = 0; pass < 2; pass++)

@@ -1,17 +1,18 @@
 /* Points taken apart into stretches, of which each lies on a line or on an arc of a circle.
  *
- *      . . . . .                 three stretches: two lines and an arc; of the point at the corner
- *               .                too little is true for either of both lines: it is in none
+ *      . . . . .                 three stretches: two lines and an arc. The point at the corner
+ *               .                lies too far from both lines, and is left out
  *              .
- *              .                 the cheapest sum is chosen: a price for a line, more for an arc, a
- *               ` . .            little for a point that is left out, and the squares of distances
+ *              .                 the cheapest solution is chosen: it pays for each line, more for
+ *               ` . .            an arc, little for a point left out, and the squares of distances
  *
- * What a stretch costs is what it takes to tell it, in the same units as what is off: of noise that
- * is as large as it is said to be, a point costs one half. So a line that is too short to be told
- * from an arc stays part of it, and where two lines do as well as three arcs there is a corner.
+ * The price of a stretch is the length of its description, in the same units as the prices of
+ * distances: a point whose distance is as large as the expected noise costs one half. So a line
+ * that is too short to be distinguished from an arc stays part of the arc. Where two lines fit as
+ * well as three arcs, there is a corner.
  *
- * Where pixels are whole nothing is noise: a stretch is a line or an arc that passes all its gates,
- * and of those that cost the same the one with the widest streets is taken.
+ * Where pixels are whole, there is no noise: a stretch is a line or an arc that passes all its
+ * gates. Of the solutions with the same price, the one with the widest streets is chosen.
  *
  * INVARIANT: stretches are in order, do not overlap, and have CS_STRETCH_FEWEST points at least and
  * CS_STRETCH_MOST at most; the total is the least that any such stretches have.
@@ -25,7 +26,7 @@
 #define CS_STRETCH_FEWEST 3
 #define CS_STRETCH_MOST CS_GATES_MOST
 
-/* Points [from, to) of a list, counted on where it is closed. */
+/* Points [from, to) of a list. In a closed list, the first point follows the last one. */
 typedef struct cs_stretch {
   ptrdiff_t from, to;
   cs_arc arc;
@@ -50,7 +51,7 @@ void cs_stretches_row(const cs_points *points, ptrdiff_t from, ptrdiff_t to, cs_
 CELSPAN_CHECKED celspan_status cs_stretches_find(celspan_context *context, const cs_points *points,
                                                  ptrdiff_t from, ptrdiff_t to, double noise,
                                                  cs_stretches *out);
-/* The same, of points of whole pixels, through their gates. */
+/* The same for points of whole pixels: the stretches go through the gates of the points. */
 CELSPAN_CHECKED celspan_status cs_stretches_thread(celspan_context *context,
                                                    const cs_points *points, ptrdiff_t from,
                                                    ptrdiff_t to, cs_stretches *out);

@@ -4,9 +4,8 @@
  *      . # # # # # .   -->   . . # # # . .       long as it hangs together and has its ends
  *      . # # # # # .         . . . . . . .
  *
- * Zhang and Suen, "A fast parallel algorithm for thinning digital patterns", 1984; but no pixel
- * goes that, of those that are left when its turn comes, holds others together: so nothing
- * vanishes.
+ * Zhang and Suen, "A fast parallel algorithm for thinning digital patterns", 1984. In addition, a
+ * pixel stays if, when its turn comes, it connects other pixels that are left. So nothing vanishes.
  *
  * INVARIANT: a pixel that is left can not be taken away without taking a line apart or shortening
  * it.
@@ -26,12 +25,12 @@ typedef struct cs_thin {
 /* The neighbours of a pixel, clockwise from the one above, as offsets into the plane. */
 void cs_thin_offsets(const cs_thin *thin, ptrdiff_t offsets[8]);
 
-/* ground: the label that is not drawn, nor is nothing. Errors: NO_MEMORY. On failure there is
- * nothing to finish. */
+/* ground: the label that is not drawn; pixels without a label are not drawn, either. Errors:
+ * NO_MEMORY. On failure there is nothing to finish. */
 CELSPAN_CHECKED celspan_status cs_thin_make(celspan_context *context, const cs_material *material,
                                             unsigned char ground, cs_thin *out);
-/* Takes away pixels at which lines turn by a side where they could go by a corner, from the places
- * in the list. */
+/* Removes pixels at the right angles of lines: the two neighbours of such a pixel touch at a
+ * corner, so the line stays connected. places: the pixels that are examined. */
 void cs_thin_tidy(cs_thin *thin, const uint32_t *places, size_t count);
 void cs_thin_finish(cs_thin *thin, celspan_context *context);
 
@@ -43,8 +42,8 @@ void cs_thin_finish(cs_thin *thin, celspan_context *context);
  *           |
  *           o
  *
- * INVARIANT: every pixel of a thinned line is in one branch, but forks, which are at the end of
- * several.
+ * INVARIANT: every pixel of a thinned line is in one branch, except forks, at which several
+ * branches end.
  */
 
 typedef struct cs_branch {
@@ -59,7 +58,7 @@ typedef struct cs_branches {
   size_t place_count, place_capacity;
 } cs_branches;
 
-/* Errors: NO_MEMORY. To be finished, whatever happens. */
+/* Errors: NO_MEMORY. *out must be finished also after an error. */
 CELSPAN_CHECKED celspan_status cs_branches_find(celspan_context *context, cs_thin *thin,
                                                 cs_branches *out);
 void cs_branches_finish(cs_branches *branches, celspan_context *context);
