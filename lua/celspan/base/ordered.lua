@@ -1,8 +1,8 @@
 --- Lists whose items ascend.
 local ordered = {}
 
---- The index of the last item that is at or before `most`; 0 if there is none. field: that of an
---- item by which the list ascends; without it, the items are numbers.
+--- The index of the last item whose value is at most `most`; 0 if there is none. field: the name of
+--- the field that holds this value, by which the list ascends; without it, the items are numbers.
 function ordered.last(list, most, field)
   local low, high = 0, #list
   while low < high do

@@ -13,8 +13,8 @@
 -- negates. No claim has the name of a filler word of luassert, because these pass with any
 -- arguments.
 
--- One file, because most of it is one table of claims, each with its messages, which share a few
--- functions that render and compare frames.
+-- This is one file, because most of it is one table of claims with their messages. The claims share
+-- a few functions that render and compare frames.
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
@@ -213,8 +213,9 @@ local function need_name(subject, names)
       or "; give it one with cel:named(" .. ("%q"):format(subject.name) .. ")"))
 end
 
---- The film with one of its frames changed: the frame with the cels that `keep` returns for each of
---- its own. more: other changed fields.
+--- A copy of the film with one changed frame. Each cel of that frame is replaced by the cel that
+--- `keep` returns for it, or left out if `keep` returns none. more: other changed fields of the
+--- rostrums.
 local function changed_film(subject, keep, more)
   local names, list = {}, {}
   for i, exposure in ipairs(exposures_of(subject)) do
@@ -485,8 +486,8 @@ local takes = { frame = "film, n", point = "film, n, x, y", cel = "film, n, name
 
 say:set("assertion.celspan", "%s")
 
--- core.outside: busted reports the line of the first function on the stack that is neither C nor
--- luassert's. It shall be the spec's.
+-- busted reports the line of the first function on the stack that is neither in C nor in luassert.
+-- core.outside removes this function from the stack, so the reported line is in the spec.
 for word, read in pairs(subjects) do
   luassert:register("modifier", word, core.outside(function(state, arguments)
     if not arguments then

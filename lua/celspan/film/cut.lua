@@ -57,7 +57,8 @@ local function exposures_of(result)
   return list
 end
 
---- Adds the exposures of a result, with their weights multiplied; those of no weight show nothing.
+--- Adds the exposures of a result, with their weights multiplied by `weight`. Exposures without
+--- weight are left out, because they show nothing.
 local function expose(list, result, weight)
   for _, exposure in ipairs(exposures_of(result)) do
     if exposure[2] * weight > 0 then
@@ -75,8 +76,8 @@ Transition.__index = fields.reads("a transition", Transition,
   { parts = true, ease = true })
 Transition.__name = "celspan.cut.transition"
 
---- A transition has `parts(a, b, u, size)`, the exposures of two rostrums, of which one may be nil
---- at an end of the film; `step` is by how much u grows from frame to frame.
+--- A transition has `parts(a, b, u, size, step)`, which returns the exposures for two rostrums. One
+--- rostrum may be nil at an end of the film. step: how much u grows from frame to frame.
 local function transition(noun, seconds, curve, parts)
   if not fields.is_finite(seconds) or seconds <= 0 then
     core.refuse(("cut: %s takes seconds, a number above 0, got %s"):format(noun,
@@ -95,8 +96,9 @@ local function shared(first, first_share, second, second_share)
   return list
 end
 
---- One exposure of what is seen of the shots, of which one may be nil: their light adds up. Shots
---- of different antialiasing have one each.
+--- The exposures of the visible parts of two shots; one shot may be nil. The light of the parts
+--- adds up, so one exposure is enough, but shots with different antialiasing need one exposure
+--- each.
 local function together(a, b, seen_of_a, seen_of_b)
   local function show(shot, art)
     return { celspan.rostrum { antialias = shot.antialias, celspan.cel { art } }, 1 }
@@ -116,9 +118,9 @@ function cut.dissolve(seconds, curve)
   end)
 end
 
---- The first shot becomes a colour, and the colour the second. They are mixed in codes, so that the
---- steps from frame to frame are even to the eye. At the beginning or end of a film only the half
---- with a shot is seen.
+--- The first shot fades to a colour, then the colour fades to the second shot. They are mixed in
+--- codes, so that the steps from frame to frame are even to the eye. At the beginning or end of a
+--- film there is only one shot, and only the half of the transition with this shot is seen.
 ---@param seconds number
 ---@param colour? celspan.surface Default black
 ---@param curve? celspan.ease
@@ -153,11 +155,11 @@ local function settings_of(noun, settings, known, ranges)
   end
 end
 
---- White of this alpha: how much of a shot is seen there.
+--- White with this alpha, which is the share of a shot that is seen at a place.
 local function seen(share) return celspan.rgb("#fff", share) end
 
---- What is seen of a shot where a texture says so: over the whole frame, so that both shots have
---- the same edges, and add up to one.
+--- A shot that is seen as far as a texture is opaque. The texture covers the whole frame, so both
+--- shots have the same edges and add up to one.
 local function softly(shot, size, shade)
   return celspan.matte(shot, celspan.rect { 0, 0, size[1], size[2], texture = shade })
 end
@@ -171,7 +173,8 @@ local function half_plane(cos, sin, place, sign, reach)
     { x - dx - cos * far, y - dy - sin * far }, { x + dx - cos * far, y + dy - sin * far } }
 end
 
---- The places of the edge of a wipe: all of b up to `low`, nothing of it from `high` on.
+--- The places `low` and `high` between which the edge of a wipe lies. Only shot b is seen up to
+--- `low`, and only shot a from `high` on.
 local function wipe_edge(cos, sin, softness, u, size)
   local least, most = math.huge, -math.huge
   for _, corner in ipairs { { 0, 0 }, { size[1], 0 }, { 0, size[2] }, size } do
@@ -183,8 +186,9 @@ local function wipe_edge(cos, sin, softness, u, size)
   return high - soft, high
 end
 
---- An edge moves over the first shot, and behind it is the second. angle: its direction in degrees,
---- 0 from left to right, clockwise; softness: the width of the edge, as a share of its way.
+--- An edge moves over the first shot; the second shot is behind the edge. angle: the direction of
+--- the edge in degrees, 0 from left to right, clockwise; softness: the width of the edge, as a
+--- share of its way.
 ---@param settings? { angle?: number, softness?: number }
 ---@return fun(seconds: number, curve?: celspan.ease): celspan.cut.transition
 function cut.wipe(settings)
@@ -382,7 +386,7 @@ local function read_shot(i, part, like)
            count = count, before = 0, after = 0 }
 end
 
---- Lays a transition over the shots beside it, nil at an end.
+--- Lays a transition over the shots beside it; one shot is nil at an end of the film.
 local function overlap(place, between, a, b, fps)
   local count = math.max(1, math.floor(between.seconds * fps + 0.5))
   if a then a.after = count end
@@ -569,7 +573,8 @@ end
 
 -- ---------------------------------------------------------------- other times
 
---- Adds the sound of the keys from i to i + 1, which begins at `at`, where it goes forwards evenly.
+--- Adds the sound between the keys `key` and `after`, if the film goes forwards evenly between
+--- them. The sound begins at `at`.
 local function add_piece(list, film, key, after, at)
   local seconds, frames = after.time - key.time, after.value - key.value
   local speed = seconds > 0 and frames / film.fps / seconds or 0
@@ -623,10 +628,10 @@ local function check_keys(film, track)
   end
 end
 
---- The film at other times: { { seconds of the new film, frame of the old one [, ease] }, ... }, as
---- for celspan.keys. Between the keys frames are passed evenly; the same frame twice holds, and an
---- earlier one reverses. A key may be one frame after the last: the end. loop = "repeat" or
---- "mirror" needs a duration.
+--- The film at other times. The keys are { seconds of the new film, frame of the old film [, ease]
+--- }, as for celspan.keys. Frames pass evenly between two keys. Two keys with the same frame hold
+--- the frame, and a key with an earlier frame reverses the film. A key may name the frame after the
+--- last one, which is the end. loop = "repeat" or "mirror" needs a duration.
 ---@param film celspan.film
 ---@param list table|celspan.keys.track
 ---@param duration? number Seconds; default: the time of the last key

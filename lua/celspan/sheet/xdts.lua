@@ -303,7 +303,8 @@ local function write_cells(column, frames)
   return lines
 end
 
---- Longer notes have one hyphen at their ends instead of one on each frame: gaps hold, too.
+--- A longer note has one hyphen, on its last frame, instead of one on each frame. Both forms mean
+--- the same, because an entry lasts until the next one.
 local HYPHENS = 10000
 
 local function write_note(lines, note, frames)

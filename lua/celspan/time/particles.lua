@@ -6,9 +6,9 @@
 --     cels[#cels + 1] = flake:translate(p.x, p.y):fade(1 - p.age)
 --   end
 --
--- Particle n is born at n / rate seconds. All about it is found from its number and the time, so
--- that every frame can be made by itself: its place is a parabola under gravity, slowed by drag in
--- closed form, or what `field` makes of it.
+-- Particle n is born at n / rate seconds. Everything about a particle follows from its number and
+-- the time, so every frame can be made by itself. Its path is a parabola under gravity, slowed by
+-- drag in closed form. If `field` is given, it turns a place on this path into another place.
 local chance = require "celspan.chance"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
@@ -41,7 +41,7 @@ local known = { seed = "any", rate = "number", life = "any", at = "table", veloc
 
 local function refuse(text, ...) core.refuse("particles: " .. text:format(...)) end
 
---- Two or four numbers: a point, and how far it may lie from it.
+--- Two or four numbers: x and y, and how far random values may lie from them.
 local function read_spread(name, value, default)
   if value == nil then return default end
   local count = rawlen(value)
@@ -87,7 +87,8 @@ local function new(_, given)
     Source)
 end
 
---- How far a velocity of 1 and an acceleration of 1 have led after t seconds, and the velocities.
+--- The distances after t seconds for an initial velocity of 1 and for an acceleration of 1, then
+--- the velocities for both.
 local function travel(drag, t)
   if drag * t < 1e-6 then return t, t * t / 2, 1, t end
   local left = exp(-drag * t)
@@ -110,7 +111,7 @@ local function particle(source, id, seconds, life, base)
            spin = random(seed, base + 5), size = (random(seed, base + 6) + 1) / 2 }
 end
 
---- What a field makes of a particle: x, y of its new place.
+--- Moves a particle to the place that the field returns for it.
 local function through_field(source, p, time)
   if not source.field then return end
   local x, y = source.field(p, time)
@@ -121,8 +122,8 @@ local function through_field(source, p, time)
   p.x, p.y = x, y
 end
 
---- The particles that live at a time, the oldest first. They were there before the film began;
---- `from` and `to` are the seconds at which births begin and end.
+--- The particles that live at a time, the oldest first. Births begin and end at the seconds `from`
+--- and `to`; without `from`, particles are there before the film begins.
 ---@param time number Seconds
 ---@return celspan.particle[]
 function Source:at(time)
