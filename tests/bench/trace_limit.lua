@@ -24,7 +24,7 @@ local function drawn(shapes, points, make)
   return celspan.union(list)
 end
 
---- The same with one point of one shape moved by at most `most` pixels.
+--- A copy of the points in which one point of one shape is moved by at most `most` pixels.
 local function varied(random, points, count, most)
   local copy, at = {}, random:whole(2, count)
   for i = 2, count do copy[i] = points[i] end
@@ -35,7 +35,8 @@ local function varied(random, points, count, most)
   return copy
 end
 
---- Two drawings with the same pixels as a random one, and a lower bound of their distance.
+--- Searches for two drawings with the same pixels as the random drawing number `case`. Returns a
+--- lower bound of the distance between them.
 local function farthest_apart(case)
   local shapes, w, h, points, make = traced.shapes(case)
   local truth, random = celspan.union(shapes), prng.new(case)

@@ -146,7 +146,7 @@ return celspan.film { size = { 64, 64 }, frames = 2, frame = function(f)
 end)
 
 describe("a limit of processes", function()
-  -- It does not count for root, so the program runs as a user who has no other processes.
+  -- The limit does not count for root, so the program runs as a user who has no other processes.
   local is_possible = present.pictures() and present.program "setpriv" and present.program "prlimit"
     and system.lines("id -u")[1] == "0"
   local it_as_a_user = is_possible and it or pending

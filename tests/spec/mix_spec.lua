@@ -262,7 +262,7 @@ return film { fps = 24, frames = 18, sound_offset = -0.1, sound = { inner, at = 
   to = 0.55, gain = 0.7, fade = { 0.05, 0.1 }, pan = -1 } }]], "--depth float")
     local inner_left = sum({ { moments = mono, at = 0.1, fade = { 0.15, 0 } },
       { moments = stereo, pan = 0.5, ducked = { { 0.1, 0.5 } } } }, 0.75)
-    for i = 0, #left - 1 do -- 0 of this film is 0 of the inner one
+    for i = 0, #left - 1 do -- second 0 of both films is the same moment
       local time, wanted = i / RATE, 0
       if i >= 7200 and i < 26400 then
         local fade = math.min(1, (time - 0.15) / 0.05, (0.55 - time) / 0.1)
@@ -369,7 +369,8 @@ return cut { { film = shot, speed = %g } }]]):format(speed))
 local shot = film { fps = 24, frames = 192, sound = "click.wav" }
 local lead = film { fps = 24, frames = 24 }
 return cut { lead, { film = shot, from = 61, to = 180, speed = 2 } }]]
-    -- 3 s and 7 s of the sound, from 2.5 s on, twice as fast, after 1 s
+    -- The clicks at 3 s and 7 s of the sound. The sound begins after 1 s of the film, with its
+    -- second 2.5, and is twice as fast.
     local seen, quiet = {}, -RATE
     for i = 1, #left do
       if math.abs(left[i]) > 0.1 then
