@@ -21,6 +21,11 @@ typedef struct cs_module_desc {
   uint32_t version;     /* which the table begins with, as a uint32_t */
 } cs_module_desc;
 
+/* The names of celspan's own module, from its name, the same in capitals, and its folder. */
+#define CS_MODULE(name, capitals, place)                                                           \
+  .file = "celspan-" name ".so", .folder = "plugins/" place,                                       \
+  .override = "CELSPAN_" capitals "_MODULE", .symbol = "celspan_" name "_module"
+
 /* The table, valid for the rest of the process. Status `failure` (INPUT or OUTPUT) when there is no
  * such module, it cannot be read or loaded, or it is of another version; the message says what to
  * do. NO_MEMORY. Any thread. */

@@ -137,10 +137,7 @@ static celspan_status save_text(celspan_context *context, const char *path, cons
   cs_file *file;
   CS_TRY(cs_file_create(context, NULL, path, &file));
   celspan_status status = cs_file_write(file, context, text, size);
-  if (status == CELSPAN_OK)
-    return cs_file_commit(file, context);
-  cs_file_discard(file, context);
-  return status;
+  return cs_file_end(file, context, status);
 }
 
 /* save(path, text): a file that appears whole or not at all, in folders that are made. */
@@ -188,17 +185,10 @@ static int join(lua_State *L) {
 }
 
 void cs_service_add_files(lua_State *L) {
-  static const luaL_Reg services[] = {{"kind", kind},
-                                      {"make_folders", make_folders},
-                                      {"entries", entries},
-                                      {"resolve", resolve},
-                                      {"working_folder", working_folder},
-                                      {"has_number", has_number},
-                                      {"is_video", is_video},
-                                      {"refuse_target", refuse_target},
-                                      {"save", save},
-                                      {"save_private", save_private},
-                                      {"join", join},
-                                      {NULL, NULL}};
+  static const luaL_Reg services[] = {
+      CS_SERVICE(kind),         CS_SERVICE(make_folders),   CS_SERVICE(entries),
+      CS_SERVICE(resolve),      CS_SERVICE(working_folder), CS_SERVICE(has_number),
+      CS_SERVICE(is_video),     CS_SERVICE(refuse_target),  CS_SERVICE(save),
+      CS_SERVICE(save_private), CS_SERVICE(join),           {NULL, NULL}};
   cs_service_add(L, services);
 }

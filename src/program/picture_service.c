@@ -533,9 +533,8 @@ static int write_frame(lua_State *L) {
 }
 
 void cs_service_add_pictures(lua_State *L) {
-  static const luaL_Reg services[] = {{"picture", read_facts}, {"spans", read_spans},
-                                      {"plane", read_plane},   {"compare", compare},
-                                      {"convert", convert},    {"pixels", read_pixels},
-                                      {"write", write_frame},  {NULL, NULL}};
+  static const luaL_Reg services[] = {
+      {"picture", read_facts}, {"spans", read_spans},   {"plane", read_plane},  CS_SERVICE(compare),
+      CS_SERVICE(convert),     {"pixels", read_pixels}, {"write", write_frame}, {NULL, NULL}};
   cs_service_add(L, services);
 }

@@ -144,14 +144,9 @@ static int clock_now(lua_State *L) {
 }
 
 void cs_service_add_processes(lua_State *L) {
-  static const luaL_Reg services[] = {{"start", start},
-                                      {"wait", wait_for_one},
-                                      {"default_signals", default_signals},
-                                      {"launch", launch},
-                                      {"has_ended", has_ended},
-                                      {"processors", processors},
-                                      {"divide_memory", divide_memory},
-                                      {"clock", clock_now},
-                                      {NULL, NULL}};
+  static const luaL_Reg services[] = {
+      CS_SERVICE(start),         {"wait", wait_for_one}, CS_SERVICE(default_signals),
+      CS_SERVICE(launch),        CS_SERVICE(has_ended),  CS_SERVICE(processors),
+      CS_SERVICE(divide_memory), {"clock", clock_now},   {NULL, NULL}};
   cs_service_add(L, services);
 }

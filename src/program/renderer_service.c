@@ -202,9 +202,8 @@ static int spawn(renderer *r, const char *const *arguments) {
 
 /* renderer(words) -> a renderer | nil, message: this program with the words */
 static int open_renderer(lua_State *L) {
-  static const luaL_Reg methods[] = {{"send", send},     {"take", take},
-                                     {"words", words},   {"descriptors", descriptors},
-                                     {"finish", finish}, {NULL, NULL}};
+  static const luaL_Reg methods[] = {CS_SERVICE(send),        CS_SERVICE(take),   CS_SERVICE(words),
+                                     CS_SERVICE(descriptors), CS_SERVICE(finish), {NULL, NULL}};
   const char **arguments = cs_service_push_words(L, 1);
   lua_createtable(L, 0, 8);
   renderer *r = cs_userdata_push_holder(L, "celspan.program.renderer", sizeof *r, close_renderer);

@@ -103,13 +103,18 @@ static cs_exit code_of(lua_State *L, const char *message, cs_exit plain) {
   return status == CELSPAN_CALLBACK ? plain : cs_report_exit(status);
 }
 
+/* The message that was given instead of a value; ends the verb if it was stopped. */
+static const char *given_message(lua_State *L) {
+  if (cs_interrupt_signal())
+    cs_service_end(L, CS_EXIT_SIGNAL);
+  return luaL_checkstring(L, 2);
+}
+
 /* Like assert, of a value or nil and a message: reports the message and ends the verb. */
 static int check(lua_State *L) {
   if (lua_toboolean(L, 1))
     return lua_gettop(L);
-  if (cs_interrupt_signal())
-    return cs_service_end(L, CS_EXIT_SIGNAL);
-  const char *message = luaL_checkstring(L, 2);
+  const char *message = given_message(L);
   cs_report_error("%s", message);
   return cs_service_end(L, code_of(L, message, CS_EXIT_SCRIPT));
 }
@@ -119,9 +124,7 @@ static int check(lua_State *L) {
 static int check_input(lua_State *L) {
   if (lua_toboolean(L, 1))
     return lua_gettop(L);
-  if (cs_interrupt_signal())
-    return cs_service_end(L, CS_EXIT_SIGNAL);
-  const char *message = luaL_checkstring(L, 2);
+  const char *message = given_message(L);
   bool is_starved = code_of(L, message, CS_EXIT_INPUT) == CS_EXIT_MEMORY;
   if (lua_isstring(L, 3) && !is_starved)
     return 1;
@@ -179,18 +182,11 @@ static int push_text(lua_State *L) {
 }
 
 void cs_service_add_reports(lua_State *L) {
-  static const luaL_Reg services[] = {{"note", note},
-                                      {"error", report_error},
-                                      {"fail", fail},
-                                      {"check", check},
-                                      {"input", check_input},
-                                      {"show", show},
-                                      {"refuse", refuse},
-                                      {"refuse_rights", refuse_rights},
-                                      {"outcome", outcome},
-                                      {"reported", reported},
-                                      {"is_stopped", is_stopped},
-                                      {"text", push_text},
-                                      {NULL, NULL}};
+  static const luaL_Reg services[] = {
+      CS_SERVICE(note),     {"error", report_error},   CS_SERVICE(fail),
+      CS_SERVICE(check),    {"input", check_input},    CS_SERVICE(show),
+      CS_SERVICE(refuse),   CS_SERVICE(refuse_rights), CS_SERVICE(outcome),
+      CS_SERVICE(reported), CS_SERVICE(is_stopped),    {"text", push_text},
+      {NULL, NULL}};
   cs_service_add(L, services);
 }

@@ -17,6 +17,10 @@ typedef struct cs_session {
   cs_exit outcome; /* of the service that ended the verb; OK: none did */
 } cs_session;
 
+/* A service or method whose name in Lua is the name of its function. */
+#define CS_SERVICE(name)                                                                           \
+  { #name, name }
+
 /* Adds services to the table on top of the stack. */
 void cs_service_add(lua_State *L, const luaL_Reg *functions);
 

@@ -59,7 +59,7 @@ static int descriptor(lua_State *L) {
 /* watcher() -> a watcher; without one the verb ends. */
 static int open_watcher(lua_State *L) {
   static const luaL_Reg methods[] = {
-      {"add", add}, {"take", take}, {"descriptor", descriptor}, {NULL, NULL}};
+      CS_SERVICE(add), CS_SERVICE(take), CS_SERVICE(descriptor), {NULL, NULL}};
   lua_createtable(L, 0, 4);
   int *queue = cs_userdata_push_holder(L, "celspan.program.watcher", sizeof *queue, close_watcher);
   *queue = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);

@@ -105,10 +105,7 @@ static int counts(lua_State *L) {
 
 static celspan_status load(celspan_context *context, const cs_web_module **out) {
   static const cs_module_desc desc = {
-      .file = "celspan-web.so",
-      .folder = "plugins/web",
-      .override = "CELSPAN_WEB_MODULE",
-      .symbol = "celspan_web_module",
+      CS_MODULE("web", "WEB", "web"),
       .purpose = "showing a film in a browser",
 #ifdef CELSPAN_WITHOUT_WEB
       .advice = "this celspan was built without libmicrohttpd; build it with -Dweb=enabled",
@@ -134,8 +131,8 @@ static int refuse_port(lua_State *L, int port, int error) {
 
 /* web(port) -> the server, with its `port`; port 0: one that is free */
 static int open_server(lua_State *L) {
-  static const luaL_Reg methods[] = {{"run", run},       {"descriptor", descriptor}, {"take", take},
-                                     {"answer", answer}, {"counts", counts},         {NULL, NULL}};
+  static const luaL_Reg methods[] = {CS_SERVICE(run),    CS_SERVICE(descriptor), CS_SERVICE(take),
+                                     CS_SERVICE(answer), CS_SERVICE(counts),     {NULL, NULL}};
   int port = (int)luaL_checkinteger(L, 1);
   lua_createtable(L, 0, 8);
   server *s = cs_userdata_push_holder(L, "celspan.program.web", sizeof *s, close_server);

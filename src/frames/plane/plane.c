@@ -248,10 +248,7 @@ celspan_status celspan_plane_write(celspan_context *context, const celspan_plane
   CS_TRY(cs_check_given(context, "plane", "the path", path));
   CS_TRY(cs_file_create(context, NULL, path, &file));
   celspan_status status = cs_file_write(file, context, plane->bytes, plane->size);
-  if (status == CELSPAN_OK)
-    return cs_file_commit(file, context);
-  cs_file_discard(file, context);
-  return status;
+  return cs_file_end(file, context, status);
 }
 
 static celspan_status load_bytes(celspan_context *context, const char *path, int descriptor,

@@ -60,10 +60,7 @@ static celspan_status open_text(celspan_context *context, const char *path, text
 }
 
 static celspan_status close_text(text_file *out) {
-  if (out->status == CELSPAN_OK)
-    return cs_file_commit(out->file, out->context);
-  cs_file_discard(out->file, out->context);
-  return out->status;
+  return cs_file_end(out->file, out->context, out->status);
 }
 
 /* ---------------------------------------------------------------- descriptions */

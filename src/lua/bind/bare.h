@@ -1,7 +1,6 @@
 /* Values without fields, made by a method or from a file or a picture. `with` cannot change them.
  *
- *   static const cs_noun warped = {.name = "warped", .fields = cs_bare_fields,
- *                                  .create = cs_bare_refuse, ...};
+ *   static const cs_noun warped = {.name = "warped", .kind = ..., CS_BARE};
  *   cs_bare_push(L, &warped)->handle = object;
  */
 #pragma once
@@ -10,6 +9,9 @@
 #include "lua/bind/userdata.h"
 
 extern const cs_field cs_bare_fields[];
+
+/* The fields of a noun without fields. */
+#define CS_BARE .fields = cs_bare_fields, .create = cs_bare_refuse
 
 /* For the `create` of a noun: raises an error. */
 void cs_bare_refuse(const cs_form *form, cs_userdata *value);

@@ -133,3 +133,9 @@ typedef struct cs_noun {
   /* Adds fields that follow from others; NULL: none. */
   void (*complete)(lua_State *L, int fields);
 } cs_noun;
+
+/* The list of a noun that is any number of items, with gaps. */
+#define CS_ITEMS(name, type)                                                                       \
+  .list = CS_LIST_ITEMS, .has_gaps = true, .item = (name), .item_written = (type)
+/* Of options with which a function makes an object from an object. */
+#define CS_FROM_OBJECT .kind = &cs_kind_object, .list = CS_LIST_TUPLE, .item = "object"

@@ -33,11 +33,7 @@ typedef struct drawing {
 
 /* ---------------------------------------------------------------- objects of drawings */
 
-static const cs_noun object_noun = {.name = "drawing",
-                                    .kind = &cs_kind_object,
-                                    .list = CS_LIST_NONE,
-                                    .fields = cs_bare_fields,
-                                    .create = cs_bare_refuse};
+static const cs_noun object_noun = {.name = "drawing", .kind = &cs_kind_object, CS_BARE};
 
 /* Pushes a value that keeps the object. */
 static void push_object(lua_State *L, celspan_object *object) {

@@ -46,13 +46,16 @@ static int nearest(lua_State *L) {
 /* core.refuse(message): raises it at the line of the nearest caller that is not celspan's own. */
 static int refuse(lua_State *L) { return cs_caller_error(L, "%s", luaL_checkstring(L, 1)); }
 
-/* core.entry(function): the same function, which keeps the line of a caller that ends with it. */
-static int entry(lua_State *L) {
+/* Pushes a C function whose upvalue is the function that is the only argument. */
+static int push_around(lua_State *L, lua_CFunction around) {
   luaL_checktype(L, 1, LUA_TFUNCTION);
   lua_settop(L, 1);
-  lua_pushcclosure(L, cs_caller_enter, 1);
+  lua_pushcclosure(L, around, 1);
   return 1;
 }
+
+/* core.entry(function): the same function, which keeps the line of a caller that ends with it. */
+static int entry(lua_State *L) { return push_around(L, cs_caller_enter); }
 
 static int call_outside(lua_State *L) {
   lua_pushvalue(L, lua_upvalueindex(1));
@@ -62,12 +65,7 @@ static int call_outside(lua_State *L) {
 
 /* core.outside(function): the same function, but its errors are raised after it has left the stack,
  * so that error handlers do not find it there. */
-static int outside(lua_State *L) {
-  luaL_checktype(L, 1, LUA_TFUNCTION);
-  lua_settop(L, 1);
-  lua_pushcclosure(L, call_outside, 1);
-  return 1;
-}
+static int outside(lua_State *L) { return push_around(L, call_outside); }
 
 /* core.hear(path, tried), as core.h describes it. */
 static int hear(lua_State *L) {

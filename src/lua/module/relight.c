@@ -15,8 +15,7 @@
 /* ---------------------------------------------------------------- values */
 
 /* The light that was removed from it cannot be computed again from fields. */
-static const cs_noun noun = {
-    .name = "relit", .kind = &cs_kind_texture, .fields = cs_bare_fields, .create = cs_bare_refuse};
+static const cs_noun noun = {.name = "relit", .kind = &cs_kind_texture, CS_BARE};
 
 /* Pushes a closed value, before the core makes the texture that it will hold. */
 static cs_userdata *push_value(lua_State *L, celspan_context *context) {

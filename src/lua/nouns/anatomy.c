@@ -28,16 +28,8 @@
 /* Lua stack slots of one level of nodes. */
 #define SLOTS 16
 
-static const cs_noun noun_object = {.name = "morphed",
-                                    .kind = &cs_kind_object,
-                                    .list = CS_LIST_NONE,
-                                    .fields = cs_bare_fields,
-                                    .create = cs_bare_refuse};
-static const cs_noun noun_texture = {.name = "texture",
-                                     .kind = &cs_kind_texture,
-                                     .list = CS_LIST_NONE,
-                                     .fields = cs_bare_fields,
-                                     .create = cs_bare_refuse};
+static const cs_noun noun_object = {.name = "morphed", .kind = &cs_kind_object, CS_BARE};
+static const cs_noun noun_texture = {.name = "texture", .kind = &cs_kind_texture, CS_BARE};
 
 /* Puts an object, moved by a matrix, into the field `object` of the node on top of the stack. */
 static void put_object(lua_State *L, celspan_object *object, const celspan_matrix *matrix) {

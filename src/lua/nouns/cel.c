@@ -68,9 +68,6 @@ static const cs_field fields[] = {
 const cs_noun cs_noun_cel = {.name = "cel",
                              .about = "A sheet with objects and its own lights.",
                              .kind = &cs_kind_cel,
-                             .list = CS_LIST_ITEMS,
-                             .has_gaps = true,
-                             .item = "object",
-                             .item_written = "celspan.shape",
+                             CS_ITEMS("object", "celspan.shape"),
                              .fields = fields,
                              .create = create};

@@ -12,16 +12,8 @@
 #include "lua/nouns/nouns.h"
 #include "model/scene/scene.h"
 
-static const cs_noun noun_painted = {.name = "painted",
-                                     .kind = &cs_kind_object,
-                                     .list = CS_LIST_NONE,
-                                     .fields = cs_bare_fields,
-                                     .create = cs_bare_refuse};
-static const cs_noun noun_warped = {.name = "warped",
-                                    .kind = &cs_kind_object,
-                                    .list = CS_LIST_NONE,
-                                    .fields = cs_bare_fields,
-                                    .create = cs_bare_refuse};
+static const cs_noun noun_painted = {.name = "painted", .kind = &cs_kind_object, CS_BARE};
+static const cs_noun noun_warped = {.name = "warped", .kind = &cs_kind_object, CS_BARE};
 static const cs_noun argument = {.name = "paint", .fields = cs_bare_fields};
 
 /* ---------------------------------------------------------------- paint */

@@ -37,9 +37,7 @@ static const cs_field blur_rows[] = {
 const cs_noun cs_noun_blur = {.name = "blur",
                               .about = "How an object is blurred.",
                               .table = "celspan.blur.options",
-                              .kind = &cs_kind_object,
-                              .list = CS_LIST_TUPLE,
-                              .item = "object",
+                              CS_FROM_OBJECT,
                               .fields = blur_rows,
                               .create = create_blur};
 
@@ -58,9 +56,7 @@ static const cs_field shadow_rows[] = {
 const cs_noun cs_noun_shadow = {.name = "shadow",
                                 .about = "What shadow an object has.",
                                 .table = "celspan.shadow.options",
-                                .kind = &cs_kind_object,
-                                .list = CS_LIST_TUPLE,
-                                .item = "object",
+                                CS_FROM_OBJECT,
                                 .fields = shadow_rows,
                                 .create = create_shadow};
 
@@ -74,9 +70,7 @@ static const cs_field glow_rows[] = {
 const cs_noun cs_noun_glow = {.name = "glow",
                               .about = "How an object glows.",
                               .table = "celspan.glow.options",
-                              .kind = &cs_kind_object,
-                              .list = CS_LIST_TUPLE,
-                              .item = "object",
+                              CS_FROM_OBJECT,
                               .fields = glow_rows,
                               .create = create_glow};
 
@@ -96,9 +90,7 @@ static const cs_field outline_rows[] = {
 const cs_noun cs_noun_outline = {.name = "outline",
                                  .about = "What outline an object has.",
                                  .table = "celspan.outline.options",
-                                 .kind = &cs_kind_object,
-                                 .list = CS_LIST_TUPLE,
-                                 .item = "object",
+                                 CS_FROM_OBJECT,
                                  .fields = outline_rows,
                                  .create = create_outline};
 

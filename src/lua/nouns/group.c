@@ -52,10 +52,7 @@ const cs_noun cs_noun_group = {.name = "group",
                                .about = "Objects that are composited by themselves, then put into "
                                         "the picture as one.",
                                .kind = &cs_kind_object,
-                               .list = CS_LIST_ITEMS,
-                               .has_gaps = true,
-                               .item = "object",
-                               .item_written = "celspan.shape",
+                               CS_ITEMS("object", "celspan.shape"),
                                .fields = group_rows,
                                .create = create_group};
 
@@ -85,9 +82,7 @@ static const cs_field matte_rows[] = {{"from", CS_CHOICE(matte_fields, from, sou
 const cs_noun cs_noun_matte = {.name = "matte",
                                .about = "How a matte is used.",
                                .table = "celspan.matte.options",
-                               .kind = &cs_kind_object,
-                               .list = CS_LIST_TUPLE,
-                               .item = "object",
+                               CS_FROM_OBJECT,
                                .fields = matte_rows,
                                .create = create_matte};
 

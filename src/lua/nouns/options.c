@@ -191,21 +191,17 @@ static const cs_field view_fields[] = {
     {"antialias", CS_OWN("\"area\"|\"none\""), .fallback = "\"area\""},
     {0}};
 
-const cs_noun cs_noun_render = {
-    .name = "render", .table = "celspan.render.options", .fields = render_fields};
-const cs_noun cs_noun_pixels = {
-    .name = "pixels", .table = "celspan.pixels.options", .fields = pixels_fields};
+#define OPTIONS(noun, rows)                                                                        \
+  const cs_noun cs_noun_##noun = {                                                                 \
+      .name = #noun, .table = "celspan." #noun ".options", .fields = rows};
+OPTIONS(render, render_fields)
+OPTIONS(pixels, pixels_fields)
 const cs_noun cs_noun_stack = {.name = "stack", .fields = pixels_fields};
-const cs_noun cs_noun_bytes = {
-    .name = "bytes", .table = "celspan.bytes.options", .fields = coding_fields};
-const cs_noun cs_noun_write = {
-    .name = "write", .table = "celspan.write.options", .fields = file_fields};
-const cs_noun cs_noun_spans = {
-    .name = "spans", .table = "celspan.spans.options", .fields = spans_fields};
-const cs_noun cs_noun_probe = {
-    .name = "probe", .table = "celspan.probe.options", .fields = probe_fields};
-const cs_noun cs_noun_plane = {
-    .name = "plane", .table = "celspan.plane.options", .fields = plane_fields};
+OPTIONS(bytes, coding_fields)
+OPTIONS(write, file_fields)
+OPTIONS(spans, spans_fields)
+OPTIONS(probe, probe_fields)
+OPTIONS(plane, plane_fields)
 const cs_noun cs_noun_plane_view = {
     .name = "plane view", .table = "celspan.plane.view", .fields = view_fields};
 

@@ -110,10 +110,7 @@ const cs_noun cs_noun_rostrum = {.name = "rostrum",
                                  .about = "Cels under one camera. With a size it is also an "
                                           "object; transforms and fades return that object.",
                                  .kind = &cs_kind_rostrum,
-                                 .list = CS_LIST_ITEMS,
-                                 .has_gaps = true,
-                                 .item = "cel",
-                                 .item_written = "celspan.cel",
+                                 CS_ITEMS("cel", "celspan.cel"),
                                  .fields = fields,
                                  .create = create};
 

@@ -15,19 +15,26 @@
 /* The library keeps the sign of 0. */
 static bool is_angle(double x) { return x != 0 && fabs(x) <= ANGLE_MOST; }
 
+static void find_sincos(double x, double *s, double *c) {
+  if (is_angle(x)) {
+    cs_elementary_sincos(x, s, c);
+    return;
+  }
+  *s = sin(x);
+  *c = cos(x);
+}
+
 static int sine(lua_State *L) {
-  double x = luaL_checknumber(L, 1), s, c;
-  if (is_angle(x))
-    cs_elementary_sincos(x, &s, &c);
-  lua_pushnumber(L, is_angle(x) ? s : sin(x));
+  double s, c;
+  find_sincos(luaL_checknumber(L, 1), &s, &c);
+  lua_pushnumber(L, s);
   return 1;
 }
 
 static int cosine(lua_State *L) {
-  double x = luaL_checknumber(L, 1), s, c;
-  if (is_angle(x))
-    cs_elementary_sincos(x, &s, &c);
-  lua_pushnumber(L, is_angle(x) ? c : cos(x));
+  double s, c;
+  find_sincos(luaL_checknumber(L, 1), &s, &c);
+  lua_pushnumber(L, c);
   return 1;
 }
 

@@ -14,10 +14,7 @@
 #define SURFACES_LEAST 256
 
 static const cs_module_desc picture_module = {
-    .file = "celspan-picture.so",
-    .folder = "plugins/oiio",
-    .override = "CELSPAN_PICTURE_MODULE",
-    .symbol = "celspan_picture_module",
+    CS_MODULE("picture", "PICTURE", "oiio"),
     .purpose = "reading and writing pictures",
 #ifdef CELSPAN_WITHOUT_PICTURES
     .advice = "this celspan was built without OpenImageIO, so it writes PNG, Targa and span files "

@@ -103,6 +103,17 @@ static celspan_status change(celspan_context *context, const char *noun,
   return status;
 }
 
+/* A union of the object alone, with a look and the object's mark. noun: for messages. */
+static celspan_status surround(celspan_context *context, const char *noun, celspan_object *object,
+                               const cs_boolean *look, celspan_object **out) {
+  cs_primitive_data *data;
+  CS_TRY(cs_primitive_data_of_operands(context, noun, look, &object, 1, &data));
+  CS_TRY(cs_primitive_data_wrap(context, data, CELSPAN_OK, out));
+  cs_mark_drop((*out)->mark);
+  (*out)->mark = cs_mark_keep(object->mark);
+  return CELSPAN_OK;
+}
+
 /* The properties of a boolean that do not depend on its operands. */
 static cs_boolean traits_of(const cs_boolean *from) {
   return (cs_boolean){.op = from->op,
@@ -142,12 +153,7 @@ static celspan_status set_mode(celspan_context *context, celspan_object *object,
     return CELSPAN_OK;
   }
   const cs_boolean look = {.op = CELSPAN_OPERATOR_UNION, .blend = mode, .isolates = true};
-  cs_primitive_data *data;
-  CS_TRY(cs_primitive_data_of_operands(context, "blend", &look, &object, 1, &data));
-  CS_TRY(cs_primitive_data_wrap(context, data, CELSPAN_OK, out));
-  cs_mark_drop((*out)->mark);
-  (*out)->mark = cs_mark_keep(object->mark);
-  return CELSPAN_OK;
+  return surround(context, "blend", object, &look, out);
 }
 
 celspan_status celspan_object_blend(celspan_context *context, celspan_object *object,
@@ -181,7 +187,6 @@ static bool has_space(const celspan_object *object) {
 celspan_status cs_object_in_space(celspan_context *context, celspan_object *object,
                                   celspan_space space, celspan_object **out) {
   const cs_boolean alone = {.op = CELSPAN_OPERATOR_UNION, .space = space};
-  cs_primitive_data *data;
   if (space == CELSPAN_SPACE_AROUND || object->data->mixing < CS_MIXING_MIXED ||
       has_space(object)) {
     *out = celspan_object_ref(object);
@@ -192,11 +197,7 @@ celspan_status cs_object_in_space(celspan_context *context, celspan_object *obje
     look.space = space;
     return change(context, "group", object, &look, out);
   }
-  CS_TRY(cs_primitive_data_of_operands(context, "group", &alone, &object, 1, &data));
-  CS_TRY(cs_primitive_data_wrap(context, data, CELSPAN_OK, out));
-  cs_mark_drop((*out)->mark);
-  (*out)->mark = cs_mark_keep(object->mark);
-  return CELSPAN_OK;
+  return surround(context, "group", object, &alone, out);
 }
 
 celspan_status cs_object_graded(celspan_context *context, celspan_object *object,

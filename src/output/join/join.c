@@ -150,10 +150,7 @@ static celspan_status write_parts(celspan_context *context, job *j, cs_joining *
   j->row = 0;
   for (size_t i = 0; i < j->count; i++)
     CS_TRY(add_part(context, j, i, joining));
-  CS_TRY(j->format->end(joining, context));
-  cs_file *file = joining->file;
-  joining->file = NULL;
-  return cs_file_commit(file, context);
+  return j->format->end(joining, context);
 }
 
 static bool is_name(const char *wanted, const char *name) { return strcmp(wanted, name) == 0; }
@@ -166,7 +163,7 @@ static celspan_status write_file(celspan_context *context, job *j) {
   celspan_status status = cs_file_create(context, NULL, j->output, &joining->file);
   if (status == CELSPAN_OK)
     status = write_parts(context, j, joining);
-  cs_file_discard(joining->file, context);
+  status = cs_file_end(joining->file, context, status);
   spanfile_joiner_destroy(joining->spanfile);
   cs_mem_free(context->memory, joining, sizeof *joining);
   return status;

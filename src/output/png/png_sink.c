@@ -73,12 +73,6 @@ static celspan_status put_start(png_sink *sink, celspan_context *context, int32_
 
 /* ---------------------------------------------------------------- the sink */
 
-static void destroy(png_sink *sink, celspan_context *context) {
-  cs_file_discard(sink->file, context);
-  cs_png_strips_destroy(sink->strips, context);
-  cs_mem_free(context->memory, sink, sink->allocated);
-}
-
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
   png_sink *sink = user;
   cs_png_picture picture = {.coding = sink->coding,
@@ -102,17 +96,16 @@ static celspan_status put_row(void *user, celspan_context *context, int32_t y,
 
 static celspan_status finish(png_sink *sink, celspan_context *context) {
   CS_TRY(cs_png_strips_finish(sink->strips, context));
-  CS_TRY(put_chunk(sink, context, "IEND", "", 0));
-  cs_file *file = sink->file;
-  sink->file = NULL;
-  return cs_file_commit(file, context);
+  return put_chunk(sink, context, "IEND", "", 0);
 }
 
 static celspan_status end(void *user, celspan_context *context, celspan_status outcome) {
   png_sink *sink = user;
   if (outcome == CELSPAN_OK)
     outcome = finish(sink, context);
-  destroy(sink, context);
+  outcome = cs_file_end(sink->file, context, outcome);
+  cs_png_strips_destroy(sink->strips, context);
+  cs_mem_free(context->memory, sink, sink->allocated);
   return outcome;
 }
 
@@ -158,11 +151,7 @@ celspan_status cs_sink_png(celspan_context *context, const char *path,
     memcpy(sink->title + sizeof title_head, file->title, title);
   }
   sink->path = memcpy(sink->title + title_size, path, path_size);
-  *out = (celspan_sink){.struct_size = sizeof(celspan_sink),
-                        .user = sink,
-                        .begin = begin,
-                        .row = put_row,
-                        .end = end,
+  *out = (celspan_sink){CS_SINK_CALLS, .user = sink,
                         .takes_codes = cs_pixels_takes_codes(&sink->coding)};
   return CELSPAN_OK;
 }

@@ -388,11 +388,5 @@ cs_shares cs_png_strips_shares(cs_png_strips *strips) {
   return (cs_shares){.user = strips,
                      .rows = share_strips(strips) * strips->strip_rows,
                      .takes_above = true,
-                     .open_worker = open_worker,
-                     .close_worker = close_worker,
-                     .open_share = open_share,
-                     .close_share = close_share,
-                     .begin = begin_share,
-                     .row = put_share_row,
-                     .join = join_share};
+                     CS_SHARES_CALLS};
 }

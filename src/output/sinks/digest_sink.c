@@ -57,11 +57,7 @@ celspan_status cs_sink_digest(celspan_context *context, const celspan_coding *co
   sink->coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
   sink->digest = digest;
   sink->hash = cs_hash_begin(1);
-  *out = (celspan_sink){.struct_size = sizeof(celspan_sink),
-                        .user = sink,
-                        .begin = begin,
-                        .row = put_row,
-                        .end = end,
+  *out = (celspan_sink){CS_SINK_CALLS, .user = sink,
                         .takes_codes = cs_pixels_takes_codes(&sink->coding)};
   return CELSPAN_OK;
 }

@@ -101,10 +101,6 @@ celspan_status cs_dither_sink(celspan_context *context, const celspan_coding *as
     return cs_fail_memory(context);
   }
   *dither = (dither_sink){.inner = *sink, .coding = *coding, .x = x, .y = y};
-  *sink = (celspan_sink){.struct_size = sizeof(celspan_sink),
-                         .user = dither,
-                         .begin = begin,
-                         .row = put_row,
-                         .end = end};
+  *sink = (celspan_sink){CS_SINK_CALLS, .user = dither};
   return CELSPAN_OK;
 }

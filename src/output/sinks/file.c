@@ -325,6 +325,13 @@ void cs_file_discard(cs_file *file, celspan_context *context) {
   release(file, context);
 }
 
+celspan_status cs_file_end(cs_file *file, celspan_context *context, celspan_status outcome) {
+  if (outcome == CELSPAN_OK)
+    return cs_file_commit(file, context);
+  cs_file_discard(file, context);
+  return outcome;
+}
+
 /* ---------------------------------------------------------------- names */
 
 const char *cs_file_ending(const char *path) {

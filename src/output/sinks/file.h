@@ -63,8 +63,11 @@ CELSPAN_CHECKED celspan_status cs_file_temporary(cs_file *file, celspan_context 
                                                  const char **name);
 /* Takes the output of another program, written under the temporary name, as the file's contents. */
 CELSPAN_CHECKED celspan_status cs_file_adopt(cs_file *file, celspan_context *context);
-/* Both functions end the file, whatever they return. discard ignores NULL. */
+/* All three functions end the file, whatever they return. discard ignores NULL. */
 CELSPAN_CHECKED celspan_status cs_file_commit(cs_file *file, celspan_context *context);
+/* Commits the file if the outcome of writing it is OK, else discards it. Returns what failed. */
+CELSPAN_CHECKED celspan_status cs_file_end(cs_file *file, celspan_context *context,
+                                           celspan_status outcome);
 void cs_file_discard(cs_file *file, celspan_context *context);
 
 /* The ending of a file's name, which says its format where nothing else does: the text after the

@@ -167,12 +167,7 @@ static CELSPAN_CHECKED celspan_status guard_sink(celspan_context *context, const
   g->allocated = size;
   g->takes_codes = sink->takes_codes;
   memcpy(g->path, path, path_size);
-  *sink = (celspan_sink){.struct_size = sizeof(celspan_sink),
-                         .user = g,
-                         .begin = begin,
-                         .row = put_row,
-                         .end = end,
-                         .takes_codes = g->takes_codes};
+  *sink = (celspan_sink){CS_SINK_CALLS, .user = g, .takes_codes = g->takes_codes};
   return CELSPAN_OK;
 }
 

@@ -291,11 +291,7 @@ celspan_status cs_sink_picture(celspan_context *context, const char *path,
     return cs_fail_memory(context);
   }
   *sink = made;
-  *out = (celspan_sink){.struct_size = sizeof(celspan_sink),
-                        .user = sink,
-                        .begin = begin,
-                        .row = put_row,
-                        .end = end,
+  *out = (celspan_sink){CS_SINK_CALLS, .user = sink,
                         .takes_codes = cs_pixels_takes_codes(&sink->coding)};
   return cs_dither_sink(context, file->coding, &sink->coding, file->place_x, file->place_y, out);
 }

@@ -38,6 +38,11 @@ typedef struct cs_shares {
   celspan_status (*join)(void *user, celspan_context *context, void *share, int32_t index);
 } cs_shares;
 
+/* The calls of shares with stores of their own, where the file's functions have these names. */
+#define CS_SHARES_CALLS                                                                            \
+  .open_worker = open_worker, .close_worker = close_worker, .open_share = open_share,              \
+  .close_share = close_share, .begin = begin_share, .row = put_share_row, .join = join_share
+
 /* How one kind of sink each fills its shares; false: the sink, which has begun, is of another kind.
  * cs_sink_shares asks them all. */
 bool cs_memory_sink_shares(const celspan_sink *sink, cs_shares *out);

@@ -11,6 +11,10 @@
 #include "base/context.h"
 #include "celspan/celspan.h"
 
+/* The calls of a sink, where the file's own functions have these names. */
+#define CS_SINK_CALLS                                                                              \
+  .struct_size = sizeof(celspan_sink), .begin = begin, .row = put_row, .end = end
+
 /* PNG, 8 or 16 bit, straight from spans. coding: resolved, integer. */
 CELSPAN_CHECKED celspan_status cs_sink_png(celspan_context *context, const char *path,
                                            const celspan_file_desc *file, celspan_sink *out);

@@ -137,20 +137,13 @@ static celspan_status put_row(void *user, celspan_context *context, int32_t y,
   return report(sink, context, put_spans_row(&sink->packer, spans, span_count));
 }
 
-static celspan_status finish(span_sink *sink) {
-  CS_TRY(report(sink, sink->context, spanfile_writer_finish(sink->packer.writer)));
-  cs_file *file = sink->file;
-  sink->file = NULL;
-  return cs_file_commit(file, sink->context);
-}
-
 static celspan_status end(void *user, celspan_context *context, celspan_status outcome) {
   span_sink *sink = user;
   sink->context = context;
   if (outcome == CELSPAN_OK)
-    outcome = finish(sink);
+    outcome = report(sink, context, spanfile_writer_finish(sink->packer.writer));
   spanfile_writer_destroy(sink->packer.writer);
-  cs_file_discard(sink->file, context);
+  outcome = cs_file_end(sink->file, context, outcome);
   cs_mem_free(context->memory, sink, sink->allocated);
   return outcome;
 }
@@ -184,11 +177,7 @@ celspan_status cs_sink_span(celspan_context *context, const char *path,
   sink->strip = cs_strip_of(file);
   sink->packer.coding = &sink->coding;
   memcpy(sink->path, path, path_size);
-  *out = (celspan_sink){.struct_size = sizeof(celspan_sink),
-                        .user = sink,
-                        .begin = begin,
-                        .row = put_row,
-                        .end = end};
+  *out = (celspan_sink){CS_SINK_CALLS, .user = sink};
   return CELSPAN_OK;
 }
 
@@ -249,14 +238,6 @@ static celspan_status join_share(void *user, celspan_context *context, void *sha
 bool cs_span_sink_shares(const celspan_sink *sink, cs_shares *out) {
   if (sink->row != put_row)
     return false;
-  *out = (cs_shares){.user = sink->user,
-                     .rows = SPANFILE_PART_ROWS,
-                     .open_worker = open_worker,
-                     .close_worker = close_worker,
-                     .open_share = open_share,
-                     .close_share = close_share,
-                     .begin = begin_share,
-                     .row = put_share_row,
-                     .join = join_share};
+  *out = (cs_shares){.user = sink->user, .rows = SPANFILE_PART_ROWS, CS_SHARES_CALLS};
   return true;
 }

@@ -178,18 +178,11 @@ static celspan_status put_row(void *user, celspan_context *context, int32_t y,
   return cs_file_write(sink->file, context, sink->row, sink->size);
 }
 
-static celspan_status finish(tga_sink *sink, celspan_context *context) {
-  CS_TRY(put_footer(sink, context));
-  cs_file *file = sink->file;
-  sink->file = NULL;
-  return cs_file_commit(file, context);
-}
-
 static celspan_status end(void *user, celspan_context *context, celspan_status outcome) {
   tga_sink *sink = user;
   if (outcome == CELSPAN_OK)
-    outcome = finish(sink, context);
-  cs_file_discard(sink->file, context);
+    outcome = put_footer(sink, context);
+  outcome = cs_file_end(sink->file, context, outcome);
   if (sink->row)
     cs_mem_free(context->memory, sink->row, (size_t)sink->width * WORST_PIXEL);
   cs_mem_free(context->memory, sink, sink->allocated);
@@ -214,11 +207,7 @@ celspan_status cs_sink_tga(celspan_context *context, const char *path,
   sink->pixel_size = file->is_opaque ? 3 : 4;
   sink->path = memcpy(sink->text, path, path_size);
   sink->title = memcpy(sink->text + path_size, title, title_size);
-  *out = (celspan_sink){.struct_size = sizeof(celspan_sink),
-                        .user = sink,
-                        .begin = begin,
-                        .row = put_row,
-                        .end = end,
+  *out = (celspan_sink){CS_SINK_CALLS, .user = sink,
                         .takes_codes = cs_pixels_takes_codes(&sink->coding)};
   return CELSPAN_OK;
 }

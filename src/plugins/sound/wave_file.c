@@ -117,8 +117,5 @@ celspan_status cs_wave_file_write(celspan_context *context, const char *path,
   const cs_wave_target target = {file, put_in_file};
   celspan_status status =
       cs_wave_file_put(context, path, &target, samples, moments, is_float, peak);
-  if (status == CELSPAN_OK)
-    return cs_file_commit(file, context);
-  cs_file_discard(file, context);
-  return status;
+  return cs_file_end(file, context, status);
 }

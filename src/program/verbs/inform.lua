@@ -47,20 +47,18 @@ local function describe_painting(tree)
 end
 
 --- The size of a picture comes from its file, which may be missing or damaged.
-local function try(describe, value)
-  local good, text = pcall(describe, value)
-  if good then return text end
-  return nil, tostring(text)
+local function described(read, describe)
+  return function(path)
+    local value, message = read(path)
+    if not value then return nil, message end
+    local good, text = pcall(describe, value)
+    if good then return text end
+    return nil, tostring(text)
+  end
 end
 
----@param path string
----@return string? lines
----@return string? message
-function inform.painting(path)
-  local tree, message = layers.read(path)
-  if not tree then return nil, message end
-  return try(describe_painting, tree)
-end
+---@type fun(path: string): (string?, string?) lines, or nil and a message
+inform.painting = described(layers.read, describe_painting)
 
 -- ---------------------------------------------------------------- drawings
 
@@ -80,13 +78,7 @@ local function describe_drawing(art)
     lines)
 end
 
----@param path string
----@return string? lines
----@return string? message
-function inform.drawing(path)
-  local art, message = svg.read(path)
-  if not art then return nil, message end
-  return try(describe_drawing, art)
-end
+---@type fun(path: string): (string?, string?) lines, or nil and a message
+inform.drawing = described(svg.read, describe_drawing)
 
 return fields.seal("inform", inform)

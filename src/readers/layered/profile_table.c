@@ -24,10 +24,7 @@ cs_hash cs_profile_table_hash(const cs_colour_request *request) {
 
 celspan_status cs_profile_table_module(celspan_context *context, const cs_colour_module **out) {
   static const cs_module_desc desc = {
-      .file = "celspan-colour.so",
-      .folder = "plugins/icc",
-      .override = "CELSPAN_COLOUR_MODULE",
-      .symbol = "celspan_colour_module",
+      CS_MODULE("colour", "COLOUR", "icc"),
       .purpose = "reading colour profiles",
 #ifdef CELSPAN_WITHOUT_COLOUR
       .advice = "this celspan was built without Little CMS; build it with -Dcolour=enabled",

@@ -30,10 +30,7 @@ static const cs_service_kind loaded_kind = {create, destroy, trim};
 static celspan_status load(celspan_context *context, const char *purpose,
                            const cs_art_module **out) {
   const cs_module_desc desc = {
-      .file = "celspan-art.so",
-      .folder = "plugins/type",
-      .override = "CELSPAN_ART_MODULE",
-      .symbol = "celspan_art_module",
+      CS_MODULE("art", "ART", "type"),
       .purpose = purpose,
 #ifdef CELSPAN_WITHOUT_ART
       .advice = "this celspan was built without expat, HarfBuzz, FriBidi and libunibreak; build it "

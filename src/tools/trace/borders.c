@@ -72,13 +72,19 @@ static celspan_status find_nodes_at(walker *w, int32_t x, int32_t y) {
   return is_node(w, x, y + 1) ? add_node(w, x, y + 1) : CELSPAN_OK;
 }
 
-static celspan_status find_nodes(walker *w) {
+/* Calls `at` left of each run and at the end of each row. */
+static celspan_status walk_rows(walker *w, celspan_status (*at)(walker *, int32_t x, int32_t y)) {
   const cs_regions *regions = w->regions;
   for (int32_t y = 0; y < regions->height; y++) {
     for (size_t i = regions->rows[y]; i < regions->rows[y + 1]; i++)
-      CS_TRY(find_nodes_at(w, regions->runs[i].x0, y));
-    CS_TRY(find_nodes_at(w, regions->width, y));
+      CS_TRY(at(w, regions->runs[i].x0, y));
+    CS_TRY(at(w, regions->width, y));
   }
+  return CELSPAN_OK;
+}
+
+static celspan_status find_nodes(walker *w) {
+  CS_TRY(walk_rows(w, find_nodes_at));
   sort_nodes(w->out->nodes, w->out->node_count);
   return CELSPAN_OK;
 }
@@ -192,15 +198,7 @@ static celspan_status walk_closed_at(walker *w, int32_t x, int32_t y) {
 }
 
 /* The remaining chains have no node; every closed chain has an upright side. */
-static celspan_status walk_closed(walker *w) {
-  const cs_regions *regions = w->regions;
-  for (int32_t y = 0; y < regions->height; y++) {
-    for (size_t i = regions->rows[y]; i < regions->rows[y + 1]; i++)
-      CS_TRY(walk_closed_at(w, regions->runs[i].x0, y));
-    CS_TRY(walk_closed_at(w, regions->width, y));
-  }
-  return CELSPAN_OK;
-}
+static celspan_status walk_closed(walker *w) { return walk_rows(w, walk_closed_at); }
 
 celspan_status cs_borders_make(celspan_context *context, const cs_material *material,
                                const cs_regions *regions, cs_borders *out) {

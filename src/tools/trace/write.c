@@ -286,8 +286,5 @@ celspan_status celspan_trace_write(celspan_context *context, const celspan_trace
                    "%s: a tracing is written as .svg or .lua, by the ending of its name", path);
   CS_TRY(cs_file_create(context, NULL, path, &w.file));
   celspan_status status = is_script ? write_script(&w) : write_svg(&w);
-  if (status == CELSPAN_OK)
-    return cs_file_commit(w.file, context);
-  cs_file_discard(w.file, context);
-  return status;
+  return cs_file_end(w.file, context, status);
 }
