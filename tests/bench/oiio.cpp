@@ -148,7 +148,7 @@ void measure_png(char **words) {
                 0,
                 0,
                 0};
-  celspan_sink sink{};
+  celspan_sink sink = CELSPAN_SINK;
   sink.user = &writer;
   sink.row = put_row;
   bench_check(context, celspan_frame_render(context, &desc, &sink, nullptr));

@@ -76,6 +76,7 @@ end
 layer("svg_layer", "0.1", function()
   put('<param name="filename"><string>%s</string></param>', drawing)
   put('<param name="transformation"><composite type="transformation"><offset>%s</offset>'
+    .. '<angle><angle value="0"/></angle><skew_angle><angle value="0"/></skew_angle>'
     .. '<scale><vector><x>0.375</x><y>0.375</y></vector></scale></composite></param>',
     vector(1040, 510)) -- its own unit is 60 pixels
 end)
