@@ -576,9 +576,9 @@ int luaopen_celspan(lua_State *L);
 celspan_status celspan_lua_open(lua_State *L, celspan_context *context);
 celspan_context *celspan_lua_context(lua_State *L);
 typedef struct celspan_lua_limits { size_t struct_size; size_t memory; uint64_t steps; double
-  seconds; size_t print; const char *const *folders; size_t folder_count; const char *search; bool
-  (*is_interrupted)(void *user); void (*overdue)(void *user, const char *message); void *user; }
-  celspan_lua_limits;
+  seconds; size_t print; const char *const *folders; size_t folder_count; const char *search; void
+  (*printed)(void *user, const char *text, size_t size); bool (*is_interrupted)(void *user); void
+  (*overdue)(void *user, const char *message); void *user; } celspan_lua_limits;
 void celspan_lua_limits_default(celspan_lua_limits *out, size_t struct_size);
 celspan_status celspan_lua_sandbox(lua_State *L, const celspan_lua_limits *limits);
 celspan_status celspan_lua_run(lua_State *L, const char *path, int argument_count, const char

@@ -90,7 +90,10 @@ typedef struct mark {
 
 /* Results for hosts that know less, or more. */
 static void check_results(celspan_context *context) {
-  const mark whole = {.struct_size = sizeof whole, .name = "a", .first = 3, .last = 4};
+  const struct {
+    mark mark;
+    uint64_t after[2]; /* are not of the result */
+  } full = {{.struct_size = sizeof(mark), .name = "a", .first = 3, .last = 4}, {1, 1}};
   struct {
     mark mark;
     uint64_t more[2];
@@ -99,16 +102,16 @@ static void check_results(celspan_context *context) {
     bool is_good = size >= 8 && size % 8 == 0;
     memset(&room, 0x7f, sizeof room);
     room.mark.struct_size = size;
-    celspan_status status = CS_RESULT(context, "noun", mark, &whole, &room);
+    celspan_status status = CS_RESULT(context, "noun", mark, &full.mark, &room);
     CHECK(status == (is_good ? CELSPAN_OK : CELSPAN_BAD_ARGUMENT));
     CHECK(room.mark.struct_size == size);
     CHECK((room.mark.first == 3) == (is_good && size >= offsetof(mark, last)));
-    CHECK((room.mark.last == 4) == (is_good && size >= sizeof whole));
-    CHECK((room.more[0] == 0) == (is_good && size >= sizeof whole + 8));
+    CHECK((room.mark.last == 4) == (is_good && size >= sizeof full.mark));
+    CHECK((room.more[0] == 0) == (is_good && size >= sizeof full.mark + 8));
     CHECK((room.more[1] == 0) == (is_good && size == sizeof room));
   }
   room.mark.struct_size = (size_t)1 << 40; /* not filled */
-  CHECK(CS_RESULT(NULL, "noun", mark, &whole, &room) == CELSPAN_BAD_ARGUMENT);
+  CHECK(CS_RESULT(NULL, "noun", mark, &full.mark, &room) == CELSPAN_BAD_ARGUMENT);
 }
 
 static void check_messages(celspan_context *context) {

@@ -346,10 +346,10 @@ static const celspan_lua_limits usual = {.struct_size = sizeof usual,
 
 #define FIELD(name)                                                                                \
   { offsetof(celspan_lua_limits, name), offsetof(celspan_lua_limits, name) + sizeof usual.name }
-static const cs_description_field fields[] = {
-    FIELD(struct_size),    FIELD(memory),  FIELD(steps),        FIELD(seconds),
-    FIELD(print),          FIELD(folders), FIELD(folder_count), FIELD(search),
-    FIELD(is_interrupted), FIELD(overdue), FIELD(user)};
+static const cs_description_field fields[] = {FIELD(struct_size),    FIELD(memory),  FIELD(steps),
+                                              FIELD(seconds),        FIELD(print),   FIELD(folders),
+                                              FIELD(folder_count),   FIELD(search),  FIELD(printed),
+                                              FIELD(is_interrupted), FIELD(overdue), FIELD(user)};
 #undef FIELD
 static const cs_description description = {.type = "celspan_lua_limits",
                                            .defaults = &usual,
