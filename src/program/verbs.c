@@ -517,8 +517,8 @@ const cs_verb cs_verbs[] = {
               "not installed.",
      .options = TEST},
     {"init", "NAME", 1, 1,
-     .summary = "Creates a film to start from: script, sheet, spec, settings for editors, "
-                "README.",
+     .summary = "Creates a film of six seconds to start from: scripts, sound, spec, settings "
+                "for editors, README.",
      .notes = "NAME is a new or empty folder. The film renders and its tests pass without "
               "changes.",
      .options = NONE},

@@ -72,9 +72,20 @@ local function put_row(out, name, operands, summary)
   out:write(("  %-8s %-19s%s%s\n"):format(name, operands, gap, wrapped(summary, 31)))
 end
 
+local FIRST = [[
+celspan %s - 2D animation from Lua scripts: films, videos, frames
+
+The first film
+  celspan init first                       makes a folder with a film of six seconds
+  cd first
+  celspan watch film.lua                   shows it in the browser while you change it
+  celspan render film.lua -o out/film.mp4  makes a video of it
+
+celspan VERB ...
+]]
+
 local function put_list(out)
-  out:write(("celspan %s - compositing for cel animation: Lua scripts in, frames out\n\n"
-    .. "celspan VERB ...\n"):format(program.version))
+  out:write(FIRST:format(program.version))
   for _, verb in ipairs(verbs) do put_row(out, verb.name, verb.operands, verb.summary) end
   put_row(out, "help", "VERB|lua [NAME]", "Describes a verb, or a name of the Lua interface.")
   put_row(out, "", "WORDS", "Shows how to make a thing, such as shadow, wipe or walk cycle.")
@@ -199,7 +210,7 @@ local HEAD = [[
 .TH CELSPAN 1 "" "celspan @VERSION@" "User Commands"
 .nh
 .SH NAME
-celspan \- compositing for cel animation: Lua scripts in, frames out
+celspan \- 2D animation from Lua scripts: films, videos, frames
 .SH SYNOPSIS
 .B celspan
 .I VERB

@@ -2,16 +2,19 @@
 --
 --   project/ --@NAME@, @ANNOTATIONS@ replaced--> NAME/...
 --
--- No existing file is replaced: the folder must be new or empty. The picture that the spec compares
--- the film with is rendered from the film itself, so that the tests pass from the start.
+-- No existing file is replaced: the folder must be new or empty. The sound is computed by the
+-- project's own program, and the picture that the spec compares the film with is rendered from the
+-- film itself, so that the tests pass from the start.
 local program, request = ...
 
 local NAME_MOST, PATH_MOST = 100, 2047
 
 local texts = { -- by the names of the files
-  ["film.lua"] = "film.lua", ["walk.txt"] = "walk.txt", ["spec/film_spec.lua"] = "film_spec.lua",
-  ["README.md"] = "README.md", [".luarc.json"] = "luarc.json", [".luacheckrc"] = "luacheckrc",
-  [".busted"] = "busted", [".gitignore"] = "gitignore",
+  ["film.lua"] = "film.lua", ["cat.lua"] = "cat.lua", ["town.lua"] = "town.lua",
+  ["timing.lua"] = "timing.lua", ["tune.lua"] = "tune.lua",
+  ["spec/film_spec.lua"] = "film_spec.lua", ["README.md"] = "README.md",
+  [".luarc.json"] = "luarc.json", [".luacheckrc"] = "luacheckrc", [".busted"] = "busted",
+  [".gitignore"] = "gitignore",
   [".vscode/tasks.json"] = "tasks.json", [".vscode/extensions.json"] = "extensions.json",
 }
 
@@ -45,8 +48,27 @@ local marks = { NAME = name, ANNOTATIONS = program.annotations }
 for path, text in pairs(texts) do
   program.save(folder .. "/" .. path, (program.text(text):gsub("@(%u+)@", marks)))
 end
+
+--- What a program of the project writes to its output.
+local function printed(file)
+  local pieces = {}
+  local function write(...)
+    for _, piece in ipairs { ... } do pieces[#pieces + 1] = piece end
+  end
+  local function require(module) return load(program.text(module .. ".lua"))() end
+  local world = setmetatable({ io = { write = write }, require = require }, { __index = _G })
+  load(program.text(file), "=" .. file, "t", world)()
+  return table.concat(pieces)
+end
+
+program.save(folder .. "/tune.wav", printed "tune.lua")
 local film = program.film(folder .. "/film.lua")
-program.write(program.still(film, film:at(film.first)), folder .. "/spec/frame1.png")
+for _, mark in ipairs(film.marks) do
+  if mark.name == "catch" then
+    program.write(program.still(film, film:at(mark.frame)), folder .. "/spec/catch.png")
+  end
+end
 local shown = folder:find "[^%w_./-]" and ("'%s'"):format(folder) or folder -- for a shell
-print(("%s: a film of two seconds, its sheet and its spec\n  cd %s\n  celspan test\n"
-  .. "  celspan render film.lua -o out/film.mp4"):format(folder, shown))
+print(("%s: a film of six seconds, with its sound and its spec\n  cd %s\n"
+  .. "  celspan watch film.lua\n  celspan render film.lua -o out/film.mp4\n"
+  .. "  celspan test"):format(folder, shown))

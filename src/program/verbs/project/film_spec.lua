@@ -1,29 +1,34 @@
 -- What the film must show, whatever else is changed. Run by `celspan test`.
 require "celspan.spec"
 local film = require "film"
+local when = require "timing"
+
+local function frame_of(seconds) return math.floor(film.fps * seconds) + 1 end
 
 describe("@NAME@", function()
-  it("shows its walker on every frame", function()
-    for n = 1, film.frames, 6 do
-      assert.cel(film, n, "walker").is_visible()
+  it("shows its cat and the star on every frame", function()
+    for n = 1, film.frames, 40 do
+      assert.cel(film, n, "cat").is_visible()
+      assert.cel(film, n, "star").is_visible()
     end
   end)
 
-  it("keeps the walker small before a wide sky", function()
-    assert.cel(film, 1, "walker").is_not.covers(0.1)
-    assert.cel(film, 1, "sky").covers(1)
+  it("lights the windows only after the star is caught", function()
+    assert.cel(film, frame_of(when.catch), "windows").is_not.visible()
+    assert.cel(film, film.frames, "windows").is_visible()
   end)
 
-  it("has the sun where it was put", function()
-    assert.point(film, 1, 500, 92).shows "#fff3cf"
-    assert.point(film, 30, 500, 92).shows "#fff3cf"
+  it("has a cat in its coat where it sits first", function()
+    assert.point(film, 1, 200, 430).shows "#171130"
+    assert.point(film, film.frames, 200, 430).is_not.shows "#171130"
   end)
 
-  it("moves", function()
-    assert.frames(film, 1, 9).is_not.look_alike()
+  it("draws the cat on twos, and moves the star on every frame", function()
+    assert.frames(film, 13, 14).is_not.look_alike()
+    assert.frames(film, 13, 15).is_not.look_alike()
   end)
 
-  it("looks like its first frame, as it was accepted", function()
-    assert.frame(film, 1).looks_like("frame1.png", { tolerance = 0.02 })
+  it("looks like the catch, as it was accepted", function()
+    assert.frame(film, frame_of(when.catch)).looks_like("catch.png", { tolerance = 0.02 })
   end)
 end)
