@@ -1,5 +1,6 @@
--- Little One: a lamplighter, a spark and the last lamp of a town. Half a minute. ./run film also
--- makes the sound, and renders it with
+-- Little One: a lamplighter, a spark and the last lamp of a town, in half a minute.
+--
+-- ./run film also makes the sound, and renders it with
 --
 --   celspan render scripts/film.lua -o out/film.mp4 --allow FOLDER -- FOLDER/sound.wav
 --

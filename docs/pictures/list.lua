@@ -42,6 +42,8 @@ local list = {
     size = "480x270" },
   { name = "light_table", script = "scripts/light_table.lua", frame = 30, size = "640x360" },
   { name = "parallax", script = "scripts/parallax.lua", frame = 24, size = "480x270" },
+  { name = "pan", script = "scripts/pan.lua", frame = 30, size = "480x270" },
+  { name = "rack_focus", script = "scripts/rack_focus.lua", frame = 54, size = "480x200" },
   { name = "lip_cels", script = "scripts/lip_cels.lua", frame = 24, size = "480x270" },
   { name = "dissolve", script = "scripts/dissolve.lua", frame = 24, size = "640x360" },
   { name = "gradient", script = "scripts/gradient.lua", frame = 24, size = "480x270" },

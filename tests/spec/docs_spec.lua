@@ -172,6 +172,7 @@ describe("the commands of", function()
           it(place(page, block) .. line .. " run", function()
             local command = line:find "%$first" and "first=1; last=2; " .. line or line
             if laid then command = ("rm -rf %s; %s"):format(laid, line) end
+            if here and line:find "%.mp4$" then command = command .. " --scale 0.25" end
             -- A leak check attaches to the process from another one, which --strict does not allow.
             local is_strict = line:find("--strict", 1, true)
             if is_strict then command = "ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0 " .. command end
@@ -478,6 +479,13 @@ describe("the pictures", function()
       assert.is_truthy(text:find("pictures/" .. picture.name .. ".png", 1, true), picture.name)
     end
     assert.is_true(all < 4000000)
+  end)
+
+  it("are all in the gallery, which lists every film of scripts/", function()
+    local printed = system.output "lua5.4 docs/pictures/gallery.lua"
+    assert.are.equal(printed, markdown.read "docs/gallery.md")
+    local _, count = printed:gsub("\n## ", "")
+    assert.are.equal(tonumber(system.output "ls scripts/*.lua | wc -l"), count)
   end)
 
   it("are animated on the front page, in an endless loop", function()
