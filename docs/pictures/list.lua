@@ -2,6 +2,7 @@
 --   script   a script of the tree
 --   page     a page with an example of the same name
 --   onion    the number of frames before and after it that are shown behind it
+--   strip    the numbers of frames that are shown side by side, instead of one frame
 --   grid     a contact sheet with this number of columns and rows, instead of a frame
 --   size     in pixels; of a frame, or what the contact sheet is made smaller to
 --   allow    a folder that the script may read, in addition to its own
@@ -86,11 +87,11 @@ local list = {
 }
 
 -- The recipes of the cookbook, each with the frame that is shown, and its size if it has many
--- shades.
+-- shades; or, if what matters is the movement, with the frames of a strip.
 for _, recipe in ipairs {
   { "cast_shadow", 12 }, { "drop_shadow", 10, "360x202" }, { "neon_glow", 24, "360x202" },
   { "soft_vignette", 1, "360x202" }, { "stained_glass", 20, "360x202" }, { "time_lapse", 79 },
-  { "letter_mask", 20 }, { "clock_wipe", 20 }, { "iris_out", 24 }, { "endless_zoom", 20 },
+  { "letter_mask", 20 }, { "clock_wipe", strip = "8,20,32" }, { "iris_out", 24 }, { "endless_zoom", 20 },
   { "split_screen", 8 }, { "green_screen", 20 }, { "picture_in_picture", 60 },
   { "kaleidoscope", 1 }, { "lower_third", 30 }, { "karaoke_line", 27 },
   { "rolling_credits", 120 }, { "three_languages", 12 }, { "text_on_path", 40 },
@@ -99,15 +100,15 @@ for _, recipe in ipairs {
   { "handwriting", 52 }, { "bar_race", 57 }, { "pie_chart", 44 }, { "line_chart", 50 },
   { "rolling_counter", 30 }, { "island_map", 40 }, { "value_map", 60 },
   { "many_scripts", 60 }, { "paper_texture", 1, "360x202" },
-  { "boiling_line", 4 }, { "hatching", 1, "360x202" }, { "halftone_dots", 1, "360x202" },
-  { "snowfall", 30, "360x202" }, { "water_reflection", 10 }, { "squash_stretch", 33 },
-  { "magnifying_lens", 40 }, { "old_film", 12, "360x202" }, { "morph_shapes", 17 },
-  { "confetti_burst", 17 }, { "camera_shake", 40 }, { "sprite_sheet", 1 },
+  { "boiling_line", strip = "1,4,7" }, { "hatching", 1, "360x202" }, { "halftone_dots", 1, "360x202" },
+  { "snowfall", 30, "360x202" }, { "water_reflection", 10 }, { "squash_stretch", strip = "16,20,25" },
+  { "magnifying_lens", 40 }, { "old_film", 12, "360x202" }, { "morph_shapes", strip = "8,14,20" },
+  { "confetti_burst", strip = "6,17,34" }, { "camera_shake", 40 }, { "sprite_sheet", 1 },
   { "transparent_video", 30 }, { "crossfade", 32 }, { "rotoscope", 7 },
   { "speed_ramp", 24 }, { "mixed_sound", 64 },
 } do
   list[#list + 1] = { name = recipe[1], page = "docs/cookbook.md", frame = recipe[2],
-    size = recipe[3] }
+    size = recipe[3], strip = recipe.strip }
 end
 
 return list

@@ -57,7 +57,11 @@ for _, picture in ipairs(list) do
     run(("cd %s/examples && lua5.4"):format(folder), picture.before .. ".lua")
   end
   local output = folder .. "/" .. picture.name .. ".png"
-  if picture.grid then
+  if picture.strip then
+    local _, commas = picture.strip:gsub(",", "")
+    run(binary .. " contact", script, "--grid", commas + 1 .. "x1", "--frames", picture.strip,
+      "--size", "320x180", "-o", output)
+  elseif picture.grid then
     local sheet = ("%s/%s.sheet.png"):format(parts, picture.name)
     run(binary .. " contact", script, "--grid", picture.grid, "-o", sheet)
     run(binary .. " convert", sheet, output, "--size", picture.size)
