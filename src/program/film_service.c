@@ -89,6 +89,9 @@ static int at(lua_State *L) {
   return push_frame(L, &f->script.frame);
 }
 
+/* film:exposures() -> those of the frame that was built last */
+static int exposures(lua_State *L) { return push_frame(L, &self(L)->script.frame); }
+
 /* film:chosen() -> the exposures of the frame of --frame or the first, and its number */
 static int chosen(lua_State *L) {
   film *f = self(L);
@@ -250,6 +253,21 @@ static int names(lua_State *L) {
   for (size_t i = 0; i < frame->count; i++)
     add_rostrum(L, frame->exposures[i].rostrum);
   return 0;
+}
+
+/* film:words(number) -> the words of a text with this number (core.parts), its em, and whether it
+ * is a letter of them; nil */
+static int words(lua_State *L) {
+  lua_State *script = self(L)->script.L;
+  cs_words found;
+  bool is_there = cs_named_push_words(script, (uint32_t)luaL_checkinteger(L, 2), &found);
+  if (is_there) {
+    lua_pushlstring(L, found.text, found.size);
+    lua_pushnumber(L, found.em);
+    lua_pushboolean(L, found.has_letters);
+  }
+  lua_pop(script, 1);
+  return is_there ? 3 : 0;
 }
 
 /* ---------------------------------------------------------------- pictures */
@@ -415,20 +433,17 @@ static int describe(lua_State *L) {
 
 /* Sets the methods of the film on top of the stack. */
 static void set_methods(lua_State *L) {
-  static const luaL_Reg methods[] = {CS_SERVICE(build),      {"try", try_frame},
-                                     CS_SERVICE(at),         CS_SERVICE(chosen),
-                                     CS_SERVICE(numbers),    CS_SERVICE(view_size),
-                                     CS_SERVICE(lay_onion),  CS_SERVICE(check_sound),
-                                     CS_SERVICE(scene),      CS_SERVICE(counts),
-                                     CS_SERVICE(names),      CS_SERVICE(ask),
-                                     CS_SERVICE(faults),     CS_SERVICE(drop_warnings),
-                                     CS_SERVICE(files),      CS_SERVICE(picture),
-                                     CS_SERVICE(hits),       CS_SERVICE(alter),
-                                     CS_SERVICE(keep_line),  CS_SERVICE(keep_callers),
-                                     CS_SERVICE(silence),    CS_SERVICE(costs),
-                                     CS_SERVICE(camera),     CS_SERVICE(hold_camera),
-                                     CS_SERVICE(use_camera), CS_SERVICE(sound),
-                                     CS_SERVICE(wave),       {NULL, NULL}};
+  static const luaL_Reg methods[] = {
+      CS_SERVICE(build),         {"try", try_frame},      CS_SERVICE(at),
+      CS_SERVICE(chosen),        CS_SERVICE(exposures),   CS_SERVICE(words),
+      CS_SERVICE(numbers),       CS_SERVICE(view_size),   CS_SERVICE(lay_onion),
+      CS_SERVICE(check_sound),   CS_SERVICE(scene),       CS_SERVICE(counts),
+      CS_SERVICE(names),         CS_SERVICE(ask),         CS_SERVICE(faults),
+      CS_SERVICE(drop_warnings), CS_SERVICE(files),       CS_SERVICE(picture),
+      CS_SERVICE(hits),          CS_SERVICE(alter),       CS_SERVICE(keep_line),
+      CS_SERVICE(keep_callers),  CS_SERVICE(silence),     CS_SERVICE(costs),
+      CS_SERVICE(camera),        CS_SERVICE(hold_camera), CS_SERVICE(use_camera),
+      CS_SERVICE(sound),         CS_SERVICE(wave),        {NULL, NULL}};
   lua_createtable(L, 0, 2);
   lua_pushcfunction(L, describe);
   lua_setfield(L, -2, "__tostring");

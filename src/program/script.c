@@ -208,8 +208,10 @@ static int prepare(lua_State *L) {
     cs_host_remember_asked(L);
     cs_named_keep_callers(L, true);
   }
-  if (script->asks_warnings)
+  if (script->asks_warnings) {
     cs_warnings_keep(L);
+    cs_named_keep_words(L, true);
+  }
   if (confined) {
     script->sandbox = cs_sandbox_open(L, &confined->limits, confined->is_trusted);
     script->sandbox->guard.has_options = true;

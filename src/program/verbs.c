@@ -178,6 +178,9 @@ static const cs_option CHECK[] = {
     SCRIPT,
     {0}};
 
+static const cs_option DESCRIBE[] = {
+    FRAMES, {"--json", NULL, NULL, "print the same as a JSON object"}, SCRIPT, {0}};
+
 static const cs_option SPANS[] = {
     FRAME,
     SIZE,
@@ -392,14 +395,24 @@ const cs_verb cs_verbs[] = {
               "its end, and every checksum is verified.",
      .options = INFO},
     {"check", "SCRIPT", 1, 1, .has_script = true, .asks_warnings = true,
-     .summary = "Builds every frame without rendering it, and reports all faults.",
-     .notes = "Each frame is built once, and one of every ten again, in another order in a fresh "
-              "film: a frame function that then returns another scene is not a pure function of "
-              "its frame, and all frames are built again. Every picture must exist, hidden or not, "
-              "and so must the film's sound. Frames with scan-line procedures are built, but not "
-              "compared. A value that the script throws away is a warning. Equal faults are "
-              "reported in one line, with all frames that have them.",
+     .summary = "Builds every frame, and reports all faults and what viewers would miss.",
+     .notes =
+         "Each frame is built once, and one of every ten again, in another order in a fresh "
+         "film: a frame function that then returns another scene is not a pure function of "
+         "its frame, and all frames are built again. Every picture must exist, hidden or not, "
+         "and so must the film's sound. Frames with scan-line procedures are built, but not "
+         "compared. A value that the script throws away is a warning, and so is what viewers "
+         "cannot read or should be spared: text outside of the frame, covered, of low contrast "
+         "or shown too briefly, a second that is empty or frozen without a sheet, and flashes "
+         "by WCAG 2.3.1. Equal faults are "
+         "reported in one line, with all frames that have them.",
      .options = CHECK},
+    {"describe", "SCRIPT", 1, 1, .has_script = true, .asks_warnings = true,
+     .summary = "Describes a film as text: shots, who is seen when, words, what stands still.",
+     .notes = "Every frame is built, and each that differs from the one before is rendered at 48 "
+              "pixels. Times are seconds of the film. share is the part of the frame that the box "
+              "around a cel, an object with a name or a text takes at most.",
+     .options = DESCRIBE},
     {"watch", "SCRIPT [SCRIPT]", 1, 2, .has_script = true,
      .summary = "Shows a film in the browser while its script is being written.",
      .notes = "Prints the address of a page that only this machine can reach and that asks for "

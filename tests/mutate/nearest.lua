@@ -52,6 +52,7 @@ return {
   verbs = { "spec/change", "spec/desk", "spec/cli", "spec/shown" },
   ["compare.lua"] = { "spec/desk", "spec/cli" },
   ["contact.lua"] = { "spec/desk" },
+  ["describe.lua"] = { "spec/survey" },
   ["farm.lua"] = { "spec/farm" },
   ["help.lua"] = { "spec/help", "spec/cli" },
   ["info.lua"] = { "spec/info" },

@@ -43,8 +43,14 @@ function columns.mark(column, frame, mark)
   set[mark] = true
 end
 
+local lookups = 0
+
+--- How often drawings were looked for, as text: so it can be seen whether a frame asked a sheet.
+function columns.lookups() return tostring(lookups) end
+
 --- The index of the change in force at a frame; 0 before the first.
 function columns.find(column, frame)
+  lookups = lookups + 1
   return ordered.last(column.at, frame)
 end
 

@@ -69,7 +69,7 @@ static bool find_turned_scale(placed_cel *d) {
   if (!cs_matrix_is_affine(&d->matrix)) {
     celspan_object only, *objects[1];
     celspan_cel drawing = drawing_of(d, &only, objects);
-    (void)cs_bounds_around(&drawing, &box);
+    (void)cs_bounds_around(drawing.objects, drawing.object_count, &drawing.matrix, &box);
   }
   for (int corner = 0; corner < 4; corner++)
     stretch = fmax(stretch, cs_matrix_stretch(&d->matrix, box.x + (corner & 1 ? box.width : 0),
@@ -94,7 +94,8 @@ static bool find_scale(placed_cel *d) {
  * false where it is too large. */
 static bool find_raster(celspan_cel *drawing, celspan_space space, cs_map *map, cs_view *out) {
   celspan_box box = {0, 0, 0, 0};
-  (void)cs_bounds_around(drawing, &box); /* nothing is a drawing, too */
+  /* nothing is a drawing, too */
+  (void)cs_bounds_around(drawing->objects, drawing->object_count, &drawing->matrix, &box);
   double left = floor(box.x) - 1, width = ceil(box.x + box.width) + 1 - left;
   double top = floor(box.y) - 1, height = ceil(box.y + box.height) + 1 - top;
   if (!(width <= CS_MAP_SIDE && height <= CS_MAP_SIDE && fabs(left) < 0x1p30 && fabs(top) < 0x1p30))

@@ -9,32 +9,63 @@
 /* ---------------------------------------------------------------- lines */
 
 /* The address of this variable is a key of the registry. Its value is a list of texts, which also
- * has the number of each text under the text itself. Item 0 is true while callers are kept. */
-static const char callers_key = 0;
+ * has the number of each text under the text itself, and the two answers below.
+ *
+ *   in walk, from shot.lua:88          the callers of a value's line
+ *   in walk, from shot.lua:88 0 H Hey  the same for a text, with a head of HEAD bytes and the words
+ */
+static const char texts_key = 0;
 
-void cs_named_keep_callers(lua_State *L, bool is_kept) {
-  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &callers_key) != LUA_TTABLE) {
+enum { KEEPS_CALLERS = 0, KEEPS_WORDS = -1 };
+enum { HEAD = sizeof(double) + 1 }; /* the em, and whether they are letters */
+
+static void keep(lua_State *L, lua_Integer what, bool is_kept) {
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &texts_key) != LUA_TTABLE) {
     lua_newtable(L);
     lua_pushvalue(L, -1);
-    lua_rawsetp(L, LUA_REGISTRYINDEX, &callers_key);
+    lua_rawsetp(L, LUA_REGISTRYINDEX, &texts_key);
     lua_remove(L, -2);
   }
   lua_pushboolean(L, is_kept);
-  lua_rawseti(L, -2, 0);
+  lua_rawseti(L, -2, what);
   lua_pop(L, 1);
 }
 
-void cs_named_push_callers(lua_State *L, uint32_t number) {
-  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &callers_key) == LUA_TTABLE && number > 0)
+void cs_named_keep_callers(lua_State *L, bool is_kept) { keep(L, KEEPS_CALLERS, is_kept); }
+
+void cs_named_keep_words(lua_State *L, bool is_kept) { keep(L, KEEPS_WORDS, is_kept); }
+
+/* Pushes the list where it keeps that, else nothing. */
+static bool push_list(lua_State *L, lua_Integer what) {
+  bool is_kept = false;
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &texts_key) == LUA_TTABLE) {
+    lua_rawgeti(L, -1, what);
+    is_kept = lua_toboolean(L, -1);
+    lua_pop(L, 1);
+  }
+  if (!is_kept)
+    lua_pop(L, 1);
+  return is_kept;
+}
+
+/* Pushes the text with this number, or nil. */
+static void push_text(lua_State *L, uint32_t number) {
+  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &texts_key) == LUA_TTABLE && number > 0)
     lua_rawgeti(L, -1, number);
   else
-    lua_pushliteral(L, "");
+    lua_pushnil(L);
   lua_remove(L, -2);
 }
 
-/* The number of the callers' text in the list on top of the stack. */
-static uint32_t number_of_callers(lua_State *L) {
-  cs_caller_push_callers(L);
+void cs_named_push_callers(lua_State *L, uint32_t number) {
+  push_text(L, number);
+  const char *text = lua_tostring(L, -1);
+  lua_pushstring(L, text ? text : ""); /* ends before the words */
+  lua_remove(L, -2);
+}
+
+/* Pops a text, and the list below it. Its number. */
+static uint32_t number_of(lua_State *L) {
   lua_pushvalue(L, -1);
   if (lua_rawget(L, -3) != LUA_TNUMBER) {
     lua_Integer number = (lua_Integer)lua_rawlen(L, -3) + 1;
@@ -47,21 +78,45 @@ static uint32_t number_of_callers(lua_State *L) {
     lua_pushinteger(L, number);
   }
   uint32_t number = (uint32_t)lua_tointeger(L, -1);
-  lua_pop(L, 2);
+  lua_pop(L, 3);
   return number;
 }
 
 /* The number of the current callers; 0: callers are not kept. */
 static uint32_t find_callers(lua_State *L) {
-  uint32_t number = 0;
-  if (lua_rawgetp(L, LUA_REGISTRYINDEX, &callers_key) == LUA_TTABLE) {
-    lua_rawgeti(L, -1, 0);
-    bool is_kept = lua_toboolean(L, -1);
-    lua_pop(L, 1);
-    number = is_kept ? number_of_callers(L) : 0;
-  }
-  lua_pop(L, 1);
-  return number;
+  if (!push_list(L, KEEPS_CALLERS))
+    return 0;
+  cs_caller_push_callers(L);
+  return number_of(L);
+}
+
+void cs_named_add_words(lua_State *L, celspan_context *context, const cs_words *words) {
+  char head[HEAD];
+  luaL_checkstack(L, 8, "too many words");
+  if (!push_list(L, KEEPS_WORDS))
+    return;
+  memcpy(head, &words->em, sizeof words->em);
+  head[HEAD - 1] = words->has_letters;
+  cs_named_push_callers(L, context->origin.callers);
+  lua_pushlstring(L, "", 1);
+  lua_pushlstring(L, head, HEAD);
+  lua_pushlstring(L, words->text, words->size);
+  lua_concat(L, 4);
+  context->origin.callers = number_of(L);
+}
+
+bool cs_named_push_words(lua_State *L, uint32_t number, cs_words *out) {
+  push_text(L, number);
+  size_t size = 0;
+  const char *text = lua_tolstring(L, -1, &size);
+  size_t callers = text ? strlen(text) + 1 : 0; /* with the zero, of which there is one more */
+  if (!text || size < callers + HEAD)
+    return false;
+  memcpy(&out->em, text + callers, sizeof out->em);
+  out->has_letters = text[callers + HEAD - 1];
+  out->text = text + callers + HEAD;
+  out->size = size - callers - HEAD;
+  return true;
 }
 
 void cs_named_begin(lua_State *L, celspan_context *context) {

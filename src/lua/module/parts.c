@@ -1,19 +1,40 @@
-/* The parts of a frame, for exposure sheets. */
+/* The parts of a frame, for exposure sheets; where the size of the film is given also their boxes,
+ * and its texts, for tools that say what is seen of it.
+ *
+ *   rostrum --view--> cel --matrix--> object --matrix--> operand, text     `around` at each step
+ */
 #include <lauxlib.h>
+#include <math.h>
 #include <stdio.h>
 
+#include "lua/bind/host.h"
 #include "lua/bind/put.h"
+#include "lua/bind/userdata.h"
 #include "lua/module/core.h"
+#include "lua/nouns/nouns.h"
 #include "lua/nouns/options.h"
+#include "model/scene/bounds.h"
 #include "model/scene/scene.h"
 
 enum { PLACE_SIZE = 64, PATH_SIZE = 512 };
 
 typedef struct list {
   lua_State *L;
+  celspan_context *context;
+  bool has_boxes;
   int table; /* index of the list on the stack */
   lua_Integer count;
+  const celspan_rostrum *rostrum; /* of the exposure, and the cel of it that is looked at */
+  size_t place;
 } list;
+
+/* What lies around a value: its units to those of the film, and how much of it is seen. */
+typedef struct around {
+  celspan_matrix matrix;
+  double fade;
+  double width, height; /* of the film, or of the composition that it is in */
+  bool is_text;         /* a text that is listed already */
+} around;
 
 typedef struct part {
   const char *kind, *name;
@@ -36,56 +57,187 @@ static void add(list *to, const part *one) {
   if (!one->is_known) {
     cs_put_flag(L, "procedure", true);
   }
+  lua_pushvalue(L, -1);
   lua_rawseti(L, to->table, ++to->count);
 }
 
-static void add_rostrum(list *to, const celspan_rostrum *rostrum, const char *path);
+/* ---------------------------------------------------------------- boxes */
+
+/* Sets where the part on top of the stack is seen, and where it was made. */
+static void set_place(list *to, cs_mark mark, double fade, bool is_there, const celspan_box *box) {
+  lua_State *L = to->L;
+  celspan_origin origin = cs_mark_origin(mark);
+  if (origin.line > 0) {
+    cs_put_text(L, "file", origin.source);
+    cs_put_integer(L, "line", origin.line);
+  }
+  cs_put_number(L, "fade", fade);
+  if (!is_there)
+    return;
+  const double sides[4] = {box->x, box->y, box->width, box->height};
+  lua_createtable(L, 4, 0);
+  for (int i = 0; i < 4; i++) {
+    lua_pushnumber(L, sides[i]);
+    lua_rawseti(L, -2, i + 1);
+  }
+  lua_setfield(L, -2, "box");
+}
+
+/* A film of `objects` alone. */
+static celspan_status create_alone(celspan_context *context, celspan_object *object,
+                                   celspan_rostrum **out) {
+  celspan_cel *cel;
+  celspan_cel_desc desc = CELSPAN_CEL_DESC;
+  desc.objects = &object;
+  desc.object_count = 1;
+  CS_TRY(celspan_cel_create(context, &desc, &cel));
+  celspan_rostrum_desc rostrum = CELSPAN_ROSTRUM_DESC;
+  rostrum.cels = &cel;
+  rostrum.cel_count = 1;
+  celspan_status status = celspan_rostrum_create(context, &rostrum, out);
+  celspan_cel_unref(cel);
+  return status;
+}
+
+/* Pushes a value for a rostrum, which is NULL so far. */
+static celspan_rostrum **push_rostrum(lua_State *L) {
+  cs_userdata *value = cs_userdata_push(L, &cs_noun_rostrum);
+  lua_newtable(L);
+  lua_setiuservalue(L, -2, 1);
+  return (celspan_rostrum **)&value->handle;
+}
+
+/* Sets what a text is on its own, as it is placed, and the cels before it, if there are any. */
+static celspan_status set_text(list *to, celspan_object *placed, uint32_t words) {
+  lua_State *L = to->L;
+  const celspan_rostrum *all = to->rostrum;
+  const size_t after = to->place + 1;
+  cs_put_integer(L, "words", words);
+  CS_TRY(create_alone(to->context, placed, push_rostrum(L)));
+  lua_setfield(L, -2, "alone");
+  if (after == all->cel_count)
+    return CELSPAN_OK;
+  CS_TRY(cs_rostrum_change(to->context, all, all->cels + after, all->cel_count - after,
+                           (celspan_light){0}, push_rostrum(L)));
+  lua_setfield(L, -2, "over");
+  return CELSPAN_OK;
+}
+
+/* How much longer lines become. */
+static double growth(const celspan_matrix *matrix) {
+  const double *m = matrix->m;
+  return sqrt(fabs(m[0] * m[4] - m[1] * m[3]));
+}
+
+/* Sets where the object is seen of which the part on top of the stack is made. */
+static void set_object(list *to, const celspan_object *object, const around *at, bool is_text) {
+  celspan_object *one = (celspan_object *)object, *placed;
+  const celspan_matrix whole = celspan_matrix_then(*object->matrix, at->matrix);
+  celspan_box box;
+  bool is_there = cs_bounds_around(&one, 1, &at->matrix, &box);
+  set_place(to, object->mark, at->fade * object->fade, is_there, &box);
+  cs_put_number(to->L, "scale", growth(&whole));
+  if (!is_text)
+    return;
+  cs_host_try(to->L, "parts", celspan_object_transform(to->context, one, &at->matrix, &placed));
+  celspan_status status = set_text(to, placed, object->mark.callers);
+  celspan_object_unref(placed);
+  cs_host_try(to->L, "parts", status);
+}
+
+/* ---------------------------------------------------------------- the walk */
+
+static void add_rostrum(list *to, const celspan_rostrum *rostrum, const around *at,
+                        const char *path);
+
+/* Adds the object by its name, and as a text. */
+static void add_object(list *to, const celspan_object *object, const around *at) {
+  const bool is_text = to->has_boxes && !at->is_text && object->mark.callers > 0;
+  part one = {.kind = "object", .name = cs_mark_name(object->mark)};
+  one.is_known =
+      (one.name[0] || is_text) && celspan_object_hash(object, one.drawing, one.placement);
+  for (int i = one.name[0] ? 0 : 1; i < (is_text ? 2 : 1); i++) {
+    one.kind = i ? "text" : "object";
+    add(to, &one);
+    if (to->has_boxes)
+      set_object(to, object, at, i);
+    lua_pop(to->L, 1);
+  }
+}
 
 /* path: of the cel that they are in. Recursion ends: nesting is at most CS_SCENE_DEPTH. */
-static void add_objects(list *to, celspan_object *const *objects, size_t count, const char *path) {
+static void add_objects(list *to, celspan_object *const *objects, size_t count, const around *at,
+                        const char *path) {
   for (size_t i = 0; i < count; i++) {
     const celspan_object *object = objects[i];
-    part one = {.kind = "object", .name = cs_mark_name(object->mark)};
-    if (one.name[0]) {
-      one.is_known = celspan_object_hash(object, one.drawing, one.placement);
-      add(to, &one);
-    }
     const cs_primitive_data *data = object->data;
-    if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
-      add_rostrum(to, data->rostrum, path);
-    else if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
-      add_objects(to, data->boolean->operands, data->boolean->operand_count, path);
+    around inner = *at;
+    add_object(to, object, at);
+    inner.matrix = celspan_matrix_then(*object->matrix, at->matrix);
+    inner.fade *= object->fade;
+    inner.is_text = at->is_text || object->mark.callers > 0;
+    if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM) {
+      inner.width = data->rostrum->width;
+      inner.height = data->rostrum->height;
+      add_rostrum(to, data->rostrum, &inner, path);
+    } else if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
+      add_objects(to, data->boolean->operands, data->boolean->operand_count, &inner, path);
   }
 }
 
 /* A cel without a name in a composition inside another is found by the path of places to it. */
-static void add_cel(list *to, const celspan_cel *cel, const char *path, size_t place) {
+static void add_cel(list *to, const celspan_cel *cel, const around *at, const char *path,
+                    size_t place) {
   char own[PATH_SIZE];
   snprintf(own, sizeof own, "%s%scel %zu", path, path[0] ? "/" : "", place);
   const char *name = cs_mark_name(cel->mark);
   part one = {.kind = "cel", .name = name[0] ? name : own};
   one.is_known = celspan_cel_hash(cel, one.drawing, one.placement);
   add(to, &one);
-  add_objects(to, cel->objects, cel->object_count, one.name);
+  if (to->has_boxes) {
+    bool is_there;
+    celspan_box box;
+    cs_host_try(to->L, "parts", cs_bounds_drawing(to->context, cel, &at->matrix, &is_there, &box));
+    set_place(to, cel->mark, at->fade, is_there, &box);
+  }
+  lua_pop(to->L, 1);
+  add_objects(to, cel->objects, cel->object_count, at, one.name);
 }
 
-static void add_rostrum(list *to, const celspan_rostrum *rostrum, const char *path) {
-  for (size_t i = 0; i < rostrum->cel_count; i++)
-    add_cel(to, rostrum->cels[i], path, i + 1);
+static void add_rostrum(list *to, const celspan_rostrum *rostrum, const around *at,
+                        const char *path) {
+  for (size_t i = 0; i < rostrum->cel_count; i++) {
+    around inner = *at;
+    celspan_matrix placed;
+    if (to->has_boxes) {
+      cs_host_try(to->L, "parts",
+                  cs_scene_cel_matrix(to->context, rostrum, i, at->width, at->height, &placed));
+      inner.matrix = celspan_matrix_then(placed, at->matrix);
+    }
+    inner.fade *= rostrum->cels[i]->opacity;
+    if (rostrum == to->rostrum)
+      to->place = i;
+    add_cel(to, rostrum->cels[i], &inner, path, i + 1);
+  }
 }
 
+/* (exposures [, width, height of the film]) */
 int cs_parts_list(lua_State *L) {
   celspan_frame_desc desc;
-  lua_settop(L, 1);
+  lua_settop(L, 3);
+  list to = {.L = L, .context = cs_host_context(L), .has_boxes = !lua_isnil(L, 2)};
+  around at = {celspan_matrix_identity(), 1, luaL_optnumber(L, 2, 0), luaL_optnumber(L, 3, 0),
+               false};
   cs_options_exposures(L, 1, "parts: argument 1", &desc);
   lua_newtable(L);
-  list to = {L, lua_gettop(L), 0};
-  luaL_checkstack(L, 8, "too many parts");
+  to.table = lua_gettop(L);
+  luaL_checkstack(L, 16, "too many parts");
   for (size_t e = 0; e < desc.exposure_count; e++) {
     char path[PLACE_SIZE] = "";
     if (e > 0)
       snprintf(path, sizeof path, "exposure %zu", e + 1);
-    add_rostrum(&to, desc.exposures[e].rostrum, path);
+    to.rostrum = desc.exposures[e].rostrum;
+    add_rostrum(&to, to.rostrum, &at, path);
   }
   lua_settop(L, to.table);
   return 1;

@@ -135,8 +135,9 @@ static void read_variations(const cs_form *form, celspan_text_desc *desc) {
   desc->variations = variations;
 }
 
-/* Borrows from values that are left on the stack. */
-static text_form read_text(const cs_form *form) {
+/* Borrows from values that are left on the stack. has_letters: the values made now are letters of
+ * the text. */
+static text_form read_text(const cs_form *form, bool has_letters) {
   text_form read = {.desc = CELSPAN_TEXT_DESC, .face = 1};
   read_string(form, &read.desc);
   cs_fields_read(form, &read);
@@ -144,13 +145,15 @@ static text_form read_text(const cs_form *form) {
   read.desc.face = (uint32_t)read.face - 1;
   read_features(form, &read.desc);
   read_variations(form, &read.desc);
+  const cs_words words = {read.desc.text, read.desc.text_size, read.desc.size, has_letters};
+  cs_named_add_words(form->L, cs_host_context(form->L), &words);
   return read;
 }
 
 /* ---------------------------------------------------------------- text */
 
 static void create_text(const cs_form *form, cs_userdata *value) {
-  text_form read = read_text(form);
+  text_form read = read_text(form, false);
   celspan_object *object = NULL;
   cs_form_try(form, celspan_object_create_text(cs_host_context(form->L), &read.desc, &object));
   value->handle = object;
@@ -221,7 +224,7 @@ static celspan_glyphs **push_letters(const cs_form *form, const celspan_text_des
 
 /* Makes one of the letters again, for :with. */
 static void create_glyph(const cs_form *form, cs_userdata *value) {
-  text_form read = read_text(form);
+  text_form read = read_text(form, true);
   int index = read.index;
   const celspan_glyphs *letters = *push_letters(form, &read.desc);
   size_t count = celspan_glyphs_count(letters);
@@ -270,7 +273,7 @@ int cs_nouns_glyphs(lua_State *L) {
   cs_form form = cs_form_open(L, &noun_glyphs, 1);
   celspan_context *context = cs_host_context(L);
   cs_named_begin(L, context);
-  text_form read = read_text(&form);
+  text_form read = read_text(&form, true);
   celspan_glyphs **holder = push_letters(&form, &read.desc);
   cs_named_end(context);
   cs_construct_push_fields(L, &cs_noun_glyph, 1);
@@ -297,7 +300,7 @@ int cs_text_metrics(lua_State *L) {
   celspan_context *context = cs_host_context(L);
   celspan_text_metrics metrics = CELSPAN_TEXT_METRICS;
   cs_named_begin(L, context);
-  text_form read = read_text(&form);
+  text_form read = read_text(&form, false);
   cs_form_try(&form, celspan_text_measure(context, &read.desc, &metrics));
   cs_named_end(context);
   lua_createtable(L, 0, 7);

@@ -151,8 +151,13 @@ celspan_status cs_bounds_drawing(celspan_context *context, const celspan_cel *ce
   return f.status;
 }
 
-bool cs_bounds_around(const celspan_cel *cel, celspan_box *out) {
-  return find_cel(&(finder){.is_outer = true}, cel, out);
+bool cs_bounds_around(celspan_object *const *objects, size_t count, const celspan_matrix *matrix,
+                      celspan_box *out) {
+  celspan_box box;
+  bool is_there = list_around(&(finder){.is_outer = true}, objects, count, matrix, &box);
+  if (is_there)
+    *out = box;
+  return is_there;
 }
 
 bool celspan_object_bounds(const celspan_object *object, celspan_box *out) {

@@ -26,6 +26,7 @@ CELSPAN_CHECKED celspan_status cs_bounds_cel(celspan_context *context, const cel
 CELSPAN_CHECKED celspan_status cs_bounds_drawing(celspan_context *context, const celspan_cel *cel,
                                                  const celspan_matrix *matrix, bool *is_there,
                                                  celspan_box *out);
-/* A box around a cel that is found quickly, from the boxes of its outlines, and the outer ones of
- * strokes. False when there is nothing; *out is not set then. */
-bool cs_bounds_around(const celspan_cel *cel, celspan_box *out);
+/* A box around objects under a matrix that is found quickly, from the boxes of their outlines, and
+ * the outer ones of strokes. False when there is nothing; *out is not set then. */
+bool cs_bounds_around(celspan_object *const *objects, size_t count, const celspan_matrix *matrix,
+                      celspan_box *out);

@@ -9,6 +9,9 @@
 --                     each Lua state draws another seed for its tables, on which a scene may depend
 --   all again   <--   only if one of the sample differs, in the film in which it does
 --
+-- The first pass surveys the film, too (survey.lua): what viewers cannot read, and what they should
+-- be spared, are warnings.
+--
 -- All faults are reported at the end, equal ones in one line with the frames that have them:
 --
 --   frames 3-17, 20: cel 2, primitive 5: night.png: cannot be opened: No such file or directory
@@ -95,13 +98,14 @@ local function try_timed(film, number)
   return good, message, code
 end
 
-local function first_pass(film, numbers, scenes)
+local function first_pass(film, survey, numbers, scenes)
   for i, number in ipairs(numbers) do
     if program.is_stopped() then return i - 1 end
     local good, message, code = try_timed(film, number)
     if good then
       scenes[i] = film:scene()
       film:faults(function(...) add_fault(number, ...) end)
+      survey:add(number)
     else
       add_fault(number, "", message, code)
     end
@@ -165,11 +169,11 @@ local function part_of(film, listed, done, count)
 end
 
 --- How many frames were built, and the exit code of what ended that before its time, or nil.
-local function check_parts(film, listed, count)
+local function check_parts(film, survey, listed, count)
   local done, fresh = 0
   while done < count and not program.is_stopped() do
     local numbers, scenes = part_of(film, listed, done, count), {}
-    done = done + first_pass(film, numbers, scenes)
+    done = done + first_pass(film, survey, numbers, scenes)
     if program.is_stopped() then break end
     if not fresh then
       local code
@@ -217,7 +221,9 @@ local function print_json(warnings)
     list[#list + 1] = describe("error", sentence_of(fault), fault.runs[1].first,
       frames_of(fault):match "%d.*")
   end
-  for _, sentence in ipairs(warnings) do list[#list + 1] = describe("warning", sentence) end
+  for _, one in ipairs(warnings) do
+    list[#list + 1] = describe("warning", one.message, one.frame, one.frames)
+  end
   print(program.json { list = list })
 end
 
@@ -234,8 +240,10 @@ local function report(done, count, ended, sound, warnings)
   for _, fault in ipairs(request.json and {} or faults) do
     program.error("%s: %s", frames_of(fault), sentence_of(fault))
   end
-  for _, sentence in ipairs(request.json and {} or warnings) do
-    program.note("warning: %s", sentence)
+  for _, one in ipairs(request.json and {} or warnings) do
+    local frames = one.frames and ("frame%s %s: "):format(one.frames:find "%-" and "s" or "",
+      one.frames) or ""
+    program.note("warning: %s%s", frames, one.message)
   end
   if faults.beyond > 0 then
     program.error("%d more faults with other sentences are not listed: check fewer frames at a "
@@ -252,6 +260,15 @@ local function report(done, count, ended, sound, warnings)
       sound == 0 and "" or " except in the sound",
       #warnings == 0 and "" or (", %d warning%s"):format(#warnings, plural(#warnings)))
   end
+end
+
+--- All warnings: of values that are thrown away, and of what viewers see.
+local function warnings_of(survey)
+  local list = {}
+  for i, sentence in ipairs(program.part("dropped.lua", program).of_script(request[1])) do
+    list[i] = { message = sentence }
+  end
+  return table.move(survey:warnings(), 1, 1000, #list + 1, list)
 end
 
 --- The film of the script. Where there is none, that is the one fault.
@@ -274,8 +291,9 @@ local listed = request.frames and film:numbers()
 local count = listed and #listed or film.frames
 local sound = film:check_sound()
 if sound ~= 0 then others[1] = program.reported() end
-local warnings = program.part("dropped.lua", program).of_script(request[1])
-local done, ended = check_parts(film, listed, count)
+local survey = program.part("survey.lua", program, film)
+local done, ended = check_parts(film, survey, listed, count)
+local warnings = warnings_of(survey)
 if request.json then print_json(warnings) end
 report(done, count, ended, sound, warnings)
 return faults.code or ended or sound

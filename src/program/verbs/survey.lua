@@ -1,0 +1,330 @@
+--- Surveys a film: what is seen of it, frame by frame, for `celspan describe` and `celspan check`.
+--
+--   every frame, once it is built --> its parts and texts, with their boxes
+--                                 --> a small picture: the luminances of CELLS by CELLS cells
+--
+-- A frame with the scene of the one before is not looked at again, and a frame without a picture
+-- not at all: with scan-line procedures, or pictures that cannot be read. What is kept depends on
+-- how many parts, texts and stretches there are, not on the number of frames.
+local program, film = ...
+local celspan = require "celspan"
+local core = require "celspan.core"
+local flashes = program.part("flashes.lua")
+local texts = program.part("texts.lua", film)
+
+local survey = {}
+survey.__index = survey
+
+local CELLS = 48       -- of the longer side
+local PARTS_MOST = 1000
+local STRETCH = 1      -- seconds without a change that are worth a line
+local CUT = 0.08       -- the mean change of luminance of a cut,
+local CUT_RATIO = 3    -- and how much larger it is than those before and after
+
+local function new()
+  local longer = math.max(film.size[1], film.size[2])
+  local scale = math.min(1, CELLS / longer)
+  local cells = { size = { math.max(1, math.floor(film.size[1] * scale + 0.5)),
+                           math.max(1, math.floor(film.size[2] * scale + 0.5)) } }
+  return setmetatable({ cells = cells, texts = texts.new(), flashes = flashes.new(film.fps),
+                        parts = {}, on = {}, looked = {}, empty = {}, frozen = {},
+                        unseen = {}, cuts = {} }, survey)
+end
+
+-- ---------------------------------------------------------------- pictures
+
+--- The relative luminances and the alphas of a picture over black; nil: it cannot be made. Also
+--- whether it has one colour.
+local function look(exposures, view)
+  local good, image = pcall(celspan.pixels, program.still(film, exposures), view)
+  if not good or not image then return nil end
+  local bytes = image:bytes { depth = "float", colour = "linear", alpha = "premultiplied" }
+  local lights, alphas, at, is_plain = {}, {}, 1, true
+  local r0, g0, b0 = ("<fff"):unpack(bytes)
+  for i = 1, image.width * image.height do
+    local r, g, b, a
+    r, g, b, a, at = ("<ffff"):unpack(bytes, at)
+    is_plain = is_plain and r == r0 and g == g0 and b == b0
+    lights[i] = math.min(1, math.max(0, 0.2126 * r + 0.7152 * g + 0.0722 * b))
+    alphas[i] = a
+  end
+  return lights, alphas, is_plain
+end
+
+-- ---------------------------------------------------------------- stretches
+
+--- Adds a frame to a list of stretches { first =, last = }.
+local function add_frame(list, frame)
+  local last = list[#list]
+  if last and last.last == frame - 1 then
+    last.last = frame
+    return last
+  end
+  list[#list + 1] = { first = frame, last = frame }
+  return list[#list]
+end
+
+local function seconds(stretch) return (stretch.last - stretch.first + 1) / film.fps end
+
+--- The stretches that last.
+local function lasting(list)
+  local found = {}
+  for _, stretch in ipairs(list) do
+    if stretch.last > stretch.first and seconds(stretch) >= STRETCH - 1e-9 then
+      found[#found + 1] = stretch
+    end
+  end
+  return found
+end
+
+--- Whether the frame function asked an exposure sheet when the last frame was built: where it then
+--- shows the same as the frame before, the sheet holds it.
+function survey:has_asked()
+  local before = self.asked
+  self.asked = film:ask("celspan.columns", "lookups", "")
+  return before ~= nil and before ~= self.asked
+end
+
+-- ---------------------------------------------------------------- parts
+
+--- The parts of a frame that are seen in it, by kind and name: { share, hash } of each.
+local function seen_of(list)
+  local seen, order = {}, {}
+  for _, part in ipairs(list) do
+    local is_seen = part.kind ~= "text" and part.box and part.fade > 0
+    local share = is_seen and texts.share_of(part.box) or 0
+    if share > 0 then
+      local key = part.kind .. " " .. part.name
+      local one = seen[key]
+      if not one then
+        one = { key = key, kind = part.kind, name = part.name, share = 0, hash = "",
+                file = part.file, line = part.line }
+        seen[key], order[#order + 1] = one, one
+      end
+      one.share, one.hash = math.max(one.share, share), one.hash .. part.drawing .. part.placement
+    end
+  end
+  return order
+end
+
+--- The part of the film that has this key; nil: there are too many.
+function survey:part_of(one)
+  local part = self.parts[one.key]
+  if not part and #self.parts == PARTS_MOST then
+    self.has_more = true
+    return nil
+  end
+  if not part then
+    part = { kind = one.kind, name = one.name, file = one.file, line = one.line, share = 0,
+             moves = false, on = {} }
+    self.parts[one.key], self.parts[#self.parts + 1] = part, part
+  end
+  return part
+end
+
+function survey:add_parts(number, list)
+  local on = {}
+  for _, one in ipairs(seen_of(list)) do
+    local part = self:part_of(one)
+    if part then
+      local stretch = add_frame(part.on, number)
+      part.moves = part.moves or stretch.first < number and part.hash ~= one.hash
+      part.share, part.hash = math.max(part.share, one.share), one.hash
+      on[#on + 1] = part
+    end
+  end
+  self.on = on
+end
+
+-- ---------------------------------------------------------------- cuts
+
+--- Adds how much a frame differs from the one before: a cut differs much more than its neighbours.
+function survey:add_change(number, change)
+  local before, middle = self.before or 0, self.middle
+  if middle and middle.change > CUT
+    and middle.change > CUT_RATIO * math.max(before, change) then
+    table.insert(self.cuts, middle.number)
+  end
+  self.before = middle and middle.change or 0
+  self.middle = { number = number, change = change }
+end
+
+--- What lies between cuts, and between frames that were not looked at.
+function survey:shots()
+  local shots, cut = {}, {}
+  for _, number in ipairs(self.cuts) do cut[number] = true end
+  for _, run in ipairs(self.looked) do
+    shots[#shots + 1] = { first = run.first }
+    for number = run.first, run.last do
+      if cut[number] then shots[#shots + 1] = { first = number } end
+      shots[#shots].last = number
+    end
+  end
+  return shots
+end
+
+local function mean_change(a, b)
+  local sum = 0
+  for i, light in ipairs(a) do sum = sum + math.abs(light - b[i]) end
+  return sum / #a
+end
+
+-- ---------------------------------------------------------------- frames
+
+--- A frame of the same scene as the one before.
+function survey:again(number, has_asked)
+  local stretch = self.frozen[#self.frozen]
+  if not stretch or stretch.last ~= number - 1 then
+    stretch = { first = number - 1, last = number, is_held = true }
+    table.insert(self.frozen, stretch)
+  end
+  stretch.last, stretch.is_held = number, stretch.is_held and has_asked
+  for _, part in ipairs(self.on) do add_frame(part.on, number) end
+  if self.is_plain then add_frame(self.empty, number) end
+  self.texts:again(number)
+  self:add_change(number, 0)
+end
+
+--- Forgets the frame before, which this one does not follow.
+function survey:cut()
+  self.scene, self.lights, self.middle, self.before = nil, nil, nil, nil
+  self.flashes:cut()
+  self.texts:cut()
+end
+
+--- Looks at the frame that was built last.
+function survey:add_new(number)
+  local parts = core.parts(film:exposures(), film.size[1], film.size[2])
+  local lights, _, is_plain = look(film:exposures(), self.cells)
+  self:add_parts(number, parts)
+  self.is_plain = is_plain
+  if not lights then
+    add_frame(self.unseen, number)
+    return self:cut()
+  end
+  if is_plain then add_frame(self.empty, number) end
+  self.texts:add(number, parts, look)
+  self.flashes:add(number, lights)
+  self:add_change(number, self.lights and mean_change(self.lights, lights) or 0)
+  self.lights = lights
+end
+
+--- Adds the frame `number`, which was built last.
+function survey:add(number)
+  local scene, has_asked = film:scene(), self:has_asked()
+  if self.number ~= number - 1 then self:cut() end
+  self.number = number
+  add_frame(self.looked, number)
+  if scene and scene == self.scene then return self:again(number, has_asked) end
+  if scene then
+    self:add_new(number)
+    collectgarbage() -- values of Lua are small, but each may hold the scene of a frame
+  else
+    add_frame(self.unseen, number)
+    self:cut()
+  end
+  self.scene = scene
+end
+
+-- ---------------------------------------------------------------- what was found
+
+--- Frozen stretches without those in which there is nothing to see.
+function survey:still()
+  local found = {}
+  for _, stretch in ipairs(lasting(self.frozen)) do
+    local is_empty = false
+    for _, one in ipairs(self.empty) do
+      is_empty = is_empty or one.first <= stretch.first and one.last >= stretch.last
+    end
+    if not is_empty then found[#found + 1] = stretch end
+  end
+  return found
+end
+
+function survey:blank() return lasting(self.empty) end
+
+--- How long a text is shown; nil: the frames before or after it were not looked at.
+function survey:shown_seconds(text)
+  for _, run in ipairs(self.looked) do
+    if text.first >= run.first and text.last <= run.last then
+      local begins = text.first > run.first or text.first == film.first
+      local ends = text.last < run.last or text.last == film.first + film.frames - 1
+      return begins and ends and seconds(text) or nil
+    end
+  end
+end
+
+--- "frame 3", "frames 3-17"
+local function frames_of(stretch)
+  return stretch.first == stretch.last and tostring(stretch.first)
+    or ("%d-%d"):format(stretch.first, stretch.last)
+end
+
+--- What a viewer should be spared: a list of { message =, frame =, frames = }.
+function survey:warnings()
+  local list = {}
+  local function add(stretch, ...)
+    list[#list + 1] = { message = string.format(...), frame = stretch.first,
+                        frames = frames_of(stretch) }
+  end
+  for _, text in ipairs(self.texts.list) do
+    local name = "the text " .. texts.quoted(text.words)
+      .. (text.file and (" (%s:%d)"):format(text.file, text.line) or "")
+    texts.judge(text, self:shown_seconds(text), function(format, ...)
+      add(text, "%s %s", name, format:format(...))
+    end)
+  end
+  for _, stretch in ipairs(self:blank()) do
+    add(stretch, "nothing but one colour is seen for %.4g s", seconds(stretch))
+  end
+  for _, stretch in ipairs(self:still()) do
+    if not stretch.is_held then
+      add(stretch, "nothing changes for %.4g s, and no exposure sheet holds it", seconds(stretch))
+    end
+  end
+  for _, stretch in ipairs(self.flashes.list) do
+    add(stretch, "more than three flashes in a second, over %d %% of the frame, may cause seizures "
+      .. "(WCAG 2.3.1)", math.floor(stretch.share * 100 + 0.5))
+  end
+  table.sort(list, function(a, b)
+    if a.frame ~= b.frame then return a.frame < b.frame end
+    return a.message < b.message
+  end)
+  return list
+end
+
+--- The film as tables, for `celspan describe`: stretches have `first`, `last` and, in seconds of
+--- the film, `from` and `to`.
+function survey:facts()
+  local function timed(stretch, more)
+    more = more or {}
+    more.first, more.last = stretch.first, stretch.last
+    more.from = (stretch.first - film.first) / film.fps
+    more.to = (stretch.last - film.first + 1) / film.fps
+    return more
+  end
+  local function all(stretches, make)
+    local list = {}
+    for i, one in ipairs(stretches) do list[i] = timed(one, make and make(one)) end
+    return list
+  end
+  local function of_part(part)
+    return { kind = part.kind, name = part.name, file = part.file, line = part.line,
+             share = part.share, moves = part.moves, on = all(part.on) }
+  end
+  local parts = {}
+  for i, part in ipairs(self.parts) do parts[i] = of_part(part) end
+  return {
+    shots = all(self:shots()), parts = parts, more = self.has_more or self.texts.has_more or false,
+    texts = all(self.texts.list, function(text)
+      return { words = text.words, pixels = text.pixels, share = text.share, moves = text.moves,
+               contrast = text.contrast, covered = text.covered, file = text.file,
+               line = text.line }
+    end),
+    empty = all(self:blank()), unseen = all(self.unseen),
+    frozen = all(self:still(), function(one) return { held = one.is_held } end),
+    flashes = all(self.flashes.list, function(one) return { share = one.share } end),
+  }
+end
+
+return new()

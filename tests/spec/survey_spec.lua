@@ -1,0 +1,235 @@
+--- celspan describe, and what celspan check warns of: what is seen of a film.
+local json = require "celspan.json"
+local present = require "tests.support.present"
+local workbench = require "tests.support.workbench"
+
+local it_sets_type = present.art() and it or pending
+
+local HEAD = [[
+local celspan = require "celspan"
+local function text(words, x, y, colour, size)
+  return celspan.text { words, font = "block.ttf", size = size or 24, at = { x, y },
+    texture = colour }
+end
+local function cel(...) return celspan.cel { ... } end
+return celspan.film { size = { 320, 180 }, fps = 24, frames = %d, frame = function(f)
+  local ball = celspan.circle { centre = { 20 + 5 * f.index, 90 }, radius = 10, texture = "#f80" }
+  return celspan.rostrum { back = "#202040", cel(ball:named "ball"):named "actors", %s }
+end }
+]]
+
+local bench
+
+local function film(frames, cels)
+  bench:write("film.lua", HEAD:format(frames, cels))
+end
+
+--- What check warns of, with where each was made.
+local function warnings(options)
+  local code, out, err = bench:celspan_inside("check film.lua --json %s", options or "")
+  assert.are.equal(0, code, err)
+  return assert(json.decode(out))
+end
+
+--- The one warning, which contains this.
+local function warns(text, options)
+  local list = warnings(options)
+  assert.are.equal(1, #list, text)
+  assert.truthy(list[1].message:find(text, 1, true), list[1].message)
+  assert.are.equal("warning", list[1].level)
+  return list[1]
+end
+
+describe("what is seen of a film", function()
+  before_each(function()
+    bench = workbench.new()
+    bench:write("block.ttf", assert(io.open "scripts/type/block.ttf"):read "a")
+  end)
+  after_each(function() bench:remove() end)
+
+  it_sets_type("is reported by check where text cannot be read", function()
+    film(48, 'cel(text("Read me", 20, 40, "#fff"))')
+    assert.same({}, warnings())
+    film(48, 'cel(text("Dim", 20, 40, "#303050"))')
+    local dim = warns 'the text "Dim" (film.lua:3) has a contrast of 1.2 to its background'
+    assert.same({ 1, "1-48", "film.lua", 3 }, { dim.frame, dim.frames, dim.file, dim.line })
+    film(48, 'cel(text("Out", 290, 40, "#fff"))')
+    warns "lies outside of the frame in all of its frames, at the right side"
+    film(48, 'cel(text("Hid", 20, 40, "#fff")), cel(celspan.rect { 10, 10, 150, 40 })')
+    warns "is covered by nearer cels in all of its frames, 100 % of it at least"
+  end)
+
+  it_sets_type("is right about a text that appears, passes by or is uncovered", function()
+    film(48, 'cel(text("Slowly", 20, 40, "#fff"):fade(math.min(1, f.index / 20)))')
+    assert.same({}, warnings())
+    film(60, 'cel(text("A line that passes", 320 - 12 * f.index, 40, "#fff"))')
+    assert.same({}, warnings())
+    film(48, 'cel(text("Hid", 20, 40, "#fff")), '
+      .. 'f.index ~= 30 and cel(celspan.rect { 10, 10, 150, 40, texture = "#888" }) or nil')
+    assert.same({}, warnings())
+  end)
+
+  it_sets_type("includes how long a text needs", function()
+    film(48, 'f.index < 24 and cel(text("Two words", 20, 40, "#fff")) or nil')
+    assert.same({}, warnings())
+    film(48, 'f.index < 23 and cel(text("Two words", 20, 40, "#fff")) or nil')
+    assert.are.equal("1-23", warns("is shown for 0.9583 s; its 2 words need 1 s").frames)
+    -- the frames around it were not looked at
+    assert.same({}, warnings "--frames 1-10")
+    film(48, 'cel(text(tostring(f.number * 100), 20, 40, "#fff"))')
+    assert.same({}, warnings())
+    film(48, 'cel(text(("It is typed"):sub(1, f.number), 20, 40, "#fff"))')
+    assert.same({}, warnings())
+    film(48, 'f.index < 6 and cel(celspan.letters({ "So brief", font = "block.ttf", size = 24, '
+      .. 'at = { 20, 40 }, texture = "#fff" })) or nil')
+    warns 'the text "So brief"'
+  end)
+
+  local STILL = [[
+local celspan = require "celspan"
+local sheet = require "celspan.sheet"
+local held = sheet.new { layers = { "body" }, drawings = { body = { [1] = "1", [40] = "2" } },
+  fps = 24, frames = 60 }
+return celspan.film { size = { 16, 9 }, fps = 24, frames = 60, frame = function(f)
+  local n = %s
+  return celspan.rostrum { back = "#fff", celspan.cel { celspan.rect { n, 1, %s, 4 } } }
+end }]]
+
+  it("includes what stands still, or is empty", function()
+    bench:write("film.lua", STILL:format("f.index // 24", "4"))
+    local list = warnings()
+    assert.are.equal(2, #list)
+    assert.are.equal("25-48", list[2].frames)
+    assert.truthy(list[2].message:find("nothing changes for 1 s", 1, true), list[2].message)
+    bench:write("film.lua", STILL:format("f.index // 23", "4"))
+    assert.same({}, warnings())
+    bench:write("film.lua", STILL:format("tonumber(held:at('body', f.number))", "4"))
+    assert.same({}, warnings())
+    bench:write("film.lua", STILL:format("f.index / 5", "f.index < 24 and 0 or 4"))
+    assert.are.equal("1-24", warns("nothing but one colour is seen for 1 s").frames)
+  end)
+
+  it_sets_type("is described as text and as JSON", function()
+    film(48, 'f.index < 24 and cel(text("Good day", 20, 40, "#fff")):named "title" or nil')
+    local code, out, err = bench:celspan_inside "describe film.lua"
+    assert.are.equal(0, code, err)
+    assert.are.equal([[
+size 320x180
+fps 24
+frames 1-48
+seconds 2
+sound no
+shot 1-48 0-2 s
+cel 1-48 0-2 s share 0.00694 moving name actors (film.lua:6)
+object 1-48 0-2 s share 0.00694 moving name ball (film.lua:8)
+]], (out:gsub("cel 1%-24.*", "")))
+    assert.truthy(out:find("\ncel 1%-24 0%-1 s share [%d.]+ still name title %(film.lua:%d+%)\n"),
+      out)
+    assert.truthy(out:find("\ntext 1%-24 0%-1 s pixels 24 contrast 15.6 covered 0 share [%d.]+ "
+      .. "still words Good day %(film.lua:3%)\n"), out)
+    local _, text = bench:celspan_inside "describe film.lua --json --frames 1-12"
+    local facts = assert(json.decode(text))
+    assert.same({ { 320, 180 }, 48, 1, "Good day", 12 }, { facts.size, facts.last, #facts.shots,
+      facts.texts[1].words, facts.texts[1].last })
+    assert.same({ {}, {}, {}, {} }, { facts.empty, facts.frozen, facts.flashes, facts.marks })
+  end)
+
+  it("has shots between cuts, and none in a flash", function()
+    bench:write("film.lua", [[
+local celspan = require "celspan"
+return celspan.film { size = { 16, 9 }, fps = 24, frames = 48, frame = function(f)
+  local light = f.number == 40 and 1 or f.index < 20 and 0.1 or 0.6
+  return celspan.rostrum { back = { light, light, light, 1 },
+    celspan.cel { celspan.rect { f.index / 8, 1, 4, 4 } } }
+end }]])
+    local _, out = bench:celspan_inside "describe film.lua"
+    assert.truthy(out:find("\nshot 1-20 0-0.8333 s\nshot 21-48 0.8333-2 s\ncel", 1, true), out)
+  end)
+
+  it("refuses what it cannot describe", function()
+    assert.are.equal(4, (bench:celspan_inside "describe none.lua"))
+    bench:write("film.lua", "return 3")
+    assert.are.equal(3, (bench:celspan_inside "describe film.lua"))
+    bench:write("film.lua", STILL:format("f.index == 9 and nil or 1", "4"))
+    assert.are.equal(0, (bench:celspan_inside "describe film.lua --frames 1-9"))
+    assert.are.equal(2, (bench:celspan_inside "describe film.lua --frames 61"))
+    bench:write("film.lua", (STILL:format("f.index == 9 and {} or 1", "4")))
+    local code, _, err = bench:celspan_inside "describe film.lua"
+    assert.are.equal(3, code)
+    assert.truthy(err:find("frame 10", 1, true), err)
+  end)
+end)
+
+-- ---------------------------------------------------------------- flashes
+
+--- A film that changes `count` times between two lights, every `hold` frames, in `cells` of its 100
+--- pixels; each change takes `steps` frames.
+local FLASHES = [[
+local celspan = require "celspan"
+local fps, low, high, hold, cells, count, steps = ...
+fps, hold, cells = tonumber(fps), tonumber(hold), tonumber(cells)
+count, steps = tonumber(count), tonumber(steps)
+local function light_at(index)
+  local change = math.min(count, index // hold)
+  local share = change < count and math.min(1, (index % hold + 1) / steps) or 1
+  local from, to = low, high
+  if change % 2 == 0 then from, to = high, low end
+  if change == 0 then from = to end
+  return from + (to - from) * share
+end
+return celspan.film { size = { 10, 10 }, fps = fps, frames = 200, frame = function(f)
+  local light = light_at(f.index)
+  local paint = celspan.rgb(light, light, light)
+  return celspan.rostrum { back = "#000", celspan.cel {
+    celspan.rect { 0, 0, 10, cells // 10, texture = paint },
+    celspan.rect { 0, cells // 10, cells % 10, 1, texture = paint } } }
+end }]]
+
+--- By WCAG: fps, the darker and the brighter light, frames between changes, cells, changes,
+--- steps of a change, and whether this is more than three flashes in a second.
+local MADE = {
+  -- the change of the relative luminance
+  { 24, 0.2, 0.3, 3, 100, 20, 1, true }, { 24, 0.2, 0.29, 3, 100, 20, 1, false },
+  { 24, 0, 0.1, 3, 100, 20, 1, true }, { 24, 0, 0.099, 3, 100, 20, 1, false },
+  { 24, 0.5, 0.601, 3, 100, 20, 1, true }, { 24, 0.5, 0.599, 3, 100, 20, 1, false },
+  { 24, 0, 1, 3, 100, 20, 1, true }, { 24, 0.4, 0.4, 3, 100, 20, 1, false },
+  -- the darker light
+  { 24, 0.7, 0.8, 3, 100, 20, 1, true }, { 24, 0.8, 0.9, 3, 100, 20, 1, false },
+  { 24, 0.79, 0.89, 3, 100, 20, 1, true }, { 24, 0.79, 0.88, 3, 100, 20, 1, false },
+  { 24, 0.799, 0.9, 3, 100, 20, 1, true }, { 24, 0.801, 1, 3, 100, 20, 1, false },
+  { 24, 0.7, 1, 3, 100, 20, 1, true }, { 24, 0.85, 1, 3, 100, 20, 1, false },
+  -- how many: four flashes are eight changes
+  { 24, 0.2, 0.8, 3, 100, 8, 1, true }, { 24, 0.2, 0.8, 3, 100, 7, 1, false },
+  { 24, 0.2, 0.8, 3, 100, 9, 1, true }, { 24, 0.2, 0.8, 3, 100, 6, 1, false },
+  { 24, 0.2, 0.8, 1, 100, 8, 1, true }, { 24, 0.2, 0.8, 1, 100, 7, 1, false },
+  -- how fast: eight changes in less than a second
+  { 24, 0.2, 0.8, 3, 100, 20, 1, true }, { 24, 0.2, 0.8, 4, 100, 20, 1, false },
+  { 30, 0.2, 0.8, 4, 100, 20, 1, true }, { 30, 0.2, 0.8, 5, 100, 20, 1, false },
+  { 60, 0.2, 0.8, 8, 100, 20, 1, true }, { 60, 0.2, 0.8, 9, 100, 20, 1, false },
+  { 50, 0.2, 0.8, 7, 100, 20, 1, true }, { 50, 0.2, 0.8, 8, 100, 20, 1, false },
+  { 12, 0.2, 0.8, 1, 100, 20, 1, true }, { 12, 0.2, 0.8, 2, 100, 20, 1, false },
+  { 29, 0.2, 0.8, 4, 100, 20, 1, true }, { 28, 0.2, 0.8, 4, 100, 20, 1, false },
+  { 8, 0.2, 0.8, 1, 100, 20, 1, true }, { 7, 0.2, 0.8, 1, 100, 20, 1, false },
+  -- where
+  { 24, 0.2, 0.8, 3, 26, 20, 1, true }, { 24, 0.2, 0.8, 3, 25, 20, 1, false },
+  { 24, 0.2, 0.8, 3, 50, 20, 1, true }, { 24, 0.2, 0.8, 3, 10, 20, 1, false },
+  -- slow changes count from the last extreme
+  { 60, 0.2, 0.4, 8, 100, 20, 8, true }, { 60, 0.2, 0.29, 8, 100, 20, 8, false },
+}
+
+describe("flashes by WCAG 2.3.1", function()
+  it("are found on one side of each limit and not on the other", function()
+    bench = workbench.new()
+    bench:write("film.lua", FLASHES)
+    local wrong = {}
+    for _, one in ipairs(MADE) do
+      local given = table.concat(one, " ", 1, 7)
+      local code, out, err = bench:celspan_inside("check film.lua --json --frames 1-100 -- %s",
+        given)
+      assert.are.equal(0, code, err)
+      if (out:find("three flashes", 1, true) ~= nil) ~= one[8] then wrong[#wrong + 1] = given end
+    end
+    bench:remove()
+    assert.same({}, wrong)
+  end)
+end)
