@@ -60,6 +60,7 @@ palette.wool = { "#fbe9c6", "#c99f74" }
 palette.scarf = { "#e9573f", "#b5343f" }
 palette.hat = { "#e8a33d", "#b5672d" }
 palette.boot = "#3b2430"
+palette.tights = "#7a4450"
 palette.brass = "#7a4b2a"
 
 --- The light of a lamp at a point: warm, and falling off with the distance.

@@ -57,21 +57,20 @@ local function strew(count)
   for i = 1, count do
     local far, turn = math.sqrt(i / count), i * 2.39996
     local x, y = 1000 + 1120 * far * math.cos(turn), 130 + 380 * far * math.sin(turn)
-    if y > 8 and x > 0 and x < width then
-      stars[#stars + 1] = { x, y, 1.4 + (i * 7 % 5) * 0.42, i * 3 % 8 / 8 }
-    end
+    if y > 8 and x > 0 and x < width then stars[#stars + 1] = { x, y, 1.4 + (i * 7 % 5) * 0.52 } end
   end
   return stars
 end
 
-local stars = strew(120)
+local stars = strew(170)
 local pop = ease "outBack"
 
---- They come out one after another from `cue` on, and twinkle.
-function sky.stars(time, cue)
+--- They come out from `cue` on, in a ring that grows around a point, and twinkle.
+function sky.stars(time, cue, from)
   local parts = {}
   for _, star in ipairs(stars) do
-    local age = (time - cue - star[4] * 1.4) / 0.5
+    local dx, dy = star[1] - from[1], star[2] - from[2]
+    local age = (time - cue - math.sqrt(dx * dx + dy * dy) / 1000) / 0.4
     if age > 0 then
       local size = star[3] * pop(math.min(1, age)) * (1 + 0.18 * math.sin(time * 5 + star[1]))
       parts[#parts + 1] = celspan.circle { centre = { star[1], star[2] }, radius = size,
