@@ -4,12 +4,13 @@
 --   onion    the number of frames before and after it that are shown behind it
 --   strip    the numbers of frames that are shown side by side, instead of one frame
 --   grid     a contact sheet with this number of columns and rows, instead of a frame
+--   background   a colour behind a frame that is transparent
 --   size     in pixels; of a frame, or what the contact sheet is made smaller to
 --   allow    a folder that the script may read, in addition to its own
 --   before   an example of the page that is run first, a program in plain Lua
 --   parts    frames that are rendered first, to a folder that the script gets as its argument
 local list = {
-  { name = "demo", script = "scripts/demo.lua", frame = 236, size = "800x450" },
+  { name = "demo", script = "scripts/demo.lua", frame = 193, size = "800x450" },
   { name = "little-one", script = "scripts/film.lua", frame = 463, size = "400x225" },
   { name = "moon", page = "README.md", frame = 40 },
   { name = "beta", page = "docs/guide.md" },
@@ -21,7 +22,7 @@ local list = {
   { name = "waving", script = "scripts/waving.lua", frame = 14, size = "640x400" },
   { name = "shapes", page = "docs/guide.md", size = "640x360" },
   { name = "gel", page = "docs/guide.md" },
-  { name = "dusk", page = "docs/guide.md", frame = 36 },
+  { name = "dusk", page = "docs/guide.md", strip = "1,26,48" },
   { name = "lamplight", page = "docs/guide.md", frame = 18, size = "480x270" },
   { name = "postcards", page = "docs/guide.md", frame = 1 },
   { name = "soft", page = "docs/guide.md", frame = 6, size = "480x270" },
@@ -57,7 +58,7 @@ local list = {
   { name = "night", page = "docs/guide-shot.md", frame = 40, size = "480x270" },
   { name = "brush_lines", page = "docs/lua.md", frame = 40 },
   { name = "day", page = "docs/guide-film.md", grid = "4x3", size = "1188x536" },
-  { name = "page", page = "docs/guide-film.md", frame = 24 },
+  { name = "page", page = "docs/guide-film.md", frame = 24, size = "480x270" },
   { name = "listener", page = "docs/guide-film.md", frame = 30, before = "sounds" },
   { name = "balloon", page = "docs/guide.md", frame = 24, size = "480x270" },
   { name = "hat", script = "scripts/hat.lua", frame = 40, size = "480x270" },
@@ -90,25 +91,26 @@ local list = {
 -- shades; or, if what matters is the movement, with the frames of a strip.
 for _, recipe in ipairs {
   { "cast_shadow", 12 }, { "drop_shadow", 10, "360x202" }, { "neon_glow", 24, "360x202" },
-  { "soft_vignette", 1, "360x202" }, { "stained_glass", 20, "360x202" }, { "time_lapse", 79 },
-  { "letter_mask", 20 }, { "clock_wipe", strip = "8,20,32" }, { "iris_out", 24 }, { "endless_zoom", 20 },
-  { "split_screen", 8 }, { "green_screen", 20 }, { "picture_in_picture", 60 },
-  { "kaleidoscope", 1 }, { "lower_third", 30 }, { "karaoke_line", 27 },
-  { "rolling_credits", 120 }, { "three_languages", 12 }, { "text_on_path", 40 },
-  { "speech_bubble", 20 }, { "falling_letters", 24 }, { "typewriter", 72 },
-  { "srt_subtitles", 96 },
-  { "handwriting", 52 }, { "bar_race", 57 }, { "pie_chart", 44 }, { "line_chart", 50 },
-  { "rolling_counter", 30 }, { "island_map", 40 }, { "value_map", 60 },
-  { "many_scripts", 60 }, { "paper_texture", 1, "360x202" },
-  { "boiling_line", strip = "1,4,7" }, { "hatching", 1, "360x202" }, { "halftone_dots", 1, "360x202" },
-  { "snowfall", 30, "360x202" }, { "water_reflection", 10 }, { "squash_stretch", strip = "16,20,25" },
-  { "magnifying_lens", 40 }, { "old_film", 12, "360x202" }, { "morph_shapes", strip = "8,14,20" },
-  { "confetti_burst", strip = "6,17,34" }, { "camera_shake", 40 }, { "sprite_sheet", 1 },
-  { "transparent_video", 30 }, { "crossfade", 32 }, { "rotoscope", 7 },
-  { "speed_ramp", 24 }, { "mixed_sound", 64 },
+  { "soft_vignette", 1, "360x202" }, { "stained_glass", 20, "360x202" },
+  { "time_lapse", strip = "28,52,82" }, { "letter_mask", 20 }, { "clock_wipe", strip = "8,20,32" },
+  { "iris_out", strip = "10,22,31" }, { "endless_zoom", strip = "1,17,33" }, { "split_screen", 8 },
+  { "green_screen", 20 }, { "picture_in_picture", 60 }, { "kaleidoscope", 1 },
+  { "lower_third", 30 }, { "karaoke_line", 27 }, { "rolling_credits", 120 },
+  { "three_languages", 12 }, { "text_on_path", 40 }, { "speech_bubble", 20 },
+  { "falling_letters", 24 }, { "typewriter", 72 }, { "srt_subtitles", 96 }, { "handwriting", 52 },
+  { "bar_race", 57 }, { "pie_chart", 44 }, { "line_chart", 50 }, { "rolling_counter", 30 },
+  { "island_map", 40 }, { "value_map", 60 }, { "many_scripts", 60 },
+  { "paper_texture", 1, "360x202" }, { "boiling_line", strip = "1,4,7" },
+  { "hatching", 1, "360x202" }, { "halftone_dots", 1, "360x202" }, { "snowfall", 30, "360x202" },
+  { "water_reflection", 10 }, { "squash_stretch", strip = "16,20,25" }, { "magnifying_lens", 40 },
+  { "old_film", 12, "360x202" }, { "morph_shapes", strip = "8,14,20" },
+  { "confetti_burst", strip = "6,17,34" }, { "camera_shake", strip = "30,37,41" },
+  { "sprite_sheet", 1 }, { "transparent_video", 30, background = "#21465a" },
+  { "crossfade", strip = "24,31,37" }, { "rotoscope", strip = "1,3,7" },
+  { "speed_ramp", strip = "9,30,62" }, { "mixed_sound", 66 },
 } do
   list[#list + 1] = { name = recipe[1], page = "docs/cookbook.md", frame = recipe[2],
-    size = recipe[3], strip = recipe.strip }
+    size = recipe[3], strip = recipe.strip, background = recipe.background }
 end
 
 return list

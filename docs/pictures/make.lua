@@ -35,6 +35,7 @@ local function render(script, picture, output, argument, options)
   if picture.frame ~= "all" then add("--frames", tostring(picture.frame or 1)) end
   if picture.size then add("--size", picture.size) end
   if picture.onion then add("--onion", picture.onion) end
+  if picture.background then add("--background", picture.background) end
   if picture.allow then add("--allow", picture.allow) end
   if options and options ~= "" then add(options) end
   if argument then add("--allow", argument, "--", argument) end
@@ -60,7 +61,7 @@ for _, picture in ipairs(list) do
   if picture.strip then
     local _, commas = picture.strip:gsub(",", "")
     run(binary .. " contact", script, "--grid", commas + 1 .. "x1", "--frames", picture.strip,
-      "--size", "320x180", "-o", output)
+      "--size", "320x180", "-o", output, options ~= "" and options or nil)
   elseif picture.grid then
     local sheet = ("%s/%s.sheet.png"):format(parts, picture.name)
     run(binary .. " contact", script, "--grid", picture.grid, "-o", sheet)

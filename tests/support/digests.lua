@@ -99,14 +99,16 @@ end
 -- ---------------------------------------------------------------- pictures of the pages, files
 
 local function put_page_picture(picture)
-  local script = picture.script
+  local script, options = picture.script, picture.size and { "--size", picture.size } or {}
   if not script then
     for _, block in ipairs(markdown.blocks(picture.page)) do
-      if block.name == picture.name then script = bench:write(block.name .. ".lua", block.text) end
+      if block.name == picture.name then
+        script = bench:write(block.name .. ".lua", block.text)
+        options[#options + 1] = block.options ~= "" and block.options or nil
+      end
     end
   end
-  local size = picture.size and { "--size", picture.size } or {}
-  put_frames("page", picture.name, script, { picture.frame or 1 }, table.unpack(size))
+  put_frames("page", picture.name, script, { picture.frame or 1 }, table.unpack(options))
 end
 
 --- The bytes of finished files, and of a pyramid of tiles with its names.
