@@ -478,7 +478,7 @@ describe("the pictures", function()
       assert.is_true(size < 300000, picture.name)
       assert.is_truthy(text:find("pictures/" .. picture.name .. ".png", 1, true), picture.name)
     end
-    assert.is_true(all < 4100000)
+    assert.is_true(all < 4800000)
   end)
 
   it("are all in the gallery, which lists every film of scripts/", function()
