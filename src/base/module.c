@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/error_text.h"
+#include "base/program.h"
 
 #ifndef CELSPAN_MODULE_FOLDER
 #define CELSPAN_MODULE_FOLDER "/usr/local/lib/celspan"
@@ -64,16 +65,7 @@ static bool own_folder(module_search *search, char path[PATH_SIZE]) {
   if (!dladdr(&mark, &info) || !info.dli_fname)
     return false;
   /* The main program is known by argv[0], which may be a bare name. */
-  char resolved[PATH_SIZE];
-  const char *name = info.dli_fname;
-  if (!strchr(name, '/')) {
-    static const char own_program[] = "/proc/self/exe";
-    ssize_t size = readlink(own_program, resolved, sizeof resolved - 1);
-    if (size < 0)
-      return note_error(search, own_program);
-    resolved[size] = 0;
-    name = resolved;
-  }
+  const char *name = strchr(info.dli_fname, '/') ? info.dli_fname : cs_program_path();
   char *whole = realpath(name, NULL);
   if (!whole)
     return note_error(search, name);

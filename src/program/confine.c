@@ -9,6 +9,7 @@
 #include "base/ceiling.h"
 #include "base/context.h"
 #include "base/machine.h"
+#include "base/program.h"
 #include "frames/process/interrupt.h"
 #include "frames/process/journal.h"
 #include "plugins/isolate/client.h"
@@ -244,18 +245,19 @@ static void output_folder(const cs_request *request, char out[PATH_SIZE]) {
     strcpy(out, ".");
 }
 
+#define MODULES "/../lib/celspan" /* from the folder of an installed program: base/module.c */
+
 /* Adds the files that the program itself reads: its modules, the settings of colours, and the files
  * that options name. */
 static bool add_own_folders(const cs_request *request, cs_roots *read) {
   static const char *const variables[] = {"OCIO", "CELSPAN_PICTURE_MODULE", "CELSPAN_ART_MODULE",
                                           "CELSPAN_COLOUR_MODULE"};
-  char folder[PATH_SIZE];
-  ssize_t size = readlink("/proc/self/exe", folder, sizeof folder - 1);
-  folder[size > 0 ? size : 0] = '\0';
-  char *slash = strrchr(folder, '/');
-  if (slash)
-    *slash = '\0';
-  bool is_good = size <= 0 || cs_roots_add(read, folder);
+  char folder[PATH_SIZE], libraries[PATH_SIZE + sizeof MODULES];
+  bool is_good = true;
+  if (cs_program_folder(folder, PATH_SIZE)) {
+    snprintf(libraries, sizeof libraries, "%s" MODULES, folder);
+    is_good = cs_roots_add(read, folder) && cs_roots_add(read, libraries);
+  }
   for (size_t i = 0; i < sizeof variables / sizeof *variables && is_good; i++) {
     const char *path = getenv(variables[i]);
     folder_of(path ? path : "", folder);

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/program.h"
 #include "celspan/lua.h"
 #include "lua/bind/host.h"
 #include "lua/bind/lua_error.h"
@@ -123,13 +124,10 @@ static bool holds_annotations(const char *folder) {
 static void put_annotations(lua_State *L) {
   static const char *const beside[] = {"../share/celspan/annotations", "../lua"};
   char own[FOLDER_SIZE / 2], folder[FOLDER_SIZE], found[PATH_MAX];
-  ssize_t size = readlink("/proc/self/exe", own, sizeof own - 1);
-  own[size > 0 ? size : 0] = '\0';
-  char *slash = strrchr(own, '/');
+  bool is_known = cs_program_folder(own, sizeof own);
   bool is_there = holds_annotations(CS_ANNOTATIONS);
   cs_put_text(L, "annotations", CS_ANNOTATIONS);
-  for (size_t i = 0; slash && !is_there && i < sizeof beside / sizeof *beside; i++) {
-    *slash = '\0';
+  for (size_t i = 0; is_known && !is_there && i < sizeof beside / sizeof *beside; i++) {
     snprintf(folder, sizeof folder, "%s/%s", own, beside[i]);
     is_there = holds_annotations(folder) && realpath(folder, found);
     if (is_there)

@@ -18,6 +18,7 @@
 #include "lua/bind/suggest.h"
 #include "plugins/isolate/isolate.h"
 #include "plugins/isolate/zygote.h"
+#include "program/commit.h"
 #include "program/confine.h"
 #include "program/lua_verb.h"
 #include "program/progress.h"
@@ -110,7 +111,7 @@ static cs_exit dispatch(int count, char **arguments) {
   }
   const char *first = arguments[1];
   if (strcmp(first, "--version") == 0) {
-    printf("celspan %s\n", celspan_version());
+    printf("celspan %s (%s)\n", celspan_version(), CS_COMMIT);
     return CS_EXIT_OK;
   }
   if (strcmp(first, "--man") == 0)

@@ -15,6 +15,7 @@
 
 #include "base/clock.h"
 #include "base/context.h"
+#include "base/program.h"
 #include "frames/process/interrupt.h"
 #include "frames/process/spawn.h"
 #include "program/confine.h"
@@ -55,7 +56,7 @@ static int start(lua_State *L) {
   const char **words = cs_service_push_words(L, 1);
   pid_t process;
   cs_interrupt_call(stop_children);
-  const cs_spawn_desc desc = {.path = "/proc/self/exe",
+  const cs_spawn_desc desc = {.path = cs_program_path(),
                               .arguments = words,
                               .files = files,
                               .file_count = has_other ? 4 : 3};

@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "base/context.h"
+#include "base/program.h"
 #include "frames/process/spawn.h"
 #include "lua/bind/userdata.h"
 #include "program/service.h"
@@ -186,7 +187,7 @@ static int open_pipes(renderer *r, int files[3]) {
 static int spawn(renderer *r, const char *const *arguments) {
   int files[3];
   int error = open_pipes(r, files);
-  const cs_spawn_desc desc = {.path = "/proc/self/exe",
+  const cs_spawn_desc desc = {.path = cs_program_path(),
                               .arguments = arguments,
                               .files = files,
                               .file_count = 3,

@@ -369,9 +369,11 @@ static const cs_option TEST[] = {
      "the number of spec files at a time; default: one per processor"},
     {0}};
 
-static const cs_option HELP[] = {{"--man", NULL, NULL, "the manual page"},
-                                 {"--stderr", NULL, NULL, "the list of verbs, on standard error"},
-                                 {0}};
+static const cs_option HELP[] = {
+    {"--man", NULL, NULL, "the manual page"},
+    {"--completion", "SHELL", &cs_argument_text, "completions for bash, zsh or fish"},
+    {"--stderr", NULL, NULL, "the list of verbs, on standard error"},
+    {0}};
 
 /* ---------------------------------------------------------------- the verbs */
 

@@ -59,10 +59,10 @@ describe("the command line", function()
   end)
 
   describe("help", function()
-    it("prints the version", function()
+    it("prints the version and the commit", function()
       local code, out, err = celspan("--version")
       assert.same({ 0, "" }, { code, err })
-      assert.truthy(out:match("^celspan %d+%.%d+%.%d+\n$"))
+      assert.truthy(out:match("^celspan %d+%.%d+%.%d+ %(%w+%)\n$"), out)
     end)
 
     it("lists every verb, and has a page about each", function()
@@ -116,6 +116,68 @@ describe("the command line", function()
       local code, text, err = shell("LC_ALL=C.UTF-8 MANWIDTH=80 man --warnings -l " .. page)
       assert.same({ 0, "" }, { code, err })
       assert.truthy(text:gsub(".\b", ""):find("--keep-going\n", 1, true), text:sub(1, 2000))
+    end)
+
+    --- The verbs and their options as the help prints them: { render = { "-o", ... }, ... }.
+    local function listed()
+      local verbs = {}
+      for verb in select(2, celspan "help"):gmatch "\n  (%l+) +[%u|%[]" do
+        verbs[verb] = verbs[verb] or {}
+        local help = select(2, celspan("help " .. verb)):match "\nOptions(\n.*)$" or ""
+        for option in help:gmatch "\n  (%-[%w-]+)" do table.insert(verbs[verb], option) end
+      end
+      return verbs
+    end
+
+    it("completes every verb and option in bash, and no other", function()
+      if not present.program "bash" then return pending "there is no bash" end
+      write("complete.sh", ([[
+source <('%s' help --completion bash)
+complete_words() {
+  COMP_WORDS=("$@") COMP_CWORD=$(($# - 1))
+  _celspan
+  echo "$* = ${COMPREPLY[*]}"
+}
+complete_words celspan ""
+for verb in ${COMPREPLY[@]}; do complete_words celspan $verb -; done
+complete_words celspan render film.lua --frames -
+complete_words celspan render film.lua -- -
+]]):format(workbench.absolute))
+      local code, out, err = shell(("bash '%s/complete.sh'"):format(folder))
+      assert.same({ 0, "" }, { code, err })
+      local all = listed()
+      for verb in out:match "^celspan  = (.-)\n":gmatch "%S+" do
+        local options = out:match("\ncelspan " .. verb .. " %- = (.-)\n")
+        assert.equal(table.concat(all[verb] or {}, " "), options, verb)
+        all[verb] = nil
+      end
+      assert.same({}, all)
+      assert.truthy(out:find("\ncelspan render film.lua --frames - = \n", 1, true), out)
+      assert.truthy(out:find("\ncelspan render film.lua -- - = \n", 1, true), out)
+    end)
+
+    it("completes every verb and option in zsh and fish", function()
+      for name, pattern in pairs {
+        zsh = function(verb, option)
+          return "\n    " .. verb .. "%) _arguments [^;]-'%*" .. option .. "%["
+        end,
+        fish = function(verb, option)
+          local dash, letters = option:match "^(%%%-[%%%-]*)(.*)"
+          return "from " .. verb .. "' " .. (#dash > 2 and "%-l " or "%-s ") .. letters .. " "
+        end } do
+        local code, text = celspan("help --completion " .. name)
+        assert.equal(0, code)
+        for verb, options in pairs(listed()) do
+          for _, option in ipairs(options) do
+            assert.truthy(text:find(pattern(verb, (option:gsub("%-", "%%-")))), verb .. option)
+          end
+        end
+        if present.program(name) then
+          local path = write("completion", text)
+          assert.same({ 0, "", "" }, { shell(name .. " -n " .. path) })
+        end
+      end
+      usage_error("help --completion tcsh", "'tcsh' is not bash, zsh or fish")
     end)
 
     it("shows the options of a verb, and no other's", function()

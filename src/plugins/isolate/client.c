@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/program.h"
 #include "frames/process/interrupt.h"
 #include "frames/process/spawn.h"
 #include "plugins/isolate/worker_loop.h"
@@ -43,7 +44,7 @@ static int spawn(const cs_roots *roots) {
     return errno;
   const int files[] = {CS_SPAWN_NULL, CS_SPAWN_NULL, WORDS, ends[1]};
   setsockopt(ends[0], SOL_SOCKET, SO_RCVTIMEO, &pause, sizeof pause);
-  const cs_spawn_desc desc = {.path = "/proc/self/exe",
+  const cs_spawn_desc desc = {.path = cs_program_path(),
                               .arguments = arguments,
                               .files = files,
                               .file_count = CS_ZYGOTE_SOCKET + 1};

@@ -250,6 +250,12 @@ end
 
 if request.man then
   put_manual(io.stdout)
+elseif request.completion then
+  local text = program.part("completion.lua", verbs, request.completion)
+  if not text then
+    program.usage("--completion: '%s' is not bash, zsh or fish", request.completion)
+  end
+  io.write(text)
 elseif request[1] then
   put_about(io.stdout, table.concat(request, " "))
 else

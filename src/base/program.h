@@ -1,0 +1,11 @@
+/* The file of the running program. */
+#pragma once
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* A path that leads to it: /proc/self/exe, or where /proc is not mounted, the path by which it was
+ * started. */
+const char *cs_program_path(void);
+/* The folder that it is in, without the final slash; false: unknown, or longer than size - 1. */
+bool cs_program_folder(char *out, size_t size);
