@@ -168,6 +168,16 @@ static celspan_status load(celspan_context *context, const cs_module_desc *desc,
   return status;
 }
 
+/* Where there is no other module either, the first one is asked for again, for its sentence. */
+static celspan_status load_either(celspan_context *context, const cs_module_desc *desc,
+                                  celspan_status failure, const void **table) {
+  celspan_status status = load(context, desc, failure, table);
+  if (status == CELSPAN_OK || !desc->other || named_file(desc) || errno == ENOMEM)
+    return status;
+  status = load(context, desc->other, failure, table);
+  return status == CELSPAN_OK ? status : load(context, desc, failure, table);
+}
+
 /* Volatile, because compilers recognize memory that is allocated and freed at once, and leave out
  * both calls. */
 static bool has_room(void) {
@@ -181,7 +191,7 @@ celspan_status cs_module_load(celspan_context *context, const cs_module_desc *de
                               celspan_status failure, const void **table) {
   errno = 0;
   celspan_status status =
-      has_room() ? load(context, desc, failure, table) : cs_fail_memory(context);
+      has_room() ? load_either(context, desc, failure, table) : cs_fail_memory(context);
   if (status == CELSPAN_OK || errno != ENOMEM)
     return status;
   return cs_fail(context, CELSPAN_NO_MEMORY, "out of memory in loading the module %s", desc->file);

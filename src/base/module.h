@@ -19,6 +19,8 @@ typedef struct cs_module_desc {
   const char *purpose;  /* for the message: "reading and writing pictures" */
   const char *advice;   /* for the message: what to install */
   uint32_t version;     /* which the table begins with, as a uint32_t */
+  /* What to load where this one cannot be loaded, and no file is named instead; NULL: nothing. */
+  const struct cs_module_desc *other;
 } cs_module_desc;
 
 /* The names of celspan's own module, from its name, the same in capitals, and its folder. */

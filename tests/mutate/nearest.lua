@@ -45,6 +45,7 @@ return {
   nouns = { "unit/embedding", "spec/values", "spec/composition", "spec/errors", "spec/meta" },
   program = { "golden/golden", "spec/change", "spec/cli", "spec/sequence", "spec/shown",
     "spec/video" },
+  raster = { "spec/raster" },
   ["program.c"] = { "spec/install", "spec/container" },
   process = { "spec/stop", "spec/decoder", "spec/tiles", "spec/video" },
   still = { "spec/span", "spec/formats", "property/spanfile", "spec/cli" },

@@ -26,7 +26,7 @@ absent() {
 
 without_lua() {
   quietly env CXX=/nonexistent/c++ meson setup "$tree/core" "${quick[@]}" -Dlua=disabled \
-    -Dpictures=disabled -Dart=disabled -Dcolour=disabled -Dtests=false
+    -Dpictures=disabled -Draster=disabled -Dart=disabled -Dcolour=disabled -Dtests=false
   quietly ninja -C "$tree/core"
   "$tree/core/examples/example_memory" | grep -q '#'
   absent "$tree/core" 'libcelspan_lua.a'
@@ -54,7 +54,7 @@ celspan = dependency('celspan-lua', fallback: 'celspan')
 executable('host', 'host.c', dependencies: celspan)
 MESON
   quietly env CXX=/nonexistent/c++ meson setup "$tree/build" "$tree/outer" "${quick[@]}" \
-    --force-fallback-for=celspan-lua -Dcelspan:pictures=disabled
+    --force-fallback-for=celspan-lua -Dcelspan:pictures=disabled -Dcelspan:raster=disabled
   quietly ninja -C "$tree/build"
   absent "$tree/build" 'lua_host*'
   absent "$tree/build" 'example_*'

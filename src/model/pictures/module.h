@@ -1,5 +1,6 @@
-/* The interface of the picture module (src/plugins/oiio, C++ over OpenImageIO): a table of C
- * functions.
+/* The interface of the picture module: a table of C functions. There are two of them, one over
+ * OpenImageIO (src/plugins/oiio, C++), and one for fewer formats where that is missing
+ * (src/plugins/raster).
  *
  *   file --module: read--> coded pixels, upright, in the display window --core: decode--> light
  *   file <--module: write-- coded rows <--core: code-- spans

@@ -13,8 +13,19 @@
 /* The number of entries of surfaces from which on unused ones are dropped. */
 #define SURFACES_LEAST 256
 
+static const cs_module_desc raster_module = {
+    .file = "celspan-raster.so",
+    .folder = "plugins/raster",
+    .override = "CELSPAN_PICTURE_MODULE",
+    .symbol = "celspan_picture_module",
+    .purpose = "reading and writing pictures",
+    .advice = "install celspan again",
+    .version = CS_PICTURE_MODULE_VERSION,
+};
+
 static const cs_module_desc picture_module = {
     CS_MODULE("picture", "PICTURE", "oiio"),
+    .other = &raster_module,
     .purpose = "reading and writing pictures",
 #ifdef CELSPAN_WITHOUT_PICTURES
     .advice = "this celspan was built without OpenImageIO, so it writes PNG, Targa and span files "
