@@ -90,11 +90,21 @@ static inline cs_v4 cs_v4_min(cs_v4 a, cs_v4 b) {
 #endif
 }
 
-/* A premultiplied colour brought into its bounds: light is never negative and alpha at most 1. Sums
- * of weighted colours may exceed them by the last bit. */
+/* A premultiplied colour brought into its bounds: light is not negative and alpha at most 1. For
+ * mixtures that may pass the range of what is mixed. */
 static inline cs_v4 cs_v4_bounded(cs_v4 colour) {
   const cs_v4 most = {__builtin_inff(), __builtin_inff(), __builtin_inff(), 1};
   return cs_v4_min(cs_v4_max(colour, cs_v4_all(0)), most);
+}
+
+/* A sum of weighted colours, which may miss its bounds by the last bits: alpha is within 0..1, and
+ * light so little below 0 is 0. Light that is truly negative stays: it is a colour outside the
+ * gamut of its space, such as a change of hue gives. */
+static inline cs_v4 cs_v4_settled(cs_v4 sum) {
+  const cs_v4 residue = {-0x1p-20F, -0x1p-20F, -0x1p-20F, -__builtin_inff()};
+  typedef int lanes __attribute__((vector_size(16)));
+  lanes stays = sum < residue, settled = (lanes)cs_v4_bounded(sum);
+  return (cs_v4)(((lanes)sum & stays) | (settled & ~stays));
 }
 
 /* One of two, without a branch. */

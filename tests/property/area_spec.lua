@@ -11,6 +11,7 @@ local scenes = require "tests.support.scenes"
 local supersample = require "tests.support.supersample"
 
 local COUNT, ONLY = 100, cases.only
+local KEPT = { 520, 13472, 17436 } -- light below 0, by a change of hue
 local CODE = 1 / 255
 local MOST = 2 * CODE -- the allowed error of a pixel
 local RMS = 0.1 * CODE
@@ -49,7 +50,7 @@ end
 describe("area antialiasing", function()
   it("is the mean of many pixel centres, in random scenes of small shapes", function()
     local failures = {}
-    for _, case in cases.of(COUNT) do failures[#failures + 1] = judge(case) end
+    for _, case in cases.of(COUNT, KEPT) do failures[#failures + 1] = judge(case) end
     assert.are.equal("", table.concat(failures, "\n"))
   end)
 end)

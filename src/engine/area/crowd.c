@@ -463,7 +463,7 @@ static cs_v4 colour_of(const drawing *d, int32_t p) {
   cs_over_begin(&over, d->composer->stack, d->composer->outers);
   over.e = f.light;
   over.t = f.whole * f.mean;
-  return cs_v4_bounded(cs_over_end(&over));
+  return cs_v4_settled(cs_over_end(&over));
 }
 
 /* ---------------------------------------------------------------- the interval */

@@ -183,7 +183,7 @@ static celspan_status draw_means(const drawing *d, int all, const cs_cell *right
     return CELSPAN_NO_MEMORY;
   for (int32_t i = 0; i < d->count; i++) {
     cs_sum4 mean = d->dense->sums[i] * (1.0 / (PARTS * all));
-    cells[i] = (cs_cell){.colour = cs_v4_bounded(__builtin_convertvector(mean, cs_v4))};
+    cells[i] = (cs_cell){.colour = cs_v4_settled(__builtin_convertvector(mean, cs_v4))};
     CS_TRY(add_border(d, d->first + i, left, &cells[i]));
     left = &cells[i];
   }

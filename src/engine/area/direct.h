@@ -57,12 +57,12 @@ static inline void cs_direct_ramp(cs_row_writer *writer, int32_t first, int32_t 
                                   cs_v4 step, cs_direct_shares shares) {
   cs_v4 ramp = base + step * shares.second, slope = step * shares.fall;
   cs_row_writer_to(writer, first, base);
-  cs_row_writer_to(writer, first + 1, cs_v4_bounded(base + step * shares.one));
+  cs_row_writer_to(writer, first + 1, cs_v4_settled(base + step * shares.one));
   if (last - first > 2 && !cs_v4_same(slope, cs_v4_all(0)))
     cs_row_writer_gradient(writer, last, ramp, slope);
   else
-    cs_row_writer_to(writer, last, cs_v4_bounded(ramp));
-  cs_row_writer_to(writer, last + 1, cs_v4_bounded(base + step * shares.two));
+    cs_row_writer_to(writer, last, cs_v4_settled(ramp));
+  cs_row_writer_to(writer, last + 1, cs_v4_settled(base + step * shares.two));
 }
 
 /* Four doubles: sums of colour steps. The alignment is what every allocator gives. */

@@ -45,7 +45,7 @@ static inline void put_span(celspan_span *span, head at, cs_v4 colour) {
 static inline bool put_middle(celspan_span *span, head at, int32_t columns, cs_v4 ramp, cs_v4 slope,
                               cs_v4 one, cs_v4 two) {
   bool is_ramp = columns > 3;
-  cs_v4 middle = cs_v4_choose(is_ramp, ramp, cs_v4_bounded(ramp));
+  cs_v4 middle = cs_v4_choose(is_ramp, ramp, cs_v4_settled(ramp));
   if (cs_v4_same(slope, cs_v4_all(0)) || cs_v4_same(one, middle) || cs_v4_same(middle, two))
     return false;
   put_span(span, at + (head){1, columns - 1, is_ramp, 1}, middle);
@@ -61,8 +61,8 @@ static inline celspan_span *put_plain(celspan_span *span, head start, int32_t fi
                                       const cs_edges *edges, size_t i, const cs_cell *left) {
   int32_t columns = edges->end[i] - first;
   cs_v4 base = left->colour, step = left[1].colour - base;
-  cs_v4 one = cs_v4_bounded(base + step * edges->one[i]);
-  cs_v4 two = cs_v4_bounded(base + step * edges->two[i]);
+  cs_v4 one = cs_v4_settled(base + step * edges->one[i]);
+  cs_v4 two = cs_v4_settled(base + step * edges->two[i]);
   if (cs_v4_same(cs_v4_load(span[-1].colour), base) || cs_v4_same(base, one) ||
       cs_v4_same(one, two))
     return NULL;
@@ -122,9 +122,9 @@ static inline void draw_short(cs_row_writer *writer, const cs_edges *edges, size
   cs_v4 base = left->colour, step = left[1].colour - base;
   cs_row_writer_to(writer, first, base);
   if (end > first)
-    cs_row_writer_to(writer, first + 1, cs_v4_bounded(base + step * edges->one[i]));
+    cs_row_writer_to(writer, first + 1, cs_v4_settled(base + step * edges->one[i]));
   if (end > first + 1)
-    cs_row_writer_to(writer, end, cs_v4_bounded(base + step * edges->two[i]));
+    cs_row_writer_to(writer, end, cs_v4_settled(base + step * edges->two[i]));
 }
 
 /* ---------------------------------------------------------------- together */
@@ -208,7 +208,7 @@ static __attribute__((noinline)) size_t draw_group(cs_row_writer *writer, const 
   cs_row_writer_to(writer, from, base);
   for (int32_t k = 0; k < end - from; k++) {
     sum += change[k];
-    cs_row_writer_to(writer, from + k + 1, cs_v4_bounded(__builtin_convertvector(sum, cs_v4)));
+    cs_row_writer_to(writer, from + k + 1, cs_v4_settled(__builtin_convertvector(sum, cs_v4)));
   }
   return count;
 }

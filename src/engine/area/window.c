@@ -187,7 +187,7 @@ static void add_changes(const crossing *c, int32_t p0, int32_t p1, cs_sum4 *chan
 static inline void draw_sums(cs_row_writer *p, int32_t p1, const cs_sum4 *change, cs_sum4 *sum) {
   for (int32_t k = 0, count = p1 - p->from; k < count; k++) {
     *sum += change[k];
-    cs_row_writer_to(p, p->from + 1, cs_v4_bounded(__builtin_convertvector(*sum, cs_v4)));
+    cs_row_writer_to(p, p->from + 1, cs_v4_settled(__builtin_convertvector(*sum, cs_v4)));
   }
 }
 
@@ -260,7 +260,7 @@ static celspan_status draw_tile(const cs_window *window, const crossing *list, i
     add_changes(list, p0, p1, change);
   CS_TRY(cs_row_reserve(window->composer->context, window->out, (size_t)(p1 - p0) + 1));
   cs_row_writer p = cs_row_writer_begin(window->out, done->end);
-  cs_row_writer_to(&p, p0, cs_v4_bounded(__builtin_convertvector(done->sum, cs_v4)));
+  cs_row_writer_to(&p, p0, cs_v4_settled(__builtin_convertvector(done->sum, cs_v4)));
   draw_sums(&p, p1, change, &done->sum);
   cs_row_writer_end(&p);
   done->end = p1;
@@ -425,7 +425,7 @@ static celspan_status open_pixels(cs_window *window, int32_t p0, int32_t p1, flo
 
 static celspan_status put_pixels(cs_window *window, int32_t p0, int32_t p1, float *sum) {
   for (int32_t k = 0; k < p1 - p0; k++) {
-    cs_v4 colour = cs_v4_bounded(cs_v4_load(sum + 4 * k));
+    cs_v4 colour = cs_v4_settled(cs_v4_load(sum + 4 * k));
     if (p1 - p0 > FEW)
       cs_v4_store(sum + 4 * k, colour);
     else
