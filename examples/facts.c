@@ -79,8 +79,12 @@ static celspan_status list(lua_State *L, int count, char **arguments) {
 int main(int count, char **arguments) {
   celspan_context *context = NULL;
   celspan_status status = CELSPAN_BAD_ARGUMENT;
+  if (count < 2) {
+    fprintf(stderr, "usage: facts SCRIPT [NAME=VALUE ...]\n");
+    return 2;
+  }
   lua_State *L = luaL_newstate();
-  if (L && count > 1 && celspan_context_create(NULL, &context) == CELSPAN_OK) {
+  if (L && celspan_context_create(NULL, &context) == CELSPAN_OK) {
     luaL_openlibs(L);
     status = celspan_lua_open(L, context);
     if (status == CELSPAN_OK)

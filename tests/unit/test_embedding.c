@@ -38,6 +38,8 @@ typedef struct host {
   lua_State *L;
 } host;
 
+/* ---------------------------------------------------------------- hosts */
+
 static int no_panic(lua_State *L) {
   CHECK(!"an error left a protected call");
   fprintf(stderr, "%s\n", lua_tostring(L, -1));
@@ -78,6 +80,8 @@ static int middle(celspan_context *context, celspan_frame_desc *frame) {
   CHECK(celspan_frame_pixels(context, frame, NULL, pixels, sizeof pixels[0], NULL) == CELSPAN_OK);
   return pixels[6][8][3];
 }
+
+/* ---------------------------------------------------------------- films */
 
 static void check_films(void) {
   host h;
@@ -178,6 +182,8 @@ static void check_sounds(void) {
   CHECK(celspan_lua_sound(h.L, -1, 0, &sound) == CELSPAN_BAD_ARGUMENT);
   close_host(&h);
 }
+
+/* ---------------------------------------------------------------- rostrums */
 
 static void check_rostrums(void) {
   host h;
