@@ -87,6 +87,25 @@ static inline void cs_wide_store(float *to, cs_wide v) { memcpy(to, &v, sizeof v
 
 static inline cs_wide cs_wide_all(float x) { return (cs_wide){0} + x; }
 
+/* Every pixel of the register this one. */
+static inline cs_wide cs_wide_pixel(const float rgba[4]) {
+#ifdef __AVX512F__
+  return (cs_wide)_mm512_broadcast_f32x4(_mm_loadu_ps(rgba));
+#elif defined(__AVX2__)
+  return (cs_wide)_mm256_broadcast_ps((const __m128 *)(const void *)rgba);
+#else
+  return cs_wide_load(rgba);
+#endif
+}
+
+/* The number of its pixel in each lane: 0, 0, 0, 0, 1, 1, 1, 1, ... */
+static inline cs_wide cs_wide_pixel_numbers(void) {
+  float lanes[CS_WIDE_LANES];
+  for (int i = 0; i < CS_WIDE_LANES; i++)
+    lanes[i] = (float)(i / 4);
+  return cs_wide_load(lanes);
+}
+
 /* Whether a mask is set in any lane. */
 static inline bool cs_wide_any(cs_wide_int mask) {
 #ifdef __AVX512F__

@@ -3,7 +3,10 @@
  */
 #include "output/sinks/dither.h"
 
+#include <math.h>
+
 #include "celspan/celspan.h"
+#include "model/colour/transfer.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/sink.h"
 #include "tests/support/memory.h"
@@ -136,6 +139,133 @@ static void test_frames(void) {
   celspan_context_destroy(context);
 }
 
+/* ---------------------------------------------------------------- every set of instructions */
+
+enum { NEIGHBOURS = 3, ROW = 255 * CS_DITHER_PERIOD };
+
+static const float alphas[] = {1, 0.5f, 0.3f};
+
+/* Each border between two codes of each place of a row of lifts, `step` floats beside it. */
+static void fill_borders(const celspan_coding *coding, const cs_dither_lifts *lifts, int step,
+                         float alpha, float (*row)[4]) {
+  for (int i = 0; i < ROW; i++) {
+    float border = ((float)(i / CS_DITHER_PERIOD) + 1 - lifts->of[i % CS_DITHER_PERIOD][0]) / 255;
+    bool is_light = coding->space != CELSPAN_SPACE_SRGB;
+    float number = is_light ? cs_transfer_decode(CELSPAN_TRANSFER_SRGB, border) : border;
+    for (int c = 0; c < 3; c++) {
+      float near = number;
+      for (int k = 0; k < abs(step) + c; k++)
+        near = nextafterf(near, step < 0 ? -1 : 2);
+      row[i][c] = coding->alpha == CELSPAN_ALPHA_STRAIGHT ? near * alpha : near;
+    }
+    row[i][3] = alpha;
+  }
+}
+
+static int count_wrong(const celspan_coding *coding, const cs_dither_lifts *lifts,
+                       const float (*row)[4], int32_t count, const unsigned char (*pixels)[4]) {
+  int wrong = 0;
+  for (int32_t i = 0; i < count; i++) {
+    float coded[4];
+    cs_pixels_encode(coding, row[i], coded);
+    for (int c = 0; c < 4; c++) {
+      double number = !(coded[c] > 0) ? 0 : coded[c] > 1 ? 255 : 255 * (double)coded[c];
+      double sum = number + (double)lifts->of[i % CS_DITHER_PERIOD][c];
+      wrong += pixels[i][c] != (unsigned char)floor(sum);
+    }
+  }
+  return wrong;
+}
+
+/* 16 of the 256 thresholds, in the order in which they are counted. */
+static cs_dither_lifts lifts_from(int first) {
+  cs_dither_lifts lifts;
+  for (int i = 0; i < 2 * CS_DITHER_PERIOD; i++)
+    for (int c = 0; c < 4; c++)
+      lifts.of[i][c] = 1 - (float)(2 * (first + i % CS_DITHER_PERIOD) + 1) / 512;
+  return lifts;
+}
+
+static int test_borders_of(const celspan_coding *coding, cs_isa isa) {
+  static float row[ROW][4];
+  static unsigned char pixels[ROW][4];
+  int wrong = 0;
+  celspan_span span = {.x1 = ROW, .kind = CELSPAN_SPAN_ARRAY, .array = row[0]};
+  for (int first = 0; first < 256; first += CS_DITHER_PERIOD) {
+    cs_dither_lifts lifts = lifts_from(first);
+    for (int step = -NEIGHBOURS; step <= NEIGHBOURS; step += NEIGHBOURS)
+      for (size_t a = 0; a < sizeof alphas / sizeof *alphas; a++) {
+        fill_borders(coding, &lifts, step, alphas[a], row);
+        CS_WIDE_CHOOSE(isa, cs_dither_spans)(coding, &lifts, 0, &span, 1, pixels[0]);
+        wrong += count_wrong(coding, &lifts, (const float(*)[4])row, ROW,
+                             (const unsigned char(*)[4])pixels);
+      }
+  }
+  return wrong;
+}
+
+/* Around every border between two codes, at every threshold. */
+static void test_borders(cs_isa isa) {
+  for (int k = 0; k < 4; k++) {
+    const celspan_coding coding = {.struct_size = sizeof coding,
+                                   .depth = CELSPAN_DEPTH_8,
+                                   .transfer = CELSPAN_TRANSFER_SRGB,
+                                   .alpha =
+                                       k % 2 ? CELSPAN_ALPHA_STRAIGHT : CELSPAN_ALPHA_PREMULTIPLIED,
+                                   .space = k / 2 ? CELSPAN_SPACE_SRGB : CELSPAN_SPACE_LINEAR};
+    CHECK(test_borders_of(&coding, isa) == 0);
+  }
+}
+
+static void make_strange(test_random *random, float rgba[4]) {
+  static const float values[] = {0, -0.0f, 1, -1, 2, 1e-30f, INFINITY, -INFINITY, NAN, 0.5f};
+  for (int c = 0; c < 4; c++)
+    rgba[c] = random_below(random, 3)
+                  ? random_unit(random)
+                  : values[random_below(random, sizeof values / sizeof *values)];
+}
+
+/* Random rows of short and long spans are what their pixels are one by one, and nothing is written
+ * beyond their ends. */
+static void test_rows(cs_isa isa) {
+  enum { MOST = 90 };
+  test_random random = {5};
+  const cs_dither_lifts lifts = lifts_from(64);
+  celspan_coding coding = cs_pixels_resolve(NULL, CELSPAN_DEPTH_8);
+  for (int round = 0; round < 3000; round++) {
+    float colours[MOST][4];
+    unsigned char pixels[MOST + 16][4];
+    celspan_span spans[MOST];
+    int32_t count = 0, width = 1 + random_below(&random, MOST), x = random_below(&random, 100);
+    coding.alpha = round % 2 ? CELSPAN_ALPHA_STRAIGHT : CELSPAN_ALPHA_PREMULTIPLIED;
+    for (int32_t at = 0, end; at < width; at = end) {
+      end = at + 1 + random_below(&random, random_below(&random, 4) ? 4 : 60);
+      end = end < width ? end : width;
+      celspan_span *span = &spans[count++];
+      *span = (celspan_span){.x0 = at, .x1 = end, .origin = at, .kind = random_below(&random, 3)};
+      make_strange(&random, span->colour);
+      for (int c = 0; span->kind == CELSPAN_SPAN_GRADIENT && c < 4; c++)
+        span->slope[c] = 0.01f * random_unit(&random);
+      if (span->kind == CELSPAN_SPAN_ARRAY)
+        span->array = colours[at];
+      for (int32_t k = at; k < end; k++)
+        if (span->kind == CELSPAN_SPAN_ARRAY)
+          make_strange(&random, colours[k]);
+        else
+          celspan_span_colour(span, k, colours[k]);
+    }
+    cs_dither_lifts turned = lifts;
+    for (int i = 0; i < CS_DITHER_PERIOD; i++)
+      memcpy(turned.of[i], lifts.of[(x + i) % CS_DITHER_PERIOD], sizeof turned.of[i]);
+    memset(pixels, 0xa5, sizeof pixels);
+    CS_WIDE_CHOOSE(isa, cs_dither_spans)(&coding, &lifts, x, spans, (size_t)count, pixels[0]);
+    CHECK(count_wrong(&coding, &turned, (const float(*)[4])colours, width,
+                      (const unsigned char(*)[4])pixels) == 0);
+    for (int i = 0; i < 64; i++)
+      CHECK(((unsigned char *)pixels)[4 * width + i] == 0xa5);
+  }
+}
+
 static void test_failing_allocations(void) {
   for (size_t n = 1; n < 4; n++) {
     memory_watch watch = {0};
@@ -162,6 +292,10 @@ int main(void) {
   test_exact();
   test_place();
   test_frames();
+  for (cs_isa isa = CS_ISA_ANY; isa <= cs_isa_best(); isa++) {
+    test_borders(isa);
+    test_rows(isa);
+  }
   test_failing_allocations();
   return check_done();
 }

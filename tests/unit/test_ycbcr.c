@@ -29,7 +29,7 @@ static bool is_near(unsigned char found, double exact) {
   return fabs(found - exact) <= 0.5 + ldexp(1, -14);
 }
 
-static void test_colours(void) {
+static void test_colours(cs_isa isa) {
   test_random random = {3};
   long wrong = 0;
   for (int round = 0; round < 20000; round++) {
@@ -41,8 +41,8 @@ static void test_colours(void) {
         rgb[i][c] = round < 8 ? (round >> c & 1) * 255 : (unsigned char)random_below(&random, 256);
       pixels[i] = pixel_of(rgb[i]);
     }
-    cs_ycbcr_luma(pixels, COUNT, luma);
-    cs_ycbcr_chroma(pixels, COUNT, cb, cr);
+    CS_WIDE_CHOOSE(isa, cs_ycbcr_luma)(pixels, COUNT, luma);
+    CS_WIDE_CHOOSE(isa, cs_ycbcr_chroma)(pixels, COUNT, cb, cr);
     for (int i = 0; i < COUNT; i++) {
       double exact[3];
       exactly((const double[3]){rgb[i][0], rgb[i][1], rgb[i][2]}, exact);
@@ -55,20 +55,20 @@ static void test_colours(void) {
 }
 
 /* The ends of the range: black, white, and the strongest colours. */
-static void test_ends(void) {
+static void test_ends(cs_isa isa) {
   const unsigned char rgb[4][3] = {{0, 0, 0}, {255, 255, 255}, {0, 0, 255}, {255, 0, 0}};
   uint32_t pixels[4];
   unsigned char luma[4], cb[4], cr[4];
   for (int i = 0; i < 4; i++)
     pixels[i] = pixel_of(rgb[i]);
-  cs_ycbcr_luma(pixels, 4, luma);
-  cs_ycbcr_chroma(pixels, 4, cb, cr);
+  CS_WIDE_CHOOSE(isa, cs_ycbcr_luma)(pixels, 4, luma);
+  CS_WIDE_CHOOSE(isa, cs_ycbcr_chroma)(pixels, 4, cb, cr);
   CHECK(luma[0] == 16 && cb[0] == 128 && cr[0] == 128);
   CHECK(luma[1] == 235 && cb[1] == 128 && cr[1] == 128);
   CHECK(cb[2] == 240 && cr[3] == 240);
 }
 
-static void test_halved(void) {
+static void test_halved(cs_isa isa) {
   test_random random = {4};
   long wrong = 0;
   for (int round = 0; round < 5000; round++) {
@@ -84,7 +84,7 @@ static void test_halved(void) {
       }
       rows[i / (2 * COUNT)][i % (2 * COUNT)] = pixel_of(rgb);
     }
-    cs_ycbcr_halved(rows[0], rows[1], COUNT, cb, cr);
+    CS_WIDE_CHOOSE(isa, cs_ycbcr_halved)(rows[0], rows[1], COUNT, cb, cr);
     for (int i = 0; i < COUNT; i++) {
       double exact[3];
       exactly(sums[i], exact);
@@ -96,8 +96,10 @@ static void test_halved(void) {
 }
 
 int main(void) {
-  test_colours();
-  test_ends();
-  test_halved();
+  for (cs_isa isa = CS_ISA_ANY; isa <= cs_isa_best(); isa++) {
+    test_colours(isa);
+    test_ends(isa);
+    test_halved(isa);
+  }
   return check_done();
 }

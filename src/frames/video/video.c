@@ -67,10 +67,11 @@ static void put_chroma(const yuv_planes *planes, int32_t y, const uint32_t *row)
   unsigned char *cb = planes->bytes + luma_size(planes->width, planes->height), *cr = cb + size;
   if (!planes->is_halved) {
     size_t offset = (size_t)y * (size_t)planes->width;
-    cs_ycbcr_chroma(row, planes->width, cb + offset, cr + offset);
+    CS_WIDE_CHOOSE(cs_isa_best(), cs_ycbcr_chroma)(row, planes->width, cb + offset, cr + offset);
   } else if (y % 2 == 1 || y == planes->height - 1) {
     size_t offset = (size_t)(y / 2) * halves(planes->width);
-    cs_ycbcr_halved(planes->rows[0], row, (int32_t)halves(planes->width), cb + offset, cr + offset);
+    CS_WIDE_CHOOSE(cs_isa_best(), cs_ycbcr_halved)
+    (planes->rows[0], row, (int32_t)halves(planes->width), cb + offset, cr + offset);
   }
 }
 
@@ -81,7 +82,8 @@ static celspan_status put_row(void *user, celspan_context *context, int32_t y,
   (void)context;
   celspan_spans_code_at(&planes->coding, planes->x, planes->y + y, spans, span_count, row);
   row[row_pixels(planes) - 1] = row[planes->width - 1];
-  cs_ycbcr_luma(row, planes->width, planes->bytes + (size_t)y * (size_t)planes->width);
+  CS_WIDE_CHOOSE(cs_isa_best(), cs_ycbcr_luma)
+  (row, planes->width, planes->bytes + (size_t)y * (size_t)planes->width);
   put_chroma(planes, y, row);
   return CELSPAN_OK;
 }

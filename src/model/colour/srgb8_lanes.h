@@ -119,12 +119,16 @@ static inline cs_wide cs_srgb8_coded(cs_wide x, cs_wide slope, cs_wide knee) {
   return cs_srgb8_either(x, knee, x * slope, curved);
 }
 
-/* Rounds; `unsure` becomes other than 0 in lanes where the rounding is in doubt. */
-static inline cs_wide_int cs_srgb8_round(cs_wide y, cs_wide_int *unsure) {
-  cs_wide_int least = __builtin_convertvector(y + (0.5f - CS_SRGB8_UNSURE), cs_wide_int);
-  cs_wide_int most = __builtin_convertvector(y + (0.5f + CS_SRGB8_UNSURE), cs_wide_int);
+/* The whole part of y + lift; `unsure` becomes other than 0 in lanes where it is in doubt. */
+static inline cs_wide_int cs_srgb8_lifted(cs_wide y, cs_wide lift, cs_wide_int *unsure) {
+  cs_wide_int least = __builtin_convertvector(y + (lift - CS_SRGB8_UNSURE), cs_wide_int);
+  cs_wide_int most = __builtin_convertvector(y + (lift + CS_SRGB8_UNSURE), cs_wide_int);
   *unsure |= least ^ most;
   return least;
+}
+
+static inline cs_wide_int cs_srgb8_round(cs_wide y, cs_wide_int *unsure) {
+  return cs_srgb8_lifted(y, cs_wide_all(0.5f), unsure);
 }
 
 #endif

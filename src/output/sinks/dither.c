@@ -1,57 +1,32 @@
 #include "output/sinks/dither.h"
 
-#include <string.h>
-
 #include "output/sinks/pixels.h"
 #include "output/sinks/sink.h"
 
-/* ---------------------------------------------------------------- rounding */
+/* ---------------------------------------------------------------- a row */
 
 /* Bayer's thresholds: (2 k + 1)/512 for a k of 0..255, each once in 16 x 16 pixels. k is made of
  * the bits of x ^ y and of y in turn, the lowest first, so that neighbours are far apart. */
-static double threshold(uint32_t x, uint32_t y) {
+static float threshold(uint32_t x, uint32_t y) {
   uint32_t k = 0, mixed = x ^ y;
   for (int bit = 0; bit < 4; bit++)
     k = k << 2 | (mixed >> bit & 1) << 1 | (y >> bit & 1);
-  return (2 * k + 1) / 512.0;
+  return (float)(2 * k + 1) / 512;
 }
 
-/* Rounds down where the rest of the number is below the place's threshold, else up. */
-static unsigned char round_at(float x, double limit) {
-  return !(x > 0) ? 0 : x >= 1 ? 255 : (unsigned char)((double)x * 255 + 1 - limit);
-}
-
-static void round_pixel(const float coded[4], double limit, unsigned char *pixel) {
-  for (int c = 0; c < 4; c++)
-    pixel[c] = round_at(coded[c], limit);
-}
-
-static void row_of_single(const celspan_coding *coding, int32_t x, int32_t y,
-                          const celspan_span *span, unsigned char *out) {
-  float coded[4];
-  unsigned char period[16][4];
-  cs_pixels_encode(coding, span->colour, coded);
-  for (uint32_t i = 0; i < 16; i++)
-    round_pixel(coded, threshold((uint32_t)x + i, (uint32_t)y), period[i]);
-  for (int32_t i = 0; i < span->x1 - span->x0; i++)
-    memcpy(out + 4 * (size_t)i, period[i % 16], 4);
+/* Whether wide makes know the coding. */
+static bool is_usual(const celspan_coding *coding) {
+  return coding->transfer == CELSPAN_TRANSFER_SRGB && coding->alpha <= CELSPAN_ALPHA_PREMULTIPLIED;
 }
 
 void cs_dither_row(const celspan_coding *coding, int32_t x, int32_t y, const celspan_span *spans,
                    size_t span_count, unsigned char *row) {
-  for (const celspan_span *span = spans; span < spans + span_count; span++) {
-    unsigned char *out = row + 4 * (size_t)span->x0;
-    if (span->kind == CELSPAN_SPAN_SINGLE) {
-      row_of_single(coding, x + span->x0, y, span, out);
-      continue;
-    }
-    for (int32_t column = span->x0; column < span->x1; column++, out += 4) {
-      float colour[4], coded[4];
-      celspan_span_colour(span, column, colour);
-      cs_pixels_encode(coding, colour, coded);
-      round_pixel(coded, threshold((uint32_t)(x + column), (uint32_t)y), out);
-    }
-  }
+  cs_dither_lifts lifts;
+  for (uint32_t i = 0; i < 2 * CS_DITHER_PERIOD; i++)
+    for (int c = 0; c < 4; c++)
+      lifts.of[i][c] = 1 - threshold(i, (uint32_t)y);
+  cs_isa isa = is_usual(coding) ? cs_isa_best() : CS_ISA_ANY;
+  CS_WIDE_CHOOSE(isa, cs_dither_spans)(coding, &lifts, x, spans, span_count, row);
 }
 
 /* ---------------------------------------------------------------- the sink */

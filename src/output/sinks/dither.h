@@ -13,6 +13,8 @@
 #pragma once
 
 #include "base/context.h"
+#include "base/wide.h"
+#include "celspan/celspan.h"
 
 /* Codes the spans of a row, which cover [0, width) without gap. x, y: the place of its first pixel
  * in the whole frame. coding: resolved, of 8 bits. Any thread. */
@@ -25,3 +27,19 @@ void cs_dither_row(const celspan_coding *coding, int32_t x, int32_t y, const cel
 CELSPAN_CHECKED celspan_status cs_dither_sink(celspan_context *context, const celspan_coding *asked,
                                               const celspan_coding *coding, int32_t x, int32_t y,
                                               celspan_sink *sink);
+
+/* ---- dither_wide.c */
+
+enum { CS_DITHER_PERIOD = 16 }; /* pixels after which thresholds repeat, along x and along y */
+
+/* What is added to a number before it is cut to a whole one: 1 less the threshold of the place, for
+ * each channel of two periods of pixels along a row. */
+typedef struct cs_dither_lifts {
+  float of[2 * CS_DITHER_PERIOD][4];
+} cs_dither_lifts;
+
+/* As cs_dither_row, where pixel x of a row has lift x modulo the period. Exact for every coding in
+ * the narrowest make; the others take sRGB, straight or premultiplied, alone. */
+CS_WIDE_DECLARE(void, cs_dither_spans,
+                (const celspan_coding *coding, const cs_dither_lifts *lifts, int32_t x,
+                 const celspan_span *spans, size_t span_count, unsigned char *row));

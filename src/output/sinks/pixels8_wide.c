@@ -166,29 +166,11 @@ static inline void fill_lines(const target *row, const celspan_span *spans, size
 
 /* ---------------------------------------------------------------- gradients and arrays */
 
-static inline cs_wide repeat_pixel(const float rgba[4]) {
-#ifdef __AVX512F__
-  return (cs_wide)_mm512_broadcast_f32x4(_mm_loadu_ps(rgba));
-#elif defined(__AVX2__)
-  return (cs_wide)_mm256_broadcast_ps((const __m128 *)(const void *)rgba);
-#else
-  return cs_wide_load(rgba);
-#endif
-}
-
-/* The number of its pixel in each lane: 0, 0, 0, 0, 1, 1, 1, 1, ... */
-static inline cs_wide pixel_numbers(void) {
-  float lanes[CS_WIDE_LANES];
-  for (int i = 0; i < CS_WIDE_LANES; i++)
-    lanes[i] = (float)(i / 4);
-  return cs_wide_load(lanes);
-}
-
 /* room: bytes up to the end of the row, which may be written. */
 static inline void put_short_gradient(const celspan_span *span, bool is_coded, unsigned char *out,
                                       size_t room) {
-  const cs_wide colour = repeat_pixel(span->colour), slope = repeat_pixel(span->slope);
-  const cs_wide numbers = pixel_numbers();
+  const cs_wide colour = cs_wide_pixel(span->colour), slope = cs_wide_pixel(span->slope);
+  const cs_wide numbers = cs_wide_pixel_numbers();
   unsigned char last[CS_WIDE_LANES];
   for (int32_t x = span->x0; x < span->x1; x += CS_SRGB8_PIXELS) {
     cs_wide rgba = colour + slope * (numbers + (float)(x - span->origin));

@@ -15,11 +15,15 @@
  */
 #pragma once
 
-#include <stdint.h>
+#include "base/wide.h"
 
 /* Pixels are four bytes: red, green, blue, and one that is not read. */
-void cs_ycbcr_luma(const uint32_t *pixels, int32_t count, unsigned char *luma);
-void cs_ycbcr_chroma(const uint32_t *pixels, int32_t count, unsigned char *cb, unsigned char *cr);
+CS_WIDE_DECLARE(void, cs_ycbcr_luma,
+                (const uint32_t *restrict pixels, int32_t count, unsigned char *restrict luma));
+CS_WIDE_DECLARE(void, cs_ycbcr_chroma,
+                (const uint32_t *restrict pixels, int32_t count, unsigned char *restrict cb,
+                 unsigned char *restrict cr));
 /* 4:2:0 of two rows. count: of colours; 2 count pixels are read of either row. */
-void cs_ycbcr_halved(const uint32_t *upper, const uint32_t *lower, int32_t count, unsigned char *cb,
-                     unsigned char *cr);
+CS_WIDE_DECLARE(void, cs_ycbcr_halved,
+                (const uint32_t *restrict upper, const uint32_t *restrict lower, int32_t count,
+                 unsigned char *restrict cb, unsigned char *restrict cr));

@@ -24,7 +24,8 @@ static inline unsigned char mixed(const float of[3], float base, float r, float 
   return (unsigned char)(int32_t)(base + (of[0] * r + of[1] * g + of[2] * b));
 }
 
-void cs_ycbcr_luma(const uint32_t *restrict pixels, int32_t count, unsigned char *restrict luma) {
+void CS_WIDE(cs_ycbcr_luma)(const uint32_t *restrict pixels, int32_t count,
+                            unsigned char *restrict luma) {
 #pragma omp simd
   for (int32_t i = 0; i < count; i++) {
     uint32_t pixel = pixels[i];
@@ -33,8 +34,8 @@ void cs_ycbcr_luma(const uint32_t *restrict pixels, int32_t count, unsigned char
   }
 }
 
-void cs_ycbcr_chroma(const uint32_t *restrict pixels, int32_t count, unsigned char *restrict cb,
-                     unsigned char *restrict cr) {
+void CS_WIDE(cs_ycbcr_chroma)(const uint32_t *restrict pixels, int32_t count,
+                              unsigned char *restrict cb, unsigned char *restrict cr) {
 #pragma omp simd
   for (int32_t i = 0; i < count; i++) {
     uint32_t pixel = pixels[i];
@@ -44,8 +45,9 @@ void cs_ycbcr_chroma(const uint32_t *restrict pixels, int32_t count, unsigned ch
   }
 }
 
-void cs_ycbcr_halved(const uint32_t *restrict upper, const uint32_t *restrict lower, int32_t count,
-                     unsigned char *restrict cb, unsigned char *restrict cr) {
+void CS_WIDE(cs_ycbcr_halved)(const uint32_t *restrict upper, const uint32_t *restrict lower,
+                              int32_t count, unsigned char *restrict cb,
+                              unsigned char *restrict cr) {
 #pragma omp simd
   for (int32_t i = 0; i < count; i++) {
     uint32_t p = upper[2 * i], q = upper[2 * i + 1], s = lower[2 * i], t = lower[2 * i + 1];
