@@ -161,6 +161,14 @@ describe("a video", function()
       end)
     end
 
+    it_reads("has the colours of a film that is mixed in sRGB codes", function()
+      bench:write("film.lua", (chart_script():gsub("fps = 24", '%0, space = "srgb"')))
+      for _, ending in ipairs { "mp4", "webm" } do
+        render("-o out.%s", ending)
+        assert.is_true(worst_field("out." .. ending) <= 2, worst_field("out." .. ending))
+      end
+    end)
+
     it_reads("gif has its frames, length and colours", function()
       render "-o out.gif"
       local found = probe("out.gif", "stream=nb_read_frames:format=duration")

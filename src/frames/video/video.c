@@ -104,6 +104,7 @@ static celspan_sink planes_sink(yuv_planes *planes, const celspan_coding *coding
                          .y = frame->crop_y,
                          .is_halved = is_halved,
                          .bytes = bytes};
+  planes->coding.space = frame->space;
   if (celspan_frame_is_opaque(frame)) /* the same result, faster */
     planes->coding.alpha = CELSPAN_ALPHA_STRAIGHT;
   bool takes_codes = !dithers && cs_pixels_takes_codes(&planes->coding);
