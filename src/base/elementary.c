@@ -63,12 +63,63 @@ static double power_of_two(int exponent) {
 #define HALF_PI_A 0x1.921fb544p+0
 #define HALF_PI_B 0x1.0b4611a6p-34
 #define HALF_PI_C 0x1.3198a2e037073p-69
+#define HALF_PI_HIGH 0x1.921fb54442d18p+0
+#define HALF_PI_LOW 0x1.1a62633145c07p-54
 #define TWO_OVER_PI 0x1.45f306dc9c883p-1
 
+#define FAR 1e6 /* from this angle on, all of 2/pi counts */
+
+/* 2/pi after 64 zeros, 32 bits a word. */
+static const uint32_t two_over_pi[] = {
+    0,          0,          0xa2f9836e, 0x4e441529, 0xfc2757d1, 0xf534ddc0, 0xdb629599, 0x3c439041,
+    0xfe5163ab, 0xdebbc561, 0xb7246e3a, 0x424dd2e0, 0x06492eea, 0x09d1921c, 0xfe1deb1c, 0xb129a73e,
+    0xe88235f5, 0x2ebb4484, 0xe99c7026, 0xb45f7e41, 0x3991d639, 0x835339f4, 0x9c845f8b, 0xbdf9283b,
+    0x1ff897ff, 0xde05980f, 0xef2f118b, 0x5a0a6d1f, 0x6d367ecf, 0x27cb09b7, 0x4f463f66, 0x9e5fea2d,
+    0x7527bac7, 0xebe5f17b, 0x3d0739f7, 0x8a5292ea, 0x6bfb5fb1, 0x1f8d5d08, 0x56033046};
+
+enum { LIMBS = 6 };
+
+/* The quarter turns of mantissa 2^exponent, in 192 bits of which the first two are before the
+ * point: the bits of 2/pi before those that are used here are multiples of four quarter turns. */
+static void find_turns(uint64_t mantissa, int exponent, uint32_t out[LIMBS]) {
+  const uint32_t *words = two_over_pi + (exponent + 62) / 32;
+  int shift = (exponent + 62) % 32;
+  uint64_t low = 0, high = 0, before = 0; /* what is carried, and the factor of the limb before */
+  for (int i = LIMBS - 1; i >= 0; i--) {
+    uint64_t two = (uint64_t)words[i] << 32 | words[i + 1];
+    uint64_t factor = two << shift >> 32;
+    low += (mantissa & UINT32_MAX) * factor;
+    high += (mantissa >> 32) * before + (uint32_t)low;
+    out[i] = (uint32_t)high;
+    low >>= 32;
+    high >>= 32;
+    before = factor;
+  }
+}
+
+static pair reduce_far_angle(double radians, double *turns) {
+  int exponent;
+  uint32_t at[LIMBS];
+  double mantissa = frexp(fabs(radians), &exponent) * 0x1p53;
+  find_turns((uint64_t)mantissa, exponent - 53, at);
+  double sign = radians < 0 ? -1 : 1;
+  *turns = sign * (double)((at[0] + (UINT64_C(1) << 29)) >> 30);
+  for (int i = 0; i < LIMBS - 1; i++)
+    at[i] = at[i] << 2 | at[i + 1] >> 30;
+  pair high = pair_sum((int32_t)at[0] * 0x1p-32, at[1] * 0x1p-64);
+  pair low = pair_sum(at[2] * 0x1p-96, at[3] * 0x1p-128);
+  pair rest = pair_sum(high.hi, high.lo + low.hi);
+  return pair_multiply((pair){sign * rest.hi, sign * (rest.lo + low.lo)},
+                       (pair){HALF_PI_HIGH, HALF_PI_LOW});
+}
+
 /* The angle less `turns` quarter turns, in -pi/4..pi/4. */
-static pair reduce_angle(double radians, double turns) {
-  pair near = pair_sum(radians - turns * HALF_PI_A, -(turns * HALF_PI_B));
-  return pair_sum(near.hi, near.lo - turns * HALF_PI_C);
+static pair reduce_angle(double radians, double *turns) {
+  if (fabs(radians) > FAR && fabs(radians) < HUGE_VAL)
+    return reduce_far_angle(radians, turns);
+  *turns = rint(radians * TWO_OVER_PI);
+  pair near = pair_sum(radians - *turns * HALF_PI_A, -(*turns * HALF_PI_B));
+  return pair_sum(near.hi, near.lo - *turns * HALF_PI_C);
 }
 
 static double sine_near_zero(pair angle) {
@@ -89,8 +140,8 @@ static double cosine_near_zero(pair angle) {
 }
 
 void cs_elementary_sincos(double radians, double *sine, double *cosine) {
-  double turns = rint(radians * TWO_OVER_PI);
-  pair angle = reduce_angle(radians, turns);
+  double turns;
+  pair angle = reduce_angle(radians, &turns);
   double s = sine_near_zero(angle), c = cosine_near_zero(angle);
   switch (cs_number_to_int32(turns - 4 * floor(turns / 4))) {
   case 0:
@@ -115,9 +166,6 @@ double cs_elementary_tan(double radians) {
 }
 
 /* ---------------------------------------------------------------- arc tangent */
-
-#define HALF_PI_HIGH 0x1.921fb54442d18p+0
-#define HALF_PI_LOW 0x1.1a62633145c07p-54
 
 /* atan(k/8): the nearest double, and the rest that it lacks. */
 static const pair atan_of_eighths[9] = {{0, 0},

@@ -1,4 +1,4 @@
-/* Sine, cosine, exponential, logarithm and power with the same bits on every x86-64 machine and
+/* Sine, cosine, exponential, logarithm and power with the same bits on every machine and
  * under every compiler: plain IEEE arithmetic, no libm, no fused operations. Relative error below
  * 4e-16 (sine, cosine: absolute) for arguments in the ranges celspan meets.
  */

@@ -188,6 +188,14 @@ describe("the library", function()
   -- Except, for each thread, the script that runs there and its account (lua/sandbox/guard.c).
   local OF_THREADS = { account = true, entered = true }
 
+  it("and the program's Lua use no functions of libm that differ #plain", function()
+    local names = wanted_by(("echo '%s'"):format(workbench.absolute))
+    if not names.memcpy then return pending "nm, which lists calls, does not work" end
+    for name in ("sin cos tan asin acos atan2 exp log log2 log10 pow"):gmatch "%w+" do
+      assert.is_nil(names[name], name)
+    end
+  end)
+
   it("has no variables of its own #plain #uncounted", function()
     local seen = 0
     local module = system.lines(("find '%s' -name celspan.so"):format(BUILD))[1]

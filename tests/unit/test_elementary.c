@@ -3,9 +3,11 @@
  */
 #include "base/elementary.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 
+#include "base/functions.h"
 #include "base/hash.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
@@ -119,8 +121,40 @@ static void check_bits(void) {
   CHECK(cs_hash_end(hash).a == 0x2ba0495d3fc3a12du);
 }
 
+/* The functions for all numbers: as those of the C library where these are exact, and within an
+ * error of the last bits elsewhere. */
+static bool agree(double ours, double theirs) {
+  if (isnan(theirs) || isinf(theirs) || theirs == 0)
+    return isnan(theirs) ? isnan(ours) : ours == theirs && !signbit(ours) == !signbit(theirs);
+  return relative(ours, theirs) < 4e-16;
+}
+
+static void check_all_numbers(void) {
+  static const double all[] = {0.0,   -0.0,     1,    -1,       0.5,       -0.5,   2,
+                               -2,    3,        -3,   1e300,    -1e300,    5e-324, 1e22,
+                               -1e22, 0x1p1023, 4e15, INFINITY, -INFINITY, NAN};
+  enum { COUNT = sizeof all / sizeof *all };
+  for (int i = 0; i < COUNT; i++) {
+    double x = all[i];
+    CHECK(agree(cs_function_sin(x), sin(x)) && agree(cs_function_cos(x), cos(x)));
+    CHECK(agree(cs_function_tan(x), tan(x)) && agree(cs_function_asin(x), asin(x)));
+    CHECK(agree(cs_function_acos(x), acos(x)) && agree(cs_function_log2(x), log2(x)));
+    CHECK(agree(cs_function_log10(x), log10(x)));
+    CHECK(agree(cs_elementary_exp(x), exp(x)) && agree(cs_elementary_log(x), log(x)));
+    for (int j = 0; j < COUNT; j++) {
+      CHECK(agree(cs_function_pow(x, all[j]), pow(x, all[j])));
+      CHECK(agree(cs_function_atan2(x, all[j]), atan2(x, all[j])));
+    }
+  }
+  for (int i = -1074; i < 1024; i++)
+    CHECK(cs_function_log2(ldexp(1, i)) == i && cs_function_pow(2, i) == ldexp(1, i));
+}
+
 int main(void) {
+  check_all_numbers();
   check_angles(10);
+  check_angles(1e15);
+  check_angles(1e300);
   check_angles(1e6);
   check_quarter_turns();
   check_arc_tangent();

@@ -1,90 +1,36 @@
 /* math: where C libraries differ between machines, the functions are celspan's own. Random numbers
  * are the same in every run and every frame. */
 #include <lauxlib.h>
-#include <math.h>
 #include <string.h>
 
 #include "base/elementary.h"
+#include "base/functions.h"
 #include "base/splitmix.h"
 #include "lua/sandbox/library.h"
 
-/* celspan's functions are for finite numbers and angles of moderate size; the C library handles all
- * others. */
-#define ANGLE_MOST 1e6
-
-/* The library keeps the sign of 0. */
-static bool is_angle(double x) { return x != 0 && fabs(x) <= ANGLE_MOST; }
-
-static void find_sincos(double x, double *s, double *c) {
-  if (is_angle(x)) {
-    cs_elementary_sincos(x, s, c);
-    return;
+#define FUNCTION(name, value)                                                                      \
+  static int name(lua_State *L) {                                                                  \
+    double x = luaL_checknumber(L, 1);                                                             \
+    lua_pushnumber(L, value);                                                                      \
+    return 1;                                                                                      \
   }
-  *s = sin(x);
-  *c = cos(x);
-}
 
-static int sine(lua_State *L) {
-  double s, c;
-  find_sincos(luaL_checknumber(L, 1), &s, &c);
-  lua_pushnumber(L, s);
-  return 1;
-}
-
-static int cosine(lua_State *L) {
-  double s, c;
-  find_sincos(luaL_checknumber(L, 1), &s, &c);
-  lua_pushnumber(L, c);
-  return 1;
-}
-
-static int tangent(lua_State *L) {
-  double x = luaL_checknumber(L, 1);
-  lua_pushnumber(L, is_angle(x) ? cs_elementary_tan(x) : tan(x));
-  return 1;
-}
-
-static double arc_tangent_of(double y, double x) {
-  return isfinite(x) && isfinite(y) ? cs_elementary_atan2(y, x) : atan2(y, x);
-}
-
-static int arc_tangent(lua_State *L) {
-  lua_pushnumber(L, arc_tangent_of(luaL_checknumber(L, 1), luaL_optnumber(L, 2, 1)));
-  return 1;
-}
-
-static int arc_sine(lua_State *L) {
-  double x = luaL_checknumber(L, 1);
-  lua_pushnumber(L, arc_tangent_of(x, sqrt((1 - x) * (1 + x))));
-  return 1;
-}
-
-static int arc_cosine(lua_State *L) {
-  double x = luaL_checknumber(L, 1);
-  lua_pushnumber(L, arc_tangent_of(sqrt((1 - x) * (1 + x)), x));
-  return 1;
-}
-
-static int exponential(lua_State *L) {
-  double x = luaL_checknumber(L, 1);
-  lua_pushnumber(L, isfinite(x) ? cs_elementary_exp(x) : exp(x));
-  return 1;
-}
-
-/* Whole powers of two are exact, for base 2. */
-static double logarithm_of(double x) {
-  return x > 0 && isfinite(x) ? cs_elementary_log(x) : x == 0 ? -INFINITY : x > 0 ? x : NAN;
-}
+FUNCTION(sine, cs_function_sin(x))
+FUNCTION(cosine, cs_function_cos(x))
+FUNCTION(tangent, cs_function_tan(x))
+FUNCTION(arc_sine, cs_function_asin(x))
+FUNCTION(arc_cosine, cs_function_acos(x))
+FUNCTION(arc_tangent, cs_function_atan2(x, luaL_optnumber(L, 2, 1)))
+FUNCTION(exponential, cs_elementary_exp(x))
 
 static int logarithm(lua_State *L) {
   double x = luaL_checknumber(L, 1), base = luaL_optnumber(L, 2, 0);
-  int power;
   if (lua_isnoneornil(L, 2))
-    lua_pushnumber(L, logarithm_of(x));
-  else if (base == 2 && isfinite(x) && frexp(x, &power) == 0.5)
-    lua_pushnumber(L, power - 1);
+    lua_pushnumber(L, cs_elementary_log(x));
+  else if (base == 2)
+    lua_pushnumber(L, cs_function_log2(x));
   else
-    lua_pushnumber(L, logarithm_of(x) / logarithm_of(base));
+    lua_pushnumber(L, cs_elementary_log(x) / cs_elementary_log(base));
   return 1;
 }
 
