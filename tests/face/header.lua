@@ -24,7 +24,7 @@ local function plain(text)
     text = text:gsub("%[" .. name .. "%]", "[" .. number .. "]")
   end
   text = text:gsub("#ifdef __cplusplus.-#endif", ""):gsub("\n#[^\n]*", "\n")
-  text = text:gsub("static inline [^{]-%b{}", ""):gsub("__attribute__%s*%(%b()%)", "")
+  text = text:gsub("static inline [^{]-%b{}", ""):gsub("CELSPAN_FORMAT%b()", "")
   text = text:gsub("CELSPAN_API", ""):gsub("CELSPAN_CHECKED", "")
   text = text:gsub("CELSPAN_DESCRIPTION%(([%w_]+)%)",
     "void %1_default(%1 *out, size_t struct_size);"):gsub("CELSPAN_RESULT%b()", "")

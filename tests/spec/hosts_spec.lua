@@ -2,6 +2,8 @@
 local present = require "tests.support.present"
 local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
+package.path = "tests/face/?.lua;" .. package.path
+local compare, header = require "compare", require "header"
 
 local BUILD = workbench.build
 local KEPT = "tests/face/0.1.h"
@@ -30,8 +32,6 @@ end)
 teardown(function() bench:remove() end)
 
 describe("the interface", function()
-  package.path = "tests/face/?.lua;" .. package.path
-  local compare, header = require "compare", require "header"
   local now = header.whole ""
 
   it("is the one that is kept", function()
@@ -152,6 +152,15 @@ describe("a host", function()
   it("in C draws a frame", function() compiled("c", "cc -std=c17") end)
   local in_cpp = present.program "c++" and it or pending
   in_cpp("in C++ draws the same", function() compiled("cpp", "c++ -std=c++17 -x c++") end)
+
+  local in_clang = present.program "clang" and it or pending
+  in_clang("of Microsoft's compiler reads the headers: no attributes of GNU's", function()
+    for _, language in ipairs { "c -std=c17", "c++ -std=c++17" } do
+      good("for name in %s; do echo '#include <celspan/'$name'>'; done | clang -x %s - -Wall "
+        .. "-Werror -fsyntax-only --target=x86_64-pc-windows-msvc -ffreestanding -Isrc/include "
+        .. "'-D__attribute__(x)=@'", table.concat(header.FILES, " "), language)
+    end
+  end)
 
   --- The interface that is kept, with the structures that the host in C uses changed.
   local function write_changed(name, change)

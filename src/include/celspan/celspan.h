@@ -64,12 +64,16 @@
 extern "C" {
 #endif
 
-#if defined(CELSPAN_BUILD) || !defined(_WIN32)
+/* What compilers other than GNU's and clang do not know. */
+#ifdef __GNUC__
 #define CELSPAN_API __attribute__((visibility("default")))
+#define CELSPAN_CHECKED __attribute__((warn_unused_result))
+#define CELSPAN_FORMAT(text, first) __attribute__((format(printf, text, first)))
 #else
 #define CELSPAN_API
+#define CELSPAN_CHECKED
+#define CELSPAN_FORMAT(text, first)
 #endif
-#define CELSPAN_CHECKED __attribute__((warn_unused_result))
 
 /* What every field of a structure is set to by "= CELSPAN_ZERO": C and C++ write it differently. */
 #ifdef __cplusplus
@@ -155,8 +159,7 @@ CELSPAN_API void celspan_context_destroy(celspan_context *context);
 CELSPAN_API const char *celspan_context_error(const celspan_context *context);
 /* Records a sentence and returns `status`: for sinks and callbacks that fail. */
 CELSPAN_API celspan_status celspan_context_fail(celspan_context *context, celspan_status status,
-                                                const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+                                                const char *format, ...) CELSPAN_FORMAT(3, 4);
 /* Where in a script the values that are made from now on are made: messages about them say it.
  * Values made of others by transforms, fades and names keep the place of those. source: copied, its
  * first 255 bytes; NULL, or line 0: not known, as in a new context. What cannot be kept, without
