@@ -7,120 +7,18 @@
 #include "base/open.h"
 #include "output/sinks/dither.h"
 #include "output/sinks/pixels.h"
+#include "output/sinks/planes_sink.h"
 #include "output/sinks/sink.h"
 #include "output/sinks/temporary.h"
-#include "output/sinks/ycbcr.h"
-
-/* ---------------------------------------------------------------- planes */
-
-/* A sink that converts the rows of a frame to planes of Y'CbCr for an encoder of eight bits.
- *
- *   spans -> a row of RGBA --> y y y y y y      then all cb, then all cr: a row of each (4:4:4),
- *            (two rows, kept)  y y y y y y      or of two rows one of half the width (4:2:0)
- *
- * This is a third of the bytes of RGBA, and ffmpeg does not convert colours. An odd width or height
- * is rounded up: the last pixel or row then counts twice.
- */
-typedef struct yuv_planes {
-  celspan_coding coding; /* without defaults, except the depth of dithering */
-  int32_t x, y;          /* the place of the first pixel in the whole frame */
-  bool is_halved;        /* 4:2:0 */
-  int32_t width, height;
-  unsigned char *bytes; /* of all planes; borrowed */
-  uint32_t *rows[2];    /* the even and the odd row; rows[0] owned, one block */
-} yuv_planes;
-
-static size_t halves(int32_t count) { return ((size_t)count + 1) / 2; }
-
-/* Pixels of a kept row: an even number of them. */
-static size_t row_pixels(const yuv_planes *planes) { return 2 * halves(planes->width); }
-
-static size_t rows_size(const yuv_planes *planes) {
-  return 2 * row_pixels(planes) * sizeof *planes->rows[0];
-}
-
-static size_t luma_size(int32_t width, int32_t height) { return (size_t)width * (size_t)height; }
-
-static size_t chroma_size(int32_t width, int32_t height, bool is_halved) {
-  return is_halved ? halves(width) * halves(height) : luma_size(width, height);
-}
-
-static size_t planes_size(int32_t width, int32_t height, bool is_halved) {
-  return luma_size(width, height) + 2 * chroma_size(width, height, is_halved);
-}
-
-static celspan_status begin_planes(void *user, celspan_context *context, int32_t width,
-                                   int32_t height) {
-  yuv_planes *planes = user;
-  planes->width = width;
-  planes->height = height;
-  planes->rows[0] = cs_mem_resize(context->memory, NULL, 0, rows_size(planes));
-  if (!planes->rows[0])
-    return cs_fail_memory(context);
-  planes->rows[1] = planes->rows[0] + row_pixels(planes);
-  return CELSPAN_OK;
-}
-
-/* Converts the row, or the pair of rows that ends with it. */
-static void put_chroma(const yuv_planes *planes, int32_t y, const uint32_t *row) {
-  size_t size = chroma_size(planes->width, planes->height, planes->is_halved);
-  unsigned char *cb = planes->bytes + luma_size(planes->width, planes->height), *cr = cb + size;
-  if (!planes->is_halved) {
-    size_t offset = (size_t)y * (size_t)planes->width;
-    CS_WIDE_CHOOSE(cs_isa_best(), cs_ycbcr_chroma)(row, planes->width, cb + offset, cr + offset);
-  } else if (y % 2 == 1 || y == planes->height - 1) {
-    size_t offset = (size_t)(y / 2) * halves(planes->width);
-    CS_WIDE_CHOOSE(cs_isa_best(), cs_ycbcr_halved)
-    (planes->rows[0], row, (int32_t)halves(planes->width), cb + offset, cr + offset);
-  }
-}
-
-static celspan_status put_row(void *user, celspan_context *context, int32_t y,
-                              const celspan_span *spans, size_t span_count) {
-  const yuv_planes *planes = user;
-  uint32_t *row = planes->rows[y % 2];
-  (void)context;
-  celspan_spans_code_at(&planes->coding, planes->x, planes->y + y, spans, span_count, row);
-  row[row_pixels(planes) - 1] = row[planes->width - 1];
-  CS_WIDE_CHOOSE(cs_isa_best(), cs_ycbcr_luma)
-  (row, planes->width, planes->bytes + (size_t)y * (size_t)planes->width);
-  put_chroma(planes, y, row);
-  return CELSPAN_OK;
-}
-
-static celspan_status end_planes(void *user, celspan_context *context, celspan_status outcome) {
-  yuv_planes *planes = user;
-  cs_mem_free(context->memory, planes->rows[0], planes->rows[0] ? rows_size(planes) : 0);
-  planes->rows[0] = NULL;
-  return outcome;
-}
-
-static celspan_sink planes_sink(yuv_planes *planes, const celspan_coding *coding,
-                                const celspan_frame_desc *frame, bool is_halved,
-                                unsigned char *bytes) {
-  bool dithers = coding->depth == CELSPAN_DEPTH_8_DITHER;
-  *planes = (yuv_planes){.coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8),
-                         .x = frame->crop_x,
-                         .y = frame->crop_y,
-                         .is_halved = is_halved,
-                         .bytes = bytes};
-  planes->coding.space = frame->space;
-  if (celspan_frame_is_opaque(frame)) /* the same result, faster */
-    planes->coding.alpha = CELSPAN_ALPHA_STRAIGHT;
-  bool takes_codes = !dithers && cs_pixels_takes_codes(&planes->coding);
-  if (dithers)
-    planes->coding.depth = CELSPAN_DEPTH_8_DITHER;
-  return (celspan_sink){sizeof(celspan_sink), planes,     begin_planes, put_row,
-                        end_planes,           takes_codes};
-}
 
 /* ---------------------------------------------------------------- opening */
 
 static bool is_same(const char *pattern, const char *name) { return strcmp(pattern, name) == 0; }
 
 static size_t frame_size(const cs_video *video, int32_t width, int32_t height) {
-  return video->layout == CS_VIDEO_RGBA ? video->stride * (size_t)height
-                                        : planes_size(width, height, video->layout == CS_VIDEO_420);
+  return video->layout == CS_VIDEO_RGBA
+             ? video->stride * (size_t)height
+             : cs_planes_size(width, height, video->layout == CS_VIDEO_420);
 }
 
 static celspan_status start(cs_video *video, const cs_video_command *command, int32_t width,
@@ -175,11 +73,24 @@ static celspan_coding plain_coding(const cs_video *video, const celspan_frame_de
   return plain;
 }
 
+static celspan_sink planes_sink(const cs_video *video, const celspan_frame_desc *desc,
+                                unsigned char *pixels, cs_planes *planes) {
+  *planes = (cs_planes){.coding = plain_coding(video, desc),
+                        .x = desc->crop_x,
+                        .y = desc->crop_y,
+                        .dithers = video->coding.depth == CELSPAN_DEPTH_8_DITHER,
+                        .is_halved = video->layout == CS_VIDEO_420,
+                        .bytes = pixels};
+  if (celspan_frame_is_opaque(desc)) /* the same result, faster */
+    planes->coding.alpha = CELSPAN_ALPHA_STRAIGHT;
+  return cs_planes_sink(planes);
+}
+
 /* A sink for the pixels in the layout of the encoder. planes: must live as long as the sink. */
 static celspan_status open_sink(const cs_video *video, const celspan_frame_desc *desc,
-                                unsigned char *pixels, yuv_planes *planes, celspan_sink *out) {
+                                unsigned char *pixels, cs_planes *planes, celspan_sink *out) {
   if (video->layout != CS_VIDEO_RGBA) {
-    *out = planes_sink(planes, &video->coding, desc, video->layout == CS_VIDEO_420, pixels);
+    *out = planes_sink(video, desc, pixels, planes);
     return CELSPAN_OK;
   }
   celspan_coding plain = plain_coding(video, desc);
@@ -198,7 +109,7 @@ static celspan_status open_digest(cs_video *video, const celspan_frame_desc *des
 /* Makes and hashes the frame in one pass over its rows. */
 static celspan_status make_both(cs_video *video, const celspan_frame_desc *desc,
                                 unsigned char *pixels) {
-  yuv_planes planes;
+  cs_planes planes;
   cs_tee tee;
   CS_TRY(open_sink(video, desc, pixels, &planes, &tee.sinks[0]));
   celspan_status status = open_digest(video, desc, &tee.sinks[1]);
@@ -215,11 +126,10 @@ static celspan_status make_both(cs_video *video, const celspan_frame_desc *desc,
 
 static celspan_status make_one(const cs_video *video, const celspan_frame_desc *desc,
                                unsigned char *pixels) {
-  yuv_planes planes;
+  cs_planes planes;
   if (video->layout == CS_VIDEO_RGBA)
     return celspan_frame_pixels(video->context, desc, &video->coding, pixels, video->stride, NULL);
-  celspan_sink sink =
-      planes_sink(&planes, &video->coding, desc, video->layout == CS_VIDEO_420, pixels);
+  celspan_sink sink = planes_sink(video, desc, pixels, &planes);
   return celspan_frame_render(video->context, desc, &sink, NULL);
 }
 

@@ -95,7 +95,7 @@ static inline void put_single(const dithered *d, const celspan_span *span, uint3
   memcpy(out, period, rest);
 }
 
-/* Columns from x on of a span whose colours vary; `count` of them exist, at most a register full. */
+/* Columns from x on of a span whose colours vary: `count`, at most a register full. */
 static inline cs_wide colours_of(const celspan_span *span, int32_t x, size_t count) {
   float last[CS_WIDE_LANES] = {0};
   if (span->kind == CELSPAN_SPAN_GRADIENT)

@@ -289,6 +289,6 @@ celspan_status celspan_file_sink_create(celspan_context *context, const char *pa
 bool cs_sink_shares(const celspan_sink *sink, cs_shares *out) {
   const celspan_sink *inner = open_guard(sink);
   *out = (cs_shares){.rows = 0};
-  return !inner->row || cs_memory_sink_shares(inner, out) || cs_png_sink_shares(inner, out) ||
-         cs_span_sink_shares(inner, out);
+  return !inner->row || cs_memory_sink_shares(inner, out) || cs_planes_sink_shares(inner, out) ||
+         cs_png_sink_shares(inner, out) || cs_span_sink_shares(inner, out);
 }

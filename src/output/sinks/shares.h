@@ -46,6 +46,7 @@ typedef struct cs_shares {
 /* How one kind of sink each fills its shares; false: the sink, which has begun, is of another kind.
  * cs_sink_shares asks them all. */
 bool cs_memory_sink_shares(const celspan_sink *sink, cs_shares *out);
+bool cs_planes_sink_shares(const celspan_sink *sink, cs_shares *out);
 bool cs_png_sink_shares(const celspan_sink *sink, cs_shares *out);
 bool cs_span_sink_shares(const celspan_sink *sink, cs_shares *out);
 /* Whether the sink, which has begun, receives rows in shares. A sink without `row` always does. */
