@@ -31,6 +31,10 @@ static int kind(lua_State *L) {
       [CS_ARTWORK_SVG] = "svg",
   };
   const char *path = luaL_checkstring(L, 1);
+  if (cs_service_session(L)->request->script && strcmp(path, "-") == 0) {
+    lua_pushliteral(L, "script");
+    return 1;
+  }
   cs_artwork artwork = cs_artwork_of(path);
   lua_pushstring(L, artwork != CS_ARTWORK_NONE     ? artworks[artwork]
                     : cs_span_reader_accepts(path) ? "span"

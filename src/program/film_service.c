@@ -259,7 +259,7 @@ static int names(lua_State *L) {
  * is a letter of them; nil */
 static int words(lua_State *L) {
   lua_State *script = self(L)->script.L;
-  cs_words found;
+  cs_named_words found;
   bool is_there = cs_named_push_words(script, (uint32_t)luaL_checkinteger(L, 2), &found);
   if (is_there) {
     lua_pushlstring(L, found.text, found.size);

@@ -55,13 +55,17 @@ static void push_texts(lua_State *L, const char *const *texts, size_t count) {
 }
 
 /* request[1], ...: its operands; request.job_name: an option; request.arguments: of the script;
- * request.verb: its name; request.given: the options in their order, { name = "--job-name",
- * value = "walk" }. */
+ * request.verb: its name; request.script: the text of the script "-"; request.given: the options in
+ * their order, { name = "--job-name", value = "walk" }. */
 static void push_request(lua_State *L, const cs_request *request) {
   push_texts(L, request->operands, request->operand_count);
   push_texts(L, (const char *const *)request->script_arguments, request->script_argument_count);
   lua_setfield(L, -2, "arguments");
   cs_put_text(L, "verb", request->verb->name);
+  if (request->script) {
+    lua_pushlstring(L, request->script, request->script_size);
+    lua_setfield(L, -2, "script");
+  }
   lua_newtable(L);
   cs_request_each(request, set_option, L);
   lua_setfield(L, -2, "given");
@@ -75,13 +79,14 @@ static void push_options(lua_State *L, const cs_option *options) {
     lua_createtable(L, 0, 3);
     cs_put_text(L, "name", options->name);
     cs_put_text(L, "value", options->value);
+    cs_put_text(L, "allowed", options->kind ? options->kind->allowed : NULL);
     cs_put_text(L, "help", options->help);
     lua_rawseti(L, -2, i);
   }
 }
 
 /* verbs() -> what each verb is and takes: { name =, operands =, summary =, notes =, has_script =,
- * options = { { name =, value =, help = }, ... } } */
+ * options = { { name =, value =, allowed =, help = }, ... } } */
 static int push_verbs(lua_State *L) {
   lua_newtable(L);
   for (const cs_verb *verb = cs_verbs; verb->name; verb++) {

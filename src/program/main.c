@@ -22,6 +22,7 @@
 #include "program/confine.h"
 #include "program/lua_verb.h"
 #include "program/progress.h"
+#include "program/text_file.h"
 #include "program/verbs.h"
 
 enum { VERBS_MOST = 32 };
@@ -61,8 +62,23 @@ static bool is_in_lua(const cs_request *request) {
   return !request->verb->run || cs_request_has(request, "--table");
 }
 
-static cs_exit run(const cs_request *request) {
+/* Standard input can be read only once, and some verbs run a script several times. */
+static cs_exit read_script(celspan_context *context, cs_request *request, cs_text_file *out) {
+  if (!request->verb->has_script || request->operand_count == 0 ||
+      strcmp(request->operands[0], "-") != 0)
+    return CS_EXIT_OK;
+  if (request->verb->runs_again || cs_request_has(request, "--table"))
+    return cs_report_usage("-: several processes run the script, and standard input is read only "
+                           "once: give the name of a file");
+  cs_exit outcome = cs_text_file_read(context, stdin, "", "standard input", out);
+  request->script = out->bytes;
+  request->script_size = out->size;
+  return outcome;
+}
+
+static cs_exit run(cs_request *request) {
   celspan_context *context = NULL;
+  cs_text_file script = {NULL, 0, 0};
   celspan_context_desc desc = CELSPAN_CONTEXT_DESC;
   CS_TRY_EXIT(cs_confine_memory(request, &desc));
   if (celspan_context_create(&desc, &context) != CELSPAN_OK) {
@@ -72,8 +88,11 @@ static cs_exit run(const cs_request *request) {
   cs_confine_rendering(context, request);
   cs_exit outcome = cs_confine_pictures(context, request);
   if (outcome == CS_EXIT_OK)
+    outcome = read_script(context, request, &script);
+  if (outcome == CS_EXIT_OK)
     outcome = is_in_lua(request) ? cs_lua_verb_run(context, request)
                                  : request->verb->run(context, request);
+  cs_text_file_close(context, &script);
   celspan_context_destroy(context);
   cs_isolate_finish();
   return outcome;

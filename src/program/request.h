@@ -29,6 +29,7 @@ typedef struct cs_verb {
   bool makes_folder;        /* its -o names one */
   bool asks_files;          /* it asks which files its script has read */
   bool asks_warnings;       /* it asks for warnings about probable mistakes of the author */
+  bool runs_again;          /* its script is run by other processes, or when it has changed */
   const char *summary;      /* one line */
   const char *notes;        /* more help, whole lines, or NULL */
   const cs_option *options; /* the last one has no name */
@@ -36,13 +37,15 @@ typedef struct cs_verb {
   cs_exit (*run)(celspan_context *context, const struct cs_request *request);
 } cs_verb;
 
-/* All texts are borrowed from the command line. */
+/* All texts are borrowed: from the command line, and the script's from who runs the verb. */
 typedef struct cs_request {
   const cs_verb *verb;
   char *const *words; /* after the verb */
   size_t word_count;
   const char *operands[CS_OPERANDS_MAX];
   size_t operand_count;
+  const char *script; /* the text of the script that the operand - means; NULL: it is a file */
+  size_t script_size;
   char *const *script_arguments; /* the arguments after "--" */
   size_t script_argument_count;
   cs_given_antialias antialias; /* of --antialias: kept, because frames point to it */

@@ -17,10 +17,12 @@
 #include "lua/bind/userdata.h"
 #include "lua/bind/warnings.h"
 #include "lua/module/core.h"
+#include "lua/module/lua_script.h"
 #include "lua/module/parameters.h"
 #include "plugins/sound/loudness.h"
 #include "program/confine.h"
 #include "program/request.h"
+#include "program/text_file.h"
 #include "program/view.h"
 
 /* The states that a signal interrupts: of the verb, and of the script that ran last; NULL: none. */
@@ -59,30 +61,8 @@ static void watch_script(lua_State *L) {
 typedef struct script_settings {
   const cs_request *request; /* borrowed */
   const char *path;          /* of --set-from; NULL: it was not given */
-  char *json;                /* its text; owned */
-  size_t size, capacity;
+  cs_text_file json;         /* its text */
 } script_settings;
-
-#define SETTINGS_MOST ((size_t)64 << 20)
-#define SETTINGS_PIECE ((size_t)1 << 16)
-
-static cs_exit fail_reading(const script_settings *s, const char *why) {
-  cs_report_error("--set-from %s: %s", s->path, why);
-  return CS_EXIT_INPUT;
-}
-
-static cs_exit read_pieces(celspan_context *context, FILE *file, script_settings *out) {
-  for (size_t got = 1; got > 0; out->size += got) {
-    if (out->size > SETTINGS_MOST)
-      return fail_reading(out, "it has more than 64 MiB");
-    celspan_status status = cs_mem_reserve(context, (void **)&out->json, &out->capacity,
-                                           out->size + SETTINGS_PIECE, sizeof *out->json);
-    if (status != CELSPAN_OK)
-      return cs_report_failure(context, status, NULL);
-    got = fread(out->json + out->size, 1, SETTINGS_PIECE, file);
-  }
-  return ferror(file) ? fail_reading(out, strerror(errno)) : CS_EXIT_OK;
-}
 
 /* Reads the file of --set-from, before the script's rules forbid that. OK, or reported; either way
  * *out may be closed. */
@@ -92,16 +72,13 @@ static cs_exit open_settings(celspan_context *context, const cs_request *request
   if (!out->path)
     return CS_EXIT_OK;
   FILE *file = fopen(out->path, "rbe");
-  if (!file)
-    return fail_reading(out, strerror(errno));
-  cs_exit outcome = read_pieces(context, file, out);
+  if (!file) {
+    cs_report_error("--set-from %s: %s", out->path, strerror(errno));
+    return CS_EXIT_INPUT;
+  }
+  cs_exit outcome = cs_text_file_read(context, file, "--set-from ", out->path, &out->json);
   fclose(file);
   return outcome;
-}
-
-static void close_settings(celspan_context *context, script_settings *settings) {
-  cs_mem_free(context->memory, settings->json, settings->capacity * sizeof *settings->json);
-  settings->json = NULL;
 }
 
 static void hash_one(void *user, const char *name, const char *value) {
@@ -115,7 +92,7 @@ static cs_hash hash_settings(const script_settings *settings) {
   cs_hash hash = cs_hash_begin(request->script_argument_count);
   for (size_t i = 0; i < request->script_argument_count; i++)
     cs_hash_text(&hash, request->script_arguments[i]);
-  cs_hash_bytes(&hash, settings->json, settings->size);
+  cs_hash_bytes(&hash, settings->json.bytes, settings->json.size);
   cs_request_each(request, hash_one, &hash);
   return cs_hash_end(hash);
 }
@@ -131,7 +108,7 @@ static void give_one(void *user, const char *name, const char *value) {
 static int give_settings(lua_State *L) {
   const script_settings *settings = lua_touserdata(L, 1);
   if (settings->path)
-    cs_parameters_give_json(L, settings->path, settings->json, settings->size);
+    cs_parameters_give_json(L, settings->path, settings->json.bytes, settings->json.size);
   cs_request_each(settings->request, give_one, L);
   return 0;
 }
@@ -280,7 +257,7 @@ static cs_exit start_script(cs_script *out, const cs_request *request, const cha
       outcome = cs_script_report_start(out->L);
   }
   out->given = hash_settings(&settings);
-  close_settings(out->context, &settings);
+  cs_text_file_close(out->context, &settings.json);
   return outcome;
 }
 
@@ -292,8 +269,12 @@ static cs_exit open_script(celspan_context *context, const cs_request *request, 
                      .asks_warnings = request->verb->asks_warnings && !is_silent,
                      .is_silent = is_silent};
   CS_TRY_EXIT(start_script(out, request, path));
-  celspan_status status = celspan_lua_run(out->L, path, (int)request->script_argument_count,
-                                          (const char *const *)request->script_arguments);
+  const int count = (int)request->script_argument_count;
+  const char *const *arguments = (const char *const *)request->script_arguments;
+  celspan_status status =
+      request->script
+          ? cs_lua_script_run_text(out->L, request->script, request->script_size, count, arguments)
+          : celspan_lua_run(out->L, path, count, arguments);
   if (status == CELSPAN_BAD_ARGUMENT && cs_parameters_are_refused(out->L))
     return cs_report_usage("%s", celspan_context_error(context));
   if (status != CELSPAN_OK)

@@ -44,14 +44,31 @@ static celspan_status print_row(void *user, celspan_context *context, int32_t y,
   return ferror(stdout) ? CELSPAN_OUTPUT : CELSPAN_OK; /* reported as for all text */
 }
 
-static void print_statistics(const celspan_statistics *s, cs_cache_counts kept, double seconds) {
-  printf("rows %" PRIu64 " spans %" PRIu64 " single %" PRIu64 " gradient %" PRIu64 " array %" PRIu64
-         " pixels_in_arrays %" PRIu64 " maps %" PRIu64 " maps_made %" PRIu64 " swept %" PRIu64
-         " colour_evaluations %" PRIu64 " allocations %" PRIu64 " peak_bytes %" PRIu64
-         " bands_made %" PRIu64 " bands_found %" PRIu64 " bands_bytes %zu seconds %.6f\n",
-         s->rows, s->spans, s->single, s->gradient, s->array, s->pixels_in_arrays, s->maps,
-         s->maps_made, s->swept, s->colour_evaluations, s->allocations, s->peak_bytes, kept.made,
-         kept.found, kept.bytes, seconds);
+/* On one line: "name value" of each, or an object. */
+static void print_statistics(const celspan_statistics *s, cs_cache_counts kept, double seconds,
+                             bool is_json) {
+  const struct {
+    const char *name;
+    uint64_t count;
+  } all[] = {{"rows", s->rows},
+             {"spans", s->spans},
+             {"single", s->single},
+             {"gradient", s->gradient},
+             {"array", s->array},
+             {"pixels_in_arrays", s->pixels_in_arrays},
+             {"maps", s->maps},
+             {"maps_made", s->maps_made},
+             {"swept", s->swept},
+             {"colour_evaluations", s->colour_evaluations},
+             {"allocations", s->allocations},
+             {"peak_bytes", s->peak_bytes},
+             {"bands_made", kept.made},
+             {"bands_found", kept.found},
+             {"bands_bytes", kept.bytes}};
+  fputs(is_json ? "{" : "", stdout);
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+    printf(is_json ? "\"%s\": %" PRIu64 ", " : "%s %" PRIu64 " ", all[i].name, all[i].count);
+  printf(is_json ? "\"seconds\": %.6f}\n" : "seconds %.6f\n", seconds);
 }
 
 static celspan_status measure(celspan_context *context, const cs_request *request,
@@ -64,7 +81,8 @@ static celspan_status measure(celspan_context *context, const cs_request *reques
                               ? celspan_frame_pixels(context, frame, &coding, NULL, 0, &statistics)
                               : celspan_frame_render(context, frame, &nowhere, &statistics);
   if (status == CELSPAN_OK)
-    print_statistics(&statistics, cs_defocus_bands_count(context), cs_clock_seconds() - started);
+    print_statistics(&statistics, cs_defocus_bands_count(context), cs_clock_seconds() - started,
+                     cs_request_has(request, "--json"));
   return status;
 }
 
@@ -123,7 +141,9 @@ static cs_exit run_plane(celspan_context *context, const cs_request *request, co
 cs_exit cs_verb_spans(celspan_context *context, const cs_request *request) {
   if (cs_request_has(request, "--pixels") && !cs_request_has(request, "--stats"))
     return cs_report_usage("--pixels needs --stats");
-  if (cs_plane_accepts(request->operands[0]))
+  if (cs_request_has(request, "--json") && !cs_request_has(request, "--stats"))
+    return cs_report_usage("--json needs --stats");
+  if (!request->script && cs_plane_accepts(request->operands[0]))
     return run_plane(context, request, request->operands[0]);
   return cs_script_run(context, request, run);
 }

@@ -41,9 +41,11 @@ typedef struct tiles_job {
 
 /* ---------------------------------------------------------------- the subject */
 
-static bool is_film(const char *path) {
+static bool is_film(const cs_request *request) {
+  const char *path = request->operands[0];
   size_t length = strlen(path);
-  return cs_shown_is_film(path) || (length > 4 && strcasecmp(path + length - 4, ".lua") == 0);
+  return request->script || cs_shown_is_film(path) ||
+         (length > 4 && strcasecmp(path + length - 4, ".lua") == 0);
 }
 
 /* "shots/night.lua" -> "night" */
@@ -71,7 +73,7 @@ static cs_exit open_script(tiles_job *job) {
 
 static cs_exit open_subject(tiles_job *job) {
   const char *path = job->request->operands[0];
-  job->is_film = is_film(path);
+  job->is_film = is_film(job->request);
   job->title = job->name;
   set_name(path, job->name);
   return job->is_film ? open_script(job) : open_still(job);

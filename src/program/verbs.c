@@ -91,6 +91,8 @@
     "--progress", "HOW", &cs_argument_progress,                                                    \
         "auto, bar, lines, none or json on standard error; openjd on standard output"              \
   }
+#define JSON                                                                                       \
+  { "--json", NULL, NULL, "print the same as a JSON object" }
 /* The arguments and the rights of scripts. */
 #define SCRIPT                                                                                     \
   {"--set", "NAME=V", &cs_argument_setting,                                                        \
@@ -161,7 +163,9 @@ static const cs_option RENDER[] = {
     {0}};
 
 static const cs_option INFO[] = {{"--parameters", NULL, NULL, "only the parameters of a script"},
-                                 {"--json", NULL, NULL, "with --parameters: as JSON Schema"},
+                                 {"--json", NULL, NULL,
+                                  "print the same as a JSON object; with --parameters, as JSON "
+                                  "Schema"},
                                  {"--parts-picture", "FILE", &cs_argument_file,
                                   "of an SVG drawing: a sheet of its elements with their numbers, "
                                   "which are also listed"},
@@ -178,8 +182,7 @@ static const cs_option CHECK[] = {
     SCRIPT,
     {0}};
 
-static const cs_option DESCRIBE[] = {
-    FRAMES, {"--json", NULL, NULL, "print the same as a JSON object"}, SCRIPT, {0}};
+static const cs_option DESCRIBE[] = {FRAMES, JSON, SCRIPT, {0}};
 
 static const cs_option SPANS[] = {
     FRAME,
@@ -191,11 +194,12 @@ static const cs_option SPANS[] = {
     {"--pixels", "DEPTH", &cs_argument_depth,
      "with --stats: also convert each row to pixels of this depth, in a buffer "
      "that is reused"},
+    {"--json", NULL, NULL, "with --stats: print the same as a JSON object"},
     SCRIPT,
     MEMORY,
     {0}};
 
-static const cs_option PROBE[] = {FRAME, SCRIPT, {0}};
+static const cs_option PROBE[] = {FRAME, JSON, SCRIPT, {0}};
 
 static const cs_option WATCH[] = {
     {"--port", "N", &cs_argument_port, "the port of the page; default: one that is free"},
@@ -223,6 +227,7 @@ static const cs_option COMPARE[] = {
     OUTPUT("DIFFERENCE", "a picture of the differences: A in pale grey, what differs in red"),
     {"--fail", "D", &cs_argument_tolerance,
      "the largest difference of coded values (0..1) that is accepted; default: 0"},
+    JSON,
     PICTURE_RIGHTS,
     {0}};
 
@@ -262,6 +267,7 @@ static const cs_option SHEET[] = {
     OUTPUT("OUT",
            "shot.xdts, shot.csv (TVPaint, Krita) or shot.txt; default: text on standard output"),
     FRAMES,
+    JSON,
     SCRIPT,
     {0}};
 
@@ -372,6 +378,7 @@ static const cs_option TEST[] = {
 static const cs_option HELP[] = {
     {"--man", NULL, NULL, "the manual page"},
     {"--completion", "SHELL", &cs_argument_text, "completions for bash, zsh or fish"},
+    {"--json", NULL, NULL, "all verbs and all names of Lua, as one JSON object"},
     {"--stderr", NULL, NULL, "the list of verbs, on standard error"},
     {0}};
 
@@ -411,18 +418,19 @@ const cs_verb cs_verbs[] = {
      .options = CHECK},
     {"describe", "SCRIPT", 1, 1, .has_script = true, .asks_warnings = true,
      .summary = "Describes a film as text: shots, who is seen when, words, what stands still.",
-     .notes = "Every frame is built, and each that differs from the one before is rendered at 48 "
-              "pixels. Times are seconds of the film. share is the part of the frame that the box "
-              "around a cel, an object with a name or a text takes at most.",
+     .notes =
+         "Every frame is built, and each that differs from the one before is seen at a grid "
+         "of points. Times are seconds of the film. share is the part of the frame that the box "
+         "around a cel, an object with a name or a text takes at most.",
      .options = DESCRIBE},
-    {"watch", "SCRIPT [SCRIPT]", 1, 2, .has_script = true,
+    {"watch", "SCRIPT [SCRIPT]", 1, 2, .has_script = true, .runs_again = true,
      .summary = "Shows a film in the browser while its script is being written.",
      .notes = "Prints the address of a page that only this machine can reach and that asks for "
               "the token in the address. The page plays the film, zooms into it, and shows it "
               "again whenever the script, or a file that it reads, is saved. After an error the "
               "last good picture stays, with the error over it. Ctrl-C ends it.",
      .options = WATCH},
-    {"play", "SCRIPT", 1, 1, .has_script = true,
+    {"play", "SCRIPT", 1, 1, .has_script = true, .runs_again = true,
      .summary = "Opens a film in the browser and plays it.",
      .notes = "The same as 'celspan watch --open', with the picture alone in the window; the key "
               "f fills the screen.",
@@ -511,7 +519,7 @@ const cs_verb cs_verbs[] = {
               "region is not found are reported as lost. The module celspan.track reads the "
               "track and places art on it.",
      .options = TRACK},
-    {"farm", "SCRIPT -o OUT", 1, 1, .has_script = true,
+    {"farm", "SCRIPT -o OUT", 1, 1, .has_script = true, .runs_again = true,
      .summary = "Writes a job for a render farm: an array script for Slurm, or an Open Job "
                 "Description.",
      .notes = "The job is written to standard output. Its tasks render the frames to OUT as "
@@ -539,6 +547,6 @@ const cs_verb cs_verbs[] = {
      .options = NONE},
     {"help", "[WORDS]", 0, CS_OPERANDS_MAX, .is_hidden = true, .options = HELP},
     {"stage", "SCRIPT", 1, 1, .is_hidden = true, .has_script = true, .asks_files = true,
-     .asks_warnings = true, .options = STAGE},
+     .asks_warnings = true, .runs_again = true, .options = STAGE},
     {"spec", "-- FILE [PATTERN]", 0, 0, .is_hidden = true, .has_script = true, .options = NONE},
     {0}};

@@ -417,6 +417,71 @@ function manual.list()
   return table.concat(page, "\n") .. "\n"
 end
 
+-- ---------------------------------------------------------------- tables
+
+--- A field of a noun for other programs: what is missing is not known or has no limit.
+local function fact_of_field(field)
+  local preset = tonumber(field.preset) or field.preset or field.fallback
+  return { name = field.name, type = field.type, about = field.about, default = preset,
+           required = field.is_required or false, least = field.least, above = field.above,
+           most = field.most }
+end
+
+--- A function, or a table that one takes or returns.
+local function fact_of_block(block, module)
+  local function items(list)
+    local facts = {}
+    for i, item in ipairs(list) do
+      facts[i] = { name = item.name, type = item.type, about = item.comment,
+                   required = not item.is_optional }
+    end
+    return { list = facts }
+  end
+  local fact = { name = block.name, about = table.concat(block.about, " "), module = module }
+  if block.is_function then
+    fact.parameters, fact.returns = items(block.params), { list = block.returns }
+  else
+    fact.fields, fact.extends = items(block.fields), block.parents ~= "" and block.parents or nil
+  end
+  return fact
+end
+
+--- The interface as tables: `nouns` with the fields of their constructors, `functions` (methods
+--- too) and `types`; and `modules` with a sentence about each.
+function manual.facts()
+  local all, facts = blocks_of_all(), { nouns = {}, functions = {}, types = {}, modules = {} }
+  local is_noun = {}
+  for _, noun in pairs(core.nouns()) do
+    local fields = {}
+    for i, field in ipairs(noun) do fields[i] = fact_of_field(field) end
+    local class = noun.table or ("celspan.%s.fields"):format(noun.name)
+    is_noun[class] = true
+    table.insert(facts.nouns, { name = noun.name, about = noun.about, class = class,
+                                items = noun.item, fields = { list = fields } })
+  end
+  local function add(blocks, module)
+    for _, block in ipairs(blocks) do
+      if block.name and not is_noun[block.name] then
+        table.insert(block.is_function and facts.functions or facts.types,
+          fact_of_block(block, module))
+      end
+    end
+  end
+  add(all, "celspan")
+  for _, name in ipairs(manual.MODULES) do
+    local blocks = all.modules[name]
+    table.insert(facts.modules, { name = "celspan." .. name, about = first_sentence(blocks[1]) })
+    add(blocks, "celspan." .. name)
+  end
+  for name, list in pairs(facts) do
+    if name ~= "modules" then table.sort(list, function(a, b) return a.name < b.name end) end
+    facts[name] = { list = list }
+  end
+  return facts
+end
+
+-- ---------------------------------------------------------------- one name
+
 --- The page about a name; without one, the list; nil and a message for an unknown name.
 ---@param name? string
 ---@return string? page

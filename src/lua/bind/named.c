@@ -90,7 +90,7 @@ static uint32_t find_callers(lua_State *L) {
   return number_of(L);
 }
 
-void cs_named_add_words(lua_State *L, celspan_context *context, const cs_words *words) {
+void cs_named_add_words(lua_State *L, celspan_context *context, const cs_named_words *words) {
   char head[HEAD];
   luaL_checkstack(L, 8, "too many words");
   if (!push_list(L, KEEPS_WORDS))
@@ -105,7 +105,7 @@ void cs_named_add_words(lua_State *L, celspan_context *context, const cs_words *
   context->origin.callers = number_of(L);
 }
 
-bool cs_named_push_words(lua_State *L, uint32_t number, cs_words *out) {
+bool cs_named_push_words(lua_State *L, uint32_t number, cs_named_words *out) {
   push_text(L, number);
   size_t size = 0;
   const char *text = lua_tolstring(L, -1, &size);

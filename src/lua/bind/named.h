@@ -26,16 +26,16 @@ void cs_named_push_callers(lua_State *L, uint32_t number);
 void cs_named_keep_words(lua_State *L, bool is_kept);
 /* For a constructor of texts, after cs_named_begin: what the new values say, and how large. em: of
  * the letters. has_letters: the values are letters of these words, one each. */
-typedef struct cs_words {
+typedef struct cs_named_words {
   const char *text;
   size_t size;
   double em;
   bool has_letters;
-} cs_words;
-void cs_named_add_words(lua_State *L, celspan_context *context, const cs_words *words);
+} cs_named_words;
+void cs_named_add_words(lua_State *L, celspan_context *context, const cs_named_words *words);
 /* The words of a value with this number in its mark; false: there are none. Pushes a value that
  * keeps the text. */
-bool cs_named_push_words(lua_State *L, uint32_t number, cs_words *out);
+bool cs_named_push_words(lua_State *L, uint32_t number, cs_named_words *out);
 
 /* Gives `value`, new and not shared yet, the name of `from`, if it has one. */
 void cs_named_copy(lua_State *L, const cs_userdata *from, cs_userdata *value);

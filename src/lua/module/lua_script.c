@@ -92,6 +92,8 @@ static void set_search_path(lua_State *L, const char *folder) {
 
 typedef struct call {
   const char *path;
+  const char *text; /* NULL: that of the file */
+  size_t size;
   int argument_count;
   const char *const *arguments;
   bool is_missing;
@@ -113,6 +115,20 @@ static int refuse_file(lua_State *L, const char *path) {
                     path, path);
 }
 
+/* Pushes the script as a function, or a message. The outcome of luaL_loadfilex. */
+static int load(lua_State *L, call *c) {
+  if (c->text)
+    return luaL_loadbufferx(L, c->text, c->size, "@-", "t");
+  if (!cs_lua_script_accepts(c->path))
+    return refuse_file(L, c->path);
+  int outcome = luaL_loadfilex(L, c->path, "t");
+  if (outcome == LUA_ERRFILE && strstr(lua_tostring(L, -1), strerror(ENOMEM)))
+    lua_pushliteral(L, "not enough memory"); /* for the file's buffer */
+  else
+    c->is_missing = outcome == LUA_ERRFILE;
+  return outcome;
+}
+
 /* light userdata -> film. Runs protected. */
 static int run(lua_State *L) {
   call *c = lua_touserdata(L, 1);
@@ -122,18 +138,12 @@ static int run(lua_State *L) {
   cs_host_allow(L, folder);
   if (!cs_host_confines(L))
     set_search_path(L, folder); /* a sandbox has its own `require` */
-  cs_artwork artwork = cs_artwork_of(c->path);
+  cs_artwork artwork = c->text ? CS_ARTWORK_NONE : cs_artwork_of(c->path);
   if (artwork > CS_ARTWORK_FOLDER) {
     cs_artwork_push_film(L, c->path, artwork);
     return 1;
   }
-  if (!cs_lua_script_accepts(c->path))
-    return refuse_file(L, c->path);
-  int outcome = luaL_loadfilex(L, c->path, "t");
-  if (outcome == LUA_ERRFILE && strstr(lua_tostring(L, -1), strerror(ENOMEM)))
-    lua_pushliteral(L, "not enough memory"); /* for the file's buffer */
-  else
-    c->is_missing = outcome == LUA_ERRFILE;
+  int outcome = load(L, c);
   if (outcome == LUA_ERRSYNTAX && cs_lua_error_position(lua_tostring(L, -1)) == 0)
     return luaL_error(L, "%s: %s", c->path, lua_tostring(L, -1)); /* a compiled chunk */
   if (outcome != LUA_OK)
@@ -155,20 +165,33 @@ static int call_limited(lua_State *L, int argument_count, int result_count) {
   return outcome;
 }
 
-celspan_status celspan_lua_run(lua_State *L, const char *path, int argument_count,
-                               const char *const *arguments) {
-  call c = {path, argument_count, arguments, false};
-  if (!lua_checkstack(L, 8) || !cs_host_find(L) || !path)
+static celspan_status run_call(lua_State *L, call *c) {
+  if (!lua_checkstack(L, 8) || !cs_host_find(L) || !c->path)
     return CELSPAN_BAD_ARGUMENT;
   lua_pushcfunction(L, run);
-  lua_pushlightuserdata(L, &c);
+  lua_pushlightuserdata(L, c);
   int outcome = call_limited(L, 1, 1);
   celspan_status given = cs_parameters_end(L, outcome == LUA_OK);
   if (given != CELSPAN_OK)
     lua_pop(L, 1);
   if (given != CELSPAN_OK || outcome == LUA_OK)
     return given;
-  return c.is_missing ? cs_lua_error_report_as(L, CELSPAN_INPUT) : cs_lua_error_report(L, outcome);
+  return c->is_missing ? cs_lua_error_report_as(L, CELSPAN_INPUT) : cs_lua_error_report(L, outcome);
+}
+
+celspan_status celspan_lua_run(lua_State *L, const char *path, int argument_count,
+                               const char *const *arguments) {
+  return run_call(L,
+                  &(call){.path = path, .argument_count = argument_count, .arguments = arguments});
+}
+
+celspan_status cs_lua_script_run_text(lua_State *L, const char *text, size_t size,
+                                      int argument_count, const char *const *arguments) {
+  return run_call(L, &(call){.path = "-",
+                             .text = text,
+                             .size = size,
+                             .argument_count = argument_count,
+                             .arguments = arguments});
 }
 
 celspan_status celspan_lua_call(lua_State *L, int argument_count, int result_count) {

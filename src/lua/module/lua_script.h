@@ -1,9 +1,16 @@
-/* Whether a file can be a script: celspan_lua_run of celspan/lua.h runs it. */
+/* What celspan_lua_run of celspan/lua.h runs: whether a file can be a script; and texts. */
 #pragma once
 
 #include <stdbool.h>
+
+#include "celspan/lua.h"
 
 /* Whether a file can be a script at all, by its first bytes. false: it contains binary data, or is
  * a picture whose format is text; Lua itself refuses compiled chunks. Only files that can be read
  * twice are read; for pipes and missing files the result is true, and Lua reports the error. */
 bool cs_lua_script_accepts(const char *path);
+
+/* celspan_lua_run for a text. Its name in messages is "-", and its folder the current one. */
+CELSPAN_CHECKED celspan_status cs_lua_script_run_text(lua_State *L, const char *text, size_t size,
+                                                      int argument_count,
+                                                      const char *const *arguments);

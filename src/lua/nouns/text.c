@@ -145,7 +145,7 @@ static text_form read_text(const cs_form *form, bool has_letters) {
   read.desc.face = (uint32_t)read.face - 1;
   read_features(form, &read.desc);
   read_variations(form, &read.desc);
-  const cs_words words = {read.desc.text, read.desc.text_size, read.desc.size, has_letters};
+  const cs_named_words words = {read.desc.text, read.desc.text_size, read.desc.size, has_letters};
   cs_named_add_words(form->L, cs_host_context(form->L), &words);
   return read;
 }

@@ -265,7 +265,8 @@ end
 --- All warnings: of values that are thrown away, and of what viewers see.
 local function warnings_of(survey)
   local list = {}
-  for i, sentence in ipairs(program.part("dropped.lua", program).of_script(request[1])) do
+  for i, sentence in ipairs(program.part("dropped.lua", program).of_script(request[1],
+    request.script)) do
     list[i] = { message = sentence }
   end
   return table.move(survey:warnings(), 1, 1000, #list + 1, list)

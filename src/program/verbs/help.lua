@@ -163,6 +163,8 @@ local function put_about(out, words)
   local recipe = exact_recipe(recipes, words)
   if words == "cookbook" then
     put_recipes(out, recipes)
+  elseif words == "assistants" then
+    out:write(program.text "assistants.md")
   elseif recipe then
     put_recipe(out, recipe)
   else
@@ -248,6 +250,23 @@ local function put_manual(out)
   for _, variable in ipairs(environment) do put_term(out, ".B " .. variable[1], variable[2]) end
 end
 
+-- ---------------------------------------------------------------- for programs
+
+--- Rows { name, meaning } as a list of objects.
+local function rows_of(rows)
+  local list = {}
+  for i, row in ipairs(rows) do list[i] = { name = row[1], about = row[2] } end
+  return { list = list }
+end
+
+--- All that the help knows, as one object.
+local function put_json(out)
+  for _, verb in ipairs(verbs) do verb.options = { list = verb.options } end
+  out:write(program.json { version = program.version, verbs = verbs,
+    exit_codes = rows_of(exit_codes), environment = rows_of(environment),
+    lua = require "celspan.manual".facts() }, "\n")
+end
+
 if request.man then
   put_manual(io.stdout)
 elseif request.completion then
@@ -256,6 +275,8 @@ elseif request.completion then
     program.usage("--completion: '%s' is not bash, zsh or fish", request.completion)
   end
   io.write(text)
+elseif request.json then
+  put_json(io.stdout)
 elseif request[1] then
   put_about(io.stdout, table.concat(request, " "))
 else

@@ -1,13 +1,13 @@
 --- celspan info SCRIPT|FILE: a film, a picture, artwork, a span file or a plane in figures, one
 --- "name value" a line. The content of the file decides which of them it is.
 local program, request = ...
+local json = require "celspan.json"
 
 local DIFFERENT_MOST = 1 << 19 -- different scenes that are counted, in some 40 MB
 local NAMES_MOST = 1000
 
 local path = request[1]
-
-local function put(format, ...) io.write(format:format(...), "\n") end
+local facts = program.part("facts.lua", program, request)
 
 -- ---------------------------------------------------------------- films
 
@@ -22,11 +22,12 @@ local function add_names(film, names, frame)
       return
     end
     if not entry then
-      entry = { kind = kind, name = name, frames = 0,
-                place = source and (" (%s:%d)"):format(source, line) or "" }
+      entry = { kind = kind, name = name, frames = 0, file = source, line = source and line }
       names[key], names[#names + 1] = entry, entry
     end
-    if entry.last ~= frame then entry.frames, entry.last = entry.frames + 1, frame end
+    if names.last[key] ~= frame then
+      entry.frames, names.last[key] = entry.frames + 1, frame
+    end
   end)
 end
 
@@ -43,7 +44,7 @@ local function count_scene(film, total)
 end
 
 local function count_film(film)
-  local total = { scenes = {}, kept = 0, different = 0, names = {}, most = { 0, 0, 0 } }
+  local total = { scenes = {}, kept = 0, different = 0, names = { last = {} }, most = { 0, 0, 0 } }
   for number = film.first, film.first + film.frames - 1 do
     film:build(number)
     add_names(film, total.names, number)
@@ -53,121 +54,192 @@ local function count_film(film)
   return total
 end
 
+--- Of a film: what it says of itself.
+local function put_film(film)
+  if film.title then facts:add("title", film.title) end
+  facts:add("frames", film.frames)
+  facts:add("first", film.first)
+  facts:add("last", film.first + film.frames - 1)
+  facts:add("fps", film.fps)
+  facts:add("seconds", film.frames / film.fps)
+  facts:add("size", film.size)
+  facts:lists("marks", "named")
+  for _, mark in ipairs(film.marks) do
+    facts:item("marks", mark, "mark %d %s", mark.frame, mark.name)
+  end
+end
+
+--- Of a film: what its frames contain.
+local function put_count(total)
+  for i, name in ipairs { "cels", "primitives", "pictures" } do facts:add(name, total.most[i]) end
+  facts:add(total.is_least and "different_at_least" or "different", total.different)
+  for _, entry in ipairs(total.names) do
+    facts:item("named", entry, "named %s %d %s%s", entry.kind, entry.frames, entry.name,
+      entry.file and (" (%s:%d)"):format(entry.file, entry.line) or "")
+  end
+  if total.names.has_more then
+    facts:set("named_more", true)
+    facts:line "named more"
+  end
+end
+
 local function describe_film()
   local film = program.film()
-  if request.json then
-    io.write((film:ask("celspan.parameters", "schema", film.title or path:match "[^/]*$")))
+  local schema = film:ask("celspan.parameters", "schema", film.title or path:match "[^/]*$")
+  if request.parameters and request.json then
+    io.write(schema)
     return
   end
-  io.write((film:ask("celspan.parameters", "lines", "")))
+  if not request.json then io.write((film:ask("celspan.parameters", "lines", ""))) end
   if request.parameters then return end
+  facts:set("parameters", json.decode(schema).properties)
   local total = count_film(film)
-  if film.title then put("title %s", film.title) end
-  put("frames %d\nfirst %d\nlast %d", film.frames, film.first, film.first + film.frames - 1)
-  put("fps %.9g\nseconds %.9g", film.fps, film.frames / film.fps)
-  put("size %dx%d", table.unpack(film.size))
-  for _, mark in ipairs(film.marks) do put("mark %d %s", mark.frame, mark.name) end
-  put("cels %d\nprimitives %d\npictures %d", table.unpack(total.most))
-  put("different%s %d", total.is_least and "_at_least" or "", total.different)
-  for _, entry in ipairs(total.names) do
-    put("named %s %d %s%s", entry.kind, entry.frames, entry.name, entry.place)
-  end
-  if total.names.has_more then put "named more" end
+  put_film(film)
+  put_count(total)
+  facts:finish()
 end
 
--- ---------------------------------------------------------------- files
+-- ---------------------------------------------------------------- pictures, spans, planes
 
---- Names come from the file: what could end a line is shown as a space.
-local function plain(text) return (text:gsub("[%c\127]", " ")) end
-
-local function describe_picture()
+local function put_picture()
   local picture = program.picture(path)
-  local depth, subimages, lines = "", 0, {}
-  for i, part in ipairs(picture.parts) do
-    local name = part.name == "" and "" or " " .. plain(part.name)
+  local depth, subimages = "", 0
+  for _, part in ipairs(picture.parts) do
     if part.subimage == 0 then depth = part.depth end
+    if part.subimage then subimages = subimages + 1 end
+  end
+  facts:add("format", picture.format)
+  facts:add("size", { picture.width, picture.height })
+  facts:add("channels", picture.channels)
+  facts:add("alpha", picture.alpha or "none")
+  facts:add("depth", depth)
+  facts:add("colour", picture.colour)
+  facts:add("bytes", picture.bytes)
+  facts:add("subimages", subimages)
+  facts:lists "parts"
+  for _, part in ipairs(picture.parts) do
+    local name = part.name == "" and "" or " " .. part.name
     if part.subimage then
-      subimages = subimages + 1
-      lines[i] = ("subimage %d size %dx%d channels %d depth %s%s\n"):format(part.subimage,
+      facts:item("parts", part, "subimage %d size %dx%d channels %d depth %s%s", part.subimage,
         part.width, part.height, part.channels, part.depth, name == "" and "" or " layer" .. name)
     else
-      lines[i] = ("layer%s channels %d\n"):format(name, part.channels)
+      facts:item("parts", part, "layer%s channels %d", name, part.channels)
     end
   end
-  put("format %s\nsize %dx%d\nchannels %d\nalpha %s\ndepth %s\ncolour %s\nbytes %d\nsubimages %d",
-    picture.format, picture.width, picture.height, picture.channels, picture.alpha or "none", depth,
-    picture.colour, picture.bytes, subimages)
-  io.write(table.concat(lines))
 end
 
-local function describe_spans()
+local function put_spans()
   local spans = program.spans(path)
-  put("format span\nsize %dx%d\ndepth %s\nbytes %d", spans.width, spans.height, spans.depth,
-    spans.bytes)
-  local counts = { "rows_same", "rows_moved", "rows_literal", "runs", "raw_spans", "gradients" }
-  for _, name in ipairs(counts) do put("%s %d", name, spans[name]) end
+  facts:add("format", "span")
+  facts:add("size", { spans.width, spans.height })
+  for _, name in ipairs { "depth", "bytes", "rows_same", "rows_moved", "rows_literal", "runs",
+                          "raw_spans", "gradients" } do
+    facts:add(name, spans[name])
+  end
 end
 
-local function describe_plane()
+local function put_plane()
   local plane = program.plane(path)
-  put("format plane\nsize %.9gx%.9g\nalpha %s\nbytes %d", plane.width, plane.height,
-    plane.opaque and "none" or "premultiplied", plane.bytes)
+  facts:add("format", "plane")
+  facts:add("size", { plane.width, plane.height })
+  facts:add("alpha", plane.opaque and "none" or "premultiplied")
+  facts:add("bytes", plane.bytes)
   if plane.fps > 0 then
-    put("frames %d\nfps %.9g\nseconds %.9g", plane.frames, plane.fps, plane.frames / plane.fps)
+    facts:add("frames", plane.frames)
+    facts:add("fps", plane.fps)
+    facts:add("seconds", plane.frames / plane.fps)
   end
   for _, name in ipairs { "bands", "borders", "curves", "colours", "gradients", "pictures" } do
-    put("%s %d", name, plane[name])
+    facts:add(name, plane[name])
+  end
+end
+
+-- ---------------------------------------------------------------- artwork
+
+local function put_place(one)
+  return (" size %.9gx%.9g at %.9g,%.9g"):format(one.size[1], one.size[2], one.at[1], one.at[2])
+end
+
+local function put_painting(found)
+  if found.canvas then facts:add("canvas", found.canvas) end
+  facts:add("layers", found.layers)
+  facts:add("groups", found.groups)
+  facts:lists("entries", "skipped")
+  for _, one in ipairs(found.entries) do
+    facts:item("entries", one, "%s%s blend %s opacity %.9g visible %s name %s", one.kind,
+      one.size and put_place(one) or "", one.blend, one.opacity, one.visible and "yes" or "no",
+      one.name)
+  end
+  for _, note in ipairs(found.skipped) do
+    facts:item("skipped", note, "skipped %s: %s", note.layer, note.what)
   end
 end
 
 local function describe_painting(format)
-  local text = program.input(program.part "inform.lua".painting(path))
-  io.write("format ", format, "\n", text)
+  local found = program.input(program.part "inform.lua".painting(path))
+  facts:add("format", format)
+  put_painting(found)
 end
 
 --- The elements of a drawing with their numbers, one a line, and their sheet.
 local function show_parts(output)
   local art = program.input(require "celspan.svg".read(path))
   program.refuse_target(output)
+  facts:lists "elements"
   for _, element in ipairs(art:elements()) do
-    local words = {}
+    local one, words = { name = element.name, line = element.line, tag = element.tag }, {}
     for _, field in ipairs { "id", "class", "fill" } do
-      if element[field] then words[#words + 1] = (" %s %s"):format(field, plain(element[field])) end
+      one[field] = element[field]
+      if element[field] then words[#words + 1] = (" %s %s"):format(field, element[field]) end
     end
-    put("element %s line %d %s%s", element.name, element.line, plain(element.tag),
+    facts:item("elements", one, "element %s line %d %s%s", one.name, one.line, one.tag,
       table.concat(words))
   end
   program.part("parts.lua", program, art, output)
 end
 
-local function describe_drawing()
-  io.write((program.input(program.part "inform.lua".drawing(path))))
+local function put_drawing()
+  local found = program.input(program.part "inform.lua".drawing(path))
+  facts:add("format", "svg")
+  facts:add("size", found.size)
+  facts:add("parts", found.parts)
+  facts:lists("entries", "skipped")
+  for _, one in ipairs(found.entries) do
+    facts:item("entries", one, "part%s name %s", put_place(one), one.name)
+  end
+  for _, note in ipairs(found.skipped) do
+    facts:item("skipped", note, "skipped line %d: %s", note.line, note.what)
+  end
   if request.parts_picture then show_parts(request.parts_picture) end
 end
 
-local describe = {
-  script = describe_film,
-  picture = describe_picture,
-  span = describe_spans,
-  plane = describe_plane,
+--- A Photoshop document is a picture with subimages for `layer`, and a painting with more in it.
+local function put_psd()
+  put_picture()
+  local found, message = program.part "inform.lua".painting(path)
+  if found then return put_painting(found) end
+  facts:set("layers_unread", message)
+  facts:line("layers unread: %s", message)
+end
+
+local put = {
+  picture = put_picture,
+  span = put_spans,
+  plane = put_plane,
   archive = function() describe_painting "painting" end,
   folder = function() describe_painting "folder" end,
-  svg = describe_drawing,
-  --- A Photoshop document is a picture with subimages for `layer`, and a painting with more in it.
-  psd = function()
-    describe_picture()
-    local text, message = program.part "inform.lua".painting(path)
-    io.write((program.input(text, message, ("layers unread: %s\n"):format(message))))
-  end,
+  svg = put_drawing,
+  psd = put_psd,
 }
 
 local kind = program.kind(path)
-if request.json and not request.parameters then program.usage("--json goes with --parameters") end
 if kind ~= "script" and request.parameters then
   program.usage("--parameters is for scripts: %s is not a script", path)
 end
 if request.parts_picture and kind ~= "svg" then
   program.usage("--parts-picture is for SVG drawings: %s is not one", path)
 end
-if kind ~= "script" then program.refuse_rights() end
-describe[kind]()
+if kind == "script" then return describe_film() end
+program.refuse_rights()
+put[kind]()
+facts:finish()

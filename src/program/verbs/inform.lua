@@ -1,49 +1,48 @@
---- The contents of a painting or a drawing, as the lines that `celspan info` prints.
+--- The contents of a painting or a drawing, for `celspan info`.
 --
---   inform.painting "forest.kra"     -> text | nil, message
---   inform.drawing "hero.svg"
+--   inform.painting "forest.kra"     -> { canvas =, layers =, groups =, ... } | nil, message
+--   inform.drawing "hero.svg"        -> { size =, parts =, ... } | nil, message
 local layers = require "celspan.layers"
 local svg = require "celspan.svg"
 local fields = require "celspan.fields"
 
 local inform = {}
 
---- Names and sentences come from files: control characters, such as line ends, become spaces.
-local function plain(text) return (text:gsub("[%c\127]", " ")) end
-
-local function add(lines, format, ...) lines[#lines + 1] = format:format(...) end
-
-local function whole(text, lines) return text .. table.concat(lines, "\n") .. "\n" end
-
 -- ---------------------------------------------------------------- paintings
 
---- Layers and groups with their contents, rearmost first. counts: the numbers of layers and groups.
-local function add_entries(lines, counts, list, path)
+--- The size and the place of an object, which draws nothing or has bounds.
+local function place_of(object, x0, y0)
+  local x, y, w, h = object:bounds()
+  return { w or 0, h or 0 }, { x or x0 or 0, y or y0 or 0 }
+end
+
+--- Adds layers and groups with their contents, rearmost first.
+local function add_entries(found, list, path)
   for _, entry in ipairs(list) do
-    local here = path .. entry.name
-    local kind, place = "group", ""
+    local one = { kind = entry.children and "group" or "layer", name = path .. entry.name,
+                  blend = entry.blend, opacity = entry.opacity, visible = entry.visible }
     if entry.children then
-      counts.groups = counts.groups + 1
-      add_entries(lines, counts, entry.children, here .. "/")
+      found.groups = found.groups + 1
+      add_entries(found, entry.children, one.name .. "/")
     else
-      local x, y, w, h = entry.object:bounds()
-      kind = "layer"
-      counts.layers = counts.layers + 1
-      place = (" size %.9gx%.9g at %.9g,%.9g"):format(w or 0, h or 0, x or entry.x, y or entry.y)
+      found.layers = found.layers + 1
+      one.size, one.at = place_of(entry.object, entry.x, entry.y)
     end
-    add(lines, "%s%s blend %s opacity %.9g visible %s name %s", kind, place, plain(entry.blend),
-      entry.opacity, entry.visible and "yes" or "no", plain(here))
+    table.insert(found.entries, one)
   end
 end
 
-local function describe_painting(tree)
-  local lines, counts = {}, { layers = 0, groups = 0 }
-  add_entries(lines, counts, tree, "")
-  for _, note in ipairs(tree.skipped) do
-    add(lines, "skipped %s: %s", plain(note.layer), plain(note.what))
-  end
-  local size = tree.width and ("canvas %.9gx%.9g\n"):format(tree.width, tree.height) or ""
-  return whole(("%slayers %d\ngroups %d\n"):format(size, counts.layers, counts.groups), lines)
+local function skipped_of(notes, place)
+  local list = {}
+  for i, note in ipairs(notes) do list[i] = { [place] = note[place], what = note.what } end
+  return list
+end
+
+local function of_painting(tree)
+  local found = { canvas = tree.width and { tree.width, tree.height }, layers = 0, groups = 0,
+                  entries = {}, skipped = skipped_of(tree.skipped, "layer") }
+  add_entries(found, tree, "")
+  return found
 end
 
 --- The size of a picture comes from its file, which may be missing or damaged.
@@ -51,34 +50,28 @@ local function described(read, describe)
   return function(path)
     local value, message = read(path)
     if not value then return nil, message end
-    local good, text = pcall(describe, value)
-    if good then return text end
-    return nil, tostring(text)
+    local good, found = pcall(describe, value)
+    if good then return found end
+    return nil, tostring(found)
   end
 end
 
----@type fun(path: string): (string?, string?) lines, or nil and a message
-inform.painting = described(layers.read, describe_painting)
+inform.painting = described(layers.read, of_painting)
 
 -- ---------------------------------------------------------------- drawings
 
-local function describe_drawing(art)
-  local names, lines = {}, {}
+local function of_drawing(art)
+  local names, entries = {}, {}
   for name in pairs(art.parts) do names[#names + 1] = name end
   table.sort(names)
-  for _, name in ipairs(names) do
-    local x, y, w, h = art.parts[name]:bounds()
-    add(lines, "part size %.9gx%.9g at %.9g,%.9g name %s", w or 0, h or 0, x or 0, y or 0,
-      plain(name))
+  for i, name in ipairs(names) do
+    local size, at = place_of(art.parts[name])
+    entries[i] = { kind = "part", name = name, size = size, at = at }
   end
-  for _, note in ipairs(art.skipped) do
-    add(lines, "skipped line %d: %s", note.line, plain(note.what))
-  end
-  return whole(("format svg\nsize %.9gx%.9g\nparts %d\n"):format(art.width, art.height, #names),
-    lines)
+  return { size = { art.width, art.height }, parts = #names, entries = entries,
+           skipped = skipped_of(art.skipped, "line") }
 end
 
----@type fun(path: string): (string?, string?) lines, or nil and a message
-inform.drawing = described(svg.read, describe_drawing)
+inform.drawing = described(svg.read, of_drawing)
 
 return fields.seal("inform", inform)

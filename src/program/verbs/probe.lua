@@ -13,6 +13,11 @@ end
 local x, y = coordinate("X", request[2]), coordinate("Y", request[3])
 local film = program.film()
 local frame, number = film:chosen()
+local facts = program.part("facts.lua", program, request)
 local r, g, b, a = celspan.probe(program.still(film, frame), x, y)
 if not r then program.check(nil, ("frame %d: %s"):format(number, g)) end
-print(("%.9g %.9g %.9g %.9g"):format(r, g, b, a))
+for name, value in pairs { frame = number, x = x, y = y, r = r, g = g, b = b, a = a } do
+  facts:set(name, value)
+end
+facts:line("%.9g %.9g %.9g %.9g", r, g, b, a)
+facts:finish()

@@ -3,11 +3,36 @@ local program, request = ...
 local sheet = require "celspan.sheet"
 
 local input, output = request[1], request.output
-local is_script = program.has_ending(input, ".lua")
+local is_script = request.script or program.has_ending(input, ".lua")
+
+--- The marks of a layer, in the order of the frames.
+local function marks_of(made, layer)
+  local list = {}
+  for frame = 1, made.frames do
+    local names = {}
+    for name in pairs(made:marks(layer, frame)) do names[#names + 1] = name end
+    table.sort(names)
+    if #names > 0 then list[#list + 1] = { frame = frame, marks = names } end
+  end
+  return list
+end
+
+--- A sheet for other programs.
+local function facts_of(made)
+  local layers = {}
+  for i, name in ipairs(made.layers) do
+    layers[i] = { name = name, changes = { list = made:changes(i) },
+                  marks = { list = marks_of(made, i) } }
+  end
+  return { name = made.name, scene = made.scene, cut = made.cut, fps = made.fps,
+           frames = made.frames, size = made.width and { made.width, made.height },
+           layers = { list = layers }, notes = { list = made.notes } }
+end
 
 if output and output ~= "-" and not program.has_ending(output, ".xdts", ".csv", ".txt") then
   program.usage("-o: '%s' must end in .xdts, .csv or .txt", output)
 end
+if output and request.json then program.usage("--json goes to standard output: leave -o out") end
 if request.frames and not is_script then
   program.usage("--frames goes with a script, and %s is a sheet", input)
 end
@@ -16,6 +41,7 @@ if not is_script then program.refuse_rights() end
 local film = is_script and program.film()
 local made = film and sheet.of(film, request.frames and { frames = film:numbers() })
   or program.input(sheet.read(input))
+if request.json then return print(program.json(facts_of(made))) end
 if output and program.has_ending(output, ".csv") and not made.width then
   program.note("%s has no size: %s says 1920 x 1080", input, output)
 end

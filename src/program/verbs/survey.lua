@@ -1,7 +1,9 @@
 --- Surveys a film: what is seen of it, frame by frame, for `celspan describe` and `celspan check`.
 --
 --   every frame, once it is built --> its parts and texts, with their boxes
---                                 --> a small picture: the luminances of CELLS by CELLS cells
+--                                 --> the luminances at a grid of points
+--   where that seems to flash,    --> the luminances of a grid of areas, which decide: they take
+--   or has one colour                 three times as long
 --
 -- A frame with the scene of the one before is not looked at again, and a frame without a picture
 -- not at all: with scan-line procedures, or pictures that cannot be read. What is kept depends on
@@ -15,20 +17,26 @@ local texts = program.part("texts.lua", film)
 local survey = {}
 survey.__index = survey
 
-local CELLS = 48       -- of the longer side
+local POINTS, AREAS = 24, 48 -- along the longer side
+local SEEMS = 0.2      -- the part of the points that flash where it seems so
 local PARTS_MOST = 1000
 local STRETCH = 1      -- seconds without a change that are worth a line
+local COLLECTED = 4    -- frames after which values are collected
 local CUT = 0.08       -- the mean change of luminance of a cut,
 local CUT_RATIO = 3    -- and how much larger it is than those before and after
 
+--- A picture of the whole frame, with this many pixels along its longer side.
+local function grid(count, antialias)
+  local scale = math.min(1, count / math.max(film.size[1], film.size[2]))
+  return { size = { math.max(1, math.floor(film.size[1] * scale + 0.5)),
+                    math.max(1, math.floor(film.size[2] * scale + 0.5)) }, antialias = antialias }
+end
+
 local function new()
-  local longer = math.max(film.size[1], film.size[2])
-  local scale = math.min(1, CELLS / longer)
-  local cells = { size = { math.max(1, math.floor(film.size[1] * scale + 0.5)),
-                           math.max(1, math.floor(film.size[2] * scale + 0.5)) } }
-  return setmetatable({ cells = cells, texts = texts.new(), flashes = flashes.new(film.fps),
+  return setmetatable({ points = grid(POINTS, "none"), areas = grid(AREAS, "area"),
+                        texts = texts.new(), flashes = flashes.new(film.fps, SEEMS),
                         parts = {}, on = {}, looked = {}, empty = {}, frozen = {},
-                        unseen = {}, cuts = {} }, survey)
+                        unseen = {}, cuts = {}, count = 0 }, survey)
 end
 
 -- ---------------------------------------------------------------- pictures
@@ -91,7 +99,8 @@ end
 local function seen_of(list)
   local seen, order = {}, {}
   for _, part in ipairs(list) do
-    local is_seen = part.kind ~= "text" and part.box and part.fade > 0
+    local is_listed = part.kind ~= "text" and not part.name:find "/cel %d+$" -- of an effect, mostly
+    local is_seen = is_listed and part.box and part.fade > 0
     local share = is_seen and texts.share_of(part.box) or 0
     if share > 0 then
       local key = part.kind .. " " .. part.name
@@ -195,7 +204,8 @@ end
 --- Looks at the frame that was built last.
 function survey:add_new(number)
   local parts = core.parts(film:exposures(), film.size[1], film.size[2])
-  local lights, _, is_plain = look(film:exposures(), self.cells)
+  local lights, _, is_plain = look(film:exposures(), self.points)
+  if is_plain then is_plain = select(3, look(film:exposures(), self.areas)) end
   self:add_parts(number, parts)
   self.is_plain = is_plain
   if not lights then
@@ -218,7 +228,9 @@ function survey:add(number)
   if scene and scene == self.scene then return self:again(number, has_asked) end
   if scene then
     self:add_new(number)
-    collectgarbage() -- values of Lua are small, but each may hold the scene of a frame
+    self.count = self.count + 1
+    -- values of Lua are small, but each may hold the scene of a frame
+    if self.count % COLLECTED == 0 then collectgarbage() end
   else
     add_frame(self.unseen, number)
     self:cut()
@@ -243,6 +255,31 @@ end
 
 function survey:blank() return lasting(self.empty) end
 
+--- Looks again, by areas, at a stretch of frames where it seems to flash, and at the second before.
+function survey:add_sure(list, stretch)
+  local sure, first = flashes.new(film.fps), stretch.first
+  for _, run in ipairs(self.looked) do
+    if stretch.first >= run.first and stretch.first <= run.last then
+      first = math.max(run.first, stretch.first - math.ceil(film.fps))
+    end
+  end
+  for number = first, stretch.last do
+    local lights = film:try(number) and look(film:exposures(), self.areas)
+    if lights then sure:add(number, lights) end
+    collectgarbage()
+  end
+  table.move(sure.list, 1, #sure.list, #list + 1, list)
+end
+
+--- The stretches that flash: in fine patterns that move, points do, but areas do not.
+function survey:flashing()
+  local list = {}
+  film:silence(true) -- what the script prints of these frames has been shown
+  for _, stretch in ipairs(self.flashes.list) do self:add_sure(list, stretch) end
+  film:silence(false)
+  return list
+end
+
 --- How long a text is shown; nil: the frames before or after it were not looked at.
 function survey:shown_seconds(text)
   for _, run in ipairs(self.looked) do
@@ -252,6 +289,16 @@ function survey:shown_seconds(text)
       return begins and ends and seconds(text) or nil
     end
   end
+end
+
+--- Whether the texts in a stretch take as long to be read as it lasts.
+function survey:is_read(stretch)
+  local count = 0
+  for _, text in ipairs(self.texts.list) do
+    local is_in = text.first <= stretch.last and text.last >= stretch.first
+    count = count + (is_in and texts.words_in(text.words) or 0)
+  end
+  return count > 0 and seconds(stretch) <= texts.needed(count)
 end
 
 --- "frame 3", "frames 3-17"
@@ -278,11 +325,11 @@ function survey:warnings()
     add(stretch, "nothing but one colour is seen for %.4g s", seconds(stretch))
   end
   for _, stretch in ipairs(self:still()) do
-    if not stretch.is_held then
+    if not stretch.is_held and not self:is_read(stretch) then
       add(stretch, "nothing changes for %.4g s, and no exposure sheet holds it", seconds(stretch))
     end
   end
-  for _, stretch in ipairs(self.flashes.list) do
+  for _, stretch in ipairs(self:flashing()) do
     add(stretch, "more than three flashes in a second, over %d %% of the frame, may cause seizures "
       .. "(WCAG 2.3.1)", math.floor(stretch.share * 100 + 0.5))
   end
@@ -323,7 +370,7 @@ function survey:facts()
     end),
     empty = all(self:blank()), unseen = all(self.unseen),
     frozen = all(self:still(), function(one) return { held = one.is_held } end),
-    flashes = all(self.flashes.list, function(one) return { share = one.share } end),
+    flashes = all(self:flashing(), function(one) return { share = one.share } end),
   }
 end
 

@@ -286,8 +286,9 @@ local function add_dropped(sentences, path, text)
   return modules_of(list)
 end
 
-local function add_file(sentences, folder, path, is_seen)
-  local text = not is_seen[path] and files.read(path, BYTES_MOST)
+--- text: of the file, if it is known.
+local function add_file(sentences, folder, path, is_seen, text)
+  text = text or not is_seen[path] and files.read(path, BYTES_MOST)
   is_seen[path] = true
   if not text then return end
   for _, name in ipairs(add_dropped(sentences, path, text)) do
@@ -298,11 +299,11 @@ local function add_file(sentences, folder, path, is_seen)
 end
 
 --- A sentence, with its file and line, about each value that a script, or a module beside it that
---- it requires, throws away.
-function dropped.of_script(path)
+--- it requires, throws away. text: of the script, if it is no file.
+function dropped.of_script(path, text)
   local sentences = {}
-  if program.has_ending(path, ".lua") then
-    add_file(sentences, path:match "^.*/" or "", path, {})
+  if text and #text <= BYTES_MOST or program.has_ending(path, ".lua") then
+    add_file(sentences, path:match "^.*/" or "", path, {}, text)
   end
   return sentences
 end

@@ -15,9 +15,9 @@ local CHANGE, DARK, AREA = 0.1, 0.8, 0.25
 local CHANGES = 8 -- of four flashes
 local ROUNDING = 1e-6 -- lights are floats
 
---- fps: of the film.
-function flashes.new(fps)
-  return setmetatable({ fps = fps, list = {}, count = 0 }, flashes)
+--- fps: of the film. area: the part of the cells above which they flash, by default that of WCAG.
+function flashes.new(fps, area)
+  return setmetatable({ fps = fps, area = area or AREA, list = {} }, flashes)
 end
 
 --- Forgets the cells, as before a frame that does not follow the one before.
@@ -80,7 +80,7 @@ function flashes:add(frame, lights)
     end
   end
   local share = flashing / #lights
-  if share > AREA then add(self.list, first, frame, share) end
+  if share > self.area then add(self.list, first, frame, share) end
 end
 
 return flashes

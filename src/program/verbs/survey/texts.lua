@@ -211,13 +211,17 @@ function texts:cut() self.shown = {} end
 local SIDES = { "left", "upper", "right", "lower" }
 local WORD, START = 0.25, 0.5 -- seconds to read a word, and to find the text
 
-local function words_in(text)
+--- How many words a text has.
+function texts.words_in(text)
   local count = 0
   for word in text:gmatch "%S+" do
     if word:find "[%w\x80-\xff]" then count = count + 1 end
   end
   return count
 end
+
+--- The seconds that a viewer needs to read this many words.
+function texts.needed(count) return WORD * count + START end
 
 local function add_outside(shown, add)
   local sides = {}
@@ -240,8 +244,8 @@ function texts.judge(shown, seconds, add)
   elseif shown.contrast and shown.contrast < CONTRAST then
     add("has a contrast of %.1f to its background, less than %d", shown.contrast, CONTRAST)
   end
-  local count = words_in(shown.words)
-  local needed = WORD * count + START
+  local count = texts.words_in(shown.words)
+  local needed = texts.needed(count)
   if count > 0 and seconds and seconds < needed - 1e-9 then
     add("is shown for %.4g s; its %d word%s need %.4g s", seconds, count, count == 1 and "" or "s",
       needed)
