@@ -154,8 +154,7 @@ describe("help --json", function()
     local all = decoded "help --json"
     for verb in system.output(workbench.binary .. " help"):gmatch "\n  (%l+) +%u" do
       if verb ~= "help" then
-        local one, names = named(all.verbs, verb), {}
-        for i, option in ipairs(one.options) do names[i] = option.name end
+        local one = named(all.verbs, verb)
         for option in system.output(workbench.binary .. " help " .. verb):gmatch "\n  (%-[%w-]+)" do
           assert.truthy(named(one.options, option), verb .. option)
         end

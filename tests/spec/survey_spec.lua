@@ -69,6 +69,21 @@ describe("what is seen of a film", function()
     assert.same({}, warnings())
   end)
 
+  it_sets_type("looks at the letters of a text with effects, not at the effects", function()
+    for _, effect in ipairs { 'glow { radius = 30, colour = "#222" }',
+      'shadow { offset = { -30, 4 }, blur = 5 }', 'outline { width = 20, texture = "#f00" }',
+      'outline { width = 3, texture = "#000" }:shadow { offset = { -9, 0 } }:fade(0.9)' } do
+      film(48, 'cel(text("Lit", 4, 40, "#fff"):' .. effect .. ')')
+      assert.same({}, warnings(), effect)
+      local _, out = bench:celspan_inside "describe film.lua --frames 1-2"
+      assert.are.equal(1, select(2, out:gsub("\ntext ", "")), out)
+    end
+    film(48, 'cel(text("Dim", 20, 40, "#303050"):shadow { offset = { 2, 2 } })')
+    warns "has a contrast of"
+    film(48, 'cel(text("Soft", 130, 120, "#888"):blur(20))')
+    warns "has a contrast of"
+  end)
+
   it_sets_type("includes how long a text needs", function()
     film(48, 'f.index < 24 and cel(text("Two words", 20, 40, "#fff")) or nil')
     assert.same({}, warnings())

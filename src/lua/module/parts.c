@@ -32,8 +32,9 @@ typedef struct list {
 typedef struct around {
   celspan_matrix matrix;
   double fade;
-  double width, height; /* of the film, or of the composition that it is in */
-  bool is_text;         /* a text that is listed already */
+  double width, height;          /* of the film, or of the composition that it is in */
+  bool is_text;                  /* inside of a text, in which only its letters are listed as one */
+  const celspan_object *letters; /* of that text, if it holds them; else NULL */
 } around;
 
 typedef struct part {
@@ -150,9 +151,35 @@ static void set_object(list *to, const celspan_object *object, const around *at,
 static void add_rostrum(list *to, const celspan_rostrum *rostrum, const around *at,
                         const char *path);
 
+/* A text with a shadow, a glow or an outline has the words of its letters, which are one of its
+ * operands. NULL: the object is all of its text. */
+static const celspan_object *letters_of(const celspan_object *object) {
+  const celspan_object *letters = NULL;
+  if (object->data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
+    return NULL;
+  const cs_boolean *all = object->data->boolean;
+  for (size_t i = 0; i < all->operand_count; i++)
+    if (all->operands[i]->mark.callers == object->mark.callers) {
+      if (letters)
+        return NULL; /* a text of several parts */
+      letters = all->operands[i];
+    }
+  return letters;
+}
+
+/* Sets what lies around what is in the object. Whether the object is all of a text. */
+static bool enter(const celspan_object *object, const around *at, around *inner) {
+  const bool has_words = object->mark.callers > 0 && (!at->is_text || object == at->letters);
+  *inner = *at;
+  inner->matrix = celspan_matrix_then(*object->matrix, at->matrix);
+  inner->fade *= object->fade;
+  inner->is_text = at->is_text || has_words;
+  inner->letters = has_words ? letters_of(object) : NULL;
+  return has_words && !inner->letters;
+}
+
 /* Adds the object by its name, and as a text. */
-static void add_object(list *to, const celspan_object *object, const around *at) {
-  const bool is_text = to->has_boxes && !at->is_text && object->mark.callers > 0;
+static void add_object(list *to, const celspan_object *object, const around *at, bool is_text) {
   part one = {.kind = "object", .name = cs_mark_name(object->mark)};
   one.is_known =
       (one.name[0] || is_text) && celspan_object_hash(object, one.drawing, one.placement);
@@ -171,11 +198,9 @@ static void add_objects(list *to, celspan_object *const *objects, size_t count, 
   for (size_t i = 0; i < count; i++) {
     const celspan_object *object = objects[i];
     const cs_primitive_data *data = object->data;
-    around inner = *at;
-    add_object(to, object, at);
-    inner.matrix = celspan_matrix_then(*object->matrix, at->matrix);
-    inner.fade *= object->fade;
-    inner.is_text = at->is_text || object->mark.callers > 0;
+    around inner;
+    const bool is_text = enter(object, at, &inner) && to->has_boxes;
+    add_object(to, object, at, is_text);
     if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM) {
       inner.width = data->rostrum->width;
       inner.height = data->rostrum->height;
@@ -226,8 +251,10 @@ int cs_parts_list(lua_State *L) {
   celspan_frame_desc desc;
   lua_settop(L, 3);
   list to = {.L = L, .context = cs_host_context(L), .has_boxes = !lua_isnil(L, 2)};
-  around at = {celspan_matrix_identity(), 1, luaL_optnumber(L, 2, 0), luaL_optnumber(L, 3, 0),
-               false};
+  around at = {.matrix = celspan_matrix_identity(),
+               .fade = 1,
+               .width = luaL_optnumber(L, 2, 0),
+               .height = luaL_optnumber(L, 3, 0)};
   cs_options_exposures(L, 1, "parts: argument 1", &desc);
   lua_newtable(L);
   to.table = lua_gettop(L);

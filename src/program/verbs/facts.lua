@@ -6,7 +6,7 @@
 -- Lines are printed at once and the object at the end, so that a verb that fails prints none.
 local program, request = ...
 
-local facts = { object = {} }
+local facts = { object = {}, is_json = request.json }
 
 local function shown(value)
   if type(value) == "table" then return shown(value[1]) .. "x" .. shown(value[2]) end
@@ -15,7 +15,7 @@ end
 
 --- Of the text alone. Names come from scripts and files: what could end a line becomes a space.
 function facts:line(format, ...)
-  if not request.json then io.write(format:format(...):gsub("[%c\127]", " "), "\n") end
+  if not self.is_json then io.write(format:format(...):gsub("[%c\127]", " "), "\n") end
 end
 
 --- Of the object alone.
@@ -33,12 +33,12 @@ end
 
 --- Adds to one of the lists.
 function facts:item(name, value, ...)
-  if request.json then table.insert(self.object[name].list, value) end
+  if self.is_json then table.insert(self.object[name].list, value) end
   self:line(...)
 end
 
 function facts:finish()
-  if request.json then print(program.json(self.object)) end
+  if self.is_json then print(program.json(self.object)) end
 end
 
 return facts
