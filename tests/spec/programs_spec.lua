@@ -136,6 +136,29 @@ return]], 1))
     assert.same({ 0, "-", 4 }, { code, json.decode(out)[1].file, json.decode(out)[1].line }, out)
   end)
 
+  it("is read as a file is: with a byte-order mark, and a first line for the shell", function()
+    local code, out, err = piped("check - --json", "\u{FEFF}#!/usr/bin/env celspan\nreturn nil")
+    assert.same({ 3, "- must return a film or a rostrum, got nil" },
+      { code, (assert(json.decode(out))[1].message:gsub("^%-:%d+: ", "")) }, err)
+    code, out = piped("check - --json", "#!/usr/bin/env celspan\nlocal x = = 3")
+    assert.same({ 3, 2 }, { code, assert(json.decode(out))[1].line }, out)
+    assert.are.equal(3, (piped("check -", "#")))
+  end)
+
+  it("is refused with a sentence where it is no script", function()
+    for text, answer in pairs { ["\x89PNG\r\n\x1a\n"] = "-:1: unexpected symbol",
+      ["return 1\0"] = "-:1: ", ["\27Lua"] = "-: attempt to load a binary chunk",
+      ["error '\xff\xfe'"] = "-:1: " } do
+      local code, out, err = piped("check - --json", text)
+      assert.are.equal(3, code, err)
+      local message = assert(json.decode(out))[1].message
+      assert.are.equal(answer, message:sub(1, #answer))
+      assert.truthy(utf8.len(message), message)
+    end
+    local code, _, err = bench:inside(("'%s' check - < ."):format(workbench.absolute))
+    assert.same({ 4, "celspan: error: standard input: Is a directory\n" }, { code, err })
+  end)
+
   it("is refused where it would be run again, or is empty", function()
     for _, arguments in ipairs { "farm - -o out/##.png --slurm", "watch -", "play -",
       "render - -o {x}.png --table film.lua" } do

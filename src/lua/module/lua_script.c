@@ -115,10 +115,23 @@ static int refuse_file(lua_State *L, const char *path) {
                     path, path);
 }
 
+/* As luaL_loadfilex reads a file: without a byte-order mark and a first line that begins with #. */
+static int load_text(lua_State *L, const char *text, size_t size) {
+  static const char mark[] = "\xEF\xBB\xBF";
+  const char *end = text + size;
+  if (size >= strlen(mark) && memcmp(text, mark, strlen(mark)) == 0)
+    text += strlen(mark);
+  if (text < end && *text == '#') {
+    const char *line = memchr(text, '\n', (size_t)(end - text));
+    text = line ? line : end; /* the lines keep their numbers */
+  }
+  return luaL_loadbufferx(L, text, (size_t)(end - text), "@-", "t");
+}
+
 /* Pushes the script as a function, or a message. The outcome of luaL_loadfilex. */
 static int load(lua_State *L, call *c) {
   if (c->text)
-    return luaL_loadbufferx(L, c->text, c->size, "@-", "t");
+    return load_text(L, c->text, c->size);
   if (!cs_lua_script_accepts(c->path))
     return refuse_file(L, c->path);
   int outcome = luaL_loadfilex(L, c->path, "t");

@@ -167,7 +167,7 @@ static const celspan_object *letters_of(const celspan_object *object) {
   return letters;
 }
 
-/* Sets what lies around what is in the object. Whether the object is all of a text. */
+/* Sets what lies around the object's parts. Whether the object is all of a text. */
 static bool enter(const celspan_object *object, const around *at, around *inner) {
   const bool has_words = object->mark.callers > 0 && (!at->is_text || object == at->letters);
   *inner = *at;

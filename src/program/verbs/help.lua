@@ -267,6 +267,9 @@ local function put_json(out)
     lua = require "celspan.manual".facts() }, "\n")
 end
 
+if request[1] and (request.man or request.completion or request.json) then
+  program.usage("--man, --completion and --json print all: leave '%s' out", request[1])
+end
 if request.man then
   put_manual(io.stdout)
 elseif request.completion then
