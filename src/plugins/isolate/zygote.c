@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -181,7 +182,7 @@ static void serve(zygote *z) {
 void cs_zygote_run(int count, char **arguments) {
   static zygote z;
   prctl(PR_SET_NAME, "celspan-decoder");
-  close_range(CS_ZYGOTE_SOCKET + 1, ~0U, 0);
+  syscall(SYS_close_range, CS_ZYGOTE_SOCKET + 1, ~0U, 0); /* no function in old C libraries */
   cs_worker_loop_watch_faults();
   if (celspan_context_create(NULL, &z.context) != CELSPAN_OK)
     _exit(CS_WORKER_NO_MEMORY);
