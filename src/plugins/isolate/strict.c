@@ -12,7 +12,7 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/syscall.h>
+#include <sys/syscall.h> /* __NR_: a C library older than the kernel lacks some SYS_ names */
 #include <unistd.h>
 
 /* ---------------------------------------------------------------- files */
@@ -66,7 +66,7 @@ static bool allow(int rules, const char *path, uint64_t rights) {
     return errno == ENOENT || errno == EACCES; /* a missing file needs no right */
   if (fstat(rule.parent_fd, &found) == 0 && !S_ISDIR(found.st_mode))
     rule.allowed_access &= OF_FILES | TRUNCATE;
-  bool is_added = syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0;
+  bool is_added = syscall(__NR_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0;
   close(rule.parent_fd);
   return is_added;
 }
@@ -102,16 +102,16 @@ static bool add_rules(int rules, const cs_strict_rights *rights, uint64_t all) {
 }
 
 static const char *confine_files(const cs_strict_rights *rights) {
-  long abi = syscall(SYS_landlock_create_ruleset, NULL, 0, LANDLOCK_CREATE_RULESET_VERSION);
+  long abi = syscall(__NR_landlock_create_ruleset, NULL, 0, LANDLOCK_CREATE_RULESET_VERSION);
   if (abi < 1)
     return "the kernel has no Landlock (it needs Linux 5.13 or later, with Landlock enabled)";
   ruleset known = known_rights(abi);
   size_t size = abi >= 6 ? sizeof known : abi >= 4 ? 2 * sizeof(uint64_t) : sizeof(uint64_t);
-  int rules = (int)syscall(SYS_landlock_create_ruleset, &known, size, 0);
+  int rules = (int)syscall(__NR_landlock_create_ruleset, &known, size, 0);
   if (rules < 0)
     return "Landlock does not accept rules";
   bool is_confined =
-      add_rules(rules, rights, known.files) && syscall(SYS_landlock_restrict_self, rules, 0) == 0;
+      add_rules(rules, rights, known.files) && syscall(__NR_landlock_restrict_self, rules, 0) == 0;
   close(rules);
   return is_confined ? NULL : "Landlock refused the rules";
 }
@@ -137,20 +137,20 @@ static const char *confine_calls(bool starts_program) {
       ANSWER(SECCOMP_RET_KILL_PROCESS), LOAD(nr),
       BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, OTHER_TABLE, 0, 1), REFUSAL,
       /* other programs and other processes; a process stays in its group, which is ended as one */
-      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_execve, 0, 1),
-      ANSWER(starts_program ? SECCOMP_RET_ALLOW : SECCOMP_RET_ERRNO | EPERM), REFUSE(SYS_execveat),
-      REFUSE(SYS_setpgid), REFUSE(SYS_setsid), REFUSE(SYS_ptrace), REFUSE(SYS_process_vm_readv),
-      REFUSE(SYS_process_vm_writev), REFUSE(SYS_kill), REFUSE(SYS_pidfd_open),
-      REFUSE(SYS_pidfd_getfd), REFUSE(SYS_pidfd_send_signal),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, __NR_execve, 0, 1),
+      ANSWER(starts_program ? SECCOMP_RET_ALLOW : SECCOMP_RET_ERRNO | EPERM), REFUSE(__NR_execveat),
+      REFUSE(__NR_setpgid), REFUSE(__NR_setsid), REFUSE(__NR_ptrace), REFUSE(__NR_process_vm_readv),
+      REFUSE(__NR_process_vm_writev), REFUSE(__NR_kill), REFUSE(__NR_pidfd_open),
+      REFUSE(__NR_pidfd_getfd), REFUSE(__NR_pidfd_send_signal),
       /* the network */
-      REFUSE(SYS_socket), REFUSE(SYS_socketpair), REFUSE(SYS_connect), REFUSE(SYS_bind),
-      REFUSE(SYS_listen), REFUSE(SYS_accept), REFUSE(SYS_accept4),
+      REFUSE(__NR_socket), REFUSE(__NR_socketpair), REFUSE(__NR_connect), REFUSE(__NR_bind),
+      REFUSE(__NR_listen), REFUSE(__NR_accept), REFUSE(__NR_accept4),
       /* other interfaces of the kernel */
-      REFUSE(SYS_io_uring_setup), REFUSE(SYS_bpf), REFUSE(SYS_perf_event_open),
-      REFUSE(SYS_userfaultfd), REFUSE(SYS_keyctl), REFUSE(SYS_add_key), REFUSE(SYS_request_key),
-      REFUSE(SYS_mount), REFUSE(SYS_umount2), REFUSE(SYS_unshare), REFUSE(SYS_setns),
-      REFUSE(SYS_chroot), REFUSE(SYS_pivot_root), REFUSE(SYS_open_by_handle_at),
-      REFUSE(SYS_personality), ANSWER(SECCOMP_RET_ALLOW)};
+      REFUSE(__NR_io_uring_setup), REFUSE(__NR_bpf), REFUSE(__NR_perf_event_open),
+      REFUSE(__NR_userfaultfd), REFUSE(__NR_keyctl), REFUSE(__NR_add_key), REFUSE(__NR_request_key),
+      REFUSE(__NR_mount), REFUSE(__NR_umount2), REFUSE(__NR_unshare), REFUSE(__NR_setns),
+      REFUSE(__NR_chroot), REFUSE(__NR_pivot_root), REFUSE(__NR_open_by_handle_at),
+      REFUSE(__NR_personality), ANSWER(SECCOMP_RET_ALLOW)};
   struct sock_fprog program = {sizeof filter / sizeof *filter, filter};
   return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0
              ? NULL

@@ -182,7 +182,7 @@ static void serve(zygote *z) {
 void cs_zygote_run(int count, char **arguments) {
   static zygote z;
   prctl(PR_SET_NAME, "celspan-decoder");
-  syscall(SYS_close_range, CS_ZYGOTE_SOCKET + 1, ~0U, 0); /* no function in old C libraries */
+  syscall(__NR_close_range, CS_ZYGOTE_SOCKET + 1, ~0U, 0); /* no function in old C libraries */
   cs_worker_loop_watch_faults();
   if (celspan_context_create(NULL, &z.context) != CELSPAN_OK)
     _exit(CS_WORKER_NO_MEMORY);
