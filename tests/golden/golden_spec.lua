@@ -3,7 +3,6 @@
 -- read its output.
 local golden = require "tests.support.golden"
 local present = require "tests.support.present"
-local shipped = require "tests.support.shipped"
 
 describe("the spans of", function()
   for _, case in ipairs(golden.cases()) do
@@ -18,13 +17,6 @@ describe("the spans of", function()
   end
 end)
 
---- Whether a question needs a module that was not built.
-local function lacks(question)
-  local script = question:match "^render (%S+)"
-  if not script then return not present.art() end
-  return shipped.lacks_module(script) or script:find "/text/" and not present.art()
-end
-
 describe("the digests of", function()
   local digests = golden.digests()
 
@@ -35,7 +27,7 @@ describe("the digests of", function()
   end)
 
   for _, digest in ipairs(digests) do
-    local test = lacks(digest[1]) and pending or it
+    local test = golden.lacks_module(digest[1]) and pending or it
     test(digest[1], function()
       local now, message = golden.answer(digest[1])
       assert.are.equal(digest[2], now, message)

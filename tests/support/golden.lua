@@ -1,4 +1,5 @@
 -- Goldens: small scripts and the text of their spans, which is the reference.
+local present = require "tests.support.present"
 local shipped = require "tests.support.shipped"
 local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
@@ -79,6 +80,13 @@ end
 function golden.answer(question)
   local kind, arguments = question:match "^(%S+) (.*)$"
   return (kind == "example" and ask_example or ask_render)(arguments)
+end
+
+--- Whether a question needs a module that was not built.
+function golden.lacks_module(question)
+  local script = question:match "^render (%S+)"
+  if not script then return question:find "^example [pl]" and not present.art() end
+  return shipped.lacks_module(script) or script:find "/text/" and not present.art()
 end
 
 --- Representative frames of a film: the first, one in the middle, the last.

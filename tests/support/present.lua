@@ -27,8 +27,10 @@ local function has(module, arguments)
 end
 
 --- Whether the module that reads and writes pictures exists: built without OpenImageIO, celspan
---- writes only PNG, Targa and span files, and reads none.
-function present.pictures() return has("celspan-picture.so", "info scripts/pictures/canal.png") end
+--- writes only PNG, Targa and span files, and reads none. In emulation the decoder does not start.
+function present.pictures()
+  return has("celspan-picture.so", "info --trust scripts/pictures/canal.png")
+end
 
 --- Whether the module for type and XML exists: without it there are no letters, no drawings, and no
 --- paintings that are archives.

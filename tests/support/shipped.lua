@@ -32,7 +32,7 @@ function shipped.lacks_module(path)
     end
   end
   if path:find "/paper/" then return not (present.pictures() and present.art()) end
-  return calls("image", "picture") and not present.pictures()
+  return calls("image", "picture", "trace") and not present.pictures()
     or calls("text", "glyphs", "layers", "svg") and not present.art()
 end
 
