@@ -220,9 +220,8 @@ static void add_cel(list *to, const celspan_cel *cel, const around *at, const ch
   one.is_known = celspan_cel_hash(cel, one.drawing, one.placement);
   add(to, &one);
   if (to->has_boxes) {
-    bool is_there;
     celspan_box box;
-    cs_host_try(to->L, "parts", cs_bounds_drawing(to->context, cel, &at->matrix, &is_there, &box));
+    bool is_there = cs_bounds_around(cel->objects, cel->object_count, &at->matrix, &box);
     set_place(to, cel->mark, at->fade, is_there, &box);
   }
   lua_pop(to->L, 1);
