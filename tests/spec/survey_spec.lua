@@ -89,6 +89,8 @@ describe("what is seen of a film", function()
     assert.same({}, warnings())
     film(48, 'f.index < 23 and cel(text("Two words", 20, 40, "#fff")) or nil')
     assert.are.equal("1-23", warns("is shown for 0.9583 s; its 2 words need 1 s").frames)
+    film(48, 'f.index < 24 and cel(text("Two · words –", 20, 40, "#fff")) or nil')
+    assert.same({}, warnings())
     -- the frames around it were not looked at
     assert.same({}, warnings "--frames 1-10")
     film(48, 'cel(text(tostring(f.number * 100), 20, 40, "#fff"))')

@@ -211,9 +211,10 @@ function texts:cut() self.shown = {} end
 local SIDES = { "left", "upper", "right", "lower" }
 local WORD, START = 0.25, 0.5 -- seconds to read a word, and to find the text
 
---- How many words a text has.
+--- How many words a text has. Signs such as dots and dashes between them are none.
 function texts.words_in(text)
   local count = 0
+  text = text:gsub("\xc2[\x80-\xbf]", ""):gsub("\xe2\x80[\x80-\xbf]", "")
   for word in text:gmatch "%S+" do
     if word:find "[%w\x80-\xff]" then count = count + 1 end
   end
