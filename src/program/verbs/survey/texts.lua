@@ -211,7 +211,7 @@ function texts:cut() self.shown = {} end
 local SIDES = { "left", "upper", "right", "lower" }
 local WORD, START = 0.25, 0.5 -- seconds to read a word, and to find the text
 
---- How many words a text has. Signs such as dots and dashes between them are none.
+--- How many words a text has, without dots and dashes that stand alone.
 function texts.words_in(text)
   local count = 0
   text = text:gsub("\xc2[\x80-\xbf]", ""):gsub("\xe2\x80[\x80-\xbf]", "")
