@@ -59,6 +59,8 @@ make_source() {
     -Dcolour=disabled -Dtests=false
   quietly source meson dist -C "$work/plain" --no-tests --formats gztar --allow-dirty
   mv "$work/plain/meson-dist/$source" "$dist"
+  unpacked "$work/source/${source%.tar.gz}" # packed again: with the same bytes each time
+  packed "$work/source" "${source%.tar.gz}" "$dist/$source"
 }
 
 make_linux() {

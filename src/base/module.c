@@ -21,21 +21,11 @@
 #define ROOM ((size_t)32 << 20)
 
 /* Where a module may lie, relative to the folder of the object that contains this function: an
- * installed library, program or Lua module, a Lua module in the build tree, a test program. A
- * folder that ends with a slash is followed by the folder of the module's sources. */
+ * installed library or Lua module, a Lua module in the build tree, a test program; and
+ * cs_program_libraries. A folder that ends with a slash is followed by the folder of the module's
+ * sources. */
 static const char *const folders[] = {
-    "./",
-    "../",
-    "src/",
-    "../src/",
-    "celspan",
-    "../../celspan",
-    "../../src/",
-    "../lib/celspan",
-    "../lib/x86_64-linux-gnu/celspan",
-    "../lib/aarch64-linux-gnu/celspan",
-    "../lib64/celspan",
-    ".",
+    "./", "../", "src/", "../src/", "celspan", "../../celspan", "../../src/", ".",
 };
 
 /* Where a module was looked for, and the first error but absence that the system gave for it, with
@@ -97,10 +87,14 @@ static bool find(const cs_module_desc *desc, module_search *search) {
     return size < PATH_SIZE && is_readable(search);
   }
   char own[PATH_SIZE];
-  if (own_folder(search, own))
+  if (own_folder(search, own)) {
     for (size_t i = 0; i < sizeof folders / sizeof *folders; i++)
       if (exists(search, own, folders[i], desc))
         return true;
+    for (const char *const *library = cs_program_libraries; *library; library++)
+      if (exists(search, own, *library, desc))
+        return true;
+  }
   return exists(search, CELSPAN_MODULE_FOLDER, "", desc);
 }
 

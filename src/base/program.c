@@ -6,6 +6,10 @@
 #include <sys/auxv.h>
 #include <unistd.h>
 
+const char *const cs_program_libraries[] = {"../lib/celspan", "../lib/x86_64-linux-gnu/celspan",
+                                            "../lib/aarch64-linux-gnu/celspan", "../lib64/celspan",
+                                            NULL};
+
 const char *cs_program_path(void) {
   static const char own[] = "/proc/self/exe";
   const char *started = (const char *)getauxval(AT_EXECFN);

@@ -245,18 +245,17 @@ static void output_folder(const cs_request *request, char out[PATH_SIZE]) {
     strcpy(out, ".");
 }
 
-#define MODULES "/../lib/celspan" /* from the folder of an installed program: base/module.c */
-
 /* Adds the files that the program itself reads: its modules, the settings of colours, and the files
  * that options name. */
 static bool add_own_folders(const cs_request *request, cs_roots *read) {
   static const char *const variables[] = {"OCIO", "CELSPAN_PICTURE_MODULE", "CELSPAN_ART_MODULE",
                                           "CELSPAN_COLOUR_MODULE"};
-  char folder[PATH_SIZE], libraries[PATH_SIZE + sizeof MODULES];
-  bool is_good = true;
-  if (cs_program_folder(folder, PATH_SIZE)) {
-    snprintf(libraries, sizeof libraries, "%s" MODULES, folder);
-    is_good = cs_roots_add(read, folder) && cs_roots_add(read, libraries);
+  char folder[PATH_SIZE], library[PATH_SIZE + 64];
+  bool is_known = cs_program_folder(folder, PATH_SIZE);
+  bool is_good = !is_known || cs_roots_add(read, folder);
+  for (const char *const *one = cs_program_libraries; *one && is_known && is_good; one++) {
+    snprintf(library, sizeof library, "%s/%s", folder, *one);
+    is_good = cs_roots_add(read, library);
   }
   for (size_t i = 0; i < sizeof variables / sizeof *variables && is_good; i++) {
     const char *path = getenv(variables[i]);

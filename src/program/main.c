@@ -64,10 +64,14 @@ static bool is_in_lua(const cs_request *request) {
 
 /* Standard input can be read only once, and some verbs run a script several times. */
 static cs_exit read_script(celspan_context *context, cs_request *request, cs_text_file *out) {
-  if (!request->verb->has_script || request->operand_count == 0 ||
-      strcmp(request->operands[0], "-") != 0)
+  const bool runs_again = request->verb->runs_again || cs_request_has(request, "--table");
+  bool is_input = false;
+  for (size_t i = 0; i < (runs_again ? request->operand_count : 1) && i < request->operand_count;
+       i++)
+    is_input |= strcmp(request->operands[i], "-") == 0;
+  if (!request->verb->has_script || !is_input)
     return CS_EXIT_OK;
-  if (request->verb->runs_again || cs_request_has(request, "--table"))
+  if (runs_again)
     return cs_report_usage("-: several processes run the script, and standard input is read only "
                            "once: give the name of a file");
   cs_exit outcome = cs_text_file_read(context, stdin, "", "standard input", out);

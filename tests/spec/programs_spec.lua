@@ -10,7 +10,7 @@ local it_sets_type = present.art() and it or pending
 
 local FILM = [[
 local celspan = require "celspan"
-local set = celspan.parameters { x = { 4, min = 0, max = 8 } }
+local set = celspan.parameters { x = { 4, min = 0, max = 8 }, list = 3 }
 return celspan.film { title = "one", size = { 16, 9 }, fps = 12, frames = 6, marks = { late = 4 },
   frame = function(f)
     return celspan.rostrum { back = "#fff", celspan.cel {
@@ -50,6 +50,7 @@ describe("--json", function()
     assert.same({ { kind = "object", name = "box", frames = 6, file = "film.lua", line = 6 } },
       facts.named)
     assert.are.equal(8, facts.parameters.x.maximum)
+    assert.are.equal(3, facts.parameters.list.default)
   end)
 
   it("prints what info prints of files", function()
@@ -160,7 +161,8 @@ return]], 1))
   end)
 
   it("is refused where it would be run again, or is empty", function()
-    for _, arguments in ipairs { "farm - -o out/##.png --slurm", "watch -", "play -",
+    for _, arguments in ipairs { "farm - -o out/##.png --slurm", "watch -",
+      "watch film.lua -", "play -",
       "render - -o {x}.png --table film.lua" } do
       local code, _, err = piped(arguments)
       assert.are.equal(2, code, arguments)

@@ -73,10 +73,26 @@ describe("the picture module without OpenImageIO", function()
     end
   end)
 
+  local it_makes = present.program "oiiotool" and it_compares or pending
+  it_makes("reads windows that cover a part, and planes that lie on their side", function()
+    good("", "render film.lua -o a.exr --progress none %s", ALPHA)
+    good("", "render film.lua -o a.tif --progress none %s", ALPHA)
+    for name, command in pairs {
+      ["cut.exr"] = "a.exr --ch R,G,B --fullsize 80x50-5-4",
+      ["side.tif"] = "a.tif --attrib Orientation 6 --attrib planarconfig separate" } do
+      local code, _, err = bench:inside(("oiiotool %s -o %s"):format(command, name))
+      assert.equal(0, code, err)
+      assert.is_true(pixels("", name) == pixels(WITH, name), name)
+    end
+  end)
+
   it("refuses other formats with a sentence", function()
     local code, _, err = run(WITH, "render film.lua -o a.dpx")
     assert.equal(5, code)
     assert.truthy(err:find("the format dpx is written by OpenImageIO alone", 1, true), err)
+    code, _, err = run(WITH, "render film.lua -o a.tif --size 20000x20000")
+    assert.is_true(code > 0)
+    assert.truthy(err:find("268435456 pixels are written without OpenImageIO", 1, true), err)
     bench:write("a.psd", "8BPS")
     code, _, err = run(WITH, "info a.psd")
     assert.equal(4, code)

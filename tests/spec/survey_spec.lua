@@ -163,6 +163,24 @@ end }]])
     assert.truthy(out:find("\nshot 1-20 0-0.8333 s\nshot 21-48 0.8333-2 s\ncel", 1, true), out)
   end)
 
+  it("does not see frames whose pictures cannot be read, nor holds them", function()
+    bench:write("film.lua", [[
+local celspan = require "celspan"
+return celspan.film { size = { 16, 9 }, fps = 24, frames = 48, frame = function()
+  return celspan.rostrum { celspan.cel { celspan.image { file = "none.png", w = 3, h = 3 } } }
+end }]])
+    local _, text = bench:celspan_inside "describe film.lua --json"
+    local facts = assert(json.decode(text))
+    assert.same({ { { first = 1, last = 48, from = 0, to = 2 } }, {} },
+      { facts.unseen, facts.frozen })
+  end)
+
+  it("lists cels by the names that they have", function()
+    film(12, 'cel(celspan.rect { 0, 0, 9, 9 }):named "left/cel 2"')
+    local _, out = bench:celspan_inside "describe film.lua"
+    assert.truthy(out:find("name left/cel 2 (film.lua:6)", 1, true), out)
+  end)
+
   it("refuses what it cannot describe", function()
     assert.are.equal(4, (bench:celspan_inside "describe none.lua"))
     bench:write("film.lua", "return 3")

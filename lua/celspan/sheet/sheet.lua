@@ -339,16 +339,23 @@ function methods:at(layer, frame)
   return column.names[columns.find(column, frame)] or nil
 end
 
+local function copy_of(marks)
+  local copy = {}
+  for mark in pairs(marks or {}) do copy[mark] = true end
+  return copy
+end
+
 --- The marks of a layer at a frame, as keys: inbetween, reverse, key, reference, moved, procedure.
+--- Without a frame, those of all frames that have any, by frame.
 ---@param layer string|integer
----@param frame integer
----@return table<string, true> marks
+---@param frame? integer
+---@return table<string, true>|table<integer, table<string, true>> marks
 function methods:marks(layer, frame)
   fields.self("sheet", Sheet, self, "marks")
-  local column = column_of(self, layer, "marks")
-  local marks = {}
-  for mark in pairs(column.marks[check_frame(frame, "marks")] or {}) do marks[mark] = true end
-  return marks
+  local column, all = column_of(self, layer, "marks"), {}
+  if frame then return copy_of(column.marks[check_frame(frame, "marks")]) end
+  for number, marks in pairs(column.marks) do all[number] = copy_of(marks) end
+  return all
 end
 
 --- The changes of a layer in order: { { frame =, drawing = }, ... }; drawing is nil where the layer

@@ -26,6 +26,7 @@ typedef struct list {
   lua_Integer count;
   const celspan_rostrum *rostrum; /* of the exposure, and the cel of it that is looked at */
   size_t place;
+  int over; /* index of the cels before it, as a rostrum; nil until a text of the cel needs it */
 } list;
 
 /* What lies around a value: its units to those of the film, and how much of it is seen. */
@@ -33,6 +34,7 @@ typedef struct around {
   celspan_matrix matrix;
   double fade;
   double width, height;          /* of the film, or of the composition that it is in */
+  bool is_inner;                 /* inside of a composition that lies in the frame's */
   bool is_text;                  /* inside of a text, in which only its letters are listed as one */
   const celspan_object *letters; /* of that text, if it holds them; else NULL */
 } around;
@@ -84,7 +86,7 @@ static void set_place(list *to, cs_mark mark, double fade, bool is_there, const 
   lua_setfield(L, -2, "box");
 }
 
-/* A film of `objects` alone. */
+/* A rostrum of the object alone. */
 static celspan_status create_alone(celspan_context *context, celspan_object *object,
                                    celspan_rostrum **out) {
   celspan_cel *cel;
@@ -118,8 +120,12 @@ static celspan_status set_text(list *to, celspan_object *placed, uint32_t words)
   lua_setfield(L, -2, "alone");
   if (after == all->cel_count)
     return CELSPAN_OK;
-  CS_TRY(cs_rostrum_change(to->context, all, all->cels + after, all->cel_count - after,
-                           (celspan_light){0}, push_rostrum(L)));
+  if (lua_isnil(L, to->over)) {
+    CS_TRY(cs_rostrum_change(to->context, all, all->cels + after, all->cel_count - after,
+                             (celspan_light){0}, push_rostrum(L)));
+    lua_replace(L, to->over);
+  }
+  lua_pushvalue(L, to->over);
   lua_setfield(L, -2, "over");
   return CELSPAN_OK;
 }
@@ -204,6 +210,7 @@ static void add_objects(list *to, celspan_object *const *objects, size_t count, 
     if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM) {
       inner.width = data->rostrum->width;
       inner.height = data->rostrum->height;
+      inner.is_inner = true;
       add_rostrum(to, data->rostrum, &inner, path);
     } else if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
       add_objects(to, data->boolean->operands, data->boolean->operand_count, &inner, path);
@@ -223,6 +230,8 @@ static void add_cel(list *to, const celspan_cel *cel, const around *at, const ch
     celspan_box box;
     bool is_there = cs_bounds_around(cel->objects, cel->object_count, &at->matrix, &box);
     set_place(to, cel->mark, at->fade, is_there, &box);
+    if (at->is_inner && !name[0])
+      cs_put_flag(to->L, "unnamed", true);
   }
   lua_pop(to->L, 1);
   add_objects(to, cel->objects, cel->object_count, at, one.name);
@@ -239,8 +248,11 @@ static void add_rostrum(list *to, const celspan_rostrum *rostrum, const around *
       inner.matrix = celspan_matrix_then(placed, at->matrix);
     }
     inner.fade *= rostrum->cels[i]->opacity;
-    if (rostrum == to->rostrum)
+    if (rostrum == to->rostrum) {
       to->place = i;
+      lua_pushnil(to->L);
+      lua_replace(to->L, to->over);
+    }
     add_cel(to, rostrum->cels[i], &inner, path, i + 1);
   }
 }
@@ -255,6 +267,8 @@ int cs_parts_list(lua_State *L) {
                .width = luaL_optnumber(L, 2, 0),
                .height = luaL_optnumber(L, 3, 0)};
   cs_options_exposures(L, 1, "parts: argument 1", &desc);
+  lua_pushnil(L);
+  to.over = lua_gettop(L);
   lua_newtable(L);
   to.table = lua_gettop(L);
   luaL_checkstack(L, 16, "too many parts");

@@ -38,7 +38,7 @@ static void close_rows(void *user, celspan_context *context, void *rows) {
   cs_mem_free(context->memory, rows, rows ? rows_size(user) : 0);
 }
 
-/* Converts row y, which is the second of two rows, or the pair of both. */
+/* Converts row y, or the pair of rows that ends with it. */
 static void put_chroma(const cs_planes *planes, int32_t y, const uint32_t *rows,
                        const uint32_t *row) {
   size_t size = chroma_size(planes->width, planes->height, planes->is_halved);

@@ -1,6 +1,5 @@
 #include "plugins/oiio/source.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,24 +8,15 @@
 #include <cstring>
 #include <utility>
 
+#include "model/pictures/opened.h"
 #include "plugins/oiio/shared.h"
 
 /* Reads past the end that a correct reader may need in one task. */
 static const int MISSES = 1000;
 static const size_t AHEAD = 1 << 15;
-#define OPENED "/proc/self/fd/"
-
-/* The name of an open file is its number: there may be no /proc. NONBLOCK: opening a pipe that
- * nobody writes to must not wait. */
-static int open_named(const char *path) {
-  int number = -1;
-  if (sscanf(path, OPENED "%d", &number) == 1)
-    return fcntl(number, F_DUPFD_CLOEXEC, 0);
-  return ::open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-}
 
 Source::Source(const char *path) : IOProxy(path, Read), path_(path) {
-  descriptor_ = open_named(path);
+  descriptor_ = cs_opened_again(path);
   if (descriptor_ < 0)
     throw Failure(CELSPAN_INPUT, std::string("cannot be opened: ") + strerror(errno));
   if (fstat(descriptor_, &status_) != 0 || !S_ISREG(status_.st_mode)) {
@@ -99,7 +89,7 @@ void Source::replace(int64_t offset, std::vector<char> bytes) {
 
 bool Source::is_unchanged() const {
   struct stat now;
-  bool is_opened = path_.rfind(OPENED, 0) == 0;
+  bool is_opened = path_.rfind(CS_OPENED, 0) == 0;
   int found = is_opened ? fstat(descriptor_, &now) : stat(path_.c_str(), &now);
   return found == 0 && now.st_size == status_.st_size && now.st_ino == status_.st_ino &&
          now.st_mtim.tv_sec == status_.st_mtim.tv_sec &&

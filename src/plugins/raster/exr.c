@@ -13,8 +13,7 @@ enum {
   PARTS = 0x1000,
   PACKED_NONE = 0,
   PACKED_RUNS = 1,
-  PACKED_ROW = 2, /* zlib, one row */
-  PACKED_ROWS = 3 /* zlib, 16 rows */
+  PACKED_ROW = 2 /* zlib, one row */
 };
 
 typedef struct channel {
@@ -144,7 +143,7 @@ static celspan_status read_header(reading *r) {
   }
   if (r->is_over || r->count == 0)
     return fail(r, "is corrupt or truncated");
-  if (r->packing < PACKED_NONE || r->packing > PACKED_ROWS)
+  if (r->packing < PACKED_NONE || r->packing > CS_EXR_ROWS)
     return fail(r, "is compressed in a way that needs OpenImageIO; save it with ZIP");
   return CELSPAN_OK;
 }
@@ -287,7 +286,7 @@ static bool read_chunk(reading *r, uint64_t place, int lines) {
 }
 
 static celspan_status read_chunks(reading *r) {
-  int lines = r->packing == PACKED_ROWS ? 16 : 1;
+  int lines = r->packing == CS_EXR_ROWS ? CS_EXR_LINES : 1;
   int64_t height = (int64_t)r->data.y1 - r->data.y0 + 1,
           width = (int64_t)r->data.x1 - r->data.x0 + 1;
   for (int i = 0; i < r->count; i++)
@@ -308,10 +307,11 @@ static celspan_status read_chunks(reading *r) {
   return CELSPAN_OK;
 }
 
-/* Sides within the limits; what lies outside of the display window is not kept. */
+/* Within the limits; what lies outside of the display window is not kept. */
 static bool is_sane(window w) {
   int64_t width = (int64_t)w.x1 - w.x0 + 1, height = (int64_t)w.y1 - w.y0 + 1;
-  return width >= 1 && height >= 1 && width <= CS_PICTURE_SIDE && height <= CS_PICTURE_SIDE;
+  return width >= 1 && height >= 1 && width <= CS_PICTURE_SIDE && height <= CS_PICTURE_SIDE &&
+         (uint64_t)(width * height) <= CS_RASTER_PIXELS;
 }
 
 celspan_status cs_raster_exr(const cs_raster_file *file, cs_raster *out,

@@ -11,6 +11,8 @@
 
 #define CS_EXR_MAGIC 20000630u
 
+enum { CS_EXR_ROWS = 3, CS_EXR_LINES = 16 }; /* the packing by zlib, and the rows of its chunks */
+
 typedef enum cs_exr_type { CS_EXR_WHOLE, CS_EXR_HALF, CS_EXR_FLOAT } cs_exr_type;
 
 /* Before bytes are compressed, the even ones come before the odd ones, and each is replaced by its

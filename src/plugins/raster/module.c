@@ -1,21 +1,19 @@
 /* The table of functions that the core finds in this module: opening, turning, and rectangles. */
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "model/pictures/opened.h"
 #include "plugins/raster/raster.h"
 #include "plugins/raster/write.h"
 
-#define OPENED "/proc/self/fd/"
 #define FILE_MOST ((off_t)1 << 32)
 
 struct cs_picture_reader {
   cs_raster raster;
-  char name[]; /* of the file */
 };
 
 /* ---------------------------------------------------------------- the file */
@@ -34,15 +32,6 @@ static const struct {
     {"tiff", "MM\0+", 4, 0, cs_raster_tiff},
     {"openexr", "\x76\x2f\x31\x01", 4, 0, cs_raster_exr},
 };
-
-/* The name of an open file is its number: there may be no /proc. NONBLOCK: opening a pipe that
- * nobody writes to must not wait. */
-static int open_named(const char *path) {
-  int number = -1;
-  if (sscanf(path, OPENED "%d", &number) == 1)
-    return fcntl(number, F_DUPFD_CLOEXEC, 0);
-  return open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-}
 
 static bool read_all(int descriptor, unsigned char *bytes, size_t size) {
   for (size_t done = 0; done < size;) {
@@ -111,7 +100,6 @@ static void describe(const cs_raster *raster, const struct stat *found, cs_pictu
                .is_float = raster->bits == 32},
       .alpha = raster->is_multiplied ? CS_PICTURE_ALPHA_CODED : CS_PICTURE_ALPHA_STRAIGHT,
       .bits = raster->bits == 32 ? 0 : raster->bits,
-      .is_turned = raster->orientation != 1,
       .is_whole = true,
       .file_size = (int64_t)found->st_size,
       .file_time = (int64_t)found->st_mtim.tv_sec * 1000000000 + found->st_mtim.tv_nsec,
@@ -124,7 +112,7 @@ static celspan_status open_file(const cs_picture_request *request, cs_raster *ou
                                 cs_picture_header *header, cs_picture_failure *failure) {
   struct stat found;
   unsigned char *bytes = NULL;
-  int descriptor = open_named(request->file);
+  int descriptor = cs_opened_again(request->file);
   if (descriptor < 0 || fstat(descriptor, &found) != 0) {
     cs_raster_fail(failure, CELSPAN_INPUT, "cannot be opened: %s", strerror(errno));
     if (descriptor >= 0)
@@ -155,8 +143,7 @@ static celspan_status name_failure(cs_picture_failure *failure, const char *name
 static celspan_status open_reader(const cs_picture_request *request, cs_picture_reader **out,
                                   cs_picture_header *header, cs_picture_failure *failure) {
   cs_picture_header made;
-  size_t size = strlen(request->file) + 1;
-  cs_picture_reader *reader = calloc(1, sizeof *reader + size);
+  cs_picture_reader *reader = calloc(1, sizeof *reader);
   celspan_status status;
   if (!reader)
     status = cs_raster_fail(failure, CELSPAN_NO_MEMORY, "out of memory");
@@ -168,7 +155,6 @@ static celspan_status open_reader(const cs_picture_request *request, cs_picture_
   else
     status = open_file(request, &reader->raster, &made, failure);
   if (status == CELSPAN_OK) {
-    memcpy(reader->name, request->file, size);
     *header = made;
     *out = reader;
     return CELSPAN_OK;
@@ -237,7 +223,7 @@ static celspan_status list_reader(cs_picture_reader *reader,
   return CELSPAN_OK;
 }
 
-/* Every lack of memory is noticed as it is. */
+/* Who asks for pictures reads errno, too. */
 static void watch_memory(void) {}
 
 const void *celspan_picture_module(void) {

@@ -23,7 +23,7 @@ typedef struct reading {
 static void read_bytes(png_structp png, png_bytep out, size_t size) {
   reading *r = png_get_io_ptr(png);
   if (size > r->file->size - r->at)
-    png_error(png, "is truncated");
+    png_error(png, "the file ends");
   memcpy(out, r->file->bytes + r->at, size);
   r->at += size;
 }
@@ -36,15 +36,16 @@ static void note_error(png_structp png, const char *text) {
 
 static void ignore(png_structp png, const char *text) { (void)png, (void)text; }
 
-/* Every picture becomes grey or colours, of 8 or 16 bits, with or without alpha. */
-static void choose_form(reading *r) {
+/* Every picture becomes grey or colours, of 8 or 16 bits, with or without alpha. Returns how often
+ * each row has to be read. */
+static int choose_form(reading *r) {
   png_set_expand(r->png);
   png_set_swap(r->png);
   int passes = png_set_interlace_handling(r->png);
-  (void)passes;
   png_read_update_info(r->png, r->info);
   r->out->channels = png_get_channels(r->png, r->info);
   r->out->bits = png_get_bit_depth(r->png, r->info);
+  return passes;
 }
 
 static const char *colour_of(const reading *r) {
@@ -60,13 +61,11 @@ static void decode(reading *r) {
   png_set_user_limits(r->png, CS_PICTURE_SIDE, CS_PICTURE_SIDE);
   png_read_info(r->png, r->info);
   r->out->colour = colour_of(r);
-  bool is_interlaced = png_get_interlace_type(r->png, r->info) != PNG_INTERLACE_NONE;
-  choose_form(r);
+  int passes = choose_form(r);
   r->status = cs_raster_make(r->out, png_get_image_width(r->png, r->info),
                              png_get_image_height(r->png, r->info), r->failure);
   if (r->status != CELSPAN_OK)
     return;
-  int passes = is_interlaced ? PNG_INTERLACE_ADAM7_PASSES : 1;
   for (int pass = 0; pass < passes; pass++)
     for (int32_t y = 0; y < r->out->height; y++)
       png_read_row(r->png, (png_bytep)r->out->pixels + (size_t)y * cs_raster_row(r->out), NULL);

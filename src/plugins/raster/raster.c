@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define PIXELS_MOST ((uint64_t)1 << 28)
-
 celspan_status cs_raster_fail(cs_picture_failure *failure, celspan_status status,
                               const char *format, ...) {
   va_list words;
@@ -24,7 +22,7 @@ celspan_status cs_raster_make(cs_raster *raster, uint64_t width, uint64_t height
                               cs_picture_failure *failure) {
   if (width < 1 || height < 1)
     return cs_raster_fail(failure, CELSPAN_INPUT, "is a picture without pixels");
-  if (width > CS_PICTURE_SIDE || height > CS_PICTURE_SIDE || width * height > PIXELS_MOST)
+  if (width > CS_PICTURE_SIDE || height > CS_PICTURE_SIDE || width * height > CS_RASTER_PIXELS)
     return cs_raster_fail(failure, CELSPAN_LIMIT,
                           "is %llu x %llu pixels; at most 1048576 a side and 268435456 in all are "
                           "read without OpenImageIO",

@@ -9,6 +9,8 @@
 
 #include "model/pictures/module.h"
 
+#define CS_RASTER_PIXELS ((uint64_t)1 << 28) /* at most, of a picture that is read or written */
+
 typedef struct cs_raster {
   const char *format; /* "png" */
   const char *colour; /* "srgb", "linear", ...: how it is read by default */

@@ -66,7 +66,7 @@ static bool choose_form(reading *r) {
   int colours = photometric == PHOTOMETRIC_RGB ? 3 : photometric == PHOTOMETRIC_MINISBLACK ? 1 : 0;
   bool is_plain = colours && (channels == colours || channels == colours + 1) &&
                   (is_float || is_whole) && field(r, TIFFTAG_PLANARCONFIG) == PLANARCONFIG_CONTIG;
-  r->out->orientation = is_plain ? field(r, TIFFTAG_ORIENTATION) : 1;
+  r->out->orientation = field(r, TIFFTAG_ORIENTATION);
   r->out->colour = is_plain && is_float ? "linear" : "srgb";
   r->out->channels = is_plain ? channels : 4;
   r->out->bits = is_plain ? bits : 8;
@@ -127,9 +127,14 @@ static celspan_status read_tiles(const reading *r) {
   return status;
 }
 
+/* Rows are asked for as they are stored, because libtiff only flips pictures. */
 static celspan_status read_shown(const reading *r) {
+  char text[1024] = "";
+  if (!TIFFRGBAImageOK(r->tiff, text))
+    return cs_raster_fail(r->failure, CELSPAN_INPUT, "is of a kind that needs OpenImageIO: %s",
+                          text);
   return TIFFReadRGBAImageOriented(r->tiff, (uint32_t)r->out->width, (uint32_t)r->out->height,
-                                   r->out->pixels, ORIENTATION_TOPLEFT, 1)
+                                   r->out->pixels, r->out->orientation, 1)
              ? CELSPAN_OK
              : fail_pixels(r);
 }

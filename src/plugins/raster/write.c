@@ -69,6 +69,10 @@ celspan_status cs_write_open(const cs_picture_output *output, cs_picture_writer 
     return cs_raster_fail(failure, CELSPAN_OUTPUT,
                           "%s: the format %s is written by OpenImageIO alone, which is missing",
                           output->name, output->format);
+  if ((uint64_t)output->width * (uint64_t)output->height > CS_RASTER_PIXELS)
+    return cs_raster_fail(failure, CELSPAN_LIMIT,
+                          "%s: at most 268435456 pixels are written without OpenImageIO",
+                          output->name);
   cs_picture_writer *writer = calloc(1, sizeof *writer);
   bool is_good = writer && copy_output(writer, output);
   if (is_good) {

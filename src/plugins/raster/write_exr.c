@@ -8,7 +8,7 @@
 #include "plugins/raster/exr.h"
 #include "plugins/raster/write.h"
 
-enum { LINES = 16, PACKED_ROWS = 3, VERSION = 2 };
+enum { VERSION = 2 };
 
 typedef struct writing {
   const cs_picture_output *output;
@@ -95,7 +95,7 @@ static void put_header(writing *w) {
   if (w->output->title)
     put_string(w, "comments", w->output->title);
   put_attribute(w, "compression", "compression", 1);
-  cs_write_put(w->target, &(unsigned char){PACKED_ROWS}, 1);
+  cs_write_put(w->target, &(unsigned char){CS_EXR_ROWS}, 1);
   put_window(w, "dataWindow");
   put_window(w, "displayWindow");
   put_attribute(w, "lineOrder", "lineOrder", 1);
@@ -136,7 +136,7 @@ static bool put_chunk(writing *w) {
   if (compress(w->packed, &packed, w->scratch, (uLong)size) != Z_OK)
     return false;
   for (int i = 0; i < 8; i++)
-    w->places[8 * (first / LINES) + i] = (unsigned char)(place >> 8 * i);
+    w->places[8 * (first / CS_EXR_LINES) + i] = (unsigned char)(place >> 8 * i);
   bool is_smaller = packed < size;
   put_number(w, (uint32_t)first);
   put_number(w, (uint32_t)(is_smaller ? packed : size));
@@ -145,7 +145,7 @@ static bool put_chunk(writing *w) {
 }
 
 static size_t places_size(const writing *w) {
-  return 8 * (((size_t)w->output->height + LINES - 1) / LINES);
+  return 8 * (((size_t)w->output->height + CS_EXR_LINES - 1) / CS_EXR_LINES);
 }
 
 /* ---------------------------------------------------------------- the file */
@@ -178,9 +178,9 @@ static void *begin(const cs_picture_output *output, cs_write_target *target) {
   w->row = cs_write_row(output);
   sort_channels(w);
   w->places = calloc(1, places_size(w));
-  w->rows = malloc(LINES * w->row);
-  w->scratch = malloc(LINES * w->row);
-  w->packed = malloc(compressBound((uLong)(LINES * w->row)));
+  w->rows = malloc(CS_EXR_LINES * w->row);
+  w->scratch = malloc(CS_EXR_LINES * w->row);
+  w->packed = malloc(compressBound((uLong)(CS_EXR_LINES * w->row)));
   if (!w->places || !w->rows || !w->scratch || !w->packed) {
     destroy(w);
     return NULL;
@@ -197,7 +197,7 @@ static bool put_rows(void *self, int32_t count, const unsigned char *rows) {
     split_row(w, rows + (size_t)i * w->row, w->rows + (size_t)w->kept * w->row);
     w->kept++;
     w->done++;
-    if ((w->kept == LINES || w->done == w->output->height) && !put_chunk(w))
+    if ((w->kept == CS_EXR_LINES || w->done == w->output->height) && !put_chunk(w))
       return false;
   }
   return true;

@@ -187,13 +187,16 @@ end
 
 -- ---------------------------------------------------------------- the report
 
+--- "3", "3-17"
+local function run_of(first, last)
+  return last > first and ("%d-%d"):format(first, last) or tostring(first)
+end
+
 --- "frame 3", "frames 3-17, 20 and 5 more up to 99".
 local function frames_of(fault)
   local runs, words = fault.runs, {}
   table.sort(runs, function(a, b) return a.first < b.first end)
-  for i, run in ipairs(runs) do
-    words[i] = run.last > run.first and ("%d-%d"):format(run.first, run.last) or tostring(run.first)
-  end
+  for i, run in ipairs(runs) do words[i] = run_of(run.first, run.last) end
   local is_one = #runs == 1 and runs[1].first == runs[1].last and fault.beyond == 0
   local more = fault.beyond > 0
     and (" and %d more up to %d"):format(fault.beyond, fault.greatest) or ""
@@ -222,7 +225,8 @@ local function print_json(warnings)
       frames_of(fault):match "%d.*")
   end
   for _, one in ipairs(warnings) do
-    list[#list + 1] = describe("warning", one.message, one.frame, one.frames)
+    list[#list + 1] = describe("warning", one.message, one.first,
+      one.first and run_of(one.first, one.last))
   end
   print(program.json { list = list })
 end
@@ -241,8 +245,7 @@ local function report(done, count, ended, sound, warnings)
     program.error("%s: %s", frames_of(fault), sentence_of(fault))
   end
   for _, one in ipairs(request.json and {} or warnings) do
-    local frames = one.frames and ("frame%s %s: "):format(one.frames:find "%-" and "s" or "",
-      one.frames) or ""
+    local frames = one.first and frames_of { runs = { one }, beyond = 0 } .. ": " or ""
     program.note("warning: %s%s", frames, one.message)
   end
   if faults.beyond > 0 then
@@ -269,7 +272,8 @@ local function warnings_of(survey)
     request.script)) do
     list[i] = { message = sentence }
   end
-  return table.move(survey:warnings(), 1, 1000, #list + 1, list)
+  local seen = survey:warnings()
+  return table.move(seen, 1, #seen, #list + 1, list)
 end
 
 --- The film of the script. Where there is none, that is the one fault.

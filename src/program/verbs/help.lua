@@ -88,7 +88,7 @@ local function put_list(out)
   out:write(FIRST:format(program.version))
   for _, verb in ipairs(verbs) do put_row(out, verb.name, verb.operands, verb.summary) end
   put_row(out, "help", "VERB|lua [NAME]", "Describes a verb, or a name of the Lua interface.")
-  put_row(out, "", "WORDS", "Shows how to make a thing, such as shadow, wipe or walk cycle.")
+  put_row(out, "", "WORDS", "Shows how to make a thing, such as shadow, wipe or typewriter.")
   out:write("\ncelspan --version prints the version, celspan --man the manual page.\n\n"
     .. "Exit codes\n")
   local half = (#exit_codes + 1) // 2 -- two columns, from the top to the bottom of each

@@ -80,15 +80,22 @@ function program.place_of(sentence)
   return path, math.tointeger(line)
 end
 
---- A value as JSON: tables with a field `list`, or with items, are lists, others are objects. Bytes
---- that are not UTF-8 become question marks.
+--- The items of a table that is a list: of { list = items }, or its own; nil: it is an object.
+local function items_of(one)
+  local list = one.list
+  if type(list) == "table" and (list[1] ~= nil or next(list) == nil) then return list end
+  return one[1] ~= nil and one or nil
+end
+
+--- A value as JSON: tables with a list in the field `list`, or with items, are lists, others are
+--- objects. Bytes that are not UTF-8 become question marks.
 function program.json(value)
   local function ordered(one)
     if type(one) == "string" then return utf8.len(one) and one or (one:gsub("[\x80-\xff]", "?")) end
     if type(one) ~= "table" then return one end
-    local items, names = {}, {}
-    if one.list or one[1] ~= nil then
-      for i, item in ipairs(one.list or one) do items[i] = ordered(item) end
+    local items, names, listed = {}, {}, items_of(one)
+    if listed then
+      for i, item in ipairs(listed) do items[i] = ordered(item) end
       return { list = items }
     end
     for name in pairs(one) do names[#names + 1] = name end

@@ -8,12 +8,13 @@ local is_script = request.script or program.has_ending(input, ".lua")
 --- The marks of a layer, in the order of the frames.
 local function marks_of(made, layer)
   local list = {}
-  for frame = 1, made.frames do
+  for frame, marks in pairs(made:marks(layer)) do
     local names = {}
-    for name in pairs(made:marks(layer, frame)) do names[#names + 1] = name end
+    for name in pairs(marks) do names[#names + 1] = name end
     table.sort(names)
     if #names > 0 then list[#list + 1] = { frame = frame, marks = names } end
   end
+  table.sort(list, function(a, b) return a.frame < b.frame end)
   return list
 end
 

@@ -7,7 +7,7 @@
 --
 -- A frame with the scene of the one before is not looked at again, and a frame without a picture
 -- not at all: with scan-line procedures, or pictures that cannot be read. What is kept depends on
--- how many parts, texts and stretches there are, not on the number of frames.
+-- how many parts, stretches and texts with different words there are.
 local program, film = ...
 local celspan = require "celspan"
 local core = require "celspan.core"
@@ -99,7 +99,7 @@ end
 local function seen_of(list)
   local seen, order = {}, {}
   for _, part in ipairs(list) do
-    local is_listed = part.kind ~= "text" and not part.name:find "/cel %d+$" -- of an effect, mostly
+    local is_listed = part.kind ~= "text" and not part.unnamed -- of an effect, mostly
     local is_seen = is_listed and part.box and part.fade > 0
     local share = is_seen and texts.share_of(part.box) or 0
     if share > 0 then
@@ -226,6 +226,7 @@ function survey:add(number)
   self.number = number
   add_frame(self.looked, number)
   if scene and scene == self.scene then return self:again(number, has_asked) end
+  self.scene = scene -- add_new forgets it if there is no picture
   if scene then
     self:add_new(number)
     self.count = self.count + 1
@@ -235,7 +236,6 @@ function survey:add(number)
     add_frame(self.unseen, number)
     self:cut()
   end
-  self.scene = scene
 end
 
 -- ---------------------------------------------------------------- what was found
@@ -301,18 +301,11 @@ function survey:is_read(stretch)
   return count > 0 and seconds(stretch) <= texts.needed(count)
 end
 
---- "frame 3", "frames 3-17"
-local function frames_of(stretch)
-  return stretch.first == stretch.last and tostring(stretch.first)
-    or ("%d-%d"):format(stretch.first, stretch.last)
-end
-
---- What a viewer should be spared: a list of { message =, frame =, frames = }.
+--- What a viewer should be spared: a list of { message =, first =, last = }.
 function survey:warnings()
   local list = {}
   local function add(stretch, ...)
-    list[#list + 1] = { message = string.format(...), frame = stretch.first,
-                        frames = frames_of(stretch) }
+    list[#list + 1] = { message = string.format(...), first = stretch.first, last = stretch.last }
   end
   for _, text in ipairs(self.texts.list) do
     local name = "the text " .. texts.quoted(text.words)
@@ -334,7 +327,7 @@ function survey:warnings()
       .. "(WCAG 2.3.1)", math.floor(stretch.share * 100 + 0.5))
   end
   table.sort(list, function(a, b)
-    if a.frame ~= b.frame then return a.frame < b.frame end
+    if a.first ~= b.first then return a.first < b.first end
     return a.message < b.message
   end)
   return list

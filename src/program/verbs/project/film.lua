@@ -43,7 +43,8 @@ local function star(time, neck_x, neck_y)
     grains[i] = dust(x + 7 * math.sin(9 * i), y + 7 * math.cos(7 * i), 4.5 - 0.3 * i, 1 - i / 15)
   end
   for _, p in ipairs(burst:at(time)) do
-    grains[#grains + 1] = dust(p.x, p.y, 2 + 4 * p.size * (1 - p.age), 1 - p.age)
+    local near = math.min(1, 5 * p.age) -- at first it would hide the cat's face
+    grains[#grains + 1] = dust(p.x, p.y, (2 + 4 * p.size * (1 - p.age)) * near, 1 - p.age)
   end
   local x, y = falling(time)
   local u = slower((time - when.catch) / 0.3) -- then it hangs at the cat's neck

@@ -33,9 +33,8 @@ local function outline_of(words) return (words:gsub("%d[%d.,\u{a0}\u{202f}']*", 
 
 local function new_text(part, words, em)
   return { words = words, outline = outline_of(words), number = part.words, box = part.box,
-           pixels = em * part.scale, fade = part.fade, over = part.over, file = part.file,
-           line = part.line, alone = { { part.alone, 1 } },
-           hash = part.drawing .. part.placement }
+           pixels = em * part.scale, over = part.over, file = part.file, line = part.line,
+           alone = { { part.alone, 1 } }, hash = part.drawing .. part.placement }
 end
 
 --- The texts among the parts of a frame. Letters of one text that follow each other are one.
@@ -49,7 +48,6 @@ local function texts_of(parts)
       if is_letter and last and last.is_open and last.number == part.words then
         last.box, last.hash = join_boxes(last.box, part.box), last.hash .. part.placement
         last.alone[#last.alone + 1] = { part.alone, 1 }
-        last.fade = math.max(last.fade, part.fade)
       else
         if last then last.is_open = false end
         found[#found + 1] = new_text(part, words, em)
@@ -102,7 +100,7 @@ local function view_of(text)
                                  math.min(size[2], math.ceil(y1 * sy)) - top } }
 end
 
---- The mean and the products of pairs of values that a line is fitted to.
+--- The slope and the offset of the line through pairs of values; nil: all xs are equal.
 local function fit(xs, ys)
   local n, sx, sy, sxx, sxy = #xs, 0, 0, 0, 0
   for i = 1, n do
@@ -142,8 +140,10 @@ local function measure(shown, text, look)
   if not alphas or not lights then return end
   local contrast = contrast_of(alphas, lights)
   shown.contrast = contrast and math.max(shown.contrast or 0, contrast) or shown.contrast
-  local _, over = nil, nil
-  if text.over and (shown.covered or 1) > 0 then _, over = look({ { text.over, 1 } }, view) end
+  local over
+  if text.over and (shown.covered or 1) > 0 then
+    over = select(2, look({ { text.over, 1 } }, view))
+  end
   shown.covered = math.min(shown.covered or 1, over and cover_of(alphas, over) or 0)
 end
 
