@@ -5,7 +5,7 @@ local affine = {}
 
 function affine.translation(x, y) return { 1, 0, x, 0, 1, y } end
 
---- A map of this linear part that leaves a point where it is.
+--- The map with this linear part that does not move the given point.
 local function about(a, b, d, e, x, y)
   return { a, b, x - a * x - b * y, d, e, y - d * x - e * y }
 end

@@ -3,7 +3,7 @@ local fields = require "celspan.fields"
 
 local chance = {}
 
---- The seed that a text or a number is: FNV-1a, 64 bits.
+--- The seed for a text or a number: FNV-1a, 64 bits.
 ---@param value string|number
 ---@return integer
 function chance.seed(value)

@@ -22,8 +22,7 @@ local function trim(text) return text:match "^%s*(.-)%s*$" end
 
 -- ---------------------------------------------------------------- records
 
---- A field in quotes at `at`, the place of the first quote; returns it and the place after the
---- last.
+--- A field in quotes. at: the first quote. Returns the field and the place after the last quote.
 local function read_quoted(text, at, line)
   local stop = at
   repeat
@@ -36,7 +35,7 @@ local function read_quoted(text, at, line)
 end
 
 --- Reads the record at `at`: returns its fields, the place of the next record, and its line. Raises
---- { message = }. is_loose: white space around fields is dropped.
+--- { message = }. is_loose: white space around fields is removed.
 function csv.record(text, at, line, separator, is_loose)
   local record, count, lines = {}, 0, 0
   local ends = "[\n" .. separator:gsub("%W", "%%%0") .. "]"
@@ -77,13 +76,13 @@ local readers = {
 }
 local described = { number = "a number", boolean = fields.booleans }
 
---- The one of comma, semicolon and tab that comes first in the first line outside of quotes.
+--- Which of comma, semicolon and tab comes first in the first line, outside of quotes.
 local function find_separator(text)
   local line = text:match "^[^\r\n]*":gsub('"[^"]*"', "")
   return line:match "[,;\t]" or ","
 end
 
---- The places of the columns by their names. Raises { message = } if two have the same name.
+--- The indices of the columns by their names. Raises { message = } if two have the same name.
 function csv.columns(header)
   local columns = {}
   for i, name in ipairs(header) do
@@ -142,8 +141,8 @@ local function make_row(record, header, types, line, decimal)
   return row
 end
 
---- The first row of a text, and a function that returns each of the following rows and its line,
---- and nil after the last. Both raise { message = }.
+--- The first row of a text, and a function that returns the next row and its line, and nil after
+--- the last row. Both raise { message = }.
 function csv.rows(text, separator)
   local at, line, width = text:find "^\239\187\191" and 4 or 1, 1, nil -- after a byte order mark
   separator = separator or find_separator(text:sub(at, at + 65535))
@@ -177,7 +176,7 @@ local function decode(text, options)
   return rows
 end
 
---- Where a text is not UTF-8, as a sentence; nil where it is.
+--- A sentence that says where a text is not UTF-8; nil: it is UTF-8.
 local function fault_of_coding(text)
   local length, at = utf8.len(text)
   if length then return nil end

@@ -10,8 +10,8 @@ local pathdata = require "celspan.pathdata"
 
 local curves = {}
 
-local SHARES = 16 -- of a curve; a straight line is one
-local STEPS = 6 -- of Newton; each doubles the digits
+local SHARES = 16 -- parts of a curve; a straight line has one part
+local STEPS = 6 -- steps of Newton's method; each doubles the number of right digits
 local nodes = { { 0, 128 / 225 }, { 0.5384693101056831, 0.47862867049936647 },
                 { -0.5384693101056831, 0.47862867049936647 },
                 { 0.9061798459386640, 0.23692688505618908 },
@@ -30,7 +30,7 @@ local function length_between(at, from, to)
   return half * sum
 end
 
---- Appends a piece: a function of 0..1 that gives a point and its derivative.
+--- Appends a piece. at: a function of 0..1 that returns a point and its derivative.
 local function append(curve, at, shares)
   for i = 1, shares or SHARES do
     local from, to = (i - 1) / (shares or SHARES), i / (shares or SHARES)
@@ -42,7 +42,7 @@ local function append(curve, at, shares)
   end
 end
 
---- What pathdata.walk moves along the pieces; each is a function of 0..1.
+--- The pen that pathdata.walk moves along the pieces; each piece is a function of 0..1.
 local Pen = {}
 Pen.__index = Pen
 
@@ -84,7 +84,7 @@ local function data_of(outline)
   return good and type(data) == "string" and data or nil
 end
 
---- The curve of points that lines connect; x, y: the first.
+--- The curve through points that are connected by lines; x, y: the first point.
 function curves.of_points(points)
   local way = setmetatable({ length = 0, x = points[1][1], y = points[1][2] }, Curve)
   for i = 2, #points do
@@ -93,7 +93,7 @@ function curves.of_points(points)
   return way
 end
 
---- The curve of path data; nil and a message where that is damaged.
+--- The curve of path data; nil and a message if the data are damaged.
 function curves.of_data(data)
   local way = setmetatable({ length = 0 }, Curve)
   local done, message = pathdata.walk(data, setmetatable({ way = way }, Pen))
@@ -102,8 +102,8 @@ function curves.of_data(data)
   return way
 end
 
---- The curve of path data or of a path (without its transforms), which has a length. noun: for
---- messages.
+--- The curve of path data or of a path (without its transforms); its length must not be 0. noun:
+--- for messages.
 function curves.read(noun, outline, field)
   field = field or "along"
   local data = data_of(outline)
@@ -117,8 +117,8 @@ function curves.read(noun, outline, field)
   return way
 end
 
---- The point at a length, and the direction there, a unit vector. Before the beginning and after
---- the end it continues straight. A curve without a length is one point.
+--- The point at a length, and the direction there as a unit vector. Before the beginning and after
+--- the end, the curve continues straight. A curve without a length is one point.
 function Curve:at(length)
   if #self == 0 then return self.x, self.y, 1, 0 end
   local held = math.max(0, math.min(self.length, length))

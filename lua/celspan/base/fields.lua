@@ -19,7 +19,7 @@ function fields.is_finite(value)
   return type(value) == "number" and value == value and value ~= math.huge and value ~= -math.huge
 end
 
---- The finite number that a text is in decimal notation; nil for another text.
+--- The finite number that a text means in decimal notation; nil for another text.
 function fields.read_number(text)
   local number = not text:find "[xX]" and tonumber(text)
   return fields.is_finite(number) and number or nil
@@ -28,13 +28,13 @@ end
 local booleans = { ["true"] = true, yes = true, ["1"] = true, ["false"] = false, no = false,
                    ["0"] = false }
 
---- The boolean that a text is, in upper or lower case; nil for another text.
+--- The boolean that a text means, in upper or lower case; nil for another text.
 function fields.read_boolean(text) return booleans[text:lower()] end
 
 --- The texts that fields.read_boolean reads, for messages.
 fields.booleans = "true, false, yes, no, 1 or 0"
 
---- How a message describes a value: "nil", "a cel".
+--- The words with which a message describes a value: "nil", "a cel".
 function fields.kind(value)
   local noun = type(value) == "userdata" and tostring(value):match "^(%l+)%f[{%z ]"
   return noun and "a " .. noun or type(value)
@@ -47,11 +47,11 @@ end
 
 --- The same as `kind`, with the value of a number.
 function fields.shown(value)
-  if value ~= value then return "nan" end -- its sign means nothing
+  if value ~= value then return "nan" end -- the sign of NaN has no meaning
   return type(value) == "number" and ("%.14g"):format(value) or fields.kind(value)
 end
 
---- What is wrong with the space of an option; nil: nothing, or it is not given.
+--- The fault of the option `space`; nil: it is correct or missing.
 function fields.space(noun, space)
   if space ~= nil and space ~= "linear" and space ~= "srgb" then
     return ("%s: space must be \"linear\" or \"srgb\", got %s"):format(noun,
@@ -68,8 +68,8 @@ local function refuse_name(noun, name, names)
     or #names > 0 and "; there are " .. table.concat(names, ", ") or ""))
 end
 
---- Raises an error unless `self` is a value of this class (its metatable). These errors, like all
---- of the library, are at the line of the nearest caller outside it.
+--- Raises an error unless `self` is a value of this class (its metatable). Like all errors of the
+--- library, it is at the line of the nearest caller outside the library.
 function fields.self(noun, class, self, method)
   if getmetatable(self) ~= class then
     core.refuse(("%s: %s: call it as a method, value:%s(...), got %s"):format(noun, method, method,
@@ -77,8 +77,8 @@ function fields.self(noun, class, self, method)
   end
 end
 
---- Raises an error unless `self` is a value of this class, and `value`, what its method `at` takes,
---- is a finite number. what: "a time".
+--- Raises an error unless `self` is a value of this class, and `value`, the argument of its method
+--- `at`, is a finite number. what: "a time".
 function fields.check_at(noun, class, self, value, what)
   fields.self(noun, class, self, "at")
   if not fields.is_finite(value) then
@@ -87,8 +87,8 @@ function fields.check_at(noun, class, self, value, what)
   end
 end
 
---- The __index of a class whose values have `methods` and fields of their own. optional: the
---- fields that may be nil, as keys.
+--- The __index of a class whose values have `methods`, and also fields. optional: the fields that
+--- may be nil, as keys.
 function fields.reads(noun, methods, optional)
   return function(value, name)
     local found = methods[name]
@@ -111,7 +111,7 @@ function fields.seal(noun, module)
 end
 
 --- Makes the functions of a table, except those for operators, keep the line of a caller that ends
---- with them: `return layers.read(7)`.
+--- with a call of them: `return layers.read(7)`.
 local function keep_callers(methods)
   for name, method in next, methods do
     if type(method) == "function" and name:sub(1, 2) ~= "__" then
@@ -142,8 +142,8 @@ function fields.numbers(noun, subject, value, count, shape)
   end
 end
 
---- Checks the fields of a table.
---- known: name -> the required type(), or "any"; known[1] is not nil if the table may hold a list.
+--- Checks the fields of a table. known: name -> the required type(), or "any". known[1] must be set
+--- if the table may contain a list.
 function fields.check(noun, given, known)
   if type(given) ~= "table" then
     core.refuse(("%s: takes a table, got %s"):format(noun, fields.kind(given)))

@@ -13,7 +13,8 @@ local MOST_BYTES = 256 * 1024 * 1024 -- of a file that a script reads as text
 ---@return string? message
 function files.read(path, most) return core.file_text(path, most) end
 
---- The same for a file named in a script: beside the caller's file, else beside the script.
+--- The same for a file named in a script: it is beside the caller's file, or else beside the
+--- script.
 ---@param path string
 ---@param most integer Bytes
 ---@return string? text

@@ -23,7 +23,7 @@ local function skip(text, at)
   return text:find("[^ \t\r\n]", at) or #text + 1
 end
 
---- A \u escape at `at` (of the u), surrogate pairs joined.
+--- Reads a \u escape. at: the position of the u. Surrogate pairs are joined.
 local function read_unicode(text, at)
   local digits = text:match("^u(%x%x%x%x)", at)
   if not digits then fail(text, at, "\\u needs four hexadecimal digits") end

@@ -2,7 +2,7 @@
 local ordered = {}
 
 --- The index of the last item whose value is at most `most`; 0 if there is none. field: the name of
---- the field that holds this value, by which the list ascends; without it, the items are numbers.
+--- the field with this value; the list is sorted by it. Without `field`, the items are numbers.
 function ordered.last(list, most, field)
   local low, high = 0, #list
   while low < high do

@@ -13,7 +13,7 @@ local function read_number(text, at, is_flag)
     return tonumber(flag), after
   end
   local digits = text:match(number_pattern, at)
-  -- an e without an exponent, or a second sign, ends the number before it
+  -- an e without an exponent, or a second sign, ends the number
   while digits and digits ~= "" and not tonumber(digits) do digits = digits:sub(1, -2) end
   if not digits or digits == "" then return nil end
   local _, stop = text:find("^[%s,]*", at)
@@ -27,7 +27,7 @@ local function line(pen, x, y)
   go(pen, x, y)
 end
 
---- A cubic with inner control points 1 and 2.
+--- Draws a cubic with the inner control points 1 and 2.
 local function cubic(pen, x1, y1, x2, y2, x, y)
   pen:curve(x1, y1, x2, y2, x, y)
   go(pen, x, y)
@@ -56,7 +56,7 @@ local function arc(pen, rx, ry, degrees, is_large, is_sweep, x, y)
   end
   local k = math.sqrt(math.max(0, 1 / reach - 1))
   if is_large == is_sweep then k = -k end
-  local cx, cy = k * py, -k * px -- the centre on the unit circle's plane
+  local cx, cy = k * py, -k * px -- the centre, in the plane in which the ellipse is a unit circle
   local from, to = math.atan(py - cy, px - cx), math.atan(-py - cy, -px - cx)
   if is_sweep == 1 and to < from then to = to + 2 * math.pi end
   if is_sweep == 0 and to > from then to = to - 2 * math.pi end
@@ -86,7 +86,7 @@ function draw.V(pen, y) line(pen, pen.x, y) end
 function draw.Z(pen) line(pen, pen.start_x, pen.start_y) end
 draw.C, draw.Q, draw.A = cubic, quadratic, arc
 
---- The control point mirrored at the pen, if the command before was of the same family.
+--- The control point mirrored at the pen, if the previous command was of the same family.
 local function mirrored(pen, family)
   if not family:find(pen.last, 1, true) then return pen.x, pen.y end
   return 2 * pen.x - pen.control_x, 2 * pen.y - pen.control_y
@@ -102,7 +102,7 @@ function draw.T(pen, x, y)
   quadratic(pen, x1, y1, x, y)
 end
 
---- Adds the pen to relative numbers.
+--- Adds the position of the pen to relative numbers.
 local function make_absolute(pen, command, n)
   if command == "H" then n[1] = n[1] + pen.x
   elseif command == "V" then n[1] = n[1] + pen.y
@@ -112,8 +112,8 @@ local function make_absolute(pen, command, n)
   end
 end
 
---- The commands of path data in order, each { command = "l", x, y }, with its letter and its
---- numbers as they are written; a letter that is left out is filled in. Or nil and a message.
+--- The commands of path data in order, each { command = "l", x, y }, with the letter and the
+--- numbers that are written; an omitted letter is filled in. Or nil and a message.
 ---@param text string
 ---@return table[]? commands
 ---@return string? message

@@ -9,15 +9,14 @@ local sets = {}
 
 local PARTED = "^[ %-_/.:]+([^/]+)$" -- the rest of a name after the name of its set
 
---- The member that a name is in a set; nil: none. The contents of a member are
---- no members.
+--- The member of a set that a name means; nil: none. Names inside a member are not members.
 local function member_of(name, set)
   local rest = name:sub(1, #set) == set and name:sub(#set + 1):match(PARTED)
   return rest and (member_of(rest, set) or rest) or nil
 end
 
---- The elements of a drawing that are children of a part, as { name = "mouth/C", element = }.
---- Labels are their names; where none of the children of a part has one, ids are.
+--- The elements of a drawing that are children of a part, as { name = "mouth/C", element = }. Their
+--- names are their labels; if no child of a part has a label, their ids.
 ---@param elements celspan.svg.element[]
 ---@param parts table<string, any> By name
 function sets.children(elements, parts)
@@ -43,7 +42,7 @@ function sets.children(elements, parts)
   return list
 end
 
---- "; did you mean 'mouth'?" for a set that is not there; "" where no set has a name near it.
+--- "; did you mean 'mouth'?" for a set that does not exist; "" if no set has a similar name.
 ---@param parts table<string, any> By name
 ---@param set string
 function sets.hint(parts, set)
@@ -57,7 +56,7 @@ function sets.hint(parts, set)
   return nearest and ("; did you mean '%s'?"):format(nearest) or ""
 end
 
---- The members of a set: the names of the parts by member. A sorted list of the members too.
+--- The members of a set: the names of the parts, by member. Also a sorted list of the members.
 ---@param parts table<string, any> By name
 ---@param set string
 function sets.members(parts, set)

@@ -47,7 +47,8 @@ local function default_text(field)
   return (tonumber(field.preset) and "default %s" or 'default "%s"'):format(field.preset)
 end
 
---- The places of its numbers, its sentence, range and default, as far as there are some.
+--- The facts about a field: the places of its numbers, its sentence, range and default, as far as
+--- they exist.
 local function comment_of(field)
   local parts = {}
   local function add(part)
@@ -84,7 +85,7 @@ local function add_value_class(lines, noun, parent)
   end
 end
 
---- The annotations of a noun, in place of its line in celspan.annotations.
+--- The annotations of a noun; they replace its line in celspan.annotations.
 local function expand(noun, parent, has_methods, has_constructor)
   local lines = {}
   if noun.table then
@@ -159,7 +160,7 @@ local function read_line(block, line)
   end
 end
 
---- The line after a block: a function or a variable, which names it.
+--- Ends a block. line: the line after it, a function or a variable, which gives the block its name.
 local function close_block(block, line, owners)
   local owner, sign, name = line:match "^function ([%w_]+)([.:])([%w_]+)%("
   local variable = line:match "^local ([%w_]+) ="
@@ -206,8 +207,8 @@ local function blocks_of_all()
   return cached
 end
 
---- What functions and methods return first, by name ("celspan.svg.read", "celspan.object:blur"),
---- and of each class the one that it extends.
+--- The first result of functions and methods, by name ("celspan.svg.read", "celspan.object:blur"),
+--- and for each class the class that it extends.
 ---@return table<string, string> calls
 ---@return table<string, string> parents
 function manual.types()
@@ -265,14 +266,14 @@ local function class_rows(class, rows)
   return rows
 end
 
---- Whether a type is a table that is given to a function.
+--- Whether a type is a table that functions take.
 local function is_given(name)
   return name:find "%.fields$" or name:find "%.options$" or name:find "%.style$"
 end
 
 local function name_of(param) return param.name .. (param.is_optional and "?" or "") end
 
---- The rows of the parameters of a function. A table that is given to it is replaced by its fields.
+--- The rows of the parameters of a function. A table parameter is replaced by its fields.
 local function function_rows(block)
   local rows = {}
   for _, param in ipairs(block.params) do
@@ -298,7 +299,7 @@ local function signature(block)
   return ("%s(%s)"):format(name, table.concat(names, ", "))
 end
 
---- Adds the description of a function, a class or another name: `block`, one of `blocks`.
+--- Adds the description of `block`, a function, a class or another name; `blocks`: all of them.
 local function add_block(page, blocks, block)
   if #page > 0 then page[#page + 1] = "" end
   page[#page + 1] = block.is_function and signature(block) or plain(block.name)
@@ -322,7 +323,7 @@ local function module_page(name, blocks)
   return table.concat(page, "\n") .. "\n"
 end
 
---- Whether a block is meant by a name: stroke, celspan.stroke, object:stroke, motion.along.
+--- Whether a name means a block: stroke, celspan.stroke, object:stroke, motion.along.
 local function is_meant(block, name)
   return block.name == name or block.name == "celspan." .. name or block.is_method == name
     or block.is_method and block.short == name
@@ -419,7 +420,7 @@ end
 
 -- ---------------------------------------------------------------- tables
 
---- A field of a noun for other programs: what is missing is not known or has no limit.
+--- A field of a noun for other programs. Missing facts are unknown, or there is no limit.
 local function fact_of_field(field)
   local preset = tonumber(field.preset) or field.preset or field.fallback
   return { name = field.name, type = field.type, about = field.about, default = preset,
@@ -427,7 +428,7 @@ local function fact_of_field(field)
            most = field.most }
 end
 
---- A function, or a table that one takes or returns.
+--- A function, or a table that a function takes or returns.
 local function fact_of_block(block, module)
   local function items(list)
     local facts = {}
@@ -482,7 +483,7 @@ end
 
 -- ---------------------------------------------------------------- one name
 
---- The page about a name; without one, the list; nil and a message for an unknown name.
+--- The page about a name; without a name, the list; nil and a message for an unknown name.
 ---@param name? string
 ---@return string? page
 ---@return string? message

@@ -49,7 +49,7 @@ local say = require "say"
 
 -- ---------------------------------------------------------------- the spec
 
---- Whether a level belongs neither to this library nor to luassert, but to the spec.
+--- Whether a level of the stack belongs to the spec: neither to this library nor to luassert.
 local function is_foreign(info)
   return info.currentline > 0 and not info.source:find "^@celspan/"
     and not info.source:find "[/\\]luassert[/\\]"
@@ -213,9 +213,8 @@ local function need_name(subject, names)
       or "; give it one with cel:named(" .. ("%q"):format(subject.name) .. ")"))
 end
 
---- A copy of the film with one changed frame. Each cel of that frame is replaced by the cel that
---- `keep` returns for it, or left out if `keep` returns none. more: other changed fields of the
---- rostrums.
+--- A copy of the film with one changed frame. `keep` is called for each cel of that frame, and
+--- returns the cel that replaces it, or none. more: other changed fields of the rostrums.
 local function changed_film(subject, keep, more)
   local names, list = {}, {}
   for i, exposure in ipairs(exposures_of(subject)) do
@@ -261,7 +260,7 @@ local function quoted(path)
   return path:find "^[%w_./-]+$" and path or "'" .. path:gsub("'", "'\\''") .. "'"
 end
 
---- Writes the frame beside the picture; returns the lines that say how to accept it.
+--- Writes the frame beside the picture. Returns the lines that say how to accept it.
 local function write_actual(path, image)
   local actual = beside(path, "actual")
   need(image:write(actual), ("%s cannot be written"):format(actual))
@@ -278,7 +277,8 @@ local function write_difference(path, found, image)
   return ("  where          %s"):format(shown)
 end
 
---- The absolute path: a relative one would be looked up beside the Lua file that names it.
+--- The absolute path, because a relative one would be searched for beside the Lua file that names
+--- it.
 local function from_root(path)
   return path:sub(1, 1) == "/" and path or require "lfs".currentdir() .. "/" .. path
 end
@@ -299,8 +299,8 @@ end
 
 -- ---------------------------------------------------------------- claims
 
---- word -> function(subject, arguments): whether the claim holds, and the message if the assertion,
---- or its negation, fails.
+--- word -> function(subject, arguments): whether the claim is true, and the message if the
+--- assertion, or its negation, fails.
 local claims = {}
 
 local function tolerance_of(word, given)
@@ -368,7 +368,7 @@ local function coded(r, g, b, a)
     { red, green, blue, alpha }
 end
 
---- The colour of a paint under white light with nothing behind it.
+--- The colour of a paint in white light, with nothing behind it.
 local function shown_by(paint)
   local made, drawn = pcall(celspan.rect, { 0, 0, 1, 1, texture = paint })
   if not made then
@@ -478,7 +478,7 @@ end
 
 -- ---------------------------------------------------------------- luassert
 
---- The subject of each claim.
+--- The word for the subject of each claim.
 local about = { looks_like = "frame", shows = "point", visible = "cel", covers = "cel",
                 look_alike = "frames", holds = "row" }
 local takes = { frame = "film, n", point = "film, n, x, y", cel = "film, n, name",
@@ -499,7 +499,7 @@ for word, read in pairs(subjects) do
   end))
 end
 
---- Puts the message in the place of the arguments, which are otherwise not shown.
+--- Replaces the arguments by the message, because they are not shown.
 local function set_message(arguments, message)
   if type(message) == "function" then message = message() end
   for i = 1, arguments.n do arguments[i] = nil end

@@ -13,11 +13,11 @@ local warp = require "celspan.warp"
 local brush = {}
 
 local SAMPLES = 48
-local CHISEL = 0.15 -- of the width: the nib's thickness
+local CHISEL = 0.15 -- the thickness of the nib, as a share of the width
 
 local function refuse(text, ...) core.refuse("brush: " .. text:format(...)) end
 
---- The share of the width at a share of the drawn part. line: { curve, width, from, length }, in
+--- The width at a place of the drawn part, as a share. line: { curve, width, from, length }, in
 --- units; length: of the drawn part.
 local profiles = {}
 
@@ -66,7 +66,7 @@ local function profile_of(given, line)
     hint and ("; did you mean %q?"):format(hint) or "")
 end
 
---- Places along the line, dense at its ends, and half the share of the width there.
+--- Places along the line, closer together at its ends, and half of the width there, as a share.
 local function samples_of(profile, from, to)
   local xs, halves = {}, {}
   for i = 0, SAMPLES do
@@ -76,7 +76,7 @@ local function samples_of(profile, from, to)
   return xs, halves
 end
 
---- A side as curves from its first sample to its last, or back.
+--- Adds a side as curves, from its first sample to its last, or in reverse.
 local function add_side(text, xs, ys, first, last, step)
   local function slope(i)
     local a, b = math.max(0, i - 1), math.min(SAMPLES, i + 1)
@@ -89,7 +89,7 @@ local function add_side(text, xs, ys, first, last, step)
   end
 end
 
---- The outline of the straight line, above and below the x axis alike.
+--- The outline of the straight line, symmetrical about the x axis.
 local function outline_of(profile, from, to)
   local xs, above = samples_of(profile, from, to)
   local below = {}

@@ -39,15 +39,15 @@ local function to_rgb(lightness, a, b)
     -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s
 end
 
-local SLACK = 1e-7 -- what rounding may add to a colour of sRGB
+local SLACK = 1e-7 -- the rounding error of a colour of sRGB
 
 local function is_srgb(r, g, b)
   local least, most = math.min(r, g, b), math.max(r, g, b)
   return least >= -SLACK and most <= 1 + SLACK
 end
 
---- The nearest colour of sRGB with this lightness and hue: the chroma is reduced. Outside 0..1 of
---- the lightness it is black or white.
+--- The nearest colour of sRGB with this lightness and hue; its chroma is reduced. If the lightness
+--- is outside of 0..1, it is black or white.
 local function paint_of(lightness, a, b, alpha)
   lightness = math.max(0, math.min(1, lightness))
   local low, high = 0, 1
@@ -89,7 +89,8 @@ local function check(noun, name, value)
   return value
 end
 
---- A colour by how it looks. A chroma that sRGB does not have at this lightness is reduced.
+--- A colour described by its appearance. A chroma that sRGB does not have at this lightness is
+--- reduced.
 ---@param lightness number 0: black, 1: white
 ---@param chroma number 0: grey; the strongest colours of sRGB have about 0.3
 ---@param hue number Degrees: about 30 red, 110 yellow, 145 green, 265 blue
@@ -120,7 +121,7 @@ function colour.lighten(value, amount)
   return paint_of(lightness + amount, a, b, alpha)
 end
 
---- The colour between two others as the eye sees it: by way of Oklab.
+--- The colour between two others for the eye: mixed in Oklab.
 ---@param p celspan.colour
 ---@param q celspan.colour
 ---@param u number 0: p, 1: q

@@ -12,8 +12,8 @@ local count = {}
 local THIN, WIDE = "\u{202f}", "\u{a0}" -- spaces at which no line breaks
 local MOST_DECIMALS = 15
 
---- { between groups, before decimals, the digits of the groups after the first, the digits that a
---- number needs before the first separator to be grouped at all }
+--- { separator of groups, separator of decimals, digits of each group after the first, least number
+--- of digits before the first separator }
 local comma, point, space = { ",", "." }, { ".", "," }, { WIDE, "," }
 local known = {
   en = comma, ja = comma, ko = comma, zh = comma, th = comma, he = comma, ar = comma, ga = comma,
@@ -29,7 +29,7 @@ local known = {
 
 local function refuse(text, ...) core.refuse("count: " .. text:format(...)) end
 
---- The style of "pt-BR" is that of "pt", if it has none of its own.
+--- The style of a language. "pt-BR" has the style of "pt", unless it has its own.
 local function style_of(language)
   local style = known[language] or known[language:match "^%a+" or ""]
   if style then return style end
@@ -39,7 +39,8 @@ local function style_of(language)
   refuse("there is no language %q; there are %s", language, table.concat(names, ", "))
 end
 
---- The digits with a separator before the last three, and before each group in front of them.
+--- The digits with separators: one before the last three digits, and one before each group in front
+--- of them.
 local function grouped(digits, style)
   local size, least = style[3] or 3, style[4] or 1
   if #digits < 3 + least then return digits end

@@ -19,7 +19,7 @@ local function refuse(text, ...) core.refuse(text:format(...)) end
 local across = { left = 0, centre = 0.5, right = 1 }
 local down = { top = 0, centre = 0.5, bottom = 1 }
 
---- The share that a word stands for. noun: the name of the function, for messages.
+--- The share that a word means. noun: the name of the function, for messages.
 local function share_of(noun, field, word, shares, default)
   local share = shares[word == nil and default or word]
   if share then return share end
@@ -56,12 +56,12 @@ end
 --- The object with its bounds at x, y.
 local function moved(item, x, y) return item.object:translate(x - item.x, y - item.y) end
 
---- The object with its bounds at these shares of the free room in a box.
+--- The object, moved so that its bounds are at these shares of the free room in a box.
 local function placed(item, box, h, v)
   return moved(item, box[1] + (box[3] - item.w) * h, box[2] + (box[4] - item.h) * v)
 end
 
---- The shares that the third and fourth arguments are.
+--- The shares that the third and fourth arguments mean.
 local function shares_of(noun, horizontal, vertical)
   return share_of(noun, "the third argument", horizontal, across, "centre"),
     share_of(noun, "the fourth argument", vertical, down, "centre")
@@ -210,8 +210,9 @@ local function groups_of(letters, by)
   return groups
 end
 
---- Puts a group on a curve: the middle of its advance on the line, with y as the distance from it.
---- left: what of the text lies at the start. false: the group lies beyond the ends.
+--- Puts a group on a curve: the middle of its advance is on the line, and y is its distance from
+--- the line. left: the place of the text that lies at the start. Returns false if the group is
+--- beyond the ends.
 local function ride(group, curve, start, left)
   local middle = group.x + group.advance / 2
   local length = start * curve.length + middle - left
@@ -226,9 +227,9 @@ end
 
 local function as_it_is(letter) return letter.object end
 
---- A text whose letters, words or lines a function changes: it gets each one, its number among them
---- from 1 and how many there are, and returns an object, or nil for nothing. Spaces are not passed
---- to it. With `along` the text runs along a path.
+--- A text whose letters, words or lines a function changes. The function gets each of them, its
+--- number from 1 on, and how many there are; it returns an object, or nil for nothing. It does not
+--- get spaces. With `along`, the text follows a path.
 ---@param text celspan.text.fields As for celspan.glyphs
 ---@param change? fun(letter: celspan.letter, i: integer, n: integer): celspan.object?
 ---@param options? { by?: "letter"|"word"|"line", along?: string|celspan.shape, start?: number }

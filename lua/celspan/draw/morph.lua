@@ -18,21 +18,21 @@ local function refuse(text, ...) core.refuse("morph: " .. text:format(...)) end
 
 local function between(x, y, u) return x + (y - x) * u end
 
---- An object with the common values of both nodes. The first node gives the name.
+--- An object with the values that both nodes have in common. The first node gives the name.
 local function finish(object, p, q, u)
   local fade, name = between(p.fade, q.fade, u), p.name ~= "" and p.name or q.name
   if fade ~= 1 then object = object:fade(fade) end
   return name ~= "" and object:named(name) or object
 end
 
---- One object that becomes another while nothing of it moves: the sum of shares of both.
+--- One object that becomes another without any movement: the sum of shares of both.
 local function dissolved(first, second, u)
   return celspan.group { first:fade(1 - u), second:fade(u):blend "add", isolate = true }
 end
 
 -- ---------------------------------------------------------------- paints
 
---- The matrix that takes one box to another; a side that is 0 is only moved.
+--- The matrix that maps one box to another; a side of length 0 is only moved.
 local function fitting(from, to)
   local sx = from[3] > 0 and to[3] / from[3] or 1
   local sy = from[4] > 0 and to[4] / from[4] or 1
@@ -57,7 +57,7 @@ end
 
 -- ---------------------------------------------------------------- parts
 
---- The plan for a node without a partner: a function of its scale, from 0 to 1.
+--- The plan for a node without a partner: a function of the node's scale, from 0 to 1.
 local function lone(node)
   local x, y, w, h = node.object:bounds()
   if not x then return function() return node.object end end
@@ -65,7 +65,7 @@ local function lone(node)
 end
 
 local function plan_outlines(p, q, steering)
-  if (p.line == nil) ~= (q.line == nil) then -- a line and a shape: both as shapes
+  if (p.line == nil) ~= (q.line == nil) then -- one is a line, the other a shape: both become shapes
     local one, other = core.anatomy(p.object, true), core.anatomy(q.object, true)
     one.name, other.name = p.name, q.name
     p, q = one, other
@@ -82,9 +82,8 @@ local function plan_outlines(p, q, steering)
   end
 end
 
---- The operands of a union with their partners, in order: an operand of the second without a
---- partner comes after the partner of the operand before it. names: pairs of names that the script
---- gives.
+--- The operands of a union with their partners, in order. An operand of the second union without a
+--- partner follows the partner of the operand before it. names: pairs of names from the script.
 local function partners(p, q, names)
   local wanted, by_name, taken, list = {}, {}, {}, {}
   for _, pair in ipairs(names) do wanted[pair[1]] = pair[2] end
@@ -116,7 +115,7 @@ local function partners(p, q, names)
   return list
 end
 
-local plan -- of two nodes: a function of u
+local plan -- for two nodes: a function of u
 
 local function plan_union(p, q, steering)
   local plans = {}
@@ -132,7 +131,7 @@ local function plan_union(p, q, steering)
   return plans
 end
 
---- Whether two nodes can be one boolean between them.
+--- Whether two nodes can become one boolean.
 local function is_alike(p, q)
   return p.kind == "boolean" and q.kind == "boolean" and p.op == q.op
     and (p.op == "union" or #p == #q)
@@ -141,7 +140,7 @@ end
 function plan(p, q, steering)
   if p.kind == "outline" and q.kind == "outline" then return plan_outlines(p, q, steering) end
   local function is_union(node) return node.kind == "boolean" and node.op == "union" end
-  --- An outline beside a union is a union of one.
+  --- Makes an outline a union with one operand, if its partner is a union.
   local function widened(node)
     return { kind = "boolean", op = "union", name = "", fade = 1, object = celspan.union {}, node }
   end
@@ -189,7 +188,7 @@ local function read_pairs(list)
   return steering, table.concat(key, ";")
 end
 
---- Whether a node or one in it has this name.
+--- Whether a node, or a node inside it, has this name.
 local function has_name(node, name)
   if node.name == name then return true end
   for _, child in ipairs(node) do
@@ -208,7 +207,7 @@ local function check_names(p, q, names)
   end
 end
 
---- Gives each pair of places to the outline of `a` that is nearest to it.
+--- Assigns each pair of places to the nearest outline of `a`.
 local function assign(node, steering)
   local function nearest(at, place, best)
     for _, contour in ipairs(at.contours or {}) do
@@ -228,7 +227,7 @@ end
 
 local kept = setmetatable({}, { __mode = "k" })
 
---- The plan for two objects, which is made when it is first asked for.
+--- The plan for two objects; it is made on first use.
 local function plan_of(a, b, list)
   local steering, key = read_pairs(list)
   kept[a] = kept[a] or setmetatable({}, { __mode = "k" })
@@ -243,7 +242,7 @@ local function plan_of(a, b, list)
   return plans[key]
 end
 
---- The object between two others; at 0 and 1 it is the one and the other.
+--- The object between two others; at 0 it is the first, and at 1 the second.
 ---@param a celspan.shape
 ---@param b celspan.shape
 ---@param u number
@@ -262,7 +261,7 @@ function morph.between(a, b, u, options)
   end
   local list = options and options.pairs
   if u <= 0 or u >= 1 then
-    read_pairs(list) -- to refuse what is wrong in it; nothing has to be matched
+    read_pairs(list) -- only to refuse mistakes in the list; nothing must be matched
     return u <= 0 and a or b
   end
   return plan_of(a, b, list)(u)

@@ -14,12 +14,13 @@ local outlines = {}
 
 local NODES = 32
 local REACH = 3
-local BAND = 0.2   -- of the length: how far the lengths of a pair of nodes may differ
+-- the greatest difference between the lengths of a pair of nodes, as a share of the length
+local BAND = 0.2
 local NEVER = 1e9  -- the cost of a pair that is not allowed
 local CHORDS = 8
 local CORNER = 0.2 -- radians
-local SAME = 1e-7  -- of the whole length
-local TRIED = 0.1  -- of the length, about the turn that fits best as a whole
+local SAME = 1e-7  -- a share of the whole length
+local TRIED = 0.1  -- a share of the length, on both sides of the turn that fits best
 
 -- ---------------------------------------------------------------- measures
 
@@ -32,8 +33,8 @@ end
 
 local function distance(x, y, u, v) return math.sqrt((x - u) ^ 2 + (y - v) ^ 2) end
 
---- The contour as pieces with their places along its length, as shares of the whole: each has its
---- own lengths at even parameters.
+--- The contour as pieces with their positions, as shares of its length. Each piece has its own
+--- lengths at even parameters.
 local function measure(contour)
   local way = { contour = contour, open = contour.open, length = 0, area = 0 }
   local left, top, right, bottom = math.huge, math.huge, -math.huge, -math.huge
@@ -84,7 +85,7 @@ local function place_at(way, s)
   return point_on(way.contour, piece.at, parameter(way, piece, s))
 end
 
---- The share of the length that is nearest to a place, and its distance.
+--- The share of the length at the point that is nearest to a place, and the distance of this point.
 local function nearest(way, x, y)
   local best, at = math.huge, 0
   for _, piece in ipairs(way) do
@@ -96,7 +97,7 @@ local function nearest(way, x, y)
   return at, best
 end
 
---- How far a place is from a contour.
+--- The distance of a place from a contour.
 function outlines.distance(contour, x, y)
   local _, far = nearest(measure(contour), x, y)
   return far
@@ -162,7 +163,7 @@ local function nodes_of(way, anchors)
   return list
 end
 
---- The nodes from one of them on, round to it again.
+--- The nodes in their order, beginning with one of them, once around.
 local function from_node(nodes, first, is_open)
   if is_open then return nodes end
   local list = {}
@@ -176,13 +177,14 @@ end
 
 -- ---------------------------------------------------------------- the best way
 
---- The cost of a pair of nodes for each share of length around it, and the cost that counts once.
+--- The cost of a pair of nodes for each share of the length around it, and a cost that is counted
+--- once.
 local function misfit(p, q)
   local x, y, turn = p.x - q.x, p.y - q.y, p.turn - q.turn
   return x * x + y * y + 0.3 * (1 - math.cos(p.angle - q.angle)), turn * turn / 10
 end
 
---- The shares of nodes, and for each node the sum of the costs of leaving out the nodes before it.
+--- The shares of the nodes, and for each node the total cost of omitting all nodes before it.
 local function columns(nodes)
   local shares, sums, sum = {}, {}, 0
   for i, node in ipairs(nodes) do
@@ -193,8 +195,8 @@ local function columns(nodes)
   return shares, sums
 end
 
---- The cheapest step to the pair i, j: its cost, and how many nodes of each it goes back. There is
---- a row of costs for each node of p.
+--- The cheapest step to the pair i, j: its cost, and how many nodes it goes back on each side.
+--- There is a row of costs for each node of p.
 local function best_step(p, q, costs, i, j)
   local best, back, over = NEVER, nil, nil
   local s, t = p.shares[i], q.shares[j]
@@ -227,13 +229,13 @@ local function trace_back(from, p, q, i, j)
 end
 
 --- The best way from the first to the last nodes of both: a list of { share of p, share of q }, and
---- its cost; nil where there is no way, or none with a cost below `limit`. is_free: pairs far from
---- each other by length are not tried.
+--- its cost; nil if there is no way, or no way with a cost below `limit`. is_free: pairs that are
+--- far apart by length are not tried.
 local function find_way(p, q, is_free, limit)
   local one, other, costs, from = {}, {}, { { 0 } }, { {} }
   one.shares, one.sums = columns(p)
   other.shares, other.sums = columns(q)
-  local least = { 0 } -- of the costs of each row
+  local least = { 0 } -- the least cost in each row
   for i = 2, #p do
     costs[i], from[i], least[i] = {}, {}, NEVER
     local far = p[i].s - p[1].s + q[1].s
@@ -250,7 +252,7 @@ local function find_way(p, q, is_free, limit)
         end
       end
     end
-    -- Every way goes through one of REACH rows that follow each other, and costs only grow.
+    -- Every way passes one of REACH consecutive rows, and costs only grow.
     if i >= REACH and math.min(table.unpack(least, i - REACH + 1, i)) >= limit then
       return nil, math.huge
     end
@@ -260,7 +262,7 @@ local function find_way(p, q, is_free, limit)
   return trace_back(from, one.shares, other.shares, #p, #q), cost
 end
 
---- The share by which q is turned where it lies best on p as a whole.
+--- The share by which q is turned so that it fits p best as a whole.
 local function best_turn(p, q)
   local function places(way)
     local list = {}
@@ -282,7 +284,7 @@ local function best_turn(p, q)
   return turn
 end
 
---- The best way round two closed ones: it begins at the sharpest corner of the first.
+--- The best way around two closed contours: it begins at the sharpest corner of the first.
 local function find_round(p, q, one, other)
   local turn, first = best_turn(p, q), 1
   for i, node in ipairs(one) do
@@ -306,7 +308,7 @@ local function find_best(p, q, anchors, refuse)
   local one, other = nodes_of(p, mine), nodes_of(q, yours)
   local is_open = p.open or q.open
   local way
-  if #anchors > 1 then -- where they lie has been said: between them length counts
+  if #anchors > 1 then -- the script gives the places; between them, lengths decide
     for _, nodes in ipairs { one, other } do
       for _, node in ipairs(nodes) do node.x, node.y = 0, 0 end
     end
@@ -326,7 +328,7 @@ local function find_best(p, q, anchors, refuse)
   return way or refuse "the pairs cross: their places must follow each other in one order on both"
 end
 
-local WAYS_MOST = 1000 -- that are kept
+local WAYS_MOST = 1000 -- the most ways that are kept
 local kept = { count = 0 }
 
 --- A contour as a string: equal only for equal numbers.
@@ -338,7 +340,7 @@ local function digits_of(contour)
   return table.concat(parts)
 end
 
---- The best way, kept for parts that are the same in the next frame.
+--- The best way. It is kept for parts that are the same in the next frame.
 local function best_way(p, q, anchors, refuse)
   if #anchors > 0 then return find_best(p, q, anchors, refuse) end
   local key = digits_of(p.contour) .. "|" .. digits_of(q.contour)
@@ -351,7 +353,7 @@ end
 
 -- ---------------------------------------------------------------- cuts
 
---- The other share at a share on side k of a way.
+--- The share on the other side that corresponds to a share on side k of a way.
 local function carried(way, k, s)
   for i = 2, #way do
     local p, q = way[i - 1], way[i]
@@ -362,7 +364,7 @@ local function carried(way, k, s)
   end
 end
 
---- The places at which both are cut: the joints of either, ascending.
+--- The places at which both contours are cut: the joints of both, ascending.
 local function cuts_of(way, p, q)
   local first, last, list, cuts = way[1], way[#way], {}, {}
   for k, side in ipairs { p, q } do
@@ -405,7 +407,7 @@ local function append_part(list, c, i, from, to)
   table.move(part, 1, 6, #list + 1, list)
 end
 
---- One side, cut.
+--- Cuts one side.
 local function cut_side(side, cuts, k)
   local list = { place_at(side, cuts[1][k] % 1) }
   if side.open then list = { place_at(side, cuts[1][k]) } end
@@ -422,8 +424,9 @@ end
 
 -- ---------------------------------------------------------------- contours
 
---- All numbers of a contour that has no partner at one point: the place in the other outline's
---- largest contour, `other`, that the contour's middle has in its own outline's, `own`.
+--- The numbers of a contour that has no partner, all at one point: the point in `other`, the other
+--- outline's largest contour, that corresponds to the contour's middle in `own`, its own outline's
+--- largest contour.
 local function shrunk(way, own, other)
   local x, y, list = way.x, way.y, {}
   if other then
@@ -446,7 +449,8 @@ local function measure_all(contours)
   return ways, largest
 end
 
---- How unlike two contours of two outlines are, whose largest ones are given.
+--- How different two contours of two outlines are; first, second: the largest contours of the
+--- outlines.
 local function unlikeness(p, q, first, second)
   local x = (p.x - first.x) / first.size - (q.x - second.x) / second.size
   local y = (p.y - first.y) / first.size - (q.y - second.y) / second.size
@@ -455,7 +459,7 @@ local function unlikeness(p, q, first, second)
     + (is_other and 100 or 0)
 end
 
---- The pairs of places that are meant for these contours, by the ways that they are nearest to:
+--- The pairs of places for these contours, given to the ways to which they are nearest:
 --- anchors[p][q] is a list of shares.
 local function anchors_of(ones, others, contours, places)
   local function find(ways, x, y)
@@ -479,7 +483,7 @@ local function anchors_of(ones, others, contours, places)
   return anchors
 end
 
---- The pairs of contours that are most alike, and the remaining contours.
+--- The pairs of contours that are most similar, and the remaining contours.
 local function pair_up(ones, others, first, second, anchors)
   local list, taken, found = {}, {}, {}
   for i, p in ipairs(ones) do
@@ -502,7 +506,8 @@ local function pair_up(ones, others, first, second, anchors)
   return found, taken
 end
 
---- Open lines begin where they are nearer to each other; closed ones turn the same way.
+--- Makes open lines begin at the ends that are nearer to each other, and closed ones turn in the
+--- same direction.
 local function turn_lines(ones, others)
   for i, q in ipairs(others) do
     local p = ones[math.min(i, #ones)]
@@ -516,8 +521,8 @@ local function turn_lines(ones, others)
   end
 end
 
---- What outlines.data takes. steering.places: { x, y, x, y, contours = those of `a` for which it is
---- meant }.
+--- Makes the argument of outlines.data. steering.places: { x, y, x, y, contours = the contours of
+--- `a` that it is for }.
 function outlines.match(a, b, steering, refuse)
   local ones, first = measure_all(a)
   local others, second = measure_all(b)

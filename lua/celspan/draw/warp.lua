@@ -27,7 +27,8 @@ local maps = {}
 
 -- ---------------------------------------------------------------- along a path
 
---- The line through the middle of the box becomes the path; all else keeps its distance from it.
+--- The line through the middle of the box becomes the path; all other points keep their distance
+--- from it.
 function maps.along(path, options, box)
   local curve = curves.read("warp", path)
   local start = (options.start or 0) * curve.length
@@ -60,8 +61,8 @@ local function read_lattice(lattice)
   return columns, rows, points
 end
 
---- The shares of four neighbouring points, of which two lie around the place: straight between
---- them, or Catmull and Rom's curve.
+--- The shares of four neighbouring points, two on each side of the place: linear interpolation, or
+--- Catmull and Rom's curve.
 local function spread(u, smooth)
   if not smooth then return 0, 1 - u, u, 0 end
   local v = 1 - u
@@ -69,7 +70,8 @@ local function spread(u, smooth)
     -v * u * u / 2
 end
 
---- The cell of a place among `count` cells, and the place in it; outside, the nearest cell.
+--- The cell that contains a place, among `count` cells, and the position in it; for a place
+--- outside, the nearest cell.
 local function cell_of(at, count)
   local cell = math.max(0, math.min(count - 1, math.floor(at)))
   return cell, at - cell
@@ -78,7 +80,7 @@ end
 function maps.lattice(lattice, _, box)
   local columns, rows, points = read_lattice(lattice)
   local left, top, width, height = table.unpack(lattice.box or box)
-  --- Beyond the lattice its points continue in equal steps.
+  --- Outside the lattice its points continue at equal distances.
   local function point(i, j, k)
     if i < 0 then return 2 * point(0, j, k) - point(-i, j, k) end
     if i > columns then return 2 * point(columns, j, k) - point(2 * columns - i, j, k) end
@@ -105,14 +107,15 @@ end
 
 -- ---------------------------------------------------------------- bones
 
-local SOFT = 0.0025 -- of the square of a radius: how sharply weights change at a joint
+local SOFT = 0.0025 -- how sharply weights change at a joint, as a share of the square of a radius
 
 local known_bone = { "name", from = "table", to = "table", parent = "any", rotate = "number",
                      scale = "number", at = "table", radius = "number", weight = "any" }
 
-local CELLS = 64 -- of a painted weight along its longer side: finer paint is smoothed
+local CELLS = 64 -- the cells of a painted weight along its longer side: finer paint is smoothed
 
---- Alpha of an object in cells over its bounds: alpha(i, j), 0 outside; and the side of a cell.
+--- Alpha of an object in cells over its bounds: a function alpha(i, j), 0 outside; and the side of
+--- a cell.
 local function read_cells(object, x, y, w, h)
   local side = math.max(w, h) / CELLS
   local columns, rows = math.ceil(w / side), math.ceil(h / side)
@@ -125,8 +128,8 @@ local function read_cells(object, x, y, w, h)
   end, side
 end
 
---- The shares of three neighbouring cells, u from the middle of the middle one, -0.5 to 0.5: the
---- quadratic B-spline, which has no kinks and is nowhere below 0.
+--- The weights of three neighbouring cells for the place u, from -0.5 to 0.5, measured from the
+--- centre of the middle cell: the quadratic B-spline, which has no kinks and is never negative.
 local function blend_three(u) return (0.5 - u) ^ 2 / 2, 0.75 - u * u, (0.5 + u) ^ 2 / 2 end
 
 --- The paint's weight as a function of the place.
@@ -147,7 +150,7 @@ local function read_paint(object)
   end
 end
 
---- Painted weights by their objects, as long as the objects are used.
+--- Painted weights by their objects; they are kept as long as the objects are used.
 local painted = setmetatable({}, { __mode = "k" })
 
 local function read_weight(i, weight)
@@ -172,7 +175,8 @@ local function parent_of(bones, i)
     .. "got %s", i, type(parent) == "string" and ("%q"):format(parent) or fields.shown(parent))
 end
 
---- How a bone moves its own surroundings: its joint turns, and it grows along itself.
+--- The map by which a bone moves its surroundings: its joint turns, and the bone is stretched along
+--- its length.
 local function motion_of(bone, fx, fy, tx, ty, length)
   local map = affine.turn(bone.rotate or 0, fx, fy)
   if bone.scale then
@@ -202,7 +206,7 @@ local function read_bone(list, made, i)
            map = parent and affine.compose(made[parent].map, own) or own }
 end
 
---- How much a point near a bone follows it: by the distance from it in the bone's radii.
+--- How much a point follows a bone near it: by its distance, in radii of the bone.
 local function nearness(bone, x, y)
   local px, py = x - bone.x, y - bone.y
   local along = math.max(0, math.min(bone.length, px * bone.dx + py * bone.dy))
@@ -211,7 +215,7 @@ local function nearness(bone, x, y)
   return 1 / (q * q)
 end
 
---- Sets the shares of the bones that have a weight of their own; returns their sum.
+--- Sets the shares of the bones that have their own weights; returns the sum of these shares.
 local function share_given(bones, shares, x, y)
   local sum = 0
   for i = 1, #bones do
@@ -225,7 +229,7 @@ local function share_given(bones, shares, x, y)
   return sum
 end
 
---- Divides `rest` among the bones of `list`, numbers of bones, by their nearness.
+--- Divides `rest` among the bones with the numbers in `list`, by their nearness.
 local function share_rest(bones, list, shares, rest, x, y)
   local total = 0
   for i = 1, #list do
@@ -236,7 +240,7 @@ local function share_rest(bones, list, shares, rest, x, y)
   for i = 1, #list do shares[list[i]] = shares[list[i]] + rest * bones[list[i]].near / total end
 end
 
---- The numbers of the bones without a weight of their own; all where each has one.
+--- The numbers of the bones that have no weight of their own; all bones if each has one.
 local function numbers_without_weight(bones)
   local some, all = {}, {}
   for i, bone in ipairs(bones) do
@@ -256,8 +260,8 @@ local function read_bones(list)
   return bones
 end
 
---- Each point follows the bones by their weights there; where the weights add up to less than one,
---- it also follows the bones that are near.
+--- Each point follows the bones by their weights. If the weights at a point add up to less than
+--- one, it also follows the bones near it.
 function maps.bones(list)
   local bones, shares = read_bones(list), {}
   local others = numbers_without_weight(bones)
@@ -294,9 +298,9 @@ local function read_pins(pins)
   return read
 end
 
---- The sums of moving least squares about a point: where the pins lie around it, before and
---- after, and the weighted turn. Schaefer, McPhail and Warren, Image Deformation Using Moving Least
---- Squares, 2006: the rigid deformation.
+--- The sums of moving least squares about a point: the mean place of the pins around it, before and
+--- after the movement, and the weighted rotation. Schaefer, McPhail and Warren, Image Deformation
+--- Using Moving Least Squares, 2006: the rigid deformation.
 local function fitted(pins, weights, sum)
   local px, py, qx, qy = 0, 0, 0, 0
   for i, pin in ipairs(pins) do
@@ -314,7 +318,8 @@ local function fitted(pins, weights, sum)
   return px, py, qx, qy, along / size, across / size
 end
 
---- Pins go where they are put, and everything between turns and moves with those near it.
+--- Pins move to their new places, and everything between them turns and moves with the nearest
+--- ones.
 function maps.pins(list)
   local pins = read_pins(list)
   return function(x, y)
@@ -338,7 +343,7 @@ local known = { map = "function", along = "any", start = "number", stretch = "bo
                 lattice = "table", bones = "any", pins = "any", within = "number",
                 pieces = "number" }
 
---- The option, of the five, that is given.
+--- Which of the five options is given.
 local function kind_of(options)
   local found
   for _, name in ipairs { "along", "bones", "lattice", "map", "pins" } do
@@ -365,8 +370,8 @@ end
 
 -- ---------------------------------------------------------------- boiling lines
 
-local GRAIN = 12 -- of the amount: the length of the waves, unless it is given
-local LEAST = 4  -- of the amount: shorter waves would fold
+local GRAIN = 12 -- the default length of the waves, as a multiple of the amount
+local LEAST = 4  -- a multiple of the amount: shorter waves would fold
 
 local boiled = { amount = "number", every = "number", seed = "any", frame = "number",
                  grain = "number", within = "number", pieces = "number" }
@@ -395,7 +400,7 @@ local function check_boil(options)
   return amount, every, grain
 end
 
---- How far the points of a grid are moved: at(i, j) returns two numbers.
+--- How the points of a grid are moved: a function at(i, j) that returns two numbers.
 local function grid(seed, step, amount)
   local across = motion.noise(("%s across"):format(seed))
   local down = motion.noise(("%s down"):format(seed))
@@ -413,8 +418,8 @@ end
 
 local function eased(t) return t * t * t * (t * (6 * t - 15) + 10) end
 
---- object:boil(options): the lines wobble, as if each drawing were traced again. A point is moved
---- by where it lies, so that what touches stays together.
+--- object:boil(options): the lines wobble, as if each drawing were traced again. The movement of a
+--- point depends on its place, so shapes that touch still touch.
 function warp.boil(object, options)
   local amount, every, grain = check_boil(options)
   if amount == 0 then return object end

@@ -9,13 +9,14 @@ local svg = require "celspan.svg"
 
 local artwork = {}
 
---- The result of a reader, or an error with its message, which does not name a line of this file.
+--- The result of a reader. Raises an error with the reader's message, and without a line of this
+--- file.
 local function needed(value, message)
   return value or error((message:gsub("^celspan/artwork%.lua:%d+: ", "")), 0)
 end
 
---- A drawing, its size, and what is left out, as sentences. Its parameter `font` is a file for all
---- texts.
+--- A drawing, its size, and sentences about what is left out. The parameter `font` of the film is a
+--- file for all texts.
 local function drawing(path)
   local font = parameters.declare { font = { "", about = "A font file for the texts" } }.font
   local art = needed(svg.read(path, { fonts = font ~= "" and { default = font } or nil }))

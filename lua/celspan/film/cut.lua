@@ -19,8 +19,8 @@ local ordered = require "celspan.ordered"
 
 local cut = {}
 
-local SMALL = 1e-9 -- of a frame: 3 frames at 0.1 of the speed are 30 and not 31
-local MOST_PIECES = 10000 -- of a sound that is retimed
+local SMALL = 1e-9 -- a share of a frame: 3 frames at 0.1 of the speed are 30 frames, not 31
+local MOST_PIECES = 10000 -- the most pieces of a sound that is retimed
 
 -- ---------------------------------------------------------------- films
 
@@ -30,7 +30,7 @@ local rostrum_metatable = getmetatable(celspan.rostrum {})
 local function is_film(value) return getmetatable(value) == film_metatable and
   fields.kind(value) == "a film" end
 
---- The weight of an exposure, which is checked as the film checks its own.
+--- The weight of an exposure, checked in the same way as by the film.
 local function weight_of(i, exposure)
   if type(exposure) ~= "table" then
     core.refuse(("cut: exposure %d must be {rostrum, weight}, got %s"):format(i,
@@ -77,7 +77,7 @@ Transition.__index = fields.reads("a transition", Transition,
 Transition.__name = "celspan.cut.transition"
 
 --- A transition has `parts(a, b, u, size, step)`, which returns the exposures for two rostrums. One
---- rostrum may be nil at an end of the film. step: how much u grows from frame to frame.
+--- rostrum may be nil at an end of the film. step: the change of u from frame to frame.
 local function transition(noun, seconds, curve, parts)
   if not fields.is_finite(seconds) or seconds <= 0 then
     core.refuse(("cut: %s takes seconds, a number above 0, got %s"):format(noun,
@@ -108,7 +108,7 @@ local function together(a, b, seen_of_a, seen_of_b)
   return { show(a, celspan.group { seen_of_a, seen_of_b:blend "add", isolate = true }) }
 end
 
---- One shot becomes the other.
+--- One shot gradually becomes the other.
 ---@param seconds number
 ---@param curve? celspan.ease
 ---@return celspan.cut.transition
@@ -155,17 +155,17 @@ local function settings_of(noun, settings, known, ranges)
   end
 end
 
---- White with this alpha, which is the share of a shot that is seen at a place.
+--- White with this alpha: the share of a shot that is visible at a place.
 local function seen(share) return celspan.rgb("#fff", share) end
 
---- A shot that is seen as far as a texture is opaque. The texture covers the whole frame, so both
+--- A shot that is visible where a texture is opaque. The texture covers the whole frame, so both
 --- shots have the same edges and add up to one.
 local function softly(shot, size, shade)
   return celspan.matte(shot, celspan.rect { 0, 0, size[1], size[2], texture = shade })
 end
 
 --- The area of the plane on one side of a line: where x cos + y sin is at most `place`, or at least
---- if the sign is -1. reach: longer than the frame's diagonal.
+--- `place` if the sign is -1. reach: longer than the frame's diagonal.
 local function half_plane(cos, sin, place, sign, reach)
   local x, y = cos * place, sin * place
   local dx, dy, far = -sin * reach, cos * reach, sign * reach
@@ -173,8 +173,8 @@ local function half_plane(cos, sin, place, sign, reach)
     { x - dx - cos * far, y - dy - sin * far }, { x + dx - cos * far, y + dy - sin * far } }
 end
 
---- The places `low` and `high` between which the edge of a wipe lies. Only shot b is seen up to
---- `low`, and only shot a from `high` on.
+--- The places `low` and `high` between which the edge of a wipe lies. Up to `low` only shot b is
+--- visible, and from `high` on only shot a.
 local function wipe_edge(cos, sin, softness, u, size)
   local least, most = math.huge, -math.huge
   for _, corner in ipairs { { 0, 0 }, { size[1], 0 }, { 0, size[2] }, size } do
@@ -214,7 +214,7 @@ function cut.wipe(settings)
   end
 end
 
---- The radii of the edge of an iris, as the places of wipe_edge.
+--- The radii of the edge of an iris, in the form of wipe_edge.
 local function iris_edge(centre, softness, u, size)
   local most = 0
   for _, corner in ipairs { { 0, 0 }, { size[1], 0 }, { 0, size[2] }, size } do
@@ -226,7 +226,7 @@ local function iris_edge(centre, softness, u, size)
   return high - soft, high
 end
 
---- How much of one of the shots is seen around a soft circle.
+--- How much of one of the shots is visible around a soft circle.
 local function iris_shade(centre, low, high, is_second)
   local inner = math.min(1, high / (high - low))
   local function shade(share) return seen(is_second and share or 1 - share) end
@@ -287,7 +287,7 @@ function cut.push(settings)
   end
 end
 
---- A transition of one's own.
+--- A transition that the script defines.
 ---@param make fun(a: celspan.rostrum, b: celspan.rostrum, u: number): celspan.exposures
 ---@return fun(seconds: number, curve?: celspan.ease): celspan.cut.transition
 function cut.with(make)
@@ -386,7 +386,7 @@ local function read_shot(i, part, like)
            count = count, before = 0, after = 0 }
 end
 
---- Lays a transition over the shots beside it; one shot is nil at an end of the film.
+--- Puts a transition over the two shots beside it; at an end of the film one of them is nil.
 local function overlap(place, between, a, b, fps)
   local count = math.max(1, math.floor(between.seconds * fps + 0.5))
   if a then a.after = count end
@@ -475,7 +475,7 @@ local function range_of(mark)
   return mark
 end
 
---- Adds the marks of a shot, where it shows their frames.
+--- Adds the marks of a shot, if its part of the film shows their frames.
 local function add_marks(shot, marks)
   local function place_of(frame)
     return shot.start + math.ceil((frame - shot.from) / shot.speed - SMALL) + 1
@@ -573,8 +573,8 @@ end
 
 -- ---------------------------------------------------------------- other times
 
---- Adds the sound between the keys `key` and `after`, if the film goes forwards evenly between
---- them. The sound begins at `at`.
+--- Adds the sound between the keys `key` and `after`, if the film runs forwards at an even speed
+--- between them. The sound begins at `at`.
 local function add_piece(list, film, key, after, at)
   local seconds, frames = after.time - key.time, after.value - key.value
   local speed = seconds > 0 and frames / film.fps / seconds or 0
@@ -583,7 +583,8 @@ local function add_piece(list, film, key, after, at)
                       to = (after.value - film.first) / film.fps, speed = speed }
 end
 
---- The sound of a film at other times. Where it is held, reversed or eased, it is silent.
+--- The sound of a film with new times. Where the film is held, reversed or eased, there is no
+--- sound.
 local function retimed_sound(film, track, duration)
   if #list_of(film.sound) == 0 then return nil end
   local list, first, last = {}, track.keys[1].time, track.keys[#track.keys].time
@@ -601,7 +602,7 @@ local function retimed_sound(film, track, duration)
   return list
 end
 
---- The marks of a film, where their frames are reached first.
+--- The marks of a film, at the times when their frames are first reached.
 local function retimed_marks(film, count, number_at)
   local marks = {}
   for name, mark in pairs(film.marks or {}) do

@@ -27,13 +27,13 @@ local function is_in_range(one, number)
     and number <= (one.max or number)
 end
 
---- A value that is not a text has come as it is, from JSON or from the script.
+--- A value that is not a text is already of its type: it comes from JSON or from the script.
 local function read_with(reader, given)
   if type(given) == "string" then return reader(given) end
   return given
 end
 
---- The values that the kinds allow; a reader makes a value of a text, and nil of a wrong text.
+--- The kinds of values. A reader makes a value from a text, and returns nil for a wrong text.
 local kinds = {
   text = { type = "string", read = function(_, text) return text end },
   file = {
@@ -70,7 +70,7 @@ local kinds = {
   },
 }
 
---- A value in a message.
+--- A value in the form in which messages show it.
 local function shown(value)
   if type(value) == "string" then return "'" .. value .. "'" end
   return type(value) == "table" and "a table" or tostring(value)
@@ -168,7 +168,7 @@ local function find(settings, declared, source, name)
       or #names > 0 and "; there are " .. table.concat(names, ", ") or "")
 end
 
---- is_text: the value is a text of whatever kind, and not one that has its type.
+--- is_text: the value is a text that must be converted; otherwise it already has its type.
 local function set(settings, declared, values, source, name, value, is_text)
   local one = find(settings, declared, source, name)
   local kind = kinds[one.kind]
@@ -224,7 +224,7 @@ function parameters.declare(given)
   return sealed(values)
 end
 
---- Why "NAME=VALUE", from a row of a table, cannot be set; "" where it can.
+--- Why "NAME=VALUE", from a row of a table, cannot be set; "" if it can be set.
 function parameters.fault(setting)
   local settings, name, value = core.settings(), setting:match "^(.-)=(.*)$"
   local good, message = pcall(set, settings, settings.declared or {}, {}, "", name,
@@ -267,7 +267,8 @@ function parameters.schema(title)
   }) .. "\n"
 end
 
---- A value in one line, which a terminal may show: controls are written as numbers.
+--- A value on one line, in a form that a terminal may show: control characters are written as
+--- numbers.
 local function in_line(value)
   local function number(one) return ("\\x%02x"):format(one:byte()) end
   return (tostring(value):gsub("\xc2([\x80-\x9f])", number):gsub("%c", number))

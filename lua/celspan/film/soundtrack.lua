@@ -30,10 +30,10 @@ local core = require "celspan.core"
 local soundtrack = {}
 
 local MOST = 10000 -- sounds
-local DEEPEST = 1000 -- films in films: each takes time for all that are in it
-local SLOWEST, FASTEST = 0.01, 100 -- of its own speed
+local DEEPEST = 1000 -- nested films: each level takes time for all its sounds
+local SLOWEST, FASTEST = 0.01, 100 -- of the original speed
 
---- Constant power: the squares of both add up to 2, and both are 1 in the middle.
+--- Constant power: the squares of both factors add up to 2, and both are 1 in the middle.
 local function pan(value)
   local angle = (value + 1) * math.pi / 4
   return math.sqrt(2) * math.cos(angle), math.sqrt(2) * math.sin(angle)
@@ -45,7 +45,7 @@ local function gain_of(sound)
   return sound.gain * left, sound.gain * right
 end
 
---- The one sound of a file.
+--- The single sound of a file.
 local function of_file(sound)
   local start = sound.at - sound.from / sound.speed
   local left, right = gain_of(sound)
@@ -57,7 +57,7 @@ local function of_file(sound)
   } }
 end
 
---- Whether all passages are open at some time.
+--- Whether there is a time at which all passages are open.
 local function is_heard(passages)
   local first, last = -math.huge, math.huge
   for _, passage in ipairs(passages) do
@@ -94,7 +94,8 @@ local function of_film(sound, depth)
   return list
 end
 
---- Makes the sounds of one list lower while the sounds of another list are heard, as an item says.
+--- Lowers the sounds of one list while sounds of another list are heard, with the settings of an
+--- item.
 local function add_duckers(lower, higher, item)
   local sound = item.sound
   for _, one in ipairs(lower) do
@@ -105,7 +106,7 @@ local function add_duckers(lower, higher, item)
   end
 end
 
---- The sounds of the other items that have a name, or are in a film that has it.
+--- The sounds of all other items that have a name, or belong to a film with this name.
 local function named(items, item, name)
   local found = {}
   for _, other in ipairs(name and items or {}) do
@@ -116,7 +117,7 @@ local function named(items, item, name)
   return found
 end
 
---- Notes by whom the sounds of each item are made lower.
+--- For each item, notes which sounds make its sounds lower.
 local function duck_items(items)
   for _, item in ipairs(items) do
     add_duckers(named(items, item, item.sound.duck), item.list, item)
@@ -124,8 +125,8 @@ local function duck_items(items)
   end
 end
 
---- New tables at each call. depth: the number of films around this one, each of which has the next
---- as a sound.
+--- Returns new tables at each call. depth: the number of films around this one, each of which uses
+--- the next one as a sound.
 function flatten(film, depth)
   if depth > DEEPEST then
     error(("the film has sounds that are films more than %d deep, which is the limit")

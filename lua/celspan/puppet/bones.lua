@@ -45,7 +45,7 @@ end
 
 local known_bone = { "name", from = "string", to = "string", parent = "string", parts = "table",
                      limits = "table", apart = "boolean" }
---- Fields of poses; no bone has one of these names.
+--- Fields of poses, which cannot be names of bones.
 bones.reserved = { at = true, reach = true, over = true, under = true, front = true, back = true }
 
 local function check_joint(rig, bone, field)
@@ -103,7 +103,7 @@ local function read_bone(rig, i, given)
   rig.bones[name], rig.list[i] = bone, bone
 end
 
---- The bone that ends where this one begins, or nil.
+--- The bone that ends at the joint where this one begins, or nil.
 local function bone_before(rig, bone)
   local found
   for _, other in ipairs(rig.list) do
@@ -116,7 +116,7 @@ local function bone_before(rig, bone)
   return found
 end
 
---- Finds the parents: the named ones; without a name, the bone before.
+--- Finds the parents of bones: the named one, or else the previous bone.
 local function join_bones(rig)
   for _, bone in ipairs(rig.list) do
     if bone.parent and not rig.bones[bone.parent] then
@@ -127,7 +127,7 @@ local function join_bones(rig)
   end
 end
 
---- Refuses bones without a part whose name is misspelled, and bones that move nothing.
+--- Refuses bones whose part may be a misspelled name, and bones that move nothing.
 local function check_parts(rig)
   local is_parent, names = {}, {}
   for _, bone in ipairs(rig.list) do is_parent[bone.parent or false] = true end
@@ -164,8 +164,8 @@ local function order_bones(rig)
   rig.list = ordered
 end
 
---- Reads the joints and the bones of a rig: rig.joints has the joints that are drawn, and gets the
---- joints that the script gives; rig.bones are the bones by name, rig.list has parents first.
+--- Reads the joints and the bones of a rig: rig.joints contains the joints that are drawn; those of
+--- the script are added; rig.bones are the bones by name, rig.list has parents first.
 function bones.read(rig, joints, given)
   read_joints(joints, rig.joints)
   for i = 1, rawlen(given or {}) do read_bone(rig, i, given[i]) end
@@ -215,7 +215,8 @@ function bones.read_reach(rig, joint, given)
   return given
 end
 
---- The bones that bring a joint to its place: up to `count` of them, the last one ends there.
+--- The bones that move a joint to its place: at most `count` of them; the last one ends at the
+--- joint.
 function bones.chain_of(rig, joint, count)
   local chain = {}
   for _, bone in ipairs(rig.list) do
@@ -236,8 +237,8 @@ end
 
 -- ---------------------------------------------------------------- bones in a pose
 
---- The frame in which a bone is turned: its parent's frame, moved with the joint if the parent is
---- stretched.
+--- The frame in which a bone is turned: the frame of its parent, moved to the joint if the parent
+--- is stretched.
 function bones.base_of(bone, frames)
   local parent = bone.parent and frames[bone.parent]
   if not parent then return affine.translation(0, 0), 0 end
@@ -245,7 +246,7 @@ function bones.base_of(bone, frames)
   return affine.compose(parent.frame, affine.translation(x - bone.x, y - bone.y)), parent.angle
 end
 
-local TURN = 720 -- degrees: wider limits limit nothing
+local TURN = 720 -- degrees: wider limits have no effect
 
 local function limit(bone, degrees) return math.max(bone.low, math.min(bone.high, degrees)) end
 
@@ -269,7 +270,8 @@ local function place_bone(bone, turn, frames, degrees)
                    scaling = scaling_of(bone, turn), angle = parent_angle + angle, own = angle }
 end
 
---- The bones of a chain as vectors from joint to joint, at the angle 0 of the first one's frame.
+--- The bones of a chain as vectors from joint to joint, in the frame of the first bone with the
+--- angle 0.
 local function vectors_of(chain, turns)
   local vectors = {}
   for k, bone in ipairs(chain.bones) do
@@ -283,7 +285,7 @@ local function vectors_of(chain, turns)
   return vectors
 end
 
---- How much longer the bones must be to reach the target; 1 where they are long enough.
+--- The factor by which the bones must be lengthened to reach the target; 1 if they are long enough.
 local function lengthening(vectors, x, y)
   local length = 0
   for _, vector in ipairs(vectors) do length = length + math.sqrt(vector[1] ^ 2 + vector[2] ^ 2) end
@@ -316,8 +318,8 @@ local function place_chain(chain, turns, frames, at)
   end
 end
 
---- Where each bone is in a pose: frame, the rigid map of what follows it; scaling, of its own
---- artwork before that; angle, in the drawing; own, from its parent.
+--- The place of each bone in a pose. frame: the rigid map of everything that follows it; scaling:
+--- of its own artwork, applied first; angle: in the drawing; own: relative to its parent.
 function bones.place(rig, turns, chains, at)
   local frames = {}
   for _, bone in ipairs(rig.list) do
@@ -330,7 +332,7 @@ end
 --- The map of a bone's artwork.
 function bones.map_of(frame) return affine.compose(frame.frame, frame.scaling) end
 
---- A joint moves with the bone that ends there, else with one that begins there.
+--- A joint moves with the bone that ends at it; if there is none, with a bone that begins at it.
 function bones.joint_in(rig, frames, name)
   local x, y = rig.joints[name][1], rig.joints[name][2]
   local beginning

@@ -34,8 +34,8 @@ local function is_of(class, art)
   return metatable and metatable.__name == class
 end
 
---- The parts of a drawing, and their children as "mouth/C", by name: { key =, object =, inside = };
---- key: its name for art:with; inside: the elements that contain it, the outermost first.
+--- The parts of a drawing, and their children such as "mouth/C", by name: { key =, object =, inside
+--- = }. key: its name in art:with; inside: the elements that contain it, the outermost first.
 local function drawn_parts(art)
   local open, by_name, entries, elements = {}, {}, {}, art:elements()
   for _, element in ipairs(elements) do
@@ -95,7 +95,7 @@ local function drawn_joints(by_name)
   return joints, guides
 end
 
---- Each part that a bone moves, with the nearest part around it that a bone moves too.
+--- For each part that a bone moves, finds the nearest part around it that is also moved by a bone.
 local function join_parts(rig)
   local owner = {}
   for _, bone in ipairs(rig.list) do
@@ -129,7 +129,7 @@ Rig.__index = fields.reads("a puppet", methods)
 
 local known = { art = "any", joints = "table", bones = "table", switches = "table" }
 
---- The members of a switch in their order; the first is shown where a pose names none.
+--- The members of a switch in order; the first one is shown if a pose names none.
 local function read_switches(rig, given)
   for set, members in next, given or {} do
     local names = members
@@ -173,7 +173,7 @@ end
 
 -- ---------------------------------------------------------------- poses
 
---- The values of each bone in a pose, and the chains by their first bones.
+--- The values of each bone in a pose; and the chains, by their first bones.
 local function read_pose(rig, pose)
   if type(pose) ~= "table" then refuse("pose takes a table, got %s", fields.kind(pose)) end
   local turns, chains, used, choices = {}, {}, {}, {}
@@ -208,7 +208,7 @@ local function read_pose(rig, pose)
   return turns, chains, choices
 end
 
---- The place of a pose: { x, y }, 0, 0 by default.
+--- The place of a pose: { x, y }; by default 0, 0.
 local function place_of(pose)
   if pose.at == nil then return { 0, 0 } end
   fields.numbers("puppet", "at[%d]", pose.at, 2, "{x, y}")
@@ -217,14 +217,14 @@ end
 
 -- ---------------------------------------------------------------- pictures
 
---- The map of a part within the part around it, which moves already.
+--- The map of a part inside the part around it, which has been moved already.
 local function inner_map(part, frames)
   local map = map_of(frames[part.bone])
   if not part.around then return map end
   return affine.compose(affine.inverse(map_of(frames[part.around.bone])), map)
 end
 
---- The part that a pose orders, by its name or the name of its bone.
+--- The part whose order a pose changes, by its own name or the name of its bone.
 local function ordered_part(rig, name)
   local part = rig.parts[name]
   if part then return part end
@@ -234,8 +234,8 @@ local function ordered_part(rig, name)
     .. "part%s", tostring(name), help(name, names_of(rig.parts)))
 end
 
---- Parts that are drawn elsewhere: lists by the part that they are over or under, and lists of the
---- parts in front of and behind everything.
+--- The parts that are drawn in another order: lists by the part that they are over or under, and
+--- lists of the parts in front of and behind everything.
 local function read_order(rig, pose)
   local order = { over = {}, under = {}, front = {}, back = {}, moved = {} }
   local function move(list, name)
@@ -259,7 +259,8 @@ local function read_order(rig, pose)
   return next(order.moved) and order
 end
 
---- The objects of a list of parts as they were drawn in the pose, seen from inside `around`.
+--- The objects for a list of parts, as they were drawn for the pose, in the coordinates of
+--- `around`.
 local function add_moved(objects, parts, drawn, around, frames)
   for _, part in ipairs(parts or {}) do
     local object = drawn[part]
@@ -270,9 +271,9 @@ local function add_moved(objects, parts, drawn, around, frames)
   end
 end
 
---- The functions by part that art:with takes. put(part, moved, outer): what takes the place of a
---- part, given what it is there in the pose; outer: the matrix of the part around it, or nil.
---- frames: nil: as it was drawn.
+--- The functions for art:with, by part. put(part, moved, outer): returns the replacement of a part.
+--- moved: the part in the pose; outer: the matrix of the part around it, or nil. frames: nil for
+--- the original drawing.
 local function changes_of(rig, frames, choices, put)
   local changes = {}
   for _, part in pairs(rig.parts) do
@@ -289,7 +290,8 @@ local function changes_of(rig, frames, choices, put)
   return changes
 end
 
---- Draws the parts, and lists them as they are in the whole. keep(moved): what stays in its place.
+--- Draws the parts, and lists them as they appear in the whole drawing. keep(moved): what remains
+--- in the place of a part.
 local function draw_parts(rig, frames, choices, keep)
   local drawn = {}
   local art = rig.art:with(changes_of(rig, frames, choices, function(part, moved, outer)
@@ -326,8 +328,8 @@ end
 
 -- ---------------------------------------------------------------- limbs that come apart
 
---- The parts as they were drawn, each without the parts inside it. They are the same in all poses
---- with the same choices, so they are kept.
+--- The original parts, each without the parts inside it. They are kept, because they are the same
+--- in all poses with the same choices.
 local function solids_of(rig, choices)
   local hidden = sets.hidden("puppet: pose", "the artwork", rig.by_name, choices)
   table.sort(hidden)
@@ -348,7 +350,7 @@ local function covers(solids, bone, frames, x, y)
   return false
 end
 
---- Bones with artwork, whose parents have some as well.
+--- The bones with artwork whose parents also have artwork.
 local function is_jointed(bone)
   return bone.parent and not bone.apart and #bone.parts > 0 and #bone.parent.parts > 0
 end
@@ -369,8 +371,8 @@ local function gaps_in(rig, frames, at, choices)
   return gaps
 end
 
---- Bones whose artwork does not hold together with that of their parents in a pose: the joint
---- between them is not covered by both.
+--- The bones whose artwork is separated from that of their parents in a pose: they do not both
+--- cover the joint between them.
 ---@param pose? table At rest by default
 ---@return { bone: string, parent: string, joint: string, x: number, y: number }[]
 function methods:gaps(pose)
@@ -378,7 +380,7 @@ function methods:gaps(pose)
   return gaps_in(self, place(self, pose or {}))
 end
 
-local MISSED = 0.5 -- units: a joint that is nearer to its target has reached it
+local MISSED = 0.5 -- units: a joint that is nearer than this has reached its target
 
 --- Joints that do not reach their targets, in their order.
 local function missed_in(rig, pose, frames, at)
@@ -392,7 +394,7 @@ local function missed_in(rig, pose, frames, at)
   return missed
 end
 
---- For `celspan check`.
+--- Reports warnings for `celspan check`.
 local function warn(rig, pose, frames, at, choices)
   for _, joint in ipairs(missed_in(rig, pose, frames, at)) do
     core.warn(("puppet: the joint '%s' does not reach its target: its bones are too short for it, "
@@ -435,7 +437,7 @@ end
 
 -- ---------------------------------------------------------------- the sheet
 
---- The puppet with its bones, joints and limits drawn over it, to look at.
+--- The puppet with its bones, joints and limits drawn over it, for inspection.
 ---@param pose? table At rest by default
 ---@param options? { size?: number, font?: string } size: of a joint, in units of the artwork (5); font: a file, to write the names
 ---@return celspan.object

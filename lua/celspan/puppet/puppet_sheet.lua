@@ -9,7 +9,7 @@ local function line(d, width, colour)
   return celspan.stroke { d = d, width = width, cap = "round", join = "round", texture = colour }
 end
 
---- A bone as a kite, whose broad end is at its first joint.
+--- A bone as a kite, whose broad end is at the bone's first joint.
 local function kite(frame, bone, size)
   local along, across = math.min(bone.length / 5, 3 * size), math.min(bone.length / 8, 2 * size)
   local points = { { bone.x, bone.y },
@@ -21,7 +21,7 @@ local function kite(frame, bone, size)
   return celspan.polygon(points):fade(0.6)
 end
 
---- The range that the end of a bone may take, as an arc with its two radii.
+--- The range of the end of a bone, as an arc with two radii.
 local function fan(base, bone, size)
   if bone.low == -math.huge then return nil end
   local radius = math.min(bone.length / 2, 12 * size)

@@ -21,8 +21,8 @@ local reach = {}
 
 local pi, cos, sin, sqrt, atan = math.pi, math.cos, math.sin, math.sqrt, math.atan
 
---- Shares of the chain's length: nearer than SAME, two sides of a bend count as one; TINY ends the
---- search.
+--- Shares of the chain's length: if two bends differ by less than SAME, they count as one; the
+--- search ends at TINY.
 local SAME, TINY = 1e-9, 1e-12
 
 local function turn(angle, x, y)
@@ -30,7 +30,7 @@ local function turn(angle, x, y)
   return c * x - s * y, s * x + c * y
 end
 
---- The angle of the range low..high that differs least from `angle` on the circle.
+--- The angle in the range low..high that is nearest to `angle` on the circle.
 local function limited(angle, low, high)
   local middle = (low + high) / 2
   local near = middle + (angle - middle + pi) % (2 * pi) - pi
@@ -54,8 +54,8 @@ local function distance_of(chain, angles)
   return sqrt(dx * dx + dy * dy)
 end
 
---- The angle by which a vector must be turned to point at the target; `angle` where the vector or
---- the target has no direction.
+--- The angle by which a vector must be turned so that it points at the target; `angle` if the
+--- vector or the target has no direction.
 local function aim(x, y, target_x, target_y, angle)
   if (x == 0 and y == 0) or (target_x == 0 and target_y == 0) then return angle end
   return atan(target_y, target_x) - atan(y, x)
@@ -69,8 +69,8 @@ local function solve_one(chain)
                    bone[3], bone[4]) }
 end
 
---- The angles of two bones whose bend has a side (the sign of the cross product of the bones), by
---- the law of cosines; the target is moved to the nearest one that can be reached.
+--- The angles of two bones that bend to one side (the sign of the cross product of the bones), by
+--- the law of cosines. A target out of reach is replaced by the nearest one that can be reached.
 local function bent(chain, side)
   local one, two = chain.bones[1], chain.bones[2]
   local a, b = sqrt(one[1] ^ 2 + one[2] ^ 2), sqrt(two[1] ^ 2 + two[2] ^ 2)
@@ -89,7 +89,8 @@ local function bent(chain, side)
   return angle, second - atan(two[2], two[1]) - angle
 end
 
---- Two angles within the limits that keep the first, or the second, at one of its limits.
+--- Adds pairs of angles within the limits in which the first, or the second, is at one of its
+--- limits.
 local function add_limits(chain, candidates)
   local one, two = chain.bones[1], chain.bones[2]
   for side = 3, 4 do
@@ -105,7 +106,7 @@ local function add_limits(chain, candidates)
   end
 end
 
---- The side of the bend that the chain asks for.
+--- The side of the bend that the options of the chain demand.
 local function side_of(chain)
   if chain.side then return chain.side end
   local one, two = chain.bones[1], chain.bones[2]
@@ -115,7 +116,7 @@ local function side_of(chain)
   return two[3] + two[4] < 0 and -1 or 1
 end
 
---- The side, of two, whose joint is nearer to the pole.
+--- Which of the two sides has its joint nearer to the pole.
 local function side_to(chain, pole)
   local best, least
   for side = -1, 1, 2 do
@@ -147,7 +148,7 @@ end
 
 -- ---------------------------------------------------------------- more bones
 
---- The columns of the Jacobian: how the end moves with each angle; and the end.
+--- The columns of the Jacobian, which say how the end moves with each angle; and the end.
 local function slopes(bones, angles)
   local x, y, sum, joints = 0, 0, 0, {}
   for k, bone in ipairs(bones) do
@@ -160,12 +161,12 @@ local function slopes(bones, angles)
   return joints, x, y
 end
 
---- Whether a step would move an angle beyond the limit that it is at.
+--- Whether a step would move an angle beyond its limit.
 local function is_blocked(bone, angle, change)
   return change < 0 and angle <= bone[3] or change > 0 and angle >= bone[4]
 end
 
---- A step J^T (J J^T + damping I)^-1 e of the angles that are free to take it.
+--- A step J^T (J J^T + damping I)^-1 e of the angles that can still move.
 local function step_of(bones, angles, columns, ex, ey, damping)
   local is_free, step = {}, {}
   for k = 1, #bones do is_free[k] = true end
@@ -197,7 +198,7 @@ local function moved(bones, angles, step)
   return result
 end
 
---- Levenberg-Marquardt steps from a start: the angles, and the distance that is left.
+--- Levenberg-Marquardt steps from a start: the angles, and the remaining distance.
 local function descend(chain, angles, length)
   local bones, damping = chain.bones, 0.01 * length * length
   local distance = distance_of(chain, angles)
@@ -216,7 +217,7 @@ local function descend(chain, angles, length)
   return angles, distance
 end
 
---- The straight chain towards the target, if no limit is in its way; nil otherwise.
+--- The straight chain towards the target, if all limits allow it; otherwise nil.
 local function straight(chain)
   local way, sum, angles = atan(chain.target[2], chain.target[1]), 0, {}
   for k, bone in ipairs(chain.bones) do
@@ -228,8 +229,7 @@ local function straight(chain)
   return angles
 end
 
---- Starts for the search: the angles that are given, bends to either side, and places between the
---- limits.
+--- Starts for the search: the given angles, bends to both sides, and angles between the limits.
 local function starts_of(chain)
   local starts = { {} }
   for k, bone in ipairs(chain.bones) do starts[1][k] = limited(bone[5], bone[3], bone[4]) end
@@ -271,7 +271,8 @@ local function solve_many(chain)
   return best
 end
 
---- The angles that bring the end of a chain nearest to its target, and the distance that is left.
+--- The angles that bring the end of a chain as near as possible to its target, and the remaining
+--- distance.
 ---@param chain { bones: number[][], target: number[], side?: integer, pole?: number[] }
 ---@return number[] angles, number distance
 function reach.solve(chain)

@@ -16,7 +16,7 @@ Steps.__index = fields.reads("steps", Steps)
 local known_steps = { stride = "number", period = "number", lift = "number", ground = "number",
                       x = "number", share = "number" }
 
---- Feet that walk: each stays where it is on the ground while the body passes over it.
+--- Feet that walk: each one stays at its place on the ground while the body moves over it.
 ---@param settings { stride: number, period: number, lift?: number, ground: number, x?: number, share?: number } stride: what the body moves in a period, in which each foot makes one step, negative to the left; lift: of a foot (stride / 8); ground: y of the joint on the ground; x: of the joint in the drawing (0); share: of the period that a foot is on the ground (0.6)
 ---@return celspan.puppet.steps
 local function steps(settings)
@@ -36,7 +36,7 @@ local function steps(settings)
     start = settings.x or 0 }, Steps)
 end
 
---- How far the body has gone.
+--- The distance that the body has gone.
 ---@param time number Seconds
 ---@return number x
 function Steps:body(time)
@@ -44,7 +44,7 @@ function Steps:body(time)
   return self.stride * time / self.period
 end
 
---- Where a foot is. On the ground it does not move; in the air it swings to its next place.
+--- The place of a foot. On the ground it does not move; in the air it swings to its next place.
 ---@param time number Seconds
 ---@param phase? number 0..1: the share of the period by which it is ahead; 0.5 for the other foot
 ---@return number x, number y

@@ -42,7 +42,8 @@ local function read_entity(name)
   return utf8.char(code)
 end
 
---- Without tags (<b>, <v Ann>, <00:01.000>, and SubRip's {\an8}), entities as characters.
+--- A text without tags (<b>, <v Ann>, <00:01.000>, and SubRip's {\an8}) and with entities replaced
+--- by characters.
 local function plain(markup)
   local text = markup:gsub("<[^>]*>", ""):gsub("{\\[^}]*}", "")
   return (text:gsub("&([#%w]+);", read_entity))
@@ -63,8 +64,8 @@ end
 --- The words on both sides of an arrow.
 local function split_times(line) return line:match "^%s*(%S+)%s*%-%->%s*(%S+)" end
 
---- Whether a line is meant as the times of a caption, right or wrong. In SubRip another arrow is
---- text; WebVTT has none there.
+--- Whether a line is meant to be the times of a caption, correct or not. In SubRip another arrow is
+--- text; in WebVTT text cannot contain an arrow.
 local function is_times(line, is_vtt)
   local function is_time(text) return text and text:find "^[%d:.,]+$" and text:find ":" end
   if is_vtt then return line:find("-->", 1, true) end
@@ -72,7 +73,7 @@ local function is_times(line, is_vtt)
   return is_time(first) and is_time(last)
 end
 
---- The line with the arrow; settings after the second time are ignored.
+--- Reads the line with the arrow; settings after the second time are ignored.
 local function read_times(line, number)
   local first, last = split_times(line)
   local from, to = read_time(first or ""), read_time(last or "")
@@ -88,7 +89,7 @@ end
 
 -- ---------------------------------------------------------------- files
 
---- The blocks of a text: { line =, lines... }. The times of a caption begin a block also where the
+--- The blocks of a text: { line =, lines... }. The times of a caption begin a block even if the
 --- empty line before them is missing.
 local function read_blocks(text, is_vtt)
   local blocks, block, number = {}, nil, 0
@@ -109,7 +110,7 @@ local function read_blocks(text, is_vtt)
   return blocks
 end
 
---- Adds the caption of a block. Notes, styles and regions of WebVTT have no arrow.
+--- Adds the caption of a block. Notes, styles and regions of WebVTT contain no arrow.
 local function read_block(block, is_vtt, list)
   local first = block[1]
   if not block.has_arrow then
@@ -143,7 +144,8 @@ local function decode(text)
   return setmetatable(list, Captions)
 end
 
---- The text that is shown at a time, the texts of several captions in lines; nil if there is none.
+--- The text that is shown at a time; if there are several captions, one on each line; nil if there
+--- is none.
 ---@param seconds number
 ---@return string? text
 function Captions:at(seconds)

@@ -36,10 +36,10 @@ local Tree = { __name = "celspan.layers.tree" }
 local methods = {}
 Tree.__index = fields.reads("a tree of layers", methods, { width = true, height = true })
 
---- The data of layers that are not in their entries: used to make cels, and hidden from scripts.
+--- The data of layers that are not in their entries, hidden from scripts; cels are made from them.
 local sources = setmetatable({}, { __mode = "k" })
 
---- Blend modes that are shown; "pass-through" is for groups.
+--- Blend modes that can be shown; "pass-through" is for groups.
 local shown = {}
 for mode in ("normal multiply screen overlay darken lighten color-dodge color-burn hard-light "
   .. "soft-light difference exclusion hue saturation color luminosity add linear-dodge "
@@ -76,7 +76,7 @@ local function painted(entry, clipped)
   return mode == "normal" and object or object:blend(mode)
 end
 
---- The visible layers that are clipped to the layer at `place` of a list, and the place after them.
+--- The visible layers that are clipped to the layer at `place` of a list, and the index after them.
 local function clipped_to(list, place)
   local clipped, next_place = {}, place + 1
   while list[next_place] and sources[list[next_place]].clipped do
@@ -86,7 +86,7 @@ local function clipped_to(list, place)
   return clipped, next_place
 end
 
---- The objects of a list of layers; those that are clipped to a hidden layer are hidden, too.
+--- The objects of a list of layers; layers that are clipped to a hidden layer are hidden, too.
 local function visible_objects(list)
   local objects, place = {}, 1
   while list[place] do
@@ -97,7 +97,7 @@ local function visible_objects(list)
   return objects
 end
 
---- The object of a group. A group that is not passed through isolates, if anything in it can tell.
+--- The object of a group. A group that is not passed through isolates, if this makes a difference.
 local function composed(given, space)
   local objects = visible_objects(given.children)
   objects.isolate, objects.space = given.blend ~= "pass-through" or nil, space
@@ -108,9 +108,9 @@ end
 --- A valid name for a value: not empty.
 local function name_of(text, kind) return text ~= "" and text or kind end
 
---- given: name, x, y, opacity, visible, blend; and children, or picture (the fields of an image,
---- with x and y), or neither for an empty layer; clipped, within: how it is cut by the layers
---- below; mask: of a group, an object that it is shown through. options: those of `read`.
+--- given: name, x, y, opacity, visible, blend; children, or picture (the fields of an image, with x
+--- and y), or neither for an empty layer; clipped, within: how the layers below cut it; mask: for a
+--- group, an object through which it is visible. options: those of `read`.
 local function make_entry(given, options)
   local source = { name = name_of(given.name, given.children and "group" or "layer"),
                    clipped = given.clipped, within = given.within, mask = given.mask,
@@ -133,7 +133,7 @@ end
 
 -- ---------------------------------------------------------------- what is skipped
 
---- Whether a layer of a list has a mode, which a group may pass through.
+--- Whether a layer of a list has a mode that would pass through a group.
 local function blends(list)
   for _, entry in ipairs(list) do
     local is_passed = entry.blend == "pass-through" and blends(entry.children)
@@ -142,7 +142,7 @@ local function blends(list)
   return false
 end
 
---- Adds notes on what is shown differently, for the layers of a list. path: of the group.
+--- Adds notes on differences in appearance, for the layers of a list. path: of the group.
 local function note_blends(list, path, skipped)
   for _, entry in ipairs(list) do
     local here, blend, what = path .. entry.name, entry.blend, nil
@@ -161,7 +161,7 @@ end
 --- The space of each tree, which is hidden from scripts.
 local spaces = setmetatable({}, { __mode = "k" })
 
---- The tree of a list of layers, with notes that are complete.
+--- Makes the tree of a list of layers. skipped: notes about all layers.
 local function complete_tree(list, width, height, skipped, space)
   local tree = { width = width, height = height, skipped = skipped }
   for i, entry in ipairs(list) do tree[i] = entry end
@@ -187,7 +187,7 @@ local function paths_of(flat)
   return paths
 end
 
---- The mask of a group of a painting: as large as the painting.
+--- The mask of a group of a painting, in the size of the painting.
 local function mask_of(layer, painting)
   return layer.mask and celspan.image { pixels = layer.mask, colour = layer.colour, x = 0, y = 0,
                                         w = painting.width, h = painting.height }
@@ -225,7 +225,7 @@ for ending in ("png jpg jpeg tif tiff exr tga dpx cin webp bmp gif jp2 hdr"):gma
   endings[ending] = true
 end
 
---- A key that sorts "b10" after "b9": digits count as numbers.
+--- A key that sorts "b10" after "b9", because digits are compared as numbers.
 local function natural_key(name)
   return (name:lower():gsub("%d+", function(digits)
     local number = digits:gsub("^0+", "")
@@ -242,7 +242,7 @@ local function sort_naturally(names)
   end)
 end
 
---- The result of a function, or nil and the message of the error that it raised, without its line.
+--- The result of a function, or nil and the message of its error, without the line.
 local function caught(make)
   local good, value = pcall(make)
   if good then return value end
@@ -323,8 +323,8 @@ local function read_any(path, options)
   return from_painting(path, options)
 end
 
---- `smooth`: alpha of 8 bits has no steps, so painted glows show no rings. `space`: colours mix in
---- it: "srgb", as in painting programs, unless another is given.
+--- smooth: alpha of 8 bits is made smooth, so that painted glows have no rings. space: the space in
+--- which colours mix: by default "srgb", as in painting programs.
 ---@param path string Relative to the caller's file, else to the script
 ---@param options? { smooth?: boolean, space?: "srgb"|"linear" }
 ---@return celspan.layers.tree? tree
@@ -346,7 +346,7 @@ function layers.read(path, options)
   return tree, message
 end
 
---- layers.read, where a painting that cannot be read is an error.
+--- layers.read for a painting that must be readable: raises an error if it is not.
 ---@param path string Relative to the caller's file, else to the script
 ---@param options? { smooth?: boolean, space?: "srgb"|"linear" }
 ---@return celspan.layers.tree tree
@@ -391,7 +391,7 @@ local function add_paths(list, path, paths)
   return paths
 end
 
---- The same, where one that is not there is an error.
+--- The same, but raises an error if there is no such layer or group.
 ---@param path string
 ---@return celspan.layers.entry entry
 function methods:get(path)
@@ -406,7 +406,7 @@ end
 
 -- ---------------------------------------------------------------- changes
 
---- A copy of an entry with other contents: children, or an object.
+--- A copy of an entry with new contents: children, or an object.
 local function remade(entry, children, object)
   local source = sources[entry]
   return make_entry({ name = entry.name, x = entry.x, y = entry.y, opacity = entry.opacity,
@@ -415,8 +415,9 @@ local function remade(entry, children, object)
     { space = source.space })
 end
 
---- A list in which the layers that have a function are changed, inner ones first; nil if none has.
---- done: the paths that were met; of several layers with one path only the rearmost is changed.
+--- Copies a list, with those layers changed that have a function, inner ones first; nil if none has
+--- one. done: the paths that were visited; if several layers have one path, only the rearmost is
+--- changed.
 local function changed_list(list, path, changes, done)
   local copy, is_changed = {}, false
   for i, entry in ipairs(list) do
@@ -439,8 +440,8 @@ local function changed_list(list, path, changes, done)
   return is_changed and copy or nil
 end
 
---- The painting with layers replaced, inner ones first: each function gets the object of the layer
---- of its path, without its opacity and blend mode, and returns another one. Opacities, modes,
+--- The painting with layers replaced, inner ones first. Each function gets the object of the layer
+--- at its path, without opacity and blend mode, and returns another object. Opacities, modes,
 --- clipping and the order of the layers are kept.
 ---@param changes table<string, fun(object: celspan.object): celspan.object>
 ---@return celspan.layers.tree
@@ -463,8 +464,8 @@ end
 
 local function nothing() return celspan.union {} end
 
---- The painting with one layer of each set: of "mouth A", "mouth B" and "mouth C" only the C, for
---- { mouth = "C" }. false: none of them.
+--- The painting with one layer of each set: for { mouth = "C" }, of "mouth A", "mouth B" and "mouth
+--- C" only the last one. false: none of them.
 ---@param choices table<string, string|false>
 ---@return celspan.layers.tree
 function methods:show(choices)
@@ -492,13 +493,14 @@ local function cel_of(entry, clipped, options)
     opacity = entry.opacity * (options.opacity or 1) }:named(sources[entry].name)
 end
 
---- Whether each layer of a group may become a separate cel: the group is not composited by itself.
+--- Whether each layer of a group may become a separate cel, because the group is not composited as
+--- a whole.
 local function is_open(entry)
   if not entry.children or entry.opacity < 1 or sources[entry].mask then return false end
   return entry.blend == "pass-through" or mode_of(entry) == "normal" and not blends(entry.children)
 end
 
---- chosen: the entries to make cels of, as keys; nil: all visible ones.
+--- chosen: the entries that become cels, as keys; nil: all visible ones.
 local function add_cels(list, chosen, options, cels)
   local place = 1
   while list[place] do

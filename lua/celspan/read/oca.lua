@@ -15,7 +15,7 @@ local json = require "celspan.json"
 
 local oca = {}
 
---- The largest number of layers and drawings in a document.
+--- The most layers and drawings in a document.
 oca.most_layers = 65536
 
 local function fail(...) error({ message = string.format(...) }, 0) end
@@ -69,7 +69,7 @@ local function file_of(state, what, name)
   return found
 end
 
--- Krita's words for modes that are not ours with "_" as "-"; the words in its files are in
+-- Krita's words for modes that celspan lacks, with "_" as "-"; the words in Krita's files are in
 -- src/readers/layered/document.c.
 local blends = { passthrough = "pass-through", add = "linear-dodge", plus = "add",
   dodge = "color-dodge", burn = "color-burn", diff = "difference", luminize = "luminosity",
@@ -90,8 +90,8 @@ end
 
 -- ---------------------------------------------------------------- layers
 
---- Whether the document is of a version before 1.1.1, which first says that the opacities of a
---- layer and of its frames are multiplied.
+--- Whether the version of the document is before 1.1.1, which is the first to say that the
+--- opacities of a layer and of its frames are multiplied.
 local function has_one_opacity(version)
   local major, minor, patch = version:match "^(%d+)%.?(%d*)%.?(%d*)"
   local number = (tonumber(major) or 9) * 1e6 + (tonumber(minor) or 0) * 1e3
@@ -100,8 +100,8 @@ local function has_one_opacity(version)
 end
 
 --- Multiplies the opacities of a layer and of its drawings. Some programs write the opacity of a
---- layer again into its frames: equal ones below 1 count once, and all in documents of versions
---- that do not multiply them.
+--- layer again into its frames: if these are equal and below 1, they are counted once. In documents
+--- of earlier versions the opacity of a layer is always counted once.
 local function share_opacity(state, layer, drawings)
   local differs = false
   for _, drawing in ipairs(drawings) do

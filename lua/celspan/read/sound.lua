@@ -14,16 +14,17 @@ local sound = {}
 local STEP = 0.01 -- seconds
 local MOMENTS = 480 -- of a step
 local WINDOW = 0.4 -- seconds
-local QUIET = -60 -- LUFS that is 0
-local RISE = 6 -- dB in ONSET_STEPS: something begins
+local QUIET = -60 -- LUFS that give loudness 0
+local RISE = 6 -- dB in ONSET_STEPS: a sound that rises by this begins
 local LEAST = -50 -- LUFS that it must reach
-local ONSET_STEPS, APART = 3, 10 -- steps that are compared, and that are between two onsets
+-- steps that are compared; least number of steps between two onsets
+local ONSET_STEPS, APART = 3, 10
 
 ---@class celspan.sound.loudness
 ---@field seconds number How long it is
 local Sound = {}
 
---- What is not shown: the sums of a sound, 8 bytes each.
+--- Data that are hidden from scripts: the sums of a sound, 8 bytes each.
 local sums_of = setmetatable({}, { __mode = "k" })
 
 local read_field = fields.reads("a sound", Sound)
@@ -37,14 +38,14 @@ local function check(value, method)
   fields.self("sound", metatable, value, method)
 end
 
---- The sum of all before step i, from 0; the last one after the end.
+--- The sum of all steps before step i, counted from 0; after the end the last sum.
 local function sum_at(sums, i)
   local last = #sums // 8 - 1
   i = math.max(0, math.min(last, i))
   return (("<d"):unpack(sums, i * 8 + 1))
 end
 
---- The sum of all before a time, between two steps in proportion.
+--- The sum of everything before a time; between two steps, in proportion.
 local function sum_before(sums, seconds)
   local steps = math.max(0, math.min(#sums / 8 - 1, seconds / STEP))
   local i = math.floor(steps)
@@ -76,7 +77,7 @@ local function level_before(sums, i)
   return level((sum_at(sums, i) - sum_at(sums, i - ONSET_STEPS)) / (ONSET_STEPS * MOMENTS))
 end
 
---- The step within the last ONSET_STEPS before i that rises most.
+--- The step with the steepest rise among the last ONSET_STEPS before i.
 local function steepest(sums, i)
   local best, most = i - 1, -1
   for step = i - ONSET_STEPS, i - 1 do
@@ -86,8 +87,8 @@ local function steepest(sums, i)
   return best
 end
 
---- The times at which the sound becomes louder by 6 dB or more at once, such as beats and
---- syllables, to a hundredth of a second; at least a tenth of a second apart.
+--- The times at which the sound suddenly becomes louder by 6 dB or more, such as beats and
+--- syllables, to a hundredth of a second. They are at least a tenth of a second apart.
 ---@return number[] seconds
 function Sound:onsets()
   check(self, "onsets")

@@ -31,7 +31,7 @@ local Art = {}
 Art.__index = fields.reads("a drawing", Art)
 Art.__name = "celspan.svg"
 
---- Drawings by the key of the core's cached drawing, while there are references to them.
+--- Drawings by the key of the core's cached drawing, as long as references to them exist.
 local known = setmetatable({}, { __mode = "v" })
 
 local function wrap(drawing)
@@ -47,7 +47,7 @@ local function wrap(drawing)
 end
 
 --- The drawing with parts replaced, inner parts first. Clips, opacity and order of their ancestors
---- are kept; a part that `use` shows is changed wherever it is shown.
+--- are kept. A part that `use` shows is changed wherever it is visible.
 ---@param changes table<string, fun(object: celspan.object): celspan.object>
 ---@return celspan.svg.art
 function Art:with(changes)
@@ -97,7 +97,7 @@ local function has_word(text, word)
   return text and (" " .. text:gsub("%s+", " ") .. " "):find(" " .. word .. " ", 1, true) ~= nil
 end
 
---- "#F80" as "#ff8800", as elements have it.
+--- "#F80" as "#ff8800", the form that elements have.
 local function long(colour)
   local short = colour:lower():match "^#(%x%x%x)$"
   return short and "#" .. short:gsub(".", "%0%0") or colour:lower()
@@ -113,7 +113,8 @@ local function goes_with(element, what)
   return true
 end
 
---- The elements that are drawn, with and without names: all, or those of a tag, class, fill, ...
+--- The elements that are drawn, with and without names: all of them, or those with a tag, class,
+--- fill, ...
 ---@param what? { tag?: string, class?: string, fill?: string, id?: string, label?: string, line?: integer }
 ---@return celspan.svg.element[]
 function Art:elements(what)
@@ -128,7 +129,7 @@ end
 
 local function nothing() return celspan.union {} end
 
---- The names of the parts for `with`, and of the children of parts, such as "mouth/C".
+--- The names for `with`: of parts, and of children of parts, such as "mouth/C".
 local function paths_of(art)
   local paths = {}
   for name in pairs(art.parts) do paths[name] = name end
@@ -141,8 +142,9 @@ local function paths_of(art)
   return paths
 end
 
---- The drawing with one part of each set: of "mouth A", "mouth B" and "mouth C", or of the children
---- "A", "B" and "C" of a group "mouth", only the C, for { mouth = "C" }. false: none of them.
+--- The drawing with one part of each set: for { mouth = "C" }, of "mouth A", "mouth B" and "mouth
+--- C", or of the children "A", "B" and "C" of a group "mouth", only the last one. false: none of
+--- them.
 ---@param choices table<string, string|false>
 ---@return celspan.svg.art
 function Art:show(choices)
@@ -209,7 +211,7 @@ function svg.read(path, options)
   return nil, tried and ("%s; also looked for at %s"):format(message, tried) or message
 end
 
---- svg.read, where a drawing that cannot be read is an error.
+--- svg.read for a drawing that must be readable: raises an error if it is not.
 ---@param path string Relative to the caller's file, else to the script
 ---@param options? celspan.svg.options
 ---@return celspan.svg.art art

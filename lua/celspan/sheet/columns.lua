@@ -22,7 +22,7 @@ columns.marks = { { "inbetween", "i" }, { "reverse", "r" }, { "key", "k" }, { "r
 
 function columns.new(name) return { name = name, at = {}, names = {}, marks = {} } end
 
---- Appends a change; frames ascend. If a frame has several changes, the last one counts.
+--- Appends a change; frames must ascend. If a frame has several changes, the last one counts.
 function columns.add(column, frame, name)
   local at, names = column.at, column.names
   local count = #at
@@ -30,7 +30,7 @@ function columns.add(column, frame, name)
     at[count], names[count] = nil, nil
     count = count - 1
   end
-  -- a column begins empty
+  -- a column is empty at its beginning
   if (names[count] or false) ~= name then at[count + 1], names[count + 1] = frame, name end
 end
 
@@ -45,7 +45,7 @@ end
 
 local lookups = 0
 
---- How often drawings were looked for, as text: so it can be seen whether a frame asked a sheet.
+--- How often drawings were looked up, as text: it shows whether a frame asked a sheet.
 function columns.lookups() return tostring(lookups) end
 
 --- The index of the change in force at a frame; 0 before the first.
@@ -78,7 +78,7 @@ function columns.check_cells(rows, list)
   end
 end
 
---- A longer message quotes a file that is not a sheet at all.
+--- Longer messages quote a file that is not a sheet at all.
 local MESSAGE_BYTES = 400
 
 --- Raises an error in a reader: read returns its message.
@@ -107,12 +107,12 @@ function columns.lines(text)
   return list
 end
 
---- The number of frames of a sheet: `given`, or more if changes and notes need more.
+--- The number of frames of a sheet: `given`, or more if its changes and notes need more.
 function columns.length(given, list, notes)
   local frames = given
   for _, column in ipairs(list) do
     local count = #column.at
-    -- a last change to nothing ends the drawing before it
+    -- if the last change is to nothing, it ends the previous drawing
     local last = count > 0 and column.at[count] - (column.names[count] and 0 or 1) or 0
     frames = math.max(frames, last)
   end

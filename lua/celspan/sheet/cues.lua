@@ -70,7 +70,7 @@ local function read_json(text)
   return nil, "it is neither Rhubarb's JSON (mouthCues) nor Papagayo's (voices)"
 end
 
---- Rhubarb XML: only the mouthCue elements are read.
+--- Rhubarb XML: only its mouthCue elements are read.
 local function read_xml(text)
   local list = {}
   for attributes, shape in text:gmatch "<mouthCue%s([^>]*)>%s*(%w+)%s*</mouthCue>" do
@@ -85,7 +85,7 @@ local function read_xml(text)
   return { cues = list }
 end
 
---- Moho switch data: every line that is "frame word" counts; the last one closes the mouth.
+--- Moho switch data: lines of the form "frame word" count; the last one closes the mouth.
 local function read_dat(text)
   local marks = {}
   for line in text:gmatch "[^\r\n]+" do

@@ -72,8 +72,8 @@ local function namer(options)
   end
 end
 
---- The mouth shape at a frame, counted from 1: before it the first shape, after the last frame the
---- mouth at rest.
+--- The mouth shape at a frame, counted from 1: before frame 1 the first shape, after the last frame
+--- the mouth at rest.
 ---@param frame integer
 ---@return any shape
 function Track:at(frame)

@@ -19,8 +19,8 @@ local function in_order(list)
   return sorted
 end
 
---- Cues in seconds -> shape of each frame: the one that covers most of it, or the later of two
---- equals.
+--- Cues in seconds -> the shape of each frame: that of the cue that covers most of the frame; of
+--- two equal ones, the later.
 function mouths.from_cues(given, fps)
   local list, stop = in_order(given), 0
   for _, cue in ipairs(list) do stop = math.max(stop, cue[2]) end
@@ -33,7 +33,7 @@ function mouths.from_cues(given, fps)
     local ends = list[i + 1] and list[i + 1][1] or cue[2]
     for n = math.max(1, math.floor(cue[1] * fps) + 1), math.min(count, math.ceil(ends * fps)) do
       local cover = math.min(ends * fps, n) - math.max(cue[1] * fps, n - 1)
-      -- pressed lips that fill a third of a frame get the whole frame
+      -- pressed lips that cover a third of a frame get the whole frame
       if pressed[cue[3]] and cover >= 1 / 3 then cover = cover + 1 end
       if cover > 0 and cover >= (best[n] or 0) then shapes[n], best[n] = cue[3], cover end
     end
@@ -113,11 +113,11 @@ end
 
 -- ---------------------------------------------------------------- what was read
 
--- The mouths that were read last, by path, for those who look at the film: KEPT_MOST at most.
+-- The mouths that were read last, by path, for `celspan watch`: at most KEPT_MOST.
 local KEPT_MOST = 16
 local kept = {}
 
---- shapes: of each frame of the film.
+--- shapes: for each frame of the film.
 function mouths.keep(path, shapes)
   for i, one in ipairs(kept) do
     if one.path == path then
@@ -129,8 +129,8 @@ function mouths.keep(path, shapes)
   if #kept > KEPT_MOST then table.remove(kept, 1) end
 end
 
---- Path and shapes of each, both ended by a zero; shapes are lines of the frame at which one begins
---- and its name.
+--- The path and the shapes of each, both ended by a zero. The shapes are lines, each with the frame
+--- at which a shape begins and its name.
 function mouths.kept_text()
   local parts = {}
   for _, one in ipairs(kept) do

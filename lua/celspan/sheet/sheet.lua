@@ -77,7 +77,7 @@ local function check_notes(notes, frames)
   for _, note in ipairs(notes) do note.frame = nil end
 end
 
---- Removes the change of a column beyond the end of the sheet, which closes the column.
+--- Removes a change of a column beyond the end of the sheet, which only closes the column.
 local function trim(column, frames)
   for i = #column.at, 1, -1 do
     if column.at[i] <= frames then break end
@@ -326,8 +326,8 @@ local function check_frame(frame, method)
   return math.floor(frame)
 end
 
---- The name of the drawing that a layer shows at a frame; nil if the layer is empty, and outside
---- the sheet.
+--- The name of the drawing that a layer shows at a frame; nil if the layer is empty, or for a frame
+--- outside the sheet.
 ---@param layer string|integer
 ---@param frame integer From 1
 ---@return string? drawing
@@ -346,7 +346,7 @@ local function copy_of(marks)
 end
 
 --- The marks of a layer at a frame, as keys: inbetween, reverse, key, reference, moved, procedure.
---- Without a frame, those of all frames that have any, by frame.
+--- Without a frame, the marks of all frames that have some, by frame.
 ---@param layer string|integer
 ---@param frame? integer
 ---@return table<string, true>|table<integer, table<string, true>> marks
@@ -503,7 +503,7 @@ end
 
 -- ---------------------------------------------------------------- the sheet of a film
 
---- The label of each part of a frame: its name, with the kind if two kinds share the name.
+--- The label of each part of a frame: its name; with the kind, if two kinds have the same name.
 local function column_for(state, part)
   local column = state.by_key[part.kind .. " " .. part.name]
   if column then return column end
@@ -528,8 +528,8 @@ local function number_of(column, drawing)
   return number
 end
 
---- The parts of a frame by name: a part that occurs several times, for instance in two exposures,
---- is one part, with each different drawing and placement counted once.
+--- The parts of a frame by name. A part that occurs several times, for instance in two exposures,
+--- is one part, and each different drawing and placement of it counts once.
 local function merge_parts(list)
   local order, by_key = {}, {}
   for _, part in ipairs(list) do

@@ -129,7 +129,7 @@ end
 
 -- ---------------------------------------------------------------- Clip Studio
 
---- The change that a cell makes (nil: no change), and its mark.
+--- The change that a cell makes (nil: none), and the mark of the cell.
 local function read_cell(text)
   if holds[text] then return nil end
   if text == CIRCLE then return nil, "inbetween" end
@@ -196,8 +196,8 @@ local function row_of(first, layers, make)
   return table.concat(cells, ", ")
 end
 
---- The CSV of TVPaint and Krita: drawings and layers; it cannot store notes and marks.
---- Raises { message = } if it would be too long.
+--- The CSV of TVPaint and Krita: drawings and layers, but no notes and marks. Raises { message = }
+--- if it would be too long.
 function sheet_csv.encode(sheet)
   local layers = sheet.layers
   columns.check_cells(sheet.frames, layers)

@@ -48,7 +48,7 @@ local function unescape(sign, more, number)
   return signs[sign] .. more
 end
 
---- A quoted text at `at`: the text and the position after it.
+--- A quoted text at `at`: returns the text and the position after it.
 local function read_quoted(line, at, number)
   local from = at + 1
   while true do
@@ -124,7 +124,7 @@ local function read_frame(state, line, number)
     columns.fail("line %d: frame %d follows frame %d; frames ascend", number, frame, state.last)
   end
   state.last = frame
-  -- in most lines of a long sheet nothing changes
+  -- most lines of a long sheet contain no changes
   if line:sub(rest) == state.hold then return end
   local is_hold = true
   if line:find('["/]', rest) then
@@ -316,7 +316,7 @@ local function frames_of(sheet)
   return list
 end
 
---- Raises { message = } if it would be too long.
+--- Raises { message = } if the text would be too long.
 function sheet_text.encode(sheet)
   local lines, layers = write_head(sheet), sheet.layers
   local words, at, holds, widths = { pad("layers", 8) }, {}, {}, {}

@@ -18,7 +18,7 @@ local options = { OPTION_KEYFRAME = "key", OPTION_REFERENCEFRAME = "reference" }
 
 -- ---------------------------------------------------------------- values of the document
 
---- object[name], or the default; path: of the object, for messages.
+--- object[name], or the default. path: the place of the object, for messages.
 local function get(object, path, name, wanted, default)
   local value = object[name]
   if value == nil or value == json.null then
@@ -69,8 +69,8 @@ end
 
 -- ---------------------------------------------------------------- reading
 
---- The entries of a track in order: { frame, values, options }; frames count from 1, and an entry
---- before the sheet holds into its first frame.
+--- The entries of a track in order: { frame, values, options }. Frames are counted from 1; an entry
+--- before the sheet is valid in its first frame.
 local function entries_of(track, path)
   local list = {}
   for frame, here in each(track, path, "frames", {}) do
@@ -273,7 +273,7 @@ local function options_of(marks)
   return #list > 0 and (',"options":[%s]'):format(table.concat(list, ",")) or nil
 end
 
---- A tick continues the cell before it, so a frame with a change has no tick.
+--- A tick continues the previous cell, so a frame with a change has no tick.
 local function tick_of(marks)
   return marks and (marks.inbetween and "SYMBOL_TICK_1" or marks.reverse and "SYMBOL_TICK_2")
 end

@@ -64,7 +64,7 @@ function directions.outin(f)
   end
 end
 
---- A curve that is 0 before 0 and 1 after 1.
+--- The curve, but 0 before 0 and 1 after 1.
 local function held(f)
   return function(u)
     if u <= 0 then return 0 end
@@ -75,8 +75,8 @@ end
 
 local DAMPING, SWINGS = 6, 2
 
---- Of a weight on a spring that is let go: it starts at rest and swings around 1. What is left of
---- the swing at the end is taken out of the curve evenly.
+--- A weight on a spring that is released: it starts at rest and swings around 1. The remaining
+--- swing at the end is subtracted from the curve evenly.
 local function spring(u)
   local angle = 2 * pi * SWINGS
   local swing = math.cos(angle * u) + DAMPING / angle * sin(angle * u)
@@ -121,7 +121,8 @@ local function bezier_at(a, b, t)
   return 3 * s * s * t * a + 3 * s * t * t * b + t * t * t
 end
 
---- A curve through 0, 0 and 1, 1 with inner control points: the y where its x is u, by bisection.
+--- A curve through 0, 0 and 1, 1 with these inner control points. Finds y at the place where x is
+--- u, by bisection.
 local function bezier_curve(x1, y1, x2, y2)
   return held(function(u)
     local low, high = 0, 1

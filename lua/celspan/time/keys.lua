@@ -56,7 +56,8 @@ local function text_kind(text)
   return path_of(text) and "path" or "held"
 end
 
---- Whether a table holds numbers, strings, booleans and such tables, at most five deep.
+--- Whether a table contains only numbers, strings, booleans and such tables, at most five levels
+--- deep.
 local function is_pose(value, depth)
   for _, part in next, value do
     local type_of = type(part)
@@ -103,7 +104,7 @@ end
 
 function mixers.pose(a, b, u) return poses.mix(a, b, u) end
 
---- The path data itself at the keys; between them, its numbers are mixed.
+--- The path data themselves at the keys; between keys their numbers are mixed.
 function mixers.path(a, b, u)
   if u == 0 then return a.text end
   if u == 1 then return b.text end
@@ -118,7 +119,7 @@ function mixers.path(a, b, u)
   return table.concat(words, " ")
 end
 
--- Paints have no values outside 0..1, so curves that overshoot are limited here.
+-- Paints have no values outside 0..1, so the results of curves that overshoot are clamped here.
 function mixers.paint(a, b, u)
   return celspan.mix(a, b, u)
 end
@@ -132,7 +133,7 @@ local function complain(i, text, ...)
   core.refuse(("keys: key %d "):format(i) .. text:format(...))
 end
 
---- The fault of a key by itself, or nil.
+--- The fault of a single key, or nil.
 local function problem_of(key)
   if type(key) ~= "table" then return "must be {time, value}, got " .. fields.kind(key) end
   if not fields.is_finite(key[1]) then
@@ -158,13 +159,13 @@ local function copy(value)
   return made
 end
 
---- What at() returns for the value of a key.
+--- The result of at() for the value of a key.
 local function shown_value(value)
   if type(value) == "table" and value.commands then return value.text end
   return copy(value)
 end
 
---- What keeps a value from being mixed with the first of its track, or nil.
+--- Why a value cannot be mixed with the first value of its track, or nil.
 local function misfit(kind, value, first)
   if kind == "array" and #value ~= #first then
     return ("has %d numbers, the first has %d"):format(#value, #first)
@@ -187,15 +188,15 @@ local function misfit(kind, value, first)
   end
 end
 
---- The value as it is kept, for its kind.
+--- The value in the form in which its kind is stored.
 local function kept_value(kind, value)
   if kind == "paint" and type(value) == "string" then return paint_of(value) end
   if kind == "path" then return { text = value, commands = path_of(value) } end
   return copy(value)
 end
 
---- How strings are read that could be colours or path data: as these, unless any key is another
---- string or a boolean; then as words, which hold.
+--- How strings are read that could be colours or path data: as such, unless the value of any key is
+--- a different string or a boolean. In that case they are words, which are not mixed.
 local function meanings_of(list)
   for i = 1, rawlen(list) do
     if kind_of(list[i][2]) == "held" then return { colour = "held", path = "held" } end
@@ -240,7 +241,7 @@ local function new(_, list)
   return setmetatable({ keys = keys, kind = kind, loop = list.loop }, Track)
 end
 
---- Maps a time into the track, by its loop.
+--- Maps a time into the track, using its loop.
 local function fold(track, time)
   local first, last = track.keys[1].time, track.keys[#track.keys].time
   local length = last - first

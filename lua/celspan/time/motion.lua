@@ -83,7 +83,7 @@ end
 function Wiggle:at(time)
   fields.check_at("motion", Wiggle, self, time, "a time")
   local at = time * self.frequency
-  -- Beyond 2^53 a number has no fraction: the movement starts again from 0; infinity is 0.
+  -- Beyond 2^53 a number has no fraction: the movement starts again at 0; infinity counts as 0.
   if math.abs(at) >= 2 ^ 53 then at = fields.is_finite(at) and math.fmod(at, 2 ^ 53) or 0 end
   local n = math.floor(at)
   local t = at - n
@@ -110,8 +110,8 @@ end
 
 local function blend(a, b, t) return a + (b - a) * t end
 
---- Smooth noise in one to three dimensions: -1..1, without a direction that it prefers in time, the
---- same for the same seed on every machine. At whole numbers it is random; it changes smoothly
+--- Smooth noise in one to three dimensions: -1..1, the same for the same seed on every machine, and
+--- the same forwards and backwards in time. It is random at whole numbers, and changes smoothly
 --- between them.
 ---@param seed string|integer
 ---@return fun(x: number, y?: number, z?: number): number
@@ -148,8 +148,8 @@ local Follower = {}
 Follower.__index = fields.reads("a motion that follows", Follower)
 Follower.__name = "celspan.motion.follower"
 
---- A sum of values with weights: numbers, and tables of them, such as poses. What is no number is
---- that of the first.
+--- A weighted sum of values: numbers, and tables of them, such as poses. Values that are not
+--- numbers are those of the first.
 local function weighted(values, weights)
   local first = values[1]
   if type(first) == "number" then
@@ -172,7 +172,7 @@ local function weighted(values, weights)
   return sum
 end
 
---- The share of its way that a mass on a spring has gone, `time` after its end was moved.
+--- The share of its way that a mass on a spring has gone, `time` seconds after its end was moved.
 local function step_response(rate, damping)
   if damping < 1 then
     local swing = rate * math.sqrt(1 - damping * damping)
@@ -184,11 +184,11 @@ local function step_response(rate, damping)
   return function(time) return 1 - math.exp(-rate * time) * (1 + rate * time) end
 end
 
-local FEWEST, PER_SWING = 64, 24 -- samples of the time that is looked back on
-local LEFT = 1e-3  -- of a movement: what is older than that has less influence
+local FEWEST, PER_SWING = 64, 24 -- samples of the time window
+local LEFT = 1e-3  -- the share of a movement that remains: older movements have less influence
 
---- response: the share of its way that the follower has gone; window: the seconds it looks back;
---- swings: how many it makes in them.
+--- response: the share of its way that the follower has gone; window: the length of the time window
+--- in seconds; swings: how many swings it contains.
 local function follow(source, response, window, swings)
   local weights, total = {}, response(window)
   local count = math.max(FEWEST, math.ceil(swings * PER_SWING))
@@ -205,8 +205,9 @@ local function check_source(name, source)
   end
 end
 
---- A value that follows another like a mass on a spring: it is late, and swings beyond it. It is a
---- function of the time alone: it looks back over the time in which the swing dies down.
+--- A value that follows another value like a mass on a spring: it is late, and swings beyond the
+--- other value. It depends only on the time: it examines the time window in which a swing dies
+--- down.
 ---@param source fun(time: number): any Numbers, or tables of numbers, such as poses
 ---@param settings? {frequency?: number, damping?: number} Swings per second (2); 0.05 to 1, at which nothing swings beyond (0.3)
 ---@return celspan.motion.follower
@@ -227,8 +228,8 @@ function motion.spring(source, settings)
   return follow(source, step_response(rate, damping), window, window * frequency)
 end
 
---- A value that follows another and never overtakes it: after `seconds` it has gone 63 % of the
---- way.
+--- A value that follows another value and never overtakes it: after `seconds` it has gone 63 % of
+--- the way.
 ---@param source fun(time: number): any Numbers, or tables of numbers, such as poses
 ---@param seconds number More than 0
 ---@return celspan.motion.follower
@@ -252,7 +253,8 @@ end
 
 -- ---------------------------------------------------------------- one after another
 
---- The progress of one of several that begin one after another: 0 before it begins, 1 at its end.
+--- The progress of one of several things that begin one after another: 0 before it begins, 1 at its
+--- end.
 ---@param u number 0..1, the progress of all
 ---@param i integer Which one, from 1
 ---@param count integer How many there are

@@ -17,7 +17,7 @@ local exp = math.exp
 local random = chance.between
 
 local MOST = 1000000 -- particles at one time
-local LAST = 2 ^ 48  -- births after this one have no numbers
+local LAST = 2 ^ 48  -- later births have no exact numbers
 
 ---@class celspan.particle
 ---@field x number
@@ -41,7 +41,7 @@ local known = { seed = "any", rate = "number", life = "any", at = "table", veloc
 
 local function refuse(text, ...) core.refuse("particles: " .. text:format(...)) end
 
---- Two or four numbers: x and y, and how far random values may lie from them.
+--- Two or four numbers: x and y, and how far random values may differ from them.
 local function read_spread(name, value, default)
   if value == nil then return default end
   local count = rawlen(value)
@@ -96,7 +96,7 @@ local function travel(drag, t)
   return way, (t - way) / drag, left, way
 end
 
-local PURPOSES = 8 -- random numbers of a particle
+local PURPOSES = 8 -- random numbers for each particle
 
 --- The particle in its closed form. base: the first of its random numbers.
 local function particle(source, id, seconds, life, base)
@@ -122,8 +122,8 @@ local function through_field(source, p, time)
   p.x, p.y = x, y
 end
 
---- The particles that live at a time, the oldest first. Births begin and end at the seconds `from`
---- and `to`; without `from`, particles are there before the film begins.
+--- The particles that exist at a time, the oldest first. Births begin at `from` and end at `to`, in
+--- seconds; without `from`, there are particles before the film begins.
 ---@param time number Seconds
 ---@return celspan.particle[]
 function Source:at(time)

@@ -29,7 +29,7 @@ local function both(p, q)
   return keys
 end
 
---- Two values between which nothing lies: the second from the middle on.
+--- One of two values that cannot be mixed: the second from the middle on.
 local function choose(a, b, u)
   if u < 0.5 then return a end
   return b
@@ -37,8 +37,8 @@ end
 
 local mix_values
 
---- Tables are mixed key by key. A key that one of them does not have counts as `rest`, or as 0 for
---- a bone; with `is_held` (places, points) it is the value of the other.
+--- Tables are mixed key by key. A key that one of them lacks has the value of `rest`, or 0 for a
+--- bone; with `is_held` (places, points), the value of the other table.
 local function mix_tables(a, b, u, is_held)
   local mixed = {}
   for key in next, both(a, b) do
@@ -93,7 +93,7 @@ function poses.mix(p, q, u)
   return mixed
 end
 
---- A value with a share of another added: angles are added, scales multiplied, all else replaced.
+--- Adds a share of another value: angles are added, scales multiplied, all other values replaced.
 local function add(a, b, share, key)
   if type(b) == "number" and type(a) == "table" and not rest[key] then b = { rotate = b } end
   if type(b) == "table" and type(a) == "number" then a = { rotate = a } end
@@ -108,8 +108,9 @@ local function add(a, b, share, key)
   return sum
 end
 
---- A pose with a share of another on it: its angles and its place are added, its scales
---- multiplied; its switches, orders and targets replace the others from a share of one half on.
+--- A pose with a share of another one added: the angles and the place are added, scales are
+--- multiplied. From a share of one half on, the switches, orders and targets of the other pose
+--- replace those of this one.
 ---@param p table
 ---@param q table
 ---@param share? number 1 by default
@@ -135,7 +136,7 @@ end
 
 local opposite = { left = "right", right = "left", near = "far", far = "near", l = "r", r = "l" }
 
---- A word with the case of another: Left, LEFT, left.
+--- A word in the letter case of another word: Left, LEFT, left.
 local function cased(word, like)
   if like == like:upper() then return word:upper() end
   if like:sub(1, 1) == like:sub(1, 1):upper() then
@@ -153,7 +154,7 @@ local function other_name(name)
   end))
 end
 
---- Angles change their sign.
+--- Changes the sign of angles.
 local function mirror_turn(value)
   if type(value) == "number" then return -value end
   if type(value) ~= "table" then return value end
@@ -170,7 +171,7 @@ local function mirror_names(list)
   return names
 end
 
---- A target, and its pole, on the other side of the vertical through x.
+--- A target and its pole, mirrored at the vertical line through x.
 local function mirror_target(target, x)
   local other = {}
   for key, value in next, target do other[key] = value end

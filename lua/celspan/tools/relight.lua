@@ -66,7 +66,7 @@ end
 
 -- ---------------------------------------------------------------- lights
 
---- The known facts about the light: the kind of clue, a colour, and a patch.
+--- The given facts about the light: the kind of clue, a colour, and a patch.
 local function clue_of(options)
   local estimate = options.estimate
   if options.light then return clues.light, colour_of("light", options.light) end
@@ -75,7 +75,7 @@ local function clue_of(options)
     numbers_of("estimate.at", estimate.at, 4, "{x, y, w, h}")
 end
 
---- The field of the light, and the same as a value for `front`.
+--- The field of the light, and the same light as a value for `front`.
 local function find_light(picture, options)
   local clue, colour, patch = clue_of(options)
   local uneven = options.uneven
@@ -127,7 +127,7 @@ local function from_exposures(options)
   return texture, texture and light or message
 end
 
---- A ground: a picture of it, or the light that it gives.
+--- A ground: its picture, or the light that it gives.
 local function ground_of(name, value)
   local is_colour = type(value) == "table" or type(value) == "string" and parse(value)
   return is_colour and colour_of(name, value) or picture_of(name, value)
@@ -164,7 +164,7 @@ end
 local known = { picture = "any", light = "any", estimate = "any", uneven = "any", front = "table",
   back = "table", over = "table" }
 
---- The fields of each way to give the pictures, and its function.
+--- For each way to give the pictures: its fields and its function.
 local ways = {
   { "picture", from_picture, { picture = true, light = true, estimate = true, uneven = true } },
   { "front", from_exposures, { front = true, back = true } },
@@ -276,7 +276,7 @@ local function set_light(self, lights, i, which, name, value)
   lights[first + 4] = alpha
 end
 
---- The positions for a key: a cel's position, 0 for the rostrum, or those of all cels with a name.
+--- The indices for a key: a cel's index, 0 for the rostrum, or those of all cels with a name.
 local function places_of(self, key)
   local places = {}
   if math.type(key) == "integer" and key >= 0 and key <= #self.cels then return { key } end
@@ -291,7 +291,7 @@ local function places_of(self, key)
     or fields.shown(key), hint and ("; did you mean \"%s\"?"):format(hint) or "")
 end
 
---- The front light of the rostrum lights all cels without their own.
+--- The front light of the rostrum lights all cels that have no front light.
 local function set_lights(self, lights, i, given)
   local name = ("light[%s]"):format(i)
   if given.back then set_light(self, lights, i, "back", name .. ".back", given.back) end
@@ -307,7 +307,7 @@ end
 --- are refused.
 local ranks = { string = 1, number = 2 }
 
---- The frame in other lights; lights that are not given are those of the rostrum.
+--- The frame in other lights; lights that are not given do not change.
 ---@param changes? table<string|integer, {front: number[]|string, back: number[]|string}> By the names or positions of cels; 0: of the rostrum itself
 ---@return celspan.pixels.image? image
 ---@return string? message

@@ -41,7 +41,7 @@ Shape.__index = fields.reads("a shape of a tracing", {}, { d = true, points = tr
 
 local known = { colours = "any", smooth = "number", speckle = "number", lines = "boolean" }
 
---- A message for picture to raise; the checks below return a value, or nil and a message.
+--- A message that `picture` raises; the checks below return a value, or nil and a message.
 local function wrong(text, ...) return nil, "trace: " .. text:format(...) end
 
 local function whole(name, value, least, most)

@@ -71,8 +71,8 @@ local function around(self, number)
   return before or after, after or before
 end
 
---- The motion from the first frame to another one: interpolated between the frames in which the
---- region was found, and constant beyond the first and the last of them.
+--- The motion from the first frame to another frame. Between the frames in which the region was
+--- found, it is interpolated; before the first and after the last of them, it is constant.
 ---@param f celspan.frame|number
 ---@return number[] matrix Nine numbers, by rows
 ---@return boolean is_found Whether the region was found in this frame
@@ -215,7 +215,7 @@ local function both_ways(numbers, from)
   return after, before
 end
 
---- The region as {x, y, w, h}, and for an object its mask; nil and a message.
+--- The region as {x, y, w, h}, and its mask if it is an object; nil and a message.
 local function region_of(at, w, h)
   if type(at) == "table" then return { at[1], at[2], at[3], at[4] } end
   local x, y, width, height = at:bounds()
@@ -303,7 +303,7 @@ function methods:write(path)
   return files.write(path, self:text())
 end
 
---- Raises an error about a value of a file, with the value's path in the file.
+--- Raises an error about a value in a file; where: its path in the file.
 local function demand(is_right, where, what)
   if not is_right then error({ message = ("%s must be %s"):format(where, what) }, 0) end
 end
