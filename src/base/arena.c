@@ -4,12 +4,13 @@
 
 struct cs_arena_chunk {
   cs_arena_chunk *next;
-  size_t size; /* of the bytes behind this header */
+  size_t size; /* of the bytes after this header */
   _Alignas(16) unsigned char bytes[];
 };
 
-/* Sizes of chunks with their headers: the first one, and up to which the next one is larger, unless
- * it must be. Many arenas hold the values of one row, which need little. */
+/* The sizes of chunks with their headers: of the first chunk, and the greatest size up to which
+ * each next chunk is larger; later ones are larger only if they must be. Many arenas hold the
+ * values of one row, which need little. */
 #define CHUNK_FIRST ((size_t)4 << 10)
 #define CHUNK_USUAL ((size_t)64 << 10)
 
@@ -28,12 +29,12 @@ void cs_arena_reset(cs_arena *arena) {
   arena->used = 0;
 }
 
-/* The link to the chunk that comes next. */
+/* The link to the next chunk. */
 static cs_arena_chunk **link_of_next(cs_arena *arena) {
   return arena->current ? &arena->current->next : &arena->first;
 }
 
-/* Puts a chunk in front of those that come next. */
+/* Puts a chunk before the next chunks. */
 static cs_arena_chunk *insert_next(cs_arena *arena, cs_arena_chunk *chunk) {
   cs_arena_chunk **link = link_of_next(arena);
   chunk->next = *link;
@@ -41,7 +42,7 @@ static cs_arena_chunk *insert_next(cs_arena *arena, cs_arena_chunk *chunk) {
   return chunk;
 }
 
-/* A chunk of at least so many bytes that comes next, brought to the front of them. */
+/* Finds one of the next chunks that has at least `size` bytes, and moves it before the others. */
 static cs_arena_chunk *find_next(cs_arena *arena, size_t size) {
   for (cs_arena_chunk **link = link_of_next(arena), *chunk; (chunk = *link); link = &chunk->next)
     if (chunk->size >= size) {

@@ -39,7 +39,7 @@ static void bucket_remove(cs_cache *cache, const cs_cache_entry *entry) {
   cache->entry_count--;
 }
 
-/* False when there are no buckets at all, for want of memory. */
+/* False if there are no buckets at all because of a lack of memory. */
 static bool grow_buckets(cs_cache *cache) {
   if (cache->entry_count < cache->bucket_count)
     return true;
@@ -176,8 +176,8 @@ void cs_cache_discard(cs_cache *cache, cs_cache_entry *entry) {
   pthread_mutex_unlock(&cache->lock);
 }
 
-/* Fills an entry that is in its bucket with one pin. Called with the lock held, which is released
- * while the entry is being made. */
+/* Fills an entry that is in its bucket and has one pin. Called with the lock held, which is
+ * released while the entry is being made. */
 static celspan_status make_entry(cs_cache *cache, celspan_context *context, cs_cache_entry *entry,
                                  cs_cache_make make, void *user) {
   pthread_mutex_unlock(&cache->lock);

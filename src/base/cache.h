@@ -31,11 +31,11 @@ typedef struct cs_cache_key {
 typedef struct cs_cache_entry cs_cache_entry;
 struct cs_cache_entry {
   cs_cache_key key;
-  size_t bytes; /* that the entry counts for in the budget */
+  size_t bytes; /* the bytes by which the entry counts in the budget */
   uint32_t pins;
   bool is_made;
-  cs_cache_entry *next;          /* in its bucket */
-  cs_cache_entry *older, *newer; /* while it has no pins */
+  cs_cache_entry *next;          /* the next one in its bucket */
+  cs_cache_entry *older, *newer; /* linked only while it has no pins */
 };
 
 typedef struct cs_cache_counts {
@@ -46,9 +46,9 @@ typedef struct cs_cache_counts {
 typedef struct cs_cache {
   cs_memory *memory;
   size_t entry_size; /* of the user's structure, cs_cache_entry included */
-  /* Frees what an entry owns; its making may have failed half-way. NULL: entries own nothing. */
+  /* Frees what an entry owns, even if its making has failed half-way. NULL: entries own nothing. */
   void (*clear)(cs_cache_entry *entry, cs_memory *memory);
-  bool shrinks_on_unpin; /* goes back to its budget also when a pin is removed */
+  bool shrinks_on_unpin; /* it is also reduced to its budget when a pin is removed */
   size_t budget;
   pthread_mutex_t lock;
   pthread_cond_t settled; /* an entry was made, or could not be */
@@ -60,7 +60,7 @@ typedef struct cs_cache {
 
 /* The caller has set the first four fields and the budget; the rest is zero. */
 void cs_cache_init(cs_cache *cache);
-/* No entry is pinned any more. */
+/* No entry may be pinned. */
 void cs_cache_finish(cs_cache *cache);
 
 /* A service that is one cache. Its kind has a function that creates it, and the two below. */
@@ -80,14 +80,14 @@ static inline cs_cache *cs_cache_of(cs_service *service) {
 
 /* All functions below: any thread. */
 
-/* The budget from now on is at least `least`; returns it. */
+/* Raises the budget to `least`, unless it is larger already; returns the budget. */
 size_t cs_cache_raise_budget(cs_cache *cache, size_t least);
-/* Drops all entries that are not pinned. */
+/* Frees all entries that are not pinned. */
 void cs_cache_trim(cs_cache *cache);
 cs_cache_counts cs_cache_count(cs_cache *cache);
 
-/* Pins the entry of a key and returns it; waits while another thread makes it. NULL: the cache has
- * no entry of this key. */
+/* Pins the entry of a key and returns it. If another thread is making it, waits for that. NULL: the
+ * cache has no entry of this key. */
 cs_cache_entry *cs_cache_pin(cs_cache *cache, cs_cache_key key);
 void cs_cache_unpin(cs_cache *cache, cs_cache_entry *entry);
 
@@ -104,8 +104,8 @@ CELSPAN_CHECKED celspan_status cs_cache_acquire(cs_cache *cache, celspan_context
 CELSPAN_CHECKED celspan_status cs_cache_create(cs_cache *cache, celspan_context *context,
                                                cs_cache_key key, size_t bytes,
                                                cs_cache_entry **out);
-/* Puts an entry into the cache, with one pin or none. If the cache already has an entry of this key
- * the new one is freed and the other returned. */
+/* Puts an entry into the cache, with one pin or none. If the cache already has an entry of this
+ * key, the new one is freed and the old one is returned. */
 cs_cache_entry *cs_cache_insert(cs_cache *cache, cs_cache_entry *entry, bool is_pinned);
 /* Frees an entry that was not inserted. */
 void cs_cache_discard(cs_cache *cache, cs_cache_entry *entry);
@@ -113,6 +113,6 @@ void cs_cache_discard(cs_cache *cache, cs_cache_entry *entry);
 /* Self-check: whether buckets, pins, the idle list and the bytes agree. The lock is held, or no
  * other thread uses the cache. */
 bool cs_cache_is_sound(const cs_cache *cache);
-/* The same check of a cache that changes, which looks at it once in n / 16 changes, where n is the
- * number of its entries: each look takes n steps. */
+/* The same check for a cache that changes. It is made once in n / 16 changes, where n is the number
+ * of entries, because each check takes n steps. */
 bool cs_cache_seems_sound(const cs_cache *cache);

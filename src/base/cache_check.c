@@ -1,7 +1,8 @@
 /* The self-check of a cache's accounts: see the invariants in base/cache.h. */
 #include "base/cache.h"
 
-/* Whether an entry is among the idle ones exactly if it has no pins, and linked both ways. */
+/* Whether an entry is in the list of idle ones exactly if it has no pins, and is linked in both
+ * directions. */
 static bool is_linked(const cs_cache *cache, const cs_cache_entry *entry) {
   if (entry->pins > 0)
     return !entry->older && !entry->newer && cache->oldest != entry && cache->newest != entry;

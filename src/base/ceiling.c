@@ -5,11 +5,11 @@
 
 #define MIB ((uint64_t)1 << 20)
 
-/* The bytes that a group must have free beside the counted ones: a sixteenth of it, for other
- * processes and the kernel, until the group is asked again. */
+/* The bytes that a group must have free in addition to the counted ones: a sixteenth of its limit,
+ * for other processes and the kernel, until the group is asked again. */
 static uint64_t margin_of(const cs_ceiling *ceiling) { return ceiling->limit / 16; }
 
-/* rest: the part of the whole that others leave. */
+/* rest: the part of the whole that other processes leave. */
 static void lower(cs_ceiling *ceiling, const char *whose, uint64_t whole, uint64_t rest) {
   size_t most = (size_t)(rest / 4 * 3);
   if (most >= ceiling->most)
@@ -45,7 +45,7 @@ void cs_ceiling_finish(cs_ceiling *ceiling) {
   ceiling->most = SIZE_MAX;
 }
 
-/* The group is asked again when a quarter of the memory that is free now has been taken. */
+/* The group is asked again after a quarter of the memory that is free now has been allocated. */
 static bool group_refuses(cs_ceiling *ceiling, size_t held, size_t more) {
   if (ceiling->usage < 0 ||
       held + more <= atomic_load_explicit(&ceiling->asked, memory_order_relaxed))

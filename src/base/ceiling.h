@@ -19,28 +19,28 @@
 
 typedef struct cs_ceiling {
   size_t most;         /* bytes that may be held; SIZE_MAX: any */
-  uint64_t whole;      /* of which they are a part: the memory that the process may use */
-  const char *whose;   /* memory that is, in sentences */
+  uint64_t whole;      /* the memory that the process may use, of which this is a part */
+  const char *whose;   /* the name of this memory in sentences */
   uint64_t limit;      /* of the control group; 0: it has none */
   int usage, stat;     /* of the group, or -1: see cs_control_group_used */
-  atomic_size_t asked; /* the bytes held up to which it is not asked again */
+  atomic_size_t asked; /* until this many bytes are held, the group is not asked again */
 } cs_ceiling;
 
-/* machine: its memory; given: the user's limit for the process, whatever other processes use; 0:
- * unknown. The least of these counts. */
+/* machine: the memory of the machine; given: the user's limit for the process, whatever other
+ * processes use; 0: unknown. The least of these counts. */
 void cs_ceiling_init(cs_ceiling *ceiling, const cs_control_group *group, uint64_t machine,
                      uint64_t given);
-/* There is no limit any more. */
+/* From now on there is no limit. */
 void cs_ceiling_finish(cs_ceiling *ceiling);
 
 typedef enum cs_refusal {
   CS_REFUSAL_NONE,
   CS_REFUSAL_RENDERING, /* the limit of rendering */
-  CS_REFUSAL_HELD,      /* more than may be held */
-  CS_REFUSAL_GROUP      /* the group is full, whoever holds it */
+  CS_REFUSAL_HELD,      /* more bytes than may be held */
+  CS_REFUSAL_GROUP      /* the group is full, no matter which process holds the memory */
 } cs_refusal;
 
 /* Whether `more` bytes may be held in addition to the bytes held now. Any thread. */
 cs_refusal cs_ceiling_refuses(cs_ceiling *ceiling, size_t held, size_t more);
-/* Why that is refused, as the end of a sentence. */
+/* Why the allocation is refused, as the end of a sentence. */
 void cs_ceiling_tell(const cs_ceiling *ceiling, cs_refusal refusal, char *text, size_t size);

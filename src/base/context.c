@@ -11,17 +11,17 @@
 #define ORIGIN_SIZE 255   /* bytes of a source that are kept */
 #define ORIGIN_COUNT 4096 /* sources that are kept */
 
-/* A file that values were made in. It lives as long as the memory, and so as long as any value: it
- * needs no count, which every value would have to change. */
+/* A file in which values were made. It lives as long as the memory, and therefore at least as long
+ * as any value: it needs no reference count, which every value would have to change. */
 typedef struct cs_source {
   struct cs_source *next;
-  size_t size; /* of all of it */
+  size_t size; /* of the whole structure */
   char bytes[];
 } cs_source;
 
 /* ---------------------------------------------------------------- memory */
 
-/* It is freed through its own spares, which must not keep it. */
+/* The spares free the memory that contains them, and must not keep it. */
 static_assert(sizeof(cs_memory) <= CS_SPARES_SMALLEST / 2, "cs_memory has a class");
 
 /* resize: NULL for the C library's. */
@@ -111,7 +111,7 @@ void cs_account_give_up(cs_memory *memory, size_t bytes) {
   count_rendering(memory, bytes);
 }
 
-/* A number below 0, which is unsigned here, counts as 0. */
+/* An unsigned value that stands for a number below 0 counts as 0. */
 static size_t rendering_bytes(const cs_memory *memory) {
   size_t bytes = atomic_load_explicit(&memory->rendering, memory_order_relaxed);
   return bytes > SIZE_MAX / 2 ? 0 : bytes;
@@ -308,7 +308,8 @@ void celspan_context_destroy(celspan_context *context) {
   cs_memory_unref(memory);
 }
 
-/* The source of this name, kept if it is there or there is room for it; else NULL. */
+/* The source of this name, which is stored if it is new and there is room for it; otherwise
+ * NULL. */
 static const char *find_source(cs_memory *memory, const char *name, size_t length) {
   size_t count = 0, size = sizeof(cs_source) + length + 1;
   for (const cs_source *at = memory->sources; at; at = at->next, count++)
@@ -367,8 +368,8 @@ cs_service *cs_context_find_service(const celspan_context *context, const cs_ser
   return find_service(atomic_load_explicit(&context->root->services, memory_order_acquire), kind);
 }
 
-/* Another thread may make the same service meanwhile and be first to add it; then that one is used
- * and this one destroyed. */
+/* Another thread may create the same service meanwhile and add it first. In this case its service
+ * is used, and this one is destroyed. */
 celspan_status cs_context_service(celspan_context *context, const cs_service_kind *kind,
                                   cs_service **out) {
   celspan_context *root = context->root;

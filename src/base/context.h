@@ -13,7 +13,8 @@
 #include "base/spares.h"
 #include "celspan/celspan.h"
 
-/* For whom a thread allocates. Memory for frames that a script renders counts for the script. */
+/* The purpose for which a thread allocates. Memory for frames that a script renders counts for the
+ * script. */
 typedef enum cs_account_kind {
   CS_ACCOUNT_NONE,
   CS_ACCOUNT_SCRIPT,
@@ -30,23 +31,24 @@ typedef struct cs_account {
 typedef struct cs_memory {
   celspan_resize resize;
   void *user;
-  cs_spares spares; /* where the host has no function of its own; not counted as held */
+  /* used if the host has no function of its own; kept bytes do not count as held */
+  cs_spares spares;
   atomic_size_t references;
   atomic_size_t bytes;
   atomic_size_t peak;
   atomic_uint_fast64_t allocations;
   atomic_size_t kept;      /* bytes of caches */
   atomic_size_t rendering; /* other bytes of the frames that are rendered now */
-  atomic_uint renders;     /* the number of these frames */
+  atomic_uint renders;     /* the number of frames that are rendered now */
   atomic_size_t beside;    /* bytes of the host, such as Lua's; not in `bytes` */
-  size_t most_rendering;   /* the limit of `rendering`; 0: none */
+  size_t most_rendering;   /* the limit of `rendering`; 0: no limit */
   cs_ceiling *ceiling;     /* of `bytes` and `beside` together; NULL: none; borrowed */
-  /* The account of this thread, which the host keeps; NULL: threads have none. These three are set
-   * before other threads use the memory. */
+  /* Returns the account of this thread, which the host keeps; NULL: threads have no accounts. This
+   * and the next two members are set before other threads use the memory. */
   cs_account *(*account)(void);
-  struct cs_source *sources; /* files that values were made in; owned */
-  /* Whether this thread is refused `more` further bytes; NULL: it has no limit. Set before other
-   * threads use the memory. */
+  struct cs_source *sources; /* files in which values were made; owned */
+  /* Returns whether this thread may not have `more` further bytes; NULL: it has no limit. Set
+   * before other threads use the memory. */
   bool (*refuses)(const struct cs_memory *memory, size_t more);
 } cs_memory;
 
@@ -71,7 +73,8 @@ typedef struct cs_mark { /* see base/mark.h */
   struct cs_text *name;  /* NULL: none */
   const char *source;    /* NULL: not known; else the memory's */
   int32_t line;          /* of the source, from 1; 0: not known */
-  uint32_t callers;      /* of that line: a number of lua/bind/named.h; 0: not known */
+  /* the lines that called this line: a number of lua/bind/named.h; 0: not known */
+  uint32_t callers;
 } cs_mark;
 
 struct celspan_context {
@@ -79,55 +82,57 @@ struct celspan_context {
   celspan_context *root;          /* itself, or the context it was branched from */
   _Atomic(cs_service *) services; /* root only; owned; grows at its head, by any thread */
   size_t picture_bytes, defocus_bytes, map_bytes;
-  cs_mark origin; /* of the values made now; its source is kept while the line is 0 */
+  cs_mark origin; /* of the values that are made now; its source is kept while the line is 0 */
   const struct cs_picture_module *picture_module; /* root only; NULL: it is loaded on first use */
   const struct cs_colour_module *colour_module;   /* likewise, for colour profiles */
   atomic_int processors; /* root only; see cs_context_workers; 0: not counted yet */
   int forced_way;        /* root only; of tests: a cs_ways_forced (frames/render/ways.h) */
-  struct cs_file_contents *contents; /* gets the contents of each file when it is completed; NULL:
-                                        nobody asks */
+  /* gets the contents of each file when it is completed; NULL: not wanted */
+  struct cs_file_contents *contents;
   char error[CS_ERROR_SIZE];
 };
 
 cs_memory *cs_memory_ref(cs_memory *memory);
 void cs_memory_unref(cs_memory *memory);
 
-/* Sets the account of this thread; returns the one before. A thread that works for another thread
- * sets the account of that thread. */
+/* Sets the account of this thread, and returns the previous one. A thread that works for another
+ * thread uses the account of that thread. */
 cs_account_kind cs_account_set(const cs_memory *memory, cs_account_kind kind);
 cs_account_kind cs_account_of(const cs_memory *memory);
-/* A frame is rendered from now on. Returns the previous account, for cs_account_end_rendering. */
+/* Must be called when the rendering of a frame begins. Returns the previous account, for
+ * cs_account_end_rendering. */
 cs_account_kind cs_account_begin_rendering(cs_memory *memory);
 void cs_account_end_rendering(cs_memory *memory, cs_account_kind before);
-/* A cache has taken these bytes, which were allocated, or gives them up, to free them. */
+/* Must be called when a cache begins to keep allocated bytes, or gives them up in order to free
+ * them. */
 void cs_account_keep(cs_memory *memory, size_t bytes);
 void cs_account_give_up(cs_memory *memory, size_t bytes);
-/* Whether a host may allocate as many more bytes for itself: a limit of all that is held may refuse
- * them, which the account of the thread then says. The host counts them in `beside`. */
+/* Whether a host may allocate `more` bytes for itself. A limit of all held bytes may refuse them;
+ * the account of the thread then says so. The host counts the bytes in `beside`. */
 bool cs_account_allows(cs_memory *memory, size_t more);
 void cs_account_beside(cs_memory *memory, size_t change);
 /* All held bytes, including those of the host. */
 size_t cs_account_bytes(const cs_memory *memory);
-/* Whether the limit of all that is held refused the last allocation of this thread. The text says
+/* Whether the limit of all held bytes refused the last allocation of this thread. The text says
  * why, as the end of a sentence. */
 bool cs_account_tell(const cs_memory *memory, char *text, size_t size);
 /* Bytes of scripts and scenes: neither kept by caches nor used to render a frame. */
 size_t cs_account_scene_bytes(const cs_memory *memory);
 
-/* Allocates, resizes or (new_size 0) frees; NULL when there is no memory. Any thread. Does not
- * record an error: callers that report use cs_fail_memory. */
+/* Allocates, resizes or (new_size 0) frees; NULL if there is no memory. Any thread. It does not
+ * record an error: callers that return a status use cs_fail_memory. */
 void *cs_mem_resize(cs_memory *memory, void *storage, size_t old_size, size_t new_size);
 void cs_mem_free(cs_memory *memory, void *storage, size_t size);
 /* count items of item_size bytes, zeroed. NULL on overflow, without memory, and for count 0. */
 void *cs_mem_array(cs_memory *memory, size_t count, size_t item_size);
-/* The same as *items. Errors: NO_MEMORY, also for count 0; *items is then NULL. */
+/* The same into *items. Errors: NO_MEMORY, also for count 0; *items is then NULL. */
 CELSPAN_CHECKED celspan_status cs_mem_make(celspan_context *context, void **items, size_t count,
                                            size_t item_size);
 /* cs_mem_make for a typed array or a value, a variable. */
 #define CS_MAKE(context, items, count)                                                             \
   cs_mem_make(context, (void **)&(items), count, sizeof *(items))
 
-/* Doubles *items, an array of *capacity items, until it has room for `needed` of them; its contents
+/* Doubles *items, an array of *capacity items, until it has room for `needed` items; its contents
  * are kept. Errors: NO_MEMORY; *items is then unchanged. */
 CELSPAN_CHECKED celspan_status cs_mem_grow(celspan_context *context, void **items, size_t *capacity,
                                            size_t needed, size_t item_size);
@@ -160,10 +165,11 @@ CELSPAN_CHECKED celspan_status cs_context_make(const celspan_context_desc *desc,
  * of its own. It is not counted and must not outlive `from`. */
 void cs_context_branch(celspan_context *branch, celspan_context *from);
 
-/* The service of that kind, made where there is none yet. Any thread. Errors: those of create. */
+/* The service of a kind, which is created if it does not exist yet. Any thread. Errors: those of
+ * create. */
 CELSPAN_CHECKED celspan_status cs_context_service(celspan_context *context,
                                                   const cs_service_kind *kind, cs_service **out);
-/* The same, but NULL where there is none yet. Any thread. */
+/* The same, but NULL if it does not exist yet. Any thread. */
 cs_service *cs_context_find_service(const celspan_context *context, const cs_service_kind *kind);
 /* Frees everything that is only kept for later frames. Any thread. */
 void cs_context_trim(celspan_context *context);

@@ -1,4 +1,5 @@
-/* The door of contexts: the only one where there is no context yet that could keep a message. */
+/* Where contexts are created: the only function that checks a description without a context for its
+ * message. */
 #include "base/description.h"
 
 celspan_status celspan_context_create(const celspan_context_desc *desc, celspan_context **out) {

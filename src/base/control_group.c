@@ -9,7 +9,7 @@
 #include "base/open.h"
 
 enum {
-  TEXT = 8192,                   /* of a line, or of the start of a small file */
+  TEXT = 8192,                   /* bytes of a line, or of the start of a small file */
   FOLDER = CS_CONTROL_GROUP_PATH /* of a path */
 };
 
@@ -81,12 +81,12 @@ typedef struct lines {
   char bytes[TEXT];
 } lines;
 
-/* Makes room behind the remaining bytes, and reads there. false: there is nothing more. */
+/* Makes room after the remaining bytes, and reads into it. false: the file has ended. */
 static bool read_more(lines *l) {
   l->size -= l->begin;
   memmove(l->bytes, l->bytes + l->begin, l->size);
   l->begin = 0;
-  if (l->size == TEXT) /* a line that is too long to be of a control group */
+  if (l->size == TEXT) /* no line of a control group is that long */
     l->size = 0;
   ssize_t got = cs_open_read_at(l->file, l->bytes + l->size, TEXT - l->size, l->offset);
   if (got <= 0)
@@ -122,8 +122,8 @@ static void each_line(const char *folder, const char *name, void (*take)(void *u
 /* ---------------------------------------------------------------- places */
 
 typedef struct places {
-  char path[HIERARCHIES][FOLDER];  /* of the group, in its hierarchy; "": it is in none */
-  char mount[HIERARCHIES][FOLDER]; /* where the hierarchy is mounted; "": nowhere */
+  char path[HIERARCHIES][FOLDER];  /* of the group in its hierarchy; "": the process is in none */
+  char mount[HIERARCHIES][FOLDER]; /* where the hierarchy is mounted; "": it is not mounted */
   char group[HIERARCHIES][FOLDER]; /* the folder of the group */
   bool is_below[HIERARCHIES];      /* the path of the group is below the mount's root */
 } places;
@@ -164,7 +164,7 @@ static const char *below(const char *path, const char *root) {
   return is_there && !strstr(path, "/..") ? path + length : NULL;
 }
 
-/* Of several mounts of a hierarchy, the first one that shows the group is taken. */
+/* If a hierarchy is mounted several times, the first mount that shows the group is used. */
 static void place_group(places *p, hierarchy h, const char *root, const char *mount) {
   const char *inside = below(p->path[h], root);
   if (!p->path[h][0] || p->is_below[h] || (p->mount[h][0] && !inside))
@@ -220,7 +220,7 @@ static void find_processors(cs_control_group *group, const char *folder) {
 
 static uint64_t least(uint64_t a, uint64_t b) { return a < b ? a : b; }
 
-/* *room: of the limit that the group has. */
+/* *room: how many bytes the limit of the group leaves. */
 static void find_memory(cs_control_group *group, const char *folder, uint64_t *room) {
   uint64_t limit = least(least(number_in(folder, "memory.max"), number_in(folder, "memory.high")),
                          number_in(folder, "memory.limit_in_bytes"));
@@ -240,7 +240,7 @@ static void find_memory(cs_control_group *group, const char *folder, uint64_t *r
     close(stat);
 }
 
-/* From a group up to the mount; changes the path. */
+/* Goes from a group up to the mount; changes the path. */
 static void walk_up(cs_control_group *group, places *p, hierarchy h, uint64_t *room) {
   char *folder = p->group[h];
   size_t top = strlen(p->mount[h]);

@@ -24,16 +24,16 @@ typedef struct cs_control_group {
   /* Bytes of the limit that leaves the least room: memory.max, memory.high or
    * memory.limit_in_bytes. CS_CONTROL_GROUP_NONE: there is no limit. */
   uint64_t memory;
-  char folder[CS_CONTROL_GROUP_PATH]; /* that has this limit; "": none */
+  char folder[CS_CONTROL_GROUP_PATH]; /* the folder of the group that has this limit; "": none */
 } cs_control_group;
 
-/* process: the folder of a process, such as "/proc/self". folder: of the group, whose parents are
- * not read then; NULL: it is found. */
+/* process: the folder of a process, such as "/proc/self". folder: the folder of the group, whose
+ * parents are not read in this case; NULL: the group is searched for. */
 void cs_control_group_read(const char *process, const char *folder, cs_control_group *out);
 
 /* The bytes that a group holds, without those that the kernel takes back when memory is short: the
  * cached pages of files. usage, stat: descriptors of memory.current, or memory.usage_in_bytes, and
- * of memory.stat; -1: not there. 0: unknown. */
+ * of memory.stat; -1: the file does not exist. Returns 0 if the bytes are unknown. */
 uint64_t cs_control_group_used(int usage, int stat);
 /* Opens the files of `usage` and `stat` in the folder of a group. */
 void cs_control_group_open(const char *folder, int *usage, int *stat);

@@ -22,12 +22,13 @@ static double scale_by_ten(double value, int64_t exponent) {
   return exponent < 0 ? value / powers[-exponent] : value * powers[exponent];
 }
 
-/* The digits so far: the first nineteen fit the mantissa, the others only shift the point. */
+/* The digits that were read: the first nineteen fit into the mantissa, all others only move the
+ * point. */
 typedef struct decimal {
   uint64_t mantissa;
   int64_t exponent;
   int digits;
-  bool is_given; /* there was a digit, even if 0 */
+  bool is_given; /* there was a digit, perhaps 0 */
 } decimal;
 
 static const char *read_digits(const char *text, decimal *number, bool is_fraction) {

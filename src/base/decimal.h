@@ -1,8 +1,7 @@
 /* Decimal numbers in texts, as SVG and CSS write them: "-12.5e3", ".5", "+7".
  *
- * Invariant: no locale and no library has a part in it, so that a text is the same number
- * everywhere: the first nineteen digits with a single rounding as long as the power of ten is
- * exact.
+ * Invariant: a text is the same number everywhere, because no locale and no library takes part: the
+ * first nineteen digits with a single rounding as long as the power of ten is exact.
  */
 #pragma once
 

@@ -2,7 +2,8 @@
 
 #include <string.h>
 
-enum { SIZE_MOST = 4096 }; /* of any description: a larger size is a number that was never set */
+/* of any description: a larger size means that struct_size was never set */
+enum { SIZE_MOST = 4096 };
 
 static celspan_status refuse(celspan_context *context, const char *noun,
                              const cs_description *description, size_t size, const char *what) {
@@ -19,7 +20,7 @@ static bool is_size(size_t size) {
   return size >= sizeof size && size <= SIZE_MOST && size % sizeof size == 0;
 }
 
-/* Whether one field has bytes on both sides of the end. */
+/* Whether the end of the size lies inside a field. */
 static bool is_cut(const cs_description *description, size_t size) {
   for (size_t i = 0; i < description->field_count; i++)
     if (description->fields[i].begin < size && size < description->fields[i].end)
@@ -57,7 +58,7 @@ celspan_status cs_description_read(celspan_context *context, const char *noun,
   return CELSPAN_OK;
 }
 
-/* The first bytes of a whole into one of another size. */
+/* Writes the first bytes of a full structure into one that has another size. */
 static void write_part(const void *full, size_t known, void *out, size_t size) {
   if (known > size)
     known = size;

@@ -12,7 +12,7 @@
 
 #include "base/context.h"
 
-/* Bytes of a description from its beginning. */
+/* The range of bytes that a field occupies in a description. */
 typedef struct cs_description_field {
   uint16_t begin, end;
 } cs_description_field;
@@ -20,8 +20,8 @@ typedef struct cs_description_field {
 typedef struct cs_description {
   const char *type;
   const void *defaults;
-  size_t size;   /* of the whole */
-  size_t needed; /* up to the end of the last field that it cannot do without */
+  size_t size;   /* of the whole description */
+  size_t needed; /* bytes up to the end of the last field that must be given */
   const cs_description_field *fields;
   size_t field_count;
 } cs_description;
@@ -67,26 +67,27 @@ typedef struct cs_description {
 CS_DESCRIPTIONS(CS_DECLARE_DESCRIPTION)
 #undef CS_DECLARE_DESCRIPTION
 
-/* Makes *out the whole of what is given. noun: for messages. context: NULL if there is none yet.
- * Errors: BAD_ARGUMENT. */
+/* Makes *out the full form of the given description. noun: for messages. context: NULL if there is
+ * none yet. Errors: BAD_ARGUMENT. */
 CELSPAN_CHECKED celspan_status cs_description_read(celspan_context *context, const char *noun,
                                                    const cs_description *description,
                                                    const void *given, void *out);
-/* Writes the first `size` bytes of a full description into one from outside, which has that size;
- * the rest is 0. */
+/* Writes the first `size` bytes of a full description into one of the host, which has this size;
+ * the remaining bytes are 0. */
 void cs_description_write(const cs_description *description, const void *full, void *out,
                           size_t size);
 
-/* Writes a result, `size` bytes from `full`, into a structure from outside that begins with its own
- * struct_size: an earlier one gets the fields that it has, of a later one the further fields are 0.
- * noun, type: for messages. context: NULL if there is none. Errors: BAD_ARGUMENT. */
+/* Writes a result, `size` bytes from `full`, into a structure of the host that begins with its own
+ * struct_size. An older structure gets the fields that it has; in a newer one the additional fields
+ * are 0. noun, type: for messages. context: NULL if there is none. Errors: BAD_ARGUMENT. */
 CELSPAN_CHECKED celspan_status cs_result_write(celspan_context *context, const char *noun,
                                                const char *type, const void *full, size_t size,
                                                void *out);
 #define CS_RESULT(context, noun, type, full, out)                                                  \
   cs_result_write(context, noun, #type, full, sizeof(type), out)
 
-/* The door: `desc`, a parameter, is made to point to a full copy of itself. */
+/* Checks a description from outside: `desc`, a parameter, is made to point to a full copy of the
+ * description. */
 #define CS_READ(context, noun, type, desc)                                                         \
   type desc##_whole;                                                                               \
   CS_TRY(cs_description_read(context, noun, &cs_##type##_description, desc, &desc##_whole));       \

@@ -1,4 +1,4 @@
-/* The defaults of all descriptions, and the last field that each cannot do without. */
+/* The defaults of all descriptions, and the last field of each that must be given. */
 #include "base/description.h"
 #include "celspan/plane.h"
 #include "celspan/relight.h"
@@ -12,7 +12,7 @@
 #define LIGHT                                                                                      \
   { .gain = 1, .matte = 1 }
 
-/* The last field that it needs, then its defaults where they are not 0. */
+/* The last field that must be given, then the defaults that are not 0. */
 #define DESCRIBE(type_, last, ...)                                                                 \
   static const type_ type_##_defaults = {.struct_size = sizeof(type_), __VA_ARGS__};               \
   const cs_description cs_##type_##_description = {                                                \

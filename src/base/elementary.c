@@ -1,7 +1,7 @@
 /* Cody and Waite's reductions, Taylor series on the reduced ranges, and sums of two doubles
  * ("pairs", after Dekker) wherever one double would lose the last bits. Every constant is a
- * quotient of integers or the leading bits of pi and ln 2, so it can be checked by hand.
- */
+ * quotient of integers or consists of the leading bits of pi or ln 2, so it can be checked by
+ * hand. */
 #include "base/elementary.h"
 
 #include <math.h>
@@ -67,7 +67,7 @@ static double power_of_two(int exponent) {
 #define HALF_PI_LOW 0x1.1a62633145c07p-54
 #define TWO_OVER_PI 0x1.45f306dc9c883p-1
 
-#define FAR 1e6 /* from this angle on, all of 2/pi counts */
+#define FAR 1e6 /* from this angle on, more bits of 2/pi are needed */
 
 /* 2/pi after 64 zeros, 32 bits a word. */
 static const uint32_t two_over_pi[] = {
@@ -79,12 +79,12 @@ static const uint32_t two_over_pi[] = {
 
 enum { LIMBS = 6 };
 
-/* The quarter turns of mantissa 2^exponent, in 192 bits of which the first two are before the
- * point: the bits of 2/pi before those that are used here are multiples of four quarter turns. */
+/* The quarter turns of mantissa 2^exponent, in 192 bits, the first two of which are before the
+ * point. The bits of 2/pi before those that are used here give multiples of four quarter turns. */
 static void find_turns(uint64_t mantissa, int exponent, uint32_t out[LIMBS]) {
   const uint32_t *words = two_over_pi + (exponent + 62) / 32;
   int shift = (exponent + 62) % 32;
-  uint64_t low = 0, high = 0, before = 0; /* what is carried, and the factor of the limb before */
+  uint64_t low = 0, high = 0, before = 0; /* the carry, and the factor of the previous limb */
   for (int i = LIMBS - 1; i >= 0; i--) {
     uint64_t two = (uint64_t)words[i] << 32 | words[i + 1];
     uint64_t factor = two << shift >> 32;
@@ -113,7 +113,7 @@ static pair reduce_far_angle(double radians, double *turns) {
                        (pair){HALF_PI_HIGH, HALF_PI_LOW});
 }
 
-/* The angle less `turns` quarter turns, in -pi/4..pi/4. */
+/* The angle minus `turns` quarter turns, in -pi/4..pi/4. */
 static pair reduce_angle(double radians, double *turns) {
   if (fabs(radians) > FAR && fabs(radians) < HUGE_VAL)
     return reduce_far_angle(radians, turns);
@@ -167,7 +167,7 @@ double cs_elementary_tan(double radians) {
 
 /* ---------------------------------------------------------------- arc tangent */
 
-/* atan(k/8): the nearest double, and the rest that it lacks. */
+/* atan(k/8): the nearest double, and the remainder. */
 static const pair atan_of_eighths[9] = {{0, 0},
                                         {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
                                         {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},

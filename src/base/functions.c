@@ -27,7 +27,7 @@ double cs_function_tan(double x) {
   return cs_elementary_tan(x);
 }
 
-/* Towards infinity, only the directions of both count. */
+/* If arguments are infinite, only their directions count. */
 double cs_function_atan2(double y, double x) {
   if (x != x || y != y)
     return NAN;
@@ -49,7 +49,7 @@ double cs_function_log2(double x) {
 
 double cs_function_log10(double x) { return cs_elementary_log(x) / cs_elementary_log(10); }
 
-/* A negative base has a power for whole exponents only, and all large numbers are even. */
+/* A negative base has a power only for whole exponents, and all large numbers are even. */
 double cs_function_pow(double base, double exponent) {
   if (exponent == 0 || base == 1 || (base == -1 && isinf(exponent)))
     return 1;

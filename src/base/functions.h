@@ -1,5 +1,5 @@
-/* The functions of math.h in which C libraries differ, for all numbers: base/elementary.h with the
- * answers that C demands for infinities and for arguments outside the domain.
+/* The functions of math.h that differ between C libraries, for all numbers: base/elementary.h, and
+ * the results that C demands for infinities and for arguments outside the domain.
  *
  * Invariant: the bits are the same everywhere, except the sign of what is not a number. A zero
  * keeps its sign.

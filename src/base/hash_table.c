@@ -2,7 +2,7 @@
 
 enum { SLOTS_LEAST = 64 };
 
-/* The slot of a key, or the free one where it belongs. */
+/* The slot of a key, or the free slot in which it can be put. */
 static cs_hash_slot *slot_of(const cs_hash_table *table, cs_hash key) {
   size_t i = (size_t)key.a & (table->slot_count - 1);
   while (table->slots[i].number > 0 &&

@@ -9,7 +9,7 @@
 
 typedef struct cs_hash_slot {
   cs_hash key;
-  size_t number; /* plus 1; 0: a free slot */
+  size_t number; /* the number plus 1; 0: the slot is free */
 } cs_hash_slot;
 
 /* All zero is an empty table. */

@@ -17,7 +17,7 @@ typedef struct page {
   const char *name;
   bool is_code;   /* between two fences */
   bool is_wanted; /* the paragraph below the heading has not ended */
-  bool is_begun;  /* it has a line */
+  bool is_begun;  /* the paragraph has a line */
 } page;
 
 static void stop(const char *what, const char *path) {

@@ -21,7 +21,7 @@ static void sort_few(uint64_t *keys, size_t count) {
   }
 }
 
-/* Puts the keys into the order of one of their digits. counts: of keys, by that digit. */
+/* Sorts the keys by one of their digits. counts: how many keys have each digit. */
 static void sort_digit(const uint64_t *from, uint64_t *to, size_t count, int pass,
                        uint32_t *counts) {
   uint32_t sum = 0;
@@ -34,7 +34,7 @@ static void sort_digit(const uint64_t *from, uint64_t *to, size_t count, int pas
     to[counts[digit_of(from[i], pass)]++] = from[i];
 }
 
-/* Sorts by way of as much room. A digit that all keys share needs no pass. */
+/* Sorts with `room` for as many keys. A digit that all keys have in common needs no pass. */
 static void sort_many(uint64_t *keys, uint64_t *room, size_t count) {
   uint32_t counts[PASSES][DIGITS] = {{0}}; /* numbers of things have 32 bits, too */
   uint64_t *from = keys, *to = room;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-/* The processors that this process may run on. */
+/* The number of processors that this process may run on. */
 static long allowed_processors(void) {
 #ifdef __linux__
   cpu_set_t sets[16]; /* larger than the masks of all kernels, which refuse shorter ones */

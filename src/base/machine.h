@@ -14,7 +14,7 @@
 
 /* The control group of this process. */
 void cs_machine_group(cs_control_group *out);
-/* In that group; at least 1. */
+/* The processors that a process in this group may use; at least 1. */
 int cs_machine_processors(const cs_control_group *group);
 /* Bytes; 0: unknown. */
 uint64_t cs_machine_memory(void);

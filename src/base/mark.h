@@ -19,7 +19,7 @@ typedef struct cs_text cs_text;
 void cs_mark_keep_text(cs_text *text);
 void cs_mark_drop_text(cs_text *text);
 
-/* Takes, and drops, a reference of the name. Any thread. */
+/* cs_mark_keep takes a reference of the name, and the other function drops one. Any thread. */
 static inline cs_mark cs_mark_keep(cs_mark mark) {
   if (mark.name)
     cs_mark_keep_text(mark.name);
@@ -33,11 +33,11 @@ static inline void cs_mark_drop(cs_mark mark) {
 
 /* The mark of a value that is made now: no name, and the origin that the context holds. */
 cs_mark cs_mark_now(const celspan_context *context);
-/* *out: `mark` with another name, with references of its own. Errors: NO_MEMORY; BAD_ARGUMENT for a
- * name that breaks the invariant. */
+/* *out: a copy of `mark` with another name and with its own references. Errors: NO_MEMORY;
+ * BAD_ARGUMENT for a name that breaks the invariant. */
 CELSPAN_CHECKED celspan_status cs_mark_named(celspan_context *context, cs_mark mark,
                                              const char *name, cs_mark *out);
-/* "" where there is none; lives as long as a value with this mark. */
+/* "" if there is no name; lives as long as a value with this mark. */
 const char *cs_mark_name(cs_mark mark);
 celspan_origin cs_mark_origin(cs_mark mark);
 

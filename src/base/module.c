@@ -15,9 +15,9 @@
 #endif
 
 #define PATH_SIZE 4096
-/* Bytes that must be there before libraries are loaded: some end the process when they lack
- * memory then. glibc would learn from a smaller block, given back, to keep blocks of that size
- * for itself. */
+/* Bytes that must be free before libraries are loaded: some libraries end the process when they
+ * lack memory. It must be a large block: when a smaller one is freed, glibc keeps blocks of its
+ * size for later. */
 #define ROOM ((size_t)32 << 20)
 
 /* Where a module may lie, relative to the folder of the object that contains this function: an
@@ -28,8 +28,8 @@ static const char *const folders[] = {
     "./", "../", "src/", "../src/", "celspan", "../../celspan", "../../src/", ".",
 };
 
-/* Where a module was looked for, and the first error but absence that the system gave for it, with
- * the path: a module that may not be read is no module that is missing. */
+/* Where a module was searched for, and the first error of the system other than a missing file,
+ * with the path: a module that may not be read is not a missing module. */
 typedef struct module_search {
   char path[PATH_SIZE];
   int error;
@@ -117,7 +117,7 @@ static celspan_status fail_search(celspan_context *context, const cs_module_desc
                  desc->override);
 }
 
-/* The table of the module, which must be of this release. */
+/* The table of the module, which must have the version of this release. */
 static celspan_status get_table(celspan_context *context, const cs_module_desc *desc,
                                 celspan_status failure, const char *path,
                                 const void *(*entry)(void), const void **table) {
@@ -136,7 +136,7 @@ static celspan_status get_table(celspan_context *context, const cs_module_desc *
   return CELSPAN_OK;
 }
 
-/* Where the loader has no memory for a name, it says that there is no such file: it is asked
+/* If the loader has no memory for a name, it says that the file does not exist: it is called
  * twice. */
 static void *open_object(const char *path) {
   void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
@@ -162,7 +162,7 @@ static celspan_status load(celspan_context *context, const cs_module_desc *desc,
   return status;
 }
 
-/* Where there is no other module either, the first one is asked for again, for its sentence. */
+/* If the other module is missing too, the first one is loaded again, for its error message. */
 static celspan_status load_either(celspan_context *context, const cs_module_desc *desc,
                                   celspan_status failure, const void **table) {
   celspan_status status = load(context, desc, failure, table);
@@ -180,7 +180,7 @@ static bool has_room(void) {
   return room;
 }
 
-/* A failed allocation leaves its mark in errno, even where the loader gives another reason. */
+/* A failed allocation can be seen in errno, even if the loader gives another reason. */
 celspan_status cs_module_load(celspan_context *context, const cs_module_desc *desc,
                               celspan_status failure, const void **table) {
   errno = 0;

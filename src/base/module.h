@@ -18,12 +18,14 @@ typedef struct cs_module_desc {
   const char *symbol;   /* a function without arguments that returns the table */
   const char *purpose;  /* for the message: "reading and writing pictures" */
   const char *advice;   /* for the message: what to install */
-  uint32_t version;     /* which the table begins with, as a uint32_t */
-  /* What to load where this one cannot be loaded, and no file is named instead; NULL: nothing. */
+  uint32_t version;     /* the version with which the table begins, as a uint32_t */
+  /* The module to load if this one cannot be loaded, unless the environment names a file; NULL:
+   * none. */
   const struct cs_module_desc *other;
 } cs_module_desc;
 
-/* The names of celspan's own module, from its name, the same in capitals, and its folder. */
+/* The names of one of celspan's own modules, made of its name, its name in capitals, and its
+ * folder. */
 #define CS_MODULE(name, capitals, place)                                                           \
   .file = "celspan-" name ".so", .folder = "plugins/" place,                                       \
   .override = "CELSPAN_" capitals "_MODULE", .symbol = "celspan_" name "_module"

@@ -1,4 +1,4 @@
-/* Numbers: checked where they come in from outside, and converted to integers.
+/* Numbers: checks for numbers from outside, and conversion to integers.
  *
  * Invariant: a number that passed cs_number_is_sane is finite and |x| <= 1e12; a double becomes an
  * integer only through the saturating helpers here (NaN becomes 0).
@@ -58,8 +58,8 @@ static inline float cs_number_clampf(float x, float low, float high) {
   return x < low ? low : x > high ? high : x;
 }
 
-/* The row of a table at `at`, 0 .. rows, for interpolation between it and the next one, where there
- * are rows + 1: at the very end the last but one. */
+/* The row of a table at `at`, 0 .. rows, for interpolation between this row and the next one; the
+ * table has rows + 1 rows. At the very end it is the last row but one. */
 static inline int32_t cs_number_row(double at, int32_t rows) {
   return at < rows ? (int32_t)at : rows - 1;
 }

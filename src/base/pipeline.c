@@ -11,7 +11,7 @@ typedef struct slot {
   cs_pipeline_step step;
   bool is_done;
   celspan_status status;
-  char error[CS_ERROR_SIZE]; /* unless the status is OK */
+  char error[CS_ERROR_SIZE]; /* set unless the status is OK */
 } slot;
 
 struct cs_pipeline {
@@ -21,7 +21,7 @@ struct cs_pipeline {
   celspan_context *contexts; /* one a thread */
   cs_thread *threads;
   int thread_count;        /* started */
-  cs_account_kind account; /* of the owner */
+  cs_account_kind account; /* the account of the owner */
   pthread_mutex_t lock;
   pthread_cond_t added_some, done_some;
   size_t added, claimed, delivered;
@@ -43,7 +43,7 @@ bool cs_pipeline_is_wanted(const cs_pipeline *p, size_t item) {
 
 int cs_pipeline_threads(const cs_pipeline *p) { return p->thread_count; }
 
-/* The owner alone moves these cursors, so it reads them without the lock. */
+/* Only the owner moves these cursors, so it may read them without the lock. */
 bool cs_pipeline_has_room(const cs_pipeline *p) {
   return cs_pipeline_is_wanted(p, p->added) && p->added - p->delivered < p->desc.slots;
 }
@@ -52,7 +52,7 @@ static slot *slot_of(const cs_pipeline *p, size_t item) { return &p->slots[item 
 
 /* ---------------------------------------------------------------- making (under the lock) */
 
-/* The next item that any worker may make: false where there is none. */
+/* The next item that any worker may make; false if there is none. */
 static bool claim(cs_pipeline *p, size_t *item) {
   while (p->claimed < p->added) {
     const slot *s = slot_of(p, p->claimed);
@@ -128,7 +128,7 @@ bool cs_pipeline_is_ready(cs_pipeline *p) {
   return answer;
 }
 
-/* False when a moment has passed without news. */
+/* Returns false if nothing has changed after a short time. */
 static bool wait_for_news(cs_pipeline *p) {
   struct timespec until;
   if (!p->desc.idle)
@@ -140,7 +140,7 @@ static bool wait_for_news(cs_pipeline *p) {
   return pthread_cond_timedwait(&p->done_some, &p->lock, &until) == 0;
 }
 
-/* The first item is not complete: makes it or another one, or waits. */
+/* Called while the first item is not complete: makes this item or another one, or waits. */
 static celspan_status work_or_wait(cs_pipeline *p, celspan_context *context) {
   size_t item = p->delivered;
   if (is_ready(p) || (p->desc.owner_claims && claim(p, &item))) {
@@ -165,7 +165,7 @@ static celspan_status deliver_first(cs_pipeline *p, celspan_context *context) {
   if (status != CELSPAN_OK)
     return status;
   p->delivered++;
-  if (p->claimed < p->delivered) /* nobody claims items that the owner has made */
+  if (p->claimed < p->delivered) /* nobody claims items that the owner has already made */
     p->claimed = p->delivered;
   return CELSPAN_OK;
 }

@@ -36,29 +36,28 @@ typedef struct cs_pipeline cs_pipeline;
 typedef enum cs_pipeline_step {
   CS_PIPELINE_ANYWHERE = 0, /* any worker */
   CS_PIPELINE_HERE,         /* the owner, at once */
-  CS_PIPELINE_IN_ORDER,     /* the owner, when all items before it have been delivered */
-  CS_PIPELINE_NOTHING       /* nobody: it is complete already */
+  CS_PIPELINE_IN_ORDER,     /* the owner, after all items before it have been delivered */
+  CS_PIPELINE_NOTHING       /* nobody: the item is complete already */
 } cs_pipeline_step;
 
 typedef struct cs_pipeline_desc {
-  size_t count; /* of items that may be added in all */
+  size_t count; /* the number of items that may be added in all */
   size_t slots; /* at least 1 */
   int threads;  /* in addition to the owner's */
-  /* The owner claims items too while it waits for one; otherwise it makes only the items that are
+  /* The owner also makes items while it waits for one; otherwise it makes only the items that are
    * left to it. */
   bool owner_claims;
-  bool keeps_going; /* an item that fails does not keep later ones from being made */
+  bool keeps_going; /* later items are made even if one has failed */
   void *user;
   /* worker: 0 for the owner, up to `threads` for the others, each with a context of its own. The
    * sentence of a failure is expected in the context. */
   celspan_status (*make)(void *user, celspan_context *context, int worker, size_t item);
-  /* status: of the item; its sentence is in the context, which is the owner's. Whoever called
-   * cs_pipeline_deliver gets the status that is returned; unless that is OK the item counts as not
-   * delivered. */
+  /* status: of the item; its sentence is in the context, which is the owner's. cs_pipeline_deliver
+   * returns this function's status; unless it is OK, the item counts as not delivered. */
   celspan_status (*deliver)(void *user, celspan_context *context, size_t item,
                             celspan_status status);
   /* Called whenever the owner has waited for a tenth of a second. A status other than OK ends the
-   * waiting. NULL: the owner waits for as long as it takes. */
+   * waiting. NULL: the owner waits without a limit. */
   celspan_status (*idle)(void *user, celspan_context *context);
 } cs_pipeline_desc;
 
@@ -68,21 +67,21 @@ CELSPAN_CHECKED celspan_status cs_pipeline_create(celspan_context *context,
 /* Cancels all items that are left, and returns when all threads have ended. NULL is ignored. */
 void cs_pipeline_destroy(cs_pipeline *pipeline);
 
-/* The functions below are the owner's, with the owner's context. */
+/* Only the owner may call the functions below, with its context. */
 
 /* The number of threads in addition to the owner's. */
 int cs_pipeline_threads(const cs_pipeline *pipeline);
 /* Whether another item may be added: there is one that is wanted, and a slot for it. */
 bool cs_pipeline_has_room(const cs_pipeline *pipeline);
-/* Adds the next item; there is a free slot, which has been filled. With a status other than OK the
- * item has failed already, with its sentence in the context, and nobody makes it. */
+/* Adds the next item; there must be a free slot, which has been filled. With a status other than OK
+ * the item has failed already: its sentence is in the context, and nobody makes it. */
 void cs_pipeline_add(cs_pipeline *pipeline, celspan_context *context, cs_pipeline_step step,
                      celspan_status status);
 /* Whether the next item to be delivered is complete or left to the owner, so that
  * cs_pipeline_deliver does not have to wait. */
 bool cs_pipeline_is_ready(cs_pipeline *pipeline);
-/* Delivers until no more than `left` of the added items are not delivered.
- * Errors: those of deliver and of idle. */
+/* Delivers items until at most `left` of the added items are not delivered. Errors: those of
+ * deliver and of idle. */
 CELSPAN_CHECKED celspan_status cs_pipeline_deliver(cs_pipeline *pipeline, celspan_context *context,
                                                    size_t left);
 

@@ -4,10 +4,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* A path that leads to it: /proc/self/exe, or where /proc is not mounted, the path by which it was
+/* The path of the program: /proc/self/exe, or if /proc is not mounted, the path by which it was
  * started. */
 const char *cs_program_path(void);
 /* Where the modules of an installed program lie, from its folder; ended by NULL. */
 extern const char *const cs_program_libraries[];
-/* The folder that it is in, without the final slash; false: unknown, or longer than size - 1. */
+/* The folder that contains the program, without the final slash; false: unknown, or longer than
+ * size - 1. */
 bool cs_program_folder(char *out, size_t size);

@@ -8,7 +8,7 @@
 
 enum { LINKS_MOST = 40 }; /* as in Linux */
 
-/* Removes the last component; false when nothing is left. */
+/* Removes the last component of a path; false if nothing is left. */
 static bool cut(char *path) {
   char *slash = strrchr(path, '/');
   if (!slash) {
@@ -33,7 +33,7 @@ static bool follow(char path[PATH_MAX], char *target) {
   return true;
 }
 
-/* One step from a path that does not exist to one that may. */
+/* One step from a path that does not exist to a path that may exist. */
 static bool step(char path[PATH_MAX], int *links) {
   char target[PATH_MAX];
   ssize_t length = readlink(path, target, sizeof target - 1);

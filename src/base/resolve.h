@@ -1,7 +1,7 @@
 /* Where a path leads: to which file, or, if that does not exist, to which folder.
  *
- * INVARIANT: a file that does not exist leads to the nearest existing folder above it, also if only
- * a link names it. So whoever asks whether a path leads out of a folder gets the same answer
+ * INVARIANT: a file that does not exist leads to the nearest existing folder above it, even if a
+ * link points to the file. So the question whether a path leads out of a folder has the same answer
  * whether the file exists or not.
  */
 #pragma once

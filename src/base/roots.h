@@ -18,8 +18,8 @@ typedef struct cs_roots {
 } cs_roots;
 
 /* Adds a folder; "" is the current one. A folder that does not exist is ignored. false: there are
- * too many, or, with ENOMEM in errno, no memory. */
+ * too many folders, or, with ENOMEM in errno, there is no memory. */
 bool cs_roots_add(cs_roots *roots, const char *folder);
 void cs_roots_finish(cs_roots *roots);
-/* Whether the path is below one of them. Without memory: false, with ENOMEM in errno. */
+/* Whether the path is below one of the folders. Without memory: false, with ENOMEM in errno. */
 bool cs_roots_hold(const cs_roots *roots, const char *path);

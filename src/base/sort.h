@@ -14,8 +14,8 @@
 
 #define CS_SORT_FEW 24 /* items that are sorted by insertion, at most */
 
-/* In the heap, most roots came from the bottom and go back there: so the way down to a leaf is made
- * without asking, and the root comes up from it. */
+/* In the heap, most roots came from the bottom and return there. So the way down to a leaf is made
+ * without comparing, and the root moves up from the leaf. */
 #define CS_SORT_DEFINE(name, type, is_before)                                                      \
   static inline void name##_insert(type *items, size_t count) {                                    \
     for (size_t i = 1; i < count; i++) {                                                           \

@@ -57,7 +57,7 @@ static size_t bytes_of(size_t class) {
   return (CS_SPARES_SMALLEST / 4 * (4 + class % 4)) << class / 4;
 }
 
-/* The class of a size that has one. */
+/* The class of a size; the size must have one. */
 static size_t class_of(size_t size) {
   size_t class = 0;
   while (bytes_of(class + 4) <= size)

@@ -28,8 +28,8 @@
 
 enum { CS_SPARES_CLASSES = 4 * 12 + 1 };
 
-/* Sanitizers of memory have to see what was requested, and when it is freed: then nothing has a
- * class. */
+/* Sanitizers of memory must see which sizes are requested, and when blocks are freed: with them no
+ * size has a class. */
 #if defined __SANITIZE_ADDRESS__
 #define CS_SPARES_ARE_KEPT 0
 #elif defined __has_feature
@@ -45,20 +45,20 @@ typedef struct cs_spare cs_spare;
 
 typedef struct cs_spares {
   pthread_mutex_t lock;
-  bool is_closed;                    /* nothing is kept any more */
+  bool is_closed;                    /* nothing is kept from now on */
   size_t bytes, most;                /* of the kept memory */
   cs_spare *kept[CS_SPARES_CLASSES]; /* from malloc */
 } cs_spares;
 
 /* False: the system has no lock left. */
 bool cs_spares_init(cs_spares *spares);
-/* Any thread, as the next two. A celspan_resize on the C library's functions. user: a cs_spares.
- * old_size must be the requested size. Shrinking never fails. */
+/* For any thread, like the next two functions. A celspan_resize that uses the functions of the C
+ * library. user: a cs_spares. old_size must be the requested size. Shrinking never fails. */
 void *cs_spares_resize(void *user, void *storage, size_t old_size, size_t new_size);
-/* Frees everything that is kept. */
+/* Frees all kept memory. */
 void cs_spares_trim(cs_spares *spares);
-/* The same, and nothing is kept any more. */
+/* The same; from now on nothing is kept. */
 void cs_spares_close(cs_spares *spares);
-/* The same at the end, when no other thread uses them. Only memory without a class may be freed
- * afterwards. */
+/* The same at the end, when no other thread uses the spares. Only memory without a class may be
+ * freed afterwards. */
 void cs_spares_finish(cs_spares *spares);

@@ -4,10 +4,11 @@
 #include <stdatomic.h>
 
 #define THREADS_MOST 64
-#define STACK_SIZE ((size_t)8 << 20) /* the usual limit of processes, which is only address space */
+/* the usual limit of processes; only address space is reserved */
+#define STACK_SIZE ((size_t)8 << 20)
 
-/* Signals that a thread raises itself, by a fault: blocked, they would end the process without the
- * host's handler, or a sanitizer, having been called. */
+/* Signals that a thread causes itself by a fault: if they were blocked, they would end the process
+ * before the host's handler or a sanitizer is called. */
 static const int faults[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS};
 
 /* ---------------------------------------------------------------- threads */
@@ -62,7 +63,7 @@ static void pass(void *user, int worker) {
   pthread_mutex_unlock(gate);
 }
 
-/* The threads wait for the gate, so that all of them exist together. */
+/* The threads wait for the gate, so that all of them exist at the same time. */
 bool cs_threads_are_free(int wanted) {
   cs_thread threads[THREADS_MOST];
   pthread_mutex_t gate = PTHREAD_MUTEX_INITIALIZER;

@@ -2,17 +2,18 @@
 
 #include <string.h>
 
-enum { NOTES = 128 }; /* more than the fonts of a drawing, which are looked for before it is read */
+/* more than the number of fonts of a drawing, which are searched for before it is read */
+enum { NOTES = 128 };
 
 typedef struct note {
-  char *path; /* and, behind its end, the other one */
+  char *path; /* the path, and after its end the other path */
   size_t size;
 } note;
 
 typedef struct notes {
   cs_service service;
   cs_memory *memory;
-  size_t next; /* the place of the next one, the oldest of all */
+  size_t next; /* the place of the next note, which replaces the oldest one */
   note all[NOTES];
 } notes;
 

@@ -5,9 +5,9 @@
 
 #include "base/context.h"
 
-/* The file is not at `path`, where it is opened next, nor at `tried`. Both: copied. The last of
- * these notes are kept; without memory there is none. One thread. */
+/* Notes that the file is neither at `path`, where it is opened next, nor at `tried`. Both are
+ * copied. The latest notes are kept; without memory nothing is noted. One thread. */
 void cs_tried_note(celspan_context *context, const char *path, const char *tried);
-/* Where else the path was looked for; NULL: nowhere, or it is not known. It lives until the next
+/* The other place where the file was searched for; NULL: none is known. It is valid until the next
  * note. */
 const char *cs_tried_find(const celspan_context *context, const char *path);

@@ -4,7 +4,7 @@
 
 #include <string.h>
 #ifdef __SSE2__
-#include <emmintrin.h> /* not immintrin.h, whose 60,000 lines most files would read */
+#include <emmintrin.h> /* not immintrin.h: most files would have to read its 60,000 lines */
 #endif
 
 typedef float cs_v4 __attribute__((vector_size(16)));
@@ -23,7 +23,7 @@ static inline cs_v2d cs_v2d_load(const double *from) {
   return v;
 }
 
-/* Lane by lane the lesser; b where a is not a number. */
+/* Lane by lane the lesser; b where a is NaN. */
 static inline cs_v2d cs_v2d_min(cs_v2d a, cs_v2d b) {
 #ifdef __SSE2__
   return _mm_min_pd(a, b);
@@ -69,10 +69,10 @@ static inline cs_v4 cs_v4_load(const float *from) {
 
 static inline void cs_v4_store(float *to, cs_v4 v) { memcpy(to, &v, sizeof v); }
 
-/* Lane by lane the greater, the lesser; b where a is not a number. */
+/* Lane by lane the greater, or the lesser; b where a is NaN. */
 static inline cs_v4 cs_v4_max(cs_v4 a, cs_v4 b) {
 #ifdef __SSE2__
-  return _mm_max_ps(a, b); /* one instruction: compilers do not always see it in a choice */
+  return _mm_max_ps(a, b); /* one instruction: compilers do not always find it for a conditional */
 #else
   typedef int lanes __attribute__((vector_size(16)));
   lanes use_a = a > b;
@@ -90,16 +90,16 @@ static inline cs_v4 cs_v4_min(cs_v4 a, cs_v4 b) {
 #endif
 }
 
-/* A premultiplied colour brought into its bounds: light is not negative and alpha at most 1. For
- * mixtures that may pass the range of what is mixed. */
+/* A premultiplied colour clamped to its bounds: light is not negative, and alpha is at most 1. For
+ * mixtures that may leave the range of the mixed colours. */
 static inline cs_v4 cs_v4_bounded(cs_v4 colour) {
   const cs_v4 most = {__builtin_inff(), __builtin_inff(), __builtin_inff(), 1};
   return cs_v4_min(cs_v4_max(colour, cs_v4_all(0)), most);
 }
 
-/* A sum of weighted colours, which may miss its bounds by the last bits: alpha is within 0..1, and
- * light so little below 0 is 0. Light that is truly negative stays: it is a colour outside the
- * gamut of its space, such as a change of hue gives. */
+/* A sum of weighted colours, which may miss its bounds by the last bits: clamps alpha to 0..1, and
+ * replaces light that is only slightly below 0 by 0. Truly negative light is not changed: it is a
+ * colour outside the gamut of its space, which for example a change of hue can give. */
 static inline cs_v4 cs_v4_settled(cs_v4 sum) {
   const cs_v4 residue = {-0x1p-20F, -0x1p-20F, -0x1p-20F, -__builtin_inff()};
   typedef int lanes __attribute__((vector_size(16)));
@@ -107,7 +107,7 @@ static inline cs_v4 cs_v4_settled(cs_v4 sum) {
   return (cs_v4)(((lanes)sum & stays) | (settled & ~stays));
 }
 
-/* One of two, without a branch. */
+/* One of two values, without a branch. */
 static inline cs_v4 cs_v4_choose(int condition, cs_v4 one, cs_v4 other) {
   typedef int lanes __attribute__((vector_size(16)));
   int all = -(condition != 0);
@@ -115,7 +115,7 @@ static inline cs_v4 cs_v4_choose(int condition, cs_v4 one, cs_v4 other) {
   return (cs_v4)(((lanes)one & mask) | ((lanes)other & ~mask));
 }
 
-/* Whether every lane lies between the same lanes of two others. */
+/* Whether every lane lies between the same lanes of two other values. */
 static inline int cs_v4_is_between(cs_v4 value, cs_v4 least, cs_v4 most) {
 #ifdef __SSE2__
   return _mm_movemask_ps(_mm_and_ps(_mm_cmpge_ps(value, least), _mm_cmple_ps(value, most))) == 15;

@@ -1,7 +1,6 @@
 /* Text of scripts and of files as a terminal may show it: it does not move the cursor, colour or
  * clear anything, or change the clipboard. Controls are written as numbers, such as \x1b, except
- * new lines and tabs. Those of C1 are C2 80 to C2 9F in UTF-8.
- */
+ * new lines and tabs. The controls of the set C1 are C2 80 to C2 9F in UTF-8. */
 #pragma once
 
 #include <stdbool.h>
@@ -11,7 +10,7 @@
 enum { CS_VISIBLE = 5 }; /* bytes of the longest text for one character, with a zero */
 
 /* Writes the visible form of the first character of a text that is not "", and a zero. size: of the
- * text. The answer: bytes of the text that it was read from. */
+ * text. Returns how many bytes the character has in the text. */
 static inline size_t cs_visible_first(const char *text, size_t size, char out[CS_VISIBLE]) {
   const unsigned char *at = (const unsigned char *)text;
   bool is_long = *at == 0xc2 && (size == 1 || (at[1] & 0xe0) == 0x80);

@@ -15,14 +15,14 @@
 #include <immintrin.h>
 #endif
 
-/* From the narrowest on. */
+/* In ascending order of width. */
 typedef enum cs_isa { CS_ISA_ANY, CS_ISA_AVX2, CS_ISA_AVX512 } cs_isa;
 
 #ifdef __x86_64__
 #define CS_WIDE_CHOOSE(isa, name)                                                                  \
   ((isa) == CS_ISA_AVX512 ? name##_avx512 : (isa) == CS_ISA_AVX2 ? name##_avx2 : name##_any)
 
-/* The widest that this processor has. */
+/* The widest set of instructions that this processor has. */
 static inline cs_isa cs_isa_best(void) {
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
@@ -34,26 +34,27 @@ static inline cs_isa cs_isa_best(void) {
 static inline cs_isa cs_isa_best(void) { return CS_ISA_ANY; }
 #endif
 
-/* Declares a kernel in all its makes: CS_WIDE_DECLARE(void, cs_file_verb, (int argument)). */
+/* Declares a kernel for all sets of instructions: CS_WIDE_DECLARE(void, cs_file_verb, (int
+ * argument)). */
 #define CS_WIDE_DECLARE(type, name, arguments)                                                     \
   type name##_any arguments;                                                                       \
   type name##_avx2 arguments;                                                                      \
   type name##_avx512 arguments
 
-/* The name of the make being compiled. */
+/* The name for the set of instructions that is being compiled for. */
 #define CS_WIDE_JOIN(name, isa) name##_##isa
 #define CS_WIDE_EXPAND(name, isa) CS_WIDE_JOIN(name, isa)
 #define CS_WIDE(name) CS_WIDE_EXPAND(name, CS_WIDE_ISA)
 
-/* Arrays that kernels go through begin on a line of the cache: an access across two lines costs
- * twice as much. */
+/* Arrays that kernels read begin at a line of the cache: an access across two lines costs twice as
+ * much. */
 #define CS_WIDE_LINE 64
 
 static inline void *cs_wide_align(void *block) {
   return (char *)block + (-(uintptr_t)block & (CS_WIDE_LINE - 1));
 }
 
-/* As many lanes as the registers of the make have. Lane 4 k + c is channel c of pixel k. */
+/* As many lanes as the registers have. Lane 4 k + c is channel c of pixel k. */
 #ifdef __AVX512F__
 #define CS_WIDE_LANES 16
 #define CS_WIDE_SPREAD(v, c)                                                                       \
@@ -87,7 +88,7 @@ static inline void cs_wide_store(float *to, cs_wide v) { memcpy(to, &v, sizeof v
 
 static inline cs_wide cs_wide_all(float x) { return (cs_wide){0} + x; }
 
-/* Every pixel of the register this one. */
+/* Sets every pixel of the register to this pixel. */
 static inline cs_wide cs_wide_pixel(const float rgba[4]) {
 #ifdef __AVX512F__
   return (cs_wide)_mm512_broadcast_f32x4(_mm_loadu_ps(rgba));
@@ -117,7 +118,7 @@ static inline bool cs_wide_any(cs_wide_int mask) {
 #endif
 }
 
-/* Each lane is that of `one` where the mask is set, and that of `other` elsewhere. */
+/* Each lane is the lane of `one` where the mask is set, and the lane of `other` elsewhere. */
 static inline cs_wide cs_wide_choose(cs_wide_int mask, cs_wide one, cs_wide other) {
   return (cs_wide)(((cs_wide_int)one & mask) | ((cs_wide_int)other & ~mask));
 }
@@ -134,7 +135,7 @@ static inline cs_wide cs_wide_unit(cs_wide v) {
 #endif
 }
 
-/* Lane by lane the lesser, the greater; b where a is not a number. */
+/* Lane by lane the lesser, or the greater; b where a is NaN. */
 static inline cs_wide cs_wide_min(cs_wide a, cs_wide b) {
 #ifdef __AVX512F__
   return (cs_wide)_mm512_min_ps((__m512)a, (__m512)b);
