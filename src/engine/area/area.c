@@ -54,10 +54,9 @@ void cs_area_finish(cs_area *area, cs_memory *memory) {
 typedef struct row_walk {
   cs_area *area;
   const cs_cell *cells;    /* the array of cs_cells; it does not change until the walk is done */
-  cs_intervals *intervals; /* between the two heights */
+  cs_intervals *intervals; /* of the boundaries between the two heights */
   size_t visible;          /* the next visible boundary */
-  bool is_slab;            /* the walk is of a part of a row; the other heights are walked by
-                              themselves */
+  bool is_slab; /* the walk covers a part of a row; the remaining heights are walked separately */
 } row_walk;
 
 /* ---------------------------------------------------------------- alone */
@@ -72,7 +71,7 @@ static size_t find_visible(const cs_area *area, size_t v, size_t end) {
   return v;
 }
 
-/* Gives the target the borders of visible boundaries one by one. */
+/* Gives the target the borders of visible boundaries, one by one. */
 static celspan_status add_boundaries(row_walk *w, const uint32_t *boundaries, size_t count) {
   cs_area *area = w->area;
   for (size_t k = 0; k < count; k++) {
@@ -88,8 +87,8 @@ static celspan_status add_boundaries(row_walk *w, const uint32_t *boundaries, si
   return CELSPAN_OK;
 }
 
-/* Draws the visible boundaries up to boundary `end`, which only bend in the row. Everything drawn
- * after them is at or right of x = next. */
+/* Draws the visible boundaries up to boundary `end`, which do not cross but may bend in the row.
+ * Everything that is drawn later lies at or right of x = next. */
 static celspan_status walk_alone(row_walk *w, size_t end, double next) {
   cs_area *area = w->area;
   size_t first = w->visible;
@@ -116,9 +115,9 @@ static celspan_status begin_item(cs_area *area, const cs_cell *left, size_t low,
   return cs_target_begin_item(&area->target, least);
 }
 
-/* Whether an interval must be drawn as a crowd. Edges that are retained must be exact, and slabs
- * of a row are not pixels. Culled boundaries take effect up to a column late there, so no tile may
- * be narrower. */
+/* Whether an interval must be drawn as a crowd. Retained edges must be exact, and slabs of a row
+ * are not pixels, so neither may be drawn so. In a crowd, culled boundaries take effect up to a
+ * column late, so no tile may be narrower than that. */
 static bool is_crowd(const row_walk *w, const cs_interval *interval) {
   const cs_row_tools *tools = &w->area->tools;
   const cs_deferred *end, *deferred = cs_active_deferred(tools->active, &end);
@@ -127,7 +126,7 @@ static bool is_crowd(const row_walk *w, const cs_interval *interval) {
   return cs_crowd_suits(w->intervals, interval, tools->composer, tools->width);
 }
 
-/* The least x of everything drawn after an interval. */
+/* The least x of everything that is drawn after an interval. */
 static double next_after(const row_walk *w, const cs_interval *interval) {
   const cs_intervals *intervals = w->intervals;
   double next = interval->high < intervals->active->count ? intervals->edges->low[interval->high]
@@ -172,8 +171,8 @@ static celspan_status walk_interval(row_walk *w, const cs_interval *interval) {
   return CELSPAN_OK;
 }
 
-/* Whether an interval is two boundaries that cross and may count as straight: where they have
- * bends, these lie on their chords. */
+/* Whether an interval is two boundaries that cross and may count as straight: if they have bends,
+ * the bends lie on their chords. */
 static bool is_pair(const cs_area *area, const cs_interval *interval) {
   const cs_active *active = area->tools.active;
   size_t i = interval->low;
@@ -204,7 +203,7 @@ static celspan_status walk_row(row_walk *w) {
 
 /* ---------------------------------------------------------------- procedures */
 
-/* An edge of a procedure's span as a member that lasts from y0 to y1. points: room for two. */
+/* An edge of a procedure's span as a member between y0 and y1. points: room for two. */
 static cs_member edge_member(const cs_procedure_edge *edge, double y0, double y1,
                              celspan_point *points) {
   points[0] = (celspan_point){edge->x, y0};
@@ -221,7 +220,7 @@ static cs_member edge_member(const cs_procedure_edge *edge, double y0, double y1
                      .foot = edge->x};
 }
 
-/* Adds the edges at one of a row's heights, for its share of the row. */
+/* Adds the edges at one height of a row, for its share of the row. */
 static celspan_status append_edges(cs_intervals *b, const cs_procedure_edges *edges, double y0,
                                    double y1) {
   size_t known = b->procedure_edge_count, count = known + edges->count;
@@ -255,14 +254,14 @@ static celspan_status find_procedures(cs_area *area, cs_intervals *b) {
 
 /* ---------------------------------------------------------------- rows and slabs */
 
-#define ROW_EVENTS 2048 /* begins and ends in a row that is not cut into slabs, at most */
-#define SLAB_EVENTS 128 /* and in a slab, about */
+#define ROW_EVENTS 2048 /* the most begins and ends in a row that is not cut into slabs */
+#define SLAB_EVENTS 128 /* about how many begins and ends a slab has */
 #define SLABS_MOST 256
-#define SLAB_EDGES ((size_t)4 << 20) /* edges in all slabs of a row, about, at most */
+#define SLAB_EDGES ((size_t)4 << 20) /* about the most edges in all slabs of a row */
 
-/* Whether the boundaries at the current height are dense: judged by the middle half of them, so
- * that a few others far away do not matter. They count as if they were spread over twice the width,
- * because boundaries that end or bend in the row divide them into several intervals. */
+/* Whether the boundaries at the current height are dense. Only the middle half of them is examined,
+ * so that a few others far away do not matter. They count as if they were spread over twice the
+ * width, because boundaries that end or bend in the row divide them into several intervals. */
 static bool is_dense(const cs_area *area) {
   const cs_active *active = area->tools.active;
   size_t first = active->count / 4, last = first + active->count / 2;
@@ -272,15 +271,15 @@ static bool is_dense(const cs_area *area) {
   return cs_dense_suits(active->count, 4 * fmax(high - low, 0));
 }
 
-/* Boundaries at any height of a row that is cut into slabs, at most: where there would be more, the
- * slabs end, because the row is dense. */
+/* The most boundaries at any height of a row that is cut into slabs. If there would be more, no
+ * further slab is cut, because the row is dense. */
 static size_t count_edges(const cs_area *area, size_t begins) {
   size_t edges = area->tools.active->count + begins;
   size_t most = 2 * CS_DENSE_A_PIXEL * ((size_t)area->tools.width + 1);
   return edges < most ? edges : most;
 }
 
-/* Slabs of a row: a power of two, so that their heights are exact. */
+/* The number of slabs of a row: a power of two, so that their heights are exact. */
 static int count_slabs(const cs_area *area, int32_t y) {
   const cs_active *active = area->tools.active;
   size_t begins = cs_intervals_count_begins(active, y + 1.0), events = begins;
@@ -306,7 +305,7 @@ static celspan_status update_cells(cs_area *area, cs_change change, const cs_cel
   return CELSPAN_OK;
 }
 
-/* Copies the cells to room that lasts as long as the row: borders point to them. */
+/* Copies the cells to memory that lasts as long as the row, because borders point to them. */
 static celspan_status keep_cells(cs_area *area, const cs_cell **out) {
   size_t size = area->tools.cells->known * sizeof **out;
   cs_cell *kept = cs_arena_take(area->tools.composer->context, area->tools.arena, size);
@@ -324,8 +323,8 @@ static celspan_status next_slab(cs_area *area) {
   return update_cells(area, change, NULL, 0);
 }
 
-/* Moves the boundaries down from one height to another, and finds what happens between them. The
- * order remains the one at the upper. */
+/* Moves the boundaries down from one height to another, and finds what happens between the two. The
+ * order remains the order at the upper height. */
 static celspan_status find_intervals(row_walk *w, double y0, double y1, cs_intervals *intervals) {
   cs_area *area = w->area;
   celspan_context *context = area->tools.composer->context;
@@ -365,14 +364,14 @@ static celspan_status make_cells(row_walk *w, cs_change change) {
   return CELSPAN_OK;
 }
 
-/* Walks along the intervals found. */
+/* Walks along the intervals that were found. */
 static celspan_status walk_heights(row_walk *w) {
   cs_cells_list(w->area->tools.cells);
   return walk_row(w);
 }
 
-/* A row that becomes dense on the way is not cut any further: dense intervals cost less than the
- * exact slabs of that many boundaries, and need no memory for their intersections. */
+/* A row that becomes dense while it is cut is not cut any further: dense intervals cost less than
+ * exact slabs of so many boundaries, and need no memory for their intersections. */
 static celspan_status walk_slabs(cs_area *area, int32_t y, int slabs, cs_row *out) {
   cs_window *window = &area->target.window;
   cs_intervals intervals;

@@ -26,8 +26,8 @@ typedef struct cs_area {
 void cs_area_init(cs_area *area, const cs_row_tools *tools);
 void cs_area_finish(cs_area *area, cs_memory *memory);
 /* Row y. The boundaries are at its top; change: where the boundaries differ from those at the last
- * update of the cells. Both keep the order that they have there, and the boundaries have been
- * advanced to its foot when it returns. out: is empty, gets [0, width). Errors: NO_MEMORY,
+ * update of the cells. The order of both is not changed, and the boundaries have been advanced to
+ * the foot of the row when the function returns. out: is empty, gets [0, width). Errors: NO_MEMORY,
  * CALLBACK; a failure of composing is in composer->failure too. */
 CELSPAN_CHECKED celspan_status cs_area_row(cs_area *area, int32_t y, cs_change change, cs_row *out);
 /* The same, but the visible edges of the row are kept in `retained`, which is begun and sealed, and

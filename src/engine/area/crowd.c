@@ -4,16 +4,16 @@
 #include "base/number.h"
 #include "base/sort.h"
 
-#define FEW 192   /* samples where no two layers hide more than 1/16 of each other's light */
-#define MORE 1024 /* and where they hide no more than 1/4 */
+#define FEW 192   /* samples if no two layers hide more than 1/16 of each other's light */
+#define MORE 1024 /* samples if no two layers hide more than 1/4 of it */
 #define FEW_SHARE 0.063f
 #define MORE_SHARE 0.255f
 #define LATTICES 3
 #define ROOM_SIZE (sizeof(cs_crowd_room) + CS_WIDE_LINE)
 #define NOBODY UINT32_MAX
-#define NEVER INT32_MAX /* steps of winding do not end */
-#define STRONG 0.51f    /* a layer that hides more is strong, */
-#define STRONG_EACH 4   /* at most one edge in STRONG_EACH may belong to such a layer */
+#define NEVER INT32_MAX /* a step of winding does not end */
+#define STRONG 0.51f    /* a layer that hides more than this is strong */
+#define STRONG_EACH 4   /* at most one edge in STRONG_EACH may belong to a strong layer */
 
 /* Generators of the lattices. Lines in all directions divide the samples of a lattice about evenly,
  * because each generator is close to the golden section of their number. */
@@ -69,7 +69,7 @@ typedef struct drawing {
   celspan_context *context;
   cs_composer *composer;
   double next;               /* the least x of everything drawn after the interval */
-  int32_t width, first, end; /* of the frame; the columns that are drawn */
+  int32_t width, first, end; /* width: of the frame; first, end: the columns that are drawn */
   bool is_changed;           /* the composer has moved since the last cell was composed */
 } drawing;
 
@@ -163,8 +163,8 @@ static celspan_status merge_arriving(const drawing *d) {
   return CELSPAN_OK;
 }
 
-/* Where the step of winding of a layer at a height is among the live members; their number if there
- * is none. */
+/* The index among the live members of the step of winding of a layer at a height; the number of
+ * live members if there is no such step. */
 static size_t find_step(const cs_crowd *crowd, uint32_t layer, double height) {
   size_t k = 0;
   for (; k < crowd->live_count; k++)
@@ -191,8 +191,8 @@ static celspan_status begin_step(const drawing *d, uint32_t layer, double height
   return merge_arriving(d);
 }
 
-/* From here on the winding of a layer changes below a height. Where begins and ends balance, no
- * step is left. */
+/* From this column on, the winding of a layer changes below a height. If begins and ends cancel
+ * out, no step remains. */
 static celspan_status add_step(const drawing *d, uint32_t layer, double height, int32_t direction) {
   cs_crowd *crowd = d->crowd;
   size_t k = find_step(crowd, layer, height);
@@ -205,7 +205,7 @@ static celspan_status add_step(const drawing *d, uint32_t layer, double height, 
   return CELSPAN_OK;
 }
 
-/* A member lies left of the columns that follow. */
+/* Called when a member lies left of all columns that follow. */
 static celspan_status pass(drawing *d, size_t i) {
   const cs_crowd_member member = d->crowd->members[i];
   d->crowd->members[i].is_passed = d->is_changed = true;
@@ -216,8 +216,8 @@ static celspan_status pass(drawing *d, size_t i) {
   return member.foot >= 1 ? CELSPAN_OK : add_step(d, member.layer, member.foot, -member.direction);
 }
 
-/* Passes the live members that end left of column p. This may add live members, so the leaving
- * members are removed first. */
+/* Passes the live members that end left of column p. Passing may add live members, so the members
+ * that leave are removed first. */
 static celspan_status leave(drawing *d, int32_t p) {
   cs_crowd *crowd = d->crowd;
   size_t kept = 0, leaving = 0;
@@ -258,14 +258,14 @@ static celspan_status enter(drawing *d, int32_t p) {
 typedef struct fold {
   cs_crowd_room *room;
   const cs_crowd_lattice *lattice;
-  int channels; /* that let through different shares: 1 or 3 */
+  int channels; /* that transmit different shares: 1 or 3 */
   cs_v4 light, whole;
   cs_v4 mean; /* of `through` */
 } fold;
 
 static inline bool is_grey(cs_v4 t) { return t[0] == t[1] && t[1] == t[2]; }
 
-/* Begins the fold with as many samples as the layers that have edges in the pixel need. */
+/* Begins the fold, with the number of samples that the layers with edges in the pixel need. */
 static void begin_fold(const drawing *d, fold *f) {
   const cs_layer *layers = d->composer->stack->layers;
   const cs_crowd *crowd = d->crowd;
@@ -290,13 +290,13 @@ static void begin_fold(const drawing *d, fold *f) {
   f->whole = f->mean = cs_v4_all(1);
 }
 
-/* A layer over a share of every sample. */
+/* Folds a layer that covers a share of every sample. */
 static void add_even(fold *f, const cs_layer *layer, float share) {
   f->light += f->whole * f->mean * (share * layer->s);
   f->whole *= (1 - share) + share * layer->t;
 }
 
-/* A layer over the samples inside, each with a weight. */
+/* Folds a layer that covers the samples inside it, each with a weight. */
 static void add_inside(const drawing *d, fold *f, const cs_layer *layer, float weight) {
   cs_v4 seen = cs_v4_all(0), hides = weight * (1 - layer->t);
   float each = 1.0f / (float)f->lattice->count;
@@ -315,8 +315,8 @@ static inline double passed(const cs_crowd_piece *piece, double x) {
                          cs_number_most(piece->xa, piece->xb), piece->by_twice, x);
 }
 
-/* The lines of live members [first, end), which are of one layer, and the area right of them in the
- * pixel of column p, counted as often as the layer winds. */
+/* The lines of live members [first, end), which belong to one layer; and the area right of these
+ * lines in the pixel of column p, counted once for each winding of the layer. */
 static double find_lines(const drawing *d, int32_t p, size_t first, size_t end, size_t *count) {
   cs_crowd *crowd = d->crowd;
   double area = 0;
@@ -335,8 +335,8 @@ static double find_lines(const drawing *d, int32_t p, size_t first, size_t end, 
   return area;
 }
 
-/* The share of the pixel that lies in a layer. It winds `low` or `high` times around the samples,
- * and `winding` times on the average. */
+/* The share of the pixel that lies in a layer. The layer winds `low` or `high` times around the
+ * samples, and on the average `winding` times. */
 static double share_inside(const cs_crowd_cover *cover, double winding, int32_t mask) {
   int32_t most =
       cover->high > cover->low || winding >= cover->low ? cover->low + 1 : cover->low - 1;
@@ -344,7 +344,7 @@ static double share_inside(const cs_crowd_cover *cover, double winding, int32_t 
   return ((most & mask) != 0 ? share : 0) + ((cover->low & mask) != 0 ? 1 - share : 0);
 }
 
-/* x of a member at a height that it goes through. */
+/* x of a member at a height that the member goes through. */
 static double x_at(const cs_crowd *crowd, const cs_crowd_member *member, double y) {
   const cs_crowd_piece *piece = &crowd->pieces[member->piece];
   for (uint32_t i = 1; i < member->piece_count && piece->foot < y; i++)
@@ -363,7 +363,8 @@ static bool is_left_of(const cs_crowd *crowd, const cs_crowd_member *a, const cs
   return true;
 }
 
-/* The same for b: whether it lies right of a. */
+/* The same in the other direction: whether a lies right of b at all heights where the pieces of b
+ * begin and end. */
 static bool is_right_of(const cs_crowd *crowd, const cs_crowd_member *b, const cs_crowd_member *a) {
   for (uint32_t i = 0; i < a->piece_count; i++) {
     const cs_crowd_piece *piece = &crowd->pieces[a->piece + i];
@@ -377,8 +378,8 @@ static inline bool goes_through(const cs_crowd_member *member) {
   return member->top <= 0 && member->foot >= 1;
 }
 
-/* Whether a layer can wind in two ways only around the points of a pixel: its edges there are one,
- * or the two sides of something. */
+/* Whether a layer can wind in only two ways around the points of a pixel: it has one edge there, or
+ * the two sides of one shape. */
 static bool is_plain(const cs_crowd *crowd, size_t first, size_t end) {
   if (end - first == 1)
     return true;
@@ -403,9 +404,9 @@ static cs_crowd_cover find_samples(const drawing *d, const cs_crowd_lattice *lat
                                                    layer->mask, crowd->room->inside);
 }
 
-/* Adds the layer of the live members [first, end). Where it may wind in three and more ways, as at
- * the joints of strokes, the share of the pixel that lies in it does not follow from areas: it is
- * counted in very many samples. */
+/* Adds the layer of the live members [first, end). If it may wind in three or more ways, as at the
+ * joints of strokes, areas do not give the share of the pixel that lies in the layer: the share is
+ * counted with very many samples. */
 static void add_partial(const drawing *d, fold *f, int32_t p, size_t first, size_t end) {
   uint32_t index = layer_of(d->crowd->live[first].key);
   const cs_presence *presence = &d->composer->presences[index];
@@ -468,12 +469,12 @@ static cs_v4 colour_of(const drawing *d, int32_t p) {
 
 /* ---------------------------------------------------------------- the interval */
 
-/* The pixels from column p on have the colours of a cell. */
+/* Gives the pixels from column p on the colours of a cell. */
 static celspan_status put_cell(const drawing *d, int32_t p, const cs_cell *left,
                                const cs_cell *cell) {
   cs_window *window = &d->sweep->target->window;
   const cs_border border = {{p, d->sweep->y0, p, d->sweep->y1}, left, cell};
-  if (p <= d->next) /* edges drawn later may add to the pixels from there on */
+  if (p <= d->next) /* edges that are drawn later may change the pixels from there on */
     CS_TRY(cs_window_begin_item(window, p));
   if (!cs_composer_same(d->composer, left, cell))
     CS_TRY(cs_window_add(window, &border));

@@ -25,10 +25,10 @@
 #include "base/wide.h"
 #include "engine/area/intervals.h"
 
-#define CS_CROWD_LEAST 32     /* boundaries of a crowd, at least */
-#define CS_CROWD_A_PIXEL 6    /* samples in each pixel, on the average, at least */
-#define CS_CROWD_SUMS 16      /* partial sums over samples: as many on all machines */
-#define CS_CROWD_SAMPLES 2048 /* in a pixel, at most */
+#define CS_CROWD_LEAST 32     /* the least number of boundaries of a crowd */
+#define CS_CROWD_A_PIXEL 6    /* the least number of samples in a pixel, on the average */
+#define CS_CROWD_SUMS 16      /* partial sums over samples: the same number on all machines */
+#define CS_CROWD_SAMPLES 2048 /* the most in a pixel */
 
 /* The samples of a pixel, from top to foot. */
 typedef struct cs_crowd_lattice {
@@ -37,16 +37,17 @@ typedef struct cs_crowd_lattice {
   int32_t count;
 } cs_crowd_lattice;
 
-/* A straight piece of a boundary, as a pixel sees it. */
+/* A straight piece of a boundary, relative to a pixel. */
 typedef struct cs_crowd_line {
-  float x, slope, top, foot; /* x at its top */
+  float x, slope, top, foot; /* x: at the top of the piece */
   int32_t direction;
 } cs_crowd_line;
 
-/* Which samples of a pixel lie in a layer: -1 in `inside`, else 0. */
+/* The samples of a pixel that lie in a layer: -1 in `inside`; the others are 0. */
 typedef struct cs_crowd_cover {
   int32_t count;     /* of the samples inside */
-  int32_t low, high; /* how often the layer winds around samples: least and most */
+  /* the least and the greatest number of times that the layer winds around a sample */
+  int32_t low, high;
 } cs_crowd_cover;
 
 /* ---- crowd_wide.c */
@@ -57,28 +58,28 @@ typedef struct cs_crowd_cover {
 CS_WIDE_DECLARE(cs_crowd_cover, cs_crowd_find,
                 (const cs_crowd_lattice *lattice, const cs_crowd_line *lines, size_t line_count,
                  int32_t base, int32_t mask, int32_t *inside));
-/* Dims the samples inside: the light that they still let through becomes smaller by the share
- * `share`. Returns the sum of this light before the call. */
+/* Dims the samples inside: the light that they still transmit is reduced by `share`. Returns the
+ * sum of this light before the call. */
 CS_WIDE_DECLARE(float, cs_crowd_dim,
                 (float *through, const int32_t *inside, int32_t count, float share));
 
 /* ---- crowd.c */
 
 typedef struct cs_crowd_piece {
-  double xa, xb;    /* at its top and at its foot, from the left of the frame */
-  double top, foot; /* from the top of the row: 0..1 */
-  double by_twice;  /* 1 / twice its width */
+  double xa, xb;    /* x at the top and at the foot of the piece, from the left of the frame */
+  double top, foot; /* heights from the top of the row: 0..1 */
+  double by_twice;  /* 1 / twice the width of the piece */
   float slope;      /* dx/dy */
 } cs_crowd_piece;
 
-/* A boundary in the row. Where a boundary has begun or ended further left, the member is the step
- * of winding below that height. */
+/* A boundary in the row. If the boundary has begun or ended further left, the member is a step of
+ * winding below that height. */
 typedef struct cs_crowd_member {
   uint32_t layer;
   uint32_t piece, piece_count;
-  uint32_t next; /* that enters in the same column; UINT32_MAX: none */
+  uint32_t next; /* the next member that enters in the same column; UINT32_MAX: none */
   int32_t direction;
-  int32_t end; /* the first column that lies right of it */
+  int32_t end; /* the first column to the right of the member */
   double top, foot;
   bool is_passed; /* the composer has crossed it */
 } cs_crowd_member;
@@ -92,18 +93,18 @@ typedef struct cs_crowd_live {
 /* The memory that a worker keeps for crowds. */
 typedef struct cs_crowd_room {
   cs_crowd_lattice lattices[3];
-  _Alignas(CS_WIDE_LINE) float through[3][CS_CROWD_SAMPLES]; /* by channel; only the first where all
-                                                                are alike */
+  /* by channel; only the first channel is used if all are equal */
+  _Alignas(CS_WIDE_LINE) float through[3][CS_CROWD_SAMPLES];
   _Alignas(CS_WIDE_LINE) int32_t inside[CS_CROWD_SAMPLES];
 } cs_crowd_room;
 
 typedef struct cs_crowd {
   cs_isa isa;
-  void *storage;       /* of the room; NULL: not needed yet */
-  cs_crowd_room *room; /* on a line of the cache */
+  void *storage;       /* the memory of the room; NULL: not needed yet */
+  cs_crowd_room *room; /* aligned to a line of the cache */
   cs_crowd_piece *pieces;
   cs_crowd_member *members;
-  uint32_t *entering;      /* by column: the first that enters there */
+  uint32_t *entering;      /* by column: the first member that enters there */
   cs_crowd_live *live;     /* members in the current column */
   cs_crowd_live *arriving; /* members that were not in the previous column */
   uint32_t *leaving;       /* members that were only in the previous column */
@@ -120,7 +121,7 @@ bool cs_crowd_suits(const cs_intervals *intervals, const cs_interval *interval,
                     const cs_composer *composer, int32_t width);
 /* Draws the members of a sweep, and those that begin, through a whole row. The composer is left of
  * all members, before and after the call. extent: the columns of the members; next: the least x of
- * everything drawn after them; right: the cell right of them. Errors: NO_MEMORY, and the errors of
- * painting. */
+ * everything that is drawn after the members; right: the cell right of the members. Errors:
+ * NO_MEMORY, and the errors of painting. */
 CELSPAN_CHECKED celspan_status cs_crowd_draw(cs_crowd *crowd, cs_local_sweep *sweep,
                                              cs_extent extent, double next, const cs_cell *right);

@@ -1,7 +1,7 @@
 /* Plain loops over the samples of a pixel, which the compiler turns into vector code. */
 #include "engine/area/crowd.h"
 
-/* Adds a line's direction to the windings of the samples on its right. */
+/* Adds the direction of a line to the windings of all samples right of the line. */
 static inline void cross_whole(const cs_crowd_lattice *lattice, cs_crowd_line line,
                                int32_t *restrict windings) {
   const float *restrict x = lattice->x, *restrict y = lattice->y;

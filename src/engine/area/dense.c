@@ -3,10 +3,10 @@
 #include "base/number.h"
 #include "engine/paint/colours.h"
 
-#define SUB_ROWS 64   /* in a whole row */
-#define TOGETHER 8    /* sub-rows, for which the members are walked once */
-#define PARTS 256     /* of a pixel's width */
-#define LEAST 2048    /* boundaries of a dense interval */
+#define SUB_ROWS 64   /* sub-rows of a whole row */
+#define TOGETHER 8    /* sub-rows for which the members are visited together */
+#define PARTS 256     /* parts into which the width of a pixel is divided */
+#define LEAST 2048    /* the least number of boundaries of a dense interval */
 #define DIGIT_BITS 11 /* in sorting */
 #define DIGIT (1 << DIGIT_BITS)
 
@@ -22,7 +22,7 @@ bool cs_dense_suits(size_t members, double extent) {
   return members >= LEAST && (double)members > CS_DENSE_A_PIXEL * (extent + 1);
 }
 
-/* The pixels of an interval, and how many members it has. */
+/* The pixels of an interval, and the number of its members. */
 typedef struct drawing {
   cs_dense *dense;
   cs_local_sweep *sweep;
@@ -34,7 +34,8 @@ typedef struct drawing {
 
 /* ---------------------------------------------------------------- places */
 
-/* x of a member at a height that it goes through; heights only rise. */
+/* x of a member at a height that the member goes through. Heights may only increase from call to
+ * call. */
 static double x_at(cs_member *member, double y) {
   while (member->points[member->at].y < y)
     member->at++;
@@ -46,8 +47,8 @@ static inline bool is_there(const cs_member *member, double y) {
   return member->points[0].y < y && member->points[member->point_count - 1].y >= y;
 }
 
-/* Sub-rows that follow each other: their heights, and how many places are found in each. The places
- * of sub-row k are the k-th part of the places, which has room for all members. */
+/* Consecutive sub-rows: their heights, and the number of places in each. Sub-row k has the k-th
+ * part of the places, with room for all members. */
 typedef struct sub_rows {
   int count; /* TOGETHER at most */
   double y[TOGETHER];
@@ -60,8 +61,8 @@ static void add_place(const drawing *d, sub_rows *rows, int k, size_t i, double 
   places[rows->places[k]++] = (cs_dense_place){(uint32_t)(from * PARTS + 0.5), (uint32_t)i};
 }
 
-/* Where the members are in sub-rows. Members are many and far apart in memory: each is fetched once
- * for all of the sub-rows. */
+/* Finds the places of the members in sub-rows. Members are many and far apart in memory, so each
+ * member is fetched only once for all of these sub-rows. */
 static void find_places(const drawing *d, sub_rows *rows) {
   for (size_t i = 0; i < d->members; i++) {
     cs_member *member = cs_local_sweep_member(d->sweep, i);
@@ -82,7 +83,7 @@ static void sort_digit(const cs_dense_place *from, cs_dense_place *to, size_t co
     to[--ends[from[i].x >> shift & (DIGIT - 1)]] = from[i];
 }
 
-/* Sorts places by x, from the lowest digit on; where they are then. */
+/* Sorts places by x, from the lowest digit on. Returns the array in which the sorted places are. */
 static const cs_dense_place *sort_places(const drawing *d, cs_dense_place *places, size_t count) {
   cs_dense_place *spare = d->dense->spare;
   for (int shift = 0; (uint64_t)d->count * PARTS >> shift != 0; shift += DIGIT_BITS) {
@@ -218,7 +219,7 @@ celspan_status cs_dense_draw(cs_dense *dense, cs_local_sweep *sweep, cs_extent e
   int all = height * SUB_ROWS > 1 ? (int)(height * SUB_ROWS) : 1; /* sub-rows */
   d.count = cs_edges_ceil(extent.high, width) - d.first;
   CS_TRY(reserve(&d));
-  if (d.count > 0) /* otherwise no member is in the frame, and there may be no room yet */
+  if (d.count > 0) /* otherwise no member is in the frame, and the room may not exist yet */
     memset(dense->sums, 0, (size_t)d.count * sizeof *dense->sums);
   list_crossings(&d);
   for (int first = 0, end; first < all; first = end) {

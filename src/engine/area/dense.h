@@ -19,17 +19,18 @@
 
 #include "engine/area/local_sweep.h"
 
-#define CS_DENSE_A_PIXEL 16 /* boundaries in each pixel, on the average, and more are dense */
+/* an interval with this many boundaries for each pixel, on the average, or more, is dense */
+#define CS_DENSE_A_PIXEL 16
 
 /* Where a boundary lies in a sub-row. */
 typedef struct cs_dense_place {
-  uint32_t x; /* in parts of a pixel, from the left of the interval */
+  uint32_t x; /* the position in parts of a pixel, from the left of the interval */
   uint32_t member;
 } cs_dense_place;
 
 /* The changes made by crossing a member. */
 typedef struct cs_dense_crossing {
-  uint32_t layer, span; /* span: as a member's */
+  uint32_t layer, span; /* span: as in a member */
   int32_t direction;
 } cs_dense_crossing;
 
@@ -44,11 +45,11 @@ typedef struct cs_dense {
 
 void cs_dense_finish(cs_dense *dense, cs_memory *memory);
 /* Whether members at the top of a row that lie within an extent, in pixels, are dense. Members that
- * only begin in the row are not counted: they are replayed exactly, however small and regular they
- * are. */
+ * begin in the row are not counted: they are replayed exactly, even if they are small and
+ * regular. */
 bool cs_dense_suits(size_t members, double extent);
 /* Draws the members of a sweep, and those that begin, from sweep->y0 to sweep->y1. The composer is
  * left of all members, before and after the call. extent: the columns of the members; right: the
- * cell right of them. Errors: NO_MEMORY, and the errors of painting. */
+ * cell right of the members. Errors: NO_MEMORY, and the errors of painting. */
 CELSPAN_CHECKED celspan_status cs_dense_draw(cs_dense *dense, cs_local_sweep *sweep,
                                              cs_extent extent, const cs_cell *right);

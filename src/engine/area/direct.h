@@ -35,18 +35,19 @@ typedef struct cs_direct_edges {
   const cs_cell *cells;       /* as in cs_cells */
   const uint32_t *boundaries; /* `count` of them, to be drawn from left to right */
   size_t count;
-  int32_t next; /* whatever is drawn after them lies at or right of this column */
+  int32_t next; /* everything that is drawn later lies at or right of this column */
   int32_t width;
 } cs_direct_edges;
 
 /* Draws boundaries from the first one on and returns how many. It ends before a boundary between
- * cells that vary along the row, and before a boundary that only a window can draw. Room for
- * CS_DIRECT_EACH spans a boundary and CS_DIRECT_TOGETHER more is enough for at least one. */
+ * cells that vary along the row, and before a boundary that only a window can draw. The boundaries
+ * need room for CS_DIRECT_EACH spans each and CS_DIRECT_TOGETHER more; with this room at least one
+ * is drawn. */
 CS_WIDE_DECLARE(size_t, cs_direct_draw, (const cs_direct_edges *direct, cs_row_writer *writer));
 
 /* The area right of a straight edge in the pixels of a row, as the weight of colours: in the first
- * column that it crosses, in the second and in the last; and for the columns between, by how much
- * the area grows from column to column. */
+ * column that the edge crosses, in the second and in the last; for the columns between them, the
+ * growth of the area from column to column. */
 typedef struct cs_direct_shares {
   float one, second, two, fall;
 } cs_direct_shares;
@@ -74,15 +75,15 @@ typedef double cs_sum4 __attribute__((vector_size(32), aligned(16)));
 
 /* A straight piece of an edge, and the columns [first, end) that it crosses. */
 typedef struct cs_direct_piece {
-  double xa, xb; /* at its top and at its foot */
+  double xa, xb; /* x at the top and at the foot of the piece */
   double height; /* share of the row's height */
   int32_t first, end;
 } cs_direct_piece;
 
 /* Adds a straight piece to sums by column: change[k] is the difference between column `from` + k
  * and the column before it. step: the difference between the colours on the right and on the left
- * of the piece. Which columns a piece crosses can hardly be foreseen, so the only branch here is
- * whether they are more than two. */
+ * of the piece. The processor can hardly predict which columns a piece crosses, so the only branch
+ * here is for more than two columns. */
 static inline void cs_direct_add(cs_sum4 *change, int32_t from, cs_direct_piece piece,
                                  const cs_sum4 *step) {
   const int32_t first = piece.first, end = piece.end;
@@ -90,7 +91,7 @@ static inline void cs_direct_add(cs_sum4 *change, int32_t from, cs_direct_piece 
   double low = cs_number_least(xa, xb), high = cs_number_most(xa, xb);
   double by_twice = cs_cover_by_twice(low, high), before = 0;
   change += first - from;
-  if (end - first <= 2 && low >= first && high <= end) { /* nearly all pieces */
+  if (end - first <= 2 && low >= first && high <= end) { /* nearly all pieces are such */
     double split = first + 1, most = cs_number_most(high, split);
     double area = cs_cover_round(height * cs_cover_passed(low, high, by_twice, split));
     double rest = cs_cover_round(height * cs_cover_last(most, split, by_twice));

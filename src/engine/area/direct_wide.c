@@ -54,9 +54,9 @@ static inline bool put_middle(celspan_span *span, head at, int32_t columns, cs_v
 }
 
 /* Writes the spans of boundary i: its left cell from `start` on, and its columns from `first` on.
- * For an edge over one or two columns, the spans of two columns are written, so there is no branch
- * on whether the second counts. Returns the end of the spans. NULL: two neighbours would have the
- * same colour, or more must be known of the edge. */
+ * For an edge over one or two columns, two spans are always written, so that no branch is needed.
+ * Returns the end of the spans. NULL: two neighbours would have the same colour, or the edge needs
+ * another function. */
 static inline celspan_span *put_plain(celspan_span *span, head start, int32_t first,
                                       const cs_edges *edges, size_t i, const cs_cell *left) {
   int32_t columns = edges->end[i] - first;
@@ -81,8 +81,8 @@ static inline celspan_span *put_plain(celspan_span *span, head start, int32_t fi
   return span + 4;
 }
 
-/* Draws the plain boundaries from the first one on: those that are straight or cross one or two
- * columns, share no pixel, lie between flat cells and give spans of different colours. Returns
+/* Draws the plain boundaries from the first one on. A plain boundary is straight or crosses one or
+ * two columns, share no pixel, lie between flat cells and give spans of different colours. Returns
  * their number. The last boundary is never among them. */
 static inline size_t draw_plain(cs_row_writer *writer, const cs_direct_edges *s,
                                 const cs_edges *edges, size_t done) {
@@ -142,7 +142,7 @@ static void add_pieces(cs_sum4 *change, int32_t from, const cs_direct_edges *s, 
                        const cs_sum4 *step) {
   const cs_active *active = s->active;
   const cs_bend *bend = s->edges->is_bent[i] ? cs_active_bend(active, i) : NULL;
-  double passed = 0; /* of the row's height */
+  double passed = 0; /* as a share of the row's height */
   for (cs_pieces p = cs_pieces_of(active, i, bend); cs_pieces_next(&p);) {
     double reached = p.rest > 0 ? cs_cover_round(p.below.y - active->y) : 1;
     add_piece(change, from, p.above, p.below, reached - passed, s->width, step);

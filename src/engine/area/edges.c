@@ -47,8 +47,8 @@ static celspan_status make_room(celspan_context *context, cs_edges *edges, size_
 
 /* ---------------------------------------------------------------- bent */
 
-/* Adds the areas right of a straight piece: in the column that ends at `split` to *area, and in the
- * column after it to *rest. */
+/* Adds the areas right of a straight piece: the area in the column that ends at `split` to *area,
+ * and the area in the next column to *rest. */
 static void add_piece(double *area, double *rest, celspan_point above, celspan_point below,
                       double height, double split) {
   double low = above.x < below.x ? above.x : below.x, high = above.x < below.x ? below.x : above.x;
@@ -102,7 +102,7 @@ celspan_status cs_edges_measure(celspan_context *context, cs_edges *edges, const
   CS_TRY(make_room(context, edges, count));
   CS_WIDE_CHOOSE(edges->isa, cs_edges_straight)
   (edges, active->x, active->x_next, count, width);
-  if (count > 0) /* else there is no room yet */
+  if (count > 0) /* otherwise the room does not exist yet */
     memset(edges->is_bent, 0, count * sizeof *edges->is_bent);
   for (size_t k = 0; k < active->bend_count; k++)
     if (active->bends[k].vertex_count > 0)

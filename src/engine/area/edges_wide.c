@@ -9,7 +9,8 @@ void CS_WIDE(cs_edges_straight)(cs_edges *edges, const double *restrict top,
   float *restrict one = edges->one, *restrict two = edges->two;
   float *restrict second = edges->second, *restrict fall = edges->fall;
   int32_t *restrict first = edges->first, *restrict end = edges->end;
-  const double right = width, whole = 0x1p52; /* above it doubles are whole numbers */
+  /* from this number on all doubles are whole numbers */
+  const double right = width, whole = 0x1p52;
 #pragma omp simd
   for (size_t i = 0; i < count; i++) {
     double a = top[i] < foot[i] ? top[i] : foot[i], b = top[i] < foot[i] ? foot[i] : top[i];

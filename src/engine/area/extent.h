@@ -18,7 +18,7 @@ static inline void cs_extent_add(cs_extent *extent, double x) {
   extent->high = x > extent->high ? x : extent->high;
 }
 
-/* How much of it lies in 0..width. */
+/* How much of an extent lies in 0..width. */
 static inline double cs_extent_shown(cs_extent extent, double width) {
   return fmin(fmax(extent.high, 0), width) - fmax(fmin(extent.low, width), 0);
 }

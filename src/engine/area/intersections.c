@@ -42,8 +42,8 @@ celspan_status cs_intersections_reserve(cs_intersections *intersections, celspan
 
 /* ---------------------------------------------------------------- shares of a step */
 
-/* At which share of the step the boundary at a place crosses its right neighbour. Whether it does
- * can hardly be foreseen, so the division is always made. */
+/* The share of the step at which the boundary at a place crosses its right neighbour. The processor
+ * can hardly predict whether it does, so the division is always made. */
 static inline double find_share(const cs_intersections *m, size_t place) {
   double foot = m->foot[place] - m->foot[place + 1], gap = m->top[place + 1] - m->top[place];
   double top = gap > 0 ? gap : 0, share = top / (top + foot);
@@ -88,8 +88,8 @@ static bool find_shares(cs_intersections *m, size_t count) {
   return true;
 }
 
-/* The first place of the least among at most BATCH shares, a multiple of four. Where it is can
- * hardly be foreseen, so nothing here is a branch. */
+/* The first place with the least of at most BATCH shares, a multiple of four. The processor can
+ * hardly predict where it is, so nothing here is a branch. */
 static inline size_t find_least(const double *shares, size_t count) {
   cs_v2d least = least_of(shares, count);
   unsigned places = 0;
@@ -133,8 +133,8 @@ static inline void move_to(cs_active_edge *edge, double x, double y) {
   edge->last_y = y;
 }
 
-/* The boundaries at `place` and `place` + 1 cross, and change places in the order. share: the part
- * of the step above the intersection; y: the height of the intersection. */
+/* Lets the boundaries at `place` and `place` + 1, which cross, change places. share: the part of
+ * the step above the intersection; y: the height of the intersection. */
 static celspan_status swap_places(cs_intersections *m, celspan_context *context, size_t place,
                                   double share, double y) {
   if (m->count == m->capacity)
@@ -161,7 +161,7 @@ static celspan_status swap_places(cs_intersections *m, celspan_context *context,
 /* Finds the intersections of a step. */
 static celspan_status find_in_step(cs_intersections *m, celspan_context *context, size_t count,
                                    double y0, double y1) {
-  double share = 0; /* of the step, so far */
+  double share = 0; /* the share of the step that is done */
   if (!find_shares(m, count))
     return CELSPAN_OK;
   for (size_t place; find_next(m, count, &place);) {
@@ -178,9 +178,9 @@ static celspan_status find_in_step(cs_intersections *m, celspan_context *context
   return CELSPAN_OK;
 }
 
-/* x of the segment that ends at a point, at a height. At the end point it is exactly the x of the
- * point. The processor can hardly predict whether the height is that of the end point, so the
- * division is always made. */
+/* x, at a height, of the segment that ends at a point. At the end point it is exactly the point's
+ * x. The processor can hardly predict whether this is the height of the end point, so the division
+ * is always made. */
 static inline double segment_x(const celspan_point *end, double y) {
   const celspan_point *from = end - 1;
   double x = from->x + (end->x - from->x) * ((y - from->y) / (end->y - from->y));
@@ -189,7 +189,7 @@ static inline double segment_x(const celspan_point *end, double y) {
 
 /* ---------------------------------------------------------------- slabs without any */
 
-/* The way of an edge from a height, where it is at x, to a lower one. */
+/* The part of an edge between a height, where it is at x, and a lower height. */
 typedef struct way {
   cs_extent extent;
   double foot; /* x at the lower height */
@@ -206,8 +206,8 @@ static inline way find_way(const cs_active_edge *edge, double x, double y0, doub
   return w;
 }
 
-/* Whether the left one of two neighbours lies right of the right one at any vertex below y0, or at
- * y1. */
+/* Whether the left of two neighbouring edges lies right of the other one at any vertex below y0, or
+ * at y1. */
 static bool do_cross(const cs_active_edge *left, const cs_active_edge *right, double y0,
                      double y1) {
   const celspan_point *a = left->points + left->at, *b = right->points + right->at;
@@ -222,8 +222,8 @@ static bool do_cross(const cs_active_edge *left, const cs_active_edge *right, do
   return false;
 }
 
-/* Goes down to y1 at once if no two neighbours cross on the way, which is nearly always so. false:
- * some neighbours cross, and nothing is changed. */
+/* Goes down to y1 at once if no two neighbours cross before y1, as is nearly always the case.
+ * false: some neighbours cross, and nothing has changed. */
 static bool go_straight(cs_intersections *m, size_t count, double y0, double y1) {
   double high = -INFINITY;
   for (size_t i = 0; i < count; i++) {
@@ -231,7 +231,7 @@ static bool go_straight(cs_intersections *m, size_t count, double y0, double y1)
     if (w.extent.low < high && do_cross(&m->edges[i - 1], &m->edges[i], y0, y1))
       return false;
     high = w.extent.high;
-    m->top[i] = w.foot; /* kept here until it is known that nothing crosses */
+    m->top[i] = w.foot; /* kept here until it is known that no edges cross */
     m->last[i] = w.at;
   }
   for (size_t i = 0; i < count; i++) {
@@ -243,8 +243,8 @@ static bool go_straight(cs_intersections *m, size_t count, double y0, double y1)
 
 /* ---------------------------------------------------------------- steps */
 
-/* Moves on to the segments that continue below y, where a step has ended. Returns where the first
- * of them ends, or y1. */
+/* Moves on to the segments that continue below y, where a step has ended. Returns the height at
+ * which the first of these segments ends, or y1. */
 static double begin_step(cs_intersections *m, size_t count, double y, double y1) {
   double end = y1;
   for (size_t i = 0; i < count; i++) {
@@ -272,7 +272,7 @@ celspan_status cs_intersections_find(cs_intersections *m, celspan_context *conte
     end = begin_step(m, count, y, y1);
     for (size_t place = 0; place < count; place++) {
       const cs_active_edge *edge = &m->edges[m->order[place]];
-      m->top[place] = m->foot[place]; /* the last step ended at this height, on the same x */
+      m->top[place] = m->foot[place]; /* the last step ended at this height and this x */
       m->foot[place] = segment_x(edge->points + edge->at, end);
     }
     CS_TRY(find_in_step(m, context, count, y, end));

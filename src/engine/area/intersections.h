@@ -28,14 +28,14 @@
 typedef struct cs_active_edge {
   const celspan_point *points; /* ascending in y */
   uint32_t at;                 /* the segment it is on ends at points[at] */
-  uint32_t last_at;            /* `at` when the edge last changed places */
-  double last_x, last_y;       /* the point where it did */
+  uint32_t last_at;            /* the value of `at` when the edge last changed places */
+  double last_x, last_y;       /* the point at which the edge last changed places */
 } cs_active_edge;
 
 /* Two neighbours change places. */
 typedef struct cs_intersection {
-  double y, left_x, right_x;  /* where each of them is */
-  uint32_t left_at, right_at; /* on which segment */
+  double y, left_x, right_x;  /* the height, and the x of both neighbours */
+  uint32_t left_at, right_at; /* the segments of both neighbours */
   uint32_t left, right;       /* edges: `left` moves from this place to the next place on the
                                  right */
   uint32_t next, previous;    /* intersections at the same place, or NONE */
@@ -43,16 +43,17 @@ typedef struct cs_intersection {
 } cs_intersection;
 
 typedef struct cs_intersections {
-  cs_active_edge *edges; /* in their order at the top */
+  cs_active_edge *edges; /* in the order at the top */
   /* by place, from left to right */
   uint32_t *order;    /* the edge at each place */
-  double *top, *foot; /* its x at both ends of the step; after the last step, at the lower height */
+  /* x of the edge at both ends of the step; after the last step, at the lower height */
+  double *top, *foot;
   double *shares; /* the share of the step at which the edge crosses its right neighbour; INFINITY:
                      it does not cross */
-  double *least;  /* of each batch of 16 shares, where there is more than one */
+  double *least;  /* the least share of each batch of 16 shares, if there is more than one batch */
   uint32_t *first, *last;         /* intersections of this place with the next one on the right, or
                                      NONE */
-  cs_intersection *intersections; /* from the highest to the lowest */
+  cs_intersection *intersections; /* from top to bottom */
   size_t count, capacity;
   void *storage; /* one allocation, of all the arrays above except the intersections */
   size_t edge_capacity;
@@ -62,9 +63,9 @@ void cs_intersections_finish(cs_intersections *intersections, cs_memory *memory)
 /* Makes room for `edges` edges. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_intersections_reserve(cs_intersections *intersections,
                                                         celspan_context *context, size_t edges);
-/* Finds the intersections of the first `count` edges between two heights; all extend to the lower.
- * Given are the edges, on a segment at or above the first height, and as `foot` their x there.
- * Errors: NO_MEMORY. */
+/* Finds the intersections of the first `count` edges between two heights; all edges extend to the
+ * lower height. The caller sets the edges, each on a segment at or above the first height, and sets
+ * `foot` to their x at this height. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_intersections_find(cs_intersections *intersections,
                                                      celspan_context *context, size_t count,
                                                      double y0, double y1);

@@ -9,7 +9,7 @@ static void *allocate(const cs_intervals *b, size_t count, size_t size) {
   return cs_arena_take(b->context, b->arena, count * size);
 }
 
-/* A chain as a member at the top of its points. */
+/* Makes a chain a member, at the top of its points. */
 static void set_member(cs_member *member, const cs_active *active, uint32_t chain,
                        const celspan_point *points, uint32_t count) {
   const cs_boundary_chain *c = &active->set->chains[chain];
@@ -75,8 +75,8 @@ static double boundary_x(const cs_intervals *b, size_t i, double y) {
   return p.above.x + (p.below.x - p.above.x) * ((y - p.above.y) / (p.below.y - p.above.y));
 }
 
-/* Whether a vertex of a bent boundary lies beyond its neighbour, which is on its left (side -1) or
- * on its right (+1). */
+/* Whether a vertex of a bent boundary lies beyond a neighbour: side -1 is the left neighbour, +1
+ * the right one. */
 static bool passes(const cs_intervals *b, const cs_bend *bend, size_t neighbour, int side) {
   const cs_active *active = b->active;
   cs_extent r = boundary_extent(b, neighbour);
@@ -91,10 +91,12 @@ static bool passes(const cs_intervals *b, const cs_bend *bend, size_t neighbour,
   return false;
 }
 
-/* Neighbours that cross and must be replayed together, while more are still being found. */
+/* Neighbours that cross and must be replayed together, while further ones are being searched
+ * for. */
 typedef struct inversion_group {
   size_t low, high;
-  cs_extent extent, foot; /* of its boundaries, in the row and at its foot */
+  /* extent: of the group's boundaries in the row; foot: at the foot of the row */
+  cs_extent extent, foot;
   bool is_bent;
 } inversion_group;
 
@@ -111,14 +113,14 @@ static void join_groups(inversion_group *k, const inversion_group *other) {
   k->is_bent |= other->is_bent;
 }
 
-/* Straight boundaries cross if and only if the row permutes them; bent ones may cross wherever
- * their extents overlap. */
+/* Straight boundaries cross if and only if the row changes their order; bent ones may cross
+ * wherever their extents overlap. */
 static bool may_cross(const inversion_group *left, const inversion_group *right) {
   return left->foot.high > right->foot.low ||
          ((left->is_bent || right->is_bent) && left->extent.high > right->extent.low);
 }
 
-/* Adds neighbours until none is left that the group may cross. */
+/* Adds neighbours until the group cannot cross any further neighbour. */
 static void grow_group(const cs_intervals *b, inversion_group *k) {
   const cs_active *active = b->active;
   bool grows = true;
@@ -243,7 +245,7 @@ static const cs_interval *find_group(const cs_intervals *b, size_t i) {
   return low < b->group_count && b->intervals[low].low <= i ? &b->intervals[low] : NULL;
 }
 
-/* A unit that keeps its order through the row: boundary i, or the group it is in. */
+/* A unit that keeps its order through the row: boundary i, or the group that contains it. */
 static cs_interval unit_at(const cs_intervals *b, size_t i) {
   const cs_interval *group = find_group(b, i);
   return group ? *group
@@ -289,7 +291,7 @@ static celspan_status join_ends(cs_intervals *b, const cs_interval_event *events
   return CELSPAN_OK;
 }
 
-/* Adds the intervals of begins and ends: one for all of a layer at one height. */
+/* Adds the intervals of begins and ends: one interval for all events of a layer at one height. */
 static celspan_status add_events(cs_intervals *b) {
   sort_events(b->events, b->event_count);
   for (size_t first = 0, end; first < b->event_count; first = end) {
@@ -330,7 +332,7 @@ static void join(cs_interval *last, const cs_interval *next) {
 }
 
 /* Joins intervals that share a boundary or an x at which something begins, and adds places that
- * touch an interval. An interval that has grown may then reach the previous interval. */
+ * touch an interval. An interval that has grown in this way may reach the previous interval. */
 static void merge_intervals(cs_intervals *b) {
   size_t kept = 0;
   sort_intervals(b->intervals, b->count);
@@ -448,7 +450,7 @@ static inline bool begin_is_before(const cs_interval_begin *a, const cs_interval
 
 CS_SORT_DEFINE(sort_begins, cs_interval_begin, begin_is_before)
 
-/* Lists the begins from left to right, in which order the walk along the row asks for them. */
+/* Lists the begins from left to right: the walk along the row needs them in this order. */
 static celspan_status order_begins(cs_intervals *b) {
   b->begin_order = allocate(b, b->begin_count, sizeof *b->begin_order);
   if (!b->begin_order)

@@ -24,14 +24,14 @@
 #include "engine/area/edges.h"
 #include "engine/area/local_sweep.h"
 
-/* Neighbours [low, high) that are replayed together; low == high: only boundaries that begin and
- * end between two others. */
+/* Neighbours [low, high) that are replayed together. low == high: the interval has only boundaries
+ * that begin and end between two others. */
 typedef struct cs_interval {
   size_t low, high;
-  size_t last_low;  /* the greatest `low` of the intervals that were merged into it */
-  cs_extent events; /* of the boundaries that begin or end in it */
-  cs_extent extent; /* of its boundaries in the row, including those that begin there */
-  bool is_crowd;    /* it is drawn without its cells (crowd.h) */
+  size_t last_low;  /* the greatest `low` of all intervals that were merged into this one */
+  cs_extent events; /* of the boundaries that begin or end in the interval */
+  cs_extent extent; /* of the interval's boundaries in the row, including those that begin there */
+  bool is_crowd;    /* the interval is drawn without its cells (crowd.h) */
 } cs_interval;
 
 /* A begin or an end inside the row, and the extent in the row of the boundaries concerned. */
@@ -39,11 +39,11 @@ typedef struct cs_interval_event {
   double y;
   cs_extent extent;
   uint32_t layer;
-  int32_t begin; /* which of `begins` this is about; -1: a boundary that ends */
+  int32_t begin; /* index into `begins`; -1: the event is the end of a boundary */
   bool is_end;
 } cs_interval_event;
 
-/* In which interval something begins. */
+/* The interval in which something begins. */
 typedef struct cs_interval_begin {
   size_t low; /* of the interval, before it was merged with others */
   size_t begin;
@@ -60,24 +60,25 @@ typedef struct cs_intervals {
   size_t procedure_edge_count;
   cs_extent procedures; /* of them */
   /* found */
-  cs_interval *intervals; /* from left to right; while they are being found, groups come first */
+  /* from left to right; groups come first while intervals are being searched for */
+  cs_interval *intervals;
   size_t count, capacity, group_count;
   cs_member *begins;            /* chains that begin inside the row, then the edges of procedures */
-  cs_interval *begin_intervals; /* for each: where its begin is replayed */
+  cs_interval *begin_intervals; /* for each begin: the interval in which it is replayed */
   cs_interval_begin *begin_order; /* from left to right */
   size_t begin_count, chain_count;
-  size_t picked; /* how many of begin_order have been handed out */
+  size_t picked; /* how many of begin_order have been used */
   cs_interval_event *events;
   size_t event_count;
 } cs_intervals;
 
 /* How many chains begin between the active boundaries' height and y1. */
 size_t cs_intervals_count_begins(const cs_active *active, double y1);
-/* Finds the intervals of the row that the active boundaries have been advanced through.
- * Errors: NO_MEMORY. */
+/* Finds the intervals of the row through which the active boundaries have been advanced. Errors:
+ * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_intervals_find(cs_intervals *intervals);
-/* Copies of the members that begin in an interval, by height, then x, then order. The intervals are
- * asked from left to right. Errors: NO_MEMORY. */
+/* Copies of the members that begin in an interval, by height, then x, then order. Intervals must be
+ * requested from left to right. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_intervals_pick_begins(cs_intervals *intervals,
                                                         const cs_interval *interval,
                                                         cs_member **begins, size_t *count);

@@ -49,7 +49,7 @@ static const cs_cell *left_of(const cs_local_sweep *sweep, size_t j) {
 typedef struct position {
   const cs_member *member;
   double x, y;
-  uint32_t at; /* a segment that y is on ends at points[at] */
+  uint32_t at; /* the segment that contains y ends at points[at] */
 } position;
 
 /* Draws a boundary from a position down to (x, y), between two cells. */
@@ -69,7 +69,8 @@ static celspan_status draw_to(cs_local_sweep *sweep, const position *from, doubl
   return cs_target_add(sweep->target, &last);
 }
 
-/* Draws member j from its last event down to (x, y), between the cells on its sides. */
+/* Draws member j from its last event down to (x, y), between the cells on both sides of the
+ * member. */
 static celspan_status flush(cs_local_sweep *sweep, size_t j, double x, double y) {
   cs_member *member = sweep->members[j];
   const position from = {member, member->x, member->y, member->at};
@@ -151,7 +152,7 @@ static inline cs_intersection *intersection_at(const cs_local_sweep *sweep, uint
   return index == CS_INTERSECTIONS_NONE ? NULL : &sweep->intersections.intersections[index];
 }
 
-/* Composes the cell below an intersection, where the composer is. */
+/* Composes the cell below an intersection, at the composer's place. */
 static celspan_status compose_below(cs_local_sweep *sweep, cs_intersection *intersection) {
   cs_deferred_to(&sweep->deferred, sweep->composer, intersection->right_x);
   intersection->cell = find_cell(sweep, NULL);
@@ -164,7 +165,7 @@ static celspan_status compose_down(cs_local_sweep *sweep, size_t j) {
   cs_member *const *members = sweep->members;
   cs_intersection *first = intersection_at(sweep, sweep->intersections.first[j]);
   const cs_intersection *leaves =
-      first->left == j ? first : NULL; /* member j leaves its place: it is not crossed before */
+      first->left == j ? first : NULL; /* member j leaves its place: no member crosses it before */
   cross_to(sweep, leaves ? j : j + 1);
   for (cs_intersection *intersection = first; intersection;
        intersection = intersection_at(sweep, intersection->next)) {
@@ -178,7 +179,7 @@ static celspan_status compose_down(cs_local_sweep *sweep, size_t j) {
   return CELSPAN_OK;
 }
 
-/* The same from the last one up. */
+/* The same in the other order, from the last intersection up. */
 static celspan_status compose_up(cs_local_sweep *sweep, size_t j) {
   cs_member *const *members = sweep->members;
   cross_to(sweep, j + 1);
@@ -193,8 +194,8 @@ static celspan_status compose_up(cs_local_sweep *sweep, size_t j) {
   return CELSPAN_OK;
 }
 
-/* Composes the cells right of place j, alternately downwards and upwards: few layers change from
- * cell to cell then, and no place is visited twice. */
+/* Composes the cells right of place j, alternately downwards and upwards, so that few layers change
+ * from cell to cell, and no place is visited twice. */
 static celspan_status compose_place(cs_local_sweep *sweep, size_t j) {
   if (sweep->intersections.first[j] == CS_INTERSECTIONS_NONE)
     return CELSPAN_OK;
@@ -212,7 +213,8 @@ static celspan_status draw_place(cs_local_sweep *sweep, size_t j, const cs_cell 
   const cs_intersection *after = intersection_at(sweep, intersections->first[j]);
   position s = {members[j], members[j]->x, members[j]->y, members[j]->at};
   while (before || after) {
-    bool is_after = !before || (after && after < before); /* the earlier in the list is higher */
+    /* the intersection that comes first in the list is higher */
+    bool is_after = !before || (after && after < before);
     const cs_intersection *intersection = is_after ? after : before;
     double y = intersection->y, left_x = intersection->left_x, right_x = intersection->right_x;
     CS_TRY(draw_to(sweep, &s, is_after ? left_x : right_x, y, left, right));
@@ -265,7 +267,8 @@ static celspan_status draw_intersections(cs_local_sweep *sweep) {
 /* The same for a slab with a single intersection, which is the usual case. */
 static celspan_status draw_intersection(cs_local_sweep *sweep,
                                         const cs_intersection *intersection) {
-  size_t j = intersection->left; /* edge j is still in place j: nothing has been swapped */
+  /* edge j is still in place j, because no edges have changed places */
+  size_t j = intersection->left;
   cs_member *a = sweep->members[j], *b = sweep->members[j + 1];
   const cs_cell *right = b->right;
   CS_TRY(flush(sweep, j, intersection->left_x, intersection->y));
@@ -274,11 +277,11 @@ static celspan_status draw_intersection(cs_local_sweep *sweep,
     cross_to(sweep, j);
   sweep->members[j] = b;
   sweep->members[j + 1] = a;
-  a->right = right; /* cells belong to places */
+  a->right = right; /* cells belong to places, not to members */
   return refresh(sweep, j, j);
 }
 
-/* Follows the members from y0 down to y1, where the next of them begins or ends. */
+/* Follows the members from y0 down to y1, the next height at which a member begins or ends. */
 static celspan_status run_slab(cs_local_sweep *sweep, double y0, double y1) {
   cs_intersections *intersections = &sweep->intersections;
   for (size_t j = 0; j < sweep->count; j++) {
@@ -311,7 +314,7 @@ static double slope_below(const cs_member *member, double y) {
   return b->y > a->y ? (b->x - a->x) / (b->y - a->y) : 0;
 }
 
-/* Whether a belongs right of b at the height y, which both cross. */
+/* Whether a belongs to the right of b at the height y, which both members cross. */
 static bool is_right(const cs_member *a, const cs_member *b, double y) {
   if (a->foot != b->foot)
     return a->foot > b->foot;
@@ -350,7 +353,7 @@ static void begin_members(cs_local_sweep *sweep, double y) {
   }
 }
 
-/* Notes the members that meet in one point and leave it in another order. */
+/* Notes the members that meet in one point and leave it in a different order. */
 static void note_disorder(const cs_local_sweep *sweep, double y, cs_extent *changed) {
   const cs_member *last = NULL;
   for (size_t j = 0; j < sweep->count; j++) {
@@ -400,8 +403,8 @@ static celspan_status refresh_inside(cs_local_sweep *sweep, const cs_extent *cha
 }
 
 /* Applies the events at height y, the foot of a slab. The sets of layers change only between the
- * least and the greatest x of these events: outside, begins and ends balance, so the cells there
- * are kept. */
+ * least and the greatest x of these events: outside of these, begins and ends cancel out, so the
+ * cells there are kept. */
 static celspan_status change_members(cs_local_sweep *sweep, double y) {
   cs_extent changed = cs_extent_nowhere();
   CS_TRY(end_members(sweep, y, &changed));
@@ -445,8 +448,8 @@ static celspan_status draw(cs_local_sweep *sweep, celspan_point above, celspan_p
   return cs_target_add(sweep->target, &border);
 }
 
-/* The cell between two boundaries that have changed places: right of the second one, at x, and left
- * of the first. */
+/* The cell between two boundaries that have changed places: right of the second boundary, at x, and
+ * left of the first. */
 static celspan_status cell_between(cs_local_sweep *sweep, cs_crossing second, double x,
                                    const cs_cell **out) {
   cs_composer *composer = sweep->composer;

@@ -45,7 +45,7 @@ typedef struct cs_target {
   cs_retained_row *retained; /* borrowed; NULL: the window has the borders */
 } cs_target;
 
-/* An item begins whose least x is `x`. */
+/* Begins an item whose least x is `x`. */
 static inline CELSPAN_CHECKED celspan_status cs_target_begin_item(cs_target *target, double x) {
   return target->retained ? CELSPAN_OK : cs_window_begin_item(&target->window, x);
 }
@@ -58,16 +58,19 @@ static inline CELSPAN_CHECKED celspan_status cs_target_add(cs_target *target,
              : cs_window_add(&target->window, border);
 }
 
-/* One boundary of a local sweep: a polyline downwards from where it enters the row or begins. */
+/* One boundary of a local sweep: a polyline that goes down from the place where the boundary enters
+ * the row or begins. */
 typedef struct cs_member {
   const celspan_point *points; /* ascending in y */
   uint32_t point_count;
-  uint32_t at; /* the segment that y is on ends at points[at]; point_count: it has ended */
+  /* the segment that contains y ends at points[at]; point_count: the member has ended */
+  uint32_t at;
   uint32_t layer;
   uint32_t span;  /* of a procedure; UINT32_MAX for a chain */
-  uint32_t order; /* settles ties: the chain, or the edge of the procedure's span */
+  /* decides between equal members: the chain, or the edge of the procedure's span */
+  uint32_t order;
   int32_t direction;
-  double x, y; /* its segments have been drawn down to here */
+  double x, y; /* the segments of the member have been drawn down to here */
   double foot; /* x at the foot of the current slab */
   const cs_cell *right;
 } cs_member;
@@ -85,18 +88,19 @@ typedef struct cs_local_sweep {
   cs_target *target;     /* borrowed: gets the borders */
   /* given for each replay */
   double y0, y1;       /* the row, or a slab of it */
-  const cs_cell *left; /* of all its members */
+  const cs_cell *left; /* the cell left of all members */
   cs_member *begins;   /* members that have not begun yet, by height, then x, then order */
   size_t begin_count;
-  cs_deferred_cursor deferred; /* from the least x of the members on */
+  cs_deferred_cursor deferred; /* starts at the least x of the members */
   /* while it runs */
   cs_member **members; /* the members at the current height, in order */
   size_t count;
-  cs_member **spare;           /* room for as many */
-  const cs_cell **cells_below; /* right of each place at the foot of a slab; room for as many */
-  size_t crossed;              /* the composer is right of this many members, */
-  bool is_low;                 /* in their order at the foot of the slab, not at its top */
-  /* its own room, kept from one replay to the next */
+  cs_member **spare;           /* room for the same number of members */
+  /* the cell right of each place at the foot of a slab; room for as many as members */
+  const cs_cell **cells_below;
+  size_t crossed;              /* how many members are left of the composer, */
+  bool is_low;                 /* counted in their order at the foot of the slab, not at its top */
+  /* memory of the sweep, kept from one replay to the next */
   cs_intersections intersections;
   cs_member *entering; /* the members at the top of the row */
   void **lists;        /* for members, spare and cells_below */
@@ -110,18 +114,20 @@ void cs_local_sweep_finish(cs_local_sweep *sweep, cs_memory *memory);
  * `members`, and for the members that begin. The caller has set y0, y1, left, begins and
  * begin_count. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_local_sweep_begin(cs_local_sweep *sweep, size_t count);
-/* Its input: `count` members at the top of the row, then the members that begin inside the row. */
+/* Sets the input: `count` members at the top of the row, then the members that begin inside the
+ * row. */
 static inline cs_member *cs_local_sweep_member(const cs_local_sweep *sweep, size_t i) {
   return i < sweep->count ? &sweep->entering[i] : &sweep->begins[i - sweep->count];
 }
 
-/* How far they extend in the row. */
+/* The extent of the members in the row. */
 cs_extent cs_local_sweep_extent(const cs_local_sweep *sweep);
 /* Draws the members through the row. The composer is left of all members, before and after the
  * call. */
 CELSPAN_CHECKED celspan_status cs_local_sweep_replay(cs_local_sweep *sweep);
 
-/* The same for boundaries i and i + 1, straight through the row, that cross once, as in nearly all
- * local sweeps. Only `left`, of both boundaries, and `deferred` are set. */
+/* The same for boundaries i and i + 1, which are straight through the row and cross once, as in
+ * nearly all local sweeps. Only two fields are set: `left`, the cell left of both, and
+ * `deferred`. */
 CELSPAN_CHECKED celspan_status cs_local_sweep_pair(cs_local_sweep *sweep, const cs_active *active,
                                                    size_t i);

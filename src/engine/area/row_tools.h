@@ -1,5 +1,5 @@
-/* The tools of a row maker that its filters borrow: area/ for exact means, engine/row/centre.h for
- * pixel centres. All of them outlive the filter, and none of them moves. */
+/* The tools that a row maker lends to its filters: area/ for exact means, engine/row/centre.h for
+ * pixel centres. They live longer than the filters, and their addresses do not change. */
 #pragma once
 
 #include "engine/compose/cells.h"

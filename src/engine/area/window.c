@@ -16,8 +16,11 @@
 #include "engine/sweep/pieces.h"
 
 #define TILE 256 /* pixels summed at a time */
-#define FEW 2    /* pixels of a window between cells that vary, at most, that become single spans */
-#define BESIDE 2 /* columns of the next window for which a cell is folded together with its own */
+/* if at most this many pixels of a window lie between cells that vary, they become single spans */
+#define FEW 2
+/* columns of the next window for which a cell is folded together with the columns of its own
+ * window */
+#define BESIDE 2
 
 /* Clears the sums of the open window. */
 static void clear_change(cs_window *window) {
@@ -61,8 +64,8 @@ void cs_window_open_row(cs_window *window) {
   window->varies = window->base->length > 0;
 }
 
-/* The part of a border inside the open window. Because of rounding the border may begin left of the
- * window, which begins where the written columns end. */
+/* The part of a border inside the open window. Because of rounding, the border may begin left of
+ * the window, which begins at the end of the written columns. */
 static inline cs_direct_piece measure(const cs_window *window, const cs_border *border) {
   double xa = border->line.xa, xb = border->line.xb, top = window->centre - 0.5;
   int32_t first = cs_edges_floor(cs_number_least(xa, xb), window->width);
@@ -89,7 +92,7 @@ static inline double cover(const cs_direct_piece *f, int32_t p) {
  *         |<---- stretch ---->|
  */
 
-/* The colours of a cell in some columns, if they have been made. */
+/* The colours of a cell in some columns; NULL if they have not been made. */
 static const float (*find_stretch(const cs_window *window, const cs_cell *cell, cs_run run))[4] {
   for (int i = 1; i >= 0; i--) {
     const cs_window_stretch *s = &window->stretches[i];
@@ -101,7 +104,7 @@ static const float (*find_stretch(const cs_window *window, const cs_cell *cell, 
 }
 
 /* Makes the stretch of the cell right of the open window, up to the next window's first columns,
- * which replaces the stretch of the previous cell. next: where the next window begins. */
+ * which replaces the stretch of the previous cell. next: the first column of the next window. */
 static celspan_status make_stretch(cs_window *window, int32_t next) {
   cs_window_stretch made;
   int32_t end = window->width - next < BESIDE ? window->width : next + BESIDE;
@@ -146,7 +149,7 @@ static celspan_status draw_cell(cs_window *window, int32_t next) {
 
 /* ---------------------------------------------------------------- closing */
 
-/* One border that crosses columns, between flat cells. */
+/* A window with one border, which crosses columns between flat cells. */
 static celspan_status close_lone(cs_window *window, const cs_direct_piece *f) {
   const cs_border *border = window->borders;
   cs_v4 base = window->base->colour, step = border->right->colour - border->left->colour;
@@ -168,9 +171,8 @@ typedef struct crossing {
   struct crossing *next; /* in the list of a tile */
 } crossing;
 
-/* Adds a border to the sums by column: change[k] is the sum of column p0 + k less the sum of the
- * previous column.
- */
+/* Adds a border to the sums by column: change[k] is the sum of column p0 + k minus the sum of the
+ * previous column. */
 static void add_changes(const crossing *c, int32_t p0, int32_t p1, cs_sum4 *change) {
   const cs_direct_piece *f = &c->piece;
   cs_sum4 step = CS_SUM4(c->border->right->colour) - CS_SUM4(c->border->left->colour);
@@ -233,7 +235,7 @@ static crossing *join_lists(crossing *a, crossing *b) {
   return joined;
 }
 
-/* The borders of a list that change the sums from column p on. */
+/* The borders of a list that still change the sums from column p on. */
 static crossing *pass_on(crossing *list, int32_t p) {
   crossing *passed, **last = &passed;
   for (; list; list = list->next)
@@ -247,8 +249,8 @@ static crossing *pass_on(crossing *list, int32_t p) {
 
 /* The drawn part of the window. */
 typedef struct drawn {
-  int32_t end; /* of its columns */
-  cs_sum4 sum; /* in the last of them */
+  int32_t end; /* the end of the drawn columns */
+  cs_sum4 sum; /* the sum in the last drawn column */
 } drawn;
 
 /* Draws the columns up to p1. The borders of a list change the columns from p0 on. */
@@ -282,7 +284,8 @@ static celspan_status close_wide(const cs_window *window) {
   return CELSPAN_OK;
 }
 
-/* The same where the window is a few pixels wide, as nearly all are: it has been summed already. */
+/* The same if the window is a few pixels wide, as nearly all windows are: the sums have been made
+ * already. */
 static celspan_status close_narrow(cs_window *window) {
   cs_sum4 sum = CS_SUM4(window->base->colour);
   CS_TRY(
@@ -303,7 +306,7 @@ static celspan_status close_narrow(cs_window *window) {
 typedef struct weighted_cell {
   const cs_cell *cell;
   double carry;    /* the weight of the colour in pixels that no border crosses */
-  double *weights; /* one a pixel of the tile; NULL: the carry in all of them */
+  double *weights; /* a weight for each pixel of the tile; NULL: all weights are the carry */
 } weighted_cell;
 
 typedef struct cell_edge {
@@ -397,7 +400,7 @@ static inline double weight_in(const weighted_cell *cell, int32_t k) {
   return cell->weights ? cell->weights[k] : cell->carry;
 }
 
-/* Adds a cell to the pixels in which it has area; only there its colours are computed. sum: four
+/* Adds a cell to the pixels in which it has area. Its colours are computed only there. sum: four
  * floats a pixel. */
 static celspan_status add_cell(const mixture *m, const weighted_cell *cell, int32_t p0, int32_t p1,
                                float *sum) {
@@ -415,7 +418,8 @@ static celspan_status add_cell(const mixture *m, const weighted_cell *cell, int3
   return CELSPAN_OK;
 }
 
-/* Room for the colours of [p0, p1), 4 floats a pixel: the row's own or, for few, `room`. */
+/* Room for the colours of [p0, p1), 4 floats a pixel: memory of the row or, for few colours,
+ * `room`. */
 static celspan_status open_pixels(cs_window *window, int32_t p0, int32_t p1, float *room,
                                   float **out) {
   *out = room;
@@ -470,7 +474,8 @@ static celspan_status close_between(cs_window *window, const cs_direct_piece *f)
   return put_pixels(window, p0, p1, sum);
 }
 
-/* Whether the first border goes through the row, and the window is nothing but its columns. */
+/* Whether the first border goes through the whole row, and the window has no columns except those
+ * of this border. */
 static bool is_between(const cs_window *window, const cs_direct_piece *f) {
   const cs_border *border = window->borders;
   const cs_composer *composer = window->composer;
@@ -501,7 +506,7 @@ static celspan_status draw_window(cs_window *window) {
   return window->end - window->from <= CS_WINDOW_NARROW ? close_narrow(window) : close_wide(window);
 }
 
-/* next: where the next window begins. */
+/* next: the first column of the next window. */
 static celspan_status close_window(cs_window *window, int32_t next) {
   CS_TRY(make_stretch(window, next));
   if (window->end > window->from)
@@ -530,8 +535,8 @@ celspan_status cs_window_begin_item(cs_window *window, double x) {
   return CELSPAN_OK;
 }
 
-/* Extends the window to the columns of a new border and, where its cells are flat and the columns
- * few, adds it to their sums. */
+/* Extends the window to the columns of a new border. If the cells of the border are flat and the
+ * columns few, adds the border to the sums of the columns. */
 static void note_border(cs_window *window, const cs_border *border) {
   const cs_direct_piece piece = measure(window, border);
   window->end = piece.end > window->end ? piece.end : window->end;

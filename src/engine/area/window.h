@@ -25,9 +25,10 @@
 #include "engine/compose/border.h"
 #include "engine/paint/painter.h"
 
-#define CS_WINDOW_NARROW CS_DIRECT_TOGETHER /* columns of nearly all windows */
+#define CS_WINDOW_NARROW CS_DIRECT_TOGETHER /* nearly all windows have at most this many columns */
 
-/* The colours of a cell between two columns, made before its windows and what lies between them. */
+/* The colours of a cell between two columns, made before its windows and the columns between
+ * them. */
 typedef struct cs_window_stretch {
   cs_cell cell;
   int32_t from, end; /* empty: none */
@@ -40,13 +41,13 @@ typedef struct cs_window {
   const cs_composer *composer; /* the painter's */
   cs_arena *arena;             /* borrowed: of the row */
   int32_t width;               /* of the row */
-  cs_row *out;                 /* of this row */
+  cs_row *out;                 /* the row that is written */
   double centre;               /* height of the row's centre */
-  int32_t from;                /* everything left of this column has been written; the open window
-                                  begins there */
-  int32_t end;                 /* of the open window; from when it is empty */
-  const cs_cell *base;         /* left of the window */
-  const cs_cell *cell;         /* right of all items so far */
+  /* everything left of this column has been written; the open window begins at this column */
+  int32_t from;
+  int32_t end;                 /* of the open window; equal to `from` if it is empty */
+  const cs_cell *base;         /* the cell left of the window */
+  const cs_cell *cell;         /* the cell right of all items so far */
   cs_border *borders;          /* of the open window */
   size_t border_count, border_capacity;
   bool is_open, varies;
@@ -54,8 +55,8 @@ typedef struct cs_window {
    * from column to column */
   cs_sum4 change[CS_WINDOW_NARROW + 3];
   bool is_whole_row;              /* the whole row is one window: items may come in any order */
-  cs_arena tiles;                 /* of one tile's weights; the window's own */
-  bool has_stretches;             /* there may be some */
+  cs_arena tiles;                 /* memory for the weights of one tile; owned by the window */
+  bool has_stretches;             /* there may be stretches */
   cs_window_stretch stretches[2]; /* of the cells on both sides of the open window */
 } cs_window;
 
@@ -66,14 +67,14 @@ void cs_window_finish(cs_window *window, cs_memory *memory);
 void cs_window_begin_row(cs_window *window, int32_t y, const cs_cell *leftmost, cs_row *out);
 /* Makes one window of the whole row. */
 void cs_window_open_row(cs_window *window);
-/* An item begins whose least x is `x`: closes the window when it ends before that. */
+/* Begins an item whose least x is `x`. Closes the open window if the window ends before that x. */
 CELSPAN_CHECKED celspan_status cs_window_begin_item(cs_window *window, double x);
 /* A border of the current item. */
 CELSPAN_CHECKED celspan_status cs_window_add(cs_window *window, const cs_border *border);
-/* Whole items: boundaries that go through the whole row, straight or bent, and to which nothing
- * else happens. None is left in `rest` when all have been drawn. */
+/* Whole items: boundaries that go through the whole row, straight or bent, and have no other
+ * events. `rest` is empty when all have been drawn. */
 CELSPAN_CHECKED celspan_status cs_window_edges(cs_window *window, cs_direct_edges *rest);
-/* The current item is done; right of it lies `cell`. */
+/* Ends the current item; `cell` lies right of it. */
 static inline void cs_window_end_item(cs_window *window, const cs_cell *cell) {
   window->cell = cell;
 }

@@ -13,7 +13,8 @@
 /* One layer of a program. */
 typedef struct cs_item {
   uint32_t layer;
-  uint32_t procedure_span; /* SCANLINE: which of the row's procedure spans; else 0 */
+  /* SCANLINE: the number of one of the row's procedure spans; otherwise 0 */
+  uint32_t procedure_span;
 } cs_item;
 
 typedef struct cs_cell {
@@ -26,18 +27,18 @@ typedef struct cs_cell {
 /* A span of a scan-line primitive on the current row (or sub-row), in frame pixels. */
 typedef struct cs_procedure_span {
   double x0, x1;
-  const cs_paint *paints; /* evenly spaced from x0 to x1; one: the same everywhere */
+  const cs_paint *paints; /* evenly spaced from x0 to x1; a single paint is the same everywhere */
   size_t paint_count;
 } cs_procedure_span;
 
 /* A program that can be kept without the composer. */
 typedef struct cs_program {
   const cs_item *items;                     /* front to back */
-  const cs_procedure_span *procedure_spans; /* that items of SCANLINE layers name */
-  uint32_t length;                          /* 0: nothing shows but back lights */
+  const cs_procedure_span *procedure_spans; /* the spans to which items of SCANLINE layers refer */
+  uint32_t length;                          /* 0: nothing is visible except back lights */
 } cs_program;
 
-/* Whether colours of a program are no affine function of any one of its paints. */
+/* Whether the colours of a program are not an affine function of each of its paints. */
 static inline bool cs_program_curves(const cs_stack *stack, const cs_program *program) {
   bool curves = false;
   for (uint32_t i = 0; stack->has_curves && i < program->length && !curves; i++) {

@@ -31,8 +31,8 @@ void cs_cells_list(cs_cells *cells) {
   uint32_t *visible = cells->visible;
   if (cells->is_listed)
     return;
-  for (size_t i = 0; i < count; i++) { /* the processor can hardly predict which are visible, so no
-                                          branch */
+  /* no branch: the processor can hardly predict which boundaries are visible */
+  for (size_t i = 0; i < count; i++) {
     visible[found] = (uint32_t)i;
     found += is_visible[i];
   }
@@ -57,7 +57,7 @@ static void cross(cs_composer *composer, const cs_crossing *crossing, size_t low
   cs_presence *presences = composer->presences;
   uint64_t *set = composer->set;
   uint8_t *filled = composer->filled;
-  cs_set_hash hash = composer->hash; /* in registers on the way */
+  cs_set_hash hash = composer->hash; /* in a register during the loop */
   for (size_t i = low; i < high; i++)
     cs_set_cross(presences, set, filled, &hash, crossing[i].layer, sign * crossing[i].direction);
   composer->hash = hash;
@@ -71,8 +71,8 @@ static void cross_to(cs_cells *cells, cs_composer *composer, size_t place) {
   cells->place = place;
 }
 
-/* Leaves the row at one end and enters it at the other: nothing is present at either, so the two
- * ends are the same place. */
+/* Leaves the row at one end and enters it at the other: no layer is present at either end, so the
+ * two ends are the same place. */
 static void walk_round(cs_cells *cells, cs_composer *composer, bool goes_right) {
   cross_to(cells, composer, goes_right ? cells->count : 0);
   cs_deferred_to(&cells->deferred, composer, goes_right ? INFINITY : -INFINITY);
@@ -82,7 +82,7 @@ static void walk_round(cs_cells *cells, cs_composer *composer, bool goes_right) 
 
 void cs_cells_walk_to(cs_cells *cells, cs_composer *composer, size_t place, double x) {
   size_t from = cells->place, away = place > from ? place - from : from - place;
-  if (2 * away > cells->count) /* the way round the ends is shorter */
+  if (2 * away > cells->count) /* the way across the ends of the row is shorter */
     walk_round(cells, composer, place < from);
   cross_to(cells, composer, place);
   cs_deferred_to(&cells->deferred, composer, x);
@@ -102,8 +102,8 @@ void cs_cells_restart(cs_cells *cells, cs_composer *composer) {
   cells->deferred.next = cells->deferred.first;
 }
 
-/* Adopts the new order of boundaries. Outside the range that changed the windings balance as
- * before, so the walk has to move only if its place is inside. */
+/* Adopts the new order of boundaries. Outside the range that changed, the windings are the same as
+ * before, so the walk must move only if its place is inside this range. */
 static void adopt_order(cs_cells *cells, cs_composer *composer, const cs_active *active,
                         cs_change change) {
   size_t high = cells->count - change.tail;
@@ -125,7 +125,8 @@ static void adopt_order(cs_cells *cells, cs_composer *composer, const cs_active 
 
 /* ---------------------------------------------------------------- making */
 
-/* The cell right of i boundaries, which is where the walk is. Returns whether it was another. */
+/* The cell right of i boundaries, which is at the place of the walk. Returns whether it has
+ * changed. */
 static inline bool make_cell(cs_cells *cells, cs_composer *composer, size_t i) {
   cs_cell *cell = &cells->cells[i];
   bool is_new = i >= cells->known || !cs_set_hash_same(cell->hash, composer->hash);
@@ -153,7 +154,7 @@ static void make_cells(cs_cells *cells, cs_composer *composer, const cs_active *
   }
 }
 
-/* The same where the cells are left out. */
+/* The same for cells that are left out. */
 static void leave_out(cs_cells *cells, cs_composer *composer, const cs_active *active, size_t first,
                       size_t end) {
   for (size_t i = first; i < end; i++) {
@@ -167,7 +168,7 @@ static inline size_t within(size_t place, size_t least, size_t most) {
   return place < least ? least : place > most ? most : place;
 }
 
-/* Goes through a range of boundaries. The walk is at the first of them. */
+/* Walks through a range of boundaries. The walk is at the first boundary of the range. */
 static void go_through(cs_cells *cells, cs_composer *composer, const cs_active *active,
                        cs_cells_gap range, const cs_cells_gap *gaps, size_t gap_count) {
   size_t i = range.low;
@@ -195,7 +196,7 @@ celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer, const cs_
   if (change.low == 0)
     make_cell(cells, composer, 0);
   if (cells->known == 0)
-    cells->known = 1; /* the cell just made */
+    cells->known = 1; /* the cell that was just made */
   move_tail(cells, active->count, change.tail);
   go_through(cells, composer, active, (cs_cells_gap){change.low, active->count - change.tail}, gaps,
              gap_count);

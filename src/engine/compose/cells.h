@@ -25,7 +25,7 @@
 #include "engine/compose/composer.h"
 #include "engine/sweep/active.h"
 
-/* Where the walk is among the deferred winding changes of a row. */
+/* The place of the walk among the deferred winding changes of a row. */
 typedef struct cs_deferred_cursor {
   const cs_deferred *first, *next, *end; /* the changes before `next` have been crossed */
 } cs_deferred_cursor;
@@ -39,29 +39,29 @@ static inline void cs_deferred_forward(cs_deferred_cursor *cursor, cs_composer *
   cursor->next = next;
 }
 
-/* The same; and crosses back the boundaries right of x. */
+/* The same; also crosses the changes right of x back. */
 static inline void cs_deferred_to(cs_deferred_cursor *cursor, cs_composer *composer, double x) {
   cs_deferred_forward(cursor, composer, x);
   for (; cursor->next > cursor->first && cursor->next[-1].x > x; cursor->next--)
     cs_composer_cross(composer, cursor->next[-1].layer, -cursor->next[-1].direction);
 }
 
-/* Boundaries [low, high) between which nobody asks for cells: the cells right of the first boundary
+/* Boundaries [low, high) between which no cells are wanted: the cells right of the first boundary
  * and left of the last one are not made. */
 typedef struct cs_cells_gap {
   size_t low, high;
 } cs_cells_gap;
 
-/* The hash of a cell that has not been made: no set has it in practice. */
+/* The hash of a cell that has not been made: in practice no set has this hash. */
 static const cs_set_hash cs_cells_unmade = {UINT64_MAX, UINT64_MAX};
 
 typedef struct cs_cells {
   cs_cell *cells;   /* count + 1 in use */
   bool *is_visible; /* by boundary; room for whole batches (engine/sweep/advance.h) */
   bool is_listed;
-  uint32_t *visible; /* where is_listed: the visible ones */
+  uint32_t *visible; /* if is_listed: the visible boundaries */
   size_t visible_count;
-  size_t known;   /* how many cells there are, from the left */
+  size_t known;   /* the number of cells that are known, from the left */
   cs_change gaps; /* around the cells that were not made at the last update */
   /* The walk is right of the first `place` of `count` boundaries, in the order of `crossing`, and
    * past the deferred changes before the cursor. */
@@ -74,13 +74,13 @@ typedef struct cs_cells {
 void cs_cells_init(cs_cells *cells);
 void cs_cells_finish(cs_cells *cells, cs_memory *memory);
 /* Brings the cells up to date with the active boundaries. change: where the boundaries differ from
- * those at the last update. gaps: from left to right; cells between them are made as always.
+ * those at the last update. gaps: from left to right; cells outside the gaps are made as usual.
  * Errors: NO_MEMORY; failures of composing stay in composer->failure. */
 CELSPAN_CHECKED celspan_status cs_cells_update(cs_cells *cells, cs_composer *composer,
                                                const cs_active *active, cs_change change,
                                                const cs_cells_gap *gaps, size_t gap_count);
 /* Moves the walk to just left of boundary `place`, right of the deferred changes at or left of x:
- * by the shorter way round. */
+ * in the direction that is shorter. */
 void cs_cells_walk_to(cs_cells *cells, cs_composer *composer, size_t place, double x);
 /* Moves the walk to the left end of the row, where no layer is present. */
 void cs_cells_walk_home(cs_cells *cells, cs_composer *composer);

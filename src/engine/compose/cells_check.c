@@ -23,7 +23,7 @@ static void cross(replay *r, uint32_t layer, int32_t direction) {
 }
 
 /* Whether the composer, which has crossed the first `place` boundaries and some of the deferred
- * winding changes, is where a walk over just these comes to. */
+ * winding changes, is in the same state as a walk across only these. */
 static bool composer_agrees(const cs_cells *cells, replay *r) {
   for (const cs_deferred *d = cells->deferred.first; d < cells->deferred.next; d++)
     cross(r, d->layer, d->direction);
@@ -35,7 +35,8 @@ static bool composer_agrees(const cs_cells *cells, replay *r) {
   return cs_set_hash_same(r->hash, r->composer->hash);
 }
 
-/* Whether every cell is of the set that is present there, and nothing is at the right end. */
+/* Whether every cell has the set that is present there, and no layer is present at the right
+ * end. */
 static bool cells_agree(const cs_cells *cells, const cs_active *active, replay *r) {
   bool agrees = cs_set_hash_same(cells->cells[0].hash, r->hash);
   for (size_t i = 0; agrees && i < active->count; i++) {
@@ -48,15 +49,15 @@ static bool cells_agree(const cs_cells *cells, const cs_active *active, replay *
 
 bool cs_cells_are_true(const cs_cells *cells, const cs_composer *composer,
                        const cs_active *active) {
-  /* Memory of the C library, because the memory of the core is counted and a check must not change
-   * the count. */
+  /* Memory of the C library, because the memory of the core is counted, and a check must not change
+   * this count. */
   size_t count = composer->stack->layer_count;
   replay walk = {.composer = composer, .windings = calloc(count + 1, sizeof(int32_t))};
   if (!walk.windings)
     return true;
   bool agrees = composer_agrees(cells, &walk);
-  /* Deferred winding changes take effect where nothing of them is seen, a little earlier or later
-   * from row to row: only without them are the sets of all cells exact. */
+  /* Deferred winding changes take effect where they cannot be seen, a little earlier or later from
+   * row to row. So the sets of all cells are exact only if there are no such changes. */
   if (agrees && cells->known == active->count + 1 && cells->deferred.first == cells->deferred.end) {
     memset(walk.windings, 0, count * sizeof *walk.windings);
     walk.hash = (cs_set_hash){0, 0};

@@ -28,7 +28,7 @@ static bool has_flats_alone(const cs_stack *stack) {
   return stack->group_count == 0;
 }
 
-/* A fast fold for very many flat layers, if they suit it. */
+/* Makes a fast fold for very many flat layers, if it suits them. */
 static celspan_status make_table(cs_composer *composer) {
   composer->is_flat = has_flats_alone(composer->stack);
   if (!composer->is_flat || !cs_over_table_suits(composer->stack))
@@ -37,7 +37,8 @@ static celspan_status make_table(cs_composer *composer) {
   return cs_over_table_init(composer->table, composer->context, composer->stack);
 }
 
-/* A few layers have a few sets, and clearing the room for many takes longer than a band of rows. */
+/* Few layers have few sets, and to clear the memory for many sets would take longer than a band of
+ * rows. */
 static size_t memo_size(const cs_stack *stack) {
   size_t size = MEMO_EACH;
   while (size < MEMO_FEW && size / MEMO_EACH < stack->layer_count)
@@ -123,8 +124,8 @@ static celspan_status gather_item(cs_composer *composer, uint32_t layer) {
   return CELSPAN_OK;
 }
 
-/* The most that a layer which varies lets through. A picture whose header cannot be read counts as
- * clear until it is really seen: only then is it an error. */
+/* The most that a varying layer transmits. A picture whose header cannot be read counts as clear
+ * until it is really seen, because only then is it an error. */
 static cs_v4 most_through(cs_composer *composer, const cs_layer *layer) {
   const cs_image_opacity *opacity = &composer->opacity;
   if (layer->kind != CS_LAYER_PICTURE || layer->role != CS_LAYER_PAINT ||
@@ -148,8 +149,8 @@ static celspan_status gather_front(cs_composer *composer, cs_over *over, uint32_
 }
 
 /* Adds one layer to a program, and to the fold. A layer that varies is folded with its greatest
- * transmission, so that the program ends too late rather than too early. The light of that fold has
- * no meaning. */
+ * transmission, so that the program ends too late rather than too early. The light of the fold then
+ * has no meaning. */
 static celspan_status gather_layer(cs_composer *composer, cs_over *over, uint32_t index) {
   const cs_layer *layer = &composer->stack->layers[index];
   if (composer->stack->has_group_light)
@@ -162,7 +163,7 @@ static celspan_status gather_layer(cs_composer *composer, cs_over *over, uint32_
 }
 
 /* Gathers the contributing layers from the front until nothing shines through. The member `filled`
- * belongs to the set of present layers. It is right for `set` too, because trees only remove
+ * belongs to the set of present layers. It can also be used for `set`, because trees only remove
  * layers. */
 static celspan_status gather(cs_composer *composer, const uint64_t *set) {
   cs_over over;
@@ -202,7 +203,7 @@ static bool fold_flats(const cs_composer *composer, const uint64_t *set, cs_over
 
 static celspan_status keep_program(cs_composer *composer, cs_cell *cell) {
   size_t count = composer->gathered_count, needed = composer->item_count + count;
-  if (needed < ITEM_LIMIT) /* room at once for all items that are kept from row to row */
+  if (needed < ITEM_LIMIT) /* at once for all items that are kept from row to row */
     needed = ITEM_LIMIT;
   CS_TRY(CS_RESERVE(composer->context, composer->items, composer->item_capacity, needed));
   memcpy(composer->items + composer->item_count, composer->gathered, count * sizeof(cs_item));
@@ -223,7 +224,7 @@ static const uint64_t *resolve(cs_composer *composer) {
   return composer->contributing;
 }
 
-/* The same with partial folds made in advance. */
+/* The same with partial folds that were made earlier. */
 static celspan_status fold_prepared(cs_composer *composer, const uint64_t *set, cs_over *over) {
   cs_over_pair light;
   CS_TRY(cs_over_table_light(composer->table, set, &light));
@@ -261,8 +262,8 @@ static celspan_status compose(cs_composer *composer, cs_cell *cell) {
 
 void cs_composer_cross_span(cs_composer *composer, uint32_t layer, uint32_t procedure_span,
                             int32_t direction) {
-  /* Every row numbers its procedure spans from 0, and a program names a span by its number. So a
-   * cell remembered from an earlier row is the right one: read with the spans of this row. */
+  /* Every row numbers its procedure spans from 0, and a program refers to a span by its number. So
+   * a remembered cell of an earlier row remains correct: it is read with the spans of this row. */
   const cs_layer_rule *rule = &composer->stack->rules[layer];
   uint64_t name = (procedure_span + 1) * (uint64_t)0x9e3779b97f4a7c15u;
   composer->set[layer / 64] ^= (uint64_t)1 << (layer % 64);
@@ -284,7 +285,8 @@ static celspan_status compose_here(cs_composer *composer, cs_cell *out) {
 
 void cs_composer_cell(cs_composer *composer, cs_cell *out) {
   if (composer->table) {
-    /* Nearly every set is new, and its colour is found as quickly as its memo. */
+    /* Nearly every set is new, and its colour is computed as quickly as it would be found among the
+     * remembered cells. */
     compose_here(composer, out);
     return;
   }

@@ -45,15 +45,16 @@ typedef struct cs_composer {
   const cs_stack *stack;
   cs_image_opacity opacity;
   uint64_t *set;               /* layers present at the place of the walk */
-  uint8_t *filled;             /* of its words: see set.h */
+  uint8_t *filled;             /* of the words of the set: see set.h */
   uint64_t *contributing;      /* scratch */
   cs_presence *presences;      /* one a layer */
-  uint32_t *procedure_span_of; /* a layer's span there; NULL without scan-line layers */
+  /* the span of a layer at the place of the walk; NULL without scan-line layers */
+  uint32_t *procedure_span_of;
   cs_set_hash hash;            /* of the set */
   cs_tree_result *results;
-  cs_over_outer *outers; /* of folds; cs_stack_depth */
+  cs_over_outer *outers; /* memory for folds; cs_stack_depth items */
   bool is_flat;          /* all layers are flat, in no group and in front of all back lights */
-  cs_over_table *table;  /* NULL where it does not suit the stack */
+  cs_over_table *table;  /* NULL if it does not suit the stack */
   cs_memo *memo;
   size_t memo_size;
   cs_item *items; /* of all programs in use */
@@ -63,21 +64,23 @@ typedef struct cs_composer {
   cs_procedure_span *procedure_spans; /* of the current row */
   size_t procedure_span_count, procedure_span_capacity;
   uint64_t evaluations;   /* cells composed */
-  celspan_status failure; /* sticky: the first failure of the row, recorded in context */
+  /* the first failure of the row, recorded in the context; kept until the row ends */
+  celspan_status failure;
 } cs_composer;
 
 /* Errors: NO_MEMORY; cs_composer_finish must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,
                                                 const cs_stack *stack, cs_image_opacity opacity);
 void cs_composer_finish(cs_composer *composer);
-/* Before each row: forgets the procedure spans, and programs when they have grown many; true when
- * cells made before are no longer valid. */
+/* Before each row: forgets the procedure spans, and the programs if there are many. Returns whether
+ * earlier cells are no longer valid. */
 bool cs_composer_begin_row(cs_composer *composer);
 
-/* Moves the walk back to the left end of the row, wherever a failure has left it. */
+/* Moves the walk back to the left end of the row from any place where a failure has stopped it. */
 void cs_composer_restart(cs_composer *composer);
 
-/* Crosses a boundary of a layer that runs in `direction` (+1, -1), from left to right. */
+/* Crosses a boundary of a layer from left to right; direction: the direction in which the boundary
+ * runs, +1 or -1. */
 static inline void cs_composer_cross(cs_composer *composer, uint32_t layer, int32_t direction) {
   cs_set_cross(composer->presences, composer->set, composer->filled, &composer->hash, layer,
                direction);
@@ -91,10 +94,11 @@ void cs_composer_cross_span(cs_composer *composer, uint32_t layer, uint32_t proc
 void cs_composer_cell(cs_composer *composer, cs_cell *out);
 
 /* The transmission of the cell at the place of the walk, channel by channel; lane 3: the mean of
- * the channels. The cell has one colour, and the stack no back lights. Errors: NO_MEMORY. */
+ * the channels. The cell must have one colour, and the stack must have no back lights. Errors:
+ * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_composer_through(cs_composer *composer, cs_v4 *out);
 
-/* Whether two cells show the same everywhere. */
+/* Whether two cells look the same everywhere. */
 bool cs_composer_same(const cs_composer *composer, const cs_cell *a, const cs_cell *b);
 
 /* The program of a cell whose length is not 0, valid until the next cell is composed. */

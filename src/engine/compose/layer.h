@@ -16,35 +16,36 @@
 #include "model/scene/texture.h"
 
 #define CS_STACK_NONE UINT32_MAX /* no group, no layer */
-/* Where lights multiply, level by level, they are clamped to this, so that all sums stay finite. */
+/* Products of the lights of several levels are clamped to this, so that all sums remain finite. */
 #define CS_LAYER_BRIGHTEST 1e12f
 
 typedef enum cs_layer_kind {
   CS_LAYER_FLAT,
   CS_LAYER_SHADED,   /* triangle, linear or radial: varies along a row, as a formula */
   CS_LAYER_PICTURE,  /* varies from pixel to pixel */
-  CS_LAYER_SCANLINE, /* paints come with the procedure spans of the row */
+  CS_LAYER_SCANLINE, /* its paints are those of the procedure spans of the row */
   CS_LAYER_DEFOCUSED /* a defocused cel */
 } cs_layer_kind;
 
 /* The effect of a layer's paint. */
 typedef enum cs_layer_role {
   CS_LAYER_PAINT, /* covers what lies behind it */
-  CS_LAYER_BACK,  /* a back light with a shape: its pigment adds to the light, and dims nothing */
+  /* a back light with a shape: its pigment is added to the light, and it dims nothing */
+  CS_LAYER_BACK,
   CS_LAYER_FRONT  /* the front light of its group, which its pigment lights. Present nowhere: it is
                      listed when its group is entered */
 } cs_layer_role;
 
 typedef struct cs_layer {
-  cs_v4 s;        /* FLAT: light scattered under its front light; lane 3 is 0 */
+  cs_v4 s;        /* FLAT: the light that it scatters under its front light; lane 3 is 0 */
   cs_v4 t;        /* FLAT: transmission. Else the most that each channel lets through wherever the
                      layer is present, fade included; PICTURE: unless the picture is known to be
                      opaque. Lane 3 is 0 */
-  cs_v4 front;    /* front light of its cel, brightness included, or the gain of a light; lane 3 is
-                     0 */
+  /* the front light of its cel, brightness included, or the gain of a light; lane 3 is 0 */
+  cs_v4 front;
   uint32_t group; /* innermost group, or CS_STACK_NONE */
-  uint32_t index; /* all but FLAT: index into the array of its kind */
-  float fade;     /* of its paint, where that varies */
+  uint32_t index; /* for all kinds except FLAT: the index in the array of its kind */
+  float fade;     /* of its paint, if the paint varies */
   uint8_t kind;   /* a cs_layer_kind */
   uint8_t role;   /* a cs_layer_role */
 } cs_layer;
@@ -52,7 +53,7 @@ static_assert(sizeof(cs_layer) == 64, "a layer fills a line of the cache");
 
 /* The values of a layer that the walk along a row needs. */
 typedef struct cs_layer_rule {
-  uint64_t key[2];      /* names the layer in the hash of a set */
+  uint64_t key[2];      /* identifies the layer in the hash of a set */
   int32_t winding_mask; /* inside where (winding & mask) != 0: -1 non-zero, 1 even-odd */
 } cs_layer_rule;
 
@@ -66,7 +67,7 @@ typedef struct cs_shade {
   celspan_matrix inverse;         /* frame pixels to own units */
   double plane[7][3];
   double eccentricity; /* RADIAL: 0 without a focus; else see engine/paint/shade.h */
-  bool is_affine;      /* and w above 0 everywhere */
+  bool is_affine;      /* and w is above 0 everywhere */
 } cs_shade;
 
 typedef struct cs_image_layer {
@@ -74,10 +75,11 @@ typedef struct cs_image_layer {
   celspan_matrix inverse;         /* frame pixels to own units */
   celspan_box box;                /* the box that the picture fills, own units */
   celspan_wrap wrap;
-  celspan_space space; /* in which its samples are mixed with others */
+  celspan_space space; /* the space in which its samples are mixed with others */
 } cs_image_layer;
 
-/* Whether nothing shines through the layer wherever it is present if its picture has no alpha. */
+/* Whether nothing shines through the layer wherever it is present, provided that its picture has no
+ * alpha. */
 static inline bool cs_image_layer_hides(const cs_image_layer *image) {
   return image->texture->variation->use == CELSPAN_PICTURE_PAINT &&
          !image->texture->variation->medium && image->wrap != CELSPAN_WRAP_CLEAR;
@@ -110,25 +112,27 @@ typedef struct cs_group {
   uint32_t first;  /* its rearmost layer */
   float fade;
   bool has_light; /* a front light with a shape */
-  bool varies;    /* it has one, or a group around it has */
+  bool varies;    /* it has such a light, or a group around it has one */
   bool curves;    /* it is a head (but not of a matte of alpha), graded, converted to another space,
                      or inside such a group: the colours of the frame are no affine function of its
                      paints */
   bool is_source; /* it is a head, or inside one */
   bool inverts;   /* MATTE: 1 less its strength */
   bool is_luma;   /* MATTE: its strength is luma, else alpha */
-  bool is_frame;  /* directly in the frame, or the whole of it: its back lights lie behind
-                     everything else in it */
+  /* it lies directly in the frame, or is the whole frame: its back lights lie behind everything
+   * else in it */
+  bool is_frame;
   uint8_t kind;   /* a cs_group_kind */
   const cs_grade *grade; /* PLAIN: NULL: none. Borrowed from the scene */
   uint8_t space;         /* grade: the space of its contents */
-  uint8_t converts;      /* PLAIN: its result, to this celspan_space; AROUND: not at all */
+  /* PLAIN: the celspan_space to which its result is converted; AROUND: it is not converted */
+  uint8_t converts;
   uint8_t blend;         /* GROUND: a celspan_blend */
   bool has_front;        /* a flat front light, since its parts could not be lit one by one */
   cs_v4 front;           /* has_front: that light; lane 3 is 0 */
   uint32_t light;        /* has_light: the layer of that light, in front of all its others */
   uint32_t around;       /* GROUND: the group around all the grounds inside each other */
-  uint32_t innermost;    /* GROUND: the innermost of these, which names them all */
+  uint32_t innermost;    /* GROUND: the innermost of these grounds, whose number names them all */
 } cs_group;
 
 /* A back light, met on the way from the camera before every layer below `below`. */

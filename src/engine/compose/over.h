@@ -38,14 +38,14 @@
 #include "model/colour/blend.h"
 #include "model/colour/space.h"
 
-/* The light of some layers by themselves, and their transmission. Lane 3 of e has no meaning. */
+/* The light and the transmission of some layers by themselves. Lane 3 of e has no meaning. */
 typedef struct cs_over_pair {
   cs_v4 e, t;
 } cs_over_pair;
 
 static const cs_over_pair cs_over_pair_clear = {{0, 0, 0, 0}, {1, 1, 1, 1}};
 
-/* One pair over another: exactly the other where one of them is clear. */
+/* One pair over another. Where one of them is clear, the result is exactly the other. */
 static inline cs_over_pair cs_over_pair_over(cs_over_pair front, cs_over_pair back) {
   return (cs_over_pair){front.e + front.t * back.e, front.t * back.t};
 }
@@ -68,7 +68,7 @@ static inline float cs_over_mean(cs_v4 t) {
 
 /* ---- groups: what several of the folds do alike with one that is left */
 
-/* How much there is of a colour that lets t through, and of the mattes behind it. */
+/* The alpha of a colour that transmits t. keep: the share of t that the mattes behind it leave. */
 static inline float cs_over_alpha(cs_v4 t, float keep) { return 1 - keep * cs_over_mean(t); }
 
 /* The colour of premultiplied light, clamped to 0..1. */
@@ -126,7 +126,7 @@ static inline float cs_over_strength(const cs_group *group, cs_over_pair head) {
 
 /* A group that has been entered and not yet left. */
 typedef struct cs_over_outer {
-  cs_over_pair outer; /* of the group around it, put aside */
+  cs_over_pair outer; /* of the group around it, kept while this group is folded */
   cs_over_pair head;  /* GROUND and MATTE; clear until its head has been left */
   uint32_t group;     /* the group around it, entered before, or CS_STACK_NONE */
   float keep;         /* of the group around it */
@@ -140,12 +140,13 @@ typedef struct cs_over {
   uint32_t group; /* the innermost that was entered, or CS_STACK_NONE */
   size_t light;   /* the next back light to be met */
   uint32_t depth;
-  bool is_bound;         /* t is the most that may shine through; e has no meaning */
+  /* only the most that may shine through is wanted: that is t, and e has no meaning */
+  bool is_bound;
   cs_over_outer *outers; /* borrowed; room for cs_stack_depth of them */
 } cs_over;
 
 /* Enters a group and the groups around it that were not entered yet. A ground whose head was not
- * met is never entered, also not as `group` itself. */
+ * met is never entered, even if it is `group`. */
 void cs_over_enter_group(cs_over *over, uint32_t group);
 
 /* outers: as above; NULL where no layer to come is in a group. */

@@ -4,7 +4,7 @@
 
 #define FOUR CS_OVER_FOUR
 #define QUADS 16      /* of a word */
-#define CHOICES 16    /* of the layers of a quad */
+#define CHOICES 16    /* choices among the four layers of a quad */
 #define LEAST_WORDS 4 /* fewer words are folded quickly without a table */
 
 /* ---------------------------------------------------------------- the choice */
@@ -17,8 +17,8 @@ static double let_through(const cs_layer *layer) {
   return most > CS_PAINT_OPAQUE ? (double)most : (double)CS_PAINT_OPAQUE;
 }
 
-/* Nothing shines through after sixteen halvings. Where the layers halve the light less than once in
- * two, on the average, more than 32 are seen in a place, if as many lie there. */
+/* Nothing shines through after sixteen halvings. Where two layers together halve the light less
+ * than once, on the average, more than 32 layers are seen in a place, if as many lie there. */
 bool cs_over_table_suits(const cs_stack *stack) {
   size_t words = cs_stack_words(stack), halvings = 0;
   double through = 1;
@@ -85,7 +85,8 @@ static inline cs_over_pair layer_pair(const cs_stack *stack, size_t layer) {
 }
 
 static void make_quad(const cs_stack *stack, size_t layer, cs_over_pair *quad) {
-  cs_over_pair halves[2][FOUR]; /* what the lower two layers may give, and the upper two */
+  /* all that the lower two layers may give, and all that the upper two may give */
+  cs_over_pair halves[2][FOUR];
   for (size_t half = 0; half < 2; half++) {
     cs_over_pair *h = halves[half];
     h[0] = cs_over_pair_clear;
@@ -154,8 +155,9 @@ static celspan_status join_word(cs_over_table *table, size_t i, uint64_t word) {
 
 #define BATCH 8 /* words compared at a time */
 
-/* Which of eight words differ from the words of a set, as bits. The set has just been written word
- * by word: a read of two words at once waits until both have left the processor's store buffer. */
+/* A bit for each of eight words: whether it differs from the word of a set. The set has just been
+ * written word by word: a read of two words at once waits until both have left the processor's
+ * store buffer. */
 static inline unsigned compare_words(const cs_over_word *words, const uint64_t *set) {
   unsigned differ = 0;
   for (unsigned i = 0; i < BATCH; i++)

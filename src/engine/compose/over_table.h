@@ -34,13 +34,13 @@
 #include "engine/compose/over.h"
 
 #define CS_OVER_FOUR 4          /* parts that are joined: layers, quads, quarters, words, nodes */
-#define CS_OVER_TABLE_WORDS 256 /* at most: all are compared each time */
-#define CS_OVER_TABLE_TIERS 5   /* enough for these */
+#define CS_OVER_TABLE_WORDS 256 /* at most: all of them are compared each time */
+#define CS_OVER_TABLE_TIERS 5   /* enough for this number of words */
 
 /* The layers of one word of a set. */
 typedef struct cs_over_word {
   uint64_t word;                       /* the layers present */
-  cs_over_pair *quads;                 /* for any choice of each four layers; NULL: not made yet */
+  cs_over_pair *quads;                 /* for every choice among four layers; NULL: not made yet */
   cs_over_pair quarters[CS_OVER_FOUR]; /* of sixteen layers each */
 } cs_over_word;
 
@@ -55,13 +55,14 @@ typedef struct cs_over_table {
   int top;                                  /* the last tier, which has one node */
 } cs_over_table;
 
-/* Whether a stack of flat layers suits it: they are many, and on the average so faint that more
- * than 32 in a place would be seen. */
+/* Whether a table suits a stack of flat layers: the layers are many, and on the average so faint
+ * that more than 32 of them would be seen in a place. */
 bool cs_over_table_suits(const cs_stack *stack);
-/* stack: suits it. Errors: NO_MEMORY; cs_over_table_finish must be called then, too. */
+/* stack: one that a table suits. Errors: NO_MEMORY; cs_over_table_finish must be called then,
+ * too. */
 CELSPAN_CHECKED celspan_status cs_over_table_init(cs_over_table *table, celspan_context *context,
                                                   const cs_stack *stack);
 void cs_over_table_finish(cs_over_table *table);
-/* The light of a set. Errors: NO_MEMORY. */
+/* enough for these words */
 CELSPAN_CHECKED celspan_status cs_over_table_light(cs_over_table *table, const uint64_t *set,
                                                    cs_over_pair *out);

@@ -37,7 +37,7 @@ static inline void cs_set_cross(cs_presence *presences, uint64_t *set, uint8_t *
   const cs_layer_rule *rule = &presence->rule;
   int32_t before = presence->winding, after = before + direction;
   presence->winding = after;
-  /* The processor can hardly predict whether it flips, so nothing here is a branch. */
+  /* The processor can hardly predict whether the presence changes, so nothing here is a branch. */
   uint64_t flips = ((before & rule->winding_mask) != 0) != ((after & rule->winding_mask) != 0);
   uint64_t word = set[layer / 64] ^ flips << (layer % 64);
   set[layer / 64] = word;
@@ -50,8 +50,8 @@ static inline void cs_set_cross(cs_presence *presences, uint64_t *set, uint8_t *
  * time. */
 static inline size_t cs_set_filled_count(size_t words) { return (words + 7) / 8 * 8; }
 
-/* The end of the first eight words at or below `end` that are not all empty; end: a multiple of
- * eight. */
+/* Skips groups of eight empty words: the end of the first group at or below `end` that is not
+ * empty. end: a multiple of eight. */
 static inline uint32_t cs_set_skip(const uint8_t *filled, uint32_t end) {
   uint64_t eight = 0;
   for (; end > 0; end -= 8) {
@@ -62,8 +62,8 @@ static inline uint32_t cs_set_skip(const uint8_t *filled, uint32_t end) {
   return end;
 }
 
-/* The nearest layer of a set that lies below `end`, or CS_STACK_NONE. filled: at least of the words
- * of the set that are not 0. */
+/* The nearest layer of a set that lies below `end`, or CS_STACK_NONE. filled: has a bit for each
+ * word of the set that is not 0, at least. */
 static inline uint32_t cs_set_below(const uint64_t *set, const uint8_t *filled, uint32_t end) {
   if (end == 0)
     return CS_STACK_NONE;

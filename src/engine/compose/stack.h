@@ -41,10 +41,11 @@ typedef enum cs_step_kind {
 
 typedef struct cs_step {
   cs_step_kind kind;
-  celspan_operator op; /* LAYERS: of operands that are all layers; OPERATOR: of results */
-  uint32_t first, end; /* the layers below; GUARD: layers of which the operator needs at least
-                          one */
-  uint32_t operands;   /* FRAME: the results of the trees inside it; GUARD: the steps guarded */
+  celspan_operator op; /* LAYERS: all operands are layers; OPERATOR: the operands are results */
+  /* the range of layers; GUARD: layers of which the operator needs at least one */
+  uint32_t first, end;
+  /* FRAME: the number of results of the trees inside it; GUARD: the number of guarded steps */
+  uint32_t operands;
 } cs_step;
 
 typedef struct cs_tree {
@@ -78,8 +79,9 @@ typedef struct cs_stack {
   size_t coded_count, coded_capacity;
   celspan_space space;  /* of the numbers in rows */
   bool has_root;        /* group 0 is the whole frame: it is entered in every cell */
-  float span_error;     /* that gradient spans may have, of full scale; 0: 1/1023 */
-  size_t step_depth;    /* results a tree may need room for at a time */
+  /* the error that gradient spans may have, as a share of full scale; 0: 1/1023 */
+  float span_error;
+  size_t step_depth;    /* the number of results that a tree may need to keep at a time */
   bool has_group_light; /* any group has a light with a shape */
   bool has_curves;      /* any group curves */
   bool has_sources;     /* any group is a source */
@@ -90,7 +92,7 @@ void cs_stack_finish(cs_stack *stack, cs_memory *memory);
 /* Its contents. */
 size_t cs_stack_bytes(const cs_stack *stack);
 
-/* Whether a layer of paint dims the three channels alike, if it is no defocused cel. */
+/* Whether a layer of paint dims the three channels alike, unless it is a defocused cel. */
 bool cs_stack_layer_is_grey(const cs_stack *stack, const cs_layer *layer);
 
 /* The innermost group, `group` itself or one around it, whose opaque contents do not hide what lies
@@ -103,8 +105,8 @@ static inline uint32_t cs_stack_veil(const cs_stack *stack, uint32_t group) {
 }
 
 /* The innermost group that has to be entered for a layer of `group`, or for a group in it that is
- * no head: `group` itself, unless that is a ground whose head was not met. now: the innermost group
- * that has been entered, which is around the layer. */
+ * no head: `group` itself, unless `group` is a ground whose head was not met. now: the innermost
+ * group that has been entered, which is around the layer. */
 static inline uint32_t cs_stack_entered(const cs_stack *stack, uint32_t group, uint32_t now) {
   while (group != CS_STACK_NONE && group != now && stack->groups[group].kind == CS_GROUP_GROUND) {
     const cs_group *ground = &stack->groups[group];

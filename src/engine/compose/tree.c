@@ -36,7 +36,8 @@ static bool has_bit(const uint64_t *set, uint32_t layer) {
   return set[layer / 64] >> (layer % 64) & 1;
 }
 
-/* The operator's own presence, given how many operands are present and whether the first is. */
+/* Whether the operator is present, given how many operands are present and whether the first one
+ * is. */
 static bool is_operator_present(celspan_operator op, uint32_t operands, uint32_t present,
                                 bool first) {
   if (present == 0)
@@ -55,8 +56,8 @@ static bool is_operator_present(celspan_operator op, uint32_t operands, uint32_t
   return first; /* a matte */
 }
 
-/* Clears the layers that the operator does not paint: all of them where it is absent; where a clip
- * is present, its shape. first_end: where the layers of the first operand end. */
+/* Clears the layers that the operator does not paint: all layers where it is absent; the layers of
+ * the shape where a clip is present. first_end: where the layers of the first operand end. */
 static void clear_hidden(const cs_step *step, uint32_t first_end, bool is_present, uint64_t *set) {
   if (!is_present)
     clear_range(set, step->first, step->end);
@@ -93,8 +94,8 @@ static cs_tree_result resolve_step(const cs_step *step, uint64_t *set,
   return (cs_tree_result){step->first, step->end, is_present};
 }
 
-/* The number of steps to skip after a guard: all steps that it guards, the last of which clears its
- * layers and is absent; or none. */
+/* The number of steps to skip after a guard: none, or all steps that it guards, of which the last
+ * clears its layers and is absent. */
 static uint32_t skip_guarded(const cs_step *guard, uint64_t *set, cs_tree_result *result) {
   if (any_in_range(set, guard->first, guard->end))
     return 0;
@@ -141,10 +142,11 @@ void cs_tree_resolve(const cs_stack *stack, uint64_t *set, cs_tree_result *resul
 
 /* ---------------------------------------------------------------- over tiles */
 
-/* One more operand for an operator. `both` and `any` are of the operands so far. */
+/* One more operand for an operator. `both` and `any` combine the operands so far. */
 typedef struct operands {
   cs_cull_presence first, both, any, others; /* others: any operand except the first */
-  uint64_t known, odd;                       /* where all are known; where their number is odd */
+  /* known: where all operands are known; odd: where an odd number is present */
+  uint64_t known, odd;
   uint32_t count;
 } operands;
 

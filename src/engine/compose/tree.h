@@ -52,7 +52,7 @@ void cs_tree_resolve(const cs_stack *stack, uint64_t *set, cs_tree_result *resul
 
 typedef struct cs_tree_certain_result {
   cs_cull_presence presence;
-  uint32_t end; /* of the layers below */
+  uint32_t end; /* where the layers below the operator end */
 } cs_tree_certain_result;
 
 /* painted: where each layer contributes. Both arrays begin with the tree's first layer. results:

@@ -25,7 +25,7 @@ typedef celspan_status (*cs_defocus_bands_maker)(const void *layer, celspan_cont
 
 /* Makes the cache where there is none yet. Any thread. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_defocus_bands_ready(celspan_context *context);
-/* Finds a band, or makes it by calling make(layer, ...). Errors: NO_MEMORY and those of `make`. */
+/* Makes the cache if it does not exist yet. Any thread. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_defocus_bands_acquire(celspan_context *context,
                                                         const cs_defocus_bands_key *key,
                                                         cs_defocus_bands_maker make,

@@ -78,7 +78,8 @@ static inline int32_t group_end(const filling *f, int32_t i) {
   return i + 1 < f->groups ? (i + 1) * GROUP : f->grid->columns;
 }
 
-/* Writes a stretch of one colour. Of a group that lies wholly in it, only the ends are written. */
+/* Writes a stretch of one colour. If a whole group lies in it, only the ends of the group are
+ * written. */
 static void write_single(const filling *f, node_plane *p, const celspan_span *span) {
   cs_v4 colour = cs_v4_load(span->colour);
   for (int32_t x = span->x0, next; x < span->x1; x = next) {
@@ -113,7 +114,7 @@ static void write_group(const filling *f, node_plane *p, int32_t i) {
   p->even[i] = false;
 }
 
-/* Groups are even where they are so in both planes. */
+/* Groups are even only where they are even in both planes. */
 static void agree(const filling *f, node_plane *a, node_plane *b) {
   for (int32_t i = 0; i < f->groups; i++)
     if (a->even[i] != b->even[i])
@@ -390,8 +391,9 @@ celspan_matrix cs_defocus_matrix(const cs_defocus *defocus) {
       celspan_matrix_translation(factor + extent_x, factor + extent_y));
 }
 
-/* The kernel that makes samples from boundaries: a square as wide as the blur's own square (which
- * pictures do not need) or as one sample. *out: NULL where the mean over each sample is enough. */
+/* The kernel that makes samples from boundaries: it is a square as wide as the blur's own square
+ * (which pictures do not need), or as one sample. *out: NULL where the mean over each sample is
+ * enough. */
 static celspan_status sample_kernel(celspan_context *context, const cs_defocus *defocus,
                                     cs_kernel **out) {
   int32_t extent_x, extent_y, factor = find_extent(defocus, &extent_x, &extent_y);

@@ -42,7 +42,9 @@ typedef enum cs_defocus_way {
 
 typedef struct cs_defocus cs_defocus;
 struct cs_defocus {
-  size_t owners;     /* plans, layers that mix from it, the list of a frame; all of one thread */
+  /* the number of owners: plans, layers that mix their nodes from it, and the list of a frame;
+   * all belong to one thread */
+  size_t owners;
   cs_defocused grid; /* the grid that composing reads */
   cs_blur blur;      /* in nodes' widths */
   cs_defocus_way way;
@@ -51,15 +53,16 @@ struct cs_defocus {
   cs_defocus_slices slices;
   bool is_fine;     /* there are enough samples for each to be the mean over its area */
   bool is_own;      /* the grid of a cel's own, whose bands are nodes */
-  cs_defocus *own;  /* that grid, where the cel has one, and how the nodes are mixed from it; */
-  cs_regrid regrid; /* then this has no plans */
+  cs_defocus *own;  /* the cel's own grid, where it has one, and how the nodes are mixed from it; */
+  cs_regrid regrid; /* then there are no plans here */
   cs_plan plans[2]; /* one a plane; made by engine/defocus/layer.c */
   celspan_object *extended; /* the objects of the plans, continued beyond the frame; NULL: the cel's
                                own objects */
   cs_hash key;
 };
 
-/* The radius of a Gaussian or a disc along an axis, or the extent of a box; how far they extend. */
+/* The radius of a Gaussian or a disc along an axis, or the extent of a box: how far the blur
+ * extends. */
 double cs_defocus_radius(const cs_blur *blur, int axis);
 double cs_defocus_extent(const cs_blur *blur, int axis);
 /* The grid for a blur in pixels over a frame: everything except the way, planes, plans and key.
@@ -75,11 +78,12 @@ CELSPAN_CHECKED celspan_status cs_defocus_find_way(celspan_context *context, cs_
 CELSPAN_CHECKED celspan_status cs_defocus_create_own(celspan_context *context, const cs_blur *blur,
                                                      bool varies, const int32_t size[2],
                                                      double samples, cs_defocus **out);
-/* The nodes of a frame's grid are from now on mixed from the cel's own grid, which has its planes
- * and belongs to it. scale, offset: from pixels of the frame, by axis. */
+/* From now on the nodes of a frame's grid are mixed from the cel's own grid, which has the planes
+ * of the frame's grid and belongs to it. scale, offset: from pixels of the frame, by axis. */
 void cs_defocus_use_own(cs_defocus *defocus, cs_defocus *own, const double scale[2],
                         const double offset[2]);
-/* Every pixel between these places of the frame is from now on a node of such a grid. */
+/* From now on every pixel between these places of the frame is a node of a grid that is mixed
+ * so. */
 void cs_defocus_use_pixels(cs_defocus *defocus, const int32_t first[2], const int32_t end[2]);
 /* The size of the plans, and the matrix from pixels of the frame to theirs. */
 void cs_defocus_raster(const cs_defocus *defocus, int32_t *width, int32_t *height);

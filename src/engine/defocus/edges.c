@@ -31,7 +31,7 @@ static void integrate(double sigma, int32_t extent, int32_t count, double *sums)
   }
 }
 
-/* The share of the kernel left of every such place. */
+/* The share of the kernel to the left of each such place. */
 static void find_shares(const cs_blur *blur, int32_t extent, int32_t count, double *shares) {
   const double(*e)[2] = blur->edges;
   double radius = fabs(e[0][0]) + fabs(e[1][0]);

@@ -8,7 +8,7 @@
 #include <math.h>
 
 #define LEAST_RADIUS (1.0 / 64) /* pixels; a smaller blur is not visible */
-/* A layer whose radius is at most SHARP pixels is also averaged over each pixel. One of SMOOTH
+/* A layer whose radius is at most SHARP pixels is also averaged over each pixel. A layer of SMOOTH
  * pixels or more is smooth at the scale of pixels, and its value at their centres is shown. */
 #define SHARP 0.5
 #define SMOOTH 2.0

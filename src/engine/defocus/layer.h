@@ -50,7 +50,7 @@ void cs_defocus_made_finish(cs_defocus_made *made, celspan_context *context);
 typedef struct cs_defocus_compiler {
   celspan_status (*compile)(void *user, const cs_defocus_job *job, cs_plan *out);
   void *user;
-  cs_defocus_made *made; /* for the frame until now */
+  cs_defocus_made *made; /* the layers that have been made for the frame until now */
 } cs_defocus_compiler;
 
 /* Whether the blur of the cel is large enough to be visible. */

@@ -17,8 +17,8 @@
 typedef struct group {
   bool is_marked;   /* an edge of this row is near */
   bool was_marked;  /* an edge of the row above it was near */
-  int32_t constant; /* how many of the latest lines have the same colour there, */
-  int32_t pending;  /* and of the latest of these, which are not written */
+  int32_t constant; /* how many of the latest lines have the same colour in this group, */
+  int32_t pending;  /* and how many of these, the latest, have not been written yet */
   cs_v4 colour;     /* where constant > 0 */
   cs_v4 below;      /* where !was_marked: what the row above added to the line below it */
 } group;
@@ -102,7 +102,9 @@ static void add_point(cs_defocus_lines *f, double x, const cs_defocus_halves *st
     f->groups[i].is_marked = true;
 }
 
-/* The same edge, for the columns whose kernel lies wholly right of it. */
+/* Fills the columns [first, end) of the line above the row, and of the part of the line below it.
+ * sum: before the call, the sum of the steps left of `first`; after it, of the steps left of `end`.
+ * near and steps are cleared. */
 static void pass_point(cs_defocus_lines *f, double x, const cs_border *edge, double upper,
                        double lower) {
   int32_t p = (int32_t)floor(x - 0.5) + 2;
@@ -153,8 +155,8 @@ static inline int32_t group_end(const cs_defocus_lines *f, int32_t i) {
   return i + 1 < f->group_count ? (i + 1) * GROUP : f->columns;
 }
 
-/* Writes the pending lines of a group; `number` is the line after them. The line that takes the
- * place of the oldest one in the ring may be under way. */
+/* Writes the pending lines of a group; `number` is the line after them. The line that replaces the
+ * oldest line in the ring may be partly written. */
 static void write_pending(cs_defocus_lines *f, int32_t i, int32_t number) {
   group *g = &f->groups[i];
   const cs_v4 colour = g->colour;
@@ -224,8 +226,8 @@ static celspan_status add_row(cs_defocus_lines *f) {
 
 /* ---------------------------------------------------------------- nodes */
 
-/* The end of the groups from i on that are not constant in all the lines under a node. They are
- * weighed together, all their lines written. */
+/* The end of the groups from i on that are not constant in all lines under a node. They are weighed
+ * together, and all their lines are written. */
 static int32_t weighed_end(cs_defocus_lines *f, int32_t i) {
   for (; i < f->group_count && f->groups[i].constant < f->line_count; i++)
     if (f->groups[i].pending > 0)
@@ -256,7 +258,7 @@ celspan_status cs_defocus_lines_row(cs_defocus_lines *f, int32_t row, float (*no
     f->next = row;
     f->has_begun = true;
     for (int32_t i = 0; i < f->group_count; i++)
-      f->groups[i].was_marked = true; /* there is no row above the first one */
+      f->groups[i].was_marked = true; /* nothing was written for a row above the first one */
   }
   while (f->next <= row + f->line_count)
     CS_TRY(add_row(f));

@@ -53,8 +53,8 @@ typedef struct cs_defocus_columns {
   cs_v4 *below;             /* what the row above added to the line below it */
 } cs_defocus_columns;
 
-/* near[k] += share * step for k < count, where share is between low[k] and high[k] by t. shares:
- * room for as many. */
+/* near[k] += share * step for k < count, where the share goes from low[k] to high[k] as t goes from
+ * 0 to 1. shares: room for as many. */
 CS_WIDE_DECLARE(void, cs_defocus_lines_spread,
                 (const float *low, const float *high, float t, int32_t count, float *shares,
                  const cs_defocus_halves *step, cs_defocus_halves *near));

@@ -5,19 +5,21 @@
 
 #include <math.h>
 
-/* Nodes in a radius: for a Gaussian, enough to keep the cubics between them (regrid.h) within 3/4
- * of an 8-bit code of it; for the other kernels as on the grids of frames (defocus.c). */
+/* Nodes in a radius: for a Gaussian, enough so that the cubics between the nodes (regrid.h) differ
+ * from it by at most 3/4 of an 8-bit code; for the other kernels, as on the grids of frames
+ * (defocus.c). */
 #define NODES_GAUSSIAN 6
 #define NODES_DISC 28
 #define NODES_BOX 64
 /* The most and the fewest samples of pictures in the radius of a Gaussian. */
 #define SAMPLES_FINE 18
 #define SAMPLES_LEAST 4
-#define LEAST_RADIUS 3     /* pixels: of smaller ones the nodes would be many to a pixel */
+#define LEAST_RADIUS 3     /* pixels: smaller radii would need many nodes for each pixel */
 #define BEYOND 4           /* nodes of the part beyond the visible area */
-#define FARTHEST (1 << 17) /* from the cel's origin, nodes: there the axes are off by 1/100 */
+/* from the cel's origin, in nodes: at this distance the axes are wrong by 1/100 */
+#define FARTHEST (1 << 17)
 #define PARTS 8            /* the part is rounded to this share of the frame's nodes */
-#define LEAST_STEP 16      /* and to no fewer nodes than these */
+#define LEAST_STEP 16      /* but at least to this number of nodes */
 
 /* The values of the grid along an axis that follow from the frame. */
 typedef struct grid_axis {
@@ -29,7 +31,7 @@ typedef struct grid_axis {
 
 /* ---------------------------------------------------------------- density */
 
-/* The least class that is no less than a scale: the powers of the fourth root of 2. Scales within
+/* The least class that is not less than a scale: the powers of the fourth root of 2. Scales within
  * 1e-6 of a class are of that class, because products of matrices are rounded. */
 static double class_of(double scale) {
   const double classes[4] = {0.59460355750136054, 0.70710678118654752, 0.84089641525371454, 1};
@@ -47,7 +49,7 @@ static double nodes_in_radius(celspan_defocus_kernel kernel) {
 }
 
 /* Pictures under a Gaussian that is not wide are sampled at the nodes, about once for each pixel;
- * under a wide one between the nodes too, as often as on the grids of frames. */
+ * under a wide Gaussian also between the nodes, as often as on the grids of frames. */
 static void choose_density(const cs_blur *blur, bool varies, grid_axis axes[2], double *samples) {
   bool is_gaussian = blur->kind == CELSPAN_DEFOCUS_GAUSSIAN;
   bool is_wide = fmin(blur->radius_x, blur->radius_y) >= SAMPLES_FINE;
@@ -75,8 +77,8 @@ static bool find_axis(const celspan_matrix *matrix, const cs_blur *blur, int k, 
   return cs_number_is_sane(out->scale) && out->scale > 1 / CS_NUMBER_LIMIT && radius >= least;
 }
 
-/* The blur on the grid. Single precision, so that blurs that differ only in the last bits of a
- * product of matrices are the same. */
+/* The blur on the grid, in single precision, so that two blurs are equal if they differ only in the
+ * last bits of a product of matrices. */
 static cs_blur blur_on(const cs_blur *blur, const grid_axis axes[2]) {
   cs_blur out = {.kind = blur->kind,
                  .radius_x = (double)axes[0].radius * axes[0].density,
@@ -103,7 +105,8 @@ static double step_of(double nodes) {
 static bool find_part(cs_own_grid *grid, int k, int32_t size, double low, double high) {
   double far = cs_defocus_extent(&grid->blur, k) + BEYOND, nodes = size * grid->scale[k];
   double step = step_of(k == 0 ? nodes / PARTS : nodes); /* rows are made when they are needed */
-  double margin = BEYOND + far; /* the nodes of the frame's own grid lie outside the frame */
+  /* the nodes at the border of the frame's own grid lie outside the frame */
+  double margin = BEYOND + far;
   double first = step * floor((grid->offset[k] - margin) / step);
   double end = step * ceil((grid->offset[k] + nodes + margin) / step);
   first = fmax(first, floor(low - far));

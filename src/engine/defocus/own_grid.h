@@ -26,7 +26,8 @@
 /* A cel of a frame. */
 typedef struct cs_defocus_cel {
   const celspan_rostrum *rostrum;
-  const celspan_cel *cel;   /* of the rostrum, or like one, with the object below alone */
+  /* a cel of the rostrum, or a similar one that has only the object below */
+  const celspan_cel *cel;
   celspan_matrix to_pixels; /* film units to pixels */
   double film_width, film_height;
   celspan_matrix matrix;   /* the cel's units to pixels */
@@ -42,7 +43,7 @@ typedef struct cs_own_grid {
   celspan_matrix matrix;      /* the cel's units to pixels of the part; a node is one pixel */
   int32_t size[2];            /* of the part */
   cs_blur blur;               /* in pixels of the part */
-  double samples;             /* that the radius needs at least, where samples are summed */
+  double samples; /* the least number of samples in the radius, where samples are summed */
   double scale[2], offset[2]; /* by axis, pixels of the frame to pixels of the part */
 } cs_own_grid;
 

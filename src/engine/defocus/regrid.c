@@ -8,7 +8,8 @@
 /* ---------------------------------------------------------------- places */
 
 /* The node before a place, and the weights of the cubic through the four nodes around it. The
- * weight of the node before the place is left out: it is 1 less the others. last: the last node. */
+ * weight of the node before the place is left out: it is 1 minus the other weights. last: the last
+ * node. */
 static int32_t find_place(double at, int32_t last, float weights[3]) {
   at = cs_number_clamp(at, 0, last);
   int32_t before = cs_number_floor(at);
@@ -135,7 +136,7 @@ celspan_status cs_regrid_row(cs_regrid_rows *rows, int plane, int32_t y, float (
 
 /* ---------------------------------------------------------------- what a row has */
 
-/* The first column that reads nodes of the mixed row from this number on. */
+/* The first column that reads the nodes of the mixed row with this number or a higher one. */
 static int32_t first_beyond(const cs_regrid_rows *rows, int32_t nodes) {
   int32_t low = 0, high = rows->to->columns;
   while (low < high) {

@@ -15,7 +15,7 @@
 #include "base/wide.h"
 #include "engine/sample/defocused.h"
 
-/* One axis of a mapping: pixels of the frame to pixels of the cel's own grid. */
+/* One axis of a mapping from pixels of the frame to pixels of the cel's own grid. */
 typedef struct cs_regrid_axis {
   double scale, offset;
 } cs_regrid_axis;
@@ -55,8 +55,8 @@ void cs_regrid_finish(cs_regrid_rows *rows);
  * those of the bands of the cel's own grid. */
 CELSPAN_CHECKED celspan_status cs_regrid_row(cs_regrid_rows *rows, int plane, int32_t y,
                                              float (*nodes)[4], bool *even);
-/* As `mix` and `forget` of cs_defocused: a row of pixels, as far as there is anything in it. Nodes
- * that are not visible are not written. */
+/* As `mix` and `forget` of cs_defocused: mixes a row of pixels, as far as something is visible in
+ * it. Nodes that are not visible are not written. */
 CELSPAN_CHECKED celspan_status cs_regrid_pixels(const cs_regrid *map, const cs_defocused *to,
                                                 celspan_context *context, cs_defocused_view *view,
                                                 double y);

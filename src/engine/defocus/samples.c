@@ -39,7 +39,7 @@ bool cs_defocus_samples_are_one(const cs_defocus_samples *samples, int32_t k, cs
   return span->kind == CELSPAN_SPAN_SINGLE && span->x1 >= samples->high;
 }
 
-/* Whether all rows are one same colour under the tile; *out: that colour. */
+/* Whether all rows have the same single colour under the tile; *out: this colour. */
 static bool are_plain(const cs_defocus_samples *samples, cs_v4 *out) {
   bool is_plain = cs_defocus_samples_are_one(samples, 0, out);
   for (int32_t k = 1; k < samples->count && is_plain; k++) {

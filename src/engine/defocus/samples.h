@@ -23,10 +23,10 @@ typedef struct cs_defocus_samples {
 CELSPAN_CHECKED celspan_status cs_defocus_samples_init(celspan_context *context, int32_t count,
                                                        cs_defocus_samples *out);
 void cs_defocus_samples_finish(cs_defocus_samples *samples, cs_memory *memory);
-/* Makes the rows from row `first` of the maker on. Errors: those of its rows. */
+/* Makes the rows from row `first` of the maker on. Errors: those of the maker's rows. */
 CELSPAN_CHECKED celspan_status cs_defocus_samples_make(cs_defocus_samples *samples,
                                                        cs_row_maker *maker, int32_t first);
-/* Whether row k is one colour under the tile; *out: the first colour there. */
+/* Whether row k has one colour under the tile; *out: the first colour of the row there. */
 bool cs_defocus_samples_are_one(const cs_defocus_samples *samples, int32_t k, cs_v4 *out);
 /* Nodes that are summed from samples, tile by tile. Node x of a row lies over the samples from
  * x * factor on, with `extent` of them on either side. */

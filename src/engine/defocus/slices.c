@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#define SAMPLES 16 /* in the lesser radius, where the factor allows it */
+#define SAMPLES 16 /* in the smaller radius, if the factor allows it */
 #define FACTOR 9   /* at most; odd, so that a node lies in the middle of a sample */
 #define TILE 64    /* nodes of a row that are summed together */
 #define SHORT 1e-6 /* slices that are shorter are left out */
@@ -88,7 +88,7 @@ typedef struct summing {
   cs_isa isa;
   cs_defocus_samples samples; /* the samples under all nodes */
   cs_v4 *row;                 /* samples of one row under the tile */
-  cs_v4 *sums;                /* by row: of the samples from the tile's left edge up to each */
+  cs_v4 *sums; /* by row: the sum of the samples from the tile's left edge up to each sample */
   float (*out)[4];            /* TILE nodes */
 } summing;
 

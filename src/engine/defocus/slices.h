@@ -33,7 +33,7 @@ typedef struct cs_defocus_slice {
 typedef struct cs_defocus_slices {
   int32_t factor;             /* samples in a node's width */
   int32_t extent_x, extent_y; /* samples beyond the node's own on each side */
-  size_t places, stride;      /* sums that are kept for one place in a node's width, for a row */
+  size_t places, stride; /* how many sums are kept for one place in a node's width, and for a row */
   cs_defocus_slice *slices;
   size_t count, capacity;
 } cs_defocus_slices;
@@ -51,7 +51,8 @@ CELSPAN_CHECKED celspan_status cs_defocus_slices_fill(const cs_defocus_slices *s
 
 /* ---- slices_wide.c */
 
-#define CS_DEFOCUS_SLICES_TOGETHER 16 /* nodes; as many or a multiple are summed at once */
+/* nodes that are summed at once; counts are multiples of it */
+#define CS_DEFOCUS_SLICES_TOGETHER 16
 
 /* Sums up the slices for `count` nodes beside each other. sums: the first sum under the first
  * node. */

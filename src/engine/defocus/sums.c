@@ -14,8 +14,8 @@
 
 /* The variance of the weights, in samples, for a blur of the given variance. Interpolating linearly
  * between samples spreads by 1/6. Boundaries are averaged by tents, which spread them by another
- * 1/6; half of that is subtracted too, so that neither pictures nor boundaries are off by more than
- * 1/12. */
+ * 1/6; half of this share is subtracted, too, so that neither pictures nor boundaries are off by
+ * more than 1/12. */
 static double left_over(double variance) {
   return variance > 1 ? variance - 0.25 : 0.75 * variance;
 }
@@ -96,7 +96,7 @@ void cs_defocus_sums_finish(cs_defocus_sums *sums, cs_memory *memory) {
 
 /* ---------------------------------------------------------------- sums */
 
-/* The rows of samples under the rows of nodes being filled, and one tile of these. */
+/* The rows of samples under the rows of nodes that are being filled, and one tile of these rows. */
 typedef struct summing {
   const cs_defocus_sums *sums;
   cs_isa isa;

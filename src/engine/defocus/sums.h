@@ -46,7 +46,7 @@ CELSPAN_CHECKED celspan_status cs_defocus_sums_fill(const cs_defocus_sums *sums,
 
 /* ---- sums_wide.c */
 
-#define CS_DEFOCUS_SUMS_TOGETHER 16 /* nodes; as many or a multiple are summed at once */
+#define CS_DEFOCUS_SUMS_TOGETHER 16 /* nodes that are summed at once; counts are multiples of it */
 
 /* Weighted sums about `count` values beside each other. values: the first one from which the pairs
  * are counted; middle: from there to the first middle one, floats. */

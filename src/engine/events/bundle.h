@@ -22,12 +22,12 @@ typedef struct cs_bundle {
 
 typedef struct cs_bundles {
   cs_bundle *bundles;
-  uint32_t *starts; /* by row of tiles, and the end of the last one; NULL: there are no rows */
+  uint32_t *starts; /* of all these changes together */
   size_t count, capacity, row_count;
 } cs_bundles;
 
-/* Appends their courses, for which there is room. Errors: NO_MEMORY; cs_bundles_finish must be
- * called then, too. */
+/* Appends the courses of the bundles, for which there is room. Errors: NO_MEMORY; cs_bundles_finish
+ * must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_bundles_make(celspan_context *context, const cs_cull *cull,
                                                cs_courses *courses, cs_bundles *out);
 void cs_bundles_finish(cs_bundles *bundles, cs_memory *memory);

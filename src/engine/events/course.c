@@ -7,11 +7,14 @@ typedef struct maker {
   const cs_boundary_set *set;
   cs_courses *out;
   double height;     /* parts above 0 and below this are cut off */
-  int32_t top, foot; /* in units: points are made from the last one above down to the first below */
+  /* in units: points are made from the last one above the top down to the first one below the
+   * foot */
+  int32_t top, foot;
   double *x, *y;     /* of the vertices of a piece */
 } maker;
 
-/* To the nearest unit: shifted, so that cutting off the fraction rounds down. */
+/* Rounds to the nearest unit. The place is shifted first, so that cutting off the fraction rounds
+ * down. */
 static inline int32_t round_to_unit(double place) {
   const int64_t shift = INT64_C(1) << 31;
   return (int32_t)((int64_t)(place * CS_COURSE_UNIT + ((double)shift + 0.5)) - shift);

@@ -30,7 +30,7 @@ typedef struct cs_course {
   uint32_t count; /* 0, or at least 2 */
 } cs_course;
 
-/* By chain; more may follow. */
+/* The courses of chains, by chain; other courses may follow. */
 typedef struct cs_courses {
   cs_course *courses;
   cs_course_point *points;
@@ -38,10 +38,10 @@ typedef struct cs_courses {
 } cs_courses;
 
 /* The chains must lie within 16384 pixels of the origin sideways. The parts above 0 and below the
- * height, in pixels, at most 16384, are cut off. Between top and foot, in units, it has the points
- * of the whole course: from the last point at or above the top to the first point at or below the
- * foot. more: upright courses for which there will be room. Errors: NO_MEMORY; cs_courses_finish
- * must be called then, too. */
+ * height, in pixels, at most 16384, are cut off. Between top and foot, in units, a course has all
+ * its points: from the last point at or above the top to the first point at or below the foot.
+ * more: upright courses for which there will be room. Errors: NO_MEMORY; cs_courses_finish must be
+ * called then, too. */
 CELSPAN_CHECKED celspan_status cs_courses_make(celspan_context *context, const cs_boundary_set *set,
                                                int32_t height, int32_t top, int32_t foot,
                                                size_t more, cs_courses *out);

@@ -22,10 +22,10 @@ typedef struct sweep {
   uint32_t *touched;           /* courses that have another right neighbour */
   size_t intersection_count, intersection_capacity, end_count, next_end, next_begin;
   size_t dirty_count, dirty_capacity, touched_count, touched_capacity;
-  int32_t zone_height, zone; /* in units; the number of the current one plus 1 */
+  int32_t zone_height, zone; /* in units; zone: the number of the current zone plus 1 */
   cs_events_limits limits;
   size_t met, entered; /* windings and courses in the zone */
-  size_t zone_parts;   /* parts that ended above it */
+  size_t zone_parts;   /* parts that ended above the zone */
 } sweep;
 
 /* ---------------------------------------------------------------- intersections */
@@ -55,7 +55,7 @@ static intersection pop(sweep *s) {
   return first;
 }
 
-/* Compares a course with its right neighbour from a height on. */
+/* Compares a course with its right neighbour, from a height downwards. */
 static celspan_status compare_ahead(sweep *s, uint32_t course, int32_t y) {
   if (!cs_order_may_meet(&s->order, course))
     return CELSPAN_OK;
@@ -224,7 +224,7 @@ static celspan_status begin_courses(sweep *s, int32_t y) {
 
 /* ---------------------------------------------------------------- rows of tiles */
 
-/* The chains that are culled in this row of tiles leave, as do the bundles of the last one. */
+/* Removes the chains that are culled in this row of tiles, and the bundles of the row before. */
 static celspan_status leave_culled(sweep *s, int32_t y) {
   const cs_order *order = &s->order;
   for (uint32_t i = order->entries[order->ends].next, next; i != order->ends; i = next) {
@@ -322,7 +322,7 @@ static inline int32_t belt_above(int32_t y) { return y - y % CS_ORDER_BELT; }
 /* Goes through the belts above a height. */
 static celspan_status go_to(sweep *s, int32_t y) {
   cs_order *order = &s->order;
-  if (order->count == 0 && order->foot < y) /* there is nothing in them */
+  if (order->count == 0 && order->foot < y) /* there are no courses in these belts */
     order->foot = belt_above(y);
   while (order->foot < y) {
     int32_t top = order->foot;
@@ -368,7 +368,7 @@ static celspan_status change_courses(sweep *s, int32_t y) {
 
 static inline int32_t lesser(int32_t a, int32_t b) { return a < b ? a : b; }
 
-/* Begins at the top of a belt, with the courses that cross it or begin there. */
+/* Begins at the top of a belt, with the courses that cross this height or begin there. */
 static celspan_status begin(sweep *s, int32_t top) {
   cs_order_clear(&s->order);
   s->intersection_count = s->dirty_count = s->touched_count = s->next_begin = s->met = 0;
@@ -404,7 +404,7 @@ static celspan_status end_parts(sweep *s, int32_t foot) {
   return CELSPAN_OK;
 }
 
-/* Goes down to a foot. *next: the foot, or where a zone ends that has too many windings. */
+/* Goes down to a foot. *next: the foot, or the end of a zone that has too many windings. */
 static celspan_status go_down(sweep *s, int32_t top, int32_t foot, int32_t *next) {
   CS_TRY(begin(s, top));
   for (int32_t y = top; y < foot && !has_too_many(s);) {

@@ -49,11 +49,11 @@ typedef struct cs_events {
 /* The swept rows of a drawing, in pixels from 0. height: at most 16384 and 64 zones. */
 typedef struct cs_events_rows {
   int32_t first, end, height; /* first <= end <= height */
-  int32_t zone;               /* rows of a zone, which has whole belts; each is judged alone */
+  int32_t zone; /* rows of a zone, which consists of whole belts; each zone is judged by itself */
 } cs_events_rows;
 
 /* A zone has too many windings if they are more than `most`, or more than `few` and than `each`
- * times its courses: so windings that multiply are found long before there are `most` of them. */
+ * times its courses: so windings that multiply are found long before their number is `most`. */
 typedef struct cs_events_limits {
   size_t most, few, each;
 } cs_events_limits;

@@ -68,7 +68,7 @@ static int compare(const cs_course_point *p, const cs_course_point *q, int32_t y
   }
 }
 
-/* The first whole height between two at which a course does not lie left of another one any more:
+/* The first whole height between two heights at which a course is no longer left of another one:
  * above it they would have to change places back. */
 static int32_t intersection_height(int32_t top, int32_t foot, double above, double below) {
   if (above >= 0)
@@ -189,7 +189,7 @@ static void sort_places(cs_order_place *places, size_t count) {
   }
 }
 
-/* Brings the courses within the slack into the order that they have below. */
+/* Brings courses that are closer than the slack into the order that they have further down. */
 static void sort_near(const cs_order *order, int32_t y) {
   cs_order_place *places = order->index;
   for (size_t i = 1; i < order->index_count; i++) {
@@ -232,7 +232,8 @@ celspan_status cs_order_begin_belt(celspan_context *context, cs_order *order, in
 
 /* ---------------------------------------------------------------- begins and ends */
 
-/* A course at or left of where one begins, by the index: courses may have changed places since. */
+/* A course at or left of the place where another one begins. It is found by the index, which may be
+ * old: courses may have changed places since. */
 static uint32_t find_near(const cs_order *order, double x, int32_t y) {
   size_t low = 0, high = order->index_count;
   while (low < high) {
@@ -247,8 +248,8 @@ static uint32_t find_near(const cs_order *order, double x, int32_t y) {
   return low > 0 ? order->index[low - 1].course : order->ends;
 }
 
-/* Whether the course that was put in last begins at the same point, as most do whose contour has
- * its top there. */
+/* Whether the course that was put in last begins at the same point. Mostly this is so for a contour
+ * that has its top there. */
 static bool begins_at_last(const cs_order *order, const cs_course_point *points, int32_t y) {
   const cs_order_entry *last = &order->entries[order->last];
   return last->is_there && last->since == y && last->at->y == y && points[0].y == y &&

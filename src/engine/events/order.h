@@ -30,11 +30,12 @@
 /* A course that crosses the height, by its number. The last entry is both ends of the list. */
 typedef struct cs_order_entry {
   const cs_course_point *at; /* where its segment at the height begins */
-  int32_t foot;              /* its last height */
-  int32_t low, high;         /* the extent of x in the belt, from where the course begins in it */
+  int32_t foot;              /* the height at which the course ends */
+  /* the extent of x in the belt, from the place where the course begins in the belt */
+  int32_t low, high;
   uint32_t previous, next;   /* courses */
   uint32_t left, right;      /* windings on its sides */
-  int32_t since;             /* the height from which these have been so */
+  int32_t since;             /* the height from which on these windings have been valid */
   bool is_there;             /* in the list */
   bool is_dirty;             /* for the caller: its windings must be found again */
   bool is_touched;           /* for the caller: it has another right neighbour */
@@ -49,11 +50,11 @@ typedef struct cs_order_place {
 typedef struct cs_order {
   const cs_courses *courses; /* borrowed */
   cs_order_entry *entries;   /* one for each course, and the ends */
-  uint32_t ends;             /* the number of that entry */
+  uint32_t ends;             /* the number of the entry for the ends */
   cs_order_place *index;     /* courses that crossed an earlier height, from left to right */
   size_t index_count, index_capacity, count;
-  size_t entered; /* courses that were put in since then */
-  uint32_t last;  /* of these, the last one, or the ends */
+  size_t entered; /* courses that were put in after the index was made */
+  uint32_t last;  /* the last one of these, or the ends */
   int32_t foot;   /* of the belt */
 } cs_order;
 
@@ -61,10 +62,10 @@ typedef struct cs_order {
 CELSPAN_CHECKED celspan_status cs_order_init(celspan_context *context, const cs_courses *courses,
                                              cs_order *out);
 void cs_order_finish(cs_order *order, cs_memory *memory);
-/* All courses leave. */
+/* Removes all courses. */
 void cs_order_clear(cs_order *order);
-/* Brings the courses that cross y, where the belt down to order->foot begins, into their order.
- * *is_changed: the order has changed. Errors: NO_MEMORY. */
+/* Brings the courses that cross y into their order; at y the belt begins that goes down to
+ * order->foot. *is_changed: the order has changed. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_order_begin_belt(celspan_context *context, cs_order *order,
                                                    int32_t y, bool *is_changed);
 /* Puts in a course that begins at y, or crosses it and has not been in the list until now.
@@ -72,17 +73,17 @@ CELSPAN_CHECKED celspan_status cs_order_begin_belt(celspan_context *context, cs_
 CELSPAN_CHECKED celspan_status cs_order_enter(celspan_context *context, cs_order *order,
                                               uint32_t course, int32_t y);
 void cs_order_leave(cs_order *order, uint32_t course);
-/* A course and the next one change places. */
+/* Lets a course and its right neighbour change places. */
 void cs_order_swap(cs_order *order, uint32_t course);
-/* Whether a course has a next one that it may meet in this belt. */
+/* Whether a course has a right neighbour that it may meet in this belt. */
 static inline bool cs_order_may_meet(const cs_order *order, uint32_t course) {
   const cs_order_entry *entry = &order->entries[course];
   return course != order->ends && entry->next != order->ends &&
          entry->high > order->entries[entry->next].low;
 }
 
-/* The height, from y on, at which a course must change places with the next one, which it may meet;
- * NEVER: it need not in this belt. */
+/* The height, from y on, at which a course must change places with its right neighbour, which it
+ * may meet; NEVER: not in this belt. */
 int32_t cs_order_ahead(const cs_order *order, uint32_t course, int32_t y);
 /* x of a course that crosses a height, or of its last point. */
 double cs_order_x(const cs_order *order, uint32_t course, int32_t y);

@@ -13,15 +13,16 @@
 #include "engine/events/events.h"
 #include "engine/row/plan.h"
 
-/* cell: the cell of some windings; its program belongs to the composer and is valid during this
- * call. out: its number. */
+/* cell: the cell of certain windings; its program belongs to the composer and is valid during this
+ * call. out: the number of the cell. */
 typedef celspan_status (*cs_events_visitor)(void *user, cs_composer *composer, const cs_cell *cell,
                                             uint32_t *out);
 
-/* Visits the cell of 0 and then, once, that of each of the windings beside a part, and reduces the
- * parts to visible ones: a part with the same cell on both sides is removed, and consecutive parts
- * of a course between the same two cells become one. Then left and right of parts are numbers of
- * cells. events: of the plan. Errors: NO_MEMORY, those of composing and of the visitor. */
+/* Visits the cell of winding number 0, and then, once, the cell of each of the windings beside a
+ * part, and reduces the parts to visible ones: a part with the same cell on both sides is removed,
+ * and consecutive parts of a course between the same two cells become one. Then left and right of
+ * parts are numbers of cells. events: of the plan. Errors: NO_MEMORY, those of composing and of the
+ * visitor. */
 CELSPAN_CHECKED celspan_status cs_events_show(celspan_context *context, const cs_plan *plan,
                                               cs_events *events, cs_events_visitor visitor,
                                               void *user);

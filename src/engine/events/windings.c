@@ -10,7 +10,7 @@ cs_windings_hash cs_windings_add(cs_windings_hash hash, uint32_t layer, int32_t 
                        : (cs_windings_hash){hash.a - a, hash.b - b};
 }
 
-/* The slot of a hash: with its number, or free. */
+/* The slot of a hash: the slot that contains its number, or a free one. */
 static size_t find_slot(const cs_windings *w, cs_windings_hash hash) {
   size_t at = hash.a & (w->slot_count - 1);
   for (; w->slots[at]; at = (at + 1) & (w->slot_count - 1)) {

@@ -22,7 +22,7 @@ typedef struct cs_windings_entry {
   cs_windings_hash hash;
   uint32_t parent, boundary; /* the winding that this one comes from, and the boundary crossed; 0
                                 has none */
-  int32_t zone;              /* for the caller: where they were met last; 0: nowhere */
+  int32_t zone;              /* for the caller: the zone in which they were met last; 0: none */
 } cs_windings_entry;
 
 typedef struct cs_windings {

@@ -30,7 +30,7 @@
 /* A program that is visible under the kernel, and the share of the kernel that it fills. */
 typedef struct cs_convolve_term {
   cs_program program; /* of a cell of a retained row */
-  double weight;      /* at the column that is made */
+  double weight;      /* for the column that is being made */
 } cs_convolve_term;
 
 /* ---- what changes from a column on: lists by column, linked by index + 1 */
@@ -44,7 +44,7 @@ typedef struct cs_convolve_shift {
 typedef struct cs_convolve_passed {
   uint32_t next, row;
   int sub_row, sub_row_end; /* heights of the row, [sub_row, sub_row_end) */
-  cs_v4d step;              /* of colour */
+  cs_v4d step;              /* +1: a layer that varies begins here; -1: such a layer ends */
   int varies;               /* +1: a layer that varies begins, -1: one ends */
 } cs_convolve_passed;
 
@@ -63,13 +63,14 @@ typedef struct cs_convolve_range {
 typedef struct cs_convolve {
   const cs_kernel *kernel;
   int32_t width;
-  double (*changes)[4];            /* by column: of the sum of flat colours */
-  double (*slopes)[4];             /* even shapes: of the change from column to column */
-  cs_v4 *values;                   /* by column: added at that column only */
+  double (*changes)[4];            /* by column: the change of the sum of flat colours */
+  /* even shapes, by column: by how much the change differs from the change of the column before */
+  double (*slopes)[4];
+  cs_v4 *values;                   /* by column: what is added at this column only */
   float *sums;                     /* separable kernels: scratch */
   uint64_t *touched;               /* one bit for each column: something changes there */
   uint32_t *shifts_at, *passed_at; /* lists by column; 0: empty */
-  cs_convolve_range *near;         /* signed kernels: of the colours near a column */
+  cs_convolve_range *near;         /* signed kernels: the range of the colours near a column */
   cs_convolve_term *terms;
   cs_convolve_shift *shifts;
   cs_convolve_passed *passed;

@@ -32,7 +32,8 @@
 
 /* ---------------------------------------------------------------- life */
 
-/* Columns of the sums of one stretch of an edge: twice the columns of the kernel, and some room. */
+/* Columns of the sums of one stretch of an edge: twice the columns of the kernel, plus some
+ * room. */
 static size_t sum_count(const cs_kernel *kernel) { return 2 * (size_t)kernel->stride + 8; }
 
 /* Errors: NO_MEMORY. */
@@ -112,15 +113,15 @@ typedef struct summing {
   double y;                /* centre */
   size_t rows;             /* under the kernel */
   int32_t at;              /* the current column */
-  double sum[4];           /* there: the weighted sum of the flat colours */
+  double sum[4];           /* at this column: the weighted sum of the flat colours */
   double slope[4];         /* by how much the sum grows from each column to the next */
   cs_v4 here;              /* added at the current column only */
   size_t varying;          /* terms whose weight is more than NOTHING */
-  cs_convolve_range range; /* of the colours under the kernel, except near edges */
+  cs_convolve_range range; /* the range of the colours under the kernel, except near edges */
 } summing;
 
 /* Rounds a sum of colours times weights, where the weights sum to 1. Bits beyond the 40th are
- * errors of rounding; without it, the mean of one colour is that colour to the bit. */
+ * errors of rounding. Without them, the mean of a single colour is this colour to the bit. */
 static double tidy(double value) { return rint(value * 0x1p40) * 0x1p-40; }
 
 /* Finds the range of the colours at the heights of a row. */
@@ -254,8 +255,8 @@ static celspan_status mix(summing *s, int32_t x0, int32_t x1, cs_convolve_range 
   return CELSPAN_OK;
 }
 
-/* The program that fills the kernel by itself; NULL where another program or a flat colour is
- * visible under it too. */
+/* The program that fills the kernel alone; NULL if another program or a flat colour is also visible
+ * under the kernel. */
 static const cs_program *lone_program(const summing *s) {
   if (s->varying != 1)
     return NULL;

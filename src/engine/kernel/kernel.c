@@ -7,7 +7,8 @@
 #include <string.h>
 
 #define SAMPLES CS_ANTIALIAS_SAMPLES
-/* Even shapes smaller than this, averaged over a pixel, count as separable: no edge shows it. */
+/* Even shapes that are smaller than this and are averaged over a pixel count as separable: no edge
+ * shows the difference. */
 #define SMALL 0.4
 #define OFFSETS 4
 #define PLACES 256       /* in a pixel, at which light is measured */
@@ -33,7 +34,7 @@ static void integrate(const double *samples, double *first) {
   first[0] = 0;
   for (int i = 0; i < SAMPLES; i++) {
     running += samples[i];
-    first[i + 1] = running / sum; /* ends on 1: the same sum, in the same order */
+    first[i + 1] = running / sum; /* ends with exactly 1: the same sum, added in the same order */
   }
 }
 
@@ -42,8 +43,8 @@ static celspan_status make(celspan_context *context, cs_kernel **out) {
   return *out ? CELSPAN_OK : cs_fail_memory(context);
 }
 
-/* The sum of the shares at the columns around an edge at -x, less x: the same for every x if the
- * kernel's values at whole distances always sum to 1. */
+/* The sum of the shares at the columns around an edge at -x, minus x. It is the same for every x if
+ * the kernel's values at whole distances always sum to 1. */
 static double light_at(const double *first, double radius, double x) {
   int32_t columns = cs_number_ceil(radius) + 1;
   double sum = 0;
@@ -59,8 +60,8 @@ static double window(double width, double x) {
                    : fabs(x) <= 0.5 * width;
 }
 
-/* Pixels are samples of the filtered picture, and the sum of a shape's light may depend on its
- * place between them. This reduces the differences as far as possible without changing any edge by
+/* Pixels are samples of the filtered picture, and the sum of a shape's light may depend on where it
+ * lies between them. This reduces the differences as far as possible without changing any edge by
  * more than `most`. */
 static void balance(double *first, double radius, double most) {
   double missing[PLACES], mean = 0, worst = 0, width = floor(2 * radius);
@@ -162,7 +163,7 @@ static double integral(const axis *work, double u) {
 }
 
 /* One axis of a defocus kernel: the shares left of the table's places. *radius: the radius of the
- * shape; becomes the radius of the shape with the blur. */
+ * shape; after the call, the radius of the shape together with the blur. */
 static void fill_axis(celspan_defocus_kernel kind, double blur, axis *work, double *radius,
                       double *first) {
   double narrow = *radius;
@@ -235,8 +236,9 @@ static void fill_even(const cs_blur *blur, cs_kernel *kernel) {
   const double(*e)[2] = blur->edges;
   bool is_box = blur->kind == CELSPAN_DEFOCUS_BOX;
   kernel->shape = is_box ? CS_KERNEL_PARALLELOGRAM : CS_KERNEL_ELLIPSE;
-  kernel->rows = 8; /* segments are weighted exactly; only their chord is that of the middle
-                       height */
+  /* segments are weighted exactly; only the chord is approximate: it is the chord at the middle
+   * height */
+  kernel->rows = 8;
   kernel->radius_x = is_box ? fabs(e[0][0]) + fabs(e[1][0]) : blur->radius_x;
   kernel->radius_y = is_box ? fabs(e[0][1]) + fabs(e[1][1]) : blur->radius_y;
   kernel->per_radius_y = 1 / kernel->radius_y;
@@ -259,7 +261,7 @@ bool cs_blur_is_upright(const cs_blur *blur) {
   return (e[0][1] == 0 && e[1][0] == 0) || (e[0][0] == 0 && e[1][1] == 0);
 }
 
-/* The upright box that spreads light as far along each axis. */
+/* The upright box that spreads light equally far along each axis. */
 static cs_blur as_upright(const cs_blur *blur) {
   cs_blur box = *blur;
   const double(*e)[2] = blur->edges;

@@ -20,7 +20,7 @@
 /* The blur of a defocused cel, in the samples of a grid. */
 typedef struct cs_blur {
   celspan_defocus_kernel kind;
-  double radius_x, radius_y; /* GAUSSIAN: of two sigmas, it reaches twice as far; DISC */
+  double radius_x, radius_y; /* GAUSSIAN: two sigmas, and it extends twice as far; DISC */
   double edges[2][2];        /* BOX: half of two sides, as vectors */
   double blur;               /* width of the square that is also averaged over; 0: none */
 } cs_blur;
@@ -30,7 +30,7 @@ bool cs_blur_is_upright(const cs_blur *blur);
 
 typedef enum cs_kernel_shape {
   CS_KERNEL_SEPARABLE,
-  CS_KERNEL_ELLIPSE,      /* even inside, of radius_x and radius_y */
+  CS_KERNEL_ELLIPSE,      /* constant inside an ellipse with these radii */
   CS_KERNEL_PARALLELOGRAM /* even inside */
 } cs_kernel_shape;
 
@@ -42,12 +42,13 @@ typedef struct cs_kernel {
   bool is_signed;            /* negative somewhere */
   double sharpness;          /* SEPARABLE: how finely a slanted edge is cut; 1 for the sharpest */
   double edges[2][2];        /* PARALLELOGRAM: half of two sides; the second is the steeper */
-  int offsets;               /* even shapes: the mean of this many by this many of them */
-  double spread;             /* that lie evenly over a square of this width */
+  int offsets; /* even shapes: the kernel is the mean of offsets x offsets copies of the shape */
+  double spread;             /* that are spread evenly over a square of this width */
   /* At -1 + 2 i / SAMPLES in units of the radius: shares of the kernel, 0 .. 1 */
   double above[CS_ANTIALIAS_SAMPLES + 1]; /* over a height */
-  /* SEPARABLE: shares right of an edge that is phase/phases right of a pixel's centre, at the
-   * columns from `columns` left of that pixel on: `stride` of them, after which they are 1. */
+  /* SEPARABLE: the shares to the right of an edge that lies phase/phases right of a pixel's centre.
+   * They begin `columns` columns left of that pixel; there are `stride` of them, after which they
+   * are 1. */
   float *shares;
   int phases;
   int32_t columns, stride;
@@ -60,7 +61,8 @@ CELSPAN_CHECKED celspan_status cs_kernel_create(celspan_context *context,
 CELSPAN_CHECKED celspan_status cs_kernel_create_defocus(celspan_context *context,
                                                         const cs_blur *blur, cs_kernel **out);
 void cs_kernel_free(cs_kernel *kernel, cs_memory *memory);
-/* An even shape at height d from its centre: from *from to *to; false beyond it. */
+/* The chord of an even shape at height d from its centre: from *from to *to; false outside of the
+ * shape. */
 bool cs_kernel_chord(const cs_kernel *kernel, double d, double *from, double *to);
 /* Rows and columns that a kernel may extend beyond its pixel. */
 int32_t cs_kernel_extent(const cs_kernel *kernel);

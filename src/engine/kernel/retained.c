@@ -18,7 +18,7 @@ void cs_retained_begin(cs_retained_row *retained, int32_t row, cs_v4 base) {
   cs_arena_reset(&retained->paints);
 }
 
-#define LAST 2 /* of the cells that are compared with a new one */
+#define LAST 2 /* how many of the last cells are compared with a new one */
 
 /* Whether a cell of the row shows the same as one of the composer. */
 static bool is_copy(const cs_retained_row *retained, const cs_composer *composer,

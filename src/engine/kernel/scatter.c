@@ -22,7 +22,7 @@ typedef struct cs_scatter {
   celspan_context *context;
   double centre;                   /* height of the row that is made */
   const cs_retained_row *retained; /* the row that is read */
-  uint32_t row;                    /* its place among the rows under the kernel */
+  uint32_t row;                    /* the number of that row among the rows under the kernel */
   uint32_t *terms;                 /* of the retained row's cells that vary */
 } cs_scatter;
 
@@ -55,14 +55,14 @@ static celspan_status shift_term(cs_scatter *g, int32_t p, const cs_cell *cell, 
   return CELSPAN_OK;
 }
 
-/* The same step where colours are programs. Errors: NO_MEMORY. */
+/* Adds the step between two colours that are programs. Errors: NO_MEMORY. */
 static celspan_status add_shift(cs_scatter *g, const cs_border *edge, int32_t p, double weight) {
   CS_TRY(shift_term(g, p, edge->left, -weight));
   return shift_term(g, p, edge->right, weight);
 }
 
 /* From column p on, which is touched, the share of the colour right of the edge grows by `weight`,
- * and the share of the colour left of it shrinks by as much. */
+ * and the share of the colour left of the edge shrinks by the same amount. */
 static void add_step(cs_scatter *g, const cs_border *edge, int32_t p, double weight) {
   double *sum = g->convolve->changes[p];
   for (int c = 0; c < 4; c++)
@@ -110,8 +110,8 @@ static bool has_flat_sides(const cs_border *edge) {
 #define STRETCH 1.0 /* columns that segments summed together may cross */
 #define WIDEST 0.25 /* columns that one segment may cross */
 
-/* Into how many segments an edge is cut: the error of a segment grows as the product of its height
- * and its width. */
+/* The number of segments into which an edge is cut. The error of a segment grows as the product of
+ * its height and its width. */
 static int count_segments(const cs_kernel *kernel, double height, double across) {
   double wanted = kernel->rows * kernel->sharpness * sqrt(height * across);
   double least = across * kernel->sharpness / WIDEST;
@@ -272,21 +272,23 @@ static celspan_status scatter_separable(cs_scatter *g, const cs_border *edge) {
  */
 #define NARROW 1e-4  /* of a chord: segments that cross less count as upright */
 #define NOTHING 1e-9 /* shorter chords have no weight worth adding */
-#define RAMP 8       /* columns; under longer chords, segments that cross little are ramps */
+/* columns; where chords are longer, segments that cross few columns are treated as ramps */
+#define RAMP 8
 
 /* A segment of an edge, and the share of the kernel at its heights. */
 typedef struct segment {
   double low, high; /* x */
   double from, to;  /* the kernel's chord at its middle height, relative to the kernel's centre */
   double weight;
-  int32_t first, end; /* columns whose kernel it divides; from `end` on the kernel has passed it */
+  /* columns whose kernel it divides; from `end` on, the kernel lies wholly right of it */
+  int32_t first, end;
 } segment;
 
 static double half_square(double v) { return v > 0 ? 0.5 * v * v : 0; }
 
 /* The share of the chord of a kernel with centre c that lies right of a segment, as a mean over the
- * segment's heights. scale: 1 / the chord's length, divided by the width of the segment unless that
- * is upright. */
+ * segment's heights. scale: 1 / the chord's length, divided by the width of the segment too unless
+ * the segment is upright. */
 static double share_right(const segment *t, double c, bool is_upright, double scale) {
   if (is_upright)
     return cs_number_clamp((c + t->to - 0.5 * (t->low + t->high)) * scale, 0, 1);
@@ -360,8 +362,9 @@ static celspan_status add_even_segment(cs_scatter *g, const cs_border *edge, seg
   return CELSPAN_OK;
 }
 
-/* Into how many segments an edge is cut so that the kernel has nearly one chord over the heights of
- * each; an upright box has the same chord at all heights. */
+/* The number of segments into which an edge is cut, so that the chord of the kernel is nearly
+ * constant over the heights of each segment; the chord of an upright box is the same at all
+ * heights. */
 static int count_even_segments(const cs_kernel *kernel, const cs_segment *line) {
   double height = line->yb - line->ya, across = fabs(line->xb - line->xa);
   bool is_upright = kernel->shape == CS_KERNEL_PARALLELOGRAM && kernel->edges[0][1] == 0 &&
@@ -378,7 +381,7 @@ typedef struct moved {
   double share; /* the share of these rows in the whole kernel */
 } moved;
 
-/* Adds the part of an edge that is within the heights of moved kernels to these. */
+/* Adds the part of an edge that lies within the heights of moved kernels to these kernels. */
 static celspan_status add_cut(cs_scatter *g, const cs_border *edge, const cs_segment *cut,
                               const moved *by) {
   const cs_kernel *kernel = g->convolve->kernel;

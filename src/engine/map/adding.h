@@ -33,7 +33,7 @@ typedef struct cs_map_adding {
   cs_map_sums *sums;
   cs_map_rows *rows;
   int32_t row;            /* the first of the swath */
-  celspan_status *status; /* becomes NO_MEMORY where there is none for parts */
+  celspan_status *status; /* set to NO_MEMORY if there is no memory for parts */
 } cs_map_adding;
 
 /* Adds the parts of the lives in the swath, and finds where each begins in the swath below. */

@@ -51,7 +51,7 @@ void CS_WIDE(cs_map_put_places)(const cs_map_placing *placing, const cs_map_poin
   }
 }
 
-/* ---------------------------------------------------------------- a pixel */
+/* Rounded, except that numbers below 0 may be too great by one: they lie beyond the frame. */
 
 /* The sums to which borders are added: copies, which stay in registers. */
 typedef struct target {
@@ -83,8 +83,8 @@ static celspan_status add_parts(const cs_map_adding *a, const cs_map_live *live,
   return CELSPAN_OK;
 }
 
-/* Adds the area of a border in a pixel, less its area in the pixel on the left. weight: the same
- * number. */
+/* Adds the area of a border in a pixel, minus its area in the pixel on the left. weight: the area
+ * again, as a float. */
 static inline void add(const cs_map_adding *a, const target *t, cs_map_sum *sum, int32_t change,
                        float weight) {
   cs_v4_store(sum->colour, cs_v4_load(sum->colour) + cs_v4_all(weight) * t->step);
@@ -125,8 +125,8 @@ static __attribute__((noinline)) void add_columns(const cs_map_adding *a, const 
   const double slope = (double)height / ((double)to - from);
   const uint32_t row = ((uint32_t)p->ya / CS_MAP_UNIT) % CS_MAP_ROWS;
   uint32_t column = (uint32_t)from / CS_MAP_UNIT;
-  int32_t x = from, passed = 0, rest = 0; /* rest: by how much the last column is below its
-                                             height */
+  /* rest: how far the end of the last column is below its height */
+  int32_t x = from, passed = 0, rest = 0;
   cs_map_sum *sum = &t->sums[CS_MAP_ROWS * (size_t)column + row];
   for (; x < to; column++, sum += CS_MAP_ROWS) {
     const int32_t right = (int32_t)(column + 1) * CS_MAP_UNIT, end = right < to ? right : to;
@@ -172,12 +172,13 @@ static inline ends load_pieces(const piece *p) {
                 __builtin_shufflevector(ba, dc, 2, 6, 3, 7, 10, 14, 11, 15)};
 }
 
-/* The changes by eight pieces, each in at most two columns. */
+/* The changes by eight pieces, each of them in at most two columns. */
 typedef struct changes {
   int32_t sum[8];                   /* the number of the sum of the first column */
   int32_t byte[8], mask[8];         /* the bits of all columns */
-  int32_t one[8], two[8], three[8]; /* in the first column, in the second, right of that */
-  float weights[3][8];              /* the same numbers */
+  /* the changes in the first column, in the second, and to the right of both */
+  int32_t one[8], two[8], three[8];
+  float weights[3][8];              /* the same changes as floats */
   int32_t beyond[8];                /* how far a piece reaches right of the first column */
 } changes;
 

@@ -17,7 +17,7 @@
 
 typedef struct cs_map_streak {
   uint32_t cell;
-  int32_t x0, y; /* y: -1: there is nothing in it */
+  int32_t x0, y; /* y: -1: the streak is empty */
   cs_v4 colours[CS_MAP_STREAK];
 } cs_map_streak;
 
@@ -42,7 +42,7 @@ void cs_map_brush_finish(cs_map_brush *brush);
 
 /* Converts a colour under white light to the colour under the light of the drawing. */
 cs_v4 cs_map_brush_light(const cs_map_drawing *drawing, cs_v4 colour);
-/* Whether that changes no colour. */
+/* Whether this conversion changes no colour. */
 bool cs_map_brush_is_bare(const cs_map_drawing *drawing);
 
 /* The program of a cell that varies. */

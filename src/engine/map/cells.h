@@ -1,7 +1,7 @@
 /* The cells of a map that is being filled, found by their contents.
  *
- * Invariant: the map has a cell once, and its cells are numbered in the order in which they were
- * asked for first.
+ * Invariant: no two cells of the map have the same contents, and cells are numbered in the order in
+ * which they were first requested.
  */
 #pragma once
 
@@ -16,7 +16,8 @@ typedef struct cs_map_cells {
 /* The contents of a cell: a colour where length is 0, otherwise a program. */
 typedef struct cs_map_content {
   cs_v4 colour;
-  cs_v4 through; /* of a colour in a coloured map: the light that it lets through; else 0 */
+  /* of a colour in a coloured map: the light that this colour transmits; otherwise 0 */
+  cs_v4 through;
   const cs_item *items;
   uint32_t length;
 } cs_map_content;
@@ -29,8 +30,8 @@ void cs_map_cells_clear(cs_map_cells *cells);
 CELSPAN_CHECKED celspan_status cs_map_cells_find(celspan_context *context, cs_map_cells *cells,
                                                  cs_map_content what, uint32_t *out);
 
-/* Whether a program lets all channels through alike, whatever its layers show: all of them do, or
- * nothing shines through one. */
+/* Whether a program dims all channels alike, whatever its layers show: all its layers do so, or
+ * nothing shines through one of them. */
 bool cs_map_cells_is_even(const cs_stack *stack, const cs_item *items, uint32_t length);
 
 /* Finds which of the map's cells hide their background: nothing shines through some layer of

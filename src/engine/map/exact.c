@@ -57,14 +57,14 @@ static celspan_status add_line(celspan_context *context, cs_map_exact *exact,
   return CELSPAN_OK;
 }
 
-/* The pixel whose lines are found, and the columns [from, column] in which they count. */
+/* The pixel whose lines are searched for, and the columns [from, column] in which these count. */
 typedef struct spot {
   int32_t from, column, row;
   int32_t left, right, top, foot; /* in places */
 } spot;
 
-/* Sets a line to the line between two places, cut to the row and relative to the pixel's corner;
- * false: it does not count. */
+/* Sets a line to the line between two places, cut to the row and relative to the pixel's corner.
+ * False: the line does not count. */
 static bool cut_to_row(cs_segment *line, cs_map_point above, cs_map_point below, const spot *at) {
   const double unit = 1.0 / CS_MAP_UNIT;
   if (below.y <= at->top || below.y == above.y || (above.x < at->left && below.x < at->left) ||
@@ -167,7 +167,7 @@ typedef struct change {
   cs_v4 colour, through;
 } change;
 
-/* For drawings that dim all channels alike: their lines need one product each. */
+/* For drawings that dim all channels alike: each of their lines needs one product. */
 static change even_change(const cs_map_exact *exact, uint32_t near) {
   cs_v4d sum = {{0, 0}, {0, 0}};
   for (size_t i = 0; i < exact->line_count; i++) {
@@ -185,7 +185,7 @@ static change even_change(const cs_map_exact *exact, uint32_t near) {
   return (change){-all, cs_v4_all(all[3])};
 }
 
-/* For any drawings. */
+/* For all other drawings. */
 static change coloured_change(const cs_map_exact *exact, uint32_t near) {
   cs_v4d colour = {{0, 0}, {0, 0}}, through = colour;
   for (size_t i = 0; i < exact->line_count; i++) {
@@ -236,7 +236,7 @@ static inline bool is_higher(const double *a, const double *b) { return *a < *b;
 
 CS_SORT_DEFINE(sort_heights, double, is_higher)
 
-/* The height at which two lines cross; one of them at its top where they do not. */
+/* The height at which two lines cross; the top of one of them if they do not cross. */
 static double crossing_of(const cs_segment *a, const cs_segment *b) {
   double top = a->ya > b->ya ? a->ya : b->ya, foot = a->yb < b->yb ? a->yb : b->yb;
   if (!(foot > top))
@@ -248,7 +248,8 @@ static double crossing_of(const cs_segment *a, const cs_segment *b) {
   return top + (foot - top) * (above / (above - below));
 }
 
-/* Finds the heights between which the lines keep their order. There is room. */
+/* Finds the heights between which the order of the lines does not change. There is room for
+ * them. */
 static void find_heights(cs_map_exact *exact) {
   double *heights = exact->heights;
   size_t count = 0;

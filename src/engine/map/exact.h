@@ -63,12 +63,12 @@ static inline void cs_map_exact_clear(cs_map_exact *exact) {
 CELSPAN_CHECKED celspan_status cs_map_exact_add(celspan_context *context, cs_map_exact *exact,
                                                 cs_map_rows *rows, uint32_t index, int32_t from,
                                                 int32_t column, int32_t row);
-/* The mean where two drawings are broken, whose lines have been added; the lines are then removed.
- * The means of all drawings that are shown are given. */
+/* The mean where two drawings are broken whose lines have been added. The means of all drawings
+ * that are shown are known. Removes the lines. */
 cs_v4 cs_map_exact_pair(cs_map_exact *exact, const cs_map_frame *frame, const cs_map_shown *shown,
                         size_t count);
-/* The mean of all that is shown, from the camera on, with the lines that have been added; the lines
- * are then removed. opaque: nothing shines through the last one. Errors: NO_MEMORY. */
+/* The mean of everything that is shown, from the camera on, with the lines that have been added.
+ * Removes the lines. opaque: nothing shines through the last drawing. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_exact_mean(celspan_context *context, cs_map_exact *exact,
                                                  const cs_map_frame *frame,
                                                  const cs_map_shown *shown, size_t count,

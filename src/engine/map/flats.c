@@ -2,7 +2,8 @@
 
 #include "base/sort.h"
 
-/* The end of a border: right of it, the cell is `minus` above and `plus` below. */
+/* The end of a border: to the right of it, the cell above is `minus`, and the cell below is
+ * `plus`. */
 typedef struct change {
   cs_map_point at;
   uint32_t minus, plus, number;
@@ -16,8 +17,8 @@ static inline bool is_before(const change *a, const change *b) {
 
 CS_SORT_DEFINE(sort_changes, change, is_before)
 
-/* The pairs of cells above and below the place that has been reached, from left to right; in a map
- * without rounding at most one. */
+/* The pairs of cells above and below the current place, from left to right. A map without rounding
+ * has at most one pair. */
 typedef struct finder {
   celspan_context *context;
   cs_map *map;

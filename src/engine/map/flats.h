@@ -13,5 +13,5 @@
 
 #include "engine/map/map.h"
 
-/* Finds them. Errors: NO_MEMORY. */
+/* Finds the flat boundaries. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_find_flats(celspan_context *context, cs_map *map);

@@ -95,7 +95,7 @@ typedef struct folding {
   size_t shown_count, broken_count, varied_count;
 } folding;
 
-/* is_even: all sheets are, a constant of each caller. */
+/* is_even: all sheets are even; a constant of each caller. */
 static inline bool lets_through(const cs_map_fold *fold, bool is_even) {
   return is_even ? fold->t[0] > 0 : cs_v4_any_above(fold->t, cs_v4_all(0));
 }
@@ -185,7 +185,7 @@ static const cs_map_span *find_broken(const folding *f, size_t i) {
   return span;
 }
 
-/* What a sheet shows at x, left of the broken pixels. */
+/* The colour of a sheet at x, to the left of its broken pixels. */
 static celspan_status find_base(folding *f, size_t i, int32_t x, cs_map_shown *out) {
   const cs_map_rows *rows = &f->maker->rows[i];
   const cs_map_span *first = rows->spans + rows->first[f->y - f->maker->row];
@@ -255,8 +255,8 @@ static celspan_status paint_run(folding *f, size_t i, int32_t x, int32_t end, cs
 
 /* ---------------------------------------------------------------- one that varies among flats */
 
-/* The colour of a pixel is then an affine function of the colour c of the sheet that varies: base +
- * scale * c + cover * the alpha of c. */
+/* If one sheet varies in a pixel, the pixel's colour is an affine function of the colour c of this
+ * sheet: base + scale * c + cover * the alpha of c. */
 typedef struct affine {
   cs_v4 base, scale, cover;
 } affine;
@@ -270,7 +270,7 @@ static cs_v4 fold_with(const folding *f, size_t varied, cs_v4 colour) {
   return cs_map_fold_end(fold, f->maker->frame);
 }
 
-/* How much is seen of the light of a sheet. */
+/* The share of a sheet's light that can be seen. */
 static cs_v4 transmission_before(const folding *f, size_t sheet) {
   cs_v4 t = cs_v4_all(1);
   for (size_t i = 0; i < sheet; i++)
@@ -300,7 +300,7 @@ static celspan_status put_array(const cs_map_maker *maker, const affine *p,
   return CELSPAN_OK;
 }
 
-/* Appends a span through the sheets before it, and over those behind it. */
+/* Appends a span as it is seen through the sheets in front of it and over the sheets behind it. */
 static celspan_status put_through(const cs_map_maker *maker, const affine *p,
                                   const celspan_span *span, cs_row *out) {
   if (span->kind == CELSPAN_SPAN_ARRAY)
@@ -323,7 +323,7 @@ static size_t only_varied(const folding *f) {
 }
 
 /* Whether spans that are seen among flat ones deviate from their curve by at most twice their own
- * error: they were made with half the allowed error. */
+ * error, which is half of the allowed error. */
 static bool keeps_error(const affine *p) {
   return !cs_v4_any_above(p->scale, cs_v4_all(1)) && !cs_v4_any_above(p->base, cs_v4_all(1));
 }
@@ -384,12 +384,13 @@ static celspan_status paint_varied(folding *f, const cs_map_fold *fold, int32_t 
   return CELSPAN_OK;
 }
 
-/* Writes the columns [x, end), in which all sheets except the last stay the same. `near` is the
- * fold of these sheets. */
+/* Writes the columns [x, end), in which only the last sheet changes. near: the fold of all other
+ * sheets. */
 static celspan_status fold_last(folding *f, cs_map_fold near, int32_t x, int32_t end,
                                 cs_row_writer *writer) {
   const size_t last = f->maker->frame->count - 1, near_count = f->broken_count;
-  /* Copies, so that the part that does not depend on the last sheet's colour is computed once. */
+  /* Copies, so that everything that does not depend on the colour of the last sheet is computed
+   * once. */
   const cs_map_sheet sheet = {.back = f->maker->frame->sheets[last].back,
                               .keep = f->maker->frame->sheets[last].keep};
   const cs_map_frame frame = {.back = f->maker->frame->back, .keep = f->maker->frame->keep};
@@ -414,8 +415,8 @@ static celspan_status fold_last(folding *f, cs_map_fold near, int32_t x, int32_t
   return CELSPAN_OK;
 }
 
-/* A row in which nothing varies: where the near sheets are the same for long, the last one is
- * folded under them, span by span. */
+/* A row in which nothing varies. Where the near sheets do not change for many columns, the last
+ * sheet is folded under them, span by span. */
 static celspan_status make_flat_row(folding *f, cs_row *out) {
   const cs_map_maker *maker = f->maker;
   int32_t width = maker->frame->width;

@@ -2,7 +2,7 @@
 
 typedef struct entry {
   cs_cache_entry entry;
-  cs_map *map; /* a reference: frames that have the map keep it by their own */
+  cs_map *map; /* a reference: frames that use the map have references of their own */
 } entry;
 
 static void clear_entry(cs_cache_entry *cached, cs_memory *memory) {
@@ -36,7 +36,7 @@ static celspan_status make_map(void *user, celspan_context *context, cs_cache_en
   return CELSPAN_OK;
 }
 
-/* Keeps a map that is not in the cache, if there is room. */
+/* Keeps a map that is not in the cache yet, if there is room. */
 static celspan_status offer(celspan_context *context, cs_cache *cache, cs_cache_key key,
                             cs_map *map) {
   size_t bytes = sizeof(entry) + cs_map_bytes(map);

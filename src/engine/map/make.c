@@ -12,8 +12,9 @@
 #include "engine/events/visit.h"
 #include "engine/map/cells.h"
 
-/* Windings of a zone. Many shapes that hide others have fewer than EACH for a course; translucent
- * ones that cross have many times more, each of which would be a cell. FEW are no matter. */
+/* Windings of a zone. Many shapes that hide others have fewer than EACH for a course. Translucent
+ * shapes that cross have many times more, and each winding would be a cell. The rule does not apply
+ * to FEW windings. */
 #define EACH 4
 #define FEW 1024
 
@@ -100,7 +101,7 @@ bool cs_map_suits(const cs_plan *plan) {
 
 /* ---------------------------------------------------------------- composing */
 
-/* The number of a cell, as long as the map can be whole; a cs_events_visitor. */
+/* The number of a cell, until the map cannot be whole any more; a cs_events_visitor. */
 static celspan_status find_cell(void *user, cs_composer *composer, const cs_cell *cell,
                                 uint32_t *out) {
   maker *m = user;
@@ -163,7 +164,7 @@ static void add_part(maker *m, const cs_events_part *part) {
   }
 }
 
-/* Makes room for the borders of parts. Each border contains a point of its course only once. */
+/* Makes room for the borders of parts. A border contains each point of its course at most once. */
 static celspan_status reserve_borders(maker *m) {
   const cs_events *events = &m->events;
   cs_map_lines *lines = &m->map->lines;
@@ -193,7 +194,7 @@ static celspan_status add_borders(maker *m) {
   return status;
 }
 
-/* Takes ownership of everything that the programs name. */
+/* Takes ownership of everything that the programs refer to. */
 static void take_stack(cs_map *map, cs_stack *stack) {
   cs_map_cells_find_hiding(map, stack);
   map->stack = *stack;

@@ -42,8 +42,8 @@
 
 typedef struct cs_map_cell {
   cs_v4 colour;         /* premultiplied, under white light; 0 where it varies */
-  uint64_t key;         /* its name, for sums of areas: see sums.h */
-  uint32_t item;        /* of the map: the first one of its program */
+  uint64_t key;         /* identifies the cell in sums of areas: see sums.h */
+  uint32_t item;        /* the index in the map's items of the first item of its program */
   uint32_t length : 31; /* items; 0: one colour everywhere */
   uint32_t hides : 1;   /* nothing shines through its program */
 } cs_map_cell;
@@ -53,7 +53,7 @@ typedef struct cs_map_point {
 } cs_map_point;
 
 typedef struct cs_map_border {
-  uint32_t left, right;    /* cells, which differ */
+  uint32_t left, right;    /* the cells on both sides, which differ */
   uint32_t first, count;   /* points, at least two, downwards */
   int32_t low, high, foot; /* its least and its greatest x, and its last y */
 } cs_map_border;
@@ -67,19 +67,19 @@ typedef struct cs_map_lines {
 
 /* A flat boundary, from `from` to `to` on the right of it. */
 typedef struct cs_map_flat {
-  uint32_t above, below; /* cells, which differ */
+  uint32_t above, below; /* the cells on both sides, which differ */
   int32_t y, from, to;
 } cs_map_flat;
 
 typedef struct cs_map {
   atomic_size_t references;
   cs_memory *memory;
-  bool is_coloured;     /* some flat cell does not let all channels through alike; cells that vary
-                           always do */
-  bool is_whole;        /* false: the drawing cannot be a map, and there is nothing else */
+  /* some flat cell dims the channels differently; cells that vary dim them alike */
+  bool is_coloured;
+  bool is_whole;        /* false: the drawing cannot be a map, and the other fields are empty */
   int64_t left, top;    /* where the raster begins, in its pixels from the drawing's origin */
-  int32_t height, zone; /* of the raster, and of a zone: pixels */
-  uint64_t missing;     /* bit k: zone k was asked for, and has too many windings */
+  int32_t height, zone; /* of the raster, and of a zone, in pixels */
+  uint64_t missing;     /* bit k: zone k was requested, but has too many windings */
   cs_map_lines lines;
   cs_map_flat *flats; /* only of a map that is turned */
   cs_map_cell *cells;
@@ -87,14 +87,15 @@ typedef struct cs_map {
    * NULL for other maps. */
   cs_v4 *through;
   cs_item *items; /* of the programs */
-  cs_stack stack; /* that they name; none where all cells are flat */
+  cs_stack stack; /* the stack that the programs refer to; empty if all cells are flat */
   size_t flat_count, flat_capacity;
   size_t cell_count, cell_capacity, through_capacity;
   size_t item_count, item_capacity;
 } cs_map;
 
 void cs_map_lines_finish(cs_map_lines *lines, cs_memory *memory);
-/* The border whose points are the last ones, from `first` on; it is not added to the list. */
+/* The border whose points are the last points of the list, from `first` on. It is not added to the
+ * list. */
 cs_map_border cs_map_lines_border(const cs_map_lines *lines, size_t first, uint32_t left,
                                   uint32_t right);
 /* Brings the borders into their order: by the y of their first points, then by x; borders that
@@ -110,8 +111,8 @@ size_t cs_map_bytes(const cs_map *map);
 bool cs_map_suits(const cs_plan *plan);
 /* Fills a map with a plan that suits, whose raster begins at the pixel (map->left, map->top). The
  * map is not whole if a cell that varies does not let all channels through alike. If cells vary,
- * the map takes the plan's stack. first, end: the rows for which it is made, of whole zones; the
- * plan may have these alone. Errors: NO_MEMORY. */
+ * the map takes the plan's stack. first, end: the rows for which it is made, whole zones; the plan
+ * may have only these rows. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_make(celspan_context *context, cs_plan *plan, int32_t first,
                                            int32_t end, cs_map *map);
 
@@ -122,7 +123,7 @@ static inline void cs_map_divide(cs_map *map, int32_t height) {
     map->zone *= 2;
 }
 
-/* The zones, from *first to before *end, in which there are rows of a raster. */
+/* The zones, from *first to before *end, that contain certain rows of a raster. */
 static inline void cs_map_find_zones(const cs_map *map, double row, double end_row, int32_t *first,
                                      int32_t *end) {
   const double last = (map->height - 1) / map->zone + 1;

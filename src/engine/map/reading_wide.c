@@ -10,8 +10,8 @@ typedef struct pixel {
   const cs_v4 *colours; /* of the cells */
   size_t cell_count;
   cs_v4 sum;     /* the colour summed so far */
-  uint64_t key;  /* the same sum for keys, times HEIGHT */
-  uint32_t cell; /* BROKEN: several are in it */
+  uint64_t key;  /* the same sum for keys, multiplied by HEIGHT */
+  uint32_t cell; /* the only cell in the pixel; BROKEN: several cells are in it */
 } pixel;
 
 static inline pixel clear_pixel(const cs_map_rows *rows, const cs_v4 *colours) {
@@ -23,7 +23,7 @@ static inline pixel clear_pixel(const cs_map_rows *rows, const cs_v4 *colours) {
                  .key = map->cells[0].key * CS_MAP_HEIGHT};
 }
 
-/* The cell that alone is in a pixel; BROKEN: several are. */
+/* The only cell in a pixel; BROKEN: several cells are in it. */
 static inline uint32_t cell_of(const pixel *p) {
   uint64_t cell = p->key / CS_MAP_HEIGHT % CS_MAP_CELLS;
   return p->key % CS_MAP_HEIGHT == 0 && cell < p->cell_count &&
@@ -32,7 +32,8 @@ static inline uint32_t cell_of(const pixel *p) {
              : CS_MAP_BROKEN;
 }
 
-/* Adds the difference between a pixel and the pixel on its left to the sum, and clears it. */
+/* Adds the difference between a pixel and the pixel on its left to the sum, and clears the
+ * difference. */
 static inline void change(pixel *p, cs_map_sum *sum) {
   p->sum += cs_v4_load(sum->colour);
   p->key += sum->key;
@@ -42,7 +43,7 @@ static inline void change(pixel *p, cs_map_sum *sum) {
   *sum = (cs_map_sum){.head = 0};
 }
 
-/* Which of up to 64 words are not 0, a bit for each. count: a multiple of four. */
+/* A bit for each of up to 64 words: whether it is not 0. count: a multiple of four. */
 static inline uint64_t find_filled(const uint64_t *words, size_t count) {
   uint64_t filled = 0;
   for (size_t i = 0; i < count; i += 4) {
@@ -148,7 +149,7 @@ static celspan_status change_areas(reader *r, const cs_map_sums *sums, uint32_t 
   return CELSPAN_OK;
 }
 
-/* Gives the last span the shares of the cells that vary in it. */
+/* Gives the last span the shares of the cells that vary in this span. */
 static celspan_status add_shares(reader *r) {
   cs_map_rows *rows = r->rows;
   cs_map_span *span = r->last;
@@ -164,7 +165,7 @@ static celspan_status add_shares(reader *r) {
 
 /* ---------------------------------------------------------------- spans */
 
-/* Begins a span at a column. There is room. varies: whether any cell does. */
+/* Begins a span at a column. There is room for it. varies: whether one of its cells varies. */
 static inline celspan_status put(reader *r, bool varies, int32_t column) {
   const uint32_t cell = r->pixel.cell;
   if (r->last >= r->first) {

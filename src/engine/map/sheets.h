@@ -22,17 +22,18 @@
 #define CS_MAP_DRAWINGS 64 /* in a frame, at most */
 
 typedef struct cs_map_sheet {
-  cs_map_drawing drawing; /* of a map; else 0 */
-  cs_plan *plan;          /* of cels that are swept; NULL: it is drawn from a map. Owned */
+  cs_map_drawing drawing; /* of a map; all 0 for other sheets */
+  cs_plan *plan; /* the plan of cels that are swept, owned; NULL: the sheet is drawn from a map */
   size_t source_count;    /* the number of cels that it was made from, for the caller */
-  cs_v4 back;             /* the light behind it; lane 3 is 0 */
+  cs_v4 back;             /* the light behind the sheet; lane 3 is 0 */
   float keep;             /* the share of transparency that the matte of that light leaves */
 } cs_map_sheet;
 
 typedef struct cs_map_frame {
   cs_map_sheet *sheets; /* from the camera */
   size_t count;
-  size_t made;   /* maps that were made for this frame, since no other had kept them */
+  /* maps that were made for this frame, because they were not kept from an earlier one */
+  size_t made;
   bool has_gaps; /* a zone of some map is missing: some rows cannot be made (frame_rows.h) */
   cs_v4 back;    /* of the frame, as above */
   float keep;
@@ -51,7 +52,7 @@ static const cs_map_fold cs_map_fold_begin = {{0, 0, 0, 0}, {1, 1, 1, 1}, 1};
 /* The transmission of a colour that dims all channels alike. */
 static inline cs_v4 cs_map_even(cs_v4 colour) { return cs_v4_all(1 - colour[3]); }
 
-/* The transmission of a cell of a drawing where it shows this colour. */
+/* The transmission of a cell of a drawing that shows this colour. */
 static inline cs_v4 cs_map_through(const cs_map_drawing *drawing, uint32_t cell, cs_v4 colour) {
   return drawing->through && drawing->map->cells[cell].length == 0 ? drawing->through[cell]
                                                                    : cs_map_even(colour);

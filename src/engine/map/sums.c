@@ -11,7 +11,7 @@ static size_t sums_size(const cs_map_sums *sums) {
 
 static size_t storage_size(const cs_map_sums *sums) { return CS_WIDE_LINE + sums_size(sums); }
 
-/* One word more than the rows need: bits are marked four bytes at a time. */
+/* One word more than the rows need, because bits are marked four bytes at a time. */
 static size_t bit_words(const cs_map_sums *sums) { return CS_MAP_ROWS * sums->words + 1; }
 
 celspan_status cs_map_sums_init(celspan_context *context, int32_t width, cs_map_sums *out) {
@@ -83,7 +83,7 @@ static swath begin_swath(celspan_context *context, cs_map_sums *sums, cs_map_row
   return s;
 }
 
-/* There is room for one more. */
+/* There is room for one point more. */
 static void put_places(const swath *s, const cs_map_point *points, size_t count,
                        cs_map_point *out) {
   CS_WIDE_CHOOSE(s->sums->isa, cs_map_put_places)(&s->placing, points, count, out);
@@ -117,7 +117,7 @@ static void pack_places(cs_map_rows *rows) {
   rows->place_count = count;
 }
 
-/* Drops the borders that end above the swath. */
+/* Removes the borders that end above the swath. */
 static void drop_lives(const swath *s) {
   cs_map_rows *rows = s->rows;
   size_t kept = 0, places = 0;
@@ -138,15 +138,15 @@ static void find_step(const cs_v4 *colours, const cs_map_border *f, cs_map_live 
   cs_v4_store(live->step, (colours[f->right] - colours[f->left]) * (1.0f / CS_MAP_HEIGHT));
 }
 
-/* The same for keys, and whether a cell beside it varies. */
+/* The same for keys; also whether a cell on one side of the border varies. */
 static void find_change(const cs_map_drawing *drawing, const cs_map_border *f, cs_map_live *live) {
   const cs_map_cell *left = &drawing->map->cells[f->left], *right = &drawing->map->cells[f->right];
   live->varies = left->length > 0 || right->length > 0;
   live->key = right->key - left->key;
 }
 
-/* The places of a border are appended to the others. box: its lowest and its highest place. Of a
- * border left of the frame only the heights count. */
+/* The places of a border are appended to the others. box: its lowest and its highest place. If a
+ * border is left of the frame, only its heights count. */
 static celspan_status add_live(const swath *s, uint32_t number, const cs_map_point *box) {
   cs_map_rows *rows = s->rows;
   const cs_map_lines *lines = s->drawing->lines;
@@ -238,8 +238,8 @@ static void find_steps(const swath *s, const cs_v4 *colours) {
   }
 }
 
-/* The transmission of the spans: these spans are made like the spans of colours, and end at the
- * same columns, because only keys decide where a span ends. */
+/* The transmission of the spans. Its spans are made like the spans of colours, and end at the same
+ * columns, because keys alone decide where a span ends. */
 static celspan_status make_through(const swath *s) {
   cs_map_rows *rows = s->rows;
   find_steps(s, s->drawing->through);

@@ -36,7 +36,7 @@ void cs_map_rows_finish(cs_map_rows *rows, cs_memory *memory);
 /* Makes the rows of the swath that begins with `row`. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_rows_make(celspan_context *context, cs_map_sums *sums,
                                                 cs_map_rows *rows, int32_t row);
-/* Leaves the rows as sums, to be read one by one; rows that nobody reads are cleared with the next
- * swath. Nothing in the drawing varies. Errors: NO_MEMORY. */
+/* Leaves the rows as sums, to be read one by one; rows that are not read are cleared when the next
+ * swath is made. Nothing in the drawing varies. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_map_rows_sum(celspan_context *context, cs_map_sums *sums,
                                                cs_map_rows *rows, int32_t row);

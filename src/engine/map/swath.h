@@ -14,7 +14,8 @@
 #include "engine/map/map.h"
 
 #define CS_MAP_ROWS 8       /* of a swath: its first row is a multiple of it */
-#define CS_MAP_HEIGHT 65536 /* of a row of the frame: heights and areas are multiples of 1 / it */
+/* units of a row's height: heights and areas are multiples of 1 / this */
+#define CS_MAP_HEIGHT 65536
 #define CS_MAP_BROKEN UINT32_MAX
 
 /* The first row of the swath in which a row lies. */
@@ -30,12 +31,12 @@ typedef struct cs_map_drawing {
   double scale_x, shift_x, scale_y, shift_y;
   int64_t left, top;
   celspan_matrix to_raster; /* from pixels to pixels of the map's raster */
-  cs_v4 light;              /* that falls on it; lane 3: how opaque it is */
+  cs_v4 light;              /* the light that falls on the drawing; lane 3: its opacity */
   const cs_grade *grade;    /* NULL: none. Borrowed from the scene */
   celspan_space space;
   cs_v4 *colours; /* of its cells, in the frame's light; 0 where they vary; owned */
-  /* Of a coloured map: the light that each cell lets through, faded; lane 3: the mean of it; 0
-   * where the cell varies. NULL for other maps. Owned. */
+  /* the light that each cell transmits, faded; lane 3: the mean; 0 where the cell varies. Only of a
+   * coloured map; NULL for other maps. Owned. */
   cs_v4 *through;
   cs_stack stack; /* the stack of the map, on the pixels of the frame: shades and images are owned,
                      the rest belongs to the map */
@@ -59,11 +60,11 @@ typedef struct cs_map_span {
  * the swath, are in `places` of the rows, from `at` to before `end`. */
 typedef struct cs_map_live {
   uint32_t border, at, end;
-  uint32_t next;           /* as `at`, for the swath below */
-  int32_t low, high, foot; /* of the border, as places are */
-  bool varies;             /* a cell beside it does */
-  uint64_t key;            /* by how much it changes the key from its left to its right */
-  float step[4];           /* and the colour, for each HEIGHTth of a pixel */
+  uint32_t next;           /* the same index as `at`, for the swath below */
+  int32_t low, high, foot; /* of the border, in the units of places */
+  bool varies;             /* a cell on one of its sides varies */
+  uint64_t key;            /* the difference of the keys, from its left to its right */
+  float step[4];           /* the difference of the colours, for each HEIGHTth of a pixel */
 } cs_map_live;
 
 /* How much of a cell that varies is in the pixel that is being read, in HEIGHTths. */
@@ -76,20 +77,20 @@ typedef struct cs_map_area {
 typedef struct cs_map_rows {
   const cs_map_drawing *drawing; /* borrowed */
   struct cs_map_brush *brush;    /* of the cells that vary: brush.h. Borrowed */
-  int32_t row;                   /* the first; -1: none has been made */
-  uint32_t next;                 /* borders before it have been visited */
-  cs_map_live *lives;            /* in the order of the map */
-  cs_map_point *places;          /* of their points on the frame, in UNITths of a pixel */
+  int32_t row;                   /* the first row; -1: no rows have been made */
+  uint32_t next;                 /* all borders before this one have been visited */
+  cs_map_live *lives;            /* the borders that are crossed, in the order of the map */
+  cs_map_point *places; /* the places of their points on the frame, in UNITths of a pixel */
   cs_map_span *spans;
   cs_v4 *through;                /* of a coloured drawing: the light that the flat part of each span
                                     lets through */
   size_t first[CS_MAP_ROWS + 1]; /* the first span of each row, and the end of the last row's
                                     spans */
   cs_map_share *shares;
-  cs_map_area *areas; /* of the pixel being read, areas other than 0 */
+  cs_map_area *areas; /* of the pixel that is being read: the areas that are not 0 */
   size_t live_count, live_capacity, place_count, place_capacity, span_count, span_capacity;
   int32_t width;  /* of the frame */
-  uint64_t *near; /* near.h, where has_near */
+  uint64_t *near; /* filled by near.h, if has_near */
   size_t near_words, near_capacity;
   bool has_near;
   size_t share_count, share_capacity, area_count, area_capacity, through_capacity;
@@ -98,8 +99,8 @@ typedef struct cs_map_rows {
 /* By how much a pixel exceeds the pixel on its left. Its size is half a line of the cache. */
 typedef struct cs_map_sum {
   float colour[4];
-  uint64_t key;  /* the same, times HEIGHT, modulo 2^64 */
-  uint32_t head; /* its first part, as cs_map_part.next */
+  uint64_t key;  /* the same difference for keys, multiplied by HEIGHT, modulo 2^64 */
+  uint32_t head; /* the number of its first part, as cs_map_part.next */
 } cs_map_sum;
 _Static_assert(sizeof(cs_map_sum) == 32, "two sums are a line of the cache");
 
@@ -119,7 +120,7 @@ typedef struct cs_map_sums {
   cs_map_sum *sums; /* column by column */
   uint64_t *bits;   /* row by row: the pixels to which something was added */
   int32_t *columns; /* room for the columns of a row */
-  uint32_t unread;  /* a bit for each row that is not cleared */
+  uint32_t unread;  /* one bit for each row that has not been cleared yet */
   cs_map_part *parts;
   size_t part_count, part_capacity;
 } cs_map_sums;

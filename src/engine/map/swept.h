@@ -21,7 +21,7 @@ typedef struct cs_map_swept {
   cs_retained_row retained;
   cs_map map; /* of the swath; it has the stack of the drawing */
   cs_map_cells cells;
-  uint32_t *numbers;      /* in the map, of the cells of the retained row */
+  uint32_t *numbers;      /* the numbers in the map of the cells of the retained row */
   cs_map_drawing drawing; /* the map on the frame's pixels */
   size_t number_capacity, colour_capacity;
 } cs_map_swept;

@@ -95,7 +95,8 @@ static bool has_place(const celspan_matrix *matrix, double x, double y) {
   return at.w > 0 && fabs(at.x) <= CS_MAP_FARTHEST * at.w && fabs(at.y) <= CS_MAP_FARTHEST * at.w;
 }
 
-/* Whether every point has a place: the corners around all of them have. */
+/* Whether every point has a place: it is enough that the corners of the box around the points have
+ * places. */
 static bool have_places(const cs_map_lines *lines, const celspan_matrix *matrix) {
   int32_t left = INT32_MAX, right = INT32_MIN, top = INT32_MAX, bottom = INT32_MIN;
   const double unit = 1.0 / CS_MAP_UNIT;

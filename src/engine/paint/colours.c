@@ -249,7 +249,7 @@ celspan_status cs_painter_shown_colours(cs_painter *painter, const cs_program *p
 }
 
 /* Finds the visible items from run.x0 on: in as many strides of the run as show the same items, or
- * in one stride where this is not known. *end: where they end. */
+ * in one stride where this is not known. *end: the column after these strides. */
 static celspan_status find_shown(cs_painter *painter, const cs_program *program, int32_t stride,
                                  cs_run run, int32_t *end) {
   int32_t left = run.x0 / stride * stride;

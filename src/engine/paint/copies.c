@@ -33,7 +33,8 @@ static cs_copies_kind kind_of(const cs_painter *painter, const cs_sampler_texels
              : CS_COPIES_OTHER;
 }
 
-/* The piece that a run begins with. *rows: as many as it is valid for, at most those given. */
+/* The piece that a run begins with. *rows: for how many rows the piece is valid, at most the given
+ * number. */
 static celspan_status find_piece(cs_painter *painter, const cs_program *program, cs_run run,
                                  cs_copies_piece *out, int32_t *rows) {
   cs_sampler_texels texels, visible[2] = {{0}};

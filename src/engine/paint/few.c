@@ -1,7 +1,7 @@
 #include "engine/paint/few.h"
 
 bool cs_few_fits(const cs_stack *stack, const cs_program *program) {
-  uint32_t defocused = 0, made = 0; /* made: each of them would be, even where it is hidden */
+  uint32_t defocused = 0, made = 0; /* made: layers that would be made even where they are hidden */
   if (stack->defocused_count == 0)
     return false;
   for (uint32_t i = 0; i < program->length; i++) {

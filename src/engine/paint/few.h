@@ -14,8 +14,8 @@
 
 #define CS_FEW_PIXELS 4
 
-/* Whether a program has defocused layers, none of which hides another one that has not been made
- * yet, and apart from them only flat layers. */
+/* Whether all layers of a program are flat or defocused, at least one of them defocused, and no
+ * defocused layer hides another one that has not been made yet. */
 bool cs_few_fits(const cs_stack *stack, const cs_program *program);
 /* Premultiplied RGBA of such a program at the middles of a run's pixels, at most CS_FEW_PIXELS.
  * Errors: NO_MEMORY, and those of making defocused cels. */

@@ -14,7 +14,8 @@ typedef struct arc {
                         where r is `at` plus, with a focus, the part subtracted */
   int32_t from, end; /* the columns of the run that are not yet written */
   const cs_gradient_table_section *section; /* between the current two cuts */
-  double steepness; /* there: the greatest change of a channel from 0 to 1 along the gradient */
+  /* in this section: the greatest change of a channel from 0 to 1 along the gradient */
+  double steepness;
 } arc;
 
 static const celspan_texture *texture_of(const arc *a) { return a->table->shade->texture; }
@@ -52,9 +53,9 @@ static double steepness_of(const cs_gradient_table_section *section) {
   return most * section->scale;
 }
 
-/* The second derivative of the distance is greatest at the end that is nearer the centre. Mostly it
- * is small enough there to decide; otherwise the distances at the quarters are compared with the
- * line, and no colours are needed. */
+/* The second derivative of the distance is greatest at the end that is nearer the centre. Usually
+ * the derivative at that end is small enough to decide; otherwise the distances at the quarters are
+ * compared with the line, and no colours are needed. */
 static celspan_status test(cs_halving_curve *curve, const cs_halving_point *first,
                            const cs_halving_point *last, bool *is_straight) {
   const arc *a = (const arc *)curve;
@@ -139,7 +140,7 @@ static celspan_status run_radial(arc *a) {
 }
 
 /* Where a row with a focus enters and leaves the circle of a place along the stops: the ends of the
- * interval where `at` is at most that. False when they do not meet. */
+ * interval where `at` is at most the place. False when row and circle do not meet. */
 static bool find_chord(const arc *a, double at, double *low, double *high) {
   const cs_shade *shade = a->table->shade;
   double su = shade->plane[0][0], sv = shade->plane[1][0], e = shade->eccentricity;

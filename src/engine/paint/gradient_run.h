@@ -19,7 +19,7 @@
 #include "engine/span/row.h"
 #include "engine/span/run.h"
 
-/* Whether a table, or NULL, is of such a gradient. */
+/* Whether the table belongs to such a gradient; false for NULL. */
 bool cs_gradient_run_fits(const cs_gradient_table *table);
 /* Appends the spans of a run, as cs_lines_run. */
 CELSPAN_CHECKED celspan_status cs_gradient_run(cs_painter *painter, const cs_gradient_table *table,

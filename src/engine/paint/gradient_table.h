@@ -27,7 +27,8 @@
 
 /* The section of a gradient from one stop to the next. */
 typedef struct cs_gradient_table_section {
-  cs_v4 colour, step; /* premultiplied RGBA: at its beginning, and from there to its end */
+  /* premultiplied RGBA at the beginning of the section, and its change until the end */
+  cs_v4 colour, step;
   double at, scale;   /* its beginning, and 1 / its length; scale and step are 0 before the
                          first stop and after the last */
 } cs_gradient_table_section;
@@ -41,15 +42,16 @@ typedef struct cs_gradient_table_tint {
 typedef struct cs_gradient_table_layer {
   cs_v4 e, t; /* light and transmission of the flat layers between it and the gradient in front */
   const cs_shade *shade;
-  const cs_gradient_table_tint *tints; /* one for each section; of the layer in any program */
+  /* one for each section; the same for this layer in every program */
+  const cs_gradient_table_tint *tints;
 } cs_gradient_table_layer;
 
 typedef struct cs_gradient_table {
-  cs_v4 e, t;            /* of several: the layers behind them all */
+  cs_v4 e, t;            /* of several gradients: the layers behind all of them */
   const cs_shade *shade; /* of the only gradient or the first one */
-  /* Of one: before each stop, after the last, and behind the horizon. */
+  /* Of a table of one gradient: before each stop, after the last, and behind the horizon. */
   const cs_gradient_table_section *sections;
-  const cs_gradient_table_layer *layers; /* of several, front to back */
+  const cs_gradient_table_layer *layers; /* of a table of several gradients, front to back */
   size_t layer_count;                    /* 0: of one */
   cs_set_hash name;                      /* of the program's layers */
   float keep;                            /* the share of transparency that the mattes of back lights
@@ -66,8 +68,8 @@ CELSPAN_CHECKED celspan_status cs_gradient_tables_create(celspan_context *contex
 void cs_gradient_tables_destroy(cs_gradient_tables *tables,
                                 cs_memory *memory); /* NULL is nothing */
 
-/* *out: the table of a program, valid until the next is asked for; NULL where it has none.
- * tables: NULL has none. Errors: NO_MEMORY. */
+/* *out: the table of a program, valid until the next request; NULL if the program has no table.
+ * tables: if NULL, no program has a table. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_gradient_table_find(cs_gradient_tables *tables,
                                                       const cs_program *program,
                                                       const cs_gradient_table **out);

@@ -33,7 +33,7 @@ typedef struct cs_halving_curve cs_halving_curve;
 struct cs_halving_curve {
   celspan_context *context;
   float tolerance; /* how far a line may be from the curve at its quarters: cs_halving_tolerance */
-  cs_row *row;     /* that the spans are appended to */
+  cs_row *row;     /* the row to which the spans are appended */
   /* Whether the line from one point to another is near the curve between them. */
   celspan_status (*test)(cs_halving_curve *curve, const cs_halving_point *first,
                          const cs_halving_point *last, bool *is_straight);
@@ -56,7 +56,7 @@ static inline int32_t cs_halving_quarter(cs_run run, int quarter) {
   return run.x0 + (int32_t)((int64_t)(run.x1 - 1 - run.x0) * quarter / 4);
 }
 
-/* The run of columns from one point to another, which both belong to it. */
+/* The run of columns from one point to another, both included. */
 static inline cs_run cs_halving_run(const cs_halving_point *first, const cs_halving_point *last) {
   return (cs_run){first->column, last->column + 1, 0};
 }

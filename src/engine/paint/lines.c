@@ -253,7 +253,7 @@ static line_shape shape_of(const cs_painter *painter, const cs_program *program)
   return bends == 0 ? STEPPED : bends == 1 ? STRAIGHT : CURVED;
 }
 
-/* How many colours of a line are computed first: a short one has no more than columns. */
+/* How many colours of a line are computed first: for a short line, no more than it has columns. */
 static int32_t count_colours(line_shape shape, cs_run run) {
   return run.x1 - run.x0 < (int32_t)shape ? run.x1 - run.x0 : (int32_t)shape;
 }

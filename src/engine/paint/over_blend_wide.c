@@ -16,7 +16,7 @@ static inline cs_wide colour_of(cs_wide e, cs_wide alpha) {
 /* A row of sources, and the backdrops below them. */
 typedef struct blending {
   const cs_over_row_state *source;
-  float fade, keep; /* of the sources; of their backdrop */
+  float fade, keep; /* fade: of the sources; keep: of their backdrop */
   int32_t count;
 } blending;
 

@@ -102,7 +102,8 @@ CS_WIDE_DECLARE(void, cs_over_row_add_light,
 CS_WIDE_DECLARE(void, cs_over_row_add_back,
                 (cs_over_row_state * state, int32_t count, const float gain[4],
                  const float (*s)[4]));
-/* A front light with a shape: pigments times a gain; then the light of a group times that. */
+/* Makes a front light with a shape: pigments times a gain. Then multiplies the light of a group by
+ * it. */
 CS_WIDE_DECLARE(void, cs_over_row_make_front,
                 (int32_t count, const float gain[4], const float (*s)[4], float (*front)[4]));
 /* As cs_over_develop, each of its steps for all pixels. */

@@ -133,7 +133,8 @@ static bool is_constant(const drawing *w, size_t k) {
   return true;
 }
 
-/* The colour of a constant line; where the layer is clear, to the bit the colour without it. */
+/* The colour of a constant line. Where the layer is clear, it is the colour without the layer, to
+ * the bit. */
 static cs_v4 constant_colour(const drawing *w, size_t k) {
   cs_v4 s = cs_defocused_value(w->defocused, w->view, k, 0);
   bool is_clear = cs_v4_same(s, cs_v4_all(0));
@@ -153,8 +154,8 @@ static int32_t column_after(const drawing *w, size_t k, int32_t x1) {
   return k + 1 >= w->view->count || column > x1 ? x1 : column;
 }
 
-/* Whether column x, the last one of this line, belongs to the next line: it is the column of the
- * vertex at which that begins. */
+/* Whether column x, the last column of this line, belongs to the next line, because the vertex
+ * where the next line begins lies in this column. */
 static bool belongs_to_next(const drawing *w, size_t k, int32_t x) {
   const int32_t *at = w->view->at;
   return w->defocused->pitch_x == 1 && at[k + 1] == at[k] + 1 && k + 2 < w->view->count &&

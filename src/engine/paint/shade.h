@@ -30,7 +30,8 @@
 /* Fills the planes, from texture and inverse. */
 void cs_shade_prepare(cs_shade *shade);
 /* Where a point of the frame lies along the stops of a linear or radial texture. Not a number
- * behind the horizon. is_radial, is_affine: of the shade; loops know them. */
+ * behind the horizon. is_radial, is_affine: of the shade; they are parameters, so that they are
+ * constants in loops. */
 static inline double cs_shade_at_known(const cs_shade *shade, double x, double y, bool is_radial,
                                        bool is_affine) {
   const double *p = shade->plane[0], *q = shade->plane[1], *m = shade->inverse.m;
@@ -50,8 +51,8 @@ static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
                            shade->is_affine);
 }
 
-/* The same for places of a row; and how far each place is on the way from one stop, `from`, to the
- * next. In vector code: shade_wide.c. */
+/* The same for the places of a row; also the share of the way from the stop `from` to the next stop
+ * at which each place lies. In vector code: shade_wide.c. */
 CS_WIDE_DECLARE(void, cs_shade_places,
                 (const cs_shade *shade, const double *x, int32_t count, double y, double *at));
 CS_WIDE_DECLARE(void, cs_shade_shares,

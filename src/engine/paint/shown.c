@@ -9,7 +9,7 @@ static const cs_v4 clear = {1, 1, 1, 0};
 typedef struct bound {
   cs_v4 through; /* the most that each channel lets through there */
   bool is_clear; /* it is clear in all of them */
-  bool is_sure;  /* as much is known of all columns together as of each one */
+  bool is_sure;  /* no single column is known better than all columns together */
 } bound;
 
 /* ---------------------------------------------------------------- bounds */

@@ -22,12 +22,12 @@
 /* Whether more may be known of a program in some columns than everywhere. */
 bool cs_shown_varies(const cs_stack *stack, const cs_program *program);
 /* How many columns are worth asking for at a time, counted from the left edge of the frame: the
- * least that any picture of the program asks for (opacity_columns). One whose header cannot be read
- * asks for none: only where it can be seen is it an error. */
+ * least that any picture of the program asks for (opacity_columns). A picture whose header cannot
+ * be read does not count here: it is an error only where it can be seen. */
 int32_t cs_shown_stride(cs_painter *painter, const cs_program *program);
 /* Fills `out`, whose room is kept. Errors: NO_MEMORY, and those of reading the visible pictures and
  * making the visible defocused cels. */
 CELSPAN_CHECKED celspan_status cs_shown_find(cs_painter *painter, const cs_program *program,
                                              cs_run run, cs_shown *out);
-/* Whether two show the same. */
+/* Whether both show the same items. */
 bool cs_shown_same(const cs_shown *a, const cs_shown *b);

@@ -25,7 +25,8 @@ void cs_centre_init(cs_centre *centre, const cs_row_tools *tools) {
 
 /* ---------------------------------------------------------------- cells that vary, or are empty */
 
-/* Right of the v-th visible boundary from the left; the leftmost, where v is 0. */
+/* The visible cell on the right of the v-th visible boundary from the left; the leftmost cell where
+ * v is 0. */
 static const cs_cell *visible_cell(const cs_cells *cells, size_t v) {
   return v > 0 ? &cells->cells[cells->visible[v - 1] + 1] : cells->cells;
 }
@@ -85,9 +86,9 @@ static bool put_colours(const cs_cells *cells, size_t low, size_t high, celspan_
   return varied == 0;
 }
 
-/* Where all visible cells are flat and none is empty, each is a span: of neighbours with one colour
- * neither is visible. Returns false otherwise; the row must be drawn then. Fills ends in any
- * case. */
+/* Where all visible cells are flat and none is empty, each cell becomes a span, since visible
+ * neighbours never have the same colour. Otherwise returns false, and the row must be drawn. Fills
+ * ends in any case. */
 static bool draw_all(const cs_centre *centre, cs_row *out, int32_t *ends) {
   const cs_cells *cells = centre->tools.cells;
   const cs_active *active = centre->tools.active;
@@ -125,7 +126,7 @@ static bool is_done(const merged_walk *w) {
   return w->boundary + w->edge == w->active->count + w->edges.count;
 }
 
-/* x of the next boundary or edge; at most `width`, which it is when there is none. */
+/* x of the next boundary or edge, at most `width`; `width` if there is none left. */
 static double next_x(const merged_walk *w, int32_t width) {
   double x = width;
   if (w->boundary < w->active->count && w->active->x[w->boundary] < x)

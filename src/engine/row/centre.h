@@ -13,11 +13,11 @@
 typedef struct cs_centre {
   cs_row_tools tools;    /* borrowed */
   uint64_t changes;      /* how often the cells have changed so far */
-  cs_change last_change; /* where they did so last */
+  cs_change last_change; /* where the cells changed last */
 } cs_centre;
 
 void cs_centre_init(cs_centre *centre, const cs_row_tools *tools);
-/* The cells are about to change: to be noted before each row that is made. */
+/* Notes that the cells are about to change. Must be called before each row is made. */
 static inline void cs_centre_note_change(cs_centre *centre, cs_change change) {
   centre->changes++;
   centre->last_change = change;

@@ -97,7 +97,7 @@ static inline void place_batch(found_ends *p, const double *x, const bool *is_vi
   int32_t columns[BATCH];
   size_t first = p->count, most = count < BATCH ? count : BATCH;
   find_columns(x, width, columns);
-  for (size_t k = 0; k < most; k++) { /* all are written, and some written over */
+  for (size_t k = 0; k < most; k++) { /* all are written, and some are overwritten */
     ends[p->count] = columns[k];
     p->count += is_visible[k];
   }

@@ -21,8 +21,8 @@ typedef struct cs_plan {
   int32_t margin;        /* pixels beyond the frame, on all sides, that rows may need */
   celspan_antialias_mode antialias;
   cs_kernel *kernel; /* owned; NULL: rows are not filtered */
-  /* The defocused cels: stack.defocused[i] is the grid of defocus[i]. Owned, with others; let go by
-   * cs_compile_free. */
+  /* The defocused cels: stack.defocused[i] is the grid of defocus[i]. Other plans may own them,
+   * too; released by cs_compile_free. */
   struct cs_defocus **defocus;
   size_t defocus_count, defocus_capacity;
   size_t dash_count;    /* in view, of strokes that are not defocused */

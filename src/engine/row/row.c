@@ -28,7 +28,7 @@
 
 /* ---------------------------------------------------------------- life */
 
-/* The filter's way to the edges of a row. */
+/* Gives the filter the edges of a row. */
 static celspan_status retain(void *maker, int32_t y, cs_retained_row *retained) {
   return cs_row_retain(maker, y, retained);
 }
@@ -77,8 +77,8 @@ static double row_height(const cs_row_maker *maker, int32_t y) {
   return maker->plan->antialias == CELSPAN_ANTIALIAS_NONE ? y + 0.5 : y;
 }
 
-/* Moves the boundaries down to a height. Where a row has advanced them to its foot already, that is
- * settled first. */
+/* Moves the boundaries down to a height. If a row has already advanced them to its foot, this step
+ * is completed first. */
 static celspan_status advance(cs_row_maker *maker, double height, cs_change *change) {
   cs_active *active = &maker->active;
   cs_change settled = cs_change_none, moved = cs_change_none;
@@ -92,7 +92,7 @@ static celspan_status advance(cs_row_maker *maker, double height, cs_change *cha
   return CELSPAN_OK;
 }
 
-/* Brings the boundaries to the row: down from a row above when that is near. */
+/* Brings the boundaries to the row: down from a row above if that row is near. */
 static celspan_status sweep_to(cs_row_maker *maker, int32_t y, cs_change *change) {
   double height = row_height(maker, y);
   if (maker->row != CS_ROW_NONE && maker->row < y && y - maker->row < FAR_ROWS)
@@ -140,7 +140,7 @@ static celspan_status make_row(cs_row_maker *maker, int32_t y, cs_row *out) {
   if (maker->plan->antialias == CELSPAN_ANTIALIAS_NONE)
     return make_centres(maker, y, out);
   cs_row_clear(out);
-  if (maker->plan->kernel) /* it begins each row under the kernel by itself */
+  if (maker->plan->kernel) /* the filter begins each row under the kernel itself */
     return cs_filter_row(&maker->filter, y, out);
   CS_TRY(begin_row(maker, y, &change));
   CS_TRY(cs_area_row(&maker->area, y, change, out));

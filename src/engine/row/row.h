@@ -35,10 +35,11 @@ CELSPAN_CHECKED celspan_status cs_row_maker_init(cs_row_maker *maker, celspan_co
                                                  const cs_plan *plan);
 void cs_row_maker_finish(cs_row_maker *maker);
 /* The spans of row y, 0 <= y < height: they cover [0, width). The contents of `out` are replaced;
- * where this maker has made it and little has changed since, only that is written. Errors:
- * NO_MEMORY, INPUT, LIMIT, CALLBACK. */
+ * if this maker made these contents and little has changed since, only the changes are written.
+ * Errors: NO_MEMORY, INPUT, LIMIT, CALLBACK. */
 CELSPAN_CHECKED celspan_status cs_row_make(cs_row_maker *maker, int32_t y, cs_row *out);
-/* Forgets the last row, so that the next one begins from nothing: after one that has failed. */
+/* Forgets the last row, so that the next one begins from nothing. Needed after a row that
+ * failed. */
 void cs_row_maker_restart(cs_row_maker *maker);
 /* Keeps the visible edges of any row, those beyond the frame too. After an error the maker must be
  * restarted. */

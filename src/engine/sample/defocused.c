@@ -23,7 +23,8 @@ typedef struct node_row {
   int plane_count;
   int32_t last; /* node */
   stretch *found;
-  bool is_split; /* every node is a pixel: a line may end in one, and the next begin in the next */
+  /* every node is a pixel: a line may end in one node, and the next line begin in the next node */
+  bool is_split;
 } node_row;
 
 static void free_polyline(cs_defocused_polyline *polyline, cs_memory *memory) {
@@ -94,8 +95,8 @@ typedef struct swing {
   cs_v4 least[2], most[2];
 } swing;
 
-/* Whether the line from node `from` to a node is near all between; if so, narrows the slopes by it.
- * across: how far the node is. */
+/* Whether the line from node `from` to another node is near all nodes between them. If so, narrows
+ * the range of slopes by the other node. across: the distance between the two nodes. */
 static inline bool swing_admits(swing *s, const node_row *row, int planes, int32_t from,
                                 int32_t across) {
   float scale = 1 / (float)across;
@@ -303,7 +304,8 @@ void cs_defocused_release(const cs_defocused *defocused, celspan_context *contex
   *view = (cs_defocused_view){0};
 }
 
-/* Acquires a band as one of the two of a view: one of an even and one of an odd number. */
+/* Acquires a band for a view, which has room for two: one with an even and one with an odd
+ * number. */
 static celspan_status pin_band(const cs_defocused *defocused, celspan_context *context,
                                cs_defocused_view *view, int32_t number,
                                const cs_defocus_band **out) {
@@ -472,7 +474,7 @@ static void pixel_paints(const cs_defocused *defocused, const cs_defocused_view 
   }
 }
 
-/* The same between vertices. */
+/* The paints between vertices. */
 static void line_paints(const cs_defocused *defocused, const cs_defocused_view *view,
                         const cs_defocused_places *places, float (*s)[4], float (*t)[4]) {
   size_t k = 0;

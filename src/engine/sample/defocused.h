@@ -101,8 +101,9 @@ typedef struct cs_defocused_view {
   size_t count;
   cs_defocused_polyline own;
   float (*mixed)[4];           /* a row of nodes, plane after plane */
-  struct cs_regrid_rows *rows; /* where nodes are pixels; then there are no vertices, and */
-  cs_defocused_range visible;  /* the columns of `mixed` that may not be clear */
+  struct cs_regrid_rows *rows; /* only where nodes are pixels, and there are no vertices */
+  /* where nodes are pixels: the columns of `mixed` that may not be clear */
+  cs_defocused_range visible;
 } cs_defocused_view;
 
 /* ---- bands */
@@ -147,7 +148,7 @@ static inline cs_v4 cs_defocused_value(const cs_defocused *defocused, const cs_d
 }
 /* The line that a place among the nodes is on: its first vertex. hint: where to search first. */
 size_t cs_defocused_find(const cs_defocused_view *view, double at, size_t hint);
-/* Columns of a frame: as many from x0 on, or the ones that are listed. */
+/* Columns of a frame: `count` columns from x0 on, or the listed ones. */
 typedef struct cs_defocused_places {
   const int32_t *columns; /* NULL: x0 .. */
   int32_t x0, count;
@@ -161,8 +162,8 @@ static inline cs_defocused_range cs_defocused_visible(const cs_defocused *defocu
   int32_t left = defocused->first_x - 1; /* the column of the first node */
   return (cs_defocused_range){left + view->visible.first, left + view->visible.end};
 }
-/* The samples of `count` columns from x0 on, where nodes are pixels, of one plane, and there for
- * all these columns; else NULL. */
+/* The samples of `count` columns from x0 on, if nodes are pixels, there is one plane, and all these
+ * columns have samples; otherwise NULL. */
 const float (*cs_defocused_samples(const cs_defocused *defocused, const cs_defocused_view *view,
                                    int32_t x0, int32_t count))[4];
 /* The most that each channel lets through anywhere in a run, at the height of the view. */

@@ -44,10 +44,10 @@ typedef struct cs_sampler {
   /* filled in by cs_sampler_prepare */
   cs_block_cache_source source;
   cs_sampler_placement placement;
-  /* PERSPECTIVE: BICUBIC and TILTED where the picture is enlarged and shrunk. */
+  /* PERSPECTIVE: BICUBIC where the picture is enlarged, and TILTED where it is shrunk. */
   cs_sampler_kernel kernel;
   double m[9];              /* the inverse; an affine one is divided by its last element */
-  int64_t moved_u, moved_v; /* COPY: from a column to its texel, and from a row */
+  int64_t moved_u, moved_v; /* COPY: what is added to a column, and to a row, to find its texel */
   int level_count;
   int level;
   int columns, rows;       /* TILTED: taps across a pixel and down it */

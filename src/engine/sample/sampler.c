@@ -13,7 +13,7 @@
 
 typedef struct footprint {
   double ux, vx; /* how the place on the picture moves with each pixel to the right */
-  double uy, vy; /* and with each pixel down */
+  double uy, vy; /* how it moves with each pixel down */
 } footprint;
 
 static bool is_copy(const double m[9]) {

@@ -38,10 +38,10 @@ CELSPAN_CHECKED celspan_status cs_sampler_at(cs_block_cache *blocks, const cs_sa
 /* Texels of a picture that is copied, which follow one another in a block. */
 typedef struct cs_sampler_texels {
   int32_t count;
-  int32_t rows;               /* that lie in the block, from their own down */
+  int32_t rows;               /* rows of the block, from the row of these texels down */
   cs_picture_opacity opacity; /* of the block */
   bool are_coded;             /* their codes are exact: cs_picture_block */
-  const unsigned char *codes; /* of the first one; NULL: all are clear */
+  const unsigned char *codes; /* of the first texel; NULL: all texels are clear */
   const float *light;
 } cs_sampler_texels;
 

@@ -20,7 +20,7 @@
 /* The rectangle of blocks of level 0 that lies under some pixels. */
 typedef struct cs_sampler_tiles {
   int32_t column, row, columns;                 /* its first block, and its width in blocks */
-  bool are_opaque;                              /* all that are touched */
+  bool are_opaque;                              /* all blocks that are touched are opaque */
   const unsigned char *codes[CS_SAMPLER_TILES]; /* of the tiles that are touched */
   /* Bytes from a quad's codes to those that the row after the next will read: they are fetched into
    * the cache now, so that they are there in time. */
@@ -54,11 +54,12 @@ static inline bool cs_sampler_lay_tiles(const cs_sampler *sampler,
 CS_WIDE_DECLARE(void, cs_sampler_clamp_quads,
                 (const cs_sampler *sampler, int32_t count, const double *u, const double *v,
                  cs_sampler_clamped *clamped));
-/* Fills above and below. Returns which tiles are touched, a bit for each. */
+/* Fills above and below. Returns a bit for each tile: whether it is touched. */
 CS_WIDE_DECLARE(uint32_t, cs_sampler_tile_quads,
                 (const cs_sampler *sampler, const cs_sampler_tiles *tiles, int32_t count,
                  cs_sampler_clamped *clamped));
-/* The same, and the shares, of the centres of an affine map, where all quads lie in the picture. */
+/* The same for the centres of an affine map whose quads all lie in the picture; fills the shares,
+ * too. */
 CS_WIDE_DECLARE(uint32_t, cs_sampler_place_quads,
                 (const cs_sampler *sampler, int32_t x0, int32_t count, double y,
                  const cs_sampler_tiles *tiles, cs_sampler_clamped *clamped));

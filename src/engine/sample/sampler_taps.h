@@ -39,8 +39,9 @@ typedef struct cs_sampler_centres {
 typedef struct cs_sampler_quads {
   int32_t x[CS_SAMPLER_BATCH], y[CS_SAMPLER_BATCH];
   float across[CS_SAMPLER_BATCH], down[CS_SAMPLER_BATCH];
-  int32_t key[CS_SAMPLER_BATCH];    /* names the block that holds all four; -1: none does */
-  int32_t offset[CS_SAMPLER_BATCH]; /* of the first of them in the block, in texels */
+  /* names the block that holds all four texels; -1: no block holds them all */
+  int32_t key[CS_SAMPLER_BATCH];
+  int32_t offset[CS_SAMPLER_BATCH]; /* of the first texel of the quad in the block, in texels */
 } cs_sampler_quads;
 
 /* A tap's place in its pixel, relative to the pixel's centre, in pixels of the frame. */

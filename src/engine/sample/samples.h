@@ -17,5 +17,6 @@
 
 typedef struct cs_samples {
   bool are_planes;
-  float rgba[CS_SAMPLER_BATCH][4]; /* or planes: the last ones may be of more pixels than asked */
+  /* or planes; the last planes may have more pixels than requested */
+  float rgba[CS_SAMPLER_BATCH][4];
 } cs_samples;

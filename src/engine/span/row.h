@@ -58,9 +58,9 @@ CELSPAN_CHECKED celspan_status cs_row_gradient(celspan_context *context, cs_row 
 CELSPAN_CHECKED celspan_status cs_row_array(celspan_context *context, cs_row *row, int32_t x0,
                                             int32_t x1, float **colours);
 /* The same with codes, 4 bytes a pixel, in a row that takes codes. If the final places of the codes
- * are known and there are only arrays on their left, the codes lie in these places. To the right of
- * other spans they do not, because those spans may be written beyond their ends before the spans
- * right of them are written (output/sinks/pixels8_wide.c). */
+ * are known and there are only arrays on their left, the codes lie in these places. Codes to the
+ * right of other spans do not lie there, because those spans may be written beyond their ends
+ * before the spans right of them are written (output/sinks/pixels8_wide.c). */
 CELSPAN_CHECKED celspan_status cs_row_codes(celspan_context *context, cs_row *row, int32_t x0,
                                             int32_t x1, unsigned char **codes);
 CELSPAN_CHECKED celspan_status cs_row_grow(celspan_context *context, cs_row *row);
@@ -104,7 +104,8 @@ void cs_row_spread_span(const celspan_span *span, int32_t x, int32_t stop, cs_v4
 /* Cuts a row to the columns [x0, x1) and moves it left by x0. The colours do not change. */
 void cs_row_crop(cs_row *row, int32_t x0, int32_t x1);
 
-/* Appends what another row has in the columns [x0, x1), which are right of all in `out`. */
+/* Appends the part of another row in the columns [x0, x1), which are to the right of all columns of
+ * `out`. */
 CELSPAN_CHECKED celspan_status cs_row_append(celspan_context *context, cs_row *out,
                                              const cs_row *row, int32_t x0, int32_t x1);
 

@@ -1,8 +1,8 @@
 /* The self-check of a row: see the invariant in engine/span/row.h. */
 #include "engine/span/row.h"
 
-/* Whether a span may follow another: it begins where the other ends, and they could not be one
- * single. */
+/* Whether a span may follow another: it begins where the other ends, and the two could not be
+ * joined into one single. */
 static bool follows(const celspan_span *span, const celspan_span *before) {
   if (span->x0 != before->x1)
     return false;

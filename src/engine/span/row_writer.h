@@ -16,7 +16,7 @@ typedef struct cs_row_writer {
   cs_row *row;
   celspan_span *next;
   cs_v4 colour; /* of the last span, if that is a single; else no colour */
-  int32_t from; /* the column where it ends */
+  int32_t from; /* the column where the last span ends */
 } cs_row_writer;
 
 /* A NaN: equal to no colour as numbers; no colour has these bits either. */

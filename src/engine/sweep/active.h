@@ -86,7 +86,7 @@ typedef struct cs_active_store {
   uint32_t *free_slots;
   size_t free_count;
   void *storage;   /* one allocation for all arrays of cs_active except bends and vertices */
-  size_t capacity; /* of each of them */
+  size_t capacity; /* of each array */
 } cs_active_store;
 
 typedef struct cs_active {
@@ -130,8 +130,8 @@ CELSPAN_CHECKED celspan_status cs_active_start(celspan_context *context, cs_acti
  * remains the one at the current height. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_active_advance(celspan_context *context, cs_active *active,
                                                  double y);
-/* Makes the height advanced to the current one. *change: where boundaries began, ended or changed
- * places; the whole order when another row of tiles has begun. Errors: NO_MEMORY. */
+/* The height advanced to becomes the current height. *change: where boundaries began, ended or
+ * changed places; the whole order when another row of tiles has begun. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_active_settle(celspan_context *context, cs_active *active,
                                                 cs_change *change);
 

@@ -47,7 +47,7 @@ static bool is_complete(const cs_active *active) {
 
 bool cs_active_is_ordered(const cs_active *active) {
   if (active->y != active->y_next)
-    return true; /* between heights, x and slope belong to different ones */
+    return true; /* between two heights, x belongs to one of them, and the slope to the other */
   for (size_t i = 0; i < active->count; i++)
     if (!is_in_place(active, i) || (i + 1 < active->count && !is_followed(active, i)))
       return false;

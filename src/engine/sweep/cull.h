@@ -37,9 +37,10 @@
 typedef struct cs_cull_layer {
   /* The most that any channel lets through wherever the layer is painted; 1 where unknown. */
   double through;
-  int32_t winding_mask; /* the layer is present where the winding and this is not 0 */
+  /* the layer is present where the bitwise and of the winding and this is not 0 */
+  int32_t winding_mask;
   uint32_t group;       /* the innermost, or CS_CULL_NONE */
-  bool is_anywhere;     /* it may be present where no chain says so */
+  bool is_anywhere;     /* the layer may be present even where no chain makes it present */
 } cs_cull_layer;
 
 /* Layers that are composited by themselves, then mixed with clear: inside the group occlusion is
@@ -55,7 +56,8 @@ typedef struct cs_cull_tree {
   uint32_t first, end;
 } cs_cull_tree;
 
-/* Tiles of a row, one bit a tile: all of it is inside the layer, or some of it may be. */
+/* Tiles of a row, one bit for each: tiles that are wholly inside the layer, and tiles of which a
+ * part may be inside. */
 typedef struct cs_cull_presence {
   uint64_t certain, possible;
 } cs_cull_presence;
@@ -80,8 +82,8 @@ typedef struct cs_cull {
   uint32_t *enters; /* by row of tiles: chains kept there that were not in the row above it */
   uint32_t *enter_starts;
   bool *kept;          /* for every row of tiles of every chain */
-  size_t *places;      /* by chain: of its first row of tiles in `kept` */
-  int32_t *first_rows; /* by chain: which row of tiles that is */
+  size_t *places;      /* by chain: the place in `kept` of its first row of tiles */
+  int32_t *first_rows; /* by chain: the number of its first row of tiles */
   size_t deferred_count, enter_count, kept_count, chain_count;
 } cs_cull;
 
@@ -93,7 +95,7 @@ typedef struct cs_cull_desc {
   size_t group_count;
   const cs_cull_tree *trees; /* disjoint, rear first */
   size_t tree_count;
-  cs_cull_resolve resolve; /* with `user`: of trees */
+  cs_cull_resolve resolve; /* resolves a tree; called with `user` */
   const void *user;
   size_t scratch_size;
   int32_t width, height, margin; /* pixels */

@@ -18,7 +18,7 @@ typedef struct cs_cull_columns {
 /* A chain in a row of tiles that it crosses. */
 typedef struct cs_cull_crossing {
   uint32_t chain, layer;
-  size_t place; /* of it in the row: in `columns` and `kept` */
+  size_t place; /* the chain's place in the row: the index in `columns` and `kept` */
 } cs_cull_crossing;
 
 typedef struct cs_cull_grid {
@@ -68,6 +68,6 @@ void cs_cull_columns_find(const cs_cull_grid *grid, uint32_t chain, cs_cull_colu
  * in cull->deferred_starts[row + 1]. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_cull_row_walk(const cs_cull_grid *grid, cs_cull_job *job,
                                                 int32_t row);
-/* Room for the scratch of a job. Errors: NO_MEMORY; free it then, too. */
+/* Room for the scratch of a job. Errors: NO_MEMORY; the job must be freed then, too. */
 CELSPAN_CHECKED celspan_status cs_cull_row_begin(const cs_cull_grid *grid, cs_cull_job *job);
 void cs_cull_row_end(const cs_cull_grid *grid, cs_cull_job *job);

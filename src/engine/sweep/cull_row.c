@@ -42,7 +42,7 @@ typedef struct walk {
   int32_t row;
   double top, foot;
   veil *veil;   /* the innermost */
-  size_t trees; /* those not behind the walk yet */
+  size_t trees; /* the trees that the walk has not passed yet */
 } walk;
 
 /* ---------------------------------------------------------------- veils */
@@ -185,7 +185,7 @@ static bool keep_or_defer(const walk *w, const cs_cull_crossing *crossing) {
   return false;
 }
 
-/* Culls the chains [from, end) of a layer. painted: in which tiles it is, all over. */
+/* Culls the chains [from, end) of a layer. painted: the tiles that the layer paints all over. */
 static void cull_layer(walk *w, uint32_t layer, uint32_t from, uint32_t end, uint64_t painted,
                        bool is_in_tree) {
   size_t deferred_before = w->job->deferred_count;
@@ -232,7 +232,8 @@ static void cull_tree(walk *w, size_t tree, uint32_t from, uint32_t end) {
   }
 }
 
-/* The tree that a layer is in, or that there is none: trees come from the camera, as layers do. */
+/* Finds the tree that a layer is in; false if it is in none. Trees come in order from the camera,
+ * as layers do. */
 static bool find_tree(walk *w, uint32_t layer) {
   const cs_cull_tree *trees = w->grid->desc->trees;
   while (w->trees > 0 && layer < trees[w->trees - 1].first)

@@ -23,7 +23,7 @@ typedef struct cs_pieces {
   uint32_t rest;               /* pieces that follow */
 } cs_pieces;
 
-/* bend: that of boundary i; NULL where it has none. */
+/* bend: the bend of boundary i; NULL if it has none. */
 static inline cs_pieces cs_pieces_of(const cs_active *active, size_t i, const cs_bend *bend) {
   return (cs_pieces){.below = {active->x[i], active->y},
                      .foot = {active->x_next[i], active->y_next},
