@@ -61,8 +61,8 @@ static celspan_status stop(run *r) {
                  r->desc->count);
 }
 
-/* Nobody is asked again once a frame of the calling thread was asked to stop: nothing is wanted
- * then, whereas after a failure the frames before it still are. */
+/* Nobody is asked again after a frame of the calling thread was asked to stop: then no frame is
+ * wanted. After a failure, the frames before the failed one are still wanted. */
 static celspan_status tick_or_stop(run *r) {
   return cs_pipeline_is_wanted(r->pipeline, 0) && tick(r) ? CELSPAN_OK : stop(r);
 }
@@ -120,7 +120,8 @@ static celspan_status tick_idle(void *user, celspan_context *context) {
 
 /* ---------------------------------------------------------------- all frames */
 
-/* Finishes the next frame where it is made, else builds one where there is room, else waits. */
+/* Finishes the next frame if it is made; otherwise builds a frame if there is room; otherwise
+ * waits. */
 static celspan_status go_on(run *r) {
   size_t waiting = r->built - r->finished;
   if (!cs_pipeline_is_ready(r->pipeline) && cs_pipeline_has_room(r->pipeline))

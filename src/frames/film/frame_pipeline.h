@@ -41,5 +41,6 @@ typedef struct cs_frame_pipeline {
 /* Errors: those of finish; CANCELLED; NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_frame_pipeline_run(celspan_context *context,
                                                      const cs_frame_pipeline *pipeline);
-/* A celspan_frame_desc.progress function; user: the frame. false when it is not wanted any more. */
+/* A celspan_frame_desc.progress function; user: the frame. false when the frame is no longer
+ * wanted. */
 bool cs_frame_pipeline_progress(void *frame, int32_t rows_done, int32_t rows_total);

@@ -22,8 +22,8 @@ typedef struct cs_sequence {
   cs_memory *memory; /* borrowed from the context; NULL: there are no frames */
 } cs_sequence;
 
-/* film: whose times and marks the list may name; NULL: of none, and a list of numbers alone. out:
- * new, for cs_sequence_finish. Errors: BAD_ARGUMENT, LIMIT, NO_MEMORY. */
+/* film: its times and marks may occur in the list; NULL: the list has numbers alone. out: new, for
+ * cs_sequence_finish. Errors: BAD_ARGUMENT, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_sequence_parse(celspan_context *context, const char *list,
                                                  const cs_film_info *film, cs_sequence *out);
 /* The frames first, first + 1, ... of a whole film. Otherwise as above. */

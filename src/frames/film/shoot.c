@@ -66,7 +66,7 @@ typedef struct frame_task {
   cs_shoot_frame frame;
   cs_film_frame built;
   bool is_known; /* `duplicate` is set */
-  bool is_first; /* of the frames that are equal to it */
+  bool is_first; /* the first of the frames that are equal */
   size_t duplicate;
 } frame_task;
 

@@ -54,8 +54,8 @@ typedef struct cs_shoot {
    * order. */
   celspan_status (*build)(void *user, int64_t number, cs_film_frame *out);
   /* The function that is called for each frame instead of writing a file: frame->way is set where
-   * it was not made, and frame->digest where there are digests. Calling thread, in order. NULL:
-   * files. */
+   * the frame was not made, and frame->digest where there are digests. Calling thread, in order.
+   * NULL: files. */
   celspan_status (*put)(void *user, const celspan_frame_desc *desc, cs_shoot_frame *frame);
   /* Whether the frame exists already. Its number, path and hashes are set; where there are digests,
    * this function sets the frame's. Calling thread. NULL: no frame exists. */

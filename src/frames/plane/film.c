@@ -12,7 +12,7 @@ struct cs_plane_film {
   celspan_plane_desc desc;
   bool has_last;
   cs_hash last;          /* of the scene of the latest frame */
-  celspan_status status; /* of writing bytes */
+  celspan_status status; /* the result of writing bytes */
 };
 
 /* ---------------------------------------------------------------- life */
@@ -60,7 +60,7 @@ celspan_status cs_plane_film_create(celspan_context *context, const char *path,
   return status;
 }
 
-/* All but its file, which has been committed or discarded. */
+/* Frees all except the file, which has been committed or discarded. */
 static void finish(cs_plane_film *film) {
   planefile_writer_destroy(film->writer);
   cs_mem_free(film->context->memory, film, sizeof *film);

@@ -6,7 +6,7 @@
 #include "celspan/celspan.h"
 #include "celspan/plane.h"
 
-/* Whether a file is read as a plane: it begins as plane files do, or its name ends as theirs. */
+/* Whether a file is read as a plane: it begins as plane files do, or its name has their ending. */
 bool cs_plane_accepts(const char *path);
 /* celspan_plane_frame of a file, whose name is in the message about a damaged frame. */
 CELSPAN_CHECKED celspan_status cs_plane_choose(celspan_context *context, const char *name,
@@ -55,7 +55,7 @@ void cs_plane_film_discard(cs_plane_film *film); /* NULL is ignored */
 typedef struct cs_plane_facts {
   size_t parts; /* bands of the file */
   size_t borders, curves;
-  size_t colours, gradients; /* cells of one colour, and others */
+  size_t colours, gradients; /* cells of one colour; all other cells */
   size_t pictures;           /* of the file, of this frame and those before it */
 } cs_plane_facts;
 cs_plane_facts cs_plane_count(const celspan_plane *plane);

@@ -129,8 +129,8 @@ int cs_interrupt_signal(void) {
   return requested_by;
 }
 
-/* Between the question whether there was a signal and the wait no signal may come in, or the wait
- * would not end by it: ppoll opens the door and waits in one step. */
+/* No signal may arrive between the question whether there was one and the wait, because the wait
+ * would not end by it: ppoll unblocks signals and waits in one step. */
 void cs_interrupt_wait(struct pollfd *sources, size_t count, int milliseconds) {
   const struct timespec time = {.tv_sec = milliseconds / 1000,
                                 .tv_nsec = milliseconds % 1000 * 1000000L};

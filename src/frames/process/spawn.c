@@ -82,7 +82,7 @@ int cs_spawn_pipe(int ends[2]) {
   return error;
 }
 
-/* The errno of a program that could not be started; 0: it was. */
+/* The errno of a program that could not be started; 0: it was started. */
 static int wait_for_report(int report) {
   int error = 0;
   ssize_t got;

@@ -14,8 +14,9 @@ enum { CS_SPAWN_NULL = -1, CS_SPAWN_SAME = -2, CS_SPAWN_FILES = 8 };
 typedef struct cs_spawn_desc {
   const char *path;             /* NULL: found through PATH, by the first argument */
   const char *const *arguments; /* its name first, NULL at the end */
-  const int *files; /* its descriptors 0, 1, ...: each a descriptor of this process that is not one
-                        of those numbers, or its own; /dev/null; or unchanged */
+  /* what becomes its descriptors 0, 1, ...: a descriptor of this process, whose number is the
+   * same or beyond those of the list; /dev/null; or unchanged */
+  const int *files;
   size_t file_count;
   bool is_bound; /* the kernel ends it when the thread that starts it ends, for whatever reason */
 } cs_spawn_desc;

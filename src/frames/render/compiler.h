@@ -38,7 +38,7 @@ typedef struct cs_compiler_isolation {
   /* The front light with a shape of the cel being compiled, which lights its parts between sources
    * each by itself; NULL: there is none, or the cel has no source. Borrowed */
   const struct cs_lights_front *light;
-  const cs_compiler_film *film; /* of that light */
+  const cs_compiler_film *film; /* the film of that light */
   /* A film that has mattes of back lights, in layers behind all others (lights.h): where the layers
    * behind the cel being compiled begin, and where the layers that are in no ground yet end.
    * Otherwise both 0. */
@@ -57,7 +57,7 @@ struct cs_compiler {
   cs_boundary_frame frame;
   cs_boundary_builder *boundaries; /* of the plan, in the frame; shared by copies */
   double first_height, end_height; /* of the rows that will be asked for, with their margin */
-  double first_place, end_place;   /* of the columns */
+  double first_place, end_place;   /* of the columns that will be asked for */
   size_t most_dashes;              /* with more in view, the plan is crowded */
   const size_t *cel_numbers;       /* see cs_view */
   size_t cel;                      /* from 1; it and the mark are for messages */

@@ -26,7 +26,8 @@ typedef struct placed_cel {
                               negative where an upright drawing is mirrored */
   bool is_turned;          /* or sheared */
   bool is_made;            /* the map was made just now */
-  bool is_cropped;         /* a map of the rows that are asked for is as good as one of all */
+  /* a map of the rows that are asked for gives the same result as a map of all rows */
+  bool is_cropped;
   cs_census census;        /* of its shapes */
 } placed_cel;
 
@@ -35,7 +36,7 @@ typedef struct placed_cel {
 
 static const celspan_matrix identity = {{1, 0, 0, 0, 1, 0, 0, 0, 1}};
 
-/* The drawing of a cel, without its place. only, objects: room for it. */
+/* The drawing of a cel, without its place. only, objects: room for the result. */
 static celspan_cel drawing_of(const placed_cel *d, celspan_object *only, celspan_object **objects) {
   celspan_cel drawing;
   cs_value_copy(&drawing, d->cel, sizeof drawing);
@@ -94,7 +95,7 @@ static bool find_scale(placed_cel *d) {
  * false where it is too large. */
 static bool find_raster(celspan_cel *drawing, celspan_space space, cs_map *map, cs_view *out) {
   celspan_box box = {0, 0, 0, 0};
-  /* nothing is a drawing, too */
+  /* an empty drawing is a drawing, too */
   (void)cs_bounds_around(drawing->objects, drawing->object_count, &drawing->matrix, &box);
   double left = floor(box.x) - 1, width = ceil(box.x + box.width) + 1 - left;
   double top = floor(box.y) - 1, height = ceil(box.y + box.height) + 1 - top;
@@ -114,7 +115,7 @@ static bool find_raster(celspan_cel *drawing, celspan_space space, cs_map *map, 
   return true;
 }
 
-/* Leaves the zones that the swaths which are asked for can show. */
+/* Keeps only the zones that can be seen in the swaths that are asked for. */
 static void crop_raster(const placed_cel *d, const cs_map *map, cs_view *raster) {
   const double *m = d->matrix.m, down = d->scale_y / m[4], shift = -m[5] * down - (double)map->top;
   const double row = cs_map_swath(d->view->first_row) * down + shift;
@@ -217,7 +218,7 @@ static void place_upright(const placed_cel *d, cs_map_drawing *out) {
                                      -out->shift_y * down - (double)out->top, 0, 0, 1}};
 }
 
-/* *suits: whether its lines can be turned. */
+/* *suits: whether the lines of the map can be turned. */
 static celspan_status place_turned(celspan_context *context, const placed_cel *d,
                                    cs_map_drawing *out, bool *suits) {
   const cs_map *map = out->map;
@@ -382,8 +383,8 @@ static size_t count_sheets(const making *m) {
   return count;
 }
 
-/* Makes the sheets, from the rear, until one of them does not suit: its first cel is *unsuited,
- * which is the number of cels where all of them do. */
+/* Makes the sheets, from the rear, until one of them does not suit. *unsuited: the first cel of
+ * this sheet; the number of cels if all sheets suit. */
 static celspan_status make_sheets(making *m, cs_map_frame *out, size_t *unsuited) {
   const celspan_rostrum *rostrum = m->rostrum;
   size_t left = count_sheets(m), first = 0;

@@ -15,9 +15,9 @@
 #include "engine/map/frame_rows.h"
 #include "frames/render/compile.h"
 
-/* other: the rostrum of another exposure, or NULL. repeats: see celspan_frame_desc.
- * *out: is zero, and stays so where the exposure is not drawn from maps; to be finished after an
- * error, too. Errors: as of cs_compile. */
+/* other: the rostrum of another exposure, or NULL. repeats: see celspan_frame_desc. *out: all zero,
+ * also after the call if the exposure is not drawn from maps; must be finished after an error, too.
+ * Errors: as of cs_compile. */
 CELSPAN_CHECKED celspan_status cs_drawings_create(celspan_context *context,
                                                   const celspan_rostrum *rostrum,
                                                   const celspan_rostrum *other, const cs_view *view,

@@ -66,7 +66,7 @@ static bool sheets_stay_on_thread(const cs_map_frame *frame) {
   return false;
 }
 
-/* Procedures and surfaces that must stay on the rendering thread leave one worker. */
+/* Procedures and surfaces that must stay on the rendering thread allow only one worker. */
 static bool needs_one_thread(const cs_frame *frame) {
   for (size_t i = 0; i < frame->count; i++)
     if (frame->plans[i].stays_on_thread || sheets_stay_on_thread(&frame->maps[i]))

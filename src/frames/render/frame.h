@@ -16,13 +16,13 @@
 typedef struct cs_frame {
   cs_plan *plans; /* one for each exposure of weight > 0; empty where the frame is crowded, or the
                      exposure is drawn from maps */
-  cs_map_frame *maps; /* one for each; empty where the exposure has a plan */
+  cs_map_frame *maps; /* of the rows asked for, with all their columns */
   float *weights;
   const celspan_rostrum **rostrums;
   size_t count, capacity;
   cs_view view;       /* of the rows asked for, all columns of them */
   bool repeats;       /* see celspan_frame_desc */
-  bool has_antialias; /* of all exposures; otherwise each has its own */
+  bool has_antialias; /* the same for all exposures; otherwise each exposure has its own */
   cs_antialias antialias;
   bool is_crowded;
   int32_t width, height; /* of the whole frame */

@@ -140,7 +140,8 @@ celspan_status cs_layers_add_outline(cs_compiler *c, const cs_outline *outline,
              : CELSPAN_OK;
 }
 
-/* Counts the dashes of a stroke that are in view. Returns whether the plan may have them, too. */
+/* Counts the dashes of a stroke that are in view. Returns whether the plan may have these dashes in
+ * addition. */
 static bool takes_dashes(cs_compiler *c, const cs_stroke *stroke, const cs_stroke_view *view) {
   cs_plan *plan = c->plan;
   size_t left = c->most_dashes - plan->dash_count;

@@ -11,7 +11,7 @@
 #include "frames/render/unseen.h"
 #include "model/geometry/matrix.h"
 
-#define PARTS 16 /* a union of more operands is compiled as one of as many unions */
+#define PARTS 16 /* a union of more operands is compiled as a union of this many unions */
 
 /* Moves to the nearest multiple of the unit; objects in perspective keep their place. */
 static void snap(const cs_compiler *c, celspan_matrix *matrix) {
@@ -31,15 +31,16 @@ static cs_objects_outside outside_of(const cs_compiler *c) {
   return (cs_objects_outside){c->group, c->fades_out, c->isolation, CS_STACK_NONE};
 }
 
-/* Whether the surroundings of a group look like no affine function of its contents. The strength of
- * a matte of alpha is one, since alpha is, and lies between 0 and 1 by itself. */
+/* Whether the result of a group is not an affine function of its contents. The strength of a matte
+ * of alpha is affine, since alpha is, and lies between 0 and 1 without clamping. */
 static bool curves_by_itself(const cs_group *group, const cs_group *around) {
   if (group->kind == CS_GROUP_HEAD)
     return around->kind != CS_GROUP_MATTE || around->is_luma;
   return group->grade || group->converts != CELSPAN_SPACE_AROUND;
 }
 
-/* Begins a group inside the compiler's; the rest of its fields is set here. */
+/* Begins a group inside the group of the compiler; the fields that are still missing are set
+ * here. */
 static celspan_status enter(cs_compiler *c, cs_group group) {
   cs_stack *stack = &c->plan->stack;
   CS_TRY(CS_COMPILER_APPEND(c, groups, group_count, group_capacity));
@@ -56,7 +57,7 @@ static celspan_status enter(cs_compiler *c, cs_group group) {
   return CELSPAN_OK;
 }
 
-/* A group that is graded in a space, and then converted from it to the compiler's. */
+/* A group that is graded in a space, and then converted to the space of the compiler. */
 static cs_group developed(const cs_compiler *c, celspan_space space, const celspan_grade *grade) {
   celspan_space to = space == c->space ? CELSPAN_SPACE_AROUND : c->space;
   return (cs_group){
@@ -150,7 +151,7 @@ void cs_objects_end_isolation(cs_compiler *c, cs_objects_outside outer) {
 
 /* ---------------------------------------------------------------- lights with a shape */
 
-/* The group of a part that the light falls on; none inside something faded to nothing. */
+/* The group of a part that the light falls on; no group inside something faded to nothing. */
 static celspan_status open_light(cs_compiler *c) {
   bool falls = c->isolation.light && !c->fades_out;
   return falls ? enter(c, (cs_group){.fade = 1, .varies = true}) : CELSPAN_OK;
@@ -227,7 +228,7 @@ celspan_status cs_objects_end_source(cs_compiler *c, celspan_blend mode, cs_obje
 
 /* ---------------------------------------------------------------- mattes */
 
-/* light: of the cel, where it falls on each part; NULL else. */
+/* light: of the cel, if it falls on each part; otherwise NULL. */
 static celspan_status add_isolated(cs_compiler *c, const celspan_object *object,
                                    const celspan_matrix *matrix,
                                    const cs_compiler_isolation *light) {
@@ -288,7 +289,8 @@ static bool operands_are_layers(const cs_primitive_data *data) {
 
 static uint32_t next_layer(const cs_compiler *c) { return (uint32_t)c->plan->stack.layer_count; }
 
-/* Whether an operator is absent where its operand i is; of several such operands the last one. */
+/* Whether an operator is absent wherever its operand i is absent. If this is true for several
+ * operands, only the last of them counts. */
 static bool is_needed(const cs_boolean *boolean, size_t i) {
   switch (boolean->op) {
   case CELSPAN_OPERATOR_UNION:
@@ -300,7 +302,7 @@ static bool is_needed(const cs_boolean *boolean, size_t i) {
   case CELSPAN_OPERATOR_DIFFERENCE:
     break;
   }
-  return i == 0; /* also of a matte */
+  return i == 0; /* the same for a matte */
 }
 
 static celspan_status add_one_operand(cs_compiler *c, const cs_boolean *boolean, size_t i,
@@ -312,7 +314,7 @@ static celspan_status add_one_operand(cs_compiler *c, const cs_boolean *boolean,
              : CELSPAN_OK;
 }
 
-/* Some operands of an operator, and the layers that it needs one of. */
+/* Some operands of an operator, and the layers of which the operator needs at least one. */
 typedef struct operands {
   size_t begin, end;
   cs_step guard;
@@ -352,8 +354,8 @@ static celspan_status add_unions(cs_compiler *c, const cs_boolean *boolean,
   return CELSPAN_OK;
 }
 
-/* An operator over operands of which some have operands of their own: a guard, their steps, its
- * step. */
+/* An operator of which some operands have operands themselves: a guard, the steps of the operands,
+ * and the step of the operator. */
 static celspan_status add_guarded(cs_compiler *c, const cs_boolean *boolean,
                                   const celspan_matrix *matrix, operands *o) {
   cs_stack *stack = &c->plan->stack;
@@ -372,8 +374,8 @@ static celspan_status add_guarded(cs_compiler *c, const cs_boolean *boolean,
                                   .operands = (uint32_t)count});
 }
 
-/* An operator: the layers of its operands, and the step that combines them. One over layers alone
- * needs neither steps for them nor a guard. */
+/* An operator: the layers of its operands, and the step that combines them. An operator whose
+ * operands are single layers needs neither steps for them nor a guard. */
 static celspan_status add_operator(cs_compiler *c, const cs_primitive_data *data,
                                    const celspan_matrix *matrix) {
   operands all = {.end = data->boolean->operand_count};
@@ -516,7 +518,7 @@ static bool develops(const cs_primitive_data *data, celspan_space around) {
   return data->kind == CS_PRIMITIVE_DATA_BOOLEAN && cs_boolean_develops(data->boolean, around);
 }
 
-/* Whether a mode inside the data acts on the backdrop in the group that they begin. */
+/* Whether a mode inside the data acts on the backdrop in the group that the data begin. */
 static bool blends_around(const cs_primitive_data *data, celspan_space space) {
   return data->blends[space] && !develops(data, space);
 }

@@ -33,8 +33,8 @@ void cs_objects_end_group(cs_compiler *c, cs_objects_outside outer);
 CELSPAN_CHECKED celspan_status cs_objects_begin_grade(cs_compiler *c, const celspan_grade *grade,
                                                       cs_objects_outside *outer);
 
-/* Begins the whole frame, before all else, in a space: a group where that is not the frame's, or
- * where it has a grade. Errors: NO_MEMORY. */
+/* Begins the whole frame, before all else, in a space: a group if this is not the frame's space, or
+ * if the frame has a grade. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_objects_begin_frame(cs_compiler *c, celspan_space space,
                                                       const celspan_grade *grade);
 
@@ -56,7 +56,7 @@ CELSPAN_CHECKED celspan_status cs_objects_end_light(cs_compiler *c);
 /* Begins a source, which isolates. blends: as above, inside it. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_objects_begin_source(cs_compiler *c, double fade, bool blends,
                                                        cs_objects_outside *outer);
-/* Ends it and gives it its mode. Errors: NO_MEMORY, LIMIT. */
+/* Ends the source and gives it its mode. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_objects_end_source(cs_compiler *c, celspan_blend mode,
                                                      cs_objects_outside outer);
 /* The objects of a list, rear first. Errors: NO_MEMORY, LIMIT, BAD_ARGUMENT. */

@@ -109,7 +109,7 @@ static bool may_be_split(const search *s) {
          !cel->back.texture && cs_parts_shapes(cel->objects, cel->object_count) >= s->least;
 }
 
-/* The cels of one cel: its parts, or itself. left: as many cels follow it. */
+/* Appends the parts of a cel, or the cel itself. left: how many cels follow it. */
 static void split_cel(search *s, size_t left) {
   const celspan_matrix identity = celspan_matrix_identity();
   s->first = s->count;

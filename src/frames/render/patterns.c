@@ -12,7 +12,7 @@
 #include "model/scene/walk.h"
 
 #define COPIES_EACH 4096 /* primitives in the boxes of one plane that are copied, at most */
-#define COPIES_ALL 16384 /* and in all patterns of a frame */
+#define COPIES_ALL 16384 /* the same for all patterns of a frame together */
 #define FEW_BOXES 64     /* of one plane: they are copied, whatever is in them */
 #define SIDE 4096        /* texels of a picture, at most */
 #define TEXELS 4194304   /* likewise */
@@ -75,7 +75,7 @@ static extent find_visible(const cs_compiler *c, const cs_primitive_data *plane,
   const celspan_matrix inside = cs_matrix_facing(&plane->repeat->inverse);
   celspan_matrix back;
   extent pixels, seen, around;
-  (void)map_extent(&inside, &bounds, &seen); /* which is affine */
+  (void)map_extent(&inside, &bounds, &seen); /* cannot fail, because this map is affine */
   if (!celspan_matrix_inverse(v->to_pixels, &back))
     return (extent){0, 0, 0, 0};
   back = cs_matrix_facing(&back);
@@ -169,7 +169,7 @@ static bool is_copied(const cs_compiler *c, const cs_primitive_data *plane, cons
 
 /* ---------------------------------------------------------------- pictures */
 
-/* The least power of two that is no less, so that there are few sizes. */
+/* The least power of two that is not less, so that few different sizes occur. */
 static int32_t side_of(double pixels) {
   int32_t side = 1;
   while (side < SIDE && side < TEXELS_A_PIXEL * pixels)

@@ -71,7 +71,7 @@ static celspan_status render(celspan_context *context, const celspan_frame_desc 
                              bool *ended) {
   celspan_statistics counted = {0};
   meter m = {0};
-  if (statistics) /* before any work: whether it has a size */
+  if (statistics) /* before any work: checks that it has a size */
     CS_TRY(CS_RESULT(context, "statistics", celspan_statistics, &counted, statistics));
   if (statistics) /* otherwise other frames may be made at the same time and change the peak too */
     m = meter_begin(context);

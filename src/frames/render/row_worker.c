@@ -141,7 +141,7 @@ static celspan_status join_columns(cs_row_worker *worker, int32_t y, int32_t x0,
     return join_columns(worker, y, middle, x1);
   }
   CS_TRY(make_row(worker, y, &row));
-  worker->pane = (cs_view){0}; /* it has not the whole row */
+  worker->pane = (cs_view){0}; /* the pane is not the whole row */
   return cs_row_append(&worker->context, &worker->joined, row, x0, x1);
 }
 

@@ -8,12 +8,12 @@
 #define AHEAD 3
 /* Rows of a share at most, where the sink asks for no number. */
 #define SHARE_ROWS 1024
-/* After this many rows of a share a worker asks whether it is still wanted. */
+/* After this many rows of a share a worker asks whether the share is still wanted. */
 #define CHECK_ROWS 32
 
 typedef struct strip {
   cs_row_queue rows;         /* where the sink takes no shares */
-  void *share;               /* where it does */
+  void *share;               /* where the sink takes shares */
   celspan_statistics counts; /* of the share's rows */
 } strip;
 
@@ -193,7 +193,7 @@ static celspan_status deliver_strip(void *user, celspan_context *context, size_t
   return report_progress(s->delivery);
 }
 
-/* Nobody is asked again once the calling thread was asked, amid a share, to stop. */
+/* After the calling thread was asked to stop, in the middle of a share, nobody is asked again. */
 static celspan_status report_idle(void *user, celspan_context *context) {
   const strips *s = user;
   (void)context;

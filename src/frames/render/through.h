@@ -23,7 +23,7 @@ cs_v4 cs_through_shade(const cs_shade *shade, const cs_boundary_frame *visible);
 /* The most that a painted layer transmits wherever it is present, fade included. A picture's header
  * is read for it; an unreadable picture counts as clear, since it may be hidden itself. */
 cs_v4 cs_through_layer(celspan_context *context, const cs_stack *stack, const cs_layer *layer);
-/* The least that this may be, before a header is read. */
+/* The least value that the result may have, known before a header is read. */
 cs_v4 cs_through_least(const cs_stack *stack, const cs_layer *layer);
 
 /* How many times a layer of transmission `t` at most halves the light behind it, roughly; at most

@@ -93,7 +93,8 @@ typedef struct cs_ways {
 /* Whether an exposure may have maps, whatever the places of its cels are. */
 bool cs_ways_exist(const celspan_rostrum *rostrum, const cs_view *view,
                    const cs_antialias *antialias);
-/* Judges a cel. shapes: of it; occurs_again: so does its map. */
+/* Judges a cel. shapes: of the cel; occurs_again: the same drawing, and so its map, occurs
+ * again. */
 void cs_ways_judge(cs_ways *ways, size_t cel, size_t shapes, const cs_census *census,
                    bool occurs_again);
 /* Finds which cels suit, whatever their places and sizes are. All of them have been judged. */

@@ -165,8 +165,8 @@ static uint32_t values_of(const spanfile_span *span, uint32_t start) {
 typedef struct row_range {
   uint32_t x0, x1;
   const spanfile_span *first, *end; /* end: of the row */
-  uint32_t start;                   /* column of the first */
-  const unsigned char *values;      /* of the first */
+  uint32_t start;                   /* the column where the first span begins */
+  const unsigned char *values;      /* the values of the first span */
 } row_range;
 
 static row_range find_range(const cs_span_reader *file, const spanfile_row *row, uint32_t x0,
@@ -219,7 +219,7 @@ static void set_run(const cs_span_reader *file, const spanfile_span *span, celsp
   to_colour(file, pixel, out->colour);
 }
 
-/* Converts the spans into file->spans and file->colours, which are large enough. The answer: how
+/* Converts the spans into file->spans and file->colours, which are large enough. Returns how
  * many. */
 static size_t convert_range(cs_span_reader *file, const row_range *range) {
   size_t pixel_size = spanfile_pixel_size(file->info.format);

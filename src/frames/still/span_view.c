@@ -126,7 +126,8 @@ static void needed_columns(const axis_map *axis, int32_t *x0, int32_t *x1) {
   }
 }
 
-/* *at: a cursor over the spans; columns are asked for in ascending order, one back at most. */
+/* *at: a cursor over the spans. Columns are asked for in ascending order, or at most one column
+ * back. */
 static void colour_at(const celspan_span *spans, size_t count, size_t *at, int32_t x,
                       float colour[4]) {
   while (*at > 0 && spans[*at].x0 > x)

@@ -87,7 +87,7 @@ static celspan_status open_picture(celspan_context *context, const char *path, c
   return status;
 }
 
-/* Leaves the frame of that number, if the file has it. */
+/* Chooses the frame of that number, if the file has it. */
 static celspan_status choose(celspan_context *context, const char *path, int32_t frame,
                              cs_still *still) {
   double rate;

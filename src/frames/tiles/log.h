@@ -19,7 +19,7 @@ typedef struct cs_tile_inputs {
   const celspan_frame_desc *frame; /* the whole frame */
   const char *file;                /* a script, or a picture */
   bool is_script;
-  cs_hash given;    /* to the script: its arguments, and the values of its parameters */
+  cs_hash given;    /* what the script was given: its arguments, and the values of its parameters */
   bool skips_empty; /* tiles */
 } cs_tile_inputs;
 

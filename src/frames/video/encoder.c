@@ -18,7 +18,7 @@
 
 /* ---------------------------------------------------------------- the feeder */
 
-/* An encoder that has enough of the sound closes its end. *is_over: it has. */
+/* An encoder that needs no more sound closes its end of the pipe. *is_over: the end is closed. */
 static celspan_status put(cs_feeder *feeder, const void *bytes, size_t size, bool *is_over) {
   int error = cs_child_write(feeder->descriptor, bytes, size);
   *is_over = error != 0;
@@ -260,7 +260,7 @@ static celspan_status end(cs_encoder *encoder, bool has_read_all) {
 
 /* ---------------------------------------------------------------- waiting */
 
-/* Waits for the writing thread while `holds`. false: a signal asks to stop. Locked. */
+/* Waits for the writing thread while `holds` returns true. false: a signal asks to stop. Locked. */
 static bool wait_while(cs_encoder *encoder, bool (*holds)(const cs_encoder *encoder)) {
   while (holds(encoder) && !encoder->is_broken) {
     struct timespec until;
