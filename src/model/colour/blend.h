@@ -18,7 +18,7 @@
 #define CS_BLEND_COUNT (CELSPAN_BLEND_SOFT_LIGHT_PHOTOSHOP + 1)
 
 /* Added to a mode: the source shows only where its backdrop is present, and does not change the
- * backdrop's alpha; so a mode of this kind is never CELSPAN_BLEND_NORMAL. The result of "add" is
+ * backdrop's alpha; so a mode with this flag is never CELSPAN_BLEND_NORMAL. The result of "add" is
  * then clamped to 1. */
 #define CS_BLEND_WITHIN 32
 #define CS_BLEND_MODE(blend) ((celspan_blend)((unsigned)(blend) & (CS_BLEND_WITHIN - 1)))

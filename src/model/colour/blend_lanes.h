@@ -49,7 +49,7 @@ static inline cs_wide cs_blend_lanes_most(cs_wide c) {
   return cs_wide_max(cs_wide_max(CS_WIDE_SPREAD(c, 0), CS_WIDE_SPREAD(c, 1)), CS_WIDE_SPREAD(c, 2));
 }
 
-/* Moved towards their own luminosity until they are in 0..1. */
+/* Moves the colour towards its own luminosity until all channels are in 0..1. */
 static inline cs_wide cs_blend_lanes_clip(cs_wide c) {
   cs_wide middle = cs_blend_lanes_lum(c), low = cs_blend_lanes_least(c),
           high = cs_blend_lanes_most(c);
@@ -61,7 +61,7 @@ static inline cs_wide cs_blend_lanes_set_lum(cs_wide c, cs_wide value) {
   return cs_blend_lanes_clip(c + (value - cs_blend_lanes_lum(c)));
 }
 
-/* The least channel becomes 0, the greatest `value`, and that between them keeps its place. */
+/* The least channel becomes 0 and the greatest `value`; the middle one keeps its relative place. */
 static inline cs_wide cs_blend_lanes_set_sat(cs_wide c, cs_wide value) {
   cs_wide low = cs_blend_lanes_least(c), range = cs_blend_lanes_most(c) - low;
   return cs_wide_choose(range > 0, (c - low) * (value / range), cs_wide_all(0));
@@ -86,7 +86,7 @@ static inline cs_wide cs_blend_lanes_whole(celspan_blend mode, cs_wide b, cs_wid
 
 /* ---------------------------------------------------------------- any mode */
 
-/* b: of the backdrops; s: of the sources. ADD is the mode of sources within their backdrops. */
+/* b: the backdrops; s: the sources. ADD is only the mode of sources within their backdrops. */
 static inline cs_wide cs_blend_lanes(celspan_blend mode, cs_wide b, cs_wide s) {
   switch (mode) {
   case CELSPAN_BLEND_NORMAL:

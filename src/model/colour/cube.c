@@ -15,8 +15,9 @@
 #include "base/open.h"
 #include "base/tried.h"
 
-#define BUDGET ((size_t)64 << 20)  /* of tables that are kept while no grade uses them */
-#define FILE_MOST ((off_t)1 << 30) /* bytes; the largest table there may be fits */
+/* bytes of tables that are kept although no grade uses them now */
+#define BUDGET ((size_t)64 << 20)
+#define FILE_MOST ((off_t)1 << 30) /* bytes; enough for the largest possible table */
 #define ROW_LEAST 6                /* bytes of a row, "0 0 0" and its end */
 
 /* ---------------------------------------------------------------- words of a file */
@@ -24,10 +25,10 @@
 typedef struct reader {
   celspan_context *context;
   const char *file;
-  const char *text, *end; /* the text not read yet; a zero byte is at `end` */
+  const char *text, *end; /* the text that has not been read; a zero byte is at `end` */
   size_t line;
   cs_cube *cube;
-  size_t filled; /* values read so far */
+  size_t filled; /* values that have been read */
 } reader;
 
 static celspan_status fail_line(const reader *r, const char *sentence) {
@@ -49,7 +50,7 @@ static void skip_line(reader *r) {
   r->text += r->text < r->end;
 }
 
-/* Whether the line begins with the word, which is then passed. */
+/* Whether the line begins with the word; if so, skips the word. */
 static bool take_word(reader *r, const char *word) {
   size_t length = strlen(word);
   if ((size_t)(r->end - r->text) < length || memcmp(r->text, word, length) != 0 ||
@@ -98,7 +99,7 @@ static celspan_status take_size(reader *r, bool is_solid) {
   return CELSPAN_OK;
 }
 
-/* The same range for all channels: how some programs write the domain. */
+/* Reads one range for all channels: some programs write the domain in this form. */
 static celspan_status take_range(reader *r) {
   double range[2];
   skip_blanks(r);
@@ -307,7 +308,8 @@ celspan_status cs_cube_read(celspan_context *context, const char *file, cs_cube 
 
 /* ---------------------------------------------------------------- colours */
 
-/* Where a colour lies in one channel of the table: after which value, and how far. */
+/* The place of a colour in one channel of the table: the index of the value before it, and how far
+ * it is from there. */
 typedef struct place {
   size_t index;
   double part;
@@ -322,7 +324,7 @@ static place find(const cs_cube *cube, int channel, double value) {
 
 static double between(double a, double b, double u) { return a + (b - a) * u; }
 
-/* Two neighbours along red, of channel c. */
+/* Interpolates channel c between two neighbours along red. */
 static double along_red(const cs_cube *cube, size_t at, double part, int c) {
   return between((double)cube->values[at][c], (double)cube->values[at + 1][c], part);
 }

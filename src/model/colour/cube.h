@@ -16,7 +16,7 @@
 #include "base/context.h"
 #include "base/hash.h"
 
-#define CS_CUBE_1D_MOST 65536 /* values along the side of a table, as the format says */
+#define CS_CUBE_1D_MOST 65536 /* the most values along the side of a table, as the format says */
 #define CS_CUBE_3D_MOST 256
 
 typedef struct cs_cube {
@@ -25,7 +25,7 @@ typedef struct cs_cube {
   cs_hash hash;     /* of its domain and values */
   bool is_solid;    /* three dimensions */
   size_t side;      /* values along a side, at least 2 */
-  double domain[6]; /* the least red, green, blue; the greatest */
+  double domain[6]; /* the least red, green, blue; then the greatest */
   float (*values)[3];
   size_t count; /* side, or side * side * side */
 } cs_cube;
@@ -37,5 +37,5 @@ CELSPAN_CHECKED celspan_status cs_cube_read(celspan_context *context, const char
 cs_cube *cs_cube_ref(cs_cube *cube);
 void cs_cube_unref(cs_cube *cube);
 
-/* Replaces a colour, which is clamped to the domain. */
+/* Replaces a colour by its value in the table; the colour is first clamped to the domain. */
 void cs_cube_apply(const cs_cube *cube, double colour[3]);

@@ -26,7 +26,7 @@ static cs_grade_map then(const cs_grade_map *first, const cs_grade_map *next) {
   return both;
 }
 
-/* Multiplies the channels, and adds to each. */
+/* Multiplies each channel by its factor, and adds the same number to each. */
 static cs_grade_map scaling(const double factors[3], double add) {
   cs_grade_map map = {.is_given = true};
   for (int c = 0; c < 3; c++) {
@@ -50,7 +50,7 @@ static cs_grade_map saturation_map(double s) {
   return map;
 }
 
-/* Likewise. The second row of the sines is the one in the standard. */
+/* Also from there. The second row of the sines is the row in the standard. */
 static cs_grade_map hue_map(double radians) {
   const double sines[3][3] = {
       {-luma[0], -luma[1], 1 - luma[2]}, {0.143, 0.140, -0.283}, {luma[0] - 1, luma[1], luma[2]}};
@@ -107,8 +107,8 @@ static void apply_map(const cs_grade_map *map, double colour[3]) {
 
 /* ---------------------------------------------------------------- curves */
 
-/* The slopes of Fritsch and Carlson: the mean slope of the lines on both sides, then reduced to the
- * circle of radius 3 in which a cubic does not overshoot. */
+/* The slopes of Fritsch and Carlson: the mean of the slopes on both sides, then reduced to the
+ * circle of radius 3, in which a cubic does not overshoot. */
 static void find_slopes(const cs_grade_curve *curve) {
   const celspan_point *p = curve->points;
   double before = 0;
@@ -140,7 +140,7 @@ static celspan_status make_curve(celspan_context *context, const celspan_point *
   return CELSPAN_OK;
 }
 
-/* The piece that holds x, by its first point. */
+/* The index of the piece that contains x, which is the index of the piece's first point. */
 static size_t find_piece(const cs_grade_curve *curve, double x) {
   size_t low = 0, high = curve->count - 1;
   while (high - low > 1) {

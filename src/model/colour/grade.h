@@ -14,7 +14,8 @@
 #define CS_GRADE_POINTS 1024 /* of a curve, at most */
 #define CS_GRADE_MOST 1e12   /* between two steps, colours are clamped to this and its negative */
 
-/* A map of colours: each row gives a channel from the channels of the colour, and 1. */
+/* A map of colours: each row makes one channel of the result from the channels of the colour and
+ * 1. */
 typedef struct cs_grade_map {
   bool is_given;
   double rows[3][4];
@@ -22,27 +23,28 @@ typedef struct cs_grade_map {
 
 /* A monotone cubic through points, straight beyond the first and the last. */
 typedef struct cs_grade_curve {
-  celspan_point *points; /* x: in, ascending; y: out. None: no curve. Owned */
+  /* x: input, ascending; y: output. Without points there is no curve. Owned */
+  celspan_point *points;
   double *slopes;        /* at the points; owned */
   size_t count;
 } cs_grade_curve;
 
 typedef struct cs_grade {
-  cs_grade_map balance[CS_SPACES]; /* from exposure to tint */
+  cs_grade_map balance[CS_SPACES]; /* everything from exposure to tint */
   double exponent;                 /* 1 / gamma */
   cs_grade_map matrix;
   cs_grade_curve curves[3];
   cs_cube *cube; /* NULL: none. A reference */
 } cs_grade;
 
-/* desc: checked. Fills everything except the cube. Errors: NO_MEMORY; *out must be finished then,
- * too. */
+/* desc: checked before. Fills everything except the cube. Errors: NO_MEMORY; *out must be finished
+ * in this case, too. */
 CELSPAN_CHECKED celspan_status cs_grade_make(celspan_context *context,
                                              const celspan_grade_desc *desc, cs_grade *out);
 void cs_grade_finish(cs_grade *grade, cs_memory *memory);
 
-/* Replaces a colour, which was divided by its alpha. */
+/* Replaces a colour by the graded one. The colour was divided by its alpha before. */
 void cs_grade_colour(const cs_grade *grade, celspan_space space, double colour[3]);
-/* Replaces premultiplied light. alpha: the coverage; light without coverage is graded as if its
- * coverage were its brightness. */
+/* Replaces premultiplied light by the graded light. alpha: the coverage; light without coverage is
+ * graded as if its coverage were its brightness. */
 void cs_grade_light(const cs_grade *grade, celspan_space space, float alpha, float light[3]);

@@ -36,7 +36,8 @@ static double srgb_to_linear(double coded) {
   return coded <= 0.04045 ? coded / 12.92 : cs_elementary_pow((coded + 0.055) / 1.055, 2.4);
 }
 
-/* srgb8_step[k]: the least float whose code is k or more; [256] is beyond every float in 0..1. */
+/* srgb8_step[k]: the least float whose code is at least k; [256] is greater than every float in
+ * 0..1. */
 static void print_steps(void) {
   printf("static const float srgb8_step[257] = {0,");
   for (int code = 1; code <= 255; code++) {
@@ -49,8 +50,8 @@ static void print_steps(void) {
   printf(" 2};\n");
 }
 
-/* srgb8_first[i]: the code at the low end of the i-th interval, where every octave from 2^-13 on
- * has 128 intervals. */
+/* srgb8_first[i]: the code at the low end of interval i; every octave from 2^-13 on has 128
+ * intervals. */
 static void print_first_codes(void) {
   printf("static const unsigned char srgb8_first[13 * 128] = {");
   for (int i = 0; i < 13 * 128; i++) {

@@ -25,13 +25,13 @@ typedef struct cs_power {
 
 extern const cs_power cs_power_srgb_encoding, cs_power_srgb_decoding;
 
-/* A number as above, octave: e + OCTAVES. */
+/* A number divided as above. octave: e + OCTAVES. */
 typedef struct cs_power_parts {
   int32_t octave, slice;
   double r;
 } cs_power_parts;
 
-/* x: from LEAST on, below END. */
+/* x: at least LEAST, and less than END. */
 static inline cs_power_parts cs_power_split(double x) {
   uint64_t bits, mantissa_bits;
   memcpy(&bits, &x, sizeof bits);
@@ -60,8 +60,8 @@ static inline double cs_power_of(const cs_power *power, double x) {
   return cs_power_join(power, cs_power_scale(power, parts.octave, parts.slice), parts.r);
 }
 
-/* ---- IEC 61966-2-1, the curve of sRGB, for x >= 0. Its power is given where the curve is no line:
- * above these. */
+/* ---- IEC 61966-2-1, the curve of sRGB, for x >= 0. It is a power above these limits, and a line
+ * below them. */
 
 #define CS_POWER_SRGB_LIGHT 0.0031308 /* of linear light */
 #define CS_POWER_SRGB_CODE 0.04045    /* of codes in 0..1 */

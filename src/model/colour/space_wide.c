@@ -10,17 +10,17 @@
 #include "model/colour/power.h"
 #include "model/colour/space.h"
 
-#define TOGETHER 64 /* channels; loops have no other length, so none has a rest */
+#define TOGETHER 64 /* channels: all loops have this length, so that there is no remainder */
 
 typedef struct channels {
   float s[TOGETHER], there[TOGETHER], colours[TOGETHER]; /* as in space.h */
-  double sizes[TOGETHER];                                /* of the colours, without their signs */
+  double sizes[TOGETHER];                                /* the magnitudes of the colours */
   double bases[TOGETHER];
   int32_t octaves[TOGETHER], slices[TOGETHER]; /* as in power.h */
   double rests[TOGETHER], powers[TOGETHER];
 } channels;
 
-/* False: some colour is beyond the tables. `there` holds the shares at first. */
+/* False if some colour is outside of the tables. At first `there` holds the shares. */
 static inline bool find_colours(channels *all) {
   int32_t beyond = 0;
   for (int i = 0; i < TOGETHER; i++) {
@@ -35,7 +35,7 @@ static inline bool find_colours(channels *all) {
   return beyond == 0;
 }
 
-/* The tables are read by themselves, so that the other two loops are vector code. */
+/* The tables are read in a separate loop, so that the other two loops become vector code. */
 static inline void find_powers(const cs_power *power, channels *all) {
   for (int i = 0; i < TOGETHER; i++) {
     const cs_power_parts parts = cs_power_split(all->bases[i]);

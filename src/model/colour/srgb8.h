@@ -1,13 +1,13 @@
-/* A colour as an 8-bit pixel in sRGB with straight alpha, and back. Nearly every frame is coded so,
- * in the loops of srgb8_lanes.h.
- */
+/* A colour as an 8-bit pixel in sRGB with straight alpha, and back. Nearly every frame is coded in
+ * this way, by the loops of srgb8_lanes.h. */
 #pragma once
 
 #include <stddef.h>
 
 #include "model/colour/transfer.h"
 
-/* A number from 0 to 1 as one of 0 to 255, rounded half up: the product is exact. NaN becomes 0. */
+/* A number from 0 to 1 as a number from 0 to 255, rounded half up: the product is exact. NaN
+ * becomes 0. */
 static inline uint32_t cs_srgb8_byte(float x) {
   return !(x > 0) ? 0 : x >= 1 ? 255 : (uint32_t)((double)x * 255 + 0.5);
 }
@@ -38,7 +38,7 @@ static inline uint32_t cs_srgb8_pixel(const float rgba[4]) {
 /* The light of every code. */
 typedef struct cs_srgb8_curve {
   float light[256];
-  unsigned char bytes[4][256]; /* the four bytes of those floats, the lowest first */
+  unsigned char bytes[4][256]; /* the four bytes of the floats, the lowest first */
 } cs_srgb8_curve;
 
 void cs_srgb8_make_curve(cs_srgb8_curve *out);

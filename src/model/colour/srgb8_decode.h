@@ -15,7 +15,7 @@
 #include "base/wide.h"
 #include "model/colour/srgb8.h"
 
-/* Whether the processor has these instructions. */
+/* Whether the processor has the instructions of this file. */
 static inline bool cs_srgb8_decodes(cs_isa isa) {
 #ifdef __x86_64__
   return isa == CS_ISA_AVX512 && __builtin_cpu_supports("avx512vbmi");
@@ -26,8 +26,8 @@ static inline bool cs_srgb8_decodes(cs_isa isa) {
 
 #ifdef __AVX512F__
 
-/* Aligned to lines of the cache: otherwise the code linked in front of these loops decides where
- * they lie, and a bad place makes them up to 8 % slower. */
+/* Aligned to lines of the cache. Otherwise the code before these loops would decide where they lie,
+ * and a bad position makes them up to 8 % slower. */
 #define CS_SRGB8_BYTES __attribute__((target("avx512vbmi"), aligned(64)))
 
 typedef struct cs_srgb8_tables {
@@ -48,7 +48,8 @@ CS_SRGB8_BYTES static inline cs_srgb8_tables cs_srgb8_load_tables(const cs_srgb8
   return t;
 }
 
-/* Which of 64 codes lie in the second, the third and the last quarter of the table. */
+/* Masks of the codes, out of 64, that lie in the second, the third and the last quarter of the
+ * table. */
 typedef struct cs_srgb8_quarters {
   __mmask64 second, third, last;
 } cs_srgb8_quarters;
@@ -60,8 +61,8 @@ CS_SRGB8_BYTES static inline cs_srgb8_quarters cs_srgb8_quarters_of(__m512i code
                              _kand_mask64(odd, high)};
 }
 
-/* One byte of the floats of 64 codes. Looking bytes up in 64 entries is one micro-operation, in 128
- * three. */
+/* Reads one byte of the floats of 64 codes. To look up bytes in 64 entries takes one micro-
+ * operation, in 128 entries three. */
 CS_SRGB8_BYTES static inline __m512i cs_srgb8_read_table(const __m512i quarters[4],
                                                          cs_srgb8_quarters in, __m512i code) {
   __m512i made = _mm512_permutexvar_epi8(code, quarters[0]);
@@ -94,7 +95,7 @@ CS_SRGB8_BYTES static inline __m512 cs_srgb8_alphas(__m512i pixels) {
 }
 
 /* Sixteen pixels channel by channel, in the order of planes (srgb8_lanes.h). Two permutations in
- * one: the codes are put in that order, and their bytes together by channel. */
+ * one: the codes are put into that order, and their bytes are collected by channel. */
 CS_SRGB8_BYTES static inline cs_srgb8_fours cs_srgb8_decode_plane(const cs_srgb8_tables *t,
                                                                   __m512i code) {
   const __m512i quarter = _mm512_broadcast_i32x4(

@@ -1,8 +1,9 @@
 /* 8-bit sRGB of as many pixels as a register holds, each as red, green, blue and alpha: for kernels
  * (base/wide.h), which write them to their places.
  *
- * Invariant: a pixel is cs_srgb8_pixel_of its colour, whichever instructions made it. is_coded is a
- * constant of each loop: numbers that are codes take the straight part of the curve alone.
+ * Invariant: a pixel is cs_srgb8_pixel_of its colour, whichever instructions made the pixel.
+ * is_coded is a constant of each loop: numbers that are codes take the straight part of the curve
+ * alone.
  */
 #pragma once
 
@@ -76,7 +77,7 @@ static inline cs_wide cs_srgb8_clamped(cs_wide v) {
 #endif
 }
 
-/* low where x is at most the limit, else high. */
+/* low where x is at most the limit, otherwise high. */
 static inline cs_wide cs_srgb8_either(cs_wide x, cs_wide limit, cs_wide low, cs_wide high) {
 #ifdef __AVX512F__
   __mmask16 is_high = _mm512_cmp_ps_mask((__m512)x, (__m512)limit, _CMP_GT_OQ);
@@ -93,14 +94,15 @@ static inline cs_wide cs_srgb8_octave(cs_wide x) {
   return (cs_wide)_mm512_permutexvar_ps(octave, _mm512_loadu_ps(cs_srgb8_octaves));
 #else
   __m256i octave = _mm256_srli_epi32((__m256i)x, 23);
-  __m256 is_high = _mm256_castsi256_ps(_mm256_slli_epi32(octave, 28)); /* bit 3 as the sign */
+  /* bit 3, moved to the sign */
+  __m256 is_high = _mm256_castsi256_ps(_mm256_slli_epi32(octave, 28));
   __m256 low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(cs_srgb8_octaves), octave);
   __m256 high = _mm256_permutevar8x32_ps(_mm256_loadu_ps(cs_srgb8_octaves + 8), octave);
   return (cs_wide)_mm256_blendv_ps(low, high, is_high);
 #endif
 }
 
-/* a + b c, rounded once or twice: the curve is approximated, so either will do. */
+/* a + b c, rounded once or twice: the curve is approximated, so both are good enough. */
 static inline cs_wide cs_srgb8_add(cs_wide a, cs_wide b, cs_wide c) {
 #ifdef __AVX512F__
   return (cs_wide)_mm512_fmadd_ps((__m512)b, (__m512)c, (__m512)a);
@@ -119,7 +121,8 @@ static inline cs_wide cs_srgb8_coded(cs_wide x, cs_wide slope, cs_wide knee) {
   return cs_srgb8_either(x, knee, x * slope, curved);
 }
 
-/* The whole part of y + lift; `unsure` becomes other than 0 in lanes where it is in doubt. */
+/* The whole part of y + lift. Sets `unsure` to a value other than 0 in lanes where the whole part
+ * is not certain. */
 static inline cs_wide_int cs_srgb8_lifted(cs_wide y, cs_wide lift, cs_wide_int *unsure) {
   cs_wide_int least = __builtin_convertvector(y + (lift - CS_SRGB8_UNSURE), cs_wide_int);
   cs_wide_int most = __builtin_convertvector(y + (lift + CS_SRGB8_UNSURE), cs_wide_int);
@@ -160,7 +163,7 @@ static inline void cs_srgb8_store(unsigned char *out, cs_wide_int numbers) {
 #endif
 }
 
-/* Codes again, exactly, the pixels that have an unsure lane (a set bit). */
+/* Codes the pixels that have an unsure lane (a set bit) again, exactly. */
 static inline void cs_srgb8_settle(cs_wide rgba, bool is_coded, unsigned unsure,
                                    unsigned char *out) {
   float colours[CS_WIDE_LANES];
@@ -204,7 +207,7 @@ static inline void cs_srgb8_lanes(cs_wide rgba, bool is_coded, unsigned char *ou
 /* 8-bit sRGB of sixteen pixels, of which every register holds one channel: for kernels
  * (base/wide.h). Where there is no AVX-512 there are no planes.
  *
- * Invariant: a pixel is cs_srgb8_pixel of its colour, whichever instructions made it.
+ * Invariant: a pixel is cs_srgb8_pixel of its colour, whichever instructions made the pixel.
  */
 
 #ifdef __AVX512F__
@@ -214,7 +217,7 @@ typedef struct cs_srgb8_planes {
   cs_wide channels[4];
 } cs_srgb8_planes;
 
-/* Codes again, exactly, the pixels that have an unsure lane (a set bit). */
+/* Codes the pixels that have an unsure lane (a set bit) again, exactly. */
 static inline cs_wide_int cs_srgb8_settle_planes(const cs_srgb8_planes *colours, bool is_coded,
                                                  unsigned unsure, cs_wide_int pixels) {
   for (int k = 0; k < CS_WIDE_LANES; k++, unsure >>= 1) {

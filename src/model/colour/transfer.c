@@ -81,8 +81,8 @@ float cs_transfer_encode(celspan_transfer transfer, float linear) {
   }
 }
 
-/* In 1/128 of an octave the code changes at most once, so the first code there and one comparison
- * give the code. */
+/* Within 1/128 of an octave the code changes at most once, so the first code of the interval and
+ * one comparison give the code. */
 uint8_t cs_transfer_srgb8(float linear) {
   if (!(linear >= 0x1p-13f))
     return 0;

@@ -10,7 +10,7 @@
 #define HORIZON 1e-9  /* of the outline's largest |w| */
 #define ROOT_DEPTH 46 /* halvings: two roots that are nearer than this count as one */
 #define CLIP_DEPTH 40
-#define NOISE 4e-15 /* relative to its terms: a smaller coefficient is rounding */
+#define NOISE 4e-15 /* relative to the terms of the sum: a coefficient below this is rounding */
 #define COEFFICIENTS (CS_BEZIER_POLYNOMIAL + 1)
 
 /* ---------------------------------------------------------------- pieces */
@@ -134,7 +134,7 @@ static sign_pattern signs_of(const double *coefficients, int degree, double nois
 }
 
 /* The only root, by regula falsi (the Illinois variant), whose bracket is halved at least every
- * third step; `sign`: of the polynomial at 0. */
+ * third step. sign: the sign of the polynomial at 0. */
 static double bracketed_root(const double *coefficients, int degree, int sign) {
   double low = 0, high = 1;
   double at_low = coefficients[0] * sign, at_high = coefficients[degree] * sign;
@@ -174,7 +174,7 @@ static void find_quadratic_roots(const double *c, root_list *list) {
   double discriminant = c[1] * c[1] - c[0] * c[2];
   if (!(discriminant > 0))
     return;
-  /* Each root has two formulas; this is the one without cancellation. */
+  /* Each root has two formulas; this one has no cancellation. */
   double sum = half < 0 ? -half + sqrt(discriminant) : -half - sqrt(discriminant);
   double one = c[0] / sum, other = sum / square;
   add_root(list, one < other ? one : other);
@@ -202,7 +202,7 @@ static void isolate_roots(const double *coefficients, int degree, double noise, 
   double low[COEFFICIENTS], high[COEFFICIENTS];
   halve(coefficients, degree, low, high);
   isolate_roots(low, degree, noise, from, middle, depth + 1, list);
-  /* A root at the middle itself is an end of both halves, which both leave it out. */
+  /* A root exactly in the middle is an end of both halves, and both halves leave it out. */
   if (signs_of(low, degree, noise).last * signs_of(high, degree, noise).first < 0)
     add_root(list, middle);
   isolate_roots(high, degree, noise, middle, to, depth + 1, list);
@@ -249,7 +249,7 @@ static double binomial(int n, int k) {
   return value;
 }
 
-/* Bernstein coefficients of Y'W - YW' over the degree, itself of degree 2p - 1. */
+/* Bernstein coefficients of Y'W - YW', divided by the degree p; they have degree 2p - 1. */
 static double slope_numerator(const cs_bezier *piece, cs_bezier_axis axis, double *coefficients) {
   int p = piece->degree;
   double size = 0, across[2][CS_BEZIER_DEGREE + 1];
@@ -279,7 +279,7 @@ int cs_bezier_turns(const double *coefficients, int degree, double *roots) {
     rises[i] = b - a;
     size = cs_number_most(fabs(a) + fabs(b), size);
   }
-  size *= 0.05; /* a difference has only one rounding */
+  size *= 0.05; /* a difference is rounded only once */
   root_list list = {0, CS_BEZIER_ROOTS, roots};
   find_roots(rises, degree - 1, NOISE * size, &list);
   return list.count;
@@ -305,7 +305,7 @@ static bool find_largest_weight(const cs_outline *outline, const celspan_matrix 
                                 double *largest) {
   *largest = fabs(matrix->m[8]);
   if (outline->is_plain && cs_matrix_is_affine(matrix) && cs_matrix_is_sane(matrix))
-    return true; /* that is the weight of every point */
+    return true; /* this is the weight of every point */
   *largest = 0;
   for (size_t i = 0; i < outline->point_count; i++) {
     cs_hpoint p = cs_matrix_apply(matrix, outline->points[i]);
@@ -332,7 +332,8 @@ static double least_weight(const cs_bezier *piece) {
   return least;
 }
 
-/* A part in front of the horizon may have control points behind it: it is halved until none has. */
+/* A part in front of the horizon may have control points behind it. It is halved until no part has
+ * such points. */
 static celspan_status visit_front(const cs_bezier *part, double least, cs_bezier_visit visit,
                                   void *user, int depth) {
   if (least_weight(part) >= 0.5 * least)

@@ -18,7 +18,7 @@
 #define CS_BEZIER_DEGREE 15
 /* The most roots of any polynomial here: a rational piece has that many extrema. */
 #define CS_BEZIER_ROOTS (2 * CS_BEZIER_DEGREE)
-/* The highest degree of any polynomial that may be asked for its roots. */
+/* The highest degree of a polynomial whose roots can be found. */
 #define CS_BEZIER_POLYNOMIAL 100
 
 typedef struct cs_bezier {
@@ -40,8 +40,8 @@ void cs_bezier_load(const cs_outline *outline, size_t piece, const celspan_matri
 void cs_bezier_copy(const cs_bezier *piece, cs_bezier *copy);
 cs_bezier cs_bezier_line(cs_hpoint from, cs_hpoint to);
 void cs_bezier_reverse(cs_bezier *piece);
-/* Chooses one of the two directions of the piece, always the same one; returns whether that
- * reversed it. */
+/* Chooses one of the two directions of the piece, always the same one for the same curve. Returns
+ * whether the piece was reversed. */
 bool cs_bezier_canonise(cs_bezier *piece);
 bool cs_bezier_is_polynomial(const cs_bezier *piece); /* all weights equal */
 /* Projected coordinate of a point with w > 0. */
@@ -49,21 +49,25 @@ static inline double cs_bezier_coordinate(cs_hpoint point, cs_bezier_axis axis) 
   return (axis == CS_BEZIER_X ? point.x : point.y) / point.w;
 }
 
-/* low and high share the joint bitwise; either may be the piece itself. */
+/* low and high have the same joint to the bit; either may be the piece itself. */
 void cs_bezier_split(const cs_bezier *piece, double t, cs_bezier *low, cs_bezier *high);
-/* Cuts *rest at parameter t of the whole piece: its beginning becomes *front, and *rest the rest.
- * *from: the parameter at which *rest begins; becomes t. For a list of ascending roots. */
+/* Cuts *rest at the parameter t of the whole piece: *front becomes its beginning, and *rest the
+ * remaining part. *from: the parameter at which *rest begins; becomes t. For ascending lists of
+ * roots. */
 void cs_bezier_cut_front(cs_bezier *rest, double *from, double t, cs_bezier *front);
 
-/* Parameters inside (0, 1) where a form changes its sign, ascending; their number. */
+/* The parameters inside (0, 1) at which a form changes its sign, ascending. Returns their
+ * number. */
 int cs_bezier_crossings(const cs_bezier *piece, cs_bezier_form form, double roots[CS_BEZIER_ROOTS]);
-/* Parameters inside (0, 1) where the polynomial with these Bernstein coefficients changes its sign,
- * ascending, no more than its degree; their number. size: of the terms whose sums they are. */
+/* The parameters inside (0, 1) at which the polynomial with these Bernstein coefficients changes
+ * its sign, ascending; at most as many as its degree. size: of the terms of which the coefficients
+ * are sums. Returns their number. */
 int cs_bezier_roots(const double *coefficients, int degree, double size, double *roots);
-/* Parameters inside (0, 1) where the polynomial with these Bernstein coefficients has an extremum,
- * ascending; their number. */
+/* The parameters inside (0, 1) at which the polynomial with these Bernstein coefficients has an
+ * extremum, ascending. Returns their number. */
 int cs_bezier_turns(const double *coefficients, int degree, double *roots);
-/* Parameters inside (0, 1) where a projected coordinate has an extremum; weights must be > 0. */
+/* The parameters inside (0, 1) at which a projected coordinate has an extremum; weights must be >
+ * 0. Returns their number. */
 int cs_bezier_extrema(const cs_bezier *piece, cs_bezier_axis axis, double roots[CS_BEZIER_ROOTS]);
 
 /* The least w, > 0, that counts as in front of the horizon for an outline under a matrix; false

@@ -37,7 +37,7 @@ bool cs_boundary_around_box(const celspan_box *box, const celspan_matrix *matrix
     cs_hpoint own = {box->x + (corner & 1 ? box->width : 0),
                      box->y + (corner & 2 ? box->height : 0), 1};
     cs_hpoint at = cs_matrix_apply(matrix, own);
-    double x = at.x / at.w, y = at.y / at.w; /* may be no number, which counts for nothing */
+    double x = at.x / at.w, y = at.y / at.w; /* may be NaN, which then changes nothing */
     is_in_front = is_in_front && at.w > 0;
     out->left = cs_number_least(x, out->left);
     out->right = cs_number_most(x, out->right);
@@ -60,7 +60,7 @@ static inline bool is_before(const cs_boundary_chain *a, const cs_boundary_chain
 
 CS_SORT_DEFINE(sort_chains, cs_boundary_chain, is_before)
 
-/* A whole number in the order of heights; heights that are close share one. */
+/* A whole number that grows with the height; heights that are very close have the same number. */
 static inline int32_t height_key(double y) {
   const float height = (float)y + 0.0f; /* no -0 */
   int32_t bits;
@@ -68,7 +68,7 @@ static inline int32_t height_key(double y) {
   return bits < 0 ? bits ^ INT32_MAX : bits;
 }
 
-/* Moves the chains to where the keys have their numbers. */
+/* Moves the chains to the places that the keys give. */
 static void move_chains(cs_boundary_chain *chains, uint64_t *keys, size_t count) {
   for (size_t i = 0; i < count; i++) {
     const cs_boundary_chain first = chains[i];

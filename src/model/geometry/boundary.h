@@ -27,20 +27,22 @@
 #include "model/geometry/outline.h"
 
 #define CS_BOUNDARY_TOLERANCE 0.02
-#define CS_BOUNDARY_GROUP 7 /* chords whose vertices are made at a time, at most */
+#define CS_BOUNDARY_GROUP 7 /* the most chords whose vertices are made at a time */
 
 /* One monotone rational Bezier piece, normalised to run downwards: y0 < y1. */
 typedef struct cs_boundary_piece {
   double x0, y0, x1, y1;
-  double left, right;  /* no vertex lies outside them */
-  double sag;          /* the most that a chord of mean length is away from the curve */
-  double step;         /* of the parameter, from vertex to vertex */
-  uint32_t point;      /* its degree + 1 points; none where there is but one chord,
-                          unless curves are kept */
+  double left, right;  /* no vertex lies left or right of these */
+  double sag;          /* the greatest distance of a chord of mean length from the curve */
+  double step;         /* the change of the parameter from vertex to vertex */
+  /* the index of its degree + 1 points; a piece of one chord has no points unless curves are
+   * kept */
+  uint32_t point;
   uint32_t chords;     /* a multiple of group */
-  uint8_t group, half; /* in chords: a group, and its upper half (which may be all of it) */
-  uint8_t leap;        /* groups that one arc is tried for, beginning at a multiple of it; or 1 */
-  uint8_t degree;      /* 1: it has no points */
+  uint8_t group, half; /* chords of a group, and of its upper half (or of the whole group) */
+  /* the number of groups that are first tried as one arc, which begins at a multiple of it; or 1 */
+  uint8_t leap;
+  uint8_t degree;      /* 1: the piece has no points */
   bool is_power;       /* points are coefficients of the powers of t, without w; else homogeneous */
 } cs_boundary_piece;
 
@@ -48,7 +50,7 @@ typedef struct cs_boundary_chain {
   double y0, y1; /* top and bottom, y0 < y1 */
   double x0;     /* at the top */
   uint32_t piece, piece_count;
-  uint32_t layer;    /* whose outline this is: an index of the caller's */
+  uint32_t layer;    /* the layer of the outline: an index of the caller's */
   int32_t direction; /* +1: the contour runs downwards here, -1: upwards */
 } cs_boundary_chain;
 
@@ -66,8 +68,8 @@ typedef struct cs_boundary_frame {
   double left, right, top, bottom; /* pixels */
 } cs_boundary_frame;
 
-/* The rectangle around the four corners of a box under a matrix. Returns whether all of them are in
- * front of the horizon: then everything inside the box lies in the rectangle. */
+/* The rectangle around the four corners of a box under a matrix. Returns whether all corners are in
+ * front of the horizon: if so, everything inside the box lies in the rectangle. */
 bool cs_boundary_around_box(const celspan_box *box, const celspan_matrix *matrix,
                             cs_boundary_frame *out);
 
@@ -79,14 +81,15 @@ CELSPAN_CHECKED celspan_status cs_boundary_expect(celspan_context *context, cs_b
                                                   size_t pieces, size_t points);
 
 /* Orders the chains by y0, then x0, then layer, then the order of adding: the order in which a
- * sweep meets them. Call once, after the last outline. Errors: NO_MEMORY. */
+ * sweep meets them. Must be called once, after the last outline. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_boundary_sort(celspan_context *context, cs_boundary_set *set);
 
 /* The segments of a group, from vertex to vertex, from the top. Every number is finite. */
 typedef struct cs_boundary_group {
   double x[CS_BOUNDARY_GROUP + 1], y[CS_BOUNDARY_GROUP + 1];
   double slope[CS_BOUNDARY_GROUP + 1]; /* dx/dy of each segment, at its top; 0 where it is flat */
-  double curve[CS_BOUNDARY_GROUP + 1]; /* and d2x/dy2 / 2; 0 of a chord */
-  uint32_t count;                      /* of segments; an arc is one */
-  uint32_t first, groups;              /* of the piece: one group, or the groups of a leap */
+  double curve[CS_BOUNDARY_GROUP + 1]; /* half of d2x/dy2; 0 for a chord */
+  uint32_t count;                      /* the number of segments; an arc is one segment */
+  /* of the piece: the first group, and the number of groups; 1, or all groups of a leap */
+  uint32_t first, groups;
 } cs_boundary_group;

@@ -13,11 +13,12 @@
 #include "model/geometry/matrix.h"
 #include "model/geometry/polyline.h"
 
-#define WEIGHT_RATIO 2 /* of the weights in a piece that is fitted as a whole, at most */
+#define WEIGHT_RATIO 2 /* the greatest ratio of the weights in a piece that is fitted as a whole */
 #define WEIGHT_DEPTH 40
-/* Pixels that a piece may always extend beyond top or bottom without being cut there. */
+/* How many pixels any piece may extend beyond the top or the bottom without being cut there. */
 #define LEAST_OUTSIDE 1024
-/* Pixels that a piece inside is away from where it would be cut, against rounding in its parts. */
+/* A piece counts as inside if it is this many pixels away from the place where it would be cut,
+ * because its parts are rounded. */
 #define CLEARANCE 1
 
 typedef cs_boundary_builder builder;
@@ -29,7 +30,7 @@ static celspan_status reserve_stretches(builder *b, size_t more) {
   return CS_RESERVE(b->context, stretches->items, stretches->capacity, stretches->count + more);
 }
 
-/* A straight one, for which there is room. */
+/* Appends a straight stretch, for which there is room. */
 static inline cs_boundary_piece *append_stretch(builder *b, celspan_point from, celspan_point to) {
   cs_boundary_stretch *added = &b->stretches.items[b->stretches.count++];
   *added = b->straight;
@@ -56,8 +57,8 @@ static celspan_status add_vertical(builder *b, double x, double y0, double y1) {
 
 /* ---------------------------------------------------------------- the frame */
 
-/* The height at which a line crosses x, computed from the nearer end: the other one may be close to
- * the horizon, with few exact digits. */
+/* The height at which a line crosses x, computed from the nearer end: the other end may be close to
+ * the horizon, where few digits are exact. */
 static double edge_height(celspan_point top, celspan_point bottom, double x) {
   double rise = (bottom.y - top.y) / (bottom.x - top.x);
   bool is_top_near = fabs(x - top.x) <= fabs(x - bottom.x);
@@ -99,7 +100,7 @@ static celspan_point project(cs_hpoint point) {
   return (celspan_point){point.x / point.w, point.y / point.w};
 }
 
-/* The end of a stretch, clamped to the frame and to below the stretch before it. */
+/* The end of a stretch, moved into the frame, and not above the previous stretch. */
 static celspan_point joint(const builder *b, const cs_bezier *curve, celspan_point from,
                            celspan_point to) {
   celspan_point end = project(curve->points[curve->degree]);
@@ -107,7 +108,8 @@ static celspan_point joint(const builder *b, const cs_bezier *curve, celspan_poi
                          cs_number_clamp(end.y, from.y, to.y)};
 }
 
-/* A curve inside the frame, halved until its weights are similar, WEIGHT_DEPTH times at most. */
+/* A curve inside the frame; it is halved until its weights are similar, at most WEIGHT_DEPTH
+ * times. */
 static celspan_status add_curve(builder *b, const cs_bezier *curve, celspan_point from,
                                 celspan_point to, int depth) {
   if (depth == WEIGHT_DEPTH || weight_ratio(curve) <= WEIGHT_RATIO)
@@ -131,8 +133,8 @@ static double mean_x(const cs_bezier *curve) {
   return (middle + middle_x(&upper, &first, &second) + middle_x(&lower, &first, &second)) / 3;
 }
 
-/* A curve that crosses neither side of the frame is inside or outside as the mean of its points is:
- * any single one may be where it touches a side. */
+/* A curve that does not cross a side of the frame is inside or outside. The mean of its points
+ * decides, because a single point may lie on a side. */
 static celspan_status add_one_side(builder *b, const cs_bezier *curve, celspan_point from,
                                    celspan_point to) {
   double x = mean_x(curve);
@@ -179,7 +181,7 @@ static celspan_status add_cut_curve(builder *b, const cs_bezier *curve, celspan_
   return add_one_side(b, &rest, from, to);
 }
 
-/* y0, y1: the heights of its ends. */
+/* y0, y1: the heights of the curve's ends. */
 static celspan_status add_across(builder *b, const cs_bezier *curve, double y0, double y1) {
   double left = b->frame.left, right = b->frame.right;
   double least = HUGE_VAL, largest = -HUGE_VAL;
@@ -198,8 +200,8 @@ static celspan_status add_across(builder *b, const cs_bezier *curve, double y0, 
                                            : add_cut_curve(b, curve, from, to);
 }
 
-/* curve: goes down from its first point to its last. It may extend a little beyond top and bottom:
- * that costs little, and its vertices are then the same as in a larger frame. */
+/* curve: goes down from its first point to its last one. It may extend a little beyond the top and
+ * the bottom: this costs little, and the vertices are the same as in a larger frame. */
 static celspan_status add_falling(builder *b, cs_bezier *curve) {
   const cs_boundary_frame *frame = &b->frame;
   celspan_point from = project(curve->points[0]), to = project(curve->points[curve->degree]);
@@ -252,8 +254,8 @@ static bool has_monotone_polygon(const cs_bezier *curve) {
   return !(rises && falls);
 }
 
-/* curve: canonical and in front of the horizon; it is used up. is_turned: the contour has the other
- * direction. */
+/* curve: canonical and in front of the horizon; it is changed. is_turned: the contour has the
+ * opposite direction. */
 static celspan_status add_canonical(builder *b, cs_bezier *curve, bool is_turned) {
   double roots[CS_BEZIER_ROOTS], position = 0;
   int count = has_monotone_polygon(curve) ? 0 : cs_bezier_extrema(curve, CS_BEZIER_Y, roots);
@@ -321,7 +323,7 @@ static celspan_status add_contour(builder *b, const cs_outline *outline, size_t 
 
 /* ---------------------------------------------------------------- plain contours */
 
-/* The parts of a curve that is inside are inside too. */
+/* The parts of a curve that is inside the frame are inside, too. */
 static inline bool is_inside(const builder *b, const cs_plain *curve) {
   const cs_boundary_frame *inside = &b->inside;
   cs_plain_hull hull = cs_plain_hull_of(curve);
@@ -329,7 +331,7 @@ static inline bool is_inside(const builder *b, const cs_plain *curve) {
          hull.least[1] >= inside->top && hull.most[1] <= inside->bottom;
 }
 
-/* A monotone curve that is inside is at most one stretch. */
+/* A monotone curve that is inside the frame is at most one stretch. */
 static void add_inside(builder *b, cs_plain *curve) {
   const cs_pair *p = curve->points;
   double y0 = p[0][1], y1 = p[CS_PLAIN_DEGREE][1];
@@ -345,7 +347,7 @@ static void add_inside(builder *b, cs_plain *curve) {
     cs_polyline_fit_plain(b->set, curve, piece);
 }
 
-/* add_canonical for a curve that is inside. */
+/* add_canonical for a curve that is inside the frame. */
 static void add_cut_inside(builder *b, cs_plain *curve) {
   double roots[CS_PLAIN_DEGREE], position = 0;
   bool is_turned = cs_plain_canonise(curve);
@@ -372,7 +374,7 @@ static celspan_status add_beside(builder *b, const cs_plain *curve) {
 static celspan_status add_plain_piece(builder *b, cs_plain *curve) {
   if (!is_inside(b, curve))
     return add_beside(b, curve);
-  CS_TRY(reserve_stretches(b, CS_PLAIN_PARTS)); /* so that nothing below can fail */
+  CS_TRY(reserve_stretches(b, CS_PLAIN_PARTS)); /* nothing below can fail */
   CS_TRY(cs_polyline_reserve(b->context, b->set, CS_PLAIN_PARTS * (CS_PLAIN_DEGREE + 1)));
   if (cs_plain_has_monotone_polygon(curve))
     add_inside(b, curve);
@@ -381,7 +383,7 @@ static celspan_status add_plain_piece(builder *b, cs_plain *curve) {
   return CELSPAN_OK;
 }
 
-/* All of it is in front of the horizon, so it has no gaps. */
+/* The whole contour is in front of the horizon, so it has no gaps. */
 static celspan_status add_plain_contour(builder *b, const cs_outline *outline, size_t begin,
                                         size_t end, const cs_plain_map *map) {
   const cs_hpoint *points = outline->points + outline->starts[begin];
@@ -465,7 +467,7 @@ static inline bool joins(const cs_boundary_stretch *a, const cs_boundary_stretch
   return a->direction == b->direction && upper->x1 == lower->x0 && upper->y1 == lower->y0;
 }
 
-/* The end of the stretches that continue each other from `begin` on. */
+/* The end of the stretches that continue one another, from `begin` on. */
 static size_t end_of_run(const cs_boundary_stretches *stretches, size_t begin) {
   size_t end = begin + 1;
   while (end < stretches->count && joins(&stretches->items[end - 1], &stretches->items[end]))
@@ -477,8 +479,8 @@ static bool is_vertical(const cs_boundary_piece *piece) {
   return piece->chords == 1 && piece->x0 == piece->x1;
 }
 
-/* Puts the pieces of a run below the other pieces of its chain, which are from `chain` to `next`;
- * two vertical lines become one. Returns the end of the chain. */
+/* Appends the pieces of a run to the bottom of its chain, which is from `chain` to `next`; two
+ * vertical lines become one. Returns the end of the chain. */
 static cs_boundary_piece *append_run(const cs_boundary_stretch *items, size_t begin, size_t end,
                                      const cs_boundary_piece *chain, cs_boundary_piece *next) {
   bool falls = items[begin].direction > 0;
@@ -492,7 +494,7 @@ static cs_boundary_piece *append_run(const cs_boundary_stretch *items, size_t be
   return next;
 }
 
-/* The chain of a run, and of the first `wrapped` stretches, which continue it. */
+/* Makes the chain of a run. The first `wrapped` stretches continue the run. */
 static void append_chain(const cs_boundary_stretch *items, size_t begin, size_t end, size_t wrapped,
                          uint32_t layer, cs_boundary_set *set) {
   int32_t direction = items[begin].direction;

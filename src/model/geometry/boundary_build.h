@@ -52,15 +52,15 @@ CELSPAN_CHECKED celspan_status cs_stretches_join(celspan_context *context,
                                                  const cs_boundary_stretches *stretches,
                                                  uint32_t layer, cs_boundary_set *set);
 
-/* The memory that it works in is kept from outline to outline. */
+/* The memory that it uses is kept from outline to outline. */
 typedef struct cs_boundary_builder {
   celspan_context *context;
   cs_boundary_set *set;
   cs_boundary_frame frame;
-  cs_boundary_frame inside;        /* plain curves within it are inside */
+  cs_boundary_frame inside;        /* plain curves in this rectangle count as inside */
   cs_boundary_stretches stretches; /* of the current contour */
   cs_boundary_stretch straight;    /* the initial value of the stretches of the current curve */
-  cs_bezier *fronts;               /* the parts of the current piece that are before the horizon */
+  cs_bezier *fronts; /* the parts of the current piece that are in front of the horizon */
   size_t front_count, front_capacity;
   bool has_pen;
   cs_hpoint first, pen; /* the beginning of the contour, and its current point */
@@ -71,8 +71,8 @@ void cs_boundary_builder_init(cs_boundary_builder *builder, celspan_context *con
                               cs_boundary_set *set, const cs_boundary_frame *frame);
 void cs_boundary_builder_finish(cs_boundary_builder *builder);
 
-/* Appends the chains of an outline under a matrix (own units to pixels). A contour in part behind
- * the horizon is cut there. Errors: NO_MEMORY, LIMIT. */
+/* Appends the chains of an outline under a matrix (own units to pixels). If a part of a contour is
+ * behind the horizon, the contour is cut there. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_boundary_add(cs_boundary_builder *builder,
                                                const cs_outline *outline,
                                                const celspan_matrix *matrix, uint32_t layer);

@@ -16,7 +16,7 @@ static inline void copy_segment(cs_boundary_walk *walk) {
   walk->curve = made->curve[at];
 }
 
-/* leaps: false for a group in the middle of a leap, because the arc of that leap was rejected. */
+/* leaps: false for a group in the middle of a leap whose arc was rejected. */
 static void begin_group(const cs_boundary_set *set, cs_boundary_walk *walk, uint32_t group,
                         bool leaps) {
   cs_polyline_group(set, &set->pieces[walk->piece], group, leaps, &walk->made);
@@ -55,8 +55,8 @@ static uint32_t find_piece(const cs_boundary_set *set, const cs_boundary_chain *
   return low;
 }
 
-/* A group at or before the first one of the piece that ends below y. Half a pixel of margin,
- * because the end of a group may have been moved to a whole height. */
+/* A group that is not after the first group of the piece that ends below y. There is a margin of
+ * half a pixel, because the end of a group may have been moved to a whole height. */
 static uint32_t find_group(const cs_boundary_set *set, const cs_boundary_piece *piece, double y) {
   double rounding = 1e-10 * (1 + fabs(piece->y0) + fabs(piece->y1)), safe = y - 0.5 - rounding;
   uint32_t low = 0, high = piece->chords / piece->group - 1;

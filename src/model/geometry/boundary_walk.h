@@ -20,8 +20,8 @@ typedef struct cs_boundary_walk {
   double slope, curve; /* as in cs_boundary_group */
   uint32_t chain;
   uint32_t piece;   /* index into pieces */
-  uint32_t group;   /* of that piece: the first one in `made` */
-  uint32_t segment; /* of that group */
+  uint32_t group;   /* the number in the piece of the first group in `made` */
+  uint32_t segment; /* the number of the segment in `made` */
   cs_boundary_group made;
 } cs_boundary_walk;
 

@@ -23,19 +23,20 @@
 
 #include "base/number.h"
 
-/* Rounds to the nearest multiple of 2^-28, for |x| < 2^22: sums of such numbers are exact. */
+/* Rounds to the nearest multiple of 2^-28, for |x| < 2^22: sums of such multiples are exact. */
 static inline double cs_cover_round(double x) {
   const double bias = 0x1.8p24;
   return (x + bias) - bias;
 }
 
-/* As `by_twice`, for a line that may be upright: an upright line counts as very thin. */
+/* As `by_twice`, for a line that may be upright: such a line counts as very thin. */
 static inline double cs_cover_by_twice(double low, double high) {
   const double thin = 0x1p-100;
   return 0.5 / cs_number_most(high - low, thin);
 }
 
-/* The area in the column that ends at `end` > low, for a line that ends right of this column. */
+/* The area in the column that ends at `end` > low, for a line that ends to the right of this
+ * column. */
 static inline double cs_cover_first(double low, double end, double by_twice) {
   return (end - low) * (end - low) * by_twice;
 }

@@ -129,7 +129,7 @@ bool celspan_matrix_inverse(celspan_matrix matrix, celspan_matrix *out) {
   double terms[3] = {m[0] * c[0], m[1] * c[3], m[2] * c[6]};
   double determinant = terms[0] + terms[1] + terms[2];
   double size = fabs(terms[0]) + fabs(terms[1]) + fabs(terms[2]);
-  /* A determinant below this is rounding. */
+  /* A determinant below this limit is only rounding. */
   if (!(fabs(determinant) > 1e-15 * size))
     return false;
   celspan_matrix inverse = scaled(&cofactors, 1 / determinant);
@@ -143,8 +143,9 @@ static double cross(celspan_point a, celspan_point b, celspan_point c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/* The map that takes (1,0,0), (0,1,0), (0,0,1) and (1,1,1) to the four points; false where three of
- * them are on a line. Source: Heckbert, Fundamentals of texture mapping, 1989, section 2.2.3. */
+/* The map that takes (1,0,0), (0,1,0), (0,0,1) and (1,1,1) to the four points; false if three of
+ * the points are on a line. Source: Heckbert, Fundamentals of texture mapping, 1989, section
+ * 2.2.3. */
 static bool from_frame(const celspan_point p[4], celspan_matrix *out) {
   double factor[3] = {cross(p[1], p[2], p[3]), cross(p[2], p[0], p[3]), cross(p[0], p[1], p[3])};
   double whole = cross(p[0], p[1], p[2]), size = 0;
@@ -167,7 +168,7 @@ static bool from_frame(const celspan_point p[4], celspan_matrix *out) {
   return true;
 }
 
-/* Scales the matrix so that w is 1 at the first point, which is then in front of the horizon. */
+/* Scales the matrix so that w is 1 at the point, which is then in front of the horizon. */
 static bool face(celspan_matrix *matrix, celspan_point point) {
   double w = cs_matrix_apply(matrix, (cs_hpoint){point.x, point.y, 1}).w;
   if (w == 0)

@@ -26,7 +26,7 @@ bool cs_matrix_is_sane(const celspan_matrix *matrix); /* every entry passes cs_n
 static inline bool cs_matrix_is_affine(const celspan_matrix *matrix) {
   return matrix->m[6] == 0 && matrix->m[7] == 0;
 }
-/* Affine, and a weight of 1 stays 1. */
+/* Whether the matrix is affine and keeps a weight of 1. */
 static inline bool cs_matrix_keeps_weights(const celspan_matrix *matrix) {
   return cs_matrix_is_affine(matrix) && matrix->m[8] == 1;
 }
@@ -34,11 +34,11 @@ static inline bool cs_matrix_keeps_weights(const celspan_matrix *matrix) {
 bool cs_matrix_is_upright(const celspan_matrix *matrix);
 /* Whether a clockwise curve in front of the horizon becomes counter-clockwise. */
 bool cs_matrix_mirrors(const celspan_matrix *matrix);
-/* By how much lengths at a point are stretched in the direction in which that is most: the greater
+/* The greatest factor by which lengths at a point are stretched, of all directions: the greater
  * singular value of the derivative. INFINITY at the horizon and behind it. */
 double cs_matrix_stretch(const celspan_matrix *matrix, double x, double y);
-/* The same map; an affine one with m8 < 0 gets all its signs changed, so that W > 0. */
+/* The same map. For an affine matrix with m8 < 0 all signs are changed, so that W > 0. */
 celspan_matrix cs_matrix_facing(const celspan_matrix *matrix);
-/* A rotation by degrees, clockwise on screen, about a centre; quarter turns are exact: no rounded
- * sine is in them. */
+/* A rotation by degrees, clockwise on the screen, about a centre. Quarter turns are exact, because
+ * they use no rounded sine. */
 celspan_matrix cs_matrix_turn(double degrees, celspan_point centre);

@@ -105,8 +105,8 @@ static celspan_status check_order(celspan_context *context, const curve *c) {
   return CELSPAN_OK;
 }
 
-/* How many equal knots there are from `from` on, and where they end. The last knot of a period is
- * its first one, so there the count continues at the other end. */
+/* The number of equal knots from `from` on, and where they end. The last knot of a period is the
+ * same as its first one, so the count continues at the other end. */
 static size_t knot_row(const curve *c, size_t from, size_t *end) {
   const double *knots = c->desc->knots;
   size_t next = from + 1, count;
@@ -134,7 +134,8 @@ static celspan_status check_rows(celspan_context *context, const curve *c) {
 
 /* ---------------------------------------------------------------- knot spans */
 
-/* The distance from knot i to the next. At both ends of a clamped curve uniform knots are equal. */
+/* The distance from knot i to the next one. Uniform knots are equal at both ends of a clamped
+ * curve. */
 static double knot_step(const curve *c, size_t i) {
   if (c->knot_count > 0)
     return c->desc->knots[i + 1] - c->desc->knots[i];
@@ -142,9 +143,9 @@ static double knot_step(const curve *c, size_t i) {
   return is_end ? 0 : 1;
 }
 
-/* Knots around the span that begins at knot `span`, as distances from its beginning:
- * knots[degree - 1] is 0, knots[degree] the end of the span. A period has as many distances as
- * points, and begins again after the last one. */
+/* The knots around the span that begins at knot `span`, as distances from the beginning of the
+ * span: knots[degree - 1] is 0, and knots[degree] is the end of the span. A period has as many
+ * distances as points; after the last one they repeat. */
 static void knots_around(const curve *c, size_t span, double *knots) {
   size_t zero = c->degree - 1, period = c->is_periodic ? c->count : SIZE_MAX;
   size_t after = span, before = span;
@@ -199,7 +200,7 @@ static celspan_status add_span(celspan_context *context, cs_outline *outline, co
   return cs_outline_piece(context, outline, (int)c->degree, bezier + 1);
 }
 
-/* A period ends where it began, except for rounding. */
+/* Makes a periodic curve end exactly where it began: they may differ by rounding. */
 static void snap_seam(cs_outline *outline) {
   size_t first = outline->contours[outline->contour_count - 1];
   outline->points[outline->point_count - 1] = outline->points[outline->starts[first]];

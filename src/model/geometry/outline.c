@@ -32,7 +32,7 @@ static void append_point(cs_outline *outline, cs_hpoint point) {
   outline->points[outline->point_count++] = point;
 }
 
-/* A contour without pieces vanishes. */
+/* Removes a contour without pieces. Returns whether there was one. */
 static bool drop_empty(cs_outline *outline) {
   size_t count = outline->contour_count;
   if (count == 0 || outline->contours[count - 1] != outline->piece_count)
@@ -81,7 +81,7 @@ celspan_status cs_outline_close(celspan_context *context, cs_outline *outline) {
   cs_hpoint *last = &outline->points[outline->point_count - 1];
   if (last->x != first.x || last->y != first.y || last->w != first.w)
     return cs_outline_line(context, outline, first);
-  *last = first; /* minus zero equals zero, but has other bits */
+  *last = first; /* minus zero is equal to zero, but has different bits */
   return CELSPAN_OK;
 }
 
@@ -129,7 +129,7 @@ void cs_outline_free_packed(cs_outline *packed, cs_memory *memory) {
 
 static cs_hpoint at(double x, double y) { return (cs_hpoint){x, y, 1}; }
 
-/* A quarter of an ellipse: the corner is where its end tangents meet. */
+/* A quarter of an ellipse. corner: the point at which the tangents of its ends meet. */
 static celspan_status quarter(celspan_context *context, cs_outline *outline, double corner_x,
                               double corner_y, double x, double y) {
   double weight = sqrt(0.5);

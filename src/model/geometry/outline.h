@@ -40,13 +40,14 @@ void cs_outline_init(cs_outline *outline);
 void cs_outline_finish(cs_outline *outline, cs_memory *memory);
 
 /* Building: move begins a contour, close ends it with a line when it is open, and the other
- * functions append a piece from the current point. A contour without pieces vanishes. Errors:
+ * functions append a piece from the current point. A contour without pieces is removed. Errors:
  * NO_MEMORY; LIMIT past 2^31 points. */
 CELSPAN_CHECKED celspan_status cs_outline_move(celspan_context *context, cs_outline *outline,
                                                cs_hpoint to);
 CELSPAN_CHECKED celspan_status cs_outline_line(celspan_context *context, cs_outline *outline,
                                                cs_hpoint to);
-/* As move, but the contour before is left open: for lines, which need not come back. */
+/* As move, but the previous contour remains open: for lines, which need not return to their
+ * beginning. */
 CELSPAN_CHECKED celspan_status cs_outline_begin(celspan_context *context, cs_outline *outline,
                                                 cs_hpoint to);
 /* points: degree homogeneous points after the current one. */
@@ -84,8 +85,8 @@ typedef struct cs_outline_closed {
 CELSPAN_CHECKED celspan_status cs_outline_closed_add(celspan_context *context,
                                                      cs_outline_closed *closed, size_t contour);
 void cs_outline_closed_finish(cs_outline_closed *closed, cs_memory *memory);
-/* Path data as lines: a subpath that Z does not close stays open, and Z without a command before it
- * makes a line of no length. Errors: as above. */
+/* Path data as lines: a subpath that Z does not close remains open, and a Z without commands before
+ * it makes a line of no length. Errors: as above. */
 CELSPAN_CHECKED celspan_status cs_outline_path_open(celspan_context *context, cs_outline *outline,
                                                     cs_outline_closed *closed, const char *data);
 
@@ -106,6 +107,6 @@ const cs_outline *cs_outline_of_box(const celspan_box *box, cs_outline_box *room
 
 /* The box around two boxes. */
 celspan_box cs_outline_box_around(celspan_box a, celspan_box b);
-/* The tight box of the outline under a matrix, cut at the horizon; false when there is nothing in
- * front of it. */
+/* The tight box of the outline under a matrix, cut at the horizon; false if nothing is in front of
+ * the horizon. */
 bool cs_outline_bounds(const cs_outline *outline, const celspan_matrix *matrix, celspan_box *out);

@@ -1,6 +1,5 @@
 /* A pair: x and y of a point in one register. An operation acts on both, and gives the same bits as
- * for two numbers.
- */
+ * it would for each number alone. */
 #pragma once
 
 #include <string.h>
@@ -20,7 +19,7 @@ static inline celspan_point cs_pair_point(cs_pair pair) {
   return (celspan_point){pair[0], pair[1]};
 }
 
-/* The lesser, or the greater, of each coordinate. */
+/* The lesser, or the greater, of both x and of both y. */
 static inline cs_pair cs_pair_least(cs_pair a, cs_pair b) {
   return (cs_pair){a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1]};
 }

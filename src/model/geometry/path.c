@@ -27,7 +27,7 @@ typedef struct reader {
   const char *data;
   size_t at;
   celspan_point pen, start; /* start: of the subpath */
-  celspan_point control;    /* the last one of the last command, for S and T */
+  celspan_point control;    /* the last control point of the last command, for S and T */
   char last;                /* the last command in upper case */
   bool is_drawing;          /* the outline's contour is open */
 } reader;
@@ -109,7 +109,8 @@ static celspan_status draw(reader *r, int degree, const celspan_point *points) {
   return CELSPAN_OK;
 }
 
-/* The last control point mirrored at the pen, when the last command was one of `family`. */
+/* The last control point, mirrored at the pen; or the pen, unless the last command was one of
+ * `family`. */
 static celspan_point reflected(const reader *r, const char *family) {
   if (!strchr(family, r->last))
     return r->pen;
@@ -124,7 +125,7 @@ typedef struct ellipse_arc {
 
 /* In the space where the ellipse is the unit circle and the middle of the chord is the origin, the
  * chord goes from u to -u, and the centre c lies on the line through the origin at a right angle to
- * it, `beside` chord lengths away. Returns false when the arc is a line. */
+ * it, `beside` chord lengths away. Returns false if the arc is a line. */
 static bool find_arc(celspan_point from, celspan_point to, const double *a, ellipse_arc *out) {
   double sine, cosine, radius_x = fabs(a[0]), radius_y = fabs(a[1]);
   cs_elementary_sincos((a[2] - 360 * floor(a[2] / 360)) * (PI / 180), &sine, &cosine);
@@ -226,7 +227,8 @@ static celspan_status read_arguments(reader *r, char command, double *arguments)
   return CELSPAN_OK;
 }
 
-/* Adds the pen to relative coordinates and pairs them; the last pair will be the pen. */
+/* Adds the pen to relative coordinates and makes pairs of them; the last pair will become the
+ * pen. */
 static int pair_up(const reader *r, char command, bool is_relative, const double *arguments,
                    celspan_point *points) {
   celspan_point base = is_relative ? r->pen : (celspan_point){0, 0};
@@ -248,7 +250,7 @@ static celspan_status move_pen(reader *r, celspan_point to) {
   return CELSPAN_OK;
 }
 
-/* Z: of a line, it is kept which contour was closed. */
+/* Z. For a line, notes that the contour was closed. */
 static celspan_status close_subpath(reader *r) {
   cs_outline_closed *closed = r->closed;
   if (closed) {
@@ -297,8 +299,8 @@ static celspan_status read_set(reader *r, char command, bool is_relative) {
   return CELSPAN_OK;
 }
 
-/* Whether another set of arguments follows; the separator before it is then skipped. A comma at the
- * end counts as well, so that reading on reports the mistake. */
+/* Whether another set of arguments follows; if so, the separator before it is skipped. A comma at
+ * the end counts as a following set, so that the mistake is found when the set is read. */
 static bool is_repeated(reader *r) {
   skip_space(r);
   size_t before = r->at;

@@ -16,7 +16,7 @@ bool cs_plain_canonise(cs_plain *piece) {
   return order > 0;
 }
 
-/* De Casteljau's way: *front gets the beginning, *rest the rest. */
+/* De Casteljau's scheme: *front gets the beginning, and *rest the remaining part. */
 static inline void split(cs_plain *rest, double t, cs_plain *front, int degree) {
   cs_pair *p = rest->points;
   front->points[0] = p[0];
@@ -32,7 +32,8 @@ static inline void split(cs_plain *rest, double t, cs_plain *front, int degree) 
 void cs_plain_cut_front(cs_plain *rest, double *from, double t, cs_plain *front) {
   double part = (t - *from) / (1 - *from);
   front->degree = rest->degree;
-  if (rest->degree == CS_PLAIN_DEGREE) /* most are, and the compiler then needs no loops */
+  /* most curves have this degree, and the compiler needs no loops for it */
+  if (rest->degree == CS_PLAIN_DEGREE)
     split(rest, part, front, CS_PLAIN_DEGREE);
   else
     split(rest, part, front, rest->degree);

@@ -17,7 +17,7 @@
 #include "model/geometry/pair.h"
 
 #define CS_PLAIN_DEGREE CS_OUTLINE_PLAIN_DEGREE
-#define CS_PLAIN_PARTS CS_PLAIN_DEGREE /* between extrema, at most */
+#define CS_PLAIN_PARTS CS_PLAIN_DEGREE /* the most parts between extrema */
 
 typedef struct cs_plain {
   cs_pair points[CS_PLAIN_DEGREE + 1]; /* points beyond the degree repeat the last point */
@@ -81,19 +81,19 @@ static inline cs_plain_hull cs_plain_hull_of(const cs_plain *piece) {
   return hull;
 }
 
-/* Whether the points only fall or only rise: then the piece does so too. */
+/* Whether the points only fall or only rise; the piece does the same then. */
 static inline bool cs_plain_has_monotone_polygon(const cs_plain *piece) {
   const cs_pair *p = piece->points;
   return (p[0][1] <= p[1][1] && p[1][1] <= p[2][1] && p[2][1] <= p[3][1]) ||
          (p[0][1] >= p[1][1] && p[1][1] >= p[2][1] && p[2][1] >= p[3][1]);
 }
 
-/* As the functions of these names in bezier.h. */
+/* This and the next functions do the same as those of bezier.h with similar names. */
 bool cs_plain_canonise(cs_plain *piece);
 void cs_plain_cut_front(cs_plain *rest, double *from, double t, cs_plain *front);
 int cs_plain_extrema(const cs_plain *piece, cs_bezier_axis axis, double roots[CS_PLAIN_DEGREE]);
 
-/* The point at a parameter: the joint that a cut there makes. */
+/* The point at a parameter: the joint that a cut at this parameter makes. */
 cs_pair cs_plain_at(const cs_plain *piece, double t);
 
 /* The same piece with its weights. */

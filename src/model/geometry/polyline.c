@@ -7,26 +7,27 @@
 /* A single chord must be nearer than the tolerance, because its vertices are the ends of the piece,
  * which cannot be displaced to keep the area. */
 #define ONE_CHORD (CS_BOUNDARY_TOLERANCE / 8)
-/* Pixels. A piece that is lower counts as flat: one chord without a slope. Its slope might be
- * beyond every number, and so might what an arc divides by the third power of a height. */
+/* Pixels. A piece with less height counts as flat: one chord without a slope. Its slope could be
+ * infinite, and so could a quotient of an arc by the third power of a height. */
 #define FLAT 0x1p-100
-/* 4 times the distance that an arc may have from its chord within a row: pixels. */
+/* 4 times the allowed distance between an arc and its chord within a row, in pixels. */
 #define ARC_CURVE 0.02
-/* Groups of fewer chords are not cut: two chords alone would need a vertex far from the curve. */
+/* Groups of fewer chords are not cut in halves: two chords alone would need a vertex far from the
+ * curve. */
 #define HALVES_LEAST 6
-/* The sag of even chords of a middle length. */
+/* The sag of chords that have a mean length. */
 #define CHORD_SAG (0.8 * CS_BOUNDARY_TOLERANCE)
-/* How the number of chords follows from their length: see choose_chords. Measured. */
+/* Gives the number of chords for their length: see choose_chords. Measured. */
 #define CHORDS_MOST 2.45
 #define CHORDS_SHORT 1.64
 #define CHORD_LIMIT 1e9
 #define LEAP_MOST 8 /* groups */
-/* By what factor the second derivative may be larger between two of its samples. */
+/* The factor by which the second derivative may be larger between two of its samples. */
 #define SAMPLING_MARGIN 1.25
 
 /* ---------------------------------------------------------------- evaluation */
 
-/* De Casteljau down to three points, from which value and both derivatives follow; then the
+/* De Casteljau's scheme down to three points, which give the value and both derivatives; then the
  * quotient rule. */
 static cs_polyline_point at_rational(const cs_hpoint *points, int degree, double t) {
   cs_hpoint work[CS_BEZIER_DEGREE + 1];
@@ -59,7 +60,7 @@ static cs_polyline_point at_rational(const cs_hpoint *points, int degree, double
                              (y2 - 2 * w1 * slope_y - w2 * y) * by_w};
 }
 
-/* 4 coefficients of x and 4 of y of a piece in powers. */
+/* The coefficients of a piece in powers: 4 of x and 4 of y. */
 static inline void load_powers(const cs_boundary_set *set, const cs_boundary_piece *piece,
                                double c[8]) {
   const cs_hpoint *p = set->points + piece->point;
@@ -105,7 +106,7 @@ static void find_vertices(const cs_boundary_set *set, const cs_boundary_piece *p
 
 /* ---------------------------------------------------------------- groups */
 
-/* The vertices of a group, or every stride-th of a leap's. */
+/* The vertices of a group, or every `stride`-th vertex of a leap. */
 static void make_vertices(const cs_boundary_set *set, const cs_boundary_piece *piece,
                           uint32_t first, uint32_t stride, cs_polyline_vertices *v) {
   double c[8];
@@ -127,15 +128,15 @@ static cs_polyline_arc fit_arc(const double *vx, const double *vy, int first, in
   return (cs_polyline_arc){x, y, height, width / height, curve};
 }
 
-/* Whether the arc is near its chord within every row: rows treat it as one. */
+/* Whether the arc is near its chord within every row: rows then treat it as a line. */
 static bool is_straight(const cs_polyline_arc *a) {
   double top = a->mean - a->curve * a->height, foot = a->mean + a->curve * a->height;
   double gentlest = top < 0 ? -foot : foot, other = top < 0 ? -top : top;
-  gentlest = other < gentlest ? other : gentlest; /* less than 0 where x has an extremum inside */
+  gentlest = other < gentlest ? other : gentlest; /* less than 0 if x has an extremum inside */
   return fabs(a->curve) <= ARC_CURVE * (gentlest > 1 ? gentlest : 1);
 }
 
-/* Adds one arc for the chords from vertex first to end, if it is near the curve. x, y: the
+/* Adds one arc for the chords from vertex `first` to `end`, if the arc is near the curve. x, y: the
  * vertices. */
 static bool add_arc(const cs_polyline_vertices *v, const double *x, const double *y, int first,
                     int end, cs_boundary_group *out) {
@@ -242,9 +243,9 @@ static void place_vertices(const double c[4], const cs_boundary_piece *piece, do
   }
 }
 
-/* Each end of a chord makes up for half of the area beside it; one of the shorter chords at the
- * ends of the piece has its other end displaced alone. A cubic less its second derivative is a
- * cubic. */
+/* Each end of a chord compensates half of the area beside it. For the shorter chords at the ends of
+ * the piece, only their other end is displaced. The difference of a cubic and its second derivative
+ * is a cubic. */
 void cs_polyline_displaced(const cs_boundary_set *set, const cs_boundary_piece *piece, double *x,
                            double *y) {
   double share = piece->step * piece->step * (1.0 / 12), c[8];
@@ -297,7 +298,7 @@ static inline cs_hpoint power(cs_pair coefficient) {
   return (cs_hpoint){coefficient[0], coefficient[1], 0};
 }
 
-/* p: in pixels; of the second degree, or the third. */
+/* p: in pixels; of degree 2 or 3. */
 static inline void to_powers(const cs_pair *p, int degree, cs_hpoint *c) {
   double n = degree, pairs = n * (n - 1) / 2;
   cs_pair first = p[1] - p[0], second = p[2] - p[1];
@@ -308,7 +309,7 @@ static inline void to_powers(const cs_pair *p, int degree, cs_hpoint *c) {
     c[3] = power((p[3] - p[0]) - 3 * second);
 }
 
-/* Points of a piece, for which there is room; it is then of that degree. */
+/* Appends points of a piece, for which there is room, and sets the degree of the piece. */
 static inline cs_hpoint *append_points(cs_boundary_set *set, int degree, cs_boundary_piece *piece) {
   size_t first = set->point_count;
   piece->point = (uint32_t)first;
@@ -317,9 +318,9 @@ static inline cs_hpoint *append_points(cs_boundary_set *set, int degree, cs_boun
   return &set->points[first];
 }
 
-/* The error of an arc grows with the cube of its length, that of a chord with the square. So an arc
- * can replace more chords the more chords the piece has, in proportion to the third root. The
- * factor 40 was measured. */
+/* The error of an arc grows with the cube of its length, the error of a chord with the square. So
+ * the number of chords that an arc can replace grows with the third root of the number of chords.
+ * The factor 40 was measured. */
 static uint8_t choose_leap(uint32_t chords) {
   uint32_t leap = 1;
   while (leap < LEAP_MOST && 40 * (leap + 1) * (leap + 1) * (leap + 1) <= chords)
@@ -327,7 +328,7 @@ static uint8_t choose_leap(uint32_t chords) {
   return (uint8_t)leap;
 }
 
-/* The next whole number of a positive one. */
+/* Rounds a positive number up to a whole number. */
 static inline uint32_t ceiling(double x) {
   int32_t whole = (int32_t)x;
   return (uint32_t)whole + (whole < x);
@@ -383,7 +384,8 @@ static inline void fit_plain(cs_boundary_set *set, const cs_pair *points, int de
 }
 
 void cs_polyline_fit_plain(cs_boundary_set *set, const cs_plain *curve, cs_boundary_piece *piece) {
-  if (curve->degree == CS_PLAIN_DEGREE) /* most are, and the compiler then needs no loops */
+  /* most curves have this degree, and the compiler needs no loops for it */
+  if (curve->degree == CS_PLAIN_DEGREE)
     fit_plain(set, curve->points, CS_PLAIN_DEGREE, piece);
   else
     fit_plain(set, curve->points, curve->degree, piece);

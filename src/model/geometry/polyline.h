@@ -29,8 +29,8 @@
 #include "model/geometry/boundary.h"
 #include "model/geometry/plain.h"
 
-/* Chooses the chords of a piece whose ends and limits in x are set, and which is one chord until
- * then; stores the points that its vertices are made from. curve: in the direction of the piece,
+/* Chooses the chords of a piece whose ends and limits in x are set, and which is a single chord so
+ * far. Stores the points from which the vertices are made. curve: in the direction of the piece,
  * with weights that are > 0 and within a factor of about 2. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_polyline_fit(celspan_context *context, cs_boundary_set *set,
                                                const cs_bezier *curve, cs_boundary_piece *piece);
@@ -44,17 +44,17 @@ static inline CELSPAN_CHECKED celspan_status cs_polyline_reserve(celspan_context
     return cs_fail(context, CELSPAN_LIMIT, "the frame has more than 4294967295 curve points");
   return CS_RESERVE(context, set->points, set->point_capacity, set->point_count + points);
 }
-/* Makes group 0..chords / group - 1; or, where leaps is true, the whole leap that the group is in,
- * if one arc is near enough to all of it. */
+/* Makes one group, 0..chords / group - 1. If leaps is true, makes the whole leap that contains the
+ * group, provided that one arc is near enough to the whole leap. */
 void cs_polyline_group(const cs_boundary_set *set, const cs_boundary_piece *piece, uint32_t group,
                        bool leaps, cs_boundary_group *out);
-/* A vertex that is neither displaced nor moved: on the curve, in even steps of the parameter. y
- * rises with the number, except for rounding. */
+/* A vertex that is neither displaced nor moved: on the curve, at even steps of the parameter. y
+ * grows with the number of the vertex, except for rounding. */
 celspan_point cs_polyline_plain(const cs_boundary_set *set, const cs_boundary_piece *piece,
                                 uint32_t vertex);
 /* Vertices 1..chords - 1 of a piece, displaced so that the chords between them and the ends of the
- * piece keep the area; they are not moved to whole heights. x, y: room for as many. They may lie a
- * little beyond the ends, and beyond the sides of the frame. */
+ * piece keep the area; they are not moved to whole heights. x, y: room for that number. They may
+ * lie a little beyond the ends, and beyond the sides of the frame. */
 void cs_polyline_displaced(const cs_boundary_set *set, const cs_boundary_piece *piece, double *x,
                            double *y);
 
@@ -77,29 +77,33 @@ typedef struct cs_polyline_points {
 
 /* The seats of a group's vertices. */
 typedef struct cs_polyline_seats {
-  double t[CS_POLYLINE_ROOM + 2];  /* of vertex k at k + 1; 0 before the first and after the last */
-  double y[CS_POLYLINE_ROOM];      /* the whole height nearest to each */
-  int64_t whole[CS_POLYLINE_ROOM]; /* -1: the vertex is moved there; 0: it is not */
-  double bent[CS_POLYLINE_ROOM];   /* 1: no arc can be near the curve here; 0 */
+  /* t of vertex k is at k + 1; 0 before the first and after the last vertex */
+  double t[CS_POLYLINE_ROOM + 2];
+  double y[CS_POLYLINE_ROOM];      /* for each vertex the nearest whole height */
+  int64_t whole[CS_POLYLINE_ROOM]; /* -1: the vertex is moved to this height; 0: it is not moved */
+  double bent[CS_POLYLINE_ROOM];   /* 1: no arc can be near the curve at this vertex; otherwise 0 */
 } cs_polyline_seats;
 
 /* The vertices of a group: on the curve, and displaced so that chords keep the area. Elements
  * beyond a short group are not used. */
 typedef struct cs_polyline_vertices {
   double x[CS_POLYLINE_ROOM + 1], y[CS_POLYLINE_ROOM + 1];
-  double slope[CS_POLYLINE_ROOM]; /* dx/dy of the chord that begins there; 0 without height */
+  /* dx/dy of the chord that begins at the vertex; 0 for a chord without height */
+  double slope[CS_POLYLINE_ROOM];
   double on_x[CS_POLYLINE_ROOM], on_y[CS_POLYLINE_ROOM];
-  /* The same with piece->half on the curve too; set where halves are wanted. */
+  /* The same, with piece->half on the curve too; set only if halves are wanted. */
   double halved_x[CS_POLYLINE_ROOM], halved_y[CS_POLYLINE_ROOM];
-  bool is_bent_above, is_bent_below; /* no arc can be near the curve at the first, at the last */
+  /* no arc can be near the curve at the first vertex, or at the last one */
+  bool is_bent_above, is_bent_below;
 } cs_polyline_vertices;
 
 /* c: the coefficients of a piece in powers, 4 of x and 4 of y. first: the group's first vertex.
- * stride: from vertex to vertex, more than 1 for the groups of a leap. */
+ * stride: the distance from vertex to vertex, more than 1 for the groups of a leap. */
 CS_WIDE_DECLARE(void, cs_polyline_powers,
                 (const double c[8], const cs_boundary_piece *piece, uint32_t first, uint32_t stride,
                  cs_polyline_vertices *out));
-/* Its two steps. points: the points at even steps, and the points at the seats. */
+/* The two steps of the function above. points: the points at even steps, and the points at the
+ * seats. */
 CS_WIDE_DECLARE(void, cs_polyline_sit,
                 (const cs_polyline_points *points, const cs_boundary_piece *piece, uint32_t first,
                  uint32_t stride, cs_polyline_seats *out));
@@ -112,7 +116,7 @@ typedef struct cs_polyline_arc {
   double x, y, height, mean, curve;
 } cs_polyline_arc;
 
-/* Whether an arc for the vertices first..end is too far from one of their places on the curve. */
+/* Whether an arc for the vertices first..end is too far from the curve at one of these vertices. */
 CS_WIDE_DECLARE(bool, cs_polyline_strays,
                 (const cs_polyline_arc *arc, const cs_polyline_vertices *vertices, int first,
                  int end));

@@ -23,11 +23,12 @@
 #include "model/geometry/boundary.h"
 
 /* No vertex is displaced outwards by more sags than this; the sag of a chord is C'' h^2 / 8. Moving
- * a vertex along the curve to a whole height adds to that: by at most about a quarter of a step,
- * and half a pixel in y. The shares of a vertex are then at most 0.29 h^2. */
+ * a vertex along the curve to a whole height displaces it further: by at most about a quarter of a
+ * step, and half a pixel in y. The shares of a vertex are then at most 0.29 h^2. */
 #define CS_POLYLINE_LIFT 2.4
 
-/* By how much the first and the last chord of a piece are shorter, in steps: 1 - 1 / sqrt(2). */
+/* How much shorter than a step the first and the last chord of a piece are, in steps: 1 - 1 /
+ * sqrt(2). */
 #define CS_POLYLINE_LEAD 0.29289321881345254
 
 /* A point of a curve, with its first and second derivatives by the parameter. */

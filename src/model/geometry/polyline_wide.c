@@ -6,7 +6,7 @@
 /* A curve is bent where |x''| > BENT max(1, |x'|), by y: just more than an arc may have
  * (polyline.c). */
 #define BENT 0.042
-/* A vertex is moved to a whole height that is nearer than this part of the rows that a step has. */
+/* A vertex is moved to a whole height if it is nearer than this part of the rows in a step. */
 #define NEARBY (1.0 / 6)
 
 enum { LANES = CS_WIDE_LANES / 2 };
@@ -36,7 +36,7 @@ static inline lanes either(masks mask, lanes a, lanes b) {
 #endif
 }
 
-/* a where the mask is set, else 0. */
+/* a where the mask is set, otherwise 0. */
 static inline lanes where(masks mask, lanes a) { return (lanes)(mask & (masks)a); }
 
 static inline lanes magnitude(lanes a) { return (lanes)((masks)a & INT64_MAX); }
@@ -71,7 +71,7 @@ static inline lanes clamp(lanes a, double low, double high) {
   return least(most(a, zero + low), zero + high);
 }
 
-/* A cs_polyline_point a lane. */
+/* One cs_polyline_point in each lane. */
 typedef struct spots {
   lanes x, y, slope_x, slope_y, bend_x, bend_y;
 } spots;
@@ -108,11 +108,11 @@ static inline spots load_spots(const cs_polyline_points *p, int k) {
 
 /* ---------------------------------------------------------------- seats */
 
-/* The vertices of the lanes, by number, and some values of them that are needed often. */
+/* The vertices in the lanes, by number, and some of their values that are needed often. */
 typedef struct places {
   const cs_boundary_piece *piece;
   lanes vertex;
-  masks inner; /* no end of the piece */
+  masks inner; /* the vertex is not an end of the piece */
 } places;
 
 static inline places places_of(const cs_boundary_piece *piece, uint32_t first, uint32_t stride,
@@ -126,7 +126,7 @@ static inline lanes parameters(const places *at) {
   return clamp((at->vertex - CS_POLYLINE_LEAD) * at->piece->step, 0, 1);
 }
 
-/* Whether no arc can be near the curve; if so, the vertex is displaced even as a border. */
+/* Whether no arc can be near the curve; if so, the vertex is displaced even if it is a border. */
 static inline masks are_bent(const spots *p) {
   lanes cross = magnitude(p->bend_x * p->slope_y - p->bend_y * p->slope_x);
   lanes wide = most(magnitude(p->slope_x), p->slope_y);
@@ -136,7 +136,8 @@ static inline masks are_bent(const spots *p) {
 /* p: at the even parameters. A seat is chosen so that the vertex lies near the whole height after
  * it has been displaced. Steps lower than a row have no whole heights to move to. */
 static inline void sit(const spots *p, const places *at, int k, cs_polyline_seats *out) {
-  const lanes bias = (lanes){0} + 0x1.8p52; /* a sum with this is a whole number */
+  /* the sum of a number and this is rounded to a whole number */
+  const lanes bias = (lanes){0} + 0x1.8p52;
   const cs_boundary_piece *piece = at->piece;
   lanes t = parameters(at), y = (p->y + bias) - bias, away = y - p->y;
   lanes rows = p->slope_y * piece->step;
@@ -151,11 +152,11 @@ static inline void sit(const spots *p, const places *at, int k, cs_polyline_seat
 
 /* ---------------------------------------------------------------- places */
 
-/* By how much the vertices of a group may be displaced. */
+/* The limits for displacing the vertices of a group. */
 typedef struct limits {
   double above, below; /* the shares of its first and its last vertex, in units of C'' / 12 */
-  double lift;         /* any of them upwards or downwards: pixels */
-  bool is_halved;      /* the places with one vertex more on the curve are wanted too */
+  double lift;         /* the limit for any vertex upwards or downwards, in pixels */
+  bool is_halved;      /* the places with one more vertex on the curve are also needed */
 } limits;
 
 static inline limits find_limits(const cs_boundary_piece *piece, uint32_t first, uint32_t stride,
@@ -169,8 +170,8 @@ static inline limits find_limits(const cs_boundary_piece *piece, uint32_t first,
                   piece->half < piece->group && !is_bent_above && !is_bent_below};
 }
 
-/* The share of each vertex, in units of C''. With even steps of length h it is h^2 / 12. If a
- * vertex is not displaced by its share, its neighbour makes up for the difference. */
+/* The share of each vertex, in units of C''. With even steps of length h the share is h^2 / 12. If
+ * a vertex is not displaced by its share, its neighbour compensates the difference. */
 static inline lanes find_shares(const cs_boundary_piece *piece, const limits *most, lanes k,
                                 lanes before, lanes after) {
   const double group = piece->group;
@@ -183,7 +184,7 @@ static inline lanes find_shares(const cs_boundary_piece *piece, const limits *mo
   return (1.0 / 12) * either(inner, both / (before + after), border);
 }
 
-/* The same where one vertex more, k == half, is on the curve. */
+/* The same where one more vertex, k == half, is on the curve. */
 static inline lanes find_halved(const cs_boundary_piece *piece, lanes shares, lanes k, lanes before,
                                 lanes after) {
   const double half = piece->half;
@@ -192,7 +193,8 @@ static inline lanes find_halved(const cs_boundary_piece *piece, lanes shares, la
   return where(k != half, shares + (1.0 / 12) * more / (before + after));
 }
 
-/* Where vertices go: on the curve, and from there for each unit of C''. */
+/* How to find vertices: a place on the curve, and how the vertex moves from there for each unit of
+ * C''. */
 typedef struct ways {
   lanes x, y, along_x, along_y;
 } ways;
@@ -310,7 +312,8 @@ bool CS_WIDE(cs_polyline_strays)(const cs_polyline_arc *arc, const cs_polyline_v
     double down = on_y[k] - a.y;
     double away = (on_x[k] - a.x) - down * (a.mean + a.curve * (down - a.height));
     double slope = a.mean + a.curve * (2 * down - a.height), steep = slope < 0 ? -slope : slope;
-    double across = steep > 1 ? steep : 1; /* a flat arc is nearer than its distance along x */
+    /* the distance from a flat arc is smaller than the distance along x */
+    double across = steep > 1 ? steep : 1;
     double near = (away < 0 ? -away : away) <= ARC_TOLERANCE * across ? 0.0 : 1.0;
     strays += numbers[k] >= low ? (numbers[k] <= high ? near : 0.0) : 0.0;
   }

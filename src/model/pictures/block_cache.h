@@ -39,8 +39,8 @@ typedef struct cs_block_cache {
   celspan_context *context;
   celspan_status status;       /* the first failure; after one, all texels are clear */
   const cs_srgb8_curve *curve; /* of all blocks; NULL before the first one */
-  uint32_t fetches;            /* from the store, so far */
-  uint32_t pairs;              /* in use, a power of two: fewer where memory is short */
+  uint32_t fetches;            /* blocks fetched from the store so far */
+  uint32_t pairs; /* pairs of slots in use, a power of two; fewer when memory is short */
   cs_block_cache_slot slots[CS_BLOCK_CACHE_SLOTS];
   cs_block_cache_opacity opacities[CS_BLOCK_CACHE_OPACITIES]; /* by place in the row */
 } cs_block_cache;

@@ -38,7 +38,8 @@ typedef struct file_pass {
   int32_t x0, x1, y0, y1;             /* pixels */
   float *batch;                       /* decoded rows of the file */
   int32_t batch_rows;
-  float *waiting[LEVELS]; /* by level below: an even row that waits for the row below it */
+  /* for each level, an even row of the level below that waits for the row under it */
+  float *waiting[LEVELS];
 } file_pass;
 
 static int32_t blocks_of(int32_t texels) {
@@ -57,9 +58,9 @@ static int32_t least(int64_t a, int64_t b) { return (int32_t)(a < b ? a : b); }
 
 /* ---------------------------------------------------------------- what a pass covers */
 
-/* The picture fits into memory: whole rows of blocks. In a sequential format everything between the
- * last row read and this one has to be decoded anyway, so it is kept. A picture is read as a whole
- * if its rows must be rearranged, or if its reader decodes it as a whole. */
+/* The picture fits into memory: whole rows of blocks. In a sequential format all rows between the
+ * last row that was read and this one must be decoded anyway, so they are kept. A picture is read
+ * as a whole if its rows must be rearranged, or if its reader decodes it as a whole. */
 static void cover_fitting(file_pass *pass, int32_t row) {
   const cs_picture_entry *entry = pass->entry;
   pass->columns = columns_of(entry, 0);
@@ -74,8 +75,8 @@ static void cover_fitting(file_pass *pass, int32_t row) {
   }
 }
 
-/* The picture does not fit: a window of as many columns of blocks as one pass may make. A surface
- * can be asked for any part at no extra cost, so its windows are narrow, unless it is a reader. */
+/* The picture does not fit: a window is as wide as one pass may be. Any part of a surface can be
+ * requested at no extra cost, so the windows of a surface are narrow, unless it is a reader. */
 static void cover_window(file_pass *pass, int32_t column, int32_t row) {
   const cs_picture_entry *entry = pass->entry;
   int32_t columns = columns_of(entry, pass->level);
@@ -190,7 +191,8 @@ static celspan_status read_coded(const file_pass *pass, int32_t y, int32_t rows)
   return status == CELSPAN_OK ? status : cs_fail(pass->context, status, "%s", failure.text);
 }
 
-/* Where the texels of a rectangle of the whole go: to the batch, or their alphas alone. */
+/* Where the texels of a rectangle of the whole are copied to: to the batch, or only their alphas to
+ * the alphas. */
 typedef struct copying {
   celspan_rectangle area;
   float *batch; /* NULL: the copy goes to the alphas */
@@ -252,8 +254,8 @@ static celspan_status read_part(const file_pass *pass, int32_t y, int32_t rows) 
   return part->is_smooth ? smooth_batch(pass, &area) : CELSPAN_OK;
 }
 
-/* Blocks are made when there are rows for them: a damaged file that claims to be large takes no
- * memory. */
+/* Blocks are made only when there are rows for them, so that a damaged file that claims to be large
+ * needs no memory. */
 static celspan_status read_rows(file_pass *pass) {
   int32_t width = pass->x1 - pass->x0;
   for (int32_t y = pass->y0; y < pass->y1; y += pass->batch_rows) {
@@ -288,8 +290,8 @@ static inline uint32_t bits_of(float number) {
   return bits;
 }
 
-/* Whether codes give their texels, to the bit. Number by number: compared as blocks of memory, each
- * would wait until it is stored. */
+/* Whether codes give their texels to the bit. The numbers are compared one by one, because a
+ * comparison of blocks of memory would wait until each number is stored. */
 static bool are_exact(const cs_srgb8_curve *curve, const unsigned char *codes, const float *texels,
                       size_t count) {
   uint32_t difference = 0;
@@ -313,8 +315,8 @@ static bool set_codes(cs_picture_block *block, size_t y, size_t count) {
   return are_exact(&block->store->curve, codes, texels, count);
 }
 
-/* Sets the opacity and the codes of a block whose texels are complete. Of a row that is all alike,
- * as on paper, the first texel is asked for all. */
+/* Sets the opacity and the codes of a block whose texels are complete. If all texels of a row are
+ * equal, as on paper, only the first one is examined. */
 static void describe(const celspan_picture_info *info, cs_picture_block *block) {
   int32_t width = cs_mip_levels_size(info->width, block->level) - block->column * CS_PICTURE_BLOCK;
   int32_t height = cs_mip_levels_size(info->height, block->level) - block->row * CS_PICTURE_BLOCK;

@@ -15,7 +15,8 @@ int cs_mip_levels_count(int32_t width, int32_t height) {
   return count;
 }
 
-/* The weight of the second of two neighbours in their mean: each counts by its number of pixels. */
+/* The weight of the second of two neighbours in their mean: each neighbour is weighted by its
+ * number of pixels. */
 static float second_share(int32_t size, int level, int32_t first) {
   int64_t side = (int64_t)1 << level;
   int64_t left = (int64_t)size - (int64_t)(first + 1) * side;

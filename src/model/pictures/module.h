@@ -43,11 +43,12 @@ typedef struct cs_picture_header {
   celspan_picture_info info;
   cs_picture_alpha alpha;
   int bits;           /* of the coded values when they are integers of at most 16 bits, else 0 */
-  bool is_linear;     /* `space` was given: pixels come in linear light, premultiplied */
-  bool is_turned;     /* the orientation tag rearranges rows: reading all at once is cheapest */
+  bool is_linear;     /* `space` was given: the pixels are linear light, premultiplied */
+  /* the orientation tag changes the order of rows: it is cheapest to read all at once */
+  bool is_turned;
   bool is_whole;      /* the reader decodes everything at once and keeps it */
   bool is_sequential; /* to read a row, all rows above it have to be decoded */
-  int64_t file_size;  /* these three change when the file does */
+  int64_t file_size;  /* this and the next two fields change when the file changes */
   int64_t file_time;  /* nanoseconds */
   uint64_t file_number;
 } cs_picture_header;
@@ -55,7 +56,7 @@ typedef struct cs_picture_header {
 /* The contents of a file apart from the picture that is read from it. */
 typedef struct cs_picture_part {
   int subimage;          /* -1: a layer, of the first subimage */
-  char name[256];        /* by which it can be asked for as a layer; "": it has none */
+  char name[256];        /* the name by which it can be requested as a layer; "": it has none */
   int32_t width, height; /* of a subimage: as stored, its data window */
   int channels;
   char depth[16]; /* "8", "10", "16", "half", "float", ... */
@@ -75,7 +76,7 @@ typedef struct cs_picture_output {
   int channels;             /* 1 grey, 3, 4 with alpha, or as many as there are names */
   const char *const *names; /* of the channels, the fourth being alpha; NULL: the usual ones */
   celspan_depth depth;      /* never DEFAULT */
-  int bits;                 /* of each value that are used: 10 in a depth of 16 for film; 0: all */
+  int bits; /* how many bits of each value are used: 10 in a depth of 16 for film; 0: all */
   bool is_straight;
   celspan_transfer transfer; /* for the header */
   const char *title;         /* NULL: none */
@@ -92,7 +93,8 @@ typedef struct cs_picture_module {
   celspan_status (*read)(cs_picture_reader *reader, int32_t x, int32_t y, int32_t width,
                          int32_t height, float *rgba, cs_picture_failure *failure);
   void (*close)(cs_picture_reader *reader);
-  /* Calls `put` for every subimage and after each for its layers, until it answers false. */
+  /* Calls `put` for every subimage, and after each subimage for its layers, until `put` returns
+   * false. */
   celspan_status (*list)(cs_picture_reader *reader,
                          bool (*put)(void *user, const cs_picture_part *part), void *user,
                          cs_picture_failure *failure);
@@ -104,8 +106,8 @@ typedef struct cs_picture_module {
   celspan_status (*write_close)(cs_picture_writer *writer, cs_picture_failure *failure);
   void (*write_abandon)(cs_picture_writer *writer);
   /* For a process that does nothing but this, with errno at 0 before each call: from now on a call
-   * fails with NO_MEMORY when memory ran out in it, even where the library continued without the
-   * data that it could not keep, such as a part of the header or the last rows. */
+   * fails with NO_MEMORY when memory ran out in it, even if the library continued and lost data,
+   * such as a part of the header or the last rows. */
   void (*watch_memory)(void);
 } cs_picture_module;
 

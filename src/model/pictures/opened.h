@@ -4,10 +4,10 @@
 #include <fcntl.h>
 #include <stdio.h>
 
-#define CS_OPENED "/proc/self/fd/" /* what names of open files begin with */
+#define CS_OPENED "/proc/self/fd/" /* names of open files begin with this */
 
-/* A descriptor of the file, or -1 and errno. The name of an open file is its number: there may be
- * no /proc. NONBLOCK: opening a pipe that nobody writes to must not wait. */
+/* A descriptor of the file, or -1 and errno. For the name of an open file its number is used,
+ * because /proc may be missing. NONBLOCK: opening a pipe that nobody writes to must not wait. */
 static inline int cs_opened_again(const char *path) {
   int number = -1;
   if (sscanf(path, CS_OPENED "%d", &number) == 1)

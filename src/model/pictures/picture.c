@@ -107,8 +107,8 @@ static celspan_status create(celspan_context *context, const celspan_picture_des
   return CELSPAN_OK;
 }
 
-/* Makes *picture, which is the whole, a part of it: the whole of it where the source has no width.
- * On failure it is dropped. */
+/* Replaces *picture, the whole picture, by a part of it; a source without a width is the whole
+ * picture. On failure *picture is released. */
 static celspan_status cut(celspan_context *context, const celspan_picture_desc *desc,
                           const celspan_box *source, bool is_smooth, cs_picture **picture) {
   cs_picture *whole = *picture, *part;

@@ -17,11 +17,11 @@ typedef struct cs_picture {
   celspan_surface *surface; /* a reference; NULL: a file */
   char *file;               /* "" where there is a surface */
   char *colour, *layer;     /* may be NULL */
-  char *tried;              /* where it was looked for before; may be NULL; not hashed */
+  char *tried;              /* where the file was searched for before; may be NULL; not hashed */
   int subimage;
-  struct cs_picture *whole;    /* the picture that this is a part of, a reference; NULL: it is no
-                                  part */
-  int32_t x, y, width, height; /* of a part, in pixels of the whole; a width of 0: all of it */
+  /* the picture of which this is a part, a reference; NULL: this is no part */
+  struct cs_picture *whole;
+  int32_t x, y, width, height; /* of a part, in pixels of the whole; width 0: all of the whole */
   bool is_smooth;              /* its alpha is made smooth */
 } cs_picture;
 

@@ -18,7 +18,7 @@ cs_smooth_alphas cs_smooth_around(const celspan_rectangle *rectangle, int32_t wi
   return (cs_smooth_alphas){.width = width, .height = height, .area = {x0, y0, x1 - x0, y1 - y0}};
 }
 
-/* Steps of 16 bits are 1/257 of one of 8 bits apart. */
+/* The steps of 16 bits are 1/257 of the steps of 8 bits. */
 static uint32_t step_of(float alpha) {
   float scaled = cs_number_clampf(alpha, 0, 1) * STEPS;
   uint32_t step = (uint32_t)(scaled + 0.5f);
@@ -37,7 +37,7 @@ void cs_smooth_set(const cs_smooth_alphas *alphas, int32_t x, int32_t y, const f
     steps[i] = step_of(rgba[4 * (size_t)i + 3]);
 }
 
-/* Adds rows [from, to) to the sums of their columns, or takes them away: sign is 1 or -1. */
+/* Adds rows [from, to) to the sums of their columns, or subtracts them: sign is 1 or -1. */
 static void add_rows(const cs_smooth_alphas *alphas, int32_t from, int32_t to, int sign) {
   for (int32_t y = from; y < to; y++) {
     const uint32_t *steps = row_of(alphas, y);
@@ -54,8 +54,8 @@ static void smooth_pixel(uint32_t step, double mean, float rgba[4]) {
   rgba[3] = (float)(held / STEPS);
 }
 
-/* The reach of a mean at `place` to either side: equally far on both, also near the edges, so that
- * a slope keeps its height. */
+/* How far a mean at `place` reaches to either side. Both sides are equal, also near the edges, so
+ * that a slope keeps its height. */
 static int32_t radius_at(int32_t place, int32_t size) {
   return least(CS_SMOOTH_RADIUS, least(place, size - 1 - place));
 }

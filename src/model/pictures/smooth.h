@@ -14,10 +14,10 @@
 
 #include <celspan/celspan.h>
 
-/* Pixels to each side. Rings of up to twice this width, and one, are smoothed completely. */
+/* Pixels on each side. Rings up to twice this width plus one are smoothed completely. */
 #define CS_SMOOTH_RADIUS 32
 
-/* The alphas around a rectangle, as far as there is a picture. */
+/* The alphas of a rectangle and of the area around it, as far as the picture extends. */
 typedef struct cs_smooth_alphas {
   int32_t width, height;  /* of the picture */
   celspan_rectangle area; /* of the picture */

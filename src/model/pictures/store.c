@@ -10,7 +10,7 @@
 
 /* Files kept open at a time: a film may have a picture for every frame. */
 #define OPEN_READERS 32
-/* The number of entries of surfaces from which on unused ones are dropped. */
+/* If there are more entries of surfaces than this, unused ones are removed. */
 #define SURFACES_LEAST 256
 
 static const cs_module_desc raster_module = {
@@ -126,7 +126,8 @@ celspan_status cs_store_module(celspan_context *context, celspan_status failure,
 #define PLAIN_BYTES (sizeof(cs_picture_block) + CS_PICTURE_TEXELS_BYTES)
 #define BLOCK_BYTES (PLAIN_BYTES + CS_PICTURE_CODES_BYTES)
 
-/* By the hash, not the entry: blocks of a surface outlive an entry that was dropped. */
+/* The key contains the hash, not the entry: blocks of a surface live longer than an entry that was
+ * removed. */
 static cs_cache_key key_of(const cs_picture_entry *entry, int level, int32_t column, int32_t row) {
   return (cs_cache_key){entry->hash.a, entry->hash.b,
                         (uint64_t)level << 56 | (uint64_t)column << 28 | (uint64_t)row};
@@ -185,7 +186,7 @@ cs_picture_request cs_store_request(const cs_picture *picture) {
                               .space = is_space ? picture->colour : NULL};
 }
 
-/* An entry that is in use from now on, or NULL. The caller has locked `lock`. */
+/* Finds an entry and marks it as in use; NULL: there is none. The caller has locked `lock`. */
 static cs_picture_entry *find_entry(const cs_picture_store *store, cs_hash hash) {
   cs_picture_entry *entry = store->entries[hash.a & 255];
   while (entry && !(entry->hash.a == hash.a && entry->hash.b == hash.b))
@@ -327,7 +328,7 @@ static void close_readers(cs_picture_store *store) {
         close_unused(store, entry);
 }
 
-/* Drops the entries of surfaces that nobody uses: a host may make a surface for every frame. The
+/* Removes the entries of surfaces that nobody uses: a host may make a surface for every frame. The
  * caller has locked `lock`. */
 static void drop_surfaces(cs_picture_store *store) {
   for (size_t i = 0; i < sizeof store->entries / sizeof *store->entries; i++)

@@ -47,8 +47,8 @@ typedef struct cs_picture_block {
   /* Whether the codes are exact: cs_srgb8_colour makes the texels from them to the bit, including
    * the column right of the block unless the picture ends there. */
   bool is_coded;
-  /* Premultiplied linear RGBA, row-major; clear beyond the picture. Apart from the block, so that
-   * blocks lie close together: each row of a frame looks for many. */
+  /* Premultiplied linear RGBA, row-major; clear beyond the picture. Stored apart from the block, so
+   * that blocks lie close together: each row of a frame searches for many blocks. */
   float *texels;
   /* Of level 0: its texels as 8-bit pixels, sRGB and straight, as cs_srgb8_pixel makes them; else
    * NULL. A row of a frame is read from the codes of many blocks in turn, which is twice as quick
@@ -60,9 +60,9 @@ struct cs_picture_entry {
   cs_picture_entry *next;
   cs_picture_store *store;
   cs_hash hash;
-  atomic_size_t users; /* calls that use the entry now; the entry of a surface may be removed when
-                          there are none */
-  cs_picture *picture; /* a reference; NULL: of a surface */
+  /* calls that use the entry now; if there are none, the entry of a surface may be removed */
+  atomic_size_t users;
+  cs_picture *picture; /* a reference; NULL: the entry is of a surface */
   cs_picture_header header;
   cs_mip_levels_decoder decoder;
   int level_count;
@@ -71,10 +71,10 @@ struct cs_picture_entry {
   int base;
   size_t share; /* blocks that one pass over the file may make: half the budget */
   pthread_mutex_t reading;
-  cs_picture_reader *reader;      /* NULL while closed, and of a part */
-  int32_t next_strip;             /* of a sequential format: the first row of blocks not read yet */
+  cs_picture_reader *reader;      /* NULL while it is closed, and for a part */
+  int32_t next_strip; /* of a sequential format: the first row of blocks that has not been read */
   const celspan_surface *surface; /* while `reading` is locked: of the picture that is loaded */
-  const cs_picture *part;         /* likewise, where it is a part */
+  const cs_picture *part;         /* likewise: the part that is loaded, if it is a part */
 };
 
 struct cs_picture_store {
@@ -94,10 +94,10 @@ struct cs_picture_store {
 /* The facts of the header, which is read once in a context. Errors: INPUT, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_store_info(celspan_context *context, const cs_picture *picture,
                                              celspan_picture_info *out);
-/* The picture module. failure: the status when there is none, INPUT or OUTPUT. */
+/* The picture module. failure: the status if there is no module, INPUT or OUTPUT. */
 CELSPAN_CHECKED celspan_status cs_store_module(celspan_context *context, celspan_status failure,
                                                const cs_picture_module **out);
-/* The request to the module. The texts are the picture's. */
+/* The request to the module. The texts belong to the picture. */
 cs_picture_request cs_store_request(const cs_picture *picture);
 /* Removes a pin. */
 void cs_store_release(cs_picture_block *block);
@@ -117,7 +117,7 @@ CELSPAN_CHECKED celspan_status cs_store_create_block(celspan_context *context,
                                                      int32_t column, int32_t row,
                                                      cs_picture_block **out);
 /* Give a new block room for its texels, which are clear, and for its codes. The codes of blocks
- * that get it one after the other lie close together. Errors: NO_MEMORY. */
+ * that get their room one after the other lie close together. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_store_add_texels(celspan_context *context,
                                                    cs_picture_block *block);
 CELSPAN_CHECKED celspan_status cs_store_add_codes(celspan_context *context,
@@ -126,7 +126,8 @@ CELSPAN_CHECKED celspan_status cs_store_add_codes(celspan_context *context,
 cs_picture_block *cs_store_insert(cs_picture_block *block, bool is_pinned);
 /* Frees a block that was never inserted. NULL is ignored. */
 void cs_store_discard(cs_picture_block *block);
-/* Opens the entry's reader; closes it until it is needed again. The caller has locked `reading`. */
+/* cs_store_open_reader opens the entry's reader; the other function closes it until it is needed
+ * again. The caller has locked `reading`. */
 CELSPAN_CHECKED celspan_status cs_store_open_reader(celspan_context *context,
                                                     cs_picture_entry *entry);
 void cs_store_close_reader(cs_picture_entry *entry);

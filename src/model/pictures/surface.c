@@ -80,7 +80,7 @@ static cs_hash hash_of(const celspan_surface_desc *desc, bool is_reader) {
   return cs_hash_end(hash);
 }
 
-/* Fills in missing values. Without an alpha there is nothing that could be multiplied by it. */
+/* Fills in missing values. Without an alpha, the colours cannot be multiplied by it. */
 static void complete(celspan_surface_desc *desc) {
   const layout *shape = &layouts[desc->format];
   if (desc->stride == 0)
@@ -203,7 +203,7 @@ static void read_buffer(const celspan_surface *surface, const celspan_rectangle 
   }
 }
 
-/* own: the sentence that fill recorded, or "". */
+/* own: the sentence that the fill function recorded, or "". */
 static celspan_status fail_fill(celspan_context *context, const celspan_rectangle *r,
                                 const char *own) {
   return cs_fail(context, CELSPAN_CALLBACK,

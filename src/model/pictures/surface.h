@@ -31,8 +31,8 @@ struct celspan_surface {
   cs_hash hash;
   celspan_surface_desc desc; /* pixels: the copy, unless there is a release function */
   size_t copied;             /* bytes of the copy */
-  bool is_reader;            /* so that its hash differs from the hash of a host's surface with the
-                                same key */
+  /* a reader, so that its hash differs from the hash of a host's surface with the same key */
+  bool is_reader;
 };
 
 /* As celspan_surface_create, with a fill function that any thread may call: a reader. */

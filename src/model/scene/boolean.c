@@ -41,7 +41,7 @@ celspan_status celspan_object_create_boolean(celspan_context *context, celspan_o
                                 out);
 }
 
-/* The known properties of the earlier operands are copied. */
+/* Copies the known properties of the operands that were added earlier. */
 static celspan_status fill_more(celspan_context *context, cs_primitive_data *data,
                                 const cs_primitive_data *from, celspan_object *const *operands,
                                 size_t count) {

@@ -13,7 +13,7 @@
 typedef struct finder {
   celspan_context *context; /* NULL: the stroke's memory is used, and errors have no text */
   celspan_status status;
-  bool is_outer; /* a box is wanted for which no outline is looked at, or made for a stroke */
+  bool is_outer; /* the wanted box may be larger: no outline is examined, or made for a stroke */
 } finder;
 
 static celspan_box common(celspan_box a, celspan_box b) {
@@ -25,7 +25,7 @@ static celspan_box common(celspan_box a, celspan_box b) {
 static bool object_bounds(finder *f, const celspan_object *object, const celspan_matrix *parent,
                           celspan_box *out);
 
-/* The box around a list's objects under a matrix; false when there is nothing. */
+/* The box around a list's objects under a matrix; false if it would be empty. */
 static bool list_around(finder *f, celspan_object *const *objects, size_t count,
                         const celspan_matrix *matrix, celspan_box *out) {
   bool found = false;
@@ -66,7 +66,7 @@ static bool outer_bounds(const cs_primitive_data *data, const celspan_matrix *ma
   return cs_outline_bounds(cs_outline_of_box(box, &room), matrix, out);
 }
 
-/* Without memory for its outline, the outer box. */
+/* The bounds of a stroke. If there is no memory for the outline, the outer box. */
 static bool stroke_bounds(finder *f, const cs_primitive_data *data, const celspan_matrix *matrix,
                           celspan_box *out) {
   celspan_context own = {.memory = data->memory}, *context = f->context ? f->context : &own;
@@ -109,7 +109,7 @@ static bool object_bounds(finder *f, const celspan_object *object, const celspan
   return data_bounds(f, object->data, &whole, out);
 }
 
-/* *out is set only where there is something. */
+/* *out is set only if there is something to paint. */
 static bool find_object(finder *f, const celspan_object *object, celspan_box *out) {
   const celspan_matrix identity = celspan_matrix_identity();
   celspan_box box;

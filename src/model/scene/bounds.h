@@ -16,7 +16,8 @@
 
 #include "model/scene/scene.h"
 
-/* *is_there: whether there is anything; else *out is not set. Errors: NO_MEMORY. Shared read. */
+/* *is_there: whether there is something to paint; if not, *out is not set. Errors: NO_MEMORY.
+ * Shared read. */
 CELSPAN_CHECKED celspan_status cs_bounds_object(celspan_context *context,
                                                 const celspan_object *object, bool *is_there,
                                                 celspan_box *out);
@@ -26,7 +27,7 @@ CELSPAN_CHECKED celspan_status cs_bounds_cel(celspan_context *context, const cel
 CELSPAN_CHECKED celspan_status cs_bounds_drawing(celspan_context *context, const celspan_cel *cel,
                                                  const celspan_matrix *matrix, bool *is_there,
                                                  celspan_box *out);
-/* A box around objects under a matrix that is found quickly, from the boxes of their outlines, and
- * the outer ones of strokes. False when there is nothing; *out is not set then. */
+/* A box around objects under a matrix that is found quickly: from the boxes of their outlines, and
+ * from the outer boxes of strokes. False if there is nothing to paint; *out is not set then. */
 bool cs_bounds_around(celspan_object *const *objects, size_t count, const celspan_matrix *matrix,
                       celspan_box *out);

@@ -8,10 +8,10 @@
 
 #define NAME_SIZE 96
 
-/* Seven digits show paints and lights, which are floats, as they were given; coordinates need
- * more. */
+/* Seven digits are enough to show paints and lights, which are floats, as they were given;
+ * coordinates need more digits. */
 cs_check_text cs_check_number_text(double value) {
-  cs_check_text number = {"nan"}; /* whose sign means nothing */
+  cs_check_text number = {"nan"}; /* the sign of NaN has no meaning */
   if (value != value)
     return number;
   snprintf(number.text, sizeof number.text, value == (float)value ? "%.7g" : "%.9g", value);

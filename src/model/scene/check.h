@@ -32,8 +32,8 @@ CELSPAN_CHECKED celspan_status cs_check_positive(celspan_context *context, const
 /* Clamps a finite value to 0..1, because the curves that give shares overshoot. */
 CELSPAN_CHECKED celspan_status cs_check_share(celspan_context *context, const char *noun,
                                               const char *field, double value, double *out);
-/* A field such as stops[2].at: its member ("": none) of its item `index`, counted from 1 (0: the
- * field is not a list). */
+/* The name of a field such as stops[2].at: `member` ("": none) of item `index`, counted from 1;
+ * index 0: the field is not a list. */
 typedef struct cs_check_field {
   const char *noun, *field;
   size_t index;

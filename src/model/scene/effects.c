@@ -21,7 +21,7 @@
 #include "model/scene/grow.h"
 #include "model/scene/primitive_data.h"
 
-#define EXTENT_GAUSSIAN 3 /* radii; beyond this nothing of the blur can be seen */
+#define EXTENT_GAUSSIAN 3 /* radii; farther away nothing of the blur can be seen */
 #define EXTENT 2
 
 /* ---------------------------------------------------------------- steps */
@@ -56,7 +56,7 @@ static celspan_status give_mode(celspan_context *context, celspan_object **objec
   return replace(object, status, made);
 }
 
-/* Gives *object the mode of another, which may be kept within its backdrop. */
+/* Gives *object the mode of another object, which may be limited to the backdrop. */
 static celspan_status give_mode_of(celspan_context *context, celspan_object **object,
                                    const celspan_object *like) {
   const celspan_blend mode = celspan_object_mode(like);
@@ -76,8 +76,8 @@ static celspan_status mask(celspan_context *context, celspan_object **object, ce
   return replace(object, status, made);
 }
 
-/* Gives the object's mode, name and line to the result of an effect on the object without its mode,
- * unless the effect has failed. */
+/* Gives the mode, the name and the line of an object to the result of an effect, which was made of
+ * the object without its mode. Does nothing if the effect has failed. */
 static celspan_status finish(celspan_context *context, const celspan_object *object,
                              celspan_status status, celspan_object *made, celspan_object **out) {
   if (status == CELSPAN_OK)
@@ -86,7 +86,7 @@ static celspan_status finish(celspan_context *context, const celspan_object *obj
     celspan_object_unref(made);
     return status;
   }
-  if (made != object) { /* they are equal where there is nothing to blur */
+  if (made != object) { /* both are equal if there was nothing to blur */
     cs_mark_drop(made->mark);
     made->mark = cs_mark_keep(object->mark);
   }
@@ -177,7 +177,7 @@ static celspan_status blur(celspan_context *context, celspan_object *object,
 typedef celspan_status (*effect_maker)(celspan_context *context, celspan_object *object,
                                        const void *desc, celspan_object **made);
 
-/* The effect on an object. The mode of the object becomes the mode of the result. */
+/* Makes the effect of an object. The mode of the object becomes the mode of the result. */
 static celspan_status make(celspan_context *context, celspan_object *object, effect_maker add,
                            const void *desc, celspan_object **out) {
   celspan_object *plain, *made = NULL;
@@ -210,7 +210,7 @@ celspan_status celspan_object_blur(celspan_context *context, celspan_object *obj
 
 /* ---------------------------------------------------------------- silhouettes */
 
-/* A rectangle of the texture: the bounds, larger by `grow` on each side. */
+/* A rectangle with the texture: the bounds, enlarged by `grow` on each side. */
 static celspan_status make_ground(celspan_context *context, const celspan_box *box, double grow,
                                   celspan_texture *texture, celspan_object **out) {
   const celspan_rect_desc desc = {
@@ -219,7 +219,7 @@ static celspan_status make_ground(celspan_context *context, const celspan_box *b
   return celspan_object_create_rect(context, &desc, out);
 }
 
-/* The colour where the object is, or (inverts) where it is not, up to `grow` beyond its bounds;
+/* The colour where the object is, or (inverts) where it is not, as far as `grow` beyond its bounds;
  * then moved and blurred. */
 typedef struct silhouette {
   celspan_texture *colour;
@@ -259,7 +259,7 @@ static celspan_status make_silhouette(celspan_context *context, celspan_object *
   return status;
 }
 
-/* *effect and the object, in front of it or behind. */
+/* Joins *effect and the object, either of which may be in front. */
 static celspan_status join(celspan_context *context, celspan_object **effect,
                            celspan_object *object, bool is_in_front) {
   celspan_object *made = NULL;
@@ -349,7 +349,7 @@ static celspan_status check_outline(celspan_context *context, const celspan_obje
   return cs_check_share(context, "outline", "opacity", desc->opacity, &opacity);
 }
 
-/* The texture where the object or anything within the width of it is. */
+/* The texture wherever the object is, or is nearer than the width. */
 static celspan_status outline_vector(celspan_context *context, celspan_object *object,
                                      const cs_grow *how, celspan_texture *texture,
                                      celspan_object **out) {

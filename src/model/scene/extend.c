@@ -7,15 +7,15 @@
 
 enum { PIECES = 9 };
 
-/* The border, as all pieces share it. */
+/* The border, in the form that all pieces need. */
 typedef struct frame {
   celspan_matrix placed, back; /* from the objects' units to the border's, and back */
   double sides[2][4]; /* by axis: where the strips and the inside begin and end, ascending */
   double stretch[2];
 } frame;
 
-/* From the border's units to the same units: the part of the art that piece k of three shows along
- * an axis. */
+/* The map from the border's units to the same units that gives the art of piece k of three along an
+ * axis. */
 static void set_axis(celspan_matrix *map, const frame *f, int axis, int k) {
   double side = f->sides[axis][k == 0 ? 1 : 2], stretch = f->stretch[axis];
   map->m[4 * axis] = k == 1 ? 1 : -stretch;

@@ -4,7 +4,7 @@
 #include "model/scene/check.h"
 #include "model/scene/value.h"
 
-#define NEAREST 1e-9 /* that points of a curve may be to each other, along x */
+#define NEAREST 1e-9 /* the least distance of points of a curve, along x */
 
 /* ---------------------------------------------------------------- checks */
 

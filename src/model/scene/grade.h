@@ -18,7 +18,8 @@ static inline const cs_grade *cs_grade_steps(const celspan_grade *grade) {
   return grade ? &grade->steps : NULL;
 }
 
-/* grade: NULL counts nothing, so that values without one have the hashes that they had. */
+/* grade: NULL adds nothing to the hash, so that values without a grade have the same hashes as
+ * before. */
 static inline void cs_grade_hash(cs_hash *hash, const celspan_grade *grade) {
   if (grade)
     cs_hash_hash(hash, grade->hash);

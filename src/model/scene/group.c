@@ -88,7 +88,7 @@ celspan_blend celspan_object_mode(const celspan_object *object) {
   return CS_BLEND_MODE(cs_object_mode(object));
 }
 
-/* A union with the operands of an object's union, but with another look. noun: for messages. */
+/* A union with the operands of another union, but with a different look. noun: for messages. */
 static celspan_status change(celspan_context *context, const char *noun,
                              const celspan_object *object, const cs_boolean *look,
                              celspan_object **out) {

@@ -8,7 +8,7 @@
 #include "model/scene/primitive_data.h"
 #include "model/stroke/outliner.h"
 
-#define ALIKE 1e-9 /* lengths that differ by less, in their squares, are alike */
+#define ALIKE 1e-9 /* lengths count as equal if their squares differ by less */
 
 /* ---------------------------------------------------------------- what is grown how */
 
@@ -29,8 +29,9 @@ typedef struct grower {
   const cs_grow *how;
 } grower;
 
-/* The grown object and the shrunken one; NULL for the one that is not wanted. Both are made at
- * once, since an xor needs both of its operands: nested ones would be made again at every level. */
+/* The grown object and the shrunken one; NULL if one of them is not wanted. Both are made at once,
+ * since an xor needs both of each operand: otherwise nested operands would be made again at every
+ * level. */
 typedef struct sizes {
   celspan_object *grown, *shrunk;
 } sizes;
@@ -51,7 +52,7 @@ static celspan_status combine(const grower *g, celspan_operator op, celspan_obje
   return celspan_object_create_boolean(g->context, op, both, 2, out);
 }
 
-/* The shape with a rim around its outline, and without. */
+/* The shape with the rim of its outline added, and the shape without the rim. */
 static celspan_status add_rim(const grower *g, celspan_object *shape, celspan_object *rim,
                               wanted want, sizes *out) {
   if (want.grown)
@@ -171,7 +172,7 @@ static celspan_status grow_operands(const grower *g, const cs_boolean *boolean,
   return CELSPAN_OK;
 }
 
-/* An xor has all outlines of its operands. */
+/* An xor has the outlines of all its operands. */
 static celspan_status grow_xor(const grower *g, celspan_object *object,
                                const celspan_matrix *around, wanted want, celspan_object **list,
                                sizes *out) {
@@ -197,7 +198,7 @@ static celspan_status join_operands(const grower *g, const cs_boolean *boolean, 
   const size_t count = boolean->operand_count;
   const celspan_operator op =
       boolean->op == CELSPAN_OPERATOR_CLIP ? CELSPAN_OPERATOR_INTERSECTION : boolean->op;
-  celspan_object **shrunk = count > 0 ? list + count : NULL; /* one of nothing has no list */
+  celspan_object **shrunk = count > 0 ? list + count : NULL; /* an empty list is NULL */
   if (want.grown)
     CS_TRY(celspan_object_create_boolean(g->context, op, list, count, &out->grown));
   return want.shrunk ? celspan_object_create_boolean(g->context, op, shrunk, count, &out->shrunk)
@@ -223,14 +224,14 @@ static celspan_status grow_boolean(const grower *g, celspan_object *object,
 
 /* ---------------------------------------------------------------- cores */
 
-/* A core in its place, and how it is grown there. */
+/* A core in its place, and how the core is grown there. */
 typedef struct placed_core {
   celspan_object *object; /* borrowed */
   celspan_matrix matrix;
   cs_grow how;
 } placed_core;
 
-/* The factor by which a matrix scales all lengths; false where it scales directions differently. */
+/* The factor by which a matrix scales all lengths; false if it differs between directions. */
 static bool find_scale(const celspan_matrix *matrix, double *scale) {
   const double *m = matrix->m;
   const double across = m[0] * m[0] + m[3] * m[3], down = m[1] * m[1] + m[4] * m[4];
@@ -239,7 +240,7 @@ static bool find_scale(const celspan_matrix *matrix, double *scale) {
          fabs(m[0] * m[1] + m[3] * m[4]) <= ALIKE * across;
 }
 
-/* An object with a mode, or a named group, may be around an object that has a core. */
+/* The object inside an object with a mode, or inside a named group, may have a core. */
 static const celspan_object *find_inner(const celspan_object *object, celspan_matrix *matrix) {
   const cs_primitive_data *data = object->data;
   while (data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->op == CELSPAN_OPERATOR_UNION &&
@@ -251,7 +252,7 @@ static const celspan_object *find_inner(const celspan_object *object, celspan_ma
   return object;
 }
 
-/* Whether growing an object gives its core, grown farther. */
+/* Whether growing an object gives the same as growing its core farther. */
 static bool find_core(const cs_grow *how, const celspan_object *object,
                       const celspan_matrix *around, placed_core *out) {
   double scale;

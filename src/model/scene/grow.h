@@ -25,8 +25,8 @@ typedef struct cs_grow {
   celspan_stroke_join join;
 } cs_grow;
 
-/* Whether the shape of an object says all about where it is: it has no pictures, mattes,
- * compositions (effects that blur are such) and procedures. */
+/* Whether the shape of an object alone decides where it is present: it contains no pictures,
+ * mattes, compositions (effects that blur are compositions) or procedures. */
 bool cs_grow_is_vector(const celspan_object *object);
 
 /* *out: a new object that is present where the grown shape is, whatever its paint. Errors:
@@ -34,7 +34,7 @@ bool cs_grow_is_vector(const celspan_object *object);
 CELSPAN_CHECKED celspan_status cs_grow_object(celspan_context *context, celspan_object *object,
                                               const cs_grow *grow, celspan_object **out);
 
-/* Notes of a new boolean that it is present where an object is that was grown so. Errors:
- * NO_MEMORY, LIMIT. */
+/* Notes for a new boolean that it is present where an object is present that was grown in this way.
+ * Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_grow_note(celspan_context *context, celspan_object *boolean,
                                             celspan_object *object, const cs_grow *grow);

@@ -3,7 +3,7 @@
 #include "model/geometry/matrix.h"
 
 #define MAX_DEGREE 15
-/* How often a piece is halved before its chord decides: more would not change a double. */
+/* How many times a piece is halved before its chord decides: more would not change a double. */
 #define MAX_HALVINGS 56
 
 /* A control point relative to the point that is tested, times its weight w > 0: u < 0 is left of

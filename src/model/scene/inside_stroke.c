@@ -20,10 +20,11 @@
 #define MOST_PRODUCT (3 * MOST_DEGREE)
 #define HALVINGS 52
 #define SAME 1e-12     /* distances that differ by less are the same */
-#define ROUNDING 1e-12 /* of a radius, in its derivative */
-#define AT_REST 1e-9   /* sine: a spoke at the end of a piece belongs to it, as to its neighbour */
+#define ROUNDING 1e-12 /* of a radius, in the derivative of the radius */
+/* sine: a spoke at the end of a piece belongs to the piece, and to its neighbour, too */
+#define AT_REST 1e-9
 
-/* A piece about the point: (u, v) / w is the way from the point to the line. */
+/* A piece relative to the point: (u, v) / w is the vector from the point to the line. */
 typedef struct around {
   int degree, radius_degree;
   double u[MOST_DEGREE + 1], v[MOST_DEGREE + 1], w[MOST_DEGREE + 1];
@@ -33,8 +34,9 @@ typedef struct around {
   double du[MOST_DEGREE], dv[MOST_DEGREE], dw[MOST_DEGREE], dr[CS_STROKE_RADIUS_DEGREE];
 } around;
 
-/* An end of a piece, seen from the piece: away is the direction that leads out of it, slope how
- * fast the radius grows in it, -1 .. 1; x, y: the way from its centre to the point. */
+/* An end of a piece, seen from the piece. away: the direction that leads out of the piece; slope:
+ * how fast the radius grows in this direction, -1 .. 1; x, y: the vector from the centre of the end
+ * to the point. */
 typedef struct piece_end {
   double x, y, radius;
   double away_x, away_y, slope;
@@ -68,7 +70,7 @@ static void halve_around(const around *whole, around *low, around *high) {
     halve(whole->dr, whole->radius_degree - 1, low->dr, high->dr);
 }
 
-/* The part between two parameters, by de Casteljau's scheme at either end. */
+/* The part of a polynomial between two parameters, cut at both ends by de Casteljau's scheme. */
 static void cut(double *c, int degree, double begin, double end) {
   for (int level = 1; level <= degree && end < 1; level++)
     for (int i = degree; i >= level; i--)
@@ -82,7 +84,7 @@ static void cut(double *c, int degree, double begin, double end) {
 /* Adds factor * a * b to a sum of degree a_degree + b_degree. */
 static void add_product(double *sum, double factor, const double *a, int a_degree, const double *b,
                         int b_degree) {
-  double row = 1; /* binomial coefficients: of a, of b, of the product */
+  double row = 1; /* binomial coefficients: of a, of b, and of the product */
   for (int i = 0; i <= a_degree; i++) {
     double column = 1, whole = 1;
     for (int k = 0; k < i; k++)
@@ -111,9 +113,9 @@ static range range_of(const double *c, int degree) {
 
 /* ---------------------------------------------------------------- ends */
 
-/* The first derivative at an end that is not 0, in the direction of the piece: of its coefficients
- * the first counts that is larger than rounding (`least`), times the binomial coefficient of its
- * place, and before places that come later. */
+/* The first derivative at an end that is not 0, in the direction of the piece. Of its coefficients,
+ * the first one that is larger than rounding (`least`) counts, multiplied by the binomial
+ * coefficient of its place; it must come before the places that follow. */
 typedef struct start {
   double x, y;
   int place;
@@ -162,7 +164,7 @@ static double distance_to(const piece_end *e) { return sqrt(e->x * e->x + e->y *
 
 /* ---------------------------------------------------------------- spokes */
 
-/* Adds the coefficients of d' d w^3, where d is the distance, to 0; their degree. */
+/* Adds the coefficients of d' d w^3, where d is the distance, to `out`. Returns their degree. */
 static int approach_of(const around *a, double out[MOST_PRODUCT]) {
   int n = a->degree;
   double product[2 * MOST_DEGREE] = {0}, square[2 * MOST_DEGREE + 1] = {0};
@@ -181,7 +183,7 @@ static int approach_of(const around *a, double out[MOST_PRODUCT]) {
   return 3 * n - 1;
 }
 
-/* The least distance is that to the box of the control points. */
+/* The least distance is the distance to the box of the control points. */
 static range distances(const around *a) {
   double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL, most = 0;
   for (int i = 0; i <= a->degree; i++) {
@@ -212,8 +214,8 @@ typedef struct place {
   double f, slope;
 } place;
 
-/* Where the line stands still, f' is 0, whatever the point: then by the way instead of the
- * parameter. */
+/* Where the line does not move, f' is 0 for every point. There the derivative by the distance along
+ * the line is used instead. */
 static double slope_by_way(const around *a, int end) {
   piece_end e = end_of(a, end);
   double distance = distance_to(&e), nearing = distance > 0 ? -along(&e) / distance : 1;
@@ -230,7 +232,7 @@ static place place_at(const around *a, int end) {
   return (place){distance - a->r[end ? m : 0], stands ? slope_by_way(a, end) : nearing - growth};
 }
 
-/* Whether a spoke of the piece reaches over the point. */
+/* Whether a spoke of the piece extends over the point. */
 static bool is_reached(const around *a, int halvings) {
   double coefficients[MOST_PRODUCT] = {0};
   range distance = distances(a), radius = range_of(a->r, a->radius_degree);
@@ -246,7 +248,9 @@ static bool is_reached(const around *a, int halvings) {
   if (begin.slope >= 0 && end.slope <= 0 && distance.most <= radius.least)
     return true;
   if (halvings == HALVINGS || distance.most - distance.least <= SAME * distance.most)
-    return false; /* as good as a point: the slopes at its ends were its last chance */
+    /* the piece is as short as a point; only the slopes at its ends could have decided, and did
+     * not */
+    return false;
   around low, high;
   halve_around(a, &low, &high);
   place before = place_at(&low, 1), after = place_at(&high, 0);
@@ -256,14 +260,14 @@ static bool is_reached(const around *a, int halvings) {
 
 /* ---------------------------------------------------------------- caps */
 
-/* Whether the spoke at the end itself reaches over the point. */
+/* Whether the spoke at the end extends over the point. */
 static bool is_on_spoke(const piece_end *e) {
   double distance = distance_to(e);
   return distance <= e->radius && fabs(along(e) + e->slope * distance) <= AT_REST * distance &&
          fabs(e->slope) < 1;
 }
 
-/* Up to the normal where the width falls from the end, up to the chord of the tips where it
+/* Up to the normal if the width decreases from the end on, up to the chord of the tips if it
  * grows. */
 static bool is_in_butt(const piece_end *e) {
   double distance = distance_to(e), ahead = along(e), k = e->slope;
@@ -301,7 +305,8 @@ static bool is_between(double angle, double from, double length) {
   return length > 0 && turn <= length;
 }
 
-/* Where the disc lies outside of both pieces. turn: from one to the other. */
+/* Whether the disc at the joint lies outside of both pieces here. turn: the angle from one to the
+ * other. */
 static bool is_in_round(const piece_end *in, const piece_end *out, double turn) {
   if (!(distance_to(in) <= in->radius))
     return false;
@@ -311,19 +316,20 @@ static bool is_in_round(const piece_end *in, const piece_end *out, double turn) 
          is_between(angle, turn + second, first - turn - second);
 }
 
-/* Two radii at one place: the larger disc, where its own piece does not cover it. */
+/* Two radii at one place: the larger disc, except where its own piece covers it. */
 static bool is_in_jump(const piece_end *in, const piece_end *out) {
   const piece_end *larger = in->radius > out->radius ? in : out;
   double distance = distance_to(larger);
   return distance <= larger->radius && along(larger) >= -larger->slope * distance;
 }
 
-/* The kite or triangle on the outside: in the axes of both normals. turn: its sine and cosine. */
+/* The kite or triangle on the outside of a join, in coordinates along both normals. turn: its sine
+ * and cosine. */
 static bool is_in_wedge(const cs_stroke *stroke, const piece_end *in, const piece_end *out,
                         double turn) {
   double side = turn > 0 ? 1 : -1;
   double ax = side * in->away_y, ay = -side * in->away_x;   /* normal of the piece before */
-  double bx = -side * out->away_y, by = side * out->away_x; /* and of the next one */
+  double bx = -side * out->away_y, by = side * out->away_x; /* the normal of the piece after it */
   double cosine = ax * bx + ay * by, sine = ax * by - ay * bx;
   if (sine == 0)
     return false;

@@ -16,11 +16,11 @@ typedef struct listener {
   void *user;
   size_t cel, primitive;    /* the place that the walk has reached */
   const celspan_cel *named; /* likewise */
-  celspan_status first;     /* of the first fault */
+  celspan_status first;     /* the status of the first fault */
   char sentence[CS_ERROR_SIZE];
 } listener;
 
-/* As cs_mark_describe, for the value that a fault names. */
+/* As cs_mark_describe, for the value that a fault is about. */
 static cs_mark_text describe(const char *name, celspan_origin origin) {
   cs_mark_text out = {""};
   int length = 0;
@@ -200,8 +200,8 @@ static celspan_status read_rows(celspan_context *context, const source *from, in
   return status == CELSPAN_OK ? status : cs_fail(context, status, "%s", failure.text);
 }
 
-/* A picture that is turned upright is best read in few batches: each may need all of the file. A
- * surface is never asked for more rows than blocks are made of. */
+/* A picture that is turned upright is best read in few batches, because each batch may need the
+ * whole file. A surface is never asked for more rows than blocks are made of. */
 static int32_t rows_of_batch(const source *from) {
   const cs_picture_header *header = &from->header;
   int64_t row = (int64_t)header->info.width * 4 * (int64_t)sizeof(float);
@@ -302,8 +302,8 @@ static bool is_about(const char *sentence, const cs_picture *picture) {
   return picture && strncmp(sentence, picture->file, length) == 0 && sentence[length] == ':';
 }
 
-/* The object whose picture's file the sentence begins with, in a list or deeper; else NULL.
- * Recursion ends: nesting is at most CS_SCENE_DEPTH. */
+/* The object that has the picture whose file name begins the sentence, in a list or at a deeper
+ * level; NULL if there is none. Recursion ends: nesting is at most CS_SCENE_DEPTH. */
 static const celspan_object *find(celspan_object *const *objects, size_t count,
                                   const char *sentence) {
   const celspan_object *found = NULL;

@@ -24,13 +24,14 @@
 
 typedef struct cs_inspection_outcome {
   celspan_status status;
-  char *message; /* owned; NULL where the status is OK */
+  char *message; /* owned; NULL if the status is OK */
 } cs_inspection_outcome;
 
 typedef struct cs_inspection {
   celspan_context *context; /* borrowed */
   bool is_deep;
-  /* Called between batches of a picture that is read whole; false stops. NULL: nobody asks. */
+  /* Called between the batches of a picture that is read as a whole; false stops. NULL: it is not
+   * called. */
   bool (*progress)(void *user, int32_t rows_done, int32_t rows_total);
   void *user;
   cs_hash_table indices; /* from pictures to indices into outcomes */
@@ -67,11 +68,11 @@ typedef struct cs_blame_text {
 
 /* A cel by its number, from 1, and its mark. */
 cs_blame_text cs_blame_cel(size_t number, cs_mark cel);
-/* An object of it: the innermost one, whose texture's mark counts where it has no name. */
+/* An object of a cel: the innermost one. If it has no name, the mark of its texture counts. */
 cs_blame_text cs_blame_object(size_t number, cs_mark cel, const celspan_object *object);
 
-/* Puts the place of the picture that an INPUT failure is about before the context's sentence, which
- * begins with the picture's file: of the first object in the exposures that shows it. Returns
+/* Puts a place before the context's sentence about an INPUT failure, which begins with the
+ * picture's file: the place of the first object in the exposures that shows this picture. Returns
  * status. */
 celspan_status cs_blame_picture(celspan_context *context, const celspan_exposure *exposures,
                                 size_t count, celspan_status status);

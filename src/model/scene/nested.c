@@ -55,6 +55,6 @@ celspan_status celspan_object_create_rostrum(celspan_context *context, celspan_r
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_ROSTRUM, NULL, &data));
   celspan_status status = cs_primitive_data_fill_rostrum(context, data, rostrum, &frame);
   CS_TRY(cs_primitive_data_wrap(context, data, status, out));
-  (*out)->mark = cs_mark_keep(rostrum->mark); /* which replaces a mark without a name */
+  (*out)->mark = cs_mark_keep(rostrum->mark); /* this replaces a mark that has no name */
   return CELSPAN_OK;
 }

@@ -7,14 +7,15 @@
 #include "model/scene/check.h"
 #include "model/scene/value.h"
 
-#define GIVING_BACK SIZE_MAX /* `used` while the places of views that ended are being freed */
+/* the value of `used` while the places of ended views are being freed */
+#define GIVING_BACK SIZE_MAX
 
 struct cs_operands_list {
   atomic_size_t references;
   cs_memory *memory;
-  pthread_mutex_t lock; /* of `used` and `lives` */
+  pthread_mutex_t lock; /* protects `used` and `lives` */
   size_t capacity, used;
-  /* stored after the objects: for each count from 0, whether a view of that length lives */
+  /* stored after the objects: for each length from 0 on, whether a view of this length exists */
   bool *lives;
   celspan_object *objects[];
 };
@@ -51,7 +52,7 @@ static void unref_objects(celspan_object **objects, size_t count) {
     celspan_object_unref(objects[i]);
 }
 
-/* The last view gave all places back. */
+/* Called when the last view has returned all places. */
 static void unref_list(cs_operands_list *list) {
   if (!cs_counted_drop(&list->references))
     return;
@@ -68,7 +69,7 @@ static void keep_objects(celspan_object **to, celspan_object *const *from, size_
 
 /* ---------------------------------------------------------------- views */
 
-/* Adds a view. Called under the lock, or before anybody else knows of the list. */
+/* Adds a view. Called under the lock, or before any other thread knows the list. */
 static void begin_view(cs_operands_list *list, size_t count) {
   list->used = count;
   list->lives[count] = true;
@@ -98,8 +99,8 @@ celspan_status cs_operands_create(celspan_context *context, const char *noun,
   return CELSPAN_OK;
 }
 
-/* Claims the places after the operands that `from` shows. Only a view that shows all of its list
- * can. */
+/* Claims the places after the operands that `from` shows. Only a view that shows its whole list can
+ * do this. */
 static bool claim(const cs_operands *from, size_t count) {
   cs_operands_list *list = from->list;
   if (!list || count == 0)
@@ -112,8 +113,8 @@ static bool claim(const cs_operands *from, size_t count) {
   return is_claimed;
 }
 
-/* A list with room for the same number again, so that a chain is copied about as often as it has
- * operands. */
+/* A list with as much additional room as it has operands, so that a growing chain copies each
+ * operand about once. */
 static cs_operands_list *copy_list(cs_memory *memory, const cs_operands *from, size_t more) {
   size_t count = from->count + more;
   cs_operands_list *list = create_list(memory, count > SIZE_MAX / 2 ? count : 2 * count);
@@ -148,9 +149,9 @@ static size_t longest_below(const cs_operands_list *list, size_t count) {
   return count;
 }
 
-/* While the longest view has ended: frees the places that no shorter view shows. Shorter views that
- * end during this find that `used` is not their count and leave their places to this loop; so does
- * a view that ends on another thread meanwhile. */
+/* As long as the longest view has ended: frees the places that no shorter view shows. Shorter views
+ * that end meanwhile, on this or another thread, find that `used` is not their length, and leave
+ * their places to this loop. */
 static void end_view(cs_operands_list *list, size_t count) {
   pthread_mutex_lock(&list->lock);
   list->lives[count] = false;

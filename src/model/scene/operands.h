@@ -25,7 +25,7 @@
 
 typedef struct cs_operands_list cs_operands_list;
 
-/* A view: the part of a list that one boolean object shows. No operands: no list. */
+/* A view: the part of a list that one boolean object shows. Without operands there is no list. */
 typedef struct cs_operands {
   cs_operands_list *list;
   celspan_object **objects; /* in the list */
@@ -37,8 +37,8 @@ typedef struct cs_operands {
 CELSPAN_CHECKED celspan_status cs_operands_create(celspan_context *context, const char *noun,
                                                   celspan_object *const *objects, size_t count,
                                                   cs_operands *out);
-/* A view of the objects that `from` shows, and of these after them. Cost: O(count), on the average
- * of a chain. Errors as above. */
+/* A view of the objects that `from` shows followed by these objects. Cost: O(count), on the average
+ * over a chain. Errors as above. */
 CELSPAN_CHECKED celspan_status cs_operands_extend(celspan_context *context, const char *noun,
                                                   const cs_operands *from,
                                                   celspan_object *const *objects, size_t count,

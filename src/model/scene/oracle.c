@@ -94,8 +94,8 @@ static double linear_parameter(const celspan_texture *texture, celspan_point at)
   return ((at.x - from.x) * dx + (at.y - from.y) * dy) / (dx * dx + dy * dy);
 }
 
-/* Circles of the radius t r about focus + t (centre - focus): the greater t whose circle goes
- * through the point, which solves (r^2 - d^2) t^2 + 2 (p d) t - p^2 = 0. */
+/* Circles of the radius t r about focus + t (centre - focus): the greater t for which the circle
+ * goes through the point; it solves (r^2 - d^2) t^2 + 2 (p d) t - p^2 = 0. */
 static double radial_parameter(const celspan_texture *texture, celspan_point at) {
   celspan_point centre = texture->variation->points[0], offset = texture->variation->points[1];
   double px = at.x - centre.x - offset.x, py = at.y - centre.y - offset.y,
@@ -147,7 +147,8 @@ static celspan_status read_bilinear(celspan_context *context, const cs_picture *
   return CELSPAN_OK;
 }
 
-/* A primitive lies in its own box, so a picture ends inside it only where a box was given. */
+/* A primitive lies inside its own box, so a picture ends inside the primitive only if the picture
+ * was given a box. */
 static celspan_status shade_picture(celspan_context *context, const celspan_texture *texture,
                                     const celspan_box *bounds, celspan_point at,
                                     celspan_space space, cs_oracle_paint *out) {
@@ -204,7 +205,7 @@ static celspan_status shade_procedure(celspan_context *context, const cs_primiti
   return status;
 }
 
-/* Where a place beyond the ends lies in the one period from 0 to 1. */
+/* The place in the period from 0 to 1 that corresponds to a place beyond the ends. */
 static double fold(celspan_spread spread, double at) {
   if (spread == CELSPAN_SPREAD_HOLD)
     return at;
@@ -213,8 +214,8 @@ static double fold(celspan_spread spread, double at) {
   return is_turned ? 1 - rest : rest;
 }
 
-/* A gradient at a point of its own units, by the texture that was given, not by the unrolled
- * one. */
+/* A gradient at a point of its own units, computed from the texture that was given, not from the
+ * unrolled texture. */
 static cs_oracle_paint shade_gradient(const celspan_texture *given, celspan_point point,
                                       celspan_space space) {
   double at = given->kind == CS_TEXTURE_LINEAR ? linear_parameter(given, point)
@@ -253,7 +254,7 @@ celspan_status cs_oracle_texture(celspan_context *context, const celspan_texture
     *out = shade_gradient(texture, point, space);
     return CELSPAN_OK;
   case CS_TEXTURE_PICTURE:
-  case CS_TEXTURE_PATTERN: /* which is on no primitive */
+  case CS_TEXTURE_PATTERN: /* this texture is on no primitive */
     break;
   }
   return shade_picture(context, texture, bounds, point, space, out);

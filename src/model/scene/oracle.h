@@ -18,8 +18,9 @@ cs_oracle_paint cs_oracle_mix(const cs_oracle_paint *p, const cs_oracle_paint *q
 /* Whether the paint lets no light through, so that nothing behind it is visible. */
 bool cs_oracle_hides(const cs_oracle_paint *shade);
 
-/* A texture at a point of its own units, its pigments as numbers of a space. Pictures are bilinear
- * at full resolution; bounds: where one without a box lies. Errors: INPUT, LIMIT, NO_MEMORY. */
+/* A texture at a point of its own units, with its pigments as numbers of a space. Pictures are
+ * bilinear at full resolution. bounds: the box of a picture that has no box of its own. Errors:
+ * INPUT, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_oracle_texture(celspan_context *context,
                                                  const celspan_texture *texture,
                                                  const celspan_box *bounds, celspan_point point,
@@ -32,7 +33,7 @@ CELSPAN_CHECKED celspan_status cs_oracle_primitive(celspan_context *context,
                                                    celspan_point point, celspan_space space,
                                                    bool *is_there, cs_oracle_paint *out);
 
-/* One channel of a colour whose coverage is `share`, converted to a space from the other one. */
+/* One channel of a colour with alpha `share`, converted from the other space to this one. */
 double cs_oracle_convert(celspan_space to, double s, double share);
 
 /* A part of the picture as it is seen: the light that it sends to the camera, and the light that it
@@ -45,17 +46,17 @@ typedef struct cs_oracle_sight {
 
 extern const cs_oracle_sight cs_oracle_nothing;
 
-/* How much there is of it. */
+/* The alpha of a sight. */
 double cs_oracle_alpha(const cs_oracle_sight *sight);
-/* One sight in front of another. */
+/* One sight in front of another one. */
 cs_oracle_sight cs_oracle_before(const cs_oracle_sight *front, const cs_oracle_sight *back);
 /* A source with a mode in front of its backdrop, by the formulas of W3C Compositing and Blending
  * Level 1. */
 cs_oracle_sight cs_oracle_blend(celspan_blend mode, const cs_oracle_sight *source,
                                 const cs_oracle_sight *back);
-/* Converts a colour to a space from the other one, channel by channel. */
+/* Converts a colour to a space from the other space, channel by channel. */
 cs_oracle_sight cs_oracle_leave(celspan_space to, const cs_oracle_sight *sight);
-/* A whole, graded in a space. */
+/* Grades a whole composition in a space. */
 void cs_oracle_grade(const celspan_grade *grade, celspan_space space, cs_oracle_sight *sight);
 /* weight * sight + (1 - weight) * nothing. */
 cs_oracle_sight cs_oracle_fade(const cs_oracle_sight *sight, double weight);

@@ -36,7 +36,7 @@ static double softlight(double b, double s) {
   return s <= 0.5 ? b - (1 - 2 * s) * b * (1 - b) : b + (2 * s - 1) * (d - b);
 }
 
-/* Photoshop's, which has no polynomial for dark backdrops. */
+/* Photoshop's mode, which has no polynomial for dark backdrops. */
 static double softlight_photoshop(double b, double s) {
   return s <= 0.5 ? 2 * b * s + b * b * (1 - 2 * s) : 2 * b * (1 - s) + sqrt(b) * (2 * s - 1);
 }
@@ -170,7 +170,7 @@ cs_oracle_sight cs_oracle_fade(const cs_oracle_sight *sight, double weight) {
 
 /* ---------------------------------------------------------------- spaces */
 
-/* Written so that 1 is exactly 1. */
+/* The formula is written so that 1 gives exactly 1. */
 static double encode(double light) {
   return light <= 0.0031308 ? 12.92 * light : 1 + 1.055 * (cs_elementary_pow(light, 1 / 2.4) - 1);
 }

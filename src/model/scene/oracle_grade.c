@@ -64,14 +64,14 @@ static void find_slopes(const celspan_point *p, size_t count, double *slopes) {
     double line = rise(p + i), ahead = i + 2 < count ? rise(p + i + 1) : line;
     double next = i + 2 < count ? (line + ahead) / 2 : line;
     next = line * ahead > 0 ? next : 0;
-    double a = slopes[i] / line, b = next / line; /* not numbers where the line is level */
+    double a = slopes[i] / line, b = next / line; /* not finite if the line is level */
     double hold = line == 0 ? 0 : fmin(1, 3 / sqrt(a * a + b * b));
     slopes[i] *= hold;
     slopes[i + 1] = next * hold;
   }
 }
 
-/* By the four points of the piece as a Bezier curve. */
+/* Evaluates the piece as a Bezier curve with four points. */
 static double curve_at(const celspan_point *p, size_t count, double x) {
   double slopes[CS_GRADE_POINTS];
   size_t i = 0;
@@ -93,7 +93,7 @@ static double curve_at(const celspan_point *p, size_t count, double x) {
 
 /* ---------------------------------------------------------------- tables */
 
-/* Each corner of the box by its share. */
+/* The sum of the corners of the box, each multiplied by its share. */
 static void sum_corners(const cs_cube *cube, double c[3]) {
   double at[3], sum[3] = {0, 0, 0};
   for (int i = 0; i < 3; i++)

@@ -54,7 +54,7 @@ static celspan_status make_tile(celspan_context *context, const celspan_pattern_
   return status;
 }
 
-/* The levels of a primitive that it fills. */
+/* Checks the nesting depth of a primitive that is filled with the pattern. */
 static celspan_status check_depth(celspan_context *context, const celspan_pattern_desc *desc) {
   int depth = desc->art->data->depth + 1;
   if (depth <= CS_SCENE_DEPTH)
@@ -102,7 +102,7 @@ static celspan_status fill_plane(celspan_context *context, const cs_primitive_da
   CS_TRY(CS_MAKE(context, plane->repeat, 1));
   *plane->repeat = (cs_repeat){variation->box, variation->matrix, variation->inverse};
   CS_TRY(cs_primitive_data_fill_rostrum(context, plane, variation->tile, &shape->bounds));
-  plane->depth--; /* it is of one level with the clip */
+  plane->depth--; /* it is on the same level as the clip */
   return CELSPAN_OK;
 }
 
@@ -117,7 +117,7 @@ static celspan_status make_plane(celspan_context *context, const cs_primitive_da
   return status;
 }
 
-/* Takes the pattern off the data, which become the shape. */
+/* Removes the pattern from the data, which become the shape. */
 static celspan_status make_shape(celspan_context *context, cs_primitive_data *data,
                                  celspan_object **out) {
   celspan_texture *black;

@@ -171,7 +171,7 @@ celspan_status celspan_object_create_scanline(celspan_context *context,
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_SCANLINE, NULL, &data));
   celspan_object *object;
   CS_TRY(cs_primitive_data_complete_box(context, data, &desc->bounds, &object));
-  /* Not earlier: if no object is made, releasing `user` is left to the caller. */
+  /* Not earlier: if no object is made, the caller must release `user`. */
   *data->scanline = *desc;
   *out = object;
   return CELSPAN_OK;

@@ -8,8 +8,8 @@
 
 /* ---------------------------------------------------------------- mixing */
 
-/* Of a texture of paints. Both are mixed where the medium dims the light that the pigment
- * leaves. */
+/* For a texture of paints. Pigment and medium are mixed where the medium dims the light that the
+ * pigment does not block. */
 static cs_mixing mixing_of_paint(const cs_paint *paint) {
   bool is_opaque = true, is_single = true;
   for (int c = 0; c < 3; c++) {
@@ -43,7 +43,7 @@ static bool has_formula(const cs_boolean *boolean) {
          boolean->blend != CELSPAN_BLEND_NORMAL;
 }
 
-/* For operands that come after others. */
+/* Finds how objects mix that are added after other operands. */
 static void measure_mixing(celspan_object *const *objects, size_t count, cs_primitive_data *data) {
   const cs_boolean *boolean = data->boolean;
   bool is_first =
@@ -61,7 +61,7 @@ static void measure_mixing(celspan_object *const *objects, size_t count, cs_prim
 
 /* ---------------------------------------------------------------- data */
 
-/* The values that only data of this kind have. */
+/* Makes the values that only this kind of data has. */
 static celspan_status create_part(celspan_context *context, cs_primitive_data *data) {
   if (data->kind == CS_PRIMITIVE_DATA_SCANLINE) {
     return CS_MAKE(context, data->scanline, 1);
@@ -224,8 +224,8 @@ static size_t size_of(const celspan_object *object) {
   return sizeof *object + (object->matrix == object->own ? sizeof *object->own : 0);
 }
 
-/* matrix: is copied, unless it is `identity` itself. mark: a reference that the object takes;
- * dropped on failure. */
+/* matrix: is copied, unless it is `identity` itself. mark: a reference that becomes the object's;
+ * released on failure. */
 static celspan_status create_object(celspan_context *context, cs_primitive_data *data,
                                     const celspan_matrix *matrix, double fade, cs_mark mark,
                                     celspan_object **out) {

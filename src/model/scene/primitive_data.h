@@ -12,7 +12,7 @@
 
 #include "model/scene/scene.h"
 
-/* New, empty data, which the caller fills. texture: gets a reference more; NULL is opaque black.
+/* New, empty data, which the caller fills. texture: gets one more reference; NULL is opaque black.
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_create(celspan_context *context,
                                                         cs_primitive_data_kind kind,
@@ -64,8 +64,8 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_of_line(celspan_context *contex
                                                          const cs_outline_closed *closed,
                                                          const celspan_stroke_desc *desc,
                                                          celspan_object **out);
-/* As cs_primitive_data_wrap, for data with this outline, whose bounds are found first. It is
- * copied, and finished in any case. */
+/* As cs_primitive_data_wrap, for data with this outline, whose bounds are found first. The outline
+ * is copied, and freed in any case. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_complete(celspan_context *context,
                                                           cs_primitive_data *data,
                                                           cs_outline *outline,
@@ -81,8 +81,8 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_set_box(celspan_context *contex
                                                          cs_primitive_data *data,
                                                          const celspan_box *box);
 
-/* The object as a group in a space, with the same place, mode and mark; the object itself where its
- * paints are not mixed or it is a group that has a space, and for AROUND. Errors: NO_MEMORY,
+/* The object as a group in a space, with the same place, mode and mark; the object itself if its
+ * paints are not mixed, if it is a group with a space already, or for AROUND. Errors: NO_MEMORY,
  * LIMIT. */
 CELSPAN_CHECKED celspan_status cs_object_in_space(celspan_context *context, celspan_object *object,
                                                   celspan_space space, celspan_object **out);
@@ -120,11 +120,11 @@ CELSPAN_CHECKED celspan_status cs_primitive_data_list_copy(celspan_context *cont
                                                            size_t count, celspan_object ***out);
 void cs_primitive_data_list_free(cs_memory *memory, celspan_object **objects, size_t count);
 
-/* Adds what a list's objects come to: their greatest depth, their primitives and procedures.
- * Errors: LIMIT. */
+/* Adds up the properties of a list's objects: their greatest depth, and the numbers of their
+ * primitives and procedures. Errors: LIMIT. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_measure(celspan_context *context, const char *noun,
                                                          celspan_object *const *objects,
                                                          size_t count, cs_primitive_data *data);
-/* Adds the level that the data are themselves. Errors: LIMIT. */
+/* Adds the level of the data themselves. Errors: LIMIT. */
 CELSPAN_CHECKED celspan_status cs_primitive_data_deepen(celspan_context *context, const char *noun,
                                                         cs_primitive_data *data);

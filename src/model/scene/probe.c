@@ -46,8 +46,8 @@ static const light_sample white = {{1, 1, 1}, 1};
 static celspan_status present(const probe_call *probe, const celspan_object *object,
                               const celspan_matrix *parent, bool *out);
 
-/* A procedure is present where it has spans. Finding that out also makes its paint, which is not
- * used here. */
+/* A procedure is present where it has spans. The test also makes the procedure's paint, which is
+ * not used here. */
 static celspan_status primitive_present(const probe_call *probe, const cs_primitive_data *data,
                                         const celspan_matrix *matrix, bool *out) {
   celspan_point own;
@@ -90,23 +90,23 @@ static celspan_status present(const probe_call *probe, const celspan_object *obj
  */
 typedef struct place place;
 struct place {
-  const place *around; /* NULL: nothing that is around can be seen from here */
+  const place *around; /* NULL: nothing around it can be seen from here */
   const probe_call *probe;
-  const celspan_rostrum *rostrum; /* NULL: of a list of objects */
+  const celspan_rostrum *rostrum; /* NULL: the place is in a list of objects */
   celspan_object *const *objects; /* of a list */
-  size_t left;                    /* objects, or places of a rostrum, not yet met */
-  celspan_matrix matrix;          /* of a list: to film units */
-  light_sample front;             /* of a list: the light on it */
+  size_t left; /* objects of a list, or places of a rostrum, that have not been met yet */
+  celspan_matrix matrix;          /* for a list: from its units to film units */
+  light_sample front;             /* for a list: the light that falls on it */
 };
 
-/* Adds everything that is seen from a place on. */
+/* Adds everything that can be seen behind a place. */
 static celspan_status see(place at, cs_oracle_sight *seen);
 
 static bool is_hidden(const cs_oracle_sight *seen) {
   return seen->through[0] == 0 && seen->through[1] == 0 && seen->through[2] == 0;
 }
 
-/* Adds a part of the picture, and, where a mode needs it, all that is behind the place. */
+/* Adds a part of the picture; if a mode needs it, everything behind the place, too. */
 static celspan_status add_part(place *at, celspan_blend mode, const cs_oracle_sight *part,
                                cs_oracle_sight *seen) {
   if (mode == CELSPAN_BLEND_NORMAL) {
@@ -169,8 +169,8 @@ static void light_paint(const cs_oracle_paint *paint, const light_sample *front,
   }
 }
 
-/* Handles a colour composited in another space as a whole: it is graded, converted to the space of
- * the probe, and lit. */
+/* Handles a colour that is composited as a whole in another space: grades it, converts it to the
+ * space of the probe, and lights it. */
 static void light_whole(const probe_call *probe, celspan_space space, const celspan_grade *grade,
                         const light_sample *front, cs_oracle_sight *sight) {
   if (grade)
@@ -232,8 +232,8 @@ static celspan_status see_data(const probe_call *probe, const cs_primitive_data 
 
 /* ---------------------------------------------------------------- objects in their place */
 
-/* An object that is present: its own look, or, if modes inside it act on its backdrop, all that is
- * seen from its operands on. */
+/* An object that is present: its own look; if modes inside it act on its backdrop, everything that
+ * is seen behind its operands, too. */
 static celspan_status see_object(place *at, const celspan_object *object, cs_oracle_sight *seen) {
   const cs_primitive_data *data = object->data;
   const celspan_matrix whole = celspan_matrix_then(*object->matrix, at->matrix);

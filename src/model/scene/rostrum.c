@@ -138,8 +138,8 @@ celspan_status celspan_rostrum_create(celspan_context *context, const celspan_ro
   return CELSPAN_OK;
 }
 
-/* A rostrum like `from`, with these cels, and with references of its own; its hash is that of
- * `from`. mark: a reference that it takes; dropped on failure. */
+/* A rostrum like `from`, with these cels, and with its own references; its hash is the hash of
+ * `from`. mark: a reference that becomes the rostrum's; released on failure. */
 static celspan_status copy(celspan_context *context, const celspan_rostrum *from,
                            celspan_cel *const *cels, size_t cel_count, cs_mark mark,
                            celspan_rostrum **out) {

@@ -28,7 +28,7 @@ struct celspan_scanline_output {
   double y;
   celspan_status status; /* of the first span that was refused, even if the procedure ignored it */
   size_t emitted;        /* spans given on this row, empty ones and those out of bounds too */
-  double last_x1;        /* the end of the span before */
+  double last_x1;        /* the end of the previous span */
   cs_scanline_span *spans;
   cs_paint *paints;
   size_t span_count, span_capacity;

@@ -147,7 +147,8 @@ celspan_status cs_lit_alone_make(celspan_context *context, const celspan_rostrum
     alone.cels[i].back = light_of(0);
     alone.rostrum.cels[i] = &alone.cels[i];
   }
-  /* Behind the rearmost cel that is left the rostrum's back light is where the cel's own one is. */
+  /* Behind the rearmost cel that is left, the back light of the rostrum takes the place of the
+   * cel's own back light. */
   alone.rostrum.back = light_of(is_back ? 1 : 0);
   alone.rostrum.cel_count = count;
   alone.rostrum.brightness = 1;

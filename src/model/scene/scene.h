@@ -39,22 +39,22 @@
  * Invariant: a texture here is no flat one, and its paints have clear media, so its T is 1 - beta.
  */
 typedef struct cs_light {
-  bool is_given;            /* front lights: false for a cel that takes its rostrum's */
+  bool is_given;            /* front lights: false for a cel that uses the light of its rostrum */
   celspan_light flat;       /* where there is no texture; else 0 */
-  celspan_light coded;      /* the same where codes are mixed: converted if it is a colour */
+  celspan_light coded;      /* the same light where codes are mixed: converted if it is a colour */
   celspan_texture *texture; /* NULL: flat */
-  double gain;              /* of the texture; else 0 */
+  double gain;              /* the factor of the texture; 0 without a texture */
   celspan_light_place on;   /* likewise */
-  double matte;             /* likewise: the factor of the texture's beta */
+  double matte;             /* the factor of the texture's beta; 0 without a texture */
 } cs_light;
 
 /* One light of a description. */
 typedef struct cs_light_desc {
   const char *noun, *field;
-  bool is_given; /* the plain light is */
+  bool is_given; /* the plain light was given */
   celspan_light flat;
   const celspan_light_texture *texture;
-  bool is_colour; /* the plain light is converted to codes where those are mixed */
+  bool is_colour; /* the plain light is converted to codes if these are mixed */
 } cs_light_desc;
 
 /* *out: owns a reference to its texture. Errors: NO_MEMORY, BAD_ARGUMENT. */
@@ -64,7 +64,7 @@ CELSPAN_CHECKED celspan_status cs_light_make(celspan_context *context, const cs_
 cs_light cs_light_ref(const cs_light *light);
 void cs_light_unref(const cs_light *light);
 void cs_light_hash(cs_hash *hash, const cs_light *light);
-/* The colour of it in a space, where it is flat. */
+/* The colour of a flat light in a space. */
 static inline celspan_light cs_light_in(const cs_light *light, celspan_space space) {
   return space == CELSPAN_SPACE_SRGB ? light->coded : light->flat;
 }
@@ -98,27 +98,30 @@ typedef struct cs_core {
 typedef struct cs_boolean {
   celspan_operator op;
   celspan_blend blend;
-  celspan_space space;       /* in which its operands are composited */
+  /* its operands are like CS_MIXING_MIXED: the space matters, if there is one */
+  celspan_space space;
   bool mixes;                /* they need CS_MIXING_MIXED, if there is a space */
   celspan_grade *grade;      /* of the result; NULL: none. A reference */
-  bool isolates;             /* modes inside do not act on its backdrop */
+  bool isolates;             /* modes inside do not act on the backdrop of this object */
   bool is_luma;              /* MATTE: the strength is luma, not alpha */
-  bool inverts;              /* MATTE: 1 less the strength */
+  bool inverts;              /* MATTE: the strength is 1 minus the usual one */
   bool is_filled;            /* CLIP: the plane of a pattern, and the primitive that it fills */
   cs_core core;              /* of an outline; not in the hash, because it changes no pixel */
   cs_operands view;          /* keeps the operands */
   celspan_object **operands; /* the operands of the view */
   size_t operand_count;
-  cs_hash operands_hash; /* of the first hashed_count operands; more continue it */
+  /* the hash of the first hashed_count operands; further operands continue it */
+  cs_hash operands_hash;
   size_t hashed_count;
 } cs_boolean;
 
 /* How a working space changes the look of an object by itself. Pixels are averaged in the film's
  * space, so edges do not count. */
 typedef enum cs_mixing {
-  CS_MIXING_OPAQUE, /* nothing: one opaque paint at each point */
-  CS_MIXING_SINGLE, /* nothing, unless something lies behind it: one paint, or colour of a picture,
-                       at each point */
+  CS_MIXING_OPAQUE, /* not at all: one opaque paint at each point */
+  /* not at all, unless something lies behind it: one paint, or one colour of a picture, at each
+   * point */
+  CS_MIXING_SINGLE,
   CS_MIXING_MIXED   /* paints may be mixed, as in a gradient */
 } cs_mixing;
 
@@ -145,14 +148,16 @@ typedef struct cs_primitive_data {
                                channels alike, or stays on its thread; or is a procedure or a
                                rostrum */
   uint8_t mixing;           /* a cs_mixing */
-  bool has_modes;           /* any mode is below or with this one, except in a rostrum */
+  bool has_modes;           /* a mode is in this object or below it, except inside a rostrum */
   bool is_box;              /* the outline is that of `box`, which has an area */
   int16_t depth;            /* levels of booleans and rostrums, with this object */
   uint16_t shape_count;     /* as primitive_count, but a mesh is one shape; 65535 at most */
-  uint16_t cut_count;       /* of these, primitives that a difference cuts away */
+  uint16_t cut_count;       /* of these, the primitives that a difference cuts away */
   uint32_t primitive_count; /* primitives of the tree; a shared one counts each time */
   celspan_texture *texture; /* OUTLINE; never NULL */
-  celspan_box bounds; /* all but BOOLEAN: own units; tight, but of a stroke only where that shows */
+  /* all kinds except BOOLEAN: own units; tight, but the bounds of a stroke only where tight
+   * bounds can be seen */
+  celspan_box bounds;
   cs_stroke *stroke;  /* OUTLINE, instead of an outline; else NULL. Owned */
   union {
     celspan_box box;     /* is_box. SCANLINE: its bounds; ROSTRUM: its frame */
@@ -189,7 +194,8 @@ static inline celspan_blend cs_object_mode(const celspan_object *object) {
 }
 
 /* The space in which the operands of a boolean are composited; around: the space that the boolean
- * is in. Operands that are not mixed use the space around, which looks the same and costs less. */
+ * is in. Operands that are not mixed use the space around, because the result is the same and costs
+ * less. */
 static inline celspan_space cs_boolean_space(const cs_boolean *boolean, celspan_space around) {
   return boolean->mixes ? cs_space_inside(boolean->space, around) : around;
 }
@@ -227,7 +233,8 @@ struct celspan_cel {
   celspan_blend blend;
   celspan_grade *grade;          /* NULL: none. A reference */
   bool blends_inside[CS_SPACES]; /* in that space, any of its objects acts on its backdrop */
-  bool has_modes; /* any mode is in it, except in a rostrum, or its own; or a grade */
+  /* a mode is in the cel, except inside a rostrum, or is its own; or it has a grade */
+  bool has_modes;
 };
 
 /* Whether the cel composites its objects by themselves, and puts them into the picture as one. */
@@ -236,7 +243,7 @@ static inline bool cs_cel_isolates(const celspan_cel *cel) {
          cel->blend != CELSPAN_BLEND_NORMAL;
 }
 
-/* Whether the object has a mode, or anything below it that is in no rostrum. */
+/* Whether the object or anything below it has a mode, except inside a rostrum. */
 static inline bool cs_object_has_modes(const celspan_object *object) {
   return object->data->has_modes || cs_object_mode(object) != CELSPAN_BLEND_NORMAL;
 }
@@ -274,7 +281,7 @@ static inline bool cs_rostrum_blends(const celspan_rostrum *rostrum, celspan_spa
   return false;
 }
 
-/* Whether any mode is in a rostrum, except in one inside it, or a cel has a grade. */
+/* Whether a mode is in a rostrum, except in a rostrum inside it, or a cel has a grade. */
 static inline bool cs_rostrum_has_modes(const celspan_rostrum *rostrum) {
   for (size_t i = 0; i < rostrum->cel_count; i++)
     if (rostrum->cels[i]->has_modes)
@@ -282,7 +289,7 @@ static inline bool cs_rostrum_has_modes(const celspan_rostrum *rostrum) {
   return false;
 }
 
-/* The matrix from a cel's units (before its own transform) to film units on the frame: transform,
+/* The matrix from a cel's own units (before its transform) to film units on the frame: transform,
  * then viewport, then camera. Errors: BAD_ARGUMENT, naming the cel, when viewport or camera is
  * singular. cel_index is only for the message. */
 CELSPAN_CHECKED celspan_status cs_scene_cel_matrix(celspan_context *context,
@@ -300,7 +307,7 @@ celspan_matrix cs_scene_camera(const celspan_rostrum *rostrum, double film_width
 cs_light cs_scene_front(const celspan_rostrum *rostrum, const celspan_cel *cel);
 /* A back light times the rostrum's brightness; the matte does not change. */
 cs_light cs_scene_back(const celspan_rostrum *rostrum, const cs_light *back);
-/* *out: new; a copy of `cel`, name and line included, without the parts named. Without lights,
+/* *out: new; a copy of `cel`, name and line included, without the given parts. Without lights,
  * white light shines on the cel and no light through it. For tools that show a part of the work.
  * Errors: NO_MEMORY. */
 typedef struct cs_cel_without {

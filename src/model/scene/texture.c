@@ -183,8 +183,8 @@ static celspan_status check_stops(celspan_context *context, const char *noun,
   return CELSPAN_OK;
 }
 
-/* is_degenerate: there is no length over which the stops could be spread; then every point lies
- * past the last stop. */
+/* is_degenerate: there is no length over which the stops could be spread; every point then lies
+ * after the last stop. */
 static celspan_status create_stops(celspan_context *context, cs_texture_kind kind,
                                    const celspan_stop *stops, size_t count, bool is_degenerate,
                                    celspan_texture **out) {
@@ -221,7 +221,7 @@ celspan_status celspan_texture_create_linear(celspan_context *context, celspan_p
   return finish(texture, out);
 }
 
-/* The way from the centre to the focus, which is held inside the circle. */
+/* The vector from the centre to the focus, limited to the inside of the circle. */
 static celspan_point focus_offset(celspan_point centre, double radius, celspan_point focus) {
   celspan_point offset = {focus.x - centre.x, focus.y - centre.y};
   double distance = sqrt(square(offset.x) + square(offset.y)), most = FOCUS_SHARE * radius;

@@ -30,7 +30,7 @@ typedef struct cs_stop {
   cs_paint paint;
 } cs_stop;
 
-/* How a tile is kept and released. */
+/* The functions that keep and release a tile. */
 typedef struct cs_texture_tile_calls {
   celspan_rostrum *(*keep)(celspan_rostrum *tile);
   void (*release)(celspan_rostrum *tile);
@@ -67,7 +67,7 @@ struct celspan_texture {
   cs_mark mark;
   cs_texture_kind kind;
   cs_paint flat; /* FLAT */
-  /* Its own; FLAT: one of nothing but zeros, which all share. */
+  /* Its own; all FLAT textures share one that is all zero. */
   const cs_texture_variation *variation;
 };
 
@@ -75,17 +75,18 @@ struct celspan_texture {
  * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_texture_create_kind(celspan_context *context,
                                                       cs_texture_kind kind, celspan_texture **out);
-/* *out: `texture` with a reference more, or new opaque black when it is NULL. Errors: NO_MEMORY. */
+/* *out: `texture` with one more reference, or new opaque black if it is NULL. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_texture_or_black(celspan_context *context,
                                                    celspan_texture *texture, celspan_texture **out);
 
 /* The texture as a light: with clear media, so that T is 1 - beta; a gel gives no light. *out: new,
- * or `texture` with a reference more. Errors: NO_MEMORY. */
+ * or `texture` with one more reference. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_texture_create_light(celspan_context *context,
                                                        celspan_texture *texture,
                                                        celspan_texture **out);
 
-/* The texture, no picture, with its pigments as codes. *out: new. Errors: NO_MEMORY. */
+/* A copy of a texture that is no picture, with its pigments as codes. *out: new. Errors:
+ * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_texture_create_coded(celspan_context *context,
                                                        const celspan_texture *texture,
                                                        celspan_texture **out);
@@ -106,7 +107,7 @@ CELSPAN_CHECKED celspan_status cs_texture_copy_medium(celspan_context *context,
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_texture_boxed(celspan_context *context, celspan_texture *texture,
                                                 const celspan_box *box, celspan_texture **out);
-/* To be called when a copy was changed. */
+/* Must be called after a copy was changed. */
 void cs_texture_rehash(celspan_texture *texture);
 
 /* Whether every colour of the texture lets the three channels through alike. A picture is grey

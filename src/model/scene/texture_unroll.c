@@ -8,8 +8,8 @@
 
 /* ---------------------------------------------------------------- which periods are seen */
 
-/* Where a point of the gradient's own units lies, in periods: of a radial one a bound from
- * above. */
+/* The place of a point along the gradient, in periods; for a radial gradient a bound from above.
+ * at: in the gradient's own units. */
 static double place_of(const celspan_texture *texture, cs_hpoint at) {
   const celspan_point *a = &texture->variation->points[0], *b = &texture->variation->points[1];
   double x = at.x / at.w, y = at.y / at.w;
@@ -22,8 +22,8 @@ static double place_of(const celspan_texture *texture, cs_hpoint at) {
   return (sqrt(half * half + rest * (px * px + py * py)) - half) / rest;
 }
 
-/* The periods that the corners of a box lie in: between them is all of it, since a radial gradient
- * is convex and begins at 0. False where the horizon of its matrix goes through the box. */
+/* The periods in which the corners of a box lie. The whole box lies between them, since a radial
+ * gradient is convex and begins at 0. False if the horizon of the matrix goes through the box. */
 static bool find_periods(const celspan_texture *texture, const celspan_box *box, double *first,
                          double *last) {
   const celspan_matrix identity = celspan_matrix_identity();
@@ -45,7 +45,7 @@ static bool find_periods(const celspan_texture *texture, const celspan_box *box,
 
 /* ---------------------------------------------------------------- stops */
 
-/* The stops of one period, and stops that continue its outer colours to its ends. */
+/* How many stops one period needs, including stops that extend its outer colours to its ends. */
 static size_t stops_of_period(const celspan_texture *texture) {
   return texture->variation->stop_count + 2;
 }

@@ -13,7 +13,7 @@
 #define CS_UNROLL_STOPS 4096
 
 /* Where *texture repeats, replaces it by a texture that does not, and releases it. box: around the
- * object that it is on, in its units; NULL: the texture of a light, which may be anywhere. Errors:
- * NO_MEMORY; LIMIT for more than CS_UNROLL_STOPS. */
+ * object with this texture, in the object's units; NULL: the texture of a light, which may be
+ * anywhere. Errors: NO_MEMORY; LIMIT for more than CS_UNROLL_STOPS. */
 CELSPAN_CHECKED celspan_status cs_texture_unroll(celspan_context *context,
                                                  celspan_texture **texture, const celspan_box *box);

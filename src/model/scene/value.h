@@ -18,9 +18,9 @@ typedef enum cs_value_kind {
   CS_VALUE_GRADE
 } cs_value_kind;
 
-/* Copies a value, whose first field is its reference count, except for the count, which other
- * threads may be changing: the count of the copy is 1. The references inside the value are not
- * counted once more. */
+/* Copies a value, whose first field is its reference count. The count is not copied, because other
+ * threads may change it: the count of the copy is 1. The references inside the value are not
+ * counted again. */
 static inline void cs_value_copy(void *to, const void *from, size_t size) {
   atomic_init((atomic_size_t *)to, 1);
   const size_t count = sizeof(atomic_size_t);

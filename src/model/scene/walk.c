@@ -81,7 +81,7 @@ celspan_status celspan_rostrum_check(celspan_context *context, const celspan_ros
 static void hash_file(cs_hash *hash, const cs_picture *picture) {
   if (!picture)
     return;
-  if (picture->surface) { /* of its content, or what the host says is that */
+  if (picture->surface) { /* the hash of its content, or the key that the host gave */
     cs_hash_hash(hash, cs_picture_hash(picture));
     return;
   }

@@ -17,11 +17,11 @@ typedef struct cs_walk {
   celspan_status (*call)(const struct cs_walk *walk, const cs_primitive_data *primitive,
                          const celspan_texture *texture);
   void *user;
-  size_t cels;                  /* met so far */
-  const celspan_object *object; /* that the primitive is */
+  size_t cels;                  /* cels met so far */
+  const celspan_object *object; /* the object that the primitive belongs to */
 } cs_walk;
 
-/* Both continue until a call fails. */
+/* Both functions continue until a call fails. */
 CELSPAN_CHECKED celspan_status cs_walk_rostrum(cs_walk *walk, const celspan_rostrum *rostrum);
 CELSPAN_CHECKED celspan_status cs_walk_cel(cs_walk *walk, const celspan_cel *cel);
 CELSPAN_CHECKED celspan_status cs_walk_lights(cs_walk *walk, const cs_light *front,

@@ -3,7 +3,7 @@
 
 #include "model/stroke/parts.h"
 
-/* The control points of a piece hold it: with positive weights it lies in their hull. */
+/* A piece lies in the hull of its control points, because the weights are positive. */
 static void find_around(cs_stroke *stroke) {
   double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL;
   double extent = cs_stroke_extent(stroke) * stroke->largest;

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#define POINT 1e-13 /* of the coordinates: a line that is no longer is a point */
+#define POINT 1e-13 /* of the coordinates: a line of at most this length is a point */
 
 /* ---------------------------------------------------------------- parts */
 
@@ -67,8 +67,8 @@ void cs_curve_reverse(cs_curve *curve) {
   }
 }
 
-/* Not a + t (b - a): a sum of two is the same in either order, so this is symmetric at 1/2;
- * cs_bezier_split is not. */
+/* Not a + t (b - a): a sum of two products is the same in either order, so this is symmetric at
+ * 1/2, in contrast to cs_bezier_split. */
 static cs_hpoint mix(cs_hpoint a, cs_hpoint b, double t) {
   double s = 1 - t;
   return (cs_hpoint){s * a.x + t * b.x, s * a.y + t * b.y, s * a.w + t * b.w};
@@ -105,7 +105,7 @@ static cs_hpoint between(cs_hpoint a, cs_hpoint b, double t) {
   return (cs_hpoint){a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.w + t * (b.w - a.w)};
 }
 
-/* By de Casteljau's scheme, whose last three rows tell the derivatives. */
+/* By de Casteljau's scheme, whose last three rows give the derivatives. */
 static void line_at(const cs_bezier *line, double t, celspan_point *point, celspan_point *velocity,
                     celspan_point *acceleration) {
   cs_hpoint work[CS_BEZIER_DEGREE + 1] = {line->points[0], line->points[1]};
@@ -126,7 +126,7 @@ static void line_at(const cs_bezier *line, double t, celspan_point *point, celsp
   }
   cs_hpoint at = between(a, b, t);
   double rise = degree * (b.w - a.w);
-  if (at.w == 1 && rise == 0 && bend.w == 0) { /* as below, without six divisions by 1 */
+  if (at.w == 1 && rise == 0 && bend.w == 0) { /* the same as below, without six divisions by 1 */
     *point = (celspan_point){at.x, at.y};
     *velocity = (celspan_point){degree * (b.x - a.x), degree * (b.y - a.y)};
     *acceleration = (celspan_point){bend.x, bend.y};
@@ -220,8 +220,8 @@ bool cs_curve_is_straight(const cs_bezier *line) {
 /* ---------------------------------------------------------------- lengths */
 
 #define LENGTH_DEPTH 30
-/* The error allowed, of the polygon's length, the same for every halving; not below the rounding of
- * coordinates. */
+/* The allowed error, as a share of the polygon's length; the same for every halving, and not below
+ * the rounding of coordinates. */
 #define LENGTH_ERROR 1e-11
 
 /* The speed of a line at many places: a polynomial of the second degree, unless the line has
@@ -229,7 +229,7 @@ bool cs_curve_is_straight(const cs_bezier *line) {
 typedef struct ruler {
   const cs_bezier *line;
   bool is_plain;
-  celspan_point powers[3]; /* of the velocity, where it is plain */
+  celspan_point powers[3]; /* coefficients of the velocity, if it is a plain polynomial */
 } ruler;
 
 static ruler ruler_of(const cs_bezier *line) {
@@ -284,7 +284,7 @@ static double measure(const ruler *r, double begin, double end, double whole, do
 double cs_curve_length(const cs_bezier *line, double begin, double end) {
   if (!(end > begin))
     return 0;
-  double polygon = 0, farthest = 0; /* from an axis */
+  double polygon = 0, farthest = 0; /* farthest: the greatest distance from an axis */
   for (int i = 0; i < line->degree; i++) {
     celspan_point a = project(line->points[i]), b = project(line->points[i + 1]);
     polygon += sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
@@ -297,7 +297,8 @@ double cs_curve_length(const cs_bezier *line, double begin, double end) {
   return measure(&r, begin, end, gauss(&r, begin, end), fmax(LENGTH_ERROR * polygon, rounding), 0);
 }
 
-/* Newton's steps inside a bracket that they make smaller, and halvings where they leave it. */
+/* Newton's steps inside a bracket, which they make smaller; a halving where a step would leave the
+ * bracket. */
 static double find_parameter(const cs_bezier *line, double whole, double length, double low,
                              double high, const double at_ends[2]) {
   double t = low + (length - at_ends[0]) / (at_ends[1] - at_ends[0]) * (high - low);
@@ -367,7 +368,7 @@ static void differentiate(const polynomial *p, polynomial *out) {
     out->c[i] = p->degree * (p->c[i + 1] - p->c[i]);
 }
 
-/* The same polynomial as one of a higher degree. */
+/* The same polynomial, written with a higher degree. */
 static void raise(polynomial *p, int degree) {
   polynomial one = {.degree = degree - p->degree}, low = *p;
   for (int i = 0; i <= one.degree; i++)
@@ -396,7 +397,7 @@ static void square_of_growth(const polynomial *r, const polynomial *w, polynomia
   multiply(&a, &a, out);
 }
 
-/* Points are taken from the first, in which they are rounded less. */
+/* Points are taken relative to the first one, so that they are rounded less. */
 static void load(const cs_curve *curve, polynomial *x, polynomial *y, polynomial *w,
                  polynomial *r) {
   const cs_hpoint *p = curve->line.points;

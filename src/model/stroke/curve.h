@@ -31,13 +31,13 @@ void cs_curve_cut_polynomial(double *coefficients, int degree, double begin, dou
 /* The product of two polynomials; its degree is the sum of their degrees. */
 void cs_curve_multiply(const double *a, int a_degree, const double *b, int b_degree, double *out);
 cs_curve_place cs_curve_at(const cs_curve *curve, double t);
-/* A place of the line alone. */
+/* A place on the line alone, without the radius. */
 void cs_curve_line_at(const cs_bezier *line, double t, celspan_point *point,
                       celspan_point *velocity);
-/* The direction, of length 1, in which the line leaves its first point; in any case a direction. */
+/* The direction, of length 1, in which the line leaves its first point; it always exists. */
 celspan_point cs_curve_departure(const cs_bezier *line);
-/* The box that holds the line and all that is nearer to it than `extent` times the largest radius;
- * with extent 0 the line alone. */
+/* The box that contains the line and everything nearer to it than `extent` times the largest
+ * radius; with extent 0, the line alone. */
 celspan_box cs_curve_box(const cs_curve *curve, double extent);
 /* How far its control points are from the first, along either axis. */
 double cs_curve_extent(const cs_bezier *line);
@@ -49,11 +49,11 @@ bool cs_curve_is_point(const cs_bezier *line);
 /* The length of a line between two parameters, with an error of at most 1e-10 of the length of its
  * polygon. */
 double cs_curve_length(const cs_bezier *line, double begin, double end);
-/* The parameter at which the length from 0 is `length`; whole: that up to 1. */
+/* The parameter at which the length from 0 is `length`; whole: the length up to parameter 1. */
 double cs_curve_parameter(const cs_bezier *line, double whole, double length);
 
-/* The lengths up to evenly spaced parameters, from 0 to 1: with them very many parameters of one
- * line are found without measuring it from its beginning for every one. */
+/* The lengths up to evenly spaced parameters from 0 to 1. With these lengths, very many parameters
+ * of one line are found without measuring the line from its beginning for each of them. */
 #define CS_CURVE_MARKS 256
 void cs_curve_mark(const cs_bezier *line, double marks[CS_CURVE_MARKS + 1]);
 double cs_curve_marked_parameter(const cs_bezier *line, const double marks[CS_CURVE_MARKS + 1],
@@ -70,6 +70,7 @@ double cs_curve_marked_parameter(const cs_bezier *line, const double marks[CS_CU
 
 #define CS_CURVE_SWALLOW_CHANGES (2 * (CS_STROKE_RADIUS_DEGREE - 1 + 2 * CS_BEZIER_DEGREE))
 
-/* Parameters inside (0, 1) where that changes, ascending; their number. */
+/* Parameters inside (0, 1) at which a disc begins or ceases to be inside its neighbours, ascending;
+ * returns how many. */
 int cs_curve_swallow_changes(const cs_curve *curve, double changes[CS_CURVE_SWALLOW_CHANGES]);
 bool cs_curve_is_swallowed(const cs_curve *curve, double t);

@@ -13,7 +13,7 @@ void cs_ruler_init(cs_ruler *ruler, const cs_outline *line, const double *ends, 
   ruler->marked = SIZE_MAX;
 }
 
-/* The piece at a length, of those in [begin, end). after: at a joint, the piece that begins
+/* The piece at a length, among the pieces [begin, end). after: at a joint, the piece that begins
  * there. */
 static size_t find(const cs_ruler *ruler, size_t begin, size_t end, double length, bool after) {
   while (begin + 1 < end) {
@@ -56,7 +56,7 @@ cs_stroke_part cs_ruler_part(cs_ruler *ruler, size_t contour, double from, doubl
   cs_stroke_contour(ruler->line, contour, &begin, &end);
   size_t last = find(ruler, begin, end, to, false);
   size_t first = from < to ? find(ruler, begin, end, from, true) : last;
-  if (first > last) /* a rounding apart, at a joint */
+  if (first > last) /* at a joint, both may differ by rounding */
     first = last;
   return (cs_stroke_part){.contour = (uint32_t)contour,
                           .first = (uint32_t)first,
@@ -101,8 +101,8 @@ celspan_status cs_dashes_append(celspan_context *context, cs_stroke *stroke, cs_
   return CELSPAN_OK;
 }
 
-/* The lengths of the line between which a dash of a run is drawn. Returns whether it is: one of no
- * length is a dot. */
+/* The lengths of the line between which a dash of a run is drawn. Returns whether the dash is
+ * drawn: a dash of no length is a dot. */
 static bool find_dash(const cs_dashes *dashes, const cs_dashes_run *run, size_t number,
                       double *from, double *to) {
   size_t each = dashes->place_count / 2;
@@ -124,8 +124,8 @@ static cs_stroke_part read_dash(cs_ruler *ruler, const cs_dashes *dashes, const 
 
 static bool is_dot(const cs_stroke_part *part) { return part->begin == part->end; }
 
-/* Whether the last of several dashes of a closed contour continues in the first, or the only one in
- * itself. */
+/* Whether the last of several dashes of a closed contour continues in the first dash, or the only
+ * dash in itself. */
 static bool meet(const cs_outline *line, const cs_stroke_part *first, const cs_stroke_part *last,
                  size_t count) {
   size_t begin, end;

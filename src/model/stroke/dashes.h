@@ -19,7 +19,7 @@ typedef struct cs_ruler {
   const cs_outline *line;
   const double *ends; /* for each piece: the length of the line up to its end */
   double pattern;     /* the length of the dashes; 0: there are none */
-  size_t marked;      /* the piece that the marks are of, or SIZE_MAX */
+  size_t marked;      /* the piece to which the marks belong, or SIZE_MAX */
   double marks[CS_CURVE_MARKS + 1];
 } cs_ruler;
 
@@ -36,13 +36,13 @@ cs_stroke_part cs_ruler_part(cs_ruler *ruler, size_t contour, double from, doubl
 /* Sets the pattern. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_dashes_set(celspan_context *context, cs_dashes *dashes,
                                              const celspan_stroke_desc *desc);
-/* The part of a run that is whole. */
+/* The part of a run that is not divided. */
 cs_stroke_part cs_dashes_whole(const cs_outline *line, const cs_dashes_run *run);
 /* Appends a run of a number of parts. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_dashes_append(celspan_context *context, cs_stroke *stroke,
                                                 cs_dashes_run run, size_t parts);
-/* Divides a contour between two lengths of the line into dashes. is_round: it is closed and drawn
- * as a whole, so its last dash may continue in its first. Errors: NO_MEMORY. */
+/* Divides a contour between two lengths of the line into dashes. is_round: the contour is closed
+ * and drawn as a whole, so its last dash may continue in its first. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_dashes_add(celspan_context *context, cs_stroke *stroke,
                                              size_t contour, double from, double to, bool is_round);
 

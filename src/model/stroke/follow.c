@@ -4,8 +4,10 @@
 #define CONE 0.82 /* cosine of 35 degrees: how far a curve may turn from its chord */
 #define TURN 0.5  /* cosine of 60 degrees: how far spokes of a fitted curve may turn */
 #define SMALL 0.1 /* share of the tolerance: anything smaller is a point */
-#define THIN 0.04 /* pixels: half the width that both errors of the sweep may be as large as */
-#define HAIR 1e-4 /* pixels: sides that are so near are the same curve, wherever they are drawn */
+/* pixels: half the width up to which both errors of the sweep may be as large as the width */
+#define THIN 0.04
+/* pixels: sides that are closer than this are the same curve, wherever they are drawn */
+#define HAIR 1e-4
 #define RESTING 0.02   /* of the speed at the other end */
 #define HALF_TURN 1e-9 /* sine: a turn nearer to a half turn counts as one */
 #define ROOT_STEPS 100
@@ -28,7 +30,8 @@ typedef struct stretch {
   cs_curve part;
   double begin, end; /* parameters of the whole */
   cs_spoke first, last;
-  bool begins_turning, ends_turning; /* it was cut where the tips turn round: there they rest */
+  /* the stretch was cut there because the tips turn round: at that end they do not move */
+  bool begins_turning, ends_turning;
 } stretch;
 
 static double parameter(const fan *f, int i) { return f->begin + 0.25 * i * (f->end - f->begin); }
@@ -52,8 +55,7 @@ static fan spread(const stretch *s) {
   return f;
 }
 
-/* 1: all tips go forwards, or rest; -1: all go backwards, or rest; 0: some do one, some the
- * other. */
+/* 1: all tips go forwards or do not move; -1: all go backwards or do not move; 0: they differ. */
 static int way_of(const fan *f) {
   bool goes_on = false, goes_back = false;
   for (int i = 0; i < SPOKES; i++) {
@@ -63,7 +65,7 @@ static int way_of(const fan *f) {
   return !goes_back ? 1 : goes_on ? 0 : -1;
 }
 
-/* Whether all sides of the polygon go roughly along its chord: then so does the line. */
+/* Whether all sides of the polygon go roughly along its chord; then the line does so, too. */
 static bool goes_along(const cs_bezier *line) {
   celspan_point from = project(line->points[0]), chord;
   chord = cs_spoke_away(from, project(line->points[line->degree]));
@@ -79,9 +81,8 @@ static bool goes_along(const cs_bezier *line) {
 
 /* ---------------------------------------------------------------- tips */
 
-/* The cubic that leaves and arrives along the side, or against it, and meets the middle tip;
- * false when there is none that is any good. Where the tips turn round at an end, it has no
- * handle there. */
+/* The cubic that leaves and arrives along the side, or against it, and meets the middle tip; false
+ * if no such cubic is good enough. Where the tips turn round at an end, it has no handle there. */
 static bool fit_tips(const cs_spoke s[SPOKES], int way, celspan_point p[4]) {
   celspan_point from = cs_spoke_left(s[0].direction), to = cs_spoke_left(s[4].direction);
   celspan_point chord = cs_spoke_away(s[0].tip, s[4].tip);
@@ -103,7 +104,8 @@ static bool fit_tips(const cs_spoke s[SPOKES], int way, celspan_point p[4]) {
   return is_good && way * (first + second) < 1.2 * length;
 }
 
-/* The error of a cubic near a parameter: at the place of it that is nearest to the tip. */
+/* The error of a cubic near a parameter, measured at the point of the cubic that is nearest to the
+ * tip. */
 static double tip_error(const cs_side *side, const celspan_point p[4], double t,
                         const cs_spoke *spoke) {
   celspan_point at = cs_side_on_cubic(p, t);
@@ -151,8 +153,8 @@ static int count_short(const cs_side *side, const cs_spoke s[SPOKES], double pix
   return count;
 }
 
-/* Whether places and radii grow evenly. It is the same seen from either side: both then have
- * straight lines between the same places, which never change theirs. */
+/* Whether places and radii grow evenly. The result is the same for both sides: both then have
+ * straight lines between the same places, which never change. */
 static bool is_even(const cs_side *side, const cs_spoke s[SPOKES]) {
   const celspan_point ends[2] = {s[0].centre, s[4].centre};
   celspan_point chord = cs_spoke_away(ends[0], ends[1]);
@@ -182,8 +184,9 @@ static bool are_one(const cs_side *side, const cs_spoke s[SPOKES]) {
 
 /* ---------------------------------------------------------------- pivots */
 
-/* The speeds of pivots along the first and the last spoke while the fan is swept: the growth of
- * their distance, from the polynomial through the five, plus the drift of their place. */
+/* The speeds of pivots along the first and the last spoke while the fan is swept. A speed is the
+ * growth of the distance, from the polynomial through the five pivots, plus the drift of the
+ * place. */
 static void find_speeds(const fan *f, double speeds[2]) {
   double d[SPOKES], length = f->end - f->begin;
   for (int i = 0; i < SPOKES; i++)
@@ -195,8 +198,8 @@ static void find_speeds(const fan *f, double speeds[2]) {
 }
 
 /* Where pivots reverse, as at the sharpest point of a bend, their path has a cusp, at which it must
- * be cut: a cubic would go round it in the wrong order. Where one is so near to an end that it
- * makes no difference, pivots rest there. */
+ * be cut: a cubic would go round it in the wrong order. If a cusp is so near to an end that it
+ * makes no difference, pivots do not move there. */
 static bool has_cusp(double speeds[2]) {
   int least = fabs(speeds[0]) < fabs(speeds[1]) ? 0 : 1;
   if (!(speeds[0] * speeds[1] < 0))
@@ -239,15 +242,15 @@ static bool is_point(const cs_side *side, const cs_curve *curve, const cs_spoke 
   return true;
 }
 
-/* Whether the line turns to the left at a place where it stands still. A half turn counts as one to
- * the left of the line's own way. */
+/* Whether the line turns to the left at a place where it does not move. A half turn counts as a
+ * turn to the left, seen in the direction of the line. */
 static bool opens(const cs_side *side, const cs_spoke *a, const cs_spoke *b) {
   celspan_point from = side->is_turned ? cs_spoke_back(b->tangent) : a->tangent;
   celspan_point to = side->is_turned ? cs_spoke_back(a->tangent) : b->tangent;
   return (cs_spoke_cross(from, to) >= -HALF_TURN) != side->is_turned;
 }
 
-/* A curve that is as good as a point, about which the spoke turns. */
+/* A curve that is as short as a point, about which the spoke turns. */
 static celspan_status turn(cs_side *side, const cs_spoke *a, const cs_spoke *b) {
   double angle = cs_spoke_angle(a->direction, b->direction);
   if (fabs(angle) > 3)
@@ -256,8 +259,8 @@ static celspan_status turn(cs_side *side, const cs_spoke *a, const cs_spoke *b) 
                     : cs_side_fold_arc(side, a, b, -angle);
 }
 
-/* Whether nothing that spokes of a curve sweep over can be seen: then any way from tip to tip is as
- * good as theirs that is in the same box. */
+/* Whether nothing can be seen of the area that the spokes of a curve sweep over: then every path
+ * from tip to tip inside the same box is good enough. */
 static bool is_hidden(const cs_side *side, const cs_curve *curve) {
   celspan_box box = cs_curve_box(curve, 1);
   return cs_stroke_view_hides(side->view, &box);
@@ -288,8 +291,8 @@ static celspan_status draw_backwards(cs_side *side, const fan *f, double *at, bo
   return CELSPAN_OK;
 }
 
-/* Where the tips of a curve turn round: between the first two neighbouring spokes of which one goes
- * forwards and the other backwards. */
+/* Where the tips of a curve turn round: between the first two neighbouring spokes that move in
+ * different directions. */
 static double find_turn(const cs_curve *curve, const fan *f) {
   int before = -1, i = 0;
   for (; i < SPOKES; i++) {

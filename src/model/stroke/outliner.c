@@ -16,8 +16,8 @@ typedef struct stretch {
   size_t piece;
   double begin, end;
   cs_spoke first, last;
-  bool is_swallowed; /* every disc is inside its neighbour */
-  bool is_cut;       /* the part before it cannot be seen */
+  bool is_swallowed; /* every disc lies inside the next one */
+  bool is_cut;       /* the part of the line before this stretch cannot be seen */
 } stretch;
 
 typedef struct outliner {
@@ -28,8 +28,8 @@ typedef struct outliner {
   stretch *stretches; /* of one part */
   size_t count, capacity;
   double extent;
-  bool is_all_visible; /* all of the stroke is in the frame, where it is asked for */
-  bool is_cut;         /* something was hidden since the last stretch */
+  bool is_all_visible; /* the whole stroke is visible in the frame, if this is asked for */
+  bool is_cut;         /* a hidden part lies before the next stretch */
 } outliner;
 
 /* ---------------------------------------------------------------- stretches */
@@ -73,7 +73,7 @@ static celspan_status add_visible(outliner *o, const stretch *base, const cs_cur
     double to = i + 1 < count ? changes[i + 1] : 1;
     if (cs_curve_is_swallowed(curve, 0.5 * (from + changes[i])) ==
         cs_curve_is_swallowed(curve, 0.5 * (changes[i] + to)))
-      continue; /* it is rounding that changes */
+      continue; /* the change is only rounding */
     CS_TRY(add_between(o, base, curve, from, changes[i]));
     from = changes[i];
   }
@@ -149,7 +149,7 @@ static celspan_status turn(outliner *o, const stretch *a, const stretch *b) {
   return cs_corner_turn(&o->side, o->stroke, &in, &out);
 }
 
-/* Adds the right side of stretches [begin, end), on the way there or back. */
+/* Adds the right side of stretches [begin, end), in the direction of the line or back. */
 static celspan_status add_side(outliner *o, size_t begin, size_t end, bool is_turned) {
   o->side.is_turned = is_turned;
   for (size_t i = begin; i < end; i++) {
@@ -178,7 +178,7 @@ static celspan_status add_end(outliner *o, const cs_spoke *end, bool is_cut) {
   return is_cut ? cs_corner_cut(&o->side, end) : cs_corner_cap(&o->side, o->stroke, end);
 }
 
-/* Adds stretches [begin, end), which follow each other. */
+/* Adds stretches [begin, end), each of which begins where the one before ends. */
 static celspan_status add_run(outliner *o, size_t begin, size_t end, bool is_cut_before,
                               bool is_cut_after) {
   const cs_spoke *last = &o->stretches[end - 1].last;
@@ -208,7 +208,7 @@ static void reverse(stretch *stretches, size_t count) {
   }
 }
 
-/* Brings a closed part into the order that begins after something that is hidden. */
+/* Rotates a closed part, so that it begins after something that is hidden. */
 static void begin_at_cut(outliner *o) {
   size_t first = 0;
   o->stretches[0].is_cut |= o->is_cut;
@@ -270,7 +270,7 @@ static celspan_box box_around(const cs_stroke *stroke, const cs_curve *line) {
   if (stroke->cap != CELSPAN_STROKE_CAP_BUTT || line->radius_degree > 0 ||
       !cs_curve_is_straight(&line->line))
     return cs_curve_box(line, cs_stroke_extent_of_caps(stroke));
-  celspan_box box = cs_curve_box(line, 0); /* they end where the line does */
+  celspan_box box = cs_curve_box(line, 0); /* the parts end where the line ends */
   celspan_point along = cs_curve_departure(&line->line);
   double beside = fabs(along.y) * line->radius[0], above = fabs(along.x) * line->radius[0];
   return (celspan_box){box.x - beside, box.y - above, box.width + 2 * beside,
@@ -379,7 +379,7 @@ typedef struct counter {
   size_t count, most;
 } counter;
 
-/* Whether nothing can be seen of a part that goes over joints. */
+/* Whether nothing can be seen of a part that contains joints. */
 static bool is_bent_hidden(counter *c, size_t part_index) {
   const cs_stroke *stroke = c->parts.stroke;
   const cs_stroke_part part = cs_parts_get(&c->parts, part_index);

@@ -18,19 +18,19 @@
 
 #include "model/stroke/stroke.h"
 
-#define CS_STROKE_TOLERANCE 0.004 /* pixels: the sweep's own comes on top of it */
+#define CS_STROKE_TOLERANCE 0.004 /* pixels: the tolerance of the sweep is added to it */
 
 /* Appends the outline, in the stroke's own units. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_stroke_outline(celspan_context *context, const cs_stroke *stroke,
                                                  const cs_stroke_view *view, cs_outline *outline);
-/* The same for all that wants the shape itself: right within 2^-27 of the stroke's size. */
+/* The same for callers that need the shape itself: correct within 2^-27 of the stroke's size. */
 CELSPAN_CHECKED celspan_status cs_stroke_outline_finely(celspan_context *context,
                                                         const cs_stroke *stroke,
                                                         cs_outline *outline);
-/* The box around the stroke under a matrix; only where *is_seen, for some of it is. Errors:
- * NO_MEMORY, LIMIT. */
+/* The box around the stroke under a matrix. *is_seen: whether there is a box, because some of the
+ * stroke is visible. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_stroke_bounds(celspan_context *context, const cs_stroke *stroke,
                                                 const celspan_matrix *matrix, celspan_box *out,
                                                 bool *is_seen);
-/* How many dashes of a stroke a view shows, or a few more. It does not count on beyond `most`. */
+/* How many dashes of a stroke a view shows, or a few more. Counting ends at `most`. */
 size_t cs_stroke_count_visible(const cs_stroke *stroke, const cs_stroke_view *view, size_t most);

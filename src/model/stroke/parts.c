@@ -100,7 +100,7 @@ static celspan_status divide(divider *d, const cs_outline_closed *closed) {
   const celspan_stroke_desc *desc = d->desc;
   if (desc->dash_count > 0 || desc->from > 0 || desc->to < 1)
     measure(d);
-  else /* where a piece ends does not matter: all are drawn */
+  else /* at the ends of pieces this does not matter: all pieces are drawn */
     for (size_t i = 0; i < d->stroke->line.piece_count; i++)
       d->ends[i] = d->whole += 1;
   cs_ruler_init(&d->ruler, &d->stroke->line, d->ends, 0);
@@ -114,7 +114,7 @@ celspan_status cs_stroke_divide(celspan_context *context, cs_stroke *stroke,
   if (count == 0)
     return CELSPAN_OK;
   CS_TRY(CS_MAKE(context, d.ends, count));
-  if (desc->dash_count > 0) { /* they are measured whenever they are read */
+  if (desc->dash_count > 0) { /* the dashes are measured whenever they are read */
     stroke->dashes.ends = d.ends;
     CS_TRY(cs_dashes_set(context, &stroke->dashes, desc));
     return divide(&d, closed);
@@ -223,8 +223,8 @@ void cs_stroke_raw_finish(cs_stroke_raw *raw, cs_memory *memory) {
 
 /* ---------------------------------------------------------------- pieces */
 
-/* Control points next to an end that are as good as the end become it: their rounding would bend
- * the line there. */
+/* Moves control points onto the end next to them if they differ only by rounding, because this
+ * would bend the line there. */
 static void settle_end(cs_bezier *line, int end, int step) {
   cs_hpoint at = line->points[end];
   for (int i = end + step; i >= 0 && i <= line->degree; i += step) {
@@ -273,7 +273,7 @@ static void load_raw(const cs_stroke_raw *raw, size_t piece, cs_curve *out) {
       out->radius[i] = fmax(0, 0.5 * raw->widths.points[raw->widths.starts[piece] + (size_t)i].x);
 }
 
-/* A contour that is one point: the widest of it counts. */
+/* A contour that is one point: its greatest width counts. */
 static celspan_status append_point(celspan_context *context, cs_stroke *stroke,
                                    const cs_stroke_raw *raw, size_t begin, size_t end) {
   double most = 0;

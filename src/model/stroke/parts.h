@@ -27,18 +27,18 @@ typedef struct cs_stroke_raw {
   double width;             /* without widths */
 } cs_stroke_raw;
 
-/* Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. finish frees it, also after an error. */
+/* Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. cs_stroke_raw_finish frees it, also after an error. */
 CELSPAN_CHECKED celspan_status cs_stroke_raw_init(celspan_context *context, cs_stroke_raw *raw,
                                                   const celspan_stroke_desc *desc,
                                                   const cs_outline *outline,
                                                   const cs_outline_closed *closed);
 void cs_stroke_raw_finish(cs_stroke_raw *raw, cs_memory *memory);
 
-/* Appends a piece to the line of the stroke, from where it ends; is_first: a contour begins with
- * it. Errors: NO_MEMORY, LIMIT. */
+/* Appends a piece to the stroke's line, which continues where the line ends; is_first: the piece
+ * begins a contour. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_stroke_append(celspan_context *context, cs_stroke *stroke,
                                                 const cs_curve *curve, bool is_first);
-/* Appends a contour of the raw line without the pieces that are points. Errors: as above. */
+/* Appends a contour of the raw line, without pieces that are points. Errors: as above. */
 CELSPAN_CHECKED celspan_status cs_stroke_append_contour(celspan_context *context, cs_stroke *stroke,
                                                         const cs_stroke_raw *raw, size_t contour);
 

@@ -3,7 +3,7 @@
 #define PI 3.14159265358979323846
 #define ARC_DEPTH 20
 #define ARC_WORST 0.2113 /* parameter at which a cubic is farthest from its arc */
-#define SAME 1e-3        /* of the allowed error: pivots that are no farther apart count as one */
+#define SAME 1e-3        /* of the allowed error: pivots that are closer count as one */
 
 void cs_side_init(cs_side *side, celspan_context *context, const cs_stroke_view *view,
                   cs_outline *outline) {
@@ -61,14 +61,14 @@ static void clear(cs_outline *outline) {
 
 static bool has_fold(const cs_side *side) { return side->tips.piece_count > 0; }
 
-/* Where the tips of the fold end so far. */
+/* The last tip of the fold so far. */
 static celspan_point last_tip(const cs_side *side) {
   cs_hpoint p = side->tips.points[side->tips.point_count - 1];
   return (celspan_point){p.x, p.y};
 }
 
-/* The side goes out to the last tip. The fold is the way of the tips back from there, then the way
- * of the side since the first tip: pivots, with a spoke before and after them. */
+/* Moves the side to the last tip. The fold then goes back along the tips, and along the side from
+ * the first tip on: the pivots, with a spoke before and after them. */
 static celspan_status end_fold(cs_side *side) {
   if (!has_fold(side))
     return CELSPAN_OK;
@@ -168,8 +168,8 @@ static double arc_error(const cs_side *side, const cs_spoke *about, const celspa
   return length > 0 ? cs_stroke_view_error(side->view, at, ought) : 0;
 }
 
-/* An arc under way, from `at`. way: 1 in the order of a contour, -1 against it, as a fold about the
- * centre. */
+/* An arc that is being drawn, from `at` on. way: 1 in the order of a contour, -1 against it, for a
+ * fold about the centre. */
 typedef struct arc {
   cs_side *side;
   const cs_spoke *about;
@@ -183,7 +183,7 @@ static celspan_status draw_cubic(arc *a, const celspan_point p[4]) {
   return a->way > 0 ? draw_curve(a->side, p) : cs_side_fold(a->side, p, pivots);
 }
 
-/* At most a quarter turn, which ends at `end`. */
+/* Draws at most a quarter turn, which ends at `end`. */
 static celspan_status draw_arc(arc *a, celspan_point from, celspan_point to, celspan_point end,
                                int depth) {
   double cosine = cs_spoke_dot(from, to), half = sqrt(fmax(0, 0.5 * (1 + cosine)));
@@ -242,7 +242,8 @@ static bool is_smooth(const cs_spoke *in, const cs_spoke *out) {
 
 /* ---------------------------------------------------------------- round */
 
-/* The angle between two spokes by way of their lines; above 0 the disc shows between them. */
+/* The angle between two spokes, measured across their lines; if it is above 0, the disc is visible
+ * between them. */
 static double opening(const cs_spoke *in, const cs_spoke *out, double turn) {
   return turn + cs_spoke_lean(in) - cs_spoke_lean(out);
 }
@@ -271,7 +272,7 @@ static celspan_status turn_jump(cs_side *side, const cs_spoke *in, const cs_spok
 
 /* ---------------------------------------------------------------- straight shapes */
 
-/* Comes in as to a butt end: up to the normal, or to the centre where the end is straight. */
+/* Ends the side as at a butt end: at the normal, or at the centre if the end is straight. */
 static celspan_status come_in(cs_side *side, const cs_spoke *in) {
   if (in->slope < 0)
     return cs_side_go(side, in->centre);
@@ -289,7 +290,7 @@ static celspan_status go_out(cs_side *side, const cs_spoke *out) {
   return cs_side_go(side, out->tip);
 }
 
-/* From normal to normal, on the outside of a corner. */
+/* Goes from normal to normal, on the outside of a corner. */
 static celspan_status go_outside(cs_side *side, const cs_stroke *stroke, const cs_spoke *in,
                                  const cs_spoke *out) {
   celspan_point a = cs_spoke_right(in->tangent), b = cs_spoke_right(out->tangent);
@@ -308,7 +309,7 @@ celspan_status cs_corner_turn(cs_side *side, const cs_stroke *stroke, const cs_s
   if (is_smooth(in, out))
     return turn_round(side, in, out, 0);
   double turn = cs_spoke_angle(in->tangent, out->tangent);
-  /* Of a half turn one side is the outside, whichever way the line is followed. */
+  /* At a half turn, the same side is the outside in either direction of the line. */
   if (fabs(turn) > PI - 1e-9)
     turn = side->is_turned ? -fabs(turn) : fabs(turn);
   if (stroke->join == CELSPAN_STROKE_JOIN_ROUND)
@@ -321,7 +322,7 @@ celspan_status cs_corner_turn(cs_side *side, const cs_stroke *stroke, const cs_s
   return go_out(side, out);
 }
 
-/* The triangle in front of a line that gets narrower up to its end. */
+/* The triangle in front of a line whose width decreases up to its end. */
 static celspan_status add_straight_end(cs_side *side, const cs_spoke *end) {
   if (!(end->slope < 0))
     return CELSPAN_OK;

@@ -24,12 +24,12 @@ typedef struct cs_side {
   celspan_context *context;
   const cs_stroke_view *view;
   cs_outline *outline;
-  bool may_hide;  /* some of the stroke may be out of sight: those parts have straight sides */
+  bool may_hide;  /* some of the stroke may be out of sight: the hidden parts have straight sides */
   bool is_turned; /* the line is followed from its end to its beginning */
   bool is_begun;  /* the outline has an open contour, which ends at `at` */
   celspan_point at;
-  cs_outline tips;   /* of the fold that is under way: an open contour, as they go; or nothing */
-  size_t fold_begin; /* the piece of the outline with which the side left its first tip */
+  cs_outline tips; /* the tips of the current fold: an open contour in their direction; or empty */
+  size_t fold_begin; /* the piece of the outline at which the side left the first tip */
   cs_outline folds;  /* the finished folds */
 } cs_side;
 
@@ -42,16 +42,17 @@ void cs_side_finish(cs_side *side);
 double cs_side_allowance(const cs_side *side, const celspan_point *points, int count, double share);
 celspan_point cs_side_on_cubic(const celspan_point p[4], double t);
 
-/* All: Errors NO_MEMORY, LIMIT. A straight line to a point; the first one begins a contour. */
+/* All functions: Errors NO_MEMORY, LIMIT. A straight line to a point; the first line begins a
+ * contour. */
 CELSPAN_CHECKED celspan_status cs_side_go(cs_side *side, celspan_point to);
-/* A cubic from where the side is. */
+/* A cubic that begins where the side ends. */
 CELSPAN_CHECKED celspan_status cs_side_curve(cs_side *side, const celspan_point p[4]);
 /* An arc about a centre by an angle > 0, with the order of a contour, from one direction to
  * another. */
 CELSPAN_CHECKED celspan_status cs_side_arc(cs_side *side, const cs_spoke *about, celspan_point from,
                                            celspan_point to, double angle);
-/* A part of a fold: the tips go backwards on one cubic, the pivots meanwhile on another. Parts that
- * follow each other from tip to tip make one fold. */
+/* A part of a fold: the tips go backwards on one cubic, while the pivots go on another one. Parts
+ * that continue each other from tip to tip make one fold. */
 CELSPAN_CHECKED celspan_status cs_side_fold(cs_side *side, const celspan_point tips[4],
                                             const celspan_point pivots[4]);
 /* A fold about one pivot, the centre of `to`, by an angle > 0 against the order of a contour. */
@@ -83,17 +84,17 @@ CELSPAN_CHECKED celspan_status cs_side_add_folds(cs_side *side);
  *     end        *--->                                            <---*
  */
 
-/* From the tip where the side comes in to the one where it goes out, at one place. Errors:
- * NO_MEMORY, LIMIT. */
+/* From the tip where the side arrives to the tip where it leaves, at one place. Errors: NO_MEMORY,
+ * LIMIT. */
 CELSPAN_CHECKED celspan_status cs_corner_turn(cs_side *side, const cs_stroke *stroke,
                                               const cs_spoke *in, const cs_spoke *out);
-/* From the tip on the right of a line's end to that on its left. Errors: as above. */
+/* From the tip on the right of a line's end to the tip on its left. Errors: as above. */
 CELSPAN_CHECKED celspan_status cs_corner_cap(cs_side *side, const cs_stroke *stroke,
                                              const cs_spoke *end);
-/* The same, where the line is only cut. */
+/* The same for an end where the line is only cut. */
 CELSPAN_CHECKED celspan_status cs_corner_cut(cs_side *side, const cs_spoke *end);
-/* Contours of their own, for parts that do not lie along the side: the straight ends of both lines
- * at a corner, and a square cap before a straight end. */
+/* Separate contours for parts that do not lie along the side: the straight ends of both lines at a
+ * corner, and a square cap in front of a straight end. */
 CELSPAN_CHECKED celspan_status cs_corner_turn_more(cs_side *side, const cs_stroke *stroke,
                                                    const cs_spoke *in, const cs_spoke *out);
 CELSPAN_CHECKED celspan_status cs_corner_cap_more(cs_side *side, const cs_stroke *stroke,

@@ -3,9 +3,11 @@
 #include "base/elementary.h"
 #include "base/number.h"
 
-#define SLOW 1e-9      /* of the polygon: a slower place has its direction from its neighbours */
-#define NEAR 1e-5      /* parameter: such a neighbour */
-#define REST 1e-11     /* of the two terms whose difference is the pace: less is rounding */
+/* of the polygon: a place with a lower speed gets its direction from its neighbours */
+#define SLOW 1e-9
+#define NEAR 1e-5      /* parameter: the distance of such a neighbour */
+/* of the two terms whose difference is the pace: a smaller difference is rounding */
+#define REST 1e-11
 #define ROUNDING 1e-15 /* of coordinates */
 
 cs_spoke cs_spoke_make(celspan_point centre, double radius, celspan_point tangent, double slope) {
@@ -37,7 +39,7 @@ static cs_spoke at_rest(const cs_curve *curve, double t, const cs_curve_place *p
   return cs_spoke_make(place->point, place->radius, tangent, side * slope);
 }
 
-/* Whether the line goes so slowly at a place that its direction is rounding. */
+/* Whether the line moves so slowly at a place that its direction is only rounding. */
 static bool is_at_rest(const cs_curve *curve, const cs_curve_place *place) {
   double speed = sqrt(cs_spoke_dot(place->velocity, place->velocity));
   return !(speed > SLOW * cs_curve_extent(&curve->line));
@@ -53,8 +55,9 @@ cs_spoke cs_spoke_at(const cs_curve *curve, double t) {
 }
 
 /* With v the speed, k the slope, q = sqrt(1 - k^2), o the angle by which the line turns: the spoke
- * turns by o - k' / q, and its foot goes v q across it. Both times q, which may be 0. Points are
- * rounded, so the second derivative, and with it the turn, is right within that only. */
+ * turns by o - k' / q, and its foot goes v q across it. Both are multiplied by q, which may be 0.
+ * Points are rounded, so the second derivative, and with it the turn, is no more exact than the
+ * points. */
 cs_spoke_motion cs_spoke_move(const cs_curve *curve, double t, const cs_spoke *spoke) {
   cs_curve_place place = cs_curve_at(curve, t);
   bool rests = is_at_rest(curve, &place);

@@ -26,9 +26,11 @@ typedef struct cs_spoke {
  *   <---* tip
  */
 typedef struct cs_spoke_motion {
-  int pace; /* 1: the tip goes forwards, with the order of a contour; -1: backwards; 0: it rests */
-  double pivot; /* distance from the centre where the pace is -1 or 0, 0 .. radius; else nothing */
-  double drift; /* how fast the place goes along the spoke, by the parameter */
+  /* 1: the tip goes forwards, in the order of a contour; -1: backwards; 0: it does not move */
+  int pace;
+  /* the distance from the centre, 0 .. radius, if the pace is -1 or 0; otherwise no meaning */
+  double pivot;
+  double drift; /* how fast the place moves along the spoke, by the parameter */
 } cs_spoke_motion;
 
 static inline celspan_point cs_spoke_add(celspan_point p, double k, celspan_point v) {
@@ -43,8 +45,8 @@ static inline double cs_spoke_dot(celspan_point a, celspan_point b) {
 static inline double cs_spoke_cross(celspan_point a, celspan_point b) {
   return a.x * b.y - a.y * b.x;
 }
-/* On the right of a direction, and on its left: a quarter turn against the order of a contour, and
- * with it. */
+/* The directions on the right and on the left of a direction: a quarter turn against the order of a
+ * contour, and one in that order. */
 static inline celspan_point cs_spoke_right(celspan_point v) { return (celspan_point){v.y, -v.x}; }
 static inline celspan_point cs_spoke_left(celspan_point v) { return (celspan_point){-v.y, v.x}; }
 static inline celspan_point cs_spoke_back(celspan_point v) { return (celspan_point){-v.x, -v.y}; }
@@ -53,7 +55,7 @@ cs_spoke cs_spoke_make(celspan_point centre, double radius, celspan_point tangen
 /* The spoke of a curve at a parameter. */
 cs_spoke cs_spoke_at(const cs_curve *curve, double t);
 cs_spoke_motion cs_spoke_move(const cs_curve *curve, double t, const cs_spoke *spoke);
-/* The same place seen on the way back: the spoke to the other side. */
+/* The same place seen in the opposite direction: the spoke to the other side. */
 cs_spoke cs_spoke_turned(const cs_spoke *spoke);
 /* The angle from the tangent to the spoke, 0 .. pi, and the angle from one direction to another
  * direction, -pi .. pi, > 0 with the order of a contour. */

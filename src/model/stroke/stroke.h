@@ -22,27 +22,29 @@
 #include "model/geometry/boundary.h"
 #include "model/geometry/outline.h"
 
-#define CS_STROKE_RADIUS_DEGREE 25 /* of a width, and twice the way along a piece (taper.c) */
+/* of a width, and of twice the distance along a piece (taper.c) */
+#define CS_STROKE_RADIUS_DEGREE 25
 #define CS_STROKE_DASHES 1000000   /* the most in one stroke */
 
 typedef struct cs_stroke_part {
-  uint32_t contour;  /* whose pieces these are */
-  uint32_t first;    /* piece in which it begins */
+  uint32_t contour;  /* the contour that the pieces belong to */
+  uint32_t first;    /* the piece in which the part begins */
   uint32_t count;    /* of pieces */
   double begin, end; /* parameters, in the first and in the last piece */
-  bool is_closed;    /* its end is its beginning: it has no caps */
+  bool is_closed;    /* its end is its beginning: the part has no caps */
 } cs_stroke_part;
 
 /* The dashes of a contour (dashes.h). */
 typedef struct cs_dashes_run {
   uint32_t contour;
-  bool is_whole;   /* it has no length to divide: it is one part */
+  bool is_whole;   /* the run has no length to divide: it is one part */
   bool is_dot;     /* is_whole: it is a point */
   bool is_closed;  /* its only part has no caps */
-  bool is_joined;  /* its last dash continues in its first and is no part of its own */
-  double start;    /* the length of the line at which the pattern begins: where the contour does, or
-                      before */
-  double from, to; /* lengths of the line between which it is drawn */
+  bool is_joined;  /* the last dash continues in the first one, and is no part by itself */
+  /* the length of the line at which the pattern begins: at the beginning of the contour, or
+   * before */
+  double start;
+  double from, to; /* the lengths of the line between which the run is drawn */
   size_t first;    /* its first dash, counted from `start` */
   size_t begin;    /* the number of its first part */
 } cs_dashes_run;
@@ -51,9 +53,10 @@ typedef struct cs_dashes {
   /* Lengths from the beginning of the pattern: where dashes begin and end in turn. */
   double *places;
   size_t place_count;
-  double pattern, offset; /* its length, and where in it contours begin */
+  /* the length of the pattern, and the place in it at which contours begin */
+  double pattern, offset;
   double *ends;           /* for each piece of the line: the length of the line up to its end */
-  cs_dashes_run *runs;    /* no two of one contour, in order */
+  cs_dashes_run *runs;    /* in order, at most one for each contour */
   size_t run_count, run_capacity;
 } cs_dashes;
 
@@ -63,9 +66,9 @@ typedef struct cs_stroke {
   uint32_t *radius_starts;
   uint8_t *radius_degrees;
   cs_stroke_part *parts; /* without dashes */
-  cs_dashes dashes;      /* place_count 0: there are none */
+  cs_dashes dashes;      /* place_count 0: the stroke has no dashes */
   size_t radius_count, radius_capacity, radius_start_capacity, radius_degree_capacity;
-  size_t part_count, part_capacity; /* part_count: dashes too */
+  size_t part_count, part_capacity; /* part_count: includes dashes */
   celspan_stroke_cap cap;
   celspan_stroke_join join;
   double miter;       /* as SVG's miter limit */
@@ -73,7 +76,7 @@ typedef struct cs_stroke {
   celspan_box around; /* nothing of the stroke is outside it; not tight */
 } cs_stroke;
 
-/* Makes a stroke of a description whose numbers have been checked. outline: the line from which
+/* Makes a stroke from a description whose numbers have been checked. outline: the line from which
  * desc->outline is made, or another line; NULL for one of the description. closed: which of its
  * contours are closed; NULL: all. Errors: NO_MEMORY; BAD_ARGUMENT for path data, degree and counts;
  * LIMIT for more dashes than CS_STROKE_DASHES. finish frees it, also after an error. */
@@ -110,17 +113,17 @@ typedef struct cs_stroke_view {
   cs_boundary_frame frame;
   double tolerance;   /* pixels */
   double top, bottom; /* of the rows that are asked for, pixels */
-  double left, right; /* of the columns */
+  double left, right; /* of the columns that are asked for, in pixels */
 } cs_stroke_view;
 
 /* How far from their place, in pixels, the contents of a box may be drawn. */
 double cs_stroke_view_allowance(const cs_stroke_view *view, const celspan_box *box);
-/* The distance in pixels between two points that ought to be one. 0 behind the horizon. */
+/* The distance in pixels between two points that should be one. 0 behind the horizon. */
 double cs_stroke_view_error(const cs_stroke_view *view, celspan_point is, celspan_point ought);
-/* Whether nothing in the box can be seen where it is asked for. */
+/* Whether nothing in the box is visible in the rows and columns that are asked for. */
 bool cs_stroke_view_hides(const cs_stroke_view *view, const celspan_box *box);
-/* Whether everything in the box is in the frame, and where it is asked for. */
+/* Whether everything in the box is in the frame, and in the rows and columns that are asked for. */
 bool cs_stroke_view_holds(const cs_stroke_view *view, const celspan_box *box);
-/* Whether the box is much larger than the frame, so that it is worth while to look at parts of
+/* Whether the box is much larger than the frame, so that it is worthwhile to examine parts of
  * it. */
 bool cs_stroke_view_is_exceeded(const cs_stroke_view *view, const celspan_box *box);

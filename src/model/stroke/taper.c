@@ -22,13 +22,13 @@ typedef struct tapering {
   double length;   /* of the part */
   double taper[2]; /* scaled down, if the part is shorter */
   bool is_round;   /* the factor is u (2 - u), where u is the factor of a straight taper */
-  double way;      /* so far, from the beginning of the part */
+  double way;      /* the length from the beginning of the part to the current place */
   bool is_first;   /* nothing of the part is appended yet */
 } tapering;
 
 /* ---------------------------------------------------------------- ways as polynomials */
 
-/* The way from the beginning of a line, as Bernstein coefficients. */
+/* The length from the beginning of a line, as Bernstein coefficients. */
 static void find_way(const cs_bezier *line, double way[WAY_DEGREE + 1]) {
   double d[WAY_DEGREE], powers[WAY_DEGREE + 1] = {0};
   for (int i = 0; i < WAY_DEGREE; i++) {
@@ -55,8 +55,8 @@ static void find_way(const cs_bezier *line, double way[WAY_DEGREE + 1]) {
 
 /* ---------------------------------------------------------------- pieces */
 
-/* The curve with a radius that is multiplied by the factor. way: the shares of the taper's length.
- */
+/* The curve with its radius multiplied by the factor. way: the length so far, as shares of the
+ * taper's length. */
 static void narrow(const tapering *t, const cs_curve *curve, const double way[WAY_DEGREE + 1],
                    cs_curve *out) {
   double rest[WAY_DEGREE + 1], once[CS_STROKE_RADIUS_DEGREE + 1];
@@ -164,7 +164,7 @@ static celspan_status taper_part(tapering *t, const cs_stroke *stroke, cs_stroke
   return CELSPAN_OK;
 }
 
-/* A part of no length has no width anywhere: it is left out. */
+/* A part of no length has no width anywhere, and is left out. */
 static celspan_status taper_parts(tapering *t, cs_stroke *stroke, const double taper[2]) {
   size_t kept = 0;
   for (size_t i = 0; i < stroke->part_count; i++) {

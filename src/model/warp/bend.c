@@ -5,9 +5,9 @@
 #include "model/geometry/bezier.h"
 #include "model/geometry/matrix.h"
 
-/* The most halvings of a piece; if the error is too large even then, the map jumps there. */
+/* The most halvings of a piece. If the error is still too large after these, the map has a jump. */
 #define DEPTH 40
-/* A cubic is first looked at when it is no longer than this share of the object, or after FORCED
+/* A cubic is only examined if it is no longer than this share of the object, or after FORCED
  * halvings: in a longer cubic the map may turn twice. */
 #define LONG 0.125
 #define FORCED 3
@@ -22,7 +22,7 @@ typedef struct bender {
   int forced; /* halvings of this piece that are always made */
 } bender;
 
-/* A stretch of the piece, and where its ends go. */
+/* A stretch of the piece, and the places to which the map moves its ends. */
 typedef struct stretch {
   double from, to; /* parameters */
   celspan_point a, b;
@@ -60,7 +60,7 @@ static celspan_point mixed(celspan_point p, celspan_point q, double u) {
 
 /* ---------------------------------------------------------------- cubics */
 
-/* The cubic through four points at the parameters 0, 1/3, 2/3 and 1. */
+/* The cubic that goes through four points at the parameters 0, 1/3, 2/3 and 1. */
 static void fit(const stretch *s, celspan_point q1, celspan_point q2, celspan_point cubic[4]) {
   cubic[0] = s->a;
   cubic[1] = (celspan_point){(-5 * s->a.x + 18 * q1.x - 9 * q2.x + 2 * s->b.x) / 6,
@@ -85,8 +85,8 @@ static bool is_line(const stretch *s, celspan_point q1, celspan_point q2, double
 
 static celspan_status check(const bender *b, const stretch *s, const celspan_point cubic[4],
                             double within, bool *is_right) {
-  static const double places[] = {0.5, 0.1283, 0.8761}; /* not in even steps: waves could hide
-                                                           between these */
+  /* uneven steps, because waves could be missed between even ones */
+  static const double places[] = {0.5, 0.1283, 0.8761};
   *is_right = true;
   for (int i = 0; i < 3 && *is_right; i++) {
     celspan_point there;
@@ -109,7 +109,8 @@ static celspan_status append(bender *b, const celspan_point cubic[4], bool is_li
                  : cs_outline_piece(b->map->context, b->out, 3, points);
 }
 
-/* A piece that is still wrong after all halvings contains a kink of the map, or a jump. */
+/* Called for a piece whose error is still too large after all halvings: it contains a kink of the
+ * map, or a jump. */
 static celspan_status end_halving(bender *b, const stretch *s) {
   const celspan_point straight[4] = {s->a, s->a, s->b, s->b};
   if (distance(s->a, s->b) <= b->map->within)

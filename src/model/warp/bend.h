@@ -12,10 +12,10 @@
 #include "model/geometry/outline.h"
 #include "model/warp/map.h"
 
-#define CS_WARP_CUBICS 200000 /* the most that one outline may become */
+#define CS_WARP_CUBICS 200000 /* the most cubics that one outline may become */
 
-/* Appends the outline, placed by a matrix and then bent. It is within map->within of the image.
- * Errors: NO_MEMORY; BAD_ARGUMENT where the map jumps and where the outline reaches a horizon;
+/* Appends the outline, placed by a matrix and then bent. It differs from the true image by at most
+ * map->within. Errors: NO_MEMORY; BAD_ARGUMENT if the map jumps or the outline reaches a horizon;
  * LIMIT for a map that is too rough; those of the map. */
 CELSPAN_CHECKED celspan_status cs_warp_bend(const cs_warp_map *map, const cs_outline *outline,
                                             const celspan_matrix *matrix, cs_outline *out);

@@ -1,4 +1,4 @@
-/* A map of the plane, given by a host: every point that it returns is checked here.
+/* A map of the plane, given by a host. Every point that the host returns is checked here.
  *
  * INVARIANT: the map is asked only for points of the object that is bent, in the units around the
  * object.
@@ -14,10 +14,11 @@ typedef struct cs_warp_map {
   void *user;
   double within; /* units: how far outlines may lie from their place */
   double extent; /* the longer side of the whole object; above 0 */
-  size_t pieces; /* the most of a mesh */
+  size_t pieces; /* the most triangles of a mesh */
 } cs_warp_map;
 
-/* Where a point goes. Errors: those of the host; BAD_ARGUMENT for a point that is no number. */
+/* The place to which the map moves a point. Errors: those of the host; BAD_ARGUMENT if the result
+ * is not finite. */
 static inline CELSPAN_CHECKED celspan_status cs_warp_at(const cs_warp_map *map, celspan_point from,
                                                         celspan_point *to) {
   CS_TRY(map->call(map->user, map->context, from, to));

@@ -10,7 +10,7 @@
 
 /* ---------------------------------------------------------------- the grid */
 
-/* The number of point i, j; the rim's are 0 and the last. */
+/* The index of point (i, j); the first and the last i and j are those of the rim. */
 static size_t place(const cs_warp_mesh *mesh, size_t i, size_t j) {
   return j * (mesh->columns + 1) + i;
 }
@@ -45,7 +45,7 @@ static celspan_point middle(celspan_point a, celspan_point b) {
   return (celspan_point){0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
 }
 
-/* How far the map is from the straight side between two points, in its middle. */
+/* The distance between the map and the straight side between two points, at its middle. */
 static celspan_status add_error(const cs_warp_map *map, const cs_warp_mesh *mesh, size_t a,
                                 size_t b, double *most) {
   celspan_point is, ought = middle(mesh->to[a], mesh->to[b]);
@@ -54,7 +54,7 @@ static celspan_status add_error(const cs_warp_map *map, const cs_warp_mesh *mesh
   return CELSPAN_OK;
 }
 
-/* The most that is found at the diagonals of cells and at their sides. */
+/* The greatest distance at the diagonals and the sides of cells. */
 static celspan_status find_error(const cs_warp_map *map, const cs_warp_mesh *mesh, double *most) {
   *most = 0;
   for (size_t j = 1; j < mesh->rows; j++)
@@ -72,7 +72,7 @@ static celspan_status find_error(const cs_warp_map *map, const cs_warp_mesh *mes
 
 /* ---------------------------------------------------------------- the rim */
 
-/* A point of the rim continues the line from a point through its neighbour. */
+/* Places a point of the rim on the line from a point through its neighbour. */
 static void continue_way(cs_warp_mesh *mesh, size_t rim, size_t border, size_t inner,
                          double share) {
   celspan_point *lists[] = {mesh->from, mesh->to};
@@ -175,7 +175,7 @@ static celspan_status check_triangle(const sheet *s, size_t a, size_t b, size_t 
                  centre.x, centre.y);
 }
 
-/* The sum of the areas of all triangles inside the rim: below 0 where the map is a mirror. */
+/* The sum of the areas of all triangles inside the rim: below 0 if the map mirrors. */
 static double sum_areas(const cs_warp_mesh *mesh) {
   double sum = 0;
   for (size_t j = 1; j + 1 < mesh->rows; j++)

@@ -25,16 +25,16 @@ static inline size_t cs_warp_mesh_points(const cs_warp_mesh *mesh) {
   return (mesh->columns + 1) * (mesh->rows + 1);
 }
 
-/* As few cells as make the mesh right within the share CS_WARP_PLAIN of the object, and at most
- * map->pieces triangles. finish frees it, also after an error. Errors: NO_MEMORY; those of the
- * map. */
+/* Makes a mesh of as few cells as possible, so that its error is at most the share CS_WARP_PLAIN of
+ * the object, with at most map->pieces triangles. finish frees it, also after an error. Errors:
+ * NO_MEMORY; those of the map. */
 #define CS_WARP_PLAIN (1 / 2048.0)
 CELSPAN_CHECKED celspan_status cs_warp_mesh_make(const cs_warp_map *map, const celspan_box *box,
                                                  cs_warp_mesh *out);
 void cs_warp_mesh_finish(cs_warp_mesh *mesh, cs_memory *memory);
 
-/* BAD_ARGUMENT where the map folds: where a triangle faces the other way than most, at a place that
- * the shape covers. data, matrix: the shape, and its place. */
+/* BAD_ARGUMENT if the map folds: if a triangle has the opposite orientation of most others, at a
+ * place that the shape covers. data, matrix: the shape, and its place. */
 CELSPAN_CHECKED celspan_status cs_warp_mesh_check(const cs_warp_map *map, const cs_warp_mesh *mesh,
                                                   const cs_primitive_data *data,
                                                   const celspan_matrix *matrix);

@@ -31,8 +31,8 @@ typedef struct cutter {
   size_t count;
 } cutter;
 
-/* The affine map that takes three points to three others, as the identity plus a change, so that it
- * is the identity, to the bit, where nothing changes. */
+/* The affine map that takes three points to three others, as the identity plus a change. If nothing
+ * changes, it is exactly the identity, to the bit. */
 static celspan_matrix affine(const celspan_point from[3], const celspan_point to[3]) {
   double ux = from[1].x - from[0].x, uy = from[1].y - from[0].y;
   double vx = from[2].x - from[0].x, vy = from[2].y - from[0].y;
@@ -65,7 +65,7 @@ static celspan_status cut_triangle(cutter *c, size_t i, size_t j, size_t k) {
   return status;
 }
 
-/* Cells of the rim first: the others lie over them where a map bends strongly. */
+/* Cells of the rim come first: the others lie over them if a map bends strongly. */
 static celspan_status cut_triangles(cutter *c, bool is_rim) {
   const cs_warp_mesh *mesh = c->mesh;
   for (size_t j = 0; j < mesh->rows; j++)
@@ -95,7 +95,7 @@ static celspan_status cut(cutter *c, celspan_object **out) {
   return status;
 }
 
-/* The texture that was given, not as it was unrolled; a picture in its box. */
+/* The texture that was given, not the unrolled one; a picture is placed in its box. */
 static celspan_status place(celspan_context *context, celspan_texture *texture,
                             const celspan_box *box, const celspan_matrix *matrix,
                             celspan_texture **out) {
@@ -107,15 +107,15 @@ static celspan_status place(celspan_context *context, celspan_texture *texture,
   return status;
 }
 
-/* A mesh is one shape for those who ask whether a drawing is worth being kept. */
+/* A mesh counts as one shape when it is decided whether a drawing should be kept. */
 static void count_as_one(const celspan_object *mesh) {
   mesh->data->shape_count = 1;
   mesh->data->cut_count = 0;
 }
 
-/* *out: the union of all triangles, new, each with the texture where the map takes it. texture:
- * placed by a matrix in the units around the object; box: where a picture without a box lies, in
- * its own units. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+/* *out: the union of all triangles, new, each with the texture moved by the map. texture: placed by
+ * a matrix in the units around the object; box: where a picture without a box lies, in its own
+ * units. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
 static celspan_status make_pieces(celspan_context *context, const cs_warp_mesh *mesh,
                                   celspan_texture *texture, const celspan_box *box,
                                   const celspan_matrix *matrix, celspan_object **out) {
@@ -131,14 +131,14 @@ static celspan_status make_pieces(celspan_context *context, const cs_warp_mesh *
 #define PIECES 400
 #define PIECES_LEAST 18
 #define PIECES_MOST 20000
-/* Of a shape of one colour, whose mesh only shows folds. */
+/* For a shape of one colour, whose mesh is only used to find folds. */
 #define PIECES_FLAT 200
 /* A hundredth of a pixel of an object that fills a frame of 2^20 pixels a side. */
 #define WITHIN 0x1p-27
 
 /* ---------------------------------------------------------------- primitives */
 
-/* The outline of data, bent; outlines of strokes are made as exactly as needed. */
+/* The outline of data, bent; outlines of strokes are made as exactly as is needed. */
 static celspan_status bend_outline(const cs_warp_map *map, const cs_primitive_data *data,
                                    const celspan_matrix *matrix, cs_outline *out) {
   cs_outline_box room;
