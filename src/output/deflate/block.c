@@ -24,7 +24,7 @@ enum { REPEAT = 16, FEW_ZEROS = 17, MANY_ZEROS = 18 };
  * zeros, and their extra bits say how many. They are coded by a third code, `lengths` and `codes`.
  */
 typedef struct code_header {
-  int literal_count, distance_count; /* without unused symbols at the end */
+  int literal_count, distance_count; /* without the unused symbols at the end */
   int item_count, code_count;
   uint8_t symbol[LITERALS + DISTANCES];
   uint8_t extra[LITERALS + DISTANCES];
@@ -51,7 +51,7 @@ static void add_item(code_header *header, int symbol, int extra) {
   header->extra[header->item_count++] = (uint8_t)extra;
 }
 
-/* `run` equal lengths. */
+/* Adds `run` equal lengths. */
 static void add_run(code_header *header, int length, int run) {
   if (length > 0) {
     add_item(header, length, 0);
@@ -79,7 +79,7 @@ static void add_runs(code_header *header, const uint8_t *lengths, int count) {
   }
 }
 
-/* The code of the items, and with it the size of the header. */
+/* Makes the code of the items, and with it finds the size of the header. */
 static void make_item_code(code_header *header) {
   uint32_t count[LENGTH_SYMBOLS] = {0};
   for (int i = 0; i < header->item_count; i++)
@@ -104,7 +104,7 @@ static void make_header(code_header *header, const uint8_t literals[LITERALS],
   make_item_code(header);
 }
 
-/* Room must have been made. */
+/* The caller has made room. */
 static void put_header(const code_header *header, cs_deflate_bit_stream *stream) {
   cs_deflate_bits_put(stream, (unsigned)(header->literal_count - 257), 5);
   cs_deflate_bits_put(stream, (unsigned)(header->distance_count - 1), 5);
@@ -164,7 +164,8 @@ static void best_lengths(codes *code, const symbol_counts *count) {
                              code->distance_lengths);
 }
 
-/* Bits of a block's tokens without their extra bits, which are the same under every code. */
+/* The bits of a block's tokens without their extra bits, whose number is the same for every
+ * code. */
 static uint64_t coded_size(const codes *code, const symbol_counts *count) {
   uint64_t bits = 0;
   for (int symbol = 0; symbol < LITERALS; symbol++)
@@ -176,8 +177,8 @@ static uint64_t coded_size(const codes *code, const symbol_counts *count) {
 
 /* ---------------------------------------------------------------- the tokens of a block */
 
-/* The bits that are put for each literal, length and near distance: its code and then its extra
- * bits, joined once a block. */
+/* The bits that are written for each literal, length and near distance: the code and the extra
+ * bits, joined once for each block. */
 typedef struct bit_string {
   uint32_t bits;
   unsigned count;
@@ -187,10 +188,10 @@ static bit_string join(uint16_t code, uint8_t code_bits, cs_deflate_symbol symbo
   return (bit_string){code | symbol.extra << code_bits, code_bits + (unsigned)symbol.extra_bits};
 }
 
-/* The bits of a longest match from a near distance, repeated as often as one word has room for. */
+/* The bits of a longest match at a near distance, repeated as often as they fit into one word. */
 typedef struct repeat {
   uint64_t bits;
-  unsigned times, unit; /* unit: the count of bits of one match */
+  unsigned times, unit; /* unit: how many bits one match has */
 } repeat;
 
 typedef struct code_book {
@@ -222,7 +223,7 @@ static void make_book(code_book *book, const codes *code) {
   }
 }
 
-/* `times` longest matches. */
+/* Puts `times` longest matches. */
 static inline void put_longest(cs_deflate_bit_stream *stream, const repeat *longest,
                                unsigned times) {
   for (; times > longest->times; times -= longest->times)
@@ -311,8 +312,8 @@ void cs_deflate_block_put(cs_deflate_block *block) {
   drop_tokens(block);
 }
 
-/* A block of stored bytes begins at a whole byte with their count and its complement; this one has
- * no bytes (RFC 1951, 3.2.4). */
+/* A stored block begins at a whole byte, with the count of its bytes and the complement of this
+ * count; here it has no bytes (RFC 1951, 3.2.4). */
 static void put_aligning_block(cs_deflate_block *block) {
   cs_deflate_bit_stream stream = cs_deflate_bits_open(&block->output);
   cs_deflate_bits_make_room(&stream);

@@ -57,7 +57,7 @@ static inline cs_deflate_symbol cs_deflate_symbol_of(unsigned number, int kept) 
   return (cs_deflate_symbol){symbol, extra_bits, number & ((1u << extra_bits) - 1)};
 }
 
-/* The greatest length, 258, has a symbol of its own. */
+/* The greatest length, 258, has its own symbol. */
 static inline cs_deflate_symbol cs_deflate_symbol_of_length(unsigned length_less_3) {
   cs_deflate_symbol made =
       length_less_3 == 255 ? (cs_deflate_symbol){28, 0, 0} : cs_deflate_symbol_of(length_less_3, 2);
@@ -89,10 +89,10 @@ typedef struct cs_deflate_bits {
   celspan_status (*write)(void *user, celspan_context *context, const void *bytes, size_t size);
   void *user;
   celspan_context *context; /* of the call in progress */
-  celspan_status status;    /* the first failure of write, which is not called any more then */
-  uint64_t bits;            /* that do not fill a byte yet */
+  celspan_status status;    /* the first failure of write, which is not called again after it */
+  uint64_t bits;            /* bits that do not fill a byte yet */
   unsigned bit_count;       /* below 8 */
-  size_t size;              /* of the bytes that wait */
+  size_t size;              /* bytes that wait to be written */
   unsigned char bytes[CS_DEFLATE_BITS_BUFFER + 8];
 } cs_deflate_bits;
 
@@ -136,8 +136,8 @@ static inline void cs_deflate_bits_make_room(cs_deflate_bit_stream *stream) {
   }
 }
 
-/* count: 0..56. The whole word is stored each time: whether a byte became full could not be
- * predicted by a branch. */
+/* count: 0..56. The whole word is stored each time, because a branch on whether a byte is full
+ * could not be predicted. */
 static inline void cs_deflate_bits_put(cs_deflate_bit_stream *stream, uint64_t bits,
                                        unsigned count) {
   stream->bits |= bits << stream->count;
@@ -154,14 +154,14 @@ typedef uint32_t cs_deflate_token;
 
 enum {
   CS_DEFLATE_TOKENS = 1 << 16,
-  CS_DEFLATE_TIMES = 127, /* longest matches in a token, before its last match */
+  CS_DEFLATE_TIMES = 127, /* the most longest matches in a token, before its last match */
   CS_DEFLATE_NEAR = 16
 };
 
-/* How often each thing was added. The three literals of a token are counted in three tables, by
- * their place in it: neighbours are often equal, and adding to one counter three times in a row
- * would wait for memory each time. Distances up to CS_DEFLATE_NEAR of cs_deflate_block_matches are
- * counted as they are, all others by their symbol. */
+/* How often each symbol was added. The three literals of a token are counted in three tables:
+ * neighbours are often equal, and to add to the same counter three times in a row would wait for
+ * memory each time. Distances up to CS_DEFLATE_NEAR of cs_deflate_block_matches are counted as they
+ * are, all others by their symbol. */
 typedef struct cs_deflate_block_counts {
   uint32_t literals[3][256], lengths[256], near_distances[CS_DEFLATE_NEAR];
   uint32_t distances[CS_DEFLATE_DISTANCES];
@@ -174,11 +174,11 @@ typedef struct cs_deflate_block {
   cs_deflate_block_counts counts;
 } cs_deflate_block;
 
-/* Drops all tokens and bits that wait, and any failure. */
+/* Drops all tokens and bits that wait to be written, and any failure. */
 void cs_deflate_block_begin(cs_deflate_block *block);
 
-/* Puts the waiting tokens as one block, with codes of its own or the fixed ones, whichever is
- * shorter. */
+/* Puts the waiting tokens as one block, with its own codes or the fixed ones, whichever needs fewer
+ * bits. */
 void cs_deflate_block_put(cs_deflate_block *block);
 
 static inline void cs_deflate_block_add(cs_deflate_block *block, cs_deflate_token token) {
@@ -192,7 +192,7 @@ static inline void cs_deflate_block_literal(cs_deflate_block *block, unsigned ch
   cs_deflate_block_add(block, byte);
 }
 
-/* Three bytes, the first lowest. */
+/* Adds three bytes, the first one lowest. */
 static inline void cs_deflate_block_literals(cs_deflate_block *block, uint32_t bytes) {
   for (int i = 0; i < 3; i++)
     block->counts.literals[i][bytes >> 8 * i & 255]++;
@@ -213,7 +213,7 @@ static inline void cs_deflate_block_matches(cs_deflate_block *block, size_t time
                                   (cs_deflate_token)(distance - 1));
 }
 
-/* Any number of bytes, at least 3, that equal the bytes `distance` before them (near). */
+/* Adds at least 3 bytes that equal the bytes `distance` before them (near). */
 static inline void cs_deflate_block_run(cs_deflate_block *block, size_t bytes, size_t distance) {
   const size_t longest = CS_DEFLATE_LONGEST_MATCH;
   size_t times = (bytes - 3) / longest, rest = bytes - times * longest;

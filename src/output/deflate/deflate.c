@@ -25,7 +25,7 @@ typedef struct checksum {
   uint64_t a, b;
 } checksum;
 
-/* The checksum of no bytes. */
+/* The checksum of an empty text. */
 #define CHECKSUM_EMPTY ((checksum){.a = 1})
 
 static inline void reduce_checksum(checksum *sum) {
@@ -78,8 +78,8 @@ struct cs_deflate {
   size_t pixel_size;
   checksum sum;
   uint64_t size;            /* uncompressed bytes of the segment so far */
-  size_t zeros;             /* at the end, that are not tokens yet */
-  bool ends_in_zeros;       /* the last byte that is a token is 0, so zeros can match it */
+  size_t zeros;             /* zeros at the end that are not tokens yet */
+  bool ends_in_zeros;       /* the last byte in a token is 0, so zeros after it can match it */
   cs_deflate_search search; /* of plain bytes */
   cs_deflate_block block;
 };
@@ -136,7 +136,8 @@ static inline void put_byte(cs_deflate *deflate, unsigned char byte) {
   deflate->ends_in_zeros = false;
 }
 
-/* Three bytes become one token, unless the first is 0 and so belongs to a run of zeros. */
+/* Three bytes become one token, unless the first byte is 0 and therefore belongs to a run of
+ * zeros. */
 static inline void put_pixel(cs_deflate *deflate, uint64_t pixel, size_t size) {
   size_t i = 0;
   if (size >= 3 && pixel & 0xff) {
@@ -164,7 +165,7 @@ static inline void put_run(cs_deflate *deflate, cs_deflate_run run, size_t size)
   }
 }
 
-/* size: of a pixel; a constant for the compiler where it is 3 or 4. */
+/* size: of a pixel; the compiler sees a constant if it is 3 or 4. */
 static inline void put_runs(cs_deflate *deflate, const cs_deflate_run *run, size_t run_count,
                             size_t size) {
   checksum sum = deflate->sum;

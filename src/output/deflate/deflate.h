@@ -27,11 +27,12 @@
 typedef struct cs_deflate cs_deflate;
 
 /* Receives compressed bytes, in order. Its first failure is returned by the call that flushes the
- * bytes or a later one, by cs_deflate_end at the latest; then it is not called again. */
+ * bytes or by a later one, at the latest by cs_deflate_end. After a failure it is not called
+ * again. */
 typedef celspan_status (*cs_deflate_write)(void *user, celspan_context *context, const void *bytes,
                                            size_t size);
 
-/* pixel_size: 1..8 bytes, of pixels in runs; plain bytes too are compared at that distance.
+/* pixel_size: bytes of the pixels in runs, 1..8; plain bytes are also compared at this distance.
  * Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_deflate_create(celspan_context *context, size_t pixel_size,
                                                  cs_deflate_write write, void *user,
@@ -41,10 +42,11 @@ void cs_deflate_destroy(cs_deflate *deflate, celspan_context *context);
 
 /* ---- a segment */
 
-/* Begins a segment and drops one that has not ended. */
+/* Begins a segment. A segment that has not ended is dropped. */
 void cs_deflate_begin(cs_deflate *deflate);
 
-/* `count` times the first pixel_size bytes of `pixel`, the lowest first; higher bytes are 0. */
+/* The first pixel_size bytes of `pixel`, repeated `count` times, the lowest byte first; higher
+ * bytes are 0. */
 typedef struct cs_deflate_run {
   uint64_t pixel;
   uint32_t count; /* 1..2^20 */
@@ -54,21 +56,22 @@ CELSPAN_CHECKED celspan_status cs_deflate_runs(cs_deflate *deflate, celspan_cont
 /* One byte between runs. */
 void cs_deflate_byte(cs_deflate *deflate, unsigned char byte);
 
-/* Plain bytes: up to CS_DEFLATE_SPACE are written to the space that the first call returns (beyond
- * them up to CS_DEFLATE_SLACK more may be overwritten); the second call says how many. */
+/* Plain bytes: write up to CS_DEFLATE_SPACE bytes to the space that the first call returns (after
+ * them, up to CS_DEFLATE_SLACK bytes may be overwritten). The second call says how many were
+ * written. */
 enum { CS_DEFLATE_SPACE = 4096, CS_DEFLATE_SLACK = 64 };
 unsigned char *cs_deflate_space(cs_deflate *deflate, celspan_context *context);
 CELSPAN_CHECKED celspan_status cs_deflate_commit(cs_deflate *deflate, const unsigned char *space,
                                                  size_t size);
 
-/* Adler-32 and count of a segment's uncompressed bytes, or of several segments joined. */
+/* Adler-32 and the number of uncompressed bytes of a segment, or of several joined segments. */
 typedef struct cs_deflate_sum {
   uint32_t adler;
   uint64_t size;
 } cs_deflate_sum;
 #define CS_DEFLATE_SUM_EMPTY ((cs_deflate_sum){.adler = 1})
 
-/* Fills the last byte and writes all bytes that wait. */
+/* Fills the last byte and writes all bytes that are waiting. */
 CELSPAN_CHECKED celspan_status cs_deflate_end(cs_deflate *deflate, celspan_context *context,
                                               cs_deflate_sum *out);
 

@@ -32,8 +32,8 @@ static void merge_keys(const uint64_t *keys, int from, int middle, int end, uint
         left < middle && (right >= end || keys[left] <= keys[right]) ? keys[left++] : keys[right++];
 }
 
-/* Leaves of equal weight are in the order of their symbols. A merge sort, because the order must
- * not depend on a library. */
+/* Leaves of equal weight are in the order of their symbols. A merge sort is used, because the order
+ * must not depend on a library. */
 static void sort_leaves(leaves *sorted, const uint32_t *counts, int symbols) {
   uint64_t keys[2][CS_DEFLATE_HUFFMAN_SYMBOLS], *from = keys[0], *to = keys[1];
   int count = 0;
@@ -56,9 +56,9 @@ static void sort_leaves(leaves *sorted, const uint32_t *counts, int symbols) {
   }
 }
 
-/* Huffman's construction with two queues: the leaves, and the inner nodes as they are made, are
- * both in order of weight, so the two lightest nodes are always at the two fronts. depths: by leaf.
- * Returns the greatest one. */
+/* Huffman's construction with two queues: both the leaves and the inner nodes are in order of
+ * weight, so the two lightest nodes are always at the two fronts. depths: by leaf. Returns the
+ * greatest one. */
 static int huffman_depths(const leaves *sorted, uint8_t *depths) {
   uint64_t weight[2 * CS_DEFLATE_HUFFMAN_SYMBOLS];
   int parent[2 * CS_DEFLATE_HUFFMAN_SYMBOLS], count = sorted->count, deepest = 0;

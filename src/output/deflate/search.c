@@ -14,18 +14,19 @@ enum {
   WINDOW = CS_DEFLATE_SEARCH_WINDOW,
   LONGEST = CS_DEFLATE_LONGEST_MATCH,
   SHORTEST = 4,
-  REMEMBERED = 64, /* the longest match whose inner places are remembered */
-  CHAIN = 20,      /* earlier places tried */
-  CHAIN_LATER = 3, /* places tried for a longer match a byte later */
-  GOOD = 16,       /* after a match of this length, only one place is tried a byte later */
-  LAZY = 32        /* and after one of this length, none */
+  REMEMBERED = 64, /* the longest match whose inner places are added to the tables */
+  CHAIN = 20,      /* earlier places that are tried */
+  CHAIN_LATER = 3, /* places that are tried for a longer match one byte later */
+  GOOD = 16,       /* after a match of this length, only one place is tried one byte later */
+  LAZY = 32        /* after a match of this length, no place is tried one byte later */
 };
 
-/* Places of the history stay in the tables, but their distance shows that they are dropped. */
+/* The places of the history remain in the tables, but their distance shows that they are too
+ * old. */
 static void drop_history(cs_deflate_search *search) { search->start = search->next = search->end; }
 
-/* The buffer is filled from its start again, so that equal bytes are searched at equal times. The
- * tables are cleared at first, and before positions could wrap around. */
+/* The buffer is always filled from its start, so that equal bytes are searched for at equal times.
+ * The tables are cleared at the beginning, and before positions could wrap around. */
 void cs_deflate_search_begin(cs_deflate_search *search) {
   search->base += (uint32_t)search->end;
   search->end = 0;
@@ -80,7 +81,8 @@ static inline int literal_bits(unsigned char byte) {
 
 enum { LENGTH_BITS = 7, SURE = 12 };
 
-/* Bits that a match saves against literals. A match longer than SURE always saves some. */
+/* How many bits a match saves compared with literals. A match longer than SURE always saves
+ * bits. */
 static inline int gain(const unsigned char *at, match found) {
   int bits = -LENGTH_BITS - distance_bits(found.distance);
   for (size_t i = 0; i < found.length; i++)
@@ -88,7 +90,7 @@ static inline int gain(const unsigned char *at, match found) {
   return bits;
 }
 
-/* The best of several matches has the highest score: the bits of the literals that it saves, less
+/* The match with the highest score is the best: the bits of the literals that it replaces, minus
  * the bits of its distance. */
 static inline int score(match found) {
   return found.length ? 4 * (int)found.length - distance_bits(found.distance) : 0;
@@ -115,7 +117,7 @@ static inline void remember(cs_deflate_search *search, const unsigned char *at) 
   *latest_short_of(search, at) = position;
 }
 
-/* A match with the byte before or else with the pixel before, which needs no table. */
+/* A match with the previous byte, otherwise with the previous pixel; it needs no table. */
 static inline match find_run(const cs_deflate_search *search, const unsigned char *at,
                              size_t history, size_t most) {
   uint32_t word = load_4(at);
@@ -159,8 +161,8 @@ static inline match find_short(cs_deflate_search *search, const unsigned char *a
   return score(found) > score(best) ? found : best;
 }
 
-/* The best match for the bytes from `next` on, out of `chain` earlier places; length 0 when none
- * saves bits. This place is remembered. */
+/* The best match for the bytes from `next` on, out of `chain` earlier places; length 0 if none
+ * saves bits. This place is added to the tables. */
 static inline match find(cs_deflate_search *search, size_t next, int chain) {
   const unsigned char *at = search->buffer + next;
   size_t left = search->end - next, most = left < LONGEST ? left : LONGEST;
@@ -180,8 +182,8 @@ static inline match find(cs_deflate_search *search, size_t next, int chain) {
 
 /* ---------------------------------------------------------------- tokens */
 
-/* Places inside a long match are not remembered: they would only push the starts of runs out of the
- * table. remembered: how many of the match's places are in the tables already. */
+/* Places inside a long match are not added to the tables: they would only replace the starts of
+ * runs. remembered: how many places of the match have been added already. */
 static inline void remember_match(cs_deflate_search *search, size_t next, size_t remembered,
                                   match found) {
   const unsigned char *at = search->buffer + next, *end = search->buffer + search->end;
@@ -190,8 +192,8 @@ static inline void remember_match(cs_deflate_search *search, size_t next, size_t
       remember(search, at + i);
 }
 
-/* A near match of full length is followed beyond that, as a run. Returns the bytes that became
- * tokens. */
+/* A near match of full length is continued after its end as a run. Returns the number of bytes that
+ * became tokens. */
 static inline size_t put_match(cs_deflate_search *search, size_t next, match found) {
   if (found.length < LONGEST || found.distance > CS_DEFLATE_NEAR) {
     cs_deflate_block_match(search->block, found.length, found.distance);
@@ -203,8 +205,9 @@ static inline size_t put_match(cs_deflate_search *search, size_t next, match fou
   return length;
 }
 
-/* While a longer match begins a byte later, that byte becomes a literal and the longer match the
- * best. Returns how many places of the best match are in the tables. */
+/* As long as a longer match begins one byte later, the current byte becomes a literal, and the
+ * longer match becomes the best one. Returns how many places of the best match are in the
+ * tables. */
 static inline size_t defer(cs_deflate_search *search, size_t *next, match *best) {
   while (best->length > 0 && best->length < LAZY) {
     match later = find(search, *next + 1, best->length < GOOD ? CHAIN_LATER : 1);
@@ -216,8 +219,7 @@ static inline size_t defer(cs_deflate_search *search, size_t *next, match *best)
   return 1;
 }
 
-/* Whether the match that begins after a run at `next` can begin with the run: one token for
- * both. */
+/* Whether the match after a run at `next` can begin with the run, so that both need one token. */
 static inline bool takes_run(const cs_deflate_search *search, size_t next, match run, match later) {
   return later.length > 0 && run.length + later.length <= LONGEST &&
          later.distance <= next - search->start &&
@@ -247,7 +249,7 @@ static inline match put_best(cs_deflate_search *search, size_t *next, match best
 }
 
 /* Words are read beyond the end, so the bytes there are cleared: the result must not depend on
- * their former contents. */
+ * their earlier contents. */
 static void search_all(cs_deflate_search *search) {
   size_t next = search->next;
   memset(search->buffer + search->end, 0, sizeof(uint64_t));

@@ -15,7 +15,7 @@
 
 enum {
   CS_DEFLATE_SEARCH_WINDOW = 32768,
-  CS_DEFLATE_SEARCH_PENDING = 1 << 17, /* bytes gathered before they are searched */
+  CS_DEFLATE_SEARCH_PENDING = 1 << 17, /* bytes that are collected before they are searched */
   CS_DEFLATE_SEARCH_SPACE = 4096,      /* bytes that may be added at once */
   CS_DEFLATE_SEARCH_SLACK = 64,        /* bytes read or written beyond the end, without meaning */
   CS_DEFLATE_SEARCH_LONG_BITS = 15,    /* of the hash of eight bytes */
@@ -46,5 +46,6 @@ unsigned char *cs_deflate_search_space(cs_deflate_search *search);
 static inline void cs_deflate_search_commit(cs_deflate_search *search, size_t size) {
   search->end += size;
 }
-/* Makes tokens of all bytes that wait, and drops the history: tokens of others may follow. */
+/* Makes tokens of all waiting bytes, and drops the history, because tokens from elsewhere may
+ * follow. */
 void cs_deflate_search_flush(cs_deflate_search *search);

@@ -18,7 +18,7 @@ typedef struct job {
   const char *output;
   const cs_join_format *format; /* of the first part */
   cs_join_part first;           /* closed */
-  int32_t row;                  /* that comes next */
+  int32_t row;                  /* the next row */
 } job;
 
 /* ---------------------------------------------------------------- the parts */
@@ -51,7 +51,7 @@ static celspan_status inspect(celspan_context *context, cs_join_part *part,
   return CELSPAN_OK;
 }
 
-/* Whether a part is the next one. */
+/* Whether a part continues the parts before it. */
 static celspan_status check_next(celspan_context *context, const job *j, const cs_join_part *part,
                                  const cs_join_format *format) {
   if (j->row > 0 &&
@@ -73,7 +73,7 @@ static celspan_status check_next(celspan_context *context, const job *j, const c
   return CELSPAN_OK;
 }
 
-/* Opens a part and checks that it is the next one. On failure it is closed. */
+/* Opens a part and checks that it is the next one. On failure the part is closed. */
 static celspan_status open_next(celspan_context *context, const job *j, const char *path,
                                 cs_join_part *part, const cs_join_format **format) {
   CS_TRY(cs_join_part_open(context, path, part));
@@ -155,7 +155,8 @@ static celspan_status write_parts(celspan_context *context, job *j, cs_joining *
 
 static bool is_name(const char *wanted, const char *name) { return strcmp(wanted, name) == 0; }
 
-/* Strips are large, and so are the files that a killed run has left of them. */
+/* Strips are large, and so are the incomplete files of a run that was killed: they are removed
+ * first. */
 static celspan_status write_file(celspan_context *context, job *j) {
   cs_temporary_sweep(j->output, is_name);
   cs_joining *joining;

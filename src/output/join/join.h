@@ -13,8 +13,8 @@
 
 #include "base/context.h"
 
-/* paths: of the parts from the top down. Errors: INPUT for a part that is missing, damaged, no
- * strip or out of order; BAD_ARGUMENT for an output whose ending is of another format, or that is
- * one of the parts; OUTPUT, NO_MEMORY. */
+/* paths: of the parts, from top to bottom. Errors: INPUT for a part that is missing, damaged, no
+ * strip or out of order; BAD_ARGUMENT if the output's ending belongs to another format, or if the
+ * output is one of the parts; OUTPUT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_join(celspan_context *context, const char *const *paths,
                                        size_t count, const char *output);

@@ -94,8 +94,8 @@ static celspan_status read_place(celspan_context *context, cs_join_part *part, c
   return CELSPAN_OK;
 }
 
-/* Everything before the image data; *c: its first chunk. The other chunks are compared by their
- * checksums. */
+/* Everything before the image data; *c: the first chunk of the data. All other chunks are compared
+ * by their checksums. */
 static celspan_status read_front(celspan_context *context, cs_join_part *part, chunk *c) {
   CS_TRY(read_chunk(context, part, CS_PNG_SIGNATURE, c));
   CS_TRY(read_header(context, part, c));
@@ -144,15 +144,15 @@ static celspan_status inspect(celspan_context *context, cs_join_part *part) {
 
 /* ---------------------------------------------------------------- copies of chunks */
 
-/* The copied part of a chunk: its data without `skipped` bytes at the start and `dropped` at the
- * end, and then `more`. */
+/* The part of a chunk that is copied: its data, without `skipped` bytes at the start and `dropped`
+ * bytes at the end, and then `more`. */
 typedef struct copied {
   uint32_t skipped, dropped;
   const unsigned char *more;
   uint32_t more_size;
 } copied;
 
-/* The bytes of a piece that stay. at: of the piece in the data. */
+/* Writes the bytes of a piece that are kept. at: the offset of the piece in the data. */
 static celspan_status put_piece(cs_joining *joining, celspan_context *context, const copied *what,
                                 uint32_t size, uint32_t at, uint32_t count, uLong *sum) {
   uint32_t from = at < what->skipped ? what->skipped : at, end = size - what->dropped;
@@ -164,7 +164,8 @@ static celspan_status put_piece(cs_joining *joining, celspan_context *context, c
   return cs_file_write(joining->file, context, bytes, to - from);
 }
 
-/* Checks the checksum of the chunk that is read, and makes one for the chunk that is written. */
+/* Verifies the checksum of the chunk that is read, and computes one for the chunk that is
+ * written. */
 static celspan_status copy_data(cs_joining *joining, celspan_context *context,
                                 const cs_join_part *part, const chunk *c, const copied *what,
                                 uLong *sum) {
@@ -194,7 +195,7 @@ static celspan_status copy_chunk(cs_joining *joining, celspan_context *context,
   memcpy(head + 4, c->type, 4);
   CS_TRY(cs_file_write(joining->file, context, head, sizeof head));
   CS_TRY(copy_data(joining, context, part, c, &what, &sum));
-  if (what.more_size > 0) /* zlib answers 0 where the bytes are NULL */
+  if (what.more_size > 0) /* zlib returns 0 if the bytes are NULL */
     sum = crc32_z(sum, what.more, what.more_size);
   cs_png_store_32(tail, (uint32_t)sum);
   CS_TRY(cs_file_write(joining->file, context, what.more, what.more_size));
@@ -203,7 +204,7 @@ static celspan_status copy_chunk(cs_joining *joining, celspan_context *context,
 
 /* ---------------------------------------------------------------- the file */
 
-/* The header with the height of the whole. */
+/* The header, with the height of the whole picture. */
 static celspan_status put_header(cs_joining *joining, celspan_context *context,
                                  const cs_join_part *first, const chunk *c) {
   unsigned char header[CS_PNG_HEADER];
@@ -240,8 +241,8 @@ static celspan_status add_sum(cs_joining *joining, celspan_context *context,
   return CELSPAN_OK;
 }
 
-/* The last chunk of a part, without the end of its stream; in the last part, with the end of the
- * file's stream. */
+/* The last chunk of a part, without the end of the part's stream. The last part gets the end of the
+ * whole stream. */
 static celspan_status add_last(cs_joining *joining, celspan_context *context,
                                const cs_join_part *part, const chunk *c, uint32_t skipped) {
   unsigned char trailer[CS_DEFLATE_TRAILER], own[CS_DEFLATE_TRAILER];

@@ -38,7 +38,7 @@ static spanfile_source source_of(part_source *from) {
                            .resize_user = from->context->memory};
 }
 
-/* A callback that failed has set the error already. */
+/* If a callback has failed, it has set the error already. */
 static celspan_status report(celspan_context *context, spanfile_status status,
                              const cs_join_part *part, const spanfile_fault *fault) {
   switch (status) {
@@ -78,7 +78,7 @@ static celspan_status inspect(celspan_context *context, cs_join_part *part) {
   return CELSPAN_OK;
 }
 
-/* The format of the pixels is not in a part, so it is read once more. */
+/* The format of the pixels is not stored in a part, so it is read again. */
 static celspan_status begin(cs_joining *joining, celspan_context *context,
                             const cs_join_part *first) {
   part_source from = {context, first};
@@ -105,7 +105,7 @@ static celspan_status add(cs_joining *joining, celspan_context *context, const c
   return report(context, spanfile_joiner_add(joining->spanfile, &source, &fault), part, &fault);
 }
 
-/* All rows are there, so only writing can fail. */
+/* All rows have arrived, so only writing can fail. */
 static celspan_status end(cs_joining *joining, celspan_context *context) {
   joining->context = context;
   return spanfile_joiner_finish(joining->spanfile) == SPANFILE_OK ? CELSPAN_OK : CELSPAN_OUTPUT;

@@ -1,5 +1,5 @@
-/* Targa strips: packets end with their row, so bodies are copied one after another without a
- * change. */
+/* Targa strips: packets end with their row, so bodies are copied one after another without
+ * changes. */
 #include <string.h>
 
 #include "output/join/format.h"

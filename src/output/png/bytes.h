@@ -17,11 +17,11 @@
 #include "base/wide.h"
 
 enum {
-  CS_PNG_BATCH = 64,                   /* bytes; a multiple of every register */
-  CS_PNG_COST_MOST = 56 * CS_PNG_BATCH /* bytes of a call for costs: its sums have 16 bits */
+  CS_PNG_BATCH = 64,                   /* bytes; a multiple of the size of every register */
+  CS_PNG_COST_MOST = 56 * CS_PNG_BATCH /* the most bytes for one call: its sums have 16 bits */
 };
 
-/* By their numbers in the file. */
+/* In the order of their numbers in the file. */
 typedef enum cs_png_filter {
   CS_PNG_NONE,
   CS_PNG_SUB,
@@ -35,9 +35,9 @@ typedef enum cs_png_filter {
 CS_WIDE_DECLARE(void, cs_png_bytes_filter,
                 (cs_png_filter kind, const unsigned char *row, const unsigned char *above,
                  size_t pixel_size, size_t size, unsigned char *out));
-/* Adds to each filter's cost the sizes of the differences as signed bytes, and CS_PNG_NOT_ZERO for
- * each that is not 0. Sizes alone, the usual estimate, undervalue the long runs of zeros that drawn
- * pictures have. size: at most CS_PNG_COST_MOST. */
+/* Adds to each filter's cost the magnitudes of the differences as signed bytes, and CS_PNG_NOT_ZERO
+ * for each difference other than 0. Magnitudes alone, the usual estimate, undervalue the long runs
+ * of zeros in drawn pictures. size: at most CS_PNG_COST_MOST. */
 enum { CS_PNG_NOT_ZERO = 16 };
 CS_WIDE_DECLARE(void, cs_png_bytes_add_costs,
                 (const unsigned char *row, const unsigned char *above, size_t pixel_size,

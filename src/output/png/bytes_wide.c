@@ -15,9 +15,9 @@ static inline bytes choose(bytes condition, bytes yes, bytes no) {
 }
 
 /* The nearest of a, b and c to p = a + b - c; the first of several that are equally near. p - a is
- * b - c and p - b is a - c. If c lies between a and b, those two have different signs, and |p - c|,
- * the size of their sum, is the difference of their sizes. Otherwise |p - c| is the sum of the
- * sizes, so c cannot be the nearest alone, and a distance of 255 serves as well. */
+ * b - c and p - b is a - c. If c lies between a and b, p - a and p - b have different signs, and |p
+ * - c|, the magnitude of their sum, is the difference of their magnitudes. Otherwise |p - c| is the
+ * sum of the magnitudes, so c cannot be the only nearest, and a distance of 255 can replace it. */
 static inline bytes paeth(bytes a, bytes b, bytes c) {
   bytes a_is_less = (bytes)(a <= c), b_is_less = (bytes)(b <= c);
   bytes from_b = choose(a_is_less, c - a, a - c), from_a = choose(b_is_less, c - b, b - c);
@@ -121,7 +121,7 @@ void CS_WIDE(cs_png_bytes_add_costs)(const unsigned char *row, const unsigned ch
   cost_sums sums = {0};
   size_t rest = size % CS_PNG_BATCH, whole = size - rest;
   add_costs(&sums, row, row - pixel_size, above, above - pixel_size, whole);
-  if (rest > 0) { /* padded with zeros, so that the sums do not depend on REGISTER */
+  if (rest > 0) { /* the rest is padded with zeros, so that the sums do not depend on REGISTER */
     unsigned char ends[4][CS_PNG_BATCH] = {0};
     memcpy(ends[0], row + whole, rest);
     memcpy(ends[1], row + whole - pixel_size, rest);
@@ -138,7 +138,7 @@ void CS_WIDE(cs_png_bytes_add_costs)(const unsigned char *row, const unsigned ch
 
 /* ---------------------------------------------------------------- pixels */
 
-/* Four pixels at a time. In place, because less is written than was read. */
+/* Converts four pixels at a time. It can work in place, because it writes less than it has read. */
 uint32_t CS_WIDE(cs_png_bytes_drop_alpha)(unsigned char *from, size_t pixel_count) {
   typedef uint8_t four __attribute__((vector_size(16)));
   four common = ~(four){0};

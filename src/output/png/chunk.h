@@ -20,7 +20,7 @@ static inline uint32_t cs_png_load_32(const unsigned char *at) {
   return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
 }
 
-/* The bytes before and after the data of a chunk. */
+/* The bytes before the data of a chunk, and those after it. */
 void cs_png_chunk_ends(const char *type, const void *bytes, size_t size,
                        unsigned char head[CS_PNG_CHUNK_HEAD],
                        unsigned char tail[CS_PNG_CHUNK_TAIL]);

@@ -20,7 +20,7 @@ typedef struct png_sink {
   cs_strip strip;
   int workers;
   size_t title_size;
-  unsigned char title[]; /* the bytes of its chunk */
+  unsigned char title[]; /* the bytes of the chunk that holds the title */
 } png_sink;
 
 /* ---------------------------------------------------------------- chunks */

@@ -8,9 +8,9 @@
 
 /* ---------------------------------------------------------------- rows of runs */
 
-/* In a large picture successive rows are alike. So a choice is kept for one more row for each
- * KEPT_WIDTH of the width, up to KEPT_MOST, and Paeth, which gains hardly anything there, is not
- * tried. */
+/* In a large picture successive rows are similar. Therefore a choice is kept for one more row for
+ * each KEPT_WIDTH of the width, up to KEPT_MOST rows; and Paeth, which saves hardly anything there,
+ * is not tried. */
 enum { KEPT_WIDTH = 4096, KEPT_MOST = 15 };
 
 /* The estimated cost of a run, in eighths of a bit: the cost of its first pixel as literals, by the
@@ -30,7 +30,7 @@ static void begin_filter(cs_png_filter_runs *filter, int32_t width, size_t pixel
   fill_costs(filter->literal_costs);
 }
 
-/* Forgets the filters chosen for earlier rows. */
+/* Forgets the filters that were chosen for earlier rows. */
 static void restart_filter(cs_png_filter_runs *filter) { filter->kept = 0; }
 
 static void end_filter(cs_png_filter_runs *filter, celspan_context *context) {
@@ -62,7 +62,7 @@ static size_t filter_sub(const cs_png_runs *row, cs_deflate_run *out) {
   return (size_t)(next - out);
 }
 
-/* Neighbours with the same difference are joined, so that an unchanged row is one run. */
+/* Neighbours with the same difference are joined, so that a row without changes is one run. */
 static size_t filter_up(const cs_png_runs *row, const cs_png_runs *above, cs_deflate_run *out) {
   const cs_png_run *run = row->runs, *upper = above->runs, *last = row->runs + row->count;
   cs_deflate_run *next = out, last_run = {0};
@@ -99,8 +99,8 @@ static inline uint64_t paeth_pixel(uint64_t left, uint64_t above, uint64_t corne
   return nearest;
 }
 
-/* Where neither row changes, Paeth predicts the pixel to the left, rightly: so between two changes
- * only the first pixel has a difference. */
+/* Where neither row changes, Paeth correctly predicts the pixel to the left. So only the first
+ * pixel after a change has a difference. */
 static inline size_t filter_paeth(const cs_png_runs *row, const cs_png_runs *above,
                                   size_t pixel_size, cs_deflate_run *out) {
   const cs_png_run *run = row->runs, *upper = above->runs, *last = row->runs + row->count;
@@ -157,7 +157,7 @@ static inline void filter_as(cs_png_filter kind, const cs_png_runs *row, const c
                                    : filter_paeth(row, above, pixel_size, out->runs);
 }
 
-/* The best of Up, Sub and Paeth; of equal ones the first, which is the faster. */
+/* The best of Up, Sub and Paeth; of equal ones the first, because it is faster. */
 static inline filtered filter_best(const cs_png_filter_runs *filter, const cs_png_runs *row,
                                    const cs_png_runs *above, size_t pixel_size) {
   static const cs_png_filter tried[3] = {CS_PNG_UP, CS_PNG_SUB, CS_PNG_PAETH};
@@ -219,8 +219,8 @@ static filtered filter_row(cs_png_filter_runs *filter, const cs_png_runs *row,
   }
 }
 
-/* Puts a row: the filter's number and the differences. When there is no row above as runs, only Sub
- * is considered. */
+/* Puts a row: the filter's number and the differences. If the row above is not known as runs, only
+ * Sub is considered. */
 static CELSPAN_CHECKED celspan_status put_filtered_runs(cs_png_filter_runs *filter,
                                                         celspan_context *context,
                                                         const cs_png_runs *row,
@@ -255,8 +255,8 @@ static cs_png_filter choose(cs_isa isa, cs_png_filter most, size_t pixel_size, s
   return (cs_png_filter)best;
 }
 
-/* most: the last filter that is tried; None and Sub come first, which do not look at the row above.
- * size: bytes of the row. */
+/* most: the last filter that is tried. None and Sub come first, because they do not use the row
+ * above. size: bytes of the row. */
 static CELSPAN_CHECKED celspan_status put_filtered_bytes(cs_deflate *deflate,
                                                          celspan_context *context,
                                                          cs_png_filter most, size_t pixel_size,
@@ -278,8 +278,8 @@ static CELSPAN_CHECKED celspan_status put_filtered_bytes(cs_deflate *deflate,
 
 /* ---------------------------------------------------------------- rows */
 
-/* A row becomes bytes when gradients and arrays of at least LONG_SPAN pixels cover more than a
- * DENSE_SHARE-th of it. */
+/* A row is stored as bytes if gradients and arrays of at least LONG_SPAN pixels cover more than
+ * 1/DENSE_SHARE of it. */
 enum { CHUNK = 64, LONG_SPAN = 16, DENSE_SHARE = 8 };
 
 void cs_png_rows_begin(cs_png_rows *rows, celspan_coding coding, int32_t width, bool is_opaque) {
@@ -320,10 +320,10 @@ typedef struct tail {
   cs_png_run *next;
   const cs_png_run *first;
   uint64_t last;   /* the pixel of the last run */
-  uint64_t common; /* as of cs_png_rows */
+  uint64_t common; /* as in cs_png_rows */
 } tail;
 
-/* Adds columns up to `end`. pixel: as coded. */
+/* Adds columns up to `end`. pixel: in its coded form. */
 static inline void add_pixel(const cs_png_rows *rows, tail *t, int32_t end, uint64_t pixel) {
   pixel = rows->coded_size == 4 ? pixel : swap_samples(pixel);
   t->common &= pixel;

@@ -38,7 +38,8 @@ typedef struct cs_png_run {
   uint64_t pixel; /* as bytes of the file, the first lowest */
 } cs_png_run;
 
-/* Runs cover the width; neighbours differ. count 0: no row, as above the first one. */
+/* The runs cover the width, and neighbours differ. count 0: there is no row, for example above the
+ * first one. */
 typedef struct cs_png_runs {
   cs_png_run *runs;
   size_t count, capacity;
@@ -47,40 +48,41 @@ typedef struct cs_png_runs {
 typedef struct cs_png_filter_runs {
   int32_t width;
   size_t pixel_size;
-  cs_png_filter last;             /* the last one that was chosen by its cost */
-  int kept;                       /* for how many more rows it is kept */
-  uint8_t literal_costs[256];     /* of a difference, about, in eighths of a bit */
-  cs_deflate_run *differences[2]; /* under two filters, to be compared */
+  cs_png_filter last;             /* the last filter that was chosen by its cost */
+  int kept;                       /* for how many more rows it is used */
+  uint8_t literal_costs[256];     /* about how much a difference costs, in eighths of a bit */
+  cs_deflate_run *differences[2]; /* under two filters that are compared */
   size_t capacities[2];
 } cs_png_filter_runs;
 
 typedef struct cs_png_row {
   bool is_bytes;
-  cs_png_runs runs;     /* unless is_bytes; none: the row above the first one */
-  unsigned char *bytes; /* NULL until first needed; zeros before and after (output/png/bytes.h) */
+  cs_png_runs runs; /* used unless is_bytes; without runs, this is the row above the first one */
+  unsigned char *bytes; /* NULL until it is needed; zeros before and after (output/png/bytes.h) */
 } cs_png_row;
 
 typedef struct cs_png_rows {
   celspan_coding coding; /* 8 or 16 bit */
   int32_t width;
-  size_t coded_size, pixel_size; /* bytes of a pixel, as coded and as in the file */
-  bool is_strip;                 /* the first row's filter may not look up; false after begin */
+  size_t coded_size, pixel_size; /* bytes of a pixel: in coded form, and in the file */
+  bool is_strip; /* the first row's filter may not use the row above; false after begin */
   uint64_t stored;               /* the bits of a coded pixel that are in the file */
   uint64_t common;               /* the bits that are set in all coded pixels of the row */
   cs_png_row rows[2];
-  int current; /* the row that comes next */
+  int current; /* index of the next row */
   cs_png_filter_runs filter;
   cs_single_colours colours;
 } cs_png_rows;
 
-/* is_opaque: alpha is left out; a pixel that is not opaque is then refused. */
+/* is_opaque: alpha is left out; then a pixel that is not opaque is refused. */
 void cs_png_rows_begin(cs_png_rows *rows, celspan_coding coding, int32_t width, bool is_opaque);
-/* Forgets the filters chosen for earlier rows, so that the next row's does not depend on them. */
+/* Forgets the filters that were chosen for earlier rows, so that the choice for the next row does
+ * not depend on them. */
 void cs_png_rows_restart(cs_png_rows *rows);
 CELSPAN_CHECKED celspan_status cs_png_rows_put(cs_png_rows *rows, celspan_context *context,
                                                const celspan_span *spans, size_t span_count,
                                                cs_deflate *deflate);
-/* A row that is not put: it is only the row above the next one. */
+/* Sets a row that is not written: it is only the row above the next one. */
 CELSPAN_CHECKED celspan_status cs_png_rows_set_above(cs_png_rows *rows, celspan_context *context,
                                                      const celspan_span *spans, size_t span_count);
 void cs_png_rows_end(cs_png_rows *rows, celspan_context *context);

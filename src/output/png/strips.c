@@ -6,22 +6,21 @@
 #include "engine/span/row_queue.h"
 
 enum {
-  STRIP_PIXELS = 1 << 18,      /* enough for a thread of its own to pay */
-  STRIP_ROWS = 64,             /* rows of a strip: flat rows are short, so a strip may have this
-                                  many */
-  STRIP_PIXELS_MOST = 1 << 20, /* spans of pictures are 16 bytes a pixel */
+  STRIP_PIXELS = 1 << 18,      /* enough work for a separate thread */
+  STRIP_ROWS = 64, /* the most rows of a strip, which may be reached because flat rows are short */
+  STRIP_PIXELS_MOST = 1 << 20, /* spans of pictures need 16 bytes for each pixel */
   WORKERS_MOST = 64,
-  AHEAD = 2 /* strips filled and not yet written, for each worker */
+  AHEAD = 2 /* strips that are filled and not yet written, for each worker */
 };
 
-/* Bytes of the stream, as they grow. */
+/* Bytes of the stream, in a buffer that grows. */
 typedef struct buffer {
   unsigned char *bytes;
   size_t size, capacity;
 } buffer;
 
 typedef struct strip {
-  cs_row_queue rows; /* with the row above, unless this is the first strip */
+  cs_row_queue rows; /* including the row above, except in the first strip */
   buffer packed;
   cs_deflate_sum sum;
 } strip;
@@ -31,7 +30,7 @@ typedef struct worker {
   cs_png_strips *strips;
   cs_png_rows rows;
   cs_deflate *deflate;
-  buffer *packed; /* where its stream goes now */
+  buffer *packed; /* where its stream is written now */
 } worker;
 
 struct cs_png_strips {
@@ -39,13 +38,13 @@ struct cs_png_strips {
   cs_deflate_write write;
   void *user;
   int32_t strip_rows, total;
-  int32_t row; /* the next one */
+  int32_t row; /* the next row */
   cs_deflate_sum sum;
   int worker_count;
-  worker *workers;       /* from the first row on */
+  worker *workers;       /* created with the first row */
   strip *ring;           /* strip i lies at i % ring_size */
-  int32_t ring_size;     /* 1 where one worker does without the pipeline */
-  cs_pipeline *pipeline; /* NULL where there is one worker, or no row yet */
+  int32_t ring_size;     /* 1 if one worker writes without a pipeline */
+  cs_pipeline *pipeline; /* NULL if there is one worker, or before the first row */
 };
 
 /* ---------------------------------------------------------------- one strip */
@@ -86,7 +85,7 @@ static celspan_status put_rows(worker *w, int32_t index, strip *s) {
   return cs_deflate_end(w->deflate, &w->context, &s->sum);
 }
 
-/* Writes the packed bytes from `start` on, which belong to a strip. The last one ends the
+/* Writes the packed bytes from `start` on, which belong to a strip. The last strip ends the
  * stream. */
 static celspan_status write_strip(cs_png_strips *strips, celspan_context *context, int32_t index,
                                   cs_deflate_sum sum, buffer *packed, size_t start, size_t end) {
@@ -170,7 +169,7 @@ static celspan_status start_pipeline(cs_png_strips *strips, celspan_context *con
   return cs_pipeline_create(context, &desc, &strips->pipeline);
 }
 
-/* Hands the strip that is full to the workers and makes room for another. */
+/* Passes the full strip to the workers and makes room for another one. */
 static celspan_status pass_on(cs_png_strips *strips, celspan_context *context) {
   cs_pipeline_add(strips->pipeline, context, CS_PIPELINE_ANYWHERE, CELSPAN_OK);
   return cs_pipeline_deliver(strips->pipeline, context, (size_t)strips->ring_size - 1);
@@ -180,7 +179,8 @@ static strip *strip_of_row(const cs_png_strips *strips, int32_t y) {
   return &strips->ring[y / strips->strip_rows % strips->ring_size];
 }
 
-/* With the last row of the strip before, which nobody overwrites until the ring comes round. */
+/* Begins a strip with the last row of the previous strip, which is not overwritten until the whole
+ * ring has been used. */
 static celspan_status begin_keeping(cs_png_strips *strips, celspan_context *context, strip *s) {
   cs_row_queue_clear(&s->rows);
   if (strips->row == 0)
@@ -289,14 +289,14 @@ void cs_png_strips_destroy(cs_png_strips *strips, celspan_context *context) {
 
 /* ---------------------------------------------------------------- shares */
 
-/* The number of strips in a share: enough that the row above it, which is made twice, costs
+/* The number of strips in a share: so many that the row above it, which is made twice, costs
  * little. */
 enum { SHARE_STRIPS = 4, SHARES_A_WORKER = 8 };
 
 typedef struct share {
   buffer packed;
   int32_t first; /* strip */
-  int32_t count; /* strips that are packed */
+  int32_t count; /* strips that have been packed */
   size_t ends[SHARE_STRIPS];
   cs_deflate_sum sums[SHARE_STRIPS];
 } share;

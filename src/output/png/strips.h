@@ -16,26 +16,26 @@ typedef struct cs_png_strips cs_png_strips;
 typedef struct cs_png_picture {
   celspan_coding coding; /* resolved, 8 or 16 bit */
   bool is_opaque;
-  bool is_strip; /* there are rows above row 0, which is filtered without them */
+  bool is_strip; /* there are rows above row 0, but its filter does not use them */
   int32_t width, height;
   int workers; /* 0: one per processor */
 } cs_png_picture;
 
-/* write: called by the thread that calls here, with a part at a time. Errors: NO_MEMORY. */
+/* write: called with a part at a time, by the thread that calls these functions. Errors:
+ * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_png_strips_create(celspan_context *context,
                                                     const cs_png_picture *picture,
                                                     cs_deflate_write write, void *user,
                                                     cs_png_strips **out);
-/* The next row. Errors: NO_MEMORY; BAD_ARGUMENT when it is not opaque although the desc says so;
-   the errors of write.
- */
+/* The next row. Errors: NO_MEMORY; BAD_ARGUMENT if it is not opaque although the description says
+ * so; the errors of write. */
 CELSPAN_CHECKED celspan_status cs_png_strips_row(cs_png_strips *strips, celspan_context *context,
                                                  const celspan_span *spans, size_t span_count);
-/* After the last row: writes the rest. */
+/* Called after the last row: writes the rest. */
 CELSPAN_CHECKED celspan_status cs_png_strips_finish(cs_png_strips *strips,
                                                     celspan_context *context);
-/* How several threads fill strips from the rows that they make themselves; in place of
+/* How several threads fill strips from rows that they make themselves; used instead of
  * cs_png_strips_row. */
 cs_shares cs_png_strips_shares(cs_png_strips *strips);
-/* At any time; NULL is ignored. */
+/* May be called at any time; NULL is ignored. */
 void cs_png_strips_destroy(cs_png_strips *strips, celspan_context *context);

@@ -11,10 +11,10 @@
 
 struct cs_record_picture {
   celspan_context *context;
-  cs_picture *picture; /* a reference; NULL: the nodes of */
+  cs_picture *picture; /* a reference; NULL: the source is the nodes of */
   const cs_defocused *grid;
   bool is_light;
-  celspan_status *status; /* of reading it, where that failed */
+  celspan_status *status; /* the status of reading it, if reading failed */
 };
 
 void cs_record_pictures_finish(cs_recording *record, cs_memory *memory) {
@@ -82,7 +82,7 @@ static bool put_row(void *user, uint32_t y, void *out) {
 
 /* ---------------------------------------------------------------- pictures */
 
-/* Whether a picture has only codes of 8 bits. A part has the codes of its whole. */
+/* Whether a picture has only codes of 8 bits. A part has the codes of its whole picture. */
 static celspan_status find_form(celspan_context *context, const cs_picture *picture,
                                 bool *is_light) {
   cs_picture_entry *entry;
@@ -99,7 +99,7 @@ static celspan_status find_form(celspan_context *context, const cs_picture *pict
   return CELSPAN_OK;
 }
 
-/* Appends a picture with its source, whose reference it takes. */
+/* Appends a picture with its source, and takes over the source's reference. */
 static celspan_status append(const cs_record_picture *source, planefile_picture picture,
                              cs_recording *record) {
   celspan_context *context = source->context;
@@ -194,8 +194,8 @@ celspan_status cs_record_image_hides(celspan_context *context, const cs_image_la
 
 /* ---------------------------------------------------------------- defocused layers */
 
-/* Node n of an axis is where the pixel's place on the own grid is n - 1/2, and the middle of texel
- * n of a picture is n + 1/2. */
+/* Node n of an axis is at n - 1/2 on the own grid, and the middle of texel n of a picture is at n +
+ * 1/2. */
 celspan_status cs_record_defocused(celspan_context *context, const cs_defocus *defocus,
                                    cs_recording *record, planefile_axis *out) {
   const cs_regrid_axis *axes = defocus->regrid.axes;

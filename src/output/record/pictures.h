@@ -23,14 +23,14 @@
 CELSPAN_CHECKED celspan_status cs_record_image(celspan_context *context,
                                                const cs_image_layer *image, cs_recording *record,
                                                planefile_axis *out);
-/* The picture by which a defocused layer is recorded. Errors: NO_MEMORY; BAD_ARGUMENT for one that
- * a plane cannot keep; LIMIT for too many nodes. */
+/* The picture by which a defocused layer is recorded. Errors: NO_MEMORY; BAD_ARGUMENT for a layer
+ * that a plane cannot store; LIMIT for too many nodes. */
 CELSPAN_CHECKED celspan_status cs_record_defocused(celspan_context *context,
                                                    const cs_defocus *defocus, cs_recording *record,
                                                    planefile_axis *out);
 /* *out: whether it is opaque everywhere. Errors: those of reading the header. */
 CELSPAN_CHECKED celspan_status cs_record_image_hides(celspan_context *context,
                                                      const cs_image_layer *image, bool *out);
-/* To be called when all have been added, so that they can be read. */
+/* Must be called after all pictures have been added, so that they can be read. */
 void cs_record_pictures_join(cs_recording *record);
 void cs_record_pictures_finish(cs_recording *record, cs_memory *memory);

@@ -14,13 +14,13 @@ static inline void cs_place_plane(const double over_pixels[3], double out[3]) {
   out[2] = over_pixels[2];
 }
 
-/* Whether a matrix from pixels of the plan has no perspective; its w counts as 1 then. */
+/* Whether a matrix from pixels of the plan has no perspective; if so, its w counts as 1. */
 static inline bool cs_place_is_affine(const celspan_matrix *inverse) {
   return inverse->m[6] == 0 && inverse->m[7] == 0 && inverse->m[8] > 0;
 }
 
-/* The function of[0] u + of[1] v + of[2] w of own units; inverse: from pixels of the plan to
- * these. */
+/* The function of[0] u + of[1] v + of[2] w of own units. inverse: from pixels of the plan to own
+ * units. */
 static inline void cs_place_own(const celspan_matrix *inverse, const double of[3], double out[3]) {
   const double *m = inverse->m;
   double over_pixels[3], last = cs_place_is_affine(inverse) ? m[8] : 1;

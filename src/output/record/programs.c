@@ -8,13 +8,13 @@
 #include "output/record/pictures.h"
 #include "output/record/places.h"
 
-#define SAMPLES 64              /* of a table, from one stop to the next */
+#define SAMPLES 64              /* samples of a table, from one stop to the next */
 #define TOLERANCE (1.0 / 16384) /* of a table */
 
 /* A group that was entered. */
 typedef struct entered_group {
   uint32_t group;        /* the group around it, entered before, or CS_STACK_NONE */
-  uint32_t head, length; /* the steps of its head, which is a layer */
+  uint32_t head, length; /* the steps of its head, which form a layer */
 } entered_group;
 
 typedef struct program_maker {
@@ -23,14 +23,15 @@ typedef struct program_maker {
   uint32_t first; /* step of the program */
   uint32_t group; /* the innermost that was entered, or CS_STACK_NONE */
   entered_group outer[PLANEFILE_DEPTH];
-  uint32_t count;                      /* of the groups that were entered */
-  uint32_t depth, deepest;             /* of their steps */
-  bool has_glass[PLANEFILE_DEPTH + 1]; /* layers behind it shine through in its colours */
+  uint32_t count;                      /* how many groups have been entered */
+  uint32_t depth, deepest; /* depth: of the nested steps now; deepest: the greatest depth */
+  bool has_glass[PLANEFILE_DEPTH + 1]; /* layers behind the level shine through in its colours */
   bool has_veil[PLANEFILE_DEPTH + 1];  /* the following layers are multiplied */
-  bool lost_glass; /* glass is in a layer by now: all behind it would shine through in grey */
+  /* glass is already in a layer, so everything behind it would shine through in grey */
+  bool lost_glass;
   size_t light;    /* the next back light to be met */
   float keep;      /* the share of transparency that the mattes of back lights leave */
-  bool is_hard;    /* steps cannot say it */
+  bool is_hard;    /* steps cannot express the program */
 } program_maker;
 
 /* ---------------------------------------------------------------- colours */
@@ -79,7 +80,7 @@ static celspan_status meet_light(program_maker *m) {
   return add_flat(m, light->light, 0);
 }
 
-/* Everything behind is included: mattes make the rest opaque. */
+/* Everything behind the frame is included: mattes make the rest opaque. */
 static celspan_status end_frame(program_maker *m) {
   while (m->light < m->source->stack->light_count)
     CS_TRY(meet_light(m));
@@ -110,7 +111,7 @@ static celspan_status add_leave(program_maker *m, uint8_t how, planefile_cell fa
 
 static planefile_cell all_of(float factor) { return cell_of(cs_v4_all(factor), factor); }
 
-/* The kinds of groups that steps can say. */
+/* Whether a group is of a kind that steps cannot express. */
 static bool is_hard_group(const cs_group *group) {
   bool is_blend = group->blend == CELSPAN_BLEND_MULTIPLY || group->blend == CELSPAN_BLEND_SCREEN;
   bool is_converted = group->converts != CELSPAN_SPACE_AROUND;
@@ -141,7 +142,7 @@ static celspan_status enter_group(program_maker *m, uint32_t group) {
   return m->is_hard ? CELSPAN_OK : open_group(m, group);
 }
 
-/* How leaving a group changes its channels. */
+/* The step by which leaving a group changes the group's channels. */
 static planefile_step leaving(const cs_group *group) {
   cs_v4 factors = cs_v4_all(1);
   if (group->has_front)
@@ -222,11 +223,11 @@ static celspan_status leave_source(program_maker *m, const cs_group *ground,
   return CELSPAN_OK;
 }
 
-/* A matte is a veil, behind which the rest of its group is one layer. */
+/* A matte is a veil; the rest of its group behind it is one layer. */
 static celspan_status leave_strength(program_maker *m, const cs_group *matte,
                                      const planefile_step *leave) {
   uint8_t how = matte->is_luma ? PLANEFILE_LUMA_MATTE : PLANEFILE_MATTE;
-  m->outer[m->count - 1].length = 1; /* it has one */
+  m->outer[m->count - 1].length = 1; /* a matte has one */
   CS_TRY(add_leave(m, (uint8_t)(how + matte->inverts), leave->colour));
   return m->is_hard ? CELSPAN_OK : add_enter(m);
 }
@@ -237,7 +238,7 @@ static celspan_status leave_head(program_maker *m, const planefile_step *leave) 
                                          : leave_strength(m, around, leave);
 }
 
-/* A source shows where the rest of its ground is not. */
+/* A source is visible where the rest of its ground is not. */
 static celspan_status leave_ground(program_maker *m, const cs_group *ground,
                                    const entered_group *of, const planefile_step *leave) {
   const cs_v4 all = {1, 1, 1, 1}, alpha = {0, 0, 0, 1};
@@ -251,7 +252,7 @@ static celspan_status leave_matte(program_maker *m, const cs_group *group, const
                                   planefile_step *leave) {
   if (of->length > 0)
     CS_TRY(add_leave(m, PLANEFILE_LAYER, all_of(1)));
-  else if (!group->inverts) /* there is no matte, so nothing is shown */
+  else if (!group->inverts) /* there is no matte, so nothing is visible */
     leave->colour = (planefile_cell){{0}};
   return add_leave(m, leave->how, leave->colour);
 }
@@ -334,7 +335,7 @@ static planefile_axis axis_of(const cs_shade *shade) {
   return axis;
 }
 
-/* Where the axis of a layer is known; *out: the axis, if it is not known yet. */
+/* The place of the axis of a layer, if it is known already; otherwise *out: the axis. */
 static celspan_status make_axis(program_maker *m, const cs_layer *layer, uint32_t **known,
                                 planefile_axis *out) {
   const cs_stack *stack = m->source->stack;
@@ -411,7 +412,7 @@ static celspan_status add_part(program_maker *m, const cs_layer *layer, part wha
   return add_varied(m, layer, stop);
 }
 
-/* A layer that dims the channels in different ways is a light in front of glass. */
+/* A layer that dims the channels differently becomes a light in front of glass. */
 static celspan_status add_gradient(program_maker *m, const cs_layer *layer) {
   const cs_texture_variation *of = m->source->stack->shades[layer->index].texture->variation;
   bool is_glass = false;
@@ -444,7 +445,7 @@ static celspan_status add_triangle(program_maker *m, const cs_layer *layer) {
              : add_leave(m, PLANEFILE_LAYER, cell_of(layer->fade * layer->front, layer->fade));
 }
 
-/* Adds a picture. If it hides everything behind it, a flat layer behind it says so. */
+/* Adds a picture. If it hides everything behind it, a flat layer behind it records this. */
 static celspan_status add_picture(program_maker *m, const cs_layer *layer) {
   celspan_context *context = m->source->context;
   size_t stop = m->record->stop_count;
@@ -490,7 +491,7 @@ static celspan_status add_paint(program_maker *m, const cs_layer *layer) {
                                                      : add_gradient(m, layer);
 }
 
-/* The front light of a group multiplies all that is in it. */
+/* The front light of a group multiplies everything in the group. */
 static celspan_status add_layer(program_maker *m, const cs_layer *layer) {
   if (layer->role != CS_LAYER_FRONT)
     return add_paint(m, layer);
@@ -542,7 +543,7 @@ static celspan_status fold(const program_maker *m, const cs_program *program, cs
   return CELSPAN_OK;
 }
 
-/* Whether a line from one sample to another passes all between them. */
+/* Whether all samples between two samples lie on the line between these two. */
 static bool is_straight(const table *of, int from, int to) {
   bool is_near = true;
   cs_v4 a = cs_v4_load(of->rgba[from]), b = cs_v4_load(of->rgba[to]);
@@ -585,7 +586,7 @@ static celspan_status add_table(program_maker *m, const cs_program *program, con
   return add_varied(m, layer, stop);
 }
 
-/* The layer of a program that varies, which is its only one, and has stops; NULL: there is none. */
+/* The only layer of a program that varies, if it is a gradient with stops; otherwise NULL. */
 static const cs_layer *only_gradient(const cs_stack *stack, const cs_program *program) {
   const cs_layer *found = NULL;
   for (uint32_t i = 0; i < program->length; i++) {

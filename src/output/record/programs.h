@@ -20,14 +20,15 @@
 typedef struct cs_record_source {
   celspan_context *context;
   const cs_stack *stack;
-  struct cs_defocus *const *defocus; /* of its defocused layers */
-  float weight;                      /* of all that is made */
-  uint32_t *axes; /* of each shade, then each image, then each defocused layer its number in the
-                     record plus 1; 0: it has none yet */
+  struct cs_defocus *const *defocus; /* of the defocused layers */
+  float weight;                      /* of everything that is made */
+  /* for each shade, then each image, then each defocused layer: the number of its axis in the
+   * record plus 1; 0: it has no axis yet */
+  uint32_t *axes;
 } cs_record_source;
 
 /* Appends the program's steps, and the values that they need, to a record. Errors: NO_MEMORY;
- * BAD_ARGUMENT: a plane cannot keep it. */
+ * BAD_ARGUMENT if a plane cannot store the program. */
 CELSPAN_CHECKED celspan_status cs_record_program(const cs_record_source *source,
                                                  const cs_program *program, cs_recording *record,
                                                  planefile_program *out);

@@ -8,7 +8,8 @@
 #include "output/record/pictures.h"
 #include "output/record/programs.h"
 
-#define UNITS ((double)PLANEFILE_SIDE / CS_RECORD_SIDE) /* of a plane, in a pixel of the plan */
+/* units of a plane in a pixel of the plan */
+#define UNITS ((double)PLANEFILE_SIDE / CS_RECORD_SIDE)
 #define COUNT_MOST (UINT32_MAX / 4)                     /* of anything */
 #define WINDINGS_MOST ((size_t)1 << 24)
 
@@ -18,9 +19,9 @@ typedef struct recorder {
   cs_recording *out;
   cs_events events;
   uint32_t *chain_of;  /* by chain of the plan: the chain of the record plus 1; 0: none yet */
-  cs_hash_table cells; /* by their colours or layers */
+  cs_hash_table cells; /* found by their colours or layers */
   cs_record_source source;
-  const planefile_rounding *rounding; /* NULL: colours are not rounded to codes */
+  const planefile_rounding *rounding; /* NULL: colours are not rounded */
 } recorder;
 
 void cs_record_finish(cs_recording *record, cs_memory *memory) {
@@ -137,7 +138,7 @@ static planefile_point point_at(double x, double y) {
   return (planefile_point){to_units(x), to_units(y), PLANEFILE_WEIGHT};
 }
 
-/* The control points of a piece in powers, from its coefficients; its ends are known. */
+/* The control points of a piece, from its coefficients in powers; its end points are known. */
 static void from_powers(const cs_hpoint *c, int degree, planefile_point *out) {
   for (int i = 1; i < degree; i++) {
     double second = degree == 3 && i == 2 ? 1.0 / 3 : 0, first = (double)i / degree;
@@ -206,7 +207,7 @@ static planefile_point course_point(const cs_course_point *at) {
   return point_at(at->x * unit, at->y * unit);
 }
 
-/* A chain of lines, along a course. */
+/* Adds a chain of lines that follows a course. */
 static celspan_status add_lines(recorder *r, uint32_t course, uint32_t *out) {
   cs_recording *record = r->out;
   const cs_course *of = &r->events.courses.courses[course];
@@ -226,7 +227,7 @@ static celspan_status add_lines(recorder *r, uint32_t course, uint32_t *out) {
 
 /* ---------------------------------------------------------------- borders */
 
-/* The heights that borders of a chain of the record may have. */
+/* The heights between which borders of a chain of the record may lie. */
 static void find_limits(const cs_recording *record, uint32_t number, int32_t *least,
                         int32_t *most) {
   const planefile_chain *chain = &record->chains[number];
@@ -237,7 +238,7 @@ static void find_limits(const cs_recording *record, uint32_t number, int32_t *le
   *most = foot < PLANEFILE_SIDE ? foot : PLANEFILE_SIDE;
 }
 
-/* A height of the sweep in units of a plane. */
+/* A height of the sweep, converted to units of a plane. */
 static int32_t height_of(int32_t y) { return to_units(y * (1.0 / CS_COURSE_UNIT)); }
 
 static celspan_status find_chain(recorder *r, uint32_t course, uint32_t *out) {
@@ -276,7 +277,7 @@ static celspan_status add_borders(recorder *r) {
 
 /* ---------------------------------------------------------------- the record */
 
-/* The cell around each plan contributes to cell 0, the cell around the sum of all plans. */
+/* The cell around each plan is added to cell 0, the cell around the sum of all plans. */
 static void add_to_sum(const recorder *r, uint32_t cell) {
   planefile_cell *cells = r->out->cells;
   for (int c = 0; c < 4 && cell > 0; c++) {

@@ -15,16 +15,16 @@
 #include "engine/row/plan.h"
 #include "output/record/recording.h"
 
-/* Begins a plane that is the sum of several plans; out: empty. Without it a plane is one plan. */
+/* Begins a plane that is the sum of several plans; out: empty. Without this call, a plane is one
+ * plan. */
 CELSPAN_CHECKED celspan_status cs_record_begin_sum(celspan_context *context, cs_recording *out);
 /* Adds a plan of SIDE x SIDE pixels that keeps its curves, with all its colours times a weight.
- * rounding: borrowed; colours are rounded to 8-bit codes, and what has one colour then is one cell;
- * NULL: they are not. out: empty, or a sum; must be finished whatever happens. Errors: NO_MEMORY;
- * BAD_ARGUMENT for contents that a plane cannot keep (programs.h); LIMIT. */
+ * rounding: borrowed; colours are rounded to 8-bit codes, and areas with equal colours become one
+ * cell; NULL: colours are not rounded. out: empty, or a sum; must be finished in any case. Errors:
+ * NO_MEMORY; BAD_ARGUMENT for contents that a plane cannot keep (programs.h); LIMIT. */
 CELSPAN_CHECKED celspan_status cs_record_put_plan(celspan_context *context, const cs_plan *plan,
                                                   float weight, const planefile_rounding *rounding,
                                                   cs_recording *out);
 void cs_record_finish(cs_recording *record, cs_memory *memory);
-/* Valid as long as the record does not change. record->status says why its pictures could not be
- * read. */
+/* Valid until the record changes. record->status says why its pictures could not be read. */
 planefile_band cs_record_plane(cs_recording *record);

@@ -14,9 +14,9 @@
 #include "base/context.h"
 
 #define CS_RECORD_SIDE 16381 /* pixels of the plan's width and height */
-#define CS_RECORD_UNIT ((double)CS_RECORD_SIDE / PLANEFILE_SIDE) /* of a plane, in pixels */
+#define CS_RECORD_UNIT ((double)CS_RECORD_SIDE / PLANEFILE_SIDE) /* a unit of a plane, in pixels */
 
-typedef struct cs_record_picture cs_record_picture; /* where its pixels come from: pictures.c */
+typedef struct cs_record_picture cs_record_picture; /* the source of its pixels: pictures.c */
 
 typedef struct cs_recording {
   planefile_point *points;

@@ -4,7 +4,7 @@
 
 void cs_difference_pale(uint8_t *pixels, size_t count) {
   for (uint8_t *p = pixels; p < pixels + 4 * count; p += 4) {
-    int luma = (54 * p[0] + 183 * p[1] + 19 * p[2]) / 256; /* Rec. 709's weights, of 256 */
+    int luma = (54 * p[0] + 183 * p[1] + 19 * p[2]) / 256; /* Rec. 709's weights, in 256ths */
     int grey = 255 - (255 - luma) * p[3] / 255 * 2 / 5;
     p[0] = p[1] = p[2] = (uint8_t)grey;
     p[3] = 255;

@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Pixels are RGBA of 8 bits, sRGB, alpha straight. In place. */
+/* pixels: RGBA of 8 bits, sRGB, alpha straight; changed in place. */
 void cs_difference_pale(uint8_t *pixels, size_t count);
-/* distance: of coded values, 0..1; more counts as 1. */
+/* distance: between coded values, 0..1; greater values count as 1. */
 void cs_difference_mark(double distance, uint8_t *pixels, size_t count);

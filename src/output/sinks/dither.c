@@ -5,8 +5,9 @@
 
 /* ---------------------------------------------------------------- a row */
 
-/* Bayer's thresholds: (2 k + 1)/512 for a k of 0..255, each once in 16 x 16 pixels. k is made of
- * the bits of x ^ y and of y in turn, the lowest first, so that neighbours are far apart. */
+/* Bayer's thresholds: (2 k + 1)/512 for a k of 0..255, each once in 16 x 16 pixels. k consists of
+ * alternate bits of x ^ y and of y, the lowest first, so that the thresholds of neighbours differ
+ * much. */
 static float threshold(uint32_t x, uint32_t y) {
   uint32_t k = 0, mixed = x ^ y;
   for (int bit = 0; bit < 4; bit++)
@@ -14,7 +15,7 @@ static float threshold(uint32_t x, uint32_t y) {
   return (float)(2 * k + 1) / 512;
 }
 
-/* Whether wide makes know the coding. */
+/* Whether the vectorized functions support the coding. */
 static bool is_usual(const celspan_coding *coding) {
   return coding->transfer == CELSPAN_TRANSFER_SRGB && coding->alpha <= CELSPAN_ALPHA_PREMULTIPLIED;
 }

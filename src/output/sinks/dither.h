@@ -21,9 +21,9 @@
 void cs_dither_row(const celspan_coding *coding, int32_t x, int32_t y, const celspan_span *spans,
                    size_t span_count, unsigned char *row);
 
-/* Where the coding that was asked for has depth 8_DITHER, puts a sink that dithers in front of
- * *sink, which takes pixels in `coding`, resolved; else does nothing. x, y: the place of the first
- * pixel. On failure *sink is discarded. Errors: NO_MEMORY. */
+/* If the requested coding has the depth 8_DITHER, puts a sink that dithers in front of *sink, which
+ * takes pixels in `coding`, resolved; otherwise does nothing. x, y: the place of the first pixel.
+ * On failure *sink is discarded. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_dither_sink(celspan_context *context, const celspan_coding *asked,
                                               const celspan_coding *coding, int32_t x, int32_t y,
                                               celspan_sink *sink);
@@ -32,14 +32,15 @@ CELSPAN_CHECKED celspan_status cs_dither_sink(celspan_context *context, const ce
 
 enum { CS_DITHER_PERIOD = 16 }; /* pixels after which thresholds repeat, along x and along y */
 
-/* What is added to a number before it is cut to a whole one: 1 less the threshold of the place, for
+/* What is added to a number before its fraction is cut off: 1 minus the threshold of the place, for
  * each channel of two periods of pixels along a row. */
 typedef struct cs_dither_lifts {
   float of[2 * CS_DITHER_PERIOD][4];
 } cs_dither_lifts;
 
-/* As cs_dither_row, where pixel x of a row has lift x modulo the period. Exact for every coding in
- * the narrowest make; the others take sRGB, straight or premultiplied, alone. */
+/* As cs_dither_row, where pixel x of a row has lift x modulo the period. The version for the
+ * narrowest registers is exact for every coding; the others support only sRGB, straight or
+ * premultiplied. */
 CS_WIDE_DECLARE(void, cs_dither_spans,
                 (const celspan_coding *coding, const cs_dither_lifts *lifts, int32_t x,
                  const celspan_span *spans, size_t span_count, unsigned char *row));

@@ -31,13 +31,13 @@ static inline void exact_pixel(const float coded[4], const float lift[4], unsign
 
 #ifdef __AVX2__
 
-/* What is rounded: numbers of 0..255. */
+/* The numbers that are rounded: 0..255. */
 static inline cs_wide numbers_of(const dithered *d, cs_wide rgba) {
   return cs_srgb8_numbers(d->is_straight ? cs_srgb8_straight(rgba) : cs_srgb8_clamped(rgba),
                           d->is_coded);
 }
 
-/* Codes the pixels that have an unsure lane (a set bit). */
+/* Codes the pixels that have an unsure lane (a set bit) again. */
 static void settle(const dithered *d, cs_wide rgba, const float (*lifts)[4], unsigned unsure,
                    unsigned char *out) {
   float colours[CS_WIDE_LANES], coded[4];
@@ -60,7 +60,7 @@ static inline void put_pixels(const dithered *d, cs_wide rgba, cs_wide numbers,
 
 #else
 
-/* What is rounded: the exact numbers of 0..1. */
+/* The numbers that are rounded: exact numbers of 0..1. */
 static inline cs_wide numbers_of(const dithered *d, cs_wide rgba) {
   float colour[4], coded[4];
   cs_wide_store(colour, rgba);
@@ -80,8 +80,8 @@ static inline void put_pixels(const dithered *d, cs_wide rgba, cs_wide numbers,
 
 /* ---------------------------------------------------------------- spans */
 
-/* As many pixels of one colour as wanted, or a period of them, which is repeated. x: the place of
- * the first one. */
+/* Pixels of one colour: all of them, or one period, which is repeated. x: the place of the first
+ * one. */
 static inline void put_single(const dithered *d, const celspan_span *span, uint32_t x,
                               unsigned char *out) {
   unsigned char period[4 * CS_DITHER_PERIOD + CS_WIDE_LANES];
@@ -95,7 +95,7 @@ static inline void put_single(const dithered *d, const celspan_span *span, uint3
   memcpy(out, period, rest);
 }
 
-/* Columns from x on of a span whose colours vary: `count`, at most a register full. */
+/* At most a register of columns, `count` from x on, of a span whose colours vary. */
 static inline cs_wide colours_of(const celspan_span *span, int32_t x, size_t count) {
   float last[CS_WIDE_LANES] = {0};
   if (span->kind == CELSPAN_SPAN_GRADIENT)

@@ -17,16 +17,17 @@ struct cs_file {
   const cs_file_system *system;
   size_t allocated;
   int descriptor;
-  const char *failed_to; /* NULL, or the first failure; `error` is its errno */
+  const char *failed_to; /* NULL, or what failed first; `error` is its errno */
   int error;
-  uint64_t flushed; /* bytes from the start that the system has */
+  uint64_t flushed; /* bytes from the start that the system has received */
   size_t buffered;
   char *path, *temporary;
-  size_t folder_length; /* of both: up to and with the last slash */
+  size_t folder_length; /* the length of the folder in both names, including the last slash */
   unsigned char buffer[BUFFER_BYTES];
 };
 
-enum { CHUNK = 1 << 16 }; /* bytes hashed at a time; existing records depend on this number */
+/* bytes that are hashed at a time; existing records depend on this number */
+enum { CHUNK = 1 << 16 };
 
 bool cs_file_contents_read(int descriptor, cs_file_contents *out) {
   unsigned char chunk[CHUNK];
@@ -112,7 +113,7 @@ static int open_again(const cs_file_system *system, const char *path, int flags,
   return descriptor;
 }
 
-/* Tries names until one is free: another process may be writing the same frame. */
+/* Tries names until one is free, because another process may be writing the same frame. */
 static int open_temporary(cs_file *file) {
   size_t room = file->allocated - sizeof *file - strlen(file->path) - 1;
   unsigned start = (unsigned)getpid();
@@ -221,7 +222,7 @@ uint64_t cs_file_size(const cs_file *file) { return file->flushed + file->buffer
 
 /* ---------------------------------------------------------------- ending */
 
-/* File systems that cannot sync answer EINVAL; nothing more can be done there. */
+/* File systems that cannot sync return EINVAL; then nothing more can be done. */
 static int sync_descriptor(const cs_file_system *system, int descriptor) {
   int result;
   do
@@ -230,7 +231,7 @@ static int sync_descriptor(const cs_file_system *system, int descriptor) {
   return result != 0 && errno == EINVAL ? 0 : result;
 }
 
-/* The descriptor is closed even when a signal interrupts the call. */
+/* The descriptor is closed even if a signal interrupts the call. */
 static int close_descriptor(const cs_file_system *system, int descriptor) {
   int result = system->close(descriptor);
   return result != 0 && errno == EINTR ? 0 : result;
@@ -268,9 +269,9 @@ static celspan_status close_and_rename(cs_file *file, celspan_context *context) 
   return CELSPAN_OK;
 }
 
-/* Some systems say only at `close` that bytes are lost, so the file is closed before it gets its
- * name; a second descriptor keeps its lock till then, without which another process would remove
- * it as one that was left behind. */
+/* Some systems report lost bytes only at `close`, so the file is closed before it gets its name. A
+ * second descriptor keeps the lock until then; without the lock, another process would remove the
+ * file as a remnant. */
 static celspan_status finish(cs_file *file, celspan_context *context) {
   CS_TRY(check_usable(file, context));
   CS_TRY(flush(file, context));

@@ -20,16 +20,16 @@
 
 typedef struct cs_file cs_file;
 
-/* The contents of a completed file. If `contents` of a context points to one, it gets those of the
- * last file that the context committed. They are read from the temporary file, which nobody else
- * has opened, before the file gets its name. Later changes of the file do not change them. */
+/* The contents of a completed file. If `contents` of a context points to such a structure, it gets
+ * the contents of the last file that the context committed. They are read from the temporary file,
+ * which no other process has opened, before the file gets its name. Later changes of the file do
+ * not change them. */
 typedef struct cs_file_contents {
   cs_hash hash;
   uint64_t bytes;
 } cs_file_contents;
 
-/* Reads all of a file, from its first byte on. false when it cannot be read; then errno says
- * why. */
+/* Reads the whole file from its first byte on. false: it cannot be read; errno has the reason. */
 bool cs_file_contents_read(int descriptor, cs_file_contents *out);
 
 /* The system calls that a file needs, as in POSIX; tests replace them to make them fail. */
@@ -44,20 +44,21 @@ typedef struct cs_file_system {
   int (*mkdir)(const char *path, mode_t mode);
 } cs_file_system;
 
-/* Opens the temporary file; missing folders are made. path: copied. system: NULL for the real one,
- * else borrowed until the file ends. Errors: OUTPUT, NO_MEMORY. */
+/* Opens the temporary file, and creates missing folders. path: copied. system: NULL for the real
+ * calls; otherwise borrowed until the file ends. Errors: OUTPUT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_file_create(celspan_context *context,
                                               const cs_file_system *system, const char *path,
                                               cs_file **out);
 /* Appends. */
 CELSPAN_CHECKED celspan_status cs_file_write(cs_file *file, celspan_context *context,
                                              const void *bytes, size_t size);
-/* Writes anywhere, over earlier bytes or beyond them; cs_file_write still appends at the end. */
+/* Writes at any offset, over earlier bytes or beyond them; cs_file_write still appends at the
+ * end. */
 CELSPAN_CHECKED celspan_status cs_file_write_at(cs_file *file, celspan_context *context,
                                                 uint64_t offset, const void *bytes, size_t size);
 /* Bytes from the start to the end. */
 uint64_t cs_file_size(const cs_file *file);
-/* Hands all bytes so far to the system, so that the temporary file can be read. *name: its name,
+/* Passes all bytes so far to the system, so that the temporary file can be read. *name: its name,
  * borrowed until the file ends. */
 CELSPAN_CHECKED celspan_status cs_file_temporary(cs_file *file, celspan_context *context,
                                                  const char **name);
@@ -65,11 +66,12 @@ CELSPAN_CHECKED celspan_status cs_file_temporary(cs_file *file, celspan_context 
 CELSPAN_CHECKED celspan_status cs_file_adopt(cs_file *file, celspan_context *context);
 /* All three functions end the file, whatever they return. discard ignores NULL. */
 CELSPAN_CHECKED celspan_status cs_file_commit(cs_file *file, celspan_context *context);
-/* Commits the file if the outcome of writing it is OK, else discards it. Returns what failed. */
+/* Commits the file if `outcome`, the status of writing it, is OK; otherwise discards it. Returns
+ * the first failure. */
 CELSPAN_CHECKED celspan_status cs_file_end(cs_file *file, celspan_context *context,
                                            celspan_status outcome);
 void cs_file_discard(cs_file *file, celspan_context *context);
 
-/* The ending of a file's name, which says its format where nothing else does: the text after the
- * last dot in the last part of the path; "" where there is no dot. Points into the path. */
+/* The ending of a file's name, which gives its format unless it is given elsewhere: the text after
+ * the last dot in the last part of the path; "" if there is no dot. Points into the path. */
 const char *cs_file_ending(const char *path);

@@ -10,7 +10,7 @@
 
 enum { CHUNK = 1 << 16 };
 
-/* outcome: of the system call that filled `found`. */
+/* outcome: the result of the system call that filled `found`. */
 static bool fill_stamp(int outcome, const struct stat *found, cs_file_stamp *out) {
   *out = (cs_file_stamp){found->st_dev, found->st_ino, found->st_size, found->st_ctim};
   return outcome == 0 && S_ISREG(found->st_mode);
@@ -30,7 +30,7 @@ static bool is_same(int descriptor, const cs_file_stamp *stamp) {
          now.changed.tv_nsec == stamp->changed.tv_nsec;
 }
 
-/* false, with errno, when the file could not be read to its end. */
+/* Returns false, with errno, if the file could not be read to its end. */
 static bool copy_bytes(celspan_context *context, int descriptor, cs_file *file,
                        celspan_status *status) {
   unsigned char chunk[CHUNK];

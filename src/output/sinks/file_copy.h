@@ -18,12 +18,12 @@ typedef struct cs_file_stamp {
   struct timespec changed;
 } cs_file_stamp;
 
-/* false when there is no ordinary file of that name. */
+/* false if there is no regular file of that name. */
 bool cs_file_stamp_read(const char *path, cs_file_stamp *out);
 
-/* Copies `from` to a new file, which appears whole or not at all (output/sinks/file.h). *copied is
- * false, and nothing is written, when `from` is missing or does not have the stamp any more.
- * Errors: OUTPUT, NO_MEMORY. */
+/* Copies `from` to a new file, which appears whole or not at all (output/sinks/file.h). If `from`
+ * is missing or no longer has the stamp, *copied is false and nothing is written. Errors: OUTPUT,
+ * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_file_copy(celspan_context *context, const char *from,
                                             const cs_file_stamp *stamp, const char *to,
                                             bool *copied);

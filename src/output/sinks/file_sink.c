@@ -29,15 +29,15 @@
 typedef struct guard {
   celspan_sink inner;
   size_t allocated;
-  int32_t width, height;  /* 0 before a begin that succeeded */
-  int32_t rows;           /* that were put */
-  celspan_status failure; /* of the first call that failed; then nothing but end is allowed */
-  bool has_shares;        /* rows are put into shares, past the guard */
+  int32_t width, height;  /* 0 until a begin has succeeded */
+  int32_t rows;           /* rows that were put */
+  celspan_status failure; /* of the first call that failed; after it only `end` may be called */
+  bool has_shares;        /* rows are put into shares, and not through the guard */
   bool takes_codes;
   char path[];
 } guard;
 
-/* After a refused call, as after a failed one, nothing more can be done with the sink. */
+/* Refuses a call. After it, as after a failed one, the sink cannot be used any more. */
 #define REFUSE(guard, context, ...)                                                                \
   ((guard)->failure = cs_fail((context), CELSPAN_BAD_ARGUMENT, __VA_ARGS__))
 
@@ -181,15 +181,16 @@ static const celspan_sink *open_guard(const celspan_sink *sink) {
   return &g->inner;
 }
 
-/* ---------------------------------------------------------------- the choice of a format */
+/* The sink behind a guard, which will get its rows in shares from now on; for another sink, the
+ * sink itself. */
 
 /* A format that is made from spans. */
 typedef struct file_format {
   const char *endings[2];
   celspan_status (*create)(celspan_context *, const char *, const celspan_file_desc *,
                            celspan_sink *);
-  bool is_dithered; /* depth 8_DITHER is allowed: a sink in front of it dithers */
-  bool has_strips;  /* output/join puts them together */
+  bool is_dithered; /* depth 8_DITHER is allowed: another sink dithers before it */
+  bool has_strips;  /* output/join can join them */
 } file_format;
 
 static const file_format formats[] = {{{"png"}, cs_sink_png, true, true},

@@ -1,6 +1,5 @@
-/* Pixels into the caller's memory; or, to measure, into one row for each thread, overwritten again
- * and again.
- */
+/* Pixels into the caller's memory; for measurements, into one row for each thread, which is
+ * overwritten each time. */
 #include "output/sinks/pixels.h"
 #include "output/sinks/shares.h"
 #include "output/sinks/sink.h"
@@ -10,7 +9,7 @@ typedef struct memory_sink {
   unsigned char *pixels; /* NULL: rows are dropped */
   size_t stride;
   size_t row_size;
-  unsigned char *row; /* where rows are dropped */
+  unsigned char *row; /* the row that is used if rows are dropped */
 } memory_sink;
 
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
@@ -28,7 +27,7 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
                  (int)width, sink->row_size);
 }
 
-/* worker: the thread's own row, where rows are dropped; NULL: the sink's row. */
+/* worker: the thread's row, if rows are dropped; NULL: the sink's row. */
 static unsigned char *row_pixels(void *user, void *worker, int32_t y) {
   const memory_sink *sink = user;
   unsigned char *own = worker ? worker : sink->row;

@@ -2,7 +2,7 @@
 
 #include "model/pictures/store.h"
 
-/* Where writing the file failed, its own error says more than the module's. */
+/* If writing the file failed, its own error is more precise than the module's. */
 static celspan_status report(const cs_picture_file *file, celspan_context *context,
                              celspan_status status, const cs_picture_failure *failure) {
   if (status == CELSPAN_OK || file->put_status != CELSPAN_OK)

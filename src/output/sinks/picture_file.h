@@ -21,17 +21,18 @@ typedef struct cs_picture_file {
   bool is_abandoned;
 } cs_picture_file;
 
-/* output: its put and user are set here; the texts that it names are borrowed until the file ends.
- * When it fails there is nothing to end. Errors: OUTPUT, NO_MEMORY. */
+/* output: its put and user are set here; the texts in it are borrowed until the file ends. After a
+ * failure nothing must be ended. Errors: OUTPUT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_picture_file_open(celspan_context *context,
                                                     const cs_picture_output *output,
                                                     cs_picture_file *out);
-/* `count` rows from y on, as the output says; rows come in order. Errors: OUTPUT. */
+/* Writes `count` rows from y on, in the form that the output describes; rows come in order. Errors:
+ * OUTPUT. */
 CELSPAN_CHECKED celspan_status cs_picture_file_rows(cs_picture_file *file, celspan_context *context,
                                                     int32_t y, int32_t count, const void *rows);
-/* Completes the file, and closes it in any case. Errors: OUTPUT, also where the written file cannot
- * be read back. */
+/* Completes the file, and closes it in any case. Errors: OUTPUT, also if the written file cannot be
+ * read back. */
 CELSPAN_CHECKED celspan_status cs_picture_file_close(cs_picture_file *file,
                                                      celspan_context *context);
-/* Removes the file. A file that was never opened, and is zero, is ignored. */
+/* Removes the file. A file that was never opened, and is all zero, is ignored. */
 void cs_picture_file_discard(cs_picture_file *file, celspan_context *context);

@@ -23,12 +23,12 @@
 
 typedef struct file_format {
   const char *endings; /* of paths, each between spaces */
-  const char *name;    /* in the module */
+  const char *name;    /* the name in the module */
   int32_t side;        /* pixels, at most */
   int64_t pixels;      /* width times height at most; 0: any */
   int channels;        /* 4, or 3: the frame over black */
   celspan_depth depth; /* by default */
-  unsigned depths;     /* a bit for each one that it can hold */
+  unsigned depths;     /* a bit for each depth that the format supports */
   bool is_film;        /* ten bits and Cineon by default */
   bool is_multiplied;  /* alpha is always premultiplied */
 } file_format;
@@ -47,9 +47,9 @@ static const file_format formats[] = {
      true},
     {" hdr rgbe ", "hdr", 1048576, 0, 3, CELSPAN_DEPTH_FLOAT, HAS(CELSPAN_DEPTH_FLOAT), false,
      true},
-    /* Sixteen bits come out shifted by a byte. */
+    /* In files of sixteen bits, values would be shifted by a byte. */
     {" ppm pnm ", "pnm", 1048576, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true},
-    /* The writer of this format divides by alpha along a curve of its own, so it gets no alpha. */
+    /* The writer of this format divides by alpha with a curve of its own, so it gets no alpha. */
     {" webp ", "webp", 16383, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true},
     {" gif ", "gif", 65535, (int64_t)1 << 28, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false,
      true},
@@ -61,14 +61,14 @@ typedef struct picture_sink {
   const file_format *format;
   celspan_coding coding; /* of `pixels` */
   celspan_depth depth;   /* in the file */
-  int bits;              /* of each value that are used; 0: all */
+  int bits;              /* how many bits of each value are used; 0: all */
   char *path, *title;    /* title: may be NULL */
   double frames_second;
   int32_t frame;
   int32_t width, height;
   cs_picture_file file;
   unsigned char *pixels; /* one row of RGBA */
-  unsigned char *batch;  /* rows as the file has them */
+  unsigned char *batch;  /* rows in the form of the file */
   int32_t batch_rows, batch_first, batch_count;
 } picture_sink;
 
@@ -126,7 +126,7 @@ static celspan_status choose_coding(celspan_context *context, const char *path,
       sink->coding.transfer != CELSPAN_TRANSFER_LINEAR)
     sink->coding.alpha = CS_ALPHA_CODED;
   sink->depth = sink->coding.depth;
-  /* Ten bits are rounded here, directly from the floats that the curve gives. */
+  /* Ten bits are rounded here, directly from the floats that the curve returns. */
   sink->bits = format->is_film && !asked->depth ? 10 : 0;
   if (sink->bits)
     sink->coding.depth = CELSPAN_DEPTH_FLOAT;
@@ -157,7 +157,7 @@ static size_t row_size(const picture_sink *sink) {
   return (size_t)sink->width * (size_t)sink->format->channels * value_size(sink->depth);
 }
 
-/* Ten bits at the top of sixteen, repeated below them, which is how readers extend them. */
+/* Ten bits at the top of sixteen, repeated below: readers extend them in the same way. */
 static void pack_film(const float *pixels, int32_t width, uint16_t *out) {
   for (int32_t x = 0; x < width; x++)
     for (int c = 0; c < 3; c++) {

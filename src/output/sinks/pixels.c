@@ -1,8 +1,7 @@
-/* Each depth has a coder, which turns colours into bytes, many at once. Single spans give it one
- * colour, arrays all of theirs, and gradients up to CHUNK colours at a time. The coding in which
- * nearly every frame is written, 8 bits, sRGB, straight, has rows of its own
- * (output/sinks/pixels8.h).
- */
+/* Each depth has a coder, which turns colours into bytes, many at once. It gets one colour of a
+ * single span, all colours of an array, and up to CHUNK colours of a gradient at a time. The coding
+ * in which nearly every frame is written, 8 bits, sRGB, straight, has rows of its own
+ * (output/sinks/pixels8.h). */
 #include "output/sinks/pixels.h"
 
 #include <assert.h>
@@ -98,12 +97,14 @@ static uint32_t float_bits(float x) {
   return bits;
 }
 
-/* x, limited to 0..1, times `most`, rounded half up. The product is exact in double. NaN is 0. */
+/* x, clamped to 0..1, times `most`, rounded half up. The product is exact in double. NaN becomes
+ * 0. */
 static unsigned to_integer(float x, double most) {
   return !(x > 0) ? 0 : x >= 1 ? (unsigned)most : (unsigned)((double)x * most + 0.5);
 }
 
-/* IEEE 754 binary16, rounded half to even. Too large a number becomes 65504; NaN stays NaN. */
+/* IEEE 754 binary16, rounded half to even. A number that is too large becomes 65504; NaN remains
+ * NaN. */
 static uint16_t to_half(float x) {
   uint32_t bits = float_bits(x), sign = bits >> 16 & 0x8000, size = bits & 0x7fffffff;
   if (size > 0x7f800000)
@@ -124,7 +125,7 @@ static bool is_in_codes(const celspan_coding *coding) {
   return coding->space == CELSPAN_SPACE_SRGB && coding->transfer == CELSPAN_TRANSFER_SRGB;
 }
 
-/* The colour the transfer curve is applied to. */
+/* The colour to which the transfer curve is applied. */
 void cs_pixels_encode(const celspan_coding *coding, const float rgba[4], float coded[4]) {
   bool is_divided_first = coding->alpha == CS_ALPHA_CODED && rgba[3] > 0;
   bool divide = (coding->alpha == CELSPAN_ALPHA_STRAIGHT || is_divided_first) && rgba[3] != 1;
@@ -157,7 +158,7 @@ static void code_8_codes_straight(const celspan_coding *coding, const float *rgb
   cs_srgb8_choose_codes(cs_isa_best())(rgba, count, out);
 }
 
-/* Light that is not divided by alpha is coded as if it were opaque. */
+/* Light without alpha cannot be divided by alpha: it is coded as if it were opaque. */
 static void code_8_srgb_premultiplied(const celspan_coding *coding, const float *rgba, size_t count,
                                       unsigned char *out) {
   cs_srgb8 code = cs_srgb8_choose(cs_isa_best());
@@ -245,7 +246,8 @@ void cs_pixels_code(const celspan_coding *coding, const float rgba[4], void *pix
 
 /* ---------------------------------------------------------------- spans */
 
-/* Pixels of adjacent gradients, gathered to be coded together because gradients may be short. */
+/* Pixels of adjacent gradients, collected so that they are coded together, because gradients may be
+ * short. */
 typedef struct gathered {
   float rgba[CHUNK][4];
   size_t count; /* pixels waiting */
@@ -323,8 +325,8 @@ void cs_pixels_row(const celspan_coding *coding, const celspan_span *spans, size
 
 /* ---------------------------------------------------------------- single colours */
 
-/* Pixels that vector code handles together. The count is rounded up to a multiple, so that none is
- * coded one by one; the colours beyond it are left over from earlier calls. */
+/* Pixels that vector code handles together. The count is rounded up to a multiple, so that no pixel
+ * is coded alone; the additional colours are remnants of earlier calls. */
 enum { AT_ONCE = 4 };
 
 void cs_single_colours_code(cs_single_colours *colours, const celspan_coding *coding,

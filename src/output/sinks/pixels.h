@@ -16,37 +16,37 @@
 #include "base/context.h"
 #include "celspan/celspan.h"
 
-/* Whether the numbers of a coding that a caller gave are values of their enumerations; NULL is a
- * coding. Errors: BAD_ARGUMENT. */
+/* Checks that the numbers of a coding from a caller are values of their enumerations; NULL is
+ * valid. Errors: BAD_ARGUMENT. */
 CELSPAN_CHECKED celspan_status cs_pixels_check(celspan_context *context,
                                                const celspan_coding *coding);
-/* The door for codings: *coding, from outside, or NULL for the defaults, is made to point to its
- * copy, *whole. Its numbers are checked if there is a context to say what is wrong with them. */
+/* Reads a coding from outside: makes *coding, or NULL for the defaults, point to its copy *whole.
+ * The numbers are checked only if there is a context for the message. */
 CELSPAN_CHECKED celspan_status cs_pixels_read(celspan_context *context,
                                               const celspan_coding **coding, celspan_coding *whole);
 /* Bytes of a pixel. */
 size_t cs_pixels_size(const celspan_coding *coding);
-/* An alpha of codings inside: the colour of the light, divided by alpha, is coded, and the code is
- * multiplied by alpha. Readers of files that hold alpha take it so. Where alpha is 0 the light is
- * coded as if it were opaque. */
+/* A kind of alpha that only codings inside of celspan have: the light is divided by alpha and
+ * coded, and the code is multiplied by alpha. Readers of files expect this. Where alpha is 0, the
+ * light is coded as if it were opaque. */
 #define CS_ALPHA_CODED ((celspan_alpha)(CELSPAN_ALPHA_PREMULTIPLIED + 1))
 
-/* The coding with every default filled in, for integers and floats alike. 8_DITHER becomes 8: the
- * rest is done by output/sinks/dither.h. */
+/* The coding with all defaults filled in, for integers and floats. 8_DITHER becomes 8:
+ * output/sinks/dither.h does the rest. */
 celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth default_depth);
 
 /* Writes one row of pixels: the spans cover [0, width) without gap. A single span is coded once and
- * filled. Codes of arrays are copied: of 8 bits, and in this coding. coding: resolved. Threads:
- * any. */
+ * repeated. Codes of arrays are copied: they have 8 bits and this coding. coding: resolved.
+ * Threads: any. */
 void cs_pixels_row(const celspan_coding *coding, const celspan_span *spans, size_t span_count,
                    void *row);
-/* Whether array spans may hold codes, pixels coded already, in this coding. coding: resolved. */
+/* Whether array spans may contain codes, which are already coded pixels, in this coding. coding:
+ * resolved. */
 bool cs_pixels_takes_codes(const celspan_coding *coding);
 /* Columns [x, x + count) of a span, as a span from column 0. */
 celspan_span cs_pixels_crop(const celspan_span *span, int32_t x, int32_t count);
-/* One colour, linear premultiplied, as the numbers that integers are rounded from: 1 is the
- * largest.
- */
+/* One colour, linear and premultiplied, as the numbers from which integers are rounded: 1 is the
+ * largest. */
 void cs_pixels_encode(const celspan_coding *coding, const float rgba[4], float coded[4]);
 /* One colour, linear premultiplied, to one coded pixel. */
 void cs_pixels_code(const celspan_coding *coding, const float rgba[4], void *pixel);

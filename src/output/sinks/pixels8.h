@@ -1,4 +1,4 @@
-/* Rows of 8 bits, sRGB, straight alpha, which is how nearly every frame is written. */
+/* Rows of 8 bits, sRGB, straight alpha: nearly every frame is written in this form. */
 #pragma once
 
 #include <stddef.h>
@@ -6,10 +6,10 @@
 #include "base/wide.h"
 #include "celspan/celspan.h"
 
-/* The spans, one at least, cover [0, width) without gap. Their numbers are linear. */
+/* spans: at least one; they cover [0, width) without gap. Their numbers are linear. */
 CS_WIDE_DECLARE(void, cs_pixels8_row,
                 (const celspan_span *spans, size_t count, unsigned char *row));
-/* The same where the numbers of spans are codes. */
+/* The same for spans whose numbers are codes. */
 CS_WIDE_DECLARE(void, cs_pixels8_codes,
                 (const celspan_span *spans, size_t count, unsigned char *row));
 
@@ -36,7 +36,7 @@ static inline void cs_fill_store(unsigned char *out, cs_wide_int pattern) {
     memcpy(out + at, &pattern, sizeof pattern);
 }
 
-/* Fills a run without its first chunk; up to a chunk beyond its end may be written. */
+/* Fills a run except for its first chunk; up to a chunk after its end may be overwritten. */
 static inline void cs_fill_lines(unsigned char *out, const unsigned char *end, cs_wide_int pattern,
                                  uintptr_t phase) {
   out += CS_FILL_CHUNK - ((uintptr_t)out - phase) % CS_FILL_CHUNK;
@@ -60,6 +60,7 @@ static inline void cs_fill_exactly(unsigned char *out, unsigned char *end, cs_wi
 
 /* ---- pixels8_wide.c */
 
-/* Repeats a pixel of `pixel_size` bytes, 1, 2, 4, 8 or 16, over `size` bytes, a multiple of it. */
+/* Repeats a pixel of `pixel_size` bytes (1, 2, 4, 8 or 16) over `size` bytes, a multiple of
+ * pixel_size. */
 CS_WIDE_DECLARE(void, cs_fill_run,
                 (unsigned char *out, size_t size, const unsigned char *pixel, size_t pixel_size));

@@ -29,11 +29,11 @@
 
 enum {
   PORTION = 64, /* spans: as many as a word has bits */
-  LINES = 1024, /* in a portion at most; a wider portion is filled run by run */
+  LINES = 1024, /* the most in a portion; a wider portion is filled run by run */
   LINE_PIXELS = CS_FILL_CHUNK / 4
 };
 
-/* A row being written. */
+/* A row that is being written. */
 typedef struct target {
   unsigned char *pixels;
   size_t size;     /* bytes */
@@ -58,7 +58,7 @@ static inline cs_wide load_colours(const celspan_span *const spans[CS_SRGB8_PIXE
 #endif
 }
 
-/* codes: of a portion. Entries of spans that are not single have no meaning. */
+/* codes: of a portion. The entries of spans that are not single have no meaning. */
 static inline void code_colours(const celspan_span *spans, size_t count, bool is_coded,
                                 uint32_t *codes) {
   for (size_t k = 0; k < count; k += CS_SRGB8_PIXELS) {
@@ -81,7 +81,7 @@ static inline quad load_place(const celspan_span *span) {
 
 static inline bool is_long(const celspan_span *span) { return span->x1 - span->x0 > LINE_PIXELS; }
 
-/* Which of four spans are longer than their heads, a bit for each. */
+/* A bit for each of four spans: whether it is longer than its head. */
 static inline uint64_t are_long(const celspan_span *spans) {
 #ifdef __SSE2__
   quad low = __builtin_shufflevector(load_place(spans), load_place(spans + 1), 0, 4, 1, 5);
@@ -113,8 +113,8 @@ static inline size_t lines_before(int32_t x, int32_t first) {
   return (uint32_t)(x - (first - (LINE_PIXELS - 1))) / LINE_PIXELS;
 }
 
-/* owners[i] becomes the span in which line i begins, if that span is a long run; otherwise any
- * span. (Lines are bytes here, so a fill marks 64 of them.) */
+/* Sets owners[i] to the span in which line i begins, if that span is a long run; otherwise to any
+ * span. (The owner of a line is a byte, so that one store sets 64 of them.) */
 static inline void mark_lines(const celspan_span *spans, uint64_t longs, int32_t first,
                               unsigned char *owners) {
   for (size_t line = 0; line < LINES; line += CS_FILL_CHUNK)
@@ -130,7 +130,7 @@ static inline void mark_lines(const celspan_span *spans, uint64_t longs, int32_t
   }
 }
 
-/* Fills the lines run by run: where runs are few and very long. */
+/* Fills the lines run by run; used if runs are few and very long. */
 static inline void fill_runs(const target *row, const celspan_span *spans, uint64_t longs,
                              const uint32_t *codes) {
   for (; longs != 0; longs &= longs - 1) {
@@ -166,7 +166,7 @@ static inline void fill_lines(const target *row, const celspan_span *spans, size
 
 /* ---------------------------------------------------------------- gradients and arrays */
 
-/* room: bytes up to the end of the row, which may be written. */
+/* room: the bytes up to the end of the row, which may be overwritten. */
 static inline void put_short_gradient(const celspan_span *span, bool is_coded, unsigned char *out,
                                       size_t room) {
   const cs_wide colour = cs_wide_pixel(span->colour), slope = cs_wide_pixel(span->slope);
@@ -186,7 +186,7 @@ static inline void put_short_gradient(const celspan_span *span, bool is_coded, u
 
 #ifdef __AVX512F__
 
-/* Sixteen pixels at once, channel by channel. */
+/* Writes sixteen pixels at once, channel by channel. */
 static inline void put_gradient(const celspan_span *span, bool is_coded, unsigned char *out,
                                 size_t room) {
   const __m512 numbers = _mm512_setr_ps(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
@@ -217,7 +217,8 @@ static inline void put_varied(const target *row, bool is_coded, const celspan_sp
   size_t at = 4 * (size_t)span->x0, count = (size_t)(span->x1 - span->x0);
   if (span->kind == CELSPAN_SPAN_GRADIENT)
     put_gradient(span, is_coded, row->pixels + at, row->size - at);
-  else if (span->codes && span->codes != row->pixels + at) /* else they are in their places */
+  /* otherwise they are already in their places */
+  else if (span->codes && span->codes != row->pixels + at)
     memcpy(row->pixels + at, span->codes, 4 * count);
   else if (span->codes)
     return;
@@ -238,7 +239,7 @@ static inline void put_heads(const target *row, bool is_coded, const celspan_spa
       put_varied(row, is_coded, &spans[k]);
 }
 
-/* Spans so near the end of the row that nothing may be written beyond them. */
+/* Spans that are so near to the end of the row that nothing may be written after them. */
 static inline void put_last(const target *row, bool is_coded, const celspan_span *spans,
                             size_t count, const uint32_t *codes) {
   for (size_t k = 0; k < count; k++)
@@ -253,7 +254,8 @@ static inline void put_row(const celspan_span *spans, size_t count, bool is_code
                            unsigned char *pixels) {
   const target row = {pixels, 4 * (size_t)spans[count - 1].x1, (uintptr_t)pixels % 4};
   uint32_t codes[PORTION];
-  /* Arrays at the left are put first and alone: their codes may lie in their places already. */
+  /* Arrays at the left are written first and separately: their codes may already be in their
+   * places. */
   for (; count > 0 && spans->kind == CELSPAN_SPAN_ARRAY; count--, spans++)
     put_varied(&row, is_coded, spans);
   for (size_t portion; count > 0; count -= portion, spans += portion) {

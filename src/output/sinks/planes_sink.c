@@ -22,7 +22,7 @@ size_t cs_planes_size(int32_t width, int32_t height, bool is_halved) {
 
 /* ---------------------------------------------------------------- rows */
 
-/* Pixels of a kept row: an even number of them. */
+/* Pixels of a stored row: an even number. */
 static size_t row_pixels(const cs_planes *planes) { return 2 * halves(planes->width); }
 
 static size_t rows_size(const cs_planes *planes) {
@@ -63,7 +63,7 @@ static void code_row(const cs_planes *planes, int32_t y, const celspan_span *spa
   row[row_pixels(planes) - 1] = row[planes->width - 1];
 }
 
-/* rows: two, of the thread. */
+/* rows: two rows, owned by the thread. */
 static celspan_status fill_row(void *user, void *rows, celspan_context *context, int32_t y,
                                const celspan_span *spans, size_t span_count) {
   const cs_planes *planes = user;

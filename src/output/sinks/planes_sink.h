@@ -18,10 +18,10 @@ typedef struct cs_planes {
   bool is_halved;       /* 4:2:0 */
   unsigned char *bytes; /* of all planes; borrowed */
   int32_t width, height;
-  uint32_t *rows; /* two, of the thread that began the sink */
+  uint32_t *rows; /* two rows of the thread that began the sink */
 } cs_planes;
 
 /* Bytes of all planes. */
 size_t cs_planes_size(int32_t width, int32_t height, bool is_halved);
-/* planes: described down to `bytes`; must live as long as the sink. */
+/* planes: all fields up to `bytes` are set; must live as long as the sink. */
 celspan_sink cs_planes_sink(cs_planes *planes);

@@ -15,39 +15,41 @@
 
 #include "base/context.h"
 
-/* Functions may be NULL where there is nothing to do. */
+/* Functions may be NULL if they would do nothing. */
 typedef struct cs_shares {
   void *user;
-  int32_t rows;     /* of each share, but the last may have fewer; 0: the caller may choose */
-  bool takes_above; /* the row above a share, where there is one, is put before its own rows */
-  /* Workers, one a thread, and shares are opened once and used again and again. context: of the
+  /* rows of each share, except that the last one may have fewer; 0: the caller may choose */
+  int32_t rows;
+  bool takes_above; /* the row above a share, if there is one, is put before the share's own rows */
+  /* Workers, one for each thread, and shares are opened once and used many times. context: of the
    * thread. Errors: NO_MEMORY. */
   celspan_status (*open_worker)(void *user, celspan_context *context, void **worker);
   void (*close_worker)(void *user, celspan_context *context, void *worker);
   celspan_status (*open_share)(void *user, celspan_context *context, void **share);
   void (*close_share)(void *user, celspan_context *context, void *share);
-  /* A share from begin to end. worker, share: NULL where there is no function to open them. y: a
-   * row of the crop. */
+  /* Begins a share. worker, share: NULL if there is no function to open them. y: a row of the
+   * crop. */
   celspan_status (*begin)(void *worker, celspan_context *context, void *share, int32_t index);
   celspan_status (*row)(void *user, void *worker, celspan_context *context, int32_t y,
                         const celspan_span *spans, size_t span_count);
   celspan_status (*end)(void *worker, celspan_context *context);
-  /* Where `row` will put the pixels of row y, if these are codes that spans may hold: codes that
-   * lie in their places there are not copied. worker: NULL where the sink's own `row` is called. */
+  /* Where `row` will put the pixels of row y, if these are codes that spans may contain: codes that
+   * are already there are not copied. worker: NULL if the sink's own `row` is called. */
   unsigned char *(*pixels)(void *user, void *worker, int32_t y);
   celspan_status (*join)(void *user, celspan_context *context, void *share, int32_t index);
 } cs_shares;
 
-/* The calls of shares with stores of their own, where the file's functions have these names. */
+/* The calls of shares that have their own memory, if the functions of the file have these names. */
 #define CS_SHARES_CALLS                                                                            \
   .open_worker = open_worker, .close_worker = close_worker, .open_share = open_share,              \
   .close_share = close_share, .begin = begin_share, .row = put_share_row, .join = join_share
 
-/* How one kind of sink each fills its shares; false: the sink, which has begun, is of another kind.
- * cs_sink_shares asks them all. */
+/* How each kind of sink fills its shares; false: the sink, which has begun, is of another kind.
+ * cs_sink_shares calls all of them. */
 bool cs_memory_sink_shares(const celspan_sink *sink, cs_shares *out);
 bool cs_planes_sink_shares(const celspan_sink *sink, cs_shares *out);
 bool cs_png_sink_shares(const celspan_sink *sink, cs_shares *out);
 bool cs_span_sink_shares(const celspan_sink *sink, cs_shares *out);
-/* Whether the sink, which has begun, receives rows in shares. A sink without `row` always does. */
+/* Whether the sink, which has begun, can receive rows in shares. A sink without `row` always
+ * can. */
 bool cs_sink_shares(const celspan_sink *sink, cs_shares *out);

@@ -49,7 +49,7 @@ static void *resize(void *user, void *block, size_t old_size, size_t new_size) {
   return cs_mem_resize(user, block, old_size, new_size);
 }
 
-/* A failed write has set the error already. */
+/* A write that failed has set the error already. */
 static celspan_status report(const span_sink *sink, celspan_context *context,
                              spanfile_status status) {
   switch (status) {
@@ -217,7 +217,7 @@ static celspan_status begin_share(void *worker, celspan_context *context, void *
   packer *p = worker;
   (void)context;
   p->writer = share;
-  /* Cannot fail: shares are within the picture. */
+  /* Cannot fail, because shares are within the picture. */
   (void)spanfile_writer_begin_part(share, (uint32_t)index * SPANFILE_PART_ROWS);
   return CELSPAN_OK;
 }

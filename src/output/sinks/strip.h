@@ -23,18 +23,19 @@
 
 enum { CS_STRIP_ROWS = 256 };
 
-/* A place: of row 0 in the whole, and the rows of that; height 0: no strip. */
+/* A place: the row of the whole that is row 0 here, and the height of the whole; height 0: no
+ * strip. */
 typedef struct cs_strip {
   int32_t row, height;
 } cs_strip;
 
 #define CS_STRIP_MARK                                                                              \
-  "csST" /* in PNG: ancillary, private, not to be copied by who changes pixels */
+  "csST" /* in PNG: ancillary, private, not to be copied by programs that change pixels */
 
 cs_strip cs_strip_of(const celspan_file_desc *file);
 /* Whether a picture of `height` rows can have this place. */
 bool cs_strip_fits(cs_strip strip, int32_t height);
-/* The same as an error that names the file; a picture that is no strip is right. Errors:
+/* The same as an error with the file's name; a picture that is no strip is valid. Errors:
  * BAD_ARGUMENT. */
 CELSPAN_CHECKED celspan_status cs_strip_check(celspan_context *context, const char *path,
                                               cs_strip strip, int32_t height);

@@ -14,8 +14,8 @@
 
 enum {
   NAME_SIZE = 512,
-  NAME_BYTES = 200,   /* of NAME in the temporary name, which may have 255 bytes in all */
-  DESCRIPTORS = 4096, /* that may be open, of a process that is ended */
+  NAME_BYTES = 200,   /* bytes of NAME in the temporary name, which may have at most 255 bytes */
+  DESCRIPTORS = 4096, /* the most descriptors of a process that is ended */
   DIGITS = 4,
   TAIL_SIZE = 1 + DIGITS + sizeof TAIL - 1 /* ".12ef.part" */
 };
@@ -26,7 +26,7 @@ void cs_temporary_name(const char *path, unsigned number, char *out, size_t size
            number & 0xffff);
 }
 
-/* Where the file system has no locks, no sweep can lock the file either, so it is safe. */
+/* If the file system has no locks, other processes cannot lock the file either, so it is safe. */
 bool cs_temporary_claim(int descriptor) {
   struct stat there;
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0)
@@ -34,7 +34,8 @@ bool cs_temporary_claim(int descriptor) {
   return fstat(descriptor, &there) != 0 || there.st_nlink > 0;
 }
 
-/* The name that a temporary file will get; false when `temporary` is not the name of one. */
+/* The name that a temporary file will get; false if `temporary` is not the name of a temporary
+ * file. */
 static bool final_name(const char *temporary, char name[NAME_SIZE]) {
   size_t length = strlen(temporary);
   if (temporary[0] != '.' || length <= TAIL_SIZE + 1 || length >= NAME_SIZE)
@@ -51,7 +52,7 @@ static bool final_name(const char *temporary, char name[NAME_SIZE]) {
 }
 
 /* Whether the open file still has that name: its writer may have finished meanwhile, and another
- * one have begun under the same name. */
+ * one may have begun under the same name. */
 static bool is_named(int descriptor, int folder, const char *temporary) {
   struct stat opened, named;
   return fstat(descriptor, &opened) == 0 &&
@@ -90,7 +91,7 @@ void cs_temporary_sweep(const char *pattern,
 
 /* ---------------------------------------------------------------- ending */
 
-/* "/proc/self/fd/N" without functions that allocate or lock. */
+/* Writes "/proc/self/fd/N" without functions that allocate or lock. */
 static void name_descriptor(int descriptor, char out[32]) {
   static const char folder[] = "/proc/self/fd/";
   char digits[12];
@@ -104,8 +105,8 @@ static void name_descriptor(int descriptor, char out[32]) {
   out[length] = '\0';
 }
 
-/* The system knows the names of open files, so no list of them has to be kept; there, a file that
- * has got its final name, or was removed, has another name. */
+/* The system knows the names of open files, so no list is needed. There, a file that has got its
+ * final name, or was removed, has another name. */
 void cs_temporary_abandon(void) {
   char link[32], path[4096], name[NAME_SIZE];
   for (int descriptor = 3; descriptor < DESCRIPTORS; descriptor++) {

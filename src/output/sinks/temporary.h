@@ -10,20 +10,21 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { CS_TEMPORARY_EXTRA = 16 }; /* bytes that a temporary name has more than the final one */
+/* how many bytes longer than the final name a temporary name is */
+enum { CS_TEMPORARY_EXTRA = 16 };
 
-/* Writes the temporary name of a file; the low 16 bits of the number are XXXX, and a very long NAME
- * is cut. */
+/* Writes the temporary name of a file. XXXX is the low 16 bits of the number; a very long NAME is
+ * cut. */
 void cs_temporary_name(const char *path, unsigned number, char *out, size_t size);
-/* Locks a temporary file that was just opened. false: another process removed it, or has locked it
- * to do so. */
+/* Locks a temporary file that was just opened. false: another process removed the file, or has
+ * locked it to remove it. */
 bool cs_temporary_claim(int descriptor);
 /* Removes a temporary file that this process has created but could not claim. */
 void cs_temporary_drop(int descriptor, const char *path);
-/* Removes files that were left behind in the folder of `pattern`, of names for which `matches` is
- * true. A file that cannot be removed stays, without an error. */
+/* Removes remnants in the folder of `pattern`, of files with names for which `matches` is true. A
+ * file that cannot be removed remains, without an error. */
 void cs_temporary_sweep(const char *pattern,
                         bool (*matches)(const char *pattern, const char *name));
-/* Removes every temporary file that this process has open, which must then not continue. Safe in a
- * signal handler. */
+/* Removes every temporary file that this process has open. The process must not continue after
+ * this. Safe in a signal handler. */
 void cs_temporary_abandon(void);

@@ -19,7 +19,7 @@ enum {
   CS_TGA_FOOTER = 26
 };
 
-/* The last bytes of every file, and of the footer. */
+/* The last bytes of every file and of its footer. */
 #define CS_TGA_SIGNATURE "TRUEVISION-XFILE."
 
 static inline void cs_tga_store_16(unsigned char *at, unsigned number) {

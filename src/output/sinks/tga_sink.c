@@ -17,31 +17,31 @@
 
 enum {
   PACKET_MOST = 128,
-  WORST_PIXEL = 5, /* bytes of a pixel that is a packet of its own */
+  WORST_PIXEL = 5, /* bytes of a pixel that needs a packet for itself */
   CHUNK = 256
 };
 
 typedef struct tga_sink {
   size_t allocated;
-  const char *path, *title; /* title: "" without one */
+  const char *path, *title; /* title: "" if there is none */
   cs_file *file;            /* from begin to end */
   celspan_coding coding;
   cs_strip strip;
-  size_t pixel_size; /* 3 without alpha, else 4 */
+  size_t pixel_size; /* 3 without alpha, otherwise 4 */
   int32_t width;
   unsigned char *row; /* packets of a row; from begin to end */
   size_t size;        /* of those packets, in bytes */
   uint32_t run_pixel;
   int32_t run_count; /* pixels not yet in a packet */
-  size_t plain_head; /* where the plain packet that can still grow begins */
-  int plain_count;   /* its pixels; 0: there is none */
+  size_t plain_head; /* where the last plain packet begins, which can still grow */
+  int plain_count;   /* pixels of this packet; 0: there is none */
   bool is_clear;     /* some pixel's alpha is not 1 */
   char text[];
 } tga_sink;
 
 /* ---------------------------------------------------------------- packets */
 
-/* In the file blue comes first. */
+/* In the file, blue is the first channel. */
 static void put_pixel(tga_sink *sink, uint32_t rgba) {
   uint32_t bgra = (rgba & 0xff00ff00u) | (rgba >> 16 & 0xff) | (rgba & 0xff) << 16;
   memcpy(sink->row + sink->size, &bgra, sizeof bgra);
@@ -121,7 +121,7 @@ static celspan_status put_header(tga_sink *sink, celspan_context *context, int32
   return is_strip ? cs_file_write(sink->file, context, place, sizeof place) : CELSPAN_OK;
 }
 
-/* As much of the text as fits, cut between UTF-8 characters. */
+/* Stores as much of the text as fits, cut between UTF-8 characters. */
 static void store_text(unsigned char *at, size_t room, const char *text) {
   size_t size = strlen(text);
   if (size >= room)
@@ -217,7 +217,7 @@ celspan_status cs_sink_tga(celspan_context *context, const char *path,
 celspan_status cs_tga_put_end(cs_file *file, celspan_context *context,
                               const unsigned char extension[CS_TGA_EXTENSION]) {
   uint64_t offset = cs_file_size(file);
-  bool is_near = offset <= UINT32_MAX; /* else nothing can point to the extension */
+  bool is_near = offset <= UINT32_MAX; /* otherwise the extension cannot be addressed */
   unsigned char footer[CS_TGA_FOOTER] = {0};
   cs_tga_store_32(footer, is_near ? (uint32_t)offset : 0);
   memcpy(footer + 8, CS_TGA_SIGNATURE, sizeof CS_TGA_SIGNATURE);

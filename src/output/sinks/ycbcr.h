@@ -23,7 +23,7 @@ CS_WIDE_DECLARE(void, cs_ycbcr_luma,
 CS_WIDE_DECLARE(void, cs_ycbcr_chroma,
                 (const uint32_t *restrict pixels, int32_t count, unsigned char *restrict cb,
                  unsigned char *restrict cr));
-/* 4:2:0 of two rows. count: of colours; 2 count pixels are read of either row. */
+/* 4:2:0 of two rows. count: of colours; 2 count pixels are read from each row. */
 CS_WIDE_DECLARE(void, cs_ycbcr_halved,
                 (const uint32_t *restrict upper, const uint32_t *restrict lower, int32_t count,
                  unsigned char *restrict cb, unsigned char *restrict cr));

@@ -1,6 +1,6 @@
 #include "output/sinks/ycbcr.h"
 
-/* Bytes of a pixel, whatever the machine's order of bytes. */
+/* The bytes of a pixel, for both byte orders of machines. */
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
 #define BYTE(pixel, i) (int32_t)((pixel) >> (24 - 8 * (i)) & 255)
 #else
@@ -14,12 +14,12 @@
 #define CB (224 / 255.0 / (2 - 2 * BLUE))
 #define CR (224 / 255.0 / (2 - 2 * RED))
 
-/* The sum that a code of each channel adds. */
+/* The amount that a code of each channel adds to the sum. */
 static const float LUMA_OF[3] = {(float)(LUMA * RED), (float)(LUMA *GREEN), (float)(LUMA *BLUE)};
 static const float CB_OF[3] = {(float)(-CB * RED), (float)(-CB *GREEN), (float)(CB *(1 - BLUE))};
 static const float CR_OF[3] = {(float)(CR * (1 - RED)), (float)(-CR *GREEN), (float)(-CR *BLUE)};
 
-/* The sums are above 0: cut to whole numbers, they are rounded. */
+/* The sums are above 0, so cutting off the fraction rounds them. */
 static inline unsigned char mixed(const float of[3], float base, float r, float g, float b) {
   return (unsigned char)(int32_t)(base + (of[0] * r + of[1] * g + of[2] * b));
 }
