@@ -2,8 +2,8 @@
  * Krita.
  *
  * Without memory the library reports other failures, or crashes: it uses a mutex that it could not
- * allocate. So its allocations are ours, in a list that belongs to the request: where one fails the
- * request ends at once, and the list is freed. */
+ * allocate. Therefore it allocates through functions of this file, into a list that belongs to the
+ * request. If an allocation fails, the request ends at once, and the list is freed. */
 #include <lcms2.h>
 #include <lcms2_plugin.h>
 #include <math.h>
@@ -15,7 +15,7 @@
 #include "readers/layered/colour_module.h"
 
 enum {
-  CHECKED = 9, /* places a side at which the sum of the curves is compared with the light */
+  CHECKED = 9, /* places on each side at which the sum of the curves is compared with the light */
   PLANE = CS_COLOUR_SIDE * CS_COLOUR_SIDE
 };
 
@@ -41,11 +41,12 @@ typedef union allocation {
   max_align_t aligned;
 } allocation;
 
-/* Of the request that this thread works on. */
+/* The state of the request that this thread works on. */
 static _Thread_local struct {
   allocation *first;
   jmp_buf failed;
-  bool is_open; /* false: the library is being set up, which allocates for the process */
+  /* false: the library is being initialized, and its allocations belong to the process */
+  bool is_open;
 } request_memory;
 
 static void link_allocation(allocation *of) {
@@ -64,7 +65,7 @@ static void unlink_allocation(allocation *of) {
     request_memory.first = of->next;
 }
 
-/* The memory of an allocation that is in no list. */
+/* The memory of an allocation that is not in a list. */
 static void *keep(allocation *of) {
   if (!of && request_memory.is_open)
     longjmp(request_memory.failed, 1);
@@ -90,7 +91,7 @@ static void give_back(cmsContext context, void *memory) {
   free((allocation *)memory - 1);
 }
 
-/* The list is whole again before the request ends. */
+/* The list is complete again before the request ends. */
 static void *resize(cmsContext context, void *memory, cmsUInt32Number size) {
   if (!memory || size > LARGEST)
     return memory ? NULL : take(context, size);
@@ -107,7 +108,7 @@ static void free_all(void) {
     give_back(NULL, request_memory.first + 1);
 }
 
-static cmsContext library; /* NULL: it lacked memory, and is set up by the next request */
+static cmsContext library; /* NULL: it lacked memory, and the next request initializes it */
 
 static bool set_up_library(void) {
   static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
@@ -168,8 +169,8 @@ static void convert(const conversion *c, const float (*codes)[3], float (*light)
   cmsDoTransform(c->transform, codes, light, count);
 }
 
-/* The light of one channel's codes from 0 to 1, the other two being 0; of grey the channel's own.
- */
+/* The light of one channel's codes from 0 to 1, with the other two channels at 0; for grey, the
+ * channel itself. */
 static void sample_curve(const conversion *c, int channel, float (*out)[3]) {
   const cmsUInt32Number count = CS_COLOUR_STEPS + 1;
   float(*codes)[3] = take(library, count * (cmsUInt32Number)sizeof *codes);
@@ -187,7 +188,7 @@ static void sample_curve(const conversion *c, int channel, float (*out)[3]) {
   }
 }
 
-/* The light of black counts once. */
+/* The light of black is counted once. */
 static void sample_curves(const conversion *c, cs_colour_table *out) {
   out->form = CS_COLOUR_CURVES;
   for (int channel = 0; channel < 3; channel++) {

@@ -20,7 +20,7 @@ enum { PAUSE_MICROSECONDS = 50000 }; /* between two checks for a signal to stop 
 
 static struct {
   pthread_mutex_t lock;
-  pid_t id;   /* 0: there is no zygote */
+  pid_t id;   /* 0: no zygote is running */
   int socket; /* to it */
 } zygote = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
@@ -33,7 +33,7 @@ static struct {
 #define WORDS CS_SPAWN_NULL
 #endif
 
-/* 0 or an errno. The lock is held. */
+/* 0 or an errno. The caller has locked the lock. */
 static int spawn(const cs_roots *roots) {
   const char *arguments[CS_ROOTS_MOST + 3] = {"celspan-decoder", CS_ZYGOTE_ARGUMENT};
   const struct timeval pause = {.tv_usec = PAUSE_MICROSECONDS};
@@ -58,7 +58,8 @@ static int spawn(const cs_roots *roots) {
   return error;
 }
 
-/* Waits for the end of the zygote. The result is the status of waitpid. The lock is held. */
+/* Waits for the end of the zygote. Returns the status of waitpid. The caller has locked the
+ * lock. */
 static int finish(void) {
   int ending = 0;
   close(zygote.socket);
@@ -109,7 +110,7 @@ static celspan_status explain_late(const cs_message_start *desc, cs_picture_fail
   return CELSPAN_LIMIT;
 }
 
-/* The zygote did not answer. The lock is held. */
+/* Explains why the zygote did not answer. The caller has locked the lock. */
 static celspan_status explain(cs_message_arrival arrival, const cs_message_start *desc,
                               celspan_status other, cs_picture_failure *failure) {
   int ending = finish();
@@ -137,7 +138,7 @@ celspan_status cs_client_refuse(int error, celspan_status other, cs_picture_fail
   return failure->status;
 }
 
-/* The lock is held. */
+/* The caller has locked the lock. */
 static celspan_status start(cs_message *message, int memory, int *socket,
                             cs_picture_failure *failure) {
   const cs_message_start desc = message->start;

@@ -31,8 +31,8 @@ static bool put_bytes(void *user, const cs_message *message) {
                      (size_t)message->put.size);
 }
 
-/* The outcome of the worker as a failure of the writer. Sentences of the module name the file
- * already. */
+/* The outcome of the worker as a failure of the writer. Sentences of the module already contain the
+ * file's name. */
 static celspan_status ask(cs_picture_writer *writer, cs_message *message,
                           cs_picture_failure *failure) {
   cs_picture_failure reason;
@@ -143,7 +143,7 @@ static void abandon_writer(cs_picture_writer *writer) {
 
 /* ---------------------------------------------------------------- colour profiles */
 
-/* The worker is locked. */
+/* The caller has locked the worker. */
 static celspan_status ask_for_table(cs_worker *worker, const cs_colour_request *request,
                                     cs_colour_table *out, cs_picture_failure *failure) {
   cs_message message = {.kind = CS_MESSAGE_PROFILE,

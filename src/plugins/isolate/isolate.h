@@ -8,7 +8,7 @@
 
 #include "plugins/isolate/worker.h"
 
-/* From now on, workers decode the pictures of this context and sample its colour profiles. Nothing
+/* From now on, workers decode the pictures and sample the colour profiles of this context. Nothing
  * is started yet. */
 void cs_isolate_begin(celspan_context *context, const cs_worker_limits *limits);
 /* Ends all workers and the zygote, after the context was destroyed. */

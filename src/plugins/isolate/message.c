@@ -70,7 +70,7 @@ cs_message_arrival cs_message_receive(int socket, cs_message *out, int *descript
   return got > 0 ? CS_MESSAGE_BAD : CS_MESSAGE_OVER;
 }
 
-/* A socket that blocks answers EAGAIN only where something is wrong with it or with the system. */
+/* A blocking socket returns EAGAIN only if there is a problem with it or with the system. */
 cs_message_arrival cs_message_wait(int socket, double patience, cs_message *out, int *descriptor) {
   const struct timespec pause = {.tv_nsec = PAUSE_NANOSECONDS};
   double begun = cs_clock_seconds();
@@ -113,7 +113,7 @@ static bool is_between(int32_t number, int32_t least, int32_t most) {
   return number >= least && number <= most;
 }
 
-/* Printable and terminated. */
+/* Whether the text is printable and terminated. */
 static bool is_name(const char text[16]) {
   const char *end = memchr(text, 0, 16);
   for (const char *at = text; end && at < end; at++)

@@ -24,31 +24,33 @@
 typedef enum cs_message_kind {
   CS_MESSAGE_START = 1, /* to the zygote, with a descriptor: fork a worker */
   CS_MESSAGE_END,       /* to the zygote: end a worker; answered with how it ended */
-  CS_MESSAGE_OPEN,      /* with the file; in shared memory: the layer, then the space. To a worker
-                           that decodes a sound, `text` is the name of its format in ffmpeg */
+  /* with the file as descriptor; in shared memory: the layer, then the space. For a worker that
+   * decodes a sound, `text` is the format's name in ffmpeg */
+  CS_MESSAGE_OPEN,
   CS_MESSAGE_READ,
   CS_MESSAGE_LIST,
   CS_MESSAGE_CLOSE, /* not answered */
   CS_MESSAGE_WRITE, /* in shared memory: name, format, title, names of channels */
   CS_MESSAGE_ROWS,
   CS_MESSAGE_COMPLETE,
-  CS_MESSAGE_PROFILE, /* in shared memory: the profile; the answer has its table there */
-  CS_MESSAGE_DONE,    /* the last answer; its status is the outcome, `text` the sentence */
-  CS_MESSAGE_PART,    /* of LIST; the answer is a status, OK: continue */
-  CS_MESSAGE_PUT      /* of WRITE, ROWS and COMPLETE; answered in the same way */
+  CS_MESSAGE_PROFILE, /* in shared memory: the profile; the answer puts the table there */
+  CS_MESSAGE_DONE,    /* the last answer: its status is the outcome, `text` the sentence */
+  CS_MESSAGE_PART,    /* a part of the answer to LIST; it is answered by a status, OK: continue */
+  CS_MESSAGE_PUT /* a part of the answer to WRITE, ROWS and COMPLETE; answered in the same way */
 } cs_message_kind;
 
 typedef enum cs_worker_task {
   CS_WORKER_READS = 0, /* pictures, through the picture module */
-  CS_WORKER_WRITES,    /* one picture, likewise; without limits except that of loading */
+  /* one picture, also through the picture module; the only limit is for loading */
+  CS_WORKER_WRITES,
   CS_WORKER_SAMPLES,   /* colour profiles, through the colour module */
-  CS_WORKER_LISTENS    /* one sound, as ffmpeg */
+  CS_WORKER_LISTENS    /* to one sound, by running ffmpeg */
 } cs_worker_task;
 
-/* This message brings the shared memory, or the pipe for the samples of a sound. */
+/* The message that brings the shared memory, or the pipe for the samples of a sound. */
 typedef struct cs_message_start {
-  uint64_t memory; /* bytes that the worker may allocate after its start; 0: any */
-  double loading;  /* seconds that loading the module may take; 0: any */
+  uint64_t memory; /* the most bytes that the worker may allocate after its start; 0: any */
+  double loading;  /* the most seconds for loading the module; 0: any */
   int32_t task;    /* cs_worker_task */
 } cs_message_start;
 
@@ -59,7 +61,7 @@ typedef struct cs_message_open {
 /* The form of the samples; 0: the form in the file. */
 typedef struct cs_message_sound {
   int32_t rate, channels;
-  double speed; /* 1: as it is */
+  double speed; /* 1: the original speed */
 } cs_message_sound;
 
 /* cs_colour_request without its bytes. */
@@ -69,7 +71,8 @@ typedef struct cs_message_profile {
   int32_t has_places;
 } cs_message_profile;
 
-/* cs_picture_header, with numbers in place of bool and enum, whose values C restricts. */
+/* cs_picture_header, with numbers instead of bool and enum, because C restricts the values of
+ * these. */
 typedef struct cs_message_header {
   int32_t width, height, channels, bits, alpha;
   int32_t has_alpha, is_float, is_linear, is_turned, is_whole, is_sequential;
@@ -116,17 +119,18 @@ typedef enum cs_message_arrival {
   CS_MESSAGE_BAD   /* the other side violates the protocol */
 } cs_message_arrival;
 
-/* descriptor: sent with the message, and still owned by the caller; -1: none. false: the other side
- * has ended. */
+/* descriptor: sent with the message; the caller still owns it; -1: none. false: the other side has
+ * ended. */
 bool cs_message_send(int socket, const cs_message *message, int descriptor);
-/* *descriptor: the descriptor sent with the message, or -1; NULL: none is accepted. */
+/* *descriptor: the descriptor that was sent with the message, or -1; descriptor NULL: none is
+ * accepted. */
 cs_message_arrival cs_message_receive(int socket, cs_message *out, int *descriptor);
-/* The same on a socket that blocks, without LATE: where it has only answered EAGAIN for as many
- * seconds as `patience`, the other side counts as ended. */
+/* The same on a blocking socket, without LATE: if it has only returned EAGAIN for `patience`
+ * seconds, the other side counts as ended. */
 cs_message_arrival cs_message_wait(int socket, double patience, cs_message *out, int *descriptor);
 
 void cs_message_set_header(cs_message *message, const cs_picture_header *header);
-/* false: it is invalid. */
+/* false: the header is invalid. */
 bool cs_message_header_of(const cs_message *message, cs_picture_header *out);
-/* The part of a PART, with terminated texts. */
+/* The part in a message PART, with terminated texts. */
 cs_picture_part cs_message_part_of(const cs_message *message);

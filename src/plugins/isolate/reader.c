@@ -19,10 +19,10 @@ enum { REFUSALS_MOST = 64 };
 
 /* ---------------------------------------------------------------- refusals */
 
-/* Pictures that ended a worker are not tried again, unless the file changes. The last REFUSALS_MOST
- * are remembered. Any thread. */
+/* Pictures that ended a worker are not tried again until the file changes. The last REFUSALS_MOST
+ * of them are remembered. Any thread. */
 
-/* The identity of a file that has not changed. */
+/* Identifies a file, as long as it does not change. */
 typedef struct file_key {
   uint64_t device, number;
   int64_t size, time; /* nanoseconds */
@@ -73,8 +73,8 @@ struct cs_picture_reader {
   char *file, *layer, *space; /* layer and space: may be NULL */
   int subimage;
   file_key key;      /* of the file that was opened */
-  cs_worker *worker; /* NULL: none; it may have ended */
-  uint32_t number;   /* in the worker */
+  cs_worker *worker; /* NULL: none; a worker may have ended */
+  uint32_t number;   /* the number of the reader in the worker */
 };
 
 /* ---------------------------------------------------------------- failures */
@@ -84,7 +84,7 @@ static celspan_status fail(const cs_picture_reader *reader, celspan_status statu
   return cs_worker_fail(failure, status, reader->file, text);
 }
 
-/* A worker opens files through its descriptors, and libraries put these names into messages.
+/* A worker opens files through its descriptors, and libraries put the names of these into messages.
  * Replaces them by the name of the file. */
 static celspan_status fail_with_name(const cs_picture_reader *reader, celspan_status status,
                                      const char *text, cs_picture_failure *failure) {
@@ -100,8 +100,9 @@ static celspan_status fail_with_name(const cs_picture_reader *reader, celspan_st
   return fail(reader, status, length < 0 ? text : named.text, failure);
 }
 
-/* The outcome of the worker as a failure of the picture. *is_worn: it ran out of memory after
- * serving other readers and was ended, so that a new worker may succeed. The worker is locked. */
+/* The outcome of the worker as a failure of the picture. *is_worn: the worker ran out of memory
+ * after it had served other readers, and was ended; a new worker may succeed. The caller has locked
+ * the worker. */
 static celspan_status judge(const cs_picture_reader *reader, cs_worker_outcome outcome,
                             const cs_message *answer, bool *is_worn, cs_picture_failure *failure) {
   cs_picture_failure reason;
@@ -163,7 +164,8 @@ static celspan_status ask_to_open(cs_picture_reader *reader, int descriptor,
   return judge(reader, outcome, &message, is_worn, failure);
 }
 
-/* Opens the file in a worker, and in a new one if that had no memory left; keeps it locked. */
+/* Opens the file in a worker, or in a new one if that worker had no memory left; keeps the worker
+ * locked. */
 static celspan_status attach(cs_picture_reader *reader, int descriptor, bool is_fresh,
                              cs_picture_header *header, cs_picture_failure *failure) {
   bool is_worn = false;
@@ -211,8 +213,8 @@ static cs_picture_reader *create(const cs_picture_request *request) {
   return NULL;
 }
 
-/* The file's descriptor; -1: failed. NONBLOCK: opening a pipe without a writer must not wait. The
- * module refuses pipes and devices. */
+/* Opens the file; -1: failed. NONBLOCK: opening a pipe without a writer must not wait. The module
+ * refuses pipes and devices. */
 static int open_file(cs_picture_reader *reader, file_key *key, celspan_status *status,
                      cs_picture_failure *failure) {
   struct stat found;
@@ -264,7 +266,7 @@ void cs_reader_close(cs_picture_reader *reader) {
   const cs_message message = {.kind = CS_MESSAGE_CLOSE, .number = reader->number};
   if (reader->worker) {
     cs_worker_lock(reader->worker);
-    /* If the worker cannot receive it, it has died; the next request notices that. */
+    /* If the worker cannot receive it, the worker has died; the next request notices this. */
     if (reader->worker->socket >= 0)
       (void)!cs_message_send(reader->worker->socket, &message, -1);
     leave(reader);

@@ -13,7 +13,8 @@ enum { SOUND = 3, ARGUMENTS = 40, NUMBER = 16, FILTER = 256 };
 
 /* ---------------------------------------------------------------- the program */
 
-/* Its path, with links resolved, as the kernel's rules need it. false: there is none. */
+/* The path of ffmpeg, with links resolved, because the kernel's rules need this. false: there is
+ * none. */
 static bool find_ffmpeg(char out[PATH_MAX]) {
   const char *folders = getenv("PATH");
   char path[PATH_MAX];
@@ -30,7 +31,7 @@ static bool find_ffmpeg(char out[PATH_MAX]) {
 
 /* ---------------------------------------------------------------- its files */
 
-/* The request has the sound as its descriptor. */
+/* The sound is the descriptor of the request. */
 static cs_message receive(const cs_worker_desc *desc, int *sound) {
   cs_message message;
   cs_message_arrival arrival;
@@ -42,8 +43,8 @@ static cs_message receive(const cs_worker_desc *desc, int *sound) {
   return message;
 }
 
-/* Each source has a number from 3 on; the sound is moved last, over sources that are not needed any
- * more. */
+/* Each descriptor has its source, a number from 3 on. The sound is moved last, because its number
+ * may be one of sources that are no longer needed then. */
 static void set_files(const cs_worker_desc *desc, int sound) {
   bool is_set = dup2(desc->memory, STDOUT_FILENO) >= 0 && dup2(desc->socket, STDERR_FILENO) >= 0;
   is_set = is_set && (sound == SOUND ? fcntl(SOUND, F_SETFD, 0) == 0 : dup2(sound, SOUND) >= 0);
@@ -64,9 +65,9 @@ static void add_number(const char **arguments, const char *option, int32_t numbe
   }
 }
 
-/* Samples get new times, in the order in which they come, so that ffmpeg adds and drops none
- * because of its time. One filter halves the tempo at most, and sounds best if it doubles it at
- * most. */
+/* Samples get new times in the order in which they arrive, so that ffmpeg neither adds nor drops
+ * any because of their times. One filter can halve the tempo at most, and sounds best if it doubles
+ * the tempo at most. */
 static void write_filter(double speed, char out[FILTER]) {
   int size = snprintf(out, FILTER, "asetpts=N/SR/TB");
   while (speed > 0 && speed != 1 && size < FILTER) {
@@ -76,7 +77,7 @@ static void write_filter(double speed, char out[FILTER]) {
   }
 }
 
-/* One thread, because sounds are decoded much faster than they are heard. */
+/* One thread is enough, because decoding is much faster than playing. */
 static void start_ffmpeg(const char *path, const cs_message *message) {
   char rate[NUMBER], channels[NUMBER], filter[FILTER];
   const char *arguments[ARGUMENTS] = {"ffmpeg",

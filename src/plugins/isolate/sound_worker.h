@@ -15,7 +15,7 @@
 #define CS_SOUND_WORKER_FILE "/proc/self/fd/3" /* the name of the sound in messages of ffmpeg */
 /* Bytes of memory for the libraries of ffmpeg, which do not count against its limit. */
 #define CS_SOUND_WORKER_LOADED ((uint64_t)64 << 20)
-/* The exit codes where ffmpeg is not in PATH, and where it cannot be started. */
+/* The exit code if ffmpeg is not in PATH, and the one if it cannot be started. */
 #define CS_SOUND_WORKER_MISSING 125
 #define CS_SOUND_WORKER_NOT_STARTED 126
 

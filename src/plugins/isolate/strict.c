@@ -22,7 +22,7 @@
   (LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_EXECUTE)
 #define START_FILES (LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_EXECUTE)
 #define ALL_OF_FIRST ((UINT64_C(1) << 13) - 1) /* the rights that Linux 5.13 knows */
-/* Rights of later kernels, by their numbers: the headers may be older than the kernel. */
+/* Rights of later kernels, as numbers: the headers may be older than the kernel. */
 #define REFER (UINT64_C(1) << 13)
 #define TRUNCATE (UINT64_C(1) << 14)
 #define IOCTL_DEVICE (UINT64_C(1) << 15)
@@ -78,7 +78,7 @@ static bool allow_all(int rules, const cs_roots *roots, uint64_t rights) {
   return true;
 }
 
-/* The rights that this kernel knows; abi: its version of Landlock. */
+/* The rights that this kernel knows. abi: the kernel's version of Landlock. */
 static ruleset known_rights(long abi) {
   ruleset known = {.files = ALL_OF_FIRST};
   known.files |= (abi >= 2 ? REFER : 0) | (abi >= 3 ? TRUNCATE : 0) | (abi >= 5 ? IOCTL_DEVICE : 0);
@@ -136,7 +136,8 @@ static const char *confine_calls(bool starts_program) {
       LOAD(arch), BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, ARCHITECTURE, 1, 0),
       ANSWER(SECCOMP_RET_KILL_PROCESS), LOAD(nr),
       BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, OTHER_TABLE, 0, 1), REFUSAL,
-      /* other programs and other processes; a process stays in its group, which is ended as one */
+      /* no other programs or processes; a process remains in its group, which is ended as a
+       * whole */
       BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, __NR_execve, 0, 1),
       ANSWER(starts_program ? SECCOMP_RET_ALLOW : SECCOMP_RET_ERRNO | EPERM), REFUSE(__NR_execveat),
       REFUSE(__NR_setpgid), REFUSE(__NR_setsid), REFUSE(__NR_ptrace), REFUSE(__NR_process_vm_readv),

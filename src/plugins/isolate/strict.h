@@ -15,13 +15,14 @@
 
 #include "base/roots.h"
 
-/* The rights that the process keeps. In any case it may read the libraries of the system. */
+/* The rights that the process keeps. It may always read the libraries of the system. */
 typedef struct cs_strict_rights {
   const cs_roots *read, *write; /* folders; NULL: none */
-  /* A process with a program reads, instead of folders, this program, which it may start, and one
-   * file. Both NULL: it starts none. */
+  /* A process with a program may read only this program, which it may also start, and one file,
+   * instead of folders. Both NULL: it may start no program. */
   const char *program, *file;
 } cs_strict_rights;
 
-/* NULL, or the reason of a failure: the process may then be partly confined, and must end. */
+/* Returns NULL, or the reason of a failure: the process may then be partly confined, and must
+ * end. */
 const char *cs_strict_enter(const cs_strict_rights *rights);

@@ -48,8 +48,8 @@ static void destroy(cs_worker *worker) {
   free(worker);
 }
 
-/* Creates memory whose size neither side can change, because reading beyond a reduced size would
- * crash. The result is a descriptor, or -1 and errno. */
+/* Creates memory whose size neither side can change: reading beyond a reduced size would crash.
+ * Returns a descriptor, or -1 and errno. */
 static int share_memory(cs_worker *worker) {
   int memory = memfd_create("celspan pictures", MFD_CLOEXEC | MFD_ALLOW_SEALING);
   if (memory < 0)
@@ -103,7 +103,8 @@ static celspan_status create(cs_worker_task task, cs_worker **out, cs_picture_fa
 
 /* ---------------------------------------------------------------- the pool */
 
-/* The worker with the fewest users; NULL where a new one is better. The lock is held. */
+/* The worker with the fewest users; NULL if a new worker would be better. The caller has locked the
+ * lock. */
 static cs_worker *choose(cs_worker_task task) {
   cs_worker *best = NULL;
   int count = 0;
@@ -192,7 +193,8 @@ bool cs_worker_put_texts(const cs_worker *worker, const char *const *texts, size
   return true;
 }
 
-/* Handles a message before the answer. Returns whether it was valid and could be answered. */
+/* Handles a message that precedes the answer. Returns whether it was valid and could be
+ * answered. */
 static bool take_part(const cs_worker *worker, const cs_worker_request *request) {
   cs_message *message = request->message;
   bool is_known = message->kind == CS_MESSAGE_PART || message->kind == CS_MESSAGE_PUT;

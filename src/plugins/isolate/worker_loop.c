@@ -12,14 +12,14 @@
 #include <unistd.h>
 
 enum {
-  READERS = 1024, /* open at a time: many more than the store keeps open */
-  REFUSED = 6,    /* the exit code where the kernel cannot confine */
+  READERS = 1024, /* open at the same time: many more than the store keeps open */
+  REFUSED = 6,    /* the exit code if the kernel cannot confine the process */
   FAULT_STACK = 1 << 16,
   PUT_BYTES = 4 << 20
 };
 
 typedef struct worker_loop {
-  const cs_picture_module *module; /* NULL: it samples */
+  const cs_picture_module *module; /* NULL: the worker samples colour profiles */
   const cs_colour_module *colour;
   int socket;
   unsigned char *shared;
@@ -37,9 +37,9 @@ typedef struct worker_loop {
 
 /* ---------------------------------------------------------------- faults */
 
-/* A failed allocation sets errno. errno is still set if the library continued without memory until
- * it crashed, or ended the process by an uncaught exception. A thread that the limit of processes
- * does not allow sets errno, too. */
+/* A failed allocation sets errno. errno remains set if the library continues without the memory and
+ * then crashes, or ends the process by an uncaught exception. A thread that the limit of processes
+ * forbids sets errno, too. */
 static bool is_without_means(void) { return errno == ENOMEM || errno == EAGAIN; }
 
 static void end_by_fault(int number) {
@@ -51,8 +51,8 @@ static void end_by_fault(int number) {
 
 static bool is_serving; /* false while libraries are loaded */
 
-/* The zygote and workers end only by _exit, so it is a library that has called exit. While
- * libraries are loaded, the reason is a lack of memory, whatever value errno has by then. */
+/* The zygote and workers end only by _exit, so if exit is called, a library has called it. While
+ * libraries are loaded, the reason is a lack of memory, whatever the value of errno is. */
 static void end_by_library(void) {
   if (!is_serving || is_without_means())
     _exit(CS_WORKER_NO_MEMORY);
@@ -141,20 +141,20 @@ static cs_message receive(const worker_loop *loop, int *descriptor) {
   return message;
 }
 
-/* Sends a message and waits for its answer: whether to continue. */
+/* Sends a message and waits for its answer. Returns whether to continue. */
 static bool ask(const worker_loop *loop, const cs_message *message) {
   answer(loop, message);
   return receive(loop, NULL).status == CELSPAN_OK;
 }
 
-/* The sentence without the name under which the file was opened in this process. */
+/* The sentence, without the name under which this process opened the file. */
 static const char *sentence_of(const char *name, const char *text) {
   size_t size = strlen(name);
   bool has_name = strncmp(text, name, size) == 0 && strncmp(text + size, ": ", 2) == 0;
   return text + (has_name ? size + 2 : 0);
 }
 
-/* Answers a request that was handled. name: of the file in the module. */
+/* Answers a request that was handled. name: the name of the file in the module. */
 static void conclude(const worker_loop *loop, cs_message *message, celspan_status status,
                      const char *name, const cs_picture_failure *failure) {
   bool is_starved = status != CELSPAN_OK && errno == ENOMEM;

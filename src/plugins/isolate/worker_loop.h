@@ -12,8 +12,8 @@
 
 /* The exit code of a worker or the zygote that crashed after a failed allocation. */
 #define CS_WORKER_NO_MEMORY 33
-/* The exit code of the system's loader. The libraries exist, because the program has loaded them,
- * so the reason is a lack of memory. */
+/* The exit code of the system's loader. The libraries exist, because the program has loaded them.
+ * So the reason is a lack of memory. */
 #define CS_WORKER_NOT_LOADED 127
 
 /* Whether a process with this status of waitpid had no memory. A system without memory ends
@@ -22,20 +22,21 @@
 bool cs_worker_loop_is_starved(int ending);
 
 typedef struct cs_worker_desc {
-  const cs_picture_module *module; /* of tasks other than SAMPLES */
+  const cs_picture_module *module; /* for all tasks except SAMPLES */
   const cs_colour_module *colour;  /* of SAMPLES */
-  const cs_roots *roots; /* that may be read, which the kernel must enforce; NULL: all files, and a
-                            kernel that cannot confine the process is accepted */
+  /* the files that may be read, which the kernel must enforce; NULL: all files, and the process
+   * need not be confined */
+  const cs_roots *roots;
   cs_message_start start;
   int zygote;         /* process number */
   int socket, memory; /* to the program; the descriptor of the START */
 } cs_worker_desc;
 
-/* From now on, a crash, SIGALRM or a library that ends this process after a failed allocation ends
- * it with CS_WORKER_NO_MEMORY. */
+/* From now on, if this process ends by a crash, SIGALRM or a library after a failed allocation, it
+ * ends with CS_WORKER_NO_MEMORY. */
 void cs_worker_loop_watch_faults(void);
-/* Binds this process to the zygote, and has the kernel confine it to its limits and these rights.
- * Ends the process if that is demanded and not possible. */
+/* Binds this process to the zygote, and confines it to its limits and these rights. Ends the
+ * process if this is required and not possible. */
 void cs_worker_loop_confine(const cs_worker_desc *desc, const cs_strict_rights *rights);
 /* Handles messages in this process until the other side has ended. */
 _Noreturn void cs_worker_loop_run(const cs_worker_desc *desc);

@@ -37,13 +37,13 @@ bool cs_zygote_is_meant(int count, char **arguments) {
 
 /* ---------------------------------------------------------------- the end of workers */
 
-/* A worker that decodes a sound leads a group, which holds whatever it has started. */
+/* A worker that decodes a sound leads a group, which contains all processes that it has started. */
 static void kill_worker(pid_t worker) {
   kill(worker, SIGKILL);
   kill(-worker, SIGKILL);
 }
 
-/* Ends a worker, if it has not ended by itself. The result is the status of waitpid. */
+/* Ends a worker, unless it has ended by itself. Returns the status of waitpid. */
 static int end_worker(zygote *z, uint32_t number) {
   int ending = 0;
   if (number >= WORKERS || !z->workers[number])
@@ -94,7 +94,8 @@ static void fail(cs_message *message, const char *what) {
   snprintf(message->text, sizeof message->text, "%s: %s", what, strerror(errno));
 }
 
-/* The program's end of the worker's socket, or -1 and a message with the reason. */
+/* Forks a worker. Returns the program's end of the worker's socket, or -1 and a message with the
+ * reason. */
 static int fork_worker(zygote *z, cs_message *message, int memory) {
   int ends[2];
   const cs_message_start start = message->start;
@@ -129,7 +130,7 @@ static void set_alarm(double seconds) {
   setitimer(ITIMER_REAL, &timer, NULL);
 }
 
-/* A library without memory may deadlock: GLib does. */
+/* A library without memory may deadlock, as GLib does. */
 static celspan_status load(zygote *z, const cs_message_start *start) {
   celspan_status status = CELSPAN_OK;
   set_alarm(start->loading);
@@ -182,7 +183,8 @@ static void serve(zygote *z) {
 void cs_zygote_run(int count, char **arguments) {
   static zygote z;
   prctl(PR_SET_NAME, "celspan-decoder");
-  syscall(__NR_close_range, CS_ZYGOTE_SOCKET + 1, ~0U, 0); /* no function in old C libraries */
+  /* old C libraries have no function for it */
+  syscall(__NR_close_range, CS_ZYGOTE_SOCKET + 1, ~0U, 0);
   cs_worker_loop_watch_faults();
   if (celspan_context_create(NULL, &z.context) != CELSPAN_OK)
     _exit(CS_WORKER_NO_MEMORY);

@@ -24,18 +24,18 @@ namespace {
  * pictures, as phones append them, lie behind it. */
 enum Code { TEM = 0x01, RST0 = 0xd0, SOI = 0xd8, EOI = 0xd9 };
 
-/* The file's bytes in order; beyond its end there are none. */
+/* The bytes of the file in order. After its end there are no more. */
 class Bytes {
 public:
   explicit Bytes(Source &source) : source_(source), left_(source.size()) {}
 
-  /* -1: the file ends here. */
+  /* -1: the file has ended. */
   int next() {
     if (at_ == size_ && !fill())
       return -1;
     return buffer_[at_++];
   }
-  /* Skips to behind the next byte of this value; false: there is none. */
+  /* Skips to the byte after the next byte of this value; false: there is none. */
   bool find(int value) {
     while (at_ < size_ || fill()) {
       const void *found = memchr(buffer_.data() + at_, value, size_ - at_);
@@ -72,7 +72,7 @@ private:
   }
 
   Source &source_;
-  uint64_t left_; /* bytes of the file that are not in the buffer and not before it */
+  uint64_t left_; /* bytes of the file after those in the buffer */
   std::vector<unsigned char> buffer_;
   size_t at_ = 0, size_ = 0;
 };
@@ -99,14 +99,14 @@ bool skip_body(Bytes &bytes) {
   return length >= 2 && bytes.skip(uint64_t(length - 2));
 }
 
-/* The library would fill the missing part with grey and report success. */
+/* Without this check, the library would fill a missing part with grey and report success. */
 void check_jpeg_end(Source &source) {
   Bytes bytes(source);
   bool has_begun = false;
   for (int code = next_marker(bytes); code >= 0; code = next_marker(bytes)) {
     if (code == EOI)
       return;
-    if (code == SOI && has_begun) /* another picture, and the first has not ended */
+    if (code == SOI && has_begun) /* another picture begins, but the first one has not ended */
       break;
     has_begun = true;
     if (has_body(code) && !skip_body(bytes))
@@ -131,19 +131,19 @@ void check_jpeg_end(Source &source) {
  * records first. */
 enum {
   HEADER = 26,
-  HEADER_CHANNELS = 12, /* the places of numbers in it */
+  HEADER_CHANNELS = 12, /* indices of numbers in the header */
   HEADER_MODE = 24,
   BITMAP = 0, /* a mode, of black and white alone */
   LARGE = 2,
   USER_MASK = -2,
   WHOLE_MASK = -3,
   CHANNELS = 56,
-  OLD_THUMBNAIL = 1033, /* numbers of resources; none has 0 */
+  OLD_THUMBNAIL = 1033, /* numbers of resources; 0 is not used */
   THUMBNAIL = 1036,
-  THUMBNAILS = 16 /* of which the programs that write documents write one */
+  THUMBNAILS = 16 /* the most thumbnails; programs write only one */
 };
 
-/* Big-endian numbers, one after the other; 0 from the end of the file on. */
+/* Big-endian numbers, one after the other; after the end of the file they are 0. */
 class Numbers {
 public:
   Numbers(Source &source, uint64_t at) : source_(source), at_(at) {}
@@ -171,8 +171,8 @@ private:
   bool is_over_ = false;
 };
 
-/* The length of the part that follows, in four bytes. OpenImageIO allocates memory for all of it
- * before it reads the first byte. */
+/* The length of the part that follows, in four bytes. OpenImageIO allocates memory for the whole
+ * part before it reads the first byte. */
 uint64_t length_of(Source &source, Numbers &numbers) {
   uint64_t length = numbers.next(4);
   if (length > source.size())
@@ -181,7 +181,8 @@ uint64_t length_of(Source &source, Numbers &numbers) {
 }
 
 /* Resources: a signature, a number, a name, the length of the data, the data; name and data have an
- * even number of bytes. numbers: at the first one; a copy, for a wrong length leads anywhere. */
+ * even number of bytes. numbers: at the first resource; a copy, because a wrong length could lead
+ * anywhere. */
 void hide_thumbnails(Source &source, Numbers numbers, uint64_t size) {
   uint64_t end = numbers.at() + size;
   for (int hidden = 0; numbers.at() < end && !numbers.is_over();) {
@@ -198,11 +199,11 @@ void hide_thumbnails(Source &source, Numbers numbers, uint64_t size) {
   }
 }
 
-/* Whether the document has a channel in addition to those of its colours; throws Failure if it
- * lacks one of these. */
+/* Whether the document has a channel in addition to those of its colours. Throws Failure if a
+ * channel of its colours is missing. */
 bool has_transparency(Source &source) {
   static const uint64_t colours[] = {1, 1, 1, 3, 4,
-                                     0, 0, 1, 1, 3}; /* by the mode; 0: no such mode */
+                                     0, 0, 1, 1, 3}; /* by the mode; 0: the mode does not exist */
   uint64_t channels = Numbers(source, HEADER_CHANNELS).next(2);
   uint64_t mode = Numbers(source, HEADER_MODE).next(2);
   bool is_known = mode < sizeof colours / sizeof *colours;
@@ -211,7 +212,7 @@ bool has_transparency(Source &source) {
   return is_known && mode != BITMAP && channels > colours[mode];
 }
 
-/* The rows of a rectangle; the numbers are left behind it. */
+/* The rows of a rectangle. The numbers are moved to its end. */
 uint64_t rows_of(Numbers &numbers) {
   int64_t top = numbers.place();
   numbers.skip(4);
@@ -220,7 +221,7 @@ uint64_t rows_of(Numbers &numbers) {
   return uint64_t(bottom > top ? bottom - top : top - bottom);
 }
 
-/* The rows of all channels of the record at the numbers, which are left behind it. A channel of two
+/* The rows of all channels of the record at `numbers`, which are moved to its end. A channel of two
  * bytes has only the number of its packing, and no rows. */
 uint64_t rows_of_record(Numbers &numbers, int length_bytes) {
   uint64_t rows = rows_of(numbers), count = numbers.next(2), mask_rows = 0;
@@ -266,10 +267,9 @@ void check_psd(Source &source) {
 
 /* ---------------------------------------------------------------- film and SGI */
 
-/* The readers of film formats return black for missing pixels. The header has the file's size, and
- * in DPX that of data for other programs, for which the reader allocates memory before it looks for
- * them.
- */
+/* The readers of film formats return black for missing pixels. The header contains the size of the
+ * file; in DPX also the size of the data for other programs, for which the reader allocates memory
+ * before it checks whether they exist. */
 void check_film_end(Source &source, const std::string &format) {
   unsigned char head[36] = {0};
   source.pread(head, sizeof head, 0);
@@ -292,7 +292,7 @@ void check_film_end(Source &source, const std::string &format) {
 
 /* If rows are packed, the header is followed by two tables of four bytes for each row of each
  * channel, for which the reader allocates memory before it reads them. If rows are stored in an
- * unknown way, it has no tables, but uses them (SGI image file format, 1.00). */
+ * unknown way, the reader allocates no tables, but uses them (SGI image file format, 1.00). */
 void check_sgi(Source &source) {
   const uint64_t header = 512, packed = 1;
   unsigned char head[12] = {0};

@@ -21,7 +21,7 @@ void watch_memory() {
   std::set_new_handler(note_lack);
 }
 
-/* The libraries in C tell it by errno alone. */
+/* The C libraries report a lack of memory only by errno. */
 void check_memory() {
   if (is_watched && (has_run_out.exchange(false) || errno == ENOMEM))
     throw std::bad_alloc();
@@ -33,7 +33,8 @@ void prepare_library() {
     OIIO::attribute("threads", 1);
     OIIO::attribute("exr_threads", -1);
     OIIO::attribute("plugin_searchpath", "");
-    /* celspan has limits of its own; the library's would refuse large pictures read in strips. */
+    /* celspan has limits of its own; those of the library would refuse large pictures that are read
+     * in strips. */
     OIIO::attribute("limits:imagesize_MB", 0);
     OIIO::attribute("limits:channels", CS_PICTURE_CHANNELS);
   });

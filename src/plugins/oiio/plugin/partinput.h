@@ -1,7 +1,6 @@
-/* What the readers of this folder share. Scan lines are read as they are asked for, in any order.
- * The library's cache would take a picture of scan lines as a single tile, so what is too large for
- * that is offered in tiles, which are parts of scan lines.
- */
+/* What the readers of this folder share. Scan lines are read when they are requested, in any order.
+ * The library's cache would treat a picture of scan lines as a single tile, so larger pictures are
+ * offered in tiles, which are parts of scan lines. */
 #pragma once
 
 #include <OpenImageIO/filesystem.h>
@@ -12,7 +11,7 @@
 #include <cstdint>
 #include <cstring>
 
-/* Pixels of a picture, within it. */
+/* A rectangle of pixels inside a picture. */
 struct Part {
   int x, y, columns, rows;
 };
@@ -45,7 +44,7 @@ public:
 
 protected:
   virtual bool is_open() const = 0;
-  /* stride: bytes from row to row. Called under the lock. */
+  /* stride: bytes from row to row. The caller has locked the lock. */
   virtual bool read_part(const Part &part, void *data, size_t stride) = 0;
 
   bool open_bytes(const std::string &name, const OIIO::ImageSpec &config) {
@@ -68,7 +67,7 @@ protected:
     errorf("byte %llu: %s", static_cast<unsigned long long>(fault.offset), fault.reason);
     return false;
   }
-  /* Sets m_spec. The library counts the bytes of a row and the tiles of a picture in int. */
+  /* Sets m_spec. The library counts the bytes of a row and the tiles of a picture with int. */
   bool describe(uint32_t width, uint32_t height, OIIO::TypeDesc type, const char *space) {
     auto tiles = [](uint64_t side) { return (side + TILE - 1) / TILE; };
     if (width * uint64_t(4 * type.size()) > INT_MAX || height > INT_MAX ||
@@ -84,12 +83,13 @@ protected:
   }
 
 private:
-  /* Pixels in all that are left to scan lines, and the side of a tile beyond. */
+  /* The most pixels of a picture that is offered in scan lines, and the side of a tile for larger
+   * ones. */
   static constexpr uint64_t LARGE = uint64_t(1) << 26;
   static constexpr int TILE = 256;
 };
 
-/* Whether a file's first `size` bytes, at most 64, are what a format begins with. */
+/* Whether the first `size` bytes of a file, at most 64, are the beginning of a format. */
 inline bool begins(const std::string &name, size_t size, bool (*is)(const void *, size_t)) {
   unsigned char start[64];
   OIIO::Filesystem::IOFile file(name, OIIO::Filesystem::IOProxy::Read);

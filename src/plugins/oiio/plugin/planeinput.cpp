@@ -45,10 +45,10 @@ private:
 
   planefile_plane *plane_ = nullptr;
   planefile_drawer *drawer_ = nullptr;
-  Part next_ = {}; /* of the drawer: its columns, and the row it draws next */
+  Part next_ = {}; /* of the drawer: its columns, and the row that it draws next */
 };
 
-/* Moves the hints after a question mark in a name, unless a file has the whole name. */
+/* Removes the hints after a question mark from a name, unless a file has the whole name. */
 void take_hints(std::string &name, ImageSpec &hints) {
   std::map<std::string, std::string> given;
   std::string file;
@@ -59,7 +59,7 @@ void take_hints(std::string &name, ImageSpec &hints) {
   name = file;
 }
 
-/* 0: there is no such hint; below 0: it is no number from 1. */
+/* 0: there is no such hint; below 0: it is not a number from 1 on. */
 int count_hint(const ImageSpec &hints, const char *name) {
   const OIIO::ParamValue *hint = hints.find_attribute(name);
   int side = hint ? hint->get_int(0) : 0;
@@ -121,7 +121,8 @@ bool PlaneInput::close() {
   return true;
 }
 
-/* A drawer whose next row is the part's first one; it can continue to the picture's last one. */
+/* Begins a drawer whose next row is the first one of the part; it can continue to the last row of
+ * the picture. */
 bool PlaneInput::begin(const Part &part) {
   if (drawer_ && next_.x == part.x && next_.y == part.y && next_.columns == part.columns)
     return true;
@@ -160,7 +161,7 @@ bool PlaneInput::read_part(const Part &part, void *data, size_t stride) {
         read_row(reinterpret_cast<float *>(static_cast<char *>(data) + size_t(row) * stride));
   if (is_drawn)
     return true;
-  /* Nothing else can be wrong with a plane that was verified. */
+  /* No other failure is possible for a plane that was verified. */
   errorf("no memory for row %d", next_.y);
   planefile_drawer_destroy(drawer_);
   drawer_ = nullptr;
@@ -169,7 +170,7 @@ bool PlaneInput::read_part(const Part &part, void *data, size_t stride) {
 
 } // namespace
 
-/* What the library looks for in a plug-in of this name. */
+/* The symbols that the library looks up in a plug-in of this name. */
 OIIO_PLUGIN_EXPORTS_BEGIN
 
 OIIO_EXPORT OIIO::ImageInput *plane_input_imageio_create() { return new PlaneInput; }

@@ -101,7 +101,7 @@ bool SpanInput::read_part(const Part &part, void *data, size_t stride) {
 
 } // namespace
 
-/* What the library looks for in a plug-in of this name. */
+/* The symbols that the library looks up in a plug-in of this name. */
 OIIO_PLUGIN_EXPORTS_BEGIN
 
 OIIO_EXPORT OIIO::ImageInput *span_input_imageio_create() { return new SpanInput; }
