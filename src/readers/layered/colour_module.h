@@ -22,7 +22,7 @@
 #define CS_COLOUR_MODULE_VERSION 1u
 
 enum {
-  CS_COLOUR_STEPS = 16 * 255, /* from code 0 to code 1: codes of 8 bits fall on points of a curve */
+  CS_COLOUR_STEPS = 16 * 255, /* from code 0 to code 1: codes of 8 bits are points of a curve */
   CS_COLOUR_SIDE = 33
 };
 
@@ -42,19 +42,19 @@ typedef struct cs_colour_table {
   };
 } cs_colour_table;
 
-/* A profile, or the values of the gAMA and cHRM chunks of a PNG in its place. */
+/* A profile, or the values of the gAMA and cHRM chunks of a PNG instead of one. */
 typedef struct cs_colour_request {
   const void *bytes; /* an ICC profile; NULL: the fields below */
   size_t size;
-  uint32_t power;     /* light^(power / 100,000) is the code; above 0 */
-  bool has_places;    /* false: the places of sRGB */
+  uint32_t power;     /* the code is light^(power / 100,000); above 0 */
+  bool has_places;    /* false: the primaries of sRGB */
   uint32_t places[8]; /* x and y of white, red, green and blue, in 1/100,000 */
 } cs_colour_request;
 
 typedef struct cs_colour_module {
   uint32_t version;
-  /* Errors: NO_MEMORY; a profile that cannot be used is a table of the form UNKNOWN. Where the work
-   * is done by another process also INPUT, LIMIT and CANCELLED. Any thread. */
+  /* Errors: NO_MEMORY; the table of a profile that cannot be used has the form UNKNOWN. If another
+   * process does the work, also INPUT, LIMIT and CANCELLED. Any thread. */
   celspan_status (*sample)(const cs_colour_request *request, cs_colour_table *out,
                            cs_picture_failure *failure);
 } cs_colour_module;

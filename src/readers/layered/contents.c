@@ -6,7 +6,7 @@
 
 /* ---------------------------------------------------------------- names */
 
-/* The bytes of the character at the start of a text, 0 where it is no valid UTF-8. */
+/* The bytes of the character at the start of a text; 0 if it is not valid UTF-8. */
 static size_t character_size(const unsigned char *at, size_t left) {
   static const unsigned least[] = {0, 0, 0x80, 0x800, 0x10000};
   size_t size = at[0] < 0x80 ? 1 : at[0] < 0xC2 ? 0 : at[0] < 0xE0 ? 2 : at[0] < 0xF0 ? 3 : 4;
@@ -28,7 +28,7 @@ static bool is_control(const unsigned char *at, size_t size) {
          (size == 2 && at[0] == 0xC2 && at[1] < 0xA0);
 }
 
-/* Bytes that are no character become a question mark. */
+/* Each byte that is not part of a character becomes a question mark. */
 static void set_name(char out[CS_CONTENTS_TEXT], const char *name, size_t size) {
   const unsigned char *from = (const unsigned char *)name;
   size_t done = 0;

@@ -20,7 +20,8 @@
 #define CS_CONTENTS_SIDE 1048576
 #define CS_CONTENTS_PIXELS ((int64_t)1 << 28)
 #define CS_CONTENTS_PIXELS_ALL ((int64_t)1 << 33)
-#define CS_CONTENTS_FARTHEST ((int64_t)1 << 30) /* of a layer's corner, from the painting's */
+/* the greatest distance of a layer's corner from the painting's */
+#define CS_CONTENTS_FARTHEST ((int64_t)1 << 30)
 #define CS_CONTENTS_NONE SIZE_MAX
 #define CS_CONTENTS_TEXT 256 /* bytes of a name or note, with their NUL */
 #define CS_PROFILES_MOST 32  /* different colour profiles of a painting */
@@ -28,22 +29,25 @@
 typedef struct cs_contents_layer {
   char name[CS_CONTENTS_TEXT]; /* valid UTF-8 without control characters; may be "" */
   char blend[32];
-  size_t parent; /* CS_CONTENTS_NONE: of no group */
+  size_t parent; /* CS_CONTENTS_NONE: in no group */
   bool is_group, is_visible;
-  bool is_clipped; /* it shows only where the nearest layer below that is not clipped does */
-  bool is_within;  /* it shows only where the layers below it, in its group, do */
+  /* the layer is visible only where the nearest layer below it that is not clipped is present */
+  bool is_clipped;
+  bool is_within;  /* the layer is visible only where layers below it, in its group, are present */
   int depth;       /* groups it lies in; set when the painting is complete */
   double opacity;  /* 0..1 */
   int32_t x, y, width, height;
-  const char *colour;             /* static: how its codes are taken, as in celspan_picture_desc */
-  cs_rows_source *source;         /* owned; NULL: no pixels; of a group: its mask, in alpha */
-  struct cs_profile_table *table; /* the painting's: converts its codes; NULL: they stay */
+  const char *colour;             /* static: the meaning of its codes, as in celspan_picture_desc */
+  cs_rows_source *source;         /* owned; NULL: no pixels; for a group: its mask, in alpha */
+  /* the painting's: converts its codes; NULL: they are not converted */
+  struct cs_profile_table *table;
   celspan_surface *surface;       /* a reference */
 } cs_contents_layer;
 
 typedef struct cs_contents_remark {
   size_t layer; /* CS_CONTENTS_NONE: the whole painting */
-  bool is_own;  /* it is about the pixels of the layer alone: whoever composes layers may draw it */
+  /* the note is about the pixels of the layer alone; it does not matter if layers are composed */
+  bool is_own;
   char text[CS_CONTENTS_TEXT];
 } cs_contents_remark;
 
@@ -55,14 +59,14 @@ struct celspan_painting {
   size_t count, capacity;
   cs_contents_remark *notes;
   size_t note_count, note_capacity;
-  struct cs_profile_table *tables[CS_PROFILES_MOST]; /* references; until surfaces are made */
+  struct cs_profile_table *tables[CS_PROFILES_MOST]; /* references; kept until surfaces are made */
   size_t table_count;
 };
 
 /* An empty painting. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_contents_create(celspan_context *context, celspan_painting **out);
-/* Appends a layer: visible, opaque, normal, without pixels and of no group. Its address is valid
- * until the next one. name: size bytes, repaired and cut to a valid name. Errors: LIMIT,
+/* Appends a layer: visible, opaque, normal, without pixels and in no group. Its address is valid
+ * until the next layer is added. name: size bytes, repaired and cut to a valid name. Errors: LIMIT,
  * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_contents_add(celspan_context *context, const cs_input *input,
                                                celspan_painting *painting, const char *name,
@@ -71,13 +75,14 @@ CELSPAN_CHECKED celspan_status cs_contents_add(celspan_context *context, const c
 static inline size_t cs_contents_last(const celspan_painting *painting) {
   return painting->count - 1;
 }
-/* Appends a note on a layer, or on the whole painting (CS_CONTENTS_NONE): what is not shown as in
- * the program that made it. Errors: NO_MEMORY. */
+/* Appends a note on a layer, or on the whole painting (CS_CONTENTS_NONE), about something that
+ * looks different from the program that made the painting. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_contents_note(celspan_context *context,
                                                 celspan_painting *painting, size_t layer,
                                                 const char *format, ...)
     __attribute__((format(printf, 4, 5)));
-/* A note on the layer added last, which is not for those who draw layers with all their flags. */
+/* A note on the layer that was added last; it does not matter to callers that draw layers with all
+ * their flags. */
 CELSPAN_CHECKED celspan_status cs_contents_note_own(celspan_context *context,
                                                     celspan_painting *painting,
                                                     const char *sentence);
@@ -86,14 +91,14 @@ CELSPAN_CHECKED celspan_status cs_contents_note_own(celspan_context *context,
 CELSPAN_CHECKED celspan_status cs_contents_check_whole(celspan_context *context,
                                                        const cs_input *input,
                                                        celspan_painting *painting);
-/* Reverses a list that has the foremost layer first, and groups before their layers. */
+/* Reverses a list in which the foremost layer is first, and groups are before their layers. */
 void cs_contents_reverse(celspan_painting *painting);
-/* Errors: LIMIT for pictures beyond the limits above, INPUT for those without pixels. what: the
+/* Errors: LIMIT for pictures beyond the limits above, INPUT for pictures without pixels. what: the
  * picture, for the message. */
 CELSPAN_CHECKED celspan_status cs_contents_check_size(celspan_context *context,
                                                       const cs_input *input, const char *what,
                                                       int64_t width, int64_t height);
-/* Whether a corner is within reach. Errors: LIMIT. */
+/* Checks that a corner is within the limit. Errors: LIMIT. */
 CELSPAN_CHECKED celspan_status cs_contents_check_corner(celspan_context *context,
                                                         const cs_input *input, const char *what,
                                                         int64_t x, int64_t y);

@@ -63,7 +63,7 @@ celspan_status cs_document_size(cs_document *document, const char *width, const 
 }
 
 void cs_document_blend(const char *file, char out[32]) {
-  /* "plus" is OpenRaster's, which adds premultiplied colours; the others are Krita's. */
+  /* "plus" is OpenRaster's mode, which adds premultiplied colours; the other modes are Krita's. */
   static const char *const words[][2] = {
       {"src-over", "normal"},          {"plus", "add"},
       {"add", "linear-dodge"},         {"dodge", "color-dodge"},

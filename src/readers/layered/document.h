@@ -17,7 +17,7 @@
 #include "readers/layered/profile.h"
 #include "readers/layered/zip.h"
 
-#define CS_DOCUMENT_BYTES ((size_t)16 << 20) /* of its XML at most */
+#define CS_DOCUMENT_BYTES ((size_t)16 << 20) /* the most bytes of its XML */
 /* Bytes that all members together may unpack to while the painting is read: the first number, plus
  * the second number for each byte of the file. Many layers may name one member that unpacks to a
  * lot. */
@@ -28,11 +28,11 @@ typedef struct cs_document cs_document;
 
 typedef struct cs_document_format {
   const char *member;  /* of the archive */
-  const char *purpose; /* for the message where the art module is missing */
+  const char *purpose; /* for the message if the art module is missing */
   /* name: without its namespace. Any error stops the reading. */
   celspan_status (*start)(cs_document *document, const char *name);
   celspan_status (*end)(cs_document *document, const char *name);
-  uint32_t depth; /* of elements in one another, for the deepest groups */
+  uint32_t depth; /* the most elements inside one another, enough for the deepest groups */
 } cs_document_format;
 
 struct cs_document {
@@ -45,9 +45,9 @@ struct cs_document {
   uint64_t line;
   celspan_status status;
   size_t group;       /* the innermost open one; CS_CONTENTS_NONE: none */
-  bool has_size;      /* an element had the size of the painting */
-  char folder[256];   /* Krita: of the archive, where the layers lie */
-  size_t unnamed;     /* OpenRaster: open stacks; the outermost stack is the painting itself */
+  bool has_size;      /* an element has given the size of the painting */
+  char folder[256];   /* Krita: the folder in the archive that contains the layers */
+  size_t unnamed;     /* OpenRaster: open stacks; the outermost one is the painting itself */
   int64_t scanned;    /* bytes of members that were unpacked */
   cs_profile profile; /* Krita: of the image */
 };
@@ -58,7 +58,7 @@ CELSPAN_CHECKED celspan_status cs_document_read(celspan_context *context, const 
                                                 celspan_painting *painting);
 /* The value of an attribute; NULL: it is not given. */
 const char *cs_document_text(const cs_document *document, const char *name);
-/* A number; the second function rounds it. *out keeps its value where the attribute is missing.
+/* A number; the second function rounds it. *out does not change if the attribute is missing.
  * Errors: INPUT for a value that is not a number from least to most. */
 CELSPAN_CHECKED celspan_status cs_document_number(const cs_document *document, const char *name,
                                                   double least, double most, double *out);
@@ -71,7 +71,8 @@ CELSPAN_CHECKED celspan_status cs_document_size(cs_document *document, const cha
 CELSPAN_CHECKED celspan_status cs_document_add(cs_document *document, bool is_group,
                                                cs_contents_layer **out);
 void cs_document_close_group(cs_document *document);
-/* Counts bytes that were unpacked. Errors: LIMIT. */
+/* Adds a layer, named by `name`, to the open group, or adds a group that is open until it is
+ * closed. */
 CELSPAN_CHECKED celspan_status cs_document_scan(cs_document *document, int64_t count);
 /* Records "path: member:line: sentence". */
 celspan_status cs_document_fail(const cs_document *document, celspan_status status,

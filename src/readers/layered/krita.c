@@ -30,7 +30,8 @@ static celspan_status read_common(cs_document *document, cs_contents_layer *laye
   return cs_document_whole(document, "y", &layer->y);
 }
 
-/* The channels that a layer changes, alpha last: "1110" leaves the alpha of the layers below. */
+/* The channels that a layer changes, with alpha last: "1110" does not change the alpha of the
+ * layers below. */
 static celspan_status read_channels(cs_document *document) {
   const char *flags = cs_document_text(document, "channelflags");
   const char *off = flags ? strchr(flags, '0') : NULL;
@@ -63,7 +64,7 @@ static void find_folder(cs_document *document, const char *name) {
   }
 }
 
-/* The member of a layer whose name ends so. */
+/* The member of a layer whose name has this ending. */
 static const cs_zip_member *find_member(const cs_document *document, const char *name,
                                         const char *ending) {
   char path[640];
@@ -73,7 +74,8 @@ static const cs_zip_member *find_member(const cs_document *document, const char 
 
 /* ---------------------------------------------------------------- colour profiles */
 
-/* The embedded profile, or if there is none, the named one; without both, *out does not change. */
+/* The embedded profile; if there is none, the profile that is named; if there is neither, *out does
+ * not change. */
 static celspan_status read_profile(cs_document *document, const cs_zip_member *member,
                                    cs_profile *out) {
   const char *name = cs_document_text(document, "profile");
@@ -102,8 +104,7 @@ static celspan_status start_image(cs_document *document) {
                          &document->profile);
 }
 
-/* The profile of a layer's pixels; a note is made where it differs from the profile of the
- * image. */
+/* The profile of a layer's pixels; adds a note if it differs from the profile of the image. */
 static celspan_status read_layer_profile(cs_document *document, const char *name,
                                          cs_contents_layer *layer) {
   cs_profile profile = document->profile;
@@ -117,7 +118,7 @@ static celspan_status read_layer_profile(cs_document *document, const char *name
 
 /* ---------------------------------------------------------------- pixels */
 
-/* The pixel that Krita takes where there is no tile. */
+/* The pixel that Krita uses where there is no tile. */
 static celspan_status read_default(cs_document *document, const char *name,
                                    cs_krita_tiles_form *form) {
   unsigned char *bytes;
@@ -169,7 +170,8 @@ static celspan_status start_layer(cs_document *document) {
   const char *type = cs_document_text(document, "nodetype");
   cs_contents_layer *layer;
   bool is_group = is(type, "grouplayer");
-  CS_TRY(cs_document_add(document, true, &layer)); /* it may have masks: closed with its element */
+  /* it may have masks, so it is closed with its element */
+  CS_TRY(cs_document_add(document, true, &layer));
   layer->is_group = is_group;
   CS_TRY(read_common(document, layer));
   if (is_group) {
@@ -189,7 +191,7 @@ static celspan_status start_layer(cs_document *document) {
 static celspan_status start_mask(cs_document *document) {
   const char *type = cs_document_text(document, "nodetype");
   if (document->group == CS_CONTENTS_NONE)
-    return CELSPAN_OK; /* a selection of the whole painting */
+    return CELSPAN_OK; /* this is a selection for the whole painting */
   return cs_contents_note(document->context, document->painting, document->group,
                           "has a \"%.60s\": it changes nothing here", type ? type : "mask");
 }
@@ -210,6 +212,6 @@ static celspan_status end(cs_document *document, const char *name) {
   return CELSPAN_OK;
 }
 
-/* A group is a layer and the list in it. */
+/* A group is a layer that contains a list. */
 const cs_document_format cs_krita_format = {"maindoc.xml", "reading Krita files", start, end,
                                             2 * CS_CONTENTS_DEPTH + 16};

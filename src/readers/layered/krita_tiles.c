@@ -15,7 +15,7 @@ typedef struct tiles_source {
 
 typedef struct tile {
   int32_t x, y;     /* from the corner of the rows; multiples of SIDE */
-  size_t at, count; /* of its bytes */
+  size_t at, count; /* the place of its bytes */
 } tile;
 
 typedef struct tiles_rows {
@@ -23,11 +23,11 @@ typedef struct tiles_rows {
   const cs_input *input;
   unsigned char *bytes; /* the whole member */
   size_t size;
-  tile *tiles; /* by rows, then columns */
+  tile *tiles; /* row by row, then column by column */
   size_t count, next;
   int32_t y;
-  unsigned char *tile_row;        /* SIDE rows of pixels as the file has them */
-  unsigned char *planes, *pixels; /* of one tile: as packed, and in order */
+  unsigned char *tile_row;        /* SIDE rows of pixels in the form of the file */
+  unsigned char *planes, *pixels; /* of one tile: as packed, and interleaved */
 } tiles_rows;
 
 bool cs_krita_tiles_form_of(const char *space, cs_krita_tiles_form *form) {
@@ -78,7 +78,8 @@ static bool unpack_lzf(const unsigned char *packed, size_t size, unsigned char *
     size_t back = ((head & 31) << 8 | packed[at++]) + 1;
     if (back > done || count > out_size - done)
       return false;
-    for (size_t i = 0; i < count; i++, done++) /* may overlap its own output: a repeated pattern */
+    /* may overlap its own output, which repeats a pattern */
+    for (size_t i = 0; i < count; i++, done++)
       out[done] = out[done - back];
   }
   return done == out_size;
@@ -86,12 +87,12 @@ static bool unpack_lzf(const unsigned char *packed, size_t size, unsigned char *
 
 /* ---------------------------------------------------------------- lines of text */
 
-/* Bytes of a member, from memory or as they come. */
+/* Reads bytes of a member, from memory or from a stream. */
 typedef struct reader {
   celspan_context *context;
   const cs_input *input;
   const char *name;
-  cs_stream *stream;          /* NULL: from memory */
+  cs_stream *stream;          /* NULL: reads from memory */
   const unsigned char *bytes; /* in memory */
   size_t at, size;
 } reader;
@@ -138,7 +139,7 @@ static celspan_status read_line(reader *r, char line[64]) {
   return CELSPAN_OK;
 }
 
-/* The whole number that *at begins with, of at most nine digits; *at is left behind it. */
+/* The whole number of at most nine digits at the beginning of *at; *at is moved after it. */
 static bool read_whole(const char **at, int32_t *out) {
   bool is_negative = **at == '-';
   int32_t number = 0;
@@ -185,7 +186,7 @@ static bool parse_tile(const char *line, tile *out, int32_t *count) {
   return read_whole(&at, count) && *at == 0 && out->x % SIDE == 0 && out->y % SIDE == 0;
 }
 
-/* The line of a tile: its place, and the bytes that follow. */
+/* The line of a tile: its place, and the number of bytes that follow. */
 static celspan_status read_tile(reader *r, int pixel_size, tile *out) {
   char line[64];
   int32_t count;
@@ -224,7 +225,7 @@ static celspan_status find_bounds(reader *r, int pixel_size, bounds *out) {
   return CELSPAN_OK;
 }
 
-/* Whether the pixel beyond the tiles shows anything: alpha comes last. */
+/* Whether the pixel outside the tiles is visible: alpha is its last channel. */
 static bool is_beyond_clear(const cs_krita_tiles_form *form) {
   int bytes = form->bits / 8;
   return form->beyond[form->pixel_size - 1] == 0 && form->beyond[form->pixel_size - bytes] == 0;
@@ -263,7 +264,7 @@ static celspan_status index_tiles(tiles_rows *rows, celspan_context *context) {
               .size = rows->size};
   int32_t count;
   CS_TRY(read_head(&r, source->form.pixel_size, &count));
-  if ((size_t)count > rows->size / 8) /* the shortest line and its byte */
+  if ((size_t)count > rows->size / 8) /* the shortest line of a tile, and one byte */
     return fail(&r, CELSPAN_INPUT, "there are fewer tiles than the head declares");
   if (count == 0)
     return CELSPAN_OK;
@@ -327,7 +328,7 @@ static celspan_status fill_tile_row(tiles_rows *rows, celspan_context *context) 
   return CELSPAN_OK;
 }
 
-/* Pixel x of a row of tiles as the rows have it. */
+/* Converts pixel x of a row of tiles to the form of the rows. */
 static void convert(const cs_krita_tiles_form *form, const unsigned char *from, void *row,
                     size_t x) {
   static const int colour[] = {2, 1, 0, 3}, grey[] = {0, 0, 0, 1};
@@ -445,7 +446,7 @@ celspan_status cs_krita_tiles_create(celspan_context *context, const cs_input *i
   *source = (tiles_source){.base = {&kind, context->memory, form->width, form->height, form->bits},
                            .member = *member,
                            .form = *form};
-  source->member.name = "the tiles of a layer"; /* the archive's table goes before */
+  source->member.name = "the tiles of a layer"; /* the archive's table is freed earlier */
   *out = &source->base;
   return CELSPAN_OK;
 }

@@ -20,23 +20,23 @@
 #include "readers/layered/rows.h"
 #include "readers/layered/zip.h"
 
-#define CS_KRITA_TILES_BYTES ((size_t)1 << 30) /* of a layer's tiles, packed, at most */
+#define CS_KRITA_TILES_BYTES ((size_t)1 << 30) /* the most packed bytes of a layer's tiles */
 #define CS_KRITA_TILES_SIDE 131072             /* of the area that the tiles of a layer cover */
 
 typedef struct cs_krita_tiles_form {
-  /* In: the painting's rectangle in the layer's units; out: the rectangle of the rows. */
+  /* In: the rectangle of the painting in the layer's units; out: the rectangle of the rows. */
   int32_t x, y, width, height;
   bool is_grey;
   int bits;                /* of a channel: 8 or 16 */
   int pixel_size;          /* bytes */
-  unsigned char beyond[8]; /* the pixel where there is no tile */
-  int64_t scanned;         /* out: bytes that the tiles have */
+  unsigned char beyond[8]; /* the pixel for places without a tile */
+  int64_t scanned;         /* out: the bytes of the tiles */
 } cs_krita_tiles_form;
 
-/* Sets the form of a colour space; false where its pixels are not read. */
+/* Sets the form of a colour space; false if its pixels cannot be read. */
 bool cs_krita_tiles_form_of(const char *space, cs_krita_tiles_form *form);
-/* Finds the places of the tiles. *out does not change where there are none and the area beyond them
- * is clear. Errors: INPUT, LIMIT, NO_MEMORY. */
+/* Finds the places of the tiles. *out does not change if there are no tiles and the area outside is
+ * clear. Errors: INPUT, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_krita_tiles_create(celspan_context *context,
                                                      const cs_input *input,
                                                      const cs_zip_member *member,

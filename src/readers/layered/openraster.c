@@ -18,19 +18,19 @@
  * The first two take precedence; without any of them the codes are those of sRGB.
  */
 
-/* Bytes before the data in which chunks of colour are looked for. */
+/* Bytes before the data in which chunks of colour are searched for. */
 #define SCANNED_MOST ((int64_t)1 << 20)
 
 enum { BEFORE_CHUNKS = 8, SUM = 4 };
 
 typedef struct chunks {
   celspan_context *context;
-  cs_stream base;    /* pulls the rest of the open chunk */
+  cs_stream base;    /* reads the rest of the open chunk */
   cs_stream *source; /* the member's bytes */
-  uint32_t left;     /* of the open chunk */
+  uint32_t left;     /* bytes left in the open chunk */
   int64_t scanned;
-  bool is_told;              /* by iCCP or sRGB */
-  cs_colour_request request; /* of gAMA and cHRM */
+  bool is_told;              /* iCCP or sRGB has given the colours */
+  cs_colour_request request; /* made from gAMA and cHRM */
   celspan_painting *painting;
   cs_profile profile;
 } chunks;
@@ -63,7 +63,7 @@ static celspan_status pull(cs_stream *stream, celspan_context *context, void *by
 
 /* ---------------------------------------------------------------- the profile */
 
-/* The unpacked zlib stream in the rest of the chunk. Errors: as cs_stream_load. */
+/* Unpacks the zlib stream in the rest of the chunk. Errors: as cs_stream_load. */
 static celspan_status unpack(chunks *c, unsigned char **bytes, size_t *size) {
   cs_stream_inflate inflate;
   CS_TRY(cs_stream_inflate_init(&inflate, c->context, &c->base, CS_STREAM_ZLIB));
@@ -73,7 +73,7 @@ static celspan_status unpack(chunks *c, unsigned char **bytes, size_t *size) {
   return status;
 }
 
-/* A profile that cannot be unpacked is not understood. */
+/* A profile that cannot be unpacked counts as not understood. */
 static celspan_status read_packed(chunks *c) {
   unsigned char *bytes;
   size_t size;
@@ -153,7 +153,7 @@ static celspan_status read_chunks(chunks *c) {
   return CELSPAN_OK;
 }
 
-/* *scanned: the bytes that were unpacked for it. Errors: INPUT, NO_MEMORY; those of
+/* *scanned: the number of bytes that were unpacked. Errors: INPUT, NO_MEMORY; those of
  * cs_profile_read. */
 static celspan_status read_colours(celspan_context *context, const cs_input *input,
                                    const cs_zip_member *member, celspan_painting *painting,
@@ -190,7 +190,7 @@ static celspan_status start_group(cs_document *document) {
   CS_TRY(cs_document_add(document, true, &layer));
   CS_TRY(read_common(document, layer));
   const char *isolation = cs_document_text(document, "isolation");
-  /* A stack that is not isolated blends as if its layers lay outside it. */
+  /* A stack that is not isolated blends as if its layers were outside of it. */
   if (isolation && strcmp(isolation, "auto") == 0 && strcmp(layer->blend, "normal") == 0 &&
       layer->opacity == 1)
     strcpy(layer->blend, "pass-through");

@@ -1,4 +1,4 @@
-/* Layered paintings: the format of a file, and its layers. */
+/* Layered paintings: finds the format of a file, and reads its layers. */
 #include <pthread.h>
 #include <string.h>
 
@@ -29,8 +29,8 @@ typedef struct reading {
   cs_input input;
   cs_rows_source *source;
   cs_profile_table *table; /* a reference; NULL: codes are not converted */
-  cs_rows *rows;           /* NULL: not begun */
-  int32_t next;            /* the row that comes next */
+  cs_rows *rows;           /* NULL: reading has not begun */
+  int32_t next;            /* the next row */
   unsigned char *row;      /* while begun */
 } reading;
 
@@ -61,7 +61,7 @@ static celspan_status next_row(reading *r, celspan_context *context) {
   return r->source->kind->next(r->rows, context, r->row);
 }
 
-/* Columns of the row that was read last, in the surface's format. */
+/* Columns of the row that was read last, converted to the surface's format. */
 static void put_columns(const reading *r, const celspan_rectangle *rectangle, unsigned char *out) {
   size_t pixel = 4 * (size_t)(r->source->bits / 8), count = (size_t)rectangle->width;
   const unsigned char *from = r->row + (size_t)rectangle->x * pixel;
@@ -98,7 +98,7 @@ static celspan_status read_rectangle(reading *r, celspan_context *context,
   return status;
 }
 
-/* The state from one call to the next lies in the surface's memory, whatever context asks. */
+/* The state between two calls is kept in the surface's memory, whatever context asks. */
 static celspan_status fill(void *user, celspan_context *context, const celspan_rectangle *rectangle,
                            void *destination, size_t stride, int32_t *rows) {
   reading *r = user;
@@ -158,9 +158,9 @@ static cs_hash key_of(const reading *r, size_t index) {
   return cs_hash_end(hash);
 }
 
-/* Owns the source from now on, also on failure. input: as it was while the painting was read;
- * copied. index: of the layer, which distinguishes the surfaces of a file. table: converts the
- * codes, a reference is taken; NULL: codes are not converted. Errors: NO_MEMORY. */
+/* Owns the source from now on, also on failure. input: in the state in which the painting was read;
+ * copied. index: the number of the layer, which distinguishes the surfaces of a file. table:
+ * converts the codes; gets one more reference; NULL: codes are not converted. Errors: NO_MEMORY. */
 static celspan_status create_surface(celspan_context *context, const cs_input *input, size_t index,
                                      cs_rows_source *source, cs_profile_table *table,
                                      celspan_surface **out) {
@@ -209,7 +209,7 @@ static celspan_status read_archive(celspan_context *context, const cs_input *inp
                                   "stack.xml, nor a Krita document, which holds maindoc.xml");
 }
 
-/* Where there are fewer than four bytes, zeros stand for the rest. */
+/* Reads the first four bytes; missing bytes are 0. */
 static celspan_status read_start(celspan_context *context, const cs_input *input,
                                  unsigned char start[4]) {
   for (int i = 0; i < 4; i++)

@@ -17,12 +17,12 @@ typedef struct png_source {
 
 typedef struct png_rows {
   cs_rows base;
-  cs_stream chunks; /* pulls the data of the IDATs */
+  cs_stream chunks; /* reads the data of all IDAT chunks */
   cs_zip_stream member;
   cs_stream_inflate inflate;
-  uint32_t left;                /* of the IDAT that is read */
-  bool is_ended;                /* a chunk that is no IDAT follows */
-  unsigned char *packed, *last; /* this row and the row above, unfiltered; see packed_size */
+  uint32_t left;                /* bytes left in the current IDAT chunk */
+  bool is_ended;                /* the next chunk is not an IDAT */
+  unsigned char *packed, *last; /* the current row and the row above, unfiltered; see packed_size */
   size_t packed_size;
   unsigned char colours[256][4];
   int colour_count;
@@ -49,7 +49,7 @@ static celspan_status fail(celspan_context *context, const cs_input *input, cons
   return cs_input_fail(context, input, -1, CELSPAN_INPUT, "%s: %s", name, sentence);
 }
 
-/* The signature and the header's chunk. */
+/* The signature and the chunk of the header. */
 static celspan_status read_header(celspan_context *context, const cs_input *input, const char *name,
                                   const unsigned char head[33], png_source *source) {
   const unsigned char *header = head + 16;
@@ -96,7 +96,7 @@ static celspan_status pull_data(cs_stream *stream, celspan_context *context, voi
   char type[4];
   *got = 0;
   while (rows->left == 0 && !rows->is_ended) {
-    CS_TRY(skip(rows, context, 4)); /* the sum of the chunk before */
+    CS_TRY(skip(rows, context, 4)); /* the checksum of the previous chunk */
     CS_TRY(next_chunk(rows, context, type));
     rows->is_ended = memcmp(type, "IDAT", 4) != 0;
   }
@@ -135,7 +135,7 @@ static celspan_status read_transparency(png_rows *rows, celspan_context *context
   return skip(rows, context, 4);
 }
 
-/* Up to the data of the first IDAT. */
+/* Moves to the data of the first IDAT. */
 static celspan_status find_data(png_rows *rows, celspan_context *context) {
   const png_source *source = (const png_source *)rows->base.source;
   char type[4];
@@ -165,8 +165,8 @@ static unsigned char nearest(int left, int above, int corner) {
   return (unsigned char)(to_above <= to_corner ? above : corner);
 }
 
-/* Adds to each byte what the filter predicted; false: an unknown filter. step: the bytes of a
- * pixel, at least 1. The bytes on the left of the first pixel are 0. Source: PNG (Third Edition),
+/* Adds the prediction of the filter to each byte; false: an unknown filter. step: the bytes of a
+ * pixel, at least 1. The bytes to the left of the first pixel are 0. Source: PNG (Third Edition),
  * 9.2. */
 static bool unfilter(int filter, unsigned char *row, const unsigned char *last, size_t size,
                      size_t step) {
@@ -227,7 +227,7 @@ static void pixel_of(const png_rows *rows, size_t x, uint16_t rgba[4]) {
     rgba[c] = (uint16_t)(rgba[c] * (255 / most));
 }
 
-/* Rows of the two common forms, of 8 bits and three or four channels; false: of another form. */
+/* Rows of the two common forms: 8 bits and three or four channels; false: the form is different. */
 static bool put_plain_row(const png_rows *rows, unsigned char *out) {
   const png_source *source = (const png_source *)rows->base.source;
   const unsigned char *from = rows->packed + 1;
@@ -336,7 +336,7 @@ celspan_status cs_png_create(celspan_context *context, const cs_input *input,
   CS_TRY(status);
   png_source found = {.base = {.kind = &kind, .memory = context->memory}, .member = *member};
   CS_TRY(read_header(context, input, member->name, head, &found));
-  found.member.name = "a PNG picture"; /* the archive's table does not outlive its reading */
+  found.member.name = "a PNG picture"; /* the archive's table is freed after reading */
   png_source *source;
   CS_TRY(CS_MAKE(context, source, 1));
   *source = found;

@@ -17,7 +17,7 @@
 #include "readers/layered/contents.h"
 #include "readers/layered/profile_table.h"
 
-#define CS_PROFILE_BYTES ((size_t)4 << 20) /* larger ones are not looked at */
+#define CS_PROFILE_BYTES ((size_t)4 << 20) /* larger profiles are not read */
 
 typedef struct cs_profile {
   cs_profile_codes codes;
@@ -25,12 +25,12 @@ typedef struct cs_profile {
   cs_profile_table *table; /* of CONVERTED: the painting's */
 } cs_profile;
 
-/* Reads the profile of the request. Errors: LIMIT for too many different ones; those of
+/* Reads the profile of the request. Errors: LIMIT for too many different profiles; those of
  * cs_profile_table_create. */
 CELSPAN_CHECKED celspan_status cs_profile_read(celspan_context *context, const cs_input *input,
                                                celspan_painting *painting,
                                                const cs_colour_request *request, cs_profile *out);
-/* The meaning of the name of a profile that is not embedded: a profile that comes with Krita. */
+/* The meaning of a profile that is not embedded, by its name: a profile that comes with Krita. */
 void cs_profile_of_name(const char *name, cs_profile *out);
 /* The values of the gAMA and cHRM chunks of a PNG; has_places: whether there is a cHRM. Errors:
  * those of cs_profile_read. */
@@ -38,7 +38,7 @@ CELSPAN_CHECKED celspan_status cs_profile_of_power(celspan_context *context, con
                                                    celspan_painting *painting,
                                                    const cs_colour_request *request,
                                                    cs_profile *out);
-/* Sets how the codes of a layer are meant. */
+/* Sets the meaning of the codes of a layer. */
 void cs_profile_apply(const cs_profile *profile, cs_contents_layer *layer);
 /* Notes a profile that is not understood, on a layer or on the whole painting: CS_CONTENTS_NONE.
  * Errors: NO_MEMORY. */

@@ -45,7 +45,7 @@ static celspan_status fill(celspan_context *context, const cs_input *input,
   const cs_colour_module *module;
   cs_picture_failure failure;
 #ifdef CELSPAN_WITHOUT_COLOUR
-  return CELSPAN_OK; /* of an unknown form */
+  return CELSPAN_OK; /* the form is unknown */
 #endif
   CS_TRY(cs_profile_table_module(context, &module));
   celspan_status status = module->sample(request, out, &failure);
@@ -68,7 +68,7 @@ static bool has_curve(const cs_colour_table *light, celspan_transfer transfer) {
   return true;
 }
 
-/* A GRID is the larger form. */
+/* The form GRID is the larger one. */
 enum { VALUES = sizeof((cs_colour_table *)0)->grid / sizeof(float) };
 
 static bool is_usable(const cs_colour_table *light) {
@@ -91,7 +91,7 @@ static cs_profile_codes codes_of(const cs_colour_table *light) {
 
 /* ---------------------------------------------------------------- places of a grid */
 
-/* From light in the primaries of sRGB to XYZ, in which no colour has values below 0, and back.
+/* From light in the primaries of sRGB to XYZ, where no colour has negative values, and back.
  * Source: IEC 61966-2-1, F.5. */
 static const double to_xyz[3][3] = {
     {0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}};
@@ -99,8 +99,8 @@ static const float from_xyz[3][3] = {{3.2406254773f, -1.5372079722f, -0.49862859
                                      {-0.9689307147f, 1.8757560609f, 0.0415175238f},
                                      {0.0557101204f, -0.2040210506f, 1.0569959423f}};
 
-/* The lightness of CIE Lab, which changes as evenly as eyes see light: a cube root, and a line
- * below LINE. Source: ISO/CIE 11664-4, 4. */
+/* The lightness of CIE Lab, which grows evenly for the eye: a cube root, and a line below LINE.
+ * Source: ISO/CIE 11664-4, 4. */
 #define LINE (6.0 / 29)
 
 static double code_lightness(double x) {
@@ -112,7 +112,7 @@ static float decode_lightness(float code) {
                             : (float)(3 * LINE * LINE) * (code - (float)(4.0 / 29));
 }
 
-/* Light becomes the lightness of XYZ: between places it is mixed as such. */
+/* Replaces light by the lightness of XYZ, because colours between places are mixed in this form. */
 static void code_grid(cs_colour_table *light) {
   float(*values)[3] = &light->grid[0][0][0];
   for (size_t i = 0; i < VALUES / 3; i++) {
@@ -162,8 +162,8 @@ CS_COUNTED(cs_profile_table)
 
 /* ---------------------------------------------------------------- converting */
 
-/* Where a code lies among points from 0 to `last`: after `point`, by `share` of the way to the
- * next. */
+/* The place of a code among points from 0 to `last`: after `point`, by `share` of the way to the
+ * next one. */
 typedef struct place {
   uint32_t point;
   float share;
@@ -186,8 +186,8 @@ static void sum_curves(const cs_colour_table *light, const uint32_t codes[3], fl
   }
 }
 
-/* Tetrahedral interpolation: from the corner below, first along the axis with the greatest share,
- * then along the axis with the next greatest one. */
+/* Tetrahedral interpolation: starts at the corner below, goes first along the axis with the
+ * greatest share, then along the axis with the next greatest one. */
 static void blend_grid(const cs_colour_table *light, const uint32_t codes[3], float out[3]) {
   static const int strides[] = {3 * CS_COLOUR_SIDE * CS_COLOUR_SIDE, 3 * CS_COLOUR_SIDE, 3};
   const float *corner = &light->grid[0][0][0][0];

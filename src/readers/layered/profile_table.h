@@ -25,13 +25,13 @@ typedef struct cs_profile_table {
   cs_colour_table light;
 } cs_profile_table;
 
-/* The module for a context, loaded where it has none of its own. Errors: INPUT, NO_MEMORY. */
+/* The module for a context; loaded if the context has no module yet. Errors: INPUT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_profile_table_module(celspan_context *context,
                                                        const cs_colour_module **out);
 
 cs_hash cs_profile_table_hash(const cs_colour_request *request);
-/* input: for messages. Errors: INPUT and LIMIT where the profile ended the process that looked at
- * it, NO_MEMORY, CANCELLED. */
+/* input: for messages. Errors: INPUT and LIMIT if the profile ended the process that read it,
+ * NO_MEMORY, CANCELLED. */
 CELSPAN_CHECKED celspan_status cs_profile_table_create(celspan_context *context,
                                                        const cs_input *input,
                                                        const cs_colour_request *request,

@@ -14,7 +14,7 @@ typedef struct document {
   cs_profile profile;
   cs_psd_record *records;
   size_t count;
-  size_t open[CS_CONTENTS_DEPTH]; /* where the layers of the groups that are open begin */
+  size_t open[CS_CONTENTS_DEPTH]; /* the first layers of all groups that are open */
   int depth;
 } document;
 
@@ -65,7 +65,7 @@ static celspan_status read_header(document *d, cs_cursor *cursor) {
 
 /* ---------------------------------------------------------------- resources */
 
-/* Reads `size` bytes at the cursor; the caller moves the cursor behind them. */
+/* Reads `size` bytes at the cursor; the caller moves the cursor after them. */
 static celspan_status read_profile(document *d, const cs_cursor *cursor, uint32_t size) {
   d->profile.codes = CS_PROFILE_UNKNOWN;
   if (size > CS_PROFILE_BYTES)
@@ -81,9 +81,8 @@ static celspan_status read_profile(document *d, const cs_cursor *cursor, uint32_
   return status;
 }
 
-/* Blocks of a number, a name and bytes, each padded to an even count. Anything else ends the
-   blocks.
- */
+/* Blocks of a number, a name and bytes, each padded to an even length. Any other data end the
+ * blocks. */
 static celspan_status read_resources(document *d, cs_cursor *cursor) {
   enum { PROFILE = 1039 };
   char signature[4];
@@ -106,7 +105,7 @@ static celspan_status read_resources(document *d, cs_cursor *cursor) {
 
 /* ---------------------------------------------------------------- channels */
 
-/* How the rows at the cursor are packed; it is left behind that. */
+/* How the rows at the cursor are packed; the cursor is moved after this field. */
 static celspan_status read_packing(const document *d, cs_cursor *cursor, cs_psd_channel *out) {
   int64_t at = cursor->at;
   unsigned packing = cs_cursor_16(cursor);
@@ -117,7 +116,7 @@ static celspan_status read_packing(const document *d, cs_cursor *cursor, cs_psd_
   return CELSPAN_OK;
 }
 
-/* Reads a channel of `size` bytes at the cursor, and moves the cursor behind it. */
+/* Reads a channel of `size` bytes at the cursor, and moves the cursor after it. */
 static celspan_status read_channel(const document *d, cs_cursor *cursor, uint64_t size,
                                    cs_psd_channel *out) {
   int64_t end = cs_cursor_section(cursor, size, "a channel");
@@ -135,7 +134,7 @@ static celspan_status read_channel(const document *d, cs_cursor *cursor, uint64_
   return CELSPAN_OK;
 }
 
-/* Where channel `id` of a layer belongs; CS_PSD_CHANNELS: nowhere. */
+/* The index of channel `id` of a layer; CS_PSD_CHANNELS: it is not used. */
 static int place_of(const document *d, int id) {
   if (id >= 0)
     return id < (d->is_grey ? 1 : 3) ? id : CS_PSD_CHANNELS;
@@ -161,7 +160,7 @@ static celspan_status read_channels(const document *d, cs_cursor *cursor,
 
 static int64_t side(int32_t low, int32_t high) { return high > low ? (int64_t)high - low : 0; }
 
-/* Sizes of the channels and place of the mask, which need not lie on the layer. */
+/* The sizes of the channels and the place of the mask, which may lie outside of the layer. */
 static celspan_status prepare(const document *d, const cs_psd_record *record, cs_psd_layer *layer) {
   int64_t width = side(record->left, record->right), height = side(record->top, record->bottom);
   int64_t mask_width = side(record->mask_left, record->mask_right);
@@ -216,7 +215,7 @@ static celspan_status note_what_is_left(const document *d, const cs_psd_record *
   return CELSPAN_OK;
 }
 
-/* Takes the layers since the start of the innermost group that have no parent into the group that
+/* Moves the layers without a parent, from the start of the innermost group on, into the group that
  * was added last. */
 static celspan_status close_group(document *d) {
   celspan_painting *painting = d->painting;
@@ -237,7 +236,7 @@ static celspan_status open_group(document *d) {
   return CELSPAN_OK;
 }
 
-/* The mask of a group: pixels over the whole document. Only their alpha counts. */
+/* The mask of a group: pixels of the whole document, of which only the alpha counts. */
 static celspan_status set_mask(const document *d, const cs_psd_record *record,
                                const cs_psd_layer *group, cs_contents_layer *layer) {
   cs_psd_layer source = {.base = {.width = d->width, .height = d->height, .bits = d->bits},
@@ -285,7 +284,7 @@ static celspan_status add_layer(document *d, cs_cursor *cursor, const cs_psd_rec
   return record->role == CS_PSD_GROUP ? close_group(d) : CELSPAN_OK;
 }
 
-/* Records and channels, in a section that begins at the cursor. */
+/* Reads records and channels, in a section that begins at the cursor. */
 static celspan_status read_layers(document *d, cs_cursor *cursor) {
   int count = (int16_t)cs_cursor_16(cursor);
   CS_TRY(cursor->status);
@@ -305,7 +304,7 @@ static celspan_status read_layers(document *d, cs_cursor *cursor) {
   return d->depth == 0 ? CELSPAN_OK : fail(d, -1, "a group does not end");
 }
 
-/* Layers of 16 bits: in a tagged block behind the section of 8-bit layers and its masks. */
+/* Layers of 16 bits: in a tagged block after the section of 8-bit layers and its masks. */
 static celspan_status read_deep_layers(document *d, cs_cursor *cursor) {
   char key[5];
   uint64_t size;
@@ -323,7 +322,7 @@ static celspan_status read_deep_layers(document *d, cs_cursor *cursor) {
   return cursor->status;
 }
 
-/* The section of layers and masks; the cursor is left behind it. */
+/* The section of layers and masks; the cursor is moved after it. */
 static celspan_status read_section(document *d, cs_cursor *cursor) {
   int64_t outer = cursor->end;
   uint64_t size = d->is_large ? cs_cursor_64(cursor) : cs_cursor_32(cursor);
@@ -349,7 +348,8 @@ static celspan_status read_section(document *d, cs_cursor *cursor) {
 
 /* ---------------------------------------------------------------- without layers */
 
-/* The merged picture: the rows of one channel after those of another, all packed alike. */
+/* The merged picture: the rows of all channels, one channel after another, all packed in the same
+ * way. */
 static celspan_status find_merged(const document *d, cs_cursor *cursor, cs_psd_layer *layer) {
   cs_psd_channel first = {.width = d->width, .height = d->height, .is_there = true};
   CS_TRY(read_packing(d, cursor, &first));

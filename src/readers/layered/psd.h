@@ -16,7 +16,7 @@
 #include "readers/layered/input.h"
 #include "readers/layered/rows.h"
 
-/* Whether the first bytes are the beginning of such a document. */
+/* Whether the first bytes are the beginning of a Photoshop document. */
 bool cs_psd_is(const unsigned char start[4]);
 /* Errors: INPUT, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_psd_read(celspan_context *context, const cs_input *input,
@@ -43,7 +43,7 @@ typedef struct cs_psd_record {
   /* 0..2 colour, -1 alpha, -2 mask, -3 mask before a vector mask. */
   int16_t ids[CS_PSD_MOST_CHANNELS];
   uint64_t sizes[CS_PSD_MOST_CHANNELS];
-  char blend[5], group_blend[5]; /* keys of four letters; "": the file has none */
+  char blend[5], group_blend[5]; /* keys of four letters; "": not in the file */
   unsigned char opacity, fill;
   bool is_hidden, is_clipped;
   bool has_mask, mask_is_off, mask_is_inverted, mask_is_altered;
@@ -56,13 +56,12 @@ typedef struct cs_psd_record {
   size_t name_size;
 } cs_psd_record;
 
-/* Reads the record at the cursor, whose status is the result. is_large: a large document, with
+/* Reads the record at the cursor and returns the cursor's status. is_large: a large document, with
  * some lengths of 8 bytes. */
 void cs_psd_record_read(cs_cursor *cursor, bool is_large, cs_psd_record *out);
-/* The word of celspan for a blend key; "" does not change, and neither do keys without a word. */
+/* The word of celspan for a blend key; out does not change for "" and for keys without a word. */
 void cs_psd_record_blend(const char key[5], char out[32]);
-/* Reads the signature, key and length of a tagged block at the cursor; false where there is none.
- */
+/* Reads the signature, key and length of a tagged block at the cursor; false if there is none. */
 bool cs_psd_record_tag(cs_cursor *cursor, bool is_large, char key[5], uint64_t *size);
 
 /* ---------------------------------------------------------------- the rows of a layer */
@@ -85,21 +84,21 @@ typedef enum cs_psd_packing {
   CS_PSD_ZIP_PREDICTED = 3
 } cs_psd_packing;
 
-/* In the order of cs_psd_layer's channels; of grey the first is the only colour. */
+/* In the order of cs_psd_layer's channels; grey has only the first colour. */
 enum { CS_PSD_RED, CS_PSD_GREEN, CS_PSD_BLUE, CS_PSD_ALPHA, CS_PSD_MASK, CS_PSD_CHANNELS };
 
 typedef struct cs_psd_channel {
   bool is_there;
   cs_psd_packing packing;
   int64_t at, end;       /* of the packed rows */
-  int64_t sizes;         /* PACK_BITS: of the table of their sizes */
+  int64_t sizes;         /* PACK_BITS: where the table of row sizes is */
   int32_t width, height; /* pixels */
 } cs_psd_channel;
 
 typedef struct cs_psd_mask {
   int32_t x, y;          /* of its rectangle, from the layer's corner */
-  unsigned char beyond;  /* its value outside the rectangle */
-  unsigned char density; /* how much it counts, 255: wholly */
+  unsigned char beyond;  /* its value outside of the rectangle */
+  unsigned char density; /* how much the mask counts; 255: fully */
   bool is_inverted;
 } cs_psd_mask;
 

@@ -25,7 +25,7 @@ static bool is_in(const char *const *keys, const char *key) {
 
 bool cs_psd_record_tag(cs_cursor *cursor, bool is_large, char key[5], uint64_t *size) {
   char signature[4];
-  /* Blocks are padded to 2 or 4 bytes, by some writers and not by others. */
+  /* Blocks are padded to 2 or 4 bytes by some programs, but not by others. */
   for (int padding = 0; padding < 4; padding++) {
     if (cursor->end - cursor->at < 12)
       return false;
@@ -43,7 +43,7 @@ bool cs_psd_record_tag(cs_cursor *cursor, bool is_large, char key[5], uint64_t *
   return cursor->status == CELSPAN_OK;
 }
 
-/* UTF-16 to UTF-8, as far as there is room. */
+/* Converts UTF-16 to UTF-8, as far as there is room. */
 static void read_unicode_name(cs_cursor *cursor, uint64_t size, cs_psd_record *out) {
   uint32_t count = cs_cursor_32(cursor);
   if (size < 4 || count > (size - 4) / 2)
@@ -105,7 +105,7 @@ static void read_tags(cs_cursor *cursor, bool is_large, cs_psd_record *out) {
 
 /* ---------------------------------------------------------------- mask and ranges */
 
-/* How much the mask counts and how far its edge is spread out: for a painted mask, then for a mask
+/* How much the mask counts, and how far its edge is blurred: for a painted mask, then for a mask
  * drawn as a path. */
 static void read_mask_parameters(cs_cursor *cursor, cs_psd_record *out) {
   unsigned present = cs_cursor_8(cursor);
@@ -138,14 +138,15 @@ static void read_mask(cs_cursor *cursor, cs_psd_record *out) {
   out->mask_is_off = flags & OFF;
   out->mask_is_inverted = flags & INVERTED;
   if (size >= 36)
-    cs_cursor_skip(cursor, 18); /* the mask before a vector mask was applied to it */
+    cs_cursor_skip(cursor, 18); /* the mask before a vector mask was combined with it */
   if ((flags & PARAMETERS) && cursor->at < end)
     read_mask_parameters(cursor, out);
   if (cursor->status == CELSPAN_OK)
     cursor->at = end;
 }
 
-/* Ranges of lightness in which the layer shows; all lightnesses, unless somebody moved a slider. */
+/* The ranges of lightness in which the layer is visible; the full range unless the user has moved a
+ * slider. */
 static void read_ranges(cs_cursor *cursor, cs_psd_record *out) {
   uint32_t size = cs_cursor_32(cursor);
   int64_t end = cs_cursor_section(cursor, size, "a layer's blending ranges");

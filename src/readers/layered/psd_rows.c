@@ -19,7 +19,7 @@ typedef struct channel_rows {
 typedef struct psd_rows {
   cs_rows base;
   const cs_input *input;
-  int32_t y; /* of the row that comes next, in the layer */
+  int32_t y; /* the number of the next row in the layer */
   channel_rows channels[CS_PSD_CHANNELS];
 } psd_rows;
 
@@ -30,7 +30,7 @@ static celspan_status fail(celspan_context *context, const psd_rows *rows,
   return cs_input_fail(context, rows->input, channel->data.at, CELSPAN_INPUT, "%s", sentence);
 }
 
-/* False unless the packed bytes are exactly one row. */
+/* False unless the packed bytes make exactly one row. */
 static bool unpack_bits(const unsigned char *from, size_t size, unsigned char *row,
                         size_t row_size) {
   size_t at = 0, done = 0;
@@ -103,7 +103,7 @@ static celspan_status begin_channel(psd_rows *rows, celspan_context *context,
   out->channel = channel;
   out->bits = rows->base.source->bits;
   out->row_size = (size_t)channel->width * (size_t)(out->bits / 8);
-  /* PackBits adds a byte to 128 at worst; writers that are less clever may double a row. */
+  /* PackBits adds at most one byte to 128; less efficient programs may double a row. */
   out->packed_size = 2 * out->row_size + 128;
   out->row = cs_mem_array(memory, out->row_size, 1);
   out->packed = cs_mem_array(memory, out->packed_size, 1);
@@ -124,7 +124,7 @@ static uint32_t value_at(const unsigned char *row, size_t x, int bits) {
   return bits == 16 ? cs_bytes_big16(row + 2 * x) : row[x];
 }
 
-/* How much of the layer the mask leaves at column x of a row; 0 to the greatest value. */
+/* The strength of the mask at column x of a row, from 0 to the greatest value. */
 static uint32_t mask_at(const psd_rows *rows, int32_t x, bool has_row) {
   const cs_psd_layer *layer = (const cs_psd_layer *)rows->base.source;
   const cs_psd_channel *channel = &layer->channels[CS_PSD_MASK];
@@ -188,7 +188,7 @@ static void end(cs_rows *base) {
   cs_mem_free(base->memory, rows, sizeof *rows);
 }
 
-/* Passes the rows of the mask that lie above the layer. */
+/* Skips the rows of the mask that lie above the layer. */
 static celspan_status pass_mask_rows(psd_rows *rows, celspan_context *context) {
   const cs_psd_layer *layer = (const cs_psd_layer *)rows->base.source;
   const cs_psd_channel *mask = &layer->channels[CS_PSD_MASK];

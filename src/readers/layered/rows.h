@@ -18,8 +18,8 @@ typedef struct cs_rows cs_rows;
 typedef struct cs_rows_source cs_rows_source;
 
 typedef struct cs_rows_kind {
-  /* Begins at the first row. input: open now, and whenever rows are read; borrowed.
-   * Errors: INPUT, LIMIT, NO_MEMORY; *out is untouched then. */
+  /* Begins at the first row. input: must be open now, and whenever rows are read; borrowed. Errors:
+   * INPUT, LIMIT, NO_MEMORY; *out does not change then. */
   celspan_status (*begin)(const cs_rows_source *source, celspan_context *context,
                           const cs_input *input, cs_rows **out);
   /* The next row. Errors: INPUT, NO_MEMORY. */

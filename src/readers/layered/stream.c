@@ -96,7 +96,7 @@ void cs_stream_range_init(cs_stream_range *range, const cs_input *input, int64_t
 
 /* ---------------------------------------------------------------- inflating */
 
-/* zlib frees without giving the size, so it is kept before each block. */
+/* zlib frees blocks without giving their size, so the size is stored before each block. */
 typedef union allocation_head {
   size_t size;
   max_align_t aligned;

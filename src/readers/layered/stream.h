@@ -15,19 +15,19 @@
 
 typedef struct cs_stream cs_stream;
 struct cs_stream {
-  /* Up to `size` bytes, 1 or more unless the stream is at its end: *got is 0 then. */
+  /* Gets up to `size` bytes: at least 1, except at the end of the stream, where *got is 0. */
   celspan_status (*pull)(cs_stream *stream, celspan_context *context, void *bytes, size_t size,
                          size_t *got);
   const cs_input *input; /* borrowed; for messages */
 };
 
-/* Exactly `size` bytes. what: the item, for the message where the stream ends before. Errors:
+/* Exactly `size` bytes. what: the item, for the message if the stream ends before. Errors:
  * INPUT. */
 CELSPAN_CHECKED celspan_status cs_stream_read(cs_stream *stream, celspan_context *context,
                                               void *bytes, size_t size, const char *what);
 
-/* The rest of the stream, at most `most` bytes, in *size + 1 bytes of new memory: a NUL follows
- * them. Memory is allocated as bytes arrive. name: for the message. Errors: INPUT, LIMIT,
+/* The rest of the stream, at most `most` bytes, in new memory of *size + 1 bytes that ends with a
+ * NUL. Memory is allocated as bytes arrive. name: for the message. Errors: INPUT, LIMIT,
  * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_stream_load(cs_stream *stream, celspan_context *context,
                                               const char *name, size_t most, unsigned char **out,
@@ -48,7 +48,7 @@ typedef enum cs_stream_wrapping {
   CS_STREAM_ZLIB         /* as in PNG and PSD */
 } cs_stream_wrapping;
 
-/* The bytes that another stream inflates to. */
+/* Inflates the bytes of another stream. */
 typedef struct cs_stream_inflate {
   cs_stream base;
   cs_stream *source; /* borrowed */

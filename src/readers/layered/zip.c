@@ -15,12 +15,12 @@ static celspan_status fail(celspan_context *context, const cs_input *input, int6
 
 /* ---------------------------------------------------------------- the end of the table */
 
-/* The place of the table, by the record at its end. */
+/* The place of the table, as the record at its end gives it. */
 typedef struct table_place {
   uint64_t offset, size, count;
 } table_place;
 
-/* Looks for the end of the table, which may be followed by a comment of up to 65535 bytes. */
+/* Searches for the end of the table, after which a comment of up to 65535 bytes may follow. */
 static celspan_status find_end(celspan_context *context, const cs_input *input,
                                unsigned char end[END], int64_t *at) {
   unsigned char bytes[4096 + END];
@@ -97,14 +97,14 @@ static bool widen(int64_t *number, const unsigned char **at, const unsigned char
   return true;
 }
 
-/* Completes sizes and offset from the extra field of 64-bit numbers, where there is one. */
+/* Takes sizes and offset from the extra field of 64-bit numbers, if it exists. */
 static bool read_extra(const unsigned char *at, size_t size, cs_zip_member *member) {
   const unsigned char *end = at + size;
   while (end - at >= 4) {
     size_t length = cs_bytes_little16(at + 2);
     const unsigned char *field = at + 4;
     if ((size_t)(end - field) < length)
-      return true; /* not the form of the standard: nothing in it counts */
+      return true; /* it is not in the standard form, and is ignored */
     at = field + length;
     if (cs_bytes_little16(field - 4) == 1)
       return widen(&member->unpacked, &field, at) && widen(&member->packed, &field, at) &&
@@ -159,7 +159,7 @@ static celspan_status read_table(celspan_context *context, const cs_input *input
     return fail(context, input, zip->table_at, "the table of members is too short");
   if (zip->capacity == 0)
     return CELSPAN_OK;
-  /* A name is shorter than its entry, which leaves room for the NUL. */
+  /* A name is shorter than its entry, so there is room for the NUL. */
   zip->names_size = zip->table_size;
   zip->table = cs_mem_resize(zip->memory, NULL, 0, zip->table_size);
   zip->names = cs_mem_resize(zip->memory, NULL, 0, zip->names_size);
@@ -191,8 +191,8 @@ void cs_zip_finish(cs_zip *zip) {
   *zip = (cs_zip){.memory = zip->memory};
 }
 
-/* The first place at which a member's name is not below `name`: of several of one name, the first
- * of the table. */
+/* The index of the first member whose name is not less than `name`; of several members with one
+ * name, the first in the table. */
 size_t cs_zip_place(const cs_zip *zip, const char *name) {
   size_t low = 0, high = zip->count;
   while (low < high) {

@@ -18,10 +18,10 @@
 
 #define CS_ZIP_MEMBERS 65536
 #define CS_ZIP_TABLE (16 << 20)
-#define CS_ZIP_BARE (-1) /* in the place of the header of a file that lies in no archive */
+#define CS_ZIP_BARE (-1) /* used as the header of a file that is not in an archive */
 
 typedef struct cs_zip_member {
-  const char *name; /* UTF-8 as in the archive; points into the table that the zip keeps */
+  const char *name; /* UTF-8 as in the archive; points into the table of the zip */
   int64_t header;   /* offset of the local header, or CS_ZIP_BARE */
   int64_t packed, unpacked;
   uint32_t sum; /* CRC-32 of the unpacked bytes */
@@ -39,18 +39,19 @@ typedef struct cs_zip {
   size_t count, capacity;
 } cs_zip;
 
-/* Reads the table. Errors: INPUT, LIMIT, NO_MEMORY; there is nothing to finish then. */
+/* Reads the table. Errors: INPUT, LIMIT, NO_MEMORY; then nothing must be finished. */
 CELSPAN_CHECKED celspan_status cs_zip_read(celspan_context *context, const cs_input *input,
                                            cs_zip *out);
 void cs_zip_finish(cs_zip *zip);
-/* The first place of `members` whose name is not below this one; the count where there is none. */
+/* The first index in `members` with a name that is not less than this one; the count if there is
+ * none. */
 size_t cs_zip_place(const cs_zip *zip, const char *name);
-/* The first of that name in the table; NULL: there is none. */
+/* The first member of that name in the table; NULL: there is none. */
 const cs_zip_member *cs_zip_find(const cs_zip *zip, const char *name);
 
 /* The bytes of a member, unpacked. */
 typedef struct cs_zip_stream {
-  cs_stream *bytes; /* one of the two */
+  cs_stream *bytes; /* one of the two streams below */
   cs_stream_range range;
   cs_stream_inflate inflate;
 } cs_zip_stream;
@@ -60,8 +61,8 @@ CELSPAN_CHECKED celspan_status cs_zip_open(celspan_context *context, const cs_in
                                            const cs_zip_member *member, cs_zip_stream *out);
 void cs_zip_close(cs_zip_stream *stream);
 
-/* All bytes of a member, at most `most`, checked by their sum, in *size + 1 bytes of new memory: a
- * NUL follows them. Errors: INPUT, LIMIT, NO_MEMORY. */
+/* All bytes of a member, at most `most`, verified by their checksum, in new memory of *size + 1
+ * bytes that ends with a NUL. Errors: INPUT, LIMIT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_zip_load(celspan_context *context, const cs_input *input,
                                            const cs_zip_member *member, size_t most,
                                            unsigned char **out, size_t *size);

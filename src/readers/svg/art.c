@@ -88,8 +88,9 @@ static celspan_status replace(celspan_status status, celspan_object *made,
   return status;
 }
 
-/* The union of the objects of the items inside; NULL for none. One object by itself would take the
- * effects of the item, if it has a mode, as its own. */
+/* The union of the objects of the items inside; NULL for none. If there is only one object and it
+ * has a mode, a union is needed, because the effects of the item would otherwise act on the object
+ * itself. */
 static celspan_status unite(celspan_context *context, const cs_svg_item *item,
                             celspan_object **out) {
   size_t count = 0, most = 0;
@@ -139,7 +140,7 @@ static celspan_status mask(celspan_context *context, const cs_svg_item *item,
   return replace(status, made, object);
 }
 
-/* Only where a mode is inside: any other object is the same by itself. */
+/* Needed only if a mode is inside: any other object does not change. */
 static celspan_status isolate(celspan_context *context, celspan_object **object) {
   const celspan_group_desc desc = {.struct_size = sizeof desc,
                                    .objects = object,
@@ -221,7 +222,7 @@ static cs_hash hash_name(const char *text) {
   return cs_hash_end(hash);
 }
 
-/* An item's object where it stands in the file, in the space of the drawing. */
+/* An item's object at its place in the file, in the space of the drawing. */
 static celspan_status at_home(celspan_context *context, celspan_space space,
                               const cs_svg_item *item, celspan_object **out) {
   celspan_object *group;
@@ -251,7 +252,7 @@ static celspan_status list_part(listing *list, const char *text, const cs_svg_it
   return CELSPAN_OK;
 }
 
-/* First the items that are drawn at their own place, then the items that only `use` shows.
+/* First the items that are drawn at their own place, then those that are shown only by `use`.
  * Recursion: the depth of items. */
 static celspan_status list_parts(listing *list, const cs_svg_item *item, bool is_label,
                                  bool is_moved) {
@@ -328,7 +329,7 @@ static celspan_status visit_element(visiting *v, const cs_svg_item *item, int32_
   return status;
 }
 
-/* depth: how many visited elements the items are in. Recursion: the depth of items. */
+/* depth: how many visited elements contain the items. Recursion: the depth of items. */
 static celspan_status visit_items(visiting *v, const cs_svg_item *item, bool is_moved,
                                   int32_t depth) {
   for (; item; item = item->next) {

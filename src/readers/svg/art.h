@@ -18,25 +18,25 @@
 /* The facts about an element of the file, also for elements without a name. */
 typedef struct cs_svg_facts {
   uint32_t number, line;     /* number: among all elements of the file, from 1 */
-  const char *tag, *classes; /* classes: NULL where it has none; in the arena, as the tag */
-  char fill[8];              /* "#rrggbb" of a shape or text; "": none, or no flat colour */
+  const char *tag, *classes; /* classes: NULL if there are none; both in the arena */
+  char fill[8];              /* "#rrggbb" for a shape or text; "": it has no flat colour */
 } cs_svg_facts;
 
 typedef struct cs_svg_item {
   struct cs_svg_item *next, *first, *last; /* first, last: items inside */
   const char *id, *label;                  /* NULL: none; in the arena */
-  const cs_svg_facts *facts;               /* NULL: it is a part of an element's drawing */
-  celspan_object *own;                     /* NULL for a group, and for nothing */
+  const cs_svg_facts *facts; /* NULL: the item is only a part of an element's drawing */
+  celspan_object *own; /* NULL for a group, and for an element that draws nothing */
   cs_svg_recipe *filter;                   /* NULL: none. A reference */
   bool has_clip;
-  celspan_object *clip; /* NULL with has_clip: everything is cut away */
+  celspan_object *clip; /* if NULL although has_clip is set: everything is cut away */
   bool has_mask;
-  celspan_object *mask; /* NULL with has_mask: nothing is let through */
+  celspan_object *mask; /* if NULL although has_mask is set: nothing is visible */
   celspan_matte_from masks_by;
   double opacity;
   celspan_blend blend;
-  bool isolates;              /* modes inside do not see its background */
-  bool is_moved;              /* `use` shows it in another place than the file has it */
+  bool isolates;              /* modes inside do not act on its background */
+  bool is_moved;              /* `use` shows the item in another place than its place in the file */
   celspan_matrix moved, back; /* from its place in the file to the shown place; the inverse */
   celspan_object *object;     /* NULL: nothing is drawn */
 } cs_svg_item;
@@ -56,8 +56,8 @@ struct celspan_svg {
   atomic_size_t references;
   cs_memory *memory;
   cs_arena arena;
-  celspan_svg *origin; /* the drawing that it is a changed copy of, whose texts it borrows; NULL:
-                          none */
+  /* the drawing of which this is a changed copy, and from which texts are borrowed; NULL: none */
+  celspan_svg *origin;
   cs_svg_item *root;
   double width, height;
   celspan_space space;    /* of the object and of the parts */
@@ -68,7 +68,7 @@ struct celspan_svg {
   size_t skipped_count;
 };
 
-/* Without items. *out: new. Errors: NO_MEMORY. */
+/* A drawing without items. *out: new. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_svg_art_create(celspan_context *context, celspan_svg **out);
 /* A new item inside `parent`, after its other items; NULL: an item without a parent. Errors:
    NO_MEMORY.
@@ -79,7 +79,9 @@ CELSPAN_CHECKED celspan_status cs_svg_text_copy(celspan_context *context, celspa
                                                 const char *text, const char **out);
 /* Releases the contents of a list of items. */
 void cs_svg_item_drop(cs_svg_item *item);
-/* Makes an item's object of its contents, which are complete. Errors: NO_MEMORY, LIMIT. */
+/* Makes the object of an item from its contents, which must be complete. Errors: NO_MEMORY,
+ * LIMIT. */
 CELSPAN_CHECKED celspan_status cs_svg_item_compose(celspan_context *context, cs_svg_item *item);
-/* Makes the object of the whole and the list of parts, when all items are composed. */
+/* Makes the object of the whole drawing and the list of parts. Called after all items are
+ * composed. */
 CELSPAN_CHECKED celspan_status cs_svg_art_complete(celspan_context *context, celspan_svg *art);

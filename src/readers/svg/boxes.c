@@ -39,7 +39,7 @@ static celspan_status add_element_box(cs_svg_reading *reading, const cs_svg_node
                                       cs_svg_place place, celspan_box *whole, bool *is_there) {
   const cs_svg_open open = {node, place.open};
   if (!cs_svg_is_shown(node, place.sizes) || cs_svg_is_open(place.open, node))
-    return CELSPAN_OK; /* visible contents are noted when they are drawn */
+    return CELSPAN_OK; /* a note is made when visible contents are drawn */
   if (++reading->depth > CS_SVG_DEPTH)
     return cs_fail(reading->context, CELSPAN_LIMIT,
                    "line %u: elements refer to one another more than %d deep", node->line,
@@ -101,7 +101,7 @@ static celspan_status add_switch_box(cs_svg_reading *reading, const cs_svg_node 
   return chosen ? add_element_box(reading, chosen, inner, whole, is_there) : CELSPAN_OK;
 }
 
-/* Adds a box of user units. */
+/* Adds a box in user units. */
 static void add_placed(const celspan_box *box, const celspan_matrix *matrix, celspan_box *whole,
                        bool *is_there) {
   const double *m = matrix->m;
@@ -112,7 +112,7 @@ static void add_placed(const celspan_box *box, const celspan_matrix *matrix, cel
   }
 }
 
-/* Measured elements are drawn later, and their notes are made then. */
+/* A measured element is drawn later, and notes are made then. */
 static celspan_status add_text_box(cs_svg_reading *reading, const cs_svg_node *node,
                                    const cs_svg_place *place, celspan_box *whole, bool *is_there) {
   celspan_box box;

@@ -10,7 +10,7 @@
 
 #include "readers/svg/reading.h"
 
-/* The box in the units of `place`; *is_there: false, and *out is untouched, when there is none.
+/* The box in the units of `place`; *is_there: false, and *out does not change, if there is no box.
  * Parts that cannot be drawn are noted when the element is drawn. Errors: NO_MEMORY, LIMIT; INPUT
  * for numbers that are unfit. */
 CELSPAN_CHECKED celspan_status cs_svg_box_of(cs_svg_reading *reading, const cs_svg_node *node,

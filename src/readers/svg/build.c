@@ -19,7 +19,7 @@
 #include "readers/svg/text.h"
 #include "readers/svg/viewport.h"
 
-/* The size of a drawing that gives none. Source: CSS 2.1, 10.3.2. */
+/* The default size of a drawing. Source: CSS 2.1, 10.3.2. */
 #define DEFAULT_WIDTH 300
 #define DEFAULT_HEIGHT 150
 
@@ -29,8 +29,8 @@ typedef struct builder {
   celspan_matrix root_matrix; /* user units of the outermost element to the drawing's */
 } builder;
 
-/* Adds what an element draws to `parent`. place: the place of its parent. Recursion: at most
- * CS_SVG_DEPTH elements deep, those of `use` counted. */
+/* Adds the drawing of an element to `parent`. place: the place of the element's parent. Recursion:
+ * at most CS_SVG_DEPTH elements, including those of `use`. */
 static celspan_status add_element(builder *b, const cs_svg_node *node, cs_svg_place place,
                                   cs_svg_item *parent);
 
@@ -74,8 +74,8 @@ static celspan_status add_viewport(builder *b, const cs_svg_node *node, const cs
 
 /* ---------------------------------------------------------------- contexts */
 
-/* A paint with `place` as its context, for an element that inherits it. A paint that has a context
- * already keeps it. */
+/* A paint with `place` as its context, for an element that inherits it. If the paint has a context
+ * already, this context is kept. */
 static cs_svg_paint context_paint(cs_svg_paint paint, const cs_svg_style *style,
                                   const cs_svg_context_box *context) {
   if (paint.kind == CS_SVG_PAINT_CURRENT) {
@@ -88,7 +88,7 @@ static cs_svg_paint context_paint(cs_svg_paint paint, const cs_svg_style *style,
 }
 
 /* Gives the contents of a `use` or a marker, in *inner, the paints of the element at `place`.
- * *context: must live while they are drawn. */
+ * *context: must live until they have been drawn. */
 static celspan_status enter_context(builder *b, const cs_svg_node *node, const cs_svg_place *place,
                                     cs_svg_context_box *context, cs_svg_place *inner) {
   const cs_svg_style *style = &place->style;
@@ -105,7 +105,7 @@ static celspan_status enter_context(builder *b, const cs_svg_node *node, const c
 
 /* ---------------------------------------------------------------- use */
 
-/* The drawing's units at the place where an element stands in the file: the transforms of the
+/* The matrix to the drawing's units at an element's place in the file: the transforms of the
  * elements around it. */
 static celspan_status find_home(builder *b, const cs_svg_node *node, const cs_svg_place *root,
                                 celspan_matrix *out) {
@@ -119,7 +119,7 @@ static celspan_status find_home(builder *b, const cs_svg_node *node, const cs_sv
   return CELSPAN_OK;
 }
 
-/* Notes in *place how far from its own place the element is shown. */
+/* Notes in *place how far the element is shown from its own place. */
 static celspan_status note_moved(builder *b, const cs_svg_node *used, cs_svg_place *place) {
   celspan_matrix home, back;
   CS_TRY(find_home(b, used->parent, place, &home));
@@ -250,7 +250,7 @@ static celspan_status add_content(builder *b, const cs_svg_node *node, const cs_
   default:
     if (cs_svg_is_shape(node))
       return add_shape(b, node, place, item);
-    return node->element == CS_SVG_ELEMENT_OTHER /* noted when it was read */
+    return node->element == CS_SVG_ELEMENT_OTHER /* this was noted when it was read */
                ? CELSPAN_OK
                : cs_svg_skip(b->reading, node, "%.50s", node->tag);
   }
@@ -267,8 +267,8 @@ static bool counts_in_shares(const cs_svg_node *mask) {
   return units && cs_svg_is_word(units, "objectBoundingBox");
 }
 
-/* Draws the contents of a mask into `drawn`: the luminance of codes counts. place: in its
- * contents' units. */
+/* Draws the contents of a mask into `drawn`: the luminance of codes counts. place: in the units of
+ * the contents. */
 static celspan_status draw_mask(builder *b, const cs_svg_node *mask, const cs_svg_place *place,
                                 cs_svg_item *drawn) {
   cs_svg_reading *reading = b->reading;
@@ -281,7 +281,7 @@ static celspan_status draw_mask(builder *b, const cs_svg_node *mask, const cs_sv
   return status;
 }
 
-/* Makes the drawn contents, inside the mask's region, the item's mask. */
+/* Makes the drawn contents, cut at the mask's region, the mask of the item. */
 static celspan_status take_mask(builder *b, const cs_svg_region *region, cs_svg_item *drawn,
                                 cs_svg_item *item) {
   celspan_object *both[2] = {drawn->object, NULL};
@@ -294,7 +294,7 @@ static celspan_status take_mask(builder *b, const cs_svg_region *region, cs_svg_
   return status;
 }
 
-/* place: of the element that is masked, with the mask's style. region: has a size. */
+/* place: of the masked element, but with the mask's style. region: has a size. */
 static celspan_status make_mask(builder *b, const cs_svg_node *mask, const cs_svg_node *node,
                                 cs_svg_place place, const cs_svg_region *region,
                                 cs_svg_item *item) {
@@ -313,7 +313,7 @@ static celspan_status make_mask(builder *b, const cs_svg_node *mask, const cs_sv
   return status;
 }
 
-/* Source: CSS Masking Module Level 1, 7. A mask may be masked and clipped itself. */
+/* Source: CSS Masking Module Level 1, 7. A mask may have a mask and a clip path itself. */
 static celspan_status enter_mask(builder *b, const cs_svg_node *mask, const cs_svg_node *node,
                                  const cs_svg_place *element, cs_svg_item *item) {
   cs_svg_reading *reading = b->reading;
@@ -334,13 +334,13 @@ static celspan_status enter_mask(builder *b, const cs_svg_node *mask, const cs_s
   return CELSPAN_OK;
 }
 
-/* The mask that a style refers to; NULL: none. */
+/* The mask to which a style refers; NULL: none. */
 static const cs_svg_node *mask_of(const builder *b, const cs_svg_style *style) {
   const cs_svg_node *mask = cs_svg_referred(b->reading, style->mask);
   return mask && mask->element == CS_SVG_ELEMENT_MASK ? mask : NULL;
 }
 
-/* Whether a mask, or a mask of the mask, and so on, is open. */
+/* Whether a mask is open, or a mask of this mask, and so on: then it would mask itself. */
 static celspan_status masks_itself(builder *b, const cs_svg_open *open, const cs_svg_node *mask,
                                    bool *out) {
   *out = cs_svg_is_open(open, mask);
@@ -431,7 +431,7 @@ static celspan_status draw(cs_svg_reading *reading, const cs_svg_node *node, boo
 
 /* ---------------------------------------------------------------- the whole */
 
-/* The size of the outermost element; per cents and none are of its view box. */
+/* The size of the outermost element; percentages and missing values refer to its view box. */
 static celspan_status read_size(builder *b, const cs_svg_node *node, const cs_svg_view_box *box) {
   const cs_svg_length whole = {100, CS_SVG_UNIT_PERCENT};
   cs_svg_measure measure = {.width = box->is_given ? box->width : DEFAULT_WIDTH,
@@ -483,7 +483,7 @@ celspan_status cs_svg_build(cs_svg_reading *reading, celspan_svg *art) {
   CS_TRY(cs_svg_item_append(reading->context, art, NULL, &art->root));
   CS_TRY(cs_svg_item_name(reading, art, node, &place, art->root));
   CS_TRY(read_effects(&b, node, &place, art->root));
-  art->root->isolates = true; /* as an image does */
+  art->root->isolates = true; /* the same as for an image */
   if (place.style.is_displayed && art->width > 0 && art->height > 0)
     CS_TRY(add_children(&b, node, &place, art->root));
   if (reading->document->sheet.omitted)

@@ -19,7 +19,7 @@ static bool has_class(const char *list, const char *word) {
   return false;
 }
 
-/* Whether an attribute's value is as a condition of a selector asks. */
+/* Whether the value of an attribute fulfils the condition of a selector. */
 static bool fits_condition(const cs_css_condition *condition, const char *value) {
   if (!value || !condition->comparison)
     return value;
@@ -122,7 +122,8 @@ static void apply_attributes(collecting *c) {
   }
 }
 
-/* A value that cannot be filled, or is not one of its property then, counts as not given. */
+/* A value whose variables cannot be replaced, or which is invalid afterwards, counts as not
+ * given. */
 static celspan_status fill_variables(collecting *c) {
   for (int i = 0; i < CS_SVG_NAME_COUNT && c->has_variable; i++) {
     const char **value = &c->out->values[i], *given = *value;
@@ -138,7 +139,7 @@ static celspan_status fill_variables(collecting *c) {
   return CELSPAN_OK;
 }
 
-/* The meaning of the words that every property accepts, as far as it is the same for all. */
+/* The meaning of words that are valid for every property, if it is the same for all of them. */
 static const char *common_value(cs_svg_name name, const char *value) {
   const char *initial = cs_svg_name_facts_of(name)->initial;
   if (!*value || !strchr("iurIUR", *value))
@@ -207,7 +208,7 @@ static bool has_property(const cs_svg_node *node, cs_svg_name name) {
   }
 }
 
-/* The data in path("..."); other values unchanged. */
+/* The data in path("..."); other values do not change. */
 static celspan_status unwrap(pass *p, const char **value) {
   const char *begin = strpbrk(*value, "\"'"), *end = begin ? strrchr(*value, *begin) : NULL;
   if (!begin || strncmp(*value, "path(", 5) != 0 || end == begin)
@@ -222,7 +223,8 @@ static celspan_status unwrap(pass *p, const char **value) {
   return CELSPAN_OK;
 }
 
-/* Gives the element other attributes: its own with the values of styles in their place. */
+/* Replaces the attributes of an element by new ones: its own attributes, with the values of styles
+ * inserted. */
 static celspan_status set_attributes(pass *p, cs_svg_node *node, const cs_svg_cascade *from) {
   cs_svg_attribute *list =
       cs_arena_take(p->context, &p->document->arena, CS_SVG_NAME_COUNT * sizeof *list);

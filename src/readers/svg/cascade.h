@@ -9,14 +9,13 @@
 #include "readers/svg/document.h"
 
 typedef struct cs_svg_cascade {
-  const char *values[CS_SVG_NAME_COUNT]; /* NULL: none is given */
+  const char *values[CS_SVG_NAME_COUNT]; /* NULL: no value is given */
   const cs_svg_variable *variables;      /* of the element */
 } cs_svg_cascade;
 
-/* inherited: the variables of the element's parent. tests: how often selectors may still be tried,
+/* inherited: the variables of the element's parent. tests: how many tests of selectors are left;
  * counted down. Errors: NO_MEMORY; LIMIT when these tests are used up, or variables take too much
- * memory.
- */
+ * memory. */
 CELSPAN_CHECKED celspan_status cs_svg_cascade_collect(celspan_context *context,
                                                       cs_svg_document *document,
                                                       const cs_svg_node *node,

@@ -9,7 +9,7 @@
 typedef struct changing {
   celspan_context *context;
   const celspan_svg_changed *changes;
-  bool *are_labels;  /* whether each change's name is a label, and not an id */
+  bool *are_labels;  /* whether the name of each change is a label; otherwise it is an id */
   uint32_t *numbers; /* the number of the element for each change; 0: the change has a name */
   size_t change_count;
   celspan_svg *art; /* the copy */
@@ -26,7 +26,7 @@ static celspan_object *kept(celspan_object *object) {
   return object ? celspan_object_ref(object) : NULL;
 }
 
-/* The part as the function made it, put where the item is drawn. */
+/* The part that the function made, moved to the place where the item is drawn. */
 static celspan_status make_other(changing *c, const celspan_svg_changed *change,
                                  const cs_svg_item *item, celspan_object **out) {
   celspan_object *home = kept(item->object), *other = NULL, *placed = NULL;
@@ -49,7 +49,7 @@ static celspan_status make_other(changing *c, const celspan_svg_changed *change,
   return status;
 }
 
-/* Makes the item a leaf whose object is the result of the change: it has no parts from now on. */
+/* Makes the item a leaf whose object is the result of the change: from now on it has no parts. */
 static celspan_status change_item(changing *c, const celspan_svg_changed *change,
                                   cs_svg_item *item) {
   celspan_object *other;
@@ -73,9 +73,8 @@ static celspan_status change_item(changing *c, const celspan_svg_changed *change
   return CELSPAN_OK;
 }
 
-/* An item that has an id and a label may be meant by both: one change then acts on the result of
-   the other.
- */
+/* Both the id and the label of an item may be named by changes: then one change acts on the result
+ * of the other. */
 static celspan_status change_as_meant(changing *c, cs_svg_item *item, bool *is_changed) {
   for (size_t i = 0; i < c->change_count && item->object; i++)
     if (is_meant(c, i, item)) {
@@ -138,7 +137,7 @@ static bool has_number(const cs_svg_item *item, uint32_t number) {
   return found;
 }
 
-/* The number in a name such as "#12" where the drawing has that element; 0: it has not. */
+/* The number in a name such as "#12", if the drawing has this element; otherwise 0. */
 static uint32_t number_of(const celspan_svg *svg, const char *name) {
   char *end = NULL;
   unsigned long number = name[0] == '#' ? strtoul(name + 1, &end, 10) : 0;
@@ -175,7 +174,7 @@ static celspan_status copy_notes(changing *c, const celspan_svg *svg) {
   return CELSPAN_OK;
 }
 
-/* The copy borrows texts of the drawing that it was made of, and so keeps it. */
+/* The copy borrows texts of the original drawing, and therefore keeps a reference to it. */
 static celspan_status copy_art(changing *c, const celspan_svg *svg) {
   bool is_changed = false;
   c->art->width = svg->width;

@@ -72,7 +72,7 @@ static celspan_status clip_by_own(cs_svg_reading *reading, const cs_svg_node *no
   return cs_svg_intersect(reading, given_up, clip, object);
 }
 
-/* Through `use` only a shape or a text may be meant. */
+/* Only a shape or a text may be used through `use`. */
 static celspan_status used_object(cs_svg_reading *reading, const cs_svg_node *node,
                                   const cs_svg_place *place, bool uses_fill_rule,
                                   celspan_object **out) {
@@ -118,7 +118,7 @@ celspan_status cs_svg_shape_object(cs_svg_reading *reading, const cs_svg_node *n
 typedef struct drafting {
   celspan_context *context;
   const char *text;
-  cs_svg_measure measure; /* whose viewport is the box */
+  cs_svg_measure measure; /* the viewport is the box */
   celspan_box box;
   cs_outline *outline;
   celspan_rule rule;
@@ -142,7 +142,7 @@ static bool take_length(drafting *d, cs_svg_axis axis, double *out) {
   return cs_number_is_sane(*out);
 }
 
-/* `at` and the centre; the middle of the box without it. */
+/* `at` and the centre; without it, the middle of the box. */
 static bool take_centre(drafting *d, celspan_point *out) {
   double x = 0.5 * d->box.width, y = 0.5 * d->box.height;
   d->text = cs_svg_skip_space(d->text);
@@ -153,7 +153,7 @@ static bool take_centre(drafting *d, celspan_point *out) {
   return true;
 }
 
-/* circle(r at x y), ellipse(rx ry at x y): radii that are not given reach to the closest side. */
+/* circle(r at x y), ellipse(rx ry at x y): a missing radius extends to the closest side. */
 static celspan_status add_round(drafting *d, bool is_circle) {
   celspan_point centre;
   double rx = -1, ry = -1;
@@ -181,7 +181,7 @@ static celspan_status add_inset(drafting *d) {
   d->is_fit = count > 0;
   if (!d->is_fit)
     return CELSPAN_OK;
-  if (count == 1) /* the shares of one length are of either side */
+  if (count == 1) /* a single length refers to either side */
     inset[1] = inset[0];
   for (int i = count > 2 ? count : 2; i < 4; i++)
     inset[i] = inset[i - 2];
@@ -237,7 +237,7 @@ static celspan_status place_shape(drafting *d, const cs_svg_place *place, celspa
 }
 
 /* The shape that `text` describes, for an element at `place`. *out: new, in the drawing's units;
- * NULL: everything is cut away. *is_shape: false where text is not such a shape. */
+ * NULL: everything is cut away. *is_shape: false if text is not such a shape. */
 static celspan_status make_basic_shape(cs_svg_reading *reading, const cs_svg_node *node,
                                        const cs_svg_place *place, const char *text,
                                        celspan_object **out, bool *is_shape) {
@@ -262,7 +262,7 @@ static celspan_status make_basic_shape(cs_svg_reading *reading, const cs_svg_nod
 
 /* ---------------------------------------------------------------- clip paths */
 
-/* Unites the children, in `place` of the clip path. *out: new; NULL when there are none. */
+/* Unites the children of a clip path at `place`. *out: new; NULL if there are none. */
 static celspan_status unite_children(cs_svg_reading *reading, const cs_svg_node *clip,
                                      const cs_svg_place *place, celspan_object **out) {
   celspan_object **objects = NULL;
@@ -284,8 +284,8 @@ static celspan_status unite_children(cs_svg_reading *reading, const cs_svg_node 
   return status;
 }
 
-/* The units of the clip path's content; its transform is in *place already. *is_sized: false when
- * they are shares of a box that has no size. */
+/* The units of the clip path's content; its transform is already in *place. *is_sized: false if the
+ * units are shares of a box without a size. */
 static celspan_status find_units(cs_svg_reading *reading, const cs_svg_node *node,
                                  const cs_svg_node *clip, const cs_svg_place *element,
                                  cs_svg_place *place, bool *is_sized) {
@@ -323,7 +323,7 @@ static celspan_status make_clip(cs_svg_reading *reading, const cs_svg_node *node
   if (!is_sized || !is_regular)
     return CELSPAN_OK;
   CS_TRY(unite_children(reading, clip, &place, out));
-  outer.style = place.style; /* its own clip path lies in the element's units */
+  outer.style = place.style; /* its own clip path uses the element's units */
   outer.matrix = element->matrix;
   outer.measure = element->measure;
   celspan_status status = clip_by_own(reading, node, &outer, out);

@@ -7,9 +7,9 @@
 
 #include "readers/svg/reading.h"
 
-/* The shape of a child of a clip path or mask: of a shape or a text, or of one through `use`. *out:
- * new; NULL for nothing. place: of the parent. uses_fill_rule: the element's fill-rule defines the
- * inside, as in masks; else its clip-rule. style: the element's computed style. */
+/* The shape of a child of a clip path or mask: of a shape or a text, directly or through `use`.
+ * *out: new; NULL for nothing. place: of the parent. uses_fill_rule: the element's fill-rule
+ * defines the inside, as in masks; else its clip-rule. style: the element's computed style. */
 CELSPAN_CHECKED celspan_status cs_svg_shape_object(cs_svg_reading *reading, const cs_svg_node *node,
                                                    cs_svg_place place, bool uses_fill_rule,
                                                    celspan_object **out, cs_svg_style *style);

@@ -1,4 +1,4 @@
-/* Colours of other spaces than sRGB's codes, as CSS writes them. */
+/* Colours of color spaces other than sRGB, as CSS writes them. */
 #include "readers/svg/colours.h"
 
 #include <math.h>
@@ -34,7 +34,7 @@ static bool take_hue(const char **text, double *degrees) {
   return cs_svg_take_word(text, "none") || cs_svg_take_angle(text, degrees);
 }
 
-/* An alpha behind a slash, and the parenthesis at the end. */
+/* An alpha after a slash, and the closing parenthesis. */
 static bool take_end(const char **text, double *alpha) {
   *alpha = 1;
   *text = cs_svg_skip_space(*text);
@@ -101,7 +101,7 @@ static void set_xyz(const double xyz[3], cs_svg_colour *out) {
   set_light(light, out);
 }
 
-/* Lightness and two axes of CIE Lab under D50. */
+/* Sets a colour from lightness and two axes of CIE Lab under D50. */
 static void set_lab(const double lab[3], cs_svg_colour *out) {
   static const double white[3] = {0.9642956764295677, 1, 0.8251046025104602};
   const double kappa = 24389.0 / 27, epsilon = 216.0 / 24389;
@@ -128,7 +128,7 @@ static void set_oklab(const double lab[3], cs_svg_colour *out) {
 
 /* ---------------------------------------------------------------- functions */
 
-/* Lightness and two axes, or chroma and hue. */
+/* Lightness and two axes; or lightness, chroma and hue. */
 static bool take_lab(const char **text, bool is_ok, bool is_polar, cs_svg_colour *out) {
   double lab[3], hue, sine, cosine, chroma = is_ok ? 0.4 : is_polar ? 150 : 125;
   if (!take_component(text, is_ok ? 1 : 100, &lab[0]) || !take_component(text, chroma, &lab[1]) ||
@@ -144,7 +144,7 @@ static bool take_lab(const char **text, bool is_ok, bool is_polar, cs_svg_colour
   return true;
 }
 
-/* A hue, with shares of white and of black in it. */
+/* A hue, and the shares of white and of black that are mixed in. */
 static bool take_hwb(const char **text, cs_svg_colour *out) {
   double hue, white, black;
   if (!take_hue(text, &hue) || !take_component(text, 100, &white) ||
@@ -159,7 +159,7 @@ static bool take_hwb(const char **text, cs_svg_colour *out) {
   return true;
 }
 
-/* color(): a space whose conversion is known, and three components. */
+/* color(): the name of a known space, and three components. */
 static bool take_color(const char **text, cs_svg_colour *out) {
   static const char *const words[] = {"srgb",    "srgb-linear", "display-p3",
                                       "xyz-d50", "xyz-d65",     "xyz"};

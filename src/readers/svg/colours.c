@@ -181,7 +181,7 @@ static bool take_digits(const char **text, cs_svg_colour *out) {
   return count == 3 || count == 4 || count == 6 || count == 8;
 }
 
-/* A number of a function, from 0 to `whole` or in per cent, as a share. */
+/* A number from 0 to `whole`, or a percentage, as a share. */
 static bool take_share(const char **text, double whole, double *out, bool *is_percent) {
   double value;
   if (!cs_svg_take_number(text, &value))
@@ -207,7 +207,7 @@ static bool take_hue(const char **text, cs_svg_colour *out) {
   return true;
 }
 
-/* With commas between them all are numbers, or all percentages. */
+/* With commas between them, all must be numbers, or all percentages. */
 static bool take_channels(const char **text, cs_svg_colour *out) {
   bool is_percent[3], has_comma = false;
   for (int c = 0; c < 3; c++) {
@@ -220,7 +220,7 @@ static bool take_channels(const char **text, cs_svg_colour *out) {
   return !has_comma || (is_percent[0] == is_percent[1] && is_percent[1] == is_percent[2]);
 }
 
-/* The arguments after "rgb(" and "hsl(". */
+/* The arguments after "rgb(" or "hsl(". */
 static bool take_function(const char **text, bool is_hue, cs_svg_colour *out) {
   bool is_percent;
   *text = cs_svg_skip_space(*text);

@@ -9,12 +9,12 @@ typedef struct cs_svg_colour {
 } cs_svg_colour;
 
 /* "#rgb", "#rrggbb" and with alpha, rgb(), rgba(), hsl(), hsla(), hwb(), lab(), lch(), oklab(),
- * oklch(), color(), a name, transparent: reads the colour at *text and moves *text behind it. False
- * when there is no colour. */
+ * oklch(), color(), a name, transparent: reads the colour at *text and moves *text to its end.
+ * False if there is no colour. */
 bool cs_svg_take_colour(const char **text, cs_svg_colour *out);
-/* The same for hwb() to color() alone: the colours of other spaces than sRGB's codes. Colours
- * outside of sRGB are clamped channel by channel. */
+/* The same for hwb() to color() only: colours of other spaces. Colours outside of sRGB are clamped
+ * channel by channel. */
 bool cs_svg_take_space_colour(const char **text, cs_svg_colour *out);
 
-/* The colour of a hue in degrees; alpha stays. */
+/* The colour of a hue in degrees; its alpha does not change. */
 void cs_svg_colour_of_hue(double hue, double saturation, double lightness, cs_svg_colour *out);

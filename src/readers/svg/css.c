@@ -21,7 +21,7 @@ static bool is_name(char c) {
          c == '_' || (unsigned char)c >= 128;
 }
 
-/* A copy of [begin, end) without space at its ends. NULL without memory. */
+/* A copy of [begin, end) without space at its ends. NULL if there is no memory. */
 static char *copy_trimmed(const cs_css_place *place, const char *begin, const char *end) {
   while (begin < end && cs_svg_is_space(*begin))
     begin++;
@@ -36,7 +36,8 @@ static char *copy_trimmed(const cs_css_place *place, const char *begin, const ch
   return copy;
 }
 
-/* A copy with a blank for each comment, and for the marks of an XML comment around everything. */
+/* A copy with a blank in place of each comment, and of the marks of an XML comment around the
+ * text. */
 static char *copy_without_comments(const cs_css_place *place, const char *text) {
   char *copy = cs_arena_take(place->context, place->arena, strlen(text) + 1), *to = copy;
   if (!copy)
@@ -56,15 +57,15 @@ static char *copy_without_comments(const cs_css_place *place, const char *text) 
 
 /* ---------------------------------------------------------------- declarations */
 
-/* Which quote is open behind `c`, where `quote` was before it; 0: none. A string ends with its line
- * at the latest. */
+/* The quote that is open after `c`, if `quote` was open before it; 0: none. A string ends with its
+ * line at the latest. */
 static char open_quote(char quote, char c) {
   if (quote)
     return c == quote || c == '\n' ? 0 : quote;
   return c == '"' || c == '\'' ? c : 0;
 }
 
-/* The end of a declaration's value: the next ';' or '{' that is in no string and no parentheses. */
+/* The end of a declaration's value: the next ';' or '{' outside of strings and parentheses. */
 static const char *value_end(const char *text, const char *end) {
   char quote = 0;
   int depth = 0;
@@ -79,7 +80,7 @@ static const char *value_end(const char *text, const char *end) {
   return text;
 }
 
-/* The text after the braces that begin at a '{', or the end. */
+/* The text after the block that begins with '{', or the end. */
 static const char *braces_end(const char *text, const char *end) {
   char quote = 0;
   int depth = 0;
@@ -92,7 +93,7 @@ static const char *braces_end(const char *text, const char *end) {
   return end;
 }
 
-/* Cuts "!important" off the end. */
+/* Cuts off "!important" at the end. */
 static bool cut_important(const char *begin, const char **end) {
   const char *mark = *end;
   while (mark > begin && *mark != '!')
@@ -103,7 +104,7 @@ static bool cut_important(const char *begin, const char **end) {
   return true;
 }
 
-/* The name without its prefix, if browsers read it as the same property. */
+/* The name without its prefix, if browsers treat both as the same property. */
 static const char *unprefixed(const char *name) {
   static const char prefix[] = "-webkit-";
   static const char aliases[] = "clip-path|filter|mask|mask-image|opacity|transform|"
@@ -114,8 +115,8 @@ static const char *unprefixed(const char *name) {
   return cs_svg_words_have(aliases, rest) ? rest : name;
 }
 
-/* Judges a declaration with this name; *counts: false for a declaration that is not read; a note is
- * made where it would change the drawing. */
+/* Checks a declaration with this name. *counts: false if it is not read; then a note is made,
+ * unless it could not change the drawing. */
 static celspan_status judge(const cs_css_place *place, const char *name, cs_css_declaration *it,
                             bool *counts) {
   const char *property = unprefixed(name);
@@ -194,8 +195,8 @@ typedef struct parser {
   cs_css_sheet *sheet;
 } parser;
 
-/* The name that text begins with; *text is moved behind it. NULL without memory; "" where there is
- * none. */
+/* The name at the beginning of *text, which is moved after it. NULL if there is no memory; "" if
+ * there is no name. */
 static const char *take_name(parser *p, const char **text) {
   const char *begin = *text;
   while (is_name(**text))
@@ -203,7 +204,8 @@ static const char *take_name(parser *p, const char **text) {
   return copy_trimmed(p->place, begin, *text);
 }
 
-/* The value of a condition, quoted or a name; its end is left at *text. NULL without memory. */
+/* The value of a condition, quoted or a name; *text is moved to its end. NULL if there is no
+ * memory. */
 static const char *take_condition_value(parser *p, const char **text) {
   char quote = **text == '"' || **text == '\'' ? *(*text)++ : 0;
   if (!quote)
@@ -216,7 +218,7 @@ static const char *take_condition_value(parser *p, const char **text) {
   return value;
 }
 
-/* A condition from behind its '[' to behind its ']'; *is_simple: it was understood. */
+/* A condition, from after its '[' to after its ']'; *is_simple: it was understood. */
 static celspan_status parse_condition(parser *p, const char **text, cs_css_condition *out,
                                       bool *is_simple) {
   const char *at = cs_svg_skip_space(*text), *name = take_name(p, &at);
@@ -258,7 +260,7 @@ static celspan_status parse_conditions(parser *p, const char **text, cs_css_comp
   return CELSPAN_OK;
 }
 
-/* One compound; *is_simple: all of it was understood. */
+/* A compound; *is_simple: the whole compound was understood. */
 static celspan_status parse_compound(parser *p, const char **text, cs_css_compound *out,
                                      uint32_t *specificity, bool *is_simple) {
   const char *classes[CLASSES], *name;
@@ -297,7 +299,7 @@ static celspan_status parse_compound(parser *p, const char **text, cs_css_compou
   return CELSPAN_OK;
 }
 
-/* The chain of one selector, which ends at `end`. */
+/* The chain of a selector, which ends at `end`. */
 static celspan_status parse_selector(parser *p, const char *text, const char *end,
                                      cs_css_rule *rule, bool *is_simple) {
   cs_css_compound compounds[COMPOUNDS];
@@ -338,7 +340,7 @@ static celspan_status add_rule(parser *p, cs_css_rule *rule) {
   return CELSPAN_OK;
 }
 
-/* A rule for each selector of the list [text, brace). */
+/* Adds a rule for each selector of the list [text, brace). */
 static celspan_status add_selectors(parser *p, const char *text, const char *brace,
                                     cs_css_declarations declarations) {
   while (text < brace) {

@@ -14,11 +14,12 @@
 
 #define CS_CSS_RULES 65536
 
-/* Where texts of style sheets are read to. */
+/* The destination for the texts of style sheets. */
 typedef struct cs_css_place {
   celspan_context *context;
   cs_arena *arena;
-  cs_svg_unread *unread; /* properties that are not read, and values that therefore do not count */
+  /* properties that are not read, and values that are ignored because of this */
+  cs_svg_unread *unread;
   uint32_t line;         /* of the text */
 } cs_css_place;
 
@@ -33,26 +34,28 @@ typedef struct cs_css_declaration {
 typedef struct cs_css_declarations {
   const cs_css_declaration *items;
   size_t count;
-  bool has_geometry; /* some are of CS_SVG_USE_GEOMETRY */
-  bool has_nested;   /* there were rules between them, which are left out */
+  bool has_geometry; /* some of them are of CS_SVG_USE_GEOMETRY */
+  bool has_nested;   /* rules between the braces were left out */
 } cs_css_declarations;
 
-/* [name], [name=value], or with a sign before the '=': ~ a word of it, | the whole value or its
- * beginning before a hyphen, ^ its beginning, $ its end, * any part of it. */
+/* [name] or [name=value]. With a sign before the '=', the value matches: ~ one of its words, | the
+ * whole value or its beginning up to a hyphen, ^ its beginning, $ its end, * any part of it. */
 typedef struct cs_css_condition {
   cs_svg_name name;
-  char comparison; /* 0: the attribute exists; '=': it is the value; else the sign before the '=' */
+  /* 0: the attribute must exist; '=': the attribute must have the value; otherwise the sign
+   * before the '=' */
+  char comparison;
   const char *value;
 } cs_css_condition;
 
 typedef struct cs_css_compound {
   const char *element, *id; /* NULL: any */
   bool is_root;             /* the outermost element: ":root" */
-  const char **classes;     /* all of them */
+  const char **classes;     /* all of them must match */
   size_t class_count;
-  cs_css_condition *conditions; /* all of them */
+  cs_css_condition *conditions; /* all of them must match */
   size_t condition_count;
-  bool is_child; /* of the element of the compound before it, not only below it */
+  bool is_child; /* a child of the element of the compound before it; otherwise anywhere below it */
 } cs_css_compound;
 
 typedef struct cs_css_rule {
@@ -64,10 +67,10 @@ typedef struct cs_css_rule {
 } cs_css_rule;
 
 typedef struct cs_css_sheet {
-  cs_css_rule *rules; /* ascending: later ones win */
+  cs_css_rule *rules; /* in ascending order of weight: later ones win */
   size_t count, capacity;
   bool omitted;
-  bool has_geometry; /* in any rule */
+  bool has_geometry; /* in one of the rules */
 } cs_css_sheet;
 
 /* Parses the contents of a `style` attribute. Errors: NO_MEMORY. */

@@ -19,12 +19,13 @@ typedef struct reader {
   const char *name;
   cs_svg_document *document;
   cs_svg_node *open;      /* the innermost element that is open; NULL: none */
-  uint32_t foreign_depth; /* open elements of other namespaces, and open elements inside these */
-  char *css;              /* of the style elements so far */
+  /* the number of open elements of other namespaces, and of open elements inside these */
+  uint32_t foreign_depth;
+  char *css;              /* the texts of the style elements so far */
   size_t css_size, css_capacity;
   char *characters; /* of the open text, since its last element */
   size_t character_size, character_capacity;
-  uint64_t character_line; /* where they begin */
+  uint64_t character_line; /* the line where they begin */
   celspan_status failure;
 } reader;
 
@@ -80,7 +81,7 @@ static bool is_silent(const char *const *attribute) {
          cs_svg_name_is_silent(attribute[0], attribute[1]);
 }
 
-/* Notes an attribute that is not read, or a value that is not. */
+/* Notes an attribute that is not read, or a value that is not read. */
 static celspan_status note_attribute(reader *r, const cs_svg_node *node, cs_svg_name name,
                                      const char *const *attribute) {
   bool is_quiet = name != CS_SVG_NAME_COUNT ? cs_svg_value_is_read(name, attribute[1], false)
@@ -91,8 +92,8 @@ static celspan_status note_attribute(reader *r, const cs_svg_node *node, cs_svg_
                            attribute[0], attribute[1]);
 }
 
-/* Takes an attribute into the list. One of no namespace wins over one of the same name in the
- * namespace of links, in any order. */
+/* Adds an attribute to the list. An attribute without a namespace wins over one of the same name in
+ * the namespace of links, in either order. */
 static celspan_status take_attribute(reader *r, cs_svg_node *node, const char *const *attribute,
                                      cs_svg_attribute *list, size_t *count) {
   cs_svg_name name = attribute_name(attribute[0]);
@@ -166,7 +167,7 @@ static celspan_status count_element(reader *r, uint64_t line) {
                  (unsigned)line, CS_SVG_ELEMENTS);
 }
 
-/* Whether an element in `parent` is seen by nobody, or replaced by another one. */
+/* Whether an element in `parent` is never seen, or is replaced by another one. */
 static bool is_apart(const cs_svg_node *parent) {
   for (; parent; parent = parent->parent)
     if (parent->element == CS_SVG_ELEMENT_SWITCH || !cs_svg_element_is_drawn(parent->element))
@@ -182,7 +183,7 @@ static celspan_status note_element(reader *r, const cs_svg_node *node, uint64_t 
                            node->tag, NULL);
 }
 
-/* Notes an element of pages or of formulas. */
+/* Notes an element of HTML or MathML. */
 static celspan_status note_foreign(reader *r, const char *name, uint64_t line) {
   bool is_seen = has_prefix(name, PAGE_NAMESPACE " ") || has_prefix(name, FORMULA_NAMESPACE " ");
   if (!is_seen || is_apart(r->open))
@@ -235,7 +236,7 @@ static celspan_status append_bytes(reader *r, char **text, size_t *size, size_t 
   return CELSPAN_OK;
 }
 
-/* The characters since the last element, or the last end of one, as a node of their own. */
+/* Makes a node of the characters since the last beginning or end of an element. */
 static celspan_status end_characters(reader *r) {
   if (r->character_size == 0)
     return CELSPAN_OK;
@@ -282,7 +283,7 @@ static bool on_end(void *user, const char *name, uint64_t line) {
 
 /* ---------------------------------------------------------------- texts of elements */
 
-/* Whether a style element is not for paper or voices alone. */
+/* Whether a style element is for screens, too, not only for paper or speech. */
 static bool is_for_screens(const cs_svg_node *node) {
   const char *media = cs_svg_node_value(node, CS_SVG_MEDIA);
   return !media || !*cs_svg_skip_space(media) || strstr(media, "all") || strstr(media, "screen");
@@ -311,7 +312,7 @@ static bool on_text(void *user, const char *bytes, size_t size, uint64_t line) {
   return r->failure == CELSPAN_OK;
 }
 
-/* Notes a style sheet in a file of its own, which the instruction before the document names. */
+/* Notes a style sheet in a separate file, which an instruction before the document names. */
 static celspan_status note_other_sheet(reader *r, const char *bytes, size_t size) {
   static const char instruction[] = "<?xml-stylesheet";
   return memmem(bytes, size, instruction, sizeof instruction - 1)

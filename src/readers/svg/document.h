@@ -24,8 +24,8 @@ typedef struct cs_svg_attribute {
 typedef struct cs_svg_node {
   cs_svg_element element;
   const char *tag;       /* its name, without a namespace */
-  const char *text;      /* of CHARACTERS: UTF-8, as the file has it; else NULL */
-  uint32_t line, number; /* number: of elements, from 1 in the order of the file */
+  const char *text;      /* of CHARACTERS: UTF-8, as in the file; otherwise NULL */
+  uint32_t line, number; /* number: counts elements, from 1 in the order of the file */
   struct cs_svg_node *parent, *first, *last, *next; /* NULL: none; first, last: children */
   const cs_svg_attribute *attributes;
   size_t attribute_count;
@@ -38,9 +38,9 @@ typedef struct cs_svg_document {
   size_t element_count;
   cs_svg_node **named; /* the nodes with an id; the first node of each id is in `ids` */
   size_t named_count, named_capacity;
-  cs_hash_table ids; /* to places in `named` */
+  cs_hash_table ids; /* their values are indices into `named` */
   cs_css_sheet sheet;
-  uint32_t sheet_line; /* where the first style element begins; 0: there is none */
+  uint32_t sheet_line; /* the line where the first style element begins; 0: there is none */
   bool has_geometry;   /* a style gives places or sizes */
   cs_svg_unread unread;
   cs_svg_variables variables; /* made while styles are read */
@@ -53,7 +53,7 @@ CELSPAN_CHECKED celspan_status cs_svg_document_read(celspan_context *context, co
                                                     cs_svg_document *out);
 void cs_svg_document_finish(cs_svg_document *document, celspan_context *context);
 
-/* The element with the id that these bytes are, or NULL. */
+/* The element whose id consists of these bytes, or NULL. */
 const cs_svg_node *cs_svg_document_find(const cs_svg_document *document, const char *id,
                                         size_t size);
 /* The value of an attribute, or NULL. */

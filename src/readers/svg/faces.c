@@ -7,9 +7,9 @@
 #include "celspan/svg.h"
 #include "readers/svg/values.h"
 
-#define FAMILIES 64 /* of one list that are looked for */
+#define FAMILIES 64 /* the most families of one list that are searched for */
 
-/* A family's name as it stands in a list. */
+/* The name of a family, as it is written in a list. */
 typedef struct family {
   const char *text;
   size_t size;

@@ -12,9 +12,9 @@
 /* Points of a curve: five around each place where a table bends, or the points of a power. */
 #define POWER_POINTS 256
 #define POINTS (5 * VALUES + 8)
-/* Half of the width of a bend or a jump. */
+/* Half of the width that replaces a bend or a jump. */
 #define NEAR 1e-6
-/* Up to where colours that leave 0..1 are clamped. */
+/* Colours are clamped up to this far outside of 0..1. */
 #define FAR 1e6
 
 /* ---------------------------------------------------------------- numbers */
@@ -92,7 +92,7 @@ static void read_function(const cs_svg_node *node, function *out) {
 
 /* ---------------------------------------------------------------- curves */
 
-/* A curve of a grade as it grows. INVARIANT: x ascends. */
+/* A curve of a grade to which points are added. INVARIANT: x ascends. */
 typedef struct curve {
   celspan_point points[POINTS];
   size_t count;
@@ -103,14 +103,14 @@ static void add_point(curve *c, double x, double y) {
     c->points[c->count++] = (celspan_point){x, cs_number_clamp(y, 0, 1)};
 }
 
-/* The part between two bends stays straight, because its ends have its slope. */
+/* Adds points on both sides of a bend, so that the part between two bends remains straight. */
 static void add_bend(curve *c, const function *f, double x) {
   for (int side = -2; side <= 2; side++)
     if ((side != 0 || f->kind != FUNCTION_DISCRETE) && x + side * NEAR >= 0 && x + side * NEAR <= 1)
       add_point(c, x + side * NEAR, value_at(f, x + side * NEAR));
 }
 
-/* Where a line leaves 0..1. */
+/* Adds the points at which a line leaves 0..1. */
 static void add_line(curve *c, const function *f) {
   double low = f->slope != 0 ? (0 - f->intercept) / f->slope : 0;
   double high = f->slope != 0 ? (1 - f->intercept) / f->slope : 0;
@@ -135,7 +135,7 @@ static const curve *curve_of(const function *f, curve *out) {
   return out;
 }
 
-/* The line that is clamped to 0..1. */
+/* The curve that clamps colours to 0..1. */
 static void clamping_curve(curve *out) {
   const function identity = {.kind = FUNCTION_LINEAR, .slope = 1};
   out->count = 0;
@@ -165,7 +165,7 @@ static bool is_share(const function *f, double *share) {
   return is_straight;
 }
 
-/* Whether there are values that could not be read: more than VALUES, or no numbers. */
+/* Whether some values could not be read: there are more than VALUES, or they are no numbers. */
 static bool has_other_values(const cs_svg_node *node, const function *f) {
   const char *text = cs_svg_node_value(node, CS_SVG_TABLE_VALUES);
   return text && *cs_svg_skip_space(text) && f->count == 0;
@@ -206,7 +206,7 @@ celspan_status cs_svg_transfer_read(cs_svg_reading *reading, const cs_svg_node *
 
 /* ---------------------------------------------------------------- feColorMatrix */
 
-/* 20 numbers by rows; a matrix of another size changes nothing. */
+/* 20 numbers, row by row; a matrix of another size has no effect. */
 static void read_matrix(const cs_svg_node *node, celspan_grade_desc *desc, cs_svg_step *step,
                         const char **reason) {
   double values[20];
@@ -234,7 +234,8 @@ static bool is_flood(const cs_svg_recipe *recipe, size_t number) {
          recipe->steps[number - CS_SVG_SOURCES].kind == CS_SVG_STEP_FLOOD;
 }
 
-/* An input that is multiplied by a flood gets the product of the two colours where the flood is. */
+/* If an input is multiplied by a flood, the product of the two colours is drawn where the flood
+ * is. */
 celspan_status cs_svg_product_read(const cs_svg_reading *reading, const cs_svg_recipe *recipe,
                                    cs_svg_step *step, const char **reason) {
   const size_t *inputs = recipe->inputs + step->first_input;

@@ -11,8 +11,8 @@
 #include "readers/svg/reading.h"
 #include "readers/svg/recipe.h"
 
-/* Fills the step of an element of one of the two kinds. *reason: why it cannot be read, for a note;
- * NULL: it could. Errors: NO_MEMORY. */
+/* Fills in the step of an element of one of the two kinds. *reason: why it cannot be read, for a
+ * note; NULL: it was read. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_svg_colour_matrix_read(cs_svg_reading *reading,
                                                          const cs_svg_node *node, cs_svg_step *step,
                                                          const char **reason);
@@ -25,7 +25,7 @@ CELSPAN_CHECKED celspan_status cs_svg_product_read(const cs_svg_reading *reading
                                                    const cs_svg_recipe *recipe, cs_svg_step *step,
                                                    const char **reason);
 
-/* Fills in a turn of all hues. */
+/* Fills in a rotation of all hues. */
 void cs_svg_hue_set(celspan_grade_desc *desc, double degrees);
 /* The grade of a matrix, clamped to 0..1. *out: new. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_svg_clamped_grade(const cs_svg_reading *reading,
@@ -33,6 +33,6 @@ CELSPAN_CHECKED celspan_status cs_svg_clamped_grade(const cs_svg_reading *readin
 
 /* The value of an attribute that is one number; `fallback` for any other. */
 double cs_svg_filter_number(const cs_svg_node *node, cs_svg_name name, double fallback);
-/* The numbers of an attribute, up to `most` of them; returns their number, or 0 where anything else
- * is among them. */
+/* The numbers of an attribute, up to `most` of them. Returns their number, or 0 if the attribute
+ * contains anything else. */
 size_t cs_svg_filter_numbers(const cs_svg_node *node, cs_svg_name name, double *out, size_t most);

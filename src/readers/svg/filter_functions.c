@@ -6,7 +6,7 @@
 #include "base/number.h"
 #include "readers/svg/filter_colours.h"
 
-/* Functions cut nothing off that lies within this, and lengths are within it. */
+/* Functions cut off nothing that is nearer than this, and no length is greater. */
 #define FARTHEST 1e9
 
 static double length_of(const cs_svg_filter_call *call, int index, const cs_svg_place *place) {
@@ -14,7 +14,7 @@ static double length_of(const cs_svg_filter_call *call, int index, const cs_svg_
                          -FARTHEST, FARTHEST);
 }
 
-/* Radii of blurs are twice their deviations. */
+/* The radius of a blur is twice its deviation. */
 static void read_blur(const cs_svg_filter_call *call, int index, const cs_svg_place *place,
                       cs_svg_step *step) {
   step->kind = CS_SVG_STEP_BLUR;
@@ -30,7 +30,7 @@ static void read_shadow(const cs_svg_reading *reading, const cs_svg_filter_call 
   step->paint = cs_svg_paint_of(reading, colour, 1);
 }
 
-/* Every channel becomes slope * itself + intercept. */
+/* Every channel c becomes slope * c + intercept. */
 static void set_line(celspan_grade_desc *desc, double slope, double intercept) {
   desc->has_matrix = true;
   for (int c = 0; c < 3; c++) {

@@ -28,15 +28,16 @@ typedef struct cs_svg_filter_call {
   cs_svg_reference reference; /* REFERENCE */
   double amount;              /* of colours: 0 or more, or degrees */
   cs_svg_length lengths[3];   /* BLUR: the first; SHADOW: along x, along y, the deviation */
-  bool is_bare;               /* a length other than 0 has no unit */
+  bool is_bare;               /* a length other than 0 was written without a unit */
   bool has_colour;            /* SHADOW; false: the colour of the property `color` */
   cs_svg_colour colour;
 } cs_svg_filter_call;
 
 /* The name of a function. */
 const char *cs_svg_filter_name(cs_svg_filter_kind kind);
-/* Reads the call that *text begins with and moves *text to the next one; false: there is none. */
+/* Reads the call at the beginning of *text and moves *text to the next call; false: there is no
+ * call. */
 bool cs_svg_take_filter(const char **text, cs_svg_filter_call *out);
-/* Whether the whole value is a list of calls. is_style: lengths need units, which attributes do not
- * demand. */
+/* Whether the whole value is a list of calls. is_style: lengths need units, which are optional in
+ * attributes. */
 bool cs_svg_is_filter_list(const char *text, bool is_style);

@@ -3,7 +3,7 @@
 
 #include "readers/svg/shapes.h"
 
-/* Whether nothing is inside of an element that could have a paint of its own. */
+/* Whether an element contains nothing that could have its own paint. */
 static bool is_plain(const cs_svg_node *element) {
   if (cs_svg_is_shape(element))
     return true;

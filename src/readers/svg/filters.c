@@ -15,13 +15,13 @@
 /* A result with a name. */
 typedef struct named_result {
   const char *name;
-  size_t number; /* as inputs of steps count */
+  size_t number; /* counted in the same way as the inputs of steps */
 } named_result;
 
 /* A filter that is being read, and the element in it that becomes the next step. */
 typedef struct filter {
   cs_svg_reading *reading;
-  const cs_svg_node *element; /* that is filtered */
+  const cs_svg_node *element; /* the element that is filtered */
   const cs_svg_place *place;  /* of that */
   const cs_svg_node *owner;   /* the filter; NULL: a function */
   celspan_box box;            /* of the element, in its user units */
@@ -29,13 +29,13 @@ typedef struct filter {
   cs_svg_recipe *recipe;
   named_result *names;
   size_t name_count, name_capacity;
-  uint32_t *uses; /* of the sources, for each of them and each step */
+  uint32_t *uses; /* for each source, and then for each step: how often both sources are in it */
   size_t use_count, use_capacity;
-  uint32_t weight; /* how often the element is in the last result; before: in the source */
+  uint32_t weight; /* how often the element is in the last result; at first: in the source */
   const cs_svg_node *node;
   cs_svg_style style;
   cs_svg_step step;
-  const char *reason; /* why a step cannot be made; NULL: none so far */
+  const char *reason; /* why a step cannot be made; NULL: no step has failed */
 } filter;
 
 /* ---------------------------------------------------------------- inputs */
@@ -47,7 +47,7 @@ static celspan_status add_input(filter *f, size_t number) {
                    number);
 }
 
-/* The previous step, or the element: the input by default. */
+/* The default input: the previous step, or the element if there is none. */
 static size_t last_result(const filter *f) {
   return f->recipe->step_count > 0 ? CS_SVG_SOURCES + f->recipe->step_count - 1 : 0;
 }
@@ -83,7 +83,7 @@ static celspan_status take_both(filter *f) {
 
 /* ---------------------------------------------------------------- places */
 
-/* One side of the step's box; by default that of the region. */
+/* One side of the step's box; by default the same side of the region. */
 static celspan_status read_side(const filter *f, cs_svg_name name, cs_svg_axis axis,
                                 const cs_svg_measure *measure, double *side) {
   const char *text = cs_svg_node_value(f->node, name);
@@ -102,13 +102,13 @@ static celspan_status read_side(const filter *f, cs_svg_name name, cs_svg_axis a
   return CELSPAN_OK;
 }
 
-/* The box of an input: for the sources it is the region. */
+/* The box of an input; the box of the sources is the region. */
 static const celspan_box *box_of(const filter *f, size_t number) {
   return number < CS_SVG_SOURCES ? &f->recipe->region
                                  : &f->recipe->steps[number - CS_SVG_SOURCES].box;
 }
 
-/* The box of a step that gives none: around the boxes of its inputs, as in browsers. */
+/* The box of a step that specifies none: the box around its inputs' boxes, as in browsers. */
 static celspan_box usual_box(const filter *f) {
   const cs_svg_recipe *recipe = f->recipe;
   if (f->step.input_count == 0 || f->step.kind == CS_SVG_STEP_TILE)
@@ -133,14 +133,14 @@ static celspan_status read_box(filter *f) {
   return read_side(f, CS_SVG_HEIGHT, CS_SVG_AXIS_Y, &measure, &box->height);
 }
 
-/* The common part of two boxes; without a size where there is none. */
+/* The intersection of two boxes; its size is 0 if they do not meet. */
 static celspan_box common(const celspan_box *a, const celspan_box *b) {
   double left = fmax(a->x, b->x), right = fmin(a->x + a->width, b->x + b->width);
   double top = fmax(a->y, b->y), bottom = fmin(a->y + a->height, b->y + b->height);
   return (celspan_box){left, top, fmax(0, right - left), fmax(0, bottom - top)};
 }
 
-/* A vector in user units. */
+/* A vector in user units, computed from the numbers of an attribute. */
 static celspan_point scaled(const filter *f, double x, double y) {
   return f->is_in_shares ? (celspan_point){x * f->box.width, y * f->box.height}
                          : (celspan_point){x, y};
@@ -155,7 +155,7 @@ static celspan_status read_offset(filter *f) {
   return take_input(f, f->node, CS_SVG_IN);
 }
 
-/* Radii of blurs are twice their deviations; one below 0 means none at all. */
+/* The radius of a blur is twice its deviation; a negative deviation means no blur. */
 static void read_deviations(filter *f, double least) {
   double values[2] = {least, least};
   size_t count = cs_svg_filter_numbers(f->node, CS_SVG_STD_DEVIATION, values, 2);
@@ -171,12 +171,12 @@ static celspan_status read_blur(filter *f) {
   const char *edge = cs_svg_node_value(f->node, CS_SVG_EDGE_MODE);
   f->step.kind = CS_SVG_STEP_BLUR;
   read_deviations(f, 0);
-  if (edge && cs_svg_words_have("duplicate|wrap", edge)) /* as browsers draw it: as `none` */
+  if (edge && cs_svg_words_have("duplicate|wrap", edge)) /* drawn as `none`, as in browsers */
     CS_TRY(cs_svg_skip(f->reading, f->node, "edgeMode \"%.10s\"", cs_svg_skip_space(edge)));
   return take_input(f, f->node, CS_SVG_IN);
 }
 
-/* The greatest and the least of the pixels around are shapes where all are of one colour. */
+/* The greatest and the least of the surrounding pixels are shapes if all pixels have one colour. */
 static celspan_status read_morphology(filter *f) {
   const char *word = cs_svg_node_value(f->node, CS_SVG_OPERATOR);
   double values[2] = {0, 0};
@@ -226,7 +226,7 @@ static celspan_status read_blend(filter *f) {
   return take_both(f);
 }
 
-/* Nothing can be subtracted, and one factor of a product must be a flood. */
+/* Subtraction is not possible, and one factor of a product must be a flood. */
 static celspan_status read_sum(filter *f) {
   double *weights = f->step.weights;
   f->step.kind = CS_SVG_STEP_SUM;
@@ -281,7 +281,7 @@ static celspan_status read_tile(filter *f) {
 
 /* ---------------------------------------------------------------- images */
 
-/* An element of the file, as `use` shows it. */
+/* Draws an element of the file in the same way as `use` does. */
 static celspan_status draw_element(filter *f, const cs_svg_node *shown) {
   const cs_svg_open open = {f->owner, f->place->open};
   cs_svg_place place = {.matrix = celspan_matrix_identity(),
@@ -311,7 +311,7 @@ static celspan_status read_image(filter *f) {
 
 typedef celspan_status step_reader(filter *f);
 
-/* NULL: recipes have no such step. */
+/* NULL: recipes do not have this step. */
 static step_reader *reader_of(cs_svg_element element) {
   static const struct {
     cs_svg_element element;
@@ -334,14 +334,14 @@ static step_reader *reader_of(cs_svg_element element) {
   return NULL;
 }
 
-/* The element is in both sources as often as filters before this one have put it there. */
+/* Both sources contain the element as often as the filters before this one have put it there. */
 static celspan_status start_uses(filter *f) {
   for (size_t i = 0; i < CS_SVG_SOURCES; i++)
     CS_TRY(CS_APPEND(f->reading->context, f->uses, f->use_count, f->use_capacity, f->weight));
   return CELSPAN_OK;
 }
 
-/* Counts how often the sources are in the result of the step. */
+/* Counts how often the result of the step contains the sources. */
 static celspan_status count_uses(filter *f) {
   uint32_t uses = 0;
   const size_t factor = f->step.kind == CS_SVG_STEP_SUM      ? 2 * CS_SVG_SUM_MOST
@@ -375,7 +375,7 @@ static celspan_status read_step(filter *f, step_reader *read) {
   return status;
 }
 
-/* Reads the steps until one cannot be made. */
+/* Reads steps until one of them cannot be made. */
 static celspan_status read_steps(filter *f) {
   CS_TRY(start_uses(f));
   for (const cs_svg_node *node = f->owner->first; node && !f->reason; node = node->next) {
@@ -400,7 +400,7 @@ static celspan_status make_function(filter *f, const cs_svg_filter_call *call) {
 
 /* ---------------------------------------------------------------- the whole */
 
-/* Names the step that cannot be made, at its line. */
+/* Notes the step that cannot be made, at its line. */
 static celspan_status note(const filter *f, const cs_svg_filter_call *call) {
   bool is_function = call->kind != CS_SVG_FILTER_REFERENCE;
   const char *name = is_function ? cs_svg_filter_name(call->kind) : f->node->tag;
@@ -408,7 +408,7 @@ static celspan_status note(const filter *f, const cs_svg_filter_call *call) {
                      f->element->tag, name, *f->reason ? " " : "", f->reason);
 }
 
-/* The region in user units. Where it has no size, nothing is drawn: there are no steps. */
+/* The region in user units. If it has no size, nothing is drawn, and there are no steps. */
 static celspan_status make_steps(filter *f) {
   cs_svg_recipe *recipe = f->recipe;
   const char *units = cs_svg_node_value(f->owner, CS_SVG_PRIMITIVE_UNITS);
@@ -439,7 +439,8 @@ static celspan_status make_recipe(filter *f, const cs_svg_filter_call *call) {
   return status;
 }
 
-/* The filter that is referred to; *is_there: false: it is missing or circular, which is noted. */
+/* The filter that a reference means. *is_there: false: it is missing or circular, and this is
+ * noted. */
 static celspan_status find_owner(filter *f, cs_svg_reference reference, bool *is_there) {
   f->owner = cs_svg_referred(f->reading, reference);
   *is_there = f->owner && f->owner->element == CS_SVG_ELEMENT_FILTER;
@@ -450,7 +451,7 @@ static celspan_status find_owner(filter *f, cs_svg_reference reference, bool *is
                    : cs_svg_skip(f->reading, f->element, "filter that shows what it filters");
 }
 
-/* The recipe of a call. weight: how often the element is in the filtered picture; updated. *out:
+/* The recipe of a call. weight: how often the filtered picture contains the element; updated. *out:
  * new; NULL: it cannot be made. */
 static celspan_status add_recipe(filter f, const cs_svg_filter_call *call, uint32_t *weight,
                                  cs_svg_recipe **out) {

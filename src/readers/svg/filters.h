@@ -10,8 +10,8 @@
 #include "readers/svg/reading.h"
 #include "readers/svg/recipe.h"
 
-/* The filters of an element at `place`, whose style has some. *out: new; NULL: it is drawn without
- * filters. Errors: NO_MEMORY, LIMIT, INPUT. */
+/* The filters of an element at `place`, whose style has some. *out: new; NULL: the element is drawn
+ * without filters. Errors: NO_MEMORY, LIMIT, INPUT. */
 CELSPAN_CHECKED celspan_status cs_svg_filter_make(cs_svg_reading *reading, const cs_svg_node *node,
                                                   const cs_svg_place *place, cs_svg_recipe **out);
 

@@ -55,7 +55,7 @@ static bool has_unit(const char *text) {
   return !cs_svg_take_number(&text, &value) || value == 0 || *cs_svg_skip_space(text);
 }
 
-/* ---------------------------------------------------------------- other values */
+/* Used where only the form of percentages and units is checked. */
 
 static bool is_colour(const char *text) {
   cs_svg_colour colour;
@@ -101,7 +101,7 @@ static bool is_view_box(const char *text) {
   return cs_svg_parse_view_box(text, &box);
 }
 
-/* xMidYMid, then meet or slice; or none. */
+/* A length in CSS must have a unit, unless it is 0. */
 static bool is_aspect(const char *text) {
   text = cs_svg_skip_space(text);
   if (cs_svg_take_word(&text, "none"))
@@ -134,7 +134,7 @@ static bool is_order(const char *text) {
   return cs_svg_parse_order(text, order);
 }
 
-/* By form; NULL: nothing but words, or anything. */
+/* Tests for each form; NULL: any value, or only the words of the property. */
 typedef bool form_test(const char *text);
 static form_test *const tests[] = {
     [CS_SVG_FORM_NUMBER] = is_number,        [CS_SVG_FORM_SHARE] = is_share,
@@ -161,7 +161,7 @@ bool cs_svg_value_is_read(cs_svg_name name, const char *value, bool is_style) {
   bool is_property = is_style || facts->use == CS_SVG_USE_PRESENTED;
   bool is_place = is_style && facts->use == CS_SVG_USE_GEOMETRY;
   value = cs_svg_skip_space(value);
-  /* Most values have the form: words are compared only with the others. */
+  /* Most values have the form, so words are compared only for the others. */
   return (is_place ? is_geometry(name, value) : has_form(facts->form, value, is_style)) ||
          cs_svg_has_variable(value) || cs_svg_is_unfit(value) ||
          cs_svg_words_have(facts->words, value) ||

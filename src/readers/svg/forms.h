@@ -5,6 +5,6 @@
 
 /* Whether a value contains a part that is only known later: var(). */
 bool cs_svg_has_variable(const char *value);
-/* is_style: the value is of a style sheet or of an attribute `style`. Numbers that no value may be
- * (cs_svg_is_unfit) and values with variables are not judged here: true. */
+/* is_style: the value is from a style sheet or an attribute `style`. Returns true for numbers that
+ * no value may be (cs_svg_is_unfit) and for values with variables: they are checked elsewhere. */
 bool cs_svg_value_is_read(cs_svg_name name, const char *value, bool is_style);

@@ -10,12 +10,12 @@
 #include "readers/svg/shapes.h"
 #include "readers/svg/transforms.h"
 
-/* Templates that follow one another through href, at most. */
+/* The most templates that follow one another by href. */
 #define TEMPLATES 32
 /* How far from the centre a focus may lie, as a share of the radius. */
 #define FOCUS_SHARE 0.999
 
-/* Stops in place of one stretch between two, at most; 64 are enough from black to white. */
+/* The most stops that replace one stretch between two stops; 64 are enough from black to white. */
 #define PIECES 64
 /* The allowed difference between the picture here and in a browser, in coded values. */
 #define TOLERANCE (0.5 / 255)
@@ -43,8 +43,8 @@ typedef struct gradient {
   spread_kind spread;
   gradient_stops stops;
   celspan_matrix matrix;
-  /* linear: from, to; radial: a circle of radius `outer` about `to`, and where 0 is one of radius
-   * `inner` about `from`; one of inner = 0 and from = to holds */
+  /* linear: from, to; radial: the last circle has the radius `outer` around `to`, and the circle at
+   * 0 the radius `inner` around `from`; with inner = 0 and from = to, it is the usual gradient. */
   celspan_point from, to;
   double inner, outer;
 } gradient;
@@ -58,7 +58,7 @@ static cs_svg_colour mixed(const cs_svg_colour *a, const cs_svg_colour *b, doubl
   return mix;
 }
 
-/* Whether stops will be mixed as codes, as the file means it. */
+/* Whether the stops will be mixed as codes, as the file demands. */
 static bool mixes_codes(const cs_svg_reading *reading) {
   return reading->is_coded || reading->space == CELSPAN_SPACE_SRGB;
 }
@@ -73,8 +73,8 @@ static double encode(const cs_svg_reading *reading, double light) {
                               : (double)cs_transfer_encode(CELSPAN_TRANSFER_SRGB, (float)light);
 }
 
-/* Whether the linear mix of two stops, premultiplied, is near enough to their coded mix at the
- * share u of the way. */
+/* Whether the linear mix of two premultiplied stops is near enough to the mix of their codes, at
+ * the share u of the way. */
 static bool is_near(const cs_svg_reading *reading, const cs_svg_colour *a, const cs_svg_colour *b,
                     double u) {
   const cs_svg_colour exact = mixed(a, b, u);
@@ -90,7 +90,7 @@ static bool is_near(const cs_svg_reading *reading, const cs_svg_colour *a, const
   return true;
 }
 
-/* Into how many equal pieces a stretch is cut so that each is near enough. */
+/* The number of equal pieces into which a stretch is cut so that each piece is near enough. */
 static int count_pieces(const cs_svg_reading *reading, const cs_svg_colour *a,
                         const cs_svg_colour *b) {
   int count = 1;
@@ -112,7 +112,7 @@ static celspan_status append(cs_svg_reading *reading, double at, const cs_svg_co
                    (celspan_stop){at, cs_svg_paint_of(reading, colour, opacity)});
 }
 
-/* The stops after `last` up to and with `next`. */
+/* Appends the stops after `last`, up to and including `next`. */
 static celspan_status append_stretch(cs_svg_reading *reading, const coloured_stop *last,
                                      const coloured_stop *next, double opacity,
                                      gradient_stops *out) {
@@ -139,7 +139,8 @@ static double offset_of(const cs_svg_node *stop) {
   return *cs_svg_skip_space(value) ? 0 : cs_number_clamp(offset, 0, 1);
 }
 
-/* Appends the stops of a gradient's element, refined. opacity multiplies alpha. */
+/* Appends the stops of a gradient's element, with more stops where they are needed. opacity
+ * multiplies alpha. */
 static celspan_status read_stops(cs_svg_reading *reading, const cs_svg_node *owner, double opacity,
                                  gradient_stops *out) {
   cs_svg_style above, style;
@@ -163,7 +164,7 @@ static void finish_stops(gradient_stops *stops, cs_memory *memory) {
   *stops = (gradient_stops){0};
 }
 
-/* A period in which the first colour holds from 0 and the last one to 1. */
+/* Extends the stops to a whole period: the first colour from 0 on, and the last one up to 1. */
 static celspan_status hold_ends(cs_svg_reading *reading, gradient_stops *stops) {
   const celspan_stop first = {0, stops->items[0].paint};
   const celspan_stop last = {1, stops->items[stops->count - 1].paint};
@@ -179,8 +180,8 @@ static celspan_status hold_ends(cs_svg_reading *reading, gradient_stops *stops) 
   return CELSPAN_OK;
 }
 
-/* Puts the stops of the periods [first, last), last > first, in place of the stops of one period;
- * places then go from 0 at the start of the first to 1 at the end of the last. */
+/* Replaces the stops of one period by the stops of the periods [first, last), last > first. Places
+ * then go from 0 at the start of the first period to 1 at the end of the last one. */
 static celspan_status spread_stops(cs_svg_reading *reading, spread_kind spread, int first, int last,
                                    gradient_stops *stops) {
   gradient_stops whole = {0};
@@ -202,8 +203,8 @@ static celspan_status spread_stops(cs_svg_reading *reading, spread_kind spread, 
 
 /* ---------------------------------------------------------------- elements */
 
-/* The element itself or the first of its templates that has the attribute; NULL: none. Geometry is
- * inherited from gradients of the same kind alone. */
+/* The first of the element and its templates that has the attribute; NULL: none. Geometry is
+ * inherited only from gradients of the same kind. */
 static const cs_svg_node *owner_of(const gradient *g, cs_svg_name name, bool is_geometry) {
   const cs_svg_node *node = g->node;
   for (int i = 0; i < TEMPLATES && node && cs_svg_is_gradient(node); i++) {
@@ -231,7 +232,7 @@ static const char *text_of(const gradient *g, cs_svg_name name) {
   return owner ? cs_svg_node_value(owner, name) : "";
 }
 
-/* per_cent: the attribute's default value. */
+/* per_cent: the default value of the attribute. */
 static celspan_status read_length(const gradient *g, cs_svg_name name, cs_svg_axis axis,
                                   double per_cent, double *out) {
   const cs_svg_node *owner = owner_of(g, name, true);
@@ -246,7 +247,7 @@ static celspan_status read_linear(gradient *g) {
   return read_length(g, CS_SVG_Y2, CS_SVG_AXIS_Y, 0, &g->to.y);
 }
 
-/* A focus lies inside the circle; on its edge the gradient would have no end. */
+/* Moves the focus into the circle: at the edge, the gradient would have no end. */
 static void hold_focus(gradient *g) {
   double dx = g->from.x - g->to.x, dy = g->from.y - g->to.y;
   double distance = cs_number_length(dx, dy), most = FOCUS_SHARE * g->outer;
@@ -272,7 +273,7 @@ static celspan_status read_radial(gradient *g) {
   return CELSPAN_OK;
 }
 
-/* The gradient's units to the shape's. */
+/* Reads the matrix from the gradient's units to the shape's. */
 static void read_matrix(gradient *g) {
   celspan_matrix own;
   g->matrix = celspan_matrix_identity();
@@ -287,8 +288,8 @@ static void read_matrix(gradient *g) {
 
 /* ---------------------------------------------------------------- spreading */
 
-/* Where a point lies along a linear gradient, or between the circles of a radial one: the greater
- * of the places whose circle goes through it. */
+/* The place of a point along a linear gradient or between the circles of a radial one: the greatest
+ * place whose circle goes through the point. */
 static double place_of(const gradient *g, double x, double y) {
   double dx = g->to.x - g->from.x, dy = g->to.y - g->from.y;
   double px = x - g->from.x, py = y - g->from.y, along = px * dx + py * dy;
@@ -299,7 +300,7 @@ static double place_of(const gradient *g, double x, double y) {
   return (sqrt(half * half + rest * (px * px + py * py - g->inner * g->inner)) - half) / rest;
 }
 
-/* The least and the greatest place of the gradient, in periods, where the shape is. */
+/* The least and the greatest place, in periods, at points of the shape. */
 static bool find_places(const gradient *g, double *least, double *most) {
   celspan_matrix inverse;
   const celspan_box *box = &g->shape->painted;
@@ -344,7 +345,7 @@ static celspan_paint converted(celspan_space to, celspan_paint paint) {
   return paint;
 }
 
-/* Two stops as the gradient will be mixed. */
+/* Mixes two stops in the same way as the gradient will. */
 static celspan_paint mix_stops(const cs_svg_reading *reading, const celspan_stop *a,
                                const celspan_stop *b, double u) {
   if (reading->is_coded || reading->space != CELSPAN_SPACE_SRGB)
@@ -354,7 +355,7 @@ static celspan_paint mix_stops(const cs_svg_reading *reading, const celspan_stop
                                      converted(CELSPAN_SPACE_SRGB, b->paint), (float)u));
 }
 
-/* Places counted from the centre instead of from the inner radius; stops before the centre are cut
+/* Counts places from the centre instead of from the inner radius; stops before the centre are cut
  * off. */
 static void begin_at_centre(gradient *g) {
   size_t kept = 0;

@@ -9,7 +9,7 @@
 typedef struct image {
   cs_svg_reading *reading;
   const cs_svg_node *node;
-  celspan_object *object; /* from (0, 0) to its size; NULL: nothing is shown, which is noted */
+  celspan_object *object; /* from (0, 0) to its size; NULL: nothing is shown, and this is noted */
   double width, height;
 } image;
 
@@ -28,7 +28,7 @@ static celspan_status note_failure(const image *of, celspan_status status) {
 
 /* ---------------------------------------------------------------- pictures */
 
-/* Makes the object of a picture, and takes its size. */
+/* Makes the object of a picture, and sets the size. */
 static celspan_status show_picture(image *of, celspan_picture_desc *picture) {
   celspan_context *context = of->reading->context;
   celspan_picture_info info = CELSPAN_PICTURE_INFO;
@@ -44,7 +44,7 @@ static celspan_status show_picture(image *of, celspan_picture_desc *picture) {
   return celspan_object_create_image(context, &desc, &of->object);
 }
 
-/* A picture that lies in the drawing itself. */
+/* A picture that is contained in the drawing. */
 static celspan_status show_bytes(image *of, const cs_svg_image_data *data) {
   celspan_picture_desc picture = {.struct_size = sizeof picture, .file = NULL};
   CS_TRY(cs_svg_image_picture(of->reading, of->node, data->bytes, data->size, &picture.surface));
@@ -64,7 +64,7 @@ static celspan_status copy_notes(const image *of, const celspan_svg *art) {
   return CELSPAN_OK;
 }
 
-/* The part of the drawing inside its size. */
+/* The part of the drawing that lies inside its size. */
 static celspan_status show_art(image *of, const celspan_svg *art) {
   const celspan_matrix identity = celspan_matrix_identity();
   celspan_point size = celspan_svg_size(art);
@@ -178,7 +178,7 @@ static celspan_status show_linked(image *of, const char *href) {
 
 /* ---------------------------------------------------------------- its place */
 
-/* The box of the element; where it has none, the box of the picture or drawing that it shows. */
+/* The box of the element; if it has none, the box of the picture or drawing that it shows. */
 static celspan_status read_box(const image *of, const cs_svg_measure *measure, celspan_box *out) {
   const cs_svg_length none = {-1, CS_SVG_UNIT_NUMBER};
   celspan_context *context = of->reading->context;
@@ -210,7 +210,7 @@ static celspan_status cut(const image *of, const celspan_box *box, const celspan
   return status;
 }
 
-/* Fits the shown part into a box. user: from its units to those of *out. */
+/* Fits the visible part into a box. user: from its units to those of *out. */
 static celspan_status put(const image *of, const celspan_box *box, const celspan_matrix *user,
                           celspan_object **out) {
   const char *aspect = cs_svg_node_value(of->node, CS_SVG_PRESERVE_ASPECT_RATIO);

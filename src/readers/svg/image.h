@@ -12,11 +12,11 @@
 #include "readers/svg/art.h"
 #include "readers/svg/reading.h"
 
-#define CS_SVG_IMAGE_DEPTH 4 /* drawings one inside the other */
+#define CS_SVG_IMAGE_DEPTH 4 /* drawings inside one another */
 
 /* Adds the contents of an image element to `item`; *place has its style. Contents that cannot be
  * shown are noted. Errors: NO_MEMORY; LIMIT for more than CS_SVG_IMAGE_BYTES in all; INPUT for
- * numbers that are unfit. */
+ * unfit numbers. */
 CELSPAN_CHECKED celspan_status cs_svg_image_add(cs_svg_reading *reading, const cs_svg_node *node,
                                                 const cs_svg_place *place, cs_svg_item *item);
 /* The box of an image element in user units; *is_there: it has a size. Errors: as above. */
@@ -55,7 +55,7 @@ void cs_svg_image_data_finish(cs_svg_image_data *data, celspan_context *context)
 /* The byte that an escape such as "%41" means; -1 where text does not begin with one. */
 int cs_svg_image_unescape(const char *text);
 
-/* Whether bytes begin as SVG does. */
+/* Whether bytes begin like an SVG file. */
 bool cs_svg_image_is_drawing(const unsigned char *bytes, size_t size);
 
 #define CS_SVG_PATH 4096 /* bytes of a file's name, its zero included */
@@ -69,13 +69,14 @@ typedef struct cs_svg_image_file {
   uint64_t device, number;
 } cs_svg_image_file;
 
-/* Finds the file that `href` names for the drawing in `file`, NULL for one without a file. *reason:
- * NULL, or why there is none. Errors: INPUT where the system failed, which may be temporary. */
+/* Finds the file that `href` names for the drawing in `file`; NULL for a drawing without a file.
+ * *reason: NULL, or why there is no file. Errors: INPUT if the system failed, which may be
+ * temporary. */
 CELSPAN_CHECKED celspan_status cs_svg_image_file_find(celspan_context *context, const char *file,
                                                       const char *href, cs_svg_image_file *out,
                                                       const char **reason);
-/* All bytes of the file, in *out of new memory, size bytes; NULL when the file has changed since.
- * Errors: INPUT where the system failed; NO_MEMORY. */
+/* All bytes of the file, in *out: new memory of `size` bytes; NULL if the file has changed since it
+ * was found. Errors: INPUT if the system failed; NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_svg_image_file_load(celspan_context *context,
                                                       const cs_svg_image_file *file, char **out);
 
@@ -88,13 +89,14 @@ CELSPAN_CHECKED celspan_status cs_svg_image_file_load(celspan_context *context,
  *
  * The library that reads the others needs a file, so it gets one that exists only in memory.
  */
-#define CS_SVG_IMAGE_BYTES ((uint64_t)1 << 30) /* of all images of a drawing, pixels and files */
+/* pixels and files of all images of a drawing together */
+#define CS_SVG_IMAGE_BYTES ((uint64_t)1 << 30)
 
 /* Counts bytes of an image of `node`. Errors: LIMIT for more than CS_SVG_IMAGE_BYTES in all. */
 CELSPAN_CHECKED celspan_status cs_svg_image_count(cs_svg_reading *reading, const cs_svg_node *node,
                                                   uint64_t bytes);
-/* *out: new; NULL for bytes that are no picture, which is noted. Errors: NO_MEMORY, and as above.
- */
+/* *out: new; NULL for bytes that are not a picture; this is noted. Errors: NO_MEMORY, and as
+ * above. */
 CELSPAN_CHECKED celspan_status cs_svg_image_picture(cs_svg_reading *reading,
                                                     const cs_svg_node *node,
                                                     const unsigned char *bytes, size_t size,

@@ -113,7 +113,8 @@ static celspan_status read_png(decoding *d, const unsigned char *bytes, size_t s
 
 /* ---------------------------------------------------------------- other formats */
 
-/* A file that has no name and lies in memory, with these bytes; -1, and errno: there is none. */
+/* Makes a file without a name in memory that contains these bytes; -1, and errno: it cannot be
+ * made. */
 static int nameless_file(const unsigned char *bytes, size_t size) {
   int descriptor = memfd_create("celspan image", MFD_CLOEXEC);
   size_t done = 0;
@@ -130,7 +131,7 @@ static int nameless_file(const unsigned char *bytes, size_t size) {
   return descriptor;
 }
 
-/* From shares of full scale, which is how the module gives codes, back to codes. */
+/* Converts shares of full scale, which the module gives, back to codes. */
 static void put_codes(const decoding *d, const float *rgba, size_t count, unsigned char *out) {
   for (size_t i = 0; i < count; i++) {
     float share = cs_number_clampf(rgba[i], 0, 1);
@@ -160,7 +161,7 @@ static celspan_status read_module_rows(decoding *d, const cs_picture_module *mod
   return status;
 }
 
-/* The module's sentence without the name of the file, which means nothing to anybody. */
+/* The module's sentence without the name of the file, which has no meaning for the user. */
 static celspan_status note_module(const decoding *d, celspan_status status, const char *name,
                                   const char *sentence) {
   size_t size = strlen(name);

@@ -21,7 +21,7 @@ int cs_svg_image_unescape(const char *text) {
   return low >= 0 ? 16 * high + low : -1;
 }
 
-/* Takes the next byte of a URI, per cents undone. */
+/* Reads the next byte of a URI; an escape such as %41 is one byte. */
 static unsigned char take_byte(const char **text) {
   int escaped = cs_svg_image_unescape(*text);
   unsigned char byte = escaped >= 0 ? (unsigned char)escaped : (unsigned char)**text;
@@ -29,7 +29,7 @@ static unsigned char take_byte(const char **text) {
   return byte;
 }
 
-/* -1 for a character that is no digit of base64. */
+/* -1 for a character that is not a digit of base64. */
 static int base64_digit(unsigned char c) {
   if (c >= 'A' && c <= 'Z')
     return c - 'A';
@@ -40,7 +40,8 @@ static int base64_digit(unsigned char c) {
   return c == '+' || c == '-' ? 62 : c == '/' || c == '_' ? 63 : -1;
 }
 
-/* Source: RFC 4648, 4. Space is passed over, and "=" ends it. out has room for three quarters. */
+/* Source: RFC 4648, 4. Space is skipped, and "=" ends the data. out has room for three quarters of
+ * the text. */
 static bool decode_base64(const char *text, cs_svg_image_data *out) {
   uint32_t bits = 0;
   int count = 0;
@@ -124,7 +125,7 @@ static bool has_parent_folder(const char *name) {
   return false;
 }
 
-/* The href without its per cents; false when it is too long or holds a zero. */
+/* The href without escapes such as %41; false if it is too long or contains a zero. */
 static bool unescape(const char *href, char out[CS_SVG_PATH]) {
   size_t size = 0;
   while (*href && size + 1 < CS_SVG_PATH) {
@@ -138,7 +139,7 @@ static bool unescape(const char *href, char out[CS_SVG_PATH]) {
   return !*href && size > 0;
 }
 
-/* Puts the name behind the folder of `file`. */
+/* Appends the name to the folder of `file`. */
 static bool join(const char *file, const char *name, char out[CS_SVG_PATH]) {
   const char *slash = strrchr(file, '/');
   size_t folder = slash ? (size_t)(slash - file) + 1 : 0;
@@ -160,7 +161,7 @@ static celspan_status fail(celspan_context *context, const cs_svg_image_file *fi
   return cs_fail(context, CELSPAN_INPUT, "%s: %s", file->path, cs_error_text(errno, text));
 }
 
-/* Whether an image lies below the folder of the drawing, links followed. */
+/* Whether an image lies below the folder of the drawing; links are followed. */
 static celspan_status check_below(celspan_context *context, const char *file,
                                   const cs_svg_image_file *image, const char **reason) {
   char folder[CS_SVG_PATH];

@@ -6,14 +6,14 @@
 #include "celspan/text.h"
 #include "readers/text/layout.h"
 
-/* Sizes of letters beyond this make no picture. */
+/* Letters that are larger than this draw nothing. */
 #define LARGEST 1e6
 #define PI 3.14159265358979323846
-#define EX 0.5 /* the height of an x, as the unit ex has it */
+#define EX 0.5 /* the unit ex: the height of an x, as a share of the size */
 
 /* ---------------------------------------------------------------- runs */
 
-/* Shapes a run; without fonts it stays empty. */
+/* Shapes a run; without fonts the run remains empty. */
 static celspan_status shape(cs_svg_reading *reading, const cs_svg_written *written,
                             const cs_svg_style *style, const cs_svg_faces *faces, cs_svg_run *run) {
   static const celspan_feature apart[] = {{"liga", 0}, {"clig", 0}};
@@ -30,7 +30,7 @@ static celspan_status shape(cs_svg_reading *reading, const cs_svg_written *writt
   desc.feature_count = style->text.letter_spacing != 0 ? 2 : 0;
   desc.direction = style->text.is_leftward ? CELSPAN_DIRECTION_RTL : CELSPAN_DIRECTION_LTR;
   celspan_status status = cs_typeset_make(&run->layout, reading->context, "text", &desc);
-  run->layout.desc = NULL; /* it ends here */
+  run->layout.desc = NULL; /* the description is no longer valid here */
   return status;
 }
 
@@ -92,7 +92,7 @@ static celspan_status add_runs(cs_svg_reading *reading, const cs_svg_written *wr
 
 /* ---------------------------------------------------------------- one line */
 
-/* The text node of a character. The search begins at the node found before: *at. */
+/* The text node of a character. The search begins at *at, the node that was found before. */
 static const cs_svg_text_node *node_of(const cs_svg_written *written, size_t character,
                                        size_t *at) {
   while (*at > 0 && written->nodes[*at].begin > character)
@@ -143,7 +143,7 @@ static celspan_status make_room(const cs_svg_written *written, cs_svg_letters *o
   return is_made ? CELSPAN_OK : cs_fail_memory(out->context);
 }
 
-/* Puts the letters side by side on a line that begins at 0: run after run, from the right where the
+/* Puts the letters side by side on a line that begins at 0, run after run; from the right if the
  * text runs to the left. */
 static celspan_status make_line(const cs_svg_written *written, bool is_leftward,
                                 cs_svg_letters *out) {
@@ -185,8 +185,8 @@ static extent extent_of(const cs_svg_letters *letters, const cs_svg_text_length 
   return found;
 }
 
-/* Spaces the letters out, or widens them, until they are as long as they should be; the letters
- * after them move along. */
+/* Moves the letters apart, or widens them, until they have the wanted length; the letters after
+ * them are moved, too. */
 static void set_length(cs_svg_letters *letters, const cs_svg_text_length *wanted) {
   extent found = extent_of(letters, wanted);
   double width = found.right - found.left, longer = wanted->length - width;
@@ -209,10 +209,10 @@ static void set_length(cs_svg_letters *letters, const cs_svg_text_length *wanted
 
 /* ---------------------------------------------------------------- places */
 
-/* Where the letters of a chunk are put. */
+/* The place of the letters of a chunk. */
 typedef struct chunk {
   size_t begin, end; /* characters */
-  double x;          /* to which it is anchored */
+  double x;          /* the x to which the chunk is anchored */
 } chunk;
 
 static cs_svg_letter *letter_at(const cs_svg_letters *letters, size_t character) {
@@ -242,7 +242,7 @@ static void anchor_chunk(const cs_svg_written *written, const chunk *part, cs_sv
   }
 }
 
-/* How far below its place the baseline of a letter lies, by the line that is wanted there. */
+/* How far the baseline of a letter is below its place, because of the line that is wanted there. */
 static double lowered(const cs_svg_letters *letters, const cs_svg_letter *letter,
                       const cs_svg_text_style *style) {
   const cs_svg_run *run = &letters->runs[letter->run];
@@ -285,7 +285,7 @@ static void place_letters(const cs_svg_written *written, cs_svg_letters *letters
     if (!letter)
       continue;
     if (begins) {
-      /* Without an x of its own a chunk begins where the previous chunk ends. */
+      /* A chunk that has no x begins where the previous chunk ends. */
       double x = !isnan(said->x) ? said->x : is_first ? 0 : line + (letter->x - shift);
       part.end = i;
       anchor_chunk(written, &part, letters, &at);
@@ -303,7 +303,7 @@ static void place_letters(const cs_svg_written *written, cs_svg_letters *letters
 
 /* ---------------------------------------------------------------- along lines */
 
-/* Brings a letter from its distance along a line, and across it, to its place. */
+/* Moves a letter from its distance along a line and across the line to its place. */
 static void bend(const cs_svg_text_path *path, cs_svg_letter *letter) {
   const double half = 0.5 * letter->advance, middle = letter->x + half;
   if (!(middle >= 0 && middle <= path->length)) {
@@ -327,7 +327,7 @@ static void bend_letters(const cs_svg_written *written, cs_svg_letters *letters)
     }
 }
 
-/* Numbers too large for the geometry draw nothing. */
+/* Letters with numbers that are too large for the geometry draw nothing. */
 static void drop_unfit(cs_svg_letters *letters) {
   for (size_t i = 0; i < letters->count; i++) {
     cs_svg_letter *letter = &letters->letters[i];
@@ -363,7 +363,7 @@ void cs_svg_letters_finish(cs_svg_letters *letters) {
   cs_mem_free(memory, letters->order, letters->order_count * sizeof *letters->order);
 }
 
-/* How far a letter is turned, in degrees. */
+/* The angle by which a letter is turned, in degrees. */
 static double turn_of(const cs_svg_letter *letter, const cs_svg_written *written) {
   double own = written->characters[letter->character].rotate;
   return letter->turn + (isnan(own) ? 0 : own);
@@ -371,8 +371,8 @@ static double turn_of(const cs_svg_letter *letter, const cs_svg_written *written
 
 /* ---------------------------------------------------------------- outlines */
 
-/* Widens and turns the points from `first` on about (0, 0), and brings them to the letter's place.
- */
+/* Widens and turns the points from `first` on about (0, 0), and moves them to the letter's
+ * place. */
 static void place_points(cs_outline *outline, size_t first, const cs_svg_letter *letter,
                          double degrees) {
   const celspan_point origin = {0, 0};
@@ -418,7 +418,8 @@ typedef struct bounds {
   double left, top, right, bottom;
 } bounds;
 
-/* A corner of a letter's box, from its left end on the baseline before it is turned. */
+/* A corner of a letter's box. Its position is given relative to the left end of the unturned letter
+ * on the baseline. */
 static void add_corner(const cs_svg_letter *letter, double degrees, double x, double y,
                        bounds *whole) {
   celspan_matrix turn = celspan_matrix_rotation(degrees * (PI / 180), (celspan_point){0, 0});

@@ -23,11 +23,11 @@
 typedef struct cs_svg_letter {
   size_t run;
   size_t first, count;       /* glyphs of the run's layout */
-  size_t character;          /* of the text: the first that it stands for */
-  double origin_x, origin_y; /* where the layout has it */
-  double x, y, advance;      /* its left end on the baseline, user units */
-  double scale;              /* of its width */
-  double turn;               /* of the line that it runs along, degrees */
+  size_t character;          /* the first character of the text that the letter shows */
+  double origin_x, origin_y; /* its place in the layout */
+  double x, y, advance;      /* its left end on the baseline, in user units */
+  double scale;              /* the factor of its width */
+  double turn;               /* the direction of the line that it follows, in degrees */
 } cs_svg_letter;
 
 typedef struct cs_svg_run {
@@ -47,7 +47,7 @@ typedef struct cs_svg_letters {
   size_t order_count;
 } cs_svg_letters;
 
-/* Notes parts that cannot be drawn. node: the text element. *out must be finished even after a
+/* Notes parts that cannot be drawn. node: the text element. *out must be finished, also after a
  * failure. Errors: NO_MEMORY; INPUT for a font that is missing, cut off or not a font. */
 CELSPAN_CHECKED celspan_status cs_svg_letters_make(cs_svg_reading *reading, const cs_svg_node *node,
                                                    const cs_svg_written *written,
@@ -73,10 +73,10 @@ bool cs_svg_letters_box(const cs_svg_letters *letters, const cs_svg_written *wri
  *   tried: "Arial Bold", "Arial", "Gill Sans Bold", "Gill Sans", "default"
  */
 typedef struct cs_svg_faces {
-  const char *fonts[CS_TEXT_FONTS]; /* borrowed from the source; each is used for letters that the
-                                       fonts before it lack */
-  size_t count;                     /* 0: none was given */
-  bool is_plain;                    /* the first is bold or italic less than it should be */
+  /* borrowed from the source; each font is used for letters that all fonts before it lack */
+  const char *fonts[CS_TEXT_FONTS];
+  size_t count;                     /* 0: no font was given */
+  bool is_plain;                    /* the first font is not bold or italic, as it should be */
 } cs_svg_faces;
 
 void cs_svg_faces_find(const cs_svg_source *source, const cs_svg_style *style, cs_svg_faces *out);

@@ -18,10 +18,10 @@ typedef struct marking {
   cs_svg_marks *marks;
   const cs_svg_node *markers[3]; /* NULL: none */
   cs_svg_line line;
-  size_t inner; /* entries of line.closed.inner that are passed */
+  size_t inner; /* how many entries of line.closed.inner have been passed */
 } marking;
 
-/* A vertex of the line, and the unit vectors along which the line comes to it and leaves it. */
+/* A vertex of the line, and the unit vectors of the line's directions before and after it. */
 typedef struct vertex {
   celspan_point at, in, out;
 } vertex;
@@ -39,7 +39,7 @@ void cs_svg_marks_finish(cs_svg_marks *marks, cs_memory *memory) {
 
 static celspan_point plain(cs_hpoint p) { return (celspan_point){p.x / p.w, p.y / p.w}; }
 
-/* The unit vector from a to b; false when they are the same point. */
+/* The unit vector from a to b; false if they are the same point. */
 static bool direction(celspan_point a, celspan_point b, celspan_point *out) {
   double x = b.x - a.x, y = b.y - a.y, length = cs_number_length(x, y);
   if (!(length > 0))
@@ -48,7 +48,7 @@ static bool direction(celspan_point a, celspan_point b, celspan_point *out) {
   return true;
 }
 
-/* The direction of a piece where it begins or ends; false for a piece that is a point. */
+/* The direction of a piece at its beginning or end; false for a piece that is a point. */
 static bool end_direction(const cs_outline *outline, size_t piece, bool at_end,
                           celspan_point *out) {
   const cs_hpoint *points = outline->points + outline->starts[piece];
@@ -60,8 +60,8 @@ static bool end_direction(const cs_outline *outline, size_t piece, bool at_end,
   return false;
 }
 
-/* The direction of the pieces before `piece` in its contour, or behind it; pieces that are points
- * are passed over. Without any: (0, 0). */
+/* The direction of the pieces before `piece` in its contour, or after it; pieces that are points
+ * are skipped. (0, 0) if there is none. */
 static celspan_point near_direction(const marking *m, size_t begin, size_t end, size_t piece,
                                     bool before) {
   celspan_point found = {0, 0};
@@ -75,7 +75,8 @@ static celspan_point near_direction(const marking *m, size_t begin, size_t end, 
   return found;
 }
 
-/* The unit vector between both; where they are opposite, the first turned by a right angle. */
+/* The unit vector in the middle between both; if they are opposite, the first one turned by a right
+ * angle. */
 static celspan_point bisector(celspan_point in, celspan_point out) {
   celspan_point found = {1, 0};
   if (!direction((celspan_point){-in.x, -in.y}, out, &found) && (in.x != 0 || in.y != 0))
@@ -85,7 +86,8 @@ static celspan_point bisector(celspan_point in, celspan_point out) {
 
 /* ---------------------------------------------------------------- one mark */
 
-/* A direction in degrees by the attribute orient; false where the line gives the direction. */
+/* The direction in degrees that the attribute orient gives; false if the direction of the line is
+ * used. */
 static bool read_angle(const char *text, double *degrees) {
   *degrees = 0;
   text = cs_svg_skip_space(text ? text : "");
@@ -103,7 +105,7 @@ static celspan_matrix turn_of(const cs_svg_node *marker, int which, const vertex
   return (celspan_matrix){{along.x, -along.y, 0, along.y, along.x, 0, 0, 0, 1}};
 }
 
-/* The size of the viewport and its view box. *is_sized: false when it shows nothing. */
+/* The size of the viewport and its view box. *is_sized: false if nothing is shown. */
 static celspan_status read_viewport(const marking *m, const cs_svg_node *marker, cs_svg_mark *mark,
                                     celspan_point *reference, bool *is_sized) {
   celspan_context *context = m->reading->context;
@@ -161,8 +163,8 @@ static celspan_status add_mark(marking *m, int which, const vertex *v) {
 
 /* ---------------------------------------------------------------- vertices */
 
-/* Whether a piece continues the arc of the piece before it; called for pieces in ascending order.
- */
+/* Whether a piece continues the arc of the piece before it. Must be called for pieces in ascending
+ * order. */
 static bool is_inner(marking *m, size_t piece) {
   const cs_outline_closed *closed = &m->line.closed;
   if (m->inner == closed->inner_count || closed->inner[m->inner] != piece)
@@ -179,7 +181,7 @@ static bool is_closed(const marking *m, size_t contour, size_t *next) {
   return true;
 }
 
-/* Marks the vertices of pieces begin .. end - 1, which are a contour. */
+/* Marks the vertices of pieces begin .. end - 1, which form a contour. */
 static celspan_status mark_contour(marking *m, size_t begin, size_t end, bool closes) {
   const cs_outline *outline = &m->line.outline;
   bool is_last = end == outline->piece_count;

@@ -23,7 +23,7 @@ typedef struct cs_svg_marks {
   size_t count, capacity;
 } cs_svg_marks;
 
-/* Whether the element takes markers and has any. */
+/* Whether the element can have markers, and has some. */
 bool cs_svg_is_marked(const cs_svg_node *node, const cs_svg_style *style);
 /* The marks of a shape at `place`, in the order in which they are drawn. finish frees them, also
  * after an error. Errors: NO_MEMORY, LIMIT, INPUT. */

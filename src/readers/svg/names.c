@@ -15,7 +15,7 @@ static const char *const elements[] = {CS_SVG_ELEMENT_LIST(ELEMENT)};
 #define APART CS_SVG_USE_APART
 #define FORM(name) CS_SVG_FORM_##name
 
-/* Where a baseline may lie. */
+/* The possible lines at which a baseline lies. */
 #define BASELINES                                                                                  \
   "auto|baseline|alphabetic|middle|central|hanging|mathematical|ideographic|text-top|text-bottom|" \
   "before-edge|after-edge|text-before-edge|text-after-edge"
@@ -228,7 +228,7 @@ static cs_hash hash_name(const char *name) {
   return cs_hash_end(hash);
 }
 
-/* The beginning of a value, with its end cut off after a whole character. */
+/* The length of the beginning of a value that is shown: it is cut off after a whole character. */
 static int shown_size(const char *value, size_t most) {
   size_t size = 0;
   while (value[size] && size < most)

@@ -1,6 +1,5 @@
-/* The names of SVG that mean something here, as numbers: elements, attributes and properties, with
- * the values that are read of them. Only these lists say what is drawn: all other names in a
- * document are noted.
+/* The known names of SVG, as numbers: elements, attributes and properties, with the values that are
+ * read. Only these lists say what is drawn: all other names in a document are noted.
  *
  * Invariant: all lists are sorted as strcmp sorts their texts, which is how they are searched.
  */
@@ -37,7 +36,7 @@ typedef enum cs_svg_element {
 #define ELEMENT(name, text) CS_SVG_ELEMENT_##name
   CS_SVG_ELEMENT_LIST(ELEMENT),
 #undef ELEMENT
-  CS_SVG_ELEMENT_OTHER,      /* any other of SVG */
+  CS_SVG_ELEMENT_OTHER,      /* any other element of SVG */
   CS_SVG_ELEMENT_CHARACTERS, /* the characters of a text between its elements */
   CS_SVG_ELEMENT_COUNT = CS_SVG_ELEMENT_OTHER
 } cs_svg_element;
@@ -174,16 +173,16 @@ typedef enum cs_svg_name {
 
 /* Where a name is used. */
 typedef enum cs_svg_use {
-  CS_SVG_USE_ATTRIBUTE, /* an attribute alone */
-  CS_SVG_USE_PRESENTED, /* a property; the attribute of this name gives it, too */
-  CS_SVG_USE_STYLED,    /* a property of styles alone */
+  CS_SVG_USE_ATTRIBUTE, /* only an attribute */
+  CS_SVG_USE_PRESENTED, /* a property, which can also be given by the attribute of this name */
+  CS_SVG_USE_STYLED,    /* a property that only styles can give */
   CS_SVG_USE_GEOMETRY,  /* an attribute, which a style may give to some elements */
   CS_SVG_USE_APART      /* an attribute, and a property with another meaning */
 } cs_svg_use;
 
 /* The form of a value. */
 typedef enum cs_svg_form {
-  CS_SVG_FORM_ANY, /* it is judged where it is used */
+  CS_SVG_FORM_ANY, /* any; it is checked where it is used */
   CS_SVG_FORM_WORD,
   CS_SVG_FORM_NUMBER,
   CS_SVG_FORM_SHARE, /* a number or a percentage */
@@ -209,8 +208,8 @@ typedef struct cs_svg_name_facts {
   const char *text;
   cs_svg_use use;
   cs_svg_form form;
-  const char *words;   /* that are values, too, with '|' between them; NULL: none */
-  const char *initial; /* of a property that is inherited; NULL: it is not */
+  const char *words;   /* words that are also values, with '|' between them; NULL: none */
+  const char *initial; /* the initial value of an inherited property; NULL: it is not inherited */
 } cs_svg_name_facts;
 
 /* OTHER for a name that is not in the list. */
@@ -224,14 +223,13 @@ const cs_svg_name_facts *cs_svg_name_facts_of(cs_svg_name name);
 bool cs_svg_is_property(cs_svg_name name);
 const char *cs_svg_name_text(cs_svg_name name);
 
-/* Whether one of the words, with '|' between them, is the value; letters may be of either case.
+/* Whether the value is one of the words, which have '|' between them, in upper or lower case.
  * words: NULL: none. */
 bool cs_svg_words_have(const char *words, const char *value);
 
 /* A name in a document that is not drawn: an attribute, a property, an element, or a value of one
- * of them; once for each name, at the line where it appears first.
- */
-#define CS_SVG_UNREAD 1000 /* names; more are not noted */
+ * of these. Each name is listed once, at the line where it appears first. */
+#define CS_SVG_UNREAD 1000 /* names; no more are noted */
 
 typedef struct cs_svg_unread_name {
   const char *what; /* name, or: name "value" */

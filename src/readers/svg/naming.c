@@ -5,7 +5,7 @@
 
 #include "readers/svg/shapes.h"
 
-/* Writes the colour of a fill as "#rrggbb"; "" where it has no colour of its own. */
+/* Writes the colour of a fill as "#rrggbb"; "" if it has no colour. */
 static void write_fill(const cs_svg_style *style, char out[8]) {
   const cs_svg_paint *fill = &style->fill;
   bool is_current = fill->kind == CS_SVG_PAINT_CURRENT;

@@ -1,4 +1,4 @@
-/* The names that an element gives its item, by which it is a part. */
+/* The names that an element gives to its item; a part can be found by them. */
 #pragma once
 
 #include "celspan/svg.h"

@@ -4,8 +4,8 @@
 
 #include "model/scene/bounds.h"
 
-/* The least ratio of the smaller radius of a blur to the greater one: smaller ratios cannot be
- * seen, and would stretch the object without limit. */
+/* The least ratio of the smaller radius of a blur to the greater one: smaller ratios look the same,
+ * and would stretch the object without limit. */
 #define LEAST_RADIUS 1e-3
 
 celspan_status cs_svg_object_replace(celspan_status status, celspan_object *made,
@@ -61,7 +61,8 @@ celspan_status cs_svg_object_silhouette(celspan_context *context, celspan_object
   return status;
 }
 
-/* The blur is round: the object is stretched along y before and after it. */
+/* The blur is round: before it the object is stretched along y, and after it the stretching is
+ * reversed. */
 celspan_status cs_svg_object_blur(celspan_context *context, const celspan_point *radius,
                                   celspan_defocus_kernel kernel, celspan_object **object) {
   const double most = fmax(radius->x, radius->y), x = fmax(radius->x, LEAST_RADIUS * most);

@@ -1,5 +1,4 @@
-/* Objects that the steps of filters are made of. An object that is NULL is nothing.
- */
+/* Objects that the steps of filters are made of. An object that is NULL draws nothing. */
 #pragma once
 
 #include "base/context.h"
@@ -8,11 +7,11 @@
  * status. */
 celspan_status cs_svg_object_replace(celspan_status status, celspan_object *made,
                                      celspan_object **object);
-/* Each of the two gives *object up; NULL after a failure. Errors: NO_MEMORY, LIMIT. */
+/* Both functions take over *object; *object is NULL after a failure. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_svg_object_move(celspan_context *context,
                                                   const celspan_matrix *matrix,
                                                   celspan_object **object);
-/* radius: along x and y, one of them above 0. */
+/* radius: along x and along y; one of them is above 0. */
 CELSPAN_CHECKED celspan_status cs_svg_object_blur(celspan_context *context,
                                                   const celspan_point *radius,
                                                   celspan_defocus_kernel kernel,
@@ -20,7 +19,7 @@ CELSPAN_CHECKED celspan_status cs_svg_object_blur(celspan_context *context,
 
 /* *out: new; NULL: nothing. Errors: NO_MEMORY, LIMIT. */
 
-/* `art` where `by` is, or is not. */
+/* `art` where `by` is present, or where it is not. */
 CELSPAN_CHECKED celspan_status cs_svg_object_mask(celspan_context *context, celspan_object *art,
                                                   celspan_object *by, bool inverts,
                                                   celspan_object **out);

@@ -12,8 +12,8 @@ static bool is_identity(const celspan_matrix *matrix) {
   return true;
 }
 
-/* An object of the outline, which it owns from now on, in the paint's units, then moved to the
- * drawing's units. */
+/* An object of the outline, which owns the outline from now on: made in the paint's units, then
+ * moved to the drawing's units. */
 static celspan_status place_outline(cs_svg_reading *reading, cs_outline *outline,
                                     const cs_svg_place *place, const cs_svg_server *server,
                                     celspan_object **out) {

@@ -14,12 +14,12 @@
 
 #include "readers/svg/reading.h"
 
-#define CS_SVG_STOPS 4096 /* of one texture */
+#define CS_SVG_STOPS 4096 /* the most stops of one texture */
 
 typedef enum cs_svg_server_kind {
   CS_SVG_SERVER_NOTHING, /* nothing is painted */
   CS_SVG_SERVER_FLAT,    /* one paint; the matrix is the identity */
-  CS_SVG_SERVER_TEXTURE  /* a gradient or a pattern, in units of its own */
+  CS_SVG_SERVER_TEXTURE  /* a gradient or a pattern, in its own units */
 } cs_svg_server_kind;
 
 typedef struct cs_svg_server {
@@ -32,10 +32,10 @@ typedef struct cs_svg_server {
 typedef struct cs_svg_painted {
   const cs_svg_node *node;
   const cs_svg_measure *measure;
-  celspan_box box;     /* of its outline, in its user units */
-  celspan_box painted; /* around all of it that is painted, in the same */
+  celspan_box box;     /* of the shape's outline, in the user units of the shape */
+  celspan_box painted; /* the box around everything that is painted, in the same units */
   double opacity;
-  const celspan_matrix *matrix; /* the same units to the drawing's */
+  const celspan_matrix *matrix; /* from the same units to the drawing's */
   const cs_svg_open *open;      /* the element itself and the open elements around it */
 } cs_svg_painted;
 
@@ -45,7 +45,7 @@ static inline bool cs_svg_is_gradient(const cs_svg_node *node) {
 }
 
 /* The texture of a gradient, or of a pattern. *is_missing: nothing is painted, since units are
- * shares of a box without a size, or the repeated box has none. Errors: NO_MEMORY, LIMIT (of
+ * shares of a box without a size, or the repeated box has no size. Errors: NO_MEMORY, LIMIT (of
  * patterns: too deep inside each other), INPUT. */
 CELSPAN_CHECKED celspan_status cs_svg_gradient_make(cs_svg_reading *reading,
                                                     const cs_svg_node *node,

@@ -21,7 +21,7 @@ bool cs_svg_parse_paint(const char *text, cs_svg_paint *out) {
   text = cs_svg_skip_space(text);
   bool has_colour = *text && take_paint_colour(&text, out);
   out->has_fallback = out->has_server && has_colour;
-  /* Only an ICC profile may follow; it is passed over. */
+  /* Only an ICC profile may follow, and it is skipped. */
   text = cs_svg_skip_space(text);
   return out->has_server || (has_colour && (!*text || strncmp(text, "icc-color", 9) == 0));
 }

@@ -6,7 +6,7 @@
 #include "readers/svg/transforms.h"
 #include "readers/svg/viewport.h"
 
-/* Templates that follow one another through href, at most. */
+/* The most templates that follow one another by href. */
 #define TEMPLATES 32
 
 typedef struct pattern {
@@ -14,12 +14,12 @@ typedef struct pattern {
   const cs_svg_node *node;
   const cs_svg_painted *shape;
   celspan_box box;       /* the repeated box, in the pattern's units */
-  celspan_matrix matrix; /* from these to the shape's */
+  celspan_matrix matrix; /* from the pattern's units to the shape's */
 } pattern;
 
 /* ---------------------------------------------------------------- elements */
 
-/* The element itself or the first of its templates that `has` something; NULL: none. */
+/* The first of the element and its templates that `has` something; NULL: none. */
 static const cs_svg_node *find_owner(const pattern *p, cs_svg_name name, bool is_of_contents) {
   const cs_svg_node *node = p->node;
   for (int i = 0; i < TEMPLATES && node && node->element == CS_SVG_ELEMENT_PATTERN; i++) {
@@ -75,7 +75,7 @@ static void read_matrix(pattern *p) {
     p->matrix = cs_svg_about_origin(p->matrix, origin, p->shape->measure);
 }
 
-/* The place of the contents in the pattern's units: they begin at the corner of the box. */
+/* The place of the contents in the pattern's units: their origin is the corner of the box. */
 static celspan_status find_place(const pattern *p, const cs_svg_node *owner,
                                  const cs_svg_open *open, cs_svg_place *out) {
   const celspan_matrix corner = celspan_matrix_translation(p->box.x, p->box.y);

@@ -15,15 +15,15 @@
 
 #define FILE_BYTES ((size_t)256 << 20)
 #define KEPT 64  /* drawings */
-#define FONTS 64 /* of one drawing */
+#define FONTS 64 /* the most fonts of one drawing */
 
 /* ---------------------------------------------------------------- kept drawings */
 
-/* A file that has the same name, size, time and number is the same. */
+/* A file counts as the same if it has the same name, size, time and number. */
 typedef struct stored {
   cs_hash key;
   celspan_svg *art; /* NULL: an empty place */
-  uint64_t used;    /* when it was asked for last */
+  uint64_t used;    /* when it was last asked for */
 } stored;
 
 typedef struct drawing_store {
@@ -77,7 +77,7 @@ static celspan_svg *find_stored(drawing_store *store, cs_hash key) {
   return found;
 }
 
-/* Keeps the drawing, and drops the drawing whose last use is longest ago. */
+/* Keeps the drawing, and releases the one that has not been used for the longest time. */
 static void keep(drawing_store *store, cs_hash key, celspan_svg *art) {
   pthread_mutex_lock(&store->lock);
   stored *oldest = &store->items[0];
@@ -100,7 +100,7 @@ static celspan_status note_unread(cs_svg_reading *reading) {
   return CELSPAN_OK;
 }
 
-/* By the lines of the file; notes about one line in the order in which they were made. */
+/* In the order of lines; notes about the same line remain in the order in which they were made. */
 static int compare_notes(const void *a, const void *b) {
   const cs_svg_skipped *first = a, *second = b;
   if (first->line != second->line)
@@ -127,7 +127,8 @@ static celspan_status copy_notes(cs_svg_reading *reading, celspan_svg *art) {
   return CELSPAN_OK;
 }
 
-/* The sentence of a failure behind the file's name, where "line 12: ..." becomes "name:12: ...". */
+/* The sentence of a failure with the file's name before it, where "line 12: ..." becomes "name:12:
+ * ...". */
 static celspan_status fail_in(celspan_context *context, const char *name, celspan_status status) {
   char sentence[CS_ERROR_SIZE];
   if (status == CELSPAN_NO_MEMORY)
@@ -154,8 +155,8 @@ static celspan_status build(cs_svg_reading *reading, const char *name, celspan_s
   return status;
 }
 
-/* reading: the limits, and how to read; while the drawing is read, its document and notes belong to
- * this drawing. */
+/* reading: the limits, and how to read; its document and notes belong to this drawing until the
+ * drawing has been read. */
 static celspan_status read_bytes(cs_svg_reading *reading, const char *bytes, size_t size,
                                  celspan_svg **out) {
   celspan_context *context = reading->context;
@@ -238,7 +239,7 @@ static void hash_about(cs_hash *hash, const struct stat *about) {
   cs_hash_word(hash, (uint64_t)about->st_ino);
 }
 
-/* A font that is not there has no facts; it is missed when a text needs it. */
+/* A missing font has no facts: an error is reported when a text needs it. */
 static void hash_font(cs_hash *hash, const celspan_svg_font *font) {
   struct stat about = {0};
   (void)stat(font->file, &about);

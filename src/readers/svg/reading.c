@@ -99,7 +99,7 @@ celspan_matrix cs_svg_about_origin(celspan_matrix matrix, const char *text,
   return celspan_matrix_then(matrix, celspan_matrix_translation(origin.x, origin.y));
 }
 
-/* Source: CSS Transforms Module Level 2, 7: the functions are done first. */
+/* Source: CSS Transforms Module Level 2, 7: the functions are applied first. */
 celspan_matrix cs_svg_transform_of(const cs_svg_style *style, const cs_svg_measure *measure) {
   celspan_matrix matrix = celspan_matrix_identity(), step;
   if (style->transform && cs_svg_parse_transform(style->transform, measure, &step))
@@ -121,7 +121,7 @@ celspan_status cs_svg_enter(cs_svg_reading *reading, const cs_svg_node *node, cs
   CS_TRY(cs_svg_style_resolve(reading->context, reading->document, node, &above, &reading->tests,
                               &place->style));
   if (node->element == CS_SVG_ELEMENT_SYMBOL)
-    place->style.transform = NULL; /* as most renderers have it */
+    place->style.transform = NULL; /* the same as in most renderers */
   place->measure.font_size = place->style.font_size;
   if (place->style.transform && cs_svg_is_unfit(place->style.transform))
     return cs_fail(reading->context, CELSPAN_INPUT, "line %u: transform is \"%.40s\"", node->line,

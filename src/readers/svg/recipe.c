@@ -63,7 +63,7 @@ void cs_svg_recipe_unref(cs_svg_recipe *recipe) {
 
 /* ---------------------------------------------------------------- objects */
 
-/* A recipe that is being applied, and the step that is made. An object that is NULL is nothing. */
+/* A recipe that is being applied, and the current step. An object that is NULL draws nothing. */
 typedef struct applying {
   celspan_context *context;
   const cs_svg_recipe *recipe;
@@ -85,7 +85,7 @@ static celspan_status convert(const applying *a, celspan_space space, celspan_ob
   return cs_svg_object_replace(status, made, object);
 }
 
-/* Objects over each other, composited by themselves in the step's space. */
+/* Objects on top of each other, composited as a group in the step's space. */
 static celspan_status unite(const applying *a, celspan_object *const *objects, size_t count,
                             celspan_object **out) {
   celspan_group_desc desc = CELSPAN_GROUP_DESC;
@@ -97,7 +97,7 @@ static celspan_status unite(const applying *a, celspan_object *const *objects, s
   return count > 1 ? celspan_object_create_group(a->context, &desc, out) : CELSPAN_OK;
 }
 
-/* `front` in a mode over `back`; either may be nothing. */
+/* `front` in a mode over `back`; either may be NULL. */
 static celspan_status blend(const applying *a, celspan_object *back, celspan_object *front,
                             celspan_blend mode, celspan_object **out) {
   celspan_object *both[2] = {back, NULL};
@@ -182,7 +182,8 @@ static celspan_status make_xor(const applying *a, celspan_object **out) {
   return make_both(a, true, out);
 }
 
-/* Appends an object times a weight: as often as it goes into that, and once more, faded. */
+/* Appends an object times a weight: as many times as the whole part of the weight, and once more,
+ * faded, for the rest. */
 static celspan_status add_terms(const applying *a, celspan_object *object, double weight,
                                 celspan_object **terms, size_t *count) {
   for (; object && weight > 0; weight--) {
@@ -321,7 +322,7 @@ static celspan_status make_tile(const applying *a, celspan_object **out) {
  * INVARIANT: a rectangle counts as touched when the input fills 1/256 of it.
  */
 
-/* How many times brighter a mean is made. */
+/* How many times brighter a mean is made, so that every trace of light counts. */
 #define ALL_THERE 256
 
 /* *object as a group with `factor` times its light. */
@@ -335,7 +336,7 @@ static celspan_status brighten(celspan_context *context, double factor, celspan_
   return cs_svg_object_replace(status, made, object);
 }
 
-/* The paint in a box as far as there is light, or as far as it is dark. */
+/* The paint in a box, where there is light, or where it is dark. */
 static celspan_status paint_by(celspan_context *context, const celspan_box *box,
                                const celspan_paint *paint, celspan_object *light, bool inverts,
                                celspan_object **out) {
@@ -347,7 +348,7 @@ static celspan_status paint_by(celspan_context *context, const celspan_box *box,
   return status;
 }
 
-/* Light of 1 in a box: where the input is, or for shrinking, where it is not. */
+/* Light of 1 in a box: where the input is, or for shrinking, where the input is not. */
 static celspan_status light_up(const applying *a, const celspan_box *box, celspan_object **out) {
   const cs_svg_step *step = a->step;
   const celspan_paint white = celspan_paint_rgb(1, 1, 1, 1);
@@ -403,7 +404,7 @@ static celspan_status make_image(const applying *a, celspan_object **out) {
 
 /* ---------------------------------------------------------------- the whole */
 
-/* *out: NULL before the call; the result so far, also after a failure. */
+/* *out: NULL before the call; after it the result, and after a failure the result so far. */
 typedef celspan_status step_maker(const applying *a, celspan_object **out);
 
 static step_maker *const makers[] = {[CS_SVG_STEP_MERGE] = make_merge,
@@ -424,7 +425,7 @@ static step_maker *const makers[] = {[CS_SVG_STEP_MERGE] = make_merge,
                                      [CS_SVG_STEP_GROW] = make_morphology,
                                      [CS_SVG_STEP_SHRINK] = make_morphology};
 
-/* The element as the steps take it, and its silhouette. */
+/* The element in the form in which the steps use it, and its silhouette. */
 static celspan_status make_sources(applying *a, celspan_object *object) {
   const celspan_paint black = celspan_paint_rgb(0, 0, 0, 1);
   celspan_object **source = &a->results[0];

@@ -19,19 +19,19 @@
 #include "base/context.h"
 
 #define CS_SVG_SOURCES 2 /* the element, and its silhouette in black */
-/* How often the sources may be in the result of a recipe, at most. */
+/* How often the result of a recipe may contain the sources. */
 #define CS_SVG_RECIPE_USES 1024
 
 typedef enum cs_svg_step_kind {
-  CS_SVG_STEP_MERGE,  /* the inputs over each other, the first behind */
-  CS_SVG_STEP_BLEND,  /* the first input in a mode over the second */
-  CS_SVG_STEP_IN,     /* the first input where the second is */
-  CS_SVG_STEP_OUT,    /* the first input where the second is not */
-  CS_SVG_STEP_ATOP,   /* IN, and the second where the first is not */
-  CS_SVG_STEP_XOR,    /* each where the other is not */
-  CS_SVG_STEP_SUM,    /* both inputs, white and a product, by weights */
+  CS_SVG_STEP_MERGE,  /* the inputs on top of each other, the first one behind */
+  CS_SVG_STEP_BLEND,  /* the first input in a mode over the second one */
+  CS_SVG_STEP_IN,     /* the first input where the second one is */
+  CS_SVG_STEP_OUT,    /* the first input where the second one is not */
+  CS_SVG_STEP_ATOP,   /* IN, and the second input where the first one is not */
+  CS_SVG_STEP_XOR,    /* each input where the other one is not */
+  CS_SVG_STEP_SUM,    /* the weighted sum of both inputs, white and a product */
   CS_SVG_STEP_COLOUR, /* the input graded and faded */
-  CS_SVG_STEP_LUMA,   /* black, as far as the input is light */
+  CS_SVG_STEP_LUMA,   /* black, as opaque as the input is light */
   CS_SVG_STEP_OFFSET,
   CS_SVG_STEP_BLUR,
   CS_SVG_STEP_GROW,   /* the paint at each point whose rectangle contains some of the input */
@@ -44,13 +44,14 @@ typedef enum cs_svg_step_kind {
 
 typedef struct cs_svg_step {
   cs_svg_step_kind kind;
-  celspan_space space; /* the numbers that are mixed */
+  celspan_space space; /* the space whose numbers are mixed */
   celspan_box box;     /* nothing is drawn if it has no size */
   size_t first_input, input_count;
   celspan_blend blend;    /* BLEND */
-  double weights[4];      /* SUM: of the inputs, white and the product: 0..CS_SVG_SUM_MOST */
+  /* SUM: the weights of the inputs, of white and of the product: 0..CS_SVG_SUM_MOST */
+  double weights[4];
   int flood;              /* SUM: the input that is a flood, if there is a product */
-  celspan_grade *grade;   /* COLOUR, and SUM: of the other factor; owned; NULL: none */
+  celspan_grade *grade;   /* COLOUR; SUM: of the factor that is not the flood; owned; NULL: none */
   double opacity;         /* COLOUR */
   celspan_point offset;   /* OFFSET, SHADOW */
   celspan_point radius;   /* BLUR, SHADOW, GROW, SHRINK: along x and y */
@@ -65,26 +66,27 @@ typedef struct cs_svg_recipe {
   atomic_size_t references;
   struct cs_svg_recipe *next; /* owned; NULL: it is the last one */
   cs_memory *memory;
-  celspan_space space;         /* of the drawing: of the element itself, and of images */
-  celspan_box region;          /* that the element is cut off at */
-  celspan_matrix matrix, back; /* user units to the drawing's, and the inverse */
+  celspan_space space;         /* of the drawing: for the element itself, and for images */
+  celspan_box region;          /* the region outside of which the element is cut off */
+  celspan_matrix matrix, back; /* from user units to the drawing's, and back */
   cs_svg_step *steps;          /* none: nothing is drawn */
   size_t step_count, step_capacity;
-  size_t *inputs; /* of all steps: numbers of sources and steps, as in the figure */
+  size_t *inputs; /* of all steps: the numbers of sources and steps, as in the figure */
   size_t input_count, input_capacity;
 } cs_svg_recipe;
 
-/* Without steps. *out: new. Errors: NO_MEMORY. */
+/* A recipe without steps. *out: new. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_svg_recipe_create(celspan_context *context, cs_svg_recipe **out);
 /* Appends a step, and owns its contents from now on, also after a failure. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_svg_recipe_append(celspan_context *context, cs_svg_recipe *recipe,
                                                     const cs_svg_step *step);
 cs_svg_recipe *cs_svg_recipe_ref(cs_svg_recipe *recipe);
-/* Drops the recipes after it, too. */
+/* Releases the recipes after it, too. */
 void cs_svg_recipe_unref(cs_svg_recipe *recipe);
 
-/* Replaces *object by the result of this recipe and the following ones. NULL, before and after:
- * nothing is drawn. Errors: NO_MEMORY, LIMIT; *object is then the result so far. */
+/* Replaces *object by the result of this recipe and the following ones. *object may be NULL before
+ * and after the call: then nothing is drawn. Errors: NO_MEMORY, LIMIT; *object is then the result
+ * so far. */
 CELSPAN_CHECKED celspan_status cs_svg_recipe_apply(celspan_context *context,
                                                    const cs_svg_recipe *recipe,
                                                    celspan_object **object);

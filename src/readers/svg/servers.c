@@ -18,7 +18,8 @@ static celspan_status plain_paint(cs_svg_reading *reading, const cs_svg_paint *p
               opacity, out);
 }
 
-/* Finds the paint of the element whose context it is, and brings it to the shape's units. */
+/* Finds the paint of the element from which it was inherited, and converts it to the shape's
+ * units. */
 static celspan_status find_in_context(cs_svg_reading *reading, const cs_svg_paint *paint,
                                       const cs_svg_style *style, const cs_svg_painted *shape,
                                       cs_svg_server *out) {

@@ -52,7 +52,7 @@ celspan_status cs_svg_reference_of(celspan_context *context, const cs_svg_node *
 
 /* ---------------------------------------------------------------- rectangles and ellipses */
 
-/* rx and ry: where only one is given the other is the same; below 0: not given. */
+/* rx and ry: if only one is given, both are equal; a negative value counts as not given. */
 static celspan_status read_radii(celspan_context *context, const cs_svg_node *node,
                                  const cs_svg_measure *measure, double *rx, double *ry) {
   const cs_svg_length none = {-1, CS_SVG_UNIT_NUMBER};
@@ -102,7 +102,7 @@ static celspan_status add_ellipse(celspan_context *context, const cs_svg_node *n
 
 /* ---------------------------------------------------------------- points and paths */
 
-/* Reads one point of a list at *at, and moves *at behind it. */
+/* Reads a point of a list at *at, and moves *at to the end of the point. */
 static celspan_status take_point(celspan_context *context, const cs_svg_node *node, const char **at,
                                  cs_hpoint *point, bool *is_broken) {
   const char *begin = *at;
@@ -116,7 +116,7 @@ static celspan_status take_point(celspan_context *context, const cs_svg_node *no
   return CELSPAN_OK;
 }
 
-/* Lines from point to point; nothing for a single one. */
+/* Lines from point to point; nothing for a single point. */
 static celspan_status add_points(celspan_context *context, const cs_svg_node *node,
                                  cs_outline *outline, bool *is_broken) {
   const char *at = cs_svg_node_value(node, CS_SVG_POINTS);
@@ -142,7 +142,7 @@ static celspan_status add_polygon(celspan_context *context, const cs_svg_node *n
   return outline->piece_count > 0 ? cs_outline_close(context, outline) : CELSPAN_OK;
 }
 
-/* A path with a fault in its data is drawn up to the fault. Source: SVG 2, 9.5.4. */
+/* A path with an error in its data is drawn up to the error. Source: SVG 2, 9.5.4. */
 static celspan_status add_path(celspan_context *context, const cs_svg_node *node,
                                cs_outline *outline, bool *is_broken) {
   const char *data = cs_svg_node_value(node, CS_SVG_D);
@@ -185,7 +185,7 @@ celspan_status cs_svg_shape_outline(celspan_context *context, const cs_svg_node 
     return add_polygon(context, node, outline, is_broken);
   case CS_SVG_ELEMENT_PATH:
     return add_path(context, node, outline, is_broken);
-  default: /* a line has nothing inside */
+  default: /* a line has no inside */
     return CELSPAN_OK;
   }
 }

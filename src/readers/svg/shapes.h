@@ -5,8 +5,8 @@
 #include "readers/svg/document.h"
 #include "readers/svg/values.h"
 
-/* A length of an attribute in user units; fallback where there is none that counts. Errors: INPUT
- * for a number that is unfit. */
+/* The length in an attribute, in user units; `fallback` if it is missing or does not count. Errors:
+ * INPUT for an unfit number. */
 CELSPAN_CHECKED celspan_status cs_svg_length_of(celspan_context *context, const cs_svg_node *node,
                                                 cs_svg_name name, cs_svg_axis axis,
                                                 const cs_svg_measure *measure,
@@ -26,8 +26,8 @@ CELSPAN_CHECKED celspan_status cs_svg_reference_of(celspan_context *context,
 /* Whether the element is a path or a basic shape. */
 bool cs_svg_is_shape(const cs_svg_node *node);
 /* Appends the element's outline, all of whose contours are closed: nothing for a shape without a
- * size. *is_broken: its data have a fault, and the outline is what comes before it. Errors:
- * NO_MEMORY, LIMIT, INPUT for numbers that are unfit. */
+ * size. *is_broken: the data have an error, and the outline ends before it. Errors: NO_MEMORY,
+ * LIMIT, INPUT for numbers that are unfit. */
 CELSPAN_CHECKED celspan_status cs_svg_shape_outline(celspan_context *context,
                                                     const cs_svg_node *node,
                                                     const cs_svg_measure *measure,
@@ -40,15 +40,16 @@ typedef struct cs_svg_line {
   bool is_broken; /* as above */
 } cs_svg_line;
 
-/* The element's line: its subpaths are open where they are in the file. finish frees it, also after
- * an error. Errors: as above. */
+/* The element's line: its subpaths are open if they are open in the file. finish frees it, also
+ * after an error. Errors: as above. */
 CELSPAN_CHECKED celspan_status cs_svg_line_init(celspan_context *context, const cs_svg_node *node,
                                                 const cs_svg_measure *measure, cs_svg_line *line);
 void cs_svg_line_finish(cs_svg_line *line, celspan_context *context);
-/* Brings an outline into other units by an affine matrix; false when it does not fit into them. */
+/* Converts an outline to other units by an affine matrix; false if its numbers would be too
+ * large. */
 bool cs_svg_outline_map(cs_outline *outline, const celspan_matrix *matrix);
 
-/* A rectangle in user units as an object; `matrix` converts these to the drawing's units. */
+/* A rectangle in user units as an object; matrix: from user units to the drawing's. */
 CELSPAN_CHECKED celspan_status cs_svg_rectangle(celspan_context *context, const celspan_box *box,
                                                 const celspan_matrix *matrix, celspan_object **out);
 /* The box around a box under an affine matrix. */

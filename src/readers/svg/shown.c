@@ -15,14 +15,14 @@ static bool has_word(const char *list, const char *word) {
   return false;
 }
 
-/* Whether a child of `switch` is meant for this reader, whose language is English. */
+/* Whether `switch` may choose this child: it is for readers of English. */
 static bool passes_switch(const cs_svg_node *node) {
   const char *extensions = cs_svg_node_value(node, CS_SVG_REQUIRED_EXTENSIONS);
   const char *language = cs_svg_node_value(node, CS_SVG_SYSTEM_LANGUAGE);
   return !(extensions && *cs_svg_skip_space(extensions)) && (!language || has_word(language, "en"));
 }
 
-/* Elements that draw nothing by themselves, so that nobody misses them. */
+/* Whether an element draws nothing by itself, so that no note is needed. */
 static bool is_silent(const cs_svg_node *node, const cs_svg_node *sizes) {
   switch (node->element) {
   case CS_SVG_ELEMENT_CHARACTERS:

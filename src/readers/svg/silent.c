@@ -5,8 +5,8 @@
 
 #include "readers/svg/names.h"
 
-/* Names for pages around drawings, scripts, links and screen readers, and names that belong to an
- * element that is noted itself; some only with a few values. */
+/* Names for web pages, scripts, links and screen readers, and names that belong to an element that
+ * has a note itself; some of them only with a few values. */
 typedef struct silent_name {
   const char *text;
   const char *values; /* with '|' between them; NULL: any */
@@ -206,7 +206,7 @@ static int compare_silent(const void *key, const void *item) {
   return strcmp(key, ((const silent_name *)item)->text);
 }
 
-/* Names that scripts, screen readers and single programs look for. */
+/* Names that only scripts, screen readers or particular programs use. */
 static bool is_for_others(const char *text) {
   return strncmp(text, "data-", 5) == 0 || strncmp(text, "aria-", 5) == 0 ||
          strncmp(text, "on", 2) == 0 || *text == '-';

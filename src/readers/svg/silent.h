@@ -6,6 +6,6 @@
 
 #include <stdbool.h>
 
-/* Whether an attribute or a property that names.h does not list changes nothing that is drawn, with
- * any value or with this one. */
+/* Whether an attribute or a property that names.h does not list has no effect on the drawing, with
+ * any value or with this value. */
 bool cs_svg_name_is_silent(const char *text, const char *value);

@@ -15,8 +15,8 @@ typedef struct stroking {
   const cs_svg_node *node;
   const cs_svg_place *place;
   cs_outline *outline;             /* in the units of the stroke */
-  const cs_outline_closed *closed; /* which of its contours are closed; NULL: all */
-  celspan_matrix to_page;          /* these units to the drawing's */
+  const cs_outline_closed *closed; /* the closed contours; NULL: all */
+  celspan_matrix to_page;          /* from these units to the drawing's */
   celspan_stroke_desc desc;
   double *dashes;
   size_t dash_capacity;
@@ -29,7 +29,7 @@ bool cs_svg_is_stroked(const cs_svg_style *style) {
 
 /* ---------------------------------------------------------------- dashes */
 
-/* Appends the lengths of the list; *is_fit: false for anything but a list of lengths that can be
+/* Appends the lengths of the list; *is_fit: false unless it is a list of lengths that can be
  * drawn. */
 static celspan_status take_dashes(stroking *p, const char *text, double unit, bool *is_fit) {
   double sum = 0;
@@ -47,8 +47,8 @@ static celspan_status take_dashes(stroking *p, const char *text, double unit, bo
   return CELSPAN_OK;
 }
 
-/* How many units one unit of the lengths in which dashes are written has: the element may say how
- * long its line shall count. */
+/* The number of units in one unit of dash lengths: the element may define the length of its
+ * line. */
 static celspan_status dash_unit(stroking *p, double *out) {
   double declared, length = 0;
   *out = 1;
@@ -95,7 +95,7 @@ static celspan_status read_desc(stroking *p) {
   return read_dashes(p);
 }
 
-/* The stroke in the drawing's units. Dashes beyond the limit are drawn as a whole line. */
+/* The stroke in the drawing's units. If there are too many dashes, a solid line is drawn. */
 static celspan_status make_stroke(stroking *p, celspan_texture *texture, celspan_object **out) {
   celspan_context *context = p->reading->context;
   celspan_object *object;
@@ -114,8 +114,8 @@ static celspan_status make_stroke(stroking *p, celspan_texture *texture, celspan
   return status;
 }
 
-/* A rectangle in the gradient's units that covers `box` of the drawing's, brought there. *out: NULL
- * where numbers do not reach so far. */
+/* A rectangle that covers `box` of the drawing, made in the gradient's units and moved there. *out:
+ * NULL if its numbers would be too large. */
 static celspan_status cover(stroking *p, const cs_svg_server *server, const celspan_box *box,
                             celspan_object **out) {
   celspan_context *context = p->reading->context;
@@ -150,7 +150,7 @@ static celspan_status clip_cover(stroking *p, const cs_svg_server *server, celsp
 
 /* ---------------------------------------------------------------- paint */
 
-/* Makes a stroke a shape first, because a gradient may be spread over its box. */
+/* Makes the stroke a shape, because a gradient may be spread over the box of this shape. */
 static celspan_status paint_by_server(stroking *p, const celspan_box *outline_box,
                                       celspan_object **out) {
   const cs_svg_style *style = &p->place->style;
@@ -190,7 +190,7 @@ static celspan_status paint_flat(stroking *p, celspan_object **out) {
   return status;
 }
 
-/* box: gradients in shares of a box are spread over this one; NULL: the outline's. */
+/* box: gradients in shares of a box are spread over this box; NULL: the box of the outline. */
 static celspan_status draw(stroking *p, const celspan_box *given, celspan_object **out) {
   const celspan_matrix identity = celspan_matrix_identity();
   celspan_box box;

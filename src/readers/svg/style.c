@@ -7,11 +7,11 @@
 #include "readers/svg/cascade.h"
 #include "readers/svg/filter_list.h"
 
-#define MEDIUM 16 /* px, of letters */
+#define MEDIUM 16 /* the size of medium letters, in px */
 
 /* ---------------------------------------------------------------- texts */
 
-/* Source: CSS Fonts Module Level 4, 2.2: from 600 on a face that is bold is chosen. */
+/* Source: CSS Fonts Module Level 4, 2.2: from 600 on, a bold face is chosen. */
 #define BOLD 600
 
 static void read_weight(const char *text, bool *is_bold) {
@@ -31,7 +31,7 @@ static void read_slant(const char *text, bool *is_italic) {
     *is_italic = cs_svg_is_word(text, "italic") || strncmp(text, "oblique", 7) == 0;
 }
 
-/* Per cents, and all other relative lengths, refer to the em here. */
+/* Percentages and all other relative lengths refer to the em here. */
 static void read_spacing(const char *text, double em, double *out) {
   const cs_svg_measure measure = {em, em, em, em, em, em};
   cs_svg_length length;
@@ -51,7 +51,7 @@ static void read_anchor(const char *text, cs_svg_anchor *out) {
     *out = CS_SVG_ANCHOR_END;
 }
 
-/* False for a word that says no line. */
+/* False for a word that is not a line. */
 static bool read_baseline(const char *text, cs_svg_baseline *out) {
   static const struct {
     const char *words;
@@ -81,8 +81,8 @@ static void read_baselines(const char *const *values, cs_svg_text_style *out) {
     out->own = out->dominant;
 }
 
-/* Shifts add up from a text inwards. Source of the shares: CSS Inline Layout Module Level 3, 4.2.3.
- */
+/* The shifts of nested elements add up. Source of the shares: CSS Inline Layout Module Level 3,
+ * 4.2.3. */
 static void read_shift(const cs_svg_node *node, const char *text, double em, double parent_em,
                        double *out) {
   const cs_svg_measure measure = {em, em, em, em, em, em};
@@ -160,8 +160,8 @@ static void read_rule(const char *text, celspan_rule *out) {
     *out = CELSPAN_RULE_NONZERO;
 }
 
-/* Parses `none` or a reference; anything else is an unresolvable reference, and treated as `none`.
- */
+/* Parses `none` or a reference; any other value is treated as a reference that leads nowhere, like
+ * `none`. */
 static bool read_reference(const char *text, cs_svg_reference *out) {
   if (!text)
     return false;
@@ -241,7 +241,7 @@ static void read_cap_and_join(const char *cap, const char *join, cs_svg_style *o
     out->cap = CELSPAN_STROKE_CAP_SQUARE;
   if (join && (cs_svg_is_word(join, "miter") || cs_svg_is_word(join, "miter-clip") ||
                cs_svg_is_word(join, "arcs")))
-    out->join = CELSPAN_STROKE_JOIN_MITER; /* browsers have no other join here */
+    out->join = CELSPAN_STROKE_JOIN_MITER; /* browsers do not support other joins here */
   else if (join && cs_svg_is_word(join, "round"))
     out->join = CELSPAN_STROKE_JOIN_ROUND;
   else if (join && cs_svg_is_word(join, "bevel"))
@@ -251,7 +251,7 @@ static void read_cap_and_join(const char *cap, const char *join, cs_svg_style *o
 static const cs_svg_layer normal_order[3] = {CS_SVG_LAYER_FILL, CS_SVG_LAYER_STROKE,
                                              CS_SVG_LAYER_MARKERS};
 
-/* The properties of lines; an invalid value leaves the inherited one. */
+/* Reads the properties of lines; an invalid value does not change the inherited one. */
 static void read_line(const char *const *values, cs_svg_style *out) {
   cs_svg_length length;
   if (values[CS_SVG_STROKE_WIDTH] && cs_svg_parse_length(values[CS_SVG_STROKE_WIDTH], &length) &&
@@ -334,7 +334,7 @@ static void read_effects(const char *const *values, const cs_svg_style *parent, 
   read_blend(values[CS_SVG_MIX_BLEND_MODE], parent, out);
 }
 
-/* The colour of a stop or a flood, with its opacity. inherited: of the parent. */
+/* The colour of a stop or a flood, with its opacity. inherited: the colour of the parent. */
 static void read_own_colour(const char *text, const char *opacity, const cs_svg_colour *inherited,
                             const cs_svg_style *style, cs_svg_colour *out) {
   double share = 1;

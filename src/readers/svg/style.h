@@ -1,6 +1,5 @@
-/* The style of an element: its properties, computed from the values that win (cascade.h) and
- * from what it inherits.
- */
+/* The style of an element: its properties, computed from the values that win (cascade.h) and from
+ * inherited values. */
 #pragma once
 
 #include "readers/svg/document.h"
@@ -16,7 +15,7 @@ typedef enum cs_svg_anchor {
   CS_SVG_ANCHOR_END
 } cs_svg_anchor;
 
-/* The line of a letter that lies at its place. */
+/* The line of a letter that is placed at its y. */
 typedef enum cs_svg_baseline {
   CS_SVG_BASELINE_ALPHABETIC,
   CS_SVG_BASELINE_MIDDLE,
@@ -32,11 +31,11 @@ typedef struct cs_svg_text_style {
   bool is_italic, is_bold;
   double letter_spacing, word_spacing; /* user units */
   cs_svg_anchor anchor;
-  cs_svg_baseline dominant, own; /* own: the value of the element alone */
-  double raised;                 /* by baseline-shift, user units, including the shifts of the
-                                    elements around it */
+  cs_svg_baseline dominant, own; /* own: the value of the element itself, not inherited */
+  /* the sum of the baseline-shift of this element and of those around it, in user units */
+  double raised;
   bool is_leftward;              /* the direction of texts */
-  bool is_preserved;             /* every space of a text counts */
+  bool is_preserved;             /* all spaces of a text are kept */
 } cs_svg_text_style;
 
 /* Reads the properties of texts from `values`, the winning values by name. em, parent_em: the font
@@ -49,7 +48,7 @@ typedef struct cs_svg_style {
   const cs_svg_variable *variables;
   cs_svg_colour colour;
   cs_svg_paint fill, stroke;
-  cs_svg_paint context_fill, context_stroke; /* of the `use` or marker that shows it */
+  cs_svg_paint context_fill, context_stroke; /* of the `use` or marker that shows the element */
   double fill_opacity, stroke_opacity;       /* 0..1 */
   celspan_rule fill_rule, clip_rule;
   cs_svg_length stroke_width, dash_offset;
@@ -68,23 +67,23 @@ typedef struct cs_svg_style {
   double opacity;
   cs_svg_reference clip_path, mask;
   const char *filter;     /* a list of filters; NULL: none */
-  const char *clip_shape; /* clip-path where it is a shape; NULL: it is a reference, or none */
+  const char *clip_shape; /* clip-path, if it is a shape; NULL: it is a reference, or none */
   bool has_clip_path, has_mask;
   celspan_blend blend;
-  bool isolates;                           /* blend modes inside do not see its background */
-  bool keeps_width;                        /* the stroke's: transforms do not change it */
+  bool isolates;                           /* blend modes inside do not act on its background */
+  bool keeps_width;                        /* of the stroke: transforms do not change its width */
   bool shows_overflow;                     /* of svg, symbol and marker elements */
   bool uses_alpha;                         /* of a mask: alpha instead of luminance */
-  cs_svg_colour stop_colour, flood_colour; /* stop-opacity, flood-opacity multiplied in */
-  /* Functions, and the properties done after them; NULL: none. */
+  cs_svg_colour stop_colour, flood_colour; /* with stop-opacity or flood-opacity applied */
+  /* Functions, and the properties that are applied after them; NULL: none. */
   const char *transform, *translate, *rotate, *scale;
   const char *transform_origin; /* NULL: none */
 } cs_svg_style;
 
 cs_svg_style cs_svg_style_initial(void);
 
-/* node's style, given the style of its parent. tests: how often selectors may still be tried,
- * counted down. Errors: LIMIT when that is used up; INPUT for a number that is unfit. */
+/* The style of a node, given the style of its parent. tests: how many tests of selectors are left;
+ * counted down. Errors: LIMIT if none are left; INPUT for an unfit number. */
 CELSPAN_CHECKED celspan_status cs_svg_style_resolve(celspan_context *context,
                                                     cs_svg_document *document,
                                                     const cs_svg_node *node,

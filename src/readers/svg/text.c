@@ -11,7 +11,7 @@ typedef struct lettering {
   cs_svg_written written;
   cs_svg_letters letters;
   size_t next;     /* text node */
-  celspan_box box; /* around all letters, for gradients in shares of it */
+  celspan_box box; /* around all letters, for gradients whose units are shares of it */
   bool has_box;
 } lettering;
 
@@ -39,8 +39,8 @@ static celspan_status add_layer(lettering *l, const cs_svg_text_node *text,
   return cs_svg_item_compose(l->reading->context, item);
 }
 
-/* A text node has the place of its element, but not its transform: elements inside a text have no
- * transform of their own. */
+/* A text node has the place of its element, without the transform: elements inside a text have no
+ * transforms. */
 static celspan_status add_text_node(lettering *l, const cs_svg_place *place, cs_svg_item *parent) {
   const cs_svg_text_node *text = &l->written.nodes[l->next++];
   cs_svg_place own = text->place;
@@ -53,7 +53,7 @@ static celspan_status add_text_node(lettering *l, const cs_svg_place *place, cs_
   return CELSPAN_OK;
 }
 
-/* Whether the next text node is somewhere inside of an element. */
+/* Whether the next text node lies inside an element, at any depth. */
 static bool holds_next(const lettering *l, const cs_svg_node *node) {
   if (l->next == l->written.node_count)
     return false;
@@ -67,7 +67,7 @@ static bool holds_next(const lettering *l, const cs_svg_node *node) {
 static celspan_status add_content(lettering *l, const cs_svg_node *node, const cs_svg_place *place,
                                   cs_svg_item *item);
 
-/* Adds an element inside of a text: it has an opacity of its own, but no place. */
+/* Adds an element inside a text: it has its own opacity, but no place. */
 static celspan_status add_inner(lettering *l, const cs_svg_node *node, cs_svg_place place,
                                 cs_svg_item *parent) {
   cs_svg_reading *reading = l->reading;
@@ -98,7 +98,7 @@ static celspan_status add_content(lettering *l, const cs_svg_node *node, const c
 
 /* ---------------------------------------------------------------- the whole */
 
-/* Sets the letters of a text. *l must be finished even after a failure. */
+/* Makes the letters of a text. *l must be finished even after a failure. */
 static celspan_status set_letters(cs_svg_reading *reading, const cs_svg_node *node,
                                   const cs_svg_place *place, lettering *l) {
   *l = (lettering){.reading = reading, .letters = {.context = reading->context}};

@@ -11,7 +11,7 @@
 #include "readers/svg/reading.h"
 
 /* Adds the drawing of a text element to `item`; *place has its style. Errors: NO_MEMORY, LIMIT;
- * INPUT for numbers that are unfit and for fonts that cannot be read. */
+ * INPUT for unfit numbers and for fonts that cannot be read. */
 CELSPAN_CHECKED celspan_status cs_svg_text_add(cs_svg_reading *reading, celspan_svg *art,
                                                const cs_svg_node *node, const cs_svg_place *place,
                                                cs_svg_item *item);

@@ -10,13 +10,14 @@
 #define PI 3.14159265358979323846
 #define ARGUMENTS 16
 
-/* One argument: a number, an angle in degrees, or a length whose axis its place decides. */
+/* One argument: a number, an angle in degrees, or a length. The index of a length decides along
+ * which axis it is. */
 typedef struct argument {
   double value;
   bool is_percent; /* the value is a share */
 } argument;
 
-/* A call of a function, and the sizes that lengths in it refer to. */
+/* A call of a function, and the sizes to which its lengths refer. */
 typedef struct call {
   const cs_svg_measure *measure;
   argument items[ARGUMENTS];
@@ -97,7 +98,7 @@ static bool make_matrix(const call *c, celspan_matrix *out) {
   return true;
 }
 
-/* A matrix in columns of four, which must be one of the plane. */
+/* A matrix in columns of four, which must not leave the plane. */
 static bool make_matrix3d(const call *c, celspan_matrix *out) {
   static const struct {
     int index, value;
@@ -141,7 +142,7 @@ static bool make_rotate(const call *c, celspan_matrix *out) {
   return c->count != 2;
 }
 
-/* A turn about an axis: only the z axis turns within the plane. */
+/* A rotation about an axis: only the z axis keeps the plane. */
 static bool make_rotate3d(const call *c, celspan_matrix *out) {
   double along = number(c, 2);
   *out = cs_matrix_turn(along < 0 ? -number(c, 3) : number(c, 3), (celspan_point){0, 0});
@@ -158,7 +159,7 @@ static bool make_skew_y(const call *c, celspan_matrix *out) {
   return true;
 }
 
-/* Functions that do not change the plane: a shift along z, or a turn about x or y by 0. */
+/* Functions that do not change the plane: a shift along z, or a rotation by 0 about x or y. */
 static bool make_nothing(const call *c, celspan_matrix *out) {
   *out = celspan_matrix_identity();
   return number(c, 0) == 0;
@@ -179,7 +180,7 @@ static const struct function {
                  {"translateX", 1, 1, make_translate}, {"translateY", 1, 1, make_translate_y},
                  {"translateZ", 1, 1, make_nothing}};
 
-/* The function whose name and '(' the text begins with, which *text is moved to; NULL: none. */
+/* The function whose name and '(' are at *text; moves *text after them; NULL: none. */
 static const struct function *take_function(const char **text) {
   size_t size = strcspn(*text, " \t\r\n\f(");
   for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
@@ -242,7 +243,7 @@ bool cs_svg_parse_scale(const char *text, celspan_matrix *out) {
   return is_none(text, out) || (take_list(text, 1, 3, &c) && make_scale(&c, out));
 }
 
-/* [z | 0 0 z] angle; the axis may be on either side of the angle. */
+/* [z | 0 0 z] angle; the axis may be before or after the angle. */
 bool cs_svg_parse_rotate(const char *text, celspan_matrix *out) {
   double degrees, x, y, z = 1;
   if (is_none(text, out))

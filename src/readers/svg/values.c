@@ -180,7 +180,8 @@ bool cs_svg_parse_view_box(const char *text, cs_svg_view_box *out) {
   return true;
 }
 
-/* 0, 1/2 or 1: where the slack goes that is left along one axis. word: "xMidYMax". */
+/* Which share of the remaining space is before the content along one axis: 0, 1/2 or 1. word:
+ * "xMidYMax". */
 static double alignment(const char *word, size_t at) {
   return strncmp(word + at, "Min", 3) == 0 ? 0 : strncmp(word + at, "Max", 3) == 0 ? 1 : 0.5;
 }
@@ -205,9 +206,9 @@ celspan_matrix cs_svg_fit(const cs_svg_view_box *box, double width, double heigh
 
 /* ---------------------------------------------------------------- variables */
 
-#define LONGEST 4096 /* bytes of a value that is filled */
-#define DEEPEST 16   /* variables in the values of variables */
-#define MOST 1000    /* variables in one value and theirs */
+#define LONGEST 4096 /* bytes of a value after variables have been replaced */
+#define DEEPEST 16   /* variables inside the values of variables */
+#define MOST 1000    /* the most variables in one value, including those in their values */
 
 typedef struct filling {
   const cs_svg_variable *list;
@@ -255,10 +256,10 @@ static const char *closing(const char *text, const char *end) {
   return text;
 }
 
-/* Appends [text, end) with its variables filled in. Recursion: DEEPEST. */
+/* Appends [text, end), with its variables replaced. Recursion: DEEPEST. */
 static bool append(filling *f, const char *text, const char *end);
 
-/* The text between the parentheses of var(). */
+/* Appends the value for the text between the parentheses of var(). */
 static bool append_variable(filling *f, const char *text, const char *end) {
   while (text < end && cs_svg_is_space(*text))
     text++;

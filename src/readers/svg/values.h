@@ -1,7 +1,7 @@
 /* Values of attributes: numbers, lengths, words, references, viewBox.
  *
- * A value that is not what it should be counts as if it were not given, as in browsers; a number
- * that is not finite or beyond 1e12 is unfit, and the file is refused.
+ * An invalid value counts as not given, as in browsers; a number that is not finite or beyond 1e12
+ * is unfit, and the file is refused.
  */
 #pragma once
 
@@ -9,7 +9,7 @@
 #include "celspan/celspan.h"
 
 typedef enum cs_svg_unit {
-  CS_SVG_UNIT_NUMBER, /* px too: everything absolute is converted */
+  CS_SVG_UNIT_NUMBER, /* also for px: absolute units are converted to it */
   CS_SVG_UNIT_PERCENT,
   CS_SVG_UNIT_EM,
   CS_SVG_UNIT_EX,
@@ -25,7 +25,7 @@ typedef struct cs_svg_length {
   cs_svg_unit unit;
 } cs_svg_length;
 
-/* The sizes that lengths are relative to. */
+/* The sizes to which lengths are relative. */
 typedef struct cs_svg_measure {
   double width, height; /* of the nearest viewport, in user units */
   double font_size;
@@ -52,20 +52,20 @@ const char *cs_svg_skip_space(const char *text);
 /* Space and at most one comma. */
 const char *cs_svg_skip_comma(const char *text);
 
-/* Each reads a value at *text and moves *text behind it; false, and *text does not move, when there
- * is no such value or it is unfit. */
+/* Each function reads a value at *text and moves *text to its end. If there is no such value, or it
+ * is unfit, returns false, and *text does not move. */
 bool cs_svg_take_number(const char **text, double *out);
 bool cs_svg_take_length(const char **text, cs_svg_length *out);
 bool cs_svg_take_reference(const char **text, cs_svg_reference *out);
-/* Reads a word of letters and hyphens if it is `word`. */
+/* Reads a word of letters and hyphens, if it is `word`. */
 bool cs_svg_take_word(const char **text, const char *word);
 
-/* The whole value. */
+/* Reads the whole value. */
 bool cs_svg_parse_length(const char *text, cs_svg_length *out);
 bool cs_svg_parse_share(const char *text, double *out); /* a number or a percentage, as a share */
 bool cs_svg_parse_view_box(const char *text, cs_svg_view_box *out);
 bool cs_svg_is_word(const char *text, const char *word);
-/* Whether a value that could not be read is a number that no value may be: NaN, infinite, beyond
+/* Whether a value that could not be read is a number that is never allowed: NaN, infinite, beyond
  * 1e12. */
 bool cs_svg_is_unfit(const char *text);
 
@@ -78,19 +78,20 @@ celspan_matrix cs_svg_fit(const cs_svg_view_box *box, double width, double heigh
 
 /* Variables of styles: --name: value, and var(--name, fallback) in other values.
  *
- * Invariant: a list of variables is never changed; an element that sets some adds them before the
- * inherited ones.
+ * Invariant: a list of variables is never changed; an element that sets variables adds them before
+ * the inherited ones.
  */
-#define CS_SVG_VARIABLE_BYTES ((size_t)64 << 20) /* that all of a document may take */
+/* the most that the variables of a document may need */
+#define CS_SVG_VARIABLE_BYTES ((size_t)64 << 20)
 
-/* One variable; the next ones are those that it hides and variables of other names; NULL: the
- * last. */
+/* One variable. The list goes on with variables of the same name, which it hides, and of other
+ * names; NULL: the last. */
 typedef struct cs_svg_variable {
   const char *name, *value;
   const struct cs_svg_variable *next;
 } cs_svg_variable;
 
-/* Where variables and values are made. */
+/* The memory in which variables and values are made. */
 typedef struct cs_svg_variables {
   celspan_context *context;
   cs_arena *arena;
@@ -100,9 +101,9 @@ typedef struct cs_svg_variables {
 /* Errors: NO_MEMORY; LIMIT for more than CS_SVG_VARIABLE_BYTES. */
 CELSPAN_CHECKED celspan_status cs_svg_variable_add(cs_svg_variables *made, const char *name,
                                                    const char *value, const cs_svg_variable **list);
-/* The value in which every var() is replaced by the value of its variable. *out: NULL where a
- * variable has no value, or the text is too long, or variables refer to one another in a circle.
- * Errors: as above. */
+/* The value with every var() replaced by the value of its variable. *out: NULL if a variable has no
+ * value, if the text is too long, or if variables refer to one another in a circle. Errors: as
+ * above. */
 CELSPAN_CHECKED celspan_status cs_svg_variable_fill(cs_svg_variables *made,
                                                     const cs_svg_variable *list, const char *value,
                                                     const char **out);

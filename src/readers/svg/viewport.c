@@ -35,7 +35,7 @@ static celspan_status read_viewport(celspan_context *context, const cs_svg_node 
                           &out->height);
 }
 
-/* Puts the point of a symbol that refX and refY name where its corner would lie. Source: SVG 2,
+/* Moves a symbol so that its point (refX, refY) lies where its corner would be. Source: SVG 2,
  * 5.5. */
 static celspan_status shift_to_reference(celspan_context *context, const cs_svg_node *node,
                                          const celspan_box *viewport, cs_svg_place *place) {

@@ -11,10 +11,9 @@
 
 #include "readers/svg/reading.h"
 
-/* Finds the viewport of `node`, and moves *place so far that the point of a symbol that refX and
- * refY name lies where its corner would. sizes: the element whose width and height count before its
- * own; NULL: none. *out may be without a size: nothing is shown then. Errors: INPUT for numbers
- * that are unfit. */
+/* Finds the viewport of `node`, and moves *place so that the point (refX, refY) of a symbol lies
+ * where its corner would be. sizes: the element whose width and height replace those of the node;
+ * NULL: none. If *out has no size, nothing is shown. Errors: INPUT for unfit numbers. */
 CELSPAN_CHECKED celspan_status cs_svg_viewport_find(cs_svg_reading *reading,
                                                     const cs_svg_node *node,
                                                     const cs_svg_node *sizes, cs_svg_place *place,

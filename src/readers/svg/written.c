@@ -17,7 +17,8 @@
 
 /* ---------------------------------------------------------------- the line */
 
-/* The line in the units of the element that names it, its own transform done. */
+/* The line in the units of the element that refers to it; the line's own transform has been
+ * applied. */
 static celspan_status read_line(cs_svg_reading *reading, const cs_svg_node *path,
                                 const cs_svg_measure *measure, cs_svg_text_path *out) {
   cs_svg_style style;
@@ -47,8 +48,8 @@ static celspan_status measure_line(celspan_context *context, cs_svg_text_path *p
   return CELSPAN_OK;
 }
 
-/* Per cents refer to the length of the line; numbers are in units, and the path says how many units
- * long it is. */
+/* Percentages refer to the length of the line. Numbers are units; the path may say how many units
+ * it is long. */
 static celspan_status read_start(cs_svg_reading *reading, const cs_svg_node *node,
                                  const cs_svg_node *path, const cs_svg_place *place,
                                  cs_svg_text_path *out) {
@@ -88,7 +89,7 @@ void cs_svg_text_path_finish(cs_svg_text_path *path, cs_memory *memory) {
 
 /* ---------------------------------------------------------------- places on it */
 
-/* The last piece that begins at the distance or before it. */
+/* The last piece that begins at or before the distance. */
 static size_t piece_at(const cs_svg_text_path *path, double distance) {
   size_t low = 0, high = path->outline.piece_count;
   while (high - low > 1) {
@@ -133,7 +134,7 @@ static celspan_status append_character(cs_svg_written *w, const char *bytes, siz
   return CELSPAN_OK;
 }
 
-/* The bytes of the character that text begins with: expat gives well-formed UTF-8. */
+/* The bytes of the first character of a text: expat gives well-formed UTF-8. */
 static size_t character_size(const char *text) {
   size_t size = 1;
   while (((unsigned char)text[size] & 0xc0) == 0x80)
@@ -141,7 +142,8 @@ static size_t character_size(const char *text) {
   return size;
 }
 
-/* Ends of lines and controls count as spaces: DEL, U+0080 to U+009F, U+2028 and U+2029. */
+/* Ends of lines and control characters count as spaces: DEL, U+0080 to U+009F, U+2028 and
+ * U+2029. */
 static bool is_space(const char *text) {
   const unsigned char *at = (const unsigned char *)text;
   return at[0] <= ' ' || at[0] == 0x7f || (at[0] == 0xc2 && at[1] < 0xa0) ||
@@ -186,8 +188,8 @@ static double *value_of(cs_svg_written *w, size_t i, size_t offset) {
   return (double *)((char *)&w->characters[i] + offset);
 }
 
-/* Gives the values of a list to the characters from `begin` on that have none yet: the values of
- * inner elements win. The last one holds for the rest where it is a rotation. */
+/* Gives the values of a list to the characters from `begin` on that have no value yet: the values
+ * of inner elements win. The last value of a rotation is also used for all remaining characters. */
 static celspan_status give_list(cs_svg_written *w, const cs_svg_node *node, cs_svg_name name,
                                 size_t offset, cs_svg_axis axis, const cs_svg_measure *measure,
                                 size_t begin) {
@@ -249,7 +251,7 @@ static celspan_status give_values(cs_svg_written *w, const cs_svg_node *node,
 static celspan_status add_content(cs_svg_written *w, const cs_svg_node *node,
                                   const cs_svg_place *place);
 
-/* Properties that act only on a text as a whole. */
+/* Notes properties that only affect a text as a whole. */
 static celspan_status note_effects(cs_svg_written *w, const cs_svg_node *node,
                                    const cs_svg_style *style) {
   const struct {
@@ -271,7 +273,7 @@ static celspan_status add_inner(cs_svg_written *w, const cs_svg_node *node, cs_s
   return place.style.is_displayed ? add_content(w, node, &place) : CELSPAN_OK;
 }
 
-/* Along a line that is not there nothing is drawn. */
+/* Along a line that does not exist, nothing is drawn. */
 static celspan_status add_path(cs_svg_written *w, const cs_svg_node *node,
                                const cs_svg_place *place) {
   const char *side = cs_svg_node_value(node, CS_SVG_SIDE);
@@ -308,7 +310,7 @@ static celspan_status add_child(cs_svg_written *w, const cs_svg_node *node,
   case CS_SVG_ELEMENT_DESC:
     return CELSPAN_OK;
   default:
-    return node->element == CS_SVG_ELEMENT_OTHER /* noted when it was read */
+    return node->element == CS_SVG_ELEMENT_OTHER /* this was noted when it was read */
                ? CELSPAN_OK
                : cs_svg_skip(w->reading, node, "%.40s in text", node->tag);
   }
@@ -322,7 +324,7 @@ static celspan_status add_content(cs_svg_written *w, const cs_svg_node *node,
   return give_values(w, node, &place->measure, begin);
 }
 
-/* Removes the space at the end of a text, which is not shown. */
+/* Removes the space at the end of a text, because it is not shown. */
 static void drop_last(cs_svg_written *w) {
   w->count--;
   w->size = w->characters[w->count].byte;
@@ -339,8 +341,8 @@ static void drop_last(cs_svg_written *w) {
     w->node_count--;
 }
 
-/* Along a line x counts from where its first letter begins, and y from the line; behind it the text
- * continues at the line's end, or along the next line. */
+/* Along a line, x is counted from the place where its first letter begins, and y from the line.
+ * After it, the text continues at the line's end, or along the next line. */
 static void enter_paths(cs_svg_written *w) {
   for (size_t i = 0; i < w->path_count; i++) {
     const cs_svg_text_path *path = &w->paths[i];

@@ -24,30 +24,30 @@
 typedef struct cs_svg_text_path {
   size_t begin, end;  /* characters of the text */
   cs_outline outline; /* in the text's user units */
-  double *lengths;    /* by piece: of all pieces before it */
+  double *lengths;    /* for each piece: the length of all pieces before it */
   double length;      /* of all */
-  double start;       /* where the first letter begins */
+  double start;       /* the distance at which the first letter begins */
 } cs_svg_text_path;
 
-/* The line that a textPath element at `place` names. *is_there: false where there is no line, or
- * one without a length. *out must be finished even after a failure. Errors: NO_MEMORY, LIMIT; INPUT
- * for numbers that are unfit. */
+/* The line that a textPath element at `place` refers to. *is_there: false if there is no line, or
+ * its length is 0. *out must be finished, also after a failure. Errors: NO_MEMORY, LIMIT; INPUT for
+ * unfit numbers. */
 CELSPAN_CHECKED celspan_status cs_svg_text_path_make(cs_svg_reading *reading,
                                                      const cs_svg_node *node,
                                                      const cs_svg_place *place,
                                                      cs_svg_text_path *out, bool *is_there);
 void cs_svg_text_path_finish(cs_svg_text_path *path, cs_memory *memory);
 
-/* The point at a distance from the line's begin, 0 .. length, and the direction there in degrees.
- */
+/* The point at a distance 0 .. length from the beginning of the line, and the direction of the line
+ * there in degrees. */
 celspan_point cs_svg_text_path_at(const cs_svg_text_path *path, double distance, double *degrees);
 
-#define CS_SVG_TEXT_LENGTHS 64 /* of one text */
-#define CS_SVG_TEXT_PATHS 64   /* of one text */
+#define CS_SVG_TEXT_LENGTHS 64 /* the most of one text */
+#define CS_SVG_TEXT_PATHS 64   /* the most of one text */
 
 typedef struct cs_svg_character {
-  uint32_t byte; /* where it begins */
-  /* NAN where the file does not give it. User units; degrees. */
+  uint32_t byte; /* the byte where the character begins */
+  /* NAN if the file does not give the value. User units; degrees. */
   double x, y, dx, dy, rotate;
 } cs_svg_character;
 
@@ -57,7 +57,7 @@ typedef struct cs_svg_text_node {
   size_t begin, end; /* characters */
 } cs_svg_text_node;
 
-/* The length that characters must have: textLength. */
+/* The length that characters must have together: textLength. */
 typedef struct cs_svg_text_length {
   size_t begin, end;
   double length;
@@ -72,16 +72,16 @@ typedef struct cs_svg_written {
   size_t count, capacity;
   cs_svg_text_node *nodes; /* none is empty */
   size_t node_count, node_capacity;
-  cs_svg_text_length lengths[CS_SVG_TEXT_LENGTHS]; /* inner ones first */
+  cs_svg_text_length lengths[CS_SVG_TEXT_LENGTHS]; /* those of inner elements first */
   size_t length_count;
-  cs_svg_text_path paths[CS_SVG_TEXT_PATHS]; /* ascending, apart; none is empty */
+  cs_svg_text_path paths[CS_SVG_TEXT_PATHS]; /* ascending, without overlap; none is empty */
   size_t path_count;
-  bool ends_in_space; /* which collapses with a following space */
+  bool ends_in_space; /* this space is joined with a space that follows */
   bool is_too_long;
 } cs_svg_written;
 
-/* place: of the element, which it was entered with. *out must be finished even after a failure.
- * Errors: NO_MEMORY; INPUT for numbers that are unfit. */
+/* place: of the element, after it was entered. *out must be finished, also after a failure. Errors:
+ * NO_MEMORY; INPUT for unfit numbers. */
 CELSPAN_CHECKED celspan_status cs_svg_written_read(cs_svg_reading *reading, const cs_svg_node *node,
                                                    const cs_svg_place *place, cs_svg_written *out);
 void cs_svg_written_finish(cs_svg_written *written);

@@ -57,7 +57,7 @@ static celspan_status find_file(celspan_context *context, const char *file, stru
   return CELSPAN_OK;
 }
 
-/* Reads until `size` bytes are there; 0, or an errno: ENODATA when the file ends before. */
+/* Reads `size` bytes. Returns 0, or an errno: ENODATA if the file ends before. */
 static int read_all(int descriptor, uint8_t *bytes, size_t size) {
   for (size_t done = 0; done < size;) {
     ssize_t got = read(descriptor, bytes + done, size - done);
@@ -79,7 +79,8 @@ static int read_file(const char *file, uint8_t *bytes, size_t size) {
   return error;
 }
 
-/* *bytes: new, of `size` bytes, the size that was found above. Errors: NO_MEMORY, INPUT, LIMIT. */
+/* *bytes: new, of `size` bytes, the size that was determined above. Errors: NO_MEMORY, INPUT,
+ * LIMIT. */
 static celspan_status load_file(celspan_context *context, const char *file, size_t size,
                                 uint8_t **bytes) {
   char text[CS_ERROR_TEXT_SIZE];
@@ -169,8 +170,8 @@ static bool is_among(uint32_t tag, const uint32_t *tags) {
 }
 
 /* face: the number of the font in a collection; any number for a file of one font. Errors: INPUT
- * for a file that is no font or is cut; BAD_ARGUMENT for fonts of bitmaps or colours, and a face
- * that the collection does not have. */
+ * for a file that is not a font or is incomplete; BAD_ARGUMENT for fonts of bitmaps or colours, and
+ * a face that the collection does not have. */
 static celspan_status check_file(celspan_context *context, const char *file, const uint8_t *bytes,
                                  size_t size, uint32_t face) {
   font_bytes font = {context, file, bytes, size, 0};
@@ -196,9 +197,9 @@ static celspan_status check_file(celspan_context *context, const char *file, con
   return CELSPAN_OK;
 }
 
-/* Of the files that are kept when no text is being made. */
+/* Bytes of font files that are kept while no text is being made. */
 #define BUDGET ((size_t)64 << 20)
-/* Points of outlines that a font keeps; beyond, it makes them again each time. */
+/* Points of outlines that a font keeps; further outlines are made again each time. */
 #define KEPT_POINTS ((size_t)4 << 20)
 /* The farthest that a point of an outline may lie from its origin, in font units. */
 #define FARTHEST 1e9
@@ -307,7 +308,7 @@ void cs_font_release(celspan_context *context, cs_font *font) {
 
 /* ---------------------------------------------------------------- outlines */
 
-/* An outline that the module is drawing. */
+/* An outline that the module draws. */
 typedef struct drawing {
   celspan_context *context;
   cs_outline *outline;
@@ -365,7 +366,7 @@ static celspan_status draw(celspan_context *context, cs_font *font, uint32_t gly
   return cs_outline_close(context, outline);
 }
 
-/* The outline of a glyph; the lock is held. */
+/* The outline of a glyph. The caller has locked the lock. */
 static celspan_status find_outline(celspan_context *context, cs_font *font, uint32_t glyph,
                                    const cs_outline **out) {
   if (!font->glyphs[glyph]) {

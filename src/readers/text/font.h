@@ -21,12 +21,12 @@ typedef struct cs_font {
   cs_type_font_info info;
   uint8_t *bytes;
   size_t size;
-  pthread_mutex_t lock; /* of the members below */
+  pthread_mutex_t lock; /* protects the members below */
   cs_outline **glyphs;  /* by their numbers; NULL: not made yet */
-  size_t points;        /* of all that were made */
+  size_t points;        /* of all outlines that were made */
 } cs_font;
 
-/* Where a glyph is put: font units times scale, then moved. */
+/* How a glyph is placed: font units times scale, then moved. */
 typedef struct cs_font_place {
   double x, y, scale;
 } cs_font_place;
@@ -39,8 +39,8 @@ CELSPAN_CHECKED celspan_status cs_font_acquire(celspan_context *context,
 /* NULL is ignored. */
 void cs_font_release(celspan_context *context, cs_font *font);
 
-/* Appends the outline of a glyph. Errors: NO_MEMORY, LIMIT; INPUT when numbers of the outline make
- * no sense. Any thread. */
+/* Appends the outline of a glyph. Errors: NO_MEMORY, LIMIT; INPUT if the numbers of the outline are
+ * invalid. Any thread. */
 CELSPAN_CHECKED celspan_status cs_font_append(celspan_context *context, cs_font *font,
                                               uint32_t glyph, cs_font_place place,
                                               cs_outline *outline);

@@ -30,16 +30,17 @@ typedef struct cs_text_glyph {
 } cs_text_glyph;
 
 typedef struct cs_text_letter {
-  uint32_t begin, end; /* characters, in the order of reading */
+  uint32_t begin, end; /* characters, in reading order */
   size_t glyph, glyph_count;
-  double x, y, advance; /* its left end on the baseline; its width, without tracking */
+  /* x, y: its left end on the baseline; advance: its width, without tracking */
+  double x, y, advance;
   int32_t line;         /* from 0 */
 } cs_text_letter;
 
 /* A glyph as its font shapes it, before it is placed. */
 typedef struct cs_text_shaped {
   cs_font *font;
-  cs_type_glyph glyph; /* characters count from the beginning of the text */
+  cs_type_glyph glyph; /* characters are counted from the beginning of the text */
   bool is_leftward;
 } cs_text_shaped;
 
@@ -54,24 +55,25 @@ typedef struct cs_layout {
   /* By character; all have room for `room` items. */
   size_t count, room;
   uint32_t *characters;
-  uint32_t *places; /* the byte of the text that each begins at */
+  uint32_t *places; /* the byte of the text at which each character begins */
   uint32_t *scripts;
   uint8_t *embeddings; /* in the paragraph */
-  uint8_t *directions; /* embeddings in the line that is made */
+  uint8_t *directions; /* embeddings in the current line */
   uint8_t *breaks;
-  double *advances; /* of the letter that begins there, tracking included; else 0 */
+  /* of the letter that begins with the character, tracking included; otherwise 0 */
+  double *advances;
 
-  cs_text_shaped *shaped; /* of the line that is made, from left to right */
+  cs_text_shaped *shaped; /* of the current line, from left to right */
   size_t shaped_count, shaped_capacity;
   cs_text_glyph *glyphs;
   size_t glyph_count, glyph_capacity;
   cs_text_letter *letters;
   size_t letter_count, letter_capacity;
-  int32_t line; /* the next one */
+  int32_t line; /* the number of the next line */
   double width; /* of the widest line */
 } cs_layout;
 
-/* Lays out a text by its desc, which nobody has checked yet: fonts, characters, lines. The layout
+/* Lays out a text by its desc, which has not been checked yet: fonts, characters, lines. The layout
  * must be finished whatever the result is. noun: for messages. Errors: see
  * celspan_object_create_text. */
 CELSPAN_CHECKED celspan_status cs_typeset_make(cs_layout *layout, celspan_context *context,
@@ -82,6 +84,6 @@ celspan_text_metrics cs_typeset_measure(const cs_layout *layout);
 /* Adds the lines of characters begin .. end - 1, which were typed as one line. Errors: NO_MEMORY,
  * LIMIT; BAD_ARGUMENT for a character that no font has. */
 CELSPAN_CHECKED celspan_status cs_lines_add_paragraph(cs_layout *layout, size_t begin, size_t end);
-/* Fills layout->shaped with the glyphs of characters begin .. end - 1, which are a line, by their
+/* Fills layout->shaped with the glyphs of characters begin .. end - 1, which form a line, by their
  * `directions` and scripts. Errors: as above. */
 CELSPAN_CHECKED celspan_status cs_shaping_make(cs_layout *layout, size_t begin, size_t end);

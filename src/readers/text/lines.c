@@ -12,15 +12,16 @@
 #include <string.h>
 
 #define HIDDEN_HYPHEN 0x00ad
-/* The share of the width that rounding may add to the advances of a line. */
+/* By how much rounding may enlarge the advances of a line, as a share of the width. */
 #define SLACK 1e-9
-/* How often a line is cut shorter and shaped again, because its new end made it longer than
+/* How often a line is shortened and shaped again because its new end made it longer than it was
  * measured. */
 #define RETRIES 8
 
 /* ---------------------------------------------------------------- measuring */
 
-/* Spaces that vanish at the end of a line: all except those that keep words together. */
+/* Whether a space is removed at the end of a line: all are, except those that keep words
+ * together. */
 static bool is_space(uint32_t c) {
   return c == ' ' || c == 0x1680 || (c >= 0x2000 && c <= 0x200a && c != 0x2007) || c == 0x205f ||
          c == 0x3000;
@@ -56,7 +57,7 @@ static double letter_advance(const cs_layout *layout, size_t first, size_t end) 
   return advance;
 }
 
-/* Fills layout->advances of the characters that have just been shaped. */
+/* Fills layout->advances for the characters that were just shaped. */
 static void measure(cs_layout *layout, size_t begin, size_t end) {
   memset(layout->advances + begin, 0, (end - begin) * sizeof *layout->advances);
   for (size_t i = 0, next; i < layout->shaped_count; i = next) {
@@ -72,7 +73,7 @@ typedef struct extent {
   double left, right;
 } extent;
 
-/* Puts one letter, whose glyphs have been shaped, at *x, and goes past it. */
+/* Places a letter, whose glyphs have been shaped, at *x, and moves *x to its end. */
 static celspan_status place_letter(cs_layout *layout, size_t first, size_t end, double *x) {
   celspan_context *context = layout->context;
   CS_TRY(CS_RESERVE(context, layout->letters, layout->letter_capacity, layout->letter_count + 1));
@@ -97,8 +98,8 @@ static celspan_status place_letter(cs_layout *layout, size_t first, size_t end, 
   return CELSPAN_OK;
 }
 
-/* Puts the shaped glyphs side by side from 0 on. visible: the first character that is a space at
- * the line's end. */
+/* Places the shaped glyphs side by side from 0 on. visible: where the spaces at the end of the line
+ * begin. */
 static celspan_status place_letters(cs_layout *layout, size_t visible, extent *out) {
   double x = 0, tracking = tracking_of(layout);
   *out = (extent){HUGE_VAL, -HUGE_VAL};
@@ -119,7 +120,7 @@ static celspan_status place_letters(cs_layout *layout, size_t visible, extent *o
   return CELSPAN_OK;
 }
 
-/* How far a line with these ends must be moved. */
+/* How far a line with this extent must be moved. */
 static double alignment(const celspan_text_desc *desc, extent line) {
   double left = desc->at.x, right = desc->at.x + (desc->has_width ? desc->width : 0);
   if (desc->align == CELSPAN_ALIGN_LEFT)
@@ -144,7 +145,7 @@ static void move_line(cs_layout *layout, size_t letter, size_t glyph, double dx)
 
 /* ---------------------------------------------------------------- lines */
 
-/* Shapes characters as a line of their own. A soft hyphen at its end becomes a hyphen. */
+/* Shapes characters as a separate line. A soft hyphen at its end becomes a hyphen. */
 static celspan_status shape_line(cs_layout *layout, uint8_t base, size_t begin, size_t end) {
   if (end > begin)
     memcpy(layout->directions + begin, layout->embeddings + begin, end - begin);
@@ -161,8 +162,8 @@ static celspan_status shape_line(cs_layout *layout, uint8_t base, size_t begin, 
   return status;
 }
 
-/* Where a line that begins at `begin` ends at the latest: after as many words as fit, at least one.
- * limit: the first character that is too far right to be in the line. */
+/* Where a line that begins at `begin` ends at the latest: after all words that fit, and at least
+ * one. limit: the first character that is too far right to be in the line. */
 static size_t fitting_end(const cs_layout *layout, size_t begin, size_t limit, size_t end) {
   double most = layout->desc->width * (1 + SLACK) + tracking_of(layout), x = 0, visible = 0;
   size_t found = begin;
@@ -193,7 +194,7 @@ static void end_line(cs_layout *layout, double width) {
 }
 
 /* Adds the next line of a paragraph that wraps. *at: the first character of this line; then the
- * first character of the next line. A cut may change the measures, because it separates joined
+ * first character of the next line. A break may change the measures, because it separates joined
  * letters. */
 static celspan_status wrap_line(cs_layout *layout, uint8_t base, size_t *at, size_t end) {
   size_t letter = layout->letter_count, glyph = layout->glyph_count, limit = end + 1;
@@ -214,8 +215,8 @@ static celspan_status wrap_line(cs_layout *layout, uint8_t base, size_t *at, siz
   }
 }
 
-/* Marks, digits and punctuation have the script of the letters before them; if there are none, of
- * the first letter after them. */
+/* Marks, digits and punctuation have the script of the letters before them; if there are none, the
+ * script of the first letter after them. */
 static void resolve_scripts(cs_layout *layout, size_t begin, size_t end) {
   uint32_t *scripts = layout->scripts, script = CS_TYPE_COMMON;
   size_t first = end;

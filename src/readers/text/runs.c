@@ -1,9 +1,9 @@
 #include "readers/text/runs.h"
 
-/* The time that shaping takes grows with the square of the marks of one letter. */
+/* Limits the time for shaping, which grows with the square of the number of marks of one letter. */
 #define LONGEST 4096
 
-/* Where the run that begins there ends. */
+/* The end of the run that begins at `begin`. */
 static size_t run_end(const cs_run_characters *text, size_t begin, size_t end) {
   size_t at = begin + 1, most = end - begin < LONGEST ? end : begin + LONGEST;
   while (at < most && text->embeddings[at] == text->embeddings[begin] &&
@@ -35,7 +35,7 @@ static void reverse(cs_text_run *runs, size_t begin, size_t end) {
 }
 
 /* Rule L2 of the bidirectional algorithm (Unicode Standard Annex 9): from the highest embedding to
- * the lowest odd one, every sequence of runs that are at it or above is turned round. */
+ * the lowest odd one, every sequence of runs at this embedding or above is reversed. */
 void cs_runs_reorder(cs_text_run *runs, size_t count) {
   unsigned highest = 0;
   for (size_t i = 0; i < count; i++)

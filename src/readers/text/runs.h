@@ -21,8 +21,8 @@ typedef struct cs_run_characters {
   const uint8_t *embeddings;
 } cs_run_characters;
 
-/* The runs of characters begin .. end - 1, in their order; the answer is how many. A long run is
- * cut after a space, or where there is none for long, anywhere. runs: NULL, or room for them */
+/* The runs of characters begin .. end - 1, in their order. Returns their number. A long run is cut
+ * after a space, or anywhere if it has no space for a long time. runs: NULL, or room for them */
 size_t cs_runs_find(const cs_run_characters *text, size_t begin, size_t end, cs_text_run *runs);
-/* Puts them into the order in which they are seen, from left to right. */
+/* Puts the runs into visual order, from left to right. */
 void cs_runs_reorder(cs_text_run *runs, size_t count);

@@ -23,7 +23,8 @@ typedef struct shaping {
   const cs_text_run *run;
 } shaping;
 
-/* Glyphs of a part of a run by one font, before missing glyphs are taken from the next font. */
+/* Glyphs that one font has made for a part of a run, before the next font replaces missing
+ * glyphs. */
 typedef struct part {
   shaping *shaping;
   size_t begin, end;
@@ -70,8 +71,8 @@ static celspan_status shape_part(part *p) {
 
 /* ---------------------------------------------------------------- other fonts */
 
-/* The first character of the part that no font has; or, when each has one but not all of a letter
- * the same, the first. */
+/* The first character of the part that no font has. If each character has a font, but the
+ * characters of a letter do not share one, the first character. */
 static size_t first_missing(const part *p) {
   const cs_layout *layout = p->shaping->layout;
   for (size_t i = p->begin; i < p->end; i++) {
@@ -96,7 +97,7 @@ static celspan_status fail_missing(const part *p) {
                  is_one ? "; name another font after it, { file, other }" : "");
 }
 
-/* The glyphs from `first` to before the returned one belong to one letter. */
+/* Returns the end of the letter that begins with glyph `first`. */
 static size_t letter_end(const cs_text_shaped *glyphs, size_t first, size_t count) {
   size_t end = first + 1;
   while (end < count && glyphs[end].glyph.character == glyphs[first].glyph.character)
@@ -111,7 +112,7 @@ static bool is_missing(const cs_text_shaped *glyphs, size_t first, size_t end) {
   return false;
 }
 
-/* Glyphs that were shaped, and are put back into the line one by one. */
+/* Glyphs that were shaped and are put back into the line one by one. */
 typedef struct queue {
   cs_text_shaped *glyphs;
   size_t count, next;
@@ -125,8 +126,8 @@ static celspan_status append(cs_layout *layout, const cs_text_shaped *glyphs, si
   return CELSPAN_OK;
 }
 
-/* Neighbouring letters that the part's font lacks, from q->next on, as a part for the next font.
- * Their characters are those between the letters on both sides. */
+/* The next neighbouring letters, from q->next on, that the part's font lacks, as a part for the
+ * next font. Their characters are those between the letters on both sides. */
 static part missing_part(const part *p, queue *q) {
   bool is_leftward = p->shaping->run->embedding & 1;
   size_t first = q->next, end = first;
@@ -162,7 +163,8 @@ static celspan_status fill_gaps(const part *p, queue *q) {
   return CELSPAN_OK;
 }
 
-/* Takes the glyphs that were appended from `first` on back, and fills the gaps between them. */
+/* Removes the glyphs that were appended from `first` on, and appends them again with the gaps
+ * between them filled. */
 static celspan_status complete(const part *p, size_t first) {
   cs_layout *layout = p->shaping->layout;
   queue q = {.count = layout->shaped_count - first};
@@ -184,7 +186,7 @@ static celspan_status complete(const part *p, size_t first) {
   return status;
 }
 
-/* The recursion ends with the last font. */
+/* The recursion ends at the last font. */
 static celspan_status make_part(part *p) {
   size_t first = p->shaping->layout->shaped_count;
   CS_TRY(shape_part(p));

@@ -8,7 +8,7 @@
 
 struct celspan_glyphs {
   cs_memory *memory;
-  char *text; /* a copy, which the glyphs point into */
+  char *text; /* a copy, to which the glyphs point */
   size_t text_size;
   celspan_glyph *glyphs;
   size_t count, capacity;
@@ -72,8 +72,8 @@ celspan_status celspan_text_measure(celspan_context *context, const celspan_text
 
 /* ---------------------------------------------------------------- letter by letter */
 
-/* Letters in the order of reading; every letter gets its last character. order[i]: the letter that
- * begins with character i, counted from 1; 0: none does. */
+/* The letters in reading order; also finds the last character of every letter. order[i]: the letter
+ * that begins with character i, counted from 1; 0: there is none. */
 static void end_letters(cs_layout *layout, uint32_t *order) {
   for (size_t i = 0; i < layout->letter_count; i++)
     order[layout->letters[i].begin] = (uint32_t)i + 1;
@@ -97,7 +97,7 @@ static celspan_status add_glyph(cs_layout *layout, const cs_text_letter *letter,
                                 celspan_glyphs *glyphs) {
   celspan_glyph *glyph = &glyphs->glyphs[glyphs->count];
   size_t begin = byte_of(layout, letter->begin), end = byte_of(layout, letter->end);
-  /* A "\r" before the end of a line is no character. */
+  /* A "\r" before the end of a line does not count as a character. */
   while (end > begin && glyphs->text[end - 1] == '\r')
     end--;
   *glyph = (celspan_glyph){.x = letter->x,

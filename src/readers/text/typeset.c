@@ -1,4 +1,4 @@
-/* The checked settings of a text, with its fonts, characters and paragraphs, before it is
+/* The checked settings of a text, with its fonts, characters and paragraphs, before the text is
  * shaped. */
 #include "readers/text/layout.h"
 
@@ -27,7 +27,7 @@ static celspan_status check_numbers(celspan_context *context, const char *noun,
                          CELSPAN_DIRECTION_RTL + 1);
 }
 
-/* A tag of a font is four characters of ASCII that print; the last may be blanks. */
+/* A tag of a font is four printable characters of ASCII; the last ones may be blanks. */
 static celspan_status check_tag(celspan_context *context, const char *noun, const char *field,
                                 const char *tag) {
   size_t length = tag ? strnlen(tag, 5) : 0;
@@ -112,7 +112,8 @@ static celspan_status acquire_fonts(cs_layout *layout) {
 
 static celspan_status make_room(cs_layout *layout) {
   cs_memory *memory = layout->context->memory;
-  size_t room = layout->desc->text_size + 1; /* an empty text has memory, too */
+  /* so that memory is allocated even for an empty text */
+  size_t room = layout->desc->text_size + 1;
   layout->room = room;
   layout->characters = cs_mem_array(memory, room, sizeof *layout->characters);
   layout->places = cs_mem_array(memory, room, sizeof *layout->places);
@@ -130,7 +131,8 @@ static celspan_status read_characters(cs_layout *layout) {
   celspan_context *context = layout->context;
   const celspan_text_desc *desc = layout->desc;
   size_t most = CS_TEXT_CHARACTERS;
-  /* A character has four bytes at most, so that this many are too many without being counted. */
+  /* A character has at most four bytes, so a text with more bytes is too long, and need not be
+   * counted. */
   if (desc->text_size <= 4 * most) {
     CS_TRY(make_room(layout));
     CS_TRY(cs_utf8_decode(context, layout->noun, desc->text, desc->text_size, layout->characters,
@@ -174,7 +176,7 @@ celspan_text_metrics cs_typeset_measure(const cs_layout *layout) {
   return metrics;
 }
 
-/* How far below at.y the first baseline is. */
+/* The distance from at.y down to the first baseline. */
 static double drop(const cs_layout *layout) {
   celspan_text_metrics metrics = cs_typeset_measure(layout);
   switch (layout->desc->valign) {

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-/* How many bytes a character has that begins so; 0 where none does. */
+/* The number of bytes of a character that begins with this byte; 0 if no character does. */
 static int length_of(unsigned char first) {
   return first < 0x80   ? 1
          : first < 0xc2 ? 0
@@ -13,7 +13,7 @@ static int length_of(unsigned char first) {
                         : 0;
 }
 
-/* The character at `at`, or UINT32_MAX; *length: its bytes. */
+/* The character at `at`, or UINT32_MAX; *length: the number of its bytes. */
 static uint32_t decode(const unsigned char *at, size_t left, int *length) {
   static const unsigned char masks[] = {0, 0x7f, 0x1f, 0x0f, 0x07};
   static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};

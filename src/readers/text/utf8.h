@@ -15,7 +15,7 @@ CELSPAN_CHECKED celspan_status cs_utf8_decode(celspan_context *context, const ch
                                               const char *bytes, size_t size, uint32_t *characters,
                                               uint32_t *places, size_t *count);
 
-/* How many bytes the first character of a text has, which is not ""; 0 where it is not UTF-8. */
+/* The number of bytes of the first character of a text that is not ""; 0 if it is not UTF-8. */
 size_t cs_utf8_length(const char *text);
 
 /* A character as UTF-8, ended by a zero. */

@@ -2,8 +2,8 @@
 
 #include "base/module.h"
 
-/* The part of a context for the module: its table, NULL until it is loaded. Two threads that load
- * it at once get the same table. */
+/* The part of a context that belongs to the module: its table, NULL until it is loaded. Two threads
+ * that load it at once get the same table. */
 typedef struct loaded_module {
   cs_service service;
   cs_memory *memory;

@@ -5,7 +5,7 @@
 #include "base/context.h"
 #include "readers/xml/module.h"
 
-/* purpose: for the message where there is no module, "reading SVG". Errors: INPUT, NO_MEMORY. Any
- * thread. */
+/* purpose: for the message if there is no module, such as "reading SVG". Errors: INPUT, NO_MEMORY.
+ * Any thread. */
 CELSPAN_CHECKED celspan_status cs_artwork_module(celspan_context *context, const char *purpose,
                                                  const cs_art_module **out);

@@ -21,8 +21,8 @@ typedef struct cs_art_failure {
 } cs_art_failure;
 
 /* The contents of an XML document, in its order. Names are "local", or "namespace local" with one
- * blank between them; everything is UTF-8 and borrowed. A function that answers false stops the
- * parse with the status CANCELLED. */
+ * blank between them; everything is UTF-8 and borrowed. If a function returns false, parsing stops
+ * with the status CANCELLED. */
 typedef struct cs_xml_handler {
   /* attributes: name, value, name, value, ... NULL */
   bool (*start)(void *user, const char *name, const char *const *attributes, uint64_t line);
@@ -30,7 +30,7 @@ typedef struct cs_xml_handler {
   bool (*text)(void *user, const char *bytes, size_t size,
                uint64_t line); /* in pieces of any size */
   void *user;
-  uint32_t depth; /* elements that may be open at a time, 1 or more */
+  uint32_t depth; /* the most elements that may be open at a time, 1 or more */
 } cs_xml_handler;
 
 typedef struct cs_art_module {

@@ -21,23 +21,25 @@
   ((uint32_t)(unsigned char)(a) << 24 | (uint32_t)(unsigned char)(b) << 16 |                       \
    (uint32_t)(unsigned char)(c) << 8 | (uint32_t)(unsigned char)(d))
 
-#define CS_TYPE_COMMON CS_TYPE_TAG('Z', 'y', 'y', 'y')    /* of characters of every script */
-#define CS_TYPE_INHERITED CS_TYPE_TAG('Z', 'i', 'n', 'h') /* of marks: that of their letter */
+/* of characters that occur in every script */
+#define CS_TYPE_COMMON CS_TYPE_TAG('Z', 'y', 'y', 'y')
+/* of marks: they have the script of their letter */
+#define CS_TYPE_INHERITED CS_TYPE_TAG('Z', 'i', 'n', 'h')
 #define CS_TYPE_UNKNOWN CS_TYPE_TAG('Z', 'z', 'z', 'z')
 
 typedef struct cs_type_font cs_type_font;
 
 typedef struct cs_type_font_info {
   uint32_t units; /* of an em, 16..16384 */
-  int32_t ascent; /* how far lines reach above the baseline, and below; together above 0 */
+  int32_t ascent; /* how far lines reach above and below the baseline; their sum is above 0 */
   int32_t descent;
   int32_t cap_height, x_height; /* of capitals, and of small letters without ascenders */
-  uint32_t glyphs;              /* numbers are below this */
+  uint32_t glyphs;              /* all numbers of glyphs are less than this */
   uint64_t variation;           /* bit i: the font has the axis of variations[i] */
 } cs_type_font_info;
 
 typedef struct cs_type_glyph {
-  uint32_t glyph;     /* 0: the font has none for these characters */
+  uint32_t glyph;     /* 0: the font has no glyph for these characters */
   uint32_t character; /* the first of its characters */
   int32_t advance, x_offset, y_offset;
 } cs_type_glyph;
@@ -66,16 +68,16 @@ typedef struct cs_type_outliner {
 enum { CS_TYPE_NO_BREAK = 0, CS_TYPE_MAY_BREAK, CS_TYPE_MUST_BREAK };
 
 typedef struct cs_type_functions {
-  /* bytes: borrowed until close; a font that was found sound (readers/text/font.c). face: of a
-   * collection, else 0. variations: at most 64; values are clamped to the range of their axes.
+  /* bytes: borrowed until close; a font that was checked before (readers/text/font.c). face: in a
+   * collection, otherwise 0. variations: at most 64; values are clamped to the range of their axes.
    * Errors: NO_MEMORY. */
   celspan_status (*open)(const void *bytes, size_t size, uint32_t face,
                          const celspan_variation *variations, size_t variation_count,
                          cs_type_font_info *info, cs_type_font **out);
   void (*close)(cs_type_font *font);
-  /* Calls `take` for each glyph, from left to right, until it answers false; characters descend
-   * where the run is leftward. Glyphs that belong together name the same character.
-   * Errors: NO_MEMORY; CANCELLED when `take` answered false. Any thread. */
+  /* Calls `take` for each glyph, from left to right, until it returns false; the characters descend
+   * if the run is leftward. Glyphs that belong together have the same character. Errors: NO_MEMORY;
+   * CANCELLED if `take` returned false. Any thread. */
   celspan_status (*shape)(cs_type_font *font, const cs_type_run *run,
                           bool (*take)(void *user, const cs_type_glyph *glyph), void *user);
   /* Errors: NO_MEMORY. Any thread. */

@@ -1,8 +1,8 @@
 /* XML documents, element by element.
  *
- * Invariant: a document that ends with OK was well-formed, had no entities but those of plain text
- * and elements, which made it at most twice as large or a MiB, and never had more than `depth`
- * elements open.
+ * Invariant: a document that ends with OK is well-formed and never has more than `depth` elements
+ * open. Its entities contain only text and elements, and make it at most twice as large, or larger
+ * by a MiB.
  */
 #pragma once
 
