@@ -3,14 +3,14 @@
 #include <math.h>
 #include <string.h>
 
-/* Columns from which on a span is worth having, and a gap of zeros: fewer are numbers of an
- * array. */
+/* The least number of columns for which a span, or a gap of zeros, is worthwhile; fewer are stored
+ * as numbers of an array. */
 #define LONG 24
 #define GAP 16
 #define CODE_MOST 65535.0f
-/* What numbers that are left out and codes may be off by together, at lights of 1: so little that
- * lights of 4 stay within 1/65535, with what gradients are off by. Of this, what one addend may
- * leave out. */
+/* The allowed sum of errors by omitted numbers and by codes, at lights of 1: it is so small that
+ * with lights of 4 the error remains below 1/65535, errors of gradients included. The second number
+ * is the part for the numbers that one addend omits. */
 #define BUDGET (0.15f / 65535)
 #define FAINT (BUDGET / 16)
 
@@ -57,7 +57,7 @@ celspan_status cs_addend_writer_init(celspan_context *context, cs_addend *addend
   return CS_MAKE(context, out->dense, (size_t)addend->width * out->plane_count);
 }
 
-/* Gives back the room that was not needed. */
+/* Frees the memory that was not needed. */
 static void trim(void **items, size_t *capacity, size_t count, size_t size, cs_memory *memory) {
   void *fitting = count > 0 ? cs_mem_resize(memory, *items, *capacity * size, count * size) : NULL;
   if (!fitting)
@@ -92,20 +92,20 @@ static celspan_status append(celspan_context *context, cs_addend *addend, cs_add
   return CELSPAN_OK;
 }
 
-/* One column of the dense planes. */
+/* Whether a column of the dense planes is zero. */
 static bool is_zero(const cs_addend_writer *w, int32_t x) {
   const float *at = w->dense + x;
   size_t width = (size_t)w->addend->width;
   return at[0] == 0 && (w->plane_count == 1 || (at[width] == 0 && at[2 * width] == 0));
 }
 
-/* Numbers of one piece, plane by plane, and what their codes would be. */
+/* The numbers of a piece, plane by plane, and the scales of their codes. */
 typedef struct piece {
   int32_t x0, x1;
   const float *planes;
   size_t stride, plane_count;
-  float scales[3][2];   /* of each plane the least number, and the step */
-  float greatest, step; /* of all: the distance from 0, and the step */
+  float scales[3][2];   /* the least number of each plane, and the step */
+  float greatest, step; /* of all planes: the greatest magnitude, and the greatest step */
 } piece;
 
 static void find_scale(const float *in, size_t count, float scale[2]) {
@@ -163,7 +163,8 @@ static celspan_status put_codes(celspan_context *context, cs_addend *addend, con
   return CELSPAN_OK;
 }
 
-/* Whether an error is at most so great and within the budget; then it is spent. */
+/* Whether an error is at most `most` and within the budget; if so, it is subtracted from the
+ * budget. */
 static bool spend(float *spent, float error, float most) {
   bool may = error <= most && *spent + error <= BUDGET;
   *spent += may ? error : 0;
@@ -192,9 +193,9 @@ static celspan_status put_array(celspan_context *context, cs_addend_writer *w, i
   return CELSPAN_OK;
 }
 
-/* The dense columns become arrays, without the zeros at their ends and in long gaps. */
+/* Turns the dense columns into arrays, without zeros at the ends and in long gaps. */
 static celspan_status flush(celspan_context *context, cs_addend_writer *w) {
-  int32_t x0 = w->from, last = w->from; /* after the last column that is not 0 */
+  int32_t x0 = w->from, last = w->from; /* last: after the last column that is not 0 */
   for (int32_t x = w->from; x < w->end; x++) {
     if (is_zero(w, x))
       continue;

@@ -34,7 +34,7 @@ typedef enum cs_addend_kind {
 
 typedef struct cs_addend_span {
   int32_t x0, x1;
-  int32_t origin;       /* GRADIENT: the column of its colour */
+  int32_t origin;       /* GRADIENT: the column at which its colour is given */
   uint16_t kind;        /* cs_addend_kind */
   uint16_t plane_count; /* FLOATS, CODES: 1 or 3 */
   size_t first;         /* of its values */
@@ -55,7 +55,7 @@ CELSPAN_CHECKED celspan_status cs_addend_init(celspan_context *context, int32_t 
 void cs_addend_finish(cs_addend *addend, cs_memory *memory);
 size_t cs_addend_bytes(const cs_addend *addend);
 
-/* What all addends of a frame are off by, in each piece of each row. */
+/* The total error of all addends of a frame, in each piece of each row. */
 typedef struct cs_addend_budget {
   int32_t pieces, height; /* pieces of a row */
   float *spent;
@@ -70,20 +70,20 @@ void cs_addend_budget_finish(cs_addend_budget *budget, cs_memory *memory);
 typedef struct cs_addend_writer {
   cs_addend *addend;
   cs_addend_budget *budget; /* borrowed */
-  float *spent;             /* of the row under way */
+  float *spent;             /* of the current row */
   cs_isa isa;
-  size_t plane_count; /* 3 of colours, or 1 of what comes through, 1 - alpha */
-  float *dense;       /* these of a row: what is not in spans yet */
+  size_t plane_count; /* 3 for colours, or 1 for the transmitted light, 1 - alpha */
+  float *dense;       /* the planes of a row: numbers that are not yet in spans */
   int32_t from, end;  /* of that */
 } cs_addend_writer;
 
-/* addend, budget: initialized, borrowed. is_through: what comes through is added instead of
+/* addend, budget: initialized, borrowed. is_through: the transmitted light is added instead of
  * colours. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_addend_writer_init(celspan_context *context, cs_addend *addend,
                                                      cs_addend_budget *budget, bool is_through,
                                                      cs_addend_writer *out);
 void cs_addend_writer_finish(celspan_context *context, cs_addend_writer *writer);
-/* Row y, which follows the last one. Errors: NO_MEMORY. */
+/* Adds row y, the row after the previous one. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_addend_writer_row(celspan_context *context,
                                                     cs_addend_writer *writer, int32_t y,
                                                     const celspan_span *spans, size_t count);
@@ -99,6 +99,7 @@ CS_WIDE_DECLARE(void, cs_addend_through, (const float *rgba, int32_t count, floa
 CS_WIDE_DECLARE(void, cs_addend_add,
                 (const cs_addend *addend, int32_t y, const float weights[3], size_t stride,
                  float *planes));
-/* Pixels of four planes: three of colours, and what comes through, of which `keep` counts. */
+/* Pixels from four planes: three of colours, and one of the transmitted light, of which `keep`
+ * counts. */
 CS_WIDE_DECLARE(void, cs_addend_pixels,
                 (const float *planes, size_t stride, float keep, int32_t count, float *rgba));

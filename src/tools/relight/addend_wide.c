@@ -1,4 +1,4 @@
-/* Loops over columns. Each number is computed by itself, so it does not depend on the
+/* Loops over columns. Each number is computed by itself, so it does not depend on the set of
  * instructions. */
 #include "tools/relight/addend.h"
 
@@ -21,8 +21,8 @@ void CS_WIDE(cs_addend_through)(const float *restrict rgba, int32_t count,
     through[i] = 1 - rgba[4 * i + 3];
 }
 
-/* Bytes: how far ahead numbers are fetched into the cache while earlier ones are added: an addend's
- * rows are too short for a processor to see by itself which memory comes next. */
+/* Bytes: how far ahead numbers are fetched into the cache while others are added. The rows of an
+ * addend are too short for a processor to predict the next addresses. */
 #define AHEAD 2048
 
 static inline void ask_ahead(const void *numbers, size_t bytes) {
@@ -35,7 +35,7 @@ static inline void add_constant(float *out, float value, int32_t count) {
     out[i] += value;
 }
 
-/* Column k of those counted gets weight * (colour + slope * (first + k)). */
+/* Adds weight * (colour + slope * (first + k)) to column k. */
 static inline void add_line(float *out, float weight, float colour, float slope, int32_t first,
                             int32_t count) {
   for (int32_t i = 0; i < count; i++)
@@ -56,7 +56,7 @@ static inline void add_codes(float *restrict out, const uint16_t *restrict in, f
     out[i] += least + step * (float)in[i];
 }
 
-/* Most pieces are whole: the compiler knows their length. */
+/* Most pieces are complete: the compiler knows their length. */
 static inline void add_piece(float *restrict out, const uint16_t *restrict in, float least,
                              float step, int32_t count) {
   if (count == CS_ADDEND_PIECE)
@@ -108,7 +108,7 @@ static inline quad load_quad(const float *from) {
   return v;
 }
 
-/* Past the caches, where that can be: a frame is greater than they are. */
+/* Stores without using the caches, if possible: a frame is larger than they are. */
 static inline void put_quad(float *to, quad v) {
 #ifdef __SSE2__
   if ((uintptr_t)to % sizeof v == 0) {

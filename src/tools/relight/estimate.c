@@ -26,12 +26,12 @@
  * farther they do.
  */
 
-#define SIDE 32                                  /* parts along a side, at most */
-#define UNKNOWNS (CELSPAN_LIGHT_FIELD_TERMS + 1) /* the terms, and a constant */
+#define SIDE 32                                  /* the most parts along a side */
+#define UNKNOWNS (CELSPAN_LIGHT_FIELD_TERMS + 1) /* the terms of the field, and a constant */
 #define LEAST_PARTS (3 * UNKNOWNS)
-#define DARK 1e-5 /* light of a part that gives no information */
+#define DARK 1e-5 /* a part with less light gives no information */
 #define ROUNDS 12
-/* Residuals beyond this multiple of their spread count less and less (Huber). */
+/* Residuals greater than this multiple of their spread count less and less (Huber). */
 #define STEADY 1.5
 
 /* One part of the picture. */
@@ -79,12 +79,12 @@ static celspan_status average_parts(celspan_context *context, cs_original *origi
 /* What is known of one channel of one part. */
 typedef struct sample {
   double basis[UNKNOWNS];
-  double value; /* the logarithm of its mean */
-  double share; /* of its pixels that are there */
+  double value; /* the logarithm of the mean */
+  double share; /* the share of its pixels that are not clear */
   double weight;
 } sample;
 
-/* The samples of a channel; returns how many. */
+/* The samples of a channel. Returns their number. */
 static int find_samples(const parts *all, int channel, sample *out) {
   int count = 0;
   for (int32_t i = 0; i < all->columns * all->rows; i++) {
@@ -133,7 +133,7 @@ static bool fit(sample *samples, int count, double terms[UNKNOWNS]) {
     double matrix[UNKNOWNS][UNKNOWNS + 1] = {{0}};
     for (int i = 0; i < count; i++)
       add_sample(&samples[i], matrix);
-    /* False where the samples do not determine all unknowns. */
+    /* False if the samples do not determine all unknowns. */
     if (!cs_solve(matrix[0], UNKNOWNS, UNKNOWNS + 1, 1e-9 * matrix[0][0], terms))
       return false;
     weigh(samples, count, terms);
@@ -160,14 +160,14 @@ static celspan_status fit_channel(celspan_context *context, const cs_original *o
   return CELSPAN_OK;
 }
 
-/* What a fit works on. */
+/* The memory for a fit. */
 typedef struct workspace {
   parts all;
   sample samples[SIDE * SIDE];
 } workspace;
 
-/* Sets the terms of *field; its colours are left. Errors: those of pictures; BAD_ARGUMENT where too
- * few parts are lit to tell a field. */
+/* Sets the terms of *field, but not its colours. Errors: those of pictures; BAD_ARGUMENT if too few
+ * parts are lit to determine a field. */
 static CELSPAN_CHECKED celspan_status fit_shape(celspan_context *context, cs_original *original,
                                                 celspan_light_field *field) {
   workspace *w;
@@ -185,10 +185,11 @@ static CELSPAN_CHECKED celspan_status fit_shape(celspan_context *context, cs_ori
  * be. */
 #define CLIPPED 0.9999
 #define FEW 0.01
-/* Places along each axis over which the mean of a field is taken. */
+/* From this value on, a number of an integer picture may have been clipped; and the share of such
+ * numbers that a patch may have. */
 #define MEAN_SIDE 64
 
-/* Sums over the pixels of a region. */
+/* The number of places along each axis for the mean of a field. */
 typedef struct means {
   double sum[3], alpha;
   double pixels, clipped;
@@ -212,7 +213,7 @@ static void inside(double from, double length, int32_t size, int32_t *first, int
   *end = high < 0 ? 0 : high > size ? size : (int32_t)high;
 }
 
-/* shape: a field of colour 1. */
+/* The columns, or rows, of a picture whose centres lie within `length` from a place on. */
 static celspan_status find_means(celspan_context *context, cs_original *original,
                                  const celspan_box *region, const celspan_light_field *shape,
                                  means *out) {
@@ -313,7 +314,8 @@ static celspan_status estimate(celspan_context *context, const celspan_light_est
   const char *name = cs_picture_name(original->picture);
   CS_TRY(fit_terms(context, desc, original, field));
   CS_TRY(
-      cs_light_field_check(context, name, field)); /* the picture, or the mean, is divided by it */
+      /* the picture, or the mean, will be divided by it */
+      cs_light_field_check(context, name, field));
   if (desc->clue == CELSPAN_LIGHT_CLUE_LIGHT)
     scale_to_mean(desc->colour, field);
   else

@@ -19,11 +19,11 @@ static const char *const names[CHANNELS] = {"R",         "G",         "B",      
 
 /* ---------------------------------------------------------------- writing */
 
-/* A file being written. */
+/* A file that is being written. */
 typedef struct job {
-  cs_original paint, medium; /* medium: where there is one */
+  cs_original paint, medium; /* medium: only if the texture has one */
   bool has_medium;
-  float *rows; /* CS_ORIGINAL_ROWS, of seven channels */
+  float *rows; /* CS_ORIGINAL_ROWS rows, of seven channels */
   cs_picture_file file;
 } job;
 

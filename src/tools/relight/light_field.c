@@ -6,8 +6,8 @@
 #include "model/scene/check.h"
 #include "tools/relight/original.h"
 
-/* Lights are held between such limits, and fields between these times exp(EXPONENT), so that what
- * is divided by one stays a number. */
+/* Lights are limited to this range, and fields to this range times exp(EXPONENT), so that quotients
+ * remain finite. */
 #define DIMMEST 1e-6
 #define BRIGHTEST 1e6
 #define EXPONENT 20

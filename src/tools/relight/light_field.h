@@ -14,13 +14,13 @@
 #include "base/context.h"
 #include "celspan/relight.h"
 
-/* Refuses what is no light to divide by. noun: what it belongs to, for the sentence.
+/* Refuses a light by which nothing can be divided. noun: the owner of the light, for the message.
  * Errors: BAD_ARGUMENT, naming the channel. */
 CELSPAN_CHECKED celspan_status cs_light_field_check(celspan_context *context, const char *noun,
                                                     const celspan_light_field *field);
 /* Whether the field is the same everywhere. */
 bool cs_light_field_is_flat(const celspan_light_field *field);
-/* The b of a place. */
+/* The basis functions at a place. */
 void cs_light_field_basis(double x, double y, double basis[CELSPAN_LIGHT_FIELD_TERMS]);
 /* "red", "green", "blue". */
 const char *cs_light_field_channel(int c);
@@ -34,5 +34,5 @@ typedef struct cs_light_row {
 
 cs_light_row cs_light_row_make(const celspan_light_field *field, int32_t width, int32_t height,
                                int32_t y);
-/* At the centre of a pixel. */
+/* The value at the centre of a pixel. */
 void cs_light_row_at(const cs_light_row *row, int32_t x, double rgb[3]);

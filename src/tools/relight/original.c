@@ -114,7 +114,7 @@ static void release(void *user) {
   cs_memory_unref(memory);
 }
 
-/* Takes the pixels over, and leaves NULL there, when it succeeds. */
+/* Takes over the pixels, and sets their pointer to NULL, if it succeeds. */
 static celspan_status make_surface(celspan_context *context, const cs_unlit *unlit, float **pixels,
                                    celspan_surface **out) {
   owned_pixels *owned;
@@ -159,7 +159,7 @@ static celspan_status make_paint(celspan_context *context, cs_unlit *unlit,
   return status;
 }
 
-/* *texture is exchanged for one with the medium. */
+/* Replaces *texture by a texture with the medium. */
 static celspan_status add_medium(celspan_context *context, cs_unlit *unlit,
                                  celspan_texture **texture) {
   celspan_picture_desc desc = {.struct_size = sizeof desc};

@@ -12,7 +12,7 @@
 #include "model/scene/texture.h"
 
 #define CS_ORIGINAL_ROWS CS_PICTURE_BLOCK
-/* Pixels of a picture at most. */
+/* The most pixels of a picture. */
 #define CS_ORIGINAL_MOST 268435456
 
 typedef struct cs_original {
@@ -22,8 +22,8 @@ typedef struct cs_original {
   int32_t first;
 } cs_original;
 
-/* Opens the picture of a texture. noun: the word with which sentences of errors begin. Errors:
- * those of pictures; BAD_ARGUMENT for a texture that is no picture used as paint; LIMIT; NO_MEMORY.
+/* Opens the picture of a texture. noun: the first word of error messages. Errors: those of
+ * pictures; BAD_ARGUMENT unless the texture is a picture that is used as paint; LIMIT; NO_MEMORY.
  * On failure there is nothing to close. */
 CELSPAN_CHECKED celspan_status cs_original_open(celspan_context *context, const char *noun,
                                                 const celspan_texture *texture, cs_original *out);
@@ -45,7 +45,7 @@ static inline const float *cs_original_at(const cs_original *original, int32_t x
          4 * ((size_t)(y - original->first) * (size_t)original->info.width + (size_t)x);
 }
 
-/* The row after the last one of those that were read from `first` on. */
+/* The end of the rows that were read from `first` on. */
 static inline int32_t cs_original_end(const cs_original *original, int32_t first) {
   int32_t rest = original->info.height - first;
   return first + (rest < CS_ORIGINAL_ROWS ? rest : CS_ORIGINAL_ROWS);
@@ -71,7 +71,8 @@ typedef struct cs_unlit {
 CELSPAN_CHECKED celspan_status cs_unlit_create(celspan_context *context, int32_t width,
                                                int32_t height, bool has_medium, cs_unlit *out);
 void cs_unlit_discard(celspan_context *context, cs_unlit *unlit);
-/* like: NULL, or a picture whose sampling, wrap and box the texture gets. Errors: NO_MEMORY. */
+/* like: NULL, or a picture from which the texture gets sampling, wrap and box. Errors:
+ * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_unlit_finish(celspan_context *context, cs_unlit *unlit,
                                                const celspan_texture *like, celspan_texture **out);
 

@@ -17,19 +17,19 @@
 #include "tools/relight/light_field.h"
 #include "tools/relight/original.h"
 
-/* Of surfaces, which hold values to it. */
+/* The greatest value that surfaces may hold. */
 #define MOST 65504.0
-/* How far T may be outside 0..1, and S below 0, by noise. */
+/* By how much noise may put T outside 0..1, or S below 0. */
 #define NOISE 0.02
-/* The share of values that may be farther off: glints, a hair that moved. */
+/* The share of values that may be farther off, such as glints or a hair that moved. */
 #define FEW 0.01
 /* Backgrounds that differ by less give no information about the artwork in front of them. */
 #define LEAST_CONTRAST 0.02
 
-/* Values, each of one channel of a pixel, that are impossible. */
+/* Impossible values, each of one channel of a pixel. */
 typedef struct doubts {
   int64_t count;
-  double worst, distance; /* the farthest value, and how far it is */
+  double worst, distance; /* the worst value, and how far it is outside its range */
   int32_t x, y;
   int channel;
 } doubts;
@@ -61,7 +61,7 @@ static celspan_status fail_share(celspan_context *context, const doubts *d, cons
       name, (long long)d->count, d->x, d->y, d->worst, cs_light_field_channel(d->channel), advice);
 }
 
-/* S of a pixel, clamped to 0 and more. */
+/* S of a pixel; a value below 0 becomes 0. */
 static float scattered(doubts *too_bright, double value, int32_t x, int32_t y, int channel) {
   if (value > MOST)
     doubt(too_bright, value, value, x, y, channel);
@@ -95,7 +95,7 @@ static void close_all(celspan_context *context, originals *all) {
   all->count = 0;
 }
 
-/* Adds one, unless it is of another size. */
+/* Adds an original, unless it has another size. */
 static celspan_status open_one(celspan_context *context, const celspan_texture *texture,
                                originals *all) {
   CS_TRY(cs_original_open(context, "relight", texture, &all->list[all->count]));
@@ -103,14 +103,14 @@ static celspan_status open_one(celspan_context *context, const celspan_texture *
   return cs_original_same_size(context, &all->list[0], &all->list[all->count - 1]);
 }
 
-/* The solver of the rows that were read. */
+/* Solves the rows that were read. */
 typedef struct solver solver;
 struct solver {
   originals all;
   cs_unlit unlit;
-  const celspan_light_field *front, *back; /* back: of exposures */
+  const celspan_light_field *front, *back; /* back: if there are exposures */
   const celspan_relight_ground *grounds;
-  int ground_index[2]; /* of the pictures of the grounds; 0: a colour */
+  int ground_index[2]; /* the indices of the pictures of the grounds; 0: the ground is a colour */
   doubts bright, shares;
   void (*row)(solver *s, int32_t y);
 };
@@ -130,14 +130,14 @@ static cs_light_row row_of(const solver *s, const celspan_light_field *field, in
   return cs_light_row_make(field, s->unlit.width, s->unlit.height, y);
 }
 
-/* beta, of a pixel whose T is known. */
+/* beta of a pixel whose T is known. */
 static float beta_of(const float t[4]) {
   float most = t[0] > t[1] ? t[0] : t[1];
   return 1 - (most > t[2] ? most : t[2]);
 }
 
-/* Solves, and makes the texture; closes and frees everything. status: of opening the pictures.
- * advice: what may be wrong where shares are impossible. */
+/* Solves, makes the texture, then closes and frees everything. status: the result of opening the
+ * pictures. advice: what may be the cause of impossible shares. */
 static celspan_status finish(celspan_context *context, solver *s, celspan_status status,
                              const celspan_texture *like, const char *advice,
                              celspan_texture **out) {
@@ -221,7 +221,8 @@ static double ground_at(const solver *s, int i, int32_t x, int32_t y, int c) {
   return index > 0 ? (double)cs_original_at(&s->all.list[index], x, y)[c] : s->grounds[i].colour[c];
 }
 
-/* One channel of a pixel. Where the grounds are alike it is unknown: that is counted, far off. */
+/* One channel of a pixel. If the grounds are alike, it is unknown: this is counted as a value that
+ * is far off. */
 static void solve_grounds(solver *s, int32_t x, int32_t y, int c, double f, float *paint,
                           float *medium) {
   double r1 = (double)cs_original_at(&s->all.list[0], x, y)[c];
@@ -272,7 +273,7 @@ static celspan_status check_contrast_at(celspan_context *context, const solver *
   return CELSPAN_OK;
 }
 
-/* The grounds differ everywhere. */
+/* Checks that the grounds differ everywhere. */
 static celspan_status check_contrast(celspan_context *context, solver *s) {
   const celspan_picture_info *info = &s->all.list[0].info;
   if (s->ground_index[0] == 0 && s->ground_index[1] == 0)

@@ -26,8 +26,8 @@
 #include "tools/relight/addend.h"
 
 #define MOST_CELS 4096
-/* Gradients stand for curves in each of the addends, with a finer tolerance than in a frame,
- * because they are summed. */
+/* Gradients replace curves in each addend, with a finer tolerance than in a frame, because addends
+ * are summed. */
 #define TOLERANCE 0x1p-18
 /* Rows that a worker sums at a time. */
 #define STRIP 4
@@ -48,7 +48,8 @@ struct celspan_stack {
   cs_addend *fronts, *backs;
   cs_addend base; /* the frame in its own lights */
   cs_addend
-      through; /* the light through all cels; where media are grey, it is empty: backs[0] is used */
+      /* the light through all cels; empty if media are grey, because backs[0] is used then */
+      through;
   bool is_grey;
 };
 
@@ -88,7 +89,7 @@ static celspan_status find_lights(celspan_context *context, const celspan_rostru
 
 /* ---------------------------------------------------------------- taking a frame apart */
 
-/* Frames that are rendered, and where their rows go. */
+/* Frames that are being rendered, and the place for their rows. */
 typedef struct taking {
   cs_addend_writer colours, through;
   cs_addend_budget budget;
@@ -104,7 +105,7 @@ static celspan_status take_row(void *user, celspan_context *context, int32_t y,
                            : CELSPAN_OK;
 }
 
-/* The rows of all renders count as those of one frame with their total height. */
+/* Progress over the rows of all renderings together, as if they were one frame. */
 static bool pass_progress(void *user, int32_t rows_done, int32_t rows_total) {
   const taking *t = user;
   double total = (double)rows_total * (double)t->total;
@@ -126,7 +127,8 @@ static celspan_status render(celspan_context *context, celspan_rostrum *rostrum,
   return celspan_frame_render(context, &frame, &sink, NULL);
 }
 
-/* One frame becomes an addend, or two. through: NULL, or the light that comes through its cels. */
+/* Renders a frame and makes it an addend, or two. through: NULL, or the addend of the light that
+ * its cels transmit. */
 static celspan_status take(celspan_context *context, celspan_rostrum *rostrum, cs_addend *colours,
                            cs_addend *through, taking *t) {
   celspan_status status = cs_addend_writer_init(context, colours, &t->budget, false, &t->colours);
@@ -199,15 +201,15 @@ typedef struct term {
   float weights[3];
 } term;
 
-/* A frame that is summed. */
+/* A frame that is being summed. */
 typedef struct summing {
   const celspan_stack *stack;
   cs_isa isa;
   term *terms;
   size_t count;
   float keep;
-  float *planes; /* for each worker, four for each row: colours, and the light let through */
-  size_t stride; /* from one to the next */
+  float *planes; /* for each worker, four planes for each row: colours, and the transmitted light */
+  size_t stride; /* from one plane to the next */
   float *rgba;
 } summing;
 
@@ -224,8 +226,8 @@ static void add_term(summing *s, const cs_addend *addend, const celspan_light *l
     s->terms[s->count++] = t;
 }
 
-/* Lists the terms of the sum. has_base: the base comes first, and each light is a change to it.
- * Returns the bytes of the addends. */
+/* Lists the terms of the sum. has_base: the base is the first term, and each light is a change of
+ * it. Returns the bytes of the addends. */
 static size_t list_terms(summing *s, const celspan_stack_light *lights, bool has_base) {
   const celspan_stack *stack = s->stack;
   const celspan_stack_light none = {{0, 0, 0, 0}, {0, 0, 0, 0}};
@@ -249,7 +251,7 @@ static const cs_addend *through_of(const celspan_stack *stack) {
   return stack->is_grey && stack->light_count > 1 ? &stack->backs[0] : &stack->through;
 }
 
-/* The share that the mattes of back lights leave of the light that comes through. */
+/* The share of the transmitted light that the mattes of back lights leave. */
 static float keep_of(const celspan_stack *stack, const celspan_stack_light *lights) {
   float keep = 1;
   for (size_t i = 0; i < stack->light_count; i++)
@@ -263,7 +265,7 @@ static void add_rows(const summing *s, const term *t, int32_t y, int32_t rows, f
   (t->addend, y + k, t->weights, s->stride, planes + (size_t)k * PLANES * s->stride);
 }
 
-/* Sums addend by addend, so that memory is read in its order. */
+/* Sums addend by addend, so that memory is read in order. */
 static void sum_strip(void *user, int worker, int32_t strip) {
   const summing *s = user;
   const celspan_stack *stack = s->stack;
@@ -289,12 +291,12 @@ static celspan_status sum(celspan_context *context, const celspan_stack *stack,
   size_t terms = 2 * stack->light_count;
   summing s = {.stack = stack, .isa = cs_isa_best(), .rgba = rgba};
   s.stride = ((size_t)stack->width + LINE - 1) / LINE * LINE;
-  size_t planes = STRIP * PLANES * s.stride * (size_t)threads + LINE; /* to be aligned */
+  size_t planes = STRIP * PLANES * s.stride * (size_t)threads + LINE; /* so that it is aligned */
   s.terms = cs_mem_array(context->memory, terms, sizeof *s.terms);
   s.planes = cs_mem_array(context->memory, planes, sizeof *s.planes);
   bool is_ready = s.terms && s.planes;
   if (is_ready) {
-    size_t all = list_terms(&s, lights, false); /* the sum with fewer bytes is used */
+    size_t all = list_terms(&s, lights, false); /* the smaller of both sums is used */
     if (list_terms(&s, lights, true) >= all)
       (void)list_terms(&s, lights, false);
     s.keep = keep_of(stack, lights);

@@ -4,10 +4,10 @@
 
 #include "base/number.h"
 
-/* Steps of Newton's method towards the least error, which is near 0. */
+/* Steps of Newton's method to the least error, which is near 0. */
 enum { STEPS = 8 };
-/* An arc of a larger radius, in pixels, is a line; so are points that are no farther off one than
- * rounding takes them, as a share of their spread, squared. */
+/* An arc with a larger radius, in pixels, is a line. So are points whose distances from a line are
+ * only rounding: as a share of their spread, squared. */
 #define RADIUS_MOST 1e5
 #define ROUNDING 1e-12
 
@@ -19,8 +19,8 @@ void cs_arc_add(cs_arc_sums *s, celspan_point point) {
   s->xz += x * z, s->yz += y * z, s->zz += z * z;
 }
 
-/* The same sums about the mean of the points, divided by their count; z is the z of places relative
- * to the mean. */
+/* The same sums, about the mean of the points and divided by their count; z is relative to the
+ * mean, too. */
 typedef struct moments {
   double x, y; /* the mean */
   double xx, xy, yy, xz, yz, zz;
@@ -88,7 +88,7 @@ double cs_arc_error(const cs_arc_sums *sums) {
 
 static cs_arc line_of(const cs_arc_sums *s, const moments *m) {
   double half = 0.5 * (m->xx - m->yy), root = sqrt(half * half + m->xy * m->xy);
-  /* Across the points: the direction of the lesser eigenvalue. */
+  /* The direction across the points is that of the smaller eigenvalue. */
   double nx = half > 0 ? -m->xy : root - half, ny = half > 0 ? root + half : -m->xy;
   double length = cs_number_length(nx, ny);
   nx = length > 0 ? nx / length : 0;

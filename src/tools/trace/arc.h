@@ -14,7 +14,7 @@
 
 #include "celspan/celspan.h"
 
-/* Sums over points, as they lie from an origin; z is x^2 + y^2. */
+/* Sums over points, relative to an origin; z is x^2 + y^2. */
 typedef struct cs_arc_sums {
   celspan_point origin;
   double count, x, y, xx, xy, yy, xz, yz, zz;
@@ -30,13 +30,13 @@ static inline cs_arc_sums cs_arc_begin(celspan_point origin) {
 }
 void cs_arc_add(cs_arc_sums *sums, celspan_point point);
 
-/* The mean of the squares of distances from the line, and from the arc, that are nearest to all. */
+/* The mean of the squared distances from the best line, and from the best arc. */
 double cs_arc_line_error(const cs_arc_sums *sums);
 double cs_arc_error(const cs_arc_sums *sums);
-/* The line or the arc itself, of two points or more in different places. */
+/* The best line or arc itself, for two or more different points. */
 cs_arc cs_arc_of(const cs_arc_sums *sums, bool is_line);
 
 /* The distance of a point from the arc, and the direction in which the distance grows. */
 double cs_arc_off(const cs_arc *arc, celspan_point point, celspan_point *across);
-/* The place on it that is nearest to a point. */
+/* The point of the arc that is nearest to a point. */
 celspan_point cs_arc_nearest(const cs_arc *arc, celspan_point point);

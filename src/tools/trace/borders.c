@@ -12,7 +12,8 @@ typedef struct walker {
   const cs_material *material;
   const cs_regions *regions;
   cs_borders *out;
-  unsigned char *walked; /* by corner: 1 the side right of it is in a chain, 2 the one below it */
+  /* by corner: 1: the side to the right is in a chain; 2: the side below is */
+  unsigned char *walked;
 } walker;
 
 /* ---------------------------------------------------------------- corners */
@@ -34,17 +35,19 @@ static bool is_node(const walker *w, int32_t x, int32_t y) {
   return sides == 3 || (sides == 4 && cs_material_join(w->material, x, y) == CS_JOIN_NONE);
 }
 
-/* Where a chain continues from a corner that is not a node; direction: in which it arrived. */
+/* The direction in which a chain leaves a corner that is not a node; direction: in which it
+ * arrived. */
 static int go_on(const walker *w, int32_t x, int32_t y, int direction) {
   unsigned char a[4];
   labels_about(w, x, y, a);
-  /* Before and behind, on the left and on the right of who comes in that direction. */
+  /* the labels around the corner, seen in that direction: behind and ahead, on the left and on the
+   * right */
   unsigned char left_behind = a[direction], left = a[(direction + 1) % 4];
   unsigned char right = a[(direction + 2) % 4], right_behind = a[(direction + 3) % 4];
   bool turns_left = left_behind != left, turns_right = right_behind != right;
   if (turns_left && turns_right && left != right) {
-    /* Where what lies behind on the left is joined with what lies before on the right, the border
-     * turns about the pixel between them. */
+    /* If the label behind on the left is joined with the label ahead on the right, the border turns
+     * about the pixel between them. */
     bool is_joined = cs_material_join(w->material, x, y) == CS_JOIN_NW_SE;
     return (direction + (is_joined == (direction % 2 == 0) ? 1 : 3)) % 4;
   }
@@ -64,8 +67,8 @@ static bool is_side(const walker *w, int32_t x, int32_t y) {
   return at[-1] != at[0];
 }
 
-/* Both ends of an upright side; every node is one of some. The upper end of this side is the lower
- * one of the side above it, where there is one. */
+/* Visits both ends of an upright side; every node is an end of such a side. The upper end of this
+ * side is the lower end of the side above it, if there is one. */
 static celspan_status find_nodes_at(walker *w, int32_t x, int32_t y) {
   if (!is_side(w, x, y - 1) && is_node(w, x, y))
     CS_TRY(add_node(w, x, y));
@@ -106,7 +109,7 @@ static uint32_t node_at(const cs_borders *borders, int32_t x, int32_t y) {
 
 /* ---------------------------------------------------------------- chains */
 
-/* The mark of a side: its corner is the left or upper one of both. */
+/* The mark of a side: it belongs to the left or upper corner of the side. */
 static unsigned char *mark_of(const walker *w, int32_t x, int32_t y, int direction,
                               unsigned char *bit) {
   x -= direction == 2;
@@ -138,7 +141,7 @@ static uint32_t region_beside(const walker *w, int32_t x, int32_t y, int directi
   return cs_regions_at(w->regions, x - is_back, y - is_up);
 }
 
-/* From a corner until a node, or until it is closed. */
+/* From a corner to the next node, or once around a closed chain. */
 static celspan_status walk(walker *w, cs_chain *chain, int direction) {
   int32_t x = chain->x, y = chain->y;
   int begun = direction;
@@ -176,7 +179,7 @@ static celspan_status add_chain(walker *w, int32_t x, int32_t y, int direction, 
   return CELSPAN_OK;
 }
 
-/* Whether a border leaves a corner in a direction: the pixels on both sides differ. */
+/* Whether a border leaves a corner in a direction: if so, the pixels on both sides differ. */
 static bool departs(const walker *w, int32_t x, int32_t y, int direction) {
   unsigned char a[4];
   labels_about(w, x, y, a);
@@ -197,7 +200,7 @@ static celspan_status walk_closed_at(walker *w, int32_t x, int32_t y) {
   return is_walked(w, x, y, 1) ? CELSPAN_OK : add_chain(w, x, y, 1, CS_NODE_NONE);
 }
 
-/* The remaining chains have no node; every closed chain has an upright side. */
+/* The remaining chains have no node. Every closed chain has an upright side. */
 static celspan_status walk_closed(walker *w) { return walk_rows(w, walk_closed_at); }
 
 celspan_status cs_borders_make(celspan_context *context, const cs_material *material,

@@ -21,21 +21,20 @@
 #define CS_NODE_NONE UINT32_MAX
 #define CS_WAY_NONE UINT32_MAX
 
-/* Half of a chain: the chain as it runs, or the other way; twice its place, and one for the
- * latter. */
+/* A chain in one of its two directions: twice its index, plus 1 for the reverse direction. */
 typedef uint32_t cs_way;
 
 typedef struct cs_node {
   int32_t x, y;
-  cs_way out[4]; /* by direction; CS_WAY_NONE: no border leaves there */
+  cs_way out[4]; /* by direction; CS_WAY_NONE: no border leaves in this direction */
 } cs_node;
 
 typedef struct cs_chain {
-  int32_t x, y; /* where it begins */
+  int32_t x, y; /* where the chain begins */
   size_t first; /* its directions */
   uint32_t count;
   uint32_t left, right; /* regions */
-  uint32_t from, to;    /* nodes; CS_NODE_NONE: it is closed */
+  uint32_t from, to;    /* the nodes; CS_NODE_NONE: the chain is closed */
 } cs_chain;
 
 typedef struct cs_borders {
@@ -60,7 +59,7 @@ static inline int32_t cs_border_y(int direction) {
   return direction == 1 ? 1 : direction == 3 ? -1 : 0;
 }
 
-/* Errors: NO_MEMORY. To be finished, whatever happens. */
+/* Errors: NO_MEMORY. The result must be finished, also after a failure. */
 CELSPAN_CHECKED celspan_status cs_borders_make(celspan_context *context,
                                                const cs_material *material,
                                                const cs_regions *regions, cs_borders *out);

@@ -8,9 +8,9 @@
 #include "model/pictures/load.h"
 
 enum { BITS = 5, BINS = 1 << 3 * BITS, ROUNDS = 32 };
-/* How far codes of neighbours may be apart in a flat place. */
+/* The greatest difference between codes of neighbours in a flat place. */
 #define FLAT 20
-/* Only flat places count if they are at least one pixel in this many. */
+/* If at least one pixel in this many is flat, only flat places count. */
 #define FLAT_SHARE 50
 /* The share of the pixels with which a colour is as likely to be chosen as any other. */
 #define FULL_SHARE 500
