@@ -21,7 +21,7 @@ static int finish_plane(lua_State *L) {
   return 0;
 }
 
-/* Pushes a value before its plane is made, so that an error at any point leaks nothing. */
+/* Pushes a Lua value before its plane is made, so that an error at any point leaks nothing. */
 static celspan_plane **push_plane(lua_State *L) {
   celspan_plane **plane = lua_newuserdatauv(L, sizeof *plane, 0);
   *plane = NULL;

@@ -14,16 +14,16 @@
 
 /* ---------------------------------------------------------------- values */
 
-/* The light that was removed from it cannot be computed again from fields. */
+/* The light that was removed from the picture cannot be computed again from fields. */
 static const cs_noun noun = {.name = "relit", .kind = &cs_kind_texture, CS_BARE};
 
-/* Pushes a closed value, before the core makes the texture that it will hold. */
+/* Pushes a closed value, which will hold the texture that the core makes. */
 static cs_userdata *push_value(lua_State *L, celspan_context *context) {
   cs_named_begin(L, context);
   return cs_bare_push(L, &noun);
 }
 
-/* Fills the value on top of the stack, or answers the failure. */
+/* Fills the value on top of the stack, or returns the failure to the script. */
 static int finish(lua_State *L, celspan_context *context, cs_userdata *value, celspan_status status,
                   celspan_texture *texture) {
   cs_named_end(context);
@@ -150,7 +150,7 @@ int cs_relight_exposures(lua_State *L) {
   return finish(L, context, value, status, texture);
 }
 
-/* The picture at index, and its ground after it. */
+/* The picture at index, and its ground at the next index. */
 static celspan_relight_ground ground_at(lua_State *L, int index) {
   celspan_relight_ground ground = {.picture = texture_at(L, index)};
   if (lua_istable(L, index + 1))

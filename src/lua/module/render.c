@@ -23,7 +23,7 @@ typedef struct job {
   cs_sequence sequence;
   size_t done;
   double share;   /* reported last */
-  bool has_error; /* raised by the progress function; the message is on top of the stack */
+  bool has_error; /* the progress function raised an error, whose message is on top of the stack */
 } job;
 
 static int finish_job(lua_State *L) {
@@ -38,16 +38,16 @@ static job *push_job(lua_State *L) {
   return j;
 }
 
-/* Reports the share of the whole job that is done, and the first frame that is not done, or the
- * last.
- */
+/* Reports which share of the whole job is done, and the first frame that is not done, or the last
+ * frame. */
 static bool report_progress(void *user, double share) {
   job *j = user;
   lua_State *L = j->L;
   size_t last = j->sequence.count - 1;
   share = ((double)j->done + share) / (double)j->sequence.count;
   j->share =
-      share > j->share ? share : j->share; /* it never goes back, even when frames are given up */
+      /* the share never decreases, even if frames are given up */
+      share > j->share ? share : j->share;
   if (!lua_checkstack(L, 8))
     return false;
   cs_lua_error_push_handler(L, "", cs_render_make);

@@ -45,7 +45,7 @@ static void push_span(lua_State *L, const celspan_span *span) {
   set_colours(L, span);
 }
 
-/* The first and last row that are wanted, inclusive and cut to the frame. */
+/* The first and last row that are wanted: both included, and cut to the frame. */
 static void find_rows(const cs_options *options, int32_t range[2]) {
   const cs_form *form = &options->form;
   const celspan_frame_desc *desc = &options->desc;
@@ -123,7 +123,7 @@ int cs_spans_probe(lua_State *L) {
   lua_settop(L, 4);
   celspan_point point = {cs_form_argument(L, 2, "probe", "x"),
                          cs_form_argument(L, 3, "probe", "y")};
-  lua_replace(L, 2); /* the options are argument 2 of other functions */
+  lua_replace(L, 2); /* in other functions the options are argument 2 */
   double rgba[4];
   cs_options options;
   celspan_status status = cs_subject_read(L, &cs_noun_probe, &options);

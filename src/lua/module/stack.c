@@ -11,13 +11,13 @@
 #include "model/scene/scene.h"
 
 #define STACK "celspan.stack"
-enum { NUMBERS = 8 }; /* of one light */
+enum { NUMBERS = 8 }; /* numbers of one light */
 
 /* ---------------------------------------------------------------- the value */
 
 typedef struct holder {
   celspan_stack *stack; /* NULL: released */
-  int32_t x, y;         /* of its first pixel in the whole frame */
+  int32_t x, y;         /* the place of the first pixel in the whole frame */
 } holder;
 
 static int release(lua_State *L) {
@@ -112,8 +112,8 @@ static celspan_light light_at(lua_State *L, int index, size_t first) {
   return (celspan_light){values[0], values[1], values[2], values[3]};
 }
 
-/* The lights of the list at index 2, in scratch memory on the stack. *is_opaque: a matte of 1 is
- * behind all. */
+/* The lights of the list at index 2, in scratch memory on the stack. *is_opaque: a matte of 1 lies
+ * behind everything. */
 static const celspan_stack_light *read_lights(lua_State *L, size_t count, bool *is_opaque) {
   celspan_stack_light *lights = cs_form_scratch(L, count, sizeof *lights);
   luaL_checktype(L, 2, LUA_TTABLE);

@@ -24,7 +24,7 @@ static int release(lua_State *L) {
   return 0;
 }
 
-/* Pushes a place for a tracing that is released whatever happens. */
+/* Pushes a holder for a tracing, which releases it in any case. */
 static celspan_trace **push_holder(lua_State *L) {
   return cs_userdata_push_holder(L, "celspan.tracing", sizeof(celspan_trace *), release);
 }

@@ -95,7 +95,7 @@ static void push_matrix(lua_State *L, celspan_matrix matrix) {
   }
 }
 
-/* The motion of a sighting, for places that count from the corner of the first pixel. */
+/* The motion of a sighting, for coordinates that are counted from the corner of the first pixel. */
 static celspan_matrix from_corners(celspan_matrix motion) {
   celspan_matrix to_corner = celspan_matrix_translation(0.5, 0.5);
   celspan_matrix to_centre = celspan_matrix_translation(-0.5, -0.5);

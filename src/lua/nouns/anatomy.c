@@ -103,7 +103,7 @@ static void push_contour(lua_State *L, const cs_outline *outline, size_t begin, 
   cs_put_flag(L, "open", is_open);
 }
 
-/* Whether a contour of a line is open, and does not end where it begins. */
+/* Whether a contour of a line is open, and its end differs from its beginning. */
 static bool is_parted(const cs_stroke *stroke, size_t contour) {
   size_t begin, end;
   cs_stroke_contour(&stroke->line, contour, &begin, &end);
@@ -183,7 +183,7 @@ static void put_paint(lua_State *L, const cs_paint *paint) {
   lua_setfield(L, -2, "paint");
 }
 
-/* Puts `paint`, or `texture` as it lies on the placed object. */
+/* Puts the field `paint` or `texture`, with the texture as it appears on the placed object. */
 static void put_texture(lua_State *L, const cs_primitive_data *data, const celspan_matrix *matrix) {
   celspan_context *context = cs_host_context(L);
   celspan_texture *boxed = NULL, *placed = NULL;
@@ -229,7 +229,7 @@ static void put_outline(lua_State *L, const cs_primitive_data *data, const celsp
   } else if (data->stroke) {
     cs_outline *made = push_held(L);
     cs_host_try(L, "morph", cs_stroke_outline_finely(cs_host_context(L), data->stroke, made));
-    lua_insert(L, -2); /* below the node */
+    lua_insert(L, -2); /* moves the value below the node */
     put_contours(L, made, matrix, extent, NULL);
     lua_remove(L, -2);
   } else {

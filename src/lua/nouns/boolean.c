@@ -89,8 +89,8 @@ static void push_operands(lua_State *L, lua_Integer count) {
   lua_rawseti(L, -2, count + 1);
 }
 
-/* Makes the same value as cs_construct_value for a table of all operands, but without visiting the
- * earlier operands of a chain such as a | b | c. */
+/* Makes the same value as cs_construct_value does for a table of all operands, but without visiting
+ * the earlier operands of a chain such as a | b | c. */
 static int operate(lua_State *L, const cs_noun *noun, celspan_operator op, const char *sign) {
   const cs_userdata *left = operand(L, 1, sign);
   celspan_object *const pair[] = {left->handle, operand(L, 2, sign)->handle};
@@ -107,7 +107,7 @@ static int operate(lua_State *L, const cs_noun *noun, celspan_operator op, const
   cs_named_end(context);
   value->handle = object;
   value->is_chain = true;
-  value->shown = (int32_t)(count + 1); /* of at most CS_SCENE_PRIMITIVES operands */
+  value->shown = (int32_t)(count + 1); /* at most CS_SCENE_PRIMITIVES operands */
   push_operands(L, count);
   lua_setiuservalue(L, 3, 1);
   return 1;

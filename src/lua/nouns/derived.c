@@ -30,7 +30,7 @@ static celspan_status fill(celspan_context *context, celspan_object *shape, cons
   return status;
 }
 
-/* Replaces *object by a copy with the fade and the name, where there are any. */
+/* Replaces *object by a copy that has the fade and the name, if they were given. */
 static celspan_status finish(celspan_context *context, double fade, const char *name,
                              celspan_object **object) {
   celspan_object *faded = NULL, *named = NULL;
@@ -62,37 +62,38 @@ int cs_derived_paint(lua_State *L) {
   cs_host_try(L, "paint", fill(context, shape->handle, &box, texture, &object));
   celspan_status status =
       finish(context, ((const celspan_object *)shape->handle)->fade, name, &object);
-  value->handle = object; /* also where it failed, to be released */
+  value->handle = object; /* set even after a failure, so that it is released */
   cs_host_try(L, "paint", status);
   return 1;
 }
 
 /* ---------------------------------------------------------------- warp */
 
-/* The map is the function at `function`; its last error, and its outcome, are left on the stack. */
+/* The map is the function at index `function`. Its last error or its result is left on the
+ * stack. */
 typedef struct mapping {
   lua_State *L;
   int function;
   int outcome;
 } mapping;
 
-/* Reads the two numbers on top of the stack; false where they are not finite numbers. */
+/* Reads the two numbers on top of the stack; false if they are not finite numbers. */
 static bool read_point(lua_State *L, celspan_point *to) {
   bool is_good = lua_type(L, -2) == LUA_TNUMBER && lua_type(L, -1) == LUA_TNUMBER;
   *to = (celspan_point){lua_tonumber(L, -2), lua_tonumber(L, -1)};
   return is_good && cs_number_is_sane(to->x) && cs_number_is_sane(to->y);
 }
 
-/* Pushes a number as messages show it, or a word for any other value. */
+/* Pushes a number in the form in which messages show it, or a word for any other value. */
 static const char *push_result(lua_State *L, int index) {
   lua_Number number = lua_tonumber(L, index);
   if (number != number)
-    return lua_pushliteral(L, "nan"); /* its sign means nothing */
+    return lua_pushliteral(L, "nan"); /* the sign of NaN has no meaning */
   return lua_type(L, index) == LUA_TNUMBER ? lua_pushfstring(L, "%f", number)
                                            : cs_userdata_type(L, index);
 }
 
-/* Pushes a message about the two values on top of the stack, which are wrong. */
+/* Pushes a message that the two values on top of the stack are wrong. */
 static void push_refusal(lua_State *L, int function, celspan_point from) {
   int first = lua_gettop(L) - 1;
   const char *x = push_result(L, first), *y = push_result(L, first + 1);

@@ -1,5 +1,5 @@
-/* object:blur, object:shadow, object:glow and object:outline; all but the first also of cels. Their
- * result is a value with the object as its list and the options as its fields. */
+/* object:blur, object:shadow, object:glow and object:outline; cels have all of them except blur.
+ * The result is a value with the object as its list and the options as its fields. */
 #include "lua/bind/caller.h"
 #include "lua/bind/construct.h"
 #include "lua/bind/fields.h"

@@ -3,8 +3,8 @@
 
 #include "lua/bind/form.h"
 
-/* The grade of a form, made; NULL: it has none. Raises. A reference: nothing may raise until it is
- * dropped. */
+/* Makes the grade of a form; NULL: the form has none. Raises. The result is a reference: no error
+ * may be raised until it is released. */
 celspan_grade *cs_grade_of(const cs_form *form);
 
 #define CS_GRADE_FIELD                                                                             \

@@ -21,7 +21,8 @@ const cs_noun cs_noun_light = {
     .table = "celspan.light_shape",
     .fields = fields};
 
-/* { texture =, gain =, on =, matte = } on top of the stack. light: its name, "cel: front". */
+/* Reads { texture =, gain =, on =, matte = } on top of the stack. light: the light's name, such as
+ * "cel: front". */
 static void read_shape(lua_State *L, const char *light, celspan_light_texture *out) {
   cs_noun named = cs_noun_light;
   named.name = light;
@@ -36,14 +37,14 @@ static bool has_field(lua_State *L, const char *name) {
   return found;
 }
 
-/* Whether all keys of the table on top of the stack are names, and none is that of a colour: for
- * colours, the error says how to write the numbers. */
+/* Whether all keys of the table on top of the stack are names, and none of them is a name of a
+ * colour: for colours, the error says how to write the numbers. */
 static bool has_names_alone(lua_State *L) {
   return cs_list_length(L, -1) == 0 && !has_field(L, "r") && !has_field(L, "g") &&
          !has_field(L, "b") && (lua_pushnil(L), lua_next(L, -2)) && (lua_pop(L, 2), true);
 }
 
-/* Whether it is a light with a shape, well or badly described. */
+/* Whether the value is a light with a shape, even one with wrong fields. */
 static bool is_shape(lua_State *L) {
   if (!lua_istable(L, -1))
     return false;

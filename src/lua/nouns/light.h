@@ -8,7 +8,8 @@
 
 #include "lua/bind/fields.h"
 
-/* The field `name`: *flat or *shape; false when it is missing, and both are left alone. *is_colour:
- * whether it is a string. The texture is borrowed from a value that is left on the stack. */
+/* The field `name`: sets *flat or *shape. Returns false, and changes neither, if the field is
+ * missing. *is_colour: whether it is a string. The texture is borrowed from a value that is left on
+ * the stack. */
 bool cs_light_read(const cs_form *form, const char *name, celspan_light *flat, bool *is_colour,
                    celspan_light_texture *shape);

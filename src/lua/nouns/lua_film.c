@@ -19,7 +19,8 @@
 #include "lua/nouns/sounds.h"
 #include "lua/nouns/space.h"
 
-#define MOST_FRAMES 1000000000 /* half a year of film: numbers stay exact, lists stay possible */
+/* half a year of film: numbers of frames are exact, and lists of frames are possible */
+#define MOST_FRAMES 1000000000
 #define MOST_SIDE 1048576
 
 /* User values: the folder of the file that named the sounds, and the marks (sounds.h). */
@@ -27,7 +28,7 @@ enum { SOUND_FOLDER = 2, MARKS = 3 };
 
 /* ---------------------------------------------------------------- the value */
 
-/* The fields while they are checked; the value keeps its table. */
+/* The fields while they are checked; the value keeps the table with them. */
 typedef struct film_form {
   int32_t size[2];
   double fps, duration, sound_offset;
@@ -131,7 +132,7 @@ static int film_at(lua_State *L) {
   return 1;
 }
 
-/* If no new sound is given, the new film keeps the sound and where it was found. */
+/* If no new sound is given, the new film keeps the old sound and the folder of its files. */
 static int film_with(lua_State *L) {
   cs_construct_with(L);
   if (lua_getfield(L, 2, "sound") == LUA_TNIL) {
@@ -239,7 +240,7 @@ const cs_noun cs_noun_frame = {.name = "frame",
                                .kind = &cs_kind_frame,
                                .fields = frame_fields};
 
-/* Of the film's title and size, and the frame's number. */
+/* The seed is made of the film's title and size, and the frame's number. */
 static uint64_t seed_of(const cs_film_info *film, int64_t number) {
   const char *title = film->title ? film->title : "";
   uint64_t seed = cs_random_bytes(cs_random_begin, title, strlen(title));
@@ -254,7 +255,7 @@ static int random_number(lua_State *L) {
   return cs_random_push(L, *(const uint64_t *)cs_userdata_own(frame), 2);
 }
 
-/* Whether the value is a whole number; 2.0 is one too. */
+/* Whether the value is a whole number; 2.0 is a whole number, too. */
 static bool is_whole(lua_State *L, int index, lua_Integer *out) {
   int good = 0;
   if (lua_type(L, index) == LUA_TNUMBER)
@@ -351,7 +352,7 @@ void cs_lua_film_push_frame(lua_State *L, int film, int64_t number) {
 typedef struct request {
   int64_t number;
   cs_film_frame frame;
-  celspan_status status; /* of the core, when it could not take the exposures */
+  celspan_status status; /* the status of the core, if it did not accept the exposures */
 } request;
 
 /* film, light userdata: fills the request. Runs protected. */
@@ -362,7 +363,7 @@ static int build_frame(lua_State *L) {
   cs_options_exposures(L, -1, "the frame function's result", &desc);
   cs_film_info film;
   cs_lua_film_read(L, 1, &film);
-  r->status = /* last: an error of Lua after it would lose the exposures */
+  r->status = /* the last step: a later error of Lua would lose the exposures */
       cs_film_frame_init(&r->frame, cs_host_context(L), desc.exposures, desc.exposure_count);
   r->frame.repeats = film.count > 1;
   return 0;

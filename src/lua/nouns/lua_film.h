@@ -14,17 +14,17 @@
 
 /* film: index of a film. The texts live as long as the film. */
 void cs_lua_film_read(lua_State *L, int film, cs_film_info *out);
-/* (film) -> the list of its sounds (sounds.h), with where their files are: beside the Lua file that
- * made the film, else beside the script. */
+/* (film) -> the list of its sounds (sounds.h), with the places of their files: beside the Lua file
+ * that made the film, otherwise beside the script. */
 int cs_lua_film_sounds(lua_State *L);
-/* Calls the frame function. out: new, to be finished; untouched on failure. */
+/* Calls the frame function. out: new, must be finished; not changed on failure. */
 CELSPAN_CHECKED celspan_status cs_lua_film_build(lua_State *L, int film, int64_t number,
                                                  cs_film_frame *out);
 
 /* Pushes a film of one frame around the rostrum at index. Raises. */
 void cs_lua_film_push_still(lua_State *L, int rostrum, int32_t width, int32_t height);
 /* Pushes the film of a script's result at index: a film, or for a rostrum a film of one frame, 1920
- * x 1080, 24 a second. false, and nothing pushed, for anything else. Raises. */
+ * x 1080, 24 a second. For any other value, returns false and pushes nothing. Raises. */
 bool cs_lua_film_push(lua_State *L, int index);
 /* Calls the frame function for a frame and pushes its result, checked to be exposures; raises with
  * the frame's number in the message. */

@@ -7,7 +7,8 @@
 
 enum { MOST_NAME = 255, MOST_MARKS = 100000 };
 
-/* `--frames` must not read the name as a number or a time, and must find its end. */
+/* `--frames` must not mistake the name for a number or a time, and must be able to find the end of
+ * the name. */
 static bool is_name(const char *name, size_t length) {
   if (length == 0 || length > MOST_NAME || strlen(name) != length || strpbrk(name, ",:"))
     return false;
@@ -38,7 +39,8 @@ static bool read_frames(lua_State *L, int64_t first, int64_t count, cs_film_mark
   return is_good;
 }
 
-/* Raises unless the key and value on top of the stack are a name and a frame, or two. */
+/* Raises an error unless the key on top of the stack is a name and the value is a frame, or two
+ * frames. */
 static void check_mark(const cs_form *film, int64_t first, int64_t count) {
   lua_State *L = film->L;
   size_t length = 0;
@@ -70,7 +72,7 @@ static int compare(const void *a, const void *b) {
   return strcmp(x->name, y->name);
 }
 
-/* In one piece: a count, the marks, their names. */
+/* One piece of memory: a count, the marks, their names. */
 typedef struct store {
   size_t count;
   cs_film_mark marks[];

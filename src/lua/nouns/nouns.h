@@ -1,7 +1,7 @@
 /* All nouns, and the functions that the files of this folder share.
  *
- * INVARIANT: every noun whose values scripts make, and every table that they fill in, is in one of
- * the two lists, so that it is in the annotations and in `celspan help lua`.
+ * INVARIANT: every noun that scripts make values of, and every table that scripts fill in, is in
+ * one of the two lists. So all of them are in the annotations and in `celspan help lua`.
  */
 #pragma once
 
@@ -15,10 +15,11 @@ extern const cs_noun cs_noun_gradient, cs_noun_linear, cs_noun_radial, cs_noun_p
     cs_noun_blur, cs_noun_shadow, cs_noun_glow, cs_noun_outline, cs_noun_light, cs_noun_defocus,
     cs_noun_grade, cs_noun_cel, cs_noun_camera, cs_noun_frame, cs_noun_sound;
 
-/* The nouns with a constructor, such as celspan.circle, and the tables: of values without a
- * constructor, of options, and in fields of other nouns. Ended by NULL. */
+/* The first list has the nouns with a constructor, such as celspan.circle. The other has tables: of
+ * values without a constructor, of options, and in fields of other nouns. Both are ended by
+ * NULL. */
 extern const cs_noun *const cs_nouns_made[], *const cs_nouns_tables[];
-/* Pushes all of them by name, with the rows of their fields, for the Lua module celspan.manual. */
+/* Pushes all nouns by name, with the rows of their fields, for the Lua module celspan.manual. */
 int cs_nouns_push(lua_State *L);
 
 /* The methods of cels and rostrums; the methods of objects. */
@@ -32,10 +33,11 @@ int cs_stroke_method(lua_State *L);
 /* text:metrics(): a table of measures. */
 int cs_text_metrics(lua_State *L);
 
-/* object:paint(texture): its shape filled with the texture, with its own fade and name. */
+/* object:paint(texture): the object's shape filled with the texture, with the fade and the name of
+ * the object. */
 int cs_derived_paint(lua_State *L);
-/* The function behind object:warp{...}: (object, function of x and y, the tolerance, the most
- * pieces; 0 for either: as it is without) -> object. */
+/* The function behind object:warp{...}: (object, function of x and y, tolerance, most pieces) ->
+ * object. A tolerance or a number of 0 is the default. */
 int cs_derived_warp(lua_State *L);
 
 /* The functions behind celspan.morph (anatomy.c): (object, whether strokes are shapes) -> its tree

@@ -24,8 +24,8 @@ static celspan_status kernel_value(void *user, celspan_context *context, double 
   return CELSPAN_OK;
 }
 
-/* Samples the function on top of the stack, which is replaced by the values. It is not called for a
- * radius that the core will refuse. */
+/* Samples the function on top of the stack, and replaces it by the values. The function is not
+ * called for a radius that the core will refuse. */
 static void sample_function(const cs_form *form, celspan_filter_desc *filter) {
   lua_State *L = form->L;
   int function = lua_gettop(L);

@@ -4,8 +4,8 @@
 #include "frames/film/film.h"
 #include "lua/bind/fields.h"
 
-/* The options of all functions, while they are read; a function uses the options of its noun. The
- * desc points into this struct and to the stack. */
+/* The options of all functions, while they are read; each function uses only the options of its own
+ * noun. The desc points into this struct and to the stack. */
 typedef struct cs_options {
   cs_form form; /* of the table */
   celspan_frame_desc desc;
@@ -29,6 +29,7 @@ void cs_options_use_film(cs_options *options, const cs_film_info *film);
  * values are scratch memory left on the stack: *filter points to them. */
 bool cs_options_antialias(const cs_form *form, celspan_antialias_mode *mode,
                           const celspan_filter_desc **filter);
-/* The value at index, a rostrum or {{rostrum, weight}, ...}, as exposures of *desc: scratch memory,
- * left on the stack; the rostrums are borrowed from the value. name: for messages. */
+/* Reads the value at index, a rostrum or {{rostrum, weight}, ...}, as the exposures of *desc. The
+ * exposures are scratch memory, left on the stack; the rostrums are borrowed from the value. name:
+ * for messages. */
 void cs_options_exposures(lua_State *L, int index, const char *name, celspan_frame_desc *desc);

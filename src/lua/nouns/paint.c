@@ -8,8 +8,8 @@
 #include "lua/bind/numbers.h"
 #include "lua/nouns/nouns.h"
 
-/* Each paint gets a texture of that paint at once, so that the core checks it here and objects can
- * share it. */
+/* Each paint gets its own texture at once, so that the core checks the paint here, and objects can
+ * share the texture. */
 static void fill(lua_State *L, celspan_context *context, const char *noun, cs_userdata *value,
                  celspan_paint paint) {
   celspan_texture *texture = NULL;
@@ -70,7 +70,7 @@ static void set_triple(lua_State *L, const char *name, const double triple[3]) {
   lua_setfield(L, -2, name);
 }
 
-/* Adds a triple that was left out, and puts numbers for a colour, so that it can be read. */
+/* Adds a missing triple, and replaces a colour by its numbers, so that scripts can read it. */
 static void complete_triple(lua_State *L, int fields, const char *name, double fallback) {
   int type = lua_getfield(L, fields, name);
   celspan_paint colour;
@@ -132,7 +132,7 @@ static void read_rgb(lua_State *L, const char *function, double rgb[3]) {
     rgb[i] = cs_form_argument(L, i + 1, function, names[i]);
 }
 
-/* Reads argument 1 if it is a string: the colour that it names, and *alpha. */
+/* Reads argument 1 if it is a string: the colour of this name, and *alpha. */
 static bool read_text(lua_State *L, const char *function, double rgb[3], double *alpha) {
   if (lua_type(L, 1) != LUA_TSTRING)
     return false;
@@ -146,8 +146,7 @@ static bool read_text(lua_State *L, const char *function, double rgb[3], double 
   return true;
 }
 
-/* (r, g, b [, alpha]) or ("#rrggbb" [, alpha]): an alpha that is given counts instead of the
- * string's. */
+/* (r, g, b [, alpha]) or ("#rrggbb" [, alpha]): a given alpha replaces the alpha of the string. */
 static void read_colour(lua_State *L, const char *function, double rgb[3], double *alpha) {
   bool is_text = read_text(L, function, rgb, alpha);
   int place = is_text ? 2 : 4;
@@ -166,8 +165,8 @@ int cs_nouns_rgb(lua_State *L) {
   return push_paint(L, "rgb", pigment, NULL, alpha);
 }
 
-/* gel(r, g, b), gel("#rrggbb"), each also with an alpha, which mixes the gel with clear as in a
- * picture of gels. */
+/* gel(r, g, b) or gel("#rrggbb"), both with an optional alpha, which mixes the gel with clear as in
+ * a picture of gels. */
 int cs_nouns_gel(lua_State *L) {
   double medium[3], alpha = 1;
   read_colour(L, "gel", medium, &alpha);

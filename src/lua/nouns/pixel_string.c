@@ -18,7 +18,8 @@ typedef struct box {
   celspan_surface_desc desc;
 } box;
 
-static const char surfaces_key = 0, holders_key = 0; /* addresses in the registry */
+/* the addresses of these are keys in the registry */
+static const char surfaces_key = 0, holders_key = 0;
 const char *const cs_pixel_string_formats[] = {"rgba8", "rgb8", "grey8", "rgba16", "rgbaf", NULL};
 const char *const cs_pixel_string_alphas[] = {"straight", "premultiplied", NULL};
 
@@ -29,7 +30,7 @@ static int release(lua_State *L) {
   return 0;
 }
 
-/* Pushes a table of the registry, which is made on first use. */
+/* Pushes a table of the registry, which is created on first use. */
 static void push_table(lua_State *L, const char *key, const char *mode) {
   if (lua_rawgetp(L, LUA_REGISTRYINDEX, key) == LUA_TTABLE)
     return;
@@ -44,7 +45,7 @@ static void push_table(lua_State *L, const char *key, const char *mode) {
 
 /* ---------------------------------------------------------------- reading */
 
-/* Leaves the string on the stack. */
+/* Reads the fields; leaves the string on the stack. */
 static celspan_surface_desc read(const cs_form *form, const cs_pixel_string *given) {
   lua_State *L = form->L;
   celspan_surface_desc desc = CELSPAN_SURFACE_DESC;
@@ -95,7 +96,8 @@ static box *push_box(const cs_form *form, const celspan_surface_desc *desc, int 
   return b;
 }
 
-/* The surface in the field `pixels`, kept by the fields of the value; NULL if it is a string. */
+/* The surface in the field `pixels`, which the value's fields keep alive; NULL if the field is a
+ * string. */
 static celspan_surface *find_surface(const cs_form *form) {
   cs_form_get(form, "pixels");
   const box *b = luaL_testudata(form->L, -1, "celspan.surface");

@@ -47,7 +47,7 @@ static int translate(lua_State *L) {
   return push_transformed(L, "translate", value, celspan_matrix_translation(dx, dy));
 }
 
-/* The arguments cx, cy at `index`: both or none, which is the origin. */
+/* The arguments cx, cy at `index`: both are given, or none; then it is the origin. */
 static celspan_point read_centre(lua_State *L, int index, const char *method) {
   celspan_point centre = {0, 0};
   if (!lua_isnoneornil(L, index) || !lua_isnoneornil(L, index + 1)) {
@@ -155,7 +155,7 @@ static int fade(lua_State *L) {
   return 1;
 }
 
-/* Of a value that has its mode as a field. */
+/* The method of values that have their mode as a field. */
 static int blend_field(lua_State *L) {
   lua_settop(L, 2);
   lua_createtable(L, 0, 1);
@@ -164,7 +164,7 @@ static int blend_field(lua_State *L) {
   return cs_construct_with(L);
 }
 
-/* The mode of a word at index; past all of them for any other. */
+/* The mode named by the word at index; a number beyond all modes for any other value. */
 static celspan_blend mode_at(lua_State *L, int index) {
   const char *word = lua_type(L, index) == LUA_TSTRING ? lua_tostring(L, index) : "";
   int mode = 0;
@@ -184,7 +184,7 @@ int cs_placed_blend_within(lua_State *L) {
   return 1;
 }
 
-/* Argument 2 is no mode. */
+/* Raises: argument 2 is not a mode. */
 static int refuse_mode(lua_State *L) {
   const char *word = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "";
   const char *nearest = cs_suggest_name(word, cs_blend_words, (size_t)mode_at(L, 2));

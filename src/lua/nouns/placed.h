@@ -5,8 +5,9 @@
 
 #include <lauxlib.h>
 
-/* object, mode -> the object with it, shown within its backdrop alone. Raises for other modes. */
+/* object, mode -> the object with this mode, shown only within its backdrop. Raises an error for
+ * other modes. */
 int cs_placed_blend_within(lua_State *L);
 
-/* Degrees to radians, without whole turns. */
+/* Degrees to radians; whole turns are removed first. */
 double cs_placed_radians(double degrees);

@@ -25,7 +25,7 @@ uint64_t cs_random_integer(uint64_t hash, uint64_t number) {
 
 static uint64_t finalise(uint64_t hash) { return cs_splitmix_next(&hash); }
 
-/* 0..span-1, each equally likely: the few values that would make some likelier are drawn again. */
+/* 0..span-1, each equally likely: values that would make some numbers likelier are drawn again. */
 static uint64_t below(uint64_t hash, uint64_t span) {
   uint64_t reject = (0 - span) % span; /* 2^64 mod span */
   while (hash < reject)
@@ -36,20 +36,20 @@ static uint64_t below(uint64_t hash, uint64_t span) {
 static lua_Integer whole(lua_State *L, int index, const char *name) {
   int good = 0;
   lua_Integer number = lua_type(L, index) == LUA_TNUMBER ? lua_tointegerx(L, index, &good) : 0;
-  if (!good) /* 2.0 is whole too */
+  if (!good) /* 2.0 is a whole number, too */
     cs_caller_error(L, "random: %s must be a whole number, got %s", name,
                     lua_type(L, index) == LUA_TNUMBER ? luaL_tolstring(L, index, NULL)
                                                       : cs_userdata_type(L, index));
   return number;
 }
 
-/* The hash with the text of the argument, a string or a number. */
+/* The hash with the text of the argument added, which is a string or a number. */
 static uint64_t add_word(lua_State *L, uint64_t hash, int index, const char *name) {
   int type = lua_type(L, index);
   if (type != LUA_TSTRING && type != LUA_TNUMBER)
     cs_caller_error(L, "random: %s must be a string or a number, got %s", name,
                     cs_userdata_type(L, index));
-  if (type == LUA_TNUMBER) /* a NaN is written with a sign or without */
+  if (type == LUA_TNUMBER) /* C libraries write NaN with or without a sign */
     cs_numbers_check(L, index, "random", name);
   size_t size;
   const char *word = luaL_tolstring(L, index, &size);
@@ -82,7 +82,7 @@ static int draw(lua_State *L) {
 
 int cs_random_make(lua_State *L) {
   uint64_t seed = add_word(L, cs_random_begin, 1, "the seed");
-  /* The label must not run on from the seed: random("a")("b") is not random("ab")(""). */
+  /* The label must be separated from the seed: random("a")("b") is not random("ab")(""). */
   lua_pushinteger(L, (lua_Integer)cs_random_integer(seed, lua_rawlen(L, 1)));
   lua_pushcclosure(L, draw, 1);
   return 1;

@@ -1,13 +1,12 @@
-/* Random numbers as pure functions of a seed and a label: FNV-1a over the bytes, SplitMix64's
- * finaliser on top. The same on every machine.
- */
+/* Random numbers as pure functions of a seed and a label: FNV-1a over the bytes, then SplitMix64's
+ * finaliser. The same on every machine. */
 #pragma once
 
 #include <lua.h>
 #include <stddef.h>
 #include <stdint.h>
 
-extern const uint64_t cs_random_begin; /* the hash of nothing */
+extern const uint64_t cs_random_begin; /* the hash of an empty text */
 uint64_t cs_random_bytes(uint64_t hash, const char *bytes, size_t size);
 uint64_t cs_random_integer(uint64_t hash, uint64_t number);
 

@@ -83,7 +83,7 @@ static void create(const cs_form *form, cs_userdata *value) {
   value->handle = create_rostrum(form);
 }
 
-/* The object that a rostrum is inside a cel: made again by :with. */
+/* The object that a rostrum becomes inside a cel; made again by :with. */
 static void create_object(const cs_form *form, cs_userdata *value) {
   celspan_rostrum *rostrum = create_rostrum(form);
   celspan_object *object = NULL;

@@ -36,7 +36,7 @@ typedef struct request {
   double y;
   const celspan_scanline_row *row;
   celspan_scanline_output *output;
-  celspan_status status; /* the core's, when it refused a span */
+  celspan_status status; /* the status of the core, if it refused a span */
 } request;
 
 static void push_row(lua_State *L, const celspan_scanline_row *row) {
@@ -91,8 +91,8 @@ static int call(lua_State *L) {
   return 0;
 }
 
-/* Pushes the message on top of the stack again, with the line where the function begins if it has
- * none. */
+/* Replaces the message on top of the stack by one that has the line where the function begins,
+ * unless it has a line. */
 static void push_message(lua_State *L, const procedure *p) {
   const char *message =
       lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "the error is not a string";
@@ -107,7 +107,7 @@ static void push_message(lua_State *L, const procedure *p) {
   }
 }
 
-/* As call; errors have a position. */
+/* The same as call, but errors have a position. */
 static int call_placed(lua_State *L) {
   const request *r = lua_touserdata(L, 1);
   cs_lua_error_push_handler(L, "", call);

@@ -16,7 +16,7 @@ cs_userdata *cs_shape_at(lua_State *L, int index) {
   cs_host_try(L, "rostrum",
               celspan_object_create_rostrum(cs_host_context(L), rostrum->handle, &object));
   value->handle = object;
-  lua_getiuservalue(L, place, 1); /* never changed, so it can be shared */
+  lua_getiuservalue(L, place, 1); /* it is never changed, so it can be shared */
   lua_setiuservalue(L, -2, 1);
   lua_replace(L, place);
   return value;
@@ -25,7 +25,8 @@ cs_userdata *cs_shape_at(lua_State *L, int index) {
 celspan_object **cs_shape_items(const cs_form *form, int count) {
   lua_State *L = form->L;
   celspan_object **objects = cs_form_scratch(L, (size_t)count, sizeof *objects);
-  lua_createtable(L, count, 0); /* holds them: a finaliser may take them out of the list */
+  /* keeps the items alive: a finaliser may remove them from the list */
+  lua_createtable(L, count, 0);
   int kept = lua_gettop(L);
   for (int i = 0; i < count; i++) {
     lua_rawgeti(L, form->table, i + 1);

@@ -58,7 +58,8 @@ const cs_noun cs_noun_sound = {.name = "film: sound",
                                .item_about = "A file, or a film whose sounds are meant",
                                .fields = fields};
 
-/* Raises unless the value on top of the stack is a file's name or, in a table, a film. */
+/* Raises an error unless the value on top of the stack is the name of a file or, inside a table, a
+ * film. */
 static void check_file(const cs_form *form, bool is_in_table) {
   lua_State *L = form->L;
   bool is_text = lua_type(L, -1) == LUA_TSTRING;
@@ -83,7 +84,7 @@ static void read_times(const cs_form *form, sound_form *out) {
                    cs_form_digits(form->L, out->fade[i]));
 }
 
-/* Opens the form of a sound that is on top of the stack, a table; its file is pushed. */
+/* Opens the form of the sound on top of the stack, a table, and pushes its file. */
 static cs_form open_sound(lua_State *L, const cs_noun *noun, sound_form *out) {
   *out = PLAIN;
   cs_form form = cs_form_open(L, noun, -1);
@@ -111,7 +112,7 @@ static void check_sound(lua_State *L, const cs_noun *noun) {
 
 /* ---------------------------------------------------------------- lists */
 
-/* Whether the table on top of the stack is a list of sounds, and not one sound. */
+/* Whether the table on top of the stack is a list of sounds; it may also be a single sound. */
 static bool is_list(lua_State *L) {
   lua_Integer length = cs_list_length(L, -1);
   int type = lua_rawgeti(L, -1, 1);
@@ -125,8 +126,8 @@ static bool is_list(lua_State *L) {
   return is_empty;
 }
 
-/* Pushes sound i, from 1, of the value on top of the stack; false, and nothing pushed: after the
- * last. Places of a list without a sound give nil or false. */
+/* Pushes sound i, from 1, of the value on top of the stack. Returns false and pushes nothing if i
+ * is greater than the number of sounds. Places of a list without a sound give nil or false. */
 static bool push_item(lua_State *L, lua_Integer i) {
   if (lua_istable(L, -1) && is_list(L)) {
     if (i > cs_list_length(L, -1))
@@ -205,7 +206,7 @@ void cs_sounds_check(const cs_form *film) {
 
 /* ---------------------------------------------------------------- what is wanted */
 
-/* Sets the file of the sound below, which is a name, in the table on top of the stack. */
+/* Sets the file, in the table on top of the stack, to that of the sound below, which is a name. */
 static void put_file(lua_State *L, const char *folder) {
   const char *tried;
   lua_pushvalue(L, -2);
@@ -217,7 +218,7 @@ static void put_file(lua_State *L, const char *folder) {
   lua_setfield(L, -2, "path");
 }
 
-/* Replaces the sound on top of the stack by the table that is pushed for it. */
+/* Replaces the sound on top of the stack by a new table that describes it. */
 static void complete(lua_State *L, const char *folder) {
   sound_form read = PLAIN;
   int sound = lua_gettop(L);

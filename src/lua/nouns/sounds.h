@@ -23,8 +23,8 @@ void cs_sounds_check(const cs_form *film);
  * where a file may not be read and out of memory. */
 void cs_sounds_push(lua_State *L, int film, const char *folder);
 
-/* Pushes the marks of a film as one piece of memory that has their names too, in the order of their
- * frames; nil if it has none. first, count: its frames. Raises. */
+/* Pushes the marks of a film, in the order of their frames, as one piece of memory that also has
+ * their names; nil if the film has none. first, count: the frames of the film. Raises. */
 void cs_marks_push(const cs_form *film, int64_t first, int64_t count);
-/* The marks in the piece at index. */
+/* The marks in the piece of memory at index. */
 const cs_film_mark *cs_marks_read(lua_State *L, int index, size_t *count);

@@ -1,6 +1,5 @@
-/* The field `space` of films, rostrums and groups: "linear" or "srgb"; without it, the space around
- * them.
- */
+/* The field `space` of films, rostrums and groups: "linear" or "srgb"; if it is missing, the space
+ * around them. */
 #pragma once
 
 #include "lua/bind/noun.h"

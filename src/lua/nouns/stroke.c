@@ -44,7 +44,7 @@ static void read_outline(const cs_form *form, celspan_stroke_desc *desc) {
   const cs_userdata *value = cs_userdata_test(L, -1, &cs_kind_object);
   if (!value)
     cs_form_fail(form, "field 'outline' must be a primitive, got %s", cs_userdata_type(L, -1));
-  desc->outline = value->handle; /* kept alive by the table */
+  desc->outline = value->handle; /* the table keeps it alive */
 }
 
 static void check_line(const cs_form *form) {

@@ -15,12 +15,12 @@
 #include "lua/nouns/nouns.h"
 
 #define HOLDER "celspan.letters"
-#define MOST_SETTINGS 65 /* one more than the core allows, so that it says so */
+#define MOST_SETTINGS 65 /* one more than the core allows, so that the core can report the limit */
 #define MOST_FONTS 17
 
 typedef struct text_form {
   celspan_text_desc desc;
-  int face, index; /* in Lua from 1 */
+  int face, index; /* counted from 1 in Lua */
 } text_form;
 
 /* ---------------------------------------------------------------- reading */
@@ -32,7 +32,7 @@ static void read_string(const cs_form *form, celspan_text_desc *desc) {
     cs_form_fail(form, "takes one string, the text, got %d values", length);
   if (lua_rawgeti(L, form->table, 1) != LUA_TSTRING && lua_type(L, -1) != LUA_TNUMBER)
     cs_form_fail(form, "value 1 must be a string, the text, got %s", cs_userdata_type(L, -1));
-  desc->text = lua_tolstring(L, -1, &desc->text_size); /* of a number: a string of its own */
+  desc->text = lua_tolstring(L, -1, &desc->text_size); /* for a number, this makes a new string */
 }
 
 /* The font on top of the stack; values pushed by the search are left above it. */
@@ -135,8 +135,8 @@ static void read_variations(const cs_form *form, celspan_text_desc *desc) {
   desc->variations = variations;
 }
 
-/* Borrows from values that are left on the stack. has_letters: the values made now are letters of
- * the text. */
+/* Borrows from values that are left on the stack. has_letters: the values that are made are letters
+ * of the text. */
 static text_form read_text(const cs_form *form, bool has_letters) {
   text_form read = {.desc = CELSPAN_TEXT_DESC, .face = 1};
   read_string(form, &read.desc);
@@ -242,7 +242,7 @@ const cs_noun cs_noun_glyph = {.name = "glyph",
                                .create = create_glyph,
                                STRING};
 
-/* Pushes a letter's object. Its fields are the fields at index `fields`, and its place. */
+/* Pushes the object of a letter. Its fields are the fields at index `fields`, and its place. */
 static void push_object(lua_State *L, int fields, const celspan_glyph *glyph, lua_Integer index) {
   cs_userdata *value = cs_userdata_push(L, &cs_noun_glyph);
   value->handle = celspan_object_ref(glyph->object);

@@ -47,8 +47,8 @@ typedef struct gradient {
   celspan_spread spread;
 } gradient;
 
-/* Gives the gradient its matrix and its spread. The value owns the texture before that, so that it
- * is released if one of them is refused. */
+/* Gives the gradient its matrix and its spread. The value owns the texture already, so that the
+ * texture is released if one of these is refused. */
 static void set_extent(const cs_form *form, const gradient *given, celspan_texture *texture,
                        cs_userdata *value) {
   celspan_context *context = cs_host_context(form->L);
@@ -113,7 +113,7 @@ static const cs_field radial_fields[] = {
 
 const char *const cs_texture_pixels_fields[] = {"size", "format", "alpha", NULL};
 
-/* The name of the file, or of one of a sequence of files, which is pushed. */
+/* The name of the file, or of one of a sequence of files; pushes it. */
 static const char *name_of_file(const cs_form *form, const cs_texture_picture *read) {
   char name[PATH_MAX];
   if (!read->has_frame)
@@ -195,7 +195,7 @@ static void create_pattern(const cs_form *form, cs_userdata *value) {
   const cs_userdata *art = cs_userdata_test(L, -1, &cs_kind_object);
   if (!art)
     cs_form_fail(form, "field 'art' must be an object, got %s", cs_userdata_type(L, -1));
-  desc.art = art->handle; /* kept alive by the table */
+  desc.art = art->handle; /* the table keeps it alive */
   celspan_texture *texture = NULL;
   cs_form_try(form, celspan_texture_create_pattern(cs_host_context(L), &desc, &texture));
   value->handle = texture;

@@ -6,9 +6,9 @@
 /* The fields, while they are read. */
 typedef struct cs_texture_picture {
   celspan_picture_desc picture;
-  celspan_image_desc image; /* not of celspan.picture */
-  const char *file;         /* NULL: there are pixels */
-  int frame;                /* of a file such as roto.####.png */
+  celspan_image_desc image; /* not used by celspan.picture */
+  const char *file;         /* NULL: there are pixels instead */
+  int frame;                /* the number of the frame, for a file such as roto.####.png */
   bool has_frame;
   cs_pixel_string pixels;
 } cs_texture_picture;
@@ -21,6 +21,6 @@ extern const cs_field cs_texture_picture_fields[];
 extern const char *const cs_texture_pixels_fields[];
 
 /* Reads all fields of the noun for the value at index `holder`; strings are borrowed from the table
- * or from the stack, where the name of the file, as it was found, is left. A surface is kept alive
- * by the value. */
+ * or from the stack; the path at which the file was found is left on the stack. A surface is kept
+ * alive by the value. */
 void cs_texture_read_picture(const cs_form *form, int holder, cs_texture_picture *out);

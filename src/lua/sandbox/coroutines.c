@@ -6,7 +6,7 @@
 #include "lua/sandbox/guard.h"
 #include "lua/sandbox/library.h"
 
-#define STEPS_A_COROUTINE 1000 /* which it may take before its own hook is called */
+#define STEPS_A_COROUTINE 1000 /* steps that a coroutine may take before its own hook is called */
 
 /* Resumes with the `count` values on top of L. Returns the number of results, which are on top of
  * L; -1: it failed, and the message is on top. */

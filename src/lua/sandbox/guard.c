@@ -15,14 +15,14 @@
 enum {
   STRIDE = 1000,       /* instructions between two calls of the hook */
   CLOCK_STEPS = 20000, /* steps that C functions charge between two readings of the clock */
-  PIECE = 65536,       /* bytes of Lua that are counted for the whole run together */
-  WAITING = 10,        /* limits of time that may pass by the clock */
+  PIECE = 65536,       /* bytes of Lua that are not yet counted in the memory of the whole run */
+  WAITING = 10,        /* how many times the limit of time may pass by the clock */
   POLL = 100000000     /* nanoseconds between two checks of the watchdog */
 };
 #define SECOND INT64_C(1000000000)
-#define GRACE (SECOND) /* after the limit of time, before the process is ended */
+#define GRACE (SECOND) /* the time between the limit and the end of the process */
 
-/* 0: the thread of the clock has ended. */
+/* Returns 0 if the thread of the clock has ended. */
 static int64_t read_clock(clockid_t clock) {
   struct timespec t;
   return clock_gettime(clock, &t) == 0 ? (int64_t)t.tv_sec * SECOND + t.tv_nsec : 0;
@@ -51,7 +51,7 @@ static void note_refusal(cs_guard *guard) {
   }
 }
 
-/* Of the script: Lua's bytes and the scene's. */
+/* Bytes held for the script: Lua's and the scene's. */
 static size_t held(const cs_guard *guard) {
   return guard->bytes + cs_account_scene_bytes(guard->context->memory);
 }
@@ -63,8 +63,8 @@ static bool is_too_much(const cs_guard *guard, size_t more) {
 
 typedef enum verdict { ALLOWED, ENDS_SCRIPT, IS_REFUSED } verdict;
 
-/* Where there is no room for all that the run holds, it is the script's doing if at least half of
- * it is the script's. is_piece: of that only so little is new that nobody is asked yet. */
+/* If the whole run has no room left, the script is the cause if it holds at least half of the
+ * memory. is_piece: the request is so small that the limit of the run is not checked yet. */
 static verdict judge(cs_guard *guard, size_t more, bool is_piece) {
   cs_memory *memory = guard->context->memory;
   if (guard->depth > 0 && is_too_much(guard, more)) {
@@ -78,7 +78,8 @@ static verdict judge(cs_guard *guard, size_t more, bool is_piece) {
   return is_its ? ENDS_SCRIPT : IS_REFUSED;
 }
 
-/* When the state ends the count is exact, so that states after it do not begin with its rest. */
+/* When the state ends, the count must be exact, so that later states do not begin with a
+ * remainder. */
 static void count_bytes(cs_guard *guard, size_t change) {
   guard->bytes += change;
   bool is_near = guard->bytes <= guard->told + PIECE && guard->told <= guard->bytes + PIECE;
@@ -91,7 +92,7 @@ static void count_bytes(cs_guard *guard, size_t change) {
 /* lua_Alloc; user: the guard. */
 static void *allocate(void *user, void *storage, size_t old_size, size_t new_size) {
   cs_guard *guard = user;
-  size_t before = storage ? old_size : 0; /* without a block it is the kind of object */
+  size_t before = storage ? old_size : 0; /* without a block, old_size is the kind of object */
   verdict found = ALLOWED;
   if (new_size > before && guard->context)
     found =
@@ -105,7 +106,7 @@ static void *allocate(void *user, void *storage, size_t old_size, size_t new_siz
   void *resized = guard->below(guard->below_user, storage, old_size, new_size);
   if (resized || !new_size)
     count_bytes(guard, new_size - before);
-  if (guard->bytes == 0) /* so the state is closed */
+  if (guard->bytes == 0) /* the state has been closed */
     guard->ended(guard);
   return resized;
 }
@@ -206,7 +207,7 @@ static void trip_memory(cs_guard *guard) {
              cs_guard_hint(guard, " (--limit memory=SIZE allows more)"));
 }
 
-/* Compares with the limits and raises an error when one is exceeded. */
+/* Compares the counts with the limits, and raises an error if one is exceeded. */
 static void check(lua_State *L, cs_guard *guard) {
   guard->checked = guard->steps;
   lateness late = IN_TIME;
@@ -227,7 +228,7 @@ static void count_hook(lua_State *L, lua_Debug *where) {
     return;
   if (guard->tripped[0])
     raise_limit(L, guard);
-  if (lua_gethookcount(L) == 1) /* a coroutine that an earlier limit interrupted */
+  if (lua_gethookcount(L) == 1) /* the hook of a coroutine that an earlier limit interrupted */
     set_hook(guard, L);
   guard->steps += STRIDE;
   check(L, guard);
@@ -313,8 +314,8 @@ static void *watch(void *user) {
   return NULL;
 }
 
-/* Without this thread only the hook ends scripts. It blocks signals, which are for the main
- * thread. */
+/* Without this thread, only the hook can end scripts. The thread blocks signals, which are for the
+ * main thread. */
 static void start_watchdog(cs_guard *guard) {
   sigset_t all, before;
   pthread_condattr_t attributes;
@@ -404,7 +405,7 @@ void cs_guard_pass(lua_State *L, int outcome) {
   cs_guard *guard = cs_guard_of(L);
   const char *sentence = guard ? cs_guard_limit(guard, outcome, lua_tostring(L, -1)) : NULL;
   if (!sentence && guard && cs_lua_error_is_memory(L, outcome))
-    lua_error(L); /* of the system: the results of a script must not depend on it */
+    lua_error(L); /* a failure of the system: the results of a script must not depend on it */
   if (!sentence)
     return;
   set_hook(guard, L);
@@ -415,7 +416,7 @@ void cs_guard_pass(lua_State *L, int outcome) {
   lua_error(L);
 }
 
-/* true ... | false, message. `before`: values of the stack below the results. */
+/* true ... | false, message. before: the number of values on the stack below the results. */
 static int finish(lua_State *L, int outcome, lua_KContext before) {
   if (outcome == LUA_OK || outcome == LUA_YIELD)
     return lua_gettop(L) - (int)before;

@@ -33,29 +33,32 @@ typedef struct cs_guard {
   celspan_lua_limits limits; /* without folders */
   celspan_context *context;  /* borrowed; its memory counts too; NULL before cs_guard_attach */
   lua_State *L;              /* the main thread; NULL before cs_guard_attach */
-  lua_Alloc below;           /* the allocator of the state before, and its first argument */
+  lua_Alloc below;           /* the previous allocator of the state, and its first argument */
   void *below_user;
-  void (*ended)(struct cs_guard *guard); /* called when the last block of the state was freed */
-  bool has_options;                      /* sentences name options of the program */
-  size_t bytes, told;      /* of Lua; `told`: known to the memory of the context, within PIECE */
-  int depth;               /* of calls into the script */
+  void (*ended)(struct cs_guard *guard); /* called after the last block of the state was freed */
+  bool has_options;                      /* messages name options of the program */
+  /* bytes of Lua; told: the bytes that the memory of the context knows, exact up to PIECE */
+  size_t bytes, told;
+  int depth;               /* the number of nested calls into the script */
   cs_account_kind account; /* of the thread before the outermost call */
   bool is_verb;            /* the outermost call is of a verb */
-  bool is_refused;         /* memory, to Lua, in this call */
-  bool is_scene_refused;   /* the same, to the scene */
-  int refused_line;        /* where, if it is known; 0 */
+  bool is_refused;         /* Lua was refused memory in this call */
+  bool is_scene_refused;   /* the scene was refused memory in this call */
+  int refused_line;        /* the line at which that happened; 0: not known */
   char refused_in[LUA_IDSIZE];
-  char reason[256];        /* why it was refused last, where that limit was not; "" */
-  uint64_t steps, checked; /* in this frame; at the last reading of the clock */
+  char reason[256];        /* why the other limit refused memory last; "": it did not */
+  /* steps in this frame; the number of steps when the clock was last read */
+  uint64_t steps, checked;
   size_t printed;
   char tripped[CS_ERROR_SIZE]; /* the sentence of the exceeded limit; "": none */
-  /* The beginning of the call, in nanoseconds of the monotonic clock, 0: nothing is measured; and
-   * of the processor clock of its thread. Written by that thread, read by the watchdog, too. */
+  /* The beginning of the call in nanoseconds: by the monotonic clock (0: time is not measured), and
+   * by the processor clock of the call's thread. Written by this thread, and also read by the
+   * watchdog. */
   _Atomic(int64_t) begun, begun_processor;
   _Atomic(clockid_t) processor_clock;
   bool has_watchdog, is_finished;
   pthread_t watchdog;
-  pthread_mutex_t lock; /* of is_finished */
+  pthread_mutex_t lock; /* protects is_finished */
   pthread_cond_t finished;
 } cs_guard;
 
@@ -66,9 +69,9 @@ void cs_guard_finish(cs_guard *guard);
 /* Attaches the main thread of a state, and all coroutines that are created later. From now on the
  * guard is the allocator of the state, in front of the state's previous allocator. */
 void cs_guard_attach(cs_guard *guard, lua_State *L, celspan_context *context);
-/* The context ends before the state does. */
+/* Called if the context ends before the state. */
 void cs_guard_detach(cs_guard *guard);
-/* Words about an option, where the program runs the script; else "". */
+/* Words about an option, if the program runs the script; otherwise "". */
 const char *cs_guard_hint(const cs_guard *guard, const char *words);
 
 /* The account of this thread: cs_memory.account of a program. */
@@ -77,22 +80,23 @@ cs_account *cs_guard_account(void);
 /* The guard of a state, or NULL. */
 cs_guard *cs_guard_of(lua_State *L);
 
-/* Whether the call has limits of its own, because it is not inside a call that has. */
+/* Begins a call. Returns whether the call has its own limits, because it is not inside another call
+ * that has limits. */
 bool cs_guard_begin(cs_guard *guard, lua_State *L, cs_host_call call);
 void cs_guard_end(cs_guard *guard);
 
 /* Counts work of C functions as steps. Raises an error when a limit is exceeded. */
 void cs_guard_charge(lua_State *L, uint64_t steps);
-/* Counts printed bytes, and hands them to the host. Raises an error when a limit is exceeded. */
+/* Counts printed bytes, and passes them to the host. Raises an error when a limit is exceeded. */
 void cs_guard_print(lua_State *L, const char *text, size_t size);
 
-/* There was no memory, as the message says. In a call into the script, raises this message, or the
- * message about the limit of memory where the limit was the reason. Like an exceeded limit, it ends
- * the outermost call. */
+/* Called when there was no memory, as the message says. In a call into the script, raises this
+ * message, or the message about the limit of memory if this limit was the reason. Like an exceeded
+ * limit, it ends the outermost call. */
 void cs_guard_starve(lua_State *L, const char *sentence);
 
-/* The sentence of the limit that ended a call with this result of lua_pcall and this message (NULL:
- * not a string); NULL: no limit did. */
+/* The sentence of the limit that ended a call; NULL: no limit ended it. The result of lua_pcall and
+ * the message (NULL: not a string) are those of the call. */
 const char *cs_guard_limit(cs_guard *guard, int outcome, const char *message);
 /* After a failed call, with its message on top: raises the exceeded limit again, if there is
  * one. */

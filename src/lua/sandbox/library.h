@@ -18,11 +18,12 @@
 
 /* Copies fields of the table at `from` into the table on top; names: ended by NULL. */
 void cs_library_copy_fields(lua_State *L, int from, const char *const *names);
-/* Pushes a table with the functions `same` of Lua's library `name`, and with `own`. */
+/* Pushes a table with two groups of functions: those of Lua's library `name` that are listed in
+ * `same`, and those in `own`. */
 void cs_library_push_part(lua_State *L, const char *name, const char *const *same,
                           const luaL_Reg *own);
 
-/* Each pushes a table of functions. */
+/* This function and the next ones push a table of functions each. */
 void cs_library_push_string(lua_State *L);
 void cs_library_push_table(lua_State *L);
 void cs_library_push_coroutine(lua_State *L);
@@ -38,7 +39,7 @@ void cs_library_add_running(lua_State *L);
  * after the script's folder, or NULL. */
 void cs_library_push_require(lua_State *L, int globals, const char *search);
 
-/* Pushes the text of the value at index, without addresses. May call the script's __tostring. */
+/* Pushes the value at index as a text without addresses. May call the script's __tostring. */
 const char *cs_library_push_text(lua_State *L, int index);
 /* Restarts math.random with a seed. */
 void cs_library_seed(lua_State *L, uint64_t seed);

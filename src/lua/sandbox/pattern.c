@@ -29,7 +29,7 @@ void cs_pattern_end(cs_match *m) {
 static const char *end_of_set(const cs_match *m, const char *at) {
   if (at < m->pattern_end && *at == '^')
     at++;
-  do { /* a ']' in first place is a member */
+  do { /* a ']' directly after the '[' is a member of the set */
     if (at >= m->pattern_end)
       luaL_error(m->L, "malformed pattern (missing ']')");
     if (*at++ == '%')
@@ -139,7 +139,7 @@ static const char *match_again(cs_match *m, const char *s, int digit) {
     luaL_error(m->L, "invalid capture index %%%d", i + 1);
   ptrdiff_t length = m->captures[i].length;
   if (length == CS_CAPTURE_PLACE)
-    return NULL; /* a position has no text */
+    return NULL; /* the capture is a position, which has no text */
   step(m, (size_t)length / 8 + 1);
   bool is = m->subject_end - s >= length && memcmp(m->captures[i].begin, s, (size_t)length) == 0;
   return is ? s + length : NULL;
@@ -171,7 +171,7 @@ static bool is_frontier(cs_match *m, const char *s, const char *p, const char *e
   return !is_in_set(m, before, p + 1, end - 1) && is_in_set(m, after, p + 1, end - 1);
 }
 
-/* Matches as many characters as possible, then fewer. rest: of the pattern. */
+/* Matches as many characters as possible, then fewer. rest: the rest of the pattern. */
 static const char *match_most(cs_match *m, const char *s, const char *p, const char *end,
                               const char *rest) {
   ptrdiff_t count = 0;
@@ -199,8 +199,8 @@ static const char *match_least(cs_match *m, const char *s, const char *p, const 
 
 typedef enum outcome { FAILED, CONTINUES, FOUND } outcome;
 
-/* Matches an item that begins with '%' and is not a class. CONTINUES with *s and *p moved, or
- * FAILED. NULL pattern: it is a class. */
+/* Matches an item that begins with '%' and is not a class. Returns CONTINUES, with *s and *p moved,
+ * or FAILED. *p is NULL if the item is a class. */
 static bool match_escape(cs_match *m, const char **s, const char **p, outcome *out) {
   const char *at = *p + 1;
   if (at >= m->pattern_end)

@@ -18,7 +18,7 @@ enum { CS_CAPTURES_MOST = 32 };
 
 typedef struct cs_capture {
   const char *begin;
-  ptrdiff_t length; /* or one of the two constants below */
+  ptrdiff_t length; /* the length, or one of the two constants below */
 } cs_capture;
 
 enum { CS_CAPTURE_OPEN = -1, CS_CAPTURE_PLACE = -2 };
@@ -27,7 +27,7 @@ typedef struct cs_match {
   lua_State *L;
   const char *subject, *subject_end;
   const char *pattern_end;
-  size_t steps; /* not charged yet */
+  size_t steps; /* steps that are not charged yet */
   int depth;
   int count; /* of captures */
   cs_capture captures[CS_CAPTURES_MOST];
@@ -38,7 +38,7 @@ typedef struct cs_match {
 const char *cs_pattern_match(cs_match *match, const char *at, const char *pattern);
 /* Charges the remaining steps. */
 void cs_pattern_end(cs_match *match);
-/* Pushes capture i from 0; the whole match for 0 when there are no captures. */
+/* Pushes capture i, counted from 0. If there are no captures, capture 0 is the whole match. */
 void cs_pattern_push(cs_match *match, int i, const char *begin, const char *end);
 /* Pushes all captures, or the whole match if there are none, and returns their number. begin NULL:
  * never the whole match. */

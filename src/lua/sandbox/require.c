@@ -26,7 +26,8 @@ static bool is_regular(const char *path, off_t *size) {
   return true;
 }
 
-/* Pushes the path of the module, or the paths that were tried. Returns whether it was found. */
+/* Pushes the path of the module, or all paths that were tried. Returns whether the module was
+ * found. */
 static bool push_file(lua_State *L, const char *name, const char *templates, off_t *size) {
   const char *words = luaL_gsub(L, name, ".", "/");
   lua_pushliteral(L, "");
@@ -77,7 +78,7 @@ static int require(lua_State *L) {
   if (lua_getfield(L, lua_upvalueindex(2), name) != LUA_TNIL)
     return 1;
   if (is_celspan(name)) {
-    if (strcmp(name, "celspan.spec") == 0) /* for specs, which have the whole of Lua */
+    if (strcmp(name, "celspan.spec") == 0) /* this module is for specs, which have all of Lua */
       return luaL_error(L, "module '%s' is not in the sandbox%s", name,
                         cs_guard_hint(cs_guard_of(L), " (--trust gives all of Lua)"));
     cs_require_public(L, name);

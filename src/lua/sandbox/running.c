@@ -7,7 +7,7 @@
 
 #define BYTES_A_STEP 16
 
-/* Pushes the concatenated pieces that the function at 1 returns until nil or "". */
+/* Calls the function at 1 until it returns nil or "", and pushes the joined pieces. */
 static int join_pieces(lua_State *L) {
   luaL_Buffer all;
   luaL_buffinit(L, &all);
@@ -71,7 +71,7 @@ static int load(lua_State *L) {
   return 1;
 }
 
-/* print hands a line to the host. */
+/* print passes a line to the host. */
 static int print(lua_State *L) {
   size_t size;
   int count = lua_gettop(L);

@@ -43,7 +43,7 @@ bool cs_sandbox_add_roots(const celspan_lua_limits *limits, cs_roots *roots) {
   return is_good;
 }
 
-/* Pushes where require looks after the script's folder. */
+/* Pushes the places in which require searches after the script's folder. */
 static const char *push_search(lua_State *L, const celspan_lua_limits *limits) {
   lua_pushliteral(L, "");
   for (size_t i = 0; i < limits->folder_count; i++) {
@@ -137,7 +137,7 @@ static void attach(cs_sandbox *sandbox, lua_State *L, bool is_trusted) {
 
 /* ---------------------------------------------------------------- celspan's own modules */
 
-/* io.open for celspan's modules; upvalue 1: Lua's. */
+/* io.open for celspan's modules. upvalue 1: Lua's io.open. */
 static int open_file(lua_State *L) {
   const char *path = luaL_checkstring(L, 1), *mode = luaL_optstring(L, 2, "r");
   if (mode[0] != 'r' || strchr(mode, '+')) {
@@ -153,7 +153,7 @@ static int open_file(lua_State *L) {
   return lua_gettop(L);
 }
 
-/* os.remove and os.rename for celspan's modules; upvalue 1: Lua's. */
+/* os.remove and os.rename for celspan's modules. upvalue 1: Lua's function. */
 static int change_file(lua_State *L) {
   int count = lua_gettop(L);
   for (int i = 1; i <= count; i++)
@@ -165,7 +165,7 @@ static int change_file(lua_State *L) {
   return lua_gettop(L);
 }
 
-/* In the table on top, a library has only the named functions, each wrapped in `function`. */
+/* Limits a library in the table on top to the named functions, each wrapped in `function`. */
 static void wrap_library(lua_State *L, const char *name, lua_CFunction opener,
                          const char *const *names, lua_CFunction function) {
   luaL_requiref(L, name, opener, 0);
@@ -188,7 +188,7 @@ static void seal_texts(lua_State *L) {
   lua_pushliteral(L, "string");
   lua_setfield(L, -3, "__metatable");
   lua_insert(L, -3);
-  lua_pop(L, 2); /* the table of functions stays */
+  lua_pop(L, 2); /* the table of functions remains */
 }
 
 static void open_libraries(lua_State *L) {
@@ -202,7 +202,8 @@ static void open_libraries(lua_State *L) {
   }
 }
 
-/* The globals of celspan's own chunks: files through the rules, and nothing that evades them. */
+/* Restricts the globals of celspan's own chunks: files only by the rules, and no function that
+ * could evade them. */
 static void close_own(lua_State *L) {
   static const char *const of_io[] = {"open", NULL}, *const of_os[] = {"remove", "rename", NULL};
   static const char *const gone[] = {"load", "loadfile", "dofile",  "collectgarbage",
@@ -224,7 +225,7 @@ static void close_own(lua_State *L) {
 
 /* ---------------------------------------------------------------- the script's globals */
 
-/* Names that Lua has and the sandbox does not: reading one raises an error that says so. */
+/* For names of Lua that the sandbox does not have: reading one raises an error that says so. */
 static int tell_absent(lua_State *L) {
   static const char *const absent[] = {"io",     "os",       "debug",          "package",
                                        "dofile", "loadfile", "collectgarbage", "warn"};
@@ -302,7 +303,7 @@ static void finish(cs_sandbox *sandbox) {
 
 static void state_ended(cs_guard *guard) { finish((cs_sandbox *)(void *)guard); }
 
-/* The sandbox, which the state does not have yet. Raises. */
+/* Makes the sandbox, which the state does not own yet. Raises. */
 static cs_sandbox *create(lua_State *L, const celspan_lua_limits *limits) {
   celspan_context *context = cs_host_context(L);
   cs_sandbox *sandbox = cs_mem_array(context->memory, 1, sizeof *sandbox);

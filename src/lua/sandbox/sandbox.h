@@ -20,10 +20,10 @@ typedef struct cs_sandbox {
 } cs_sandbox;
 
 /* Adds the folders that scripts may read under these limits: the folders of the limits, and the
- * folders of templates such as "/lib/?.lua". false: there are too many, or, with ENOMEM in errno,
- * no memory. */
+ * folders of templates such as "/lib/?.lua". false: there are too many folders, or, with ENOMEM in
+ * errno, there is no memory. */
 bool cs_sandbox_add_roots(const celspan_lua_limits *limits, cs_roots *roots);
 
-/* Confines the state, in which celspan is open. is_trusted: by limits only. The state owns the
+/* Confines the state, in which celspan is open. is_trusted: only limits apply. The state owns the
  * result. Raises errors. */
 cs_sandbox *cs_sandbox_open(lua_State *L, const celspan_lua_limits *limits, bool is_trusted);

@@ -12,7 +12,7 @@
 
 /* ---------------------------------------------------------------- finding */
 
-/* The position in an argument, from 0; beyond the end: length + 1. */
+/* The position given by an argument, counted from 0; length + 1 if it is beyond the end. */
 static size_t place_of(lua_State *L, int argument, size_t length) {
   lua_Integer place = luaL_optinteger(L, argument, 1);
   if (place < 0)
@@ -96,7 +96,7 @@ static int find(lua_State *L) { return find_or_match(L, true); }
 
 static int match(lua_State *L) { return find_or_match(L, false); }
 
-/* upvalues: subject, pattern, the next start, the end of the last match (-1: none yet) */
+/* upvalues: subject, pattern, next start, end of the last match (-1: none yet) */
 static int next_match(lua_State *L) {
   size_t length, size;
   const char *subject = lua_tolstring(L, lua_upvalueindex(1), &length), *end;
@@ -132,7 +132,7 @@ static int gmatch(lua_State *L) {
 
 /* ---------------------------------------------------------------- replacing */
 
-/* Adds the text of argument 3, in which %1 to %9 are captures and %0 is the whole match. */
+/* Adds the text of argument 3, in which %1 to %9 mean captures and %0 means the whole match. */
 static void add_text(cs_match *m, luaL_Buffer *out, const char *begin, const char *end) {
   size_t size;
   const char *text = lua_tolstring(m->L, 3, &size), *last = text + size;
@@ -154,7 +154,7 @@ static void add_text(cs_match *m, luaL_Buffer *out, const char *begin, const cha
   }
 }
 
-/* Adds the replacement by argument 3 for this match. Returns whether it changes the text. */
+/* Adds the replacement that argument 3 gives for this match. Returns whether the text changes. */
 static bool add_value(cs_match *m, luaL_Buffer *out, const char *begin, const char *end) {
   lua_State *L = m->L;
   int type = lua_type(L, 3);

@@ -7,7 +7,7 @@
 #include "lua/sandbox/library.h"
 
 #define ITEMS_MOST 10000000
-#define EXACT 16 /* insert and remove look through as many items, so that they stay fast */
+#define EXACT 16 /* insert and remove examine this many items, so that they remain fast */
 
 static lua_Integer check_count(lua_State *L, const char *name, lua_Integer first,
                                lua_Integer last) {
@@ -20,7 +20,7 @@ static lua_Integer check_count(lua_State *L, const char *name, lua_Integer first
   return (lua_Integer)count + 1;
 }
 
-/* The length of the table at index, as cs_list_border finds it. Lengths by a metamethod are
+/* The length of the table at index, found by cs_list_border. Lengths by a metamethod are
  * refused. */
 static lua_Integer check_length(lua_State *L, int index, const char *name, lua_Integer exact) {
   luaL_checktype(L, index, LUA_TTABLE);
@@ -41,7 +41,7 @@ static int call(lua_State *L) {
   return lua_gettop(L);
 }
 
-/* As Lua's insert, which would use another length. */
+/* As Lua's insert, which would use a different length. */
 static int insert(lua_State *L) {
   lua_Integer end = check_length(L, 1, "insert", EXACT) + 1, at = end;
   int count = lua_gettop(L);
@@ -97,7 +97,7 @@ static int concat(lua_State *L) {
   return call_to(L, 4, last);
 }
 
-/* Also for celspan's values, which define their length. */
+/* Works also for celspan's values, which define their length. */
 static int unpack(lua_State *L) {
   lua_Integer length =
       lua_type(L, 1) == LUA_TUSERDATA ? luaL_len(L, 1) : check_length(L, 1, "unpack", ITEMS_MOST);

@@ -11,7 +11,7 @@
 #include "lua/sandbox/library.h"
 
 static const char own_key = 0,
-                  hidden_key = 0; /* their addresses are keys that scripts cannot create */
+                  hidden_key = 0; /* the addresses of these are keys that scripts cannot create */
 
 static const char *const COPIED[] = {
     "__index", "__newindex", "__call",   "__tostring", "__name", "__len", "__eq",
@@ -56,8 +56,8 @@ static void push_hidden(lua_State *L, int own) {
   }
 }
 
-/* Pushes the metatable that the script set for the value at index. false, and nothing pushed: it
- * set none. */
+/* Pushes the metatable that the script set for the value at index. Returns false and pushes nothing
+ * if there is none. */
 static bool push_own(lua_State *L, int index) {
   if (!lua_getmetatable(L, index))
     return false;
@@ -172,12 +172,13 @@ static bool is_before(lua_State *L, int a, int b, const char *name) {
   return order ? order < 0 : size < other_size;
 }
 
-/* The field with the hidden copy of a metatable is invisible to scripts. */
+/* Whether the field is the hidden copy of a metatable, which scripts cannot see. */
 static bool is_hidden(lua_State *L, int index) {
   return lua_type(L, index) == LUA_TLIGHTUSERDATA && lua_touserdata(L, index) == &hidden_key;
 }
 
-/* next(t, key): the least key after it. It compares every key, so pairs is faster in loops. */
+/* next(t, key): the least key that is greater. It compares every key, so pairs is faster in
+ * loops. */
 static int next_field(lua_State *L) {
   uint64_t steps = 0;
   luaL_checktype(L, 1, LUA_TTABLE);
@@ -213,7 +214,7 @@ static int next_pair(lua_State *L) {
     lua_pushvalue(L, 2);
     if (lua_rawget(L, 1) != LUA_TNIL)
       break;
-    lua_settop(L, 1); /* it was removed in between */
+    lua_settop(L, 1); /* the key was removed in the meantime */
   }
   lua_pushinteger(L, i);
   lua_replace(L, lua_upvalueindex(2));
@@ -236,7 +237,8 @@ static int compare_numbers(const key *a, const key *b) {
     return (a->whole > b->whole) - (a->whole < b->whole);
   if (a->number != b->number)
     return a->number < b->number ? -1 : 1;
-  return (int)b->is_whole - (int)a->is_whole; /* 2^63, and integers that round to it */
+  /* for 2^63, and for integers that are rounded to it */
+  return (int)b->is_whole - (int)a->is_whole;
 }
 
 static int compare_keys(const void *x, const void *y) {
