@@ -6,8 +6,8 @@
 #include "program/soundtrack.h"
 
 enum {
-  MOST_SIDE = 16384, /* of H.264, VP9 and WebP alike */
-  QUALITY = 75       /* where none is given */
+  MOST_SIDE = 16384, /* the limit of H.264, VP9 and WebP */
+  QUALITY = 75       /* the default */
 };
 
 static const cs_video_format *format_of(const cs_request *request) {
@@ -75,7 +75,8 @@ cs_exit cs_video_target_refuse(const cs_request *request, size_t frame_count) {
   return format->is_picture && frame_count == 0 ? CS_EXIT_OK : refuse_options(request, format);
 }
 
-/* 4:2:0 gives one colour to 2 x 2 pixels, and H.264 has no half ones at the edge. */
+/* 4:2:0 gives one colour to 2 x 2 pixels, and H.264 does not support half of such a square at the
+ * edge. */
 static cs_exit refuse_size(const cs_video_desc *video) {
   const char *output = video->path;
   int32_t width = video->frames.width, height = video->frames.height;
@@ -101,7 +102,7 @@ static cs_exit refuse_rate(const cs_video_desc *video) {
 
 /* ---------------------------------------------------------------- sound */
 
-/* The film's sound, as it goes with these frames. */
+/* The sound of the film for these frames. */
 static cs_exit set_sound(cs_video_desc *video, cs_script *script, const cs_request *request,
                          const cs_sequence *frames) {
   int64_t moments;

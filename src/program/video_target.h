@@ -1,4 +1,4 @@
-/* A film as a video: what the command line says of it, and what is refused.
+/* A film as a video: the options of the command line, and what is refused.
  *
  * Everything that can be refused is refused before the first frame: options and sizes that the
  * format does not have, a missing ffmpeg, a missing sound.

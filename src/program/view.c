@@ -3,7 +3,7 @@
 #include "frames/process/interrupt.h"
 #include "output/sinks/strip.h"
 
-/* Film units to pixels, rounded, at least 1; -1 when that is more than a frame can have. */
+/* Film units to pixels, rounded, at least 1; -1 if the result is greater than a frame may be. */
 static int32_t pixels(double units, double scale) {
   double side = units * scale + 0.5;
   if (!(side < CS_SIDE_MAX + 1.0))
@@ -11,7 +11,7 @@ static int32_t pixels(double units, double scale) {
   return side < 1 ? 1 : (int32_t)side;
 }
 
-/* Half of a side, as an even number, which videos need. */
+/* Half of a side, rounded to an even number, because videos need this. */
 static int32_t draft_side(int32_t side) {
   int32_t half = side / 2 + side % 2;
   return half + half % 2;
@@ -48,7 +48,7 @@ static cs_exit set_crop(const int32_t crop[4], celspan_frame_desc *out) {
   return CS_EXIT_OK;
 }
 
-/* Strips are as even as their grid of CS_STRIP_ROWS rows allows. */
+/* Strips have heights as equal as their grid of CS_STRIP_ROWS rows allows. */
 static cs_exit set_strip(const int32_t strip[2], celspan_frame_desc *out) {
   int64_t bands = (out->height + CS_STRIP_ROWS - 1) / CS_STRIP_ROWS;
   if (strip[1] > bands)

@@ -7,7 +7,7 @@
 #include "lua/bind/userdata.h"
 #include "program/service.h"
 
-/* A file that was written or moved there, is gone, or has come; and the folder itself. */
+/* A file was written, moved there, removed or created; and events of the folder itself. */
 #define EVENTS                                                                                     \
   (IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE | IN_DELETE_SELF | IN_ONLYDIR)
 
@@ -24,7 +24,7 @@ static int close_watcher(lua_State *L) {
 /* The queue of the watcher that is argument 1. */
 static int self(lua_State *L) { return *(int *)cs_service_opened(L); }
 
-/* watcher:add(folder) -> its number, the same for the same folder | nil, message */
+/* watcher:add(folder) -> its number, which is the same for the same folder | nil, message */
 static int add(lua_State *L) {
   int number = inotify_add_watch(self(L), luaL_checkstring(L, 2), EVENTS);
   if (number < 0)
@@ -33,8 +33,8 @@ static int add(lua_State *L) {
   return 1;
 }
 
-/* watcher:take() -> { number, name, number, name, ... }: what happened since the last call. A name
- * is "" where the folder itself is gone; a number is -1 where events were lost. */
+/* watcher:take() -> { number, name, number, name, ... }: all events since the last call. A name is
+ * "" if the folder itself is gone; a number is -1 if events were lost. */
 static int take(lua_State *L) {
   _Alignas(struct inotify_event) char buffer[BUFFER];
   ssize_t size = read(self(L), buffer, sizeof buffer);
@@ -56,7 +56,7 @@ static int descriptor(lua_State *L) {
   return 1;
 }
 
-/* watcher() -> a watcher; without one the verb ends. */
+/* watcher() -> a watcher; the verb ends if there is none. */
 static int open_watcher(lua_State *L) {
   static const luaL_Reg methods[] = {
       CS_SERVICE(add), CS_SERVICE(take), CS_SERVICE(descriptor), {NULL, NULL}};

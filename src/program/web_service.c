@@ -1,7 +1,6 @@
-/* program.web(): a web server for this machine alone, for verbs in Lua; and waiting for what
- * several sources have to say. The server is in a module of its own (plugins/web/module.h), which
- * is loaded here.
- */
+/* program.web(): a web server for this machine only, for verbs in Lua; and a function that waits
+ * for news from several sources. The server is in a separate module (plugins/web/module.h), which
+ * is loaded here. */
 #include <errno.h>
 #include <string.h>
 
@@ -63,7 +62,7 @@ static int take(lua_State *L) {
   return 1;
 }
 
-/* The list of names and values at index 4, whose texts stay alive there. */
+/* The list of names and values at index 4, whose texts remain valid there. */
 static size_t read_headers(lua_State *L, cs_web_header out[HEADERS_MOST]) {
   size_t count = lua_rawlen(L, 4) / 2;
   luaL_argcheck(L, count <= HEADERS_MOST, 4, "too many headers");
@@ -74,8 +73,7 @@ static size_t read_headers(lua_State *L, cs_web_header out[HEADERS_MOST]) {
   return count;
 }
 
-/* web:answer(id, status, { name, value, ... }, bytes): to a client that has gone nothing is sent.
- */
+/* web:answer(id, status, { name, value, ... }, bytes): nothing is sent if the client has gone. */
 static int answer(lua_State *L) {
   const server *s = self(L);
   cs_web_header headers[HEADERS_MOST];
@@ -129,7 +127,7 @@ static int refuse_port(lua_State *L, int port, int error) {
       L, cs_report_usage("--port %d: no server can be opened there: %s", port, strerror(error)));
 }
 
-/* web(port) -> the server, with its `port`; port 0: one that is free */
+/* web(port) -> the server, with its `port`; port 0: any free port */
 static int open_server(lua_State *L) {
   static const luaL_Reg methods[] = {CS_SERVICE(run),    CS_SERVICE(descriptor), CS_SERVICE(take),
                                      CS_SERVICE(answer), CS_SERVICE(counts),     {NULL, NULL}};
@@ -146,8 +144,8 @@ static int open_server(lua_State *L) {
   return 1;
 }
 
-/* poll(milliseconds, { descriptor, ... }): waits until one of them has something to read, the time
- * is over or a signal asks to stop. */
+/* poll(milliseconds, { descriptor, ... }): waits until one of them has data to read, the time is
+ * over, or a signal asks to stop. */
 static int poll_sources(lua_State *L) {
   struct pollfd sources[SOURCES_MOST];
   luaL_checktype(L, 2, LUA_TTABLE);

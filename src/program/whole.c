@@ -17,7 +17,7 @@ bool cs_whole_is_known(const cs_whole *whole) {
          (record->is_forced || cs_record_knows(record, whole->file.number));
 }
 
-/* The options that frames in files do not have. */
+/* The options that only files of whole films have. */
 static void hash_options(cs_hash *hash, const cs_request *request) {
   static const char *const options[] = {"--quality", "--background"};
   for (size_t i = 0; i < sizeof options / sizeof *options; i++)

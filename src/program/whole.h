@@ -12,7 +12,7 @@
 
 typedef struct cs_whole {
   cs_record record;
-  cs_shoot_frame file; /* stands for the file: its key, and its contents once it is made */
+  cs_shoot_frame file; /* represents the file: its key, and its contents after it is made */
 } cs_whole;
 
 /* Opens the record of the request's output. frame: the view. Errors: those of cs_record_open. */
@@ -26,9 +26,9 @@ bool cs_whole_is_known(const cs_whole *whole);
  * cs_soundtrack_read. */
 CELSPAN_CHECKED celspan_status cs_whole_begin(cs_whole *whole, cs_script *script,
                                               const cs_request *request, const cs_sequence *frames);
-/* Adds what a frame shows to the key; in order. */
+/* Adds the contents of a frame to the key; must be called in order. */
 void cs_whole_add(cs_whole *whole, const cs_shoot_frame *frame);
-/* Whether the file is what would be made now. */
+/* Whether the existing file is the same as the one that would be made now. */
 bool cs_whole_is_kept(cs_whole *whole);
 /* Adds the file to the record. */
 CELSPAN_CHECKED celspan_status cs_whole_finish(cs_whole *whole);

@@ -1,5 +1,5 @@
---- celspan info SCRIPT|FILE: a film, a picture, artwork, a span file or a plane in figures, one
---- "name value" a line. The content of the file decides which of them it is.
+--- celspan info SCRIPT|FILE: facts about a film, a picture, artwork, a span file or a plane, one
+--- "name value" a line. The content of the file decides which of these it is.
 local program, request = ...
 local json = require "celspan.json"
 
@@ -54,7 +54,7 @@ local function count_film(film)
   return total
 end
 
---- Of a film: what it says of itself.
+--- For a film: the facts that it gives.
 local function put_film(film)
   if film.title then facts:add("title", film.title) end
   facts:add("frames", film.frames)
@@ -69,7 +69,7 @@ local function put_film(film)
   end
 end
 
---- Of a film: what its frames contain.
+--- For a film: the contents of its frames.
 local function put_count(total)
   for i, name in ipairs { "cels", "primitives", "pictures" } do facts:add(name, total.most[i]) end
   facts:add(total.is_least and "different_at_least" or "different", total.different)
@@ -181,7 +181,7 @@ local function describe_painting(format)
   put_painting(found)
 end
 
---- The elements of a drawing with their numbers, one a line, and their sheet.
+--- The elements of a drawing with their numbers, one on each line, and their sheet.
 local function show_parts(output)
   local art = program.input(require "celspan.svg".read(path))
   program.refuse_target(output)
@@ -213,7 +213,8 @@ local function put_drawing()
   if request.parts_picture then show_parts(request.parts_picture) end
 end
 
---- A Photoshop document is a picture with subimages for `layer`, and a painting with more in it.
+--- A Photoshop document is a picture, whose subimages `layer` can name, and also a painting, which
+--- has more contents.
 local function put_psd()
   put_picture()
   local found, message = program.part "inform.lua".painting(path)

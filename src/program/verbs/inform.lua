@@ -10,7 +10,7 @@ local inform = {}
 
 -- ---------------------------------------------------------------- paintings
 
---- The size and the place of an object, which draws nothing or has bounds.
+--- The size and the place of an object that has bounds; nothing for an empty one.
 local function place_of(object, x0, y0)
   local x, y, w, h = object:bounds()
   return { w or 0, h or 0 }, { x or x0 or 0, y or y0 or 0 }

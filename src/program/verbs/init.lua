@@ -19,9 +19,9 @@ local texts = { -- by the names of the files
 }
 
 local folder = request[1]
-local name = folder:match "[^/]*$" -- it goes into Lua and Markdown as it is
+local name = folder:match "[^/]*$" -- it is written into Lua and Markdown without changes
 
---- Letters are those of every script, and spaces lie between others.
+--- Letters may be of every script, with spaces between words.
 local function is_name(text)
   return #text <= NAME_MOST and utf8.len(text) and text:find "^[%w_\x80-\xff-][%w_. \x80-\xff-]*$"
     and not text:find " $"
@@ -49,7 +49,7 @@ for path, text in pairs(texts) do
   program.save(folder .. "/" .. path, (program.text(text):gsub("@(%u+)@", marks)))
 end
 
---- What a program of the project writes to its output.
+--- The output that a program of the project prints.
 local function printed(file)
   local pieces = {}
   local function write(...)

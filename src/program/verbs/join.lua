@@ -1,4 +1,4 @@
---- celspan join STRIP ... -o OUT: strips of a frame to the frame.
+--- celspan join STRIP ... -o OUT: joins the strips of a frame.
 local program, request = ...
 local core = require "celspan.core"
 

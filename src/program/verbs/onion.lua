@@ -21,7 +21,7 @@ local core, film, before, after, width, height, name = ...
 local celspan = require "celspan"
 
 local RED, GREEN = { 1, 0.18, 0.12 }, { 0.1, 0.75, 0.2 }
-local COARSE = 64 -- pixels a side, to see whether a cel covers the frame
+local COARSE = 64 -- pixels a side, to find out whether a cel covers the frame
 
 local rostrum_metatable = getmetatable(celspan.rostrum {})
 
@@ -32,10 +32,10 @@ local function remade(rostrum, cels, camera)
   return celspan.rostrum(cels)
 end
 
---- Values of a list from one place to another, as a list.
+--- The values of a list between two indices, as a list.
 local function slice(list, from, to) return { table.unpack(list, from, to) } end
 
---- The rostrum with the cels of that name alone, if there is one.
+--- The rostrum with only the cels of the chosen name, if there is a name.
 local function chosen(rostrum)
   if not name then return rostrum end
   local cels = {}
@@ -57,7 +57,7 @@ local function exposures_of(number)
   return list
 end
 
---- The pixels of exposures at a size, as the film shows them.
+--- The pixels of exposures at a size, in the film's antialiasing.
 local function pixels_of(exposures, size)
   local alone = celspan.film { size = film.size, space = film.space,
     frame = function() return exposures end }
@@ -68,7 +68,8 @@ end
 
 -- ---------------------------------------------------------------- what frames have in common
 
---- Whether a frame has a cel that is like one; with `of`, a cel with such a value in it.
+--- Whether a frame has a cel for which is_like(cel, value) holds; with `of`, whether a cel contains
+--- such a value.
 local function holds(frame, value, is_like, of)
   for _, exposure in ipairs(frame) do
     for i = 1, #exposure[1] do
@@ -89,8 +90,8 @@ local function all_hold(frames, ...)
   return true
 end
 
---- How cels of the frame are compared with those of the others: where the rearmost one and others,
---- but not all, are only shifted, by their art; else by all that they are.
+--- How cels of the frame are compared with those of the others. If the rearmost cel and some
+--- others, but not all, are only shifted, their art is compared; otherwise the whole cels are.
 local function likeness(frame, others)
   local rostrum, shifted = frame[1][1], 0
   for i = 1, #rostrum do
@@ -120,8 +121,8 @@ local function ground_of(rostrum, others, is_like)
   return count
 end
 
---- The rostrum, whose foremost cel is two, if it covers the frame: of its rearmost objects, which
---- the other frames hold too, and of the rest.
+--- The rostrum with its foremost cel divided into two, if this cel covers the frame: one has its
+--- rearmost objects, which the other frames also have, and one has the rest.
 local function parted(rostrum, others)
   local cel, count = rostrum[#rostrum], 0
   if not cel or all_hold(others, cel, core.same) or not covers(rostrum, cel) then return rostrum end
@@ -141,8 +142,8 @@ local function parted_frame(frame, others)
   return list
 end
 
---- The frame as exposures of what lies in front of its ground, and how many cels of each are
---- ground.
+--- The part of the frame in front of its ground, as exposures, and how many cels of each exposure
+--- are ground.
 local function drawing_of(frame, others, is_like)
   local list, grounds = {}, {}
   for i, exposure in ipairs(frame) do
@@ -155,7 +156,7 @@ local function drawing_of(frame, others, is_like)
   return list, grounds
 end
 
---- The drawing of another frame, without what the frame holds; nil: nothing is left.
+--- The drawing of another frame, without everything that this frame has, too; nil: nothing is left.
 local function rest_of(other, frame, is_like)
   local list, has_any, camera = drawing_of(other, { frame }, is_like), false, frame[1][1].camera
   for i, exposure in ipairs(list) do
@@ -178,10 +179,12 @@ local function image_of(bytes)
                          w = film.size[1], h = film.size[2] }
 end
 
---- A cel with the name that is asked for, if there is one: all others are left out later.
+--- A cel with the name that was asked for, if there is one: cels with other names are removed
+--- later.
 local function called(cel) return name and cel:named(name) or cel end
 
---- A cel that shows the pixels of a rest, where they differ from those of the frame's drawing.
+--- A cel that shows the pixels of the rest of a frame, where they differ from the drawing of this
+--- frame.
 local function skin(rest, own, tint, opacity)
   local bytes = core.differing(pixels_of(rest, { width, height }), own)
   local filled = bytes:gsub("...(.)", "\255\255\255%1")
@@ -190,7 +193,7 @@ local function skin(rest, own, tint, opacity)
       celspan.cel { image_of(filled), front = tint, opacity = 0.5 } } })
 end
 
---- Skins, the farthest first; those after the frame lie over those before it.
+--- Skins, the farthest frame first; the frames after this one lie over those before it.
 local function skins_of(frame, drawing, others, is_like)
   local skins, own = {}, nil
   for _, other in ipairs(others) do
@@ -201,7 +204,7 @@ local function skins_of(frame, drawing, others, is_like)
   return skins
 end
 
---- A cel that was made for the frame, where the camera sees it like that.
+--- A cel that was made for the frame, as the camera sees it there.
 local function under(camera, cel)
   if not camera then return cel end
   local x, y = film.size[1] / 2, film.size[2] / 2
@@ -220,7 +223,7 @@ end
 
 -- ---------------------------------------------------------------- frames
 
---- The frames around one, as far as the film goes, in the order of their skins.
+--- The frames around a frame, as far as the film extends, in the order of their skins.
 local function around(number)
   local others = {}
   local function add(distance, tint)

@@ -8,7 +8,8 @@ local program, art, output = ...
 local celspan = require "celspan"
 local number_at = program.part "numerals.lua"
 
-local COLUMNS, PANEL, MOST = 6, 160, 240 -- panels in a row, the longer side of one, on a sheet
+-- panels in a row; the longer side of a panel; the most panels on a sheet
+local COLUMNS, PANEL, MOST = 6, 160, 240
 local GAP, LABEL = 12, 24
 
 local all = art:elements()

@@ -3,9 +3,9 @@
 local program, request = ...
 
 local DIGITS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"
-local GROUPS = 1 << 16 -- of three bytes, that are coded at a time
+local GROUPS = 1 << 16 -- groups of three bytes that are coded at a time
 
---- All 4096 pairs of digits, by 12 bits.
+--- All 4096 pairs of digits, indexed by 12 bits.
 local function make_pairs()
   local pairs_of = {}
   for i = 0, 4095 do
@@ -57,8 +57,8 @@ if program.text "plane.module" == "none" then
     .. "pages: install them, for example the Debian packages clang and lld, and build it again")
 end
 program.refuse_self(path, request.output)
-local facts = program.plane(path) -- refuses what is not a plane
--- The decoder that draws pictures, too, is larger.
+local facts = program.plane(path) -- fails if the file is not a plane
+-- The decoder that can also draw pictures is larger.
 local module = program.text(facts.pictures > 0 and "pictures.module" or "plane.module")
 local fields = {
   TITLE = quoted(request.title or path:match "[^/]*$"),

@@ -16,13 +16,13 @@ function program.usage(...) program.fail("usage", ...) end
 
 --- Refuses an output that is the plane which is read: it would be lost.
 function program.refuse_self(input, output)
-  local is_file = program.entries(input) == false -- what does not exist leads to its folder
+  local is_file = program.entries(input) == false -- a path that does not exist leads to its folder
   if is_file and program.resolve(input) == program.resolve(output) then
     program.usage("%s: the output is the plane that is read: give another name", output)
   end
 end
 
---- What a file that verbs are made of returns, run with these arguments.
+--- Runs a file that verbs share with these arguments, and returns its result.
 function program.part(name, ...)
   return assert(load(program.text(name), "=" .. name, "t", _ENV))(...)
 end
@@ -35,15 +35,15 @@ function program.has_ending(path, ...)
   return false
 end
 
---- A frame of a film as a film of its own, in which it is seen as in that film: for celspan.pixels,
+--- A frame of a film as a separate film in which it looks the same: for celspan.pixels,
 --- celspan.probe and program.write.
 function program.still(film, exposures)
   return require "celspan".film { size = film.size, space = film.space,
     frame = function() return exposures end }
 end
 
---- What a verb reads for functions that take pictures, the size of which it says: the name of a
---- picture's file; of all else a celspan.picture of what is shown of it.
+--- What a verb reads for functions that take pictures, and its size: the name of a picture's file;
+--- otherwise a celspan.picture that shows the input.
 function program.pictured(path)
   local kind = program.kind(path)
   if kind == "picture" or kind == "script" or kind == "folder" then return path end
@@ -73,21 +73,22 @@ function program.numbers(text)
   return list
 end
 
---- The file and the line that a sentence about a script names; nil: none.
+--- The file and the line that a sentence about a script mentions; nil: none.
 function program.place_of(sentence)
   local path, line = sentence:match "^([^:\n]+):(%d+): "
   if not path then path, line = sentence:match "%(([^():\n]+):(%d+)%)" end
   return path, math.tointeger(line)
 end
 
---- The items of a table that is a list: of { list = items }, or its own; nil: it is an object.
+--- The items of a table that is a list: of { list = items }, or the table's own items; nil: the
+--- table is an object.
 local function items_of(one)
   local list = one.list
   if type(list) == "table" and (list[1] ~= nil or next(list) == nil) then return list end
   return one[1] ~= nil and one or nil
 end
 
---- A value as JSON: tables with a list in the field `list`, or with items, are lists, others are
+--- A value as JSON: tables with a field `list`, or with items, become lists; other tables become
 --- objects. Bytes that are not UTF-8 become question marks.
 function program.json(value)
   local function ordered(one)
@@ -106,16 +107,17 @@ function program.json(value)
   return require "celspan.json".encode(ordered(value))
 end
 
---- What is said of a frame function that returns another scene when it is called again.
+--- The message for a frame function that returns another scene when it is called again.
 program.impure = "the frame function is not pure: called again, it returned another scene; let it "
   .. "depend on its argument alone, not on a counter outside it or on # of a table with holes"
 
 local AGAIN_LEAST, AGAIN_PART = 9, 10
 
 --- Which of `count` frames are built again in each of `states` fresh films: lists of their places,
---- the last place first. All lists together have one place of every AGAIN_PART, AGAIN_LEAST at
---- least; which one it is depends on the count alone, so it is the same each time. Fewer frames
---- than that are in several lists. A frame alone is twice in each, or a counter would not show.
+--- the last place first. All lists together have one place in every AGAIN_PART, and at least
+--- AGAIN_LEAST. The choice depends on the count alone, so it is the same each time. If there are
+--- fewer frames, they are in several lists. A single frame is in each list twice; otherwise a
+--- counter would not be found.
 function program.sample(count, states)
   local share = math.ceil(math.max(AGAIN_LEAST, count / AGAIN_PART) / states)
   local parts = math.min(count, share) * states
@@ -131,15 +133,15 @@ function program.sample(count, states)
   return lists
 end
 
---- What is said of a script that is run again and returns another film.
+--- The message for a script that returns another film when it is run again.
 function program.other_frames(fresh, film)
   return ("the script returned a film with other frames when it was run again: %d from number %d, "
     .. "not %d from number %d; let it return the same film each time"):format(fresh.frames,
     fresh.first, film.frames, film.first)
 end
 
---- Has a document write itself to a file, or its text to standard output. subject: what it was made
---- from, for messages.
+--- Lets a document write itself to a file, or writes its text to standard output. subject: the
+--- input that it was made from, for messages.
 function program.put(document, output, subject)
   if output and output ~= "-" then
     program.make_folders(output)
@@ -151,8 +153,9 @@ function program.put(document, output, subject)
   io.stdout:write(text)
 end
 
---- Adds to the words of a process of this program what the request gives it: the options that
---- `own` does not name, --set for each of `settings`, { name, value }, and the script's arguments.
+--- Adds the words that the request gives to the command of a process of this program: the options
+--- that `own` does not name, --set for each of `settings`, { name, value }, and the script's
+--- arguments.
 function program.pass_on(words, request, own, settings)
   local function add(...) table.move({ ... }, 1, select("#", ...), #words + 1, words) end
   for _, option in ipairs(request.given) do
@@ -164,9 +167,10 @@ function program.pass_on(words, request, own, settings)
 end
 
 --- Runs processes, as many at a time as `workers`. next_item() returns the next item, or nil after
---- the last. start(item) returns its process, or nil if it could not be started; then no more are.
---- finish(item, code, signal, name) is called in the order of the items, and returns false to start
---- no more. Returns how many were finished, and whether all could be started.
+--- the last. start(item) returns its process, or nil if it could not be started; then no more
+--- processes are started. finish(item, code, signal, name) is called in the order of the items, and
+--- returns false to start no more. Returns how many were finished, and whether all could be
+--- started.
 function program.run_all(next_item, workers, start, finish)
   local by_process, ended, items = {}, {}, {}
   local running, started, finished, is_well, goes_on = 0, 0, 0, true, true

@@ -24,8 +24,8 @@ local function sections()
   return list
 end
 
---- A section as a recipe: title, keywords, name and about of its script; page, all of it without
---- the picture; text, what is said below the script.
+--- A section as a recipe. title, keywords, name, about: from its script; page: the whole section
+--- without the picture; text: the text below the script.
 local function recipe_of(section)
   local body = table.concat(section, "\n")
   local name, about = body:match "```lua\n%-%- ([%w_]+)%.lua: ([^\n]*)"

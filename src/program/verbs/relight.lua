@@ -8,7 +8,8 @@ local relight = require "celspan.relight"
 
 local input, output, light, to = request[1], request.output, request.light, request.to
 
---- A light as the core stores it: three floats. Other values of the option are refused.
+--- A light in the form in which the core stores it: three floats. Other values of the option are
+--- refused.
 local function light_of(option, text, may_be_dark)
   local rgb = program.colour(text)
   if not rgb then

@@ -9,16 +9,17 @@
 -- one with the nearest spelling.
 local nearest, synonyms = ...
 
-local PHRASE, ALL, ANY = 30000, 20000, 10000 -- more than the words of a query can count
+-- weights that are greater than any number of words in a query
+local PHRASE, ALL, ANY = 30000, 20000, 10000
 local TITLE, KEYWORD, TEXT = 3, 2, 1
 local SYNONYM = 0.9
 
-local is_small = {} -- words that say nothing of a subject
+local is_small = {} -- words that have no meaning for a search
 for word in ("a an and as by do for how i in is it my of on or the to with"):gmatch "%a+" do
   is_small[word] = true
 end
 
---- A word without the endings of its forms: ease, eases, eased and easing have one stem.
+--- The stem of a word, without its endings: ease, eases, eased and easing have the same stem.
 local function stem(word)
   local short = word:gsub("([^su])s$", "%1")
   short = short:gsub("^(...+)ing$", "%1"):gsub("^(...+)ed$", "%1")
@@ -26,7 +27,7 @@ local function stem(word)
   return #short > 3 and short:gsub("e$", "") or short
 end
 
---- The words of a text in lower case, without small ones.
+--- The words of a text in lower case, except small words.
 local function words_of(text)
   local list = {}
   for word in text:lower():gmatch "[%w\128-\255]+" do
@@ -41,13 +42,13 @@ local function stems_of(text)
   return list
 end
 
---- Stems as one text in which whole words are found: " motion blur ".
+--- Stems as a text in which whole words can be found: " motion blur ".
 local function line_of(stems) return " " .. table.concat(stems, " ") .. " " end
 
 -- ---------------------------------------------------------------- an index
 
---- What is searched of an entry: `places`, how much each stem counts; `lines` of its title and
---- keywords; `length` of its title.
+--- The parts of an entry that are searched. places: the weight of each stem; lines: its title and
+--- keywords; length: of its title.
 local function indexed(entry)
   local one = { entry = entry, places = {}, lines = {} }
   local function add(stems, points)
@@ -65,7 +66,8 @@ local function indexed(entry)
   return one
 end
 
---- Every stem of an index, and the words of its titles and keywords, for the nearest spelling.
+--- All stems of an index, and the words of its titles and keywords, for finding the nearest
+--- spelling.
 local function vocabulary(index)
   local known, names = {}, {}
   local function add(text)
@@ -87,8 +89,8 @@ end
 
 -- ---------------------------------------------------------------- queries
 
---- The stems of what was asked. A word that is not known becomes the nearest one that begins with
---- the same letter.
+--- The stems of a query. An unknown word is replaced by the nearest known word with the same first
+--- letter.
 local function query_of(text, known, names)
   local list = words_of(text)
   for i, word in ipairs(list) do
@@ -98,7 +100,7 @@ local function query_of(text, known, names)
   return list
 end
 
---- The query, and what it becomes with one of its phrases replaced: { stems =, weight = } each.
+--- The query itself, and the query with one of its phrases replaced: { stems =, weight = } each.
 local function alternatives(query)
   local line, list = line_of(query), { { stems = query, weight = 1 } }
   for _, row in ipairs(synonyms) do
@@ -121,7 +123,7 @@ local function has_phrase(one, line)
   return false
 end
 
---- 0: the entry has nothing of a query.
+--- The points of an entry; 0: it contains nothing of the query.
 local function points_of(one, stems)
   local sum, found, best = 0, 0, 0
   for _, word in ipairs(stems) do
@@ -135,7 +137,7 @@ local function points_of(one, stems)
   return best > TEXT and ANY + sum or 0
 end
 
---- The most points that an entry has of the alternatives.
+--- The highest points that an entry gets for one of the alternatives.
 local function best_of(one, queries)
   local best = 0
   for _, query in ipairs(queries) do
@@ -144,7 +146,7 @@ local function best_of(one, queries)
   return best
 end
 
---- The entries that go best with a text, at most `most`.
+--- The entries that match a text best, at most `most` of them.
 return function(entries, text, most)
   local index, found = {}, {}
   for i, entry in ipairs(entries) do index[i] = indexed(entry) end

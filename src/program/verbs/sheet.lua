@@ -1,4 +1,4 @@
---- celspan sheet FILE|SCRIPT: an exposure sheet as text or converted, or the sheet of a film.
+--- celspan sheet FILE|SCRIPT: an exposure sheet, or the sheet of a film, as text or converted.
 local program, request = ...
 local sheet = require "celspan.sheet"
 
@@ -18,7 +18,7 @@ local function marks_of(made, layer)
   return list
 end
 
---- A sheet for other programs.
+--- The facts of a sheet, for other programs.
 local function facts_of(made)
   local layers = {}
   for i, name in ipairs(made.layers) do

@@ -17,7 +17,7 @@ local function record(kind, text)
   assert(records:flush())
 end
 
---- A film project is the folder of the spec, or the one around its folder "spec".
+--- The film project is the folder of the spec; if this is called "spec", the folder around it.
 local function add_project(folder)
   package.path = ("%s/?.lua;%s/?/init.lua;%s"):format(folder, folder, package.path)
 end
@@ -35,7 +35,7 @@ end
 
 local function indented(text) return (("\n" .. text):gsub("\n", "\n    ")) end
 
---- A failure: the test, its place, what was wrong.
+--- A failure: the test, its place, and the message.
 local function failure(formatted)
   local trace = formatted.trace or {}
   local message = text_of(formatted.message)

@@ -12,7 +12,7 @@ local program, request = ...
 local json = require "celspan.json"
 local core = require "celspan.core"
 
-local CHECK_SECONDS = 0.03 -- of frames that are checked for one request
+local CHECK_SECONDS = 0.03 -- of checking frames, for one request
 local SHEET_MOST = 10000   -- frames of a sheet
 
 local film
@@ -34,7 +34,7 @@ local function refuse(message, code) put { good = false, message = message, code
 
 local answers = {}
 
---- The parameters of the film, sorted by name: what JSON Schema says of each.
+--- The parameters of the film, sorted by name, each described as in JSON Schema.
 local function parameters()
   local list = {}
   local schema = assert(json.decode(film:ask("celspan.parameters", "schema", "")))
@@ -53,10 +53,10 @@ function answers.film()
   put { good = true, film = facts, parameters = parameters() }
 end
 
---- The request before this one was not wanted any more: it has an answer by now.
+--- The previous request is not wanted any more. It has been answered already.
 function answers.abandon() end
 
---- Builds a frame. by: a frame by whose camera it is seen, or nil.
+--- Builds a frame. by: the frame whose camera is used, or nil.
 local function build_seen(number, by)
   if not by then return film:try(number) end
   local good, message, code = film:try(by)
@@ -66,14 +66,14 @@ local function build_seen(number, by)
   return good, message, code
 end
 
---- The letters of cels by name, of a list { { name, letters }, ... }.
+--- The letters of cels by name, from a list { { name, letters }, ... }.
 local function letters_of(list)
   local letters = {}
   for _, one in ipairs(list) do letters[one[1]] = one[2] end
   return letters
 end
 
---- Builds a frame, with its cels as ask.cels has them. false: refused.
+--- Builds a frame, with its cels changed as ask.cels says. false: refused.
 local function build(ask)
   local good, message, code = build_seen(ask.number, ask.camera)
   if good and ask.cels then good, message = film:alter(letters_of(ask.cels)) end
@@ -88,7 +88,7 @@ local function of_view(ask, method, ...)
   return film[method](film, w, h, x, y, width, height, ...)
 end
 
---- ask.made: { file, line } of what alone is shown.
+--- ask.made: { file, line }: only what this line made is shown.
 function answers.frame(ask)
   local began = program.clock()
   if not build(ask) then return end
@@ -99,7 +99,7 @@ function answers.frame(ask)
   put({ good = true, seconds = program.clock() - began, camera = camera }, bytes)
 end
 
---- What the frame costs, the first of `costs`, and each of its cels alone.
+--- The cost of the frame, which is the first of `costs`, and the cost of each of its cels alone.
 function answers.costs(ask)
   if not build(ask) then return end
   local costs = { list = {} }
@@ -108,7 +108,7 @@ function answers.costs(ask)
   put { good = true, costs = costs }
 end
 
---- The frames in which a line made something, of the first SHEET_MOST: `runs`, { first, last }.
+--- The frames, of the first SHEET_MOST, in which a line made something: `runs`, { first, last }.
 function answers.made(ask)
   local runs = { list = {} }
   for i = 1, math.min(film.frames, SHEET_MOST) do
@@ -138,7 +138,7 @@ function answers.at(ask)
   put { good = true, hits = hits }
 end
 
---- The exposure sheet of the film, of its first SHEET_MOST frames; nil: refused.
+--- The exposure sheet of the film's first SHEET_MOST frames; nil: refused.
 local function sheet_of()
   local numbers = {}
   for i = 1, math.min(film.frames, SHEET_MOST) do numbers[i] = film.first + i - 1 end
@@ -155,7 +155,7 @@ function answers.sheet()
   put({ good = true }, text)
 end
 
---- Whether a layer of the sheet is a cel, as its first drawing has it.
+--- Whether a layer of the sheet is a cel in its first drawing.
 local function is_cel(name, cells)
   for _, cell in ipairs(cells.list) do
     if cell[2] ~= "" then
@@ -168,9 +168,9 @@ local function is_cel(name, cells)
   return false
 end
 
---- A row for each layer, the nearest first: `cells`, { first frame, drawing } in order, the drawing
---- "" where there is none; `moved`, the frames on which the placement alone changes; `cel`, whether
---- it is a cel.
+--- A row for each layer, the nearest first. cells: { first frame, drawing } in order, with the
+--- drawing "" where there is none. moved: the frames on which only the placement changes. cel:
+--- whether the layer is a cel.
 function answers.rows()
   local sheet, rows = sheet_of(), {}
   if not sheet then return end
@@ -208,7 +208,8 @@ function answers.sound(ask)
   put({ good = true }, bytes)
 end
 
---- How far the sound goes from silence, in columns over the first SHEET_MOST frames; the mouths.
+--- The amplitude of the sound, in columns over the first SHEET_MOST frames, and the shapes of the
+--- mouths.
 function answers.wave(ask)
   local count, columns = math.min(film.frames, SHEET_MOST), {}
   if film.has_sound then
@@ -221,7 +222,7 @@ end
 
 local scenes = {} -- of the frames that were checked, by number
 
---- What is wrong with the sound and the script.
+--- Adds the faults of the sound and the script.
 local function add_whole(faults)
   if film:check_sound() ~= 0 then faults[1] = { message = program.reported() } end
   for _, message in ipairs(program.part("dropped.lua", program).of_script(request[1])) do
@@ -229,8 +230,8 @@ local function add_whole(faults)
   end
 end
 
---- Checks frames, and the sound and the script with the first one, until the time is over: one
---- frame at least.
+--- Checks at least one frame, and then more until the time is over. With the first frame, also
+--- checks the sound and the script.
 function answers.check(ask)
   local faults, number, began = {}, ask.number, program.clock()
   local last = film.first + film.frames - 1
@@ -249,9 +250,9 @@ function answers.check(ask)
   put { good = true, number = number, faults = faults }
 end
 
-local again -- the film of the script, run once more
+local again -- the film of the script after it was run again
 
---- Why there is no such film; nil: there is one.
+--- Why there is no film of a second run; nil: there is one.
 local function open_again()
   local is_open, fresh
   if again then return nil end
@@ -264,14 +265,15 @@ local function open_again()
   end
 end
 
---- Whether a frame is the same in both films, or cannot be compared.
+--- Whether a frame is the same in both films; true, too, if they cannot be compared.
 local function is_pure(number)
   local scene = scenes[number]
-  if scene == nil then scene = film:try(number) and film:scene() end -- another process checked it
+  -- another process has checked it
+  if scene == nil then scene = film:try(number) and film:scene() end
   return not scene or again:try(number) and again:scene() == scene
 end
 
---- The places, of the first `count` frames, of those that are built again, the last first.
+--- The places of the frames, among the first `count`, that are built again, the last one first.
 local function places_again(ask)
   if not ask.all then return program.sample(ask.count, 1)[1] end
   local places = {}
@@ -279,8 +281,9 @@ local function places_again(ask)
   return places
 end
 
---- Builds frames in the other order in another film, from the one at `at` of their list on, until
---- the time is over: one at least. `at`: where to continue; nil: these were all.
+--- Builds at least one frame in the other order in another film, and then more until the time is
+--- over. The frames are those of its list from `at` on. Returns where to continue as `at`; nil: all
+--- have been built.
 function answers.again(ask)
   local faults, at, began = {}, ask.at, program.clock()
   local message = open_again()
@@ -299,8 +302,8 @@ end
 
 -- ---------------------------------------------------------------- requests
 
---- A picture is given up when another request arrives, which `program/stage.c` sees by asking the
---- pipe: so no request may wait in a buffer of Lua's.
+--- A picture is given up when another request arrives, which `program/stage.c` finds out from the
+--- pipe. Therefore no request may wait in a buffer of Lua.
 io.stdin:setvbuf "no"
 
 --- The next request; nil: no more will arrive.

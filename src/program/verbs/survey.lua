@@ -17,13 +17,13 @@ local texts = program.part("texts.lua", film)
 local survey = {}
 survey.__index = survey
 
-local POINTS, AREAS = 24, 48 -- along the longer side
-local SEEMS = 0.2      -- the part of the points that flash where it seems so
+local POINTS, AREAS = 24, 48 -- points and areas along the longer side
+local SEEMS = 0.2      -- the share of the points that must flash before a flash is suspected
 local PARTS_MOST = 1000
-local STRETCH = 1      -- seconds without a change that are worth a line
-local COLLECTED = 4    -- frames after which values are collected
-local CUT = 0.08       -- the mean change of luminance of a cut,
-local CUT_RATIO = 3    -- and how much larger it is than those before and after
+local STRETCH = 1      -- stretches of at least this many seconds without a change are listed
+local COLLECTED = 4    -- garbage is collected after this many frames
+local CUT = 0.08       -- the least mean change of luminance in a cut,
+local CUT_RATIO = 3    -- and how many times greater it is than the changes before and after
 
 --- A picture of the whole frame, with this many pixels along its longer side.
 local function grid(count, antialias)
@@ -41,8 +41,8 @@ end
 
 -- ---------------------------------------------------------------- pictures
 
---- The relative luminances and the alphas of a picture over black; nil: it cannot be made. Also
---- whether it has one colour.
+--- The relative luminances and the alphas of a picture over black, and whether it has one colour;
+--- nil: it cannot be made.
 local function look(exposures, view)
   local good, image = pcall(celspan.pixels, program.still(film, exposures), view)
   if not good or not image then return nil end
@@ -74,7 +74,7 @@ end
 
 local function seconds(stretch) return (stretch.last - stretch.first + 1) / film.fps end
 
---- The stretches that last.
+--- The stretches that are long enough.
 local function lasting(list)
   local found = {}
   for _, stretch in ipairs(list) do
@@ -85,8 +85,8 @@ local function lasting(list)
   return found
 end
 
---- Whether the frame function asked an exposure sheet when the last frame was built: where it then
---- shows the same as the frame before, the sheet holds it.
+--- Whether the frame function asked an exposure sheet when the last frame was built: if so, and if
+--- the frame shows the same as the one before, the sheet holds it.
 function survey:has_asked()
   local before = self.asked
   self.asked = film:ask("celspan.columns", "lookups", "")
@@ -95,11 +95,11 @@ end
 
 -- ---------------------------------------------------------------- parts
 
---- The parts of a frame that are seen in it, by kind and name: { share, hash } of each.
+--- The parts that can be seen in a frame, by kind and name: { share, hash } of each.
 local function seen_of(list)
   local seen, order = {}, {}
   for _, part in ipairs(list) do
-    local is_listed = part.kind ~= "text" and not part.unnamed -- of an effect, mostly
+    local is_listed = part.kind ~= "text" and not part.unnamed -- mostly parts of an effect
     local is_seen = is_listed and part.box and part.fade > 0
     local share = is_seen and texts.share_of(part.box) or 0
     if share > 0 then
@@ -116,7 +116,7 @@ local function seen_of(list)
   return order
 end
 
---- The part of the film that has this key; nil: there are too many.
+--- The part of the film that has this key; nil: there are too many parts.
 function survey:part_of(one)
   local part = self.parts[one.key]
   if not part and #self.parts == PARTS_MOST then
@@ -147,7 +147,8 @@ end
 
 -- ---------------------------------------------------------------- cuts
 
---- Adds how much a frame differs from the one before: a cut differs much more than its neighbours.
+--- Adds the difference between a frame and the previous one. The difference at a cut is much
+--- greater than its neighbours.
 function survey:add_change(number, change)
   local before, middle = self.before or 0, self.middle
   if middle and middle.change > CUT
@@ -158,7 +159,7 @@ function survey:add_change(number, change)
   self.middle = { number = number, change = change }
 end
 
---- What lies between cuts, and between frames that were not looked at.
+--- The stretches between cuts, and between frames that were not examined.
 function survey:shots()
   local shots, cut = {}, {}
   for _, number in ipairs(self.cuts) do cut[number] = true end
@@ -180,7 +181,7 @@ end
 
 -- ---------------------------------------------------------------- frames
 
---- A frame of the same scene as the one before.
+--- Adds a frame of the same scene as the previous one.
 function survey:again(number, has_asked)
   local stretch = self.frozen[#self.frozen]
   if not stretch or stretch.last ~= number - 1 then
@@ -194,14 +195,14 @@ function survey:again(number, has_asked)
   self:add_change(number, 0)
 end
 
---- Forgets the frame before, which this one does not follow.
+--- Forgets the previous frame, because this one does not follow it.
 function survey:cut()
   self.scene, self.lights, self.middle, self.before = nil, nil, nil, nil
   self.flashes:cut()
   self.texts:cut()
 end
 
---- Looks at the frame that was built last.
+--- Examines the frame that was built last.
 function survey:add_new(number)
   local parts = core.parts(film:exposures(), film.size[1], film.size[2])
   local lights, _, is_plain = look(film:exposures(), self.points)
@@ -226,7 +227,7 @@ function survey:add(number)
   self.number = number
   add_frame(self.looked, number)
   if scene and scene == self.scene then return self:again(number, has_asked) end
-  self.scene = scene -- add_new forgets it if there is no picture
+  self.scene = scene -- add_new sets it to nil if there is no picture
   if scene then
     self:add_new(number)
     self.count = self.count + 1
@@ -240,7 +241,7 @@ end
 
 -- ---------------------------------------------------------------- what was found
 
---- Frozen stretches without those in which there is nothing to see.
+--- The frozen stretches, except those in which nothing can be seen.
 function survey:still()
   local found = {}
   for _, stretch in ipairs(lasting(self.frozen)) do
@@ -255,7 +256,7 @@ end
 
 function survey:blank() return lasting(self.empty) end
 
---- Looks again, by areas, at a stretch of frames where it seems to flash, and at the second before.
+--- Examines a stretch of frames with a suspected flash, and the second before it, again by areas.
 function survey:add_sure(list, stretch)
   local sure, first = flashes.new(film.fps), stretch.first
   for _, run in ipairs(self.looked) do
@@ -271,16 +272,16 @@ function survey:add_sure(list, stretch)
   table.move(sure.list, 1, #sure.list, #list + 1, list)
 end
 
---- The stretches that flash: in fine patterns that move, points do, but areas do not.
+--- The stretches that flash. In fine patterns that move, points flash, but areas do not.
 function survey:flashing()
   local list = {}
-  film:silence(true) -- what the script prints of these frames has been shown
+  film:silence(true) -- the output of the script for these frames has been shown already
   for _, stretch in ipairs(self.flashes.list) do self:add_sure(list, stretch) end
   film:silence(false)
   return list
 end
 
---- How long a text is shown; nil: the frames before or after it were not looked at.
+--- How long a text is shown; nil: the frames before or after it were not examined.
 function survey:shown_seconds(text)
   for _, run in ipairs(self.looked) do
     if text.first >= run.first and text.last <= run.last then
@@ -291,7 +292,7 @@ function survey:shown_seconds(text)
   end
 end
 
---- Whether the texts in a stretch take as long to be read as it lasts.
+--- Whether reading the texts of a stretch takes as long as the stretch lasts.
 function survey:is_read(stretch)
   local count = 0
   for _, text in ipairs(self.texts.list) do
@@ -301,7 +302,7 @@ function survey:is_read(stretch)
   return count > 0 and seconds(stretch) <= texts.needed(count)
 end
 
---- What a viewer should be spared: a list of { message =, first =, last = }.
+--- Things that could harm or annoy a viewer: a list of { message =, first =, last = }.
 function survey:warnings()
   local list = {}
   local function add(stretch, ...)
@@ -333,8 +334,8 @@ function survey:warnings()
   return list
 end
 
---- The film as tables, for `celspan describe`: stretches have `first`, `last` and, in seconds of
---- the film, `from` and `to`.
+--- The film as tables, for `celspan describe`. Stretches have the frames `first` and `last`, and
+--- the times `from` and `to` in seconds of the film.
 function survey:facts()
   local function timed(stretch, more)
     more = more or {}

@@ -1,5 +1,6 @@
---- Words that people bring from other programs, and those of titles, keywords and names of celspan
---- that say the same or the nearest thing: { theirs, ours, ... }. `celspan help` searches for all.
+--- Words that people know from other programs, and the words of celspan's titles, keywords and
+--- names with the same or the nearest meaning: { theirs, ours, ... }. `celspan help` searches for
+--- all.
 return {
   -- another spelling
   { "color", "colour" }, { "gray", "grades" }, { "grey", "grades" }, { "center", "align" },

@@ -12,8 +12,8 @@ local json = require "celspan.json"
 local is_check = request.verb == "check" -- no files are written
 local has_events = request.verb == "render" or request.verb == "sound"
 local is_json = request.progress == "json"
-local NAMED_MOST = 20 -- rows that failed, in the summary
-local OUTPUT_MOST = 4095 -- bytes of a name
+local NAMED_MOST = 20 -- the most failed rows that the summary names
+local OUTPUT_MOST = 4095 -- the most bytes of a name
 local PIECE = 65536      -- bytes of the table that are read at a time
 
 -- ---------------------------------------------------------------- the table
@@ -37,7 +37,7 @@ local function read_text(path)
   return table.concat(pieces)
 end
 
---- What a call that reads the table returns.
+--- Returns the results of a call that reads the table.
 local function try(call, ...)
   local good, one, other = pcall(call, ...)
   if good then return one, other end
@@ -45,8 +45,8 @@ local function try(call, ...)
     or one)
 end
 
---- The names of the columns, and a function that returns a row of texts and its line, and nil after
---- the last.
+--- Returns the names of the columns, and a function that returns each row of texts with its line,
+--- and nil after the last row.
 local function reader(text)
   local header, next_row = try(csv.rows, text)
   return header, function() return try(next_row) end
@@ -54,7 +54,8 @@ end
 
 -- ---------------------------------------------------------------- a row
 
---- The output of a row: each {name} in OUT is the text in that column. Of `check`: its line.
+--- The output of a row: each {name} in OUT is replaced by the text in that column. For `check`, the
+--- line of the row.
 local function output_of(row, line, columns)
   if is_check then return "line " .. line end
   local output = request.output:gsub("{([%w_]+)}", function(name)
@@ -72,7 +73,8 @@ local function output_of(row, line, columns)
   return output
 end
 
---- The options that a row's process has values of its own for, or no use.
+--- The options that are not passed to a row's process, because it has its own values for them, or
+--- no use.
 local own = { ["-o"] = true, ["--table"] = true, ["--workers"] = true, ["--progress"] = true,
               ["--keep-going"] = true }
 
@@ -124,8 +126,8 @@ local function check_header(header, is_parameter)
   return columns
 end
 
---- Checks the values of every row, and that no two have the same output. Returns how many there
---- are.
+--- Checks the values of every row, and that no two rows have the same output. Returns the number of
+--- rows.
 local function check_rows(text, film, columns, is_parameter)
   local header, next_row = reader(text)
   local lines, count = {}, 0
@@ -150,7 +152,7 @@ end
 
 -- ---------------------------------------------------------------- the processes
 
---- Starts the process of an item; nil: reported.
+--- Starts the process of an item; nil: it could not be started, and this was reported.
 local function start(item)
   local process, message
   item.printed, message = io.tmpfile()
@@ -165,7 +167,7 @@ local function event_of(line)
   return type(event) == "table" and event.event and event or nil
 end
 
---- Shows what a process printed; what went wrong is known by its exit code. Returns its last event.
+--- Shows the output of a process; its exit code says what went wrong. Returns its last event.
 local function show(item)
   local last
   item.printed:seek "set"
@@ -188,12 +190,12 @@ end
 
 -- ---------------------------------------------------------------- reports
 
---- Writes an event as a line of JSON, where that is asked for.
+--- Writes an event as a line of JSON, if the request asks for this.
 local function tell(event)
   if is_json then io.stderr:write((program.json(event):gsub("\n *", "")), "\n") end
 end
 
---- What was done with the rows, which is counted as they end.
+--- Counts what was done with the rows; updated when they end.
 local function new_tally(count)
   return { count = count, ended = 0, made = 0, kept = 0, failed = {}, outcome = 0,
            began = program.clock() }

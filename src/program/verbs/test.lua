@@ -10,7 +10,7 @@ local ENDING, FOLDERS_DEEP, PATH_MOST = "_spec.lua", 32, 4095
 
 -- ---------------------------------------------------------------- which
 
---- Adds the specs below a folder, whose entries are these.
+--- Adds the specs below a folder. entries: of this folder.
 local function add_folder(list, folder, entries, depth)
   for _, name in ipairs(entries) do
     local path = folder .. "/" .. name
@@ -51,7 +51,7 @@ end
 
 -- ---------------------------------------------------------------- one spec file
 
---- Starts the process; nil: reported.
+--- Starts the process; nil: it could not be started, and this was reported.
 local function start(run)
   local message, other
   run.records, message = io.tmpfile()

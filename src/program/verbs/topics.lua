@@ -1,13 +1,13 @@
---- What `celspan help WORDS` searches: recipes, headings of pages, names of the Lua interface and
---- verbs, each { title =, keywords =, text =, about =, read = }. about: a sentence; read: the
---- command, or the place, where there is more.
+--- The entries that `celspan help WORDS` searches: recipes, headings of pages, names of the Lua
+--- interface, and verbs; each is { title =, keywords =, text =, about =, read = }. about: a
+--- sentence; read: the command or the place with more information.
 local recipes, headings, names, verbs = ...
 
 local topics, is_verb = {}, {}
 
 local function add(topic) topics[#topics + 1] = topic end
 
---- A text of Markdown as it is read.
+--- A text of Markdown as plain text.
 local function plain(text) return (text:gsub("%[([^%]]+)%]%b()", "%1"):gsub("[`*]", "")) end
 
 local function first_sentence(text)

@@ -1,4 +1,4 @@
---- celspan trace IN -o OUT: a drawing as shapes, in SVG or a script.
+--- celspan trace IN -o OUT: a drawing as shapes, written as SVG or as a script.
 local program, request = ...
 local core = require "celspan.core"
 

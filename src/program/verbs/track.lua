@@ -1,4 +1,4 @@
---- celspan track PATTERN: a region followed through frames.
+--- celspan track PATTERN: follows a region through frames.
 local program, request = ...
 local track = require "celspan.track"
 

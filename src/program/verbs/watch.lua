@@ -14,11 +14,11 @@ local function part(name) return program.part(name, program, request) end
 local guard, watched, choices = part "guard.lua", part "watched.lua", part "choices.lua"
 local programs = part "programs.lua"
 
-local HELD = 20            -- seconds that a request waits for news, or for a film
+local HELD = 20            -- seconds for which a request waits for news, or for a film
 local SIDE_MOST = 1048576  -- pixels
 local PIXELS_MOST = 1 << 25 -- of a picture
 local COLUMNS_MOST = 10000  -- of a wave
-local UNITS_MOST = 1 << 30  -- of a point, to either side
+local UNITS_MOST = 1 << 30  -- the greatest distance of a point, on either side
 
 -- The texts of the page.
 local pages = { ["/"] = "page.html", ["/again.html"] = "again.html",
@@ -42,18 +42,19 @@ local places = part "places.lua".new(files)
 
 -- news: counts what pages are to know. here: the line that an editor has named.
 local state = { news = 1 }
-local held = {}    -- requests for news: id, over
+-- news: the number of changes that pages must know. here: the line that an editor has named.
+local held = {}
 local waiting = {} -- requests for a film that is built for the first time: answer(), film, over
 
 local function tell() state.news = state.news + 1 end
 
--- The film, and the one beside it, which a request means by side=2: of the second script, or of the
--- same one with other values. films: those that are shown.
+-- requests for a film that is built for the first time: answer(), film, over
 local first = watched.new(request[1], files, places, tell)
 local second = watched.new(request[2] or request[1], files, places, tell)
 local films = { first }
 
---- Shows or hides the second film.
+--- The film, and the second film beside it, which requests name with side=2: of the second script,
+--- or of the same script with other values. films: those that are shown.
 local function set_comparing(is_on)
   if is_on == (films[2] ~= nil) then return end
   films[2] = is_on and second or nil
@@ -76,7 +77,7 @@ local function refuse(id, status, sentence)
   answer(id, status, "text/plain; charset=utf-8", sentence .. "\n")
 end
 
---- Calls a function that answers a request. An error in it is the end of that request alone.
+--- Calls a function that answers a request. An error in it ends only that request.
 local function attempt(id, call, ...)
   local is_good, fault = pcall(call, ...)
   if not is_good then refuse(id, 500, "the answer could not be made: " .. tostring(fault)) end
@@ -94,13 +95,13 @@ local function describe_state()
   return said
 end
 
---- Asks the renderers, and answers with what they say.
+--- Asks the renderers, and sends their answer.
 local function pass_on(id, film, ask, give, wish)
   film:ask(ask, function(...) attempt(id, give, ...) end,
     function(status, message) refuse(id, status, message) end, wish)
 end
 
---- The numbers of a text such as "1,2,3" or "1280x720"; nil: it is no such text.
+--- The numbers of a text such as "1,2,3" or "1280x720"; nil: the text has another form.
 local function numbers(text, count)
   local all = {}
   for digits in (text or ""):gmatch "[^,x]+" do
@@ -109,7 +110,7 @@ local function numbers(text, count)
   return #all == count and all or nil
 end
 
---- Whether a film can be asked; else the request is refused.
+--- Whether a film can be asked; if not, the request is refused.
 local function is_ready(id, film)
   if film.is_shown then return true end
   refuse(id, 409, film.errors[1] and film.errors[1].message or "the film is not ready yet")
@@ -127,15 +128,15 @@ local function frame_of(id, film, text)
   end
 end
 
---- Whether a crop is within a frame of a size, and not too large for one picture.
+--- Whether a crop lies within a frame of a size, and is not too large for one picture.
 local function is_view(size, crop)
   local x, y, w, h = table.unpack(crop)
   return size[1] > 0 and size[2] > 0 and math.max(size[1], size[2]) <= SIDE_MOST
     and w > 0 and h > 0 and x + w <= size[1] and y + h <= size[2] and w * h <= PIXELS_MOST
 end
 
---- What a request wants changed of cels, { { name, letters }, ... }, from an object; nil: it is not
---- one of texts.
+--- The changes of cels that a request wants, { { name, letters }, ... }, from an object; nil: it is
+--- not an object of texts.
 local function cels_of(text)
   local list, given = {}, json.decode(text)
   if type(given) ~= "table" then return nil end
@@ -148,7 +149,8 @@ local function cels_of(text)
   return { list = list }
 end
 
---- What a request shows, in the words of the renderers: number, size, crop, cels; nil: refused.
+--- The view that a request wants, in the words of the renderers: number, size, crop, cels; nil:
+--- refused.
 local function view_of(id, film, text, fields)
   local number = frame_of(id, film, text)
   if not number then return nil end
@@ -168,7 +170,7 @@ local function view_of(id, film, text, fields)
   return { number = number, size = size, crop = crop, cels = cels, camera = camera }
 end
 
---- What is shown instead of the frame's colours: "spans", or what a line made.
+--- Adds what is shown instead of the frame's colours: "spans", or only what a line made.
 local function add_show(id, ask, fields)
   if fields.show == "made" then
     ask.made = { list = { fields.file or "", math.tointeger(fields.line) or 0 } }
@@ -206,7 +208,7 @@ local function give_costs(id, film, fields)
   end)
 end
 
---- The frames with what the line made that an editor has named last.
+--- Sends the frames with something that the line made which an editor has named last.
 local function give_made(id, film)
   if not is_ready(id, film) then return end
   if not state.here then return give_json(id, { list = {} }) end
@@ -214,7 +216,7 @@ local function give_made(id, film)
     function(head) give_json(id, { list = head.runs }) end)
 end
 
---- The run of frames of a text such as "1-48"; without one, all of them; nil: refused.
+--- The run of frames of a text such as "1-48"; without a text, all frames; nil: refused.
 local function run_of(id, film, text)
   local facts = film.facts
   local from, to = (text or ""):match "^(%-?%d+)%-(%-?%d+)$"
@@ -268,7 +270,7 @@ local function give_text(id, name)
   answer(id, 200, kinds[name:match "%w+$"], program.text(name))
 end
 
---- The files that a parameter may name, parameter=NAME.
+--- Sends the files that a parameter may name. fields: parameter=NAME.
 local function give_files(id, film, fields)
   for _, one in ipairs(film.parameters or {}) do
     if one.name == fields.parameter and one.format == "path" then
@@ -278,7 +280,7 @@ local function give_files(id, film, fields)
   refuse(id, 404, "the film has no parameter of this name that is a file")
 end
 
---- What a film says of itself as bytes of some kind, for an address.
+--- A function for an address that sends data of a film as bytes of some kind.
 local function giving(want, kind)
   return function(id, film)
     if not is_ready(id, film) then return end
@@ -300,7 +302,7 @@ local gets = { -- of a film
   ["/made.json"] = give_made,
 }
 
---- The requests that are answered whatever the films do.
+--- Requests that are answered even if no film can be asked.
 local own = {}
 
 own["/counts.json"] = function(id) give_json(id, web:counts()) end
@@ -317,7 +319,7 @@ local function side_of(id, fields)
   return film or refuse(id, 404, "there is no such film beside the first")
 end
 
---- Answers a request for something of a film.
+--- Answers a request for data of a film.
 local function give_of(id, film, path, fields)
   if gets[path] then return gets[path](id, film, fields) end
   local number, ending = path:match "^/frame/(%-?%d+)%.(%l+)$"
@@ -339,10 +341,11 @@ local function route(id, path, fields)
                             answer = function() attempt(id, give_of, id, film, path, fields) end }
 end
 
---- What may be changed, by POST with a JSON object.
+--- Things that can be changed, by POST with a JSON object.
 local posts = {}
 
---- Values of parameters, { name = "text" }, in place of all that the page has given before.
+--- Sets the values of parameters, { name = "text" }, and forgets all values that the page has given
+--- before.
 posts["/parameters"] = function(id, given, film)
   local known = {}
   for _, one in ipairs(film.parameters or {}) do known[one.name] = true end
@@ -355,20 +358,20 @@ posts["/parameters"] = function(id, given, film)
   give_json(id, { build = film.build_number })
 end
 
---- The picture that was asked for with this `wish` is not wanted any more, { wish = }.
+--- The picture that was requested with this `wish` is not wanted any more, { wish = }.
 posts["/abandon"] = function(id, given, film)
   if type(given.wish) ~= "string" then return refuse(id, 400, "write { \"wish\": ... }") end
   film.pool:abandon(given.wish)
   give_json(id, {})
 end
 
---- Whether the second film is shown beside the first, { on = }.
+--- Sets whether the second film is shown beside the first, { on = }.
 posts["/compare"] = function(id, given)
   set_comparing(given.on == true)
   give_json(id, { on = given.on == true })
 end
 
---- What this line made is outlined in the page, { file =, line = }.
+--- Outlines in the page what this line made, { file =, line = }.
 posts["/here"] = function(id, given)
   local path, line = files:path_of(tostring(given.file), first), math.tointeger(given.line)
   if not path or not line then return refuse(id, 404, "the film does not read this file") end
@@ -377,7 +380,7 @@ posts["/here"] = function(id, given)
   give_json(id, state.here)
 end
 
---- Opens a line that the film has named in the editor, { file =, line = }.
+--- Opens a line in the editor, { file =, line = }; the film must have named it.
 posts["/open"] = function(id, given)
   local line = math.tointeger(given.line)
   local path = type(given.file) == "string" and line and places:find(given.file, line)
@@ -405,7 +408,7 @@ local function serve(asked)
   route(asked.id, path, fields)
 end
 
---- Answers those who wait for news.
+--- Answers requests that wait for news.
 local announced = 0
 local function give_news()
   local now, later = program.clock(), {}
@@ -419,7 +422,7 @@ local function give_news()
   held, announced = later, state.news
 end
 
---- Answers those who wait for a film that can be asked now, or has failed.
+--- Answers requests that wait for a film that can be asked now, or has failed.
 local function give_films()
   local now, later = program.clock(), {}
   for _, one in ipairs(waiting) do
@@ -435,7 +438,7 @@ end
 
 -- ---------------------------------------------------------------- the loop
 
---- Milliseconds until there is something to do; -1 counts as for ever.
+--- Milliseconds until there is something to do; -1: for ever.
 local function soonest(...)
   local least = 1000
   for _, wait in ipairs { ... } do
@@ -444,7 +447,7 @@ local function soonest(...)
   return least
 end
 
---- What every film has to do; milliseconds until there is more.
+--- Lets every film do its work. Returns the milliseconds until there is more.
 local function step_films()
   local changed, wait = files:take(films), -1
   for _, film in ipairs(films) do

@@ -1,10 +1,10 @@
--- The cat: its key drawings, and when it goes from one to the next.
+-- The cat: its key drawings, and the times at which one follows another.
 local celspan = require "celspan"
 local keys = require "celspan.keys"
 local when = require "timing"
 
 -- A part of a drawing is a line through points { x, y, width }; the paws are on 0, 0. The head has
--- a place and a tilt. What a drawing leaves out is as in the first one.
+-- a place and a tilt. Parts that a drawing does not have are those of the first drawing.
 local drawings = {
   sit = {
     back = { { -30, -34, 74 }, { -30, -82, 66 }, { -2, -122, 50 }, { 12, -142, 40 } },
@@ -60,7 +60,7 @@ local acting = {
   { when.land - 0.05, "dive", "inOutQuad" }, { when.land + 0.08, "land", "outQuad" },
   { when.land + 0.2, "land" }, { when.land + 0.75, "sit", "outBack" },
 }
-local pose = {} -- of each part, its points at a time
+local pose = {} -- pose[part]: the points of a part at a time
 for part, points in pairs(drawings.sit) do
   local track = {}
   for i, key in ipairs(acting) do
@@ -71,7 +71,7 @@ end
 
 local FROM, TO, HEIGHT = 230, 730, 165 -- of the leap
 
---- Where the paws are, from the ridge of the roof: a parabola.
+--- The place of the paws during the leap, from the ridge of the roof: a parabola.
 local function place(time)
   local u = math.max(0, math.min(1, (time - when.leap) / (when.land - when.leap)))
   return FROM + (TO - FROM) * u, -4 * HEIGHT * u * (1 - u)
@@ -86,9 +86,9 @@ local face = celspan.ellipse { centre = { 0, 0 }, radii = { 37, 32 } }
   | celspan.ellipse { centre = { 25, 12 }, radii = { 17, 13 } }
 local eye = celspan.ellipse { centre = { 16, -4 }, radii = { 5, 7 }, texture = "#ffe7a3" }
 
-local cat = { reach = { (FROM + TO) / 2 + 136, -HEIGHT - 142 } } -- just before the paws
+local cat = { reach = { (FROM + TO) / 2 + 136, -HEIGHT - 142 } } -- just in front of the paws
 
---- Where a star hangs at its neck.
+--- The place of the star that hangs at its neck.
 function cat.neck(time)
   local x, y = place(time)
   local neck = pose.back:at(time)[4]
@@ -98,7 +98,7 @@ end
 --- The cat in its coat, by the moon and by `lamps`, the paint of their light.
 function cat.draw(time, coat, lamps)
   local tail = {}
-  for i, p in ipairs(pose.tail:at(time)) do -- it sways, its tip most
+  for i, p in ipairs(pose.tail:at(time)) do -- the tail sways, most at its tip
     tail[i] = { p[1] + 3 * i * math.sin(3 * time - 0.6 * i), p[2], p[3] }
   end
   local is_tense = time > when.crouch + 0.3 and time < when.leap - 0.05
@@ -110,7 +110,8 @@ function cat.draw(time, coat, lamps)
     | line(hind):rotate(-13, hind[1][1], hind[1][2])
   local body = rear:translate(wiggle, 0) | line(fore) | line(fore):rotate(9, fore[1][1], fore[1][2])
     | face:rotate(tilt):translate(x, y)
-  -- Light from one side: what sticks out of the same shape, moved to the other side.
+  -- Light from one side: the part of a shape that the same shape, moved to the other side, does not
+  -- cover.
   local moonlit, lamplit = body - body:translate(5, 4), body - body:translate(-4, 2)
   return (body:paint(coat) | moonlit:paint "#d88fae" | lamplit:paint(lamps)
     | eye:rotate(tilt):translate(x, y)):translate(place(time))

@@ -25,13 +25,13 @@ local burst = particles { rate = 900, from = when.catch, to = when.catch + 0.05,
   at = caught, velocity = { 0, -40, 330, 330 }, gravity = { 0, 420 }, drag = 2 }
 local slower = ease "outSine"
 
---- Where it falls, like a leaf.
+--- The place of the star while it falls like a leaf.
 local function falling(time)
   local left = 1 - slower((time - when.star) / (when.catch - when.star))
   return caught[1] + (460 + 90 * math.sin(8 - 8 * left)) * left, caught[2] - 230 * left
 end
 
---- A grain of its dust.
+--- A grain of the star's dust.
 local function dust(x, y, radius, share)
   return celspan.circle { centre = { x, y }, radius = radius, texture = "#ffe9b0" }:fade(share)
 end
@@ -43,11 +43,11 @@ local function star(time, neck_x, neck_y)
     grains[i] = dust(x + 7 * math.sin(9 * i), y + 7 * math.cos(7 * i), 4.5 - 0.3 * i, 1 - i / 15)
   end
   for _, p in ipairs(burst:at(time)) do
-    local near = math.min(1, 5 * p.age) -- at first it would hide the cat's face
+    local near = math.min(1, 5 * p.age) -- when it is new, it would hide the cat's face
     grains[#grains + 1] = dust(p.x, p.y, (2 + 4 * p.size * (1 - p.age)) * near, 1 - p.age)
   end
   local x, y = falling(time)
-  local u = slower((time - when.catch) / 0.3) -- then it hangs at the cat's neck
+  local u = slower((time - when.catch) / 0.3) -- after that, it hangs at the cat's neck
   local shine = spark:rotate(90 * time):scale(1 - 0.5 * u)
     :translate(x + (neck_x - x) * u, y + (neck_y - y) * u)
   return (celspan.union(grains) | shine):glow { radius = 34, colour = "#ffd98a", gain = 2 }
@@ -55,7 +55,7 @@ end
 
 -- ---------------------------------------------------------------- the lamps
 
---- The windows that are lit: they wake up one after another, from the cat outwards.
+--- The lit windows: they light up one after another, from the cat outwards.
 local function lit(windows, time, radius)
   local shining = {}
   for _, window in ipairs(windows) do
@@ -79,7 +79,7 @@ return celspan.film { title = "@NAME@", size = { 1280, 720 }, fps = 24, duration
     local warmth = waking((f.time - when.lights) / 1.6)
     local lamplight = celspan.mix(celspan.clear, set.lamp, 0.8 * warmth)
     local u = glide(f.progress)
-    -- Each cel has its depth, and the camera glides: what is near moves more.
+    -- Each cel has its depth, and the camera glides: near cels move more.
     return multiplane { film = { f.width, f.height }, fit = true,
       camera = { x = 60 * u, z = 50 * u },
       { celspan.cel { town.sky(f.time, set.stars) }:named "sky", z = 5000 },

@@ -1,4 +1,4 @@
--- What the film must show, whatever else is changed. Run by `celspan test`.
+-- Tests for things that the film must show after every change. Run by `celspan test`.
 require "celspan.spec"
 local film = require "film"
 local when = require "timing"

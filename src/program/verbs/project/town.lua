@@ -4,7 +4,7 @@ local celspan = require "celspan"
 local W, H = 1280, 720
 local town = { ridge = 508 } -- of the roof: its y
 
---- A gradient from top to bottom. What is far away takes the colour of the air, most at its foot.
+--- A gradient from top to bottom. Distant things have the colour of the air, most at their foot.
 local function fade(top, foot, ...)
   return celspan.linear { from = { 0, top }, to = { 0, foot }, ... }
 end
@@ -21,7 +21,7 @@ local moon = celspan.circle { centre = { 455, 262 }, radius = 150,
 
 function town.sky(time, count)
   local stars = {}
-  for i = 1, count do -- golden steps spread them evenly
+  for i = 1, count do -- steps by the golden section spread them evenly
     stars[i] = celspan.circle { radius = 1 + i % 3 * 0.6, texture = "#fff3d6",
       centre = { -100 + 1480 * (i * 0.618 % 1), 440 * (i * 0.755 % 1) ^ 1.6 } }
       :fade(0.55 + 0.45 * math.sin(5 * time + 2.4 * i))
@@ -38,7 +38,7 @@ for x = -300, W + 300, 20 do
 end
 town.hills = celspan.polygon(edge)
 
---- Houses side by side, from x on, and the windows in them.
+--- Houses side by side, from x on, and their windows.
 local function street(x, ground, size, texture)
   local random = celspan.random(size)
   local houses, windows = {}, {}
@@ -70,7 +70,7 @@ local y = town.ridge
 local slope = celspan.polygon { { -300, y }, { 850, y }, { 1010, H + 200 }, { -300, H + 200 },
   texture = fade(y, H + 60, { 0, "#1d1640" }, { 1, "#0d0a20" }) }
 local tiles = {}
-for row = 0, 6 do -- larger where they are nearer
+for row = 0, 6 do -- windows that are nearer are larger
   local size = 34 + 9 * row
   for n = -22, 26 do
     tiles[#tiles + 1] = ("M%g %g q%g %g %g 0"):format(400 + (n + row % 2 / 2) * size,

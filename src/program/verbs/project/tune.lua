@@ -20,7 +20,7 @@ local function pitch(name)
   return 440 * 2 ^ (step / 12 + octave - 4)
 end
 
---- A bell: three partials, of which the high ones die away first.
+--- A bell: three partials, of which the higher ones fade sooner.
 local function bell(at, name, volume)
   local w = TAU * pitch(name)
   add(at, 1.6, volume, function(t)

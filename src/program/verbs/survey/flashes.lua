@@ -12,21 +12,21 @@ local flashes = {}
 flashes.__index = flashes
 
 local CHANGE, DARK, AREA = 0.1, 0.8, 0.25
-local CHANGES = 8 -- of four flashes
+local CHANGES = 8 -- the changes of four flashes
 local ROUNDING = 1e-6 -- lights are floats
 
---- fps: of the film. area: the part of the cells above which they flash, by default that of WCAG.
+--- fps: of the film. area: the share of the cells that must flash, by default that of WCAG.
 function flashes.new(fps, area)
   return setmetatable({ fps = fps, area = area or AREA, list = {} }, flashes)
 end
 
---- Forgets the cells, as before a frame that does not follow the one before.
+--- Forgets the cells. Needed before a frame that does not follow the previous one.
 function flashes:cut() self.cells = nil end
 
 local function new_cell(light) return { low = light, high = light, way = 0, at = {}, next = 1 } end
 
---- Looks at the light of a cell. way: of its last change, 1 up, -1 down, 0 there was none. Returns
---- whether this is a change.
+--- Examines the light of a cell. way: the direction of its last change, 1 up, -1 down, 0 none.
+--- Returns whether this is a change.
 local function change(cell, light)
   if cell.way >= 0 then
     cell.high = math.max(cell.high, light)
@@ -54,7 +54,7 @@ end
 --- The first of the last CHANGES changes; nil: there were fewer.
 local function first_of(cell) return cell.at[cell.next] end
 
---- Adds a stretch, or makes the last one longer.
+--- Adds a stretch, or extends the last one.
 local function add(list, first, last, share)
   local before = list[#list]
   if before and first <= before.last then
@@ -64,7 +64,7 @@ local function add(list, first, last, share)
   end
 end
 
---- Looks at the next frame: its number, and the relative luminances of its cells.
+--- Examines the next frame: its number, and the relative luminances of its cells.
 function flashes:add(frame, lights)
   if not self.cells or #self.cells ~= #lights then
     self.cells = {}

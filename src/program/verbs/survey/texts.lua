@@ -17,7 +17,7 @@ texts.__index = texts
 
 local MOST = 1000            -- texts that are kept
 local CONTRAST, COVERED = 3, 0.9
-local EM, PIXELS = 24, 1 << 14 -- of the letters and of the pictures that are measured
+local EM, PIXELS = 24, 1 << 14 -- the size of letters, and of pictures, for measuring
 
 function texts.new() return setmetatable({ list = {}, shown = {} }, texts) end
 
@@ -28,7 +28,7 @@ local function join_boxes(a, b)
   return { x, y, math.max(a[1] + a[3], b[1] + b[3]) - x, math.max(a[2] + a[4], b[2] + b[4]) - y }
 end
 
---- The words of a text, with all numbers alike.
+--- The words of a text, with all numbers replaced by the same sign.
 local function outline_of(words) return (words:gsub("%d[%d.,\u{a0}\u{202f}']*", "0")) end
 
 local function new_text(part, words, em)
@@ -37,7 +37,7 @@ local function new_text(part, words, em)
            alone = { { part.alone, 1 } }, hash = part.drawing .. part.placement }
 end
 
---- The texts among the parts of a frame. Letters of one text that follow each other are one.
+--- The texts among the parts of a frame. Letters of one text that follow each other are joined.
 local function texts_of(parts)
   local found = {}
   for _, part in ipairs(parts) do
@@ -70,7 +70,7 @@ local function distance(a, b)
   return math.abs(a[1] - b[1]) + math.abs(a[2] - b[2])
 end
 
---- Which of the texts of the frame before this one is: the nearest; nil: none.
+--- The text of the previous frame that is the same as this one: the nearest; nil: none.
 local function find(shown, text)
   local best
   for _, one in ipairs(shown) do
@@ -84,8 +84,8 @@ end
 
 -- ---------------------------------------------------------------- measuring
 
---- The pixels of a picture in which the letters are large enough: the size of the whole frame, and
---- the crop; nil: the text is not in the frame.
+--- The view in which the letters of a text are large enough: the size of the whole frame, and the
+--- crop; nil: the text is not in the frame.
 local function view_of(text)
   local w, h = film.size[1], film.size[2]
   local x0, y0 = math.max(0, text.box[1]), math.max(0, text.box[2])
@@ -112,7 +112,8 @@ local function fit(xs, ys)
   return slope, (sy - slope * sx) / n
 end
 
---- The contrast of the letters and their background, by WCAG; nil: they cover all or nothing.
+--- The contrast between the letters and their background, by WCAG; nil: the letters cover all or
+--- nothing.
 local function contrast_of(alphas, lights)
   local slope, ground = fit(alphas, lights)
   if not slope then return nil end
@@ -121,7 +122,7 @@ local function contrast_of(alphas, lights)
   return (math.max(letters, ground) + 0.05) / (math.min(letters, ground) + 0.05)
 end
 
---- How much of the letters nearer cels cover.
+--- The share of the letters that nearer cels cover.
 local function cover_of(alphas, over)
   local sum, covered = 0, 0
   for i, alpha in ipairs(alphas) do
@@ -130,8 +131,8 @@ local function cover_of(alphas, over)
   return sum > 0 and covered / sum or 0
 end
 
---- Sees how well a text can be read in the frame that was built last: the greatest contrast so far,
---- and the least part that nearer cels cover.
+--- Measures how well a text can be read in the frame that was built last: updates the greatest
+--- contrast, and the least share that nearer cels cover.
 local function measure(shown, text, look)
   local view = view_of(text)
   if not view then return end
@@ -147,7 +148,7 @@ local function measure(shown, text, look)
   shown.covered = math.min(shown.covered or 1, over and cover_of(alphas, over) or 0)
 end
 
---- Whether a frame of a text is measured. age: its number among those of the text.
+--- Whether a frame of a text is measured. age: which of the frames of the text it is.
 local function is_measured(shown, age)
   return age & (age - 1) == 0 or (shown.contrast or 0) < CONTRAST
     or (shown.covered or 0) >= COVERED
@@ -155,14 +156,14 @@ end
 
 -- ---------------------------------------------------------------- frames
 
---- The sides of the frame within which all of the text lies: left, top, right, bottom.
+--- Adds the sides of the frame inside which the whole text lies: left, top, right, bottom.
 local function add_sides(shown, box)
   local inside = { box[1] >= -0.5, box[2] >= -0.5, box[1] + box[3] <= film.size[1] + 0.5,
                    box[2] + box[4] <= film.size[2] + 0.5 }
   for i = 1, 4 do shown.inside[i] = shown.inside[i] or inside[i] end
 end
 
---- The part of the frame that a box takes.
+--- The share of the frame that a box covers.
 function texts.share_of(box)
   local w = math.min(film.size[1], box[1] + box[3]) - math.max(0, box[1])
   local h = math.min(film.size[2], box[2] + box[4]) - math.max(0, box[2])
@@ -198,12 +199,12 @@ function texts:add(number, parts, look)
   self.shown = now
 end
 
---- Adds a frame that shows the same as the one before.
+--- Adds a frame that shows the same as the previous one.
 function texts:again(number)
   for _, shown in ipairs(self.shown) do shown.last = number end
 end
 
---- The next frame does not follow the one before.
+--- Called when the next frame does not follow the previous one.
 function texts:cut() self.shown = {} end
 
 -- ---------------------------------------------------------------- what is wrong
@@ -235,8 +236,8 @@ local function add_outside(shown, add)
   end
 end
 
---- Calls add(format, ...) for each reason why a text may not be read. seconds: how long it is
---- shown; nil: that is not known.
+--- Calls add(format, ...) for each reason why a text may be hard to read. seconds: how long it is
+--- shown; nil: not known.
 function texts.judge(shown, seconds, add)
   add_outside(shown, add)
   if shown.covered and shown.covered >= COVERED then
@@ -253,7 +254,7 @@ function texts.judge(shown, seconds, add)
   end
 end
 
---- A text as messages show it: in quotes, on one line, and not too long.
+--- A text in the form in which messages show it: in quotes, on one line, and not too long.
 function texts.quoted(words)
   local text = words:gsub("[%c\127]+", " ")
   if (utf8.len(text) or 0) > 60 then text = text:sub(1, utf8.offset(text, 58) - 1) .. "..." end

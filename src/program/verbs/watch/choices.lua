@@ -4,13 +4,13 @@
 -- Names that begin with a dot are left out.
 local program = ...
 
-local FILES_MOST = 500    -- that are listed
-local ENTRIES_MOST = 10000 -- that are looked at
+local FILES_MOST = 500    -- the most files that are listed
+local ENTRIES_MOST = 10000 -- the most entries that are examined
 local DEPTH_MOST = 6       -- folders inside one another
 
 local choices = {}
 
--- Endings that are of one kind; another ending is a kind of its own.
+-- Endings that belong to one kind; every other ending is a separate kind.
 local kinds = {}
 for _, kind in ipairs { "png jpg jpeg tif tiff exr tga webp gif bmp dpx hdr",
                         "wav flac ogg opus mp3 m4a aac aif aiff", "csv tsv", "ora psd kra",
@@ -47,7 +47,7 @@ local function add(walk, name, depth)
   end
 end
 
---- The files of the same kind as one, with their names from the folder of a script.
+--- The files of the same kind as a file, with their names relative to the folder of a script.
 function choices.like(script, file)
   local top = script:match "^.*/" or "./"
   local walk = { top = top, folder = program.resolve(top), kind = kind_of(file), list = {},

@@ -3,7 +3,8 @@
 //   each picture that arrives --seconds--> times --> the strip under the sheet, the slowest frames
 //   /costs.json?frame=N --> the table: the frame, and each of its cels alone
 const SLOWEST = 5; // frames that are listed
-const SLOW_SHARE = 1; // of the time of a frame, above which a bar is in the colour of slow ones
+// a bar has the colour of slow frames if it exceeds this share of the time of a frame
+const SLOW_SHARE = 1;
 
 const times = new Map(); // seconds, by the number of the frame
 let build = 0;

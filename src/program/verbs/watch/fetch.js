@@ -9,7 +9,7 @@ try {
   if (token) localStorage.setItem(NAME, token);
   else token = localStorage.getItem(NAME);
 } catch {
-  // This browser keeps nothing: the page works until it is loaded again.
+  // This browser cannot store the token: the page works until it is loaded again.
 }
 
 /** fetch, with the token. Modules of the page import it in place of the browser's. */

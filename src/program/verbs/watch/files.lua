@@ -12,9 +12,9 @@ local WATCHED_MOST = 10000 -- files
 local files = {}
 files.__index = files
 
--- owners[folder][name]: the films that have asked for it, and whether they read it.
--- folders[number of the watcher]: the names that films have for that folder, such as "" and "./".
--- missing[folder]: it cannot be watched, as it does not exist.
+-- owners[folder][name]: the films that have asked for this file, and whether they read it.
+-- folders[number of the watcher]: the names of that folder in the films, such as "" and "./".
+-- missing[folder]: the folder cannot be watched, because it does not exist.
 function files.new()
   return setmetatable({ watcher = program.watcher(), owners = {}, folders = {}, missing = {},
                         count = 0 }, files)
@@ -32,7 +32,8 @@ function files:watch_folder(folder)
   return number
 end
 
---- Watches a file for a film, { script = }, which is_read or was refused it.
+--- Watches a file for a film, { script = }. is_read: the film read the file; otherwise it was
+--- refused.
 function files:add(path, film, is_read)
   local folder, name = split(path)
   local known = folder and self.owners[folder] and self.owners[folder][name]
@@ -49,7 +50,7 @@ function files:add(path, film, is_read)
 end
 
 --- Whether a film reads a file; nil: it has not asked for it. A trusted script may read modules
---- without asking: those beside it count too.
+--- without asking, so modules beside it count, too.
 function files:state(path, film)
   local folder, name = split(path)
   local known = folder and self.owners[folder] and self.owners[folder][name]
@@ -59,7 +60,7 @@ function files:state(path, film)
   return is_module and true or nil
 end
 
---- Whether an event is about a film. name "": the folder is gone; number -1: events were lost.
+--- Whether an event matters for a film. name "": the folder is gone; number -1: events were lost.
 function files:concerns(number, name, film)
   local is_changed = number == -1
   for folder in pairs(self.folders[number] or {}) do
@@ -68,20 +69,20 @@ function files:concerns(number, name, film)
   return is_changed
 end
 
---- Folders that are there again: which films ask for something in them is not looked at.
+--- Finds folders that exist again. All films that ask for files in them count as affected.
 function files:find_missing()
   local is_found = false
   for folder in pairs(self.missing) do is_found = self:watch_folder(folder) ~= nil or is_found end
   return is_found
 end
 
---- A folder is gone.
+--- Called when a folder is gone.
 function files:lose(number)
   for folder in pairs(self.folders[number] or {}) do self.missing[folder] = true end
   self.folders[number] = nil
 end
 
---- Those of the films that have asked for a file that was changed since the last call.
+--- Returns the given films that have asked for a file which has changed since the last call.
 function files:take(films)
   local events, changed = self.watcher:take(), {}
   for i = 1, #events, 2 do
@@ -97,7 +98,7 @@ function files:take(films)
   return changed
 end
 
---- The path of the first file that a film reads of which fits(path) is true; nil: none is.
+--- The path of the first file that a film reads and for which fits(path) is true; nil: none.
 function files:find(film, fits)
   for folder, list in pairs(self.owners) do
     for name, films in pairs(list) do
@@ -107,16 +108,16 @@ function files:find(film, fits)
   return nil
 end
 
---- The path of a file as a film has it, for one that an editor may name from the root; nil: the
---- film does not read it.
+--- The path by which a film knows a file that an editor names from the root; nil: the film does not
+--- read it.
 function files:path_of(name, film)
   return self:find(film, function(path)
     return name == path or name:sub(-#path - 1) == "/" .. path
   end)
 end
 
---- The path of a file that a sentence about a film names, as Lua does: of a long one the end, after
---- three dots. nil: the film does not read it.
+--- The path of a file that a sentence about a film names in Lua's way: only the end of a long path,
+--- after three dots. nil: the film does not read it.
 function files:named(name, film)
   if self:state(name, film) then return name end
   local ending = name:match "^%.%.%.(.+)$"

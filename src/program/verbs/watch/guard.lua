@@ -36,7 +36,7 @@ function guard.new(port, public)
   return self
 end
 
---- Whether a text is the token, in a time that does not depend on where they differ.
+--- Whether a text is the token. The time that this takes does not depend on the first difference.
 function guard:is_token(text)
   if type(text) ~= "string" or #text ~= #self.token then return false end
   local differs = 0
@@ -50,7 +50,7 @@ local function decode(text)
   end))
 end
 
---- The path and the fields of the query; nil for a target that is not plain.
+--- The path and the fields of the query; nil for a target in an unusual form.
 local function parse(target)
   local path, query = target:match "^(/[%w/._,%-]*)%??(.*)$"
   if not path or path:find("..", 1, true) or path:find "//" then return nil end
@@ -63,7 +63,8 @@ local function parse(target)
   return path, fields
 end
 
---- The path and the fields of a request that may be answered; else nil, the status and a sentence.
+--- The path and the fields of a request that may be answered; otherwise nil, the status and a
+--- sentence.
 function guard:admit(request)
   if not self.hosts[(request.host or ""):lower()] then
     return nil, 403, "this server answers to 127.0.0.1 alone"

@@ -16,12 +16,14 @@ const stage = here("stage"), desk = here("desk");
 const overlay = here("overlay");
 const SIDE_MOST = 1048576;   // pixels of a frame
 const KEPT_MOST = 192 << 20; // bytes of pictures that are kept
-const AHEAD = 8, AT_ONCE = 3; // pictures asked for ahead while playing, and at the same time
+// pictures that are requested ahead while playing, and at the same time
+const AHEAD = 8, AT_ONCE = 3;
 const BEHIND = 24;           // frames that a picture may be late
-const SLOW = 0.15;           // seconds after which a picture is slow: a coarse one comes first
-const VERY_SLOW = 1;         // seconds from which that is coarser still
+// seconds after which a picture is slow: then a coarse picture is shown first
+const SLOW = 0.15;
+const VERY_SLOW = 1;         // seconds after which the coarse picture is made coarser still
 const STRIDE = 80;           // device pixels that a key moves the picture
-const GUIDES = ["safe", "fields"]; // over the picture, one at a time
+const GUIDES = ["safe", "fields"]; // shown over the picture, one at a time
 const FIELDS = 12;           // of a field guide: rectangles around its middle
 const FAULT_FRAMES = 6;      // frames of one fault that are listed
 const THUMB = 160;           // CSS pixels, the longer side of the picture over the scrubber
@@ -29,10 +31,11 @@ const THUMB = 160;           // CSS pixels, the longer side of the picture over 
 const state = { news: 0, build: 0, film: null, errors: [], shown: false, parameters: [],
                 second: null };
 // number: of the frame, from 1. scale: device pixels of a unit of the film; x, y: the place of the
-// frame's corner in the window, in device pixels. isFitted: both follow the window.
+// frame's corner in the window, in device pixels. isFitted: scale and place follow the window.
 const view = { number: 1, scale: 1, x: 0, y: 0, isFitted: true };
 const loop = { from: 1, to: 1 };
-// start: on the clock of the sound while it is heard, else on the machine's, in seconds.
+// start: by the clock of the sound while the sound is heard, otherwise by the machine's clock, in
+// seconds.
 const play = { direction: 0, speed: 1, start: 0, isHeard: false, passed: 0, number: 1, shown: -1,
                painted: [] };
 let isMatte = false, mark = null;
@@ -60,7 +63,8 @@ const part = (one, id) => here(one === main ? id : `${id}2`);
 const ratio = () => window.devicePixelRatio || 1;
 const clamp = (value, least, most) => Math.min(Math.max(value, least), most);
 
-let deskSize = [1, 1]; // in CSS pixels; reading it from the page while a film plays costs layouts
+// in CSS pixels; asking the page for it while a film plays would cost layouts
+let deskSize = [1, 1];
 
 const windowSize = () => deskSize.map(side => Math.max(1, Math.round(side * ratio())));
 
@@ -111,8 +115,9 @@ function visible(one = main) {
 
 // ---------------------------------------------------------------- pictures
 
-const kept = new Map(); // by their address, the oldest first
-const cameras = new Map(); // texts that are the same for the same camera, by numbers of frames
+const kept = new Map(); // by their addresses, the oldest first
+// by the number of the frame: a text that is the same for the same camera
+const cameras = new Map();
 let keptBytes = 0;
 
 function keep(address, picture) {
@@ -402,8 +407,9 @@ function onward(number, by) {
   return loop.from + ((number - loop.from + by) % count + count) % count;
 }
 
-const asked = new Map(); // what was asked for ahead, by the number of the frame
-// Means of the last ones, in seconds: of one picture from asking to its arrival, and between arrivals.
+const asked = new Map(); // requests that were made ahead, by the number of the frame
+// Means of recent values, in seconds: between the request of a picture and its arrival, and between
+// two arrivals.
 const pace = { latency: 0.05, interval: 0.02, last: 0 };
 const mean = (old, value) => old + 0.2 * (value - old);
 
@@ -525,12 +531,13 @@ function currentFault(one = main) {
   if (refused && refused.number === view.number && refused.build === build) {
     return errors.find(known => known.message === refused.message) || refused;
   }
-  return one.painted && one.painted.build === build ? null : one.lastFault; // until there is one
+  // false until there is a picture
+  return one.painted && one.painted.build === build ? null : one.lastFault;
 }
 
 /** Shows the error over the last good picture. */
 function showFault(one = main) {
-  if (!stateOf(one)) return; // it is not shown any more
+  if (!stateOf(one)) return; // it is no longer shown
   const fault = one.lastFault = currentFault(one);
   part(one, "fault").hidden = part(one, "error").hidden = !fault;
   part(one, "error").textContent = fault ? fault.message : "";
@@ -611,7 +618,7 @@ function checkedText(count) {
   return checking ? `${checked} of ${film.frames} frames checked` : `${frames}${count ? "" : ": no faults"}`;
 }
 
-let listed = ""; // the faults of the list: a list that did not change keeps the focus in it
+let listed = ""; // the faults in the list: the focus stays in a list that has not changed
 
 function showFaults() {
   const groups = groupFaults(), kinds = JSON.stringify([state.errors, state.editor]);
@@ -669,7 +676,7 @@ async function listen() {
   for (;;) {
     try {
       const answer = await fetch(`/state.json?since=${state.news}`);
-      if (answer.status === 403) { // the address that was opened has no token
+      if (answer.status === 403) { // the opened address has no token
         here("news").textContent = await answer.text();
         return;
       }
@@ -685,8 +692,8 @@ async function listen() {
 // ---------------------------------------------------------------- values of parameters
 
 const post = (path, value) => fetch(path, { method: "POST", body: JSON.stringify(value) });
-// The address holds the values by name; before those of the second film is a mark, which alone says
-// that it is shown.
+// The address contains the values by name. A mark precedes those of the second film, and shows by
+// itself that the second film is visible.
 const MARK = "2:";
 
 function readAddress() {
@@ -806,7 +813,7 @@ function field(one, parameter) {
     const value = input.type === "checkbox" ? String(input.checked)
       : input.type === "range" ? String(Number(Number(input.value).toPrecision(4))) : input.value;
     if (input.type === "range") shown.textContent = value;
-    // The news since then may have made another list.
+    // Later news may have replaced the list.
     giveValue(one, stateOf(one).parameters.find(known => known.name === parameter.name) || parameter,
               value);
   });
@@ -838,7 +845,8 @@ function takeDefaults() {
 
 // ---------------------------------------------------------------- two films
 
-// isOn: what was asked for last, null once it is so. sent: when the server has heard of all.
+// isOn: the last wish; null after it was fulfilled. sent: resolved when the server has received all
+// wishes.
 const comparing = { isOn: null, sent: Promise.resolve() };
 
 /** The second film beside the first: that of the second script, or the same with other values, which
@@ -938,9 +946,9 @@ function nameRows() {
 
 // ---------------------------------------------------------------- cels in another way
 
-// Letters as /frame/N has them, and s: the others are hidden.
+// The letters of /frame/N, and s: all other cels are hidden.
 const SWITCHES = { s: "solo", h: "hidden", l: "light off", f: "focus off" };
-const cels = { letters: {}, query: "" }; // letters: by the names of cels
+const cels = { letters: {}, query: "" }; // letters: by the names of the cels
 
 /** A button that changes how one cel is shown. */
 function celSwitch(name, letter, what) {
@@ -1051,10 +1059,11 @@ function goBySheet(event) {
 
 // ---------------------------------------------------------------- two pictures
 
-let older = null;           // the picture that the save before had here
-let held = 0;               // the frame that others are compared with; 0: the save before is
+let older = null;           // the picture at this place before the last save
+// the frame that others are compared with; 0: the frame before the last save
+let held = 0;
 let mixing = "";            // "", "wipe" or "differ"
-const DIFFERENCE_GAIN = 4;  // so that small ones are seen
+const DIFFERENCE_GAIN = 4;  // so that small differences can be seen
 
 /** Whether two pictures show the same part of the same frame. */
 const isSamePlace = (a, b) => a && b && a.number === b.number
@@ -1091,9 +1100,10 @@ function mixed(picture) {
 // ---------------------------------------------------------------- onion skin
 
 const ONION_MOST = 3;
-const DIFFERENCE_LEAST = 4; // of 255: less is the noise of edges that lie between other pixels
+// of 255: smaller differences are noise at edges that lie between other pixels
+const DIFFERENCE_LEAST = 4;
 const BEFORE = [230, 40, 40], AFTER = [30, 170, 60];
-let onion = 0; // frames before and after
+let onion = 0; // the number of frames before and after
 
 /** A frame as the camera of a picture sees it, so that its movement shows nothing. */
 function wishSeen(number, picture) {
@@ -1155,7 +1165,7 @@ async function addOthers(picture) {
   if (held && mixing) await fetchOther(() => wish(held));
   for (const number of numbers.filter(one => one >= 1 && one <= state.film.frames)) {
     await fetchOther(() => wishSeen(number, picture));
-    await fetchOther(() => wishSeen(number, picture)); // its camera is known by now
+    await fetchOther(() => wishSeen(number, picture)); // its camera is known now
   }
   if (main.painted === picture && !main.isWanted) paint(picture);
 }
@@ -1185,8 +1195,8 @@ function holdFrame() {
 // ---------------------------------------------------------------- over the picture
 
 let isShowingSpans = false;
-// The line whose work is outlined, { file, line }, and the runs of frames that have some of it.
-// count: of what editors have asked for.
+// The line whose results are outlined, { file, line }, and the runs of frames that contain some.
+// count: how many lines editors have named.
 const outlined = { place: null, runs: [], count: 0 };
 const OUTLINE = [255, 150, 30, 255];
 
@@ -1341,7 +1351,7 @@ async function inspect(one, clientX, clientY) {
 
 // ---------------------------------------------------------------- over the scrubber
 
-let thumbed = 0, isThumbing = false; // the frame that is wanted there; 0: none
+let thumbed = 0, isThumbing = false; // the frame that is wanted in the small picture; 0: none
 
 /** Shows the frame under the pointer small; while one is on its way, only the newest is wanted. */
 async function showThumb(event) {
@@ -1487,7 +1497,7 @@ document.addEventListener("keydown", event => {
   act(event);
 });
 
-// A button that was clicked does not keep the focus, so that space plays.
+// A button that was clicked loses the focus, so that the space key plays.
 document.addEventListener("pointerup", event => event.target.closest("button, #scrub")?.blur());
 
 const pointers = new Map();
@@ -1570,7 +1580,7 @@ new ResizeObserver(() => {
 }).observe(desk);
 new ResizeObserver(drawSheet).observe(here("cells"));
 
-// The address keeps no token: fetch.js has it.
+// The token is removed from the address: fetch.js keeps it.
 history.replaceState(null, "", location.hash.length > 1 ? `/${location.hash}` : "/");
 readAddress();
 setGround("checker");

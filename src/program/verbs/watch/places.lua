@@ -6,8 +6,8 @@ local program = ...
 local texts = require "celspan.files"
 
 local PLACES_MOST = 10000  -- lines
-local AROUND = 3           -- lines shown before and after that of an error
-local LINES_MOST = 1 << 20 -- bytes of a script of which lines are shown
+local AROUND = 3           -- lines that are shown before and after the line of an error
+local LINES_MOST = 1 << 20 -- bytes of the largest script of which lines are shown
 
 local places = {}
 places.__index = places
@@ -19,7 +19,7 @@ end
 
 local function key_of(name, line) return ("%s:%d"):format(name, line) end
 
---- The path and the line of a place, which is noted; nothing if the film does not read that file.
+--- Notes a place. Returns its path and line; nothing if the film does not read that file.
 function places:note(name, line, film)
   local path = name and line and self.files:named(name, film)
   if not path then return end
@@ -32,10 +32,11 @@ function places:note(name, line, film)
   return path, line
 end
 
---- The path of a place that was noted; nil: it was not.
+--- The path of a place that was noted; nil: it was not noted.
 function places:find(name, line) return self.known[key_of(name, line)] end
 
---- The places in a text such as "from shot.lua:40, hand.lua:7", which are noted: { file, line }.
+--- The places in a text such as "from shot.lua:40, hand.lua:7": notes them and returns { file, line
+--- } of each.
 function places:of_text(text, film)
   local list = {}
   for name, digits in text:gmatch "([^%s:(),]+):(%d+)" do
@@ -45,7 +46,7 @@ function places:of_text(text, film)
   return { list = list }
 end
 
---- The lines around one of a file that a film reads; nil: they cannot be read.
+--- The lines around a line of a file that a film reads; nil: they cannot be read.
 function places.excerpt(path, line)
   local text, number, lines = texts.read(path, LINES_MOST), 0, {}
   if not text then return nil end
@@ -57,7 +58,7 @@ function places.excerpt(path, line)
   return lines
 end
 
---- An error of a film as /errors.json lists it.
+--- An error of a film, in the form that /errors.json has.
 function places:describe(message, frame, film)
   local name, named = program.place_of(message)
   local path, line = self:note(name, named, film)

@@ -17,7 +17,7 @@ local function launch(words, is_silent)
   return true
 end
 
---- Forgets those that have ended.
+--- Forgets programs that have ended.
 function programs.step()
   for process in pairs(running) do
     if program.has_ended(process) then running[process] = nil end
@@ -26,7 +26,7 @@ end
 
 -- ---------------------------------------------------------------- the editor
 
---- A path from the root.
+--- The path, made absolute.
 local function from_root(path)
   if path:sub(1, 1) == "/" then return path end
   return program.working_folder():gsub("/$", "") .. "/" .. path
@@ -46,16 +46,16 @@ end
 local PAGE = '<!doctype html><meta charset="utf-8"><title>celspan</title>'
   .. '<meta http-equiv="refresh" content="0; url=%s"><a href="%s">The film</a>\n'
 
-local folder, file -- of the page that leads to the address; nil: there is none
+local folder, file -- the file and its folder with the page that leads to the address; nil: none
 
---- A folder that the environment names; nil: none.
+--- A folder that a variable of the environment names; nil: none.
 local function named(variable)
   local path = os.getenv(variable)
   return path ~= "" and path or nil
 end
 
---- Opens the browser at an address: with a file that leads there, which only this user can read.
---- name: of its folder.
+--- Opens the browser at an address by way of a file, which only this user can read. name: of the
+--- file's folder.
 function programs.browse(address, name)
   local message
   folder = (named "XDG_RUNTIME_DIR" or named "TMPDIR" or "/tmp") .. "/" .. name

@@ -15,17 +15,17 @@ local json = require "celspan.json"
 
 local RENDERERS_MOST = 4
 local SOON, LATE = 0.25, 1.5 -- seconds
-local IDLE = 20              -- seconds after which one that is not needed ends
+local IDLE = 20              -- a renderer that is not needed ends after this many seconds
 local TAIL = 2000            -- bytes of the last words that are kept
-local REQUEST_MOST = 32767   -- bytes that a renderer reads at a time
+local REQUEST_MOST = 32767   -- the most bytes of a request to a renderer
 
 local renderers = {}
 renderers.__index = renderers
 
---- The options that are the page's, and not the film's.
+--- Options for the page, not for the film.
 local own = { ["--port"] = true, ["--open"] = true, ["--size"] = true, ["--editor"] = true }
 
---- values: of parameters, which count more than those of the command line.
+--- values: of parameters; they replace those of the command line.
 local function words_of(script, values)
   local settings = {}
   for name, value in pairs(values) do settings[#settings + 1] = { name, value } end
@@ -33,13 +33,13 @@ local function words_of(script, values)
 end
 
 function renderers.new(script, note_files)
-  program.divide_memory(RENDERERS_MOST * #request) -- of each film
+  program.divide_memory(RENDERERS_MOST * #request) -- for the renderers of each film
   return setmetatable({ script = script, list = {}, queue = {}, values = {},
                         note_files = note_files }, renderers)
 end
 
---- job: want and what goes with it in `ask`; done, failed; is_patient: no other renderer is started
---- for it, and it waits for ever; wish: what it is abandoned by, or nil.
+--- job: want, and its data in `ask`; done, failed. is_patient: no other renderer is started for the
+--- job, and it may wait for ever. wish: the name by which it can be given up, or nil.
 function renderers:ask(job)
   job.text, job.since = program.json(job.ask), program.clock()
   if #job.text > REQUEST_MOST then return job.failed("the request is too long", 400) end
@@ -48,7 +48,7 @@ end
 
 local NOT_WANTED = "it is not wanted any more"
 
---- Gives up a job. A renderer that is at work on it stops within some rows.
+--- Gives up a job. A renderer that is working on it stops within a few rows.
 function renderers:abandon(wish)
   for i, job in ipairs(self.queue) do
     if job.wish == wish then
@@ -82,7 +82,7 @@ function renderers:start()
   return one
 end
 
---- Shows what a renderer printed, and keeps the end of it.
+--- Shows the output of a renderer, and keeps the end of it.
 local function hear(one)
   local words = one.process:words()
   if words == "" then return end
@@ -90,7 +90,7 @@ local function hear(one)
   one.tail = (one.tail .. words):sub(-TAIL)
 end
 
---- Why a renderer has ended: what it said last.
+--- Why a renderer has ended: the end of its output.
 local function last_words(one)
   local code, signal = one.process:finish()
   local said = one.tail:match "celspan: error: ([^\n]*)\n*$"
@@ -106,7 +106,7 @@ local function finish(one, ...)
   if job then job.failed(...) end
 end
 
---- What has arrived from a renderer. false: it has ended.
+--- Reads what has arrived from a renderer. false: the renderer has ended.
 function renderers:listen(one)
   hear(one)
   local message = one.process:take()
@@ -137,7 +137,7 @@ end
 
 -- ---------------------------------------------------------------- all of them
 
---- The next job for an idle renderer: those that can wait come last.
+--- The next job for an idle renderer; patient jobs come last.
 function renderers:next_job()
   for i, job in ipairs(self.queue) do
     if not job.is_patient then return table.remove(self.queue, i) end
@@ -157,7 +157,7 @@ function renderers:hand_out()
   end
 end
 
---- Gives up what has waited too long, and starts a renderer for what waits.
+--- Gives up jobs that have waited too long, and starts a renderer if jobs wait.
 function renderers:hurry()
   local now, waits = program.clock(), #self.list == 0 and #self.queue > 0
   for i = #self.queue, 1, -1 do
@@ -176,7 +176,7 @@ function renderers:hurry()
   self.queue = {}
 end
 
---- Whether a renderer has ended, or has nothing to do any more.
+--- Whether a renderer has ended, or is not needed any more.
 function renderers:is_over(one)
   if not self:listen(one) then return true end
   return #self.list > 1 and not one.job and program.clock() - one.used > IDLE
@@ -194,7 +194,7 @@ function renderers:step()
   self:hand_out()
 end
 
---- Milliseconds after which `step` has something to do even if nobody says anything; -1: none.
+--- Milliseconds until `step` must be called even without news; -1: never.
 function renderers:wait() return #self.queue > 0 and 50 or -1 end
 
 function renderers:add_descriptors(list)
@@ -203,7 +203,7 @@ function renderers:add_descriptors(list)
   end
 end
 
---- Ends all of them; what they were asked fails.
+--- Ends all renderers; their jobs fail.
 function renderers:close(message, status)
   local list, queue = self.list, self.queue
   self.list, self.queue = {}, {}

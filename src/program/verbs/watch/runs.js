@@ -1,6 +1,7 @@
-// Pixels as they travel to the page (program/stage.c): runs of one pixel, and of the pixels above.
+// The form in which pixels are sent to the page (program/stage.c): runs of one pixel, and of the
+// pixels above.
 const LITERAL = 0, FILL = 1;
-const SHORT = 24; // pixels below which a loop is faster than a call
+const SHORT = 24; // below this many pixels a loop is faster than a call
 
 /** The pixels of a picture, RGBA, from its runs. */
 export function unpack(buffer, width, height) {

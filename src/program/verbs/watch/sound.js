@@ -10,16 +10,17 @@ import { fetch } from "/fetch.js";
 
 const RATE = 48000;     // moments in a second, as the server mixes
 const PIECE = 20;       // seconds
-const PIECES_MOST = 6;  // that are kept
+const PIECES_MOST = 6;  // the most pieces that are kept
 const AHEAD = 0.4;      // seconds that are scheduled ahead
 const HEAD = 44;        // bytes of a WAV file before its samples
 
 let film = null, build = 0;
-let speakers = null;          // the AudioContext; it begins at the first key or click
+let speakers = null;          // the AudioContext; it is created at the first key or click
 let isMuted = false;
-const pieces = new Map();     // by the number of the piece: an AudioBuffer, or null while it comes
-let run = null;               // what is heard: see begin
-const sources = new Set();    // that were scheduled
+// by the number of the piece: an AudioBuffer, or null while it is loaded
+const pieces = new Map();
+let run = null;               // the sound that is heard: see begin
+const sources = new Set();    // sources that were scheduled
 
 /** Takes the film of a save; its sound is asked for again. */
 export function takeFilm(newFilm, newBuild) {
@@ -108,7 +109,7 @@ export function seconds() {
 export function feed(place) {
   if (seconds() === null) return;
   const now = speakers.currentTime;
-  if (run.next < now) { // it begins, or its samples came late
+  if (run.next < now) { // it begins now, or its samples arrived late
     run.at = place;
     run.next = now + 0.02;
     run.at += 0.02 * film.fps * run.speed;

@@ -8,14 +8,14 @@ local renderers = program.part("renderers.lua", program, request)
 
 local QUIET = 0.5          -- seconds without requests before frames are checked
 local CHECKED_MOST = 5000  -- frames that are checked
-local ANNOUNCED = 1        -- seconds between two reports of how many were
+local ANNOUNCED = 1        -- seconds between two reports of the number of checked frames
 local FAULTS_MOST = 200
 
 local film = {}
 film.__index = film
 
---- script: its path. files, places: of files.lua and places.lua. tell(): pages are to know more.
---- build: counts what was saved. heard: when a request came last.
+--- script: its path. files, places: of files.lua and places.lua. tell(): called when pages need
+--- news. build: the number of saves. heard: the time of the last request.
 function film.new(script, files, places, tell)
   local self = setmetatable({ script = script, files = files, places = places, tell = tell,
                               build_number = 0, errors = {}, began = 0, heard = 0 }, film)
@@ -37,14 +37,14 @@ end
 
 -- ---------------------------------------------------------------- building
 
---- The frames to check of a film that was built: the first `count`. ask: the next request.
+--- The frames to check in a film that was built: the first `count`. ask: the next request.
 local function checks_of(facts)
   local count = math.min(facts.frames, CHECKED_MOST)
   return { ask = { want = "check", number = facts.first }, first = facts.first, count = count,
            announced = program.clock() }
 end
 
---- What the script has said of itself.
+--- Stores the facts that the script has given.
 function film:take(head)
   self.facts, self.errors, self.is_building = head.film, {}, false
   self.facts.marks = { list = self.facts.marks }
@@ -53,7 +53,7 @@ function film:take(head)
   self.tell()
 end
 
---- Begins with the script as it is now.
+--- Begins again with the current script.
 function film:build()
   self.pool:close("the film was saved again", 503)
   self.build_number, self.began = self.build_number + 1, program.clock()
@@ -72,13 +72,13 @@ function film:build()
   }
 end
 
---- Gives values to parameters, { name = "text" }, in place of all that were given before.
+--- Gives values to parameters, { name = "text" }, and forgets all earlier ones.
 function film:give_values(values)
   self.pool.values = values
   self:build()
 end
 
---- Ends its processes. It can be built again.
+--- Ends the film's processes. The film can be built again.
 function film:close(message)
   self.build_number = self.build_number + 1
   self.is_building, self.is_shown, self.check_state = false, false, nil
@@ -87,8 +87,8 @@ end
 
 -- ---------------------------------------------------------------- checking
 
---- What the next request is about, after this answer; nil: there is none. First all frames in
---- order; then some in the other order; if one of these differs, all in the other order.
+--- The subject of the next request after this answer; nil: there is none. First all frames in
+--- order; then some in the other order; if one of these differs, all frames in the other order.
 local function next_ask(at, head)
   local again = { want = "again", count = at.count, at = head.at or 1, all = at.ask.all }
   if at.ask.want == "check" then
@@ -117,7 +117,7 @@ function film:take_checked(at, head)
   end
 end
 
---- Has some frames checked when nobody asks for pictures.
+--- Lets some frames be checked while no picture is requested.
 function film:check()
   local at = self.check_state
   if not at or at.is_asked or program.clock() - self.heard < QUIET or not self.pool:is_idle() then
@@ -137,7 +137,7 @@ end
 
 -- ---------------------------------------------------------------- what is known
 
---- The values of parameters, by name: of the page, else of the command line.
+--- The values of parameters, by name: those of the page, otherwise those of the command line.
 function film:values()
   local values = {}
   local stored = request.set_from and json.read(request.set_from)
@@ -150,7 +150,7 @@ function film:values()
   return values
 end
 
---- The parameters with their values, else the defaults.
+--- The parameters with their values, or with their defaults.
 function film:describe_parameters()
   local values, list = self:values(), {}
   for i, one in ipairs(self.parameters or {}) do
@@ -171,7 +171,8 @@ function film:describe()
            script = self.script, parameters = self:describe_parameters() }
 end
 
---- Asks the renderers. give(head, bytes); refuse(status, sentence); wish: what it is abandoned by.
+--- Asks the renderers. Calls give(head, bytes) or refuse(status, sentence). wish: the name by which
+--- the request can be given up.
 function film:ask(ask, give, refuse, wish)
   self.heard = program.clock()
   self.pool:ask {
