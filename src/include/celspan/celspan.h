@@ -160,10 +160,10 @@ CELSPAN_API const char *celspan_context_error(const celspan_context *context);
 /* Records a sentence and returns `status`: for sinks and callbacks that fail. */
 CELSPAN_API celspan_status celspan_context_fail(celspan_context *context, celspan_status status,
                                                 const char *format, ...) CELSPAN_FORMAT(3, 4);
-/* Where in a script the values that are made from now on are made: messages about them say it.
- * Values made of others by transforms, fades and names keep the place of those. source: copied, its
- * first 255 bytes; NULL, or line 0: not known, as in a new context. What cannot be kept, without
- * memory or after 4096 different sources, is not known either. */
+/* The place in a script at which the next values are made: messages about them name it. A value
+ * made from another one by a transform, a fade or a name keeps the place of the other one. source:
+ * copied, its first 255 bytes; NULL, or line 0: not known, as in a new context. What cannot be
+ * kept, without memory or after 4096 different sources, is not known either. */
 CELSPAN_API void celspan_context_set_origin(celspan_context *context, const char *source,
                                             int32_t line);
 /* Bytes held now, the most ever held, and allocations made so far. If the host gave no function for
@@ -225,8 +225,7 @@ CELSPAN_API celspan_paint celspan_paint_gel(float r, float g, float b);
 CELSPAN_API celspan_paint celspan_paint_clear(void);
 /* (1-u) p + u q, premultiplied; u is clamped to 0..1. */
 CELSPAN_API celspan_paint celspan_paint_mix(celspan_paint p, celspan_paint q, float u);
-/* "#rgb", "#rgba", "#rrggbb", "#rrggbbaa": sRGB-coded, alpha straight; false when the text is not
- * one. */
+/* "#rgb", "#rgba", "#rrggbb", "#rrggbbaa": sRGB-coded, alpha straight; false for any other text. */
 CELSPAN_API bool celspan_paint_parse(const char *text, celspan_paint *out);
 
 typedef enum celspan_alpha {
@@ -390,9 +389,8 @@ CELSPAN_DESCRIPTION(celspan_pattern_desc)
 #define CELSPAN_PATTERN_DESC (celspan_pattern_desc_initial())
 
 /* A pattern: the box of the art repeated over the plane, for primitives. It is sharp at every size,
- * and what is drawn of it is what is seen. A primitive with a pattern is a level of nesting, like
- * a boolean. out: new
- * Errors: NO_MEMORY; BAD_ARGUMENT; LIMIT where it is nested too deep. */
+ * and only its visible part is drawn. A primitive with a pattern is a level of nesting, like a
+ * boolean. out: new Errors: NO_MEMORY; BAD_ARGUMENT; LIMIT where it is nested too deep. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_pattern(
     celspan_context *context, const celspan_pattern_desc *desc, celspan_texture **out);
 /* _ref gives the value back, counted once more; _unref ignores NULL. Here and below: any thread. */
@@ -494,7 +492,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_surface_create(celspan_contex
                                                                   celspan_surface **out);
 CELSPAN_API celspan_surface *celspan_surface_ref(celspan_surface *surface);
 CELSPAN_API void celspan_surface_unref(celspan_surface *surface);
-/* Bytes of a pixel: 4, 3, 1, 8 or 16; 0 for what is no format. Any thread. */
+/* Bytes of a pixel: 4, 3, 1, 8 or 16; 0 for an unknown format. Any thread. */
 CELSPAN_API size_t celspan_surface_pixel_size(celspan_surface_format format);
 
 /* ---------------------------------------------------------------- objects
@@ -590,15 +588,15 @@ typedef enum celspan_stroke_join {
   CELSPAN_STROKE_JOIN_BEVEL
 } celspan_stroke_join;
 
-/* The width at the share u of the length of a taper, by the width without it. */
+/* The width at the share u of the length of a taper, divided by the width without the taper. */
 typedef enum celspan_stroke_profile {
   CELSPAN_STROKE_PROFILE_STRAIGHT = 0, /* u */
   CELSPAN_STROKE_PROFILE_ROUND         /* u (2 - u): no corner where the taper ends */
 } celspan_stroke_profile;
 
 /* A line and its width: of points, data and outline, one is given. The sides are the envelope of a
- * disc of that width which is taken along the line, caps and joins have the width there, and a
- * smooth point has no join. The outline is made again for every frame, as fine as that frame needs.
+ * disc of that width that moves along the line, caps and joins have the width there, and a smooth
+ * point has no join. The outline is made again for every frame, as fine as that frame needs.
  * Lengths are measured in the stroke's own units, along the line. */
 typedef struct celspan_stroke_desc {
   size_t struct_size;
@@ -613,7 +611,7 @@ typedef struct celspan_stroke_desc {
   double width;            /* 1 */
   celspan_stroke_cap cap;
   celspan_stroke_join join;
-  double miter;         /* limit: length of a miter by the width, 1 or more; 4 */
+  double miter;         /* limit: the length of a miter divided by the width, 1 or more; 4 */
   const double *dashes; /* lengths drawn and left out in turn, twice over if their number is odd;
                           * their sum is above 0; copied; NULL: none */
   size_t dash_count;    /* at most 1,000,000 dashes in one stroke */
@@ -634,11 +632,11 @@ typedef enum celspan_fit {
   CELSPAN_FIT_COVER
 } celspan_fit;
 
-/* A rectangle textured with a picture. width, height: 0 0 its size in pixels, one alone keeps the
- * aspect; fit counts when both are given: CONTAIN keeps the aspect and shows all of it (the
- * rectangle is then the picture's own, unless it wraps), COVER keeps it and leaves no part of the
- * rectangle bare. Reads the picture's header when either is 0 or fit is not FILL: then Errors
- * INPUT, LIMIT. */
+/* A rectangle textured with a picture. width, height: if both are 0, its size in pixels; if one is
+ * 0, it follows from the aspect; fit counts when both are given: CONTAIN keeps the aspect and shows
+ * all of it (the rectangle is then the picture's own, unless it wraps), COVER keeps it and leaves
+ * no part of the rectangle bare. Reads the picture's header when either is 0 or fit is not FILL:
+ * then Errors INPUT, LIMIT. */
 typedef struct celspan_image_desc {
   size_t struct_size;
   const celspan_picture_desc *picture; /* borrowed; its box is not used */
@@ -710,10 +708,11 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_scanline(
 
 typedef enum celspan_operator {
   CELSPAN_OPERATOR_UNION = 0,    /* later over earlier */
-  CELSPAN_OPERATOR_INTERSECTION, /* where all are; later over earlier */
-  CELSPAN_OPERATOR_DIFFERENCE,   /* the first where no other is */
-  CELSPAN_OPERATOR_XOR,          /* where an odd number are; the present ones, over */
-  CELSPAN_OPERATOR_CLIP /* two operands: the first where the second is; only the first is painted */
+  CELSPAN_OPERATOR_INTERSECTION, /* where all operands are present; later over earlier */
+  CELSPAN_OPERATOR_DIFFERENCE,   /* the first, where no other operand is present */
+  CELSPAN_OPERATOR_XOR,          /* where an odd number is present: these, later over earlier */
+  /* two operands: the first where the second is present; only the first is painted */
+  CELSPAN_OPERATOR_CLIP
 } celspan_operator;
 
 /* operands: kept, the list copied; an empty list is legal (except for CLIP) and draws nothing.
