@@ -12,7 +12,7 @@ local truetype = require "tests.support.truetype"
 -- Positions of the pen, from the left end and the baseline. "L": points joined by lines. "A":
 -- centre, radius, and two angles in degrees, counted counterclockwise from the right.
 
-local W = { -- name: how far the pen goes to the right, then its movements
+local W = { -- name: how far the pen moves to the right, then its movements
   A = { 460, "L 0 0 230 612 460 0", "L 71 190 389 190" },
   B = { 380, "L 227 0 0 0 0 612 207 612", "L 0 306 227 306", "A 207 459 153 -90 90",
     "A 227 153 153 -90 90" },
@@ -125,7 +125,7 @@ end
 --- An arc with round ends, clockwise.
 local function arc(x, y, radius, low, high, half)
   local contour = {}
-  local function ending(degrees) -- the pen's position
+  local function ending(degrees) -- the position of the pen
     return x + radius * math.cos(math.rad(degrees)), y + radius * math.sin(math.rad(degrees))
   end
   around(contour, x, y, radius + half, high, true)

@@ -15,7 +15,7 @@ const browser = spawn("chromium", ["--headless=new", "--no-sandbox", "--disable-
   "--no-first-run", "--disable-extensions", "--disable-background-networking",
   "--remote-debugging-pipe", "--window-size=1280,800", `--user-data-dir=${folder}`],
   { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"], detached: true });
-// All its processes: one that lives on would write to a folder that the caller removes.
+// Ends all its processes: one that survives would write to a folder that the caller removes.
 const end = code => { process.kill(-browser.pid, "SIGKILL"); process.exit(code); };
 const fail = fault => { console.error(fault); end(1); };
 setTimeout(() => fail(`no end after ${SECONDS} seconds`), SECONDS * 1000);

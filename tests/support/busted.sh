@@ -7,7 +7,7 @@ folder=$(cd "$1" && pwd)
 shift
 [ -z "${CELSPAN_PART:-}" ] || set -- --exclude-tags=full "$@"
 # --cpath, because the path in .busted would load the module of build/. busted passes its arguments
-# to a shell unquoted: one path, without a semicolon.
+# to a shell without quotes: one path, without a semicolon.
 CELSPAN="$folder/celspan" CELSPAN_BUILD="$folder" LUA_PATH="$PWD/?.lua;;" \
 CELSPAN_SEED="${CELSPAN_SEED:-$(cat tests/seed)}" \
   exec busted --helper=tests/support/checked.lua --lua="$folder/tests/lua_host" \

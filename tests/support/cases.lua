@@ -16,7 +16,7 @@ cases.only = ONLY -- the requested case, or nil
 --- How many of the `plain` cases of a plain run are tried; at least one.
 function cases.count(plain) return math.max(1, plain * SCENES // 300) end
 
---- `count` of the numbers 1 .. `plain`, drawn by the seed.
+--- Chooses `count` of the numbers 1 .. `plain`, by the seed.
 local function draw(count, plain)
   local random, numbers = prng.new(SEED), {}
   for i = 1, plain do numbers[i] = i end

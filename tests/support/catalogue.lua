@@ -21,11 +21,11 @@ local function files_of_targets(build)
   return files
 end
 
---- The name that a test has here: meson's, and "unit/planefile" for one of a subproject.
+--- The name of a test here: meson's name, and "unit/planefile" for a test of a subproject.
 function catalogue.name(name) return name:find "/" and name or "unit/" .. name end
 
 --- A list of all: name, such as "unit/wide" or "spec/svg"; called, its name for meson; suite, one
---- that it is in; command, which runs it from the top of the tree; targets, which ninja has to
+--- of its suites; command, which runs it from the top of the tree; targets, which ninja has to
 --- build for it. `root` is the top of the tree, `folder` the name of the build folder in it,
 --- `options` those of busted.
 function catalogue.of(root, folder, options)

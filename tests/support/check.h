@@ -32,8 +32,8 @@ static inline int check_text(const char *a, const char *b, const char *file, int
   return check_record(a && b && strcmp(a, b) == 0, file, line, text);
 }
 
-/* Whether the case of this number, from 0 on, is tried here: where the environment variable is N,
- * one case in N is, beginning at one that CELSPAN_SEED selects. */
+/* Whether the case of this number, from 0 on, is tried here: if the environment variable is N, one
+ * case in N is tried, beginning with the one that CELSPAN_SEED selects. */
 static inline int check_is_drawn_by(const char *variable, int number) {
   const char *share = getenv(variable), *seed = getenv("CELSPAN_SEED");
   unsigned long one_in = share ? strtoul(share, NULL, 10) : 1;
@@ -45,7 +45,7 @@ static inline int check_is_drawn_by(const char *variable, int number) {
 static inline int check_is_drawn(int number) { return check_is_drawn_by("CELSPAN_TESTS", number); }
 
 /* Whether the thread sanitizer is active. It makes a test ten times as slow, and finds nothing in
- * code that runs on one thread: long tests leave that to the other builds. */
+ * code that runs on one thread: long tests leave such code to the other builds. */
 static inline int check_is_for_threads(void) {
 #if defined(__SANITIZE_THREAD__)
   return 1;
@@ -60,13 +60,13 @@ static inline int check_is_for_threads(void) {
 #endif
 }
 
-/* Each is 1 when it passed, 0 when it failed. */
+/* Each is 1 if the check passed, 0 if it failed. */
 #define CHECK(condition) check_record(!!(condition), __FILE__, __LINE__, #condition)
 #define CHECK_NEAR(a, b, tolerance)                                                                \
   check_near((a), (b), (tolerance), __FILE__, __LINE__, #a " near " #b)
 #define CHECK_TEXT(a, b) check_text((a), (b), __FILE__, __LINE__, #a " is " #b)
 
-/* Checks that cannot be made, with what they need. Printed, and counted as skipped. */
+/* Checks that cannot be made, with what they need. This is printed, and counted as skipped. */
 static inline void check_skip(const char *what) {
   check_skips++;
   printf("skipped: %s\n", what);

@@ -6,12 +6,12 @@
 local busted = require "busted"
 local assertions = require "luassert"
 
--- Then `require "celspan.motion"` is the module that is built in, and not its file in the tree: the
--- lines of errors depend on that.
+-- With this, `require "celspan.motion"` gives the built-in module, and not its file in the tree:
+-- the lines of errors depend on this.
 pcall(require, "celspan")
 
 local checks = 0  -- of the current test
-local counts = {} -- of what was registered in the current file, and in the blocks around this place
+local counts = {} -- the counts of the current file, and of the blocks around this place
 
 -- A tail call, because the level of an error counts frames.
 local function counting(call)
@@ -21,7 +21,7 @@ local function counting(call)
   end
 end
 
--- Those of assert(...) and of assert.is_true(...): luassert has one metatable for each.
+-- The metatables for assert(...) and for assert.is_true(...): luassert has one for each.
 for _, callable in ipairs { assertions, assertions.is_true } do
   local meta = getmetatable(callable)
   meta.__call = counting(meta.__call)
@@ -57,7 +57,7 @@ for _, container in ipairs { "file", "describe" } do
   busted.subscribe({ container, "end" }, leave)
 end
 
--- Before the subscribers that leave tests out: those are registered by now.
+-- Runs before the subscribers that leave out tests, which are already registered.
 busted.subscribe({ "suite", "start" }, function()
   for _, member in ipairs { "describe", "it", "pending" } do
     busted.subscribe({ "register", member }, count, { priority = 1 })

@@ -19,7 +19,7 @@ local nearest = require "tests.mutate.nearest"
 local system = require "tests.support.system"
 
 local UNKNOWN = 5
-local ALWAYS = "golden/golden" -- begun first, however long it took
+local ALWAYS = "golden/golden" -- started first, even if it took little time
 -- Tests that meson makes of other sources than test_NAME.c and NAME_spec.lua.
 local MADE = { ["unit/faults"] = true, ["unit/planefile"] = true, ["unit/spanfile"] = true }
 
@@ -56,7 +56,7 @@ local function chosen(all, names)
   return list
 end
 
---- Prints the tests that take SECONDS of processor time in all.
+--- Prints the tests that need SECONDS of processor time in all.
 local function print_tests(list, seconds)
   local left_out, sum = {}, 0
   for _, test in ipairs(list) do
@@ -71,7 +71,7 @@ end
 --- Appends a list to another.
 local function append(list, more) table.move(more, 1, #more, #list + 1, list) end
 
---- Whether a change of a file may change pixels: one of pages and of verbs in Lua does not.
+--- Whether a change of a file may change pixels: changes of pages and of verbs in Lua do not.
 local function may_change_pixels(path)
   return not path:find "%.md$" and not path:find "^src/program/verbs/"
 end
@@ -102,7 +102,7 @@ local function distance(a, b)
   return row[#b]
 end
 
---- Up to three names of a list, the most similar to a word.
+--- At most three names of a list, those that are most similar to a word.
 local function suggestions(word, names)
   table.sort(names, function(a, b)
     local to_a, to_b = distance(word, a), distance(word, b)
@@ -111,8 +111,8 @@ local function suggestions(word, names)
   return table.concat(names, ", ", 1, math.min(3, #names))
 end
 
---- The meaning of each name that may be given: a test, the tests of a folder of tests/, or those
---- near a folder of src/.
+--- The meaning of each possible name: a test, the tests of a folder of tests/, or those near a
+--- folder of src/.
 local function meanings(all)
   local meaning, units = {}, near.units "."
   local function add(name, test)
@@ -170,8 +170,8 @@ local function check_nearest(expect)
   end
 end
 
---- Every source of a test is named in a meson.build of tests/, and every test near to something has
---- a source.
+--- Every source of a test is named in a meson.build of tests/, and every test in nearest.lua has a
+--- source.
 local function check_listed(expect)
   local listed = assert(system.read "tests/meson.build")
     .. assert(system.read "tests/unit/meson.build")

@@ -33,7 +33,7 @@ static bool has_size_limit(void) {
   return getrlimit(RLIMIT_FSIZE, &files) == 0 && files.rlim_cur != RLIM_INFINITY;
 }
 
-void starve_end(void) __attribute__((weak)); /* of the library of starve.c, if it is loaded */
+void starve_end(void) __attribute__((weak)); /* from the library of starve.c, if it is loaded */
 
 /* Libgcov does not check whether its allocations succeed. */
 static void end_faults(void) {
@@ -74,8 +74,8 @@ static bool has_ended(pid_t process) {
          found.si_pid == process;
 }
 
-/* A process that is killed could not write its counts: it is first asked to end itself, and is
- * given time. */
+/* A process that is killed could not write its counts, so it is first asked to end, and gets time
+ * for this. */
 int __wrap_kill(pid_t process, int number) {
   const struct timespec pause = {.tv_nsec = 1000000};
   if (number == SIGKILL && process > 0 && __real_kill(process, ASKED) == 0)

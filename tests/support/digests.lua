@@ -25,7 +25,7 @@ local bench = workbench.new()
 local has_failed = false
 
 
---- The output of the command, or nil when it fails; then its messages go to standard error.
+--- The output of the command, or nil if it fails; its messages go to standard error.
 local function output_of(...)
   local quoted = {}
   for i, word in ipairs { ... } do quoted[i] = system.quote(word) end
@@ -58,7 +58,7 @@ local function put_frames(kind, name, script, frames, ...)
   for _, frame in ipairs(frames) do put(kind, name .. "/" .. frame, digests[frame]) end
 end
 
---- Frames spread evenly over a script's film, the first and the last among them.
+--- Frames spread evenly over a script's film, including the first and the last one.
 local function frames_of(script, count)
   local told = output_of(celspan, "info", script) or "first 1\nlast 1\n"
   local first, last = told:match "first (%-?%d+)", told:match "last (%-?%d+)"
@@ -111,7 +111,7 @@ local function put_page_picture(picture)
   put_frames("page", picture.name, script, { picture.frame or 1 }, table.unpack(options))
 end
 
---- The bytes of finished files, and of a pyramid of tiles with its names.
+--- The bytes of finished files, and of a pyramid of tiles with the names of its files.
 local function put_files()
   for _, ending in ipairs { "png", "span", "tga" } do
     local path = bench.folder .. "/demo." .. ending
@@ -131,7 +131,8 @@ end
 
 local program = bench_build and bench_build .. "/tests/bench/bench_celspan"
 
---- One line: the digest of the spans, of the 8-bit pixels, and of those of pictures' codes.
+--- One line: the digest of the spans, of the 8-bit pixels, and of the pixels of pictures that keep
+--- their codes.
 local function put_bench(kind, name, ...)
   local line = output_of(program, ...) or ""
   local digests = {}

@@ -14,12 +14,12 @@ local prng = require "tests.support.prng"
 
 local drawn = { w = 640, h = 360 }
 
--- "add" is not among them: that of CSS, "plus-lighter", is limited to 1 in every group.
+-- "add" is not among them: CSS's mode for it, "plus-lighter", is limited to 1 in every group.
 local MODES = { "normal", "multiply", "screen", "overlay", "darken", "lighten", "color-dodge",
                 "color-burn", "hard-light", "soft-light", "difference", "exclusion", "hue",
                 "saturation", "color", "luminosity" }
--- Those that enlarge no difference much, for scenes with blurs: Chromium rounds what it blurs to 8
--- bits on every canvas.
+-- Modes that do not enlarge differences much, for scenes with blurs: Chromium rounds blurred pixels
+-- to 8 bits on every canvas.
 local GENTLE = { "normal", "multiply", "screen", "overlay", "darken", "lighten", "hard-light",
                  "difference", "exclusion" }
 
@@ -31,7 +31,7 @@ maker.__index = maker
 
 -- ---------------------------------------------------------------- numbers
 
---- A number of at most three decimals, which both get alike.
+--- A number of at most three decimals, which both renderers read alike.
 function maker:number(low, high)
   return math.floor(self.random:between(low, high) * 1000 + 0.5) / 1000
 end
@@ -46,13 +46,13 @@ function maker:name()
   return ("s%d-%d"):format(self.seed, self.names)
 end
 
---- An element of SVG that others name.
+--- An element of SVG to which others refer.
 function maker:define(format, ...) self.defs[#self.defs + 1] = format:format(...) end
 
 -- ---------------------------------------------------------------- textures
 
---- The stops of a gradient: colours of one alpha, or alphas of one colour, since SVG mixes colours
---- before they are multiplied by alpha, and celspan afterwards.
+--- The stops of a gradient: colours with the same alpha, or the same colour with several alphas,
+--- since SVG mixes colours before they are multiplied by alpha, and celspan afterwards.
 function maker:stops()
   local list, svg = {}, {}
   local one_colour = self.random:once(3) and self:colour()
@@ -84,7 +84,7 @@ function maker:radial(svg)
   return celspan.radial, { centre = { x, y }, radius = radius, focus = { fx, fy } }
 end
 
---- A gradient: celspan's, and the name of SVG's.
+--- A gradient of celspan's, and the name of the same gradient in SVG.
 function maker:gradient()
   local svg, name = {}, self:name()
   local make, fields = maker[self.random:pick { "linear", "radial" }](self, svg)
@@ -131,8 +131,8 @@ function outlines.polygon(make)
   return celspan.polygon(points), ('<polygon points="%s"'):format(table.concat(text, " "))
 end
 
---- Three boxes after each other, each a whole number of pixels wide: so Chromium blurs, and the
---- text of SVG allows it, where the Gaussian that celspan has would differ by some codes.
+--- Three boxes after each other, each a whole number of pixels wide: Chromium blurs in this way,
+--- which the text of SVG allows. The Gaussian that celspan has would differ by some codes.
 function maker:blurred(object, style)
   local side, name = 2 * self.random:whole(3, 6) + 1, self:name()
   local sigma = side * 4 / 3 / math.sqrt(2 * math.pi)
@@ -144,7 +144,7 @@ function maker:blurred(object, style)
   return object
 end
 
---- A shape, turned, with a texture and a mode.
+--- A shape, rotated, with a texture and a mode.
 function maker:shape(mode)
   local is_blurred = self.modes == GENTLE and self.random:once(4)
   local kinds = is_blurred and { "rect", "polygon" } or { "rect", "ellipse", "polygon" }
@@ -166,7 +166,7 @@ end
 
 -- ---------------------------------------------------------------- groups
 
---- Shapes and, less than three deep, groups; half of them with a mode.
+--- Shapes and, if less than three levels deep, groups; half of them with a mode.
 function maker:members(depth)
   local objects, edges, svg = {}, {}, {}
   for i = 1, self.random:whole(2, 4) do
@@ -178,7 +178,7 @@ function maker:members(depth)
   return objects, edges, table.concat(svg, "\n")
 end
 
---- Through a mask of two shapes, by its alpha or its luminance.
+--- An object behind a mask of two shapes, by alpha or luminance.
 function maker:masked(object, edges, style)
   local from, name = self.random:pick { "alpha", "luma" }, self:name()
   local a, b = self:shape(), self:shape()
@@ -211,7 +211,7 @@ function maker:group(depth, mode)
            svg = ('<g style="%s">%s</g>'):format(table.concat(style, ";"), svg) }
 end
 
---- Any mode, but none again before all others.
+--- A random mode; none is used again before all others have been used.
 function maker:mode()
   self.mode_count = self.mode_count + 1
   return self.modes[(self.seed * 5 + self.mode_count * 7) % #self.modes + 1]

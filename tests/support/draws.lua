@@ -46,7 +46,7 @@ local function is_block(file, open)
   return i == open + 1
 end
 
---- How many items of a list contain a draw, and the last one's first token.
+--- How many items of a list contain a draw, and the first token of the last such item.
 local function count_items(file, open, draws)
   local count, i, has_draw = 0, open + 1, false
   while i <= file.close[open] do
@@ -110,7 +110,7 @@ for path in files:lines() do
   count = count + 1
   local is_good = true
   check_file(root .. "/" .. path, function(...)
-    -- one per file, because each file counts as one check
+    -- one fault for each file, because each file counts as one check
     if is_good then faults[#faults + 1] = string.format(...) end
     is_good = false
   end)

@@ -13,7 +13,7 @@ local KINDS = {
 }
 local ALL = "find src lua scripts tests examples docs subprojects -type f"
 
-local PRINTED = "^tests/face/%d" -- by tests/face/main.lua, in a form of its own
+local PRINTED = "^tests/face/%d" -- files that tests/face/main.lua prints in its own form
 
 local kind = KINDS[arg[1]]
 local paths = {}

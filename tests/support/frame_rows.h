@@ -25,7 +25,7 @@ static inline void frame_rows_open(frame_rows *rows, studio *s, const celspan_fr
   studio_check(s, cs_row_worker_init(&rows->worker, s->context, &rows->frame));
 }
 
-/* Valid until the next call; without spans after a failed check. */
+/* Valid until the next call; without spans if a check has failed. */
 static inline const cs_row *worker_row(cs_row_worker *worker, int32_t y) {
   static const cs_row none = {0};
   const cs_row *row = &none;
@@ -46,10 +46,10 @@ static inline void row_colours(const cs_row *row, float (*out)[4]) {
       celspan_span_colour(&row->spans[i], x, out[x]);
 }
 
-/* All colours of a frame, row by row, and how many spans there were of each kind. */
+/* All colours of a frame, row by row, and the number of its spans of each kind. */
 typedef struct image {
   int32_t width, height;
-  float (*rgba)[4]; /* allocated: to be freed by the test */
+  float (*rgba)[4]; /* allocated; the test must free it */
   uint64_t kinds[3];
 } image;
 

@@ -1,4 +1,4 @@
--- Goldens: small scripts and the text of their spans, which is the reference.
+-- Goldens: small scripts, and the text of their spans as a reference.
 local present = require "tests.support.present"
 local shipped = require "tests.support.shipped"
 local system = require "tests.support.system"
@@ -60,7 +60,7 @@ local function lines_of(asked)
   return nil, asked .. " failed"
 end
 
---- The frames' digests in order: workers end in any order.
+--- The digests of the frames in order: workers end in any order.
 local function ask_render(arguments)
   local lines, message = lines_of(("%s render %s --hash --progress none")
     :format(command, arguments))

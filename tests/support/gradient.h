@@ -1,6 +1,5 @@
 /* Gradients by definition, for tests: the position of a point along the stops, and the weight of
- * each corner at it. Nothing is shared with engine/paint/shade.c.
- */
+ * each corner at it. No code is shared with engine/paint/shade.c. */
 #pragma once
 
 #include <math.h>
@@ -31,9 +30,9 @@ static inline double gradient_radius(const gradient *g) {
   return sqrt(dot(leg, leg));
 }
 
-/* The position of a point between the first stop's end and the last one's, 0..1 and beyond. For
- * circles, the one between the focus and the whole circle that passes through the point: p with |p
- * - focus - t d| = t radius, d the vector from the focus to the centre. */
+/* The position of a point between the first and the last stop, 0..1, or outside of it. For circles,
+ * the position of the circle, between the focus and the whole circle, that passes through the
+ * point: p with |p - focus - t d| = t radius, d the vector from the focus to the centre. */
 static inline double gradient_place(const gradient *g, celspan_point at) {
   celspan_point way = away(g->points[0], g->points[1]), from = g->points[g->shape == FOCAL ? 2 : 0];
   celspan_point d = away(from, g->points[0]), q = away(from, at);
@@ -43,7 +42,8 @@ static inline double gradient_place(const gradient *g, celspan_point at) {
   return (sqrt(b * b + a * dot(q, q)) - b) / a;
 }
 
-/* The weights of a triangle's corners at a point, 1 together; below 0 outside it. */
+/* The weights of a triangle's corners at a point; their sum is 1, and outside of the triangle one
+ * of them is negative. */
 static inline void gradient_weights(const gradient *g, celspan_point at, double weights[3]) {
   const celspan_point *p = g->points;
   double whole = cross(away(p[0], p[1]), away(p[0], p[2]));

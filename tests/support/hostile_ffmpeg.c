@@ -56,7 +56,7 @@ static int trace_parent(void) {
   return ptrace(PTRACE_SEIZE, getppid(), NULL, NULL) == 0 || errno != EPERM;
 }
 
-/* In a process of its own, whose exit code 0 means that it could. */
+/* Runs a function in a separate process. The exit code 0 means that it succeeded. */
 static int could(int (*act)(void)) {
   int status = 1;
   pid_t child = fork();
@@ -103,8 +103,8 @@ static void try_all(void) {
 
 /* ---------------------------------------------------------------- samples */
 
-/* A form with this number of channels and samples in a second, and a second of samples with this
- * value. */
+/* Sends a form with this number of channels and samples per second, and a second of samples with
+ * this value. */
 static void send_form(int channels, int rate, float value) {
   unsigned char head[44] = "RIFF\377\377\377\377WAVEfmt \20\0\0\0\3";
   head[22] = (unsigned char)channels;

@@ -50,7 +50,7 @@ static celspan_status fail(cs_picture_failure *failure, celspan_status status, c
   return status;
 }
 
-/* The name behind the descriptor under which the file is opened. */
+/* The name of the file that is opened by a descriptor. */
 static void find_name(const char *file, char out[4096]) {
   char path[4096];
   ssize_t size = readlink(file, path, sizeof path - 1);
@@ -68,8 +68,8 @@ static void eat(void) {
   }
 }
 
-/* The connection to the program, as a malicious picture would find it after taking over its
- * decoder. */
+/* The connection to the program. A malicious picture could find it in the same way after taking
+ * over its decoder. */
 static int find_socket(void) {
   for (int found = 3; found < DESCRIPTORS; found++) {
     int type = 0;
@@ -97,7 +97,7 @@ static void misspeak(const char *name) {
   say(&message, sizeof message);
 }
 
-/* Sends a message that the program cannot accept. Returns whether it accepted it. */
+/* Sends a message that the program must not accept. Returns whether the program accepted it. */
 static bool put_wrongly(const char *name) {
   cs_message message = {.kind = strstr(name, "confused") ? CS_MESSAGE_PART : CS_MESSAGE_PUT,
                         .put = {.size = strstr(name, "greedy") ? CS_SHARED : 0}};

@@ -24,8 +24,7 @@ settings=$(dirname "$(installed celspan.pc)")
 libraries=$(dirname "$settings")
 export LD_LIBRARY_PATH=$libraries
 
-# flags PACKAGE: compiler flags, with folders of the installed tree; Lua's own are in the usual
-# place.
+# flags PACKAGE: compiler flags, with folders of the installed tree; Lua is in its usual place.
 flags() {
   PKG_CONFIG_SYSROOT_DIR=$tree PKG_CONFIG_PATH=$settings pkg-config --cflags --libs "$1"
   pkg-config --cflags --libs lua5.4
@@ -64,6 +63,6 @@ end }
 LUA
 "$program" render "$tree/dot.lua" -o "$tree/dot.png" --progress none
 [ -s "$tree/dot.png" ]
-# Reading a picture needs a module, which lies elsewhere in the tree.
+# To read a picture, the program needs a module, which has another place in the tree.
 [ -z "$(find "$tree" -name celspan-picture.so)" ] ||
   "$program" info scripts/pictures/canal.png >/dev/null

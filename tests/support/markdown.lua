@@ -33,7 +33,8 @@ function markdown.blocks(path)
   return blocks
 end
 
---- Saves those blocks of a page that have a file, into a folder. keeps: selects them, a function.
+--- Saves the blocks of a page that have a file into a folder. keeps: a function that selects
+--- blocks.
 function markdown.save(path, folder, keeps)
   for _, block in ipairs(markdown.blocks(path)) do
     if block.file and keeps(block) then
@@ -42,7 +43,7 @@ function markdown.save(path, folder, keeps)
   end
 end
 
---- The page without its blocks.
+--- The text of a page without its blocks.
 function markdown.prose(path)
   return (("\n" .. markdown.read(path)):gsub("\n```.-\n```\n", "\n\n"))
 end

@@ -11,10 +11,10 @@
 
 typedef struct memory_watch {
   atomic_size_t blocks, bytes;
-  atomic_size_t size_errors; /* blocks resized or freed with another size than they had */
-  atomic_size_t allocations; /* made so far, failed ones included */
+  atomic_size_t size_errors; /* blocks that were resized or freed with a wrong size */
+  atomic_size_t allocations; /* the number of allocations so far, including failed ones */
   size_t fail_at;            /* the allocation of this number fails, counted from 1; 0: none */
-  bool is_for_good;          /* all later ones fail too */
+  bool is_for_good;          /* all later allocations fail, too */
 } memory_watch;
 
 typedef union memory_header {

@@ -4,8 +4,9 @@ local system = require "tests.support.system"
 
 local near = {}
 
---- The name under which nearest.lua lists a path, or nil. A file of src/ is listed under the last
---- of its folders that has an entry; any other path under itself or under a folder above it.
+--- The name under which nearest.lua lists a path, or nil. A file of src/ is listed under the
+--- innermost of its folders that has an entry; any other path under itself or under a folder above
+--- it.
 function near.key(path)
   local rest = path
   while rest do
@@ -15,7 +16,7 @@ function near.key(path)
   end
 end
 
---- The unit tests that are linked with a folder of src/ and the folders below it alone.
+--- The unit tests that are only linked with a folder of src/ and the folders below it.
 function near.units(root)
   local units = {}
   local listed = system.read(root .. "/tests/unit/meson.build")

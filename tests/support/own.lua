@@ -1,5 +1,5 @@
---- require for celspan's private modules, in tests of them: own "celspan.reach".
+--- require for celspan's private modules, used in their tests: own "celspan.reach".
 require "celspan"
-require "celspan.ease" -- the first chunk of celspan's own, with which they get their globals
+require "celspan.ease" -- the first chunk of celspan, which gives the others their globals
 
 return debug.getregistry()["celspan.own"].require

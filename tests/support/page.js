@@ -63,7 +63,7 @@ const world = {
 };
 world.window = world;
 
-// Lets every requested file arrive and be drawn, until nothing moves any more.
+// Waits until every requested file has arrived and been drawn, and nothing moves any more.
 function settle() {
   for (let i = 0; frames.length || arrivals.length; i++) {
     if (i > 3000) throw new Error("the page never comes to rest");
@@ -92,7 +92,7 @@ const ACTIONS = {
   drag(x0, y0, x1, y1) {
     send("pointerdown", point(1, +x0, +y0));
     send("pointermove", point(1, +x1, +y1));
-    now += 200; // held still before it is released
+    now += 200; // it does not move before it is released
     send("pointerup", point(1, +x1, +y1));
   },
   pinch(x, y, by) {
@@ -100,7 +100,7 @@ const ACTIONS = {
     send("pointerdown", point(2, +x + 50, +y));
     send("pointermove", point(1, +x - 50 * by, +y));
     send("pointermove", point(2, +x + 50 * by, +y));
-    now += 20; // and released while they move
+    now += 20; // it still moves when it is released
     send("pointerup", point(1, +x - 50 * by, +y));
     send("pointerup", point(2, +x + 50 * by, +y));
   },

@@ -18,7 +18,7 @@ local paintings = {}
 -- ---------------------------------------------------------------- archives
 
 --- members: { name =, data =, deflate =, extra =, and false values for a damaged archive: size,
---- packed, method, flags }. comment: behind the table. is_wide: offsets and sizes are 64-bit
+--- packed, method, flags }. comment: after the table. is_wide: offsets and sizes are 64-bit
 --- numbers, in extra fields and before the end of the table.
 function paintings.zip(members, comment, is_wide)
   local out, entries, at = {}, {}, 0
@@ -54,7 +54,7 @@ end
 
 -- ---------------------------------------------------------------- colour profiles
 
---- Of sRGB, by the white of D50.
+--- The primaries of sRGB, relative to the white of D50.
 local srgb_places = { { 0.4361, 0.2225, 0.0139 }, { 0.3851, 0.7169, 0.0971 },
   { 0.1431, 0.0606, 0.7141 } }
 
@@ -69,7 +69,8 @@ local function srgb_table()
   return "curv\0\0\0\0" .. string.pack(">I4", 1024) .. table.concat(values)
 end
 
---- The tag of a table of colours (lut16Type): curves of squares, a cube of 2 x 2 x 2 places, XYZ.
+--- The tag of a table of colours (lut16Type): curves that square the codes, then a cube of 2 x 2 x
+--- 2 points, in XYZ.
 local function lut_of(place_of)
   local parts = { "mft2\0\0\0\0\3\3\2\0" }
   for i = 0, 8 do parts[#parts + 1] = string.pack(">i4", i % 4 == 0 and 65536 or 0) end
@@ -85,9 +86,9 @@ local function lut_of(place_of)
   return table.concat(parts) .. ("\0\0\255\255"):rep(3)
 end
 
---- The bytes of a profile. given: name; curve: "srgb", "formula" (sRGB as one), a power, or the
---- bytes of a tag; grey; places: of red, green and blue; wide: the name in UTF-16; lut: a function
---- from the corners of a cube of squared codes to places, in place of those and the curve.
+--- The bytes of a profile. given: name; curve: "srgb", "formula" (sRGB as a formula), a power, or
+--- the bytes of a tag; grey; places: of red, green and blue; wide: the name is in UTF-16; lut: a
+--- function from the corners of a cube of squared codes to places, which replaces places and curve.
 function paintings.profile(given)
   local function fixed(number) return string.pack(">i4", math.floor(number * 65536 + 0.5)) end
   local curve = given.curve or "srgb"
@@ -131,7 +132,7 @@ end
 
 -- ---------------------------------------------------------------- PNG
 
---- An RGBA PNG of a layer, or one of the given colour type with rows of its own.
+--- An RGBA PNG of a layer, or a PNG of the given colour type with the given rows.
 function paintings.png(layer)
   local depth = layer.depth or 8
   local format = depth == 16 and ">I2I2I2I2" or "BBBB"
@@ -146,7 +147,7 @@ function paintings.png(layer)
   return paintings.png_of(layer.w, layer.h, depth, 6, table.concat(rows), layer.chunks or profile)
 end
 
---- rows: filtered, each with its filter's byte. more: chunks before the data.
+--- rows: filtered, each with the byte of its filter. more: chunks before the data.
 function paintings.png_of(w, h, depth, colour, rows, more, interlaced)
   return "\x89PNG\r\n\x1a\n"
     .. stored.chunk("IHDR", string.pack(">I4I4BBBBB", w, h, depth, colour, 0, 0, interlaced or 0))
@@ -209,7 +210,7 @@ end
 
 -- ---------------------------------------------------------------- Krita
 
---- How many bytes from `at` on are those `back` bytes before them.
+--- How many bytes from `at` on equal the bytes that are `back` bytes before them.
 local function match_length(text, at, back)
   local count = 0
   while count < 264 and at + count <= #text and at > back
@@ -217,7 +218,7 @@ local function match_length(text, at, back)
   return count
 end
 
---- LZF: copies from a few distances, else literals.
+--- LZF: copies from a few distances; all other bytes are literals.
 function paintings.lzf(text)
   local out, at, literals = {}, 1, {}
   local function flush()
@@ -272,7 +273,8 @@ local function krita_tile(layer, column, row)
   return #packed < #clear * 4096 and "\1" .. packed or "\0" .. table.concat(pixels)
 end
 
---- Tiles from the layer's corner on; tile_x, tile_y: where that corner is in the layer's own units.
+--- Tiles from the layer's corner on. tile_x, tile_y: the place of this corner in the layer's own
+--- units.
 function paintings.krita_tiles(layer)
   local tiles = {}
   for row = 0, (layer.h + 63) // 64 - 1 do
@@ -366,7 +368,7 @@ local function predicted(row, depth)
   return table.concat(out)
 end
 
---- A channel: rows of numbers as the file has them.
+--- A channel: rows of numbers in the form of the file.
 local function psd_channel(layer, w, h, painting, value_at)
   local depth = painting.depth or 8
   local format, rows = depth == 16 and ">I2" or "B", {}
@@ -466,7 +468,7 @@ end
 
 paintings.tag = tag
 
---- resources: other bytes in their place.
+--- resources: other bytes that replace the usual ones.
 local function psd_resources(painting)
   local profile = painting.profile
   if not profile then return painting.resources or "" end
@@ -476,9 +478,9 @@ local function psd_resources(painting)
 end
 
 --- mode: 3 RGB; merged: what follows the layers; large: a PSB, whose sizes have more bytes;
---- are_groups_full: groups have channels, too, without pixels, as Photoshop writes them. Of a
---- layer: tags: blocks behind its record; ranges: the bytes of its blending ranges. Of a mask:
---- flags, and more: what follows them.
+--- are_groups_full: groups have channels, too, without pixels, as Photoshop writes them. For a
+--- layer: tags: blocks after its record; ranges: the bytes of its blending ranges. For a mask:
+--- flags, and more: bytes after them.
 function paintings.psd(painting)
   local records, data = {}, {}
   psd_list(painting.layers or {}, painting, records, data)

@@ -27,10 +27,10 @@
 
 enum { PROCESSES = 4096, PAUSE = 3 /* milliseconds */ };
 
-static pid_t seen[PROCESSES]; /* the first is this one */
+static pid_t seen[PROCESSES]; /* the first one is this process */
 static int count;
 static long together,
-    largest; /* the most bytes of those that lived at a time, and of one, as seen */
+    largest; /* the most bytes of all processes that lived at the same time, and of one process */
 
 static double seconds(void) {
   struct timespec now;
@@ -38,7 +38,7 @@ static double seconds(void) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* The number behind a name in /proc/NUMBER/status; 0: there is none. */
+/* The number after a name in /proc/NUMBER/status; 0: there is none. */
 static long status_of(pid_t number, const char *name) {
   char path[64], line[256];
   long found = 0;
@@ -60,8 +60,8 @@ static bool is_known(pid_t number) {
   return false;
 }
 
-/* The peak of a process, if it was started from here; else 0. Parents have lower numbers than their
- * children, or are found in the next round. */
+/* The peak of a process that was started from here; 0 for other processes. Parents have lower
+ * numbers than their children, or are found in the next round. */
 static long look_at(pid_t number) {
   if (!is_known(number) && count < PROCESSES && is_known((pid_t)status_of(number, "PPid:")))
     seen[count++] = number;
@@ -104,7 +104,7 @@ static void kill_all(void) {
       kill(seen[i], SIGKILL);
 }
 
-/* Watches until everything that was started has ended. Returns how the program ended. */
+/* Watches until all processes that were started have ended. Returns how the program ended. */
 static int watch(pid_t program, double limit) {
   int ending = 0, state;
   double start = seconds();

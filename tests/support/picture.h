@@ -11,7 +11,8 @@
 /* Linear premultiplied RGBA of pixel (x, y). */
 typedef void (*picture_paint)(int x, int y, float rgba[4]);
 
-/* A path in this process's own folder under the system's temporary one. Five may be in use. */
+/* A path in a folder of this process, below the system's temporary one. Five paths may be in
+ * use. */
 static inline const char *picture_path(const char *name) {
   static char paths[5][512];
   static int next;
@@ -72,7 +73,7 @@ static inline celspan_status picture_texel(celspan_context *context, const cs_pi
   return CELSPAN_OK;
 }
 
-/* Whether pictures can be read and written: the context's error says why not. */
+/* Whether pictures can be read and written; if not, the context's error says why. */
 static inline bool picture_module_is_there(celspan_context *context) {
   celspan_picture_info info;
   celspan_picture_desc desc = {.struct_size = sizeof desc, .file = "/nonexistent"};
@@ -80,7 +81,7 @@ static inline bool picture_module_is_there(celspan_context *context) {
          !strstr(celspan_context_error(context), "module");
 }
 
-/* The same; where they cannot, checks are skipped. */
+/* The same; if they cannot, checks are skipped. */
 static inline bool picture_module_or_skip(celspan_context *context) {
   bool is_there = picture_module_is_there(context);
   if (!is_there)

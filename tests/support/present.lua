@@ -21,7 +21,8 @@ local function contains(pattern)
   return ends_well(("grep -qaE '%s' '%s'"):format(pattern, binary))
 end
 
---- Whether celspan, given arguments that need a module, does not report it as missing.
+--- Whether celspan has a module: it is run with arguments that need the module, and does not report
+--- it as missing.
 local function has(module, arguments)
   return ends_well(("! '%s' %s 2>&1 | grep -qF %s"):format(binary, arguments, module))
 end
@@ -36,7 +37,7 @@ end
 --- paintings that are archives.
 function present.art() return has("celspan-art.so", "info scripts/paintings/valley.ora") end
 
---- Whether there is a module for colour profiles: without one they are not understood.
+--- Whether there is a module for colour profiles: without it, profiles are not understood.
 function present.colour()
   return contains "reading colour profiles" and not contains "built without Little CMS"
 end
@@ -45,7 +46,7 @@ end
 function present.web() return not contains "built without libmicrohttpd" end
 
 --- Whether celspan plane can make pages: it was built with clang and lld.
-function present.pages() return contains "AGFzbQEAAAA" end -- how a module begins, in base64
+function present.pages() return contains "AGFzbQEAAAA" end -- the beginning of a module, in base64
 
 --- Whether all of these programs are installed; a path is a program too.
 function present.program(...)

@@ -25,10 +25,10 @@ function prng:whole(first, last)
   return first + (self:bits() >> 1) % (last - first + 1)
 end
 
---- True once in `count` times.
+--- True with a probability of 1 in `count`.
 function prng:once(count) return self:whole(1, count) == 1 end
 
---- One of a list.
+--- A random item of a list.
 function prng:pick(list) return list[self:whole(1, #list)] end
 
 return prng

@@ -1,4 +1,4 @@
-/* One point of a film of linear light, as tests ask for it. */
+/* One point of a film of linear light, in the form for tests. */
 #pragma once
 
 #include "celspan/celspan.h"

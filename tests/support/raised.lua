@@ -8,7 +8,7 @@ local assert = require "luassert"
 
 local raised = {}
 
---- The message of a call that must raise one.
+--- The message of a call that must raise an error.
 function raised.message(call, ...)
   local good, message = pcall(call, ...)
   assert.is_false(good, "the call raised no error")

@@ -1,6 +1,6 @@
 /* Numbered random cases: the same numbers for the same seed everywhere (splitmix64). Never draw two
- * of them among the arguments of one call, or the operands of one sum, because C does not define
- * their order (draws.lua checks this). */
+ * random numbers among the arguments of one call, or the operands of one sum, because C does not
+ * define their order (draws.lua checks this). */
 #pragma once
 
 #include <stdint.h>

@@ -32,7 +32,7 @@ local function read_tests(path)
   return tests
 end
 
---- Counts the tests of busted, whose plan comes last; false if it is missing.
+--- Counts the tests of busted, whose plan is the last line; false if the plan is missing.
 local function count_tap(test)
   local is_whole = false
   for _, line in ipairs(test.lines) do
@@ -44,7 +44,7 @@ local function count_tap(test)
   return is_whole
 end
 
---- Counts the checks of a program; false if it says nothing of them.
+--- Counts the checks of a program; false if it does not print their number.
 local function count_checks(test)
   local says_it = false
   for _, line in ipairs(test.lines) do
@@ -75,7 +75,8 @@ local function count(test)
   if not test.ended_well and test.failed == 0 then test.failed = 1 end
 end
 
---- The lines of a test that tell why it failed: those of busted that follow "not ok", or the last.
+--- Prints the lines of a test that explain its failure: for busted, those after "not ok"; otherwise
+--- the last ones.
 local function print_failure(test)
   local lines, is_bad = {}, false
   for _, line in ipairs(test.lines) do

@@ -27,7 +27,7 @@ function rows.colour(row, x)
   return colour, span.kind
 end
 
---- The fault in the order of a row of `width` columns, or nil.
+--- What is wrong in the order of a row of `width` columns, or nil.
 function rows.fault(row, width)
   local at = 0
   for i, span in ipairs(row) do
@@ -46,7 +46,7 @@ function rows.fault(row, width)
   if at ~= width then return ("the row ends at %d of %d"):format(at, width) end
 end
 
---- Rows first..last as text; format of a number, "%a" (to the bit) by default.
+--- Rows first..last as text. format: for numbers, by default "%a" (to the bit).
 function rows.text(list, first, last, format)
   local lines = {}
   for y = first, last do

@@ -11,7 +11,7 @@ local ONE_IN = tonumber(os.getenv "CELSPAN_TESTS") or 1
 local random = prng.new(tonumber(os.getenv "CELSPAN_SEED") or 1)
 local left_out = 0
 
--- Before busted's own subscriber: returning false hides the test from that.
+-- Called before busted's own subscriber: if it returns false, the test is hidden from that one.
 busted.subscribe({ "register", "it" }, function()
   if random:once(ONE_IN) then return nil, true end
   left_out = left_out + 1

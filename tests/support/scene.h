@@ -7,7 +7,7 @@
 
 #define STUDIO_CAPACITY 512
 
-/* Where a test builds its scene. */
+/* The collection in which a test builds its scene. */
 typedef struct studio {
   celspan_context *context;
   celspan_object *objects[STUDIO_CAPACITY];
@@ -33,7 +33,7 @@ static inline void studio_check(studio *s, celspan_status status) {
     fprintf(stderr, "  %s\n", celspan_context_error(s->context));
 }
 
-/* Takes the new value of a call into the studio and returns it: NULL after a failed check. */
+/* Adds the result of a call to the studio and returns it: NULL after a failed check. */
 #define STUDIO_TAKE(s, list, count, type, call)                                                    \
   type *made = NULL;                                                                               \
   studio_check(s, call);                                                                           \

@@ -20,7 +20,7 @@ local function text_of(number)
   return text == "-0" and "0" or text
 end
 
---- A number; now and then one at which edges meet pixel centres and pixel borders.
+--- A number; sometimes one for which edges coincide with pixel centres or pixel borders.
 function maker:number(low, high)
   local number = self.random:between(low, high)
   if self.random:once(5) then number = math.floor(number * 2 + 0.5) / 2 end
@@ -32,12 +32,12 @@ function maker:share()
   return text_of(self.random:pick { 0, 1, any, any })
 end
 
---- A share; it rarely makes its object invisible.
+--- A share; rarely one that makes its object invisible.
 function maker:part()
   return self.random:once(20) and "0" or text_of(self.random:between(0.2, 1))
 end
 
---- A point of the frame or somewhat beyond.
+--- A point inside the frame, or a little outside.
 function maker:point()
   local w, h = self.traits.width, self.traits.height
   return self:number(-0.3 * w, 1.3 * w), self:number(-0.3 * h, 1.3 * h)
@@ -79,8 +79,8 @@ function maker:stops()
   return table.concat(stops, ", ")
 end
 
---- The spread and the matrix of a gradient, as text. A gradient that repeats has no horizon, and is
---- not so small that it repeats without end.
+--- The spread and the matrix of a gradient, as text. A repeating gradient has no horizon, and is so
+--- large that its number of repetitions is limited.
 function maker:extent(repeats)
   local fields = ""
   if repeats then fields = ('spread = "%s", '):format(self.random:pick { "repeat", "reflect" }) end
@@ -162,8 +162,8 @@ end
 
 -- ---------------------------------------------------------------- primitives
 
---- What a primitive is filled with: a texture, or a pattern of it. The numbers of patterns are of
---- their own series, so that those of all else stay what they are without patterns.
+--- The filling of a primitive: a texture, or a pattern of it. Patterns have their own series of
+--- random numbers, so that all other numbers are the same without patterns.
 function maker:filling()
   local texture, own = self:texture(), self.fillings
   if not self.has_modes or not own:once(16) or not self.has_patterns then return texture end
@@ -289,7 +289,7 @@ function maker:stroke()
     local points = {}
     for i = 1, self.random:whole(1, 6) do
       local x, y = self:point()
-      -- Where widths change, the ends of straight lines have arcs.
+      -- Where widths change, straight lines have arcs at their ends.
       points[i] = self.is_straight and ("{%s, %s}"):format(x, y)
         or ("{%s, %s, %s}"):format(x, y, self:number(0, 12))
     end
@@ -362,7 +362,7 @@ function maker:text()
       self.random:pick { "left", "centre", "right" }, table.concat(fields), self:texture())
 end
 
---- A primitive; now and then one that was used before, so that edges coincide.
+--- A primitive; sometimes one that was used before, so that edges coincide.
 function maker:primitive()
   if #self.made > 0 and self.random:once(6) then return self.random:pick(self.made) end
   self.made[#self.made + 1] = self:fresh()
@@ -461,7 +461,7 @@ function maker:grade()
   return ("grade = { %s }"):format(from == to and first or first .. ", " .. steps[to](self.modes))
 end
 
---- Adds a space, and a grade, to the fields of a value, now and then.
+--- Sometimes adds a space, and a grade, to the fields of a value.
 function maker:develop(fields, has_space)
   if not self.has_spaces then return end
   if has_space and self.modes:once(3) then
@@ -508,12 +508,12 @@ function maker:nested()
   return text
 end
 
---- What an outline cannot be drawn around to the bit: what it spreads the alpha of, which `probe`
---- does not see, and what may reach the horizon.
+--- Objects that cannot be outlined to the bit: those whose alpha is spread, which `probe` does not
+--- support, and those that may reach the horizon.
 local without_outline = { "image", "picture", "matte", "rostrum", "scanline", ":quad",
                           ":transform" }
 
---- The object with an outline, now and then, if all in it is vector art.
+--- The object, sometimes with an outline if it contains only vector art.
 function maker:outlined(object)
   if not self.has_modes or not self.outlines:once(12) then return object end
   for _, word in ipairs(without_outline) do

@@ -9,12 +9,12 @@
 
 static test_random numbers = {1};
 
-/* 0, 1 and the thousandths between: equal numbers are likely. */
+/* 0, 1 and the thousandths between them: two numbers are often equal. */
 static float random_thousandths(void) { return (float)random_below(&numbers, 1001) / 1000; }
 
 typedef struct frame {
   int32_t width, height;
-  int style; /* 0 any mixture, 1 long flat, 2 pictures, 3 nothing but one colour */
+  int style; /* 0 any mixture, 1 long and flat, 2 pictures, 3 a single colour */
   bool is_opaque;
   float *arrays; /* width pixels */
   celspan_span *spans;
@@ -56,7 +56,7 @@ static int span_kind(const frame *made) {
              : CELSPAN_SPAN_GRADIENT + random_below(&numbers, 2);
 }
 
-/* A row from its seed alone, so that it can be made again. */
+/* A row that depends only on its seed, so that it can be made again. */
 static size_t make_row(frame *made, int32_t y) {
   size_t count = 0;
   numbers.state = 1000003u * (uint64_t)(random_below(&numbers, 2) ? y : y / 7) + 12345;
@@ -76,13 +76,13 @@ static size_t make_row(frame *made, int32_t y) {
   return count;
 }
 
-/* Some rows repeat the one above: seven at most share a seed. No seed depends on earlier rows. */
+/* Some rows repeat the row above: at most seven share a seed. No seed depends on earlier rows. */
 static size_t row_of(frame *made, int32_t y) {
   numbers.state = 77 * (uint64_t)y;
   return make_row(made, y);
 }
 
-/* Writes to the file of a sink of output/. */
+/* Writes the frame to the file of a sink of output/. */
 static celspan_status write_frame(celspan_context *context, frame *made, const char *path,
                                   const celspan_file_desc *file) {
   celspan_sink sink;

@@ -43,17 +43,17 @@
 #include <time.h>
 #include <unistd.h>
 
-#define COPY_SECONDS 20 /* after which a copy that has not ended is ended by SIGUSR2 */
+#define COPY_SECONDS 20 /* if a copy has not ended after this time, SIGUSR2 ends it */
 #define PAUSE_NANOSECONDS 200000
 
-/* The allocator behind this library's; no header declares it. */
+/* The allocator that this library replaces; no header declares it. */
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);
 void *__libc_realloc(void *block, size_t size);
 void *__libc_memalign(size_t alignment, size_t size);
 
 static atomic_long made, fail_at = -1, until;
-static long loading, loaded;          /* of those made */
+static long loading, loaded;          /* counts of allocations */
 static atomic_bool lasts, is_waiting; /* for a fork */
 static bool is_spared;                /* a program of another level */
 
@@ -67,7 +67,7 @@ static void begin(void) {
   made = 0;
 }
 
-/* The programs that this one starts see a level lower by one: '0' is followed by '/'. */
+/* Each program that this one starts sees a level that is lower by one: '0' is followed by '/'. */
 static bool is_of_level(void) {
   char *level = getenv("STARVE_LEVEL");
   if (!level)
@@ -86,11 +86,11 @@ __attribute__((constructor)) static void prepare(void) {
 
 /* ---------------------------------------------------------------- copies */
 
-/* Like fork, without the C library's own work: to it the copy's thread is that of the process,
- * which may hold locks of the loader. */
+/* Similar to fork, without the work of the C library: for it, the thread of the copy is the thread
+ * of the process, which may hold locks of the loader. */
 static pid_t copy_process(void) { return (pid_t)syscall(SYS_clone, SIGCHLD, 0, 0, 0, 0); }
 
-/* Its exit code, or 128 and the signal. */
+/* Returns the exit code of a copy, or 128 plus the signal. */
 static int end_of(pid_t copy) {
   const struct timespec pause = {.tv_nsec = PAUSE_NANOSECONDS};
   int state = 0;
@@ -137,7 +137,7 @@ static void read_plan(void) {
   fail_at = read_number("STARVE_AT");
 }
 
-/* Whether the allocation of this number fails; with copies, this process may be a copy from now
+/* Whether the allocation of this number fails. With copies, this process may be a copy from now
  * on. */
 static bool is_taken(long number) {
   if (fail_at == 0 || number < fail_at)
@@ -158,7 +158,7 @@ static bool fails(void) {
   return true;
 }
 
-/* From here on nothing fails: called by a program that counts what it runs (counted.c), before it
+/* From now on nothing fails. A program that counts what it runs (counted.c) calls this before it
  * writes its counts. */
 void starve_end(void);
 void starve_end(void) { fail_at = 0; }

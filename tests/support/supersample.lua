@@ -3,7 +3,7 @@ local celspan = require "celspan"
 
 local supersample = {}
 
---- Adds columns [x0, x1) of a span to the sums of pixels k columns wide.
+--- Adds columns [x0, x1) of a span to the sums of pixels that are k columns wide.
 local function add_span(sums, base, span, k)
   local x = span.x0
   while x < span.x1 do
@@ -31,7 +31,7 @@ function supersample.means(exposures, options)
   local crop = options.crop or { 0, 0, size[1], size[2] }
   local sums = {}
   for i = 1, 4 * crop[3] * crop[4] do sums[i] = 0 end
-  for y = 0, crop[4] - 1 do -- a row of pixels at a time, to stay small
+  for y = 0, crop[4] - 1 do -- one row of pixels at a time, to use little memory
     local rows = assert(celspan.spans(exposures, {
       size = { size[1] * k, size[2] * k }, film = options.film or size, antialias = "none",
       workers = 1,
@@ -44,8 +44,8 @@ function supersample.means(exposures, options)
   return sums
 end
 
---- The greatest and the root mean square difference of an image's pixels from such means, and the
---- pixel of the greatest. options.crop: the image's position.
+--- The greatest and the root mean square difference between an image's pixels and such means, and
+--- the pixel with the greatest. options.crop: the position of the image.
 function supersample.errors(image, means)
   local most, square, at_x, at_y = 0, 0, 0, 0
   for y = 0, image.height - 1 do

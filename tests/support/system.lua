@@ -23,7 +23,7 @@ function system.exists(path)
   return file ~= nil
 end
 
---- A word of a shell command.
+--- A word, quoted for a shell command.
 function system.quote(word) return "'" .. tostring(word):gsub("'", "'\\''") .. "'" end
 
 --- The output of a shell command, and whether it succeeded.

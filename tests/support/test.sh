@@ -27,7 +27,7 @@ export CELSPAN_SEED=${CELSPAN_SEED:-$(<"$(dirname "$0")/../seed")}
 export CELSPAN_SCENES=${CELSPAN_SCENES:-$scenes} CELSPAN_FAULTS=${CELSPAN_FAULTS:-$faults}
 export CELSPAN_TESTS=${CELSPAN_TESTS:-$tests}
 shift
-# Meson's, of the modules that are built before: a program must find them by itself.
+# It is meson's, for modules that are built earlier: a program must find its modules by itself.
 unset LD_LIBRARY_PATH
 TIMEFORMAT='%U + %S seconds of processor time'
 time "$@"

@@ -11,7 +11,7 @@ local colours = { "#ffffff", "#1a1a24", "#d94f30", "#2f6fb0", "#f2c14e", "#4c9f7
 
 -- ---------------------------------------------------------------- random drawings
 
---- The circle of radius 1 made into an ellipse: its centre, and the ends of both its radii.
+--- A circle of radius 1 that is mapped to an ellipse: its centre, and the ends of both radii.
 local function round(points)
   local c, u, v = points[1], points[2], points[3]
   return celspan.circle { centre = { 0, 0 }, radius = 1, texture = points.texture }:transform {
@@ -24,8 +24,8 @@ local function radii(x, y, r, s, turn, texture)
   return { { x, y }, { x + r * cos, y + r * sin }, { x - s * sin, y + s * cos }, texture = texture }
 end
 
---- A shape around (x, y), no part of which is farther from there than r; no corner is sharper than
---- 60 degrees, and no bend narrower than a few pixels. Then the points that define it, and a
+--- A shape around (x, y), no part of which is farther from this point than r; no corner is sharper
+--- than 60 degrees, and no bend narrower than a few pixels. Then the points that define it, and a
 --- function that makes a similar one from other points.
 local function shape(random, x, y, r, texture)
   local turn = random:between(0, 360)

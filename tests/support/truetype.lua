@@ -15,7 +15,7 @@ local function u16(n) return string.pack(">I2", n & 0xffff) end
 local function u32(n) return string.pack(">I4", n & 0xffffffff) end
 local function i16(n) return string.pack(">i2", n) end
 
---- items, each through `pack`, joined.
+--- All items, each packed by `pack`, as one text.
 local function all(items, pack)
   local parts = {}
   for i, item in ipairs(items) do parts[i] = pack(item) end
@@ -146,7 +146,7 @@ local function kern(font)
     .. ("\0"):rep(6) .. pairs_of
 end
 
---- One ligature of glyphs with which no other begins.
+--- One ligature of glyphs; no other ligature begins with the first of them.
 local function ligature_set(one)
   local rest = table.move(one, 2, #one - 1, 1, {})
   return u16(1) .. u16(4) .. u16(one[#one] - 1) .. u16(#one - 1)
@@ -185,8 +185,8 @@ end
 
 local function i8(n) return string.pack(">i1", n) end
 
---- Differences in runs of up to 64, of bytes where they fit, else of words; four points at the end
---- are those of the metrics.
+--- Differences in runs of at most 64, as bytes if they fit, otherwise as words. The last four
+--- points are those of the metrics.
 local function packed(from, to, place)
   local values, most = {}, 0
   for i = 1, #from do
@@ -203,7 +203,7 @@ local function packed(from, to, place)
   return table.concat(parts)
 end
 
---- How a glyph changes towards the least and the most of the axis, all its points named.
+--- The changes of a glyph towards the least and the greatest value of the axis, for all its points.
 local function gvar_entry(glyph)
   local from = points_of(glyph.contours)
   if #from == 0 then return "" end

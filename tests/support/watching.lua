@@ -9,7 +9,7 @@ local workbench = require "tests.support.workbench"
 
 local watching = {}
 
---- Said before the steps in the page.
+--- Code that precedes the steps in the page.
 local HELP = [[
   const stage = name => `document.querySelector("#stage").dataset.${name}`;
   const text = id => page.get(`document.querySelector("#${id}").textContent`);
@@ -17,13 +17,14 @@ local HELP = [[
 
 local server
 
---- files: texts by name. Its folder is watching.bench.
+--- files: texts by name. The folder is watching.bench.
 function watching.begin(files)
   watching.bench = workbench.new()
   for name, content in pairs(files) do watching.bench:write(name, content) end
 end
 
---- Starts `command`, which prints the number of its process, and waits for what `said` finds.
+--- Starts `command`, which prints the number of its process, and waits until `said` finds something
+--- in its output.
 function watching.start(command, said)
   local _, out = watching.bench:inside(command .. " & echo $!")
   server = out:match "%d+"
@@ -35,7 +36,7 @@ function watching.start(command, said)
   error("no server: " .. (watching.bench:read "complained" or ""))
 end
 
---- Starts the server in the folder; its address.
+--- Starts the server in the folder. Returns its address.
 function watching.watch(arguments)
   local bench = watching.bench
   return watching.start(("exec '%s' watch %s >said 2>complained")
@@ -67,10 +68,11 @@ local function run(command, steps, variable)
   return assert(json.decode(out)), out
 end
 
---- What the steps return, in JavaScript, as a program that speaks to the server: see stranger.js.
+--- The result of the steps, in JavaScript, for a program that speaks to the server: see
+--- stranger.js.
 function watching.speak(address, steps) return run(("stranger.js '%s'"):format(address), steps) end
 
---- What the steps return in a browser: see browser.js. seconds: for all of them, or nil.
+--- The result of the steps in a browser: see browser.js. seconds: for all steps, or nil.
 function watching.see(address, steps, seconds)
   return run(("browser.js '%s/chromium' '%s'"):format(watching.bench.folder, address),
     HELP .. steps, seconds and "CELSPAN_BROWSER_SECONDS=" .. seconds)

@@ -40,7 +40,8 @@ function workbench:files(name)
   return (system.lines(("ls -A '%s/%s' 2>/dev/null"):format(self.folder, name or "")))
 end
 
---- Runs a shell command; its exit code (128 + n for signal n), standard output and error.
+--- Runs a shell command. Returns its exit code (128 + n for signal n), standard output and standard
+--- error.
 function workbench:shell(command)
   local out, err = self.folder .. "/stdout", self.folder .. "/stderr"
   local _, how, code = os.execute(("( %s ) >'%s' 2>'%s'"):format(command, out, err))

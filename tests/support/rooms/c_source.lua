@@ -20,7 +20,7 @@ local DECORATION = { __attribute__ = true, _Alignas = true, alignas = true, __de
 
 local function is_word(word) return word ~= nil and word:find "^[%a_]" ~= nil end
 
---- The positions of a range of tokens without those inside brackets, and without attributes.
+--- The positions of the tokens of a range, except attributes and tokens inside brackets.
 local function outline(file, from, to)
   local list, i = {}, from
   while i <= to do
@@ -47,7 +47,7 @@ local function add_name(file, kind, name, i, owner)
   file.names[#file.names + 1] = { kind = kind, name = name, line = file.line[i], owner = owner }
 end
 
---- The name before the first bracket of an outline, and where its parameters open.
+--- The name before the first bracket of an outline, and the place where its parameters begin.
 local function signature(file, list)
   local place = find(file, list, "(")
   if not place or place == 1 then return end
@@ -148,7 +148,7 @@ local function add_declaration(file, from, to, owner)
   end
 end
 
---- The kind of block that a brace opens, according to the tokens before it.
+--- The kind of the block that a brace opens, as the tokens before it show.
 local function classify(file, from, brace)
   local list = outline(file, from, brace - 1)
   if find(file, list, "=") then return "value" end
@@ -183,7 +183,7 @@ function parse(file, from, to, owner)
         brace = i
       end
       i = kind == "transparent" and i or file.close[i]
-    elseif word == "}" then -- of a transparent block
+    elseif word == "}" then -- the end of a transparent block
       start = i + 1
     elseif owner and word == ":" and file.text[i - 1]:find "^p[ru][ibo]%a+" then
       start = i + 1 -- public:

@@ -10,12 +10,12 @@ local FIND = "find %s -type d \\( -name 'build*' -o -name out -o -name '.?*' \\)
   .. "\\( -name '*.[ch]' -o -name '*.[ch]pp' -o -name '*.lua' -o -name '*.sh' -o -name '*.py' "
   .. "-o -name run \\) -print | LC_ALL=C sort"
 
---- Whether a line of a header is a name and a comment alone, after a line with the type alone.
+--- Whether a line of a header has only a name and a comment, and the line before it only the type.
 local function is_torn(before, line)
   return line:find "^%s+%*?[%a_][%w_]*[^%s(]*; /%*" and before:find "^%s+[%a_][%w_ ,]*[%w_,]$"
 end
 
---- Reports a file by fault(sentence), once, with a line for each of its faulty lines.
+--- Reports a file by fault(sentence), at most once, with a line for each of its faulty lines.
 local function check_file(path, fault)
   local number, long, before = 0, {}, ""
   local is_header = path:find "%.h$" and not path:find "/include/celspan/"

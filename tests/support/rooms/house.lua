@@ -58,7 +58,8 @@ local function opaque_types(tree)
 end
 
 --- Names of types that are defined in two places: { { name, place, place }, ... }. An opaque type,
---- which a header declares and sources alone define, is one type however many implement it.
+--- which a header declares and only sources define, is one type, no matter how many sources
+--- implement it.
 function house.doubled_types(tree)
   local is_opaque, in_header = opaque_types(tree), {}
   local places, list = {}, {}
@@ -90,12 +91,12 @@ local function folder_count(tree)
   return count
 end
 
---- The one true recursion: a rostrum may be an object of a cel, so cels, objects and rostrums hash
---- and release each other; the scene's types are declared with them.
+--- The only allowed recursion: a rostrum may be an object of a cel, so cels, objects and rostrums
+--- hash and release each other. The scene's types are declared with them.
 local RECURSION = "model/scene/cel model/scene/operands model/scene/primitive_data "
   .. "model/scene/rostrum model/scene/scene"
 
---- The circles of units by their calls, without the one that is meant.
+--- The circles of units by their calls, except the one that is allowed.
 function house.circles(tree)
   local list = {}
   for _, circle in ipairs(measures.circles(tree, "unit", true)) do

@@ -12,7 +12,7 @@ local function lua_folders(root)
   return list
 end
 
---- The one sentence of a folder, from its folder.md; nil when it has none.
+--- The single sentence of a folder, from its folder.md; nil if there is none.
 local function sentence_of(root, folder)
   local file = io.open(("%s/%s/folder.md"):format(root, folder))
   if not file then return end
@@ -87,7 +87,7 @@ end
 
 -- ---------------------------------------------------------------- units
 
---- The folder that a word means: a path, or the end of one, such as svg.
+--- The folder that a word means: its path, or the end of its path, such as svg.
 local function find_folder(tree, root, word)
   word = "/" .. word:gsub("/+$", "")
   local paths = {}
@@ -98,7 +98,7 @@ local function find_folder(tree, root, word)
   end
 end
 
---- Prints the units of folders; false, after a message, if a word means none.
+--- Prints the units of folders. Returns false, after a message, if a word means no folder.
 function map.put_units(tree, root, words)
   for _, word in ipairs(words) do
     local folder = find_folder(tree, root, word)

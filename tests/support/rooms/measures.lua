@@ -6,7 +6,7 @@ local measures = {}
 
 local PUBLIC = "include/"
 
---- The value below or at which a share of a list lies.
+--- The value below or at which this share of the list lies.
 function measures.quantile(list, share)
   table.sort(list)
   return list[math.max(1, math.ceil(#list * share))] or 0
@@ -26,7 +26,7 @@ end
 --- The kinds that type_counts counts.
 measures.type_kinds = { "typedef struct", "struct", "union", "enum" }
 
---- How many types of each kind are in the files that `is_meant` accepts, and how many in all.
+--- The number of types of each kind in the files that `is_meant` accepts, and in all files.
 function measures.type_counts(tree, is_meant)
   local counts = { all = 0 }
   for _, kind in ipairs(measures.type_kinds) do counts[kind] = 0 end
@@ -40,7 +40,7 @@ function measures.type_counts(tree, is_meant)
   return counts
 end
 
---- A room's row: files, headers, lines, the longest function, the median of the headers.
+--- The row for a room: files, headers, lines, the longest function, the median of the headers.
 function measures.room(tree, room)
   local row = { sources = 0, headers = 0, lines = 0, longest = 0 }
   local header_lines = {}
@@ -97,7 +97,8 @@ local function is_named_by(fn)
   return false
 end
 
---- Functions that other files use, and how many are named after their file.
+--- The number of functions that other files use, and the number of those that are named after their
+--- file.
 function measures.naming(tree)
   local used, count, named = {}, 0, 0
   tree:each_edge(function(_, _, edge)
@@ -110,8 +111,9 @@ function measures.naming(tree)
   return count, named
 end
 
---- Declared names with a house word where it does not belong: { { entry, file, name }, ... }; and
---- the number of names. Functions count where they are defined, the public header not at all.
+--- Declared names that contain a house word in a wrong place: { { entry, file, name }, ... }; and
+--- the number of names. Functions count where they are defined; names of the public header do not
+--- count.
 function measures.misplaced(tree)
   local list, count = {}, 0
   for _, file in ipairs(tree.files) do

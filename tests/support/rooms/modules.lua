@@ -4,7 +4,7 @@ local system = require "tests.support.system"
 
 local modules = {}
 
---- The folders in order, and where each module lies: its rank, and its path from the root.
+--- The folders in order, and for each module its folder's rank and its path from the root.
 local function listed(root)
   local text = assert(system.read(root .. "/src/lua/module/meson.build"))
   local folders, ranks, paths = {}, {}, {}

@@ -4,7 +4,8 @@ local prose_text = require "tests.support.rooms.prose_text"
 
 local prose = {}
 
--- The list of phrases would match itself; inputs of fuzz targets are data.
+-- Files that are not read: the list of phrases would match itself, and inputs of fuzz targets are
+-- data.
 local LEFT_OUT = { "tests/support/rooms/phrases.lua", "tests/fuzz/corpus/" }
 local PLACES = { "src", "lua", "scripts", "tests", "examples", "docs", "subprojects/spanfile",
                  "subprojects/planefile", "run", ".ci", "README.md", "CONTRIBUTING.md",
@@ -41,7 +42,7 @@ local INDEX = index_phrases()
 
 -- ---------------------------------------------------------------- one file
 
---- The words of a text, and where they begin and end.
+--- The words of a text, with the beginning and the end of each.
 local function split(text)
   local words = { first = {}, last = {}, text = text }
   for first, word, after in text:gmatch "()([%w_']+)()" do
@@ -51,13 +52,13 @@ local function split(text)
   return words
 end
 
---- Whether only blanks separate word i from the next one.
+--- Whether there are only blanks between word i and the next word.
 local function is_followed(words, i)
   if i < 1 or i >= #words then return false end
   return not words.text:sub(words.last[i] + 1, words.first[i + 1] - 1):find "%S"
 end
 
---- Whether one of `set` is among the words after i, as far as the sentence goes.
+--- Whether a word of `set` is among the words after i, within the sentence.
 local function is_near(words, i, set)
   for n = i + 1, math.min(i + phrases.NEAR, #words) do
     local between = words.text:sub(words.last[n - 1] + 1, words.first[n] - 1)
@@ -123,7 +124,7 @@ local function is_left_out(name)
   return false
 end
 
---- The files of some places, each a file or a folder.
+--- The files in some places, each of which is a file or a folder.
 local function files_of(places)
   local names = {}
   for _, place in ipairs(places) do
@@ -138,7 +139,7 @@ local function files_of(places)
   return names
 end
 
---- Whether one of the files that were read is in a place.
+--- Whether one of the files that were read lies in a place.
 local function has_read(files, place)
   for _, name in ipairs(files) do
     if name:find(place, 1, true) == 1 then return true end
@@ -154,7 +155,7 @@ local function unused_exceptions(used, files)
   return list
 end
 
---- Reports a file by fault(sentence), once, with a line for each of its phrases.
+--- Reports a file by fault(sentence), at most once, with a line for each of its phrases.
 local function check_file(name, used, fault)
   local lines = {}
   read(name, used, function(line, found, entry)

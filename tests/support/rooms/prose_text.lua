@@ -29,7 +29,7 @@ local function string_end(text, at, quote)
   return last
 end
 
---- A string literal; one without blanks is a name, not a message.
+--- A string literal; a literal without blanks is a name, not a message.
 local function literal(text)
   if not text:find "%s" then return barrier(text) end
   return " " .. text:sub(2, -2):gsub("\\.", "  ") .. (#text > 1 and " " or "")
@@ -37,7 +37,8 @@ end
 
 -- ---------------------------------------------------------------- languages
 
--- A language cuts the text at `at`: the end of the piece, and its prose; nothing where code begins.
+-- A language cuts the text at `at`. It returns the end of the piece and its prose, or nothing where
+-- code begins.
 
 local function cut_quoted(text, at, quotes)
   local sign = text:sub(at, at)

@@ -12,7 +12,7 @@ local function say(format, ...) print(format:format(...)) end
 
 local function title(text) say("\n== %s", text) end
 
---- Rows of cells below their heads: words to the left, numbers to the right.
+--- A table of rows below their heads: words are left-aligned, numbers right-aligned.
 local function put_table(heads, rows)
   local widths = {}
   for _, row in ipairs { heads, table.unpack(rows) } do

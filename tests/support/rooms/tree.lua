@@ -38,7 +38,7 @@ local function source_paths(root)
   return paths
 end
 
---- The listed folder that a path lies in: the longest of its beginnings that is in the list.
+--- The listed folder that contains a path: the longest beginning of the path that is in the list.
 function tree.listed(ranks, path)
   local folder = path:match "^(.*)/"
   while folder and not ranks[folder] do folder = folder:match "^(.*)/" end
@@ -101,7 +101,7 @@ local BEFORE_A_NAME = { ["("] = true, [","] = true, ["="] = true, ["{"] = true, 
                         [":"] = true }
 local AFTER_A_NAME = { [")"] = true, [","] = true, [";"] = true, ["}"] = true, [":"] = true }
 
---- The function that a token of a file names: where it is called, or passed on to be called.
+--- The function to which a token of a file refers: it is called there, or passed as a function.
 function tree:used_at(file, i)
   local word, before, after = file.text[i], file.text[i - 1], file.text[i + 1]
   local fn = self.own[file][word] or self.shared[word]

@@ -4,11 +4,12 @@ local system = require "tests.support.system"
 
 local units = {}
 
---- What is looked at first: the header says what a unit is for.
+--- The order in which files are examined: a header explains the purpose of a unit.
 local ENDINGS = { "h", "hpp", "c", "cpp", "lua" }
 local IS_SOURCE = { h = true, hpp = true, c = true, cpp = true, lua = true }
 
---- The lines of the comment with which a source begins, up to its first empty line; nil without.
+--- The lines of the comment at the beginning of a source, up to its first empty line; nil if there
+--- is none.
 local function opening(text)
   local comment = text:match "^/%*(.-)%*/"
   if comment then return comment:gsub("\n ?%*", "\n") .. "\n" end
@@ -20,7 +21,8 @@ local function opening(text)
   return lines[1] and table.concat(lines, "\n") .. "\n"
 end
 
---- The first sentence of a source's opening comment, which a drawing may follow; nil without.
+--- The first sentence of the comment at the beginning of a source, which a drawing may follow; nil
+--- if there is none.
 local function sentence_of(path)
   local comment = opening(assert(system.read(path)))
   if not comment then return end

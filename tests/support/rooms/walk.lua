@@ -1,10 +1,11 @@
---- A reader's path from one function down: each call in the order of the text, each body once.
+--- The path of a reader who starts at a function: each call in the order of the text, each body
+--- once.
 local walk = {}
 
---- Left out: calling it does not count as leaving the room.
+--- Folders that are left out: a call to them does not count as leaving the room.
 local EVERYWHERE = { base = true }
 
---- The calls of a function's body that lead to another function of the tree, in order.
+--- The calls in a function's body that lead to other functions of the tree, in order.
 local function calls_of(tree, fn)
   local list = {}
   for i = fn.from, fn.to do

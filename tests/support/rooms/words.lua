@@ -9,7 +9,7 @@ local words = {}
 --- but     beginnings of paths that are not meant by these
 --- say     what to say instead of a word that has no meaning here, and so no places
 words.list = {
-  -- words that mean one thing, and where they mean it
+  -- words that have one meaning, and the places where they may be used
   { word = "cel", means = "a sheet of artwork on the rostrum",
     places = { "model/scene/", "frames/", "engine/defocus/", "tools/relight/", "lua/",
                "program/" } },
@@ -110,7 +110,7 @@ for _, entry in ipairs(words.list) do
   for _, form in ipairs(entry.forms or {}) do entry_of[form] = entry end
 end
 
---- The entries whose words a name contains where it may not, each once.
+--- The entries whose words a name contains although it may not, each once.
 function words.misplaced(name, path)
   local list, seen = {}, {}
   for component in name:lower():gmatch "[^_]+" do
