@@ -19,7 +19,8 @@ typedef struct celspan_film {
   size_t struct_size;
   int32_t width, height; /* film units, and pixels unless another size is wanted */
   double frames_second;
-  int64_t first, count; /* the frames are first .. first + count - 1; count 0: not a film */
+  /* the frames are first .. first + count - 1; count 0: the structure is not a film */
+  int64_t first, count;
   const char *title;    /* NULL: none */
   size_t mark_count;
 } celspan_film;
@@ -42,7 +43,7 @@ typedef struct celspan_parameter {
   celspan_parameter_kind kind;
   const char *text;           /* the default, as celspan_lua_set takes a value */
   double number;              /* the default of a number; of a boolean 1 or 0 */
-  double least, most;         /* of a number; without a bound -INFINITY and INFINITY */
+  double least, most;         /* of a number; -INFINITY and INFINITY if there is no bound */
   const char *const *choices; /* of a choice */
   size_t choice_count;
   const char *about; /* NULL: none */
@@ -54,7 +55,7 @@ CELSPAN_RESULT(celspan_parameter)
 typedef struct celspan_mark {
   size_t struct_size;
   const char *name;
-  int64_t first, last; /* frames; without a last one of its own: up to the next mark */
+  int64_t first, last; /* frames; without a last frame of its own, it extends to the next mark */
 } celspan_mark;
 
 CELSPAN_RESULT(celspan_mark)
@@ -69,7 +70,7 @@ typedef struct celspan_sound_passage {
 /* A sound that makes another one lower while it is heard. */
 typedef struct celspan_sound_ducker {
   size_t sound;           /* its place among the sounds of the film, from 0 */
-  double gain;            /* of the other one, 0..1 */
+  double gain;            /* of the other sound, 0..1 */
   double attack, release; /* seconds of the ramps before and after */
 } celspan_sound_ducker;
 

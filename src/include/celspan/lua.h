@@ -27,7 +27,7 @@
 extern "C" {
 #endif
 
-#include <lua.h> /* in here, because it does not say by itself that it is C */
+#include <lua.h> /* included here, because it does not declare itself as C */
 
 CELSPAN_API int luaopen_celspan(lua_State *L);
 
@@ -50,8 +50,8 @@ typedef struct celspan_lua_limits {
   uint64_t steps; /* instructions, and the work of functions, in a run or a frame; 2e9 */
   double seconds; /* of the processor, and ten times as many by the clock, in a call; 60 */
   size_t print;   /* bytes that may be printed in a run or a frame; 1 MiB */
-  /* What scripts may read, and where they find modules, beside the folder of the script that
-   * celspan_lua_run runs; borrowed for the call alone. */
+  /* The files that scripts may read, and the places of modules, in addition to the folder of the
+   * script that celspan_lua_run runs. Borrowed only during the call. */
   const char *const *folders; /* NULL: none */
   size_t folder_count;
   const char *search; /* templates of modules, such as "/lib/?.lua;/more/?.lua"; NULL: none */
@@ -61,8 +61,8 @@ typedef struct celspan_lua_limits {
   /* Called while a script runs. Returns whether the script must end. NULL: no script is
    * interrupted. */
   bool (*is_interrupted)(void *user);
-  /* Called on a thread of its own while a call still runs one second after its time, which only a
-   * function of C can do. May be NULL. The program celspan ends itself in this function. */
+  /* Called on a separate thread if a call still runs one second after its time; only a function of
+   * C can do this. May be NULL. The program celspan ends itself in this function. */
   void (*overdue)(void *user, const char *message);
   void *user;
 } celspan_lua_limits;
@@ -94,20 +94,21 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_run(lua_State *L, const c
  * all values are forgotten. Errors: BAD_ARGUMENT without a name or a value; NO_MEMORY. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_set(lua_State *L, const char *name,
                                                            const char *value);
-/* How many parameters the script that ran last has declared, and each of them, in the order of
- * their names, from 0. Valid until the next celspan_lua_run. Errors: BAD_ARGUMENT; NO_MEMORY. */
+/* The number of parameters that the script which ran last has declared; and each of them, in the
+ * order of their names, from 0. Valid until the next celspan_lua_run. Errors: BAD_ARGUMENT;
+ * NO_MEMORY. */
 CELSPAN_API size_t celspan_lua_parameter_count(lua_State *L);
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_parameter(lua_State *L, size_t place,
                                                                  celspan_parameter *out);
 
 /* Calls the function below the arguments on the stack, as lua_pcall does, within the limits of the
- * sandbox. On success exactly `result_count` values take their place; else nothing. Errors: as for
- * celspan_lua_run. */
+ * sandbox. On success exactly `result_count` values replace them; otherwise nothing remains.
+ * Errors: as for celspan_lua_run. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_call(lua_State *L, int argument_count,
                                                             int result_count);
 
-/* The rostrum at index, NULL for anything else. It lives as long as the value in Lua; with
- * celspan_rostrum_ref as long as you like. */
+/* The rostrum at index; NULL for other values. It lives as long as the value in Lua; with
+ * celspan_rostrum_ref it lives longer. */
 CELSPAN_API celspan_rostrum *celspan_lua_rostrum(lua_State *L, int index);
 
 /* The film at index. A rostrum is a film of one frame, 1920 x 1080, 24 a second, as on the command
@@ -116,7 +117,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_film(lua_State *L, int in
                                                             celspan_film *out);
 
 /* A mark of the film at index, in the order of their frames, from 0. Errors: as above, and
- * BAD_ARGUMENT where there is no such mark. */
+ * BAD_ARGUMENT if the mark does not exist. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_mark(lua_State *L, int index, size_t place,
                                                             celspan_mark *out);
 /* Pushes the sounds of the film at index, also those of films that are its sounds, as one value for

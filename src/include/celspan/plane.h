@@ -22,7 +22,7 @@ typedef struct celspan_plane_desc {
   size_t struct_size;
   double width, height; /* film units, above 0 */
   int32_t depth;        /* 8: colours are 8-bit sRGB codes, which makes a smaller file; 16 */
-  celspan_space space;  /* of the film: of a rostrum that has none. Pixels are means of light */
+  celspan_space space;  /* of the film, for a rostrum that has none. Pixels are means of light */
 } celspan_plane_desc;
 
 CELSPAN_DESCRIPTION(celspan_plane_desc)
@@ -44,18 +44,18 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_read(celspan_context *c
                                                               celspan_plane **out);
 CELSPAN_API celspan_plane *celspan_plane_ref(celspan_plane *plane);
 CELSPAN_API void celspan_plane_unref(celspan_plane *plane);
-/* In film units. */
+/* The size in film units. */
 CELSPAN_API void celspan_plane_size(const celspan_plane *plane, double *width, double *height);
 /* Whether its alpha is certain to be 1 everywhere. */
 CELSPAN_API bool celspan_plane_is_opaque(const celspan_plane *plane);
-/* The frames of its file, 1 of a single plane, and their rate, 0 of a single plane. */
+/* The number of frames of its file, 1 for a single plane; and their rate, 0 for a single plane. */
 CELSPAN_API int32_t celspan_plane_frames(const celspan_plane *plane, double *frames_second);
 /* Another frame of the file, from 0. out: new      Errors: NO_MEMORY; INPUT; BAD_ARGUMENT: there is
  * no such frame. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_frame(celspan_context *context,
                                                                const celspan_plane *plane,
                                                                int32_t frame, celspan_plane **out);
-/* Of its file. */
+/* The bytes of its file. */
 CELSPAN_API size_t celspan_plane_bytes(const celspan_plane *plane);
 /* The file appears under its name whole or not at all; of a frame of a film, with the whole film.
  * Errors: NO_MEMORY; OUTPUT. */
@@ -74,13 +74,14 @@ typedef struct celspan_plane_view {
 CELSPAN_DESCRIPTION(celspan_plane_view)
 #define CELSPAN_PLANE_VIEW (celspan_plane_view_initial())
 
-/* Draws a view into a sink, as celspan_frame_render does. The pixels of a crop are those of the
- * whole, to the bit. Errors: NO_MEMORY; LIMIT, BAD_ARGUMENT for the view; those of the sink. */
+/* Draws a view into a sink, as celspan_frame_render does. The pixels of a crop are the same as in
+ * the whole frame, to the bit. Errors: NO_MEMORY; LIMIT, BAD_ARGUMENT for the view; those of the
+ * sink. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_render(celspan_context *context,
                                                                 const celspan_plane *plane,
                                                                 const celspan_plane_view *view,
                                                                 const celspan_sink *sink);
-/* Into memory, as celspan_frame_pixels does. */
+/* Draws into memory, as celspan_frame_pixels does. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_pixels(celspan_context *context,
                                                                 const celspan_plane *plane,
                                                                 const celspan_plane_view *view,

@@ -1,5 +1,5 @@
-/* Relighting: light that is taken off pictures, and frames whose lights can be changed.
- * The conventions are those of celspan/celspan.h. */
+/* Relighting: removes light from pictures, and makes frames whose lights can be changed. The
+ * conventions are those of celspan/celspan.h. */
 #ifndef CELSPAN_RELIGHT_H
 #define CELSPAN_RELIGHT_H
 
@@ -33,7 +33,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status
 celspan_light_field_texture(celspan_context *context, const celspan_light_field *field,
                             int32_t width, int32_t height, celspan_texture **out);
 
-/* What is known of a picture whose light celspan must find. */
+/* The known fact about a picture whose light celspan must find. */
 typedef enum celspan_light_clue {
   CELSPAN_LIGHT_CLUE_GREY = 0, /* the mean pigment of the picture is `colour` */
   CELSPAN_LIGHT_CLUE_PATCH,    /* the pigment of a patch is `colour` */
@@ -84,7 +84,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_relight_exposures(
 typedef struct celspan_relight_ground {
   const celspan_texture *picture; /* what is relit, before the ground */
   const celspan_texture *ground;  /* the ground alone, in the same light */
-  double colour[3];               /* the light that it sends, where `ground` is NULL */
+  double colour[3];               /* the light that it gives, if `ground` is NULL */
 } celspan_relight_ground;
 
 CELSPAN_API CELSPAN_CHECKED celspan_status
@@ -117,16 +117,14 @@ typedef struct celspan_stack_light {
   celspan_light front, back;
 } celspan_stack_light;
 
-/* desc: borrowed; one exposure, whose weight is not used. A tolerance of 0 means 2^-18.
- * out: new      Errors: those of rendering; BAD_ARGUMENT for a light that is a texture, and the
- * sentence names the cel; BAD_ARGUMENT unless there is one exposure; LIMIT for more than 4,096
- * cels. */
+/* The size of the crop, in pixels. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_stack_create(celspan_context *context,
                                                                 const celspan_frame_desc *desc,
                                                                 celspan_stack **out);
 CELSPAN_API celspan_stack *celspan_stack_ref(celspan_stack *stack);
 CELSPAN_API void celspan_stack_unref(celspan_stack *stack);
-/* The size in pixels, of the crop. */
+/* The number of its lights: one for the back light of the rostrum itself, whose front does not
+ * count, then one for each cel from the rear. */
 CELSPAN_API void celspan_stack_size(const celspan_stack *stack, int32_t *width, int32_t *height);
 /* How many lights it takes: one for the back light of the rostrum itself, whose front does not
  * count, then one for each cel from the rear. */
@@ -134,7 +132,7 @@ CELSPAN_API size_t celspan_stack_light_count(const celspan_stack *stack);
 /* The lights of the rostrum, brightness included. lights: room for celspan_stack_light_count
  * lights */
 CELSPAN_API void celspan_stack_lights(const celspan_stack *stack, celspan_stack_light *lights);
-/* Bytes that its rows of spans take. */
+/* The bytes of its rows of spans. */
 CELSPAN_API size_t celspan_stack_bytes(const celspan_stack *stack);
 /* The frame in these lights, as many as it takes, into width x height RGBA floats, linear and
  * premultiplied, rows from top to bottom. workers: threads at most; 0: one per processor

@@ -33,7 +33,8 @@ typedef struct celspan_svg_desc {
   const void *bytes; /* borrowed */
   size_t size;
   const char *name;              /* for messages, of bytes; NULL: "the drawing" */
-  const celspan_svg_font *fonts; /* no others are used: texts without one of these are not drawn */
+  /* only these are used: a text that needs another font is not drawn */
+  const celspan_svg_font *fonts;
   size_t font_count;             /* at most 64 */
   celspan_space space; /* of the drawing, and of each of its parts, which are groups; LINEAR: the
                           colours of translucent shapes and of gradients are mixed as light */
@@ -51,13 +52,13 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_svg_read(celspan_context *con
                                                             celspan_svg **out);
 CELSPAN_API celspan_svg *celspan_svg_ref(celspan_svg *svg);
 CELSPAN_API void celspan_svg_unref(celspan_svg *svg);
-/* The whole drawing, from (0, 0) to its size, in px of the file; what lies beyond is drawn too.
- * Borrowed from the drawing, as everything that the next four give. Shared read. */
+/* The whole drawing, from (0, 0) to its size, in px of the file; parts beyond this area are drawn,
+ * too. Borrowed from the drawing, like all results of the next four functions. Shared read. */
 CELSPAN_API celspan_object *celspan_svg_object(const celspan_svg *svg);
 CELSPAN_API celspan_point celspan_svg_size(const celspan_svg *svg);
 /* Parts are the elements that have an id or, where it is the only one, a label of Inkscape's: in
- * the drawing's units, with the transforms of what they are in, but without its clips and opacity.
- * What only `use` shows is a part where it stands in the file. */
+ * the drawing's units, with the transforms of the elements around them, but without the clips and
+ * opacity of these. An element that only `use` shows is a part at its place in the file. */
 CELSPAN_API size_t celspan_svg_part_count(const celspan_svg *svg);
 CELSPAN_API celspan_object *celspan_svg_part(const celspan_svg *svg, size_t index,
                                              const char **name);
@@ -70,7 +71,7 @@ typedef struct celspan_svg_element {
   const char *fill;                 /* "#rrggbb" of a shape or a text; NULL: no flat colour */
   int32_t line;
   int32_t depth;          /* how many of the elements visited before it contain it */
-  celspan_object *object; /* as that of a part */
+  celspan_object *object; /* like the object of a part */
 } celspan_svg_element;
 typedef celspan_status (*celspan_svg_visit)(void *user, const celspan_svg_element *element);
 /* Visits the elements in the order in which they are drawn, each once; those that only `use` shows
@@ -79,11 +80,11 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_svg_elements(celspan_context 
                                                                 const celspan_svg *svg,
                                                                 celspan_svg_visit visit,
                                                                 void *user);
-/* What was not drawn, in the order of the file. */
+/* The parts that were not drawn, in the order of the file. */
 CELSPAN_API size_t celspan_svg_skipped_count(const celspan_svg *svg);
 CELSPAN_API const char *celspan_svg_skipped(const celspan_svg *svg, size_t index, int32_t *line);
 
-/* Makes another object of a part: *out is new, and may be the part, counted once more. Called for
+/* Makes another object from a part. *out is new, or the part with one more reference. Called for
  * every place where the part is drawn. */
 typedef celspan_status (*celspan_svg_change)(void *user, celspan_context *context,
                                              celspan_object *part, celspan_object **out);

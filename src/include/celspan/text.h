@@ -25,7 +25,7 @@ typedef enum celspan_align {
   CELSPAN_ALIGN_RIGHT
 } celspan_align;
 
-typedef enum celspan_valign { /* what lies at at.y; heights are those of the first font */
+typedef enum celspan_valign { /* what is placed at at.y; heights are those of the first font */
                               CELSPAN_VALIGN_BASELINE = 0, /* of the first line */
                               CELSPAN_VALIGN_TOP,          /* the ascent of the first line */
                               CELSPAN_VALIGN_CAP,    /* the top of the capitals of the first line */
@@ -34,14 +34,14 @@ typedef enum celspan_valign { /* what lies at at.y; heights are those of the fir
 } celspan_valign;
 
 typedef enum celspan_direction {
-  CELSPAN_DIRECTION_AUTO = 0, /* of each line that was typed: by its first letter */
+  CELSPAN_DIRECTION_AUTO = 0, /* for each line of the text: by its first letter */
   CELSPAN_DIRECTION_LTR,
   CELSPAN_DIRECTION_RTL
 } celspan_direction;
 
-/* Lines end at each "\n", U+2028 and U+2029, and with a width where the language allows it before
- * they are longer; a word that is longer than that sticks out. Spaces at a line's end count for
- * nothing. Every letter is taken from the first font that has it. */
+/* Lines end at each "\n", U+2028 and U+2029. With a width, they also end where the language allows
+ * a break, before they become longer than the width; a longer word extends beyond it. Spaces at a
+ * line's end do not count. Every letter is taken from the first font that has it. */
 typedef struct celspan_text_desc {
   size_t struct_size;
   const char *text;         /* UTF-8 without other control characters, at most 100,000 characters */
@@ -62,7 +62,7 @@ typedef struct celspan_text_desc {
   const char *language;   /* a BCP 47 tag such as "tr"; NULL: none */
   celspan_direction direction;
   celspan_texture *texture; /* kept; NULL: opaque black */
-  uint32_t face;            /* of fonts that are collections: which of theirs, from 0 */
+  uint32_t face;            /* of fonts that are collections: the number of the font, from 0 */
   celspan_valign valign;
 } celspan_text_desc;
 
@@ -80,8 +80,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_text(celspan_co
                                                                       const celspan_text_desc *desc,
                                                                       celspan_object **out);
 
-/* Measures of a text in film units. Heights are those of the first font, 0 or more as a rule, from
- * the baseline; those that the file does not tell are measured on its letters H and x. */
+/* Measures of a text in film units. Heights are those of the first font, usually 0 or more, from
+ * the baseline. If the file lacks them, they are measured on its letters H and x. */
 typedef struct celspan_text_metrics {
   size_t struct_size;
   double ascent, descent; /* of a line: above the baseline and below it */
@@ -102,17 +102,19 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_text_measure(celspan_context 
 /* The text letter by letter: a letter is a user-perceived character with its marks, or a ligature.
  * Line ends are not letters; spaces are, and draw nothing. */
 typedef struct celspan_glyph {
-  celspan_object *object; /* borrowed; it lies where the text has it, its texture as in the text */
+  /* borrowed; it is in its place in the text, with the texture of the text */
+  celspan_object *object;
   double x, y;            /* its left end, on the baseline */
   double advance;         /* its width, without tracking */
-  const char *text;       /* its characters: text_size bytes of UTF-8, borrowed, without a zero */
+  /* its characters: text_size bytes of UTF-8, borrowed, without a zero at the end */
+  const char *text;
   size_t text_size;
   int32_t line; /* from 1 */
 } celspan_glyph;
 
 typedef struct celspan_glyphs celspan_glyphs;
 
-/* In the order of reading. desc, Errors: as above; out: new. One thread at a time. */
+/* In reading order. desc, Errors: as above; out: new. One thread at a time. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_glyphs_create(celspan_context *context,
                                                                  const celspan_text_desc *desc,
                                                                  celspan_glyphs **out);

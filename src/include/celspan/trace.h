@@ -19,16 +19,18 @@ typedef struct celspan_trace celspan_trace;
 
 typedef struct celspan_trace_desc {
   size_t struct_size;
-  /* What is traced; its sampling, use, wrap and box do not matter. Borrowed. */
+  /* The picture that is traced; its sampling, use, wrap and box do not matter. Borrowed. */
   const celspan_picture_desc *picture;
-  int32_t colours; /* as many are found in the picture, or fewer where it has no more; 1..64; 2 */
-  const unsigned char *codes; /* or those that are given: `colours` times 3 bytes, sRGB; borrowed */
-  /* How far curves may leave the edges: 1 stands for 0.15 pixels; 0..16; 1. 0: they are the sides
-   * of the pixels. In a picture without mixed pixels an edge is known to half a pixel, and that is
-   * allowed for. */
+  /* the number of colours to find in the picture; fewer are found if it has no more; 1..64; 2 */
+  int32_t colours;
+  const unsigned char *codes; /* or the given colours: `colours` times 3 bytes, sRGB; borrowed */
+  /* How far curves may leave the edges: 1 stands for 0.15 pixels; 0..16; 1. 0: they follow the
+   * sides of the pixels. In a picture without mixed pixels, an edge is only known to half a pixel,
+   * which is added. */
   double smooth;
   int32_t speckle; /* areas of at most this many pixels go to their neighbours; 2 */
-  bool lines;      /* strokes along the middle of what is drawn on the ground, instead of areas */
+  /* strokes along the middle of the lines that are drawn on the ground, instead of areas */
+  bool lines;
 } celspan_trace_desc;
 
 CELSPAN_DESCRIPTION(celspan_trace_desc)
@@ -60,12 +62,12 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_trace_create(celspan_context 
                                                                 celspan_trace **out);
 CELSPAN_API celspan_trace *celspan_trace_ref(celspan_trace *trace);
 CELSPAN_API void celspan_trace_unref(celspan_trace *trace);
-/* Its picture's size in pixels. Shared read, as all that follow. */
+/* The size of its picture in pixels. Shared read, like all functions below. */
 CELSPAN_API void celspan_trace_size(const celspan_trace *trace, int32_t *width, int32_t *height);
 /* The union of all shapes; borrowed. */
 CELSPAN_API celspan_object *celspan_trace_object(const celspan_trace *trace);
-/* Areas from the largest on, strokes from the longest on. _at: false, and *out is unchanged, where
- * there is none, or *out has no size. */
+/* Areas in descending order of size, strokes in descending order of length. _at: false, and *out
+ * does not change, if there is no such shape, or *out has no size. */
 CELSPAN_API size_t celspan_trace_shape_count(const celspan_trace *trace);
 CELSPAN_API bool celspan_trace_shape_at(const celspan_trace *trace, size_t index,
                                         celspan_trace_shape *out);

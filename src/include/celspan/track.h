@@ -9,15 +9,15 @@
 extern "C" {
 #endif
 
-/* A tracker follows a region of a first frame through others: from the motion of its corners it
- * says where the region lies. A tracker belongs to one thread and keeps what it needs of the first
- * frame; it is no scene value. */
+/* A tracker follows a region of a first frame through other frames: it finds the place of the
+ * region from the motion of its corners. A tracker belongs to one thread, and keeps the data of the
+ * first frame that it needs; it is not a scene value. */
 typedef struct celspan_tracker celspan_tracker;
 
 typedef enum celspan_motion {
   CELSPAN_MOTION_TRANSLATION = 0,
-  CELSPAN_MOTION_SIMILARITY, /* turned and scaled as well */
-  CELSPAN_MOTION_PERSPECTIVE /* of a plane that is seen from elsewhere */
+  CELSPAN_MOTION_SIMILARITY, /* also rotated and scaled */
+  CELSPAN_MOTION_PERSPECTIVE /* that of a plane in perspective */
 } celspan_motion;
 
 /* A grey picture: width x height values (at most 65,536 a side), rows from top to bottom without
@@ -40,12 +40,13 @@ CELSPAN_DESCRIPTION(celspan_tracker_desc)
 
 typedef struct celspan_sighting {
   size_t struct_size;
-  bool is_found;         /* false: lost, and the matrix means nothing */
-  celspan_matrix matrix; /* takes places of the first frame to places of this one; the centre of the
-                            first pixel is (0, 0) */
-  uint32_t corner_count; /* that are followed, at most 240 */
+  bool is_found;         /* false: lost, and the matrix has no meaning */
+  /* maps places of the first frame to places of this one; the centre of the first pixel is (0,
+   * 0) */
+  celspan_matrix matrix;
+  uint32_t corner_count; /* of corners that are followed, at most 240 */
   uint32_t agreeing_count;
-  double error; /* pixels, the root of the mean square over those that agree */
+  double error; /* pixels: the root mean square over the corners that agree */
 } celspan_sighting;
 
 CELSPAN_RESULT(celspan_sighting)
@@ -58,12 +59,13 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_tracker_create(celspan_contex
                                                                   const celspan_luma *first,
                                                                   const celspan_tracker_desc *desc,
                                                                   celspan_tracker **out);
-/* Finds the region in the next frame, of the size of the first one. Where it was lost it is sought
- * where it was last. Errors: BAD_ARGUMENT, NO_MEMORY; a region that is lost is no error. */
+/* Finds the region in the next frame, which has the size of the first one. If the region was lost,
+ * it is searched for at its last place. Errors: BAD_ARGUMENT, NO_MEMORY; a lost region is not an
+ * error. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_tracker_follow(celspan_tracker *tracker,
                                                                   const celspan_luma *frame,
                                                                   celspan_sighting *out);
-/* Begins again at the first frame, to follow the region the other way. */
+/* Begins again at the first frame, to follow the region in the other direction. */
 CELSPAN_API void celspan_tracker_rewind(celspan_tracker *tracker);
 CELSPAN_API void celspan_tracker_destroy(celspan_tracker *tracker); /* NULL is ignored */
 
