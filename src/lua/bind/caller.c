@@ -7,10 +7,10 @@
 
 #include "lua/bind/require.h"
 
-#define MOST_CALLERS 6 /* named in a message: the first ones of a chain and the last */
-#define MOST_CALLS 500 /* searched for them: Lua walks to each from the innermost call */
+#define MOST_CALLERS 6 /* named in a message: the first ones of a chain and the last one */
+#define MOST_CALLS 500 /* searched for these: for each, Lua walks from the innermost call */
 
-/* The modules that are built in have these names: embed.c. */
+/* Whether the function belongs to a built-in module; their names begin like this: embed.c. */
 static bool is_own(const lua_Debug *info) {
   static const char own[] = "@celspan/";
   return strncmp(info->source, own, sizeof own - 1) == 0;
@@ -138,7 +138,7 @@ static bool is_at(const char *position, const place *p) {
   return strncmp(position, p->text, size) == 0 && position[size] == ':';
 }
 
-/* The level of the next file's function from `level` on, below `last`; 0: there is none. */
+/* The level of the function of the next file, from `level` on, below `last`; 0: there is none. */
 static int next_file(lua_State *L, int level, lua_CFunction last, lua_Debug *info) {
   for (; level <= MOST_CALLS && get(L, level, info) && !is_function(L, info, last); level++)
     if (is_file(info))

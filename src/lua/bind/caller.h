@@ -12,12 +12,12 @@
 #include <lua.h>
 #include <stdbool.h>
 
-/* Finds the nearest function that has lines and is not celspan's own, with its source and line;
- * false when there is none. */
+/* Finds the nearest function that has lines and does not belong to celspan, with its source and
+ * line; false if there is none. */
 bool cs_caller_find(lua_State *L, lua_Debug *out);
-/* Calls its upvalue, a function of celspan's own modules. Lua forgets a function that ends with
- * `return multiplane { ... }`, but not one that ends with the call of a C function, so that the
- * caller's line is known. */
+/* Calls its upvalue, a function of one of celspan's own modules. Lua forgets a function that ends
+ * with `return multiplane { ... }`, except if it ends with the call of a C function. So this C
+ * function keeps the caller's line known. */
 int cs_caller_enter(lua_State *L);
 /* Raises a message with the formats of lua_pushfstring at the caller's line; without a line where C
  * called. Does not return; the type is that of luaL_error. */
@@ -29,8 +29,8 @@ void cs_caller_push_position(lua_State *L, lua_CFunction last);
 /* Pushes the same for the line where the function at index begins, for errors in its result, which
  * has no line of its own. */
 void cs_caller_push_function(lua_State *L, int index);
-/* Pushes the folder of the nearest file that is not celspan's own, "" for the current one; false,
- * and nothing pushed, when there is none. */
+/* Pushes the folder of the nearest file that does not belong to celspan, "" for the current one. If
+ * there is none, returns false and pushes nothing. */
 bool cs_caller_push_folder(lua_State *L);
 /* Pushes the folder of a path; "" when it has none. */
 const char *cs_caller_push_folder_of(lua_State *L, const char *path);

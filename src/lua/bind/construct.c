@@ -9,7 +9,7 @@
 #include "lua/bind/named.h"
 #include "lua/bind/userdata.h"
 
-/* Room for presets in the kept fields: more than this are added more slowly. */
+/* The room for presets in the kept fields; further presets are added more slowly. */
 #define PRESETS 3
 
 /* ---------------------------------------------------------------- making */
@@ -35,8 +35,8 @@ static void copy_into(lua_State *L, int from, int to) {
   }
 }
 
-/* Replaces the table at `fields` by a copy without the places of its list that hold nil or false,
- * if there are any and the noun leaves them out. */
+/* Replaces the table at `fields` by a copy without the items of its list that are nil or false, if
+ * it has some and the noun leaves them out. */
 static void close_gaps(lua_State *L, const cs_noun *noun, int fields) {
   if (!noun->has_gaps || !lua_istable(L, fields))
     return;
@@ -57,7 +57,8 @@ static void close_gaps(lua_State *L, const cs_noun *noun, int fields) {
   lua_replace(L, fields);
 }
 
-/* like: whose line and name the value gets; NULL: the line of the caller. */
+/* like: the value from which the new one gets its line and name; NULL: it gets the line of the
+ * caller. */
 static void make(lua_State *L, const cs_noun *noun, int fields, const cs_userdata *like) {
   fields = lua_absindex(L, fields);
   close_gaps(L, noun, fields);
@@ -137,7 +138,7 @@ static void drop_other(lua_State *L, const cs_noun *noun, int changes, int field
   }
 }
 
-/* Gives the value the mode that `from` was given by a method. */
+/* Gives the value the mode that a method gave to `from`. */
 static void reblend(lua_State *L, const cs_userdata *from, cs_userdata *value) {
   const cs_kind *kind = value->noun->kind;
   void *changed = NULL;
@@ -149,7 +150,7 @@ static void reblend(lua_State *L, const cs_userdata *from, cs_userdata *value) {
   value->handle = changed;
 }
 
-/* Transforms and fades the value as `from` was after its constructor. */
+/* Applies to the value the transforms and fades that `from` got after its constructor. */
 static void reapply(lua_State *L, const cs_userdata *from, cs_userdata *value) {
   const cs_kind *kind = value->noun->kind;
   celspan_context *context = cs_host_context(L);

@@ -10,8 +10,8 @@
 #include "lua/bind/userdata.h"
 #include "model/scene/check.h"
 
-/* All readers below read the value on top of the stack, which is nil where a field that is required
- * is missing. */
+/* All readers below read the value on top of the stack, which is nil if a required field is
+ * missing. */
 
 static _Noreturn void fail_type(const cs_form *form, const cs_field *field, const char *wanted) {
   cs_form_fail(form, "field '%s' must be %s, got %s", field->name, wanted,
@@ -27,7 +27,7 @@ static bool is_in_range(const cs_field *field, double number) {
          !(field->is_above && number == field->least);
 }
 
-/* Raises the error in the words of the core. */
+/* Raises the error with the wording of the core. */
 static void fail_range(const cs_form *form, const cs_field *field, double number) {
   celspan_context *context = cs_host_context(form->L);
   if (field->is_above)
@@ -52,7 +52,7 @@ static bool is_whole(double number) {
   return number >= INT_MIN && number <= INT_MAX && number == (int)number;
 }
 
-/* The end of a message about a number that is not whole: what to do. */
+/* The end of a message about a number that is not whole, which says what to do. */
 static const char *rounding_hint(double number) {
   return number == floor(number) ? "" : "; math.ceil makes a number whole";
 }
@@ -134,7 +134,7 @@ static const char *text_of(const cs_form *form, const cs_field *field) {
 
 /* ---------------------------------------------------------------- fields */
 
-/* Reads one field to `out`; whether its value can be popped. */
+/* Reads one field into `out`. Returns whether its value can be popped. */
 static bool read_field(const cs_form *form, const cs_field *field, void *out) {
   switch (field->type) {
   case CS_TYPE_NUMBER:
@@ -155,7 +155,7 @@ static bool read_field(const cs_form *form, const cs_field *field, void *out) {
   case CS_TYPE_PIXELS:
     read_pixels(form, field, out);
     return true;
-  case CS_TYPE_TEXT: /* the stack holds it: a finaliser may take it out of the table */
+  case CS_TYPE_TEXT: /* the stack keeps it alive: a finaliser may remove it from the table */
     *(const char **)out = text_of(form, field);
     return false;
   default:

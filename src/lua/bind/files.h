@@ -10,9 +10,9 @@
 
 #include <lua.h>
 
-/* Pushes where the file is and, after it, where else it was looked for if it is in neither place;
- * else nil. *tried: that or NULL. folder: of a Lua file, where it is looked for first; NULL: of
- * none. Raises where a sandbox does not let the script read there. */
+/* Pushes the path of the file; and after it the other place that was searched, if the file is in
+ * neither place, otherwise nil. *tried: this text or NULL. folder: of a Lua file, where the search
+ * begins; NULL: there is none. Raises if a sandbox does not allow the script to read there. */
 const char *cs_files_find_from(lua_State *L, const char *folder, const char *name,
                                const char **tried);
 /* The same, beside the nearest caller's file. */

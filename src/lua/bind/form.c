@@ -46,7 +46,7 @@ static void check_position(const cs_form *form, lua_Integer place) {
                  (LUAI_UACINT)place);
 }
 
-/* A list without a value at some place would end there in one process and later in another. */
+/* A list with a missing value could end there in one process, and later in another one. */
 static void check_gaps(const cs_form *form) {
   lua_State *L = form->L;
   lua_Integer length = cs_form_length(form);
@@ -56,8 +56,8 @@ static void check_gaps(const cs_form *form) {
                  (LUAI_UACINT)length, (LUAI_UACINT)gap);
 }
 
-/* Checks all names before any value, so that people read about a mistyped name first. Of several
- * unknown names the first in sorted order is reported, whatever the order of the table. */
+/* Checks all names before any value, so that users first read about a mistyped name. Of several
+ * unknown names, the first in sorted order is reported, whatever the order in the table. */
 static void check_names(const cs_form *form) {
   lua_State *L = form->L;
   const char *unknown = NULL;

@@ -27,20 +27,20 @@ const char *cs_form_digits(lua_State *L, double number);
 /* Raises the core's refusal unless the status is OK. */
 void cs_form_try(const cs_form *form, celspan_status status);
 
-/* Pushes a field, raw; its type. */
+/* Pushes a field, without metamethods; returns its type. */
 int cs_form_get(const cs_form *form, const char *name);
 bool cs_form_has(const cs_form *form, const char *name);
 /* A texture, a paint or a colour like "#rrggbb": the value on top of the stack, the field `name`.
  * Borrowed from a value that is left on the stack. */
 celspan_texture *cs_form_texture(const cs_form *form, const char *name);
 
-/* The array part. */
+/* The length of the array part. */
 int cs_form_length(const cs_form *form);
-#define CS_FORM_ITEMS_MOST 10000000 /* times the size of an item it fits into 32 bits */
+#define CS_FORM_ITEMS_MOST 10000000 /* so that the size of all items fits into 32 bits */
 /* Pushes item i; raises unless its type is `type`. what: "point", "stop". */
 void cs_form_item(const cs_form *form, int i, int type, const char *what, const char *shape);
 /* Points {x, y} of the table at index, or {x, y, w} where weights is not NULL. New scratch memory,
- * left on the stack. *weights stays NULL when every weight is left out. */
+ * left on the stack. *weights remains NULL if no point has a weight. */
 celspan_point *cs_form_points(const cs_form *form, int index, size_t count, const double **weights);
 /* The numbers of an array field as scratch memory on the stack; NULL when missing. */
 double *cs_form_array(const cs_form *form, const char *name, size_t *count);

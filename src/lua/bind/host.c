@@ -50,7 +50,7 @@ cs_host *cs_host_find(lua_State *L) {
   return host;
 }
 
-/* The host, with one reference; without memory the context does not change. */
+/* Makes the host, with one reference; without memory the context does not change. */
 static cs_host *create_host(lua_State *thread, celspan_context *context, bool owns_context) {
   cs_host *host = cs_mem_array(context->memory, 1, sizeof *host);
   if (host)
@@ -169,8 +169,8 @@ void cs_host_end(lua_State *L) {
     rules->end(rules->user);
 }
 
-/* A table of paths: a list, and each path as a key, whose value is whether the script may read
- * there. */
+/* Notes a path in a table of paths: a list, and each path as a key, whose value is whether the
+ * script may read there. */
 static void remember(lua_State *L, const char *path, bool is_admitted) {
   if (lua_rawgetp(L, LUA_REGISTRYINDEX, &asked_key) == LUA_TTABLE) {
     lua_pushstring(L, path);

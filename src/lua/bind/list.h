@@ -8,12 +8,12 @@
 #include <lua.h>
 #include <stdbool.h>
 
-/* The greatest whole-number key above 0 of the table at index, without metamethods and at most
- * INT32_MAX. 0: there is none. */
+/* The greatest positive whole-number key of the table at index, at most INT32_MAX; metamethods are
+ * not used. 0: there is none. */
 lua_Integer cs_list_length(lua_State *L, int index);
-/* The first empty place from 1 to `length`: one with nil, or with takes_false also one with false.
- * 0: no place is empty. */
+/* The first empty place from 1 to `length`: its value is nil, or with takes_false perhaps false. 0:
+ * no place is empty. */
 lua_Integer cs_list_find_gap(lua_State *L, int index, lua_Integer length, bool takes_false);
-/* The greatest n for which there is something at all places from 1 to n, exactly up to `exact`
- * places; in a longer list, found by doubling and halving, some n with nothing at n + 1. */
+/* The greatest n for which all places from 1 to n have values. It is exact up to `exact` places; in
+ * a longer list, doubling and halving find some n for which place n + 1 is empty. */
 lua_Integer cs_list_border(lua_State *L, int index, lua_Integer exact);

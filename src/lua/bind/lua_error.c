@@ -20,7 +20,7 @@ size_t cs_lua_error_position(const char *message) {
   return 0;
 }
 
-/* A frame that is built inside a frame has put its callers into the message already. */
+/* If a frame is built inside a frame, its callers are already in the message. */
 static void push_chain(lua_State *L, const char *message, const char *position) {
   if (strstr(message, " (called from "))
     lua_pushliteral(L, "");
@@ -35,8 +35,8 @@ static const char *hint_of(const char *message) {
              : "";
 }
 
-/* The message handler. A message without a position gets that of the innermost function of a
- * script. A frame that is built inside a frame has put its label into the message already. */
+/* The message handler. A message without a position gets the position of the innermost function of
+ * a script. If a frame is built inside a frame, its label is already in the message. */
 static int handle_error(lua_State *L) {
   lua_settop(L, 1);
   const char *message = lua_type(L, 1) == LUA_TSTRING ? lua_tostring(L, 1) : NULL;
@@ -95,14 +95,13 @@ static celspan_status status_of(lua_State *L, int outcome) {
 
 celspan_status cs_lua_error_report_as(lua_State *L, celspan_status status) {
   const char *message = lua_tostring(L, -1);
-  char copy[1024]; /* the message may quote the sentence that is about to be replaced */
+  char copy[1024]; /* the message may contain the sentence that is about to be replaced */
   snprintf(copy, sizeof copy, "%s", message ? message : "the error is not a message");
   lua_pop(L, 1);
   return celspan_context_fail(cs_host_context(L), status, "%s", copy);
 }
 
-/* A script that ended with the core's message was ended by the system, not by a limit of its
- * own. */
+/* If a script ended with the core's message, the system ended it, and not a limit. */
 celspan_status cs_lua_error_limit(lua_State *L, int outcome, const char **text) {
   const cs_host_rules *rules = cs_host_get(L)->rules;
   const char *message = lua_tostring(L, -1);

@@ -17,7 +17,7 @@
 static const char texts_key = 0;
 
 enum { KEEPS_CALLERS = 0, KEEPS_WORDS = -1 };
-enum { HEAD = sizeof(double) + 1 }; /* the em, and whether they are letters */
+enum { HEAD = sizeof(double) + 1 }; /* the size of the em, and a flag for letters */
 
 static void keep(lua_State *L, lua_Integer what, bool is_kept) {
   if (lua_rawgetp(L, LUA_REGISTRYINDEX, &texts_key) != LUA_TTABLE) {
@@ -35,7 +35,7 @@ void cs_named_keep_callers(lua_State *L, bool is_kept) { keep(L, KEEPS_CALLERS, 
 
 void cs_named_keep_words(lua_State *L, bool is_kept) { keep(L, KEEPS_WORDS, is_kept); }
 
-/* Pushes the list where it keeps that, else nothing. */
+/* Pushes the list, if the state keeps it; otherwise nothing. */
 static bool push_list(lua_State *L, lua_Integer what) {
   bool is_kept = false;
   if (lua_rawgetp(L, LUA_REGISTRYINDEX, &texts_key) == LUA_TTABLE) {
@@ -60,11 +60,11 @@ static void push_text(lua_State *L, uint32_t number) {
 void cs_named_push_callers(lua_State *L, uint32_t number) {
   push_text(L, number);
   const char *text = lua_tostring(L, -1);
-  lua_pushstring(L, text ? text : ""); /* ends before the words */
+  lua_pushstring(L, text ? text : ""); /* the text ends where the words begin */
   lua_remove(L, -2);
 }
 
-/* Pops a text, and the list below it. Its number. */
+/* Pops a text, and the list below it. Returns the number of the text. */
 static uint32_t number_of(lua_State *L) {
   lua_pushvalue(L, -1);
   if (lua_rawget(L, -3) != LUA_TNUMBER) {
@@ -109,7 +109,7 @@ bool cs_named_push_words(lua_State *L, uint32_t number, cs_named_words *out) {
   push_text(L, number);
   size_t size = 0;
   const char *text = lua_tolstring(L, -1, &size);
-  size_t callers = text ? strlen(text) + 1 : 0; /* with the zero, of which there is one more */
+  size_t callers = text ? strlen(text) + 1 : 0; /* with its zero; the size counts one more */
   if (!text || size < callers + HEAD)
     return false;
   memcpy(&out->em, text + callers, sizeof out->em);

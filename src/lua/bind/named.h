@@ -14,18 +14,18 @@ void cs_named_begin(lua_State *L, celspan_context *context);
 void cs_named_begin_as(celspan_context *context, const cs_userdata *value);
 void cs_named_end(celspan_context *context);
 
-/* Whether the callers of that line are kept from now on, so that cs_named_push_callers knows them:
- * every value then takes a walk over the stack. At first they are not. */
+/* Whether the callers of these lines are kept from now on, so that cs_named_push_callers knows
+ * them; this needs a walk over the stack for every value. At first they are not kept. */
 void cs_named_keep_callers(lua_State *L, bool is_kept);
 /* Pushes the text of cs_caller_push_callers from the time when a value with this number in its mark
  * was made. */
 void cs_named_push_callers(lua_State *L, uint32_t number);
 
-/* Whether texts are known by their words from now on, so that cs_named_push_words has them. At
- * first they are not. */
+/* Whether the words of texts are kept from now on, so that cs_named_push_words has them. At first
+ * they are not kept. */
 void cs_named_keep_words(lua_State *L, bool is_kept);
-/* For a constructor of texts, after cs_named_begin: what the new values say, and how large. em: of
- * the letters. has_letters: the values are letters of these words, one each. */
+/* For a constructor of texts, after cs_named_begin: the words of the new values, and their size.
+ * em: of the letters. has_letters: each value is one letter of these words. */
 typedef struct cs_named_words {
   const char *text;
   size_t size;
@@ -34,10 +34,10 @@ typedef struct cs_named_words {
 } cs_named_words;
 void cs_named_add_words(lua_State *L, celspan_context *context, const cs_named_words *words);
 /* The words of a value with this number in its mark; false: there are none. Pushes a value that
- * keeps the text. */
+ * keeps the text alive. */
 bool cs_named_push_words(lua_State *L, uint32_t number, cs_named_words *out);
 
-/* Gives `value`, new and not shared yet, the name of `from`, if it has one. */
+/* Gives `value`, which is new and not shared yet, the name of `from`, if it has one. */
 void cs_named_copy(lua_State *L, const cs_userdata *from, cs_userdata *value);
 /* v:named("hand") */
 int cs_named_method(lua_State *L);

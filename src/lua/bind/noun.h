@@ -38,8 +38,9 @@ typedef struct cs_kind {
   celspan_status (*blend)(celspan_context *context, void *handle, celspan_blend mode, void **out);
   const luaL_Reg *methods, *operators; /* operators NULL: none */
   const struct cs_written *written;    /* methods in Lua; NULL: none */
-  size_t own_size; /* bytes that a value has of its own: a paint's numbers, a frame's seed */
-  int kept;        /* user values of a value in addition to its fields, which are the first */
+  /* bytes of data that each value has: for example a paint's numbers, a frame's seed */
+  size_t own_size;
+  int kept;        /* how many user values a value has in addition to the first one, its fields */
 } cs_kind;
 
 /* The type of a field in the description that it is read into. */
@@ -48,7 +49,7 @@ typedef enum cs_type {
   CS_TYPE_NUMBER,  /* double */
   CS_TYPE_WHOLE,   /* int */
   CS_TYPE_FLAG,    /* bool */
-  CS_TYPE_CHOICE,  /* an enum: the place of a word among the choices */
+  CS_TYPE_CHOICE,  /* an enum: the index of a word among the choices */
   CS_TYPE_TEXT,    /* const char *, borrowed from a value that is left on the stack */
   CS_TYPE_NUMBERS, /* `count` doubles: an array, a celspan_point, a celspan_box */
   CS_TYPE_PIXELS,  /* `count` int32_t */
@@ -59,21 +60,25 @@ typedef struct cs_field {
   const char *name;
   cs_type type;
   bool is_required;
-  bool is_above;      /* the range is without its least value */
+  bool is_above;      /* the range does not include its least value */
   uint16_t at;        /* offset in the description */
   uint16_t has;       /* offset of a bool that is set if the field is given; 0: there is none */
   uint16_t count;     /* NUMBERS and PIXELS: how many */
   double least, most; /* the range; equal: any number within 1e12 */
-  const char *preset; /* the value that scripts read when it was left out, a number or a word; NULL:
-                         nil */
+  /* the value that scripts read if the field was left out, a number or a word; NULL: nil */
+  const char *preset;
   const char *const *choices; /* CHOICE: the words, ended by NULL; the first one is the default */
   const char *shape;          /* NUMBERS: "a point {x, y}"; NULL: "an array of 9 numbers" */
   const char *written;        /* its type in annotations; NULL: by `type` */
-  const char *read; /* its type in a value, where the value always has it but not as it was given */
-  const char *about;           /* for people, without its range and default; NULL: nothing to say */
-  const char *fallback;        /* for people: the value used if it is left out and has no preset */
-  const struct cs_field *more; /* of the row without a name, which ends the fields: a group of
-                                * fields that several nouns share and that follows; NULL: none */
+  /* its type when it is read from a value, if it always exists there but differs from the given
+   * one */
+  const char *read;
+  const char *about;           /* a description for users, without range and default; NULL: none */
+  /* for users: the value that is used if the field is left out and has no preset */
+  const char *fallback;
+  /* in the row without a name, which ends the fields: further fields, which several nouns share;
+   * NULL: none */
+  const struct cs_field *more;
 } cs_field;
 
 /* The fields of a noun: for (field = noun->fields; field->name; field = cs_field_next(field)) */
@@ -125,17 +130,18 @@ typedef struct cs_noun {
   const char *item_written;  /* the type of an item in annotations */
   const char *item_about;    /* a description of the items, for people; NULL: none */
   const cs_field *fields;    /* ended by a row without a name */
-  bool has_gaps;             /* ITEMS: places with nil or false are left out */
-  const char *places;        /* TUPLE: "{x, y, w, h}" for messages; NULL: they have no names */
+  bool has_gaps;             /* ITEMS: items that are nil or false are left out */
+  const char *places; /* TUPLE: "{x, y, w, h}" for messages; NULL: its values have no names */
   const char *either[2];     /* fields of which only one may be given; NULL: none */
-  const char *const *second; /* fields that go with either[1] alone, ended by NULL; NULL: none */
+  /* fields that may only be given with either[1], ended by NULL; NULL: none */
+  const char *const *second;
   void (*create)(const struct cs_form *form, struct cs_userdata *value);
-  /* Adds fields that follow from others; NULL: none. */
+  /* Adds fields whose values follow from others; NULL: none. */
   void (*complete)(lua_State *L, int fields);
 } cs_noun;
 
-/* The list of a noun that is any number of items, with gaps. */
+/* The list of a noun with any number of items, with gaps. */
 #define CS_ITEMS(name, type)                                                                       \
   .list = CS_LIST_ITEMS, .has_gaps = true, .item = (name), .item_written = (type)
-/* Of options with which a function makes an object from an object. */
+/* For the options of a function that makes an object from an object. */
 #define CS_FROM_OBJECT .kind = &cs_kind_object, .list = CS_LIST_TUPLE, .item = "object"

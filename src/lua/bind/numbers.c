@@ -10,7 +10,7 @@
 #include "lua/bind/userdata.h"
 
 const char *cs_numbers_digits(lua_State *L, double number) {
-  if (isnan(number)) /* whose sign means nothing */
+  if (isnan(number)) /* the sign of NaN has no meaning */
     return lua_pushliteral(L, "nan");
   bool is_whole = fabs(number) < 1e15 && number == floor(number);
   return is_whole ? lua_pushfstring(L, "%I", (LUAI_UACINT)number)
@@ -46,7 +46,7 @@ static const char *push_item(lua_State *L, const cs_numbers_name *name, int i) {
                         : lua_pushfstring(L, name->item, i);
 }
 
-/* The values of the list from number `first` on, up to `last`. */
+/* Checks the values of the list from number `first` up to `last`. */
 static void check_values(lua_State *L, int index, const cs_numbers_name *name, int first,
                          int last) {
   for (int i = first; i <= last; i++) {
@@ -72,7 +72,7 @@ static int fail_list(lua_State *L, int index, const cs_numbers_name *name, int l
                            lua_tostring(L, -1));
   int length = (int)cs_list_length(L, index);
   if (length == 0 && lua_rawgeti(L, index, least) == LUA_TNIL) {
-    bool has_names = lua_next(L, index) != 0; /* after the nil that is on top */
+    bool has_names = lua_next(L, index) != 0; /* after the nil that is on top of the stack */
     return cs_caller_error(L, "%s: %s must be %s, got %s", name->noun, whole, shape,
                            has_names ? "a table of other values" : "an empty table");
   }
@@ -84,7 +84,7 @@ static int fail_list(lua_State *L, int index, const cs_numbers_name *name, int l
 
 /* ---------------------------------------------------------------- reading */
 
-/* Whether the next `count` values are finite numbers; they are read. */
+/* Reads the next `count` values. Returns whether they are finite numbers. */
 static bool read(lua_State *L, int index, int count, double *out) {
   bool good = true;
   for (int i = 0; good && i < count; i++) {

@@ -12,12 +12,13 @@
 
 /* The name of a list in messages. */
 typedef struct cs_numbers_name {
-  const char *noun;  /* who asks for it, "circle" */
-  const char *field; /* it is a field, "centre"; NULL: it is called as whole and item say */
+  const char *noun;  /* the function that needs the list, "circle" */
+  const char *field; /* if the list is a field: "centre"; NULL: `whole` and `item` name it */
   const char *whole; /* "the matrix", or with %d for `number` "point %d" */
-  const char *item; /* number i of it: "value %d of it"; after `number`, "point %d: its value %d" */
-  int number;       /* 0: it is not one of many */
-  /* Its required form, "{x, y}", by names of its places; NULL: "an array of 9 numbers". */
+  /* for value number i: "value %d of it"; with `number`, "point %d: its value %d" */
+  const char *item;
+  int number;       /* 0: it is not one of several lists */
+  /* Its required form, "{x, y}", with the names of its values; NULL: "an array of 9 numbers". */
   const char *shape;
 } cs_numbers_name;
 
@@ -25,7 +26,7 @@ typedef struct cs_numbers_name {
  * when there are fewer or more. */
 int cs_numbers_read(lua_State *L, int index, const cs_numbers_name *name, int least, int most,
                     double *out);
-/* Reads all `count` numbers of the table at index, whose length that is. */
+/* Reads all `count` numbers of the table at index; the table must have this length. */
 void cs_numbers_read_all(lua_State *L, int index, const cs_numbers_name *name, int count,
                          double *out);
 /* The value at index, which must be a finite number. subject: its name in messages, "the angle". */

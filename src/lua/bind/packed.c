@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#define LIST_MOST 9 /* numbers of a list, or items */
+#define LIST_MOST 9 /* the most numbers of a list, or items */
 
 enum { NIL, INTEGER, FLOAT, LIST, OTHER };
 
@@ -46,7 +46,7 @@ static size_t count_keys(lua_State *L) {
   return count;
 }
 
-/* The table on top of the stack, a list of nothing but numbers. */
+/* Packs the table on top of the stack, a list that contains only numbers. */
 static void put_list(packer *p) {
   size_t count = lua_rawlen(p->L, -1);
   p->fits = p->fits && count <= LIST_MOST && count_keys(p->L) == count;
@@ -59,7 +59,8 @@ static void put_list(packer *p) {
   }
 }
 
-/* Packs the value on top of the stack. other: where a value of another type goes. */
+/* Packs the value on top of the stack. other: the index at which a value of another type is
+ * stored. */
 static void put_value(packer *p, int other) {
   switch (lua_type(p->L, -1)) {
   case LUA_TNIL:

@@ -21,13 +21,13 @@
 #define CS_PACKED_SIZE 240 /* bytes at most */
 
 typedef struct cs_packed {
-  size_t size; /* 0: the fields do not fit */
+  size_t size; /* 0: the fields did not fit */
   bool has_other;
   unsigned char bytes[CS_PACKED_SIZE];
 } cs_packed;
 
 /* Packs the table at `fields`, whose names have been checked, and pushes its value of another type;
- * nil where there is none, or where it does not fit. */
+ * nil if there is no such value, or if the table does not fit. */
 void cs_packed_push_other(lua_State *L, const cs_noun *noun, int fields, cs_packed *out);
 /* Appends a number, or a list of them, as the next field; there must be room for it. */
 void cs_packed_add_number(cs_packed *packed, double number);
@@ -38,5 +38,5 @@ void cs_packed_begin(cs_packed *packed);
 void cs_packed_push_fields(lua_State *L, const cs_noun *noun, const unsigned char *bytes,
                            int other);
 
-/* Sets the fields of a table that have a preset and were left out. */
+/* Sets the missing fields of a table that have a preset. */
 void cs_packed_set_presets(lua_State *L, const cs_noun *noun, int table);

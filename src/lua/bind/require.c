@@ -36,8 +36,8 @@ void cs_require_forget(lua_State *L) {
 
 /* ---------------------------------------------------------------- finding */
 
-/* Pushes the module of that name, from tables of the registry; false, and nothing pushed: it has
- * none. */
+/* Pushes the module of that name, from tables of the registry; if there is none, returns false and
+ * pushes nothing. */
 static bool push_module(lua_State *L, const char *loaded, const char *openers, const char *name) {
   luaL_getsubtable(L, LUA_REGISTRYINDEX, loaded);
   if (lua_getfield(L, -1, name) == LUA_TNIL) {

@@ -17,21 +17,21 @@ void cs_require_give(lua_State *L, const luaL_Reg *modules);
 /* Pushes the globals of celspan's own chunks. Raises. */
 void cs_require_push_globals(lua_State *L);
 
-/* Forgets the modules that were loaded: each is loaded again when it is next asked for. */
+/* Forgets the modules that were loaded: each is loaded again at its next use. */
 void cs_require_forget(lua_State *L);
 
-/* Pushes a module of either kind, which is loaded when it is first asked for. Raises. */
+/* Pushes a private or public module, which is loaded at its first use. Raises. */
 void cs_require_module(lua_State *L, const char *name);
-/* The same for a script, which has no private modules. */
+/* The same for a script, which has only public modules. */
 void cs_require_public(lua_State *L, const char *name);
 
-/* A method that is written in Lua, and ended by one without a name. Errors are raised at the line
- * that calls the method. */
+/* A method that is written in Lua; a list of them is ended by one without a name. Errors are raised
+ * at the line that calls the method. */
 typedef struct cs_written {
   const char *method, *module, *function;
 } cs_written;
 
 /* Puts such methods into the table on top of the stack. */
 void cs_require_methods(lua_State *L, const cs_written *methods);
-/* The C function behind these methods; upvalue: which method, as light userdata. */
+/* The C function behind these methods; upvalue: the method, as light userdata. */
 int cs_require_call(lua_State *L);

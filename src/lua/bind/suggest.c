@@ -29,8 +29,8 @@ int cs_suggest_distance(const char *a, const char *b) {
   return d[m][n];
 }
 
-/* Words of other programs, each with the word used here, which no comparison of letters would
- * find. */
+/* Words of other programs, each with celspan's word, for words that are too different to be found
+ * by comparing letters. */
 static const char *const others[][2] = {
     {"color", "texture"},
     {"colour", "texture"},
@@ -72,7 +72,7 @@ static const char *find(const char *name, const char *const *names, size_t count
   return NULL;
 }
 
-/* The known name that another word stands for. */
+/* The known name for another program's word. */
 static const char *find_other(const char *word, const char *const *names, size_t count) {
   const char *found = NULL;
   for (size_t i = 0; !found && i < sizeof others / sizeof *others; i++)
@@ -86,7 +86,8 @@ const char *cs_suggest_name(const char *word, const char *const *names, size_t c
   if (other)
     return other;
   const char *best = NULL;
-  int best_distance = (int)strlen(word) <= 4 ? 2 : 3; /* one slip in a short word, two in a long */
+  /* one mistake in a short word, two in a longer one */
+  int best_distance = (int)strlen(word) <= 4 ? 2 : 3;
   for (size_t i = 0; i < count; i++) {
     int d = cs_suggest_distance(word, names[i]);
     if (d < best_distance) {

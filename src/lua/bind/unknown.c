@@ -12,7 +12,7 @@
 
 /* ---------------------------------------------------------------- places */
 
-/* The names of places such as {x, y}. */
+/* The names in a shape such as {x, y}. */
 typedef struct place_list {
   char names[MOST_PLACES][NAME_SIZE];
   int count;
@@ -33,7 +33,7 @@ static place_list split(const char *text) {
   return places;
 }
 
-/* Pushes a field of the table, also where it is called by a longer name; its type. */
+/* Pushes a field of the table, also under a longer name; returns its type. */
 static int get(lua_State *L, int table, const char *name, const char **called) {
   static const char *const longer[][2] = {{"w", "width"}, {"h", "height"}, {"r", "red"},
                                           {"g", "green"}, {"b", "blue"},   {"x", "cx"},
@@ -75,7 +75,7 @@ static void push_values(lua_State *L, int table, const place_list *places, bool 
     }
     const char *value = type == LUA_TNUMBER ? luaL_tolstring(L, -1, NULL) : places->names[i];
     if (type != LUA_TNUMBER)
-      lua_pushnil(L); /* in the place of the number's text */
+      lua_pushnil(L); /* replaces the text of the number */
     if (is_named)
       lua_pushfstring(L, "%s = %s", called, type == LUA_TNUMBER ? value : "...");
     else
@@ -131,7 +131,7 @@ static bool is_place(const place_list *places, const char *name) {
   return found;
 }
 
-/* The numbers of a field were given one by one: x and y for centre. */
+/* Raises: the numbers of a field were given one by one, such as x and y for centre. */
 static void fail_parts(lua_State *L, const cs_noun *noun, int table, const char *name) {
   for (const cs_field *field = noun->fields; field->name; field = cs_field_next(field)) {
     place_list places = split(field->shape ? field->shape : "");
@@ -144,7 +144,7 @@ static void fail_parts(lua_State *L, const cs_noun *noun, int table, const char 
   }
 }
 
-/* Items of the list have no name. */
+/* Raises: the items of the list have no name. */
 static void fail_list(lua_State *L, const cs_noun *noun, int table, const char *name) {
   static const char *const lists[] = {"list", "items", "children", "operands", "shapes"};
   if (noun->list == CS_LIST_NONE || !noun->item)
@@ -168,7 +168,7 @@ static bool is_word(const char *const *words, const char *word) {
   return words && *words;
 }
 
-/* The value is a word of a field with another name: fill = "evenodd". */
+/* Raises: the name is a word that belongs to another field: fill = "evenodd". */
 static void fail_choice(lua_State *L, const cs_noun *noun, int table, const char *name) {
   lua_getfield(L, table, name);
   const char *word = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : NULL;
@@ -179,7 +179,7 @@ static void fail_choice(lua_State *L, const cs_noun *noun, int table, const char
   lua_pop(L, 1);
 }
 
-/* Names that a noun does not have, with a hint to use something else. */
+/* Raises for names that a noun does not have, with a hint to use something else. */
 static void fail_elsewhere(lua_State *L, const cs_noun *noun, const char *name) {
   static const struct {
     const char *noun, *field, *hint;

@@ -17,6 +17,6 @@ _Noreturn void cs_unknown_fail(lua_State *L, const cs_noun *noun, int table, con
 _Noreturn void cs_unknown_fail_name(lua_State *L, const char *noun, const char *name,
                                     const char *const *names, size_t count);
 
-/* places: "{x, y}". Pushes "write {10, 20}, not {x = 10, y = 20}" if the table at index names one
- * of these places; else false, and nothing is pushed. */
+/* places: "{x, y}". If the table at index names one of these values, pushes "write {10, 20}, not {x
+ * = 10, y = 20}"; otherwise returns false and pushes nothing. */
 bool cs_unknown_push_places(lua_State *L, int index, const char *places);

@@ -10,7 +10,7 @@
 #include "lua/bind/unknown.h"
 #include "model/colour/blend.h"
 
-/* Deep enough for every field there is: a list of points. */
+/* Deep enough for all fields: a list of points. */
 #define COPY_DEPTH 3
 #define MOST_NAMES 64
 #define MOST_SHOWN 60 /* bytes of a text in a message */
@@ -75,7 +75,7 @@ cs_userdata *cs_userdata_push_like(lua_State *L, int index, bool is_placed) {
   if (copy->is_placed)
     cs_userdata_place(copy, &placement);
   lua_insert(L, -2);
-  lua_setiuservalue(L, -2, 1); /* never changed, so it can be shared */
+  lua_setiuservalue(L, -2, 1); /* it is never changed, so it can be shared */
   return copy;
 }
 
@@ -179,7 +179,7 @@ const char *cs_userdata_shown(lua_State *L, int index) {
   const char *text = lua_tolstring(L, index, &size);
   kept = size < MOST_SHOWN ? size : MOST_SHOWN;
   while (kept < size && kept > 0 && ((unsigned char)text[kept] & 0xc0) == 0x80)
-    kept--; /* not in the middle of a character of UTF-8 */
+    kept--; /* not in the middle of a UTF-8 character */
   for (size_t i = 0; i < kept; i++)
     shown[i] = (unsigned char)text[i] < ' ' || text[i] == 0x7f ? '?' : text[i];
   shown[kept] = '\0';
@@ -199,8 +199,8 @@ static int compare(const void *a, const void *b) {
   return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-/* Raises the message that a name cannot be read, with the names that can. The names of methods are
- * the keys of the table at `methods`. */
+/* Raises the message that a name cannot be read, with the names that can be read. The names of
+ * methods are the keys of the table at `methods`. */
 static int fail_unknown(lua_State *L, const cs_noun *noun, int methods) {
   const char *names[MOST_NAMES];
   size_t count = 0;
@@ -221,8 +221,8 @@ static int fail_unknown(lua_State *L, const cs_noun *noun, int methods) {
   cs_unknown_fail_name(L, noun->name, lua_tostring(L, 2), names, count);
 }
 
-/* Pushes the field `name` or `origin` of a value; false if the key is another one, or values of its
- * kind have no names. */
+/* Pushes the field `name` or `origin` of a value; false if the key is another one, or values of
+ * this kind have no names. */
 static bool push_name(lua_State *L, const cs_userdata *value, const char *key) {
   bool is_name = strcmp(key, "name") == 0;
   const cs_kind *kind = value->noun->kind;
@@ -239,7 +239,8 @@ static bool push_name(lua_State *L, const cs_userdata *value, const char *key) {
   return true;
 }
 
-/* Pushes the mode of a value; false if the key is another one, or values of its kind have none. */
+/* Pushes the mode of a value; false if the key is another one, or values of this kind have no
+ * modes. */
 static bool push_mode(lua_State *L, const cs_userdata *value, const char *key) {
   const cs_kind *kind = value->noun->kind;
   if (strcmp(key, "mode") != 0 || !kind->mode || !value->handle)
@@ -248,7 +249,7 @@ static bool push_mode(lua_State *L, const cs_userdata *value, const char *key) {
   return true;
 }
 
-/* Pushes field 2 of the value, nil when it was left out; false when it has no such field. */
+/* Pushes the field named by argument 2, nil if it was left out; false if there is no such field. */
 static bool push_read(lua_State *L, const cs_userdata *value) {
   lua_pushnil(L);
   bool is_place = lua_isinteger(L, 2);
@@ -266,7 +267,7 @@ static bool push_read(lua_State *L, const cs_userdata *value) {
          cs_userdata_has_field(value->noun, lua_tostring(L, 2));
 }
 
-/* A method, else a field; tables come out as copies. */
+/* Returns a method, or else a field; tables are returned as copies. */
 static int index_value(lua_State *L) {
   const cs_kind *kind = lua_touserdata(L, lua_upvalueindex(2));
   const cs_userdata *value = luaL_checkudata(L, 1, kind->name);
@@ -360,7 +361,7 @@ static void join(lua_State *L, int *count) {
   lua_concat(L, 3);
 }
 
-/* Kind and key numbers: circle{ centre = {10, 20}, radius = 5 }. */
+/* The kind and the most important numbers: circle{ centre = {10, 20}, radius = 5 }. */
 static int describe(lua_State *L) {
   const cs_kind *kind = lua_touserdata(L, lua_upvalueindex(1));
   const cs_userdata *value = luaL_checkudata(L, 1, kind->name);

@@ -20,9 +20,10 @@
 typedef struct cs_userdata {
   const cs_noun *noun;
   void *handle;    /* a reference to something in the core; NULL: closed, or a noun without one */
-  int32_t shown;   /* of the operands in a table that chains share; 0: not shared */
-  uint16_t packed; /* bytes of its packed fields; 0: they are a table */
-  bool is_chain;   /* made by an operator and not touched since: the next one flattens it */
+  /* how many operands of a table that chains share belong to this value; 0: it is not shared */
+  int32_t shown;
+  uint16_t packed; /* bytes of its packed fields; 0: its fields are in a table */
+  bool is_chain;   /* made by an operator and unchanged since; the next operator extends it */
   bool is_placed;  /* there is room for a placement */
 } cs_userdata;
 
@@ -35,7 +36,7 @@ typedef struct cs_placement {
 extern const cs_noun cs_noun_paint, cs_noun_rostrum, cs_noun_rostrum_object, cs_noun_film;
 extern const cs_kind cs_kind_paint, cs_kind_texture, cs_kind_object, cs_kind_cel, cs_kind_rostrum,
     cs_kind_film, cs_kind_frame;
-extern const cs_kind *const cs_kinds[]; /* all of them, ended by NULL */
+extern const cs_kind *const cs_kinds[]; /* all kinds, ended by NULL */
 
 /* Makes the metatable of a kind: its operators, and __index, __newindex, __tostring, __gc,
  * __metatable and __name. */
@@ -49,9 +50,9 @@ cs_userdata *cs_userdata_push_packed(lua_State *L, const cs_noun *noun, bool is_
                                      const cs_packed *packed);
 /* The value's own data, as its kind defines: kind->own_size bytes, zeros at first. */
 void *cs_userdata_own(const cs_userdata *value);
-/* No transform and no fade where it was not placed. */
+/* If it was not placed: no transform and no fade. */
 cs_placement cs_userdata_placement(const cs_userdata *value);
-/* Of a value with room for it. */
+/* value: must have room for a placement. */
 void cs_userdata_place(cs_userdata *value, const cs_placement *placement);
 /* Whether values of the noun have a field. */
 bool cs_userdata_has_field(const cs_noun *noun, const char *name);
@@ -67,15 +68,16 @@ void cs_userdata_push_copy(lua_State *L, int table, int more);
 
 /* The value at index if it is of this kind, else NULL. Raises when it is closed. */
 cs_userdata *cs_userdata_test(lua_State *L, int index, const cs_kind *kind);
-/* The value at index, of any kind that constructors make (frames are not), else NULL. The kind is
- * recognized by the identity of its metatable, never by what a metatable contains. */
+/* The value at index, of any kind that constructors make (frames are not among these), or else
+ * NULL. The kind is recognized by the identity of its metatable, never by the contents of a
+ * metatable. */
 cs_userdata *cs_userdata_any(lua_State *L, int index);
 /* The `self` of a method; raises when it is not of this kind. */
 cs_userdata *cs_userdata_self(lua_State *L, const cs_kind *kind, const char *method);
 
 /* Pushes a word for the value at index, for messages: "a circle", "number". */
 const char *cs_userdata_type(lua_State *L, int index);
-/* Pushes the same, but of a string its beginning, in quotes and without control characters. */
+/* The same, but for a string pushes its beginning, in quotes and without control characters. */
 const char *cs_userdata_shown(lua_State *L, int index);
 
 /* ---------------------------------------------------------------- holders */
@@ -90,6 +92,6 @@ const char *cs_userdata_shown(lua_State *L, int index);
  * made, the next call makes it again. Scripts can neither read nor change it.
  */
 
-/* Pushes zeroed memory with one user value, whose finaliser is `release`: the same one for all of
- * a kind. Raises an error when out of memory. */
+/* Pushes zeroed memory with one user value. Its finaliser is `release`, which must be the same for
+ * all of a kind. Raises an error if there is no memory. */
 void *cs_userdata_push_holder(lua_State *L, const char *kind, size_t size, lua_CFunction release);

@@ -4,7 +4,7 @@
 
 #include "lua/bind/caller.h"
 
-enum { MOST = 100 }; /* of a frame: more would help nobody */
+enum { MOST = 100 }; /* the most for a frame: more would not be useful */
 
 static const char list_key = 0; /* its address is a key of the registry */
 

@@ -11,10 +11,10 @@
 
 /* From now on warnings are kept in this state. */
 void cs_warnings_keep(lua_State *L);
-/* Pushes a list of the warnings since the last call; an empty one where none are kept. */
+/* Pushes a list of the warnings since the last call; an empty list if none are kept. */
 void cs_warnings_push(lua_State *L);
 
 /* core.warns() -> whether warnings are kept */
 int cs_warnings_kept(lua_State *L);
-/* core.warn(text): keeps it with the caller's line before it */
+/* core.warn(text): keeps the text with the caller's line in front */
 int cs_warnings_add(lua_State *L);

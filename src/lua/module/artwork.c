@@ -17,7 +17,7 @@ static bool is_markup(const char *head) {
   return start[strspn(start, " \t\r\n")] == '<';
 }
 
-/* The start of a regular file, as a text; "" where there is none. Whether it is a folder. */
+/* The start of a regular file, as a text; "" if it is not one. Returns whether it is a folder. */
 static bool read_head(const char *path, char head[HEAD + 1]) {
   struct stat facts;
   head[0] = '\0';
@@ -42,7 +42,7 @@ cs_artwork cs_artwork_of(const char *path) {
                                            : CS_ARTWORK_NONE;
 }
 
-/* The script's folder is the folder of the file, so the name alone is enough. */
+/* The script's folder is the folder of the file, so the name without a path is enough. */
 void cs_artwork_push_film(lua_State *L, const char *path, cs_artwork kind) {
   const char *slash = strrchr(path, '/');
   cs_require_module(L, "celspan.artwork");

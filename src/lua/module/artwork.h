@@ -8,7 +8,7 @@
 #include <lua.h>
 
 typedef enum cs_artwork {
-  CS_ARTWORK_NONE,    /* also where there is no such file */
+  CS_ARTWORK_NONE,    /* also if the file does not exist */
   CS_ARTWORK_FOLDER,  /* layers of a painting, or pictures */
   CS_ARTWORK_ARCHIVE, /* OpenRaster or Krita */
   CS_ARTWORK_PSD,

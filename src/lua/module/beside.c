@@ -14,7 +14,8 @@
 #include "lua/module/core.h"
 
 #define SEARCHER "celspan.beside" /* in the registry, when package.searchers has it */
-#define FOLDERS "celspan.folders" /* in the registry: where files that were found so look further */
+/* a key of the registry: in which folders a file that was found in this way searches further */
+#define FOLDERS "celspan.folders"
 
 /* Pushes the folder for the file that calls require; false, and nothing pushed: no file calls. */
 static bool push_folder(lua_State *L) {
@@ -42,7 +43,7 @@ static void load_module(lua_State *L) {
   lua_pop(L, 1);
 }
 
-/* name -> function, path | where it was looked for. upvalue: package.searchpath */
+/* name -> function, path | the places that were searched. upvalue: package.searchpath */
 static int search(lua_State *L) {
   luaL_checkstring(L, 1);
   lua_settop(L, 1);

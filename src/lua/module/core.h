@@ -18,18 +18,18 @@ void cs_pixels_open(lua_State *L);
 
 /* ---------------------------------------------------------------- built-in Lua modules */
 
-/* Puts the modules for scripts into package.preload, where private modules refuse to load, and
- * gives the private modules to celspan's own modules (lua/bind/require.h). */
+/* Puts the modules for scripts into package.preload, where private modules would refuse to load.
+ * Gives the private modules to celspan's own modules (lua/bind/require.h). */
 void cs_embedded_open(lua_State *L);
-/* The same, and celspan.core with them. */
+/* The same, and also celspan.core. */
 void cs_core_open(lua_State *L);
 /* Whether there is a module celspan.NAME for scripts. */
 bool cs_embedded_has(const char *name);
 /* (name) -> the source of a module for scripts, for celspan.manual */
 int cs_embedded_source(lua_State *L);
 
-/* Lets `require` of a host find modules beside the file that requires them, after the places where
- * it looks by itself. Does nothing without the library package, and nothing when called again. */
+/* Lets `require` of a host also find modules beside the file that requires them, after the usual
+ * places. Does nothing without the library package, or when it is called again. */
 void cs_beside_open(lua_State *L);
 
 /* ---------------------------------------------------------------- files */
@@ -48,9 +48,9 @@ int cs_folders_frame_name(lua_State *L);
 
 /* ---------------------------------------------------------------- sounds */
 
-/* A function of a host that can decode sounds: (path, tried | nil) -> seconds, sums | nil, message.
- * sums: 8-byte floats, as plugins/sound/loudness.h describes them. Scripts of a state without one
- * cannot read sounds. */
+/* A function that a host may provide to decode sounds: (path, tried | nil) -> seconds, sums | nil,
+ * message. sums: 8-byte floats, as plugins/sound/loudness.h describes them. Scripts of a state
+ * without one cannot read sounds. */
 #define CS_CORE_HEAR "celspan.hear" /* its name in the registry */
 
 /* ---------------------------------------------------------------- layered documents */
@@ -93,7 +93,7 @@ int cs_track_tracker(lua_State *L);
 /* (tracker, bytes, width, height) -> {matrix}, corners, agreeing, error | nil, message; nil alone:
  * lost */
 int cs_track_follow(lua_State *L);
-/* (tracker): back to the first frame */
+/* (tracker): moves back to the first frame */
 int cs_track_rewind(lua_State *L);
 /* (matrix) -> the inverse of nine numbers | nil */
 int cs_track_inverse(lua_State *L);
@@ -116,13 +116,13 @@ int cs_relight_grounds(lua_State *L);
 int cs_relight_shape(lua_State *L);
 /* (texture, path) -> true */
 int cs_relight_write(lua_State *L);
-/* (path) -> texture, looked for as pictures are */
+/* (path) -> texture; the file is searched for in the same places as pictures */
 int cs_relight_read(lua_State *L);
 
 /* ---------------------------------------------------------------- frames by their lights */
 
-/* The lights of a stack are a list with eight numbers for each: r, g, b, a of its front and of its
- * back. The first of these is the light of the rostrum itself. */
+/* The lights of a stack are a list with eight numbers for each light: r, g, b, a of its front and
+ * of its back. The first light is that of the rostrum itself. */
 
 /* (rostrum or film, options) -> stack, { cels = {{ name =, has_front = }, ...}, brightness =,
  * width =, height =, bytes = } */

@@ -67,6 +67,6 @@ int cs_difference_of(lua_State *L) {
   lua_pushinteger(L, (lua_Integer)t.at % width);
   lua_pushinteger(L, (lua_Integer)t.at / width);
   lua_pushstring(L, channels[t.channel]);
-  lua_rotate(L, 6, -1); /* the picture comes last */
+  lua_rotate(L, 6, -1); /* moves the picture to the end */
   return 6;
 }

@@ -60,7 +60,7 @@ static int release(lua_State *L) {
   return 0;
 }
 
-/* The drawing that was kept has a key of its own as long as it lives. */
+/* A drawing that is kept has its own key as long as it lives. */
 static int key(lua_State *L) {
   lua_pushlightuserdata(L, self(L));
   return 1;
@@ -91,7 +91,7 @@ static int parts(lua_State *L) {
   return 1;
 }
 
-/* light userdata: an element; the list. Runs protected. */
+/* light userdata: an element; then the list. Runs protected. */
 static int add_element(lua_State *L) {
   const celspan_svg_element *element = lua_touserdata(L, 1);
   lua_createtable(L, 0, 9);
@@ -116,7 +116,7 @@ static celspan_status visit(void *user, const celspan_svg_element *element) {
   lua_pushvalue(L, 2);
   if (lua_pcall(L, 2, 0, 0) == LUA_OK)
     return CELSPAN_OK;
-  lua_pop(L, 1); /* there was no memory */
+  lua_pop(L, 1); /* memory is missing */
   return CELSPAN_NO_MEMORY;
 }
 
@@ -152,7 +152,8 @@ static int skipped(lua_State *L) {
 typedef struct changer {
   lua_State *L;
   const char *name; /* the table keeps it alive */
-  int failure;      /* the index of the error that it raised, left on the stack; 0: none */
+  /* the index of the error that the function raised, which is left on the stack; 0: none */
+  int failure;
 } changer;
 
 typedef struct call {
@@ -213,7 +214,8 @@ static celspan_svg_changed *read_changes(lua_State *L, size_t *count) {
   return changes;
 }
 
-/* drawing, functions by name -> drawing. The names are strings and parts: svg.lua saw to it. */
+/* drawing, functions by name -> drawing. svg.lua has checked that the names are strings and
+ * parts. */
 static int with(lua_State *L) {
   const celspan_svg *svg = self(L);
   lua_settop(L, 2);
@@ -276,7 +278,7 @@ void cs_drawing_open(lua_State *L) {
   static const luaL_Reg methods[] = {{"key", key},           {"object", object},   {"parts", parts},
                                      {"size", size},         {"skipped", skipped}, {"with", with},
                                      {"elements", elements}, {NULL, NULL}};
-  /* Also where there is one: without memory it may have been left half made. */
+  /* Even if it exists already: without memory it may be incomplete. */
   luaL_newmetatable(L, METATABLE);
   lua_pushcfunction(L, release);
   lua_setfield(L, -2, "__gc");

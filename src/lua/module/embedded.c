@@ -1,5 +1,5 @@
-/* The Lua modules that are built in: those of lua/celspan that meson.build lists in CS_PUBLIC, for
- * scripts too, and in CS_PRIVATE, for celspan alone. */
+/* The Lua modules that are built in: those of lua/celspan that meson.build lists. CS_PUBLIC: also
+ * for scripts; CS_PRIVATE: only for celspan. */
 #include <lauxlib.h>
 #include <string.h>
 
@@ -8,7 +8,8 @@
 #include "lua/bind/require.h"
 #include "lua/module/core.h"
 
-/* The caller finder knows them by this beginning of their names: see lua/bind/caller.c. */
+/* The names of the modules begin with this, so that the caller finder recognizes them: see
+ * lua/bind/caller.c. */
 #define CHUNK "@celspan/"
 
 /* ---------------------------------------------------------------- opening */
@@ -42,7 +43,7 @@ static int refuse(lua_State *L, const char *name) {
 CS_PUBLIC(DECLARE)
 CS_PRIVATE(DECLARE)
 
-/* Functions with names, so that one celspan.so serves `require "celspan.ease"` too. */
+/* Functions with names, so that a single celspan.so is also loaded for `require "celspan.ease"`. */
 #define OPEN(name, folder)                                                                         \
   CELSPAN_API int luaopen_celspan_##name(lua_State *L);                                            \
   int luaopen_celspan_##name(lua_State *L) {                                                       \

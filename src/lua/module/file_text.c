@@ -1,6 +1,5 @@
-/* The whole text of a file. Anything but a regular file is refused at once, so that nobody waits
- * for a pipe to which nothing is written.
- */
+/* The whole text of a file. All except regular files are refused at once, so that nobody waits for
+ * a pipe to which nothing is written. */
 #include <lauxlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -18,7 +17,7 @@ static void close_file(int *file) {
   *file = -1;
 }
 
-/* For a file that an error has left open. */
+/* Closes a file that an error has left open. */
 static int release_file(lua_State *L) {
   close_file(lua_touserdata(L, 1));
   return 0;
@@ -66,7 +65,8 @@ static int read_file(lua_State *L, int file, const char *path, lua_Integer most)
   return read_text(L, file, path, (size_t)found.st_size, most);
 }
 
-/* The file is closed at once: the collector may take so long that too many are open. */
+/* The file is closed at once: if the garbage collector closed it, too many files could be open by
+ * then. */
 int cs_file_text(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
   lua_Integer most = luaL_checkinteger(L, 2);

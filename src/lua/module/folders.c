@@ -23,12 +23,12 @@ static int close_folder(lua_State *L) {
   return 0;
 }
 
-/* Pushes a place for an open folder that is closed whatever happens. */
+/* Pushes a holder for an open folder, which closes it in any case. */
 static DIR **push_folder_holder(lua_State *L) {
   return cs_userdata_push_holder(L, "celspan.folder", sizeof(DIR *), close_folder);
 }
 
-/* For an errno. */
+/* Returns the failure for an errno. */
 static int fail_folder(lua_State *L, const char *path, const char *what) {
   lua_pushnil(L);
   lua_pushfstring(L, "%s: %s: %s", path, what, strerror(errno));
@@ -93,7 +93,7 @@ static int release(lua_State *L) {
   return 0;
 }
 
-/* A sequence that is released whatever happens. */
+/* Pushes a sequence, which is released in any case. */
 static cs_sequence *push_sequence(lua_State *L) {
   return cs_userdata_push_holder(L, "celspan.sequence", sizeof(cs_sequence), release);
 }

@@ -8,7 +8,8 @@
 #include "lua/bind/take.h"
 #include "lua/module/visit.h"
 
-#define KIND "celspan.sounds" /* of the value; user value 1: what it keeps alive */
+/* the kind of the value; user value 1: everything that it keeps alive */
+#define KIND "celspan.sounds"
 
 /* Memory that lives as long as the table at `list`. */
 static void *keep(lua_State *L, int list, size_t count, size_t size) {

@@ -14,5 +14,5 @@ typedef struct cs_heard {
 } cs_heard;
 
 /* Pushes the sounds of the film or rostrum at index as one value, as celspan_lua_sounds of
- * celspan/lua.h does; *out is in it. */
+ * celspan/lua.h does; *out points into it. */
 CELSPAN_CHECKED celspan_status cs_heard_push(lua_State *L, int index, cs_heard *out);

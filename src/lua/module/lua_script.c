@@ -22,7 +22,7 @@
 
 enum { HEAD = 4096, ESCAPE = 27 };
 
-/* Control codes other than white space and escape are in no source text. */
+/* Source texts contain no control codes other than white space and escape. */
 static bool is_binary(const char *head, size_t size) {
   for (size_t i = 0; i < size; i++) {
     unsigned char c = (unsigned char)head[i];
@@ -32,7 +32,8 @@ static bool is_binary(const char *head, size_t size) {
   return false;
 }
 
-/* "P6 640 360 ...", with white space or a comment before the width: PNM, which "P1 = 3" is not. */
+/* "P6 640 360 ...", with white space or a comment before the width: a PNM file. "P1 = 3" is not
+ * one. */
 static bool is_pnm(const char *head) {
   if (head[0] != 'P' || !head[1] || !strchr("123456fF", head[1]) ||
       !isspace((unsigned char)head[2]))
@@ -75,8 +76,8 @@ static void set_path(lua_State *L, const char *field, const char *before, const 
   lua_settop(L, package - 1);
 }
 
-/* require searches the script's own folder, then $CELSPAN_PATH, then where Lua is installed; the
- * current directory only when the script is there. */
+/* require searches the script's own folder, then $CELSPAN_PATH, then the folders in which Lua is
+ * installed; the current directory is only searched if the script is there. */
 static void set_search_path(lua_State *L, const char *folder) {
   static const char *const here[] = {";./?.lua", ";./?/init.lua", NULL};
   static const char *const here_c[] = {";./?.so", NULL};
@@ -92,7 +93,7 @@ static void set_search_path(lua_State *L, const char *folder) {
 
 typedef struct call {
   const char *path;
-  const char *text; /* NULL: that of the file */
+  const char *text; /* NULL: the text of the file */
   size_t size;
   int argument_count;
   const char *const *arguments;
@@ -106,7 +107,7 @@ static int refuse_result(lua_State *L, const char *path) {
                     is_function ? ": return celspan.film { frame = ... }" : "");
 }
 
-/* The message of all verbs that take films about a file that is no film. */
+/* The message of all verbs that take films for a file that is not a film. */
 static int refuse_file(lua_State *L, const char *path) {
   return luaL_error(L,
                     "%s: is not a Lua script, a drawing or a painting, but a picture or other "
@@ -115,7 +116,8 @@ static int refuse_file(lua_State *L, const char *path) {
                     path, path);
 }
 
-/* As luaL_loadfilex reads a file: without a byte-order mark and a first line that begins with #. */
+/* Loads a text in the same way as luaL_loadfilex: without a byte-order mark and without a first
+ * line that begins with #. */
 static int load_text(lua_State *L, const char *text, size_t size) {
   static const char mark[] = "\xEF\xBB\xBF";
   const char *end = text + size;
@@ -128,7 +130,7 @@ static int load_text(lua_State *L, const char *text, size_t size) {
   return luaL_loadbufferx(L, text, (size_t)(end - text), "@-", "t");
 }
 
-/* Pushes the script as a function, or a message. The outcome of luaL_loadfilex. */
+/* Pushes the script as a function, or a message. Returns the outcome of luaL_loadfilex. */
 static int load(lua_State *L, call *c) {
   if (c->text)
     return load_text(L, c->text, c->size);
@@ -168,7 +170,8 @@ static int run(lua_State *L) {
   return cs_lua_film_push(L, -1) ? 1 : refuse_result(L, c->path);
 }
 
-/* Calls within the limits; OK, or the outcome of lua_pcall with the message on top. */
+/* Calls within the limits. Returns OK, or the outcome of lua_pcall with the message on top of the
+ * stack. */
 static int call_limited(lua_State *L, int argument_count, int result_count) {
   cs_host_get(L)->failure = CELSPAN_OK;
   cs_host_begin(L, CS_HOST_LOAD, 0);

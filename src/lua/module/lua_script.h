@@ -1,4 +1,4 @@
-/* What celspan_lua_run of celspan/lua.h runs: whether a file can be a script; and texts. */
+/* What celspan_lua_run of celspan/lua.h can run: whether a file can be a script; and texts. */
 #pragma once
 
 #include <stdbool.h>

@@ -20,7 +20,8 @@
 
 #define MOST_NAMES 512
 
-/* core.find(name): where a file is and, if it is not there, where else it was looked for. */
+/* core.find(name): the path of a file; and if the file does not exist there, the other place that
+ * was searched. */
 static int find(lua_State *L) {
   const char *tried;
   cs_files_find(L, luaL_checkstring(L, 1), &tried);
@@ -43,10 +44,11 @@ static int nearest(lua_State *L) {
   return 1;
 }
 
-/* core.refuse(message): raises it at the line of the nearest caller that is not celspan's own. */
+/* core.refuse(message): raises it at the line of the nearest caller that does not belong to
+ * celspan. */
 static int refuse(lua_State *L) { return cs_caller_error(L, "%s", luaL_checkstring(L, 1)); }
 
-/* Pushes a C function whose upvalue is the function that is the only argument. */
+/* Pushes a C function. Its upvalue is the only argument, a function. */
 static int push_around(lua_State *L, lua_CFunction around) {
   luaL_checktype(L, 1, LUA_TFUNCTION);
   lua_settop(L, 1);
@@ -54,7 +56,8 @@ static int push_around(lua_State *L, lua_CFunction around) {
   return 1;
 }
 
-/* core.entry(function): the same function, which keeps the line of a caller that ends with it. */
+/* core.entry(function): the same function, but it keeps the line of a caller that ends with a call
+ * of it. */
 static int entry(lua_State *L) { return push_around(L, cs_caller_enter); }
 
 static int call_outside(lua_State *L) {
@@ -67,7 +70,7 @@ static int call_outside(lua_State *L) {
  * so that error handlers do not find it there. */
 static int outside(lua_State *L) { return push_around(L, call_outside); }
 
-/* core.hear(path, tried), as core.h describes it. */
+/* core.hear(path, tried): see core.h. */
 static int hear(lua_State *L) {
   if (lua_getfield(L, LUA_REGISTRYINDEX, CS_CORE_HEAR) != LUA_TFUNCTION) {
     lua_pushnil(L);
@@ -140,7 +143,7 @@ static int compare(const void *a, const void *b) {
   return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-/* Functions of celspan that are written in Lua; each is loaded when it is first read. */
+/* Functions of celspan that are written in Lua; each is loaded at its first use. */
 static const struct {
   const char *name, *module, *function;
 } written_in_lua[] = {
@@ -153,7 +156,7 @@ static const struct {
 
 #define WRITTEN_IN_LUA (sizeof written_in_lua / sizeof *written_in_lua)
 
-/* Pushes the function that is read, and puts it into the module; false: nothing is pushed. */
+/* Pushes the function that is read, and adds it to the module; false: nothing is pushed. */
 static bool push_written(lua_State *L, const char *name) {
   for (size_t i = 0; i < WRITTEN_IN_LUA; i++)
     if (strcmp(name, written_in_lua[i].name) == 0) {
@@ -179,7 +182,7 @@ static size_t list_names(lua_State *L, const char **names) {
   return count;
 }
 
-/* celspan.circl: reading a name that the module's table does not have. */
+/* celspan.circl: a script has read a name that is not in the module's table. */
 static int read_missing(lua_State *L) {
   if (lua_type(L, 2) != LUA_TSTRING)
     return 0;

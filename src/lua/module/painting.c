@@ -14,7 +14,7 @@ static int release(lua_State *L) {
   return 0;
 }
 
-/* Pushes a place for a painting that is released whatever happens. */
+/* Pushes a holder for a painting, which releases it in any case. */
 static celspan_painting **push_holder(lua_State *L) {
   return cs_userdata_push_holder(L, "celspan.painting", sizeof(celspan_painting *), release);
 }
@@ -64,7 +64,7 @@ static void push_notes(lua_State *L, const celspan_painting *painting) {
   lua_newtable(L);
   for (size_t i = 0; (text = celspan_painting_note_at(painting, i, &layer)); i++) {
     if (painting->notes[i].is_own)
-      continue; /* the code that composes the layers draws it */
+      continue; /* the code that composes the layers will draw it */
     lua_createtable(L, 0, 2);
     cs_put_text(L, "what", text);
     if (layer < count)

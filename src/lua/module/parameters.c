@@ -44,7 +44,7 @@ void cs_parameters_give_json(lua_State *L, const char *path, const char *json, s
   append(L);
 }
 
-/* The registry, light userdata: a name and a value. Runs protected. */
+/* The registry; light userdata: a name and a value. Runs protected. */
 static int give(lua_State *L) {
   const char *const *words = lua_touserdata(L, 2);
   cs_parameters_give(L, "set: ", words[0], strlen(words[0]), words[1]);
@@ -69,8 +69,8 @@ void cs_parameters_begin(lua_State *L) {
   lua_pop(L, 1);
 }
 
-/* The settings are on top of the stack: pushes the sentence that refuses one. false: there is none.
- */
+/* With the settings on top of the stack, pushes the sentence that refuses one of them. false: none
+ * is refused. */
 static bool push_refusal(lua_State *L, bool has_ended) {
   int settings = lua_gettop(L);
   if (lua_getfield(L, settings, "refused") != LUA_TNIL)
@@ -86,7 +86,7 @@ static bool push_refusal(lua_State *L, bool has_ended) {
   return true;
 }
 
-/* The registry, light userdata: whether the script came to its end. Runs protected. */
+/* The registry; light userdata: whether the script has come to its end. Runs protected. */
 static int end(lua_State *L) {
   const bool *has_ended = lua_touserdata(L, 2);
   cs_parameters_settings(L);

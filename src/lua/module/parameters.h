@@ -14,17 +14,17 @@
 /* () -> the settings of this state */
 int cs_parameters_settings(lua_State *L);
 
-/* Gives a value. source: what messages about it begin with. Raises. */
+/* Gives a value. source: the beginning of messages about it. Raises. */
 void cs_parameters_give(lua_State *L, const char *source, const char *name, size_t length,
                         const char *text);
 /* Gives the values of a JSON object, which was read from a file. Raises. */
 void cs_parameters_give_json(lua_State *L, const char *path, const char *json, size_t size);
 
-/* A script is about to run: what another one declared is forgotten. Raises. */
+/* Called before a script runs: the declarations of an earlier script are forgotten. Raises. */
 void cs_parameters_begin(lua_State *L);
-/* After the script: the values are forgotten. BAD_ARGUMENT, with the sentence in the context, where
- * one was refused; or where no parameters were declared, if the script came to its end, because its
- * own error says more. Errors: NO_MEMORY too. Never raises. */
+/* Called after the script: the values are forgotten. BAD_ARGUMENT, with the sentence in the
+ * context, if a value was refused, or if no parameters were declared and the script came to its end
+ * (otherwise its own error says more). Errors: also NO_MEMORY. Never raises. */
 CELSPAN_CHECKED celspan_status cs_parameters_end(lua_State *L, bool has_ended);
 /* Whether a value was refused. Never raises. */
 bool cs_parameters_are_refused(lua_State *L);

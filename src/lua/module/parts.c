@@ -24,24 +24,27 @@ typedef struct list {
   bool has_boxes;
   int table; /* index of the list on the stack */
   lua_Integer count;
-  const celspan_rostrum *rostrum; /* of the exposure, and the cel of it that is looked at */
+  const celspan_rostrum *rostrum; /* of the exposure; and the cel of it that is being searched */
   size_t place;
-  int over; /* index of the cels before it, as a rostrum; nil until a text of the cel needs it */
+  /* the index of the cels before this cel, as a rostrum; nil until a text of the cel needs it */
+  int over;
 } list;
 
-/* What lies around a value: its units to those of the film, and how much of it is seen. */
+/* The surroundings of a value: the matrix from its units to those of the film, and how much of it
+ * is visible. */
 typedef struct around {
   celspan_matrix matrix;
   double fade;
-  double width, height;          /* of the film, or of the composition that it is in */
-  bool is_inner;                 /* inside of a composition that lies in the frame's */
-  bool is_text;                  /* inside of a text, in which only its letters are listed as one */
-  const celspan_object *letters; /* of that text, if it holds them; else NULL */
+  double width, height;          /* of the film, or of the composition around the value */
+  bool is_inner;                 /* inside a composition that lies in the frame's */
+  bool is_text;                  /* inside a text, where only the letters together are listed */
+  /* the letters of this text, if they are an object of their own; otherwise NULL */
+  const celspan_object *letters;
 } around;
 
 typedef struct part {
   const char *kind, *name;
-  bool is_known; /* false: it holds a procedure */
+  bool is_known; /* false: it contains a procedure */
   uint64_t drawing[2], placement[2];
 } part;
 
@@ -66,7 +69,7 @@ static void add(list *to, const part *one) {
 
 /* ---------------------------------------------------------------- boxes */
 
-/* Sets where the part on top of the stack is seen, and where it was made. */
+/* Sets where the part on top of the stack is visible, and where it was made. */
 static void set_place(list *to, cs_mark mark, double fade, bool is_there, const celspan_box *box) {
   lua_State *L = to->L;
   celspan_origin origin = cs_mark_origin(mark);
@@ -86,7 +89,7 @@ static void set_place(list *to, cs_mark mark, double fade, bool is_there, const 
   lua_setfield(L, -2, "box");
 }
 
-/* A rostrum of the object alone. */
+/* A rostrum with only this object. */
 static celspan_status create_alone(celspan_context *context, celspan_object *object,
                                    celspan_rostrum **out) {
   celspan_cel *cel;
@@ -102,7 +105,7 @@ static celspan_status create_alone(celspan_context *context, celspan_object *obj
   return status;
 }
 
-/* Pushes a value for a rostrum, which is NULL so far. */
+/* Pushes a holder for a rostrum, which is NULL at first. */
 static celspan_rostrum **push_rostrum(lua_State *L) {
   cs_userdata *value = cs_userdata_push(L, &cs_noun_rostrum);
   lua_newtable(L);
@@ -110,7 +113,7 @@ static celspan_rostrum **push_rostrum(lua_State *L) {
   return (celspan_rostrum **)&value->handle;
 }
 
-/* Sets what a text is on its own, as it is placed, and the cels before it, if there are any. */
+/* Sets the appearance of a text alone in its place, and the cels before it, if there are any. */
 static celspan_status set_text(list *to, celspan_object *placed, uint32_t words) {
   lua_State *L = to->L;
   const celspan_rostrum *all = to->rostrum;
@@ -130,13 +133,13 @@ static celspan_status set_text(list *to, celspan_object *placed, uint32_t words)
   return CELSPAN_OK;
 }
 
-/* How much longer lines become. */
+/* The factor by which lines become longer. */
 static double growth(const celspan_matrix *matrix) {
   const double *m = matrix->m;
   return sqrt(fabs(m[0] * m[4] - m[1] * m[3]));
 }
 
-/* Sets where the object is seen of which the part on top of the stack is made. */
+/* Sets where the object of the part on top of the stack is visible. */
 static void set_object(list *to, const celspan_object *object, const around *at, bool is_text) {
   celspan_object *one = (celspan_object *)object, *placed;
   const celspan_matrix whole = celspan_matrix_then(*object->matrix, at->matrix);
@@ -158,7 +161,7 @@ static void add_rostrum(list *to, const celspan_rostrum *rostrum, const around *
                         const char *path);
 
 /* A text with a shadow, a glow or an outline has the words of its letters, which are one of its
- * operands. NULL: the object is all of its text. */
+ * operands. NULL: the object is the whole text. */
 static const celspan_object *letters_of(const celspan_object *object) {
   const celspan_object *letters = NULL;
   if (object->data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
@@ -173,7 +176,7 @@ static const celspan_object *letters_of(const celspan_object *object) {
   return letters;
 }
 
-/* Sets what lies around the object's parts. Whether the object is all of a text. */
+/* Sets the surroundings of the object's parts. Returns whether the object is a whole text. */
 static bool enter(const celspan_object *object, const around *at, around *inner) {
   const bool has_words = object->mark.callers > 0 && (!at->is_text || object == at->letters);
   *inner = *at;
@@ -198,7 +201,7 @@ static void add_object(list *to, const celspan_object *object, const around *at,
   }
 }
 
-/* path: of the cel that they are in. Recursion ends: nesting is at most CS_SCENE_DEPTH. */
+/* path: of the cel that contains them. Recursion ends: nesting is at most CS_SCENE_DEPTH. */
 static void add_objects(list *to, celspan_object *const *objects, size_t count, const around *at,
                         const char *path) {
   for (size_t i = 0; i < count; i++) {
@@ -217,7 +220,8 @@ static void add_objects(list *to, celspan_object *const *objects, size_t count, 
   }
 }
 
-/* A cel without a name in a composition inside another is found by the path of places to it. */
+/* A cel without a name in a nested composition is identified by the path of indices that leads to
+ * it. */
 static void add_cel(list *to, const celspan_cel *cel, const around *at, const char *path,
                     size_t place) {
   char own[PATH_SIZE];

@@ -19,7 +19,8 @@ typedef struct image {
   int32_t width, height;
   int32_t x, y;   /* the place of the first pixel in the whole frame */
   bool is_opaque; /* every pixel's alpha is certain to be 1 */
-  float *pixels;  /* RGBA, rows top to bottom; behind this, from a line of the cache on */
+  /* RGBA, rows from top to bottom; after this structure, beginning at a line of the cache */
+  float *pixels;
 } image;
 
 static int32_t coordinate(lua_State *L, int index, const char *name, int32_t size) {

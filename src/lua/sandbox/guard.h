@@ -37,7 +37,7 @@ typedef struct cs_guard {
   void *below_user;
   void (*ended)(struct cs_guard *guard); /* called after the last block of the state was freed */
   bool has_options;                      /* messages name options of the program */
-  /* bytes of Lua; told: the bytes that the memory of the context knows, exact up to PIECE */
+  /* bytes of Lua; `told`: the bytes that the memory of the context knows, exact up to PIECE */
   size_t bytes, told;
   int depth;               /* the number of nested calls into the script */
   cs_account_kind account; /* of the thread before the outermost call */
