@@ -31,7 +31,7 @@ static bool add_text(const cs_argument *kind, const char *text, void *field) {
   return true;
 }
 
-/* A name, =, and any text. */
+/* Reads a name, =, and any text. */
 static bool read_setting(const cs_argument *kind, const char *text, void *field) {
   size_t length = strcspn(text, "=");
   (void)kind;
@@ -62,7 +62,7 @@ const cs_argument cs_argument_texts = {.allowed = "the name of a folder; at most
 
 /* ---------------------------------------------------------------- numbers */
 
-/* strtol and strtod skip white space before a number; here it may not be there. */
+/* strtol and strtod skip white space before a number; here it is not allowed. */
 static bool has_space(const char *text) { return isspace((unsigned char)text[0]) != 0; }
 
 /* Reads `count` whole numbers with separators between them, and nothing else. */
@@ -244,8 +244,8 @@ const cs_argument cs_argument_tint = {.allowed = "a colour like #336699", .read 
 
 /* ---------------------------------------------------------------- a script's rights */
 
-/* A number of 0 or more with one of the letters behind it, each 1024 times the previous one; up to
- * `end`. */
+/* Reads a number of 0 or more, with an optional letter after it, each of which means 1024 times the
+ * previous one; up to `end`. */
 static bool read_amount(const char *text, const char *end, const char *letters, double *out) {
   char *after = NULL;
   double number = text < end && !has_space(text) ? strtod(text, &after) : -1;
@@ -271,7 +271,7 @@ static bool read_bytes(const cs_argument *kind, const char *text, void *field) {
 const cs_argument cs_argument_bytes = {
     .allowed = "a size of at least 1M, such as 512M or 4G", .read = read_bytes, .least = 1 << 20};
 
-/* count: how many of the known limits may be given, from the first one on. */
+/* count: how many of the known limits are allowed, from the first one on. */
 static bool read_limit(const char *text, const char *end, size_t count, cs_given_limits *out) {
   static const struct limit {
     const char *name, *letters;

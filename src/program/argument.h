@@ -1,6 +1,6 @@
 /* The kinds of values of options, and reading them: from text into a field of C.
  *
- * A reader changes its field only when it answers true. Numbers are read in the C locale, which
+ * A reader changes its field only if it returns true. Numbers are read in the C locale, which
  * main() sets for its thread.
  */
 #pragma once
@@ -28,7 +28,7 @@ typedef struct cs_given_antialias {
 
 enum { CS_TEXTS_MOST = 48 };
 
-/* Of an option that may be given several times. */
+/* The values of an option that may be given several times. */
 typedef struct cs_given_texts {
   const char *items[CS_TEXTS_MOST];
   size_t count;
@@ -54,27 +54,28 @@ typedef struct cs_given_limits {
 
 /* A kind of value. */
 typedef struct cs_argument {
-  const char *allowed; /* in messages: "--size: '12' is not ..." */
+  const char *allowed; /* the allowed values, for messages: "--size: '12' is not ..." */
   bool (*read)(const struct cs_argument *kind, const char *text, void *field);
-  double least, most; /* of a number, and of each in a list */
+  double least, most; /* of a number, and of each number in a list */
   char separator;     /* of two numbers or more */
   const struct cs_choice *choices;
 } cs_argument;
 
-/* Whether the text is a value of this kind, which is then in the field. */
+/* Reads the text into the field. Returns whether it is a value of this kind. */
 bool cs_argument_read(const cs_argument *kind, const char *text, void *field);
 
 /* const char *: a text that is not empty */
 extern const cs_argument cs_argument_text, cs_argument_file, cs_argument_folder,
     cs_argument_file_or_folder, cs_argument_frames, cs_argument_format, cs_argument_cel,
     cs_argument_pattern, cs_argument_picture, cs_argument_setting;
-/* const char *: the verb finds out its meaning */
+/* const char *: the verb interprets it */
 extern const cs_argument cs_argument_colours, cs_argument_lamp, cs_argument_light;
 /* int32_t */
 extern const cs_argument cs_argument_integer, cs_argument_every, cs_argument_mebibytes,
     cs_argument_minutes, cs_argument_count, cs_argument_pixels, cs_argument_tile,
     cs_argument_workers, cs_argument_port, cs_argument_memory, cs_argument_quality;
-/* int32_t[2]; of rows and levels the first is not above the last, of a share it is 1 or more too */
+/* int32_t[2]. Of rows and levels, the first is not greater than the second; of a share, both are
+ * also at least 1. */
 extern const cs_argument cs_argument_size, cs_argument_grid, cs_argument_onion, cs_argument_share,
     cs_argument_rows, cs_argument_levels;
 /* int32_t[4]: x, y, width, height */
@@ -82,7 +83,7 @@ extern const cs_argument cs_argument_crop;
 /* double */
 extern const cs_argument cs_argument_scale, cs_argument_tolerance, cs_argument_smooth;
 /* The enumeration of the name: celspan_depth, celspan_transfer, celspan_alpha, cs_pyramid_layout,
- * cs_progress_style; of the model of a track a number. */
+ * cs_progress_style; for the model of a track, a number. */
 extern const cs_argument cs_argument_depth, cs_argument_colour, cs_argument_alpha,
     cs_argument_layout, cs_argument_progress, cs_argument_model;
 extern const cs_argument cs_argument_antialias; /* cs_given_antialias */
@@ -90,5 +91,5 @@ extern const cs_argument cs_argument_tint;      /* float[3]: linear light, opaqu
 extern const cs_argument cs_argument_texts;     /* cs_given_texts: adds a folder */
 extern const cs_argument cs_argument_bytes;     /* double: a size such as 512M, at least 1M */
 /* cs_given_limits: adds "memory=512M,steps=2e9,time=60,print=1M,render-memory=8G,picture-memory=1G,
- * picture-time=20"; the other one takes those of pictures alone. */
+ * picture-time=20"; the other kind accepts only the limits of pictures. */
 extern const cs_argument cs_argument_limits, cs_argument_picture_limits;

@@ -16,10 +16,10 @@
 #include "model/scene/scene.h"
 #include "program/verb_text.h"
 
-#define MOST_NAMES 200 /* that are remembered for the message */
+#define MOST_NAMES 200 /* the most names that are remembered for the message */
 #define SHOWN_NAMES 12
 #define SAME_WEIGHT 1e-6
-#define MOST_FRAMES 10000 /* of the rest of the film that are searched for a name */
+#define MOST_FRAMES 10000 /* the most frames in the rest of the film that are searched for a name */
 
 cs_frame_change cs_change_read(const cs_request *request) {
   cs_frame_change change = {.cel = cs_request_text(request, "--cel")};
@@ -33,7 +33,7 @@ static bool is_wanted(const celspan_cel *cel, const char *name) {
   return !name || strcmp(cs_mark_name(cel->mark), name) == 0;
 }
 
-/* The rostrum's own back light, unless it has a shape, before the background. */
+/* The back light of the rostrum, unless it has a shape, in front of the background. */
 static celspan_light back_of(const cs_frame_change *change, const celspan_rostrum *rostrum) {
   const celspan_light none = {0, 0, 0, 0};
   const float *ground = change->background;
@@ -114,7 +114,7 @@ static celspan_status add_ground(celspan_context *context, const cs_frame_change
   return CELSPAN_OK;
 }
 
-/* The background is light behind each exposure, so that the weights must add up to one. */
+/* The background is light behind each exposure, so the weights must add up to one. */
 static celspan_status fill_ground(celspan_context *context, const cs_frame_change *change,
                                   cs_film_frame *frame) {
   double total = 0;
@@ -201,7 +201,7 @@ static void search_frame(name_list *list, cs_script *script, int64_t number) {
   else if (cs_script_try(script, number) == CELSPAN_OK)
     list_frame(list, &script->frame);
   else
-    list->is_found = true; /* the frame's own failure is reported when its turn comes */
+    list->is_found = true; /* the failure of this frame is reported when the frame is made */
 }
 
 cs_exit cs_change_refuse(cs_script *script, const cs_frame_change *change,
@@ -222,8 +222,8 @@ cs_exit cs_change_refuse(cs_script *script, const cs_frame_change *change,
 
 enum { PIXEL = 4, CODE_MOST = 255 };
 
-/* Codes by which a channel must differ, so that it shows: less is the noise of soft edges that lie
- * between other pixels. */
+/* The difference in codes from which on a channel counts as different: smaller differences are the
+ * noise of soft edges that lie between other pixels. */
 #define LEAST 4
 #define SAME_SCALE 1e-9
 
@@ -242,13 +242,13 @@ static bool is_equal(const cs_hash *one, const cs_hash *other) {
   return one && other && one->a == other->a && one->b == other->b;
 }
 
-/* same(value, value): whether two cels, or two objects, show the same. */
+/* same(value, value): whether two cels, or two objects, look the same. */
 static int same(lua_State *L) {
   lua_pushboolean(L, is_equal(hash_at(L, 1), hash_at(L, 2)));
   return 1;
 }
 
-/* Whether one matrix is the other with a shift and a scale. */
+/* Whether the matrices differ only by a shift and a scale. */
 static bool is_shifted(const celspan_matrix *one, const celspan_matrix *other) {
   static const int linear[] = {0, 1, 3, 4};
   const double *a = one->m, *b = other->m;
@@ -269,7 +269,7 @@ static bool has_same_art(const celspan_cel *one, const celspan_cel *other) {
   return true;
 }
 
-/* same_art(cel, cel): whether they have the same objects, at most shifted and scaled. */
+/* same_art(cel, cel): whether they have the same objects, except for a shift and a scale. */
 static int same_art(lua_State *L) {
   const cs_userdata *one = cs_userdata_test(L, 1, &cs_kind_cel);
   const cs_userdata *other = cs_userdata_test(L, 2, &cs_kind_cel);
@@ -287,8 +287,8 @@ static bool differs(const unsigned char *one, const unsigned char *other) {
   return is_far;
 }
 
-/* differing(bytes, others) -> the pixels of the first, clear where they equal the pixels of the
- * others. Both have RGBA of 8 bits, straight alpha, and the same size. */
+/* differing(bytes, others) -> the pixels of the first picture, clear where they equal those of the
+ * second. Both have RGBA of 8 bits, straight alpha, and the same size. */
 static int differing(lua_State *L) {
   size_t size, size_other;
   const unsigned char *one = (const unsigned char *)luaL_checklstring(L, 1, &size);

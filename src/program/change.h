@@ -18,21 +18,21 @@
 #include "program/script.h"
 
 typedef struct cs_frame_change {
-  const char *cel; /* the name of the cels that stay; NULL: all */
+  const char *cel; /* the name of the cels that are kept; NULL: all */
   bool has_background;
   float background[3]; /* linear light */
 } cs_frame_change;
 
 cs_frame_change cs_change_read(const cs_request *request);
-/* Looks for a cel of the name in the frames, then in the rest of the film, which are built one by
- * one until a frame has such a cel. OK if it was found, and without --cel; otherwise the error is
- * reported, with the names of the cels in the film. */
+/* Searches for a cel of the name in the frames, then in the rest of the film, whose frames are
+ * built one by one until one has such a cel. OK if it was found, and without --cel; otherwise the
+ * error is reported, with the names of the cels in the film. */
 cs_exit cs_change_refuse(cs_script *script, const cs_frame_change *change,
                          const cs_sequence *frames);
 /* Changes a frame's rostrums. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_change_frame(celspan_context *context,
                                                const cs_frame_change *change, cs_film_frame *frame);
 /* Replaces the film of the script by the film of --onion. frame: the size of the output. OK, also
- * without the option; or reported. */
+ * if the option is not given; or reported. */
 cs_exit cs_change_lay_onion(cs_script *script, const cs_request *request,
                             const celspan_frame_desc *frame);

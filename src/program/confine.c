@@ -25,9 +25,9 @@ enum { PATH_SIZE = 4096 };
 
 /* ---------------------------------------------------------------- memory */
 
-/* The most memory that this process may hold (base/ceiling.h), which it lends to its context; and
- * the same before options changed it, of which the caches have a quarter, and a decoder of pictures
- * a third: the quarter that the process itself leaves free. */
+/* The most memory that this process may hold (base/ceiling.h), which its context borrows; and the
+ * same value before options changed it. Of that value the caches get a quarter; a decoder of
+ * pictures gets a third of it, as much as the quarter that the process leaves free. */
 static cs_ceiling ceiling;
 static cs_control_group group;
 static size_t budget = SIZE_MAX;
@@ -45,7 +45,7 @@ cs_exit cs_confine_memory(const cs_request *request, celspan_context_desc *desc)
   budget = ceiling.most;
   cs_request_read(request, "--memory", &cached);
   size_t caches = cached > 0 ? (size_t)cached << 20 : least(CACHE_MEMORY, budget / 4);
-  desc->defocus_bytes = caches / 3; /* divided as the defaults are */
+  desc->defocus_bytes = caches / 3; /* divided in the same way as the defaults */
   desc->picture_bytes = 2 * desc->defocus_bytes;
   return CS_EXIT_OK;
 }
@@ -97,7 +97,8 @@ cs_exit cs_confine_pictures(celspan_context *context, const cs_request *request)
       has_memory ? "picture-memory" : "picture-time");
 }
 
-/* A limit of the user replaces the memory that may be held; a control group may still be full. */
+/* A limit of the user replaces the memory that may be held; the control group may still be full
+ * earlier. */
 void cs_confine_rendering(celspan_context *context, const cs_request *request) {
   const cs_given_limits given = given_limits(request);
   bool has_limit = given.has[CS_LIMIT_RENDER_MEMORY];
@@ -117,12 +118,13 @@ void cs_confine_divide(unsigned parts) {
   char bytes[32];
   if (budget == SIZE_MAX || parts == 0)
     return;
-  size_t part = budget / 3 * 4 / parts; /* of the memory that the process may use: see ceiling.h */
+  /* as a part of the memory that the process may use: see ceiling.h */
+  size_t part = budget / 3 * 4 / parts;
   snprintf(bytes, sizeof bytes, "%zu", part > MEMORY_LEAST ? part : MEMORY_LEAST);
   setenv("CELSPAN_MEMORY", bytes, 1);
 }
 
-/* The option that gives or takes a right of the sandbox; NULL: none was given. */
+/* The option that gives or removes a right of the sandbox; NULL: none was given. */
 static const char *right_of(const cs_request *request) {
   static const char *const rights[] = {"--strict", "--allow", "--allow-system-fonts"};
   for (size_t i = 0; i < sizeof rights / sizeof *rights; i++)
@@ -161,8 +163,8 @@ static bool is_interrupted(void *user) {
   return cs_interrupt_signal() != 0;
 }
 
-/* The watchdog's last word. The state of the main thread is not known, so nothing of it is touched:
- * the locks of its streams may be held for ever. */
+/* The watchdog's last message. The state of the main thread is not known, and the locks of its
+ * streams may be held for ever, so nothing of it is used. */
 static void kill_script(void *user, const char *sentence) {
   char line[512];
   (void)user;
@@ -186,7 +188,7 @@ static cs_exit refuse_folder(const char *folder) {
   return cs_report_usage("--allow %s: there is no such folder", folder);
 }
 
-/* Folders that could not be added. */
+/* Reports that folders could not be added. */
 static cs_exit refuse_roots(void) {
   if (errno != ENOMEM)
     return cs_report_usage("--allow and CELSPAN_PATH name too many folders");
@@ -194,7 +196,7 @@ static cs_exit refuse_roots(void) {
   return CS_EXIT_MEMORY;
 }
 
-/* The folders of fonts; missing ones are ignored. */
+/* Adds the folders of fonts; missing ones are ignored. */
 static void add_fonts(cs_confined *out) {
   static const char *const own[CS_FONT_FOLDERS] = {"/.local/share/fonts", "/.fonts"};
   const char *home = getenv("HOME");
@@ -206,7 +208,7 @@ static void add_fonts(cs_confined *out) {
   }
 }
 
-/* The folders that the script may read, in the library's form and as roots. */
+/* Adds the folders that the script may read, in the form of the library and as roots. */
 static cs_exit open_roots(const cs_request *request, const char *script, cs_confined *out,
                           cs_roots *roots) {
   char folder[PATH_SIZE];
@@ -228,7 +230,7 @@ static cs_exit open_roots(const cs_request *request, const char *script, cs_conf
 
 /* ---------------------------------------------------------------- strict */
 
-/* The folder for the output, made if it is missing; "": there is no output. */
+/* The folder of the output, which is created if it is missing; "": there is no output. */
 static void output_folder(const cs_request *request, char out[PATH_SIZE]) {
   const char *output = cs_request_text(request, "-o");
   out[0] = '\0';
@@ -297,7 +299,7 @@ static cs_exit enter_strict(const cs_request *request, const cs_roots *roots) {
 }
 
 cs_exit cs_confine_open(const cs_request *request, const char *script, cs_confined *out) {
-  static bool is_strict; /* it is entered once, for the whole process */
+  static bool is_strict; /* strict mode is entered once, for the whole process */
   *out = (cs_confined){.limits = limits_of(request), .is_trusted = is_trusted(request)};
   out->limits.is_interrupted = is_interrupted;
   out->limits.overdue = kill_script;

@@ -17,22 +17,22 @@ typedef struct cs_confined {
   bool is_trusted; /* limits only */
 } cs_confined;
 
-/* Lets processes of their own decode pictures, unless the pictures are trusted. OK, or reported. */
+/* Lets separate processes decode pictures, unless the pictures are trusted. OK, or reported. */
 cs_exit cs_confine_pictures(celspan_context *context, const cs_request *request);
-/* Finds how much memory this run may hold, and sets the sizes of the caches, before anything else.
- * OK, or reported. */
+/* Finds how much memory this run may hold, and sets the sizes of the caches. Must be called before
+ * anything else. OK, or reported. */
 cs_exit cs_confine_memory(const cs_request *request, celspan_context_desc *desc);
-/* Limits the memory that is held. The frames that are rendered at a time have a limit of their own
- * within this memory. */
+/* Limits the memory that is held. Frames that are rendered at the same time have their own limit
+ * within it. */
 void cs_confine_rendering(celspan_context *context, const cs_request *request);
-/* Divides the memory that this process may hold: each process started from now on has one part of
- * it. */
+/* Divides the memory that this process may hold: each process that is started from now on gets one
+ * part. */
 void cs_confine_divide(unsigned parts);
 /* Refuses the options of scripts for a verb that reads a FILE and runs no script. OK, or reported.
  */
 cs_exit cs_confine_refuse(const cs_request *request);
 /* Whether a script of this request has a sandbox or a limit. */
 bool cs_confine_is_needed(const cs_request *request);
-/* Finds the limits of a script under the request, and enters strict where that is asked for. OK, or
- * reported. *out must stay where it is until the sandbox is open. */
+/* Finds the limits of a script for the request, and enters strict mode if it is requested. OK, or
+ * reported. *out must not move until the sandbox is open. */
 cs_exit cs_confine_open(const cs_request *request, const char *script, cs_confined *out);

@@ -21,7 +21,7 @@
 
 /* ---------------------------------------------------------------- kinds */
 
-/* kind(path) -> what a file can be, by its first bytes: "folder", "archive", "psd", "svg", "span",
+/* kind(path) -> the kind of a file, by its first bytes: "folder", "archive", "psd", "svg", "span",
  * "plane", "script" or "picture" */
 static int kind(lua_State *L) {
   static const char *const artworks[] = {
@@ -46,8 +46,8 @@ static int kind(lua_State *L) {
 
 /* ---------------------------------------------------------------- folders */
 
-/* make_folders(path): makes the folders of a file before it is written. Nothing is reported here if
- * that fails, because writing the file then fails too. */
+/* make_folders(path): creates the folders of a file before it is written. A failure is not reported
+ * here, because writing the file then fails, too. */
 static int make_folders(lua_State *L) {
   lua_pushboolean(L, cs_journal_make_folders_for(luaL_checkstring(L, 1)));
   return 1;
@@ -68,9 +68,9 @@ static int fail_system(lua_State *L, const char *how) {
   return 3;
 }
 
-/* entries(path) -> the names in a folder, hidden ones too; false for a file; nil, the system's
- * reason, and "missing" where there is nothing of that name, "cut" where not all names could be
- * read, else "closed" */
+/* entries(path) -> the names in a folder, including hidden ones; false for a file; nil, the
+ * system's reason, and a word: "missing" if the path does not exist, "cut" if not all names could
+ * be read, otherwise "closed" */
 static int entries(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
   struct stat facts;
@@ -93,7 +93,7 @@ static int entries(lua_State *L) {
   return errno ? fail_system(L, "cut") : 1;
 }
 
-/* resolve(path) -> where it leads (base/resolve.h) | nil, message */
+/* resolve(path) -> the path to which it leads (base/resolve.h) | nil, message */
 static int resolve(lua_State *L) {
   char *resolved = cs_resolve_path(luaL_checkstring(L, 1));
   if (!resolved)
@@ -116,19 +116,19 @@ static int working_folder(lua_State *L) {
 
 /* ---------------------------------------------------------------- outputs */
 
-/* has_number(path) -> whether it is a pattern with a place for a number */
+/* has_number(path) -> whether the path is a pattern with a place for a number */
 static int has_number(lua_State *L) {
   lua_pushboolean(L, cs_sequence_has_number(luaL_checkstring(L, 1)));
   return 1;
 }
 
-/* is_video(path) -> whether the request makes a video there, of one frame or several */
+/* is_video(path) -> whether the request makes a video of this name, of one or more frames */
 static int is_video(lua_State *L) {
   lua_pushboolean(L, cs_video_target_is_wanted(cs_service_session(L)->request, 1));
   return 1;
 }
 
-/* refuse_target(path): ends the verb where no picture can be written there under the request. */
+/* refuse_target(path): ends the verb if the request cannot write a picture of this name. */
 static int refuse_target(lua_State *L) {
   const cs_session *session = cs_service_session(L);
   cs_service_require(L,
@@ -144,7 +144,7 @@ static celspan_status save_text(celspan_context *context, const char *path, cons
   return cs_file_end(file, context, status);
 }
 
-/* save(path, text): a file that appears whole or not at all, in folders that are made. */
+/* save(path, text): writes a file that appears whole or not at all; creates its folders. */
 static int save(lua_State *L) {
   size_t size;
   const char *path = luaL_checkstring(L, 1), *text = luaL_checklstring(L, 2, &size);
@@ -160,8 +160,8 @@ static bool write_whole(const char *path, const char *text, size_t size) {
   return close(file) == 0 && is_written;
 }
 
-/* save_private(folder, name, text) -> the path of a new file that nobody but this user can read, in
- * a new folder of that kind | nil, message */
+/* save_private(folder, name, text) -> the path of a new file that only this user can read, in a new
+ * folder that only this user can read | nil, message */
 static int save_private(lua_State *L) {
   size_t size;
   const char *folder = luaL_checkstring(L, 1), *text = luaL_checklstring(L, 3, &size);

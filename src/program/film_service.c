@@ -30,7 +30,7 @@
 typedef struct film {
   cs_script script;
   cs_inspection pictures; /* the pictures that were examined */
-  celspan_rostrum *held;  /* of whose camera others are seen; NULL: none. A reference */
+  celspan_rostrum *held;  /* whose camera others are seen with; NULL: none. A reference */
 } film;
 
 static int close_film(lua_State *L) {
@@ -64,7 +64,7 @@ static int push_frame(lua_State *L, const cs_film_frame *frame) {
   return 1;
 }
 
-/* film:build(number): ends the verb where it cannot be built. */
+/* film:build(number): builds a frame; ends the verb if this fails. */
 static int build(lua_State *L) {
   cs_service_try(L, cs_script_try(&self(L)->script, luaL_checkinteger(L, 2)));
   return 0;
@@ -92,7 +92,7 @@ static int at(lua_State *L) {
 /* film:exposures() -> those of the frame that was built last */
 static int exposures(lua_State *L) { return push_frame(L, &self(L)->script.frame); }
 
-/* film:chosen() -> the exposures of the frame of --frame or the first, and its number */
+/* film:chosen() -> the exposures of the frame of --frame, or of the first frame; and its number */
 static int chosen(lua_State *L) {
   film *f = self(L);
   celspan_frame_desc desc;
@@ -107,8 +107,8 @@ static int release_numbers(lua_State *L) {
   return 0;
 }
 
-/* film:numbers(output or nil) -> the numbers of --frames, or of all frames, which each have a name
- * in the output */
+/* film:numbers(output or nil) -> the numbers of --frames, or of all frames; each must have its own
+ * name in the output */
 static int numbers(lua_State *L) {
   const cs_request *request = cs_service_session(L)->request;
   const char *output = luaL_optstring(L, 2, NULL);
@@ -123,8 +123,8 @@ static int numbers(lua_State *L) {
   return 1;
 }
 
-/* film:view_size() -> the pixels of a frame under the request, which ends the verb where it has no
- * frame of this film */
+/* film:view_size() -> the size of a frame in pixels under the request; ends the verb if the request
+ * is not possible for this film */
 static int view_size(lua_State *L) {
   const cs_film_info *info = &self(L)->script.film;
   celspan_frame_desc desc;
@@ -135,7 +135,7 @@ static int view_size(lua_State *L) {
   return 2;
 }
 
-/* film:lay_onion(width, height): the film becomes that of --onion, with skins of this size. */
+/* film:lay_onion(width, height): replaces the film by that of --onion, with skins of this size. */
 static int lay_onion(lua_State *L) {
   const celspan_frame_desc frame = {.width = (int32_t)luaL_checkinteger(L, 2),
                                     .height = (int32_t)luaL_checkinteger(L, 3)};
@@ -144,7 +144,7 @@ static int lay_onion(lua_State *L) {
   return 0;
 }
 
-/* film:check_sound() -> the exit code of what is wrong with the sound, which is reported; 0 */
+/* film:check_sound() -> 0, or the exit code for a fault of the sound, which is reported */
 static int check_sound(lua_State *L) {
   film *f = self(L);
   celspan_status status = cs_soundtrack_check(&f->script, f->pictures.is_deep);
@@ -154,7 +154,7 @@ static int check_sound(lua_State *L) {
 
 /* ---------------------------------------------------------------- scenes */
 
-/* film:scene() -> 16 bytes, equal for equal scenes; nil where a procedure draws */
+/* film:scene() -> 16 bytes, equal for equal scenes; nil if a procedure draws */
 static int scene(lua_State *L) {
   const cs_film_frame *frame = &self(L)->script.frame;
   if (cs_scene_has_procedure(frame->exposures, frame->count))
@@ -181,8 +181,8 @@ static int counts(lua_State *L) {
   return 3;
 }
 
-/* Calls the function that is argument 2 with a name, the kind of the value that has it, and where
- * that was made. */
+/* Calls the function that is argument 2 with a name, the kind of the value with this name, and the
+ * place where it was made. */
 static void add_name(lua_State *L, const char *kind, cs_mark mark) {
   if (!mark.name)
     return;
@@ -220,7 +220,8 @@ static void add_rostrum(lua_State *L, const celspan_rostrum *rostrum) {
   }
 }
 
-/* Runs protected. The names of a module and of a function in it, its argument -> what it returns */
+/* Runs protected. The names of a module and of a function in it, and an argument -> the result of
+ * the function */
 static int ask_module(lua_State *L) {
   cs_require_module(L, lua_touserdata(L, 1));
   lua_getfield(L, -1, lua_touserdata(L, 2));
@@ -229,8 +230,8 @@ static int ask_module(lua_State *L) {
   return 1;
 }
 
-/* film:ask(module, what, text) -> a text: calls that function of one of celspan's modules, as the
- * script has it. */
+/* film:ask(module, what, text) -> a text: calls a function of one of celspan's modules in the state
+ * of the script. */
 static int ask(lua_State *L) {
   lua_State *script = self(L)->script.L;
   lua_pushcfunction(script, ask_module);
@@ -255,8 +256,8 @@ static int names(lua_State *L) {
   return 0;
 }
 
-/* film:words(number) -> the words of a text with this number (core.parts), its em, and whether it
- * is a letter of them; nil */
+/* film:words(number) -> the words of a text with this number (core.parts), its em, and whether the
+ * value is a letter of them; nil */
 static int words(lua_State *L) {
   lua_State *script = self(L)->script.L;
   cs_named_words found;
@@ -272,7 +273,7 @@ static int words(lua_State *L) {
 
 /* ---------------------------------------------------------------- pictures */
 
-/* function, where, message, exit code. Runs protected: the core is at work. */
+/* function, where, message, exit code. Runs protected, because the core is at work. */
 static int call_with_fault(lua_State *L) {
   const celspan_fault *found = lua_touserdata(L, 2);
   char where[CS_INSPECT_PLACE];
@@ -306,8 +307,8 @@ static int take_warnings(lua_State *L) {
   return count;
 }
 
-/* Pushes the warnings of the script on its own stack. A script that is being stopped has none: the
- * verb ends with its results so far. */
+/* Pushes the warnings of the script on its own stack. If the script is being stopped, there are
+ * none: the verb ends with its results so far. */
 static void push_warnings(lua_State *L, lua_State *script) {
   lua_pushcfunction(script, take_warnings);
   int outcome = lua_pcall(script, 0, LUA_MULTRET, 0);
@@ -317,7 +318,7 @@ static void push_warnings(lua_State *L, lua_State *script) {
     cs_service_try(L, cs_lua_error_report(script, outcome));
 }
 
-/* Calls the function at index 2 as for a fault, with each warning of the script. */
+/* Calls the function at index 2 for each warning of the script, in the same way as for a fault. */
 static void add_warnings(lua_State *L, lua_State *script) {
   const int before = lua_gettop(script);
   push_warnings(L, script);
@@ -331,7 +332,7 @@ static void add_warnings(lua_State *L, lua_State *script) {
   lua_settop(script, before);
 }
 
-/* film:drop_warnings(): those of frames that were built before are not asked for. */
+/* film:drop_warnings(): forgets the warnings of frames that were built before. */
 static int drop_warnings(lua_State *L) {
   lua_State *script = self(L)->script.L;
   const int before = lua_gettop(script);
@@ -340,8 +341,8 @@ static int drop_warnings(lua_State *L) {
   return 0;
 }
 
-/* film:faults(add): looks at the pictures and calls add(where, message, exit code) for each that
- * cannot be read, and for what the script was warned of. */
+/* film:faults(add): examines the pictures, and calls add(where, message, exit code) for each that
+ * cannot be read, and for each warning of the script. */
 static int faults(lua_State *L) {
   film *f = self(L);
   const cs_film_frame *frame = &f->script.frame;
@@ -385,7 +386,8 @@ static int keep_callers(lua_State *L) {
   return 0;
 }
 
-/* film:silence(is_silent): whether text printed by a script in the sandbox is hidden from now on */
+/* film:silence(is_silent): whether the text that a script in the sandbox prints is hidden from now
+ * on */
 static int silence(lua_State *L) {
   cs_sandbox *sandbox = self(L)->script.sandbox;
   if (sandbox)
@@ -453,8 +455,8 @@ static void set_methods(lua_State *L) {
   lua_setmetatable(L, -2);
 }
 
-/* film(path or nil, is_silent) -> the film of that script, or of the request's; is_silent: it has
- * been run before, and prints nothing now */
+/* film(path or nil, is_silent) -> the film of that script, or of the request's script; is_silent:
+ * it was run before, and must print nothing now */
 static int open_film(lua_State *L) {
   const cs_session *session = cs_service_session(L);
   const cs_request *request = session->request;

@@ -9,13 +9,13 @@
 
 enum {
   CHARACTER = 8, /* bytes of the longest escape, and a zero */
-  RESERVE = 4096 /* for the members that come after the longest texts and lists */
+  RESERVE = 4096 /* for the members after the longest texts and lists */
 };
 
 /* ---------------------------------------------------------------- characters */
 
-/* Writes the first character of the text, which is not "", as it is written inside a JSON string;
- * *size: bytes written. The answer: bytes of the text that it was read from. */
+/* Writes the first character of the text, which is not "", in the form for a JSON string. *size:
+ * the number of bytes written. Returns the number of bytes that were read from the text. */
 static size_t write_character(const char *text, char out[CHARACTER], size_t *size) {
   static const char REPLACEMENT[] = "\xef\xbf\xbd"; /* U+FFFD */
   const unsigned char *bytes = (const unsigned char *)text;

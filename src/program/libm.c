@@ -1,5 +1,5 @@
-/* The program's Lua computes with the engine's functions, so that scripts have the same bits
- * everywhere, in the operator ^ too: the linker puts these in the place of the C library's. */
+/* The program's Lua uses the engine's functions, also for the operator ^, so that scripts give the
+ * same bits everywhere: the linker replaces the functions of the C library by these. */
 #include "base/elementary.h"
 #include "base/functions.h"
 

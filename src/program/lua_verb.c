@@ -22,7 +22,7 @@ enum { FOLDER_SIZE = 4096 };
 
 /* ---------------------------------------------------------------- the request */
 
-/* "--job-name" is the field job_name, "-o" output. */
+/* The option "--job-name" becomes the field job_name, and "-o" becomes output. */
 static void push_field_name(lua_State *L, const char *option) {
   if (strcmp(option, "-o") == 0)
     lua_pushliteral(L, "output");
@@ -30,8 +30,8 @@ static void push_field_name(lua_State *L, const char *option) {
     luaL_gsub(L, option + 2, "-", "_");
 }
 
-/* request, given: adds an option to both. Values are the texts that were given, which their readers
- * have accepted; of a flag, true. */
+/* request, given: adds an option to both. Values are the given texts, which their readers have
+ * accepted; for a flag, true. */
 static void set_option(void *user, const char *name, const char *value) {
   lua_State *L = user;
   push_field_name(L, name);
@@ -54,9 +54,9 @@ static void push_texts(lua_State *L, const char *const *texts, size_t count) {
   }
 }
 
-/* request[1], ...: its operands; request.job_name: an option; request.arguments: of the script;
- * request.verb: its name; request.script: the text of the script "-"; request.given: the options in
- * their order, { name = "--job-name", value = "walk" }. */
+/* request[1], ...: the operands; request.job_name: an option; request.arguments: for the script;
+ * request.verb: the name of the verb; request.script: the text of the script "-"; request.given:
+ * the options in order, { name = "--job-name", value = "walk" }. */
 static void push_request(lua_State *L, const cs_request *request) {
   push_texts(L, request->operands, request->operand_count);
   push_texts(L, (const char *const *)request->script_arguments, request->script_argument_count);
@@ -85,7 +85,7 @@ static void push_options(lua_State *L, const cs_option *options) {
   }
 }
 
-/* verbs() -> what each verb is and takes: { name =, operands =, summary =, notes =, has_script =,
+/* verbs() -> a description of each verb: { name =, operands =, summary =, notes =, has_script =,
  * options = { { name =, value =, allowed =, help = }, ... } } */
 static int push_verbs(lua_State *L) {
   lua_newtable(L);
@@ -124,8 +124,8 @@ static bool holds_annotations(const char *folder) {
   return access(path, R_OK) == 0;
 }
 
-/* The folder of the annotations: as they were installed, else beside the program, in a checkout or
- * where an installation was moved to. */
+/* The folder of the annotations: where they were installed; otherwise beside the program, in a
+ * checkout or in an installation that was moved. */
 static void put_annotations(lua_State *L) {
   static const char *const beside[] = {"../share/celspan/annotations", "../lua"};
   char own[FOLDER_SIZE / 2], folder[FOLDER_SIZE], found[PATH_MAX];
@@ -175,7 +175,8 @@ static int run(lua_State *L) {
   return 1;
 }
 
-/* session, light userdata. A closure takes memory: so it is made where failing is caught. */
+/* session, light userdata. Making a closure needs memory, so this is done where errors are
+ * caught. */
 static int begin(lua_State *L) {
   lua_pushcclosure(L, run, 1);
   lua_call(L, 0, 1);

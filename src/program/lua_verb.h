@@ -12,5 +12,5 @@
 
 #include "program/request.h"
 
-/* Runs a verb. Its outcome, reported. */
+/* Runs a verb. Returns the outcome, which has been reported. */
 cs_exit cs_lua_verb_run(celspan_context *context, const cs_request *request);

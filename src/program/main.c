@@ -34,7 +34,7 @@ static const cs_verb *find_verb(const char *name) {
   return NULL;
 }
 
-/* Reports that a file was given in the place of a verb. */
+/* Reports that a file was given instead of a verb. */
 static cs_exit refuse_file(const char *name) {
   const char *dot = strrchr(name, '.');
   if (dot && strcmp(dot, ".lua") == 0)
@@ -111,8 +111,8 @@ static cs_exit parse_and_run(const cs_verb *verb, size_t count, char *const *wor
   return run(&request);
 }
 
-/* words: a verb, a text to look for, or an option of the help. Without words, it lists the
- * verbs. */
+/* words: a verb, a text to search for, or an option of the help. Without words, the verbs are
+ * listed. */
 static cs_exit help(size_t count, char *const *words) {
   bool is_list = count > 0 && strcmp(words[0], "help") == 0;
   return parse_and_run(find_verb("help"), is_list ? 0 : count, words);
@@ -148,8 +148,8 @@ static cs_exit dispatch(int count, char **arguments) {
 }
 
 /* Daemons and farms start programs with descriptors 0 to 2 closed. The next opened file would then
- * take such a place, and messages would be written into frames. So /dev/null takes the places. In
- * the place of standard output it is opened only for reading, so that writing there still fails. */
+ * get such a number, and messages would be written into frames. So /dev/null gets these numbers. As
+ * standard output it is opened only for reading, so that writing there still fails. */
 static bool hold_descriptors(void) {
   static const int modes[] = {O_RDONLY, O_RDONLY, O_WRONLY};
   for (int number = 0; number <= 2; number++)
@@ -159,7 +159,7 @@ static bool hold_descriptors(void) {
 }
 
 #define STACK_USUAL ((rlim_t)8 << 20)
-#define STACK_LEAST ((rlim_t)1 << 20) /* scripts and drawings that are nested deeply need some */
+#define STACK_LEAST ((rlim_t)1 << 20) /* scripts and drawings with deep nesting need some */
 
 /* Lets the stack grow to the usual limit, as far as the process may raise its limit. If the limit
  * is too small after that, reports this and returns false: a larger stack would end the process
@@ -172,7 +172,7 @@ static bool widen_stack(void) {
   setrlimit(RLIMIT_STACK, &limit);
   if (limit.rlim_cur >= STACK_LEAST)
     return true;
-  /* Reports of errors take more stack than there may be. */
+  /* Without cs_report functions, because these may need more stack than is available. */
   fprintf(stderr, "celspan: error: the stack is limited to %llu KiB; ",
           (unsigned long long)limit.rlim_cur >> 10);
   fprintf(stderr, "at least %llu are needed ('ulimit -s' sets it)\n",

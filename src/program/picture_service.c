@@ -1,9 +1,9 @@
-/* Pictures for verbs in Lua: their facts, two compared, one converted, a frame written. One file,
- * because comparing, converting and writing read a picture in the same way.
+/* Pictures for verbs in Lua: reads facts, compares, converts, and writes frames. One file, because
+ * comparing, converting and writing read a picture in the same way.
  *
- * Whether two pictures show the same is decided row by row, span by span.
- * Coded values are compared: sRGB, straight, at 16 bits when both pictures hold integers and as
- * floats when one of them does not.
+ * Whether two pictures show the same is decided row by row, span by span. Coded values are
+ * compared: sRGB, straight, at 16 bits when both pictures hold integers and as floats when one of
+ * them does not.
  */
 #include <math.h>
 #include <string.h>
@@ -35,7 +35,7 @@ typedef struct picture {
   cs_picture_reader *reader;
   cs_picture_part *parts;
   size_t count, capacity;
-  celspan_status status; /* of adding a part */
+  celspan_status status; /* the status of adding a part */
 } picture;
 
 static int close_picture(lua_State *L) {
@@ -67,7 +67,7 @@ static celspan_status read_picture(picture *p, const char *path, cs_picture_head
   return status == CELSPAN_OK ? p->status : cs_fail(p->context, status, "%s", failure.text);
 }
 
-/* Pushes the subimages, and the layers of the first one, which have no subimage. */
+/* Pushes the subimages, and the layers of the first subimage, which are not subimages. */
 static void push_parts(lua_State *L, const picture *p) {
   lua_createtable(L, (int)p->count, 0);
   for (size_t i = 0; i < p->count; i++) {
@@ -116,7 +116,7 @@ static int close_spans(lua_State *L) {
   return 0;
 }
 
-/* spans(path) -> what the whole file consists of */
+/* spans(path) -> counts for the whole file */
 static int read_spans(lua_State *L) {
   celspan_context *context = cs_service_session(L)->context;
   cs_span_reader **file =
@@ -146,7 +146,8 @@ static int close_plane(lua_State *L) {
   return 0;
 }
 
-/* Reads all frames of a plane's file. Returns its number of pictures: the last frame knows all. */
+/* Reads all frames of a plane's file. Returns its number of pictures: the last frame knows all of
+ * them. */
 static int64_t check_frames(lua_State *L, const char *path, const celspan_plane *plane) {
   celspan_context *context = cs_service_session(L)->context;
   double rate;
@@ -163,7 +164,7 @@ static int64_t check_frames(lua_State *L, const char *path, const celspan_plane 
   return pictures;
 }
 
-/* plane(path) -> what the whole file consists of; `pictures` of all frames, else of the first */
+/* plane(path) -> counts for the whole file; `pictures`: of all frames, otherwise of the first */
 static int read_plane(lua_State *L) {
   celspan_context *context = cs_service_session(L)->context;
   const char *path = luaL_checkstring(L, 1);
@@ -198,7 +199,7 @@ typedef struct comparison {
   int32_t width, height;
   double tolerance;
   double largest;
-  int32_t x, y; /* where the largest difference is */
+  int32_t x, y; /* the place of the largest difference */
   int channel;
   uint64_t differing; /* pixels */
   uint8_t *picture;   /* with -o: a row of the picture of differences; borrowed */
@@ -216,7 +217,7 @@ static double difference(double a, double b) {
   return a == b ? 0 : fabs(a - b); /* equal infinities are equal */
 }
 
-/* Compares coded pixels from column x0 on. Each pixel counts for `times` columns. */
+/* Compares coded pixels from column x0 on. Each pixel counts as `times` columns. */
 static void compare_pixels(comparison *c, int32_t x0, int32_t y, int32_t count, int32_t times,
                            const void *pixels_a, const void *pixels_b) {
   for (int32_t x = 0; x < count; x++) {
@@ -252,8 +253,8 @@ static void code_columns(const comparison *c, const celspan_span *span, int32_t 
   cs_pixels_row(&c->coding, &columns, 1, pixels);
 }
 
-/* Compares columns [x0, x1), which are in one span of each picture. Where both spans have a single
- * colour, one pixel is enough. */
+/* Compares columns [x0, x1), which belong to a single span in each picture. If both spans have a
+ * single colour, one pixel is enough. */
 static void compare_columns(comparison *c, int32_t y, const celspan_span *a, const celspan_span *b,
                             int32_t x0, int32_t x1) {
   enum { CHUNK = 1024 };
@@ -270,7 +271,7 @@ static void compare_columns(comparison *c, int32_t y, const celspan_span *a, con
   }
 }
 
-/* The row of the picture of differences before anything is marked. */
+/* Makes the row of the picture of differences, without any marks. */
 static void begin_row(const comparison *c, const celspan_span *spans, size_t count) {
   static const celspan_coding coding = {.struct_size = sizeof coding,
                                         .depth = CELSPAN_DEPTH_8,
@@ -298,7 +299,8 @@ static celspan_status compare_row(comparison *c, int32_t y, cs_still_rows *rows_
   return status;
 }
 
-/* Gives the row of the picture of differences to its sink, as codes that it takes unchanged. */
+/* Gives the row of the picture of differences to its sink, as codes that the sink does not
+ * change. */
 static celspan_status put_row(celspan_context *context, const comparison *c,
                               const celspan_sink *sink, int32_t y) {
   float *pixels = c->linear;
@@ -320,7 +322,7 @@ static celspan_status compare_all(celspan_context *context, comparison *c, cs_st
   return sink ? sink->end(sink->user, context, status) : status;
 }
 
-/* The sink, NULL without -o, is ended whatever happens. */
+/* sink: NULL without -o; it is ended in any case. */
 static celspan_status compare_stills(celspan_context *context, comparison *c,
                                      const celspan_sink *sink, const cs_still *still_a,
                                      const celspan_frame_desc *frame_a, const cs_still *still_b,
@@ -338,7 +340,7 @@ static celspan_status compare_stills(celspan_context *context, comparison *c,
   return status;
 }
 
-/* With the rows and the sink that -o needs, or without. */
+/* Allocates the rows and the sink for -o, if it was given, and compares. */
 static celspan_status compare_into(celspan_context *context, comparison *c, const char *output,
                                    const cs_still *still_a, const celspan_frame_desc *frame_a,
                                    const cs_still *still_b, const celspan_frame_desc *frame_b) {
@@ -390,7 +392,7 @@ static int close_stills(lua_State *L) {
   return 0;
 }
 
-/* A plane has any size: that of the picture which it is compared with. */
+/* A plane has no size of its own: it gets the size of the other picture. */
 static void fit_plane(cs_still stills[2]) {
   for (int i = 0; i < 2; i++)
     if (stills[i].plane && !stills[1 - i].plane) {
@@ -406,8 +408,8 @@ static void open_compared(lua_State *L, const char *path, cs_still *out) {
       L, cs_shown_open(session->context, session->request, path, cs_plane_accepts(path), out));
 }
 
-/* How values are compared: with a plane multiplied by alpha, because a picture rounds the colours
- * of nearly clear pixels. */
+/* Chooses how values are compared: with a plane, multiplied by alpha, because a picture rounds the
+ * colours of nearly clear pixels. */
 static celspan_coding coding_of(const cs_still stills[2]) {
   bool is_float = stills[0].info.is_float || stills[1].info.is_float;
   bool has_plane = stills[0].plane || stills[1].plane;
@@ -419,7 +421,7 @@ static celspan_coding coding_of(const cs_still stills[2]) {
 }
 
 /* compare(a, b, difference or nil) -> { largest =, x =, y =, channel =, differing =, pixels = }, or
- * { sizes = { w, h, w, h } } where they differ */
+ * { sizes = { w, h, w, h } } if the sizes differ */
 static int compare(lua_State *L) {
   const cs_session *session = cs_service_session(L);
   const char *output = luaL_optstring(L, 3, NULL);
@@ -451,7 +453,7 @@ static int write_plane(lua_State *L, const celspan_frame_desc *frame, const char
   return 0;
 }
 
-/* convert(in, out): what a file shows under the request into another file. */
+/* convert(in, out): writes the picture that a file shows, under the request, to another file. */
 static int convert(lua_State *L) {
   const cs_session *session = cs_service_session(L);
   const char *input = luaL_checkstring(L, 1), *output = luaL_checkstring(L, 2);
@@ -473,8 +475,8 @@ static int convert(lua_State *L) {
   return 0;
 }
 
-/* pixels(path) -> what a file shows: RGBA of 16 bits, sRGB, straight; width, height, whether it has
- * alpha */
+/* pixels(path) -> the picture that a file shows: RGBA of 16 bits, sRGB, straight; width, height,
+ * whether it has alpha */
 static int read_pixels(lua_State *L) {
   static const celspan_coding coding = {.struct_size = sizeof coding,
                                         .depth = CELSPAN_DEPTH_16,
@@ -509,8 +511,8 @@ static int finish_frame(lua_State *L) {
   return 0;
 }
 
-/* write(film, path): the first frame of a film, or a rostrum that has a size, into a picture under
- * the request. */
+/* write(film, path): writes the first frame of a film, or a rostrum that has a size, as a picture
+ * under the request. */
 static int write_frame(lua_State *L) {
   const cs_session *session = cs_service_session(L);
   const char *path = luaL_checkstring(L, 2);

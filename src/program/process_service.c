@@ -69,9 +69,9 @@ static int start(lua_State *L) {
   return 1;
 }
 
-/* wait() -> the number of a process that ended, its exit code, or nil, the signal that ended it and
- * its name; or nil where there is none to wait for. Another program's children, inherited by exec,
- * are answered too. */
+/* wait() -> the number of a process that has ended, with its exit code, or with nil, the number of
+ * the signal that ended it and the signal's name; or nil if there is no process. Children of an
+ * earlier program that were inherited by exec are returned, too. */
 static int wait_for_one(lua_State *L) {
   int status;
   pid_t ended;
@@ -92,9 +92,9 @@ static int wait_for_one(lua_State *L) {
   return 4;
 }
 
-/* launch(words, is_silent) -> the number of a process | nil, message: the program of the first
- * word, found through PATH, without a shell. It outlives this one. is_silent: what it says is not
- * shown. */
+/* launch(words, is_silent) -> the number of a process | nil, message: starts the program of the
+ * first word, which is found through PATH, without a shell. It may outlive this process. is_silent:
+ * its output is not shown. */
 static int launch(lua_State *L) {
   const int errors = lua_toboolean(L, 2) ? CS_SPAWN_NULL : CS_SPAWN_SAME;
   const char **words = cs_service_push_words(L, 1);
@@ -109,7 +109,7 @@ static int launch(lua_State *L) {
   return 1;
 }
 
-/* has_ended(process) -> whether a launched process has ended; nothing is left of it then */
+/* has_ended(process) -> whether a launched process has ended; if so, the system forgets it */
 static int has_ended(lua_State *L) {
   pid_t process = (pid_t)luaL_checkinteger(L, 1);
   lua_pushboolean(L, waitpid(process, NULL, WNOHANG) != 0);
@@ -125,13 +125,14 @@ static int default_signals(lua_State *L) {
   return 0;
 }
 
-/* processors() -> how many this process may use */
+/* processors() -> the number of processors that this process may use */
 static int processors(lua_State *L) {
   lua_pushinteger(L, cs_context_workers(cs_service_session(L)->context, 0, INT_MAX));
   return 1;
 }
 
-/* divide_memory(parts): the processes that are started from now on share what this one may hold */
+/* divide_memory(parts): processes that are started from now on share the memory that this process
+ * may hold */
 static int divide_memory(lua_State *L) {
   lua_Integer parts = luaL_checkinteger(L, 1);
   cs_confine_divide(parts > 0 && parts < INT_MAX ? (unsigned)parts : 1);

@@ -30,7 +30,8 @@ static void start_json(size_t frame_count) {
 void cs_progress_start(cs_progress *progress, cs_progress_style style, size_t frame_count) {
   *progress =
       (cs_progress){.frame_count = frame_count, .noun = "frame", .started = cs_clock_seconds()};
-  /* A log gets a line a second at most by default, and a line for every frame when asked for. */
+  /* A log gets at most one line a second by default; with the style for lines, one for every
+   * frame. */
   progress->pause = style == CS_PROGRESS_LINES ? 0 : 1;
   if (style == CS_PROGRESS_AUTO)
     style = isatty(STDERR_FILENO) ? CS_PROGRESS_BAR : CS_PROGRESS_LINES;
@@ -54,7 +55,7 @@ static size_t format_seconds(char *out, size_t size, double seconds) {
   return length > 0 ? (size_t)length : 0;
 }
 
-/* "0:34 left", or "" while too little is done to tell. */
+/* "0:34 left", or "" while too little is done for an estimate. */
 static void format_left(char *out, size_t size, const cs_progress *progress, double fraction,
                         double now) {
   out[0] = '\0';
@@ -154,7 +155,7 @@ void cs_progress_frame(cs_progress *progress, int64_t frame, const char *what, c
   progress->shown = now;
 }
 
-/* "exit" is what the program ends with: 128 and its number after a signal. */
+/* "exit" is the program's exit code: 128 plus its number after a signal. */
 static void end_json(const cs_progress *progress, cs_progress_failures failed, int outcome) {
   int stopped_by = cs_interrupt_signal();
   cs_json event;

@@ -20,15 +20,15 @@ typedef struct cs_progress {
   size_t copied, kept;   /* of the finished frames */
   const char *noun;      /* of the counted items: "frame", unless it is changed after the start */
   double started, shown; /* seconds of the monotonic clock */
-  double pause;          /* least seconds between two lines or two states of the bar */
+  double pause;          /* the least seconds between two lines, or between two states of the bar */
 } cs_progress;
 
-/* From now on diagnostics have the form that goes with the style. */
+/* From now on diagnostics have the form for this style. */
 void cs_progress_choose(cs_progress_style style);
 void cs_progress_start(cs_progress *progress, cs_progress_style style, size_t frame_count);
-/* share: of the frames that are being made, in frames. false once a signal asks to stop. */
+/* share: of the frames that are being made, in frames. Returns false after a signal to stop. */
 bool cs_progress_tick(cs_progress *progress, double share);
-/* Counts a finished frame. what: where it was written; how: "made", "copied" or "kept". */
+/* Counts a finished frame. what: the file; how: "made", "copied" or "kept". */
 void cs_progress_frame(cs_progress *progress, int64_t frame, const char *what, const char *how);
 /* The frames that failed. */
 typedef struct cs_progress_failures {
@@ -36,6 +36,6 @@ typedef struct cs_progress_failures {
   size_t count;
 } cs_progress_failures;
 
-/* Removes the bar, and sums up the run if all frames are done. Nothing is reported afterwards.
+/* Removes the bar, and reports a summary if all frames are done. Nothing is reported afterwards.
  * outcome: the exit code, unless a signal stopped the run. */
 void cs_progress_end(cs_progress *progress, cs_progress_failures failed, int outcome);

@@ -64,7 +64,7 @@ static cs_hash key_of(const cs_record *record, const cs_shoot_frame *frame) {
 
 static bool equals(cs_hash a, cs_hash b) { return a.a == b.a && a.b == b.b; }
 
-/* The contents of a file that exists already; false when it cannot be read. */
+/* The contents of an existing file; false if it cannot be read. */
 static bool read_contents(const char *path, cs_file_contents *out) {
   int descriptor = cs_open_to_read(path);
   if (descriptor < 0)
@@ -114,7 +114,7 @@ static celspan_status read_lines(cs_record *record, FILE *file) {
   return CELSPAN_OK;
 }
 
-/* A record of another version of celspan has another head and is ignored. */
+/* The record of another version of celspan has another head, and is ignored. */
 static celspan_status read_record(cs_record *record) {
   char head[sizeof HEAD];
   FILE *file = fopen(record->path, "re");
@@ -194,7 +194,7 @@ static celspan_status append(const cs_record *record, const char *text) {
   return cs_journal_add(record->descriptor, text) ? CELSPAN_OK : fail(record, "cannot write");
 }
 
-/* Called for the first line only, because the folder exists once a frame is written. */
+/* Called only for the first line, because the folder exists after a frame has been written. */
 static celspan_status open_for_lines(cs_record *record) {
   char head[sizeof HEAD] = "";
   record->descriptor = cs_journal_open(record->path);
@@ -205,7 +205,7 @@ static celspan_status open_for_lines(cs_record *record) {
     return fail(record, "cannot read");
   if (size > 0 && strcmp(head, HEAD) == 0)
     return cs_journal_end_last(record->descriptor) ? CELSPAN_OK : fail(record, "cannot write");
-  if (size > 0 && ftruncate(record->descriptor, 0) != 0) /* it was of another version */
+  if (size > 0 && ftruncate(record->descriptor, 0) != 0) /* the file was of another version */
     return fail(record, "cannot write");
   return append(record, HEAD);
 }

@@ -22,28 +22,28 @@ typedef struct cs_record_line {
   int64_t number;
   cs_hash key, contents, pixels; /* pixels 0 0: not known */
   uint64_t bytes;
-  size_t order; /* in the file: of two lines of a frame the later one counts */
+  size_t order; /* the position in the file: of two lines about a frame, the later one counts */
 } cs_record_line;
 
 typedef struct cs_record {
   celspan_context *context;
   char path[CS_SHOOT_PATH + 16];
-  cs_hash options; /* of everything that is the same for every frame of the run */
+  cs_hash options; /* the hash of everything that is the same for every frame of the run */
   bool is_forced, needs_pixels;
   int descriptor;        /* -1: not open for more lines yet */
   cs_record_line *lines; /* sorted by number, then order; owned */
   size_t count, capacity;
 } cs_record;
 
-/* Reads the record of the request's output where there is one, and removes the unfinished files
- * that killed runs have left. frame: the view. Errors: OUTPUT, NO_MEMORY. */
+/* Reads the record of the request's output, if it exists, and removes unfinished files of runs that
+ * were killed. frame: the view. Errors: OUTPUT, NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_record_open(cs_record *record, const cs_script *script,
                                               const cs_request *request,
                                               const celspan_frame_desc *frame);
 /* Whether the record has a line of the frame of this number. */
 bool cs_record_knows(const cs_record *record, int64_t number);
-/* Whether the file of the frame equals the one that would be written now. By force: whether it is
- * complete; `is_named` is then set to false where it may show something else. */
+/* Whether the file of the frame equals the one that would be written now. With --keep: whether it
+ * is complete; then `is_named` is set to false if the file may show something else. */
 bool cs_record_has(const cs_record *record, cs_shoot_frame *frame);
 /* Adds the line of a frame that was made or copied. */
 CELSPAN_CHECKED celspan_status cs_record_add(cs_record *record, const cs_shoot_frame *frame);

@@ -37,11 +37,11 @@ typedef struct render_job {
   cs_progress progress;
   cs_record record; /* of frames that are files */
   cs_whole whole;   /* of a film that is one file */
-  bool surveys;     /* its frames are built, but not made */
+  bool surveys;     /* frames are built, but not rendered */
   bool is_video;
-  cs_video video; /* where it is one */
+  cs_video video; /* used if the output is a video */
   bool is_plane;
-  cs_plane_film *plane; /* where the film is one plane file */
+  cs_plane_film *plane; /* used if the film becomes one plane file */
   int64_t *failed;      /* frames; owned */
   size_t failed_count, failed_capacity;
   cs_exit outcome; /* of the reported failure */
@@ -54,9 +54,9 @@ typedef struct render_job {
 
 /* A sink that writes the rows of a frame to standard output as coded pixels without a header. */
 typedef struct raw_rows {
-  celspan_coding coding; /* without defaults, except for the depth of dithering */
+  celspan_coding coding; /* without defaults, except that the depth for dithering is set */
   int32_t x, y;          /* the place of the first pixel in the whole frame */
-  unsigned char *rows;   /* that are not written yet */
+  unsigned char *rows;   /* rows that are not written yet */
   size_t row_size, count, capacity;
 } raw_rows;
 
@@ -203,7 +203,8 @@ static celspan_status finished(void *user, const cs_shoot_frame *frame, celspan_
   return CELSPAN_OK;
 }
 
-/* "2, 5-6": the frames that failed, in the order of the run; "2, 5-6, ..." where not all fit. */
+/* "2, 5-6": the frames that failed, in the order of the run; "2, 5-6, ..." if there is no room for
+ * all. */
 static void list_failed(const render_job *job, char *out, size_t size) {
   static const char more[] = ", ...";
   const int64_t *failed = job->failed;
@@ -239,7 +240,7 @@ static cs_exit sum_up(const render_job *job, cs_exit outcome) {
   return outcome == CS_EXIT_OK ? CS_EXIT_PARTIAL : outcome;
 }
 
-/* All that there is to say is said before the end. */
+/* All messages come before the end is reported. */
 static cs_exit report_end(render_job *job, cs_exit outcome) {
   cs_progress_failures failed = {job->failed, job->failed_count};
   outcome = cs_report_flush_output(sum_up(job, outcome));
@@ -295,7 +296,7 @@ static void discard_whole(render_job *job) {
     cs_plane_film_discard(job->plane);
 }
 
-/* Gives the file its name, and remembers it. */
+/* Gives the file its final name, and adds it to the record. */
 static celspan_status complete_whole(render_job *job) {
   celspan_context *context = job->script->context;
   context->contents = job->resumes ? &job->whole.file.contents : NULL;
@@ -305,7 +306,7 @@ static celspan_status complete_whole(render_job *job) {
   return status == CELSPAN_OK && job->resumes ? cs_whole_finish(&job->whole) : status;
 }
 
-/* The frames of a video are finished when its file is. */
+/* The frames of a video are finished only when the whole file is. */
 static cs_exit shoot_whole(render_job *job) {
   cs_exit outcome = shoot(job);
   if (outcome == CS_EXIT_OK)
@@ -390,7 +391,7 @@ static cs_exit refuse_dither(const cs_request *request) {
              : CS_EXIT_OK;
 }
 
-/* Strips and tasks are files, which go their own ways. */
+/* Refuses strips and tasks together with outputs that cannot be divided. */
 static cs_exit refuse_division(const cs_request *request, const char *output) {
   const char *option = cs_request_has(request, "--strip")  ? "--strip"
                        : cs_request_has(request, "--task") ? "--task"
@@ -451,7 +452,7 @@ static cs_exit begin_whole(render_job *job) {
   return cs_report_failure(job->script->context, status, NULL);
 }
 
-/* Builds the frames: whether the file that is there would come out the same. A frame that fails is
+/* Builds the frames to find out whether the existing file would be the same. A frame that fails is
  * not reported here, but when the file is made: after the start of the run, and before its end. */
 static bool is_unchanged(render_job *job) {
   job->surveys = true;
@@ -486,7 +487,7 @@ static cs_exit resume_whole(render_job *job) {
   return outcome;
 }
 
-/* A film may have become shorter than the tasks that it was divided into. */
+/* A film may have become shorter since it was divided into tasks. */
 static cs_exit report_no_frames(const render_job *job) {
   int32_t task[2] = {0, 0};
   cs_request_read(job->request, "--task", task);
@@ -494,8 +495,8 @@ static cs_exit report_no_frames(const render_job *job) {
   return CS_EXIT_OK;
 }
 
-/* Whether one picture, a film of planes or a video is asked for is known here, where the frames
- * are. */
+/* Only here, where the frames are known, it is known whether the output is one picture, a film of
+ * planes or a video. */
 static cs_exit make_frames(render_job *job) {
   const cs_request *request = job->request;
   if (job->frames.count == 0)

@@ -26,15 +26,15 @@
 enum {
   HEAD = 4,
   PIECE = 65536,
-  ANSWER = 1 << 20 /* bytes of an answer that a renderer writes without waiting */
+  ANSWER = 1 << 20 /* the bytes of an answer that a renderer can write without waiting */
 };
 
 typedef struct renderer {
   celspan_context *context;
-  pid_t id;   /* 0: it has ended */
-  int status; /* as waitpid gave it, once it has ended */
+  pid_t id;   /* 0: the renderer has ended */
+  int status; /* the status of waitpid, after it has ended */
   int requests, answers, words;
-  char *bytes; /* of the answer that is read; owned */
+  char *bytes; /* the answer that is being read; owned */
   size_t size, capacity;
 } renderer;
 
@@ -49,7 +49,7 @@ static void reap(renderer *r, int options) {
     r->id = 0;
 }
 
-/* Ends its process group: the processes that it has started too. */
+/* Ends the process group of a renderer, which includes processes that it has started. */
 static void end_renderer(renderer *r) {
   if (r->id) {
     kill(-r->id, SIGKILL);
@@ -74,8 +74,8 @@ static renderer *self(lua_State *L) { return cs_service_opened(L); }
 
 /* ---------------------------------------------------------------- messages */
 
-/* renderer:send(text) -> whether it was sent. A renderer has read one request before the next one,
- * so small ones always find room in the pipe. */
+/* renderer:send(text) -> whether it was sent. A renderer reads each request before the next one is
+ * sent, so small requests always fit into the pipe. */
 static int send(lua_State *L) {
   const renderer *r = self(L);
   size_t size;
@@ -93,13 +93,14 @@ static size_t size_of(const renderer *r) {
   return HEAD + ((size_t)head[0] << 24 | (size_t)head[1] << 16 | (size_t)head[2] << 8 | head[3]);
 }
 
-/* The bytes that are missing; MESSAGE_MOST: the message is too long. */
+/* The number of missing bytes; MESSAGE_MOST: the message is too long. */
 static size_t missing(const renderer *r) {
   size_t whole = r->size < HEAD ? HEAD : size_of(r);
   return whole > MESSAGE_MOST ? MESSAGE_MOST : whole - r->size;
 }
 
-/* Reads the bytes that have arrived. false: the renderer has ended, or its bytes are no answer. */
+/* Reads the bytes that have arrived. false: the renderer has ended, or its bytes are not an
+ * answer. */
 static bool read_answer(lua_State *L, renderer *r) {
   for (size_t wanted; (wanted = missing(r)) > 0;) {
     if (wanted == MESSAGE_MOST)
@@ -128,7 +129,7 @@ static int take(lua_State *L) {
   return 1;
 }
 
-/* renderer:words() -> what it printed since the last call */
+/* renderer:words() -> its output since the last call */
 static int words(lua_State *L) {
   const renderer *r = self(L);
   char text[PIECE];
@@ -137,7 +138,7 @@ static int words(lua_State *L) {
   return 1;
 }
 
-/* renderer:descriptors() -> of its answers and of its words */
+/* renderer:descriptors() -> the descriptors of its answers and of its output */
 static int descriptors(lua_State *L) {
   const renderer *r = self(L);
   lua_pushinteger(L, r->answers);
@@ -147,8 +148,8 @@ static int descriptors(lua_State *L) {
 
 /* ---------------------------------------------------------------- the process */
 
-/* renderer:finish() -> its exit code, or nil and the name of the signal that ended it. It is ended
- * if it still runs and has not closed its answers. */
+/* renderer:finish() -> its exit code, or nil and the name of the signal that ended it. If it still
+ * runs and has not closed its answers, it is ended. */
 static int finish(lua_State *L) {
   renderer *r = self(L);
   char byte;
@@ -164,7 +165,7 @@ static int finish(lua_State *L) {
   return 2;
 }
 
-/* Of three pipes: [0] the renderer's ends, [1] the verb's ends. */
+/* Opens three pipes: [0] for the renderer, [1] for the verb. */
 static int open_pipes(renderer *r, int files[3]) {
   int ends[2], error = cs_spawn_pipe(ends);
   files[0] = ends[0];
@@ -176,7 +177,7 @@ static int open_pipes(renderer *r, int files[3]) {
       continue;
     error = cs_spawn_pipe(ends);
     *mine[i] = ends[0];
-    (void)fcntl(ends[0], F_SETPIPE_SZ, ANSWER); /* the usual size serves, too */
+    (void)fcntl(ends[0], F_SETPIPE_SZ, ANSWER); /* if this fails, the usual size is enough, too */
     files[i + 1] = ends[1];
     if (!error && fcntl(ends[0], F_SETFL, O_NONBLOCK) != 0)
       error = errno;

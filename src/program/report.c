@@ -12,7 +12,7 @@
 
 enum {
   SENTENCE = 8192,       /* bytes; paths may be 4096 long */
-  VISIBLE = 5 * SENTENCE /* what a sentence may become: see make_visible */
+  VISIBLE = 5 * SENTENCE /* the greatest size of a sentence after make_visible */
 };
 
 static void (*clear_line)(void);
@@ -65,8 +65,8 @@ void cs_report_openjd(const char *name, const char *format, ...) {
   print_openjd(name, text);
 }
 
-/* What scripts and names of files bring into a message does not look like a message of its own: a
- * new line is indented. */
+/* Texts from scripts and names of files must not look like separate messages: after a new line they
+ * are indented. */
 static void make_visible(const char *text, char out[VISIBLE]) {
   size_t size = strlen(text);
   for (size_t used; size > 0; text += used, size -= used) {
@@ -96,7 +96,7 @@ static void print_words(bool is_error, const char *text) {
   fprintf(stderr, "celspan: %s%s\n", is_error ? "error: " : "", visible);
 }
 
-/* number: NULL, or of the frame that failed. */
+/* number: NULL, or the number of the frame that failed. */
 static void print_event(bool is_error, const int64_t *number, const char *text) {
   cs_json event;
   cs_json_begin(&event);
@@ -177,7 +177,7 @@ cs_exit cs_report_frame_failure(const celspan_context *context, celspan_status s
 
 void cs_report_before_line(void (*clear)(void)) { clear_line = clear; }
 
-/* Whether it is a pipe that nobody reads any more, as after `| head -1`. */
+/* Whether standard output is a pipe that nobody reads any more, as after `| head -1`. */
 static bool is_pipe_closed(void) {
   struct pollfd output = {.fd = STDOUT_FILENO};
   return poll(&output, 1, 0) == 1 && (output.revents & (POLLERR | POLLHUP)) != 0;
@@ -186,7 +186,7 @@ static bool is_pipe_closed(void) {
 static cs_exit judge_output(cs_exit outcome, bool is_good) {
   const char *problem = errno ? strerror(errno) : "not everything was written";
   if (is_good || outcome != CS_EXIT_OK)
-    return outcome; /* a run that failed has reported why */
+    return outcome; /* a run that failed has already reported the reason */
   if (!is_pipe_closed())
     cs_report_error("standard output: %s", problem);
   return CS_EXIT_OUTPUT;

@@ -18,9 +18,9 @@ typedef enum cs_exit {
   CS_EXIT_INPUT = 4,
   CS_EXIT_OUTPUT = 5,
   CS_EXIT_LIMIT = 6,
-  CS_EXIT_MEMORY = 33, /* the number render farms read as "more memory, then again" */
+  CS_EXIT_MEMORY = 33, /* render farms read this number as "more memory, then again" */
   CS_EXIT_INTERNAL = 70,
-  CS_EXIT_SIGNAL = 128 /* main() dies by the signal, which adds its number */
+  CS_EXIT_SIGNAL = 128 /* main() ends by the signal; its number is added */
 } cs_exit;
 
 /* Returns the exit code of a call from the function, unless it is OK. */
@@ -38,28 +38,28 @@ cs_exit cs_report_exit(celspan_status status);
 void cs_report_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* "celspan: ..." */
 void cs_report_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
-/* The error that was reported last, cut if it was long; NULL: none was. */
+/* The last error that was reported, cut if it was long; NULL: there was none. */
 const char *cs_report_last(void);
 /* Reports an error and returns CS_EXIT_USAGE. */
 cs_exit cs_report_usage(const char *format, ...) __attribute__((format(printf, 1, 2)));
-/* Reports the context's sentence, after "where: " when where is not NULL or empty, and returns the
- * exit code. Reports nothing for CANCELLED, and nothing at all once a signal asked to stop. */
+/* Reports the context's sentence, after "where: " if where is not NULL or empty, and returns the
+ * exit code. Reports nothing for CANCELLED, or after a signal to stop. */
 cs_exit cs_report_failure(const celspan_context *context, celspan_status status, const char *where);
 
-/* The same for a frame. Its number is added to the diagnostics for programs; the sentence of the
- * context names it already. */
+/* The same for a frame. Its number is added for programs that read the diagnostics; the context's
+ * sentence contains it already. */
 cs_exit cs_report_frame_failure(const celspan_context *context, celspan_status status,
                                 int64_t number);
 
-/* Writes what a script printed to standard error; to a terminal, only characters that it may show
- * (base/visible.h). user: not used. */
+/* Writes a script's output to standard error; on a terminal, only characters that the terminal may
+ * show (base/visible.h). user: not used. */
 void cs_report_printed(void *user, const char *text, size_t size);
 
 /* The form of diagnostics. */
 typedef enum cs_report_form {
   CS_REPORT_WORDS = 0, /* "celspan: error: ..." */
-  CS_REPORT_JSON,  /* {"event":"error","number":3,"message":"..."}; a number if it is a frame's */
-  CS_REPORT_OPENJD /* as words, and errors on standard output too: "openjd_fail: ..." */
+  CS_REPORT_JSON,  /* {"event":"error","number":3,"message":"..."}; the number only for a frame */
+  CS_REPORT_OPENJD /* in words, with errors on standard output, too: "openjd_fail: ..." */
 } cs_report_form;
 
 void cs_report_choose(cs_report_form form);
@@ -73,9 +73,9 @@ void cs_report_openjd(const char *name, const char *format, ...)
  * there; NULL: there is none. */
 void cs_report_before_line(void (*clear)(void));
 
-/* Writes what standard output still holds. The answer is the outcome; where that is OK but not
- * everything could be written, it is CS_EXIT_OUTPUT, reported unless it is a pipe that nobody reads
- * any more: who closed it has seen enough of a text. */
+/* Writes the remaining bytes of standard output. Returns the outcome; if this is OK but not
+ * everything could be written, CS_EXIT_OUTPUT, which is reported unless the output is a pipe that
+ * nobody reads any more: in this case the reader has seen enough. */
 cs_exit cs_report_flush_output(cs_exit outcome);
-/* Closes standard output. The answer is as above. */
+/* Closes standard output. Returns the same as the function above. */
 cs_exit cs_report_close_output(cs_exit outcome);

@@ -38,12 +38,12 @@ typedef struct reading {
   const char *text;        /* its value, NULL for a flag; or the operand */
 } reading;
 
-/* "-" alone is a file, and "-3" a number. */
+/* "-" alone is a file, and "-3" a number; neither is an option. */
 static bool is_option(const char *text) {
   return text[0] == '-' && text[1] && !isdigit((unsigned char)text[1]) && text[1] != '.';
 }
 
-/* --name value, --name=value, or a flag. */
+/* Reads --name value, --name=value, or a flag. */
 static cs_exit read_option(reading *r) {
   const cs_request *request = r->request;
   const char *word = request->words[r->next++];
@@ -79,7 +79,7 @@ static cs_exit read_word(reading *r) {
   return CS_EXIT_OK;
 }
 
-/* The next option; false: there is none. Of words that were parsed. */
+/* The next option of words that were parsed; false: there is none. */
 static bool next_option(reading *r) {
   while (!is_read(r) && read_word(r) == CS_EXIT_OK)
     if (r->option)
@@ -93,7 +93,7 @@ static cs_exit refuse_value(const reading *r) {
   return cs_report_usage("%s: '%s' is not %s", r->option->name, r->text, r->option->kind->allowed);
 }
 
-/* The variable that a kind of value fills. */
+/* The variable into which a kind of value is read. */
 typedef union value {
   cs_given_limits limits;
   cs_given_antialias antialias;
@@ -103,7 +103,8 @@ typedef union value {
   float colour[3];
 } value;
 
-/* Values are read here to refuse wrong ones; a verb reads them again into its own fields. */
+/* Values are read here so that wrong ones are refused; a verb reads them again into its own
+ * fields. */
 static cs_exit take_option(const reading *r, cs_given_texts *texts) {
   const cs_argument *kind = r->option->kind;
   value one = {.limits = {.has = {false}}};
@@ -124,7 +125,7 @@ static cs_exit take_operand(const char *operand, cs_request *out) {
   return CS_EXIT_OK;
 }
 
-/* The arguments after "--". */
+/* Takes the arguments after "--". */
 static cs_exit take_script_arguments(const reading *r, cs_request *out) {
   size_t first = r->next + 1;
   if (first > out->word_count)
@@ -138,7 +139,7 @@ static cs_exit take_script_arguments(const reading *r, cs_request *out) {
 }
 
 cs_exit cs_request_parse(const cs_verb *verb, size_t count, char *const *words, cs_request *out) {
-  cs_given_texts texts = {.count = 0}; /* to refuse too many texts */
+  cs_given_texts texts = {.count = 0}; /* so that too many texts are refused */
   *out = (cs_request){.verb = verb, .words = words, .word_count = count};
   reading r = {.request = out};
   cs_exit outcome = CS_EXIT_OK;
@@ -165,7 +166,7 @@ void cs_request_each(const cs_request *request,
     call(user, r.option->name, r.text);
 }
 
-/* Reads to the last option of this name: the one that counts. */
+/* Finds the last option of this name, which is the one that counts. */
 static bool find_given(const cs_request *request, const char *name, reading *out) {
   bool is_given = false;
   for (reading r = {.request = request}; next_option(&r);)
@@ -186,7 +187,7 @@ const char *cs_request_text(const cs_request *request, const char *name) {
   return find_given(request, name, &r) ? r.text : NULL;
 }
 
-/* In the order in which they were given, because some options add to earlier ones. */
+/* Options are read in the given order, because some add to earlier ones. */
 bool cs_request_read(const cs_request *request, const char *name, void *field) {
   bool is_given = false;
   for (reading r = {.request = request}; next_option(&r);)

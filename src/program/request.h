@@ -27,28 +27,29 @@ typedef struct cs_verb {
   bool is_hidden;           /* the help does not list it */
   bool has_script;          /* it runs a script, which gets the arguments after "--" */
   bool makes_folder;        /* its -o names one */
-  bool asks_files;          /* it asks which files its script has read */
-  bool asks_warnings;       /* it asks for warnings about probable mistakes of the author */
-  bool runs_again;          /* its script is run by other processes, or when it has changed */
+  bool asks_files;          /* it needs to know which files its script has read */
+  bool asks_warnings;       /* it wants warnings about probable mistakes of the author */
+  bool runs_again; /* other processes run its script, too, or it is run again after changes */
   const char *summary;      /* one line */
   const char *notes;        /* more help, whole lines, or NULL */
   const cs_option *options; /* the last one has no name */
-  /* NULL: the text NAME.lua in verbs/ is run */
+  /* NULL: NAME.lua in verbs/ is run */
   cs_exit (*run)(celspan_context *context, const struct cs_request *request);
 } cs_verb;
 
-/* All texts are borrowed: from the command line, and the script's from who runs the verb. */
+/* All texts are borrowed: from the command line; the script's text from the caller that runs the
+ * verb. */
 typedef struct cs_request {
   const cs_verb *verb;
   char *const *words; /* after the verb */
   size_t word_count;
   const char *operands[CS_OPERANDS_MAX];
   size_t operand_count;
-  const char *script; /* the text of the script that the operand - means; NULL: it is a file */
+  const char *script; /* the text of the script, if the operand is -; NULL: the script is a file */
   size_t script_size;
   char *const *script_arguments; /* the arguments after "--" */
   size_t script_argument_count;
-  cs_given_antialias antialias; /* of --antialias: kept, because frames point to it */
+  cs_given_antialias antialias; /* of --antialias; it is kept here because frames point to it */
 } cs_request;
 
 /* words: the words after the verb. OK, or reported and CS_EXIT_USAGE. */
@@ -56,12 +57,13 @@ cs_exit cs_request_parse(const cs_verb *verb, size_t count, char *const *words, 
 
 /* Whether an option was given. */
 bool cs_request_has(const cs_request *request, const char *name);
-/* Reads an option into the field that its kind fills. false: it was not given, or the verb has none
- * of this name, and the field is as it was. */
+/* Reads an option into the field for its kind. false: the option was not given, or the verb does
+ * not have it; then the field does not change. */
 bool cs_request_read(const cs_request *request, const char *name, void *field);
 /* The text of an option that is one; NULL: it was not given. */
 const char *cs_request_text(const cs_request *request, const char *name);
-/* The strip of --strip I/N; of a farm's --strips N the last one; false, and 0 0, without either. */
+/* The strip of --strip I/N; for a farm's --strips N, the last strip. Without either, returns false
+ * and sets 0 0. */
 bool cs_request_strip(const cs_request *request, int32_t strip[2]);
 /* Calls `call` for each option that was given, in their order. value: NULL for a flag. */
 void cs_request_each(const cs_request *request,

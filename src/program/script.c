@@ -25,7 +25,8 @@
 #include "program/text_file.h"
 #include "program/view.h"
 
-/* The states that a signal interrupts: of the verb, and of the script that ran last; NULL: none. */
+/* The states that a signal interrupts: that of the verb, and that of the script that ran last;
+ * NULL: none. */
 static lua_State *volatile states[2];
 
 static void raise_interrupt(lua_State *L, lua_Debug *where) {
@@ -60,12 +61,12 @@ static void watch_script(lua_State *L) {
 
 typedef struct script_settings {
   const cs_request *request; /* borrowed */
-  const char *path;          /* of --set-from; NULL: it was not given */
+  const char *path;          /* the path of --set-from; NULL: it was not given */
   cs_text_file json;         /* its text */
 } script_settings;
 
-/* Reads the file of --set-from, before the script's rules forbid that. OK, or reported; either way
- * *out may be closed. */
+/* Reads the file of --set-from before the script's rules forbid this. OK, or reported; *out may be
+ * closed in both cases. */
 static cs_exit open_settings(celspan_context *context, const cs_request *request,
                              script_settings *out) {
   *out = (script_settings){.request = request, .path = cs_request_text(request, "--set-from")};
@@ -86,7 +87,7 @@ static void hash_one(void *user, const char *name, const char *value) {
     cs_hash_text(user, value);
 }
 
-/* The hash of all that the script is given: its arguments, and the values of its parameters. */
+/* The hash of all inputs of the script: its arguments, and the values of its parameters. */
 static cs_hash hash_settings(const script_settings *settings) {
   const cs_request *request = settings->request;
   cs_hash hash = cs_hash_begin(request->script_argument_count);
@@ -135,8 +136,8 @@ static int hear(lua_State *L) {
   return 2;
 }
 
-/* Gives the scripts of a state, which has a context, how loud a file is (CS_CORE_HEAR), for
- * lua/celspan/read/sound.lua. Raises. */
+/* Gives the scripts of a state, which has a context, the function for the loudness of files
+ * (CS_CORE_HEAR), for lua/celspan/read/sound.lua. Raises. */
 static void give_sounds(lua_State *L) {
   lua_pushcfunction(L, hear);
   lua_setfield(L, LUA_REGISTRYINDEX, CS_CORE_HEAR);
@@ -144,8 +145,8 @@ static void give_sounds(lua_State *L) {
 
 /* ---------------------------------------------------------------- the state */
 
-/* Text printed by a script goes to standard error, because standard output is for results. A script
- * cannot end the program: otherwise a run that did nothing could seem to have done everything. */
+/* Text that a script prints goes to standard error, because standard output is for results. A
+ * script cannot end the program: otherwise a run that did nothing could look complete. */
 static const char HOUSE_RULES[] =
     "local stderr, pack, concat, tostring = io.stderr, table.pack, table.concat, tostring\n"
     "io.output(stderr)\n"
@@ -157,7 +158,7 @@ static const char HOUSE_RULES[] =
     "function os.exit() error('os.exit: a script cannot end celspan; raise an error', 2) end\n";
 
 /* Opens the functions of a trusted script. If the script has limits, its pcall and xpcall do not
- * catch an exceeded limit, but propagate it. */
+ * catch an exceeded limit, but pass it on. */
 static void open_trusted(lua_State *L, bool has_limits) {
   static const luaL_Reg catching[] = {
       {"pcall", cs_guard_pcall}, {"xpcall", cs_guard_xpcall}, {NULL, NULL}};
@@ -173,7 +174,7 @@ static int print_nothing(lua_State *L) {
   return 0;
 }
 
-/* light userdata: the script, and what confines it or nothing. Runs protected. */
+/* light userdata: the script, and its confinement or nothing. Runs protected. */
 static int prepare(lua_State *L) {
   cs_script *script = lua_touserdata(L, 1);
   const cs_confined *confined = lua_touserdata(L, 2);
@@ -202,9 +203,8 @@ static int prepare(lua_State *L) {
   return 0;
 }
 
-/* Whether a message says that memory is missing, for Lua, or for the core to make the module and
- * its first values. At these times there may be no context yet that has a status, but all such
- * messages contain the word. */
+/* Whether a message says that memory is missing, for Lua or for the first values of the module. At
+ * this time there may be no context with a status yet, but all such messages contain this word. */
 static bool lacks_memory(const char *message) { return !message || strstr(message, "memory"); }
 
 cs_exit cs_script_report_start(lua_State *L) {
@@ -239,8 +239,8 @@ static int read_film(lua_State *L) {
   return 0;
 }
 
-/* Reads the settings before the sandbox is entered, because the sandbox does not allow reading
- * their file. */
+/* Reads the settings before the sandbox is entered, because the sandbox forbids reading their
+ * file. */
 static cs_exit start_script(cs_script *out, const cs_request *request, const char *path) {
   script_settings settings;
   cs_confined confined;

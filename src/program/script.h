@@ -16,7 +16,7 @@ typedef struct cs_script {
   cs_film_info film;        /* its texts live as long as the state */
   int64_t number;           /* of the frame built last */
   cs_film_frame frame;      /* that frame; owned */
-  cs_hash given;            /* of its arguments and the values of its parameters */
+  cs_hash given;            /* the hash of its arguments and the values of its parameters */
   bool is_trusted;          /* it has the whole of Lua */
   bool asks_files;          /* the paths that it asks for are remembered */
   bool asks_warnings;       /* warnings are kept */
@@ -26,20 +26,21 @@ typedef struct cs_script {
 
 /* From now on a signal interrupts this state too. */
 void cs_script_watch(lua_State *L);
-/* From now on a signal interrupts scripts alone: the verb asks for signals. */
+/* From now on a signal interrupts only scripts: the verb checks for signals itself. */
 void cs_script_unwatch(void);
-/* Reports that a new state could not be made ready, for the reason on top of its stack; NULL: there
- * was no memory for it. Its outcome. */
+/* Reports that a new state could not be prepared, for the reason on top of its stack; NULL: there
+ * was no memory for the state. Returns the outcome. */
 cs_exit cs_script_report_start(lua_State *L);
 
-/* Runs the script under the request. OK, or reported; either way *out may be closed. */
+/* Runs the script under the request. OK, or reported; *out may be closed in both cases. */
 cs_exit cs_script_open(celspan_context *context, const cs_request *request, const char *path,
                        cs_script *out);
-/* The same, once more: it prints nothing. */
+/* The same for a second run: the script prints nothing. */
 cs_exit cs_script_open_again(celspan_context *context, const cs_request *request, const char *path,
                              cs_script *out);
 void cs_script_close(cs_script *script);
-/* Runs the script that is the first operand, then a verb with it. Its outcome, reported. */
+/* Runs the script that is the first operand, then a verb with it. Returns the outcome, which has
+ * been reported. */
 cs_exit cs_script_run(celspan_context *context, const cs_request *request,
                       cs_exit (*verb)(cs_script *script, const cs_request *request));
 

@@ -55,8 +55,8 @@ const char **cs_service_push_words(lua_State *L, int index) {
 
 /* ---------------------------------------------------------------- reports */
 
-/* The sentence at an index. A zero byte would end it, so it is shown as report.c shows controls.
- */
+/* The sentence at an index. A zero byte would end it, so it is replaced in the same way as controls
+ * in report.c. */
 static const char *sentence_at(lua_State *L, int index) {
   size_t size;
   const char *text = luaL_checklstring(L, index, &size);
@@ -103,14 +103,15 @@ static cs_exit code_of(lua_State *L, const char *message, cs_exit plain) {
   return status == CELSPAN_CALLBACK ? plain : cs_report_exit(status);
 }
 
-/* The message that was given instead of a value; ends the verb if it was stopped. */
+/* The message that was given instead of a value. Ends the verb if it was stopped. */
 static const char *given_message(lua_State *L) {
   if (cs_interrupt_signal())
     cs_service_end(L, CS_EXIT_SIGNAL);
   return luaL_checkstring(L, 2);
 }
 
-/* Like assert, of a value or nil and a message: reports the message and ends the verb. */
+/* Similar to assert: if the arguments are nil and a message, reports the message and ends the
+ * verb. */
 static int check(lua_State *L) {
   if (lua_toboolean(L, 1))
     return lua_gettop(L);
@@ -119,8 +120,8 @@ static int check(lua_State *L) {
   return cs_service_end(L, code_of(L, message, CS_EXIT_SCRIPT));
 }
 
-/* Like assert, of a value that was read: a failure is a fault of the input. If there is a third
- * argument, it is returned instead, unless memory was missing. */
+/* Similar to assert, for a value that was read: a failure is a fault of the input. If there is a
+ * third argument, it is returned instead, unless memory was missing. */
 static int check_input(lua_State *L) {
   if (lua_toboolean(L, 1))
     return lua_gettop(L);
@@ -132,7 +133,7 @@ static int check_input(lua_State *L) {
   return cs_service_end(L, is_starved ? CS_EXIT_MEMORY : CS_EXIT_INPUT);
 }
 
-/* show(text): what a script has printed, on standard error */
+/* show(text): writes the output of a script to standard error */
 static int show(lua_State *L) {
   size_t size;
   const char *text = luaL_checklstring(L, 1, &size);
@@ -140,7 +141,7 @@ static int show(lua_State *L) {
   return 0;
 }
 
-/* reported() -> the error that was reported last | nil */
+/* reported() -> the last error that was reported | nil */
 static int reported(lua_State *L) {
   lua_pushstring(L, cs_report_last());
   return 1;
@@ -160,7 +161,7 @@ static int is_stopped(lua_State *L) {
   return 1;
 }
 
-/* refuse(option): reports that the verb does not take the value that was given. */
+/* refuse(option): reports that the verb does not accept the given value. */
 static int refuse(lua_State *L) {
   const cs_request *request = cs_service_session(L)->request;
   return cs_service_end(L, cs_request_refuse(request, luaL_checkstring(L, 1)));
@@ -168,7 +169,7 @@ static int refuse(lua_State *L) {
 
 /* ---------------------------------------------------------------- the request */
 
-/* Refuses the options of scripts, of which this run has none. */
+/* Refuses the options of scripts, because this run has no script. */
 static int refuse_rights(lua_State *L) {
   cs_service_require(L, cs_confine_refuse(cs_service_session(L)->request));
   return 0;

@@ -10,11 +10,11 @@
 
 #include "program/request.h"
 
-/* One run of a verb in Lua. */
+/* One run of a verb that is written in Lua. */
 typedef struct cs_session {
   celspan_context *context;
   const cs_request *request;
-  cs_exit outcome; /* of the service that ended the verb; OK: none did */
+  cs_exit outcome; /* of the service that ended the verb; OK: no service did */
 } cs_session;
 
 /* A service or method whose name in Lua is the name of its function. */
@@ -24,23 +24,24 @@ typedef struct cs_session {
 /* Adds services to the table on top of the stack. */
 void cs_service_add(lua_State *L, const luaL_Reg *functions);
 
-/* For methods: what the table that is argument 1 holds in its field `open`. */
+/* For methods: the contents of the field `open` of the table that is argument 1. */
 void *cs_service_opened(lua_State *L);
 
-/* "celspan" and the words of the list of strings at index, ended by NULL, as a value that is
- * pushed; the list keeps the strings. */
+/* Pushes a value with "celspan" and the words of the list of strings at index, ended by NULL. The
+ * list keeps the strings alive. */
 const char **cs_service_push_words(lua_State *L, int index);
 
 /* For services: the run that they belong to. */
 cs_session *cs_service_session(lua_State *L);
-/* Ends the verb with an exit code, whose reason was reported unless it is OK. Does not return. */
+/* Ends the verb with an exit code; unless it is OK, the reason has been reported. Does not
+ * return. */
 int cs_service_end(lua_State *L, cs_exit outcome);
 /* Ends the verb unless the outcome is OK. */
 void cs_service_require(lua_State *L, cs_exit outcome);
 /* The same for a status, whose sentence is in the context and is reported. */
 void cs_service_try(lua_State *L, celspan_status status);
 
-/* Each adds its services to the table on top of the stack. */
+/* Each function adds its services to the table on top of the stack. */
 void cs_service_add_reports(lua_State *L);
 void cs_service_add_film(lua_State *L);
 void cs_service_add_files(lua_State *L);

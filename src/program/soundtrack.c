@@ -4,7 +4,8 @@
 
 #include "lua/module/heard.h"
 
-/* The sounds of the film, which stay on the stack of the script and so live as long as it. */
+/* The sounds of the film. They remain on the script's stack, and therefore live as long as the
+ * script. */
 static celspan_status read_sounds(cs_script *script, cs_heard *out) {
   return cs_heard_push(script->L, CS_SCRIPT_FILM, out);
 }

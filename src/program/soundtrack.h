@@ -8,16 +8,16 @@
 #include "plugins/sound/mix.h"
 #include "program/script.h"
 
-/* Adds to a hash what decides how the sounds are heard: they, and the sizes and times of their
- * files. Errors: those of celspan_lua_sounds. */
+/* Adds to a hash everything on which the sound depends: the sounds, and the sizes and times of
+ * their files. Errors: those of celspan_lua_sounds. */
 CELSPAN_CHECKED celspan_status cs_soundtrack_hash(cs_script *script, cs_hash *hash);
 /* Finds the files and, if is_deep, decodes them up to the end of the film; OK without ffmpeg.
  * Errors: those of cs_mix_open. */
 CELSPAN_CHECKED celspan_status cs_soundtrack_check(cs_script *script, bool is_deep);
-/* Mixes the sound of `count` frames from number `first` on; *moments: how many there are. Errors:
- * those of celspan_lua_sounds and cs_mix_open. */
+/* Mixes the sound of `count` frames from number `first` on; *moments: the number of moments.
+ * Errors: those of celspan_lua_sounds and cs_mix_open. */
 CELSPAN_CHECKED celspan_status cs_soundtrack_mix(cs_script *script, int64_t first, int64_t count,
                                                  cs_sound_stream *out, int64_t *moments);
-/* Mixes the sound of a run of frames; *moments: how many there are. OK, or reported. */
+/* Mixes the sound of a run of frames; *moments: the number of moments. OK, or reported. */
 cs_exit cs_soundtrack_open(cs_script *script, const cs_request *request, const cs_sequence *frames,
                            cs_sound_stream *out, int64_t *moments);

@@ -41,10 +41,11 @@ static celspan_status print_row(void *user, celspan_context *context, int32_t y,
   for (size_t i = 0; i < span_count; i++)
     print_span(*first_row + y, &spans[i]);
   (void)context;
-  return ferror(stdout) ? CELSPAN_OUTPUT : CELSPAN_OK; /* reported as for all text */
+  /* reported in the same way as for every text */
+  return ferror(stdout) ? CELSPAN_OUTPUT : CELSPAN_OK;
 }
 
-/* On one line: "name value" of each, or an object. */
+/* On one line: "name value" for each, or an object. */
 static void print_statistics(const celspan_statistics *s, cs_cache_counts kept, double seconds,
                              bool is_json) {
   const struct {

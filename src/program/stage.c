@@ -41,14 +41,14 @@ static const celspan_coding coding = {.struct_size = sizeof coding,
 
 enum { LITERAL, FILL, ABOVE };
 
-/* The words that `count` pixels can need at most. A run saves at least one word, and the head of
- * the literals after it needs one. */
+/* The most words that `count` pixels can need. A run saves at least one word, and the head of the
+ * literals after it needs one. */
 static inline size_t runs_words(size_t count) { return count + 1; }
 
 /* The shortest runs: shorter ones cost more time than they save bytes. */
 enum { RUN_LEAST = 4 };
 
-/* At how many of `most` places a and b are equal, from the first on. */
+/* The number of equal places at the beginning of a and b, at most `most`. */
 static size_t equal(const uint32_t *a, const uint32_t *b, size_t most) {
   size_t count = 0;
   for (uint64_t x, y; count + 2 <= most; count += 2) {
@@ -64,7 +64,7 @@ static size_t equal(const uint32_t *a, const uint32_t *b, size_t most) {
 
 static uint32_t head(uint32_t kind, size_t count) { return kind << 30 | (uint32_t)count; }
 
-/* Puts the pixels [from, to) unchanged. Returns the words used. */
+/* Writes the pixels [from, to) without changes. Returns the number of words. */
 static size_t put_literals(const uint32_t *pixels, size_t from, size_t to, uint32_t *out) {
   if (from == to)
     return 0;
@@ -73,7 +73,7 @@ static size_t put_literals(const uint32_t *pixels, size_t from, size_t to, uint3
   return to - from + 1;
 }
 
-/* Packs rows of `width` pixels. out: room for runs_words(count). Returns the words used. */
+/* Packs rows of `width` pixels. out: room for runs_words(count). Returns the number of words. */
 static size_t pack_runs(const uint32_t *pixels, size_t count, size_t width, uint32_t *out) {
   size_t used = 0, literal = 0; /* the pixels [literal, at) have not been put */
   for (size_t at = 0; at < count;) {
@@ -101,8 +101,8 @@ typedef struct picture {
   celspan_context *context;
   unsigned char *bytes; /* owned */
   size_t size, capacity;
-  size_t stride;         /* bytes of a row; 0 of a PNG */
-  cs_png_strips *strips; /* of a PNG that is made */
+  size_t stride;         /* bytes of a row; 0 for a PNG */
+  cs_png_strips *strips; /* of a PNG that is being made */
 } picture;
 
 static int release_picture(lua_State *L) {
@@ -171,14 +171,14 @@ static celspan_status end_png(void *user, celspan_context *context, celspan_stat
 
 /* ---------------------------------------------------------------- pictures */
 
-/* A picture is wanted until the program that asked for it, which waits for the answer, says more
- * or has ended. */
+/* A picture is wanted until the program that requested it, which waits for the answer, sends more
+ * or ends. */
 static bool is_wanted(void *user, int32_t rows_done, int32_t rows_total) {
   struct pollfd requests = {.fd = STDIN_FILENO, .events = POLLIN};
   return cs_interrupt_progress(user, rows_done, rows_total) && poll(&requests, 1, 0) == 0;
 }
 
-/* The frame that was built last. */
+/* The description of the frame that was built last. */
 static celspan_frame_desc frame_of(lua_State *L, const cs_script *script) {
   celspan_frame_desc desc = CELSPAN_FRAME_DESC;
   cs_request_read(cs_service_session(L)->request, "--workers", &desc.workers);
@@ -214,7 +214,7 @@ bool cs_stage_frame(lua_State *L, const cs_script *script, celspan_frame_desc *o
   return false;
 }
 
-/* The kinds of spans as colours, the first pixel of each span brighter. */
+/* Writes the kinds of spans as colours; the first pixel of each span is brighter. */
 static celspan_status put_kinds_row(void *user, celspan_context *context, int32_t y,
                                     const celspan_span *spans, size_t span_count) {
   static const unsigned char colours[][4] = {[CELSPAN_SPAN_SINGLE] = {60, 130, 255, 110},
@@ -231,7 +231,7 @@ static celspan_status put_kinds_row(void *user, celspan_context *context, int32_
   return CELSPAN_OK;
 }
 
-/* The bytes of a crop. */
+/* Allocates the bytes of a crop. */
 static celspan_status reserve_rows(picture *p, const celspan_frame_desc *desc) {
   p->stride = 4 * (size_t)desc->crop_width;
   p->size = p->stride * (size_t)desc->crop_height;
@@ -270,9 +270,9 @@ static celspan_status render(picture *p, const celspan_frame_desc *desc, int kin
   return kind == RUNS ? pack(p) : CELSPAN_OK;
 }
 
-/* film:picture(width, height, x, y, w, h, what) -> the part of the frame that was built last, of
- * the frame at that size, 8 bits, sRGB, straight alpha, as "rgba", as a "png", or as "runs"
- * (see above); "spans": as RGBA, the kinds of its spans | nil, message */
+/* film:picture(width, height, x, y, w, h, what) -> a part of the frame that was built last,
+ * rendered at this size: 8 bits, sRGB, straight alpha, as "rgba", as a "png", or as "runs" (see
+ * above); or as "spans", the kinds of its spans in RGBA | nil, message */
 int cs_stage_picture(lua_State *L, cs_script *script) {
   static const char *const kinds[] = {"rgba", "png", "spans", "runs", NULL};
   celspan_frame_desc desc;
@@ -319,7 +319,7 @@ static celspan_status probe_cel(const search *s, celspan_cel *cel, bool *is_ther
   return status;
 }
 
-/* Whether an object covers the point at which it stands alone. */
+/* Whether an object covers the point, if it is alone. */
 static celspan_status probe_object(const search *s, celspan_object *object,
                                    const celspan_matrix *matrix, bool *is_there) {
   celspan_object *placed;
@@ -336,7 +336,7 @@ static celspan_status probe_object(const search *s, celspan_object *object,
   return status;
 }
 
-/* Pushes who called the line where a value was made, or "". */
+/* Pushes the callers of the line where a value was made, or "". */
 static void push_callers(const search *s, cs_mark mark) {
   lua_State *script = s->script->L;
   cs_named_push_callers(script, mark.callers);
@@ -356,7 +356,7 @@ static void add_hit(search *s, const char *kind, cs_mark mark) {
   lua_call(s->L, 5, 0);
 }
 
-/* How large the film is in a rostrum: a nested one has a size of its own. */
+/* The size of the film of a rostrum: a nested rostrum has its own. */
 typedef struct extent {
   double width, height;
 } extent;
@@ -400,8 +400,8 @@ static celspan_status search_rostrum(search *s, const celspan_rostrum *rostrum, 
 }
 
 /* film:hits(x, y, add) -> nil | message: calls add(kind, name, source or nil, line, callers) for
- * each object and cel of the frame that was built last that covers the point, from front to back,
- * each after what it is made of. x, y: film units. */
+ * each object and cel that covers the point in the frame that was built last, from front to back.
+ * Each follows its own parts. x, y: film units. */
 int cs_stage_hits(lua_State *L, cs_script *script) {
   search s = {.L = L,
               .context = script->context,
@@ -421,7 +421,7 @@ int cs_stage_hits(lua_State *L, cs_script *script) {
 
 /* ---------------------------------------------------------------- files */
 
-/* Runs protected. -> the files that the script asked for, as cs_stage_files has them */
+/* Runs protected. -> the files that the script asked for, in the form of cs_stage_files */
 static int join_asked(lua_State *L) {
   luaL_Buffer names;
   cs_host_push_asked(L);
@@ -440,8 +440,8 @@ static int join_asked(lua_State *L) {
   return 1;
 }
 
-/* film:files() -> the paths that the script has asked for since the last call, each after "+" if it
- * was let read there, else after "-", and ended by a zero */
+/* film:files() -> the paths that the script has asked for since the last call, each ended by a
+ * zero; before each there is "+" if the script was allowed to read it, and otherwise "-" */
 int cs_stage_files(lua_State *L, cs_script *of) {
   lua_State *script = of->L;
   lua_pushcfunction(script, join_asked);

@@ -20,7 +20,8 @@ static int fail(lua_State *L, const cs_script *script) {
   return 2;
 }
 
-/* The name of a cel, or its place from the rear, as sheets have it: "cel 2". */
+/* The label of a cel: its name, or its place from the rear in the form that sheets have: "cel
+ * 2". */
 static const char *label_of(const celspan_rostrum *rostrum, size_t i, char label[LABEL]) {
   const char *name = cs_mark_name(rostrum->cels[i]->mark);
   if (name[0])
@@ -31,7 +32,7 @@ static const char *label_of(const celspan_rostrum *rostrum, size_t i, char label
 
 /* ---------------------------------------------------------------- cels */
 
-/* Makes the cel that a rostrum gets in place of one of its own. */
+/* Makes the cel that replaces a cel of a rostrum. */
 typedef celspan_status (*maker)(void *user, const celspan_rostrum *from, size_t i,
                                 celspan_cel **out);
 
@@ -41,8 +42,8 @@ static void drop_cels(celspan_context *context, celspan_cel **cels, size_t count
   cs_mem_free(context->memory, cels, most * sizeof(celspan_cel *));
 }
 
-/* *out: new; the rostrum with the cels that `make` returns in place of its own. If `make` returns
- * NULL, the cel is left out. */
+/* *out: new; the rostrum with its cels replaced by the results of `make`. If `make` returns NULL,
+ * the cel is left out. */
 static celspan_status remake(celspan_context *context, const celspan_rostrum *from, maker make,
                              void *user, celspan_rostrum **out) {
   celspan_cel **cels;
@@ -91,8 +92,8 @@ static celspan_status alter_cel(void *user, const celspan_rostrum *from, size_t 
   return is_hidden ? CELSPAN_OK : cs_cel_bare(a->context, from->cels[i], without, out);
 }
 
-/* film:alter(letters) -> true | nil, message: of the cel "ground", letters.ground may contain h: it
- * is hidden; l: its lights are out, and white light is on it; f: it is in focus */
+/* film:alter(letters) -> true | nil, message. letters.ground, for example, changes the cel
+ * "ground": h: the cel is hidden; l: its lights are replaced by white light; f: it is in focus */
 int cs_stage_alter(lua_State *L, cs_script *script) {
   alteration a = {L, script->context};
   luaL_checktype(L, 2, LUA_TTABLE);
@@ -105,8 +106,8 @@ int cs_stage_alter(lua_State *L, cs_script *script) {
 
 /* ---------------------------------------------------------------- cameras */
 
-/* film:camera() -> the camera of the frame that was built last, as a text that is the same for the
- * same camera; "none" without one */
+/* film:camera() -> the camera of the frame that was built last, as a text that is equal for equal
+ * cameras; "none" without a camera */
 int cs_stage_camera(lua_State *L, cs_script *script) {
   char text[128] = "none";
   const celspan_rostrum *r = script->frame.count ? script->frame.exposures[0].rostrum : NULL;
@@ -118,8 +119,8 @@ int cs_stage_camera(lua_State *L, cs_script *script) {
   return 1;
 }
 
-/* film:use_camera() -> true | nil, message: shows the frame that was built last as the camera of
- * the one that was held sees it. */
+/* film:use_camera() -> true | nil, message: shows the frame that was built last with the camera
+ * that was kept. */
 int cs_stage_use_camera(lua_State *L, cs_script *script, const celspan_rostrum *by) {
   for (size_t i = 0; i < script->frame.count && by; i++) {
     celspan_exposure *exposure = &script->frame.exposures[i];
@@ -135,14 +136,14 @@ int cs_stage_use_camera(lua_State *L, cs_script *script, const celspan_rostrum *
 
 /* ---------------------------------------------------------------- what a line made */
 
-/* The objects that a line of the script made, as they lie in the cel that is searched. */
+/* The objects that a line of the script made, in their places in the cel that is searched. */
 typedef struct made {
   celspan_context *context;
   const char *source;
   int32_t line;
   celspan_object **objects; /* owned, with references */
   size_t count, capacity;
-  bool is_any; /* there was one in the frame */
+  bool is_any; /* the frame contains at least one */
 } made;
 
 static bool is_made(const made *m, cs_mark mark) {
@@ -160,8 +161,8 @@ static celspan_status add_made(made *m, celspan_object *object, const celspan_ma
 static celspan_status find_in_rostrum(made *m, const celspan_rostrum *rostrum,
                                       const celspan_matrix *matrix);
 
-/* is_all: the objects belong to an object that the line made. Recursion ends: nesting is at most
- * CS_SCENE_DEPTH. */
+/* is_all: the object around them was made by the line, so all of them count. Recursion ends:
+ * nesting is at most CS_SCENE_DEPTH. */
 static celspan_status find_made(made *m, celspan_object *const *objects, size_t count, bool is_all,
                                 const celspan_matrix *matrix) {
   for (size_t i = 0; i < count; i++) {
@@ -194,8 +195,8 @@ static void drop_objects(made *m) {
     celspan_object_unref(m->objects[--m->count]);
 }
 
-/* A cel at the same place with only the objects that the line made in it; no cel if the line made
- * nothing there. */
+/* A cel at the same place with only the objects in it that the line made; no cel if there are
+ * none. */
 static celspan_status keep_made(void *user, const celspan_rostrum *from, size_t i,
                                 celspan_cel **out) {
   made *m = user;
@@ -220,7 +221,7 @@ static celspan_status keep_made(void *user, const celspan_rostrum *from, size_t 
 }
 
 /* film:keep_line(source, line) -> whether the line made anything in the frame that was built last,
- * which then shows only that, in white light | nil, message */
+ * which then shows only these objects, in white light | nil, message */
 int cs_stage_keep_line(lua_State *L, cs_script *script) {
   made m = {.context = script->context,
             .source = luaL_checkstring(L, 2),
@@ -286,8 +287,8 @@ static void give_cost(lua_State *L, const char *name, cs_mark mark, const cost *
 }
 
 /* film:costs(width, height, x, y, w, h, add) -> true | nil, message: calls add with the costs of
- * that part of the frame as a whole, then with the costs of each cel of its first exposure alone,
- * for at most CELS_MOST cels. */
+ * this part of the whole frame, then with the costs of each cel of its first exposure alone, for at
+ * most CELS_MOST cels. */
 int cs_stage_costs(lua_State *L, cs_script *script) {
   celspan_frame_desc desc;
   cost c;

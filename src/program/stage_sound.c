@@ -1,5 +1,5 @@
-/* The sound of a film that is watched: a part of it as a WAV file in memory, and how high its wave
- * goes. */
+/* The sound of a film that is watched: a part of it as a WAV file in memory, and the amplitudes of
+ * its wave. */
 #include <math.h>
 #include <string.h>
 
@@ -25,8 +25,8 @@ static int close_stream(lua_State *L) {
   return 0;
 }
 
-/* Pushes the holder of the mix of the frames that are arguments 2, the first, and 3, how many.
- * NULL: it failed, and nil and the message are pushed. */
+/* Pushes the holder of the mix of some frames. Argument 2: the first frame; 3: their number. NULL:
+ * it failed, and nil and the message are pushed. */
 static cs_sound_stream *push_mix(lua_State *L, cs_script *script, int64_t *moments) {
   int64_t first = luaL_checkinteger(L, 2), count = luaL_checkinteger(L, 3);
   cs_sound_stream *mix =
@@ -70,7 +70,7 @@ int cs_stage_sound(lua_State *L, cs_script *script) {
 
 /* ---------------------------------------------------------------- the wave */
 
-/* Columns that are filled from the left with the greatest magnitude of their moments. */
+/* Columns, filled from the left, each with the greatest magnitude of its moments. */
 typedef struct wave {
   unsigned char *columns;
   int64_t count, moments;
@@ -98,8 +98,8 @@ static celspan_status read_wave(celspan_context *context, const cs_sound_stream 
   return CELSPAN_OK;
 }
 
-/* film:wave(first, count, columns) -> as many bytes as columns: how far the mix of these frames
- * goes from silence, 0, to full scale, 255 | nil, message */
+/* film:wave(first, count, columns) -> a byte for each column: the amplitude of the mix of these
+ * frames, from silence, 0, to full scale, 255 | nil, message */
 int cs_stage_wave(lua_State *L, cs_script *script) {
   wave w = {.count = luaL_checkinteger(L, 4)};
   luaL_argcheck(L, w.count > 0 && w.count <= COLUMNS_MOST, 4, "out of range");

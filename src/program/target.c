@@ -24,11 +24,12 @@ celspan_file_desc cs_target_file(const cs_request *request, celspan_coding *codi
   file.coding = coding;
   int32_t strip[2];
   if (cs_request_strip(request, strip))
-    file.strip_height = strip[1]; /* rows at least, until the view is known */
+    /* a strip has at least this many rows; the view gives the exact number */
+    file.strip_height = strip[1];
   return file;
 }
 
-/* Names all formats, because an unknown ending does not show the intended format. */
+/* The message names all formats, because an unknown ending does not show which format was meant. */
 static cs_exit refuse_format(const char *path, const char *name) {
   char pictures[CS_SINK_LIST], videos[CS_SINK_LIST];
   cs_sink_file_list(pictures, sizeof pictures);
@@ -55,7 +56,7 @@ static cs_exit refuse_file(celspan_context *context, const char *path, const cs_
   return cs_report_failure(context, status, NULL);
 }
 
-/* A plane has no pixels. */
+/* Refuses options about pixels, which a plane does not have. */
 static cs_exit refuse_plane(const char *path, const cs_request *request) {
   static const char *const options[] = {"--size",   "--scale",     "--crop",      "--strip",
                                         "--colour", "--alpha",     "--dither",    "--hash",
@@ -104,7 +105,8 @@ static celspan_status list_frames(const cs_script *script, const cs_request *req
   return status;
 }
 
-/* Leaves the frames of the request's task, as many as in any other or one less. */
+/* Keeps only the frames of the request's task. The numbers of frames of two tasks differ by at most
+ * one. */
 static void take_task(const cs_request *request, cs_sequence *frames) {
   int32_t task[2];
   if (!cs_request_read(request, "--task", task))

@@ -27,9 +27,9 @@ typedef struct tiles_job {
   const char *output;
   bool skips_empty;
   bool is_film;
-  cs_script script;         /* open where is_film */
-  cs_still still;           /* open where it is not */
-  celspan_frame_desc frame; /* all of it, under the options */
+  cs_script script;         /* open if is_film */
+  cs_still still;           /* open if it is not a film */
+  celspan_frame_desc frame; /* the whole frame, under the options */
   char name[NAME_SIZE];
   const char *title;
   cs_pyramid pyramid;
@@ -276,7 +276,7 @@ static void finished(void *user, cs_tile_row row) {
   cs_progress_frame(&job->progress, row.row, what, "made");
 }
 
-/* The progress counts finished rows of tiles only. */
+/* The progress counts only finished rows of tiles. */
 static bool tick(void *user) {
   tiles_job *job = user;
   return cs_progress_tick(&job->progress, 0);
@@ -318,7 +318,7 @@ static cs_exit make_pyramid(tiles_job *job) {
   return outcome;
 }
 
-/* Checks the inputs that are used only at the end of the run. */
+/* Checks inputs that are only used at the end of the run. */
 static cs_exit find_inputs(const tiles_job *job) {
   const char *viewer = cs_request_text(job->request, "--viewer");
   celspan_status status = viewer ? cs_tile_page_find_viewer(job->context, viewer) : CELSPAN_OK;

@@ -17,6 +17,6 @@ void cs_verb_text_load(lua_State *L, const char *name) {
   if (luaL_loadbufferx(L, text->bytes, text->size, lua_tostring(L, -1), "t") != LUA_OK)
     lua_error(L);
   lua_remove(L, -2);
-  cs_require_push_globals(L); /* and so celspan's private modules */
+  cs_require_push_globals(L); /* these give access to celspan's private modules */
   lua_setupvalue(L, -2, 1);
 }

@@ -1,4 +1,4 @@
-/* The texts of verbs/, which are part of the binary: verbs in Lua, and what they write. */
+/* The texts of verbs/, which are part of the binary: verbs in Lua, and texts that they write. */
 #pragma once
 
 #include <lauxlib.h>
@@ -12,7 +12,7 @@ typedef struct cs_verb_text {
 
 extern const cs_verb_text cs_verb_texts[]; /* the last one has no name */
 
-/* The text of that name, which there is. */
+/* The text of that name, which must exist. */
 const cs_verb_text *cs_verb_text_find(const char *name);
 /* Pushes the text of that name as a function. Raises. */
 void cs_verb_text_load(lua_State *L, const char *name);

@@ -1,5 +1,5 @@
-/* The verbs: what each takes, and what its help says. Texts are wrapped when they are printed;
- * lines that begin with a space are not wrapped. One list, as long as the list of options. */
+/* The verbs: the operands and options of each, and its help. Texts are wrapped when they are
+ * printed; lines that begin with a space are not wrapped. One file, because it is one list. */
 #include "program/verbs.h"
 
 /* ---------------------------------------------------------------- options of several verbs */
@@ -119,7 +119,7 @@
         "decoding a picture: picture-memory=1G, picture-time=20 seconds per part. "                \
         "These values are the defaults"                                                            \
   }
-/* The rights of pictures, where there is no script. */
+/* The rights of pictures, for verbs without a script. */
 #define PICTURE_RIGHTS                                                                             \
   {"--trust", NULL, NULL, "decode pictures in this process, without limits"}, {                    \
     "--limit", "NAME=V", &cs_argument_picture_limits,                                              \

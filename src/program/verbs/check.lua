@@ -27,16 +27,16 @@ local PART = 4096 -- frames of a part
 local FAULTS_MOST, RUNS_MOST = 1000, 8
 local SCRIPT = 3 -- the exit code
 local STATES = 3 -- fresh films
-local SLOW = 0.25 -- seconds to build a frame that are worth a line
+local SLOW = 0.25 -- the least seconds to build a frame that are reported
 
 -- ---------------------------------------------------------------- faults
 
 local faults = { by_text = {}, met = 0, beyond = 0 }
-local others = {} -- sentences, already reported, about no frame
+local others = {} -- sentences about no particular frame that were already reported
 
 local function touches(run, first, last) return first <= run.last + 1 and last >= run.first - 1 end
 
---- Joins a run with another that it now touches.
+--- Joins a run with the run that it now touches.
 local function join_runs(runs, run)
   for i, other in ipairs(runs) do
     if other ~= run and touches(run, other.first, other.last) then
@@ -65,11 +65,11 @@ local function add_frame(fault, frame)
   end
 end
 
---- where: the place in the scene, or "". After a signal to stop nothing is added, because frames
---- then fail for that reason.
+--- where: the place in the scene, or "". After a signal to stop nothing is added, because this
+--- signal makes frames fail.
 local function add_fault(frame, where, message, code)
   if program.is_stopped() then return end
-  local text = message:gsub(("frame %d: "):format(frame), "", 1) -- so that equal faults are one
+  local text = message:gsub(("frame %d: "):format(frame), "", 1) -- so that equal faults are joined
   local fault = faults.by_text[text]
   faults.met, faults.code = faults.met + 1, faults.code or code
   if not fault and #faults == FAULTS_MOST then
@@ -88,7 +88,7 @@ end
 
 local slowest = { seconds = 0, total = 0 }
 
---- Builds a frame, and counts the processor time that this takes.
+--- Builds a frame, and adds the processor time that it needs.
 local function try_timed(film, number)
   local began = os.clock()
   local good, message, code = film:try(number)
@@ -113,12 +113,13 @@ local function first_pass(film, survey, numbers, scenes)
   return #numbers
 end
 
---- Whether a frame, built again, has another scene than it had. What cannot be compared has not.
+--- Whether a frame that is built again has a different scene. false if the scenes cannot be
+--- compared.
 local function differs(film, number, scene)
   return scene and not (film:try(number) and film:scene() == scene)
 end
 
---- The first place of the sample whose scene differs, and the film in which it does; nil: none.
+--- The first frame of the sample whose scene differs, and the film in which it does; nil: none.
 local function first_that_differs(fresh, numbers, scenes)
   for i, places in ipairs(program.sample(#numbers, STATES)) do
     for _, place in ipairs(places) do
@@ -139,7 +140,7 @@ local function check_again(fresh, numbers, scenes)
   end
 end
 
---- The film of the script, run once more; nil and an exit code, reported.
+--- The film of the script after running it again; nil and an exit code: reported.
 local function fresh_film(film)
   local good, fresh = pcall(program.film, nil, true)
   if good and fresh.first == film.first and fresh.frames == film.frames then return fresh end
@@ -148,7 +149,7 @@ local function fresh_film(film)
   return nil, good and SCRIPT or program.outcome()
 end
 
---- The films for the other passes; nil and an exit code, reported.
+--- The films for the other passes; nil and an exit code: reported.
 local function fresh_films(film)
   local films = {}
   for i = 1, STATES do
@@ -159,7 +160,7 @@ local function fresh_films(film)
   return films
 end
 
---- The numbers of the part that begins after `done` frames.
+--- The numbers of the part that follows the first `done` frames.
 local function part_of(film, listed, done, count)
   local numbers = {}
   for i = done + 1, math.min(done + PART, count) do
@@ -168,7 +169,8 @@ local function part_of(film, listed, done, count)
   return numbers
 end
 
---- How many frames were built, and the exit code of what ended that before its time, or nil.
+--- Returns the number of frames that were built, and the exit code if something ended this early,
+--- otherwise nil.
 local function check_parts(film, survey, listed, count)
   local done, fresh = 0
   while done < count and not program.is_stopped() do
@@ -209,7 +211,7 @@ local function sentence_of(fault)
     fault.where == "" and "" or ": ", fault.text)
 end
 
---- A fault for other programs, as /errors.json of `celspan watch` has it.
+--- A fault in the form for other programs, the same as in /errors.json of `celspan watch`.
 local function describe(level, sentence, frame, frames)
   local file, line = program.place_of(sentence)
   return { level = level, message = sentence, frame = frame, frames = frames, file = file,
@@ -239,7 +241,7 @@ local function report_slowest(done)
     slowest.seconds, slowest.total / done)
 end
 
---- ended: what could not be checked has been reported.
+--- ended: an error that ended the checks, and was already reported.
 local function report(done, count, ended, sound, warnings)
   for _, fault in ipairs(request.json and {} or faults) do
     program.error("%s: %s", frames_of(fault), sentence_of(fault))
@@ -265,7 +267,7 @@ local function report(done, count, ended, sound, warnings)
   end
 end
 
---- All warnings: of values that are thrown away, and of what viewers see.
+--- All warnings: about values that are not used, and about things that viewers see.
 local function warnings_of(survey)
   local list = {}
   for i, sentence in ipairs(program.part("dropped.lua", program).of_script(request[1],
@@ -276,7 +278,7 @@ local function warnings_of(survey)
   return table.move(seen, 1, #seen, #list + 1, list)
 end
 
---- The film of the script. Where there is none, that is the one fault.
+--- The film of the script. If it cannot be opened, this is the only fault.
 local function open()
   local good, film = pcall(program.film)
   if good then return film end

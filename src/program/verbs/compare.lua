@@ -7,7 +7,7 @@ local a, b, output = request[1], request[2], request.output
 local facts = program.part("facts.lua", program, request)
 local outcome
 
---- Compares two files: the answer, and as a line.
+--- Compares two files: returns the result, and the same as a line.
 local function compare(one, other, difference)
   local found = program.compare(one, other, difference)
   if found.sizes or found.differing > 0 then outcome = DIFFERENT end
@@ -38,7 +38,7 @@ local function compare_frame(number)
   facts:item("frames", found, "frame %d %s", number, line)
 end
 
---- Adds the frames that only one of the films has.
+--- Adds the frames that exist in only one of the films.
 local function add_missing(numbers, has_other, pattern)
   for _, number in ipairs(numbers) do
     if not has_other[number] then

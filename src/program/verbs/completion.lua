@@ -5,7 +5,7 @@ local verbs, shell = ...
 --- A word in quotes for all three shells.
 local function quoted(word) return "'" .. word:gsub("'", "'\\''") .. "'" end
 
---- A help up to its first semicolon, without the full stop at its end.
+--- A help text up to its first semicolon, without the full stop at its end.
 local function brief(help)
   return (help:gsub("%s+", " "):gsub(";.*", ""):gsub("%.$", ""))
 end
@@ -68,7 +68,7 @@ _celspan() {
 _celspan "$@"
 ]==]
 
---- A help between the brackets of _arguments.
+--- A help text in the form for brackets of _arguments.
 local function bracketed(help) return (brief(help):gsub("[%[%]:\\]", "\\%0")) end
 
 local function zsh_option(option)

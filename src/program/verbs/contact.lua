@@ -13,7 +13,8 @@ local core = require "celspan.core"
 local number_at = program.part "numerals.lua"
 
 local PANEL_MOST, SHEET_MOST, PANEL_LEAST = 480, 3840, 16 -- pixels
-local PAGE_MOST = 2 ^ 28 -- pixels of all panels of a page, which are in memory together
+-- pixels of all panels of a page, because all are in memory at the same time
+local PAGE_MOST = 2 ^ 28
 local GAP, LABEL = 12, 24 -- between panels, and below them
 
 -- ---------------------------------------------------------------- a page
@@ -45,8 +46,8 @@ end
 
 -- ---------------------------------------------------------------- the sheet
 
---- A panel has the size that is asked for, or else the film's shape; it is then no larger than the
---- film, and no larger than fits.
+--- A panel has the requested size, or else the proportions of the film; in this case it is not
+--- larger than the film, and fits on the page.
 local function panel_size(film, columns)
   if request.size or request.scale then return { film:view_size() } end
   local most = math.min(SHEET_MOST / columns, PANEL_MOST)
@@ -55,8 +56,8 @@ local function panel_size(film, columns)
   return size
 end
 
---- Every n-th number, and the last one. most: how many there may be; the last one then takes the
---- place of the one before it.
+--- Every n-th number, and the last one. most: the limit for their count; if necessary, the last
+--- number replaces the one before it.
 local function thinned(numbers, every, most)
   local list = {}
   for i = 1, #numbers, every do list[#list + 1] = numbers[i] end

@@ -1,4 +1,5 @@
---- celspan convert IN OUT: any picture to any other; a drawing or a layered painting to a picture.
+--- celspan convert IN OUT: converts a picture to another format, or a drawing or a layered painting
+--- to a picture.
 local program, request = ...
 
 if program.has_number(request[2]) then

@@ -1,7 +1,7 @@
 --- celspan describe SCRIPT: a film as text, from a survey of all its frames (survey.lua).
 local program, request = ...
 
-local STRETCHES_MOST = 8 -- of a part in a line
+local STRETCHES_MOST = 8 -- of a part, on one line
 
 local facts = program.part("facts.lua", program, request)
 
@@ -14,7 +14,7 @@ local function place_of(one) return one.file and (" (%s:%d)"):format(one.file, o
 
 local function moving(one) return one.moves and "moving" or "still" end
 
---- A number, or that it could not be measured.
+--- A number; or the text for a missing measurement.
 local function measured(number) return number and ("%.3g"):format(number) or "unknown" end
 
 local function put_part(part)
@@ -51,7 +51,7 @@ local function put_film(film)
   end
 end
 
---- Stretches, each in a line that ends with more(stretch).
+--- Writes stretches, each on a line that ends with more(stretch).
 local function put_all(list, name, stretches, more)
   for _, one in ipairs(stretches) do
     facts:item(list, one, "%s %s%s", name, span_of(one), more and more(one) or "")

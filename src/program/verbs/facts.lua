@@ -13,12 +13,13 @@ local function shown(value)
   return math.type(value) == "float" and ("%.9g"):format(value) or tostring(value)
 end
 
---- Of the text alone. Names come from scripts and files: what could end a line becomes a space.
+--- Adds a line to the text only. Names come from scripts and files, so characters that could end a
+--- line become spaces.
 function facts:line(format, ...)
   if not self.is_json then io.write(format:format(...):gsub("[%c\127]", " "), "\n") end
 end
 
---- Of the object alone.
+--- Sets a value of the object only.
 function facts:set(name, value) self.object[name] = value end
 
 function facts:add(name, value)
@@ -26,12 +27,12 @@ function facts:add(name, value)
   self:line("%s %s", name, shown(value))
 end
 
---- Lists that the object has, empty or not.
+--- Lists that the object always has, even if they are empty.
 function facts:lists(...)
   for _, name in ipairs { ... } do self.object[name] = { list = {} } end
 end
 
---- Adds to one of the lists.
+--- Adds an item to one of the lists.
 function facts:item(name, value, ...)
   if self.is_json then table.insert(self.object[name].list, value) end
   self:line(...)

@@ -17,9 +17,9 @@ local core = require "celspan.core"
 local json = require "celspan.json"
 
 local CHUNK = 10 -- frames of a task
-local STRIPS_MOST = 1000 -- which one command can join
+local STRIPS_MOST = 1000 -- the most that one command can join
 local OPTIONS_MOST, PATH_MOST = 128, 4095
-local ARRAY_MOST = 1000 -- the tasks of an array that Slurm accepts by default
+local ARRAY_MOST = 1000 -- the most tasks of an array that Slurm accepts by default
 
 -- ---------------------------------------------------------------- both engines
 
@@ -29,7 +29,7 @@ end
 
 local function split(path) return path:match "^(.*)/([^/]*)$" end
 
---- The ending of a strip's file: that of the picture it is of.
+--- The ending of a strip's file, which is that of its picture.
 local function ending_of(path) return path:match "%.([^./]*)$" or "" end
 
 local function strip_pattern(output, number)
@@ -48,16 +48,16 @@ end
 
 -- ---------------------------------------------------------------- Slurm
 
---- A word for bash that stands for any text: everything between single quotes is itself.
+--- A word for bash with any contents: between single quotes all characters stand for themselves.
 local function quoted(text)
   if text:find "^[%w%%+,./:=@_-]+$" then return text end
   return "'" .. text:gsub("'", [['\'']]) .. "'"
 end
 
---- A text in a comment: it stays on its line.
+--- A text for a comment: control characters are replaced, so that it remains on its line.
 local function plain(text) return (text:gsub("%c", "?")) end
 
---- What follows the other arguments of render, with a space before it.
+--- The arguments after the usual ones of render, with a space before each.
 local function words_of(job)
   local words = { "" }
   for _, option in ipairs(job.options) do
@@ -98,7 +98,7 @@ tasks=@TASKS@
 tries=3 # how often a task that may succeed another time is put back into the queue
 @MEMORY@]]
 
---- Not every Slurm has control groups that limit memory.
+--- Some installations of Slurm have no control groups that limit memory.
 local MEMORY = "export CELSPAN_MEMORY=${CELSPAN_MEMORY:-%dM} # as --mem\n"
 
 local CHUNK_HOW = "#   sbatch THIS_FILE       the same"
@@ -184,7 +184,7 @@ end
 
 local MOST_PARAMETERS, MOST_TEXT, MOST_NAME = 50, 1024, 128
 
---- The parameters of the job, as they are needed.
+--- The parameters of the job; each is added when it is needed.
 local function new_parameters()
   local parameters = { list = {}, counts = {} }
   function parameters:add(name, kind, default, more)
@@ -196,19 +196,19 @@ local function new_parameters()
     end
     return ("{{Param.%s}}"):format(name)
   end
-  --- One that may be given several times: the last counts.
+  --- Sets a parameter that may be set several times: the last value counts.
   function parameters:set(name, value)
     for _, members in ipairs(self.list) do
       if members[1][2] == name then members[3][2] = value return ("{{Param.%s}}"):format(name) end
     end
     return self:add(name, "STRING", value)
   end
-  --- The next of several of a kind: Allow1, Allow2.
+  --- Adds the next of several parameters of a kind: Allow1, Allow2.
   function parameters:add_numbered(kind, ...)
     self.counts[kind] = (self.counts[kind] or 0) + 1
     return self:add(kind .. self.counts[kind], ...)
   end
-  --- A text as an argument, which may hold neither control characters nor braces of its own.
+  --- A text as an argument, which may contain neither control characters nor braces.
   function parameters:argument(text)
     if not text:find "%c" and not text:find("{{", 1, true) then return text end
     return self:add_numbered("Text", "STRING", text)
@@ -258,7 +258,7 @@ local function requirements(job)
   return #amounts > 0 and { { "amounts", { list = amounts } } } or nil
 end
 
---- output: as in the arguments of a task.
+--- output: in the form for the arguments of a task.
 local function render_step(job, parameters, script, output)
   local task = job.strips and "Strip" or "Task"
   local number = ("{{Task.Param.%s}}"):format(task)
@@ -332,7 +332,7 @@ end
 
 local own = { ["-o"] = true, ["--slurm"] = true, ["--openjd"] = true, ["--chunk"] = true,
   ["--strips"] = true, ["--job-name"] = true, ["--job-memory"] = true, ["--job-time"] = true,
-  ["--logs"] = true, ["--workers"] = true } -- which are not handed to the tasks
+  ["--logs"] = true, ["--workers"] = true } -- these are not passed to the tasks
 
 local function refuse()
   local output = request.output
@@ -354,7 +354,7 @@ local function refuse()
   program.refuse_target(output)
 end
 
---- Sets how many frames and tasks there are, and what they make.
+--- Sets the numbers of frames and tasks, and the output of each task.
 local function count_tasks(job)
   local film = program.film()
   local numbers = film:numbers(request.output)
@@ -368,7 +368,7 @@ local function count_tasks(job)
     local chunk = math.tointeger(request.chunk) or CHUNK
     job.tasks = (#numbers + chunk - 1) // chunk
   end
-  film:view_size() -- refuses a size that the film cannot have
+  film:view_size() -- refuses a size that is impossible for the film
 end
 
 refuse()

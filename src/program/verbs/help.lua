@@ -1,4 +1,4 @@
---- celspan help [VERB], and the manual page: made from what the verbs say of themselves.
+--- celspan help [VERB], and the manual page: both are made from the descriptions of the verbs.
 local program, request = ...
 
 local WIDTH = 100
@@ -25,15 +25,15 @@ local environment = {
 
 local verbs = program.verbs()
 
---- What follows a verb on a command line.
+--- The words after a verb on a command line.
 local function usage_of(verb)
   return verb.operands .. " [options]" .. (verb.has_script and " [-- ARGS]" or "")
 end
 
 -- ---------------------------------------------------------------- help
 
---- A text in lines, of which all except the first begin with an indent. Lines that begin with a
---- space stay as they are.
+--- A text in lines, all of which except the first begin with an indent. Lines that begin with a
+--- space are not changed.
 local function wrapped(text, indent)
   local lines = {}
   for paragraph in text:gmatch "[^\n]+" do
@@ -66,7 +66,7 @@ local function put_verb(out, verb)
   end
 end
 
---- A verb in the list: its operands in a column, or on a line of their own if they are too long.
+--- Writes a verb of the list: its operands in a column, or on a separate line if they are too long.
 local function put_row(out, name, operands, summary)
   local gap = #operands > 19 and "\n" .. (" "):rep(31) or " "
   out:write(("  %-8s %-19s%s%s\n"):format(name, operands, gap, wrapped(summary, 31)))
@@ -91,7 +91,7 @@ local function put_list(out)
   put_row(out, "", "WORDS", "Shows how to make a thing, such as shadow, wipe or typewriter.")
   out:write("\ncelspan --version prints the version, celspan --man the manual page.\n\n"
     .. "Exit codes\n")
-  local half = (#exit_codes + 1) // 2 -- two columns, from the top to the bottom of each
+  local half = (#exit_codes + 1) // 2 -- two columns; each is filled from top to bottom
   for i = 1, half do
     local left, right = exit_codes[i], exit_codes[i + half]
     out:write(("  %-3s %-33s %-6s %s\n"):format(left[1], left[2], right[1], right[2]))
@@ -116,10 +116,10 @@ local function put_recipes(out, recipes)
   end
 end
 
---- Words as they are compared: paper_cutout, Cross-hatching.
+--- Words in the form for comparisons: paper_cutout, Cross-hatching.
 local function alike(words) return (words:lower():gsub("[-_]", " ")) end
 
---- The recipe that alone has this title or keyword, if there is one.
+--- The recipe with this title or keyword, if there is exactly one.
 local function exact_recipe(recipes, words)
   local found, wanted = {}, alike(words)
   for _, recipe in ipairs(recipes) do
@@ -130,7 +130,7 @@ local function exact_recipe(recipes, words)
   return #found == 1 and found[1] or nil
 end
 
---- What the words may mean: recipes, chapters, names and verbs.
+--- Writes what the words may mean: recipes, chapters, names and verbs.
 local function put_nearest(out, recipes, words)
   local topics = program.part("topics.lua", recipes, program.text "headings.txt",
     require "celspan.manual".names(), verbs)
@@ -149,7 +149,7 @@ local function put_nearest(out, recipes, words)
   end
 end
 
---- A verb, a name of Lua after the word lua, or what goes best with the words.
+--- Writes about a verb, about a name of Lua after the word lua, or the best matches for the words.
 local function put_about(out, words)
   local name = words:match "^lua%f[%z ] *(.*)$"
   for _, verb in ipairs(verbs) do
@@ -176,7 +176,7 @@ end
 
 local escapes = { ["-"] = "\\-", ["\\"] = "\\e", ["^"] = "\\(ha", ["~"] = "\\(ti", ["`"] = "\\(ga" }
 
---- A text in which nothing is a request or an escape of roff; every run of blanks is one.
+--- A text without requests or escapes for roff; every run of blanks becomes one blank.
 local function roff(text)
   return (text:gsub("[-\\^~`]", escapes):gsub("%s+", " "):gsub("^[.']", "\\&%0"))
 end
@@ -259,7 +259,7 @@ local function rows_of(rows)
   return { list = list }
 end
 
---- All that the help knows, as one object.
+--- Writes everything that the help knows, as one object.
 local function put_json(out)
   for _, verb in ipairs(verbs) do verb.options = { list = verb.options } end
   out:write(program.json { version = program.version, verbs = verbs,

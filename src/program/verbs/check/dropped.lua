@@ -11,7 +11,7 @@ local files = require "celspan.files"
 local manual = require "celspan.manual"
 local tokens = program.part "tokens.lua"
 
---- What cannot be changed: values of these classes and of those that extend them.
+--- Values that are immutable: of these classes and of those that extend them.
 local VALUES = { ["celspan.object"] = true, ["celspan.cel"] = true, ["celspan.rostrum"] = true,
                  ["celspan.texture"] = true, ["celspan.paint"] = true, ["celspan.svg.art"] = true,
                  ["celspan.layers.tree"] = true }
@@ -20,11 +20,11 @@ for sign in ("+ - * / // % ^ .. == ~= < > <= >= & | ~ << >> and or"):gmatch "%S+
   OPERATORS[sign] = true
 end
 
-local BYTES_MOST = 1 << 18 -- of a script that is looked at: larger ones are mostly data
+local BYTES_MOST = 1 << 18 -- larger scripts are not examined: they are mostly data
 
-local calls, parents = {}, {} -- of manual.types, which are read when a script needs them
+local calls, parents = {}, {} -- from manual.types, which is read when a script needs it
 
---- The class of VALUES that a class extends, else the class.
+--- The class of VALUES that a class extends; otherwise the class itself.
 local function family(class)
   local at = class
   while at and not VALUES[at] do at = parents[at] end
@@ -42,8 +42,8 @@ end
 
 -- ---------------------------------------------------------------- chains
 
---- What a chain such as `celspan.circle { ... }:scale(2)` is as it grows: `module` and `maker` are
---- names of celspan's, `class` is that of a value; none of them: not known.
+--- The state while a chain such as `celspan.circle { ... }:scale(2)` is read: `module` and `maker`
+--- are names of celspan's, `class` is the class of a value; without any of them, nothing is known.
 local function step(is, name, sign)
   if sign == "." then return { maker = is.module and is.module .. "." .. name } end
   local class = sign == ":" and is.class and returned(is.class, name)
@@ -56,14 +56,14 @@ local function is_arguments(token)
   return token and (token.kind == "(" or token.kind == "{" or token.kind == "string")
 end
 
---- The place after the arguments at `at`, and how they are shown.
+--- The place after the arguments at `at`, and their text in messages.
 local function after_arguments(list, at)
   local token = list[at]
   if token.kind == "string" then return at + 1, " " .. token.text end
   return (token.partner or #list) + 1, token.kind == "(" and "(...)" or " {...}"
 end
 
---- `require "celspan"` at a place: the module, and the place after it.
+--- For `require "celspan"` at a place: the module, and the place after it.
 local function required(list, at)
   local name = list[at + 1]
   if list[at].text ~= "require" or not name then return end
@@ -73,8 +73,8 @@ local function required(list, at)
   return module and after and { module = module }, after
 end
 
---- The chain that begins with the name at a place: what it is, the place after it, how it is
---- written, and whether it ends with a call.
+--- The chain that begins with the name at a place: its state, the place after it, its text, and
+--- whether it ends with a call.
 local function chain_at(list, types, at)
   local is, after = required(list, at)
   if not is then is, after = types[list[at].text] or {}, at + 1 end
@@ -101,7 +101,7 @@ local function chain_at(list, types, at)
   return is, after, written, is_call
 end
 
---- What the expression at a place is, and the place after it; nil: not known.
+--- The type of the expression at a place, and the place after it; nil: not known.
 local function expression_at(list, types, at)
   local token = list[at]
   local is, after
@@ -118,14 +118,14 @@ end
 
 -- ---------------------------------------------------------------- names
 
---- Adds to the bindings of a name the place of an expression and its number in a list; no place: a
---- value that is not known. The names are in the list part too, in the order of the file.
+--- Adds a binding to a name: the place of an expression and its index in a list; without a place,
+--- the value is not known. The list part contains the names, in the order of the file.
 local function bind(bindings, name, at, number)
   if not bindings[name] then bindings[name], bindings[#bindings + 1] = {}, name end
   table.insert(bindings[name], { at = at, number = number })
 end
 
---- The names between commas at a place, if a `=` follows them. Returns whether one does.
+--- Binds the names between commas at a place, if a `=` follows them. Returns whether it does.
 local function bind_list(list, bindings, at)
   local names = {}
   local kind
@@ -142,7 +142,7 @@ local function bind_list(list, bindings, at)
   return kind == "="
 end
 
---- All names from a place up to a token of one of these kinds have values that are not known.
+--- Gives unknown values to all names from a place up to a token of one of these kinds.
 local function bind_unknown(list, bindings, at, last)
   while list[at] and not last[list[at].kind] do
     if list[at].kind == "name" then bind(bindings, list[at].text) end
@@ -150,8 +150,8 @@ local function bind_unknown(list, bindings, at, last)
   end
 end
 
---- Binds the names on the left of an assignment, if a statement that begins at a place is one. The
---- values of names between fields, as in `t.x, c = 1, 2`, are not looked for.
+--- Binds the names on the left of an assignment, if such a statement begins at a place. Values of
+--- names that follow fields, as in `t.x, c = 1, 2`, are not examined.
 local function bind_targets(list, bindings, at)
   local after = list[at + 1] and list[at + 1].kind
   if (after == "=" or after == ",") and bind_list(list, bindings, at) then return end
@@ -161,7 +161,7 @@ local function bind_targets(list, bindings, at)
   end
 end
 
---- What is bound to each name, wherever it is in the file.
+--- The bindings of each name, in the whole file.
 local function bindings_of(list)
   local bindings = {}
   for i, token in ipairs(list) do
@@ -179,7 +179,7 @@ local function bindings_of(list)
   return bindings
 end
 
---- What an expression of a list is.
+--- The type of an expression of a list.
 local function item(list, types, binding)
   local is, after = nil, binding.at
   for i = 1, binding.number or 0 do
@@ -192,7 +192,8 @@ end
 
 local function is_same(a, b) return a and b and a.class == b.class and a.module == b.module end
 
---- What all bindings of a name are; nil: not known, or not the same. is_sure: none may be unknown.
+--- The type that all bindings of a name have in common; nil: it is not known, or there are several.
+--- is_sure: none may be unknown.
 local function common(list, types, bindings, is_sure)
   local found
   for _, binding in ipairs(bindings) do
@@ -205,8 +206,8 @@ local function common(list, types, bindings, is_sure)
   return found
 end
 
---- Goes through the names until nothing changes: in the order of the file, as most names follow
---- from earlier ones. try(name, its bindings): whether it changed one.
+--- Visits the names until nothing changes: in the order of the file, because most names depend on
+--- earlier ones. try(name, its bindings): returns whether it changed anything.
 local function settle(bindings, try)
   local has_changed
   repeat
@@ -215,8 +216,8 @@ local function settle(bindings, try)
   until not has_changed
 end
 
---- Names and the types that are bound to them: first by what can be known of the values, as names
---- follow from others; then names with an unknown value are left out.
+--- Names and the types of their values. First the types that can be found, because names depend on
+--- others; then names that also have an unknown value are left out.
 local function types_of(list)
   local types, bindings = {}, bindings_of(list)
   settle(bindings, function(name, of_name)
@@ -247,7 +248,8 @@ local function sentence(name, types, is, written)
     .. "another value"
 end
 
---- The places of statements that are calls, but not of functions of Lua: most scripts have few.
+--- The places of statements that are calls, except for those of Lua's functions: most scripts have
+--- few.
 local function calls_of(list)
   local places = {}
   for i, token in ipairs(list) do
@@ -269,8 +271,8 @@ local function modules_of(list)
   return modules
 end
 
---- Adds what a text throws away, with the file's path, to a list of sentences; returns the modules
---- that it requires.
+--- Adds a sentence, with the file's path, for each value that a text does not use. Returns the
+--- modules that the text requires.
 local function add_dropped(sentences, path, text)
   local list = tokens.of(text)
   local places = calls_of(list)
@@ -286,7 +288,7 @@ local function add_dropped(sentences, path, text)
   return modules_of(list)
 end
 
---- text: of the file, if it is known.
+--- text: of the file, if it has been read already.
 local function add_file(sentences, folder, path, is_seen, text)
   text = text or not is_seen[path] and files.read(path, BYTES_MOST)
   is_seen[path] = true
@@ -298,8 +300,8 @@ local function add_file(sentences, folder, path, is_seen, text)
   end
 end
 
---- A sentence, with its file and line, about each value that a script, or a module beside it that
---- it requires, throws away. text: of the script, if it is no file.
+--- A sentence, with file and line, for each value that is not used in a script, or in modules
+--- beside it that it requires. text: of the script, if it is not a file.
 function dropped.of_script(path, text)
   local sentences = {}
   if text and #text <= BYTES_MOST or program.has_ending(path, ".lua") then

@@ -12,7 +12,7 @@ for word in ([[and break do else elseif end false for function goto if in local 
   KEYWORDS[word] = true
 end
 
---- After these a name begins a statement; after other words and signs it is a part of one.
+--- After these tokens, a name begins a statement; after all others it continues one.
 local ENDS = { name = true, number = true, string = true, [")"] = true, ["]"] = true, ["}"] = true,
                ["end"] = true, ["nil"] = true, ["true"] = true, ["false"] = true, ["..."] = true,
                ["break"] = true, [";"] = true, ["do"] = true, ["then"] = true, ["else"] = true,
@@ -42,8 +42,8 @@ local function after_comment(text, at)
   return after_long(text, at + 2) or text:find("\n", at, true) or #text + 1
 end
 
---- The kind of the token at a place, and the place after it. Names and texts are of the kinds
---- "name", "number" and "string", others of what they are.
+--- The kind of the token at a place, and the place after it. The kinds are "name", "number" and
+--- "string"; the kind of any other token is its text.
 local function read(text, at)
   local word = text:match("^[%a_][%w_]*", at)
   if word then return KEYWORDS[word] and word or "name", at + #word end
@@ -68,7 +68,8 @@ local OPENS = { ["("] = ")", ["["] = "]", ["{"] = "}", ["function"] = "end", ["d
 local CLOSES = { [")"] = true, ["]"] = true, ["}"] = true, ["end"] = true, ["until"] = true }
 local IS_BRACKET = { ["("] = true, ["["] = true, ["{"] = true }
 
---- Sets `partner` and `is_first` of the last token of a list. open: the places of what is open.
+--- Sets `partner` and `is_first` of the last token of a list. open: the places of brackets that are
+--- open.
 local function place(list, open)
   local token, before = list[#list], list[#list - 1]
   local outer = list[open[#open]]
