@@ -62,13 +62,13 @@ celspan_status fence(cs_picture_failure *failure, celspan_status other, const st
 /* The library's settings, made once: no threads of its own, no plug-ins from outside. */
 void prepare_library();
 
-/* Whether memory that ran out is noted from now on. For the table. */
+/* Sets whether a lack of memory is noted from now on. A function of the table. */
 void watch_memory();
-/* Throws std::bad_alloc if memory has run out since the last call. Must be called before anything
- * is returned, since libraries catch the exception and continue. */
+/* Throws std::bad_alloc if memory has run out since the last call. Must be called before results
+ * are returned, because libraries catch the exception and continue. */
 void check_memory();
 
-/* The first line of one of the library's messages, without trailing blanks and full stop. */
+/* The first line of a message of the library, without trailing blanks and full stop. */
 std::string first_line(const std::string &message);
 
 celspan_status open_reader(const cs_picture_request *request, cs_picture_reader **out,

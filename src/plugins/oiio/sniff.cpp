@@ -62,7 +62,7 @@ const Magic magics[] = {
 #define DRAWING " as a picture; celspan.svg reads SVG drawings"
 #define MOVIE "; 'ffmpeg -i clip.mp4 clip.%04d.png' makes pictures of one, clip.####.png"
 
-/* Files that are given by mistake, or whose readers cannot be trusted. */
+/* Files that were given by mistake, or whose readers cannot be trusted. */
 const struct {
   const char *bytes;
   size_t length, at;
@@ -88,7 +88,7 @@ const struct {
     {"\0\0\1\xba", 4, 0, "a movie", MOVIE},
 };
 
-/* Targa has no magic number: the header must make sense field by field (formats, TGA 2.0). */
+/* Targa has no magic number, so all fields of the header must be plausible (formats, TGA 2.0). */
 bool is_targa(const Head &head) {
   if (head.size < 18)
     return false;

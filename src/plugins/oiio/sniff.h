@@ -17,11 +17,11 @@ struct Sniffed {
   uint64_t width, height; /* 0 0: ask the reader */
 };
 
-/* Throws Failure for other files; it names those that are known. */
+/* Throws Failure for other files, with the names of the known formats. */
 Sniffed sniff(Source &source);
 
 /* To be called before the library opens the file. format: by the library's name. Throws Failure for
  * a damaged file that the library's readers would not report, or for which they would allocate far
- * more memory than the file has bytes, and hides from them parts that they should not read. No file
- * that is complete and undamaged is refused. */
+ * more memory than the file has bytes. It also hides parts of the file that the library should not
+ * read. No file that is complete and undamaged is refused. */
 void check_file(Source &source, const std::string &format);

@@ -11,7 +11,7 @@
 #include "model/pictures/opened.h"
 #include "plugins/oiio/shared.h"
 
-/* Reads past the end that a correct reader may need in one task. */
+/* The number of reads after the end that a correct reader may need in one task. */
 static const int MISSES = 1000;
 static const size_t AHEAD = 1 << 15;
 

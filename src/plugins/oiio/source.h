@@ -23,9 +23,9 @@ public:
   size_t pread(void *bytes, size_t size, int64_t offset) override;
   size_t size() const override { return size_t(status_.st_size); }
 
-  /* From now on these bytes are read in place of those of the file. */
+  /* From now on these bytes are read instead of those of the file. */
   void replace(int64_t offset, std::vector<char> bytes);
-  /* To be called before each task: it may again read past the end a few times. */
+  /* Must be called before each task: a few reads after the end are allowed again. */
   void forgive() { misses_ = 0; }
   const struct stat &status() const { return status_; }
   /* Whether the path still leads to the same unchanged file. */
@@ -41,8 +41,8 @@ private:
   size_t read_file(void *bytes, size_t size, int64_t offset);
 
   std::string path_;
-  std::vector<char> ahead_; /* bytes of the file from ahead_at_ on, because some readers ask for a
-                               few at a time */
+  /* bytes of the file from ahead_at_ on, because some readers ask for only a few at a time */
+  std::vector<char> ahead_;
   int64_t ahead_at_ = 0;
   std::vector<Patch> patches_;
   int descriptor_ = -1;

@@ -20,8 +20,8 @@ using OIIO::TypeDesc;
 
 namespace {
 
-/* The file's name without its folders: headers of film scans name their file, and must not tell
- * where on the maker's disk it lay. */
+/* The file's name without its folders: headers of film scans contain the file's name, but must not
+ * reveal the folder on the maker's disk. */
 const char *own_name(const char *path) {
   const char *slash = strrchr(path, '/');
   return slash ? slash + 1 : path;
@@ -163,7 +163,7 @@ ImageSpec make_spec(const cs_picture_output &output) {
     spec.attribute("ImageDescription", output.title);
   describe_rate(spec, output.frames_second);
   spec.attribute("celspan:frame", int(output.frame));
-  /* In a TIFF it would make a second directory, for which the library reads back the file. */
+  /* In a TIFF this would add a second directory, and the library would read the file again. */
   if (format != "tiff")
     spec.attribute("oiio:ColorSpace", space_of(output.transfer));
   /* The library would write the present time, and equal frames would differ. */

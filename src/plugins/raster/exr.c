@@ -23,13 +23,13 @@ typedef struct channel {
 } channel;
 
 typedef struct window {
-  int32_t x0, y0, x1, y1; /* the last ones are inside */
+  int32_t x0, y0, x1, y1; /* the last column and row are included */
 } window;
 
 typedef struct reading {
   const cs_raster_file *file;
   size_t at;
-  bool is_over; /* something was asked for beyond the end */
+  bool is_over; /* a read went beyond the end */
   channel channels[CS_PICTURE_CHANNELS];
   int count;
   int packing;
@@ -38,7 +38,7 @@ typedef struct reading {
   cs_raster *out;
   cs_picture_failure *failure;
   unsigned char *rows, *scratch; /* of a chunk */
-  size_t row;                    /* bytes of one */
+  size_t row;                    /* bytes of one row */
 } reading;
 
 static celspan_status fail(const reading *r, const char *text) {
@@ -62,7 +62,7 @@ static uint32_t number_of(const unsigned char *bytes) {
 
 static int32_t number(reading *r) { return (int32_t)number_of(take(r, 4)); }
 
-/* A text up to its 0; an empty one ends a list. */
+/* Reads a text up to its 0; an empty text ends a list. */
 static bool take_name(reading *r, char out[NAME]) {
   const unsigned char *from = r->file->bytes + r->at;
   size_t left = r->file->size - r->at;
@@ -150,7 +150,7 @@ static celspan_status read_header(reading *r) {
 
 /* ---------------------------------------------------------------- the form */
 
-/* The channel that is called so, in the layer that was asked for; -1: none. */
+/* The channel of this name in the requested layer; -1: there is none. */
 static int find(const reading *r, const char *name) {
   char whole[NAME + 2];
   const char *layer = r->file->layer;
@@ -212,10 +212,10 @@ static bool unpack_runs(const unsigned char *from, size_t size, unsigned char *o
   return done == room;
 }
 
-/* The rows of a chunk as they were before they were compressed. */
+/* The rows of a chunk before they were compressed. */
 static bool unpack(reading *r, const unsigned char *from, size_t size, size_t room) {
   uLongf got = (uLongf)room;
-  if (size == room) { /* compressed, they would have been no smaller */
+  if (size == room) { /* stored without compression, which would not have made them smaller */
     memcpy(r->rows, from, size);
     return true;
   }
@@ -253,7 +253,7 @@ static float value_of(const unsigned char *bytes, cs_exr_type type) {
 
 static size_t size_of(cs_exr_type type) { return type == CS_EXR_HALF ? 2 : 4; }
 
-/* A row of the data window into the display window. */
+/* Copies a row of the data window into the display window. */
 static void put_row(const reading *r, const unsigned char *row, int64_t y) {
   int64_t width = (int64_t)r->data.x1 - r->data.x0 + 1, left = (int64_t)r->data.x0 - r->shown.x0;
   int count = r->out->channels;
@@ -307,7 +307,7 @@ static celspan_status read_chunks(reading *r) {
   return CELSPAN_OK;
 }
 
-/* Within the limits; what lies outside of the display window is not kept. */
+/* Whether a window is within the limits; its parts outside of the display window are not kept. */
 static bool is_sane(window w) {
   int64_t width = (int64_t)w.x1 - w.x0 + 1, height = (int64_t)w.y1 - w.y0 + 1;
   return width >= 1 && height >= 1 && width <= CS_PICTURE_SIDE && height <= CS_PICTURE_SIDE &&

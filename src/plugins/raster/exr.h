@@ -15,8 +15,8 @@ enum { CS_EXR_ROWS = 3, CS_EXR_LINES = 16 }; /* the packing by zlib, and the row
 
 typedef enum cs_exr_type { CS_EXR_WHOLE, CS_EXR_HALF, CS_EXR_FLOAT } cs_exr_type;
 
-/* Before bytes are compressed, the even ones come before the odd ones, and each is replaced by its
- * difference to the one before. */
+/* Before compression, the bytes are reordered, first those with even indices and then those with
+ * odd ones; then each byte is replaced by its difference from the previous one. */
 void cs_exr_spread(const unsigned char *bytes, size_t size, unsigned char *out);
-/* The reverse: `from` is changed, and `out` filled. */
+/* The reverse: changes `from`, and fills `out`. */
 void cs_exr_restore(unsigned char *from, size_t size, unsigned char *out);

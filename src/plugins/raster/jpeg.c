@@ -42,7 +42,7 @@ static void note_warning(j_common_ptr jpeg, int level) {
 
 /* ---------------------------------------------------------------- the orientation */
 
-/* A number of two or four bytes in an Exif block; beyond its end 0. */
+/* A number of two or four bytes in an Exif block; 0 beyond the end of the block. */
 static uint32_t number_at(const jpeg_saved_marker_ptr marker, size_t at, int bytes, bool is_big) {
   uint32_t number = 0;
   if (at + (size_t)bytes > marker->data_length)
@@ -53,7 +53,7 @@ static uint32_t number_at(const jpeg_saved_marker_ptr marker, size_t at, int byt
 }
 
 static int orientation_in(const jpeg_saved_marker_ptr marker) {
-  const size_t head = 6; /* "Exif\0\0", behind which offsets count */
+  const size_t head = 6; /* "Exif\0\0", after which offsets are counted */
   if (marker->data_length < 14 || memcmp(marker->data, "Exif\0", head) != 0)
     return 1;
   bool is_big = marker->data[head] == 'M';
@@ -69,8 +69,8 @@ static int orientation_in(const jpeg_saved_marker_ptr marker) {
 
 /* ---------------------------------------------------------------- pixels */
 
-/* Inks as Adobe's programs write them, the brighter the larger, to colours. In place: a row of four
- * values a pixel becomes one of three. */
+/* Converts inks in the form of Adobe's programs, where greater values are brighter, to colours. In
+ * place: four values of each pixel become three. */
 static void mix_inks(unsigned char *row, int32_t width) {
   for (int32_t x = 0; x < width; x++)
     for (int c = 0; c < 3; c++)

@@ -45,7 +45,7 @@ static bool read_all(int descriptor, unsigned char *bytes, size_t size) {
   return true;
 }
 
-/* The bytes of an open file; *bytes has to be freed. */
+/* Reads the bytes of an open file; *bytes must be freed. */
 static celspan_status load(int descriptor, const struct stat *found, unsigned char **bytes,
                            cs_picture_failure *failure) {
   if (!S_ISREG(found->st_mode))
@@ -57,7 +57,7 @@ static celspan_status load(int descriptor, const struct stat *found, unsigned ch
   *bytes = malloc((size_t)found->st_size);
   if (!*bytes)
     return cs_raster_fail(failure, CELSPAN_NO_MEMORY, "out of memory");
-  errno = EIO; /* where it has become shorter */
+  errno = EIO; /* if the file has become shorter */
   return read_all(descriptor, *bytes, (size_t)found->st_size)
              ? CELSPAN_OK
              : cs_raster_fail(failure, CELSPAN_INPUT, "cannot be read: %s", strerror(errno));
@@ -223,7 +223,7 @@ static celspan_status list_reader(cs_picture_reader *reader,
   return CELSPAN_OK;
 }
 
-/* Who asks for pictures reads errno, too. */
+/* A caller that asks for pictures also reads errno. */
 static void watch_memory(void) {}
 
 const void *celspan_picture_module(void) {

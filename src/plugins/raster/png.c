@@ -9,7 +9,7 @@
 
 enum { GAMMA_LINEAR = 100000 }; /* in units of 1/100000 */
 
-/* All that is in use while libpng may jump out of a function. */
+/* All data that are in use while libpng may jump out of a function. */
 typedef struct reading {
   const cs_raster_file *file;
   size_t at;
@@ -36,8 +36,8 @@ static void note_error(png_structp png, const char *text) {
 
 static void ignore(png_structp png, const char *text) { (void)png, (void)text; }
 
-/* Every picture becomes grey or colours, of 8 or 16 bits, with or without alpha. Returns how often
- * each row has to be read. */
+/* Converts every picture to grey or colours, of 8 or 16 bits, with or without alpha. Returns how
+ * often each row must be read. */
 static int choose_form(reading *r) {
   png_set_expand(r->png);
   png_set_swap(r->png);

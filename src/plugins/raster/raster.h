@@ -25,7 +25,7 @@ typedef struct cs_raster {
 typedef struct cs_raster_file {
   const unsigned char *bytes;
   size_t size;
-  const char *layer; /* NULL, or the name of one */
+  const char *layer; /* NULL, or the name of a layer */
   int subimage;
 } cs_raster_file;
 
@@ -39,8 +39,8 @@ void cs_raster_finish(cs_raster *raster);
 /* The bytes of a row. */
 size_t cs_raster_row(const cs_raster *raster);
 
-/* Each decodes a file of its format into `out`, which has only its format and has to be finished
- * even after a failure. Errors: INPUT, LIMIT, NO_MEMORY. */
+/* Each function decodes a file of its format into `out`, which at first has only its format, and
+ * must be finished even after a failure. Errors: INPUT, LIMIT, NO_MEMORY. */
 typedef celspan_status (*cs_raster_decode)(const cs_raster_file *file, cs_raster *out,
                                            cs_picture_failure *failure);
 celspan_status cs_raster_png(const cs_raster_file *file, cs_raster *out,

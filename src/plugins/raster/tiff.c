@@ -1,5 +1,5 @@
-/* TIFF, by libtiff: rows and tiles of grey and colours in 8, 16 or 32 bits as they are stored, all
- * else as libtiff shows it, in 8 bits. Source: TIFF 6.0. */
+/* TIFF, by libtiff: rows and tiles of grey and colours in 8, 16 or 32 bits as they are stored; all
+ * other forms as libtiff converts them, in 8 bits. Source: TIFF 6.0. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -50,14 +50,14 @@ static uint16_t field(const reading *r, uint32_t tag) {
   return value;
 }
 
-/* Of the channel behind grey or colours; 0: there is none. */
+/* The kind of the channel after grey or colours; 0: there is none. */
 static uint16_t extra_kind(const reading *r) {
   uint16_t count = 0, *kinds = NULL;
   TIFFGetFieldDefaulted(r->tiff, TIFFTAG_EXTRASAMPLES, &count, &kinds);
   return count == 1 && kinds ? kinds[0] : 0;
 }
 
-/* Whether rows are read as they are stored; sets the form. */
+/* Whether rows can be read as they are stored; if so, sets the form. */
 static bool choose_form(reading *r) {
   uint16_t kind = field(r, TIFFTAG_SAMPLEFORMAT), photometric = field(r, TIFFTAG_PHOTOMETRIC);
   uint16_t channels = field(r, TIFFTAG_SAMPLESPERPIXEL), bits = field(r, TIFFTAG_BITSPERSAMPLE);
@@ -127,7 +127,7 @@ static celspan_status read_tiles(const reading *r) {
   return status;
 }
 
-/* Rows are asked for as they are stored, because libtiff only flips pictures. */
+/* Rows are requested in their stored order, because libtiff can only flip pictures. */
 static celspan_status read_shown(const reading *r) {
   char text[1024] = "";
   if (!TIFFRGBAImageOK(r->tiff, text))

@@ -7,7 +7,7 @@
 struct cs_picture_writer {
   const cs_write_format *format;
   cs_write_target target;
-  cs_picture_output output; /* with texts of its own */
+  cs_picture_output output; /* with copies of the texts */
   char *names[CS_PICTURE_CHANNELS];
   char *name, *title;
   void *self;
@@ -109,6 +109,6 @@ celspan_status cs_write_close(cs_picture_writer *writer, cs_picture_failure *fai
 }
 
 void cs_write_abandon(cs_picture_writer *writer) {
-  writer->target.has_failed = true; /* a library may still want to complete its file */
+  writer->target.has_failed = true; /* a library may still try to complete its file */
   destroy(writer);
 }

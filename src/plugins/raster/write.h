@@ -8,7 +8,7 @@
 
 #include "plugins/raster/raster.h"
 
-/* The functions of the table; the name of the file precedes each sentence. */
+/* The functions of the table. The name of the file precedes each sentence. */
 celspan_status cs_write_open(const cs_picture_output *output, cs_picture_writer **out,
                              cs_picture_failure *failure);
 celspan_status cs_write_rows(cs_picture_writer *writer, int32_t y, int32_t count, const void *rows,
@@ -16,18 +16,18 @@ celspan_status cs_write_rows(cs_picture_writer *writer, int32_t y, int32_t count
 celspan_status cs_write_close(cs_picture_writer *writer, cs_picture_failure *failure);
 void cs_write_abandon(cs_picture_writer *writer);
 
-/* What a format writes to: bytes in any order. */
+/* The destination of a format: bytes in any order. */
 typedef struct cs_write_target {
   bool (*put)(void *user, uint64_t offset, const void *bytes, size_t size);
   void *user;
-  uint64_t at; /* where the next bytes go */
+  uint64_t at; /* the offset of the next bytes */
   uint64_t size;
   bool has_failed;
 } cs_write_target;
 
 bool cs_write_put(cs_write_target *target, const void *bytes, size_t size);
 
-/* A format: the functions of one file, which is `self`. */
+/* A format: the functions of one file, whose state is `self`. */
 typedef struct cs_write_format {
   const char *name;
   /* NULL: there is no memory. The output and its names are borrowed until the end. */

@@ -15,10 +15,10 @@ typedef struct writing {
   cs_write_target *target;
   int order[CS_PICTURE_CHANNELS]; /* of the channels, by their names */
   size_t value, row;              /* bytes */
-  uint64_t list;                  /* where the places of the chunks go */
+  uint64_t list;                  /* the offset of the list of chunks */
   unsigned char *places;
   int32_t done; /* rows */
-  int kept;     /* of the chunk that is not full */
+  int kept;     /* rows in the chunk that is not full */
   unsigned char *rows, *scratch, *packed;
 } writing;
 
@@ -119,7 +119,7 @@ void cs_exr_spread(const unsigned char *bytes, size_t size, unsigned char *out) 
     out[i] = (unsigned char)(out[i] - out[i - 1] + 128);
 }
 
-/* One row: the values of each channel together, in the order of the names. */
+/* One row: all values of a channel together, with the channels in the order of their names. */
 static void split_row(const writing *w, const unsigned char *row, unsigned char *out) {
   size_t channels = (size_t)w->output->channels;
   for (size_t i = 0; i < channels; i++)

@@ -6,7 +6,7 @@
 
 #include "plugins/raster/write.h"
 
-#define LARGE ((uint64_t)3 << 30) /* bytes from which on places need 64 bits */
+#define LARGE ((uint64_t)3 << 30) /* bytes from which on offsets need 64 bits */
 
 typedef struct writing {
   cs_write_target *target;

@@ -32,7 +32,7 @@ static int put_bytes(const uint8_t *bytes, size_t size, const WebPPicture *pictu
   return cs_write_put(picture->custom_ptr, bytes, size);
 }
 
-/* As OpenImageIO does, so that both modules write the same pixels. */
+/* The same as OpenImageIO does, so that both modules write the same pixels. */
 static bool end(void *self) {
   writing *w = self;
   WebPConfig config;

@@ -33,9 +33,9 @@ typedef struct decoder {
   bool has_worker;
   size_t moment;     /* bytes */
   cs_words words;    /* of ffmpeg */
-  double seconds;    /* that it may take until more samples come; 0: any */
+  double seconds;    /* the most seconds until more samples arrive; 0: any */
   uint64_t memory;   /* the limit; 0: any */
-  atomic_bool stops; /* a read is to end */
+  atomic_bool stops; /* a read must end */
   char path[];
 } decoder;
 
@@ -48,8 +48,8 @@ static celspan_status fail_late(const decoder *d, celspan_context *context) {
                  d->path, d->seconds);
 }
 
-/* Removes the name under which the worker has opened the file. Many messages begin with this
- * name. */
+/* Removes the name under which the worker has opened the file, because many messages begin with
+ * it. */
 static void remove_name(cs_words *words) {
   static const char name[] = CS_SOUND_WORKER_FILE ": ";
   for (char *at; (at = strstr(words->text, name));) {
@@ -65,7 +65,7 @@ static bool is_starved(const decoder *d, int ending) {
          strstr(d->words.text, "failed to map segment");
 }
 
-/* ffmpeg has not succeeded; ending: the status of waitpid, -1: it is not known. */
+/* The failure of ffmpeg. ending: the status of waitpid; -1: it is not known. */
 static celspan_status fail_ending(decoder *d, celspan_context *context, int ending) {
   char how[CS_WORDS + 64];
   bool is_exit = ending != -1 && WIFEXITED(ending);
@@ -140,7 +140,7 @@ static celspan_status read_bytes(decoder *d, celspan_context *context, unsigned 
   return CELSPAN_OK;
 }
 
-/* The outcome of the worker after its last sample. Its messages end when it does. */
+/* The outcome of the worker after its last sample. There are no messages after its end. */
 static celspan_status conclude(decoder *d, celspan_context *context) {
   bool is_late = false;
   if (!d->has_worker)
@@ -242,14 +242,14 @@ typedef struct wave {
 } wave;
 
 enum {
-  EXTENSIBLE = 0xfffe, /* the form is in a longer chunk, which has the places */
+  EXTENSIBLE = 0xfffe, /* the form is in a longer chunk, which also has the places */
   WAVE_FORM = 40,      /* bytes of that chunk */
-  PLAIN_FORM = 16,     /* the fewest bytes of the chunk */
+  PLAIN_FORM = 16,     /* the least number of bytes of the chunk */
   CHUNK_MOST = 4096,   /* bytes of other chunks before the samples */
   CHUNKS_MOST = 16
 };
 
-/* Samples are floats: the identifier's first word is the plain number of the form. */
+/* Samples are floats: the first word of the identifier is the usual number of the form. */
 static const unsigned char FLOATS[16] = {3,    0, 0, 0,    0, 0,    0x10, 0,
                                          0x80, 0, 0, 0xaa, 0, 0x38, 0x9b, 0x71};
 
@@ -259,7 +259,7 @@ typedef struct beginning {
   celspan_status status;
 } beginning;
 
-/* false: there are no `size` more bytes. */
+/* false: fewer than `size` bytes are left. */
 static bool read_beginning(beginning *b, unsigned char *bytes, size_t size) {
   size_t got = 0;
   b->status = read_bytes(b->d, b->context, bytes, size, &got);
@@ -285,7 +285,7 @@ static bool read_wave_form(const unsigned char *form, uint32_t size, wave *out) 
   return is_float && get(form + 14, 2) == 32 && out->rate > 0 && out->channels > 0;
 }
 
-/* Reads the beginning, up to the first sample. false: it is missing, or not in this form. */
+/* Reads the beginning, up to the first sample. false: it is missing, or has another form. */
 static bool read_wave(beginning *b, wave *out) {
   unsigned char head[12], chunk[CHUNK_MOST];
   *out = (wave){0};
@@ -306,7 +306,7 @@ static bool read_wave(beginning *b, wave *out) {
   return false;
 }
 
-/* ffmpeg writes the form of the samples when it has decoded the first ones. */
+/* ffmpeg writes the form of the samples after it has decoded the first ones. */
 static celspan_status read_form(decoder *d, celspan_context *context, wave *out) {
   beginning b = {d, context, CELSPAN_OK};
   if (read_wave(&b, out))

@@ -1,7 +1,7 @@
 /* A sound that ffmpeg decodes in a worker (plugins/isolate/sound_worker.h), as a stream of samples.
  *
- * INVARIANT: what the worker sends is checked, because a malicious sound may have taken it over:
- * the form of the samples has bounds, and infinite samples become 0.
+ * INVARIANT: everything from the worker is checked, because a malicious sound may control the
+ * worker: the form of the samples has bounds, and infinite samples become 0.
  */
 #pragma once
 
@@ -11,8 +11,8 @@ typedef struct cs_decoder_desc {
   const char *path;       /* for messages */
   const char *kind;       /* the name of its format in ffmpeg */
   int descriptor;         /* of the file; borrowed until it is open */
-  int32_t rate, channels; /* that are wanted; 0: those of the file */
-  double speed;           /* 1: as it is */
+  int32_t rate, channels; /* the wanted ones; 0: those of the file */
+  double speed;           /* 1: unchanged */
 } cs_decoder_desc;
 
 /* Errors: those of cs_sound_open. */

@@ -39,13 +39,14 @@ static double pass(const biquad *f, memory *kept, double x) {
 
 /* ---------------------------------------------------------------- channels */
 
-/* The usual places of so many channels in WAV files, for sounds that do not say them. */
+/* The usual places for this number of channels in WAV files, for sounds that do not specify
+ * them. */
 static uint32_t usual_places(int32_t channels) {
   static const uint32_t usual[] = {0, 0x4, 0x3, 0x7, 0x107, 0x37, 0x3f, 0x13f, 0x63f};
   return channels < (int32_t)(sizeof usual / sizeof *usual) ? usual[channels] : 0;
 }
 
-/* Channels behind the listener count more, and the channel of low frequencies does not count. */
+/* Channels behind the listener count more; the channel for low frequencies does not count. */
 static void set_weights(listening *l) {
   uint32_t places = l->samples.places ? l->samples.places : usual_places(l->samples.channels);
   for (int32_t c = 0; c < l->samples.channels; c++) {

@@ -13,7 +13,7 @@
 enum {
   CS_LOUDNESS_RATE = 48000,
   CS_LOUDNESS_STEP = 480, /* moments of a sum */
-  CS_LOUDNESS_HOURS = 24  /* of a sound, at most */
+  CS_LOUDNESS_HOURS = 24  /* the longest sound */
 };
 
 typedef struct cs_loudness {

@@ -10,21 +10,21 @@
 
 enum {
   PIECE = 4096,                    /* moments that are mixed at a time */
-  KEPT_MOMENTS = 10 * CS_MIX_RATE, /* of a sound whose samples are kept, at most, ... */
-  KEPT_ALL = 16 * 1024 * 1024      /* ... and samples of all */
+  KEPT_MOMENTS = 10 * CS_MIX_RATE, /* of a sound whose samples are kept, ... */
+  KEPT_ALL = 16 * 1024 * 1024      /* ... and the most samples of all sounds */
 };
 
-/* One sound while it is mixed. Places are in moments of the film. */
+/* One sound while it is mixed. Positions are in moments of the film. */
 typedef struct part {
   cs_mix_sound sound;
   int64_t origin;          /* of its first sample */
   double end;              /* second at which it ends by itself */
-  bool is_whole;           /* that is known, and not only that it is later than matters */
-  int64_t heard, silent;   /* it is heard from `heard` to before `silent` */
-  cs_sound_stream samples; /* owned; none: it is closed */
+  bool is_whole; /* the end is known exactly; otherwise it is only known to be late enough */
+  int64_t heard, silent;   /* it is heard from `heard` up to, but not including, `silent` */
+  cs_sound_stream samples; /* owned; without one it is closed */
   int64_t place;           /* of the next sample that is read */
-  float *kept;             /* the counted samples, if they are few: the file is not opened again */
-  size_t capacity;         /* of them; 0: they are another part's */
+  float *kept; /* the counted samples, if they are few, so that the file is not opened again */
+  size_t capacity;         /* of the kept samples; 0: they belong to another part */
   int32_t channels;        /* of them */
   int64_t moments;
 } part;
@@ -34,8 +34,8 @@ typedef struct mix {
   part *parts;              /* owned */
   size_t count, open;
   size_t kept;           /* samples of all parts */
-  double slope;          /* seconds: the longest of all duckers */
-  int64_t place, end;    /* of the next moment, and after the last one */
+  double slope;          /* seconds: the longest slope of all duckers */
+  int64_t place, end;    /* the next moment; the end of the last one */
   pthread_mutex_t mutex; /* held while samples are opened or closed, and by `stop` */
   bool stops;            /* protected by the mutex */
   double gains[PIECE];
@@ -59,7 +59,7 @@ static celspan_status name_sound(celspan_context *context, const cs_mix_sound *s
 
 /* ---------------------------------------------------------------- lengths */
 
-/* Sounds of more channels than two are mixed down by ffmpeg. */
+/* ffmpeg mixes sounds of more than two channels down to two. */
 static celspan_status open_samples(celspan_context *context, const cs_mix_sound *sound,
                                    cs_sound_stream *out) {
   cs_sound_request request = {.path = sound->path, .rate = CS_MIX_RATE, .speed = sound->speed};
@@ -86,7 +86,7 @@ static void drop_kept(mix *m, part *p) {
   p->capacity = 0;
 }
 
-/* Keeps samples that were read, after the kept ones, as long as there are few. */
+/* Keeps samples that were read, after the kept ones, as long as their number is small. */
 static celspan_status keep_samples(mix *m, celspan_context *context, part *p, size_t count) {
   size_t used = (size_t)(p->moments * p->channels), before = p->capacity;
   bool is_first = p->moments == 0;
@@ -119,7 +119,7 @@ static celspan_status count_moments(mix *m, celspan_context *context, part *p, i
   return status;
 }
 
-/* The last second of the film that can matter to how the sound is heard. */
+/* The last second of the film that can affect how the sound is heard. */
 static double last_second(const mix *m, const cs_mix_sound *sound) {
   double last = (double)m->end / CS_MIX_RATE;
   for (size_t i = 0; i < sound->passage_count; i++)
@@ -127,8 +127,8 @@ static double last_second(const mix *m, const cs_mix_sound *sound) {
   return last;
 }
 
-/* Takes the length of an earlier part with the same samples; false: no earlier part was counted as
- * far as this one needs. */
+/* Takes the length from an earlier part with the same samples; false: no earlier part was counted
+ * as far as this one needs. */
 static bool take_known(const mix *m, part *p, int64_t most) {
   for (const part *q = m->parts; q < p; q++) {
     bool is_same = q->sound.speed == p->sound.speed && strcmp(q->sound.path, p->sound.path) == 0;
@@ -151,7 +151,7 @@ static celspan_status refuse_from(celspan_context *context, const part *p) {
                  seconds, sound->from);
 }
 
-/* Whether a sound is heard in the mix, or close enough to duck one that is heard. */
+/* Whether a sound is heard in the mix, or is close enough to duck a sound that is heard. */
 static bool matters(const mix *m, const cs_mix_sound *sound) {
   double first = (double)m->place / CS_MIX_RATE, last = (double)m->end / CS_MIX_RATE;
   for (size_t i = 0; i < sound->passage_count; i++)
@@ -204,7 +204,7 @@ static double passages_at(const part *p, double seconds) {
   return gain;
 }
 
-/* How far a moment is on a slope: 0 at its lower end and beyond it, 1 at the upper end. */
+/* The position of a moment on a slope: 0 at its lower end and beyond, 1 at the upper end. */
 static double slope_at(double distance, double length) {
   return distance <= 0 ? 0 : distance < length ? distance / length : 1;
 }
@@ -263,7 +263,7 @@ static celspan_status open_part(mix *m, celspan_context *context, part *p) {
   return CELSPAN_OK;
 }
 
-/* Reads up to PIECE samples; *got: fewer at the end. */
+/* Reads up to PIECE samples. *got: fewer only at the end. */
 static celspan_status read_part(mix *m, celspan_context *context, part *p, int64_t count,
                                 size_t *got) {
   CS_TRY(p->samples.read(p->samples.user, context, m->samples, (size_t)count, got));
@@ -271,7 +271,7 @@ static celspan_status read_part(mix *m, celspan_context *context, part *p, int64
   return CELSPAN_OK;
 }
 
-/* Leaves out the samples before a place. *is_there: there is one at that place. */
+/* Skips the samples before a place. *is_there: there is a sample at this place. */
 static celspan_status skip_to(mix *m, celspan_context *context, part *p, int64_t place,
                               bool *is_there) {
   size_t got = 1;
@@ -302,7 +302,7 @@ static void add_kept(mix *m, const part *p, int64_t from, int64_t to) {
                 (size_t)((to < end ? to : end) - from));
 }
 
-/* The same from its decoder. */
+/* Adds the samples from the part's decoder. */
 static celspan_status add_read(mix *m, celspan_context *context, part *p, int64_t from,
                                int64_t to) {
   bool is_there;

@@ -30,20 +30,21 @@ typedef struct cs_mix_sound {
   const char *tried; /* another path that does not exist either, or NULL */
   double start;      /* second of the film at which the first sample would be heard */
   double speed;      /* above 0 */
-  double from;       /* seconds of the file that are left out, for messages */
+  double from;       /* the seconds of the file that are skipped, for messages */
   int number;        /* in the film's list, for messages */
   double gain[CS_MIX_CHANNELS];
-  /* Of the sound itself, then those around it: all must be open. */
+  /* Of the sound itself, then of the films around it: all must be open. */
   const celspan_sound_passage *passages;
   size_t passage_count;
   const celspan_sound_ducker *duckers;
   size_t ducker_count;
 } cs_mix_sound;
 
-/* Checks that all files are there and have a format that is read. Errors: INPUT. */
+/* Checks that all files exist and have a format that can be read. Errors: INPUT. */
 CELSPAN_CHECKED celspan_status cs_mix_find(celspan_context *context, const cs_mix_sound *sounds,
                                            size_t count);
-/* Adds to a hash what decides the mix: the sounds, and names, sizes and times of their files. */
+/* Adds to a hash everything on which the mix depends: the sounds, and names, sizes and times of
+ * their files. */
 void cs_mix_hash(cs_hash *hash, const cs_mix_sound *sounds, size_t count);
 /* The mix from second `begin` of the film, `moments` of them. sounds: copied, except their paths,
  * passages and duckers, which are borrowed until it is closed. Errors: those of cs_sound_open. */

@@ -58,14 +58,14 @@ static off_t tag_size(const unsigned char *tag) {
   return size + TAG_HEAD + (tag[5] & 0x10 ? TAG_HEAD : 0);
 }
 
-/* A file that is shorter counts as zeros. false: it cannot be read. */
+/* Missing bytes of a shorter file are zeros. false: it cannot be read. */
 static bool read_head(int descriptor, off_t offset, unsigned char out[HEAD]) {
   memset(out, 0, HEAD);
   return cs_open_read_at(descriptor, out, HEAD, offset) >= 0;
 }
 
-/* The name in ffmpeg of the format of the file behind the descriptor; NULL: none of these, or it
- * cannot be read, with errno not 0. */
+/* ffmpeg's name for the format of the file behind the descriptor; NULL: it is of another format,
+ * or, with errno not 0, it cannot be read. */
 static const char *find_kind(int descriptor) {
   unsigned char bytes[HEAD];
   errno = 0;
@@ -108,7 +108,7 @@ static celspan_status recognize(celspan_context *context, const char *path, int 
   return CELSPAN_OK;
 }
 
-/* *descriptor: of the sound, and *kind its format, if the result is OK. */
+/* *descriptor: of the sound; *kind: its format; both are set if the result is OK. */
 static celspan_status open_file(celspan_context *context, const char *path, const char *tried,
                                 int *descriptor, const char **kind) {
   *descriptor = cs_open_to_read(path);

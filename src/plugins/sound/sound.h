@@ -12,15 +12,15 @@
 
 typedef struct cs_sound_request {
   const char *path;
-  int32_t rate, channels; /* that are wanted; 0: those of the file */
-  double speed;           /* 2: twice as fast, with its pitch; 0 and 1: as it is */
+  int32_t rate, channels; /* the wanted ones; 0: those of the file */
+  double speed;           /* 2: twice as fast, without changing the pitch; 0 and 1: unchanged */
 } cs_sound_request;
 
 /* Checks that the file can be opened and has one of the formats. tried: other paths that do not
  * exist either, or NULL. Errors: INPUT. */
 CELSPAN_CHECKED celspan_status cs_sound_find(celspan_context *context, const char *path,
                                              const char *tried);
-/* Starts to decode the sound; its first samples are there. Errors: INPUT, with the message of
+/* Starts to decode the sound, and waits for its first samples. Errors: INPUT, with the message of
  * ffmpeg; LIMIT; OUTPUT, if there is no ffmpeg; NO_MEMORY; CANCELLED. */
 CELSPAN_CHECKED celspan_status cs_sound_open(celspan_context *context,
                                              const cs_sound_request *request, cs_sound_stream *out);

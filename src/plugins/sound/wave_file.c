@@ -29,7 +29,7 @@ static unsigned char *put_name(unsigned char *at, const char *name) {
   return at + 4;
 }
 
-/* A format of floats has a size of its extension, 0, and a count of the moments. */
+/* A format of floats has the size of its extension, 0, and the number of moments. */
 static size_t make_head(const writing *w, uint32_t moments, unsigned char out[HEAD]) {
   uint32_t channels = (uint32_t)w->samples->channels, rate = (uint32_t)w->samples->rate;
   uint32_t size = w->is_float ? 4 : 2, bytes = moments * channels * size;

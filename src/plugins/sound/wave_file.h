@@ -7,16 +7,16 @@
 
 #include "frames/video/sound_stream.h"
 
-/* Where the bytes of a WAV file go, in their order. Errors of `put`: its own. */
+/* The destination of a WAV file's bytes, in order. Errors of `put`: its own. */
 typedef struct cs_wave_target {
   void *user;
   celspan_status (*put)(void *user, celspan_context *context, const void *bytes, size_t size);
 } cs_wave_target;
 
-/* Bytes of the file of that many moments. */
+/* The size in bytes of a file with this number of moments. */
 int64_t cs_wave_file_size(const cs_sound_stream *samples, int64_t moments, bool is_float);
-/* The bytes of the file. *peak and errors: as below, and those of the target. The name is that of
- * the file in messages. */
+/* Writes the bytes of the file. *peak and errors: as below, and those of the target. name: of the
+ * file in messages. */
 CELSPAN_CHECKED celspan_status cs_wave_file_put(celspan_context *context, const char *name,
                                                 const cs_wave_target *target,
                                                 const cs_sound_stream *samples, int64_t moments,

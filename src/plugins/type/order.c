@@ -31,7 +31,7 @@ static bool classify(const uint32_t *characters, size_t count, classified *out) 
 celspan_status cs_order_embeddings(const uint32_t *characters, size_t count,
                                    celspan_direction direction, uint8_t *embeddings,
                                    uint8_t *base) {
-  /* Without a strong character a paragraph runs to the right. */
+  /* A paragraph without a strong character runs to the right. */
   FriBidiParType wanted = direction == CELSPAN_DIRECTION_LTR   ? FRIBIDI_PAR_LTR
                           : direction == CELSPAN_DIRECTION_RTL ? FRIBIDI_PAR_RTL
                                                                : FRIBIDI_PAR_ON;
@@ -71,8 +71,8 @@ celspan_status cs_order_end_line(const uint32_t *characters, size_t begin, size_
 
 /* ---------------------------------------------------------------- breaks */
 
-/* The library ends the process when it meets a regional indicator, of which flags are made, or
- * U+FFFF: to it they are letters. */
+/* The library ends the process for a regional indicator (flags are made of these) or U+FFFF, so it
+ * is given letters instead. */
 static uint32_t bearable(uint32_t character) {
   bool is_known = character != 0xffff && (character < 0x1f1e6 || character > 0x1f1ff);
   return is_known ? character : 'A';
@@ -80,7 +80,7 @@ static uint32_t bearable(uint32_t character) {
 
 celspan_status cs_order_breaks(const uint32_t *characters, size_t count, const char *language,
                                uint8_t *breaks) {
-  /* The library makes an index of its tables, once. */
+  /* The library makes an index of its tables; this is done once. */
   static pthread_once_t once = PTHREAD_ONCE_INIT;
   pthread_once(&once, init_linebreak);
   utf32_t *letters = calloc(count > 0 ? count : 1, sizeof *letters);

@@ -18,7 +18,8 @@ struct cs_type_font {
   uint32_t face;
   hb_variation_t settings[SETTINGS];
   unsigned setting_count;
-  pthread_mutex_t lock; /* of the members below: parts of a font are made when they are needed */
+  /* protects the members below: parts of a font are made when they are needed */
+  pthread_mutex_t lock;
   hb_font_t *font;      /* NULL: it lacked memory */
   hb_draw_funcs_t *functions;
 };
@@ -68,7 +69,7 @@ static hb_draw_funcs_t *create_functions(void) {
 
 static bool lacks_process; /* the memory that HarfBuzz keeps as long as the process lives */
 
-/* Everything that HarfBuzz makes once, so that later failures belong to a font. */
+/* Makes everything that HarfBuzz makes only once, so that later failures belong to a font. */
 static void make_for_process(void) {
   errno = 0;
   hb_unicode_funcs_get_default();
@@ -84,7 +85,7 @@ static void drop(cs_type_font *font) {
   font->functions = NULL;
 }
 
-/* Makes the font, for the first time or again. The lock is held. */
+/* Makes the font, for the first time or again. The caller has locked the lock. */
 static void make(cs_type_font *font) {
   hb_blob_t *blob =
       hb_blob_create(font->bytes, (unsigned)font->size, HB_MEMORY_MODE_READONLY, NULL, NULL);
@@ -132,7 +133,7 @@ static void set_variations(cs_type_font *font, const celspan_variation *variatio
     font->settings[i] = (hb_variation_t){tag_of(variations[i].tag), (float)variations[i].value};
 }
 
-/* Bit i: the font has the axis of setting i. */
+/* Bit i: the font has the axis of variation i. */
 static uint64_t find_axes(const cs_type_font *font) {
   uint64_t axes = 0;
   hb_ot_var_axis_info_t axis;
@@ -142,7 +143,7 @@ static uint64_t find_axes(const cs_type_font *font) {
   return axes;
 }
 
-/* A height from the tables of the font. If it is missing, the height of the letter `letter`; if the
+/* A height from the tables of the font; if they lack it, the height of the letter `letter`; if the
  * font lacks this letter, `other`. */
 static int32_t find_height(const cs_type_font *font, hb_ot_metrics_tag_t tag, uint32_t letter,
                            int32_t other) {

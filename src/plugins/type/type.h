@@ -1,4 +1,4 @@
-/* What the files of the art module share: see the tables in readers/xml/module.h and
+/* Declarations that the files of the art module share: see the tables in readers/xml/module.h and
  * readers/xml/type.h. */
 #pragma once
 

@@ -10,9 +10,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Bytes handed to expat at a time: it counts them in an int. */
+/* Bytes that expat gets at a time, because it counts them in an int. */
 #define PIECE_BYTES (1 << 20)
-/* The most bytes of one entity's text, as its message says. */
+/* The most bytes of one entity's text, as the message about it says. */
 #define ENTITY_BYTES 1024
 /* Entities may make a document this many times as large, and any to this many bytes. */
 #define GROWTH 2
@@ -77,9 +77,10 @@ static void on_text(void *user, const XML_Char *bytes, int size) {
     stop(doc);
 }
 
-/* Why an entity may not be declared; NULL: it may. Those of the document type itself and those in
- * other files are how one file reads another, and those made of others are how a small file grows
- * without bound. value is text, in which character references are undone: NULL for another file. */
+/* Why an entity may not be declared; NULL: it may be. Refused are entities of the document type
+ * itself and those in other files, by which one file reads another; and those made of other
+ * entities, by which a small file grows without bound. value: the text, with character references
+ * replaced; NULL for another file. */
 static const char *refusal_of(const XML_Char *value, int size, int is_parameter) {
   if (is_parameter)
     return "is a parameter entity, which is not read";
@@ -102,7 +103,7 @@ static void on_entity(void *user, const XML_Char *name, int is_parameter, const 
   stop(doc);
 }
 
-/* An entity that nobody declared, where another file might declare it. */
+/* An entity without a declaration, which another file might contain. */
 static void on_skipped(void *user, const XML_Char *name, int is_parameter) {
   document *doc = user;
   if (is_stopped(doc) || is_parameter)
@@ -134,7 +135,8 @@ static celspan_status parse(document *doc, const char *bytes, size_t size) {
     bool is_last = done + piece == size;
     if (XML_Parse(doc->parser, bytes + done, (int)piece, is_last) != XML_STATUS_OK) {
       enum XML_Error error = XML_GetErrorCode(doc->parser);
-      if (error == XML_ERROR_NO_MEMORY || errno == ENOMEM) /* it may report another error then */
+      /* in this case expat may report another error */
+      if (error == XML_ERROR_NO_MEMORY || errno == ENOMEM)
         return fail(doc, CELSPAN_NO_MEMORY, "out of memory");
       if (error == XML_ERROR_ABORTED)
         return doc->failure->status != CELSPAN_OK ? doc->failure->status : CELSPAN_CANCELLED;

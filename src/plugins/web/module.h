@@ -34,8 +34,8 @@ typedef struct cs_web cs_web;
 
 #define CS_WEB_TOKEN "Celspan-Token" /* the header of a request that has a token */
 
-/* A whole request; its texts live until it is answered. Headers that are missing are NULL; none of
- * them was sent twice. */
+/* A complete request; its texts live until it is answered. Headers that are missing are NULL; none
+ * of them was sent twice. */
 typedef struct cs_web_request {
   uint64_t id;
   const char *method;
@@ -60,7 +60,7 @@ typedef struct cs_web_answer {
 /* Counts of refusals since the server was opened. */
 typedef struct cs_web_counts {
   uint64_t requests;  /* whole ones */
-  uint64_t displaced; /* connections without a whole request that gave their place to another */
+  uint64_t displaced; /* connections without a complete request that were closed for another one */
   uint64_t refused;   /* connections that found no place */
   uint64_t late;      /* connections that were too slow */
   uint64_t oversized; /* requests whose head or body was too long */
@@ -68,14 +68,14 @@ typedef struct cs_web_counts {
 
 typedef struct cs_web_module {
   uint32_t version;
-  /* port: 0 takes one that is free. Returns 0, or an errno. */
+  /* port: 0: any free one. Returns 0, or an errno. */
   int (*open)(uint16_t port, cs_web **out);
   uint16_t (*port)(const cs_web *web);
   int (*descriptor)(const cs_web *web);
   /* Accepts, reads and writes without waiting. Returns the milliseconds after which it must be
    * called again even if nothing is readable: 0 while a request waits to be taken, -1 for ever. */
   int (*run)(cs_web *web);
-  /* The next whole request; NULL: there is none. */
+  /* The next complete request; NULL: there is none. */
   const cs_web_request *(*take)(cs_web *web);
   /* Answers a request that was taken. false: there is no memory, and its connection is closed. */
   bool (*answer)(cs_web *web, uint64_t id, const cs_web_answer *answer);

@@ -17,7 +17,8 @@
 #include "plugins/web/module.h"
 
 enum {
-  POOL = 16384, /* bytes that the library reads a request into; beyond them it answers 431 or 414 */
+  /* the library's memory for a request; if it needs more, the library answers 431 or 414 */
+  POOL = 16384,
   SPARE = 32    /* connections that are being closed */
 };
 
@@ -31,10 +32,10 @@ typedef struct web_connection {
 } web_connection;
 
 typedef struct web_request {
-  struct web_request *next;       /* of all that are not finished */
+  struct web_request *next;       /* in the list of all that are not finished */
   struct MHD_Connection *library; /* the library's name for the connection */
   web_connection *connection;     /* borrowed */
-  cs_web_request whole;           /* the request as the program gets it */
+  cs_web_request whole;           /* the request in the form that the program gets */
   bool has_begun, is_long, is_taken, is_answered;
   char body[CS_WEB_BODY];
   char target[]; /* as it was sent */
@@ -48,7 +49,7 @@ struct cs_web {
   cs_web_counts counts;
 };
 
-/* Seconds since some moment, which never go back. */
+/* Seconds since some moment; the clock never goes back. */
 static double now_seconds(void) {
   struct timespec now;
   clock_gettime(CLOCK_MONOTONIC, &now);
@@ -70,7 +71,7 @@ static void end_connection(web_connection *connection) {
   shutdown(connection->socket, SHUT_RDWR);
 }
 
-/* The oldest that has no whole request: the list is newest first. */
+/* The oldest connection without a complete request: the list is newest first. */
 static web_connection *find_oldest(const cs_web *web, size_t *open) {
   web_connection *oldest = NULL;
   *open = 0;
@@ -134,8 +135,8 @@ static double most_seconds(web_state state) {
   return state == WEB_READING ? CS_WEB_IDLE : state == WEB_SENDING ? CS_WEB_SENDING : 0;
 }
 
-/* Closes connections that are too slow. Returns the milliseconds until the next connection may be
- * too slow; -1: none can be. */
+/* Closes connections that are too slow. Returns the milliseconds until another one may be too slow;
+ * -1: this cannot happen. */
 static int sweep(cs_web *web) {
   double next = -1, now = now_seconds();
   for (web_connection *one = web->connections; one; one = one->next) {
@@ -169,7 +170,7 @@ static void *begin_request(void *user, const char *target, struct MHD_Connection
   return request;
 }
 
-/* The headers that count: one line each at most. */
+/* The headers that are read; each may occur once. */
 static const char *const single[] = {MHD_HTTP_HEADER_HOST,
                                      "Origin",
                                      "Sec-Fetch-Site",
@@ -180,7 +181,7 @@ enum { SINGLE = sizeof single / sizeof *single };
 
 typedef struct web_head {
   size_t bytes;
-  unsigned lines[SINGLE]; /* of each of these */
+  unsigned lines[SINGLE]; /* how often each of these occurs */
 } web_head;
 
 static enum MHD_Result count_header(void *user, enum MHD_ValueKind kind, const char *name,
@@ -193,7 +194,7 @@ static enum MHD_Result count_header(void *user, enum MHD_ValueKind kind, const c
   return MHD_YES;
 }
 
-/* The status that refuses a request by its head; 0: none does. */
+/* The status with which a request is refused because of its head; 0: it is not refused. */
 static unsigned judge_head(const web_request *request) {
   web_head head = {.bytes = strlen(request->target)};
   MHD_get_connection_values(request->library, MHD_HEADER_KIND, count_header, &head);
@@ -223,7 +224,7 @@ static void complete(cs_web *web, web_request *request, const char *method) {
   MHD_suspend_connection(request->library);
 }
 
-/* Answers a request that the program does not get at once, and closes its connection. */
+/* Answers a request that is not passed to the program at once, and closes its connection. */
 static enum MHD_Result refuse(cs_web *web, struct MHD_Connection *library, unsigned status) {
   struct MHD_Response *response =
       MHD_create_response_from_buffer(0, (void *)(size_t) "", MHD_RESPMEM_PERSISTENT);
@@ -289,7 +290,7 @@ static void finish_request(void *user, struct MHD_Connection *library, void **co
 
 /* ---------------------------------------------------------------- answering */
 
-/* The oldest that nobody took: the list is newest first. */
+/* The oldest request that was not taken: the list is newest first. */
 static web_request *find_waiting(const cs_web *web) {
   web_request *oldest = NULL;
   for (web_request *one = web->requests; one; one = one->next)
@@ -336,7 +337,7 @@ static bool answer(cs_web *web, uint64_t id, const cs_web_answer *answer) {
   for (web_request *one = web->requests; one; one = one->next)
     if (one->whole.id == id && !one->is_answered)
       return answer_request(one, answer);
-  return true; /* its client has gone */
+  return true; /* the client has gone */
 }
 
 /* ---------------------------------------------------------------- the server */
@@ -387,7 +388,7 @@ static int run(cs_web *web) {
 
 static cs_web_counts counts(const cs_web *web) { return web->counts; }
 
-/* The library wants no connection to be suspended when it stops. */
+/* The library requires that no connection is suspended when it stops. */
 static void close_web(cs_web *web) {
   if (!web)
     return;
