@@ -14,9 +14,9 @@ enum { BITS = 5, BINS = 1 << 3 * BITS, ROUNDS = 32 };
 #define FLAT_SHARE 50
 /* The share of the pixels with which a colour is as likely to be chosen as any other. */
 #define FULL_SHARE 500
-/* Colours of less distance, squared, are the same to the eye. */
+/* A colour with this share of the pixels is as likely to be chosen as any more frequent one. */
 #define SAME 0.0009f
-/* The squared distance of colours that count as near the fullest bin. */
+/* Colours with a smaller squared distance look the same. */
 #define ABOUT 0.003f
 
 typedef struct bin {
@@ -65,7 +65,7 @@ static void add_pixel(bin *bins, const unsigned char *code) {
     into->sum[c] += code[c];
 }
 
-/* Every opaque pixel, or only the flat ones of these; returns how many there were. */
+/* Fills the bins with all opaque pixels, or only with the flat ones. Returns their number. */
 static uint64_t fill_bins(const cs_scan *scan, bool is_flat, bin *bins) {
   uint64_t total = 0;
   size_t stride = 4 * (size_t)scan->width;
@@ -87,7 +87,7 @@ static void mean_code(const uint64_t sum[3], uint64_t count, unsigned char code[
     code[c] = (unsigned char)((sum[c] + count / 2) / count);
 }
 
-/* Leaves only the bins that hold something, with their places in Oklab. */
+/* Keeps only the bins that are not empty, and sets their places in Oklab. */
 static size_t pack_bins(const cs_scan *scan, bin *bins) {
   size_t count = 0;
   for (size_t i = 0; i < BINS; i++) {
@@ -132,8 +132,8 @@ static float distance_to(const groups *g, cs_oklab lab, uint32_t *group) {
   return least;
 }
 
-/* The bin that lies farthest from all centres; one of few pixels counts less. false: none is
- * far. */
+/* Adds the bin that is farthest from all centres; a bin of few pixels counts less. false: none is
+ * far enough. */
 static bool add_centre(groups *g) {
   double full = (double)g->total / FULL_SHARE, most = 0;
   size_t best = 0;
@@ -162,7 +162,7 @@ static bool assign(groups *g) {
   return has_changed;
 }
 
-/* A group that lost all of its bins keeps its centre. */
+/* A group without bins keeps its centre. */
 static void move_centres(groups *g) {
   double sums[CS_COLOURS_MOST][4] = {{0}};
   for (size_t i = 0; i < g->bin_count; i++) {
@@ -217,7 +217,8 @@ static bool is_listed(const cs_colours *colours, const unsigned char code[3]) {
   return false;
 }
 
-/* In the order of their pixels: each is put before the groups that have fewer. */
+/* Lists the colours in descending order of their pixels: each is inserted before groups that have
+ * fewer. */
 static void list_colours(const groups *g, const cs_scan *scan, cs_colours *out) {
   uint64_t counts[CS_COLOURS_MOST + 1];
   out->count = 0;
@@ -285,7 +286,7 @@ static size_t bytes_of(const cs_scan *scan) {
   return (size_t)scan->width * (size_t)scan->height * 4;
 }
 
-/* One row of a block: its codes where they are exact, else its texels coded. */
+/* One row of a block: its codes if they are exact; otherwise its texels are coded. */
 static void copy_row(const cs_picture_block *block, int32_t row, int32_t count, cs_srgb8 code,
                      unsigned char *out) {
   if (block->is_coded && block->codes)

@@ -50,7 +50,7 @@ static inline cs_light4 cs_scan_light(const cs_scan *scan, int32_t x, int32_t y)
   return light;
 }
 
-/* Errors: those of pictures; LIMIT. On failure there is nothing to finish. */
+/* Errors: those of pictures; LIMIT. After a failure nothing must be finished. */
 CELSPAN_CHECKED celspan_status cs_scan_read(celspan_context *context, const cs_picture *picture,
                                             cs_scan *out);
 void cs_scan_finish(cs_scan *scan, celspan_context *context);
@@ -69,7 +69,7 @@ typedef struct cs_flat_colour {
 
 typedef struct cs_colours {
   size_t count;
-  cs_flat_colour list[CS_COLOURS_MOST + 1]; /* the last one: nothing at all, alpha 0 */
+  cs_flat_colour list[CS_COLOURS_MOST + 1]; /* the last one means nothing at all, alpha 0 */
 } cs_colours;
 
 cs_oklab cs_oklab_of(const float light[3]);
@@ -79,11 +79,11 @@ static inline float cs_oklab_apart(cs_oklab a, cs_oklab b) {
   return L * L + u * u + v * v;
 }
 
-/* Finds at most `wanted` colours, 1..CS_COLOURS_MOST; fewer where there are no more. None where the
- * picture is clear. Errors: NO_MEMORY. */
+/* Finds at most `wanted` colours, 1..CS_COLOURS_MOST; fewer if the picture has no more, and none if
+ * it is clear. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_colours_find(celspan_context *context, const cs_scan *scan,
                                                size_t wanted, cs_colours *out);
-/* codes: 3 bytes each. Errors: BAD_ARGUMENT where two are the same. */
+/* codes: 3 bytes each. Errors: BAD_ARGUMENT if two are equal. */
 CELSPAN_CHECKED celspan_status cs_colours_take(celspan_context *context, const cs_scan *scan,
                                                const unsigned char *codes, size_t count,
                                                cs_colours *out);

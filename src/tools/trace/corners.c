@@ -5,17 +5,17 @@
 #include "base/number.h"
 #include "tools/trace/stretches.h"
 
-/* Points on either side of doubtful ones that are taken apart with them. */
+/* The number of points on either side of doubtful ones that are examined with them. */
 enum { MARGIN = 24 };
-/* Points between two stretches at most that meet in a corner. */
+/* The most points between two stretches that meet in a corner. */
 enum { GAP_MOST = 4 };
-/* How far a corner may be from the points about it. */
+/* The greatest distance of a corner from the points around it. */
 #define FAR 2.5
-/* The distance of points from an arc without a corner, at most, in units of the noise. */
+/* The greatest distance of points from an arc without a corner, in units of the noise. */
 #define DOUBT 1.4
 
-/* Points on either side through which a bend goes that a corner is not told from, and its least
- * radius in pixels. */
+/* The number of points on either side of a bend that cannot be distinguished from a corner, and the
+ * least radius of the bend in pixels. */
 enum { ROUND = 5 };
 #define ROUND_LEAST 2.0
 
@@ -24,16 +24,17 @@ typedef struct finder {
   const cs_points *points;
   bool is_closed;
   const cs_fit_rules *rules;
-  cs_stretches stretches; /* of the range that is taken apart */
+  cs_stretches stretches; /* of the range that is examined */
   cs_corner_list *out;
 } finder;
 
 static ptrdiff_t point_count(const finder *f) { return (ptrdiff_t)f->points->count; }
 
-/* One point in this many is examined: its neighbours overlap with it by far. */
+/* Only one point in this many is examined, because the surroundings of neighbours overlap by
+ * far. */
 static int stride_of(const finder *f) { return f->rules->near / 2; }
 
-/* Whether one arc goes through the points about one. */
+/* Whether a single arc goes through the points around a point. */
 static bool is_smooth(const finder *f, ptrdiff_t i) {
   ptrdiff_t count = point_count(f), from = i - f->rules->near, to = i + f->rules->near + 1;
   if (!f->is_closed) {
@@ -49,7 +50,7 @@ static bool is_smooth(const finder *f, ptrdiff_t i) {
 
 /* ---------------------------------------------------------------- one corner */
 
-/* Goes to where both intersect; false: they do not, or too far away. */
+/* Moves to the intersection of both; false: there is none, or it is too far away. */
 static bool intersect(const cs_arc *a, const cs_arc *b, celspan_point *point) {
   celspan_point begun = *point, u, v;
   for (int step = 0; step < 5; step++) {
@@ -66,8 +67,8 @@ static bool intersect(const cs_arc *a, const cs_arc *b, celspan_point *point) {
   return true;
 }
 
-/* The direction of a stretch where it gets to a point, seen from another of its points; step: 1 to
- * it, -1 from it. */
+/* The direction of a stretch at a point, seen from another of its points. step: 1 towards the
+ * point, -1 away from it. */
 static celspan_point direction_at(const cs_arc *arc, celspan_point point, celspan_point seen,
                                   int step) {
   celspan_point across;
@@ -79,7 +80,7 @@ static celspan_point direction_at(const cs_arc *arc, celspan_point point, celspa
   return (celspan_point){sign * along.x, sign * along.y};
 }
 
-/* Whether two stretches, one after the other, meet in a corner. */
+/* Whether two consecutive stretches meet in a corner. */
 static bool meet(const finder *f, const cs_stretch *a, const cs_stretch *b, celspan_point *point) {
   celspan_point last = cs_points_at(f->points, a->to - 1), first = cs_points_at(f->points, b->from);
   *point = (celspan_point){0.5 * (last.x + first.x), 0.5 * (last.y + first.y)};
@@ -90,8 +91,8 @@ static bool meet(const finder *f, const cs_stretch *a, const cs_stretch *b, cels
   return in.x * out.x + in.y * out.y <= f->rules->turn;
 }
 
-/* Whether points between two stretches, and next to them, are as near to both sides of their corner
- * as rounding explains. Along a bend they are not. */
+/* Whether the points between two stretches, and next to them, are near to both sides of their
+ * corner, within rounding. Along a bend they are not. */
 static bool is_filled(const finder *f, const cs_stretch *a, const cs_stretch *b) {
   for (ptrdiff_t i = a->to - 1; i <= b->from; i++) {
     celspan_point own = cs_points_at(f->points, i), across;
@@ -103,8 +104,8 @@ static bool is_filled(const finder *f, const cs_stretch *a, const cs_stretch *b)
   return true;
 }
 
-/* Whether an arc passes through the gates about where two stretches meet, of which one is an arc
- * itself: then it is as likely that the bend continues as that there is a corner. */
+/* Whether an arc passes through the gates around the joint of two stretches, one of which is an
+ * arc: if so, a continued bend is as likely as a corner. */
 static bool goes_round(const finder *f, const cs_stretch *a, const cs_stretch *b) {
   ptrdiff_t middle = (a->to + b->from) / 2, from = middle - ROUND, to = middle + ROUND;
   cs_gate_row row;
@@ -165,7 +166,8 @@ static celspan_status find_between(finder *f, ptrdiff_t from, ptrdiff_t to, ptrd
   return CELSPAN_OK;
 }
 
-/* A point with none but smooth ones within the margin; the count of points: there is none. */
+/* A point around which all points within the margin are smooth; the number of points if there is
+ * none. */
 static ptrdiff_t find_smooth(const finder *f) {
   ptrdiff_t count = point_count(f), run = 0, stride = stride_of(f);
   for (ptrdiff_t i = 0; i < count; i += stride) {
@@ -176,7 +178,8 @@ static ptrdiff_t find_smooth(const finder *f) {
   return count;
 }
 
-/* From `begin` on, once around or to the end: doubtful points that are near each other together. */
+/* Searches from `begin` on, once around or to the end: doubtful points that are near each other are
+ * examined together. */
 static celspan_status find_all(finder *f, ptrdiff_t begin) {
   ptrdiff_t end = begin + point_count(f), stride = stride_of(f);
   for (ptrdiff_t i = begin; i < end; i += stride) {

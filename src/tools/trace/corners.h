@@ -15,15 +15,14 @@
 /* How points are fitted. */
 typedef struct cs_fit_rules {
   double tolerance; /* pixels between a point and the fitted line */
-  double mean;      /* and root mean square of all of them */
+  double mean;      /* the root mean square of these distances */
   double straight;  /* pixels between a point and a line from corner to corner */
-  int about;        /* points on either side that give a tangent */
-  double turn;      /* cosine of the least angle that is a corner */
-  int near;         /* points on either side that lie on an arc where there is no corner */
-  double rounding;  /* pixels that points next to a corner are off both of its sides */
-  double noise;     /* pixels, root mean square, that points are off a smooth border */
-  bool is_exact;    /* the fitted line passes all gates: tolerance, mean and straight do not
-                       count */
+  int about;        /* the number of points on either side that determine a tangent */
+  double turn;      /* the cosine of the least angle that counts as a corner */
+  int near; /* the number of points on either side that lie on an arc if there is no corner */
+  double rounding;  /* pixels: the distance of points next to a corner from both of its sides */
+  double noise;     /* pixels: the distance of points from a smooth border, root mean square */
+  bool is_exact; /* the fitted line passes all gates; tolerance, mean and straight are not used */
 } cs_fit_rules;
 
 typedef struct cs_corner {
@@ -36,7 +35,8 @@ typedef struct cs_corner_list {
   size_t count, capacity;
 } cs_corner_list;
 
-/* The corners of points, closed or with ends, which do not count; in order. Errors: NO_MEMORY. */
+/* The corners of points, in order; the points are closed or have ends, which do not count as
+ * corners. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_corners_find(celspan_context *context, const cs_points *points,
                                                bool is_closed, const cs_fit_rules *rules,
                                                cs_corner_list *out);

@@ -5,13 +5,13 @@
 #include "base/number.h"
 #include "base/solve.h"
 
-/* How often the parameters are moved nearer to the curve, and how many points are examined for
- * that, at most. */
+/* How often the parameters are moved towards the curve, and the most points that are examined for
+ * this. */
 enum { ROUNDS = 4, ASKED = 40 };
-/* A cubic whose error is this many times the allowed one will not come near enough. */
+/* A cubic whose error is this many times the allowed error cannot become good enough. */
 #define HOPELESS 6.0
 /* The same for gates, where the weights must be found, too; and the share of its weight that a
- * point keeps when the curve goes right through it. */
+ * point keeps if the curve goes exactly through it. */
 enum { THREAD_ROUNDS = 12 };
 #define THREAD_HOPELESS 20.0
 #define STAYS 0.05
@@ -58,7 +58,7 @@ static void begin_stations(const cs_edge_point *points, size_t count, const cs_c
     stations[i].parameter = sum > 0 ? stations[i].parameter / sum : 0;
 }
 
-/* One step of Newton's method towards the nearest place. */
+/* One step of Newton's method towards the nearest point of the curve. */
 static double nearer(const cubic *c, celspan_point point, double t) {
   celspan_point at = point_at(c, t), slope = slope_at(c, t), bend = bend_at(c, t);
   double dx = at.x - point.x, dy = at.y - point.y;
@@ -92,9 +92,9 @@ static int list_unknowns(const cs_cubic_end ends[2], unknown list[4]) {
 }
 
 typedef struct sums {
-  double b[2][2];     /* of products of the weights of both control points */
-  celspan_point r[2]; /* of their weights with the part of the points that the ends do not
-                         explain */
+  double b[2][2];     /* sums of products of the weights of both control points */
+  /* sums of products of their weights with the part of the points that the ends do not explain */
+  celspan_point r[2];
 } sums;
 
 static void add_point(sums *s, const cs_cubic_end ends[2], celspan_point point, double t,
@@ -125,8 +125,8 @@ static void place_plainly(const cs_cubic_end ends[2], celspan_point control[2]) 
   }
 }
 
-/* Whether control points are where a curve along the points can have them: before their ends, and
- * not beyond reason. */
+/* Whether the control points are plausible for a curve along the points: in front of their ends,
+ * and not too far away. */
 static bool is_sound(const cs_cubic_end ends[2], const celspan_point control[2]) {
   double chord =
       cs_number_length(ends[1].point.x - ends[0].point.x, ends[1].point.y - ends[0].point.y);
@@ -169,13 +169,13 @@ static double far_from(const cubic *c, celspan_point point, double t) {
   return cs_number_length(at.x - point.x, at.y - point.y);
 }
 
-/* How far points are off: the farthest, and root mean square. */
+/* The distances of points: the greatest one, and the root mean square. */
 typedef struct distances {
   double most, mean;
 } distances;
 
-/* Moves the parameters nearer to the curve, and returns the distances after that. step: one point
- * in `step` is examined. */
+/* Moves the parameters towards the curve, and returns the distances after this. step: one point in
+ * `step` is examined. */
 static distances bring_nearer(const cubic *c, const cs_edge_point *points, size_t count,
                               size_t step, cs_cubic_station *stations) {
   double most = 0, squares = 0, asked = 0;
@@ -190,7 +190,7 @@ static distances bring_nearer(const cubic *c, const cs_edge_point *points, size_
   return (distances){most, sqrt(squares / asked)};
 }
 
-/* The cubic of least squares for points at the parameters of their stations. */
+/* The cubic of least squares, with the points at the parameters of their stations. */
 static cubic solve(const cs_edge_point *points, size_t count, size_t step,
                    const cs_cubic_end ends[2], const cs_cubic_station *stations,
                    celspan_point control[2]) {
@@ -244,8 +244,8 @@ static double pass(const cubic *c, const cs_edge_point *point, cs_cubic_station 
   return (is_across ? fabs(dx * along.y - dy * along.x) : cs_number_length(dx, dy)) / station->room;
 }
 
-/* Measures how the curve passes all gates, and weighs the points again. Returns the largest
- * share. */
+/* Measures how the curve passes all gates, and sets the weights of the points again. Returns the
+ * largest share. */
 static double pass_all(const cubic *c, const cs_edge_point *points, size_t count,
                        cs_cubic_station *stations) {
   double most = 0, total = 0;

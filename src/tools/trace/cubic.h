@@ -12,8 +12,7 @@
 
 #include "tools/trace/edge.h"
 
-/* An end: where the curve is and, where has_tangent, in what direction it leaves towards the other
- * end. */
+/* An end: the place of the curve and, if has_tangent, its direction towards the other end. */
 typedef struct cs_cubic_end {
   celspan_point point, tangent;
   bool has_tangent;
@@ -22,16 +21,16 @@ typedef struct cs_cubic_end {
 /* The state of a point while a cubic is fitted. */
 typedef struct cs_cubic_station {
   double parameter;
-  double weight, room; /* where gates are passed */
+  double weight, room; /* used if gates must be passed */
 } cs_cubic_station;
 
-/* The points lie between the ends, which are not among them; `stations` is one for each. Returns
- * whether no point is farther away than the tolerance, and all of them, root mean square, not
- * farther than `mean`. */
+/* The points lie between the ends, which are not included; there is a station for each. Returns
+ * whether no point is farther away than the tolerance, and their root mean square distance is at
+ * most `mean`. */
 bool cs_cubic_fit(const cs_edge_point *points, size_t count, const cs_cubic_end ends[2],
                   double tolerance, double mean, cs_cubic_station *stations,
                   celspan_point control[2]);
-/* The same for points of whole pixels: returns whether the curve passes all their gates. Gates that
- * are missed most get more weight, round by round (Lawson's algorithm, 1961). */
+/* The same for points of whole pixels: returns whether the curve passes all their gates. In each
+ * round, the gates that are missed most get more weight (Lawson's algorithm, 1961). */
 bool cs_cubic_thread(const cs_edge_point *points, size_t count, const cs_cubic_end ends[2],
                      cs_cubic_station *stations, celspan_point control[2]);

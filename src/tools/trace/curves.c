@@ -6,7 +6,7 @@
 #include "base/number.h"
 #include "tools/trace/corners.h"
 
-/* Closed chains of fewer sides, or of fewer points, are not changed. */
+/* Closed chains with fewer sides or fewer points are not changed. */
 enum { FEW_SIDES = 8, FEW_POINTS = 5 };
 
 typedef struct maker {
@@ -15,7 +15,7 @@ typedef struct maker {
   const cs_borders *borders;
   celspan_point *places; /* of nodes */
   cs_fit_rules rules;
-  bool is_exact; /* the borders of pixels */
+  bool is_exact; /* the borders of the pixels themselves */
   cs_curves *out;
 } maker;
 
@@ -33,8 +33,8 @@ static cs_fit_rules rules_of_mixed(double smooth) {
                         .noise = 0.065 * most(smooth, 1)};
 }
 
-/* A picture of whole pixels does not tell where within half a pixel of a side an edge is: that is
- * noise of the square root of 1/12. A curve that is smoothed more need not pass between the
+/* In a picture of whole pixels, the position of an edge is only known to half a pixel from a side:
+ * this is noise of the square root of 1/12. A curve that is smoothed more need not pass between the
  * pixels. */
 static cs_fit_rules rules_of_whole(double smooth) {
   return (cs_fit_rules){.tolerance = 0.3 + 0.25 * smooth,
@@ -58,7 +58,7 @@ static cs_fit_rules rules_for(double smooth, bool is_whole) {
 
 /* ---------------------------------------------------------------- one chain */
 
-/* The sides of the pixels, from node to node as these lie. */
+/* Follows the sides of the pixels from node to node; the nodes have been moved. */
 static celspan_status follow_pixels(const maker *m, const cs_chain *chain, cs_points *points,
                                     celspan_point *start) {
   CS_TRY(cs_edge_turns(m->context, m->borders, chain, points));
@@ -118,7 +118,7 @@ static celspan_status make_all(const maker *m) {
 celspan_status cs_curves_make(celspan_context *context, const cs_material *material,
                               const cs_borders *borders, double smooth, cs_curves *out) {
   cs_memory *memory = context->memory;
-  size_t nodes = borders->node_count + 1; /* one at least, so that there is an array */
+  size_t nodes = borders->node_count + 1; /* at least one, so that the array exists */
   maker m = {.context = context, .material = material, .borders = borders, .out = out};
   *out = (cs_curves){.count = borders->chain_count};
   out->list = cs_mem_array(memory, out->count, sizeof *out->list);
@@ -138,7 +138,8 @@ void cs_curves_finish(cs_curves *curves, celspan_context *context) {
 
 /* ---------------------------------------------------------------- nodes */
 
-/* Points between these distances from the corner are fitted; the sides of that way. */
+/* The distances from the corner between which points are fitted, and the number of sides
+ * examined. */
 #define NEAREST 1.2
 #define FARTHEST 6.0
 enum { SIDES = 8 };
@@ -150,7 +151,7 @@ typedef struct sums {
   double xx, xy, yy, x, y;
 } sums;
 
-/* Adds the square of the distance from the line through the points. */
+/* Adds the squared distance from the line through the points. */
 static void add_line(sums *s, const cs_points *points, const cs_node *node) {
   double n = 0, mx = 0, my = 0, xx = 0, xy = 0, yy = 0;
   for (size_t i = 0; i < points->count; i++) {
@@ -164,7 +165,7 @@ static void add_line(sums *s, const cs_points *points, const cs_node *node) {
     return;
   mx /= n, my /= n;
   xx = xx / n - mx * mx, xy = xy / n - mx * my, yy = yy / n - my * my;
-  /* The direction across the points, by the lesser eigenvalue. */
+  /* The direction across the points, that of the smaller eigenvalue. */
   double half = 0.5 * (xx - yy), root = sqrt(half * half + xy * xy);
   double nx = half > 0 ? -xy : root - half, ny = half > 0 ? root + half : -xy;
   double length = cs_number_length(nx, ny);

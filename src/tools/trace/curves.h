@@ -40,8 +40,9 @@ typedef struct cs_curves {
   cs_fit_pieces pieces;
 } cs_curves;
 
-/* smooth: 1 for a tolerance of 0.15 pixels, twice that for 2, where pixels are mixed; 0: the
- * borders of the pixels themselves. Errors: NO_MEMORY. To be finished, whatever happens. */
+/* smooth: 1 for a tolerance of 0.15 pixels, 2 for twice that, if pixels are mixed; 0: the borders
+ * of the pixels themselves. Errors: NO_MEMORY. The result must be finished, also after a
+ * failure. */
 CELSPAN_CHECKED celspan_status cs_curves_make(celspan_context *context, const cs_material *material,
                                               const cs_borders *borders, double smooth,
                                               cs_curves *out);

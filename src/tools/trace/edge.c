@@ -8,13 +8,13 @@
 /* Shares that count as 0, and as 1. */
 #define NONE 0.03f
 #define ALL 0.97f
-/* How much a share may rise away from an edge, by noise. */
+/* By how much noise may raise a share with growing distance from an edge. */
 #define NOISE 0.04f
-/* Sides before and after one that tell in which direction its border runs. */
+/* The number of sides before and after a side that determine the direction of the border. */
 #define ABOUT 3
-/* How far points are apart at least, along their border. */
+/* The least distance between points along their border. */
 #define LEAST_STEP 0.3
-/* In an antialiased picture at least one side in this many has mixed pixels near it. */
+/* In an antialiased picture, at least one side in this many has mixed pixels near it. */
 #define WHOLE_SHARE 8
 
 /* ---------------------------------------------------------------- points */
@@ -44,7 +44,7 @@ void cs_points_finish(celspan_context *context, cs_points *points) {
 typedef struct across {
   const cs_material *material;
   int32_t x, y;   /* the pixel at 0 */
-  int32_t dx, dy; /* from one to the next */
+  int32_t dx, dy; /* from one pixel to the next */
   unsigned char a, b;
 } across;
 
@@ -65,8 +65,8 @@ static float share_at(const across *line, int i) {
 /* The share of the other side's colour on one side of the edge. */
 typedef struct flank {
   float sum;
-  int own;      /* pixels of its own colour, up to the extent */
-  bool is_thin; /* it ends before it is plain, and the other colour comes again */
+  int own;      /* the number of pixels of its own colour, up to the extent */
+  bool is_thin; /* it ends before a plain pixel, because the other colour follows again */
 } flank;
 
 /* step: 1: the side of b; -1: the side of a. */
@@ -97,12 +97,12 @@ static flank measure(const across *line, int step) {
   return f;
 }
 
-/* How far a line that is nowhere plain begins from its side: its middle less half of its width. f:
- * the line's own side; on the other side of the line shares fall off again. */
+/* The distance of a line without plain pixels from its side: the distance of its middle minus half
+ * of its width. f: the line's own side; on the other side of the line, shares decrease again. */
 static float begin_of_thin(const across *line, int step, const flank *f, float near) {
   float width = near, moment = 0, before = 1;
-  /* Shares of the line's colour by their distance from the side; what lies before it counts as
-   * lying about it. */
+  /* The moment of the line's shares, by their distance from the side; shares before the side count
+   * as if they were around it. */
   moment -= near * 0.5f;
   for (int i = 0; i < f->own + CS_EDGE_EXTENT; i++) {
     int place = step > 0 ? i : -1 - i;
@@ -118,7 +118,7 @@ static float begin_of_thin(const across *line, int step, const flank *f, float n
   return moment / width - 0.5f * width;
 }
 
-/* Where the edge is, from the side towards b. */
+/* The position of the edge, from the side towards b. */
 static double locate(const across *line) {
   flank a = measure(line, -1), b = measure(line, 1);
   double offset = (double)(b.sum - a.sum);
@@ -163,8 +163,8 @@ static int direction_at(const course *c, ptrdiff_t i) {
   return i < 0 || i >= count ? -1 : c->directions[i];
 }
 
-/* How far the border goes about side i. Both ends of what is asked count by half, so that in a
- * diagonal of sides none differs from the next. */
+/* The direction of the border around side i. Both ends of the examined range count by half, so that
+ * all sides of a diagonal have the same direction. */
 static celspan_point way_about(const course *c, size_t i) {
   celspan_point way = {0, 0};
   for (ptrdiff_t k = (ptrdiff_t)i - ABOUT; k <= (ptrdiff_t)i + ABOUT; k++) {
@@ -178,13 +178,14 @@ static celspan_point way_about(const course *c, size_t i) {
   return way;
 }
 
-/* Whether a side is one of those that the border runs along: of a diagonal, the upright ones. */
+/* Whether a side is used for this direction of the border: for a diagonal, only the upright sides
+ * are. */
 static bool is_asked(celspan_point way, int direction) {
   return direction % 2 == 1 ? fabs(way.y) >= fabs(way.x) : fabs(way.x) > fabs(way.y);
 }
 
-/* Whether a point lies farther along the way than the last one, by a good part of a pixel: where a
- * border turns from upright to across, points of both would alternate. */
+/* Whether a point is farther along the way than the last one by a large part of a pixel: otherwise
+ * points of upright and of horizontal sides would alternate where a border turns. */
 static bool goes_on(const cs_points *points, celspan_point point, celspan_point way) {
   if (points->count == 0)
     return true;
@@ -197,14 +198,14 @@ static course course_of(const cs_borders *borders, const cs_chain *chain) {
   return (course){borders->directions + chain->first, chain->count, chain->from == CS_NODE_NONE};
 }
 
-/* The middle of a side of whole pixels: left of direction 0 is above. */
+/* The middle of a side of whole pixels. For direction 0, the left side is above. */
 static celspan_status add_middle(celspan_context *context, celspan_point from, int direction,
                                  cs_points *out) {
   double x = 0.5 * cs_border_x(direction), y = 0.5 * cs_border_y(direction);
   return cs_points_copy(context, out, &(cs_edge_point){{from.x + x, from.y + y}, {y, -x}});
 }
 
-/* Adds the point of side i, which begins at (x, y), where it has one. */
+/* Adds the point of side i, which begins at (x, y), if it has one. */
 static celspan_status add_point_of(celspan_context *context, const cs_material *material,
                                    const course *c, size_t i, celspan_point from, cs_points *out) {
   int direction = c->directions[i];

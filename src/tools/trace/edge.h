@@ -32,13 +32,13 @@
 #include "tools/trace/borders.h"
 #include "tools/trace/street.h"
 
-/* Pixels that are asked on either side. */
+/* The number of pixels examined on either side. */
 #define CS_EDGE_EXTENT 3
 #define CS_EDGE_FAR 1.0
 #define CS_EDGE_TIGHTEST 0.05
 
-/* aside: where pixels are whole, from the middle of a side to that of the pixel on its left;
- * otherwise, and at ends, 0, 0. */
+/* aside: if pixels are whole, the vector from the middle of a side to that of the pixel on its
+ * left; otherwise, and at ends, 0, 0. */
 typedef struct cs_edge_point {
   celspan_point at, aside;
 } cs_edge_point;
@@ -48,14 +48,14 @@ typedef struct cs_points {
   size_t count, capacity;
 } cs_points;
 
-/* The gate that a point of whole pixels is the middle of. */
+/* The gate whose middle is a point of whole pixels. */
 static inline cs_gate cs_edge_gate(const cs_edge_point *point) {
   celspan_point at = point->at, aside = point->aside;
   return (cs_gate){{at.x + aside.x, at.y + aside.y}, {at.x - aside.x, at.y - aside.y}};
 }
 
-/* How far from the point an edge in a direction, of length 1, may pass and still be in its gate; at
- * least CS_EDGE_TIGHTEST, which is too little to see. */
+/* How far from the point an edge with this direction, of length 1, may pass so that it is in the
+ * point's gate; at least CS_EDGE_TIGHTEST, which is too little to see. */
 double cs_edge_room(const cs_edge_point *point, celspan_point along);
 
 CELSPAN_CHECKED celspan_status cs_points_add(celspan_context *context, cs_points *points,
@@ -77,6 +77,6 @@ typedef struct cs_sides {
 CELSPAN_CHECKED celspan_status cs_edge_points(celspan_context *context, const cs_material *material,
                                               const cs_borders *borders, const cs_chain *chain,
                                               cs_sides sides, cs_points *out);
-/* Whether hardly any pixel of the borders is a mixture: a picture of whole pixels, in which an edge
- * may be anywhere within half a pixel of a side. */
+/* Whether hardly any pixel of the borders is mixed: the picture has whole pixels, and an edge may
+ * be anywhere within half a pixel of a side. */
 bool cs_edge_is_whole(const cs_material *material, const cs_regions *regions);

@@ -7,9 +7,10 @@
 #include "tools/trace/cubic.h"
 #include "tools/trace/stretches.h"
 
-/* Points this near to a corner or an end are not fitted: the pixels around a corner round them. */
+/* Points nearer than this to a corner or an end are not fitted: the pixels there make a corner
+ * round. */
 #define NEAR 1.1
-/* How many points a fit is begun with. */
+/* The number of points with which a fit begins. */
 enum { FIRST = 8 };
 
 /* ---------------------------------------------------------------- pieces */
@@ -60,9 +61,9 @@ typedef struct part {
   const cs_fit_rules *rules;
   cs_points points;
   cs_cubic_station *stations; /* room, for each point */
-  size_t *ends;               /* points at which pieces end; room for all */
+  size_t *ends;               /* the points at which pieces end; room for all points */
   size_t end_count;
-  bool is_ring; /* its ends are one joint, not corners */
+  bool is_ring; /* both ends are the same joint, which is not a corner */
   cs_fit_pieces *out;
 } part;
 
@@ -70,7 +71,7 @@ static double apart(celspan_point a, celspan_point b) {
   return cs_number_length(a.x - b.x, a.y - b.y);
 }
 
-/* How far a point is from the line through two others. */
+/* The distance of a point from the line through two others. */
 static double off_line(celspan_point from, celspan_point to, celspan_point point) {
   double dx = to.x - from.x, dy = to.y - from.y, length = cs_number_length(dx, dy);
   if (length < 1e-9)
@@ -93,7 +94,8 @@ static bool is_straight(const part *p) {
   return true;
 }
 
-/* The points about one, `extent` on either side, or as many in all next to an end of the part. */
+/* The points around a point: `extent` on either side, or the same number in all, next to an end of
+ * the part. */
 static cs_arc_sums sum_about(const part *p, ptrdiff_t i, ptrdiff_t extent) {
   ptrdiff_t end = (ptrdiff_t)p->points.count, wanted = 2 * extent + 1;
   cs_points once = p->points;
@@ -116,7 +118,7 @@ static bool is_line(const part *p, const cs_arc_sums *sums) {
   return sums->count < 4 || scale * (cs_arc_line_error(sums) - cs_arc_error(sums)) <= 3;
 }
 
-/* The longest arc about a point that is as near to its points as noise lets them be. */
+/* The longest arc around a point whose distance from its points is within the noise. */
 static cs_arc arc_about(const part *p, size_t i) {
   double most = p->rules->noise;
   cs_arc_sums sums;
@@ -150,7 +152,7 @@ static bool pass_about(const part *p, size_t i, cs_arc *arc) {
   return false;
 }
 
-/* The joint at a point: on the arc about it. */
+/* The joint at a point: it lies on the arc around the point. */
 static void make_joint(const part *p, size_t i, cs_cubic_end *out) {
   const cs_edge_point *items = p->points.items;
   size_t last = p->points.count - 1;
@@ -168,7 +170,8 @@ static void make_joint(const part *p, size_t i, cs_cubic_end *out) {
   out->has_tangent = true;
 }
 
-/* The end of a fit at a point, towards points after it (step 1) or before it (-1). */
+/* The end of a fit at a point, in the direction of the points after it (step 1) or before it
+ * (-1). */
 static cs_cubic_end end_at(const part *p, size_t i, int step) {
   size_t last = p->points.count - 1;
   cs_cubic_end end = {.point = p->points.items[i].at};
@@ -179,7 +182,7 @@ static cs_cubic_end end_at(const part *p, size_t i, int step) {
   return end;
 }
 
-/* Fits the points from one, at which the curve begins, to another. */
+/* Fits the points between two points: the curve begins at the first and ends at the second. */
 static bool fit(const part *p, const cs_cubic_end *begin, size_t from, size_t to, cs_piece *out) {
   const cs_cubic_end ends[2] = {*begin, end_at(p, to, -1)};
   out->is_line = false;
@@ -191,8 +194,8 @@ static bool fit(const part *p, const cs_cubic_end *begin, size_t from, size_t to
                                            p->stations, out->control);
 }
 
-/* The farthest point that one cubic gets to: twice as many points as long as that goes, then halves
- * of what is left. */
+/* The farthest point that a single cubic can reach: the number of points is doubled as long as
+ * possible, then the remaining range is halved. */
 static size_t farthest(const part *p, size_t from, cs_piece *best) {
   size_t last = p->points.count - 1, good = from, step = FIRST;
   size_t bad = last + 1;
@@ -220,8 +223,8 @@ static size_t farthest(const part *p, size_t from, cs_piece *best) {
   return good;
 }
 
-/* Goes as far as it gets; at least to the next point, which is a line. Sets the points at which
- * pieces end. */
+/* Each piece goes as far as possible; at least to the next point, as a line. Sets the points at
+ * which pieces end. */
 static celspan_status fit_greedily(part *p) {
   size_t last = p->points.count - 1;
   for (size_t from = 0; from < last;) {
@@ -234,7 +237,7 @@ static celspan_status fit_greedily(part *p) {
   return CELSPAN_OK;
 }
 
-/* Adds the pieces once more, each shorter by that share. Sets whether all fit. */
+/* Adds the pieces again, each shortened by this share. Sets whether all of them fit. */
 static celspan_status fit_shares(const part *p, double share, bool *fits) {
   size_t from = 0;
   *fits = true;
@@ -251,8 +254,8 @@ static celspan_status fit_shares(const part *p, double share, bool *fits) {
   return CELSPAN_OK;
 }
 
-/* Pieces of the greatest length have the greatest error, and the last one has only the rest. So all
- * pieces are shortened to about the same length; where that does not fit they keep theirs. */
+/* The longest pieces have the greatest error, and the last piece is often short. Therefore all
+ * pieces are shortened to about the same length; if this does not fit, they keep their lengths. */
 static celspan_status fit_part(part *p) {
   size_t first = p->out->count, count;
   CS_TRY(fit_greedily(p));
@@ -330,7 +333,7 @@ celspan_status cs_fit_open(celspan_context *context, const cs_points *points,
   return status;
 }
 
-/* Without corners: one part that comes back to where it began. */
+/* A closed contour without corners: one part that returns to its beginning. */
 static celspan_status fit_ring(const part *like, const cs_points *points, celspan_point *start) {
   part p = *like;
   cs_cubic_end joint;
@@ -348,7 +351,7 @@ static celspan_status fit_ring(const part *like, const cs_points *points, celspa
   return status;
 }
 
-/* From corner to corner around. */
+/* Fits the parts from corner to corner, once around. */
 static celspan_status fit_around(const part *p, const cs_points *points,
                                  const cs_corner_list *corners) {
   for (size_t i = 0; i < corners->count; i++) {

@@ -36,17 +36,17 @@ typedef struct cs_fit_pieces {
 CELSPAN_CHECKED celspan_status cs_pieces_add(celspan_context *context, cs_fit_pieces *pieces,
                                              const cs_piece *piece);
 
-/* Writes a piece as path data, as it is or back to where it began, at `to`. */
+/* Writes a piece as path data: forwards, or backwards so that it ends at `to`. */
 CELSPAN_CHECKED celspan_status cs_pieces_draw(celspan_context *context, cs_writing *path,
                                               const cs_piece *piece, celspan_point to,
                                               bool is_back);
 void cs_pieces_finish(celspan_context *context, cs_fit_pieces *pieces);
 
-/* Points with both ends, of which the first and the last are kept. Errors: NO_MEMORY. */
+/* Points with both ends; the first and the last point are not moved. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_fit_open(celspan_context *context, const cs_points *points,
                                            const cs_fit_rules *rules, cs_fit_pieces *out);
-/* Closed points, without the first one again at the end. *start: where the pieces begin and end.
- * Errors: NO_MEMORY. */
+/* Closed points, without repeating the first one at the end. *start: where the pieces begin and
+ * end. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_fit_closed(celspan_context *context, const cs_points *points,
                                              const cs_fit_rules *rules, celspan_point *start,
                                              cs_fit_pieces *out);

@@ -4,19 +4,23 @@
 
 enum { ASKED_BITS = 16, MIXED = 254, UNKNOWN = 253 };
 #define ASKED_SIZE (sizeof(uint32_t) << ASKED_BITS)
-/* A plain pixel is nearer to its colour than this share of the way to the next one. */
+/* The distance of a plain pixel from its colour is less than this share of the distance to the next
+ * colour. */
 #define PLAIN 0.2f
-/* A mixture of two colours is this much nearer to the line between them than to any third one. */
+/* The distance of a mixture of two colours from the line between them is this much smaller than
+ * that to any third colour. */
 #define NEARER 0.5f
-/* By what share two colours that are not near a pixel must explain it better. */
+/* How much better two colours that are not near a pixel must explain it than others. */
 #define STRANGE 4.0f
 
 typedef struct work {
   const cs_scan *scan;
   const cs_colours *colours;
   cs_labels *labels;
-  float plain[CS_COLOURS_MOST + 1]; /* by label: the square of how far plain pixels may be */
-  uint32_t *asked; /* codes that were asked, at places of their own, and below them their labels */
+  float plain[CS_COLOURS_MOST + 1]; /* by label: the greatest distance of plain pixels, squared */
+  /* codes that have been looked up, at places given by a hash, with their labels in the lowest
+   * bits */
+  uint32_t *asked;
 } work;
 
 static float apart(const cs_light4 *a, const cs_light4 *b) {
@@ -26,7 +30,7 @@ static float apart(const cs_light4 *a, const cs_light4 *b) {
   return sum;
 }
 
-/* The colours, and nothing where the picture has clear parts. */
+/* The colours, and the label for nothing if the picture has clear parts. */
 static size_t label_count(const work *w) { return w->colours->count + w->scan->has_clear; }
 
 static void measure_plain(work *w) {
@@ -85,12 +89,12 @@ static void label_plain(const work *w) {
 
 typedef struct mixture {
   cs_light4 light;
-  bool is_about[256]; /* labels of plain pixels about it */
+  bool is_about[256]; /* the labels of plain pixels around it */
   float error;        /* of the best explanation so far, squared */
   unsigned char label;
 } mixture;
 
-/* Explains the pixel as a mixture of two. */
+/* Explains the pixel as a mixture of two colours. */
 static void explain(const work *w, mixture *m, size_t a, size_t b) {
   const cs_light4 *from = &w->colours->list[a].light, *to = &w->colours->list[b].light;
   cs_light4 line;
@@ -121,8 +125,8 @@ static unsigned char resolve(const work *w, int32_t x, int32_t y) {
   bool knows_one = false;
   for (size_t a = 0; a < count; a++)
     knows_one = knows_one || m.is_about[a];
-  /* The pixel is not treated as a mixture of two colours that are both not around it while one
-   * is. */
+  /* If a colour around the pixel can be used, mixtures of two colours that are not around it are
+   * not tried. */
   for (size_t a = 0; a < count; a++)
     for (size_t b = a + 1; b < count; b++)
       if (!knows_one || m.is_about[a] || m.is_about[b])
@@ -130,7 +134,7 @@ static unsigned char resolve(const work *w, int32_t x, int32_t y) {
   return m.label;
 }
 
-/* Whether a plain pixel is one of a thin line, no wider than edges are. */
+/* Whether a plain pixel belongs to a thin line, which is no wider than edges are. */
 static bool is_thin(const cs_labels *labels, int32_t x, int32_t y) {
   const unsigned char *at = cs_labels_at(labels, x, y);
   size_t s = labels->stride;
@@ -140,8 +144,8 @@ static bool is_thin(const cs_labels *labels, int32_t x, int32_t y) {
   return at[-1] != label && at[1] != label;
 }
 
-/* The label of a plain pixel of a thin line: what it would be as a mixture of two others that are
- * about it, if that explains it. */
+/* The label of a plain pixel of a thin line: the label that it would have as a mixture of two other
+ * colours around it, if these explain it. */
 static unsigned char resolve_thin(const work *w, int32_t x, int32_t y) {
   unsigned char own = *cs_labels_at(w->labels, x, y);
   mixture m = {.light = cs_scan_light(w->scan, x, y)};
@@ -155,7 +159,7 @@ static unsigned char resolve_thin(const work *w, int32_t x, int32_t y) {
   return m.label;
 }
 
-/* New labels go into a plane of their own, so that they depend on plain pixels alone. */
+/* New labels are written into a separate plane, so that they depend only on plain pixels. */
 static void label_mixed(const work *w, unsigned char *into) {
   const cs_labels *labels = w->labels;
   bool asks_thin = label_count(w) > 2;
@@ -213,7 +217,7 @@ void cs_labels_finish(cs_labels *labels, celspan_context *context) {
 
 /* ---------------------------------------------------------------- material */
 
-/* How much of b the four pixels hold; half of them: neither is favoured. */
+/* The share of b in the four pixels. */
 static float share_about(const cs_material *material, int32_t x, int32_t y, size_t a, size_t b) {
   float sum = 0;
   for (int i = 0; i < 4; i++) {
@@ -224,8 +228,8 @@ static float share_about(const cs_material *material, int32_t x, int32_t y, size
   return sum;
 }
 
-/* Whether b is in the minority among the 4 x 4 pixels about the corner; a line more often than the
- * ground. Where both have as many, the later colour. */
+/* Whether b is in the minority among the 4 x 4 pixels around the corner; a line more often is than
+ * the ground. If both have the same number, the later colour. */
 static bool is_minority(const cs_labels *labels, int32_t x, int32_t y, unsigned char a,
                         unsigned char b) {
   int excess = 0;

@@ -23,7 +23,7 @@ typedef struct cs_labels {
   unsigned char *plane; /* height + 2 rows */
 } cs_labels;
 
-/* -1 <= x <= width, and y likewise. */
+/* -1 <= x <= width, and the same for y. */
 static inline unsigned char *cs_labels_at(const cs_labels *labels, int32_t x, int32_t y) {
   return labels->plane + (size_t)(y + 1) * labels->stride + (size_t)(x + 1);
 }
@@ -68,6 +68,6 @@ typedef struct cs_material {
 
 typedef enum cs_join { CS_JOIN_NONE, CS_JOIN_NW_SE, CS_JOIN_NE_SW } cs_join;
 
-/* Of the four pixels about the corner (x, y), 0 <= x <= width, of which no two side by side are
- * alike. */
+/* How the four pixels around the corner (x, y) are joined, 0 <= x <= width, if no two neighbours
+ * among them are equal. */
 cs_join cs_material_join(const cs_material *material, int32_t x, int32_t y);

@@ -14,7 +14,7 @@ enum { THIRDS = 3, EVENING = 3 };
 #define STEP 0.25
 /* A share that is noise. */
 #define NOTHING 0.06
-/* The factor of a line's depth up to which shares are measured. */
+/* The distance to which shares are measured, as a multiple of a line's depth. */
 #define BEYOND 1.5
 /* The tolerance of splines, pixels, at smooth 1. */
 #define TOLERANCE 0.2
@@ -50,7 +50,7 @@ static unsigned char ground_of(const cs_labels *labels) {
 
 /* ---------------------------------------------------------------- across a line */
 
-/* How much of a pixel the line has: its share against the ground, or against nothing. */
+/* The share of a pixel that the line covers: relative to the ground, or to nothing. */
 static double share_of(const liner *l, int32_t x, int32_t y, unsigned char label) {
   const cs_labels *labels = l->material->labels;
   if (x < 0 || y < 0 || x >= labels->width || y >= labels->height)
@@ -85,7 +85,8 @@ static double extent(const liner *l, const cs_station *from, double nx, double n
   return -1;
 }
 
-/* Moves a place to the middle of its line and sets the width; false: the middle cannot be found. */
+/* Moves a place to the middle of its line, and sets the width; false: the middle cannot be
+ * found. */
 static bool centre(const liner *l, cs_station *place, celspan_point along, double depth,
                    unsigned char label) {
   double most = BEYOND * depth + 2;
@@ -103,7 +104,7 @@ static bool centre(const liner *l, cs_station *place, celspan_point along, doubl
 
 typedef struct line {
   cs_station *places;
-  unsigned char *is_told; /* by place: its width is measured */
+  unsigned char *is_told; /* by place: its width was measured */
   size_t count;
   bool is_closed;
   unsigned char label;
@@ -137,8 +138,8 @@ static celspan_point along_at(const line *n, size_t i) {
   return length > 0 ? (celspan_point){dx / length, dy / length} : (celspan_point){1, 0};
 }
 
-/* The number of places next to an end that could not be found. 0: there are more than a fork can
- * have spoilt, so they stay as they are. */
+/* The number of places next to an end that were not found. 0: more than a fork can have disturbed,
+ * so they are not changed. */
 static size_t spoilt_at(const line *n, bool at_last) {
   size_t count = 0, most = (size_t)n->places[at_last ? n->count - 1 : 0].v[2] + 4;
   while (count < n->count && !n->is_told[at_last ? n->count - 1 - count : count])
@@ -146,8 +147,8 @@ static size_t spoilt_at(const line *n, bool at_last) {
   return count < n->count && count <= most ? count : 0;
 }
 
-/* Thinned lines are drawn to each other near a fork. Places there that could not be found are put
- * on the straight line from the end to the first place that could be found. */
+/* Thinned lines are drawn towards each other near a fork. Places there that were not found are put
+ * on the straight line from the end to the first place that was found. */
 static void straighten_end(line *n, bool at_last) {
   size_t count = n->is_closed ? 0 : spoilt_at(n, at_last);
   size_t end = at_last ? n->count - 1 : 0, told = at_last ? end - count : count;
@@ -159,9 +160,9 @@ static void straighten_end(line *n, bool at_last) {
   }
 }
 
-/* A place without a measured width gets the width of the last measured place before it; the places
- * before the first measured one get its width. If no width was measured, all places keep their
- * depths. */
+/* A place without a measured width gets the width of the last measured place before it; places
+ * before the first measured one get the width of that one. If no width was measured, all places
+ * keep their depths. */
 static void fill_widths(line *n) {
   size_t known = n->count;
   for (size_t pass = 0; pass < 2; pass++)
@@ -176,7 +177,7 @@ static void fill_widths(line *n) {
 
 static void measure(const liner *l, line *n) {
   make_even(n, 2, EVENING);
-  /* Directions come from the places before they are moved. */
+  /* The directions are those of the places before they are moved. */
   for (size_t i = 0; i < n->count; i++) {
     cs_station place = n->places[i];
     double depth = 0.5 * place.v[2];
@@ -236,7 +237,8 @@ static celspan_status add_stroke(const liner *l, const line *n) {
   return status;
 }
 
-/* A single pixel is the rest of a dot: a disc of the same area, around its middle. */
+/* A single pixel is what remains of a dot: it becomes a disc of the same area, around its
+ * middle. */
 static void set_dot(const liner *l, const cs_branch *branch, line *n) {
   size_t place = l->branches.places[branch->first];
   int32_t x = (int32_t)(place % l->thin.stride) - 1, y = (int32_t)(place / l->thin.stride) - 1;

@@ -20,7 +20,7 @@ static int32_t end_of_run(const unsigned char *row, int32_t x, int32_t width) {
   return x;
 }
 
-/* Runs of a row; with out NULL they are only counted. */
+/* Finds the runs of a row; with out NULL they are only counted. */
 static size_t find_runs(const cs_labels *labels, int32_t y, cs_region_run *out) {
   const unsigned char *row = cs_labels_at(labels, 0, y);
   size_t count = 0;
@@ -45,7 +45,8 @@ static celspan_status make_runs(celspan_context *context, const cs_labels *label
 
 /* ---------------------------------------------------------------- what hangs together */
 
-/* While regions are made, a run's region is another run of it, or itself for the first one. */
+/* While regions are being made, the region of a run is an earlier run of the region, or the run
+ * itself if it is the first one. */
 static uint32_t first_of(cs_region_run *runs, uint32_t run) {
   while (runs[run].region != run) {
     runs[run].region = runs[runs[run].region].region;
@@ -69,7 +70,7 @@ typedef struct maker {
   cs_corners corners;
 } maker;
 
-/* Whether a run of row y - 1 and one of row y, of the same label, hang together. */
+/* Whether a run of row y - 1 and a run of row y with the same label are connected. */
 static bool are_joined(const maker *m, int32_t y, size_t upper, size_t lower) {
   int32_t upper_end = cs_regions_end(m->regions, y - 1, upper);
   int32_t lower_end = cs_regions_end(m->regions, y, lower);
@@ -86,7 +87,8 @@ static unsigned char label_of(const maker *m, int32_t y, size_t run) {
   return *cs_labels_at(m->material->labels, m->regions->runs[run].x0, y);
 }
 
-/* Both rows from left to right; runs that touch by their corners count as neighbours too. */
+/* Both rows are visited from left to right; runs that touch only at corners count as neighbours,
+ * too. */
 static void join_rows(const maker *m, int32_t y) {
   const cs_regions *regions = m->regions;
   size_t upper = regions->rows[y - 1], lower = regions->rows[y];
@@ -96,7 +98,7 @@ static void join_rows(const maker *m, int32_t y) {
     int32_t lower_end = cs_regions_end(regions, y, lower);
     if (label_of(m, y - 1, upper) == label_of(m, y, lower) && are_joined(m, y, upper, lower))
       unite(regions->runs, (uint32_t)upper, (uint32_t)lower);
-    /* where both end in one corner, each touches the other's next run there */
+    /* if both end at the same corner, each touches the next run of the other row there */
     if (upper_end == lower_end) {
       if (upper + 1 < upper_last && label_of(m, y - 1, upper + 1) == label_of(m, y, lower) &&
           are_joined(m, y, upper + 1, lower))
@@ -183,7 +185,7 @@ uint32_t cs_regions_at(const cs_regions *regions, int32_t x, int32_t y) {
 
 /* ---------------------------------------------------------------- speckles */
 
-/* How often the rest is tried again. */
+/* How often the remaining speckles are tried again. */
 #define ROUNDS 8
 #define NO_RUN UINT32_MAX
 
@@ -217,8 +219,8 @@ static void vote(const sweeper *s, int32_t x, int32_t y, uint32_t votes[256]) {
     votes[s->regions.list[region].label]++;
 }
 
-/* The most frequent label along its border, of equal ones the first; its own label where it borders
- * only on speckles. */
+/* The most frequent label along the border of a speckle; of equally frequent ones, the first; its
+ * own label if it only borders on speckles. */
 static unsigned char neighbour(const sweeper *s, uint32_t region) {
   uint32_t votes[256] = {0};
   for (uint32_t run = s->first[region]; run != NO_RUN; run = s->next[run]) {
@@ -245,8 +247,8 @@ static void relabel(const sweeper *s, uint32_t region, unsigned char label) {
   }
 }
 
-/* A speckle is relabelled from its non-speckle neighbours only; these do not change during a pass,
- * so the order does not matter. */
+/* The new label of a speckle depends only on neighbours that are not speckles. These do not change
+ * during a pass, so the order does not matter. */
 static bool drop_once(sweeper *s) {
   bool has_changed = false;
   list_runs(s);

@@ -14,7 +14,7 @@
 
 typedef enum cs_corners {
   CS_CORNERS_JOIN,      /* all */
-  CS_CORNERS_AS_BORDERS /* those that cs_material_join names */
+  CS_CORNERS_AS_BORDERS /* in the way that cs_material_join says */
 } cs_corners;
 
 typedef struct cs_region_run {
@@ -36,7 +36,7 @@ typedef struct cs_regions {
   size_t count;
 } cs_regions;
 
-/* Errors: NO_MEMORY. On failure there is nothing to finish. */
+/* Errors: NO_MEMORY. After a failure nothing must be finished. */
 CELSPAN_CHECKED celspan_status cs_regions_make(celspan_context *context,
                                                const cs_material *material, cs_corners corners,
                                                cs_regions *out);
@@ -50,11 +50,11 @@ static inline int32_t cs_regions_end(const cs_regions *regions, int32_t y, size_
 
 /* Speckles: regions of few pixels, which get the label that is most frequent along their border.
  *
- * INVARIANT: only labels of speckles change. A speckle whose neighbours are all speckles stays
- * until one of them is not a speckle any more; where everything is speckled nothing changes.
+ * INVARIANT: only labels of speckles change. A speckle whose neighbours are all speckles does not
+ * change until one of them is no longer a speckle. If there are only speckles, nothing changes.
  */
 
-/* Drops regions of at most `most` pixels, which hang together by sides or corners. Errors:
+/* Removes regions of at most `most` pixels, which are connected by sides or corners. Errors:
  * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_speckles_drop(celspan_context *context,
                                                 const cs_material *material, uint32_t most);

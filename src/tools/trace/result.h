@@ -1,7 +1,7 @@
 /* The contents of a tracing: the value behind celspan_trace.
  *
  * INVARIANT: immutable once it is made, and counted. A shape's object is made from its text, so
- * that whoever reads the text makes the same object.
+ * that a reader of the text makes the same object.
  */
 #pragma once
 
@@ -18,7 +18,7 @@ typedef struct cs_shape {
   double *widths;
   size_t point_count;
   bool is_closed;
-  celspan_object *object; /* NULL where it is not made */
+  celspan_object *object; /* NULL if it is not made */
 } cs_shape;
 
 struct celspan_trace {
@@ -27,14 +27,14 @@ struct celspan_trace {
   int32_t width, height;
   cs_shape *shapes;
   size_t count, capacity;
-  celspan_object *object; /* their union; NULL where theirs are not made */
+  celspan_object *object; /* the union of their objects; NULL if these are not made */
 };
 
-/* Adds a shape, which is copied, with all that it holds: that is the tracing's from now on,
- * whatever happens. Errors: NO_MEMORY, LIMIT. */
+/* Adds a copy of a shape. The tracing owns the shape's contents from now on, also after a failure.
+ * Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_result_add(celspan_context *context, celspan_trace *trace,
                                              const cs_shape *shape);
-/* celspan_trace_create without the objects, for those who make their own. */
+/* celspan_trace_create without the objects, for callers that make their own. */
 CELSPAN_CHECKED celspan_status cs_result_make(celspan_context *context,
                                               const celspan_trace_desc *desc, celspan_trace **out);
 void cs_result_finish_shape(cs_memory *memory, cs_shape *shape);

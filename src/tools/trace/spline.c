@@ -17,7 +17,7 @@ typedef struct fitter {
 
 /* ---------------------------------------------------------------- basis */
 
-/* The weights of four control points from *first on, at a parameter. */
+/* The weights of four control points, from *first on, at a parameter. */
 typedef struct basis {
   size_t first;
   double w[4];
@@ -80,7 +80,7 @@ static void set_parameters(fitter *f) {
 
 /* ---------------------------------------------------------------- least squares */
 
-/* The ends of an open line must be met, so they count more. */
+/* The curve must go through the ends of an open line, so these count more. */
 static double weight_of(const fitter *f, size_t station) {
   return !f->is_closed && (station == 0 || station == f->count - 1) ? 100 : 1;
 }
@@ -135,7 +135,7 @@ static void add_scaled(cs_station *to, double factor, const cs_station *from, si
       to[i].v[c] += factor * from[i].v[c];
 }
 
-/* room: three times as many as there are controls. */
+/* room: three times as many as the controls. */
 static void solve(const fitter *f, cs_station *controls, cs_station *room) {
   size_t n = f->controls;
   cs_station *left = room, *way = room + n, *image = room + 2 * n;
@@ -155,7 +155,7 @@ static void solve(const fitter *f, cs_station *controls, cs_station *room) {
   }
 }
 
-/* Control points on the line itself, to begin with. */
+/* Sets the first approximation: control points on the line itself. */
 static void begin(const fitter *f, cs_station *controls) {
   for (size_t i = 0; i < f->controls; i++) {
     double at = f->is_closed ? ((double)i - 1) / (double)f->controls

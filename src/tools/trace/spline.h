@@ -23,7 +23,7 @@ CELSPAN_CHECKED celspan_status cs_spline_fit(celspan_context *context, const cs_
                                              size_t count, bool is_closed, double tolerance,
                                              cs_spline *out);
 
-/* Where such a spline is, 0..1 from its first point to its last, or around; one that is closed has
- * four points at least, and one of fewer than four a lesser degree. */
+/* The place at 0..1 on such a spline, from its first point to its last one, or around. A closed
+ * spline has at least four points; an open one with fewer than four has a lower degree. */
 cs_station cs_spline_at(const celspan_point *points, const double *widths, size_t count,
                         bool is_closed, double parameter);

@@ -4,10 +4,10 @@
 
 #include "base/solve.h"
 
-/* A narrower street does not count as one, nor does a smaller weight. */
+/* A narrower street does not count; neither does a smaller weight. */
 #define NARROWEST 1e-3
 #define WEIGHTLESS 1e-12
-/* The search ends when its possible gain is this small a share. */
+/* The search ends when its possible gain is smaller than this share. */
 #define GAIN 1e-6
 enum { STEPS = 100, AXES = 3, CORNERS = AXES + 1 };
 
@@ -21,14 +21,16 @@ typedef struct search {
   bool is_line;
   place lefts[CS_GATES_MOST], rights[CS_GATES_MOST];
   size_t gates;
-  /* Differences of a left and a right place, and the nearest to 0 of what they span: how much of
-   * each. */
+  /* Differences of a left and a right place; and the weights of the nearest point to 0 in their
+   * convex hull. */
   place corners[CORNERS];
   double weights[CORNERS];
   int count;
   place nearest;
   double left,
-      right; /* the least of the left places along it, and the greatest of the right ones */
+      /* the least value of the left places in the direction of the nearest point, and the
+       * greatest of the right places */
+      right;
 } search;
 
 static double dot(const place *a, const place *b) {
@@ -44,7 +46,7 @@ static place lift(const search *s, celspan_point point) {
   return (place){{x, y, s->is_line ? 0 : x * x + y * y}};
 }
 
-/* The difference that is least along the nearest one. */
+/* The difference that is least in the direction of the nearest point. */
 static place closest(search *s) {
   size_t left = 0, right = 0;
   s->left = HUGE_VAL;
@@ -61,8 +63,8 @@ static place closest(search *s) {
 
 /* ---------------------------------------------------------------- Wolfe's steps */
 
-/* The weights, adding up to 1, of the place nearest to 0 on the plane through all corners: from the
- * last corner it goes along the way to each other corner by that corner's weight. */
+/* The weights, which add up to 1, of the point nearest to 0 in the plane through all corners: it is
+ * the last corner plus, for each other corner, the vector to this corner times its weight. */
 static bool weigh(const search *s, double weights[CORNERS]) {
   double m[(CORNERS - 1) * CORNERS];
   int n = s->count - 1, width = n + 1;
@@ -84,7 +86,8 @@ static bool weigh(const search *s, double weights[CORNERS]) {
   return true;
 }
 
-/* How far weights can go towards others before one is 0; that one, or -1. */
+/* How far the weights can be moved towards other weights until one becomes 0; also which one, or
+ * -1. */
 static double way_to(const search *s, const double weights[CORNERS], int *first) {
   double way = 1;
   *first = -1;
@@ -106,8 +109,8 @@ static void remove_corner(search *s, int at) {
   }
 }
 
-/* Brings the nearest place to where it is nearest of all between corners, without those that are
- * not needed for it. */
+/* Moves the nearest point to the nearest one in the hull of the corners, and removes corners that
+ * are not needed. */
 static bool settle(search *s) {
   for (int first = 0; first >= 0;) {
     double weights[CORNERS];
@@ -126,7 +129,7 @@ static bool settle(search *s) {
   return true;
 }
 
-/* Searches until both hulls are known to be apart, or the distance is known. */
+/* Searches until it is known that the hulls are apart, or until their distance is known. */
 static bool run(search *s, bool is_enough) {
   s->nearest = (place){{1, 0, 0}};
   s->corners[0] = s->nearest = closest(s);
@@ -160,7 +163,8 @@ static void begin(search *s, const cs_gate_row *row, bool is_line) {
   }
 }
 
-/* A plane between the hulls, as what is 0 on the arc and grows as fast as the distance from it. */
+/* Finds a plane between the hulls, in the form that is 0 on the arc and grows like the distance
+ * from it. */
 static bool find(const cs_gate_row *row, bool is_line, bool is_enough, cs_street *out) {
   search s;
   begin(&s, row, is_line);

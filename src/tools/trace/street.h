@@ -25,7 +25,7 @@
  * halfway.
  */
 
-/* Gates that are looked at together, at most. */
+/* The most gates that are examined together. */
 #define CS_GATES_MOST 40
 
 typedef struct cs_gate {
@@ -44,13 +44,13 @@ static inline celspan_point cs_gate_middle(const cs_gate *gate) {
 }
 
 typedef struct cs_street {
-  cs_arc middle; /* off it grows towards the left */
+  cs_arc middle; /* the distance from it grows towards the left */
   double width;
 } cs_street;
 
-/* The widest street of a line or an arc; false: none passes. */
+/* The widest street of a line or an arc; false: no street passes the gates. */
 bool cs_street_find(const cs_gate_row *row, bool is_line, cs_street *out);
-/* The same, of a street that may be narrower, which is found sooner. */
+/* The same for any street, which may be narrower but is found sooner. */
 bool cs_street_find_any(const cs_gate_row *row, bool is_line, cs_street *out);
 /* Whether the middle of a street passes one more gate. */
 bool cs_street_passes(const cs_street *street, const cs_gate *gate);

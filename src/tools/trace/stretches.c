@@ -18,11 +18,11 @@
  * so that at neither end it is farther from any line than need be.
  */
 
-/* Pixels that a line may be beside an end of its row. */
+/* Pixels: the distance of a line from an end of its row. */
 #define FAR 2.0
 
-/* Each half-plane that cuts a convex polygon adds one corner at most; what rounding would add to
- * that is nothing to see. */
+/* Each half-plane that cuts a convex polygon adds at most one corner; further corners by rounding
+ * would be too small to see. */
 enum { CORNERS_MOST = 4 + 2 * CS_GATES_MOST };
 
 typedef struct polygon {
@@ -60,7 +60,7 @@ static void cut(polygon *p, half_plane half) {
   *p = left;
 }
 
-/* From the first gate to the last one. */
+/* The direction from the first gate to the last one. */
 typedef struct axis {
   celspan_point from, along; /* along: of length 1 */
   double length;
@@ -73,8 +73,7 @@ static axis axis_of(const cs_gate_row *row) {
   return (axis){from, {dx / length, dy / length}, length};
 }
 
-/* The lines that have a point on their left (side 1) or on their right (-1): those that are beside
- * it, towards the left, by less than it is, or by more. */
+/* The distance from the line grows towards the left. False: no line passes. */
 static half_plane lines_beside(const axis *a, celspan_point point, double side) {
   double x = point.x - a->from.x, y = point.y - a->from.y;
   double way = (x * a->along.x + y * a->along.y) / a->length;
@@ -115,21 +114,22 @@ static bool cs_preimage_middle(const cs_gate_row *row, cs_arc *line) {
 
 /* ---------------------------------------------------------------- stretches */
 
-/* The costs of a line, of an arc, of a point that is left out, and of such a point with a gate. */
+/* The costs of a line, of an arc, of a point that is left out, and of such a point if it has a
+ * gate. */
 #define LINE 5.0
 #define ARC 8.0
 #define LEFT_OUT 2.2
 #define GATE_LEFT_OUT 6.0
-/* How much less a stretch costs by each pixel of the width of its street. */
+/* By how much each pixel of its street's width reduces the cost of a stretch. */
 #define WIDE 1.5
-/* An arc whose cost exceeds that of the best by this much for each of its points is never
+/* If the cost of an arc exceeds the best one by this much for each of its points, the arc is not
  * chosen. */
 #define HOPELESS 24.0
 
-/* The cheapest way through a number of first points: its cost and its last piece. */
+/* The cheapest way through the first points, for a number of them: its cost and its last piece. */
 typedef struct way {
   double cost;
-  ptrdiff_t count; /* points of its last stretch; 0: the last point is left out */
+  ptrdiff_t count; /* the number of points of its last stretch; 0: the last point is left out */
   bool is_line;
 } way;
 
@@ -137,9 +137,10 @@ typedef struct finder {
   const cs_points *points;
   ptrdiff_t from, count;
   bool is_exact;       /* through gates */
-  double scale;        /* otherwise: from the sum of squares to what it costs */
-  double (*widths)[2]; /* how wide streets of arcs and of lines from each point on are at most, for
-                        * with each gate they narrow */
+  double scale;        /* otherwise: the factor from the sum of squares to the cost */
+  /* the greatest width of streets of arcs, and of lines, from each point on; with each gate they
+   * become narrower */
+  double (*widths)[2];
   way *ways;           /* count + 1 */
 } finder;
 
@@ -182,13 +183,13 @@ static void row_between(const finder *f, ptrdiff_t start, ptrdiff_t end, cs_gate
 
 /* The longest stretch that ends at a point. */
 typedef struct longest {
-  bool is_line, is_known; /* known: a line or arc passes its gates */
+  bool is_line, is_known; /* known: whether a line or arc passes its gates is known */
   ptrdiff_t start;
   cs_street street;
 } longest;
 
-/* To the next end. It does not begin before the one that ended a point before, and begins with it
- * where that passes one more gate. */
+/* Moves to the next end. The new stretch does not begin before the one for the previous end; it
+ * begins at the same point if that one passes one more gate. */
 static void go_on(const finder *f, ptrdiff_t end, longest *l) {
   cs_gate_row row;
   bool is_full = end - l->start > CS_STRETCH_MOST;
@@ -205,7 +206,7 @@ static void go_on(const finder *f, ptrdiff_t end, longest *l) {
   l->start -= l->is_known;
 }
 
-/* A stretch costs less by how wide its street is. */
+/* A stretch with a wider street costs less. */
 static void try_street(const finder *f, ptrdiff_t start, ptrdiff_t end, bool is_line) {
   double cost = is_line ? LINE : ARC, *width = &f->widths[start][is_line];
   cs_gate_row row;
@@ -219,7 +220,7 @@ static void try_street(const finder *f, ptrdiff_t start, ptrdiff_t end, bool is_
   try(f, end, end - start, cost - WIDE * street.width, is_line);
 }
 
-/* Where a line passes no arc is needed. */
+/* If a line passes, no arc is needed. */
 static void find_ways_through(const finder *f) {
   longest line = {.is_line = true}, arc = {.is_line = false};
   for (ptrdiff_t end = 1; end <= f->count; end++) {
@@ -242,7 +243,7 @@ static cs_arc arc_of(const finder *f, const cs_stretch *stretch, bool is_line) {
   return cs_arc_of(&sums, is_line);
 }
 
-/* The line or arc that passes through the gates; false: none does. */
+/* The line or arc that passes through the gates; false: there is none. */
 static bool pass_gates(const finder *f, const cs_stretch *stretch, bool is_line, cs_arc *out) {
   cs_gate_row row;
   cs_street street;

@@ -45,9 +45,8 @@ static inline celspan_point cs_points_at(const cs_points *points, ptrdiff_t i) {
 /* The gates of points [from, to), at most CS_GATES_MOST. */
 void cs_stretches_row(const cs_points *points, ptrdiff_t from, ptrdiff_t to, cs_gate_row *row);
 
-/* Takes apart points [from, to); noise: how far points are off, root mean square. Errors:
- * NO_MEMORY.
- */
+/* Divides points [from, to) into stretches. noise: the distance of points from them, root mean
+ * square. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_stretches_find(celspan_context *context, const cs_points *points,
                                                  ptrdiff_t from, ptrdiff_t to, double noise,
                                                  cs_stretches *out);

@@ -17,7 +17,8 @@ celspan_status cs_writing_add(celspan_context *context, cs_writing *writing, con
   return add(context, writing, text, strlen(text));
 }
 
-/* Integers only, so that no locale has a part in it; how long the text is, without its zero. */
+/* Uses only integers, so that the result does not depend on a locale. Returns the length of the
+ * text, without its zero. */
 static size_t put_number(char *out, double number) {
   int64_t thousandths = (int64_t)floor(number * 1000 + 0.5);
   size_t size = 0;

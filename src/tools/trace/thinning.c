@@ -27,7 +27,7 @@ static celspan_status add(celspan_context *context, place_list *list, size_t pla
 
 /* ---------------------------------------------------------------- one pixel */
 
-/* Which neighbours are of the same colour: bit i for the neighbour at offset i. */
+/* A bit for each neighbour: bit i is set if the neighbour at offset i has the same colour. */
 static unsigned about(const thinner *t, size_t place) {
   const unsigned char *at = t->thin->plane + place;
   unsigned bits = 0;
@@ -38,7 +38,7 @@ static unsigned about(const thinner *t, size_t place) {
 
 static int count_bits(unsigned bits) { return __builtin_popcount(bits); }
 
-/* How often, going around, one that is not drawn is followed by one that is. */
+/* How many times, going once around, a drawn neighbour follows one that is not drawn. */
 static int begins(unsigned bits) {
   unsigned before = (bits << 1 | bits >> 7) & 255;
   return count_bits(bits & ~before);
@@ -55,8 +55,8 @@ static bool may_go(unsigned bits, bool is_second) {
 
 /* ---------------------------------------------------------------- rounds */
 
-/* Marks the pixels that may be removed, judged all at once; then removes marked pixels that may
- * still be removed. */
+/* Marks the pixels that may be removed, all judged in the same state; then removes each marked
+ * pixel that may still be removed. */
 static celspan_status half_round(thinner *t, bool is_second, bool *has_changed) {
   t->marked.count = 0;
   for (size_t i = 0; i < t->now.count; i++)
@@ -83,7 +83,7 @@ static celspan_status thin_round(thinner *t, bool *has_changed) {
   t->next.count = 0;
   CS_TRY(half_round(t, false, has_changed));
   CS_TRY(half_round(t, true, has_changed));
-  /* A pixel that was kept may be removed later, when its neighbours have been removed. */
+  /* A pixel that was kept may be removed later, after its neighbours have been removed. */
   place_list now = t->now;
   t->now = t->next;
   t->next = now;
@@ -129,7 +129,7 @@ void cs_thin_tidy(cs_thin *thin, const uint32_t *list, size_t count) {
     bool turns = false;
     for (int k = 0; k < 8; k += 2)
       turns = turns || ((bits >> k & 1) && (bits >> (k + 2) % 8 & 1));
-    /* Two sides that meet at a right angle hang together by their corner. */
+    /* Two sides at a right angle are connected by their corner. */
     unsigned sides = bits & 0x55, corners = bits & 0xaa;
     unsigned filled = sides | corners;
     for (int k = 0; k < 8; k += 2)
@@ -147,7 +147,8 @@ static uint16_t nearer(uint16_t depth, uint16_t other, int step) {
   return through < depth ? (uint16_t)through : depth;
 }
 
-/* 3 thirds for a side, 4 for a corner: within 8 % of the distance. From the top, then back. */
+/* 3 thirds for a side, 4 for a corner: the error of the distance is at most 8 %. Goes from the top
+ * to the bottom, then back. */
 static void measure_depths(cs_thin *thin) {
   ptrdiff_t around[8];
   size_t size = plane_size(thin);
@@ -208,18 +209,18 @@ void cs_thin_finish(cs_thin *thin, celspan_context *context) {
 
 /* ---------------------------------------------------------------- branches */
 
-/* Set in the plane for pixels that are in a branch. */
+/* Marks pixels in the plane that belong to a branch. */
 #define TAKEN 128
-/* A spur is shorter than this many times the depth of the line that it leaves, and a pixel more. */
+/* A spur is shorter than this multiple of the depth of the line that it leaves, plus a pixel. */
 #define SPUR 1.2
-/* How often spurs are looked for: one may hide another. */
+/* How often spurs are searched for: one may hide another. */
 enum { ROUNDS = 2, THIRDS = 3 };
 
 typedef struct finder {
   celspan_context *context;
   cs_thin *thin;
   ptrdiff_t around[8];
-  uint32_t *pixels; /* all that are left of lines, from the top left */
+  uint32_t *pixels; /* all remaining pixels of lines, from the top left */
   size_t pixel_count, pixel_capacity;
   cs_branches *out;
 } finder;
@@ -253,8 +254,8 @@ static celspan_status add_place(finder *f, size_t place) {
   return CS_APPEND(f->context, out->places, out->place_count, out->place_capacity, (uint32_t)place);
 }
 
-/* The neighbour of a pixel on a line that is not the one that was before; by its side rather than
- * by a corner. 0: there is none. */
+/* The neighbour of a pixel on a line that was not visited before; sides are preferred to corners.
+ * 0: there is none. */
 static size_t next_of(const finder *f, size_t place, size_t before) {
   static const int order[8] = {0, 2, 4, 6, 1, 3, 5, 7};
   for (int i = 0; i < 8; i++) {
@@ -265,7 +266,8 @@ static size_t next_of(const finder *f, size_t place, size_t before) {
   return 0;
 }
 
-/* From an end or fork over a neighbour to the next, or around to where it began. */
+/* Walks from an end or fork, over a neighbour, to the next end or fork, or around to its
+ * beginning. */
 static celspan_status walk(finder *f, size_t from, size_t over) {
   cs_branches *out = f->out;
   cs_branch branch = {.first = out->place_count};
@@ -285,8 +287,8 @@ static celspan_status walk(finder *f, size_t from, size_t over) {
   return CS_APPEND(f->context, out->list, out->count, out->capacity, branch);
 }
 
-/* A branch of one step, between two ends or forks, is walked from the first of them; between two
- * forks it does not count as a branch. */
+/* A branch of one step between two ends or forks is found from the first of them. Between two forks
+ * it does not count as a branch. */
 static bool is_way(const finder *f, size_t from, size_t over) {
   int there = degree(f, over);
   if (there == 2)
@@ -342,7 +344,7 @@ static void drop(finder *f, const cs_branch *branch) {
     f->thin->plane[places[i]] = 0;
 }
 
-/* All are found before any goes, so that two at one fork are judged alike. */
+/* All spurs are found before any is removed, so that two at one fork are treated alike. */
 static bool drop_spurs(finder *f) {
   size_t spurs = 0;
   for (size_t i = 0; i < f->out->count; i++)

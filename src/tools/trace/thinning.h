@@ -19,14 +19,14 @@ typedef struct cs_thin {
   int32_t width, height;
   size_t stride;
   unsigned char *plane;
-  uint16_t *depths; /* thirds of a pixel to the nearest undrawn pixel, before thinning */
+  uint16_t *depths; /* thirds of a pixel to the nearest pixel that is not drawn, before thinning */
 } cs_thin;
 
 /* The neighbours of a pixel, clockwise from the one above, as offsets into the plane. */
 void cs_thin_offsets(const cs_thin *thin, ptrdiff_t offsets[8]);
 
 /* ground: the label that is not drawn; pixels without a label are not drawn, either. Errors:
- * NO_MEMORY. On failure there is nothing to finish. */
+ * NO_MEMORY. After a failure nothing must be finished. */
 CELSPAN_CHECKED celspan_status cs_thin_make(celspan_context *context, const cs_material *material,
                                             unsigned char ground, cs_thin *out);
 /* Removes pixels at the right angles of lines: the two neighbours of such a pixel touch at a

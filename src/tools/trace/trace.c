@@ -42,7 +42,7 @@ typedef struct maker {
   const cs_curves *curves;
   cs_way *first;       /* by region: its first way */
   cs_way *next;        /* by way: another one around the same region */
-  unsigned char *used; /* by way: it is in a path */
+  unsigned char *used; /* by way: it is part of a path */
 } maker;
 
 /* ---------------------------------------------------------------- ways around a region */
@@ -64,7 +64,7 @@ static void list_ways(const maker *m) {
   }
 }
 
-/* The chain that continues around the region on the left: the sharpest turn to the left. */
+/* The way that continues around the region on the left: the sharpest turn to the left. */
 static cs_way go_on(const cs_borders *borders, cs_way way) {
   const cs_chain *chain = &borders->chains[way / 2];
   bool is_back = way % 2 == 1;
@@ -102,7 +102,7 @@ static celspan_status draw_way(const maker *m, cs_writing *path, cs_way way) {
   return CELSPAN_OK;
 }
 
-/* Draws the ways around a region, from one way until it comes again. */
+/* Draws the ways around a region, from one way until this way comes again. */
 static celspan_status draw_around(const maker *m, cs_writing *path, cs_way begun) {
   celspan_point start = start_of(m, begun);
   CS_TRY(cs_writing_draw(m->context, path, 'M', &start, 1));

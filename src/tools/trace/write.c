@@ -25,7 +25,7 @@
  * side of a bend runs back on itself, which is inside of it.
  */
 
-/* The sides of one that is closed are two contours. */
+/* The contours of lines; a closed line has two, one for each side. */
 typedef struct cs_contours {
   celspan_point start[2];
   cs_fit_pieces pieces[2];
@@ -33,7 +33,7 @@ typedef struct cs_contours {
 } cs_contours;
 
 #define PI 3.14159265358979323846
-/* Pixels between points, and angles between those around an end. */
+/* The distance between points in pixels, and the angle between points around an end. */
 #define STEP 0.4
 enum { CAP_POINTS = 12, MOST_POINTS = 1000000 };
 
@@ -58,7 +58,8 @@ static cs_station station_at(const drawer *d, double parameter) {
                       parameter);
 }
 
-/* The place, and the direction from a little before it to a little after. */
+/* The place at a parameter, and the direction, measured from a little before it to a little
+ * after. */
 static cs_station along_at(const drawer *d, double parameter, celspan_point *along) {
   double before = parameter - 1e-4, after = parameter + 1e-4;
   if (!d->shape->is_closed) {
@@ -71,7 +72,8 @@ static cs_station along_at(const drawer *d, double parameter, celspan_point *alo
   return station_at(d, parameter);
 }
 
-/* A point of the outline, turned from the direction: a quarter to the right, 0 ahead. */
+/* A point of the outline, turned from the direction: to the right by a quarter turn, or ahead by
+ * 0. */
 static celspan_status add_at(const drawer *d, const cs_station *place, celspan_point along,
                              double angle) {
   double sine, cosine, radius = 0.5 * place->v[2];
@@ -106,7 +108,7 @@ static celspan_status add_side(const drawer *d, bool is_back) {
   return CELSPAN_OK;
 }
 
-/* Half a turn about an end, from the left side to the right one. */
+/* Half a turn around an end, from the left side to the right side. */
 static celspan_status add_cap(const drawer *d, bool is_back) {
   celspan_point along;
   cs_station place = along_at(d, is_back ? 0 : 1, &along);
@@ -134,7 +136,7 @@ static celspan_status draw(const drawer *d, cs_contours *out) {
   return add_contour(d, out);
 }
 
-/* Errors: NO_MEMORY. To be finished, whatever happens. */
+/* Errors: NO_MEMORY. The result must be finished, also after a failure. */
 static CELSPAN_CHECKED celspan_status cs_contours_make(celspan_context *context,
                                                        const cs_shape *shape, cs_contours *out) {
   cs_points points = {.items = NULL};

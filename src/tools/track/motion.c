@@ -9,13 +9,14 @@
 
 enum { MOST_UNKNOWNS = 8, SAMPLES = 300, REFINEMENTS = 12 };
 
-#define TUKEY 4.685          /* where a pair's weight falls to 0, in deviations */
-#define LEAST_DEVIATION 0.02 /* pixels: the least error with which a patch is found */
+#define TUKEY 4.685          /* the distance at which a pair's weight becomes 0, in deviations */
+#define LEAST_DEVIATION 0.02 /* pixels: the least error of the place of a patch */
 #define LEAST_PIVOT 1e-10    /* of equations whose numbers are near 1 */
 
 /* ---------------------------------------------------------------- linear equations */
 
-/* The sums of a least-squares fit: the matrix is symmetric, its last column the right side. */
+/* The sums of a least-squares fit: the matrix is symmetric, and its last column is the right
+ * side. */
 typedef struct equations {
   int count;
   double rows[MOST_UNKNOWNS][MOST_UNKNOWNS + 1];
@@ -50,8 +51,8 @@ bool cs_motion_apply(const celspan_matrix *matrix, celspan_point point, celspan_
   return true;
 }
 
-/* The factors of the unknowns in the two equations of a pair. Those of a perspective are divided by
- * the denominator of the fit before, so that what is least is the distance in pixels. */
+/* The factors of the unknowns in the two equations of a pair. For a perspective, they are divided
+ * by the denominator of the previous fit, so that the distance in pixels is minimised. */
 static void add_pair(equations *e, celspan_motion model, const cs_motion_pair *pair, double weight,
                      double denominator) {
   double x = pair->from.x, y = pair->from.y, u = pair->to.x, v = pair->to.y;
@@ -76,7 +77,7 @@ static celspan_matrix matrix_of(celspan_motion model, const double *s) {
   return (celspan_matrix){{s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7], 1}};
 }
 
-/* before: the fit before it; NULL: none. weights NULL: all 1. */
+/* before: the previous fit; NULL: none. weights NULL: all 1. */
 static bool fit(celspan_motion model, const cs_motion_pair *pairs, const double *weights,
                 size_t count, const celspan_matrix *before, celspan_matrix *out) {
   equations e = {.count = unknowns[model]};
@@ -103,7 +104,7 @@ static double distance(const celspan_matrix *matrix, const cs_motion_pair *pair)
 
 /* ---------------------------------------------------------------- who agrees */
 
-/* As few different pairs as determine a motion. */
+/* Draws the least number of different pairs that determines a motion. */
 static void draw(const cs_motion_pair *pairs, size_t count, int wanted, uint64_t *state,
                  cs_motion_pair *out) {
   size_t taken[MOST_UNKNOWNS / 2];
@@ -125,7 +126,7 @@ static size_t count_agreeing(const celspan_matrix *matrix, const cs_motion_pair 
   return agreeing;
 }
 
-/* The motion of few pairs that the most others agree with (Fischler and Bolles 1981). */
+/* The motion of a few pairs with which most other pairs agree (Fischler and Bolles 1981). */
 static size_t search(celspan_motion model, const cs_motion_pair *pairs, size_t count,
                      double tolerance, celspan_matrix *out) {
   const int wanted = unknowns[model] / 2;
@@ -153,8 +154,8 @@ static int compare(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-/* The deviation that half of the agreeing pairs are within, as of a normal distribution in two
- * dimensions. */
+/* The deviation of a normal distribution in two dimensions whose median distance is that of the
+ * agreeing pairs. */
 static double typical_distance(const celspan_matrix *matrix, const cs_motion_pair *pairs,
                                size_t count, double tolerance, double least, double *room) {
   size_t n = 0;

@@ -21,19 +21,20 @@ typedef struct cs_motion_pair {
   bool agrees; /* the result of cs_motion_agree */
 } cs_motion_pair;
 
-/* How many pairs a motion needs at least, so that it is not only a guess. */
+/* The least number of pairs that gives a motion more than a guess. */
 size_t cs_motion_least(celspan_motion model);
 
 typedef struct cs_motion_verdict {
-  celspan_matrix matrix; /* takes `from` to `to` */
+  celspan_matrix matrix; /* maps `from` to `to` */
   size_t agreeing;       /* pairs */
-  double error;          /* pixels: the root of the mean square of how far these are off */
+  double error;          /* pixels: the root mean square of the distances of these pairs */
 } cs_motion_verdict;
 
-/* The motion of the most pairs that agree within `tolerance` pixels; the others are left out, and
- * those far off weigh less. count: CS_MOTION_MOST at most. False where fewer agree than needed. */
+/* The motion with which the most pairs agree within `tolerance` pixels. All other pairs are left
+ * out; pairs that are farther away weigh less. count: at most CS_MOTION_MOST. False if fewer agree
+ * than are needed. */
 bool cs_motion_agree(celspan_motion model, cs_motion_pair *pairs, size_t count, double tolerance,
                      cs_motion_verdict *out);
 
-/* Where a motion takes a point. False behind the horizon. */
+/* The point to which a motion moves a point. False behind the horizon. */
 bool cs_motion_apply(const celspan_matrix *matrix, celspan_point point, celspan_point *out);

@@ -6,14 +6,14 @@
 
 enum { MOST_STEPS = 25, WIDE_SIDE = CS_PATCH_SIDE + 2 };
 
-#define SETTLED 0.002        /* pixels: a step shorter than this is the last */
+#define SETTLED 0.002        /* pixels: a step shorter than this is the last one */
 #define LONGEST_STEP 3.0     /* pixels */
-#define LEAST_DEVIATION 1e-3 /* of values in 0..1; flatter is noise */
+#define LEAST_DEVIATION 1e-3 /* of values in 0..1; a flatter patch is noise */
 
 /* ---------------------------------------------------------------- sampling */
 
-/* Whether a square of `radius` at the place lies in the picture, with the pixel that is blended in
- * on its right and below. */
+/* Whether a square of `radius` around the place lies in the picture, including the pixels that are
+ * blended in on its right and below it. */
 static bool is_inside(const cs_plane *plane, const cs_patch_place *place, int radius) {
   double dx = (fabs(place->a) + fabs(place->b)) * radius;
   double dy = (fabs(place->c) + fabs(place->d)) * radius;
@@ -41,7 +41,7 @@ static void sample_square(const cs_plane *plane, const cs_patch_place *place, in
                       place->y + place->c * u + place->d * v);
 }
 
-/* Takes the mean away from the values of a patch; returns their deviation. */
+/* Subtracts the mean from the values of a patch; returns their deviation. */
 static double centre_values(float *values) {
   double sum = 0, squares = 0;
   for (int i = 0; i < CS_PATCH_COUNT; i++)
@@ -68,7 +68,7 @@ static void take_values(const float *wide, cs_patch *out) {
     }
 }
 
-/* False where the slopes are all in one direction, so that the patch would slide along it. */
+/* False if all slopes have the same direction, so that the patch would slide along it. */
 static bool invert_slopes(cs_patch *patch) {
   double xx = 0, xy = 0, yy = 0;
   for (int i = 0; i < CS_PATCH_COUNT; i++) {
@@ -98,8 +98,8 @@ bool cs_patch_take(const cs_plane *plane, const cs_patch_place *place, cs_patch 
 
 /* ---------------------------------------------------------------- finding it */
 
-/* The step that makes the pixels more alike, in pixels of the patch. gain: scales the contrast of
- * the picture at this place to that of the patch. */
+/* The step that makes the pixels more similar, in pixels of the patch. gain: the factor from the
+ * contrast of the picture at this place to that of the patch. */
 static void find_step(const cs_patch *patch, const float *there, double gain, double step[2]) {
   double x = 0, y = 0;
   for (int i = 0; i < CS_PATCH_COUNT; i++) {
@@ -140,10 +140,11 @@ bool cs_patch_find(const cs_patch *patch, const cs_plane *plane, cs_patch_place 
     if (cs_number_length(step[0], step[1]) < SETTLED)
       return true;
   }
-  return *likeness > 0.9; /* it goes to and fro about the place by less than it matters */
+  return *likeness > 0.9; /* it oscillates around the place by less than matters */
 }
 
-/* How much alike the pixels at a place are; -1 where it is not in the picture, or flat. */
+/* The similarity of a patch and the pixels at a place; -1 if the place is not in the picture, or
+ * its pixels are flat. */
 static double likeness_at(const cs_patch *patch, const cs_plane *plane,
                           const cs_patch_place *place) {
   float there[CS_PATCH_COUNT];

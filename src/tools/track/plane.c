@@ -82,7 +82,8 @@ void cs_plane_levels_finish(cs_plane_levels *planes) {
 /* ---------------------------------------------------------------- features */
 
 #define SQUARE 3            /* the radius over which slopes are summed */
-#define LEAST_STRENGTH 2e-4 /* of values in 0..1, summed over a square: below it is noise */
+/* of values in 0..1, summed over a square: a smaller strength is noise */
+#define LEAST_STRENGTH 2e-4
 #define LEAST_SHARE 0.005   /* of the strongest corner's strength */
 
 typedef struct candidate {
@@ -90,7 +91,8 @@ typedef struct candidate {
   int32_t x, y;
 } candidate;
 
-/* Strongest first; those of one strength from top to bottom and from left to right. */
+/* The strongest comes first; those of equal strength are ordered from top to bottom and from left
+ * to right. */
 static inline bool precedes(const candidate *a, const candidate *b) {
   if (a->strength != b->strength)
     return a->strength > b->strength;
@@ -99,7 +101,7 @@ static inline bool precedes(const candidate *a, const candidate *b) {
 
 CS_SORT_DEFINE(sort_candidates, candidate, precedes)
 
-/* The smaller eigenvalue around a pixel, that is SQUARE + 1 pixels from the border or more. */
+/* The smaller eigenvalue around a pixel that is at least SQUARE + 1 pixels from the border. */
 static float strength_at(const cs_plane *plane, int32_t x, int32_t y) {
   float xx = 0, xy = 0, yy = 0;
   const ptrdiff_t stride = plane->width;
@@ -138,7 +140,7 @@ static void measure(const cs_plane *plane, const cs_features_region *region, map
     }
 }
 
-/* Whether no neighbour is stronger; of equals the first one is taken. */
+/* Whether no neighbour is stronger; of equally strong ones, the first is a peak. */
 static bool is_peak(const map *m, int32_t x, int32_t y) {
   float strength = strength_in(m, x, y);
   for (int32_t v = y - 1; v <= y + 1; v++)
@@ -182,7 +184,7 @@ static int32_t clamp(int32_t value, int32_t low, int32_t high) {
   return value < low ? low : value > high ? high : value;
 }
 
-/* The part of the region around whose pixels slopes can be summed. */
+/* The part of the region in which slopes can be summed around each pixel. */
 static map map_of(const cs_plane *plane, const cs_features_region *region) {
   enum { BORDER = SQUARE + 1 };
   int32_t x0 = clamp(region->x0, BORDER, plane->width),

@@ -25,14 +25,14 @@ typedef struct cs_plane_levels {
   cs_plane levels[CS_PLANE_LEVELS];
 } cs_plane_levels;
 
-/* values: width x height, copied. count: of levels that are wanted; there are fewer where one would
+/* values: width x height, copied. count: the wanted number of levels; there are fewer if one would
  * be narrower than 16 pixels. out: new, for cs_plane_levels_finish. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_plane_levels_make(celspan_context *context, const float *values,
                                                     int32_t width, int32_t height, int32_t count,
                                                     cs_plane_levels *out);
-void cs_plane_levels_finish(cs_plane_levels *planes); /* also one of zeros */
+void cs_plane_levels_finish(cs_plane_levels *planes); /* also if it is all zero */
 
-/* A place of level 0 on a level, and the other way. */
+/* Converts a place on level 0 to a level, and in the other direction. */
 static inline double cs_plane_down(double at, int32_t level) {
   double scale = 1.0 / (double)(1 << level);
   return (at + 0.5) * scale - 0.5;
@@ -53,15 +53,15 @@ static inline double cs_plane_up(double at, int32_t level) {
 
 enum { CS_FEATURES_MOST = 240 };
 
-/* Pixels [x0, x1) x [y0, y1), and of these where mask (one byte a pixel of the picture) is not 0.
- * mask NULL: all. */
+/* Pixels [x0, x1) x [y0, y1), of which only those count where mask (one byte for each pixel of the
+ * picture) is not 0. mask NULL: all. */
 typedef struct cs_features_region {
   int32_t x0, y0, x1, y1;
   const uint8_t *mask;
 } cs_features_region;
 
-/* The strongest corners, spread over the region, into `out`, which has room for CS_FEATURES_MOST.
- * Errors: NO_MEMORY. */
+/* Finds the strongest corners, spread over the region. out: room for CS_FEATURES_MOST. Errors:
+ * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_features_find(celspan_context *context, const cs_plane *plane,
                                                 const cs_features_region *region,
                                                 celspan_point *out, size_t *count);

@@ -26,15 +26,17 @@
 
 enum { LEAST_REGION = 2 * CS_PATCH_RADIUS, MOST_SIDE = 1 << 16 };
 
-enum { SEARCHED_CORNERS = 60, SEARCH_RADIUS = 14 }; /* the latter in pixels of the coarsest level */
+/* the radius is in pixels of the coarsest level */
+enum { SEARCHED_CORNERS = 60, SEARCH_RADIUS = 14 };
 
-#define LEAST_LIKENESS 0.8     /* of a patch with where it is found */
-#define LEAST_FAR_LIKENESS 0.6 /* the same from afar */
-#define COARSE_TOLERANCE 3.0   /* pixels that a corner may be off the common motion */
+#define LEAST_LIKENESS 0.8     /* between a patch and the place where it is found */
+#define LEAST_FAR_LIKENESS 0.6 /* the same for a search over larger distances */
+#define COARSE_TOLERANCE 3.0 /* pixels: the greatest distance of a corner from the common motion */
 #define FINE_TOLERANCE 1.0
-#define FARTHEST_BACK 0.5 /* pixels from where a patch came to where it is found again */
-#define LEAST_SHARE 0.2   /* of the corners in the frame that must agree */
-#define MOST_ERROR 0.6    /* pixels, of the corners that agree */
+/* pixels between a corner and the place to which the search in the other direction leads */
+#define FARTHEST_BACK 0.5
+#define LEAST_SHARE 0.2   /* the least share of the corners in the frame that must agree */
+#define MOST_ERROR 0.6    /* pixels: the greatest error of the corners that agree */
 
 struct celspan_tracker {
   celspan_context *context;
@@ -43,13 +45,15 @@ struct celspan_tracker {
   size_t count; /* of corners */
   celspan_point corners[CS_FEATURES_MOST];
   cs_patch *patches[CS_PLANE_LEVELS];               /* by level, `count` of each */
-  bool is_patch[CS_PLANE_LEVELS][CS_FEATURES_MOST]; /* whether there is one at that level */
-  celspan_matrix last, before_last; /* the motions of the last frames where it was found */
+  bool is_patch[CS_PLANE_LEVELS][CS_FEATURES_MOST]; /* whether there is a patch at that level */
+  /* the motions of the last two frames in which the region was found */
+  celspan_matrix last, before_last;
 };
 
 /* ---------------------------------------------------------------- corners in a frame */
 
-/* How a motion places a patch of level `level` about a corner: by its slopes there. */
+/* The place of a patch of level `level` around a corner under a motion, with the slopes of the
+ * motion there. */
 static bool place_patch(const celspan_matrix *matrix, celspan_point corner, int32_t level,
                         cs_patch_place *out) {
   const double *m = matrix->m;
@@ -67,8 +71,8 @@ static bool place_patch(const celspan_matrix *matrix, celspan_point corner, int3
   return size > 0.04 && size < 25;
 }
 
-/* Finds a corner's patch from level `coarsest` down to level 0. place: in, where it is guessed at
- * level 0; out, where it is. */
+/* Finds a corner's patch from level `coarsest` down to level 0. place: before the call, a guess at
+ * level 0; after it, the place that was found. */
 static bool find_corner(const celspan_tracker *tracker, const cs_plane_levels *frame, size_t i,
                         int32_t coarsest, cs_patch_place *place) {
   double likeness = 0;
@@ -91,8 +95,8 @@ static bool find_corner(const celspan_tracker *tracker, const cs_plane_levels *f
   return likeness >= LEAST_LIKENESS;
 }
 
-/* Whether what was found about a corner, sought in the first frame from as far off as it was
- * guessed, comes back to the corner. */
+/* Whether the search in the other direction leads back to the corner: the pixels that were found
+ * are searched for in the first frame, from an equally distant guess. */
 static bool comes_back(const celspan_tracker *tracker, const cs_plane_levels *frame, size_t i,
                        const cs_patch_place *guess, const cs_patch_place *found) {
   double determinant = found->a * found->d - found->b * found->c;
@@ -112,7 +116,8 @@ static bool comes_back(const celspan_tracker *tracker, const cs_plane_levels *fr
          cs_number_length(back.x - corner.x, back.y - corner.y) <= FARTHEST_BACK;
 }
 
-/* Pairs of corners and where they are found. in_frame: how many the motion puts into the frame. */
+/* The pairs of corners and their places in the frame. in_frame: the number of corners that the
+ * motion moves into the frame. */
 static size_t find_pairs(const celspan_tracker *tracker, const cs_plane_levels *frame,
                          const celspan_matrix *motion, int32_t coarsest, bool is_checked,
                          cs_motion_pair *pairs, size_t *in_frame) {
@@ -136,8 +141,8 @@ static size_t find_pairs(const celspan_tracker *tracker, const cs_plane_levels *
 
 /* ---------------------------------------------------------------- a frame */
 
-/* Moves a guess as a whole to where pairs were found: turned and scaled, but not bent, which needs
- * finer places. */
+/* Moves a guess to the place of the pairs as a whole: turned and scaled, but without perspective,
+ * which would need more exact places. */
 static bool move_guess(const celspan_tracker *tracker, const cs_motion_pair *found, size_t count,
                        double tolerance, celspan_matrix *guess) {
   cs_motion_pair pairs[CS_FEATURES_MOST];
@@ -156,7 +161,7 @@ static bool move_guess(const celspan_tracker *tracker, const cs_motion_pair *fou
   return true;
 }
 
-/* The motion that begins with a guess; false where there is none to rely on. */
+/* The motion, found from a guess; false if it is not reliable. */
 static bool follow_guess(const celspan_tracker *tracker, const cs_plane_levels *frame,
                          celspan_matrix guess, celspan_sighting *out) {
   cs_motion_pair pairs[CS_FEATURES_MOST];
@@ -179,7 +184,7 @@ static bool follow_guess(const celspan_tracker *tracker, const cs_plane_levels *
   return (double)verdict.agreeing >= LEAST_SHARE * (double)in_frame && verdict.error <= MOST_ERROR;
 }
 
-/* Searches for some corners all around where a guess puts them, and moves the guess there. */
+/* Searches for some corners around their guessed places, and moves the guess there. */
 static bool search_around(const celspan_tracker *tracker, const cs_plane_levels *frame,
                           celspan_matrix *guess) {
   cs_motion_pair pairs[SEARCHED_CORNERS];
@@ -199,7 +204,7 @@ static bool search_around(const celspan_tracker *tracker, const cs_plane_levels 
   return move_guess(tracker, pairs, count, 2.0 * (double)(1 << level), guess);
 }
 
-/* The next motion, if it continues as between the last two. */
+/* The next motion, if the movement between the last two frames continues. */
 static celspan_matrix continued(const celspan_tracker *tracker) {
   celspan_matrix back;
   if (!celspan_matrix_inverse(tracker->before_last, &back))
@@ -222,7 +227,7 @@ static void follow(celspan_tracker *tracker, const cs_plane_levels *frame, celsp
     return;
   }
   *out = (celspan_sighting){.corner_count = (uint32_t)tracker->count};
-  tracker->before_last = tracker->last; /* it waits where it was last found */
+  tracker->before_last = tracker->last; /* it waits at the place where it was found last */
 }
 
 /* ---------------------------------------------------------------- the public face */
@@ -266,7 +271,7 @@ static celspan_status check_region(celspan_context *context, const celspan_track
   return CELSPAN_OK;
 }
 
-/* As many levels as leave the region a few patches wide on the coarsest. */
+/* The number of levels for which the region is at least a few patches wide on the coarsest one. */
 static int32_t levels_for(const cs_features_region *region) {
   int32_t width = region->x1 - region->x0, height = region->y1 - region->y0, count = 1;
   for (int32_t side = width < height ? width : height;
