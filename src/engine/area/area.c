@@ -371,7 +371,7 @@ static celspan_status walk_heights(row_walk *w) {
 }
 
 /* A row that becomes dense while it is cut is not cut any further: dense intervals cost less than
- * exact slabs of so many boundaries, and need no memory for their intersections. */
+ * exact slabs of that many boundaries, and need no memory for their intersections. */
 static celspan_status walk_slabs(cs_area *area, int32_t y, int slabs, cs_row *out) {
   cs_window *window = &area->target.window;
   cs_intervals intervals;

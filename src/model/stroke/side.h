@@ -51,7 +51,7 @@ CELSPAN_CHECKED celspan_status cs_side_curve(cs_side *side, const celspan_point 
  * another. */
 CELSPAN_CHECKED celspan_status cs_side_arc(cs_side *side, const cs_spoke *about, celspan_point from,
                                            celspan_point to, double angle);
-/* A part of a fold: the tips go backwards on one cubic, while the pivots go on another one. Parts
+/* A part of a fold: the tips go backwards on one cubic, while the pivots move on another one. Parts
  * that continue each other from tip to tip make one fold. */
 CELSPAN_CHECKED celspan_status cs_side_fold(cs_side *side, const celspan_point tips[4],
                                             const celspan_point pivots[4]);

@@ -84,7 +84,7 @@ celspan_matrix cs_svg_fit(const cs_svg_view_box *box, double width, double heigh
 /* the most that the variables of a document may need */
 #define CS_SVG_VARIABLE_BYTES ((size_t)64 << 20)
 
-/* One variable. The list goes on with variables of the same name, which it hides, and of other
+/* One variable. The list continues with variables of the same name, which it hides, and of other
  * names; NULL: the last. */
 typedef struct cs_svg_variable {
   const char *name, *value;
