@@ -27,7 +27,7 @@
 #include "engine/sweep/cull.h"
 
 typedef struct cs_tree_result {
-  uint32_t first, end; /* layers below */
+  uint32_t first, end; /* the range of its layers */
   bool is_present;
 } cs_tree_result;
 

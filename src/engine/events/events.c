@@ -41,7 +41,7 @@ static celspan_status push(sweep *s, intersection added) {
   return CELSPAN_OK;
 }
 
-/* Takes the highest one out. */
+/* Removes the highest intersection and returns it. */
 static intersection pop(sweep *s) {
   intersection first = s->intersections[0], moved = s->intersections[--s->intersection_count];
   size_t at = 0, count = s->intersection_count;

@@ -133,7 +133,7 @@ static void add_chain(const walk *w, const cs_cull_crossing *crossing, footprint
 }
 
 /* Whether a layer with the chains [from, end) may show in the row, or has chains that are kept
- * anyway. It is nowhere left or right of all its chains. */
+ * anyway. Left and right of all its chains a layer is not present. */
 static bool may_show(const walk *w, uint32_t from, uint32_t end) {
   cs_cull_columns all = {CS_CULL_COLUMNS - 1, 0};
   bool has_partial = false;

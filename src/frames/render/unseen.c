@@ -8,7 +8,7 @@
 #define SIDE 256           /* tiles in a row, and rows of tiles, at most */
 #define WORDS (SIDE / 64)
 /* Pixels: how far a rectangle's edge may be from the edge of a tile that it covers, because of
- * rounding; nobody can see so little. And how far outlines may reach beyond their bounds. */
+ * rounding, and how far outlines may reach beyond their bounds. Both are too little to be seen. */
 #define NEAR 1e-9
 #define BEYOND (2 * CS_BOUNDARY_TOLERANCE)
 

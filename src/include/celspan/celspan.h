@@ -779,7 +779,7 @@ typedef struct celspan_grade_desc {
                                by what that makes of white's luma */
   double gamma;             /* sign(c) |c|^(1/gamma) */
   bool has_matrix;
-  double matrix[3][4];           /* red, green, blue by those, and 1 */
+  double matrix[3][4];           /* from red, green, blue and 1 to red, green, blue */
   const celspan_point *curve[3]; /* of each channel, x becomes y: monotone cubics, straight beyond
                                     their ends; x ascends. Copied */
   size_t curve_count[3];         /* 0: none, else 2..1024 */
@@ -808,7 +808,7 @@ typedef enum celspan_isolation {
 
 typedef struct celspan_group_desc {
   size_t struct_size;
-  celspan_object *const *objects; /* kept; later is nearer */
+  celspan_object *const *objects; /* kept; from the rear */
   size_t object_count;
   double opacity; /* 0..1 */
   celspan_blend blend;

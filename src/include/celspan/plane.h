@@ -57,8 +57,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_frame(celspan_context *
                                                                int32_t frame, celspan_plane **out);
 /* The bytes of its file. */
 CELSPAN_API size_t celspan_plane_bytes(const celspan_plane *plane);
-/* The file appears under its name whole or not at all; of a frame of a film, with the whole film.
- * Errors: NO_MEMORY; OUTPUT. */
+/* The file appears under its name whole or not at all. A frame of a film is written with the whole
+ * film. Errors: NO_MEMORY; OUTPUT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_write(celspan_context *context,
                                                                const celspan_plane *plane,
                                                                const char *path);

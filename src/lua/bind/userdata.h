@@ -77,7 +77,7 @@ cs_userdata *cs_userdata_self(lua_State *L, const cs_kind *kind, const char *met
 
 /* Pushes a word for the value at index, for messages: "a circle", "number". */
 const char *cs_userdata_type(lua_State *L, int index);
-/* The same, but for a string pushes its beginning, in quotes and without control characters. */
+/* The same, but of a string pushes its beginning, in quotes and without control characters. */
 const char *cs_userdata_shown(lua_State *L, int index);
 
 /* ---------------------------------------------------------------- holders */

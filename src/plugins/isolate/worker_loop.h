@@ -29,7 +29,7 @@ typedef struct cs_worker_desc {
   const cs_roots *roots;
   cs_message_start start;
   int zygote;         /* process number */
-  int socket, memory; /* to the program; the descriptor of the START */
+  int socket, memory; /* socket: to the program; memory: the descriptor of START */
 } cs_worker_desc;
 
 /* From now on, if this process ends by a crash, SIGALRM or a library after a failed allocation, it

@@ -42,8 +42,8 @@ void cs_svg_text_path_finish(cs_svg_text_path *path, cs_memory *memory);
  * there in degrees. */
 celspan_point cs_svg_text_path_at(const cs_svg_text_path *path, double distance, double *degrees);
 
-#define CS_SVG_TEXT_LENGTHS 64 /* the most of one text */
-#define CS_SVG_TEXT_PATHS 64   /* the most of one text */
+#define CS_SVG_TEXT_LENGTHS 64 /* the most lengths of one text */
+#define CS_SVG_TEXT_PATHS 64   /* the most paths of one text */
 
 typedef struct cs_svg_character {
   uint32_t byte; /* the byte where the character begins */
