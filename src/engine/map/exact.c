@@ -1,7 +1,6 @@
 #include "engine/map/exact.h"
 
 #include "base/sort.h"
-#include "engine/map/near.h"
 #include "model/geometry/cover.h"
 
 void cs_map_exact_finish(cs_map_exact *exact, cs_memory *memory) {

@@ -23,6 +23,7 @@
 
 #include "engine/map/brush.h"
 #include "engine/map/sheets.h"
+#include "engine/map/swath.h"
 #include "model/geometry/segment.h"
 
 #define CS_MAP_EXACT_LINES 48
@@ -73,3 +74,20 @@ CELSPAN_CHECKED celspan_status cs_map_exact_mean(celspan_context *context, cs_ma
                                                  const cs_map_frame *frame,
                                                  const cs_map_shown *shown, size_t count,
                                                  cs_v4 *out);
+
+/* ---- near.c */
+
+#define CS_MAP_TILE 32 /* columns */
+
+/* Finds the bits of the rows' swath, unless they are known. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_map_near_find(celspan_context *context, cs_map_rows *rows);
+
+/* A bit for each of the 64 borders from 64 * word on: whether it is near the columns [first,
+ * last]. */
+static inline uint64_t cs_map_near_word(const cs_map_rows *rows, size_t word, int32_t first,
+                                        int32_t last) {
+  uint64_t bits = 0;
+  for (int32_t tile = first / CS_MAP_TILE; tile <= last / CS_MAP_TILE; tile++)
+    bits |= rows->near[(size_t)tile * rows->near_words + word];
+  return bits;
+}

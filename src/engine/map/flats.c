@@ -1,4 +1,15 @@
-#include "engine/map/flats.h"
+/* The flat boundaries of a map, which its rows do not need: they lie between the ends of borders.
+ *
+ *            above
+ *       A  /  A    \  B        at one height, from left to right: what changes from above to below
+ *     ----o---------o-----       begins and ends where borders begin and end. From the first end to
+ *       A  \  C  /   B           the second one A becomes C, so a flat boundary lies there.
+ *            below
+ *
+ * Invariant: with them each cell is bounded on all sides: the heights of the lines around it, with
+ * their signs, add up to 0 however the map is turned.
+ */
+#include "engine/map/turn.h"
 
 #include "base/sort.h"
 

@@ -10,7 +10,7 @@
  *
  * No order is kept: each border says by how much the colour changes from its left to its right,
  * so what is right of any set of borders is a sum (sums.h). Flat boundaries change no sum: only a
- * map that is turned has them (flats.h, turn.h). The programs of gradients and pictures name
+ * map that is turned has them (turn.h). The programs of gradients and pictures name
  * layers of a stack that the map keeps: its formulas and pictures lie on the raster, and are put
  * into their place in each frame (brush.h).
  *

@@ -1,4 +1,16 @@
-#include "engine/map/near.h"
+/* Which of the borders of a swath come near some columns.
+ *
+ *     columns     0 .. 31   32 .. 63   64 .. 95
+ *     live 0         1          0          0        a bit for each border and tile of columns
+ *     live 1         0          1          1
+ *     live 2         1          1          0
+ *
+ * A swath at 1k has a thousand borders, and a pixel that is solved (exact.h) has two or three.
+ *
+ * Invariant: a border whose places from `low` to `high` are in a tile has its bit there; the rest
+ * of a word is 0.
+ */
+#include "engine/map/exact.h"
 
 /* The tile of a place, of `count`. */
 static int32_t tile_at(int32_t place, int32_t count) {

@@ -90,7 +90,7 @@ typedef struct cs_map_rows {
   cs_map_area *areas; /* of the pixel that is being read: the areas that are not 0 */
   size_t live_count, live_capacity, place_count, place_capacity, span_count, span_capacity;
   int32_t width;  /* of the frame */
-  uint64_t *near; /* filled by near.h, if has_near */
+  uint64_t *near; /* filled by near.c, if has_near */
   size_t near_words, near_capacity;
   bool has_near;
   size_t share_count, share_capacity, area_count, area_capacity, through_capacity;

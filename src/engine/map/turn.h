@@ -21,3 +21,8 @@
 CELSPAN_CHECKED celspan_status cs_map_turn(celspan_context *context, const cs_map *map,
                                            const celspan_matrix *matrix, const int32_t size[2],
                                            bool *fits, cs_map_lines *out);
+
+/* ---- flats.c */
+
+/* Finds the flat boundaries. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_map_find_flats(celspan_context *context, cs_map *map);
