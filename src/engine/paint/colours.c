@@ -1,7 +1,6 @@
 #include "engine/paint/colours.h"
 
 #include "base/number.h"
-#include "engine/paint/few.h"
 #include "engine/paint/gradient_table.h"
 #include "engine/paint/over_bare.h"
 #include "engine/paint/over_row.h"

@@ -1,4 +1,13 @@
-#include "engine/paint/few.h"
+/* The colours of a few pixels, each folded by itself (engine/compose/over.h).
+ *
+ *     window   |  | cell a / cell b |  |      a boundary crosses one or two pixels, and each cell
+ *              |  |       /         |  |      is asked for its colour in them
+ *
+ * For a few pixels the states of whole batches (over_row.h) cost more than what is folded.
+ *
+ * Invariant: the arithmetic is that of over_row.h.
+ */
+#include "engine/paint/colours.h"
 
 bool cs_few_fits(const cs_stack *stack, const cs_program *program) {
   uint32_t defocused = 0, made = 0; /* made: layers that would be made even where they are hidden */

@@ -1,4 +1,16 @@
-#include "engine/paint/lines.h"
+/* Programs that vary as formulas, cut into lines: gradients, procedures, defocused cels,
+ * and pictures enlarged so far that a texel is some pixels wide.
+ *
+ *     colour
+ *       |             ___________
+ *       |           /:           :`-._          a run is cut where a formula bends or a texel
+ *       |         /  :           :    `-._      begins (ends.h); between two cuts it becomes one
+ *       |  _____/    :           :        |     span if it is straight enough, else it is halved
+ *       |  |    :    :           :        |     (halving.h)
+ *       +--+----+----+-----------+--------+---> column
+ *          x0  cut  cut         cut       x1
+ */
+#include "engine/paint/run.h"
 
 #include "base/number.h"
 #include "base/sort.h"

@@ -2,7 +2,6 @@
 
 #include "engine/paint/colours.h"
 #include "engine/paint/copies.h"
-#include "engine/paint/lines.h"
 #include "engine/paint/over_row.h"
 #include "engine/paint/painter.h"
 #include "engine/paint/shown.h"

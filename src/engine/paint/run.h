@@ -23,3 +23,9 @@ CELSPAN_CHECKED celspan_status cs_painter_run_program(cs_painter *painter,
 /* Whether modes or mattes act on defocused layers of a cell, which then is painted pixel by pixel.
  */
 bool cs_painter_blends(const cs_painter *painter, const cs_cell *cell);
+
+/* ---- lines.c */
+
+/* As cs_painter_run_program, where no picture shows pixel by pixel. */
+CELSPAN_CHECKED celspan_status cs_lines_run(cs_painter *painter, const cs_program *program,
+                                            cs_run run, cs_row *row);
