@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "engine/map/brush.h"
-#include "engine/map/flats.h"
 #include "engine/map/keep.h"
 #include "engine/map/turn.h"
 #include "frames/render/parts.h"

@@ -1,4 +1,9 @@
-#include "plugins/sound/decoder.h"
+/* A sound that ffmpeg decodes in a worker (plugins/isolate/sound_worker.h), as a stream of samples.
+ *
+ * INVARIANT: everything from the worker is checked, because a malicious sound may control the
+ * worker: the form of the samples has bounds, and infinite samples become 0.
+ */
+#include "plugins/sound/sound.h"
 
 #include <errno.h>
 #include <math.h>

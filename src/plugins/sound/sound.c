@@ -6,7 +6,6 @@
 #include <sys/stat.h>
 
 #include "base/open.h"
-#include "plugins/sound/decoder.h"
 
 /* ---------------------------------------------------------------- formats */
 

@@ -1,6 +1,6 @@
 /* The sound files of films: the one place where they are opened and decoded.
  *
- *   file --> its format --plugins/isolate/sound_worker.h--> decoder.h --> cs_sound_stream
+ *   file --> its format --plugins/isolate/sound_worker.h--> decoder.c --> cs_sound_stream
  *
  * INVARIANT: a sound is opened here, and nothing else opens it by its name. Pipes, devices and
  * folders are refused at once. A decoder that sends no more samples is ended after the time limit
@@ -24,3 +24,17 @@ CELSPAN_CHECKED celspan_status cs_sound_find(celspan_context *context, const cha
  * ffmpeg; LIMIT; OUTPUT, if there is no ffmpeg; NO_MEMORY; CANCELLED. */
 CELSPAN_CHECKED celspan_status cs_sound_open(celspan_context *context,
                                              const cs_sound_request *request, cs_sound_stream *out);
+
+/* ---- decoder.c */
+
+typedef struct cs_decoder_desc {
+  const char *path;       /* for messages */
+  const char *kind;       /* the name of its format in ffmpeg */
+  int descriptor;         /* of the file; borrowed until it is open */
+  int32_t rate, channels; /* the wanted ones; 0: those of the file */
+  double speed;           /* 1: unchanged */
+} cs_decoder_desc;
+
+/* Errors: those of cs_sound_open. */
+CELSPAN_CHECKED celspan_status cs_decoder_open(celspan_context *context,
+                                               const cs_decoder_desc *desc, cs_sound_stream *out);
