@@ -7,6 +7,7 @@
 #include "base/hash_table.h"
 #include "model/scene/primitive_data.h"
 #include "model/scene/value.h"
+#include "readers/svg/objects.h"
 
 /* ---------------------------------------------------------------- life */
 
@@ -79,15 +80,6 @@ celspan_status cs_svg_text_copy(celspan_context *context, celspan_svg *art, cons
 
 /* ---------------------------------------------------------------- composing */
 
-/* Releases *object and puts `made` in its place, or NULL where `status` is a failure. Returns
- * status. */
-static celspan_status replace(celspan_status status, celspan_object *made,
-                              celspan_object **object) {
-  celspan_object_unref(*object);
-  *object = status == CELSPAN_OK ? made : NULL;
-  return status;
-}
-
 /* The union of the objects of the items inside; NULL for none. If there is only one object and it
  * has a mode, a union is needed, because the effects of the item would otherwise act on the object
  * itself. */
@@ -119,7 +111,7 @@ static celspan_status clip(celspan_context *context, celspan_object *shape,
   celspan_status status = CELSPAN_OK;
   if (shape)
     status = celspan_object_create_boolean(context, CELSPAN_OPERATOR_CLIP, both, 2, &made);
-  return replace(status, made, object);
+  return cs_svg_object_replace(status, made, object);
 }
 
 static celspan_status fade(celspan_context *context, double share, celspan_object **object) {
@@ -127,7 +119,7 @@ static celspan_status fade(celspan_context *context, double share, celspan_objec
   if (share == 1)
     return CELSPAN_OK;
   celspan_status status = celspan_object_fade(context, *object, share, &made);
-  return replace(status, made, object);
+  return cs_svg_object_replace(status, made, object);
 }
 
 static celspan_status mask(celspan_context *context, const cs_svg_item *item,
@@ -137,7 +129,7 @@ static celspan_status mask(celspan_context *context, const cs_svg_item *item,
   if (item->mask)
     status =
         celspan_object_create_matte(context, *object, item->mask, item->masks_by, false, &made);
-  return replace(status, made, object);
+  return cs_svg_object_replace(status, made, object);
 }
 
 /* Needed only if a mode is inside: any other object does not change. */
@@ -152,7 +144,7 @@ static celspan_status isolate(celspan_context *context, celspan_object **object)
       !cs_object_blends(*object, CELSPAN_SPACE_SRGB))
     return CELSPAN_OK;
   celspan_status status = celspan_object_create_group(context, &desc, &made);
-  return replace(status, made, object);
+  return cs_svg_object_replace(status, made, object);
 }
 
 /* Modes inside do not act on the backdrop of the item. A filter may draw something where the item
@@ -169,7 +161,7 @@ static celspan_status blend(celspan_context *context, celspan_blend mode, celspa
   if (mode == CELSPAN_BLEND_NORMAL)
     return CELSPAN_OK;
   celspan_status status = celspan_object_blend(context, *object, mode, &made);
-  return replace(status, made, object);
+  return cs_svg_object_replace(status, made, object);
 }
 
 /* Names are for messages; an id that is not allowed as the name of an object is ignored. */
@@ -178,7 +170,7 @@ static celspan_status name(celspan_context *context, const char *id, celspan_obj
   celspan_status status = celspan_object_named(context, *object, id, &made);
   if (status == CELSPAN_BAD_ARGUMENT)
     return CELSPAN_OK;
-  return replace(status, made, object);
+  return cs_svg_object_replace(status, made, object);
 }
 
 celspan_status cs_svg_item_compose(celspan_context *context, cs_svg_item *item) {

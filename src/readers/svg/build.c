@@ -1,9 +1,11 @@
-#include "readers/svg/build.h"
+/* From the elements of a document to the items of a drawing. */
+#include "readers/svg/read.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/number.h"
+#include "readers/svg/art.h"
 #include "readers/svg/boxes.h"
 #include "readers/svg/cascade.h"
 #include "readers/svg/clips.h"

@@ -10,7 +10,7 @@
 #include "base/hash.h"
 #include "base/open.h"
 #include "model/scene/check.h"
-#include "readers/svg/build.h"
+#include "readers/svg/art.h"
 #include "readers/svg/read.h"
 
 #define FILE_BYTES ((size_t)256 << 20)

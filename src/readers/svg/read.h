@@ -14,3 +14,8 @@ typedef struct cs_svg_options {
 /* See celspan_svg_read. */
 CELSPAN_CHECKED celspan_status cs_svg_read_file(celspan_context *context, const char *file,
                                                 const cs_svg_options *options, celspan_svg **out);
+
+/* ---- build.c */
+
+/* Fills in the size and the items of *art. Errors: INPUT and LIMIT with the line, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_svg_build(cs_svg_reading *reading, celspan_svg *art);
