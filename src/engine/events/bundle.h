@@ -11,9 +11,41 @@
  */
 #pragma once
 
+#include "base/context.h"
 #include "engine/events/course.h"
-#include "engine/events/windings.h"
 #include "engine/sweep/cull.h"
+
+/* ---- windings.c */
+
+typedef struct cs_windings_hash {
+  uint64_t a, b;
+} cs_windings_hash;
+
+typedef struct cs_windings_entry {
+  cs_windings_hash hash;
+  uint32_t parent, boundary; /* the winding that this one comes from, and the boundary crossed; 0
+                                has none */
+  int32_t zone;              /* for the caller: the zone in which they were met last; 0: none */
+} cs_windings_entry;
+
+typedef struct cs_windings {
+  cs_windings_entry *entries; /* 0: nothing winds around the place */
+  uint32_t *slots;            /* numbers plus 1; 0: free. A power of two */
+  size_t count, capacity, slot_count;
+} cs_windings;
+
+/* Errors: NO_MEMORY; cs_windings_finish must be called then, too. */
+CELSPAN_CHECKED celspan_status cs_windings_init(celspan_context *context, cs_windings *windings);
+void cs_windings_finish(cs_windings *windings, cs_memory *memory);
+/* A hash, changed by crossing a boundary of a layer. */
+cs_windings_hash cs_windings_add(cs_windings_hash hash, uint32_t layer, int32_t direction);
+/* The number of the windings right of a boundary that changes the hash by `change`. Errors:
+ * NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_windings_cross(celspan_context *context, cs_windings *windings,
+                                                 uint32_t from, uint32_t boundary,
+                                                 cs_windings_hash change, uint32_t *out);
+
+/* ---- bundle.c */
 
 typedef struct cs_bundle {
   uint32_t first, count;   /* of the cull's deferred changes */

@@ -1,4 +1,16 @@
-#include "engine/events/windings.h"
+/* Windings: how often the outline of each layer winds around a place. A drawing has as many
+ * different ones as it has faces, at most, and each has a number.
+ *
+ *        0  |  1 = 0 and A  |  2 = 1 and B    |  1        crossing a boundary from left to right
+ *           a               b                 c           leads from one to another
+ *
+ *     0 ---a--- 1 ---b--- 2        each but the first remembers how it was found: they form a
+ *                                  tree, along which all can be visited with few steps
+ *
+ * Windings are told apart by a hash that is a sum over the layers, so that the way to them does not
+ * matter. Two sums of 64 bits make it unlikely beyond practice that different ones share one.
+ */
+#include "engine/events/bundle.h"
 
 #include "base/splitmix.h"
 
