@@ -2,7 +2,7 @@
  * colours that folding their paints gives, and their runs are right within 1/1023 with fewer
  * colours than columns.
  */
-#include "engine/paint/gradient_run.h"
+#include "engine/paint/run.h"
 
 #include "engine/paint/over_row.h"
 #include "engine/paint/shade.h"

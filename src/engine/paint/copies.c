@@ -1,4 +1,19 @@
-#include "engine/paint/copies.h"
+/* Runs of pictures that are all copied, at whole pixels and scale 1, to codes.
+ *
+ *     blocks of A   |  clear  |  mixed  | opaque  |  mixed  |
+ *     blocks of B   |       opaque      |(not read)|  clear |      B is behind A
+ *     pieces        |    B    | A over B|    A    |  folded |
+ *
+ * Where one picture alone shows and is opaque, its codes go straight through. Where one lies over
+ * an opaque one, they do for all groups of pixels that are clear or opaque in front, and only the
+ * others are decoded, folded and coded. All other pieces are painted as everywhere (run.h).
+ *
+ * The pieces of a run are the same as long as its rows lie on the same blocks: they are kept, with
+ * the addresses of the codes, until another block is fetched.
+ *
+ * Invariant: the codes are those of the run's colours, to the bit.
+ */
+#include "engine/paint/run.h"
 
 #include "base/number.h"
 #include "engine/paint/colours.h"

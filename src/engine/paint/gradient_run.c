@@ -1,4 +1,18 @@
-#include "engine/paint/gradient_run.h"
+/* Runs of one gradient without perspective: cut at its stops, and halved between them as far as its
+ * geometry asks for, without comparing colours.
+ *
+ *     RADIAL, a row through the circles of its stops:
+ *
+ *              . - ~ ~ ~ - .
+ *            '   . - ~ - .   '
+ *     ------+---+----+----+---+------ row       cut where it meets a circle, and at the foot of
+ *           '   '    |    '   '                 the centre, where the distance turns round
+ *            ' .  '- o -'  . '
+ *                 centre
+ *
+ *     LINEAR: where the row meets the lines of its stops
+ */
+#include "engine/paint/run.h"
 
 #include "engine/paint/halving.h"
 

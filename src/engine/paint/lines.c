@@ -15,7 +15,6 @@
 #include "base/number.h"
 #include "base/sort.h"
 #include "engine/paint/colours.h"
-#include "engine/paint/gradient_run.h"
 #include "engine/paint/gradient_table.h"
 #include "engine/paint/halving.h"
 #include "engine/paint/over_row.h"

@@ -40,7 +40,7 @@ typedef struct cs_shown {
   bool is_sure;     /* the same is known of every part of the columns */
 } cs_shown;
 
-/* Pieces of a run of copied pictures: copies.h. */
+/* Pieces of a run of copied pictures: copies.c. */
 typedef enum cs_copies_kind { CS_COPIES_OTHER, CS_COPIES_ONE, CS_COPIES_OVER } cs_copies_kind;
 
 /* Columns up to x1. */
@@ -74,7 +74,7 @@ typedef struct cs_painter {
   cs_block_cache *blocks; /* of its pictures; NULL without pictures */
   cs_defocused_view *defocused;
   struct cs_gradient_tables *gradients; /* NULL without formulas: gradient_table.h */
-  cs_copies_plan *copies;               /* NULL without pictures: copies.h */
+  cs_copies_plan *copies;               /* NULL without pictures: copies.c */
   cs_arena scratch;                     /* of one run */
   cs_shown shown[2];    /* of the columns being painted, and of those right of them */
   uint64_t evaluations; /* pixels whose colour has been computed */

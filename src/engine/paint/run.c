@@ -1,7 +1,6 @@
 #include "engine/paint/run.h"
 
 #include "engine/paint/colours.h"
-#include "engine/paint/copies.h"
 #include "engine/paint/over_row.h"
 #include "engine/paint/painter.h"
 #include "engine/paint/shown.h"

@@ -9,6 +9,7 @@
  */
 #pragma once
 
+#include "engine/paint/gradient_table.h"
 #include "engine/paint/painter.h"
 #include "engine/span/row.h"
 #include "engine/span/run.h"
@@ -29,3 +30,25 @@ bool cs_painter_blends(const cs_painter *painter, const cs_cell *cell);
 /* As cs_painter_run_program, where no picture shows pixel by pixel. */
 CELSPAN_CHECKED celspan_status cs_lines_run(cs_painter *painter, const cs_program *program,
                                             cs_run run, cs_row *row);
+
+/* ---- copies.c */
+
+/* Whether a program consists of such pictures, shown unchanged and mixed as light. Errors: those of
+ * reading the headers of pictures. */
+CELSPAN_CHECKED celspan_status cs_copies_fit(cs_painter *painter, const cs_program *program,
+                                             bool *fit);
+/* The pieces of a run, valid until the next call. Errors: NO_MEMORY, and those of reading pictures.
+ */
+CELSPAN_CHECKED celspan_status cs_copies_find(cs_painter *painter, const cs_program *program,
+                                              cs_run run, const cs_copies_plan **out);
+/* Appends the codes of the first pieces of a run, none of kind OTHER. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_copies_put(cs_painter *painter, const cs_copies_plan *plan,
+                                             size_t count, cs_run run, cs_row *row);
+
+/* ---- gradient_run.c */
+
+/* Whether the table belongs to such a gradient; false for NULL. */
+bool cs_gradient_run_fits(const cs_gradient_table *table);
+/* Appends the spans of a run, as cs_lines_run. */
+CELSPAN_CHECKED celspan_status cs_gradient_run(cs_painter *painter, const cs_gradient_table *table,
+                                               cs_run run, cs_row *row);
