@@ -1,4 +1,16 @@
-#include "model/stroke/follow.h"
+/* Following a curve: the way of the tips of its spokes, as cubics.
+ *
+ *    line       a ---------------------> b     A curve is halved until five of its spokes, evenly
+ *                \      \    |    /     /      spaced by the parameter, turn by little and go one
+ *    spokes       \      \   |   /     /       way: forwards, where one cubic is fitted to their
+ *                  *------*--*--*-----*        tips, or backwards, where another is fitted to their
+ *                s[0]   s[1] .. s[3] s[4]      pivots. Where the tips turn round it is cut.
+ *
+ * Invariants: the cubics are within the view's tolerance of the spokes, so their number grows with
+ * the fourth root of the size, or less. Two sides of a curve are halved at the same places, so the
+ * points that they share are the same to the bit.
+ */
+#include "model/stroke/side.h"
 
 #define DEPTH 48  /* cuts of a curve: more would not change a double */
 #define CONE 0.82 /* cosine of 35 degrees: how far a curve may turn from its chord */

@@ -4,7 +4,6 @@
 
 #include "model/geometry/matrix.h"
 #include "model/stroke/dashes.h"
-#include "model/stroke/follow.h"
 #include "model/stroke/side.h"
 
 #define DEPTH 32  /* halvings of a piece that is larger than the frame */

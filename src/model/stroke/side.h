@@ -102,3 +102,10 @@ CELSPAN_CHECKED celspan_status cs_corner_cap_more(cs_side *side, const cs_stroke
 /* A line of no length. Errors: as above. */
 CELSPAN_CHECKED celspan_status cs_corner_dot(cs_side *side, const cs_stroke *stroke,
                                              const cs_spoke *place);
+
+/* ---- follow.c */
+
+/* Appends the side along a curve, from the tip of its first spoke to the tip of its last spoke.
+ * Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_follow_curve(cs_side *side, const cs_curve *curve,
+                                               const cs_spoke *first, const cs_spoke *last);
