@@ -28,3 +28,16 @@ CELSPAN_CHECKED celspan_status cs_span_reader_row(cs_span_reader *file, int32_t 
                                                   size_t *span_count);
 /* Reads the whole file and counts its elements. */
 CELSPAN_CHECKED celspan_status cs_span_reader_check(cs_span_reader *file, spanfile_counts *counts);
+
+/* ---- span_view.c */
+
+typedef struct cs_span_view cs_span_view;
+
+/* file: must live as long as the view. frame: its sizes and crop. out: new. */
+CELSPAN_CHECKED celspan_status cs_span_view_create(celspan_context *context, cs_span_reader *file,
+                                                   const celspan_frame_desc *frame,
+                                                   cs_span_view **out);
+void cs_span_view_destroy(cs_span_view *view);
+/* y: row of the crop, from 0. Valid until the next call. */
+CELSPAN_CHECKED celspan_status cs_span_view_row(cs_span_view *view, int32_t y,
+                                                const celspan_span **spans, size_t *span_count);

@@ -1,4 +1,18 @@
-#include "frames/still/span_view.h"
+/* A span file at another size and through a crop, row by row.
+ *
+ *   file    |---|---|---|---|---|---|     6 columns
+ *   frame   |-----|-----|-----|-----|     4 columns: each is the mean of 1.5 columns of the file
+ *
+ *   file    |-------|-------|-------|     3 columns
+ *   frame   |---|---|---|---|---|---|     6 columns: each lies between two middles of the file's
+ *
+ * At the file's own size rows are returned as they are. Otherwise each axis is resampled by itself,
+ * in linear light. Where the picture shrinks, a pixel is the mean over the area that it covers,
+ * computed from the spans in time proportional to their number; where it grows, it is interpolated
+ * linearly between the nearest two. Only the rows that the crop covers are read. Memory: a few
+ * rows.
+ */
+#include "frames/still/span_reader.h"
 
 #include <math.h>
 #include <string.h>

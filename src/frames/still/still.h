@@ -6,7 +6,7 @@
 
 #include "celspan/plane.h"
 #include "frames/plane/plane.h"
-#include "frames/still/span_view.h"
+#include "frames/still/span_reader.h"
 
 typedef struct cs_still {
   celspan_picture_info info;
