@@ -9,7 +9,7 @@
 
 #include <stdlib.h>
 
-#include "frames/render/strips.h"
+#include "frames/render/row_worker.h"
 #include "tests/support/scene.h"
 
 typedef struct frame_rows {

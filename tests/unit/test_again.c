@@ -1,7 +1,7 @@
 /* A row that failed for lack of memory, made again, is the same as if it had not failed: the worker
  * keeps no state of the failed attempt.
  */
-#include "frames/render/strips.h"
+#include "frames/render/row_worker.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
 #include "tests/support/scene.h"

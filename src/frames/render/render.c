@@ -2,7 +2,7 @@
  * row. */
 #include "base/description.h"
 #include "frames/render/drawings.h"
-#include "frames/render/strips.h"
+#include "frames/render/row_worker.h"
 #include "model/scene/check.h"
 #include "model/scene/inspect.h"
 #include "output/sinks/dither.h"

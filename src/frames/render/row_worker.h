@@ -48,3 +48,12 @@ void cs_row_worker_aim(cs_row_worker *worker, unsigned char *pixels);
 CELSPAN_CHECKED celspan_status cs_row_worker_row(cs_row_worker *worker, int32_t y,
                                                  const cs_row **out);
 uint64_t cs_row_worker_evaluations(const cs_row_worker *worker);
+
+/* ---- strips.c */
+
+/* Feeds all rows of the frame to sink->row. desc: its progress function is called. Errors: those of
+ * rows and of the sink; CANCELLED. */
+CELSPAN_CHECKED celspan_status cs_strips_render(celspan_context *context, const cs_frame *frame,
+                                                const celspan_frame_desc *desc,
+                                                const celspan_sink *sink,
+                                                celspan_statistics *statistics);

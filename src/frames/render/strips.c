@@ -1,4 +1,15 @@
-#include "frames/render/strips.h"
+/* Strips: rows of a frame made together by a worker, delivered in order.
+ *
+ *   workers --rows, strip by strip--> strips --in order, by the calling thread--> sink
+ *
+ * A sink that takes shares (output/sinks/shares.h) gets the rows from the workers directly,
+ * and the shares are then joined in order. The calling thread works too while it has nothing to
+ * deliver.
+ *
+ * INVARIANT: the sink gets the same spans whatever the number of workers and the height of strips;
+ * if rows fail, the failure of the topmost of them is reported.
+ */
+#include "frames/render/row_worker.h"
 
 #include "base/pipeline.h"
 #include "engine/span/row_queue.h"
