@@ -183,3 +183,8 @@ int cs_context_workers(celspan_context *context, int64_t wanted, int most);
     if (try_status_ != CELSPAN_OK)                                                                 \
       return try_status_;                                                                          \
   } while (0)
+
+/* The end of a function that makes a value: *out is the value after a success; after a failure the
+ * value is released. Its result is the status. */
+#define CS_GIVE(status, value, release, out)                                                       \
+  ((status) == CELSPAN_OK ? (void)(*(out) = (value)) : release(value), (status))

@@ -53,11 +53,7 @@ celspan_status cs_plane_film_create(celspan_context *context, const char *path,
   celspan_status status = cs_file_create(context, NULL, path, &film->file);
   if (status == CELSPAN_OK)
     status = open_writer(film, desc->frames_second);
-  if (status == CELSPAN_OK)
-    *out = film;
-  else
-    cs_plane_film_discard(film);
-  return status;
+  return CS_GIVE(status, film, cs_plane_film_discard, out);
 }
 
 /* Frees all except the file, which has been committed or discarded. */

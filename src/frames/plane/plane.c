@@ -224,11 +224,7 @@ celspan_status cs_plane_expose(celspan_context *context, const celspan_exposure 
   if (status == CELSPAN_OK)
     status = write_record(context, &made.record, desc, plane);
   cs_plane_frame_finish(&made, context->memory);
-  if (status == CELSPAN_OK)
-    *out = plane;
-  else
-    celspan_plane_unref(plane);
-  return status;
+  return CS_GIVE(status, plane, celspan_plane_unref, out);
 }
 
 celspan_status celspan_plane_create(celspan_context *context, const celspan_rostrum *rostrum,
@@ -289,11 +285,7 @@ celspan_status celspan_plane_read(celspan_context *context, const char *path, ce
   CS_TRY(cs_check_given(context, "plane", "the path", path));
   CS_TRY(create(context, &plane));
   celspan_status status = load_file(context, path, plane);
-  if (status == CELSPAN_OK)
-    *out = plane;
-  else
-    celspan_plane_unref(plane);
-  return status;
+  return CS_GIVE(status, plane, celspan_plane_unref, out);
 }
 
 int32_t celspan_plane_frames(const celspan_plane *plane, double *frames_second) {
@@ -326,11 +318,7 @@ celspan_status cs_plane_choose(celspan_context *context, const char *name,
   other->bytes = plane->bytes;
   other->size = plane->size;
   celspan_status status = load_frame(context, name, other, frame);
-  if (status == CELSPAN_OK)
-    *out = other;
-  else
-    celspan_plane_unref(other);
-  return status;
+  return CS_GIVE(status, other, celspan_plane_unref, out);
 }
 
 celspan_status celspan_plane_frame(celspan_context *context, const celspan_plane *plane,

@@ -274,11 +274,7 @@ celspan_status celspan_rows_create(celspan_context *context, const celspan_frame
     if (status != CELSPAN_OK)
       (void)cs_fail(context, status, "%s", rows->row_worker.context.error);
   }
-  if (status == CELSPAN_OK)
-    *out = rows;
-  else
-    celspan_rows_destroy(rows);
-  return status;
+  return CS_GIVE(status, rows, celspan_rows_destroy, out);
 }
 
 celspan_status celspan_rows_get(celspan_rows *rows, int32_t y, const celspan_span **spans,

@@ -106,11 +106,7 @@ celspan_status cs_span_reader_open(celspan_context *context, const char *path,
   file->descriptor = -1;
   memcpy(file->path, path, strlen(path) + 1);
   celspan_status status = open_file(file);
-  if (status == CELSPAN_OK)
-    *out = file;
-  else
-    cs_span_reader_close(file);
-  return status;
+  return CS_GIVE(status, file, cs_span_reader_close, out);
 }
 
 void cs_span_reader_close(cs_span_reader *file) {

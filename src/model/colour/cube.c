@@ -226,11 +226,7 @@ static celspan_status create(celspan_context *context, const char *file, size_t 
   for (int c = 0; c < 3; c++)
     cube->domain[3 + c] = 1;
   celspan_status status = read_cube(context, file, size, cube);
-  if (status == CELSPAN_OK)
-    *out = cube;
-  else
-    cs_cube_unref(cube);
-  return status;
+  return CS_GIVE(status, cube, cs_cube_unref, out);
 }
 
 static void destroy(cs_cube *cube) {

@@ -166,11 +166,7 @@ static celspan_status blur(celspan_context *context, celspan_object *object,
   celspan_object_unref(extended);
   if (status == CELSPAN_OK)
     status = move(context, &made, frame.x, frame.y);
-  if (status == CELSPAN_OK)
-    *out = made;
-  else
-    celspan_object_unref(made);
-  return status;
+  return CS_GIVE(status, made, celspan_object_unref, out);
 }
 
 /* The result of an effect on an object without a mode. */
@@ -252,11 +248,7 @@ static celspan_status make_silhouette(celspan_context *context, celspan_object *
   celspan_status status = mask(context, &made, object, look->inverts);
   if (status == CELSPAN_OK)
     status = blur_silhouette(context, &made, look);
-  if (status == CELSPAN_OK)
-    *out = made;
-  else
-    celspan_object_unref(made);
-  return status;
+  return CS_GIVE(status, made, celspan_object_unref, out);
 }
 
 /* Joins *effect and the object, either of which may be in front. */
@@ -394,11 +386,7 @@ static celspan_status spread(celspan_context *context, celspan_object *object, d
   celspan_object_unref(made);
   if (status == CELSPAN_OK)
     status = brighten(context, &wide);
-  if (status == CELSPAN_OK)
-    *out = wide;
-  else
-    celspan_object_unref(wide);
-  return status;
+  return CS_GIVE(status, wide, celspan_object_unref, out);
 }
 
 /* The same for an object with an alpha of its own. */

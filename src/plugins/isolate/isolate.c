@@ -106,11 +106,7 @@ static celspan_status open_writer(const cs_picture_output *output, cs_picture_wr
     return cs_worker_fail(failure, status, output->name, reason.text);
   }
   status = begin(writer, output, failure);
-  if (status == CELSPAN_OK)
-    *out = writer;
-  else
-    destroy(writer);
-  return status;
+  return CS_GIVE(status, writer, destroy, out);
 }
 
 static celspan_status write_rows(cs_picture_writer *writer, int32_t y, int32_t count,

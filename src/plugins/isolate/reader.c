@@ -255,11 +255,7 @@ celspan_status cs_reader_open(const cs_picture_request *request, cs_picture_read
   if (!reader)
     return cs_worker_fail(failure, CELSPAN_NO_MEMORY, request->file, "out of memory");
   celspan_status status = open_first(reader, header, failure);
-  if (status == CELSPAN_OK)
-    *out = reader;
-  else
-    destroy(reader);
-  return status;
+  return CS_GIVE(status, reader, destroy, out);
 }
 
 void cs_reader_close(cs_picture_reader *reader) {

@@ -94,11 +94,7 @@ static celspan_status create(cs_worker_task task, cs_worker **out, cs_picture_fa
   worker->socket = -1;
   pthread_mutex_init(&worker->asking, NULL);
   celspan_status status = start(worker, failure);
-  if (status == CELSPAN_OK)
-    *out = worker;
-  else
-    destroy(worker);
-  return status;
+  return CS_GIVE(status, worker, destroy, out);
 }
 
 /* ---------------------------------------------------------------- the pool */

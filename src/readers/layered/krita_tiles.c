@@ -398,12 +398,7 @@ static celspan_status begin(const cs_rows_source *source, celspan_context *conte
   rows->base = (cs_rows){source, source->memory};
   rows->input = input;
   celspan_status status = open(rows, context);
-  if (status != CELSPAN_OK) {
-    end(&rows->base);
-    return status;
-  }
-  *out = &rows->base;
-  return CELSPAN_OK;
+  return CS_GIVE(status, &rows->base, end, out);
 }
 
 static void destroy(cs_rows_source *source) {

@@ -267,12 +267,7 @@ celspan_status celspan_painting_read(celspan_context *context, const char *file,
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "painting: file must name a file");
   CS_TRY(cs_contents_create(context, &painting));
   celspan_status status = read_file(context, &input, painting);
-  if (status != CELSPAN_OK) {
-    celspan_painting_unref(painting);
-    return status;
-  }
-  *out = painting;
-  return CELSPAN_OK;
+  return CS_GIVE(status, painting, celspan_painting_unref, out);
 }
 
 /* ---------------------------------------------------------------- life */

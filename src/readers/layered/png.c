@@ -273,8 +273,9 @@ static celspan_status next(cs_rows *base, celspan_context *context, void *row) {
 
 /* ---------------------------------------------------------------- life */
 
-static void free_rows(png_rows *rows) {
-  cs_memory *memory = rows->base.memory;
+static void free_rows(cs_rows *base) {
+  png_rows *rows = (png_rows *)base;
+  cs_memory *memory = base->memory;
   cs_mem_free(memory, rows->packed, rows->packed_size);
   cs_mem_free(memory, rows->last, rows->packed_size);
   cs_mem_free(memory, rows, sizeof *rows);
@@ -284,7 +285,7 @@ static void end(cs_rows *base) {
   png_rows *rows = (png_rows *)base;
   cs_stream_inflate_finish(&rows->inflate);
   cs_zip_close(&rows->member);
-  free_rows(rows);
+  free_rows(base);
 }
 
 static celspan_status open(png_rows *rows, celspan_context *context, const cs_input *input) {
@@ -312,12 +313,7 @@ static celspan_status begin(const cs_rows_source *base, celspan_context *context
   rows->last = cs_mem_array(base->memory, rows->packed_size, 1);
   celspan_status status =
       rows->packed && rows->last ? open(rows, context, input) : cs_fail_memory(context);
-  if (status != CELSPAN_OK) {
-    free_rows(rows);
-    return status;
-  }
-  *out = &rows->base;
-  return CELSPAN_OK;
+  return CS_GIVE(status, &rows->base, free_rows, out);
 }
 
 static void destroy(cs_rows_source *source) {

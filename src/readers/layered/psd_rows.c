@@ -211,12 +211,7 @@ static celspan_status begin(const cs_rows_source *source, celspan_context *conte
       status = begin_channel(rows, context, &layer->channels[c], &rows->channels[c]);
   if (status == CELSPAN_OK)
     status = pass_mask_rows(rows, context);
-  if (status != CELSPAN_OK) {
-    end(&rows->base);
-    return status;
-  }
-  *out = &rows->base;
-  return CELSPAN_OK;
+  return CS_GIVE(status, &rows->base, end, out);
 }
 
 static void destroy(cs_rows_source *source) {

@@ -148,11 +148,7 @@ static celspan_status build(cs_svg_reading *reading, const char *name, celspan_s
     status = fail_in(reading->context, name, status);
   if (status == CELSPAN_OK)
     status = copy_notes(reading, art);
-  if (status == CELSPAN_OK)
-    *out = art;
-  else
-    celspan_svg_unref(art);
-  return status;
+  return CS_GIVE(status, art, celspan_svg_unref, out);
 }
 
 /* reading: the limits, and how to read; its document and notes belong to this drawing until the

@@ -151,12 +151,7 @@ static celspan_status make_glyphs(cs_layout *layout, celspan_glyphs **out) {
   celspan_glyphs *glyphs = NULL;
   CS_TRY(create_glyphs(layout->context, layout->desc, layout->letter_count, &glyphs));
   celspan_status status = fill(layout, glyphs);
-  if (status != CELSPAN_OK) {
-    celspan_glyphs_destroy(glyphs);
-    return status;
-  }
-  *out = glyphs;
-  return CELSPAN_OK;
+  return CS_GIVE(status, glyphs, celspan_glyphs_destroy, out);
 }
 
 celspan_status celspan_glyphs_create(celspan_context *context, const celspan_text_desc *desc,

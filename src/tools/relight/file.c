@@ -131,9 +131,5 @@ celspan_status celspan_relight_read(celspan_context *context, const char *path,
   celspan_texture_unref(paint);
   CS_TRY(status);
   status = check_file(context, texture);
-  if (status == CELSPAN_OK)
-    *out = texture;
-  else
-    celspan_texture_unref(texture);
-  return status;
+  return CS_GIVE(status, texture, celspan_texture_unref, out);
 }

@@ -180,9 +180,5 @@ celspan_status cs_unlit_finish(celspan_context *context, cs_unlit *unlit,
   if (status == CELSPAN_OK && unlit->medium)
     status = add_medium(context, unlit, &texture);
   cs_unlit_discard(context, unlit);
-  if (status == CELSPAN_OK)
-    *out = texture;
-  else
-    celspan_texture_unref(texture);
-  return status;
+  return CS_GIVE(status, texture, celspan_texture_unref, out);
 }

@@ -372,11 +372,7 @@ celspan_status celspan_stack_create(celspan_context *context, const celspan_fram
   stack->light_count = desc->exposures[0].rostrum->cel_count + 1;
   stack->space = space_of(desc);
   celspan_status status = fill(context, desc, stack);
-  if (status == CELSPAN_OK)
-    *out = stack;
-  else
-    destroy(stack);
-  return status;
+  return CS_GIVE(status, stack, destroy, out);
 }
 
 CS_COUNTED(celspan_stack)

@@ -313,11 +313,7 @@ celspan_status cs_result_make(celspan_context *context, const celspan_trace_desc
   trace->references = 1;
   trace->memory = cs_memory_ref(context->memory);
   celspan_status status = trace_picture(context, desc, trace);
-  if (status == CELSPAN_OK)
-    *out = trace;
-  else
-    celspan_trace_unref(trace);
-  return status;
+  return CS_GIVE(status, trace, celspan_trace_unref, out);
 }
 
 celspan_status celspan_trace_create(celspan_context *context, const celspan_trace_desc *desc,
@@ -326,11 +322,7 @@ celspan_status celspan_trace_create(celspan_context *context, const celspan_trac
   celspan_trace *trace;
   CS_TRY(cs_result_make(context, desc, &trace));
   celspan_status status = make_objects(context, trace);
-  if (status == CELSPAN_OK)
-    *out = trace;
-  else
-    celspan_trace_unref(trace);
-  return status;
+  return CS_GIVE(status, trace, celspan_trace_unref, out);
 }
 
 /* ---------------------------------------------------------------- facts */

@@ -330,11 +330,7 @@ celspan_status celspan_tracker_create(celspan_context *context, const celspan_lu
   tracker->model = desc->model;
   tracker->last = tracker->before_last = celspan_matrix_identity();
   celspan_status status = fill(tracker, first, desc);
-  if (status != CELSPAN_OK)
-    celspan_tracker_destroy(tracker);
-  else
-    *out = tracker;
-  return status;
+  return CS_GIVE(status, tracker, celspan_tracker_destroy, out);
 }
 
 celspan_status celspan_tracker_follow(celspan_tracker *tracker, const celspan_luma *frame,
