@@ -20,6 +20,20 @@ static inline bool cs_counted_drop(atomic_size_t *references) {
   return atomic_fetch_sub_explicit(references, 1, memory_order_acq_rel) == 1;
 }
 
+static inline celspan_status cs_counted_begin(atomic_size_t *references, cs_memory **own,
+                                              cs_memory *memory) {
+  atomic_init(references, 1);
+  *own = cs_memory_ref(memory);
+  return CELSPAN_OK;
+}
+
+/* Makes a value of zeros, with one reference, and with a reference to its memory in its field
+ * `memory`. Errors: NO_MEMORY. */
+#define CS_COUNTED_MAKE(context, value)                                                            \
+  (CS_MAKE(context, value, 1) == CELSPAN_OK                                                        \
+       ? cs_counted_begin(&(value)->references, &(value)->memory, (context)->memory)               \
+       : CELSPAN_NO_MEMORY)
+
 /* Frees a value that has a reference to its memory. */
 static inline void cs_counted_free(cs_memory *memory, void *value, size_t size) {
   cs_mem_free(memory, value, size);

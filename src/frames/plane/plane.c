@@ -46,9 +46,7 @@ celspan_status cs_plane_report_record(celspan_context *context, planefile_status
 
 static celspan_status create(celspan_context *context, celspan_plane **out) {
   celspan_plane *plane;
-  CS_TRY(CS_MAKE(context, plane, 1));
-  atomic_init(&plane->references, 1);
-  plane->memory = cs_memory_ref(context->memory);
+  CS_TRY(CS_COUNTED_MAKE(context, plane));
   *out = plane;
   return CELSPAN_OK;
 }

@@ -220,9 +220,7 @@ static celspan_status read_cube(celspan_context *context, const char *file, size
 static celspan_status create(celspan_context *context, const char *file, size_t size,
                              cs_cube **out) {
   cs_cube *cube;
-  CS_TRY(CS_MAKE(context, cube, 1));
-  atomic_init(&cube->references, 1);
-  cube->memory = cs_memory_ref(context->memory);
+  CS_TRY(CS_COUNTED_MAKE(context, cube));
   for (int c = 0; c < 3; c++)
     cube->domain[3 + c] = 1;
   celspan_status status = read_cube(context, file, size, cube);

@@ -87,9 +87,7 @@ static celspan_status check(celspan_context *context, const celspan_picture_desc
 static celspan_status create(celspan_context *context, const celspan_picture_desc *desc,
                              cs_picture **out) {
   cs_picture *picture;
-  CS_TRY(CS_MAKE(context, picture, 1));
-  atomic_init(&picture->references, 1);
-  picture->memory = cs_memory_ref(context->memory);
+  CS_TRY(CS_COUNTED_MAKE(context, picture));
   picture->hash = hash_of(desc);
   const char *tried = desc->surface ? NULL : cs_tried_find(context, desc->file);
   picture->subimage = desc->layer ? 0 : desc->subimage;

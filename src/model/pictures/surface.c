@@ -110,9 +110,7 @@ static celspan_status create(celspan_context *context, const celspan_surface_des
                              bool is_reader, celspan_surface **out) {
   CS_TRY(check(context, desc));
   celspan_surface *surface;
-  CS_TRY(CS_MAKE(context, surface, 1));
-  atomic_init(&surface->references, 1);
-  surface->memory = cs_memory_ref(context->memory);
+  CS_TRY(CS_COUNTED_MAKE(context, surface));
   surface->desc = *desc;
   complete(&surface->desc);
   if (desc->pixels && !desc->release && !copy_pixels(surface)) {

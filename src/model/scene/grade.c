@@ -78,9 +78,7 @@ celspan_status celspan_grade_create(celspan_context *context, const celspan_grad
   CS_READ(context, "grade", celspan_grade_desc, desc);
   CS_TRY(check(context, desc));
   celspan_grade *grade;
-  CS_TRY(CS_MAKE(context, grade, 1));
-  atomic_init(&grade->references, 1);
-  grade->memory = cs_memory_ref(context->memory);
+  CS_TRY(CS_COUNTED_MAKE(context, grade));
   celspan_status status = cs_grade_make(context, desc, &grade->steps);
   if (status == CELSPAN_OK && desc->lut)
     status = cs_cube_read(context, desc->lut, &grade->steps.cube);

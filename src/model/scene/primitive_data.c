@@ -75,9 +75,7 @@ static celspan_status create_part(celspan_context *context, cs_primitive_data *d
 celspan_status cs_primitive_data_create(celspan_context *context, cs_primitive_data_kind kind,
                                         celspan_texture *texture, cs_primitive_data **out) {
   cs_primitive_data *data;
-  CS_TRY(CS_MAKE(context, data, 1));
-  atomic_init(&data->references, 1);
-  data->memory = cs_memory_ref(context->memory);
+  CS_TRY(CS_COUNTED_MAKE(context, data));
   data->kind = kind;
   data->has_procedure = kind == CS_PRIMITIVE_DATA_SCANLINE;
   data->has_uneven = kind == CS_PRIMITIVE_DATA_SCANLINE || kind == CS_PRIMITIVE_DATA_ROSTRUM;

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/counted.h"
+
 /* ---------------------------------------------------------------- names */
 
 /* The bytes of the character at the start of a text; 0 if it is not valid UTF-8. */
@@ -48,9 +50,7 @@ static void set_name(char out[CS_CONTENTS_TEXT], const char *name, size_t size) 
 
 celspan_status cs_contents_create(celspan_context *context, celspan_painting **out) {
   celspan_painting *painting;
-  CS_TRY(CS_MAKE(context, painting, 1));
-  atomic_init(&painting->references, 1);
-  painting->memory = cs_memory_ref(context->memory);
+  CS_TRY(CS_COUNTED_MAKE(context, painting));
   *out = painting;
   return CELSPAN_OK;
 }

@@ -13,9 +13,7 @@
 
 celspan_status cs_svg_art_create(celspan_context *context, celspan_svg **out) {
   celspan_svg *art;
-  CS_TRY(CS_MAKE(context, art, 1));
-  atomic_init(&art->references, 1);
-  art->memory = cs_memory_ref(context->memory);
+  CS_TRY(CS_COUNTED_MAKE(context, art));
   cs_arena_init(&art->arena);
   *out = art;
   return CELSPAN_OK;

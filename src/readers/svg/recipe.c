@@ -16,9 +16,7 @@
 
 celspan_status cs_svg_recipe_create(celspan_context *context, cs_svg_recipe **out) {
   cs_svg_recipe *recipe;
-  CS_TRY(CS_MAKE(context, recipe, 1));
-  atomic_init(&recipe->references, 1);
-  recipe->memory = cs_memory_ref(context->memory);
+  CS_TRY(CS_COUNTED_MAKE(context, recipe));
   *out = recipe;
   return CELSPAN_OK;
 }

@@ -364,9 +364,7 @@ celspan_status celspan_stack_create(celspan_context *context, const celspan_fram
   CS_READ(context, "stack", celspan_frame_desc, desc);
   CS_TRY(check(context, desc));
   celspan_stack *stack;
-  CS_TRY(CS_MAKE(context, stack, 1));
-  atomic_init(&stack->references, 1);
-  stack->memory = cs_memory_ref(context->memory);
+  CS_TRY(CS_COUNTED_MAKE(context, stack));
   stack->width = desc->crop_width > 0 ? desc->crop_width : desc->width;
   stack->height = desc->crop_height > 0 ? desc->crop_height : desc->height;
   stack->light_count = desc->exposures[0].rostrum->cel_count + 1;

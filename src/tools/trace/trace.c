@@ -6,6 +6,7 @@
  */
 #include <string.h>
 
+#include "base/counted.h"
 #include "base/description.h"
 #include "base/sort.h"
 #include "celspan/trace.h"
@@ -309,9 +310,7 @@ celspan_status cs_result_make(celspan_context *context, const celspan_trace_desc
                               celspan_trace **out) {
   CS_TRY(check(context, desc));
   celspan_trace *trace;
-  CS_TRY(CS_MAKE(context, trace, 1));
-  trace->references = 1;
-  trace->memory = cs_memory_ref(context->memory);
+  CS_TRY(CS_COUNTED_MAKE(context, trace));
   celspan_status status = trace_picture(context, desc, trace);
   return CS_GIVE(status, trace, celspan_trace_unref, out);
 }
