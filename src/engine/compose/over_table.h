@@ -63,6 +63,6 @@ bool cs_over_table_suits(const cs_stack *stack);
 CELSPAN_CHECKED celspan_status cs_over_table_init(cs_over_table *table, celspan_context *context,
                                                   const cs_stack *stack);
 void cs_over_table_finish(cs_over_table *table);
-/* enough for these words */
+/* The light of a set. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_over_table_light(cs_over_table *table, const uint64_t *set,
                                                    cs_over_pair *out);

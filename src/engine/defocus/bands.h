@@ -23,9 +23,9 @@ typedef struct cs_defocus_bands_key {
 typedef celspan_status (*cs_defocus_bands_maker)(const void *layer, celspan_context *context,
                                                  int32_t number, cs_defocus_band *band);
 
-/* Makes the cache where there is none yet. Any thread. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_defocus_bands_ready(celspan_context *context);
 /* Makes the cache if it does not exist yet. Any thread. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_defocus_bands_ready(celspan_context *context);
+/* Finds a band, or makes it by calling make(layer, ...). Errors: NO_MEMORY, and those of `make`. */
 CELSPAN_CHECKED celspan_status cs_defocus_bands_acquire(celspan_context *context,
                                                         const cs_defocus_bands_key *key,
                                                         cs_defocus_bands_maker make,

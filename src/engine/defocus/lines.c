@@ -102,9 +102,7 @@ static void add_point(cs_defocus_lines *f, double x, const cs_defocus_halves *st
     f->groups[i].is_marked = true;
 }
 
-/* Fills the columns [first, end) of the line above the row, and of the part of the line below it.
- * sum: before the call, the sum of the steps left of `first`; after it, of the steps left of `end`.
- * near and steps are cleared. */
+/* The same edge, for the columns whose kernel lies wholly to the right of it. */
 static void pass_point(cs_defocus_lines *f, double x, const cs_border *edge, double upper,
                        double lower) {
   int32_t p = (int32_t)floor(x - 0.5) + 2;

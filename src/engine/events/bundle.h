@@ -49,12 +49,12 @@ CELSPAN_CHECKED celspan_status cs_windings_cross(celspan_context *context, cs_wi
 
 typedef struct cs_bundle {
   uint32_t first, count;   /* of the cull's deferred changes */
-  cs_windings_hash change; /* of all of them */
+  cs_windings_hash change; /* of all these changes together */
 } cs_bundle;
 
 typedef struct cs_bundles {
   cs_bundle *bundles;
-  uint32_t *starts; /* of all these changes together */
+  uint32_t *starts; /* by row of tiles, and the end of the last one; NULL: there are no rows */
   size_t count, capacity, row_count;
 } cs_bundles;
 

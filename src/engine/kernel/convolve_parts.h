@@ -44,8 +44,8 @@ typedef struct cs_convolve_shift {
 typedef struct cs_convolve_passed {
   uint32_t next, row;
   int sub_row, sub_row_end; /* heights of the row, [sub_row, sub_row_end) */
-  cs_v4d step;              /* +1: a layer that varies begins here; -1: such a layer ends */
-  int varies;               /* +1: a layer that varies begins, -1: one ends */
+  cs_v4d step;              /* the change of colour */
+  int varies;               /* +1: a layer that varies begins here; -1: such a layer ends */
 } cs_convolve_passed;
 
 /* The colour that is visible at one height, left of the kernel. */

@@ -28,7 +28,7 @@ static inline doubles bounded(doubles v) {
 #endif
 }
 
-/* Rounded, except that numbers below 0 may be one greater: those are beyond the frame. */
+/* Rounded, except that numbers below 0 may be too great by one: they lie beyond the frame. */
 static inline integers place_two(const cs_map_placing *p, integers points) {
   doubles whole = load_doubles(p->origin) + __builtin_convertvector(points, doubles);
   return __builtin_convertvector(bounded(whole * load_doubles(p->scale) + load_doubles(p->shift)),
@@ -51,7 +51,7 @@ void CS_WIDE(cs_map_put_places)(const cs_map_placing *placing, const cs_map_poin
   }
 }
 
-/* Rounded, except that numbers below 0 may be too great by one: they lie beyond the frame. */
+/* ---------------------------------------------------------------- a pixel */
 
 /* The sums to which borders are added: copies, which stay in registers. */
 typedef struct target {

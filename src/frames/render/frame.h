@@ -16,11 +16,11 @@
 typedef struct cs_frame {
   cs_plan *plans; /* one for each exposure of weight > 0; empty where the frame is crowded, or the
                      exposure is drawn from maps */
-  cs_map_frame *maps; /* of the rows asked for, with all their columns */
+  cs_map_frame *maps; /* one for each exposure; empty where the exposure has a plan */
   float *weights;
   const celspan_rostrum **rostrums;
   size_t count, capacity;
-  cs_view view;       /* of the rows asked for, all columns of them */
+  cs_view view;       /* of the rows asked for, with all their columns */
   bool repeats;       /* see celspan_frame_desc */
   bool has_antialias; /* the same for all exposures; otherwise each exposure has its own */
   cs_antialias antialias;

@@ -117,16 +117,18 @@ typedef struct celspan_stack_light {
   celspan_light front, back;
 } celspan_stack_light;
 
-/* The size of the crop, in pixels. */
+/* desc: borrowed; one exposure, whose weight is not used. A tolerance of 0 means 2^-18.
+ * out: new      Errors: those of rendering; BAD_ARGUMENT for a light that is a texture, and the
+ * sentence names the cel; BAD_ARGUMENT unless there is one exposure; LIMIT for more than 4,096
+ * cels. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_stack_create(celspan_context *context,
                                                                 const celspan_frame_desc *desc,
                                                                 celspan_stack **out);
 CELSPAN_API celspan_stack *celspan_stack_ref(celspan_stack *stack);
 CELSPAN_API void celspan_stack_unref(celspan_stack *stack);
-/* The number of its lights: one for the back light of the rostrum itself, whose front does not
- * count, then one for each cel from the rear. */
+/* The size of the crop, in pixels. */
 CELSPAN_API void celspan_stack_size(const celspan_stack *stack, int32_t *width, int32_t *height);
-/* How many lights it takes: one for the back light of the rostrum itself, whose front does not
+/* The number of its lights: one for the back light of the rostrum itself, whose front does not
  * count, then one for each cel from the rear. */
 CELSPAN_API size_t celspan_stack_light_count(const celspan_stack *stack);
 /* The lights of the rostrum, brightness included. lights: room for celspan_stack_light_count

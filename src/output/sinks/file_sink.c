@@ -171,8 +171,8 @@ static CELSPAN_CHECKED celspan_status guard_sink(celspan_context *context, const
   return CELSPAN_OK;
 }
 
-/* The sink behind a guard, whose rows come in shares from now on; of another sink that sink
- * itself. */
+/* The sink behind a guard, which will get its rows in shares from now on; for another sink, the
+ * sink itself. */
 static const celspan_sink *open_guard(const celspan_sink *sink) {
   if (sink->row != put_row)
     return sink;
@@ -181,8 +181,7 @@ static const celspan_sink *open_guard(const celspan_sink *sink) {
   return &g->inner;
 }
 
-/* The sink behind a guard, which will get its rows in shares from now on; for another sink, the
- * sink itself. */
+/* ---------------------------------------------------------------- the choice of a format */
 
 /* A format that is made from spans. */
 typedef struct file_format {

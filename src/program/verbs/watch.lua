@@ -40,21 +40,20 @@ local places = part "places.lua".new(files)
 
 -- ---------------------------------------------------------------- the films
 
--- news: counts what pages are to know. here: the line that an editor has named.
-local state = { news = 1 }
 -- news: the number of changes that pages must know. here: the line that an editor has named.
-local held = {}
+local state = { news = 1 }
+local held = {}    -- requests for news: id, over
 local waiting = {} -- requests for a film that is built for the first time: answer(), film, over
 
 local function tell() state.news = state.news + 1 end
 
--- requests for a film that is built for the first time: answer(), film, over
+-- The film, and the second film beside it, which requests name with side=2: of the second script,
+-- or of the same script with other values. films: those that are shown.
 local first = watched.new(request[1], files, places, tell)
 local second = watched.new(request[2] or request[1], files, places, tell)
 local films = { first }
 
---- The film, and the second film beside it, which requests name with side=2: of the second script,
---- or of the same script with other values. films: those that are shown.
+--- Shows or hides the second film.
 local function set_comparing(is_on)
   if is_on == (films[2] ~= nil) then return end
   films[2] = is_on and second or nil

@@ -67,12 +67,12 @@ CELSPAN_CHECKED celspan_status cs_document_whole(const cs_document *document, co
 /* The size of the painting. Errors: INPUT, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_document_size(cs_document *document, const char *width,
                                                 const char *height);
-/* Adds a layer of the open group, named by `name`, or a group that is open until it is closed. */
+/* Adds a layer, named by `name`, to the open group, or adds a group that is open until it is
+ * closed. */
 CELSPAN_CHECKED celspan_status cs_document_add(cs_document *document, bool is_group,
                                                cs_contents_layer **out);
 void cs_document_close_group(cs_document *document);
-/* Adds a layer, named by `name`, to the open group, or adds a group that is open until it is
- * closed. */
+/* Counts bytes that were unpacked. Errors: LIMIT. */
 CELSPAN_CHECKED celspan_status cs_document_scan(cs_document *document, int64_t count);
 /* Records "path: member:line: sentence". */
 celspan_status cs_document_fail(const cs_document *document, celspan_status status,

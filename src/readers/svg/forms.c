@@ -6,7 +6,7 @@
 #include "readers/svg/paints.h"
 #include "readers/svg/transforms.h"
 
-/* Where percentages and units are only looked at. */
+/* Used where only the form of percentages and units is checked. */
 static const cs_svg_measure unit_measure = {1, 1, 1, 1, 1, 1};
 
 bool cs_svg_has_variable(const char *value) { return strstr(value, "var("); }
@@ -48,14 +48,14 @@ static bool is_angle(const char *text) {
   return cs_svg_take_angle(&text, &degrees) && !*cs_svg_skip_space(text);
 }
 
-/* A length of CSS has a unit, if it is not 0. */
+/* A length in CSS must have a unit, unless it is 0. */
 static bool has_unit(const char *text) {
   double value;
   text = cs_svg_skip_space(text);
   return !cs_svg_take_number(&text, &value) || value == 0 || *cs_svg_skip_space(text);
 }
 
-/* Used where only the form of percentages and units is checked. */
+/* ---------------------------------------------------------------- other values */
 
 static bool is_colour(const char *text) {
   cs_svg_colour colour;
@@ -101,7 +101,7 @@ static bool is_view_box(const char *text) {
   return cs_svg_parse_view_box(text, &box);
 }
 
-/* A length in CSS must have a unit, unless it is 0. */
+/* xMidYMid, then meet or slice; or none. */
 static bool is_aspect(const char *text) {
   text = cs_svg_skip_space(text);
   if (cs_svg_take_word(&text, "none"))

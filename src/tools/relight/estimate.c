@@ -181,15 +181,14 @@ static CELSPAN_CHECKED celspan_status fit_shape(celspan_context *context, cs_ori
 
 /* ---------------------------------------------------------------- the field and its colours */
 
-/* A value of an integer picture that may have been clipped, and the share of a patch that may
- * be. */
-#define CLIPPED 0.9999
-#define FEW 0.01
 /* From this value on, a number of an integer picture may have been clipped; and the share of such
  * numbers that a patch may have. */
+#define CLIPPED 0.9999
+#define FEW 0.01
+/* The number of places along each axis for the mean of a field. */
 #define MEAN_SIDE 64
 
-/* The number of places along each axis for the mean of a field. */
+/* Sums over the pixels of a region. */
 typedef struct means {
   double sum[3], alpha;
   double pixels, clipped;
@@ -206,14 +205,14 @@ static void add_pixel(means *m, const float light[4], const double shape[3]) {
   m->clipped += light[3] > 0 && is_clipped;
 }
 
-/* The columns, or rows, of a picture whose centres lie from a place on, over a length. */
+/* The columns, or rows, of a picture whose centres lie within `length` from a place on. */
 static void inside(double from, double length, int32_t size, int32_t *first, int32_t *end) {
   double low = ceil(from - 0.5), high = ceil(from + length - 0.5);
   *first = low < 0 ? 0 : low > size ? size : (int32_t)low;
   *end = high < 0 ? 0 : high > size ? size : (int32_t)high;
 }
 
-/* The columns, or rows, of a picture whose centres lie within `length` from a place on. */
+/* shape: a field of colour 1. */
 static celspan_status find_means(celspan_context *context, cs_original *original,
                                  const celspan_box *region, const celspan_light_field *shape,
                                  means *out) {

@@ -12,11 +12,11 @@ enum { BITS = 5, BINS = 1 << 3 * BITS, ROUNDS = 32 };
 #define FLAT 20
 /* If at least one pixel in this many is flat, only flat places count. */
 #define FLAT_SHARE 50
-/* The share of the pixels with which a colour is as likely to be chosen as any other. */
-#define FULL_SHARE 500
 /* A colour with this share of the pixels is as likely to be chosen as any more frequent one. */
-#define SAME 0.0009f
+#define FULL_SHARE 500
 /* Colours with a smaller squared distance look the same. */
+#define SAME 0.0009f
+/* Colours within this squared distance are counted with the fullest bin. */
 #define ABOUT 0.003f
 
 typedef struct bin {

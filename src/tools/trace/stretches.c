@@ -73,7 +73,8 @@ static axis axis_of(const cs_gate_row *row) {
   return (axis){from, {dx / length, dy / length}, length};
 }
 
-/* The distance from the line grows towards the left. False: no line passes. */
+/* The lines that have a point on their left (side 1) or on their right (-1): those that are beside
+ * it, towards the left, by less than it is, or by more. */
 static half_plane lines_beside(const axis *a, celspan_point point, double side) {
   double x = point.x - a->from.x, y = point.y - a->from.y;
   double way = (x * a->along.x + y * a->along.y) / a->length;
@@ -91,7 +92,7 @@ static celspan_point middle_of(const polygon *p) {
   return (celspan_point){0.5 * (least.x + most.x), 0.5 * (least.y + most.y)};
 }
 
-/* Off the line it grows towards the left. False: no line passes. */
+/* The distance from the line grows towards the left. False: no line passes. */
 static bool cs_preimage_middle(const cs_gate_row *row, cs_arc *line) {
   axis a = axis_of(row);
   polygon p = {{{-FAR, -FAR}, {FAR, -FAR}, {FAR, FAR}, {-FAR, FAR}}, 4};
