@@ -6,50 +6,51 @@
 /* How many times a piece is halved before its chord decides: more would not change a double. */
 #define MAX_HALVINGS 56
 
-/* A control point relative to the point that is tested, times its weight w > 0: u < 0 is left of
+/* Control points relative to the point that is tested, times their weights w > 0: u < 0 is left of
  * the point, v < 0 above it. */
-typedef struct offset {
-  double u, v;
-} offset;
+typedef struct offsets {
+  double u[MAX_DEGREE + 1], v[MAX_DEGREE + 1];
+} offsets;
 
 /* The half-open rule: a piece from above the height (height included) to below it counts +1. */
-static int direction(offset from, offset to) { return (from.v <= 0) - (to.v <= 0); }
+static int direction(double from, double to) { return (from <= 0) - (to <= 0); }
 
-static bool chord_is_left(offset a, offset b) {
-  double cross = a.u * b.v - b.u * a.v;
-  return b.v > a.v ? cross <= 0 : cross >= 0;
+static bool chord_is_left(const offsets *p, int last) {
+  double cross = p->u[0] * p->v[last] - p->u[last] * p->v[0];
+  return p->v[last] > p->v[0] ? cross <= 0 : cross >= 0;
 }
 
-static void halve(const offset *whole, int degree, offset *low, offset *high) {
-  offset work[MAX_DEGREE + 1];
+void cs_inside_halve(const double *whole, int degree, double *low, double *high) {
+  double work[CS_STROKE_RADIUS_DEGREE + 1];
   for (int i = 0; i <= degree; i++)
     work[i] = whole[i];
   for (int level = 0; level <= degree; level++) {
     low[level] = work[0];
     high[degree - level] = work[degree - level];
     for (int i = 0; i < degree - level; i++)
-      work[i] = (offset){(work[i].u + work[i + 1].u) / 2, (work[i].v + work[i + 1].v) / 2};
+      work[i] = 0.5 * (work[i] + work[i + 1]);
   }
 }
 
 /* The signed crossings of a Bezier piece with the ray to the left. The curve lies in the convex
  * hull of its control points; only a piece whose hull contains the point must be halved. */
-static int crossings(const offset *points, int degree, int halvings) {
+static int crossings(const offsets *points, int degree, int halvings) {
   int left = 0, above = 0;
   for (int i = 0; i <= degree; i++) {
-    left += points[i].u <= 0;
-    above += points[i].v <= 0;
+    left += points->u[i] <= 0;
+    above += points->v[i] <= 0;
   }
   if (left == 0 || above == 0 || above == degree + 1)
     return 0;
-  int net = direction(points[0], points[degree]);
+  int net = direction(points->v[0], points->v[degree]);
   if (left == degree + 1)
     return net;
   if (degree == 1 || halvings == MAX_HALVINGS)
-    return net != 0 && chord_is_left(points[0], points[degree]) ? net : 0;
-  offset low[MAX_DEGREE + 1], high[MAX_DEGREE + 1];
-  halve(points, degree, low, high);
-  return crossings(low, degree, halvings + 1) + crossings(high, degree, halvings + 1);
+    return net != 0 && chord_is_left(points, degree) ? net : 0;
+  offsets low, high;
+  cs_inside_halve(points->u, degree, low.u, high.u);
+  cs_inside_halve(points->v, degree, low.v, high.v);
+  return crossings(&low, degree, halvings + 1) + crossings(&high, degree, halvings + 1);
 }
 
 bool cs_inside_outline(const cs_outline *outline, celspan_rule rule, celspan_point point) {
@@ -57,10 +58,12 @@ bool cs_inside_outline(const cs_outline *outline, celspan_rule rule, celspan_poi
   for (size_t i = 0; i < outline->piece_count; i++) {
     const cs_hpoint *at = outline->points + outline->starts[i];
     int degree = outline->degrees[i];
-    offset points[MAX_DEGREE + 1];
-    for (int k = 0; k <= degree; k++)
-      points[k] = (offset){at[k].x - point.x * at[k].w, at[k].y - point.y * at[k].w};
-    winding += crossings(points, degree, 0);
+    offsets points;
+    for (int k = 0; k <= degree; k++) {
+      points.u[k] = at[k].x - point.x * at[k].w;
+      points.v[k] = at[k].y - point.y * at[k].w;
+    }
+    winding += crossings(&points, degree, 0);
   }
   return rule == CELSPAN_RULE_EVENODD ? winding % 2 != 0 : winding != 0;
 }

@@ -20,6 +20,10 @@
  * the horizon. */
 bool cs_inside_own_point(const celspan_matrix *matrix, celspan_point point, celspan_point *out);
 
+/* Halves a polynomial of a degree up to CS_STROKE_RADIUS_DEGREE, given by its Bernstein
+ * coefficients. */
+void cs_inside_halve(const double *whole, int degree, double *low, double *high);
+
 /* Whether a point is inside an outline. Half-open, as pixels are: left and top edges are in, right
  * and bottom ones are out. */
 bool cs_inside_outline(const cs_outline *outline, celspan_rule rule, celspan_point point);

@@ -44,30 +44,18 @@ typedef struct piece_end {
 
 /* ---------------------------------------------------------------- polynomials */
 
-static void halve(const double *whole, int degree, double *low, double *high) {
-  double work[CS_STROKE_RADIUS_DEGREE + 1];
-  for (int i = 0; i <= degree; i++)
-    work[i] = whole[i];
-  for (int level = 0; level <= degree; level++) {
-    low[level] = work[0];
-    high[degree - level] = work[degree - level];
-    for (int i = 0; i < degree - level; i++)
-      work[i] = 0.5 * (work[i] + work[i + 1]);
-  }
-}
-
 static void halve_around(const around *whole, around *low, around *high) {
   low->degree = high->degree = whole->degree;
   low->radius_degree = high->radius_degree = whole->radius_degree;
-  halve(whole->u, whole->degree, low->u, high->u);
-  halve(whole->v, whole->degree, low->v, high->v);
-  halve(whole->w, whole->degree, low->w, high->w);
-  halve(whole->r, whole->radius_degree, low->r, high->r);
-  halve(whole->du, whole->degree - 1, low->du, high->du);
-  halve(whole->dv, whole->degree - 1, low->dv, high->dv);
-  halve(whole->dw, whole->degree - 1, low->dw, high->dw);
+  cs_inside_halve(whole->u, whole->degree, low->u, high->u);
+  cs_inside_halve(whole->v, whole->degree, low->v, high->v);
+  cs_inside_halve(whole->w, whole->degree, low->w, high->w);
+  cs_inside_halve(whole->r, whole->radius_degree, low->r, high->r);
+  cs_inside_halve(whole->du, whole->degree - 1, low->du, high->du);
+  cs_inside_halve(whole->dv, whole->degree - 1, low->dv, high->dv);
+  cs_inside_halve(whole->dw, whole->degree - 1, low->dw, high->dw);
   if (whole->radius_degree > 0)
-    halve(whole->dr, whole->radius_degree - 1, low->dr, high->dr);
+    cs_inside_halve(whole->dr, whole->radius_degree - 1, low->dr, high->dr);
 }
 
 /* The part of a polynomial between two parameters, cut at both ends by de Casteljau's scheme. */
