@@ -185,28 +185,27 @@ static void code_8(const celspan_coding *coding, const float *rgba, size_t count
   }
 }
 
-static void code_16(const celspan_coding *coding, const float *rgba, size_t count,
-                    unsigned char *out) {
+/* is_half: the words are floats; otherwise they are integers. */
+static inline void code_words(const celspan_coding *coding, const float *rgba, size_t count,
+                              unsigned char *out, bool is_half) {
   for (; count > 0; count--, rgba += 4, out += 8) {
     float coded[4];
-    uint16_t numbers[4];
+    uint16_t words[4];
     cs_pixels_encode(coding, rgba, coded);
     for (int c = 0; c < 4; c++)
-      numbers[c] = (uint16_t)to_integer(coded[c], 65535);
-    memcpy(out, numbers, sizeof numbers);
+      words[c] = is_half ? to_half(coded[c]) : (uint16_t)to_integer(coded[c], 65535);
+    memcpy(out, words, sizeof words);
   }
+}
+
+static void code_16(const celspan_coding *coding, const float *rgba, size_t count,
+                    unsigned char *out) {
+  code_words(coding, rgba, count, out, false);
 }
 
 static void code_half(const celspan_coding *coding, const float *rgba, size_t count,
                       unsigned char *out) {
-  for (; count > 0; count--, rgba += 4, out += 8) {
-    float coded[4];
-    uint16_t numbers[4];
-    cs_pixels_encode(coding, rgba, coded);
-    for (int c = 0; c < 4; c++)
-      numbers[c] = to_half(coded[c]);
-    memcpy(out, numbers, sizeof numbers);
-  }
+  code_words(coding, rgba, count, out, true);
 }
 
 static void code_float(const celspan_coding *coding, const float *rgba, size_t count,
