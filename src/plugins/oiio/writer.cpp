@@ -94,44 +94,22 @@ TypeDesc type_of(celspan_depth depth) {
   }
 }
 
-const char *space_of(celspan_transfer transfer) {
-  switch (transfer) {
-  case CELSPAN_TRANSFER_LINEAR:
-    return "Linear";
-  case CELSPAN_TRANSFER_REC709:
-    return "Rec709";
-  case CELSPAN_TRANSFER_CINEON:
-    return "KodakLog";
-  default:
-    return "sRGB";
-  }
-}
+struct TransferNames {
+  const char *space;  /* in OpenImageIO */
+  const char *colour; /* the name that celspan reads back */
+  const char *film;   /* in the header of a film scan */
+};
 
-/* The name that celspan reads back. */
-const char *colour_of(celspan_transfer transfer) {
+TransferNames names_of(celspan_transfer transfer) {
   switch (transfer) {
   case CELSPAN_TRANSFER_LINEAR:
-    return "linear";
+    return {"Linear", "linear", "Linear"};
   case CELSPAN_TRANSFER_REC709:
-    return "rec709";
+    return {"Rec709", "rec709", "ITU-R 709-4"};
   case CELSPAN_TRANSFER_CINEON:
-    return "cineon";
+    return {"KodakLog", "cineon", "Printing density"};
   default:
-    return "srgb";
-  }
-}
-
-/* The name of a transfer in the header of a film scan. */
-const char *film_transfer(celspan_transfer transfer) {
-  switch (transfer) {
-  case CELSPAN_TRANSFER_LINEAR:
-    return "Linear";
-  case CELSPAN_TRANSFER_REC709:
-    return "ITU-R 709-4";
-  case CELSPAN_TRANSFER_CINEON:
-    return "Printing density";
-  default:
-    return "Undefined";
+    return {"sRGB", "srgb", "Undefined"};
   }
 }
 
@@ -165,7 +143,7 @@ ImageSpec make_spec(const cs_picture_output &output) {
   spec.attribute("celspan:frame", int(output.frame));
   /* In a TIFF this would add a second directory, and the library would read the file again. */
   if (format != "tiff")
-    spec.attribute("oiio:ColorSpace", space_of(output.transfer));
+    spec.attribute("oiio:ColorSpace", names_of(output.transfer).space);
   /* The library would write the present time, and equal frames would differ. */
   spec.attribute("DateTime", "1970:01:01 00:00:00");
   if (output.bits)
@@ -173,7 +151,7 @@ ImageSpec make_spec(const cs_picture_output &output) {
   if (output.channels == 4 && output.is_straight)
     spec.attribute("oiio:UnassociatedAlpha", 1);
   if (format == "openexr")
-    spec.attribute("celspan:colour", colour_of(output.transfer));
+    spec.attribute("celspan:colour", names_of(output.transfer).colour);
   if (format == "openexr" || format == "tiff")
     spec.attribute("compression", "zip");
   if (format == "jpeg") {
@@ -183,7 +161,7 @@ ImageSpec make_spec(const cs_picture_output &output) {
   if (format == "webp")
     spec.attribute("compression", "webp:100");
   if (format == "dpx")
-    spec.attribute("dpx:Transfer", film_transfer(output.transfer));
+    spec.attribute("dpx:Transfer", names_of(output.transfer).film);
   return spec;
 }
 
