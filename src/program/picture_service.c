@@ -109,12 +109,7 @@ static int read_facts(lua_State *L) {
   return 1;
 }
 
-static int close_spans(lua_State *L) {
-  cs_span_reader **file = lua_touserdata(L, 1);
-  cs_span_reader_close(*file);
-  *file = NULL;
-  return 0;
-}
+CS_HOLDER_RELEASE(close_spans, cs_span_reader, cs_span_reader_close)
 
 /* spans(path) -> counts for the whole file */
 static int read_spans(lua_State *L) {
@@ -139,12 +134,7 @@ static int read_spans(lua_State *L) {
   return 1;
 }
 
-static int close_plane(lua_State *L) {
-  celspan_plane **plane = lua_touserdata(L, 1);
-  celspan_plane_unref(*plane);
-  *plane = NULL;
-  return 0;
-}
+CS_HOLDER_RELEASE(close_plane, celspan_plane, celspan_plane_unref)
 
 /* Reads all frames of a plane's file. Returns its number of pictures: the last frame knows all of
  * them. */

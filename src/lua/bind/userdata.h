@@ -19,7 +19,7 @@
 
 typedef struct cs_userdata {
   const cs_noun *noun;
-  void *handle;    /* a reference to something in the core; NULL: closed, or a noun without one */
+  void *handle; /* a reference to something in the core; NULL: closed, or a noun without one */
   /* how many operands of a table that chains share belong to this value; 0: it is not shared */
   int32_t shown;
   uint16_t packed; /* bytes of its packed fields; 0: its fields are in a table */
@@ -95,3 +95,12 @@ const char *cs_userdata_shown(lua_State *L, int index);
 /* Pushes zeroed memory with one user value. Its finaliser is `release`, which must be the same for
  * all of a kind. Raises an error if there is no memory. */
 void *cs_userdata_push_holder(lua_State *L, const char *kind, size_t size, lua_CFunction release);
+
+/* Defines `release` for holders of a pointer to `type`, which `drop` releases; it ignores NULL. */
+#define CS_HOLDER_RELEASE(release, type, drop)                                                     \
+  static int release(lua_State *L) {                                                               \
+    type **held = lua_touserdata(L, 1);                                                            \
+    drop(*held);                                                                                   \
+    *held = NULL;                                                                                  \
+    return 0;                                                                                      \
+  }

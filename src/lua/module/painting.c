@@ -7,12 +7,7 @@
 #include "lua/nouns/pixel_string.h"
 #include "readers/layered/contents.h"
 
-static int release(lua_State *L) {
-  celspan_painting **painting = lua_touserdata(L, 1);
-  celspan_painting_unref(*painting);
-  *painting = NULL;
-  return 0;
-}
+CS_HOLDER_RELEASE(release, celspan_painting, celspan_painting_unref)
 
 /* Pushes a holder for a painting, which releases it in any case. */
 static celspan_painting **push_holder(lua_State *L) {

@@ -17,12 +17,7 @@
 
 /* ---------------------------------------------------------------- the value */
 
-static int release(lua_State *L) {
-  celspan_trace **trace = lua_touserdata(L, 1);
-  celspan_trace_unref(*trace);
-  *trace = NULL;
-  return 0;
-}
+CS_HOLDER_RELEASE(release, celspan_trace, celspan_trace_unref)
 
 /* Pushes a holder for a tracing, which releases it in any case. */
 static celspan_trace **push_holder(lua_State *L) {

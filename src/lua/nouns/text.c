@@ -207,12 +207,7 @@ static const cs_noun noun_glyphs = {.name = "glyphs", .fields = text_fields, STR
 
 /* ---------------------------------------------------------------- glyphs */
 
-static int release(lua_State *L) {
-  celspan_glyphs **holder = lua_touserdata(L, 1);
-  celspan_glyphs_destroy(*holder);
-  *holder = NULL;
-  return 0;
-}
+CS_HOLDER_RELEASE(release, celspan_glyphs, celspan_glyphs_destroy)
 
 /* Pushes a holder of the letters, which keeps them until they are values. */
 static celspan_glyphs **push_letters(const cs_form *form, const celspan_text_desc *desc) {
