@@ -12,6 +12,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* How two numbers are ordered, as qsort asks for it: below 0, 0, or above 0. */
+#define CS_SORT_ORDER(a, b) (((a) > (b)) - ((a) < (b)))
+
 #define CS_SORT_FEW 24 /* items that are sorted by insertion, at most */
 
 /* In the heap, most roots came from the bottom and return there. So the way down to a leaf is made

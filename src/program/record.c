@@ -9,6 +9,7 @@
 
 #include "base/context.h"
 #include "base/open.h"
+#include "base/sort.h"
 #include "frames/process/journal.h"
 #include "output/sinks/file_copy.h"
 #include "output/sinks/temporary.h"
@@ -92,9 +93,8 @@ static bool read_line(const char *text, cs_record_line *out) {
 
 static int compare(const void *a, const void *b) {
   const cs_record_line *x = a, *y = b;
-  if (x->number != y->number)
-    return x->number < y->number ? -1 : 1;
-  return x->order < y->order ? -1 : x->order > y->order;
+  int order = CS_SORT_ORDER(x->number, y->number);
+  return order ? order : CS_SORT_ORDER(x->order, y->order);
 }
 
 static celspan_status read_lines(cs_record *record, FILE *file) {

@@ -58,9 +58,9 @@ typedef struct cs_defocus_columns {
 CS_WIDE_DECLARE(void, cs_defocus_lines_spread,
                 (const float *low, const float *high, float t, int32_t count, float *shares,
                  const cs_defocus_halves *step, cs_defocus_halves *near));
-/* Fills the columns [first, end) of the line above the row, and the part below it. sum: the sum of
- * the steps left of `first`; becomes the sum of the steps left of `end`. near and steps are
- * cleared. */
+/* Fills the columns [first, end) of the line above the row, and of the part of the line below it.
+ * sum: before the call, the sum of the steps left of `first`; after it, of the steps left of `end`.
+ * near and steps are cleared. */
 CS_WIDE_DECLARE(void, cs_defocus_lines_sum,
                 (const cs_defocus_columns *columns, int32_t first, int32_t end,
                  cs_defocus_passed *sum, cs_v4 *line));

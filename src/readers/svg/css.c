@@ -4,6 +4,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/sort.h"
 #include "readers/svg/forms.h"
 #include "readers/svg/silent.h"
 #include "readers/svg/values.h"
@@ -240,6 +241,12 @@ static celspan_status parse_condition(parser *p, const char **text, cs_css_condi
   return CELSPAN_OK;
 }
 
+/* A copy in the arena; NULL: there is no memory. */
+static void *keep(const parser *p, const void *items, size_t size) {
+  void *kept = cs_arena_take(p->place->context, p->place->arena, size);
+  return kept ? memcpy(kept, items, size) : NULL;
+}
+
 /* The conditions that follow one another. */
 static celspan_status parse_conditions(parser *p, const char **text, cs_css_compound *out,
                                        uint32_t *specificity, bool *is_simple) {
@@ -252,12 +259,8 @@ static celspan_status parse_conditions(parser *p, const char **text, cs_css_comp
     out->condition_count += *is_simple;
     *specificity += CLASS_WEIGHT;
   }
-  out->conditions = cs_arena_take(p->place->context, p->place->arena,
-                                  out->condition_count * sizeof *out->conditions);
-  if (!out->conditions)
-    return CELSPAN_NO_MEMORY;
-  memcpy(out->conditions, conditions, out->condition_count * sizeof *conditions);
-  return CELSPAN_OK;
+  out->conditions = keep(p, conditions, out->condition_count * sizeof *conditions);
+  return out->conditions ? CELSPAN_OK : CELSPAN_NO_MEMORY;
 }
 
 /* A compound; *is_simple: the whole compound was understood. */
@@ -291,12 +294,8 @@ static celspan_status parse_compound(parser *p, const char **text, cs_css_compou
   }
   CS_TRY(parse_conditions(p, text, out, specificity, is_simple));
   *is_simple = *is_simple && *text > begin;
-  out->classes =
-      cs_arena_take(p->place->context, p->place->arena, out->class_count * sizeof *out->classes);
-  if (!out->classes)
-    return CELSPAN_NO_MEMORY;
-  memcpy(out->classes, classes, out->class_count * sizeof *classes);
-  return CELSPAN_OK;
+  out->classes = keep(p, classes, out->class_count * sizeof *classes);
+  return out->classes ? CELSPAN_OK : CELSPAN_NO_MEMORY;
 }
 
 /* The chain of a selector, which ends at `end`. */
@@ -319,12 +318,8 @@ static celspan_status parse_selector(parser *p, const char *text, const char *en
     text = after;
   }
   *is_simple = *is_simple && rule->compound_count > 0 && !compounds[0].is_child;
-  rule->compounds = cs_arena_take(p->place->context, p->place->arena,
-                                  rule->compound_count * sizeof *rule->compounds);
-  if (!rule->compounds)
-    return CELSPAN_NO_MEMORY;
-  memcpy(rule->compounds, compounds, rule->compound_count * sizeof *compounds);
-  return CELSPAN_OK;
+  rule->compounds = keep(p, compounds, rule->compound_count * sizeof *compounds);
+  return rule->compounds ? CELSPAN_OK : CELSPAN_NO_MEMORY;
 }
 
 /* ---------------------------------------------------------------- sheets */
@@ -371,9 +366,8 @@ static const char *skip_at_rule(const char *text) {
 
 static int compare_rules(const void *a, const void *b) {
   const cs_css_rule *first = a, *second = b;
-  if (first->specificity != second->specificity)
-    return first->specificity < second->specificity ? -1 : 1;
-  return first->order < second->order ? -1 : first->order > second->order;
+  int order = CS_SORT_ORDER(first->specificity, second->specificity);
+  return order ? order : CS_SORT_ORDER(first->order, second->order);
 }
 
 static celspan_status parse_sheet(parser *p, const char *text) {

@@ -9,6 +9,7 @@
 #include "base/description.h"
 #include "base/hash.h"
 #include "base/open.h"
+#include "base/sort.h"
 #include "model/scene/check.h"
 #include "readers/svg/art.h"
 #include "readers/svg/read.h"
@@ -103,9 +104,8 @@ static celspan_status note_unread(cs_svg_reading *reading) {
 /* In the order of lines; notes about the same line remain in the order in which they were made. */
 static int compare_notes(const void *a, const void *b) {
   const cs_svg_skipped *first = a, *second = b;
-  if (first->line != second->line)
-    return first->line < second->line ? -1 : 1;
-  return first->number < second->number ? -1 : first->number > second->number;
+  int order = CS_SORT_ORDER(first->line, second->line);
+  return order ? order : CS_SORT_ORDER(first->number, second->number);
 }
 
 static celspan_status copy_notes(cs_svg_reading *reading, celspan_svg *art) {
