@@ -394,27 +394,25 @@ celspan_status cs_mix_find(celspan_context *context, const cs_mix_sound *sounds,
   return CELSPAN_OK;
 }
 
+static void hash_numbers(cs_hash *hash, const double *numbers, int count) {
+  for (int i = 0; i < count; i++)
+    cs_hash_number(hash, numbers[i]);
+}
+
 static void hash_sound(cs_hash *hash, const cs_mix_sound *sound) {
-  const double numbers[] = {sound->start, sound->speed, sound->gain[0], sound->gain[1]};
   cs_hash_text(hash, sound->path);
   cs_open_hash(hash, sound->path);
-  for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-    cs_hash_number(hash, numbers[i]);
+  hash_numbers(hash, (double[]){sound->start, sound->speed, sound->gain[0], sound->gain[1]}, 4);
   cs_hash_word(hash, sound->passage_count);
   for (size_t i = 0; i < sound->passage_count; i++) {
-    const celspan_sound_passage *passage = &sound->passages[i];
-    cs_hash_number(hash, passage->begin);
-    cs_hash_number(hash, passage->end);
-    cs_hash_number(hash, passage->fade_in);
-    cs_hash_number(hash, passage->fade_out);
+    const celspan_sound_passage *p = &sound->passages[i];
+    hash_numbers(hash, (double[]){p->begin, p->end, p->fade_in, p->fade_out}, 4);
   }
   cs_hash_word(hash, sound->ducker_count);
   for (size_t i = 0; i < sound->ducker_count; i++) {
-    const celspan_sound_ducker *ducker = &sound->duckers[i];
-    cs_hash_word(hash, ducker->sound);
-    cs_hash_number(hash, ducker->gain);
-    cs_hash_number(hash, ducker->attack);
-    cs_hash_number(hash, ducker->release);
+    const celspan_sound_ducker *d = &sound->duckers[i];
+    cs_hash_word(hash, d->sound);
+    hash_numbers(hash, (double[]){d->gain, d->attack, d->release}, 3);
   }
 }
 
