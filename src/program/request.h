@@ -24,14 +24,14 @@ typedef struct cs_verb {
   const char *name;
   const char *operands; /* as the help shows them */
   size_t operand_least, operand_most;
-  bool is_hidden;           /* the help does not list it */
-  bool has_script;          /* it runs a script, which gets the arguments after "--" */
-  bool makes_folder;        /* its -o names one */
-  bool asks_files;          /* it needs to know which files its script has read */
-  bool asks_warnings;       /* it wants warnings about probable mistakes of the author */
-  bool runs_again; /* other processes run its script, too, or it is run again after changes */
-  const char *summary;      /* one line */
-  const char *notes;        /* more help, whole lines, or NULL */
+  bool is_hidden;      /* the help does not list it */
+  bool has_script;     /* it runs a script, which gets the arguments after "--" */
+  bool makes_folder;   /* its -o names one */
+  bool asks_files;     /* it needs to know which files its script has read */
+  bool asks_warnings;  /* it wants warnings about probable mistakes of the author */
+  bool runs_again;     /* other processes run its script, too, or it is run again after changes */
+  const char *summary; /* one line */
+  const char *notes;   /* more help, whole lines, or NULL */
   const cs_option *options; /* the last one has no name */
   /* NULL: NAME.lua in verbs/ is run */
   cs_exit (*run)(celspan_context *context, const struct cs_request *request);

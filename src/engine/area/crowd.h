@@ -45,7 +45,7 @@ typedef struct cs_crowd_line {
 
 /* The samples of a pixel that lie in a layer: -1 in `inside`; the others are 0. */
 typedef struct cs_crowd_cover {
-  int32_t count;     /* of the samples inside */
+  int32_t count; /* of the samples inside */
   /* the least and the greatest number of times that the layer winds around a sample */
   int32_t low, high;
 } cs_crowd_cover;

@@ -24,19 +24,19 @@
 #include "model/geometry/cover.h"
 
 typedef struct cs_edges {
-  cs_isa isa;           /* the instructions that straight boundaries are measured with */
-  double *low, *high;   /* the least and the greatest x in the row */
+  cs_isa isa;         /* the instructions that straight boundaries are measured with */
+  double *low, *high; /* the least and the greatest x in the row */
   /* the shares of the boundary's first and last column that lie right of the boundary */
   double *area, *rest;
-  float *one, *two;     /* area and rest again, as weights of colours */
+  float *one, *two; /* area and rest again, as weights of colours */
   /* for more than two columns: the area in the second column, and how much the area grows from
    * each column to the next; 0 where there are no areas */
   float *second, *fall;
   /* the columns that the boundary crosses; empty if it lies on a pixel's edge */
   int32_t *first, *end;
-  bool *is_bent;        /* the boundary has vertices in the row */
-  void *storage;        /* one allocation for all the arrays above */
-  size_t capacity;      /* of each array */
+  bool *is_bent;   /* the boundary has vertices in the row */
+  void *storage;   /* one allocation for all the arrays above */
+  size_t capacity; /* of each array */
 } cs_edges;
 
 void cs_edges_finish(cs_edges *edges, cs_memory *memory);

@@ -45,7 +45,7 @@ typedef struct cs_intersection {
 typedef struct cs_intersections {
   cs_active_edge *edges; /* in the order at the top */
   /* by place, from left to right */
-  uint32_t *order;    /* the edge at each place */
+  uint32_t *order; /* the edge at each place */
   /* x of the edge at both ends of the step; after the last step, at the lower height */
   double *top, *foot;
   double *shares; /* the share of the step at which the edge crosses its right neighbour; INFINITY:

@@ -66,7 +66,7 @@ typedef struct cs_member {
   /* the segment that contains y ends at points[at]; point_count: the member has ended */
   uint32_t at;
   uint32_t layer;
-  uint32_t span;  /* of a procedure; UINT32_MAX for a chain */
+  uint32_t span; /* of a procedure; UINT32_MAX for a chain */
   /* decides between equal members: the chain, or the edge of the procedure's span */
   uint32_t order;
   int32_t direction;
@@ -95,11 +95,11 @@ typedef struct cs_local_sweep {
   /* while it runs */
   cs_member **members; /* the members at the current height, in order */
   size_t count;
-  cs_member **spare;           /* room for the same number of members */
+  cs_member **spare; /* room for the same number of members */
   /* the cell right of each place at the foot of a slab; room for as many as members */
   const cs_cell **cells_below;
-  size_t crossed;              /* how many members are left of the composer, */
-  bool is_low;                 /* counted in their order at the foot of the slab, not at its top */
+  size_t crossed; /* how many members are left of the composer, */
+  bool is_low;    /* counted in their order at the foot of the slab, not at its top */
   /* memory of the sweep, kept from one replay to the next */
   cs_intersections intersections;
   cs_member *entering; /* the members at the top of the row */

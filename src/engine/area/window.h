@@ -45,10 +45,10 @@ typedef struct cs_window {
   double centre;               /* height of the row's centre */
   /* everything left of this column has been written; the open window begins at this column */
   int32_t from;
-  int32_t end;                 /* of the open window; equal to `from` if it is empty */
-  const cs_cell *base;         /* the cell left of the window */
-  const cs_cell *cell;         /* the cell right of all items so far */
-  cs_border *borders;          /* of the open window */
+  int32_t end;         /* of the open window; equal to `from` if it is empty */
+  const cs_cell *base; /* the cell left of the window */
+  const cs_cell *cell; /* the cell right of all items so far */
+  cs_border *borders;  /* of the open window */
   size_t border_count, border_capacity;
   bool is_open, varies;
   /* what borders between flat cells that end near the window's left end add to the sum of colours

@@ -44,13 +44,13 @@ typedef struct cs_composer {
   celspan_context *context; /* the worker's branch */
   const cs_stack *stack;
   cs_image_opacity opacity;
-  uint64_t *set;               /* layers present at the place of the walk */
-  uint8_t *filled;             /* of the words of the set: see set.h */
-  uint64_t *contributing;      /* scratch */
-  cs_presence *presences;      /* one a layer */
+  uint64_t *set;          /* layers present at the place of the walk */
+  uint8_t *filled;        /* of the words of the set: see set.h */
+  uint64_t *contributing; /* scratch */
+  cs_presence *presences; /* one a layer */
   /* the span of a layer at the place of the walk; NULL without scan-line layers */
   uint32_t *procedure_span_of;
-  cs_set_hash hash;            /* of the set */
+  cs_set_hash hash; /* of the set */
   cs_tree_result *results;
   cs_over_outer *outers; /* memory for folds; cs_stack_depth items */
   bool is_flat;          /* all layers are flat, in no group and in front of all back lights */
@@ -63,7 +63,7 @@ typedef struct cs_composer {
   size_t gathered_count, gathered_capacity;
   cs_procedure_span *procedure_spans; /* of the current row */
   size_t procedure_span_count, procedure_span_capacity;
-  uint64_t evaluations;   /* cells composed */
+  uint64_t evaluations; /* cells composed */
   /* the first failure of the row, recorded in the context; kept until the row ends */
   celspan_status failure;
 } cs_composer;

@@ -32,13 +32,13 @@ typedef enum cs_layer_role {
   CS_LAYER_PAINT, /* covers what lies behind it */
   /* a back light with a shape: its pigment is added to the light, and it dims nothing */
   CS_LAYER_BACK,
-  CS_LAYER_FRONT  /* the front light of its group, which its pigment lights. Present nowhere: it is
+  CS_LAYER_FRONT /* the front light of its group, which its pigment lights. Present nowhere: it is
                      listed when its group is entered */
 } cs_layer_role;
 
 typedef struct cs_layer {
-  cs_v4 s;        /* FLAT: the light that it scatters under its front light; lane 3 is 0 */
-  cs_v4 t;        /* FLAT: transmission. Else the most that each channel lets through wherever the
+  cs_v4 s; /* FLAT: the light that it scatters under its front light; lane 3 is 0 */
+  cs_v4 t; /* FLAT: transmission. Else the most that each channel lets through wherever the
                      layer is present, fade included; PICTURE: unless the picture is known to be
                      opaque. Lane 3 is 0 */
   /* the front light of its cel, brightness included, or the gain of a light; lane 3 is 0 */
@@ -122,17 +122,17 @@ typedef struct cs_group {
   /* it lies directly in the frame, or is the whole frame: its back lights lie behind everything
    * else in it */
   bool is_frame;
-  uint8_t kind;   /* a cs_group_kind */
+  uint8_t kind;          /* a cs_group_kind */
   const cs_grade *grade; /* PLAIN: NULL: none. Borrowed from the scene */
   uint8_t space;         /* grade: the space of its contents */
   /* PLAIN: the celspan_space to which its result is converted; AROUND: it is not converted */
   uint8_t converts;
-  uint8_t blend;         /* GROUND: a celspan_blend */
-  bool has_front;        /* a flat front light, since its parts could not be lit one by one */
-  cs_v4 front;           /* has_front: that light; lane 3 is 0 */
-  uint32_t light;        /* has_light: the layer of that light, in front of all its others */
-  uint32_t around;       /* GROUND: the group around all the grounds inside each other */
-  uint32_t innermost;    /* GROUND: the innermost of these grounds, whose number names them all */
+  uint8_t blend;      /* GROUND: a celspan_blend */
+  bool has_front;     /* a flat front light, since its parts could not be lit one by one */
+  cs_v4 front;        /* has_front: that light; lane 3 is 0 */
+  uint32_t light;     /* has_light: the layer of that light, in front of all its others */
+  uint32_t around;    /* GROUND: the group around all the grounds inside each other */
+  uint32_t innermost; /* GROUND: the innermost of these grounds, whose number names them all */
 } cs_group;
 
 /* A back light, met on the way from the camera before every layer below `below`. */

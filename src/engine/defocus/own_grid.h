@@ -40,10 +40,10 @@ typedef struct cs_defocus_cel {
 } cs_defocus_cel;
 
 typedef struct cs_own_grid {
-  celspan_matrix matrix;      /* the cel's units to pixels of the part; a node is one pixel */
-  int32_t size[2];            /* of the part */
-  cs_blur blur;               /* in pixels of the part */
-  double samples; /* the least number of samples in the radius, where samples are summed */
+  celspan_matrix matrix; /* the cel's units to pixels of the part; a node is one pixel */
+  int32_t size[2];       /* of the part */
+  cs_blur blur;          /* in pixels of the part */
+  double samples;        /* the least number of samples in the radius, where samples are summed */
   double scale[2], offset[2]; /* by axis, pixels of the frame to pixels of the part */
 } cs_own_grid;
 

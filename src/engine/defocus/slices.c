@@ -88,8 +88,8 @@ typedef struct summing {
   cs_isa isa;
   cs_defocus_samples samples; /* the samples under all nodes */
   cs_v4 *row;                 /* samples of one row under the tile */
-  cs_v4 *sums; /* by row: the sum of the samples from the tile's left edge up to each sample */
-  float (*out)[4];            /* TILE nodes */
+  cs_v4 *sums;     /* by row: the sum of the samples from the tile's left edge up to each sample */
+  float (*out)[4]; /* TILE nodes */
 } summing;
 
 /* The prefix sums of a row's samples from the tile's left edge on. */

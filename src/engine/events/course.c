@@ -6,11 +6,11 @@
 typedef struct maker {
   const cs_boundary_set *set;
   cs_courses *out;
-  double height;     /* parts above 0 and below this are cut off */
+  double height; /* parts above 0 and below this are cut off */
   /* in units: points are made from the last one above the top down to the first one below the
    * foot */
   int32_t top, foot;
-  double *x, *y;     /* of the vertices of a piece */
+  double *x, *y; /* of the vertices of a piece */
 } maker;
 
 /* Rounds to the nearest unit. The place is shifted first, so that cutting off the fraction rounds

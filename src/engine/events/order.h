@@ -33,12 +33,12 @@ typedef struct cs_order_entry {
   int32_t foot;              /* the height at which the course ends */
   /* the extent of x in the belt, from the place where the course begins in the belt */
   int32_t low, high;
-  uint32_t previous, next;   /* courses */
-  uint32_t left, right;      /* windings on its sides */
-  int32_t since;             /* the height from which on these windings have been valid */
-  bool is_there;             /* in the list */
-  bool is_dirty;             /* for the caller: its windings must be found again */
-  bool is_touched;           /* for the caller: it has another right neighbour */
+  uint32_t previous, next; /* courses */
+  uint32_t left, right;    /* windings on its sides */
+  int32_t since;           /* the height from which on these windings have been valid */
+  bool is_there;           /* in the list */
+  bool is_dirty;           /* for the caller: its windings must be found again */
+  bool is_touched;         /* for the caller: it has another right neighbour */
 } cs_order_entry;
 
 /* Where a course crossed a height. */

@@ -18,12 +18,12 @@
 
 typedef struct cs_retained_row {
   int32_t row;
-  bool is_sealed;   /* complete, so that it may be read */
-  cs_v4 base;       /* the colour to the left of all edges */
+  bool is_sealed; /* complete, so that it may be read */
+  cs_v4 base;     /* the colour to the left of all edges */
   /* between cells of the row; until the row is sealed, between cells of the composer */
   cs_border *edges;
-  cs_cell *cells;   /* in the order of the edges; colours are 0 where they vary */
-  cs_item *items;   /* of their programs */
+  cs_cell *cells; /* in the order of the edges; colours are 0 where they vary */
+  cs_item *items; /* of their programs */
   cs_procedure_span *procedure_spans;
   size_t edge_count, edge_capacity;
   size_t cell_count, cell_capacity;

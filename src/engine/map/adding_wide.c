@@ -174,12 +174,12 @@ static inline ends load_pieces(const piece *p) {
 
 /* The changes by eight pieces, each of them in at most two columns. */
 typedef struct changes {
-  int32_t sum[8];                   /* the number of the sum of the first column */
-  int32_t byte[8], mask[8];         /* the bits of all columns */
+  int32_t sum[8];           /* the number of the sum of the first column */
+  int32_t byte[8], mask[8]; /* the bits of all columns */
   /* the changes in the first column, in the second, and to the right of both */
   int32_t one[8], two[8], three[8];
-  float weights[3][8];              /* the same changes as floats */
-  int32_t beyond[8];                /* how far a piece reaches right of the first column */
+  float weights[3][8]; /* the same changes as floats */
+  int32_t beyond[8];   /* how far a piece reaches right of the first column */
 } changes;
 
 #define FLOATS(v) __builtin_convertvector(v, eight)

@@ -13,7 +13,7 @@
 #include "base/wide.h"
 #include "engine/map/map.h"
 
-#define CS_MAP_ROWS 8       /* of a swath: its first row is a multiple of it */
+#define CS_MAP_ROWS 8 /* of a swath: its first row is a multiple of it */
 /* units of a row's height: heights and areas are multiples of 1 / this */
 #define CS_MAP_HEIGHT 65536
 #define CS_MAP_BROKEN UINT32_MAX

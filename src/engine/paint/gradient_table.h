@@ -29,7 +29,7 @@
 typedef struct cs_gradient_table_section {
   /* premultiplied RGBA at the beginning of the section, and its change until the end */
   cs_v4 colour, step;
-  double at, scale;   /* its beginning, and 1 / its length; scale and step are 0 before the
+  double at, scale; /* its beginning, and 1 / its length; scale and step are 0 before the
                          first stop and after the last */
 } cs_gradient_table_section;
 

@@ -39,8 +39,8 @@ typedef struct cs_cull_layer {
   double through;
   /* the layer is present where the bitwise and of the winding and this is not 0 */
   int32_t winding_mask;
-  uint32_t group;       /* the innermost, or CS_CULL_NONE */
-  bool is_anywhere;     /* the layer may be present even where no chain makes it present */
+  uint32_t group;   /* the innermost, or CS_CULL_NONE */
+  bool is_anywhere; /* the layer may be present even where no chain makes it present */
 } cs_cull_layer;
 
 /* Layers that are composited by themselves, then mixed with clear: inside the group occlusion is

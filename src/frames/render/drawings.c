@@ -27,7 +27,7 @@ typedef struct placed_cel {
   bool is_made;            /* the map was made just now */
   /* a map of the rows that are asked for gives the same result as a map of all rows */
   bool is_cropped;
-  cs_census census;        /* of its shapes */
+  cs_census census; /* of its shapes */
 } placed_cel;
 
 /* A map of some rows is made where they are at most this part of the frame. */

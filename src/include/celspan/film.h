@@ -21,7 +21,7 @@ typedef struct celspan_film {
   double frames_second;
   /* the frames are first .. first + count - 1; count 0: the structure is not a film */
   int64_t first, count;
-  const char *title;    /* NULL: none */
+  const char *title; /* NULL: none */
   size_t mark_count;
 } celspan_film;
 

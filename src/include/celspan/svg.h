@@ -32,10 +32,10 @@ typedef struct celspan_svg_desc {
   const char *file;  /* read from the disc; NULL where there are bytes */
   const void *bytes; /* borrowed */
   size_t size;
-  const char *name;              /* for messages, of bytes; NULL: "the drawing" */
+  const char *name; /* for messages, of bytes; NULL: "the drawing" */
   /* only these are used: a text that needs another font is not drawn */
   const celspan_svg_font *fonts;
-  size_t font_count;             /* at most 64 */
+  size_t font_count;   /* at most 64 */
   celspan_space space; /* of the drawing, and of each of its parts, which are groups; LINEAR: the
                           colours of translucent shapes and of gradients are mixed as light */
 } celspan_svg_desc;

@@ -104,8 +104,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_text_measure(celspan_context 
 typedef struct celspan_glyph {
   /* borrowed; it is in its place in the text, with the texture of the text */
   celspan_object *object;
-  double x, y;            /* its left end, on the baseline */
-  double advance;         /* its width, without tracking */
+  double x, y;    /* its left end, on the baseline */
+  double advance; /* its width, without tracking */
   /* its characters: text_size bytes of UTF-8, borrowed, without a zero at the end */
   const char *text;
   size_t text_size;

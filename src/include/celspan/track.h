@@ -40,7 +40,7 @@ CELSPAN_DESCRIPTION(celspan_tracker_desc)
 
 typedef struct celspan_sighting {
   size_t struct_size;
-  bool is_found;         /* false: lost, and the matrix has no meaning */
+  bool is_found; /* false: lost, and the matrix has no meaning */
   /* maps places of the first frame to places of this one; the centre of the first pixel is (0,
    * 0) */
   celspan_matrix matrix;

@@ -40,7 +40,7 @@ typedef struct cs_kind {
   const struct cs_written *written;    /* methods in Lua; NULL: none */
   /* bytes of data that each value has: for example a paint's numbers, a frame's seed */
   size_t own_size;
-  int kept;        /* how many user values a value has in addition to the first one, its fields */
+  int kept; /* how many user values a value has in addition to the first one, its fields */
 } cs_kind;
 
 /* The type of a field in the description that it is read into. */
@@ -73,7 +73,7 @@ typedef struct cs_field {
   /* its type when it is read from a value, if it always exists there but differs from the given
    * one */
   const char *read;
-  const char *about;           /* a description for users, without range and default; NULL: none */
+  const char *about; /* a description for users, without range and default; NULL: none */
   /* for users: the value that is used if the field is left out and has no preset */
   const char *fallback;
   /* in the row without a name, which ends the fields: further fields, which several nouns share;
@@ -126,13 +126,13 @@ typedef struct cs_noun {
   const char *table;   /* the name of its table in annotations; NULL: "celspan.NAME.fields" */
   const cs_kind *kind; /* NULL: a table of options, not a value */
   cs_list list;
-  const char *item;          /* "object": one of them; NULL without a list */
-  const char *item_written;  /* the type of an item in annotations */
-  const char *item_about;    /* a description of the items, for people; NULL: none */
-  const cs_field *fields;    /* ended by a row without a name */
-  bool has_gaps;             /* ITEMS: items that are nil or false are left out */
-  const char *places; /* TUPLE: "{x, y, w, h}" for messages; NULL: its values have no names */
-  const char *either[2];     /* fields of which only one may be given; NULL: none */
+  const char *item;         /* "object": one of them; NULL without a list */
+  const char *item_written; /* the type of an item in annotations */
+  const char *item_about;   /* a description of the items, for people; NULL: none */
+  const cs_field *fields;   /* ended by a row without a name */
+  bool has_gaps;            /* ITEMS: items that are nil or false are left out */
+  const char *places;       /* TUPLE: "{x, y, w, h}" for messages; NULL: its values have no names */
+  const char *either[2];    /* fields of which only one may be given; NULL: none */
   /* fields that may only be given with either[1], ended by NULL; NULL: none */
   const char *const *second;
   void (*create)(const struct cs_form *form, struct cs_userdata *value);

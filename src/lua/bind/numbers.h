@@ -17,7 +17,7 @@ typedef struct cs_numbers_name {
   const char *whole; /* "the matrix", or with %d for `number` "point %d" */
   /* for value number i: "value %d of it"; with `number`, "point %d: its value %d" */
   const char *item;
-  int number;       /* 0: it is not one of several lists */
+  int number; /* 0: it is not one of several lists */
   /* Its required form, "{x, y}", with the names of its values; NULL: "an array of 9 numbers". */
   const char *shape;
 } cs_numbers_name;

@@ -35,9 +35,9 @@ typedef struct list {
 typedef struct around {
   celspan_matrix matrix;
   double fade;
-  double width, height;          /* of the film, or of the composition around the value */
-  bool is_inner;                 /* inside a composition that lies in the frame's */
-  bool is_text;                  /* inside a text, where only the letters together are listed */
+  double width, height; /* of the film, or of the composition around the value */
+  bool is_inner;        /* inside a composition that lies in the frame's */
+  bool is_text;         /* inside a text, where only the letters together are listed */
   /* the letters of this text, if they are an object of their own; otherwise NULL */
   const celspan_object *letters;
 } around;

@@ -46,7 +46,7 @@ typedef struct cs_guard {
   bool is_scene_refused;   /* the scene was refused memory in this call */
   int refused_line;        /* the line at which that happened; 0: not known */
   char refused_in[LUA_IDSIZE];
-  char reason[256];        /* why the other limit refused memory last; "": it did not */
+  char reason[256]; /* why the other limit refused memory last; "": it did not */
   /* steps in this frame; the number of steps when the clock was last read */
   uint64_t steps, checked;
   size_t printed;

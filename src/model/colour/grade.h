@@ -25,7 +25,7 @@ typedef struct cs_grade_map {
 typedef struct cs_grade_curve {
   /* x: input, ascending; y: output. Without points there is no curve. Owned */
   celspan_point *points;
-  double *slopes;        /* at the points; owned */
+  double *slopes; /* at the points; owned */
   size_t count;
 } cs_grade_curve;
 

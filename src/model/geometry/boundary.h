@@ -32,9 +32,9 @@
 /* One monotone rational Bezier piece, normalised to run downwards: y0 < y1. */
 typedef struct cs_boundary_piece {
   double x0, y0, x1, y1;
-  double left, right;  /* no vertex lies left or right of these */
-  double sag;          /* the greatest distance of a chord of mean length from the curve */
-  double step;         /* the change of the parameter from vertex to vertex */
+  double left, right; /* no vertex lies left or right of these */
+  double sag;         /* the greatest distance of a chord of mean length from the curve */
+  double step;        /* the change of the parameter from vertex to vertex */
   /* the index of its degree + 1 points; a piece of one chord has no points unless curves are
    * kept */
   uint32_t point;
@@ -42,8 +42,8 @@ typedef struct cs_boundary_piece {
   uint8_t group, half; /* chords of a group, and of its upper half (or of the whole group) */
   /* the number of groups that are first tried as one arc, which begins at a multiple of it; or 1 */
   uint8_t leap;
-  uint8_t degree;      /* 1: the piece has no points */
-  bool is_power;       /* points are coefficients of the powers of t, without w; else homogeneous */
+  uint8_t degree; /* 1: the piece has no points */
+  bool is_power;  /* points are coefficients of the powers of t, without w; else homogeneous */
 } cs_boundary_piece;
 
 typedef struct cs_boundary_chain {

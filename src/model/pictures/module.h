@@ -42,8 +42,8 @@ typedef struct cs_picture_request {
 typedef struct cs_picture_header {
   celspan_picture_info info;
   cs_picture_alpha alpha;
-  int bits;           /* of the coded values when they are integers of at most 16 bits, else 0 */
-  bool is_linear;     /* `space` was given: the pixels are linear light, premultiplied */
+  int bits;       /* of the coded values when they are integers of at most 16 bits, else 0 */
+  bool is_linear; /* `space` was given: the pixels are linear light, premultiplied */
   /* the orientation tag changes the order of rows: it is cheapest to read all at once */
   bool is_turned;
   bool is_whole;      /* the reader decodes everything at once and keeps it */

@@ -13,7 +13,7 @@
 
 typedef struct cs_antialias {
   celspan_antialias_mode mode;
-  double radius;   /* FILTER: pixels, above 0 */
+  double radius; /* FILTER: pixels, above 0 */
   int rows; /* FILTER: the number of pieces into which a slanted boundary is cut in each pixel */
   double *samples; /* FILTER: the kernel in the middles of CS_ANTIALIAS_SAMPLES equal intervals */
 } cs_antialias;

@@ -94,9 +94,9 @@ struct place {
   const probe_call *probe;
   const celspan_rostrum *rostrum; /* NULL: the place is in a list of objects */
   celspan_object *const *objects; /* of a list */
-  size_t left; /* objects of a list, or places of a rostrum, that have not been met yet */
-  celspan_matrix matrix;          /* for a list: from its units to film units */
-  light_sample front;             /* for a list: the light that falls on it */
+  size_t left;           /* objects of a list, or places of a rostrum, that have not been met yet */
+  celspan_matrix matrix; /* for a list: from its units to film units */
+  light_sample front;    /* for a list: the light that falls on it */
 };
 
 /* Adds everything that can be seen behind a place. */

@@ -122,7 +122,7 @@ typedef enum cs_mixing {
   /* not at all, unless something lies behind it: one paint, or one colour of a picture, at each
    * point */
   CS_MIXING_SINGLE,
-  CS_MIXING_MIXED   /* paints may be mixed, as in a gradient */
+  CS_MIXING_MIXED /* paints may be mixed, as in a gradient */
 } cs_mixing;
 
 /* How a rostrum is repeated over the plane. INVARIANT: `matrix` is affine and not singular. */
@@ -158,7 +158,7 @@ typedef struct cs_primitive_data {
   /* all kinds except BOOLEAN: own units; tight, but the bounds of a stroke only where tight
    * bounds can be seen */
   celspan_box bounds;
-  cs_stroke *stroke;  /* OUTLINE, instead of an outline; else NULL. Owned */
+  cs_stroke *stroke; /* OUTLINE, instead of an outline; else NULL. Owned */
   union {
     celspan_box box;     /* is_box. SCANLINE: its bounds; ROSTRUM: its frame */
     cs_outline *outline; /* not is_box: packed and owned. NULL for strokes and booleans */

@@ -5,7 +5,7 @@
 
 /* of the polygon: a place with a lower speed gets its direction from its neighbours */
 #define SLOW 1e-9
-#define NEAR 1e-5      /* parameter: the distance of such a neighbour */
+#define NEAR 1e-5 /* parameter: the distance of such a neighbour */
 /* of the two terms whose difference is the pace: a smaller difference is rounding */
 #define REST 1e-11
 #define ROUNDING 1e-15 /* of coordinates */

@@ -24,7 +24,7 @@
 
 /* of a width, and of twice the distance along a piece (taper.c) */
 #define CS_STROKE_RADIUS_DEGREE 25
-#define CS_STROKE_DASHES 1000000   /* the most in one stroke */
+#define CS_STROKE_DASHES 1000000 /* the most in one stroke */
 
 typedef struct cs_stroke_part {
   uint32_t contour;  /* the contour that the pieces belong to */
@@ -37,10 +37,10 @@ typedef struct cs_stroke_part {
 /* The dashes of a contour (dashes.h). */
 typedef struct cs_dashes_run {
   uint32_t contour;
-  bool is_whole;   /* the run has no length to divide: it is one part */
-  bool is_dot;     /* is_whole: it is a point */
-  bool is_closed;  /* its only part has no caps */
-  bool is_joined;  /* the last dash continues in the first one, and is no part by itself */
+  bool is_whole;  /* the run has no length to divide: it is one part */
+  bool is_dot;    /* is_whole: it is a point */
+  bool is_closed; /* its only part has no caps */
+  bool is_joined; /* the last dash continues in the first one, and is no part by itself */
   /* the length of the line at which the pattern begins: at the beginning of the contour, or
    * before */
   double start;
@@ -55,8 +55,8 @@ typedef struct cs_dashes {
   size_t place_count;
   /* the length of the pattern, and the place in it at which contours begin */
   double pattern, offset;
-  double *ends;           /* for each piece of the line: the length of the line up to its end */
-  cs_dashes_run *runs;    /* in order, at most one for each contour */
+  double *ends;        /* for each piece of the line: the length of the line up to its end */
+  cs_dashes_run *runs; /* in order, at most one for each contour */
   size_t run_count, run_capacity;
 } cs_dashes;
 

@@ -65,9 +65,9 @@ typedef struct cs_png_rows {
   celspan_coding coding; /* 8 or 16 bit */
   int32_t width;
   size_t coded_size, pixel_size; /* bytes of a pixel: in coded form, and in the file */
-  bool is_strip; /* the first row's filter may not use the row above; false after begin */
-  uint64_t stored;               /* the bits of a coded pixel that are in the file */
-  uint64_t common;               /* the bits that are set in all coded pixels of the row */
+  bool is_strip;   /* the first row's filter may not use the row above; false after begin */
+  uint64_t stored; /* the bits of a coded pixel that are in the file */
+  uint64_t common; /* the bits that are set in all coded pixels of the row */
   cs_png_row rows[2];
   int current; /* index of the next row */
   cs_png_filter_runs filter;

@@ -6,7 +6,7 @@
 #include "engine/span/row_queue.h"
 
 enum {
-  STRIP_PIXELS = 1 << 18,      /* enough work for a separate thread */
+  STRIP_PIXELS = 1 << 18, /* enough work for a separate thread */
   STRIP_ROWS = 64, /* the most rows of a strip, which may be reached because flat rows are short */
   STRIP_PIXELS_MOST = 1 << 20, /* spans of pictures need 16 bytes for each pixel */
   WORKERS_MOST = 64,

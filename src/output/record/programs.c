@@ -23,15 +23,15 @@ typedef struct program_maker {
   uint32_t first; /* step of the program */
   uint32_t group; /* the innermost that was entered, or CS_STACK_NONE */
   entered_group outer[PLANEFILE_DEPTH];
-  uint32_t count;                      /* how many groups have been entered */
+  uint32_t count;          /* how many groups have been entered */
   uint32_t depth, deepest; /* depth: of the nested steps now; deepest: the greatest depth */
   bool has_glass[PLANEFILE_DEPTH + 1]; /* layers behind the level shine through in its colours */
   bool has_veil[PLANEFILE_DEPTH + 1];  /* the following layers are multiplied */
   /* glass is already in a layer, so everything behind it would shine through in grey */
   bool lost_glass;
-  size_t light;    /* the next back light to be met */
-  float keep;      /* the share of transparency that the mattes of back lights leave */
-  bool is_hard;    /* steps cannot express the program */
+  size_t light; /* the next back light to be met */
+  float keep;   /* the share of transparency that the mattes of back lights leave */
+  bool is_hard; /* steps cannot express the program */
 } program_maker;
 
 /* ---------------------------------------------------------------- colours */

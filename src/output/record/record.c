@@ -10,7 +10,7 @@
 
 /* units of a plane in a pixel of the plan */
 #define UNITS ((double)PLANEFILE_SIDE / CS_RECORD_SIDE)
-#define COUNT_MOST (UINT32_MAX / 4)                     /* of anything */
+#define COUNT_MOST (UINT32_MAX / 4) /* of anything */
 #define WINDINGS_MOST ((size_t)1 << 24)
 
 typedef struct recorder {

@@ -43,8 +43,8 @@ typedef enum cs_worker_task {
   CS_WORKER_READS = 0, /* pictures, through the picture module */
   /* one picture, also through the picture module; the only limit is for loading */
   CS_WORKER_WRITES,
-  CS_WORKER_SAMPLES,   /* colour profiles, through the colour module */
-  CS_WORKER_LISTENS    /* to one sound, by running ffmpeg */
+  CS_WORKER_SAMPLES, /* colour profiles, through the colour module */
+  CS_WORKER_LISTENS  /* to one sound, by running ffmpeg */
 } cs_worker_task;
 
 /* The message that brings the shared memory, or the pipe for the samples of a sound. */

@@ -20,7 +20,7 @@ struct cs_type_font {
   unsigned setting_count;
   /* protects the members below: parts of a font are made when they are needed */
   pthread_mutex_t lock;
-  hb_font_t *font;      /* NULL: it lacked memory */
+  hb_font_t *font; /* NULL: it lacked memory */
   hb_draw_funcs_t *functions;
 };
 

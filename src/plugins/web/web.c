@@ -19,7 +19,7 @@
 enum {
   /* the library's memory for a request; if it needs more, the library answers 431 or 414 */
   POOL = 16384,
-  SPARE = 32    /* connections that are being closed */
+  SPARE = 32 /* connections that are being closed */
 };
 
 typedef enum web_state { WEB_READING, WEB_WAITING, WEB_SENDING, WEB_CLOSING } web_state;

@@ -33,15 +33,15 @@ typedef struct cs_contents_layer {
   bool is_group, is_visible;
   /* the layer is visible only where the nearest layer below it that is not clipped is present */
   bool is_clipped;
-  bool is_within;  /* the layer is visible only where layers below it, in its group, are present */
-  int depth;       /* groups it lies in; set when the painting is complete */
-  double opacity;  /* 0..1 */
+  bool is_within; /* the layer is visible only where layers below it, in its group, are present */
+  int depth;      /* groups it lies in; set when the painting is complete */
+  double opacity; /* 0..1 */
   int32_t x, y, width, height;
-  const char *colour;             /* static: the meaning of its codes, as in celspan_picture_desc */
-  cs_rows_source *source;         /* owned; NULL: no pixels; for a group: its mask, in alpha */
+  const char *colour;     /* static: the meaning of its codes, as in celspan_picture_desc */
+  cs_rows_source *source; /* owned; NULL: no pixels; for a group: its mask, in alpha */
   /* the painting's: converts its codes; NULL: they are not converted */
   struct cs_profile_table *table;
-  celspan_surface *surface;       /* a reference */
+  celspan_surface *surface; /* a reference */
 } cs_contents_layer;
 
 typedef struct cs_contents_remark {

@@ -26,8 +26,8 @@ typedef struct cs_svg_item {
   struct cs_svg_item *next, *first, *last; /* first, last: items inside */
   const char *id, *label;                  /* NULL: none; in the arena */
   const cs_svg_facts *facts; /* NULL: the item is only a part of an element's drawing */
-  celspan_object *own; /* NULL for a group, and for an element that draws nothing */
-  cs_svg_recipe *filter;                   /* NULL: none. A reference */
+  celspan_object *own;       /* NULL for a group, and for an element that draws nothing */
+  cs_svg_recipe *filter;     /* NULL: none. A reference */
   bool has_clip;
   celspan_object *clip; /* if NULL although has_clip is set: everything is cut away */
   bool has_mask;

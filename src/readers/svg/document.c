@@ -18,10 +18,10 @@ typedef struct reader {
   celspan_context *context;
   const char *name;
   cs_svg_document *document;
-  cs_svg_node *open;      /* the innermost element that is open; NULL: none */
+  cs_svg_node *open; /* the innermost element that is open; NULL: none */
   /* the number of open elements of other namespaces, and of open elements inside these */
   uint32_t foreign_depth;
-  char *css;              /* the texts of the style elements so far */
+  char *css; /* the texts of the style elements so far */
   size_t css_size, css_capacity;
   char *characters; /* of the open text, since its last element */
   size_t character_size, character_capacity;

@@ -75,8 +75,8 @@ bool cs_svg_letters_box(const cs_svg_letters *letters, const cs_svg_written *wri
 typedef struct cs_svg_faces {
   /* borrowed from the source; each font is used for letters that all fonts before it lack */
   const char *fonts[CS_TEXT_FONTS];
-  size_t count;                     /* 0: no font was given */
-  bool is_plain;                    /* the first font is not bold or italic, as it should be */
+  size_t count;  /* 0: no font was given */
+  bool is_plain; /* the first font is not bold or italic, as it should be */
 } cs_svg_faces;
 
 void cs_svg_faces_find(const cs_svg_source *source, const cs_svg_style *style, cs_svg_faces *out);

@@ -15,7 +15,7 @@ typedef struct cs_svg_paint {
   bool has_server;
   /* if it exists and can be drawn, it is used instead of the other fields */
   cs_svg_reference server;
-  bool has_fallback;       /* a fallback was written after the reference */
+  bool has_fallback; /* a fallback was written after the reference */
   cs_svg_paint_kind kind;
   cs_svg_colour colour;
   /* the element that the paint was inherited from; NULL: the shape */

@@ -16,7 +16,7 @@
 #define CS_SVG_DRAWN 1000000 /* the most elements that are drawn, counted again at each `use` */
 #define CS_SVG_SELECTOR_TESTS 100000000u /* the most tests of elements against rules, in all */
 #define CS_SVG_DRAWINGS 1000 /* the most drawings that are read as images, nested or not */
-#define CS_SVG_SKIPPED 10000             /* the most entries; further parts are not reported */
+#define CS_SVG_SKIPPED 10000 /* the most entries; further parts are not reported */
 
 typedef struct cs_svg_skipped {
   uint32_t line;

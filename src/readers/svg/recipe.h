@@ -47,7 +47,7 @@ typedef struct cs_svg_step {
   celspan_space space; /* the space whose numbers are mixed */
   celspan_box box;     /* nothing is drawn if it has no size */
   size_t first_input, input_count;
-  celspan_blend blend;    /* BLEND */
+  celspan_blend blend; /* BLEND */
   /* SUM: the weights of the inputs, of white and of the product: 0..CS_SVG_SUM_MOST */
   double weights[4];
   int flood;              /* SUM: the input that is a flood, if there is a product */

@@ -34,8 +34,8 @@ typedef struct cs_svg_text_style {
   cs_svg_baseline dominant, own; /* own: the value of the element itself, not inherited */
   /* the sum of the baseline-shift of this element and of those around it, in user units */
   double raised;
-  bool is_leftward;              /* the direction of texts */
-  bool is_preserved;             /* all spaces of a text are kept */
+  bool is_leftward;  /* the direction of texts */
+  bool is_preserved; /* all spaces of a text are kept */
 } cs_svg_text_style;
 
 /* Reads the properties of texts from `values`, the winning values by name. em, parent_em: the font

@@ -34,7 +34,7 @@ typedef struct cs_text_letter {
   size_t glyph, glyph_count;
   /* x, y: its left end on the baseline; advance: its width, without tracking */
   double x, y, advance;
-  int32_t line;         /* from 0 */
+  int32_t line; /* from 0 */
 } cs_text_letter;
 
 /* A glyph as its font shapes it, before it is placed. */

@@ -20,9 +20,9 @@ typedef struct cs_fit_rules {
   int about;        /* the number of points on either side that determine a tangent */
   double turn;      /* the cosine of the least angle that counts as a corner */
   int near; /* the number of points on either side that lie on an arc if there is no corner */
-  double rounding;  /* pixels: the distance of points next to a corner from both of its sides */
-  double noise;     /* pixels: the distance of points from a smooth border, root mean square */
-  bool is_exact; /* the fitted line passes all gates; tolerance, mean and straight are not used */
+  double rounding; /* pixels: the distance of points next to a corner from both of its sides */
+  double noise;    /* pixels: the distance of points from a smooth border, root mean square */
+  bool is_exact;   /* the fitted line passes all gates; tolerance, mean and straight are not used */
 } cs_fit_rules;
 
 typedef struct cs_corner {

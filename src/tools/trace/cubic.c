@@ -92,7 +92,7 @@ static int list_unknowns(const cs_cubic_end ends[2], unknown list[4]) {
 }
 
 typedef struct sums {
-  double b[2][2];     /* sums of products of the weights of both control points */
+  double b[2][2]; /* sums of products of the weights of both control points */
   /* sums of products of their weights with the part of the points that the ends do not explain */
   celspan_point r[2];
 } sums;

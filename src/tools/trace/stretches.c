@@ -137,12 +137,12 @@ typedef struct way {
 typedef struct finder {
   const cs_points *points;
   ptrdiff_t from, count;
-  bool is_exact;       /* through gates */
-  double scale;        /* otherwise: the factor from the sum of squares to the cost */
+  bool is_exact; /* through gates */
+  double scale;  /* otherwise: the factor from the sum of squares to the cost */
   /* the greatest width of streets of arcs, and of lines, from each point on; with each gate they
    * become narrower */
   double (*widths)[2];
-  way *ways;           /* count + 1 */
+  way *ways; /* count + 1 */
 } finder;
 
 static void try(const finder *f, ptrdiff_t end, ptrdiff_t count, double own, bool is_line) {

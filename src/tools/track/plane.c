@@ -81,10 +81,10 @@ void cs_plane_levels_finish(cs_plane_levels *planes) {
 
 /* ---------------------------------------------------------------- features */
 
-#define SQUARE 3            /* the radius over which slopes are summed */
+#define SQUARE 3 /* the radius over which slopes are summed */
 /* of values in 0..1, summed over a square: a smaller strength is noise */
 #define LEAST_STRENGTH 2e-4
-#define LEAST_SHARE 0.005   /* of the strongest corner's strength */
+#define LEAST_SHARE 0.005 /* of the strongest corner's strength */
 
 typedef struct candidate {
   float strength;

@@ -35,8 +35,8 @@ enum { SEARCHED_CORNERS = 60, SEARCH_RADIUS = 14 };
 #define FINE_TOLERANCE 1.0
 /* pixels between a corner and the place to which the search in the other direction leads */
 #define FARTHEST_BACK 0.5
-#define LEAST_SHARE 0.2   /* the least share of the corners in the frame that must agree */
-#define MOST_ERROR 0.6    /* pixels: the greatest error of the corners that agree */
+#define LEAST_SHARE 0.2 /* the least share of the corners in the frame that must agree */
+#define MOST_ERROR 0.6  /* pixels: the greatest error of the corners that agree */
 
 struct celspan_tracker {
   celspan_context *context;
