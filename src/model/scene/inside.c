@@ -20,18 +20,6 @@ static bool chord_is_left(const offsets *p, int last) {
   return p->v[last] > p->v[0] ? cross <= 0 : cross >= 0;
 }
 
-void cs_inside_halve(const double *whole, int degree, double *low, double *high) {
-  double work[CS_STROKE_RADIUS_DEGREE + 1];
-  for (int i = 0; i <= degree; i++)
-    work[i] = whole[i];
-  for (int level = 0; level <= degree; level++) {
-    low[level] = work[0];
-    high[degree - level] = work[degree - level];
-    for (int i = 0; i < degree - level; i++)
-      work[i] = 0.5 * (work[i] + work[i + 1]);
-  }
-}
-
 /* The signed crossings of a Bezier piece with the ray to the left. The curve lies in the convex
  * hull of its control points; only a piece whose hull contains the point must be halved. */
 static int crossings(const offsets *points, int degree, int halvings) {

@@ -44,6 +44,18 @@ typedef struct piece_end {
 
 /* ---------------------------------------------------------------- polynomials */
 
+void cs_inside_halve(const double *whole, int degree, double *low, double *high) {
+  double work[CS_STROKE_RADIUS_DEGREE + 1];
+  for (int i = 0; i <= degree; i++)
+    work[i] = whole[i];
+  for (int level = 0; level <= degree; level++) {
+    low[level] = work[0];
+    high[degree - level] = work[degree - level];
+    for (int i = 0; i < degree - level; i++)
+      work[i] = 0.5 * (work[i] + work[i + 1]);
+  }
+}
+
 static void halve_around(const around *whole, around *low, around *high) {
   low->degree = high->degree = whole->degree;
   low->radius_degree = high->radius_degree = whole->radius_degree;

@@ -1,4 +1,5 @@
-/* Objects that are put in the place of others: items, and the steps of filters. An object that is NULL draws nothing. */
+/* Objects that are put in the place of others: items, and the steps of filters. An object that is
+ * NULL draws nothing. */
 #pragma once
 
 #include "base/context.h"
