@@ -32,7 +32,7 @@ quietly() {
 dist=$PWD/out/dist work=$PWD/out/dist.work
 release=$(sed -n "s/^  version: '\(.*\)',/\1/p" meson.build)
 commit=$(packaging/commit.sh)
-# A release is tagged; what is between two releases has its commit in the name.
+# A release is tagged; other versions have their commit in the name.
 version=$release+$commit
 [ "$(git describe --tags --exact-match 2>/dev/null)" != "v$release" ] || version=$release
 name=celspan-$version-linux-x86_64

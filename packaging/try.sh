@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC2154
-# Tries what is in out/dist, in roots of Debian with nothing else in them. dist.sh sources this.
+# Tries the files of out/dist, in roots of Debian with nothing else in them. dist.sh sources this.
 #
 #   try [SUITE...]      bullseye, bookworm and trixie, as far as the mirror has them
 #

@@ -1,5 +1,6 @@
 --- celspan describe, and what celspan check warns of: what is seen of a film.
 local json = require "celspan.json"
+local flashes = require "tests.support.flashes"
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
@@ -197,67 +198,12 @@ end)
 
 -- ---------------------------------------------------------------- flashes
 
---- A film that changes `count` times between two lights, every `hold` frames, in `cells` of its 100
---- pixels; each change takes `steps` frames.
-local FLASHES = [[
-local celspan = require "celspan"
-local fps, low, high, hold, cells, count, steps = ...
-fps, hold, cells = tonumber(fps), tonumber(hold), tonumber(cells)
-count, steps = tonumber(count), tonumber(steps)
-local function light_at(index)
-  local change = math.min(count, index // hold)
-  local share = change < count and math.min(1, (index % hold + 1) / steps) or 1
-  local from, to = low, high
-  if change % 2 == 0 then from, to = high, low end
-  if change == 0 then from = to end
-  return from + (to - from) * share
-end
-return celspan.film { size = { 10, 10 }, fps = fps, frames = 200, frame = function(f)
-  local light = light_at(f.index)
-  local paint = celspan.rgb(light, light, light)
-  return celspan.rostrum { back = "#000", celspan.cel {
-    celspan.rect { 0, 0, 10, cells // 10, texture = paint },
-    celspan.rect { 0, cells // 10, cells % 10, 1, texture = paint } } }
-end }]]
-
---- By WCAG: fps, the darker and the brighter light, frames between changes, cells, changes,
---- steps of a change, and whether this is more than three flashes in a second.
-local MADE = {
-  -- the change of the relative luminance
-  { 24, 0.2, 0.3, 3, 100, 20, 1, true }, { 24, 0.2, 0.29, 3, 100, 20, 1, false },
-  { 24, 0, 0.1, 3, 100, 20, 1, true }, { 24, 0, 0.099, 3, 100, 20, 1, false },
-  { 24, 0.5, 0.601, 3, 100, 20, 1, true }, { 24, 0.5, 0.599, 3, 100, 20, 1, false },
-  { 24, 0, 1, 3, 100, 20, 1, true }, { 24, 0.4, 0.4, 3, 100, 20, 1, false },
-  -- the darker light
-  { 24, 0.7, 0.8, 3, 100, 20, 1, true }, { 24, 0.8, 0.9, 3, 100, 20, 1, false },
-  { 24, 0.79, 0.89, 3, 100, 20, 1, true }, { 24, 0.79, 0.88, 3, 100, 20, 1, false },
-  { 24, 0.799, 0.9, 3, 100, 20, 1, true }, { 24, 0.801, 1, 3, 100, 20, 1, false },
-  { 24, 0.7, 1, 3, 100, 20, 1, true }, { 24, 0.85, 1, 3, 100, 20, 1, false },
-  -- how many: four flashes are eight changes
-  { 24, 0.2, 0.8, 3, 100, 8, 1, true }, { 24, 0.2, 0.8, 3, 100, 7, 1, false },
-  { 24, 0.2, 0.8, 3, 100, 9, 1, true }, { 24, 0.2, 0.8, 3, 100, 6, 1, false },
-  { 24, 0.2, 0.8, 1, 100, 8, 1, true }, { 24, 0.2, 0.8, 1, 100, 7, 1, false },
-  -- how fast: eight changes in less than a second
-  { 24, 0.2, 0.8, 3, 100, 20, 1, true }, { 24, 0.2, 0.8, 4, 100, 20, 1, false },
-  { 30, 0.2, 0.8, 4, 100, 20, 1, true }, { 30, 0.2, 0.8, 5, 100, 20, 1, false },
-  { 60, 0.2, 0.8, 8, 100, 20, 1, true }, { 60, 0.2, 0.8, 9, 100, 20, 1, false },
-  { 50, 0.2, 0.8, 7, 100, 20, 1, true }, { 50, 0.2, 0.8, 8, 100, 20, 1, false },
-  { 12, 0.2, 0.8, 1, 100, 20, 1, true }, { 12, 0.2, 0.8, 2, 100, 20, 1, false },
-  { 29, 0.2, 0.8, 4, 100, 20, 1, true }, { 28, 0.2, 0.8, 4, 100, 20, 1, false },
-  { 8, 0.2, 0.8, 1, 100, 20, 1, true }, { 7, 0.2, 0.8, 1, 100, 20, 1, false },
-  -- where
-  { 24, 0.2, 0.8, 3, 26, 20, 1, true }, { 24, 0.2, 0.8, 3, 25, 20, 1, false },
-  { 24, 0.2, 0.8, 3, 50, 20, 1, true }, { 24, 0.2, 0.8, 3, 10, 20, 1, false },
-  -- slow changes count from the last extreme
-  { 60, 0.2, 0.4, 8, 100, 20, 8, true }, { 60, 0.2, 0.29, 8, 100, 20, 8, false },
-}
-
 describe("flashes by WCAG 2.3.1", function()
   it("are found on one side of each limit and not on the other", function()
     bench = workbench.new()
-    bench:write("film.lua", FLASHES)
+    bench:write("film.lua", flashes.FILM)
     local wrong = {}
-    for _, one in ipairs(MADE) do
+    for _, one in ipairs(flashes.MADE) do
       local given = table.concat(one, " ", 1, 7)
       local code, out, err = bench:celspan_inside("check film.lua --json --frames 1-100 -- %s",
         given)
