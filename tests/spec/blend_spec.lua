@@ -8,7 +8,8 @@ local workbench = require "tests.support.workbench"
 local modes = { "normal", "multiply", "screen", "overlay", "darken", "lighten", "color-dodge",
                 "color-burn", "hard-light", "soft-light", "difference", "exclusion", "hue",
                 "saturation", "color", "luminosity", "add", "linear-dodge",
-                "soft-light-photoshop" }
+                "soft-light-photoshop", "linear-burn", "vivid-light", "linear-light", "pin-light",
+                "hard-mix", "subtract", "divide", "darker-color", "lighter-color" }
 
 local function rect(x, y, w, h, texture) return celspan.rect { x, y, w, h, texture = texture } end
 

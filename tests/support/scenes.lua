@@ -428,7 +428,8 @@ end
 
 local modes = { "multiply", "screen", "overlay", "darken", "lighten", "color-dodge", "color-burn",
                 "hard-light", "soft-light", "difference", "exclusion", "hue", "saturation", "color",
-                "luminosity", "add", "linear-dodge", "soft-light-photoshop" }
+                "luminosity", "add", "linear-dodge", "soft-light-photoshop", "linear-burn",
+                "vivid-light", "linear-light", "pin-light", "subtract", "divide" }
 
 --- A mode; adding may double the light.
 function maker:mode()

@@ -8,7 +8,7 @@
 #include "tests/support/random.h"
 
 #define PAIRS 10000
-#define MODES (CELSPAN_BLEND_SOFT_LIGHT_PHOTOSHOP + 1)
+#define MODES CS_BLEND_COUNT
 
 /* ---------------------------------------------------------------- formulas */
 
@@ -56,6 +56,20 @@ static double channel(celspan_blend mode, double b, double s) {
     return unit(b + s);
   case CELSPAN_BLEND_SOFT_LIGHT_PHOTOSHOP:
     return soft_photoshop(b, s);
+  case CELSPAN_BLEND_LINEAR_BURN:
+    return unit(b + s - 1);
+  case CELSPAN_BLEND_VIVID_LIGHT:
+    return s < 0.5 ? burn(b, s + s) : dodge(b, s + s - 1);
+  case CELSPAN_BLEND_LINEAR_LIGHT:
+    return unit(b - 1 + s + s);
+  case CELSPAN_BLEND_PIN_LIGHT:
+    return b > 2 * s ? 2 * s : b < 2 * s - 1 ? 2 * s - 1 : b;
+  case CELSPAN_BLEND_HARD_MIX:
+    return b + s > 1 - 1e-6;
+  case CELSPAN_BLEND_SUBTRACT:
+    return unit(b - s);
+  case CELSPAN_BLEND_DIVIDE:
+    return b > 0 ? s > 0 ? unit(b / s) : 1 : 0;
   default:
     return s;
   }
@@ -95,6 +109,11 @@ static void with_sat(const double c[3], const double like[3], double out[3]) {
 
 static void whole(celspan_blend mode, const double b[3], const double s[3], double out[3]) {
   double mixed[3] = {s[0], s[1], s[2]};
+  if (mode >= CELSPAN_BLEND_DARKER_COLOR) {
+    bool takes_dark = mode == CELSPAN_BLEND_DARKER_COLOR;
+    memcpy(out, (lum(s) < lum(b)) == takes_dark ? s : b, sizeof mixed);
+    return;
+  }
   if (mode == CELSPAN_BLEND_LUMINOSITY) {
     with_lum(b, lum(s), out);
     return;
@@ -132,7 +151,8 @@ static void expect(celspan_blend mode, const pair *p, double out[4]) {
   double mixed[3];
   for (int i = 0; i < 3; i++)
     mixed[i] = channel(mode, p->b[i], p->s[i]);
-  if (mode >= CELSPAN_BLEND_HUE && mode <= CELSPAN_BLEND_LUMINOSITY)
+  if ((mode >= CELSPAN_BLEND_HUE && mode <= CELSPAN_BLEND_LUMINOSITY) ||
+      mode >= CELSPAN_BLEND_DARKER_COLOR)
     whole(mode, p->b, p->s, mixed);
   for (int i = 0; i < 3; i++)
     out[i] = mode == CELSPAN_BLEND_ADD
@@ -164,9 +184,13 @@ static cs_over_pair pair_of(const double c[3], double alpha) {
 static bool jumps(celspan_blend mode, const pair *p) {
   bool does = false;
   for (int i = 0; i < 3; i++) {
-    does |= mode == CELSPAN_BLEND_COLOR_DODGE && p->b[i] < 1e-4;
-    does |= mode == CELSPAN_BLEND_COLOR_BURN && p->b[i] > 1 - 1e-4;
+    bool is_vivid = mode == CELSPAN_BLEND_VIVID_LIGHT;
+    does |= (mode == CELSPAN_BLEND_COLOR_DODGE || is_vivid) && p->b[i] < 1e-4;
+    does |= (mode == CELSPAN_BLEND_COLOR_BURN || is_vivid) && p->b[i] > 1 - 1e-4;
+    does |= mode == CELSPAN_BLEND_DIVIDE && p->b[i] < 1e-4;
   }
+  if (mode == CELSPAN_BLEND_DARKER_COLOR || mode == CELSPAN_BLEND_LIGHTER_COLOR)
+    return fabs(lum(p->s) - lum(p->b)) < 1e-3;
   double low, high;
   extremes(mode == CELSPAN_BLEND_HUE ? p->s : p->b, &low, &high);
   return does || (mode >= CELSPAN_BLEND_HUE && high - low < 1e-2);

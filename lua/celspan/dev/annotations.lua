@@ -18,7 +18,7 @@ return [==[
 ---@alias celspan.shape celspan.object|celspan.rostrum A part of a cel or a boolean: an object, or a rostrum with a size
 ---@alias celspan.point number[] {x, y}
 ---@alias celspan.rule "nonzero"|"evenodd" How self-crossing outlines are filled
----@alias celspan.mode "normal"|"multiply"|"screen"|"overlay"|"darken"|"lighten"|"color-dodge"|"color-burn"|"hard-light"|"soft-light"|"difference"|"exclusion"|"hue"|"saturation"|"color"|"luminosity"|"add"|"linear-dodge"|"soft-light-photoshop" How a source is combined with its backdrop
+---@alias celspan.mode "normal"|"multiply"|"screen"|"overlay"|"darken"|"lighten"|"color-dodge"|"color-burn"|"hard-light"|"soft-light"|"difference"|"exclusion"|"hue"|"saturation"|"color"|"luminosity"|"add"|"linear-dodge"|"soft-light-photoshop"|"linear-burn"|"vivid-light"|"linear-light"|"pin-light"|"hard-mix"|"subtract"|"divide"|"darker-color"|"lighter-color" How a source is combined with its backdrop
 ---@alias celspan.antialias "area"|"none"|celspan.filter The exact mean over each pixel, pixel centres, or a kernel
 ---@alias celspan.exposures celspan.rostrum|table[] A rostrum, or {{rostrum, weight}, ...}: light adds
 

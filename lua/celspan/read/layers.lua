@@ -43,7 +43,8 @@ local sources = setmetatable({}, { __mode = "k" })
 local shown = {}
 for mode in ("normal multiply screen overlay darken lighten color-dodge color-burn hard-light "
   .. "soft-light difference exclusion hue saturation color luminosity add linear-dodge "
-  .. "soft-light-photoshop"):gmatch "%S+" do
+  .. "soft-light-photoshop linear-burn vivid-light linear-light pin-light hard-mix subtract divide "
+  .. "darker-color lighter-color"):gmatch "%S+" do
   shown[mode] = true
 end
 

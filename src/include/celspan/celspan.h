@@ -732,8 +732,13 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_extend_boolean(
 /* How an object or a cel is combined with its backdrop: all that is behind it in its nearest group
  * that isolates, else in the frame. W3C Compositing and Blending Level 1, except for ADD, which
  * adds premultiplied colours and clamps alpha to 1, and for those after it, which are of painting
- * programs: LINEAR_DODGE mixes in the sum, which ends at 1, and SOFT_LIGHT_PHOTOSHOP brightens dark
- * backdrops by the square root, too. Colours are clamped to 0..1 inside a mode. */
+ * programs, with a backdrop b and a source s channel by channel: LINEAR_DODGE is b + s,
+ * SOFT_LIGHT_PHOTOSHOP brightens dark backdrops by the square root, too, LINEAR_BURN is b + s - 1,
+ * LINEAR_LIGHT b + 2 s - 1, SUBTRACT b - s and DIVIDE b / s; VIVID_LIGHT is COLOR_BURN by 2 s or,
+ * from s = 1/2 on, COLOR_DODGE by 2 s - 1, PIN_LIGHT is DARKEN and LIGHTEN by the same; HARD_MIX is
+ * 1 where b + s is 1 or more, and 0 elsewhere; DARKER_COLOR and LIGHTER_COLOR are the one of both
+ * colours that has less or more luminosity, and b where that is equal. Colours are clamped to 0..1
+ * inside a mode, and what it gives too. */
 typedef enum celspan_blend {
   CELSPAN_BLEND_NORMAL = 0,
   CELSPAN_BLEND_MULTIPLY,
@@ -753,7 +758,16 @@ typedef enum celspan_blend {
   CELSPAN_BLEND_LUMINOSITY,
   CELSPAN_BLEND_ADD,
   CELSPAN_BLEND_LINEAR_DODGE,
-  CELSPAN_BLEND_SOFT_LIGHT_PHOTOSHOP
+  CELSPAN_BLEND_SOFT_LIGHT_PHOTOSHOP,
+  CELSPAN_BLEND_LINEAR_BURN,
+  CELSPAN_BLEND_VIVID_LIGHT,
+  CELSPAN_BLEND_LINEAR_LIGHT,
+  CELSPAN_BLEND_PIN_LIGHT,
+  CELSPAN_BLEND_HARD_MIX,
+  CELSPAN_BLEND_SUBTRACT,
+  CELSPAN_BLEND_DIVIDE,
+  CELSPAN_BLEND_DARKER_COLOR,
+  CELSPAN_BLEND_LIGHTER_COLOR
 } celspan_blend;
 
 /* ---------------------------------------------------------------- grades */

@@ -21,6 +21,15 @@ const char *const cs_blend_words[] = {"normal",
                                       "add",
                                       "linear-dodge",
                                       "soft-light-photoshop",
+                                      "linear-burn",
+                                      "vivid-light",
+                                      "linear-light",
+                                      "pin-light",
+                                      "hard-mix",
+                                      "subtract",
+                                      "divide",
+                                      "darker-color",
+                                      "lighter-color",
                                       NULL};
 
 static inline cs_wide one_colour(cs_v4 colour) {

@@ -4,8 +4,8 @@
  *     not separable      hue, saturation, color, luminosity: of the colour as a whole
  *
  * W3C Compositing and Blending Level 1, chapter 10. CELSPAN_BLEND_ADD has no such colour: it adds
- * premultiplied colours (engine/compose/over.h). The two modes after it are those of painting
- * programs, and separable.
+ * premultiplied colours (engine/compose/over.h). The modes after it are those of painting programs;
+ * all are separable but the last two, DARKER_COLOR and LIGHTER_COLOR.
  *
  * Colours are not premultiplied, and in 0..1. Lane 3 has no meaning. Every operation is exact IEEE
  * arithmetic, so the bits do not depend on the instruction set.
@@ -15,13 +15,17 @@
 #include "base/vector.h"
 #include "celspan/celspan.h"
 
-#define CS_BLEND_COUNT (CELSPAN_BLEND_SOFT_LIGHT_PHOTOSHOP + 1)
+#define CS_BLEND_COUNT (CELSPAN_BLEND_LIGHTER_COLOR + 1)
 
 /* Added to a mode: the source shows only where its backdrop is present, and does not change the
  * backdrop's alpha; so a mode with this flag is never CELSPAN_BLEND_NORMAL. The result of "add" is
  * then clamped to 1. */
 #define CS_BLEND_WITHIN 32
 #define CS_BLEND_MODE(blend) ((celspan_blend)((unsigned)(blend) & (CS_BLEND_WITHIN - 1)))
+
+/* HARD_MIX, DARKER_COLOR and LIGHTER_COLOR leap where two numbers are equal. Numbers that differ by
+ * less than this count as equal, so that rounding decides nothing. */
+#define CS_BLEND_EQUAL 0x1p-16f
 
 /* The words of celspan_blend, ended by NULL. */
 extern const char *const cs_blend_words[];

@@ -7,6 +7,7 @@
 
 #include "base/wide.h"
 #include "celspan/celspan.h"
+#include "model/colour/blend.h"
 
 /* ---------------------------------------------------------------- channels */
 
@@ -33,6 +34,16 @@ static inline cs_wide cs_blend_lanes_softly(cs_wide b, cs_wide s, cs_wide bright
 static inline cs_wide cs_blend_lanes_softlight(cs_wide b, cs_wide s) {
   return cs_blend_lanes_softly(
       b, s, cs_wide_choose(b <= 0.25f, ((16 * b - 12) * b + 4) * b, cs_wide_sqrt(b)));
+}
+
+static inline cs_wide cs_blend_lanes_vivid(cs_wide b, cs_wide s) {
+  return cs_wide_choose(s < 0.5f, cs_blend_lanes_burn(b, 2 * s),
+                        cs_blend_lanes_dodge(b, 2 * s - 1));
+}
+
+static inline cs_wide cs_blend_lanes_divide(cs_wide b, cs_wide s) {
+  cs_wide bright = cs_wide_choose(b >= s, cs_wide_all(1), b / s);
+  return cs_wide_choose(b <= 0, cs_wide_all(0), bright);
 }
 
 /* ---------------------------------------------------------------- colours as a whole */
@@ -79,6 +90,10 @@ static inline cs_wide cs_blend_lanes_whole(celspan_blend mode, cs_wide b, cs_wid
         cs_blend_lanes_lum(b));
   case CELSPAN_BLEND_COLOR:
     return cs_blend_lanes_set_lum(s, cs_blend_lanes_lum(b));
+  case CELSPAN_BLEND_DARKER_COLOR:
+    return cs_wide_choose(cs_blend_lanes_lum(s) < cs_blend_lanes_lum(b) - CS_BLEND_EQUAL, s, b);
+  case CELSPAN_BLEND_LIGHTER_COLOR:
+    return cs_wide_choose(cs_blend_lanes_lum(s) > cs_blend_lanes_lum(b) + CS_BLEND_EQUAL, s, b);
   default:
     return cs_blend_lanes_set_lum(b, cs_blend_lanes_lum(s));
   }
@@ -118,6 +133,20 @@ static inline cs_wide cs_blend_lanes(celspan_blend mode, cs_wide b, cs_wide s) {
     return cs_blend_lanes_softlight(b, s);
   case CELSPAN_BLEND_SOFT_LIGHT_PHOTOSHOP:
     return cs_blend_lanes_softly(b, s, cs_wide_choose(s <= 0.5f, b, cs_wide_sqrt(b)));
+  case CELSPAN_BLEND_LINEAR_BURN:
+    return cs_wide_max(b + s - 1, cs_wide_all(0));
+  case CELSPAN_BLEND_VIVID_LIGHT:
+    return cs_blend_lanes_vivid(b, s);
+  case CELSPAN_BLEND_LINEAR_LIGHT:
+    return cs_wide_unit(b + (2 * s - 1));
+  case CELSPAN_BLEND_PIN_LIGHT:
+    return cs_wide_max(cs_wide_min(b, 2 * s), 2 * s - 1);
+  case CELSPAN_BLEND_HARD_MIX:
+    return cs_wide_choose(b + s >= 1 - CS_BLEND_EQUAL, cs_wide_all(1), cs_wide_all(0));
+  case CELSPAN_BLEND_SUBTRACT:
+    return cs_wide_max(b - s, cs_wide_all(0));
+  case CELSPAN_BLEND_DIVIDE:
+    return cs_blend_lanes_divide(b, s);
   default:
     return cs_blend_lanes_whole(mode, b, s);
   }

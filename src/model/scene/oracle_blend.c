@@ -45,6 +45,28 @@ static double linear_dodge(double b, double s) { return fmin(1, b + s); }
 static double difference(double b, double s) { return fabs(b - s); }
 static double exclusion(double b, double s) { return b + s - 2 * b * s; }
 
+static double unit(double x) { return fmax(0, fmin(x, 1)); }
+
+/* Those of painting programs: PDF has no formulas for them, and these are the usual ones. */
+static double linear_burn(double b, double s) { return fmax(0, b + s - 1); }
+static double linear_light(double b, double s) { return unit(b + 2 * s - 1); }
+static double subtract(double b, double s) { return fmax(0, b - s); }
+static double hard_mix(double b, double s) { return b + s < 1 - (double)CS_BLEND_EQUAL ? 0 : 1; }
+
+static double vivid_light(double b, double s) {
+  return s < 0.5 ? color_burn(b, 2 * s) : color_dodge(b, 2 * s - 1);
+}
+
+static double pin_light(double b, double s) {
+  return s < 0.5 ? fmin(b, 2 * s) : fmax(b, 2 * s - 1);
+}
+
+static double divide(double b, double s) {
+  if (b == 0)
+    return 0;
+  return s == 0 ? 1 : fmin(1, b / s);
+}
+
 static double (*const separable[])(double b, double s) = {
     [CELSPAN_BLEND_MULTIPLY] = multiply,
     [CELSPAN_BLEND_SCREEN] = screen,
@@ -59,6 +81,13 @@ static double (*const separable[])(double b, double s) = {
     [CELSPAN_BLEND_EXCLUSION] = exclusion,
     [CELSPAN_BLEND_LINEAR_DODGE] = linear_dodge,
     [CELSPAN_BLEND_SOFT_LIGHT_PHOTOSHOP] = softlight_photoshop,
+    [CELSPAN_BLEND_LINEAR_BURN] = linear_burn,
+    [CELSPAN_BLEND_VIVID_LIGHT] = vivid_light,
+    [CELSPAN_BLEND_LINEAR_LIGHT] = linear_light,
+    [CELSPAN_BLEND_PIN_LIGHT] = pin_light,
+    [CELSPAN_BLEND_HARD_MIX] = hard_mix,
+    [CELSPAN_BLEND_SUBTRACT] = subtract,
+    [CELSPAN_BLEND_DIVIDE] = divide,
 };
 
 /* ---------------------------------------------------------------- the others */
@@ -102,6 +131,11 @@ static colour blend_whole(celspan_blend mode, colour b, colour s) {
 }
 
 static colour blend(celspan_blend mode, colour b, colour s) {
+  double lighter = lum(s) - lum(b), equal = (double)CS_BLEND_EQUAL;
+  if (mode == CELSPAN_BLEND_DARKER_COLOR)
+    return lighter < -equal ? s : b;
+  if (mode == CELSPAN_BLEND_LIGHTER_COLOR)
+    return lighter > equal ? s : b;
   if (mode >= CELSPAN_BLEND_HUE && mode <= CELSPAN_BLEND_LUMINOSITY)
     return blend_whole(mode, b, s);
   for (int i = 0; i < 3; i++)
