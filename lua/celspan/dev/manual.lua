@@ -9,7 +9,7 @@ local manual = {}
 manual.MODULES = {
   "ease", "keys", "motion", "multiplane", "shutter", "lips", "sheet", "svg", "trace", "track",
   "relight", "layers", "oca", "json", "csv", "captions", "cut", "sound", "spec", "puppet",
-  "particles", "colour",
+  "particles", "colour", "chart", "typewriter",
 }
 local WIDTH = 100
 

@@ -1,7 +1,8 @@
---- Numbers as they are written in a language: celspan.count.
+--- Numbers as they are written in a language, and frames as a clock: celspan.count, timecode.
 --
 --   celspan.count(48250)                                      --> 48,250
 --   celspan.count(1234567.891, { language = "hi", decimals = 1 })   --> 12,34,567.9
+--   celspan.timecode(3600, 24)                                --> 00:02:30:00
 --
 -- Separators and sizes of groups are those of Unicode's locale data (CLDR).
 local core = require "celspan.core"
@@ -28,6 +29,8 @@ local known = {
 }
 
 local function refuse(text, ...) core.refuse("count: " .. text:format(...)) end
+
+local function refuse_code(text, ...) core.refuse("timecode: " .. text:format(...)) end
 
 --- The style of a language. "pt-BR" has the style of "pt", unless it has its own.
 local function style_of(language)
@@ -73,6 +76,41 @@ function count.written(value, options)
   local sign = value < 0 and text:find "[1-9]" and "\u{2212}" or ""
   if options.group ~= false then whole = grouped(whole, style) end
   return sign .. whole .. (rest ~= "" and style[2] .. rest or "")
+end
+
+--- The number that a frame has where the clock leaves out the first numbers of every minute except
+--- each tenth, so that it is right at 29.97 or 59.94 frames a second.
+local function dropped(index, rate)
+  local skipped = rate // 15
+  local minute, ten = 60 * rate - skipped, 600 * rate - 9 * skipped
+  local rest = index % ten
+  return index + 9 * skipped * (index // ten) + skipped * (math.max(0, rest - skipped) // minute)
+end
+
+--- Hours, minutes, seconds and frames: "01:00:04:12". With `drop` a semicolon is before the frames.
+---@param index integer The number of the frame, from 0
+---@param fps number
+---@param options? { drop?: boolean } Of 29.97 and 59.94 frames a second
+---@return string
+function count.timecode(index, fps, options)
+  options = options or {}
+  fields.check("timecode", options, { drop = "boolean" })
+  if not fields.is_finite(index) or index < 0 or index ~= math.floor(index) or index > 2 ^ 53 then
+    refuse_code("the first argument, a frame, must be a whole number from 0 on, got %s",
+      fields.shown(index))
+  end
+  local rate = fields.is_finite(fps) and math.floor(fps + 0.5) or 0
+  if rate < 1 or rate > 1000 then
+    refuse_code("the second argument must be frames per second, 1 to 1000, got %s",
+      fields.shown(fps))
+  end
+  if options.drop and rate ~= 30 and rate ~= 60 then
+    refuse_code("drop is for 29.97 and 59.94 frames a second, got %s", fields.shown(fps))
+  end
+  local number = options.drop and dropped(index // 1, rate) or index // 1
+  local seconds = number // rate
+  return ("%02d:%02d:%02d%s%02d"):format(seconds // 3600, seconds // 60 % 60, seconds % 60,
+    options.drop and ";" or ":", number % rate)
 end
 
 return fields.seal("count", count)

@@ -181,6 +181,7 @@ local known_turn = { rotate = "number", absolute = "number", scale = "number", s
 
 --- The values of a bone in a pose: degrees, or a table.
 function bones.read_turn(name, value)
+  if fields.is_finite(value) then return { rotate = value } end
   if type(value) == "number" then value = { rotate = value } end
   fields.check(("puppet: bone '%s'"):format(name), value, known_turn, 6)
   for _, field in ipairs { "rotate", "absolute", "scale", "stretch" } do
@@ -318,15 +319,32 @@ local function place_chain(chain, turns, frames, at)
   end
 end
 
---- The place of each bone in a pose. frame: the rigid map of everything that follows it; scaling:
---- of its own artwork, applied first; angle: in the drawing; own: relative to its parent.
-function bones.place(rig, turns, chains, at)
-  local frames = {}
-  for _, bone in ipairs(rig.list) do
-    if chains[bone] then place_chain(chains[bone], turns, frames, at) end
-    if not frames[bone] then place_bone(bone, turns[bone] or {}, frames) end
+--- The bones that must be placed before a bone can be, and the bone itself, the nearest first.
+local function line_to(bone, chains, frames)
+  local line = {}
+  while bone and not rawget(frames, bone) do
+    line[#line + 1] = bone
+    bone = chains[bone] and chains[bone].bones[1].parent or not chains[bone] and bone.parent
   end
-  return frames
+  return line
+end
+
+--- The place of each bone in a pose. frame: the rigid map of everything that follows it; scaling:
+--- of its own artwork, applied first; angle: in the drawing; own: relative to its parent. A bone is
+--- placed when it is first read, after the bones that carry it. chains: by each of their bones.
+function bones.place(turns, chains, at)
+  return setmetatable({}, { __index = function(frames, bone)
+    local line = line_to(bone, chains, frames)
+    for i = #line, 1, -1 do
+      local chain = chains[line[i]]
+      if chain then
+        place_chain(chain, turns, frames, at)
+      else
+        place_bone(line[i], turns[line[i]] or {}, frames)
+      end
+    end
+    return rawget(frames, bone)
+  end })
 end
 
 --- The map of a bone's artwork.

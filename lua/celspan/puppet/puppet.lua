@@ -22,6 +22,7 @@ local poses = require "celspan.poses"
 local puppet_sheet = require "celspan.puppet_sheet"
 local sets = require "celspan.sets"
 local steps = require "celspan.steps"
+local tail = require "celspan.tail"
 
 local refuse, help, names_of, map_of = bones.refuse, bones.help, bones.names_of, bones.map_of
 
@@ -159,7 +160,8 @@ local function new(_, given)
     refuse("field 'art' must be what svg.read or layers.read returns, with its parts, got %s",
       fields.kind(given.art))
   end
-  local rig = { art = given.art, bones = {}, list = {}, parts = {}, switches = {}, solids = {} }
+  local rig = { art = given.art, bones = {}, list = {}, parts = {}, switches = {}, solids = {},
+                kept = setmetatable({}, { __mode = "k" }) }
   local is_drawing = is_of("celspan.svg", given.art)
   rig.by_name = (is_drawing and drawn_parts or painted_parts)(given.art)
   rig.joints, rig.guides = drawn_joints(rig.by_name)
@@ -173,10 +175,10 @@ end
 
 -- ---------------------------------------------------------------- poses
 
---- The values of each bone in a pose; and the chains, by their first bones.
+--- The values of each bone in a pose; and the chains, by their bones.
 local function read_pose(rig, pose)
   if type(pose) ~= "table" then refuse("pose takes a table, got %s", fields.kind(pose)) end
-  local turns, chains, used, choices = {}, {}, {}, {}
+  local turns, chains, choices = {}, {}, {}
   for set, choice in pairs(rig.switches) do choices[set] = choice end
   for name, value in next, pose do
     if rig.bones[name] then
@@ -196,14 +198,15 @@ local function read_pose(rig, pose)
   table.sort(targets, function(a, b) return tostring(a) < tostring(b) end)
   for _, joint in ipairs(targets) do
     local target = bones.read_reach(rig, joint, pose.reach[joint])
-    local chain = bones.chain_of(rig, joint, target.bones or 2)
-    for _, bone in ipairs(chain) do
-      if used[bone] then
-        refuse("bone '%s' is in two chains that reach: '%s' and '%s'", bone.name, used[bone], joint)
+    local chain = { bones = bones.chain_of(rig, joint, target.bones or 2), target = target,
+                    joint = joint }
+    for _, bone in ipairs(chain.bones) do
+      if chains[bone] then
+        refuse("bone '%s' is in two chains that reach: '%s' and '%s'", bone.name,
+          chains[bone].joint, joint)
       end
-      used[bone] = joint
+      chains[bone] = chain
     end
-    chains[chain[1]] = { bones = chain, target = target, joint = joint }
   end
   return turns, chains, choices
 end
@@ -320,10 +323,17 @@ local function draw(rig, pose, frames, choices)
   return celspan.union(objects)
 end
 
+--- Where the bones are in a pose, its place and its choices. They are kept with the pose, because
+--- most scripts ask for joints of the pose that they draw, and as long as it does not change.
 local function place(rig, pose)
-  local turns, chains, choices = read_pose(rig, pose)
-  local at = place_of(pose)
-  return bones.place(rig, turns, chains, at), at, choices
+  local kept = rig.kept[pose or false]
+  if not kept or getmetatable(pose) or not poses.equal(kept.pose, pose) then
+    local turns, chains, choices = read_pose(rig, pose)
+    kept = { pose = poses.copy(pose), choices = choices, at = poses.copy(place_of(pose)) }
+    kept.frames = bones.place(turns, chains, kept.at)
+    rig.kept[pose] = kept
+  end
+  return kept.frames, kept.at, kept.choices
 end
 
 -- ---------------------------------------------------------------- limbs that come apart
@@ -433,6 +443,14 @@ function methods:joint(pose, name)
   local frames, at = place(self, pose)
   local x, y = bones.joint_in(self, frames, name)
   return x + at[1], y + at[2]
+end
+
+--- A tail, a scarf or a plait that hangs on a joint and follows it.
+---@param settings { joint: string, pose: (fun(time: number): table), length: number, links?: integer, angle?: number|(fun(time: number): number), stiffness?: number, damping?: number, wind?: number[]|(fun(time: number): number, number) } pose: the pose at a time, also before 0; links: how many (6); angle: degrees of the way in which it hangs, clockwise from the right (90: down); stiffness: swings per second of the first link (2); damping: 0.05 to 1 (0.3); wind: {x, y}, where 1 is as strong as its weight
+---@return celspan.puppet.tail
+function methods:tail(settings)
+  fields.self("puppet", Rig, self, "tail")
+  return tail(self, settings)
 end
 
 -- ---------------------------------------------------------------- the sheet

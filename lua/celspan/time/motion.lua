@@ -14,10 +14,9 @@ local chance = require "celspan.chance"
 local core = require "celspan.core"
 local curves = require "celspan.curves"
 local fields = require "celspan.fields"
+local springs = require "celspan.springs"
 
 local motion = {}
-
-local pi, sin = math.pi, math.sin
 
 ---@class celspan.motion.way
 ---@field length number
@@ -172,30 +171,15 @@ local function weighted(values, weights)
   return sum
 end
 
---- The share of its way that a mass on a spring has gone, `time` seconds after its end was moved.
-local function step_response(rate, damping)
-  if damping < 1 then
-    local swing = rate * math.sqrt(1 - damping * damping)
-    return function(time)
-      return 1 - math.exp(-damping * rate * time)
-        * (math.cos(swing * time) + damping * rate / swing * sin(swing * time))
-    end
-  end
-  return function(time) return 1 - math.exp(-rate * time) * (1 + rate * time) end
-end
-
 local FEWEST, PER_SWING = 64, 24 -- samples of the time window
 local LEFT = 1e-3  -- the share of a movement that remains: older movements have less influence
 
 --- response: the share of its way that the follower has gone; window: the length of the time window
 --- in seconds; swings: how many swings it contains.
 local function follow(source, response, window, swings)
-  local weights, total = {}, response(window)
   local count = math.max(FEWEST, math.ceil(swings * PER_SWING))
-  for i = 1, count do
-    weights[i] = (response(window * i / count) - response(window * (i - 1) / count)) / total
-  end
-  return setmetatable({ source = source, weights = weights, window = window }, Follower)
+  return setmetatable({ source = source, weights = springs.weights(response, window, count),
+                        window = window }, Follower)
 end
 
 local function check_source(name, source)
@@ -216,16 +200,9 @@ function motion.spring(source, settings)
   settings = settings or {}
   fields.check("motion: spring", settings, { frequency = "number", damping = "number" })
   local frequency, damping = settings.frequency or 2, settings.damping or 0.3
-  if frequency <= 0 then
-    core.refuse("motion: spring: field 'frequency' must be more than 0, got "
-      .. fields.shown(frequency))
-  end
-  if damping < 0.05 or damping > 1 then
-    core.refuse("motion: spring: field 'damping' must be 0.05 to 1, got " .. fields.shown(damping))
-  end
-  local rate = 2 * pi * frequency
-  local window = -math.log(LEFT) / (rate * damping) * (damping == 1 and 1.4 or 1)
-  return follow(source, step_response(rate, damping), window, window * frequency)
+  springs.check("motion: spring", "frequency", frequency, damping)
+  local window = springs.window(frequency, damping, LEFT)
+  return follow(source, springs.response(frequency, damping), window, window * frequency)
 end
 
 --- A value that follows another value and never overtakes it: after `seconds` it has gone 63 % of

@@ -21,6 +21,35 @@ local function check_share(what, u)
   end
 end
 
+-- ---------------------------------------------------------------- copies
+
+local DEEPEST = 4 -- tables in tables of a pose: reach, a joint, its pole
+
+--- A pose that does not change with the tables of another.
+function poses.copy(pose, depth)
+  depth = depth or DEEPEST
+  if type(pose) ~= "table" or depth == 0 then return pose end
+  local copy = {}
+  for key, value in next, pose do copy[key] = poses.copy(value, depth - 1) end
+  return copy
+end
+
+--- Whether two poses have the same values.
+function poses.equal(p, q, depth)
+  depth = depth or DEEPEST
+  if rawequal(p, q) then return true end
+  if type(p) ~= "table" or type(q) ~= "table" or depth == 0 then return false end
+  for key, value in next, p do
+    if not poses.equal(value, rawget(q, key), depth - 1) then return false end
+  end
+  for key in next, q do
+    if rawget(p, key) == nil then return false end
+  end
+  return true
+end
+
+-- ---------------------------------------------------------------- mixes
+
 --- The keys of two tables.
 local function both(p, q)
   local keys = {}

@@ -152,7 +152,8 @@ static const struct {
     {"grid", "celspan.layout", "grid"},     {"align", "celspan.layout", "align"},
     {"around", "celspan.layout", "around"}, {"letters", "celspan.layout", "letters"},
     {"fit", "celspan.layout", "fit"},       {"count", "celspan.count", "written"},
-    {"morph", "celspan.morph", "between"},  {"brush", "celspan.brush", "line"}};
+    {"morph", "celspan.morph", "between"},  {"brush", "celspan.brush", "line"},
+    {"echo", "celspan.echo", "trail"},      {"timecode", "celspan.count", "timecode"}};
 
 #define WRITTEN_IN_LUA (sizeof written_in_lua / sizeof *written_in_lua)
 

@@ -1,0 +1,121 @@
+--- The rows of a chart as columns: { names =, xs =, series = { { name =, values = }, ... } }.
+--
+--   names    what is written at each row, a list of texts
+--   xs       where each row lies along a line, ascending; nil: rows are evenly apart
+--   values   of a series: a number or false for each row
+--
+-- Rows are tables, such as those of csv.read, or plain numbers.
+local core = require "celspan.core"
+local count = require "celspan.count"
+local fields = require "celspan.fields"
+
+local data = {}
+
+local MOST = 1e12 -- as everywhere in celspan
+
+local function refuse(text, ...) core.refuse("chart: " .. text:format(...)) end
+
+--- The value of a row in a field; without a field, the row itself.
+local function value_of(row, i, field)
+  if field and type(row) ~= "table" then
+    refuse("data[%d] must be a row with the field '%s', got %s", i, field, fields.kind(row))
+  end
+  local value = row
+  if field then value = row[field] end
+  if value == nil then return false end
+  if not fields.is_finite(value) or math.abs(value) > MOST then
+    refuse("data[%d]%s must be a finite number, at most 1e12, got %s%s", i,
+      field and "." .. field or "", fields.shown(value),
+      type(value) == "string" and "; csv.read reads numbers with types = { ... }" or "")
+  end
+  return value
+end
+
+--- The names of the fields that are drawn, or { false } for rows that are numbers.
+local function fields_of(y)
+  if y == nil then return { false } end
+  if type(y) == "string" then return { y } end
+  local names = {}
+  for i = 1, type(y) == "table" and rawlen(y) or 0 do
+    if type(y[i]) ~= "string" then
+      refuse("y[%d] must be the name of a field, got %s", i, fields.kind(y[i]))
+    end
+    names[i] = y[i]
+  end
+  if #names == 0 then
+    refuse("field 'y' must be the name of a field of the rows, or a list of names")
+  end
+  return names
+end
+
+--- A number of the x axis as text: years have no separators.
+function data.written(x, language, decimals)
+  return count.written(x, { language = language, decimals = decimals, group = false })
+end
+
+--- The decimals that a number needs, at most 3.
+function data.decimals(x)
+  for decimals = 0, 2 do
+    local scaled = x * 10 ^ decimals
+    if math.abs(scaled - math.floor(scaled + 0.5)) < 1e-9 * math.max(1, math.abs(scaled)) then
+      return decimals
+    end
+  end
+  return 3
+end
+
+--- The text of each row, and the numbers if all are numbers that ascend.
+local function read_names(rows, x, language)
+  local names, xs, last = {}, {}, -math.huge
+  for i = 1, rawlen(rows) do
+    local value = i
+    if x and type(rows[i]) ~= "table" then
+      refuse("data[%d] must be a row with the field '%s', got %s", i, x, fields.kind(rows[i]))
+    end
+    if x then value = rows[i][x] end
+    if type(value) == "string" then
+      names[i], xs = value, nil
+    elseif fields.is_finite(value) and math.abs(value) <= MOST then
+      names[i] = data.written(value, language, data.decimals(value))
+      if xs and value > last then xs[i], last = value, value else xs = nil end
+    else
+      refuse("data[%d].%s must be a text or a finite number, at most 1e12, got %s", i, x,
+        fields.shown(value))
+    end
+  end
+  return names, x and xs
+end
+
+--- Reads the rows of a chart's settings. most: rows that the kind of chart can show.
+function data.read(given, most)
+  local rows, series = given.data, {}
+  local total = rawlen(rows)
+  if total == 0 then refuse("field 'data' must have at least one row") end
+  if total > most then
+    refuse("a chart of the kind %q shows at most %d rows, got %d", given.kind, most, total)
+  end
+  for k, field in ipairs(fields_of(given.y)) do
+    local values = {}
+    for i = 1, total do values[i] = value_of(rows[i], i, field) end
+    series[k] = { name = field or "", values = values }
+  end
+  local names, xs = read_names(rows, given.x, given.language)
+  return { names = names, xs = xs, series = series, count = total }
+end
+
+--- The least and the greatest value, and whether all are whole numbers; 0, 0 where there are none.
+function data.range(columns)
+  local low, high, is_whole = math.huge, -math.huge, true
+  for _, one in ipairs(columns.series) do
+    for _, value in ipairs(one.values) do
+      if value then
+        low, high = math.min(low, value), math.max(high, value)
+        is_whole = is_whole and value == math.floor(value)
+      end
+    end
+  end
+  if low > high then return 0, 0, true end
+  return low, high, is_whole
+end
+
+return fields.seal("chart_data", data)

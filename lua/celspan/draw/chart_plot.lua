@@ -1,0 +1,233 @@
+--- The plot of a chart with axes: where its rows and values lie, its axes, and the names of its
+--- series.
+--
+--     +------------------------------- box      The plot is what labels leave of the box: the
+--     |  legend                                 numbers of the values at its left, the names of
+--     |  20 |---------------.                   the rows below it, and at its right the names of
+--     |  10 |-----.plot.----| name              lines at their ends.
+--     |   0 |_______________|
+--     |      2000 2010 2020
+local celspan = require "celspan"
+local core = require "celspan.core"
+local count = require "celspan.count"
+local data = require "celspan.chart_data"
+local fields = require "celspan.fields"
+local labels = require "celspan.labels"
+local ticks = require "celspan.ticks"
+
+local plots = {}
+
+local FAINT, FIRM, HAIR = 0.16, 0.6, 0.07 -- of the lines of axes: their fade, their width in ems
+local FEWEST, MOST = 2, 8                 -- numbers of an axis
+local CLOSE = 0.5                         -- lines of values that are closer to each other than to 0
+
+-- ---------------------------------------------------------------- values
+
+--- The least and the greatest number of the axis of values. Bars and areas begin at 0; lines do,
+--- unless their values are far from it.
+local function range_of(chart)
+  local low, high, is_whole = data.range(chart.data)
+  for _, value in ipairs(chart.sums and chart.sums[#chart.sums] or {}) do
+    high = math.max(high, value)
+  end
+  local least = math.min(math.abs(low), math.abs(high))
+  local is_far = chart.kind == "line" and low * high > 0 and low < high
+    and high - low < CLOSE * (least + high - low)
+  if not is_far then low, high = math.min(0, low), math.max(0, high) end
+  return low, high, is_whole
+end
+
+--- The ticks of the values: { list =, texts =, low =, high =, width = }.
+local function values_axis(chart, height)
+  local low, high, is_whole = range_of(chart)
+  local most = math.floor(height / (3 * chart.style.size))
+  local list, decimals, first, last = ticks.between(low, high,
+    math.max(FEWEST, math.min(MOST, most)), is_whole)
+  local axis = { list = list, texts = {}, low = first, high = last, width = 0 }
+  for i, value in ipairs(chart.has_labels and list or {}) do
+    axis.texts[i] = count.written(value, { language = chart.language, decimals = decimals })
+    axis.width = math.max(axis.width, labels.width(axis.texts[i], chart.style))
+  end
+  return axis
+end
+
+-- ---------------------------------------------------------------- the names of series
+
+--- How the series are named: "ends" at the ends of lines and areas, "row" above the plot, or nil.
+local function naming_of(chart)
+  local total, size = #chart.data.series, chart.style.size
+  if not chart.style.font or chart.legend == false or chart.legend == nil and total == 1 then
+    return nil
+  end
+  local has_room = total * 1.25 * size <= chart.box[4] / 2
+  return chart.legend == nil and chart.kind ~= "bar" and has_room and "ends" or "row"
+end
+
+--- The names above the plot, each with its colour, in as many lines as they need, and their height.
+local function name_row(chart)
+  local size, x, y, objects = chart.style.size, 0, 0, {}
+  for k, one in ipairs(chart.data.series) do
+    local width = labels.width(one.name, chart.style) + 3 * size
+    if x > 0 and x + width - 1.4 * size > chart.box[3] then x, y = 0, y + 1.6 * size end
+    local left, top = chart.box[1] + x, chart.box[2] + y
+    objects[#objects + 1] = celspan.rect { left, top + (size - chart.cap) / 2, chart.cap, chart.cap,
+      radius = chart.cap / 4, texture = chart.colour(k) }
+    objects[#objects + 1] = labels.text(one.name, chart.style,
+      { left + chart.cap + size / 2, top + (size + chart.cap) / 2 })
+    x = x + width
+  end
+  return objects, y + 2 * size
+end
+
+--- The last value of a series, and of an area the middle of it.
+local function end_of(chart, k)
+  local values = chart.data.series[k].values
+  local last = #values
+  while last > 1 and not values[last] do last = last - 1 end
+  local value = values[last] or 0
+  return chart.sums and chart.sums[k][last] - value / 2 or value
+end
+
+--- The names at the ends of lines, as near to them as they can be.
+local function name_ends(chart, plot)
+  local order, wanted, objects, size = {}, {}, {}, chart.style.size
+  for k = 1, #chart.data.series do order[k] = { k = k, y = plot.up(end_of(chart, k)) } end
+  table.sort(order, function(a, b) return a.y < b.y or a.y == b.y and a.k < b.k end)
+  for i, one in ipairs(order) do wanted[i] = one.y end
+  local places = labels.spread(wanted, 1.25 * size, plot.y, plot.y + plot.h) or {}
+  for i, y in ipairs(places) do
+    local name = chart.data.series[order[i].k].name
+    objects[i] = labels.text(name, { font = chart.style.font, size = size,
+      texture = chart.colour(order[i].k) }, { plot.x + plot.w + 0.8 * size, y + chart.cap / 2 })
+      :fade(math.max(0, math.min(1, 5 * chart.progress - 4)))
+  end
+  return objects
+end
+
+-- ---------------------------------------------------------------- rows
+
+--- The names of rows that can be written without colliding: { { i, width }, ... }.
+local function thinned(chart, distance)
+  local size, names, kept, widths = chart.style.size, chart.data.names, {}, {}
+  local every = labels.every({ size }, distance, size)
+  for i = 1, #names, every do widths[#widths + 1] = labels.width(names[i], chart.style) end
+  local further = labels.every(widths, distance * every, size)
+  for n = 1, #widths, further do
+    kept[#kept + 1] = { at = 1 + (n - 1) * every, text = names[1 + (n - 1) * every],
+                        width = widths[n] }
+  end
+  return kept
+end
+
+--- The least distance between two rows in a width.
+local function least_distance(chart, width)
+  local xs, least = chart.data.xs, math.huge
+  if chart.kind == "bar" then return width / chart.data.count end
+  if not xs or #xs < 2 then return width / math.max(1, chart.data.count - 1) end
+  for i = 2, #xs do least = math.min(least, xs[i] - xs[i - 1]) end
+  return width * least / (xs[#xs] - xs[1])
+end
+
+--- Round numbers instead of the rows' own, where these are too many: { x, text } each.
+local function round_numbers(chart, width)
+  local xs, size, is_whole, widest = chart.data.xs, chart.style.size, true, 0
+  for _, x in ipairs(xs) do is_whole = is_whole and x == math.floor(x) end
+  for _, x in ipairs { xs[1], xs[#xs] } do
+    widest = math.max(widest, labels.width(data.written(x, chart.language, 1), chart.style))
+  end
+  local most = math.max(FEWEST, math.floor(width / (widest + 2 * size)))
+  local list, decimals = ticks.between(xs[1], xs[#xs], most, is_whole, true)
+  for i, x in ipairs(list) do
+    list[i] = { x = x, text = data.written(x, chart.language, decimals) }
+  end
+  return list
+end
+
+--- What is written below the plot: { { at = row | x = number, text =, width = }, ... }.
+local function rows_axis(chart, width)
+  if not chart.has_labels then return {} end
+  local kept = thinned(chart, least_distance(chart, width))
+  if chart.kind ~= "bar" and chart.data.xs and #kept < chart.data.count then
+    return round_numbers(chart, width)
+  end
+  return kept
+end
+
+-- ---------------------------------------------------------------- the plot
+
+--- The functions that place rows and values.
+local function add_places(plot, chart, axis)
+  local total, xs = chart.data.count, chart.data.xs
+  plot.slot = plot.w / total
+  function plot.up(value)
+    return plot.y + plot.h * (axis.high - value) / (axis.high - axis.low)
+  end
+  function plot.along(x) return plot.x + plot.w * (x - xs[1]) / (xs[#xs] - xs[1]) end
+  function plot.at(i)
+    if chart.kind == "bar" or total == 1 then return plot.x + plot.slot * (i - 0.5) end
+    if xs then return plot.along(xs[i]) end
+    return plot.x + plot.w * (i - 1) / (total - 1)
+  end
+end
+
+--- The room that labels need at the right: of names, and of half of the last row's.
+local function right_of(chart, naming)
+  local size, most = chart.style.size, 0
+  if naming == "ends" then
+    for _, one in ipairs(chart.data.series) do
+      most = math.max(most, labels.width(one.name, chart.style) + size)
+    end
+  elseif chart.has_labels and chart.kind ~= "bar" then
+    most = labels.width(chart.data.names[chart.data.count], chart.style) / 2
+  end
+  return most
+end
+
+--- The plot in a box that labels make smaller.
+local function place(chart, axis, naming, above)
+  local size, box = chart.style.size, chart.box
+  local left = chart.has_labels and axis.width + 0.8 * size or 0
+  local top = above + (chart.values and 1.4 * size or chart.has_labels and size / 2 or 0)
+  local bottom = chart.has_labels and 2 * size or 0
+  local plot = { x = box[1] + left, y = box[2] + top, w = box[3] - left - right_of(chart, naming),
+                 h = box[4] - top - bottom }
+  if plot.w <= 0 or plot.h <= 0 then
+    core.refuse(("chart: a box of %.4g x %.4g has no room beside its labels: make it larger, or "
+      .. "field 'size' smaller"):format(box[3], box[4]))
+  end
+  add_places(plot, chart, axis)
+  return plot
+end
+
+local function add_axes(objects, chart, plot, axis)
+  local size = chart.style.size
+  for i, value in ipairs(axis.list) do
+    local y, thick = plot.up(value), HAIR * size
+    objects[#objects + 1] = celspan.rect { plot.x, y - thick / 2, plot.w, thick,
+      texture = chart.style.texture }:fade(value == 0 and FIRM or FAINT)
+    objects[#objects + 1] = axis.texts[i] and labels.text(axis.texts[i], chart.style,
+      { plot.x - 0.8 * size, y + chart.cap / 2 }, "right")
+  end
+  for _, row in ipairs(rows_axis(chart, plot.w)) do
+    local x = row.at and plot.at(row.at) or plot.along(row.x)
+    objects[#objects + 1] = labels.text(row.text, chart.style,
+      { x, plot.y + plot.h + 0.9 * size + chart.cap }, "centre")
+  end
+end
+
+--- A chart with axes; draw: what makes its marks.
+---@return celspan.object
+function plots.make(chart, draw)
+  local naming, objects, above = naming_of(chart), {}, 0
+  if naming == "row" then objects, above = name_row(chart) end
+  local axis = values_axis(chart, chart.box[4] - above)
+  local plot = place(chart, axis, naming, above)
+  if chart.axes then add_axes(objects, chart, plot, axis) end
+  for _, object in ipairs(draw(chart, plot)) do objects[#objects + 1] = object end
+  if naming == "ends" then
+    for _, object in ipairs(name_ends(chart, plot)) do objects[#objects + 1] = object end
+  end
+  return celspan.union(objects)
+end
+
+return fields.seal("chart_plot", plots)

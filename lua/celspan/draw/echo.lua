@@ -1,0 +1,44 @@
+--- Echoes: an object with its earlier moments, fainter, behind it: celspan.echo.
+--
+--   celspan.echo(function(k) return ball(f.time - k / 12) end, { count = 6, fade = 0.7 })
+--
+--   k = 5   4   3   2   1   0         0 is now, in front and whole; each one behind it is faded once
+--       .   :   o   o   O   O         more.
+local celspan = require "celspan"
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+
+local echo = {}
+
+local MOST = 1000
+
+local function refuse(text, ...) core.refuse("echo: " .. text:format(...)) end
+
+--- An object with earlier ones behind it.
+---@param draw fun(k: integer): celspan.object? The object k steps ago; nil: nothing
+---@param options? { count?: integer, fade?: number } count: how many, with the one of now (5); fade: the share of its paint that each keeps of the one before (0.7)
+---@return celspan.object
+function echo.trail(draw, options)
+  options = options or {}
+  if type(draw) ~= "function" then
+    refuse("the first argument must be a function, got %s", fields.kind(draw))
+  end
+  fields.check("echo", options, { count = "number", fade = "number" })
+  local count, fade, objects = options.count or 5, options.fade or 0.7, {}
+  if count < 1 or count > MOST or count ~= math.floor(count) then
+    refuse("field 'count' must be a whole number from 1 to %d, got %s", MOST, fields.shown(count))
+  end
+  if fade < 0 or fade > 1 then
+    refuse("field 'fade' must be from 0 to 1, got %s", fields.shown(fade))
+  end
+  for k = count // 1 - 1, 0, -1 do
+    local object = draw(k)
+    if object and not fields.is_object(object) then
+      refuse("the function must return an object or nil, got %s for %d", fields.kind(object), k)
+    end
+    if object then objects[#objects + 1] = k > 0 and object:fade(fade ^ k) or object end
+  end
+  return celspan.union(objects)
+end
+
+return fields.seal("echo", echo)
