@@ -1,0 +1,182 @@
+--- Pies: slices clockwise from the top, with gaps of even width, and their names beside them.
+--
+--        .-""-.--. Sun 41%     A name lies on the side of its slice, as near to its height as the
+--       /  \  |   \            others on that side let it. A thin line leads to it.
+--      |    \_|____|-. Rain 34%
+--       \         /
+--  Snow -`-.___.-'
+local celspan = require "celspan"
+local core = require "celspan.core"
+local count = require "celspan.count"
+local ease = require "celspan.ease"
+local fields = require "celspan.fields"
+local labels = require "celspan.labels"
+
+local pies = {}
+
+local pi, sin, cos = math.pi, math.sin, math.cos
+
+local open_ease = ease "inOutCubic"
+local GAP = 0.025                        -- between slices, of the radius
+local STEM, ARM = 0.8, 0.9               -- of the line to a name, in ems: away from the pie, aside
+local LINE, LEADING = 0.07, 1.5          -- its width, and from name to name, in ems
+local LEAST = 1e-9                       -- a slice that is a smaller share is not drawn
+
+local function refuse(text, ...) core.refuse("chart: " .. text:format(...)) end
+
+--- The slices: { name =, k =, from =, to =, share = }, angles clockwise from the top.
+local function slices_of(chart)
+  local values, sum, from, slices = chart.data.series[1].values, 0, 0, {}
+  if #chart.data.series > 1 then
+    refuse("a pie shows one field of the rows, got %d in 'y'", #chart.data.series)
+  end
+  for i, value in ipairs(values) do
+    if value and value < 0 then
+      refuse("a pie has no slice for a value below 0, got %s in row %d", fields.shown(value), i)
+    end
+    sum = sum + (value or 0)
+  end
+  for i, value in ipairs(values) do
+    local share = sum > 0 and (value or 0) / sum or 0
+    if share > LEAST then
+      slices[#slices + 1] = { name = chart.data.names[i], k = i, share = share,
+                              from = 2 * pi * from, to = 2 * pi * (from + share) }
+      from = from + share
+    end
+  end
+  return slices
+end
+
+--- What is written at a slice.
+local function text_of(chart, slice)
+  return ("%s  %s%%"):format(slice.name, count.written(100 * slice.share,
+    { language = chart.language }))
+end
+
+-- ---------------------------------------------------------------- slices
+
+local function point(pie, angle, radius)
+  return pie.x + radius * sin(angle), pie.y - radius * cos(angle)
+end
+
+--- An arc of a circle as path data, in parts of at most a third of it.
+local function arc_data(pie, from, to, radius)
+  local parts, pieces = {}, math.max(1, math.ceil(math.abs(to - from) / (2 * pi / 3)))
+  for i = 1, pieces do
+    local x, y = point(pie, from + (to - from) * i / pieces, radius)
+    parts[i] = ("A%.6g %.6g 0 0 %d %.7g %.7g"):format(radius, radius, to > from and 1 or 0, x, y)
+  end
+  return table.concat(parts)
+end
+
+--- A part of the ring between two angles.
+local function sector(pie, from, to, texture)
+  local inner = pie.radius * pie.hole
+  local x, y = point(pie, from, pie.radius)
+  local inner_x, inner_y = point(pie, to, inner)
+  return celspan.path { texture = texture, d = ("M%.7g %.7g%sL%.7g %.7g%sZ"):format(x, y,
+    arc_data(pie, from, to, pie.radius), inner_x, inner_y,
+    inner > 0 and arc_data(pie, to, from, inner) or "") }
+end
+
+--- The gap at the beginning of a slice, from the middle outwards.
+local function gap_at(pie, angle)
+  local w = GAP * pie.radius
+  return celspan.rect { pie.x - w / 2, pie.y - 1.1 * pie.radius, w, 1.1 * pie.radius }
+    :rotate(math.deg(angle), pie.x, pie.y)
+end
+
+--- The slices as far as they are open, without the gaps between them.
+local function drawn(chart, pie, slices, open)
+  local sectors, parts = {}, {}
+  for _, slice in ipairs(slices) do
+    if slice.from < open then
+      sectors[#sectors + 1] = sector(pie, slice.from, math.min(slice.to, open),
+        chart.colour(slice.k))
+    end
+  end
+  parts[1] = celspan.union(sectors)
+  for _, slice in ipairs(#slices > 1 and slices or {}) do
+    parts[#parts + 1] = gap_at(pie, slice.from)
+  end
+  return celspan.difference(parts)
+end
+
+-- ---------------------------------------------------------------- names
+
+--- The slices whose middle is at the right, or at the left, from the top down.
+local function side_of(slices, is_right)
+  local side = {}
+  for _, slice in ipairs(slices) do
+    slice.middle = (slice.from + slice.to) / 2
+    if (slice.middle <= pi) == is_right then side[#side + 1] = slice end
+  end
+  table.sort(side, function(a, b) return is_right == (a.middle < b.middle) and a.k ~= b.k end)
+  return side
+end
+
+--- The largest slices of a side for which there is room.
+local function largest(side, room)
+  local by_share, kept, list = table.move(side, 1, #side, 1, {}), {}, {}
+  table.sort(by_share, function(a, b) return a.share > b.share or a.share == b.share and a.k < b.k end)
+  for i = 1, math.min(room, #by_share) do kept[by_share[i]] = true end
+  for _, slice in ipairs(side) do
+    if kept[slice] then list[#list + 1] = slice end
+  end
+  return list
+end
+
+--- A name, and the line that leads to it from its slice.
+local function add_name(objects, chart, pie, slice, y, way)
+  local size, texture = chart.style.size, chart.style.texture
+  local x0, y0 = point(pie, slice.middle, pie.radius * 1.03)
+  local x1 = pie.x + way * (pie.radius + STEM * size)
+  local x2 = x1 + way * ARM * size
+  local shown = math.max(0, math.min(1, (pie.open - slice.from) / (slice.to - slice.from)))
+  objects[#objects + 1] = celspan.stroke { points = { { x0, y0 }, { x1, y }, { x2, y } },
+    width = LINE * size, texture = texture }:fade(0.5 * shown)
+  objects[#objects + 1] = labels.text(text_of(chart, slice), chart.style,
+    { x2 + way * 0.4 * size, y + chart.cap / 2 }, way > 0 and "left" or "right"):fade(shown)
+end
+
+local function add_names(objects, chart, pie, slices)
+  local box, gap = chart.box, LEADING * chart.style.size
+  local low, high = box[2] + chart.cap / 2, box[2] + box[4] - chart.cap / 2
+  for way = -1, 1, 2 do
+    local side, wanted = largest(side_of(slices, way > 0), (high - low) // gap + 1), {}
+    for i, slice in ipairs(side) do
+      local _, y = point(pie, slice.middle, pie.radius + STEM * chart.style.size)
+      wanted[i] = y
+    end
+    for i, y in ipairs(labels.spread(wanted, gap, low, high) or {}) do
+      add_name(objects, chart, pie, side[i], y, way)
+    end
+  end
+end
+
+--- The circle: as large as the names on both sides let it.
+local function place(chart, slices, has_names)
+  local box, size, widest = chart.box, chart.style.size, 0
+  for _, slice in ipairs(has_names and slices or {}) do
+    widest = math.max(widest, labels.width(text_of(chart, slice), chart.style))
+  end
+  local aside = has_names and widest + (STEM + ARM + 0.4) * size or 0
+  local radius = math.min(box[4] / 2 - (has_names and size / 2 or 0), box[3] / 2 - aside)
+  if radius <= 0 then
+    refuse("a box of %.4g x %.4g has no room beside its names: make it larger, or field 'size' "
+      .. "smaller", box[3], box[4])
+  end
+  return { x = box[1] + box[3] / 2, y = box[2] + box[4] / 2, radius = radius, hole = chart.hole,
+           open = 2 * pi * open_ease(chart.progress) }
+end
+
+---@return celspan.object
+function pies.make(chart)
+  local slices, has_names = slices_of(chart), chart.style.font ~= nil and chart.legend ~= false
+  local pie = place(chart, slices, has_names)
+  local objects = { drawn(chart, pie, slices, pie.open) }
+  if has_names then add_names(objects, chart, pie, slices) end
+  return celspan.union(objects)
+end
+
+return fields.seal("chart_pie", pies)
