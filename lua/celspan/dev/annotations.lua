@@ -94,6 +94,19 @@ function celspan.brush(options) end
 ---@return string
 function celspan.count(value, options) end
 
+--- The number of a frame as hours, minutes, seconds and frames: "01:00:04:12".
+---@param index integer From 0
+---@param fps number
+---@param options? { drop?: boolean } Of 29.97 and 59.94 frames a second: right by the clock
+---@return string
+function celspan.timecode(index, fps, options) end
+
+--- An object with its earlier moments, fainter, behind it.
+---@param draw fun(k: integer): celspan.object? The object k steps ago; nil: nothing
+---@param options? { count?: integer, fade?: number } Default 5, 0.7
+---@return celspan.object
+function celspan.echo(draw, options) end
+
 --- The bounds of an object with a margin, as a box {x, y, w, h}.
 ---@param object celspan.shape
 ---@param margin? number|number[] On all sides, or {across, down}

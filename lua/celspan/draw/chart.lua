@@ -37,7 +37,7 @@ local function check(given)
   end
   if not most_rows[given.kind] then
     local hint = core.nearest(given.kind, kinds)
-    refuse("field 'kind' must be \"area\", \"bar\", \"line\" or \"pie\", got %q%s", given.kind,
+    refuse('field \'kind\' must be "area", "bar", "line" or "pie", got %q%s', given.kind,
       hint and ("; did you mean %q?"):format(hint) or "")
   end
   fields.numbers("chart", "box[%d]", given.box, 4, "{x, y, w, h}")

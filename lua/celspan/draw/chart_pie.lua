@@ -107,18 +107,20 @@ end
 --- The slices whose middle is at the right, or at the left, from the top down.
 local function side_of(slices, is_right)
   local side = {}
-  for _, slice in ipairs(slices) do
+  for i = 1, #slices do
+    local slice = slices[is_right and i or #slices + 1 - i]
     slice.middle = (slice.from + slice.to) / 2
     if (slice.middle <= pi) == is_right then side[#side + 1] = slice end
   end
-  table.sort(side, function(a, b) return is_right == (a.middle < b.middle) and a.k ~= b.k end)
   return side
 end
 
 --- The largest slices of a side for which there is room.
 local function largest(side, room)
   local by_share, kept, list = table.move(side, 1, #side, 1, {}), {}, {}
-  table.sort(by_share, function(a, b) return a.share > b.share or a.share == b.share and a.k < b.k end)
+  table.sort(by_share, function(a, b)
+    return a.share > b.share or a.share == b.share and a.k < b.k
+  end)
   for i = 1, math.min(room, #by_share) do kept[by_share[i]] = true end
   for _, slice in ipairs(side) do
     if kept[slice] then list[#list + 1] = slice end

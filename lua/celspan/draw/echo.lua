@@ -2,8 +2,8 @@
 --
 --   celspan.echo(function(k) return ball(f.time - k / 12) end, { count = 6, fade = 0.7 })
 --
---   k = 5   4   3   2   1   0         0 is now, in front and whole; each one behind it is faded once
---       .   :   o   o   O   O         more.
+--   k = 5   4   3   2   1   0         0 is now, in front and whole; each one behind it is fainter.
+--       .   :   o   o   O   O
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"

@@ -30,8 +30,8 @@ function labels.every(widths, distance, gap)
 end
 
 --- Places that are `gap` apart and nearest to the wanted ones, which ascend, within low..high; nil
---- if there is no room. What must not overlap moves together: a place less its own share of gaps must
---- not descend, and the nearest such list has the mean of each run that would.
+--- if there is no room. Places less the gaps before them must not descend. The list that is nearest
+--- by squares has the mean of each run that would.
 ---@param wanted number[]
 ---@param gap number
 ---@param low number

@@ -28,8 +28,8 @@ local function times(i, digit, power)
   return i * digit * 10.0 ^ power
 end
 
---- At most `most` round numbers from low to high, and their decimals. The range is made larger until
---- it begins and ends with one, unless `is_tight`.
+--- At most `most` round numbers from low to high, and their decimals. The range is made larger
+--- until it begins and ends with one, unless `is_tight`.
 ---@param low number
 ---@param high number
 ---@param most integer At least 2

@@ -3,8 +3,8 @@
 --   local typewriter = require "celspan.typewriter"
 --   local typed, x, y = typewriter({ "Dear Grandma,", font = "sans.ttf", size = 30 }, f.progress)
 --
--- Letters stay where they are in the whole text, so no word jumps to another line. x, y is where the
--- next letter is set, on the baseline: for a cursor.
+-- Letters stay where they are in the whole text, so no word jumps to another line. x, y is where
+-- the next letter is set, on the baseline: for a cursor.
 local core = require "celspan.core"
 local fields = require "celspan.fields"
 local layout = require "celspan.layout"

@@ -6,8 +6,8 @@
 --             o           points back to where the joint was, by how far such a mass is behind it.
 --              `o--o
 --
--- INVARIANT: the points are a function of the time alone, and every link keeps its length. All links
--- use the same samples of the joint, because to place a puppet is what costs time.
+-- INVARIANT: the points are a function of the time alone, and every link keeps its length. All
+-- links use the same samples of the joint, because placing a puppet is what costs time.
 local core = require "celspan.core"
 local fields = require "celspan.fields"
 local springs = require "celspan.springs"

@@ -41,8 +41,8 @@ function springs.window(frequency, damping, left)
   return -math.log(left) / (2 * pi * frequency * damping) * (damping == 1 and 1.4 or 1)
 end
 
---- The weights of `count` moments: the middles of equal parts of the window, the newest first. Their
---- sum is 1.
+--- The weights of `count` moments: the middles of equal parts of the window, the newest first.
+--- Their sum is 1.
 function springs.weights(response, window, count)
   local weights, total = {}, response(window)
   for i = 1, count do
