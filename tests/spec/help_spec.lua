@@ -43,7 +43,7 @@ local expected = {
   ["depth of field"] = 'docs/guide-filters.md, "Defocus"', ["retime"] = "lua cut.retime",
   ["slow motion"] = "lua cut.retime", ["speed ramp"] = "speed_ramp",
   ["time remap"] = "lua cut.retime", ["camera shake"] = "camera_shake",
-  ["light rays"] = "stained_glass", ["film grain"] = "old_film", ["grain"] = "paper_texture",
+  ["light rays"] = "light_rays", ["film grain"] = "old_film", ["grain"] = "paper_texture",
   ["vignette"] = "soft_vignette", ["chroma key"] = "green_screen",
   ["greenscreen"] = "green_screen", ["lut"] = 'docs/lua.md, "Grades"',
   ["color grading"] = 'docs/lua.md, "Grades"', ["key"] = "lua keys",
@@ -52,13 +52,18 @@ local expected = {
   ["speech bubble"] = "speech_bubble", ["sprite sheet"] = "sprite_sheet",
   ["rotoscope"] = "rotoscope", ["typewriter"] = "typewriter", ["font"] = "many_scripts",
   ["emoji"] = 'docs/guide.md, "Text"', ["ken burns"] = 'docs/guide.md, "Viewport and camera"',
-  ["glitch"] = "old_film", ["crop"] = 'docs/guide.md, "Viewport and camera"',
+  ["glitch"] = "glitch_title", ["crop"] = 'docs/guide.md, "Viewport and camera"',
   ["fire"] = "lua particles", ["smoke"] = "lua particles", ["progress bar"] = "rolling_counter",
   ["transition"] = 'docs/guide-film.md, "Transitions"',
   ["onion skin"] = 'docs/command-line.md, "Onion skin"',
   ["psd"] = 'docs/guide.md, "Layered paintings"', ["slurm"] = 'docs/farm.md, "Slurm"',
   ["text on a path"] = "text_on_path", ["shadwo"] = "cast_shadow",
   ["parralax"] = 'docs/guide.md, "Parallax"', ["xsheet"] = 'docs/guide.md, "Exposure sheets"',
+}
+
+--- The words of compositors and motion designers for what celspan has or nearly has.
+local designers = {
+  ["trim path"] = "handwriting", ["repeater"] = "lua celspan.pattern", ["offset path"] = "lua placed:outline",
 }
 
 describe("the search of help", function()
