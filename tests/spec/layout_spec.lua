@@ -1,10 +1,13 @@
--- Objects placed by their bounds, texts letter by letter, and colours by how they look.
+-- Objects placed by their bounds or with their earlier moments, texts letter by letter, numbers and
+-- frames as texts, and colours by how they look.
 local celspan = require "celspan"
 local colour = require "celspan.colour"
 local present = require "tests.support.present"
 local raised = require "tests.support.raised"
+local typewriter = require "celspan.typewriter"
 
 local with_art = present.art and it or pending
+local FONT = "../../scripts/type/block.ttf" -- beside this file
 
 local function rect(x, y, w, h) return celspan.rect { x, y, w, h } end
 
@@ -120,12 +123,11 @@ describe("count", function()
 end)
 
 describe("letters", function()
-  local font = "../../scripts/type/block.ttf" -- beside this file
 
   with_art("are changed one by one, by words and by lines", function()
     local function list(by)
       local texts = {}
-      celspan.letters({ "He is\nin", font = font, size = 100 }, function(letter, i, n)
+      celspan.letters({ "He is\nin", font = FONT, size = 100 }, function(letter, i, n)
         texts[#texts + 1] = ("%d/%d %s %d"):format(i, n, letter.text, letter.line)
         return letter.object
       end, by and { by = by })
@@ -137,7 +139,7 @@ describe("letters", function()
   end)
 
   with_art("that are not changed are the text, and nil draws nothing", function()
-    local fields = { "He is", font = font, size = 100 }
+    local fields = { "He is", font = FONT, size = 100 }
     local text = celspan.text(fields)
     local same = celspan.letters(fields, function(letter) return letter.object end)
     assert.are.same(bounds(text), bounds(same))
@@ -155,7 +157,7 @@ describe("letters", function()
   end
 
   with_art("run along a path, each with its middle on the line", function()
-    local text = { "HH", font = font, size = 100, at = { 40, 7 } }
+    local text = { "HH", font = FONT, size = 100, at = { 40, 7 } }
     local glyphs = celspan.glyphs(text)
     local straight = places(text, { along = "M10 20 H1010", start = 0.5 })
     for i, glyph in ipairs(glyphs) do
@@ -172,7 +174,7 @@ describe("letters", function()
   end)
 
   with_art("leave an open path at its ends, and go round a closed one", function()
-    local text = { "HHHH", font = font, size = 100 }
+    local text = { "HHHH", font = FONT, size = 100 }
     local circle = "M0 0 A50 50 0 0 1 100 0 A50 50 0 0 1 0 0"
     assert.equal(0, #places(text, { along = "M0 0 H10" }))
     assert.is_true(#places(text, { along = circle, start = 0.5 }) < 4)
@@ -184,7 +186,7 @@ describe("letters", function()
   end)
 
   with_art("refuse what is no function or no unit", function()
-    local fields = { "He is", font = font }
+    local fields = { "He is", font = FONT }
     raised.each {
       ["letters: the second argument must be a function, got string"] = function()
         celspan.letters(fields, "word")
@@ -257,5 +259,94 @@ describe("colour", function()
         colour.palette { day = { sky = "#fff" }, night = { sky = "#000" } }:at "nigth"
       end,
     }
+  end)
+end)
+
+describe("an echo", function()
+  it("has the object of now in front, and those before it fainter behind", function()
+    local asked = {}
+    local trail = celspan.echo(function(k)
+      asked[#asked + 1] = k
+      return rect(10 * k, 0, 9, 9)
+    end, { count = 3, fade = 0.5 })
+    assert.same({ 2, 1, 0 }, asked)
+    assert.same({ 0, 0, 29, 9 }, bounds(trail))
+    local function alpha_at(x)
+      local _, _, _, alpha = celspan.probe(celspan.rostrum { celspan.cel { trail } }, x, 5,
+        { film = { 30, 10 } })
+      return alpha
+    end
+    assert.same({ 1, 0.5, 0.25 }, { alpha_at(5), alpha_at(15), alpha_at(25) })
+    assert.is_nil(celspan.echo(function() end):bounds())
+  end)
+
+  it("refuses what has no echo", function()
+    raised.each {
+      ["echo: the first argument must be a function, got nil"] = function() celspan.echo() end,
+      ["echo: the function must return an object or nil, got number for 4"] = function()
+        celspan.echo(function(k) return k end)
+      end,
+      ["echo: field 'count' must be a whole number from 1 to 1000, got 0"] = function()
+        celspan.echo(print, { count = 0 })
+      end,
+      ["echo: field 'fade' must be from 0 to 1, got 2"] = function()
+        celspan.echo(print, { fade = 2 })
+      end,
+    }
+  end)
+end)
+
+describe("a timecode", function()
+  it("counts hours, minutes, seconds and frames", function()
+    assert.equal("00:00:00:00", celspan.timecode(0, 24))
+    assert.equal("01:02:03:04", celspan.timecode(((62 * 60) + 3) * 25 + 4, 25))
+    assert.equal("00:00:01:00", celspan.timecode(24, 23.976))
+    assert.equal("100:00:00:00", celspan.timecode(360000 * 24, 24))
+  end)
+
+  it("leaves out numbers so that it is right by the clock at 29.97 and 59.94", function()
+    local cases = { [0] = "00:00:00;00", [1799] = "00:00:59;29", [1800] = "00:01:00;02",
+                    [17981] = "00:09:59;29", [17982] = "00:10:00;00", [19781] = "00:10:59;29",
+                    [19782] = "00:11:00;02", [107892] = "01:00:00;00" }
+    for index, written in pairs(cases) do
+      assert.equal(written, celspan.timecode(index, 30000 / 1001, { drop = true }))
+    end
+    assert.equal("00:01:00;04", celspan.timecode(3600, 60000 / 1001, { drop = true }))
+  end)
+
+  it("refuses what is no frame, and dropping at other rates", function()
+    raised.each {
+      ["timecode: the first argument, a frame, must be a whole number from 0 on, got -1"] =
+        function() celspan.timecode(-1, 24) end,
+      ["timecode: the second argument must be frames per second, 1 to 1000, got nil"] =
+        function() celspan.timecode(1) end,
+      ["timecode: drop is for 29.97 and 59.94 frames a second, got 25"] = function()
+        celspan.timecode(1, 25, { drop = true })
+      end,
+    }
+  end)
+end)
+
+describe("a typewriter", function()
+  local words = { "He is.\nOh", font = FONT, size = 100 }
+
+  with_art("types letters where they are in the whole text, and tells the next place", function()
+    local object, x, y = typewriter(words, 0)
+    assert.is_nil(object:bounds())
+    assert.same({ 0, 0 }, { x, y })
+    local first = celspan.glyphs(words)[1]
+    object, x, y = typewriter(words, 1 / 7)
+    assert.same(bounds(first.object), bounds(object))
+    assert.same({ first.advance, 0 }, { x, y })
+    assert.same(bounds(celspan.text(words)), bounds((typewriter(words, 1))))
+    _, _, y = typewriter(words, 1)
+    assert.equal(120, y)
+    assert.same(bounds((typewriter(words, 2 / 7))),
+      bounds((typewriter(words, 0.34, { by = "word" }))))
+  end)
+
+  it("refuses what is no share", function()
+    raised.each { ["typewriter: the second argument must be a finite number, 0 to 1, got nil"] =
+      function() typewriter(words) end }
   end)
 end)

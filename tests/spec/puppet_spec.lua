@@ -198,6 +198,40 @@ describe("a puppet", function()
     near(80, 65, x, y)
   end)
 
+  with_art("notices when a pose is changed after it was asked for a joint", function()
+    local rig, pose = rig_of(), { thigh = -90, reach = {} }
+    near(70, 40, rig:joint(pose, "knee"))
+    pose.thigh = 0
+    near(50, 60, rig:joint(pose, "knee"))
+    pose.thigh, pose.reach.ankle = nil, { 65, 60 }
+    near(65, 60, rig:joint(pose, "ankle"))
+    pose.reach.ankle[2] = 55
+    near(65, 55, rig:joint(pose, "ankle"))
+    pose.at = { 3, 4 }
+    near(53, 44, rig:joint(pose, "hip"))
+    pose.at[1] = 7
+    near(57, 44, rig:joint(pose, "hip"))
+  end)
+
+  with_art("places a bone once in a pose, and only for a joint that hangs on it", function()
+    local rig = rig_of { joints = { hand = { 80, 40 } }, bones = {
+      { "thigh", from = "hip", to = "knee" }, { "shin", from = "knee", to = "ankle" },
+      { "arm", from = "hip", to = "hand", parts = {} } } }
+    local solve, calls = reach.solve, 0
+    reach.solve = function(chain)
+      calls = calls + 1
+      return solve(chain)
+    end
+    local pose = { arm = 90, reach = { ankle = { 65, 60 } } }
+    local x, y = rig:joint(pose, "hand")
+    local before = calls
+    rig:joint(pose, "ankle")
+    rig:pose(pose)
+    reach.solve = solve
+    near(50, 70, x, y)
+    assert.same({ 0, 1 }, { before, calls })
+  end)
+
   with_art("stretches a bone, and moves what hangs on it without changing its shape", function()
     local rig = rig_of()
     local object = rig:pose { thigh = { stretch = 1.5 } }
@@ -458,6 +492,88 @@ describe("poses", function()
       near(select(1, rig:joint(q, "ankle")), select(2, rig:joint(q, "ankle")),
         rig:joint(rig.mix(p, q, 1), "ankle"))
     end
+  end)
+end)
+
+describe("a tail", function()
+  local function still() return {} end
+
+  --- A tail on the knee, at 50, 60.
+  local function tail_of(changes)
+    local given = { joint = "knee", pose = still, length = 60 }
+    for name, value in pairs(changes or {}) do given[name] = value end
+    return rig_of():tail(given)
+  end
+
+  local function tip_of(tail, time)
+    local points = tail:points(time)
+    return table.unpack(points[#points])
+  end
+
+  with_art("hangs down, or where its angle and the wind leave it", function()
+    local points = tail_of():points(3)
+    assert.equal(7, #points)
+    for k, point in ipairs(points) do near(50, 50 + 10 * k, point[1], point[2]) end
+    near(-10, 60, tip_of(tail_of { angle = 180 }, 0))
+    near(50, 0, tip_of(tail_of { angle = function() return -90 end, links = 1 }, 0))
+    local side = 60 * math.sqrt(0.5)
+    near(50 + side, 60 + side, tip_of(tail_of { wind = { 1, 0 } }, 0))
+    near(50 - side, 60 + side, tip_of(tail_of { wind = function() return -1, 0 end }, 0))
+  end)
+
+  with_art("has links that keep their length, and is a function of the time alone", function()
+    local random = prng.new(11)
+    local function swaying(time)
+      return { thigh = 60 * math.sin(5 * time), at = { 90 * time, 0 } }
+    end
+    local tail = tail_of { pose = swaying, links = 9, wind = { -0.3, 0 } }
+    for _ = 1, 20 do
+      local time = random:between(-2, 5)
+      local points = tail:points(time)
+      near(points[1][1], points[1][2], rig_of():joint(swaying(time), "knee"))
+      for k = 2, #points do
+        local dx, dy = points[k][1] - points[k - 1][1], points[k][2] - points[k - 1][2]
+        assert.is_true(math.abs(math.sqrt(dx * dx + dy * dy) - 60 / 9) < 1e-9)
+      end
+      assert.same(points, tail:points(time))
+    end
+  end)
+
+  with_art("streams behind a joint that moves, swings on, and comes to rest", function()
+    local tail = tail_of { pose = function(time)
+      return { at = { 300 * math.min(0, time), 0 } }
+    end }
+    assert.is_true(tip_of(tail, -1) < 50 - 300 - 20)
+    local farthest = 0
+    for i = 0, 24 do farthest = math.max(farthest, (tip_of(tail, i / 24))) end
+    assert.is_true(farthest > 60, farthest)
+    near(50, 120, tip_of(tail, 9))
+  end)
+
+  with_art("refuses what no tail has", function()
+    raised.each {
+      ["puppet: tail: needs the field 'joint'"] = function()
+        rig_of():tail { pose = still, length = 9 }
+      end,
+      ["puppet: tail: needs the field 'pose'"] = function()
+        rig_of():tail { joint = "knee", length = 9 }
+      end,
+      ["there is no joint 'kne'; did you mean 'knee'?"] = function()
+        tail_of { joint = "kne" }:points(0)
+      end,
+      ["field 'links' must be a whole number from 1 to 100, got 0"] = function()
+        tail_of { links = 0 }
+      end,
+      ["field 'length' must be more than 0, got -1"] = function() tail_of { length = -1 } end,
+      ["field 'damping' must be 0.05 to 1, got 0"] = function() tail_of { damping = 0 } end,
+      ["field 'stiffness' must be more than 0, got 0"] = function()
+        tail_of { stiffness = 0 }
+      end,
+      ["field 'angle' must be degrees"] = function() tail_of { angle = "down" } end,
+      ["field 'wind' must be {x, y}, or a function of the time that returns x, y, got 1, nil"] =
+        function() tail_of { wind = function() return 1 end }:points(0) end,
+      ["points takes a time, a finite number, got nan"] = function() tail_of():points(0 / 0) end,
+    }
   end)
 end)
 
