@@ -895,6 +895,7 @@ function rostrum:with(changes) end
 ---@field fps number
 ---@field width integer
 ---@field height integer
+---@field size integer[] {width, height}
 ---@field progress number 0 at the first frame, 1 at the last
 local frame = {}
 

@@ -136,6 +136,7 @@ describe("a chart", function()
                     a = random:between(0, 90), b = random:between(0, 90), c = random:between(0, 9) }
       end
       local kind = random:pick(kinds)
+      if kind == "bar" then rows[1].a = -20 end
       local object = chart { kind = kind, data = rows, x = "name", box = box, font = FONT, size = 8,
         y = (kind == "pie" or random:once(2)) and "a" or { "a", "b", "c" }, values = true }
       local texts = {}

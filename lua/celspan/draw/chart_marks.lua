@@ -26,12 +26,17 @@ local function bar_data(x, width, base, top, radius)
     top + back, x, top, x + r, top, x + width - r, x + width, top, x + width, top + back, base)
 end
 
+--- How many series there are, and how far apart their bars are in the slot of a row.
+local function pitch_of(chart, plot)
+  local total = #chart.data.series
+  return total, plot.slot * (total == 1 and ALONE or TOGETHER) / total
+end
+
 --- Where the bar of a series begins in the slot of a row, and its width.
 local function bar_place(chart, plot, i, k)
-  local total = #chart.data.series
-  local width = plot.slot * (total == 1 and ALONE or TOGETHER) / total
-  local spare = total == 1 and 0 or SPARE * width
-  return plot.at(i) + width * (k - 1 - total / 2) + spare / 2, width - spare
+  local total, pitch = pitch_of(chart, plot)
+  local spare = total == 1 and 0 or SPARE * pitch
+  return plot.at(i) + pitch * (k - 1 - total / 2) + spare / 2, pitch - spare
 end
 
 --- The share of its height that the bar of a row has.
@@ -67,7 +72,8 @@ local function written(chart, plot)
       widths[#widths + 1] = labels.width(text(value or 0), chart.style)
     end
   end
-  local distance = plot.slot / #chart.data.series
+  local total, pitch = pitch_of(chart, plot)
+  local distance = total == 1 and plot.slot or pitch
   return labels.every(widths, distance, chart.style.size / 4) == 1 and text or nil
 end
 

@@ -143,7 +143,7 @@ end
 
 local function add_names(objects, chart, pie, slices)
   local box, gap = chart.box, LEADING * chart.style.size
-  local low, high = box[2] + chart.cap / 2, box[2] + box[4] - chart.cap / 2
+  local low, high = box[2] + chart.style.size / 2, box[2] + box[4] - chart.style.size / 2
   for way = -1, 1, 2 do
     local side, wanted = largest(side_of(slices, way > 0), (high - low) // gap + 1), {}
     for i, slice in ipairs(side) do

@@ -170,27 +170,31 @@ local function add_places(plot, chart, axis)
   end
 end
 
---- The room that labels need at the right: of names, and of half of the last row's.
-local function right_of(chart, naming)
-  local size, most = chart.style.size, 0
-  if naming == "ends" then
-    for _, one in ipairs(chart.data.series) do
-      most = math.max(most, labels.width(one.name, chart.style) + size)
-    end
-  elseif chart.has_labels and chart.kind ~= "bar" then
-    most = labels.width(chart.data.names[chart.data.count], chart.style) / 2
-  end
-  return most
+--- How far the name of a row may stick out of the plot, at most.
+local function beyond(chart, i)
+  if not chart.has_labels then return 0 end
+  local slot = chart.kind == "bar" and chart.box[3] / chart.data.count or 0
+  return math.max(0, labels.width(chart.data.names[i], chart.style) / 2 - slot / 4)
 end
 
---- The plot in a box that labels make smaller.
+--- The room that labels need at the left and at the right.
+local function sides_of(chart, axis, naming)
+  local size, right = chart.style.size, beyond(chart, chart.data.count)
+  for _, one in ipairs(naming == "ends" and chart.data.series or {}) do
+    right = math.max(right, labels.width(one.name, chart.style) + size)
+  end
+  return math.max(beyond(chart, 1), chart.has_labels and axis.width + 0.8 * size or 0), right
+end
+
+--- The plot in a box that labels make smaller. plot.below: the room for values of bars below 0.
 local function place(chart, axis, naming, above)
   local size, box = chart.style.size, chart.box
-  local left = chart.has_labels and axis.width + 0.8 * size or 0
+  local left, right = sides_of(chart, axis, naming)
   local top = above + (chart.values and 1.4 * size or chart.has_labels and size / 2 or 0)
-  local bottom = chart.has_labels and 2 * size or 0
-  local plot = { x = box[1] + left, y = box[2] + top, w = box[3] - left - right_of(chart, naming),
-                 h = box[4] - top - bottom }
+  local below = chart.values and axis.low < 0 and 1.4 * size or 0
+  local bottom = below + (chart.has_labels and 2 * size or 0)
+  local plot = { x = box[1] + left, y = box[2] + top, w = box[3] - left - right,
+                 h = box[4] - top - bottom, below = below }
   if plot.w <= 0 or plot.h <= 0 then
     core.refuse(("chart: a box of %.4g x %.4g has no room beside its labels: make it larger, or "
       .. "field 'size' smaller"):format(box[3], box[4]))
@@ -211,7 +215,7 @@ local function add_axes(objects, chart, plot, axis)
   for _, row in ipairs(rows_axis(chart, plot.w)) do
     local x = row.at and plot.at(row.at) or plot.along(row.x)
     objects[#objects + 1] = labels.text(row.text, chart.style,
-      { x, plot.y + plot.h + 0.9 * size + chart.cap }, "centre")
+      { x, plot.y + plot.h + plot.below + 0.9 * size + chart.cap }, "centre")
   end
 end
 

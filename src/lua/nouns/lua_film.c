@@ -232,6 +232,7 @@ static const cs_field frame_fields[] = {
     {"fps", ALWAYS("number")},
     {"width", ALWAYS("integer")},
     {"height", ALWAYS("integer")},
+    {"size", ALWAYS("integer[]"), .about = "{width, height}"},
     {"progress", ALWAYS("number"), .about = "0 at the first frame, 1 at the last"},
     {0}};
 const cs_noun cs_noun_frame = {.name = "frame",
@@ -286,7 +287,13 @@ static void push_frame(lua_State *L, const cs_film_info *film, int64_t number) {
   int64_t index = number - film->first;
   cs_userdata *value = cs_userdata_push(L, &cs_noun_frame);
   *(uint64_t *)cs_userdata_own(value) = seed_of(film, number);
-  lua_createtable(L, 0, 9);
+  lua_createtable(L, 0, 10);
+  lua_createtable(L, 2, 0);
+  lua_pushinteger(L, film->width);
+  lua_rawseti(L, -2, 1);
+  lua_pushinteger(L, film->height);
+  lua_rawseti(L, -2, 2);
+  lua_setfield(L, -2, "size");
   cs_put_integer(L, "number", number);
   cs_put_integer(L, "index", index);
   cs_put_integer(L, "count", film->count);
