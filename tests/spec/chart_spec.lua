@@ -86,7 +86,7 @@ describe("a chart", function()
   end)
 
   it("grows from nothing to all with its progress", function()
-    for _, kind in ipairs { "bar", "pie" } do
+    for _, kind in ipairs { "bar", "line", "area", "pie" } do
       assert.is_nil(plain(kind, { 1, 2, 4 }, { progress = 0 }):bounds(), kind)
     end
     local data, last = { 3, 5, 4, 6 }, 0

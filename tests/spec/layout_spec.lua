@@ -330,7 +330,7 @@ end)
 describe("a typewriter", function()
   local words = { "He is.\nOh", font = FONT, size = 100 }
 
-  with_art("types letters where they are in the whole text, and tells the next place", function()
+  with_art("types letters where they are in the whole text, and returns the next place", function()
     local object, x, y = typewriter(words, 0)
     assert.is_nil(object:bounds())
     assert.same({ 0, 0 }, { x, y })

@@ -22,7 +22,7 @@ local ALONE, TOGETHER, SPARE = 0.66, 0.8, 0.06 -- shares of the slot; of a bar, 
 local function bar_data(x, width, base, top, radius)
   local r = math.min(radius, width / 2, math.abs(top - base))
   local back = top < base and r or -r
-  return ("M%.5g %.5gV%.5gQ%.5g %.5g %.5g %.5gH%.5gQ%.5g %.5g %.5g %.5gV%.5gZ"):format(x, base,
+  return ("M%.7g %.7gV%.7gQ%.7g %.7g %.7g %.7gH%.7gQ%.7g %.7g %.7g %.7gV%.7gZ"):format(x, base,
     top + back, x, top, x + r, top, x + width - r, x + width, top, x + width, top + back, base)
 end
 
@@ -138,7 +138,9 @@ local function line_data(run, is_low)
 end
 
 --- The x up to which lines are drawn.
-local function reached_of(chart, plot) return plot.x + plot.w * line_ease(chart.progress) end
+local function reached_of(chart, plot)
+  return chart.progress > 0 and plot.x + plot.w * line_ease(chart.progress) or -math.huge
+end
 
 --- A line with round joins, and a dot at its end. A run of one point is a dot.
 local function add_line(objects, chart, runs, k)

@@ -2,7 +2,7 @@
 --
 --      wanted           placed          Along a line each label is as near to its place as it can
 --       A                A              be while the ones beside it have room; labels that touch
---       B  C             B              share what they are moved by.
+--       B  C             B              are moved by as little as possible.
 --                        C
 local celspan = require "celspan"
 local fields = require "celspan.fields"
