@@ -156,6 +156,12 @@ describe("a chart", function()
     end
   end)
 
+  with_art("writes values as its format does", function()
+    local bars = chart { kind = "bar", data = { 3 }, box = { 0, 0, 200, 100 }, font = FONT,
+      values = true, axes = false, format = function(value) return ("%g t"):format(value) end }
+    assert.is_truthy(tostring(bars):find("3 t", 1, true) or tostring(bars[2]):find("3 t", 1, true))
+  end)
+
   it("shows one row, equal values and long tables", function()
     for _, kind in ipairs { "bar", "line", "area", "pie" } do
       assert.is_truthy(plain(kind, { 7 }):bounds() or kind == "area", kind)

@@ -7,6 +7,7 @@
 --
 -- The box has the labels inside it. They are as many as have room, so none covers another.
 local core = require "celspan.core"
+local count = require "celspan.count"
 local data = require "celspan.chart_data"
 local fields = require "celspan.fields"
 local labels = require "celspan.labels"
@@ -28,7 +29,7 @@ local most_rows = { area = 1000000, bar = 1000, line = 1000000, pie = 100 }
 local known = { kind = "string", data = "table", x = "string", y = "any", box = "table",
                 axes = "boolean", legend = "boolean", values = "boolean", hole = "number",
                 colours = "table", ink = "any", font = "any", size = "number",
-                language = "string", progress = "number" }
+                language = "string", format = "function", progress = "number" }
 
 local function check(given)
   fields.check("chart", given, known)
@@ -73,6 +74,20 @@ local function sums_of(columns)
   return sums
 end
 
+--- How a value is written: by the script's function, or as a number of the language.
+local function writer(given)
+  return function(value, decimals)
+    if not given.format then
+      return count.written(value, { language = given.language, decimals = decimals })
+    end
+    local text = given.format(value)
+    if type(text) ~= "string" then
+      refuse("field 'format' must return a string, got %s for %.14g", fields.kind(text), value)
+    end
+    return text
+  end
+end
+
 --- The settings with their defaults. cap: the height of capitals.
 local function read(given)
   local colours, box = given.colours or COLOURS, given.box
@@ -83,8 +98,8 @@ local function read(given)
   return {
     kind = given.kind, data = columns, box = box, axes = axes, legend = given.legend,
     values = given.values and given.font ~= nil, hole = given.hole or 0, style = style,
-    has_labels = axes and given.font ~= nil, language = given.language or "en",
-    progress = math.max(0, math.min(1, given.progress or 1)),
+    has_labels = axes and given.font ~= nil, language = given.language,
+    written = writer(given), progress = math.max(0, math.min(1, given.progress or 1)),
     sums = given.kind == "area" and sums_of(columns) or nil,
     cap = given.font and labels.text("H", style, { 0, 0 }):metrics().cap_height or 0,
     colour = function(k) return colours[(k - 1) % #colours + 1] end,
@@ -114,6 +129,7 @@ end
 ---@field values? boolean The values at bars; default false
 ---@field hole? number Of a pie: a share of its radius
 ---@field language? string Of the numbers, as for celspan.count
+---@field format? fun(value: number): string How values are written
 ---@field progress? number 0 to 1 (1)
 
 ---@class celspan.chart

@@ -3,7 +3,6 @@
 -- A plot has a place for its rows and values: plot.x, y, w, h, the rectangle within the axes; slot,
 -- the room of a row of bars; at(i), the x of a row; up(value), the y of a value.
 local celspan = require "celspan"
-local count = require "celspan.count"
 local data = require "celspan.chart_data"
 local ease = require "celspan.ease"
 local fields = require "celspan.fields"
@@ -64,9 +63,7 @@ local function written(chart, plot)
       decimals = math.max(decimals, value and data.decimals(value) or 0)
     end
   end
-  local function text(value)
-    return count.written(value, { language = chart.language, decimals = decimals })
-  end
+  local function text(value) return chart.written(value, decimals) end
   for _, one in ipairs(chart.data.series) do
     for _, value in ipairs(one.values) do
       widths[#widths + 1] = labels.width(text(value or 0), chart.style)

@@ -9,7 +9,6 @@
 --     |      2000 2010 2020
 local celspan = require "celspan"
 local core = require "celspan.core"
-local count = require "celspan.count"
 local data = require "celspan.chart_data"
 local fields = require "celspan.fields"
 local labels = require "celspan.labels"
@@ -45,7 +44,7 @@ local function values_axis(chart, height)
     math.max(FEWEST, math.min(MOST, most)), is_whole)
   local axis = { list = list, texts = {}, low = first, high = last, width = 0 }
   for i, value in ipairs(chart.has_labels and list or {}) do
-    axis.texts[i] = count.written(value, { language = chart.language, decimals = decimals })
+    axis.texts[i] = chart.written(value, decimals)
     axis.width = math.max(axis.width, labels.width(axis.texts[i], chart.style))
   end
   return axis
