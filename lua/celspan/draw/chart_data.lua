@@ -1,6 +1,6 @@
---- The rows of a chart as columns: { names =, xs =, series = { { name =, values = }, ... } }.
+--- The rows of a chart as columns: { name =, xs =, series = { { name =, values = }, ... } }.
 --
---   names    what is written at each row, a list of texts
+--   name     name(i) is what is written at row i
 --   xs       where each row lies along a line, ascending; nil: rows are evenly apart
 --   values   of a series: a number or false for each row
 --
@@ -64,8 +64,8 @@ function data.decimals(x)
   return 3
 end
 
---- The text of each row, and the numbers if all are numbers that ascend.
-local function read_names(rows, x, language)
+--- The text or number that names each row, and the numbers if all are numbers that ascend.
+local function read_names(rows, x)
   local names, xs, last = {}, {}, -math.huge
   for i = 1, rawlen(rows) do
     local value = i
@@ -73,10 +73,10 @@ local function read_names(rows, x, language)
       refuse("data[%d] must be a row with the field '%s', got %s", i, x, fields.kind(rows[i]))
     end
     if x then value = rows[i][x] end
+    names[i] = value
     if type(value) == "string" then
-      names[i], xs = value, nil
+      xs = nil
     elseif fields.is_finite(value) and math.abs(value) <= MOST then
-      names[i] = data.written(value, language, data.decimals(value))
       if xs and value > last then xs[i], last = value, value else xs = nil end
     else
       refuse("data[%d].%s must be a text or a finite number, at most 1e12, got %s", i, x,
@@ -99,8 +99,12 @@ function data.read(given, most)
     for i = 1, total do values[i] = value_of(rows[i], i, field) end
     series[k] = { name = field or "", values = values }
   end
-  local names, xs = read_names(rows, given.x, given.language)
-  return { names = names, xs = xs, series = series, count = total }
+  local names, xs = read_names(rows, given.x)
+  local function name(i)
+    if type(names[i]) == "string" then return names[i] end
+    return data.written(names[i], given.language, data.decimals(names[i]))
+  end
+  return { name = name, xs = xs, series = series, count = total }
 end
 
 --- The least and the greatest value, and whether all are whole numbers; 0, 0 where there are none.

@@ -39,7 +39,7 @@ local function slices_of(chart)
   for i, value in ipairs(values) do
     local share = sum > 0 and (value or 0) / sum or 0
     if share > LEAST then
-      slices[#slices + 1] = { name = chart.data.names[i], k = i, share = share,
+      slices[#slices + 1] = { name = chart.data.name(i), k = i, share = share,
                               from = 2 * pi * from, to = 2 * pi * (from + share) }
       from = from + share
     end

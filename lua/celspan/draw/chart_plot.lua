@@ -105,16 +105,16 @@ end
 
 -- ---------------------------------------------------------------- rows
 
---- The names of rows that can be written without colliding: { { i, width }, ... }.
+--- The names of rows that can be written without colliding: { at = row, text =, width = } each.
 local function thinned(chart, distance)
-  local size, names, kept, widths = chart.style.size, chart.data.names, {}, {}
+  local size, all, kept, widths = chart.style.size, {}, {}, {}
   local every = labels.every({ size }, distance, size)
-  for i = 1, #names, every do widths[#widths + 1] = labels.width(names[i], chart.style) end
-  local further = labels.every(widths, distance * every, size)
-  for n = 1, #widths, further do
-    kept[#kept + 1] = { at = 1 + (n - 1) * every, text = names[1 + (n - 1) * every],
-                        width = widths[n] }
+  for i = 1, chart.data.count, every do
+    local text = chart.data.name(i)
+    widths[#widths + 1] = labels.width(text, chart.style)
+    all[#all + 1] = { at = i, text = text, width = widths[#widths] }
   end
+  for n = 1, #all, labels.every(widths, distance * every, size) do kept[#kept + 1] = all[n] end
   return kept
 end
 
@@ -127,7 +127,7 @@ local function least_distance(chart, width)
   return width * least / (xs[#xs] - xs[1])
 end
 
---- Round numbers instead of the rows' own, where these are too many: { x, text } each.
+--- Round numbers instead of the rows' own, where these are too many: { x =, text =, width = } each.
 local function round_numbers(chart, width)
   local xs, size, is_whole, widest = chart.data.xs, chart.style.size, true, 0
   for _, x in ipairs(xs) do is_whole = is_whole and x == math.floor(x) end
@@ -137,7 +137,8 @@ local function round_numbers(chart, width)
   local most = math.max(FEWEST, math.floor(width / (widest + 2 * size)))
   local list, decimals = ticks.between(xs[1], xs[#xs], most, is_whole, true)
   for i, x in ipairs(list) do
-    list[i] = { x = x, text = data.written(x, chart.language, decimals) }
+    local text = data.written(x, chart.language, decimals)
+    list[i] = { x = x, text = text, width = labels.width(text, chart.style) }
   end
   return list
 end
@@ -173,7 +174,7 @@ end
 local function beyond(chart, i)
   if not chart.has_labels then return 0 end
   local slot = chart.kind == "bar" and chart.box[3] / chart.data.count or 0
-  return math.max(0, labels.width(chart.data.names[i], chart.style) / 2 - slot / 4)
+  return math.max(0, labels.width(chart.data.name(i), chart.style) / 2 - slot / 4)
 end
 
 --- The room that labels need at the left and at the right.
@@ -211,10 +212,12 @@ local function add_axes(objects, chart, plot, axis)
     objects[#objects + 1] = axis.texts[i] and labels.text(axis.texts[i], chart.style,
       { plot.x - 0.8 * size, y + chart.cap / 2 }, "right")
   end
+  local box, y = chart.box, plot.y + plot.h + plot.below + 0.9 * size + chart.cap
   for _, row in ipairs(rows_axis(chart, plot.w)) do
-    local x = row.at and plot.at(row.at) or plot.along(row.x)
-    objects[#objects + 1] = labels.text(row.text, chart.style,
-      { x, plot.y + plot.h + plot.below + 0.9 * size + chart.cap }, "centre")
+    local x, half = row.at and plot.at(row.at) or plot.along(row.x), row.width / 2
+    local has_room = x - half >= box[1] and x + half <= box[1] + box[3]
+    objects[#objects + 1] = has_room and labels.text(row.text, chart.style, { x, y }, "centre")
+      or nil
   end
 end
 

@@ -4,7 +4,7 @@ local fields = require "celspan.fields"
 local ticks = {}
 
 local STEPS = { 1, 2, 5 } -- times a power of ten
-local LEAST = 1e-9        -- a range that is smaller is widened: its numbers would look the same
+local LEAST, SHARE = 1e-9, 1e-12 -- of a range, and of its numbers: one that is smaller is widened
 
 --- The smallest step of whole tenths with at most `most` multiples between two numbers: its digit
 --- and its power of ten.
@@ -30,14 +30,15 @@ end
 
 --- At most `most` round numbers from low to high, and their decimals. The range is made larger
 --- until it begins and ends with one, unless `is_tight`.
----@param low number
----@param high number
+---@param low number At least -1e12
+---@param high number At most 1e12
 ---@param most integer At least 2
 ---@param is_whole? boolean No fractions
 ---@param is_tight? boolean
 ---@return number[] list, integer decimals, number low, number high
 function ticks.between(low, high, most, is_whole, is_tight)
-  if high - low < LEAST then high = low + 1 end
+  local least = math.max(LEAST, SHARE * math.max(math.abs(low), math.abs(high)))
+  if high - low < least then high = low + 1 end
   local digit, power = step_of(low, high, most, is_whole, is_tight)
   local step, list = digit * 10.0 ^ power, {}
   local first, last = math.floor(low / step), math.ceil(high / step)
