@@ -58,12 +58,32 @@ local expected = {
   ["onion skin"] = 'docs/command-line.md, "Onion skin"',
   ["psd"] = 'docs/guide.md, "Layered paintings"', ["slurm"] = 'docs/farm.md, "Slurm"',
   ["text on a path"] = "text_on_path", ["shadwo"] = "cast_shadow",
+  ["countdown"] = "film_leader", ["timecode burn-in"] = "film_leader",
+  ["logo reveal"] = "logo_reveal", ["echo"] = "lua echo", ["auto layout"] = "every_shape",
+  ["chromatic aberration"] = "glitch_title", ["extruded"] = "deep_title",
+  ["cel shading"] = "cel_shading", ["chart"] = "lua chart",
   ["parralax"] = 'docs/guide.md, "Parallax"', ["xsheet"] = 'docs/guide.md, "Exposure sheets"',
 }
 
---- The words of compositors and motion designers for what celspan has or nearly has.
+--- What compositors and motion designers call things: each phrase leads somewhere.
 local designers = {
-  ["trim path"] = "handwriting", ["repeater"] = "lua celspan.pattern", ["offset path"] = "lua placed:outline",
+  "trim path", "repeater", "offset path", "round corners of any path", "zig-zag", "shape booleans",
+  "star", "shape morph", "width along a stroke", "gradient along or across a stroke",
+  "conic gradient", "mesh gradient", "patterns", "text animators by letter", "text on a path",
+  "variable fonts animated", "numbers that count", "captions in", "auto layout", "expressions",
+  "wiggle", "spring", "physics", "particles", "keys with easing", "stagger", "audio amplitude",
+  "audio spectrum", "time remap", "echo", "motion blur", "posterise time", "track matte alpha",
+  "masks", "blend modes", "adjustment layer", "precomposition", "shadow", "directional",
+  "lens blur", "light wrap", "displacement map", "turbulence", "grain", "chromatic aberration",
+  "halftone", "posterise", "curves", "colour wheels", "OCIO", "HDR out", "keyer", "tracker",
+  "rotoscope", "relighting of pictures", "normal-map light", "cast shadow on the ground",
+  "multiplane", "3D layers", "depth sort", "extruded", "puppet pins", "lattice", "bones",
+  "painted weights", "smart bones", "switches", "physics of hair", "feet that do not slide",
+  "lip sync", "exposure sheet", "onion skin", "audio heard while scrubbing",
+  "paint fill that closes gaps", "palettes as ids", "boil", "cleanup", "cel shading",
+  "ink lines from colour borders", "transitions", "several sounds", "footage", "PSD", "Lottie",
+  "Aseprite", "cryptomatte", "GIF", "ProRes 4444", "templates", "stereo", "timecode burn-in",
+  "render queue", "colour scripts",
 }
 
 describe("the search of help", function()
@@ -73,6 +93,10 @@ describe("the search of help", function()
       assert.is_truthy(("\n" .. found .. "\n"):find("\n" .. place .. "\n", 1, true),
         phrase .. " finds " .. found)
     end
+  end)
+
+  it("leads on from every word of compositors and motion designers", function()
+    for _, phrase in ipairs(designers) do assert.is_true(#find(phrase) > 0, phrase) end
   end)
 
   it("has synonyms that each lead to something of that title, keyword or name", function()

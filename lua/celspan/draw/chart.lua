@@ -97,7 +97,8 @@ local function read(given)
   local columns = data.read(given, most_rows[given.kind])
   return {
     kind = given.kind, data = columns, box = box, axes = axes, legend = given.legend,
-    values = given.values and given.font ~= nil and given.kind == "bar", hole = given.hole or 0, style = style,
+    values = given.values and given.font ~= nil and given.kind == "bar",
+    hole = given.hole or 0, style = style,
     has_labels = axes and given.font ~= nil, language = given.language,
     written = writer(given), progress = math.max(0, math.min(1, given.progress or 1)),
     sums = given.kind == "area" and sums_of(columns) or nil,
