@@ -44,7 +44,8 @@ end
 
 local parts = folder .. "/parts"
 run("mkdir -p", folder .. "/examples", parts)
-run("cp -r scripts/type scripts/paintings scripts/pictures scripts/drawings", folder .. "/examples/")
+run("cp -r scripts/type scripts/paintings scripts/pictures scripts/drawings",
+  folder .. "/examples/")
 -- A script gets an absolute path, because it looks for files beside itself, and may read there.
 local pwd = assert(io.popen "pwd"):read "l"
 local absolute = parts:find "^/" and parts or pwd .. "/" .. parts

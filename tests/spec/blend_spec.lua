@@ -119,7 +119,7 @@ describe("a blend mode", function()
   it("that does not exist is refused at its line, with all that do", function()
     local shape = celspan.circle { centre = { 5, 5 }, radius = 2 }
     assert.error_matches(function() shape:blend("plus") end,
-      'blend: the mode must be one of "normal", .* or "soft%-light%-photoshop", got "plus"; '
+      'blend: the mode must be one of "normal", .* or "lighter%-color", got "plus"; '
         .. 'did you mean "add"%?')
     assert.error_matches(function() celspan.group { shape, blend = "plus" } end,
       'got "plus"; did you mean "add"%?')

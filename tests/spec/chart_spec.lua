@@ -7,8 +7,8 @@ local present = require "tests.support.present"
 local prng = require "tests.support.prng"
 local raised = require "tests.support.raised"
 
-local with_art = present.art and it or pending
-local FONT = "../../scripts/type/block.ttf" -- beside this file
+local FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf" -- has a minus sign, and "%"
+local with_art = present.art() and io.open(FONT) and it or pending
 
 --- A chart in 100 x 100 units without axes.
 local function plain(kind, data, changes)
@@ -30,7 +30,7 @@ describe("ticks", function()
     for _ = 1, 3000 do
       local low = random:between(-1, 1) * 10 ^ random:whole(-6, 11)
       local high = low + random:between(0, 1) * 10 ^ random:whole(-9, 11)
-      local most, is_whole = random:whole(2, 9), random:once(3)
+      local most, is_whole = random:whole(3, 9), random:once(3)
       local list, decimals, first, last = ticks.between(low, high, most, is_whole)
       local step = list[2] - list[1]
       local digit = step / 10 ^ math.floor(math.log(1.01 * step, 10))
@@ -40,7 +40,7 @@ describe("ticks", function()
     end
     assert.same({ 0, 0.1, 0.2, 0.3 }, (ticks.between(0, 0.3, 5)))
     assert.same({ 2000, 2005, 2010 }, (ticks.between(1998, 2011, 4, true, true)))
-    assert.same({ 7, 8 }, (ticks.between(7, 7, 3)))
+    assert.same({ 7, 7.5, 8 }, (ticks.between(7, 7, 3)))
   end)
 end)
 
@@ -159,7 +159,7 @@ describe("a chart", function()
   with_art("writes values as its format does", function()
     local bars = chart { kind = "bar", data = { 3 }, box = { 0, 0, 200, 100 }, font = FONT,
       values = true, axes = false, format = function(value) return ("%g t"):format(value) end }
-    assert.is_truthy(tostring(bars):find("3 t", 1, true) or tostring(bars[2]):find("3 t", 1, true))
+    assert.equal("3 t", tostring(bars[2][1]))
   end)
 
   it("shows one row, equal values and long tables", function()

@@ -17,7 +17,7 @@ local ticks = require "celspan.ticks"
 local plots = {}
 
 local FAINT, FIRM, HAIR = 0.16, 0.6, 0.07 -- of the lines of axes: their fade, their width in ems
-local FEWEST, MOST = 2, 8                 -- numbers of an axis
+local FEWEST, MOST = 3, 8                 -- numbers of an axis
 local CLOSE = 0.5                         -- lines of values that are closer to each other than to 0
 
 -- ---------------------------------------------------------------- values

@@ -32,7 +32,7 @@ end
 --- until it begins and ends with one, unless `is_tight`.
 ---@param low number At least -1e12
 ---@param high number At most 1e12
----@param most integer At least 2
+---@param most integer At least 3: a range around 0 has a step on each side
 ---@param is_whole? boolean No fractions
 ---@param is_tight? boolean
 ---@return number[] list, integer decimals, number low, number high

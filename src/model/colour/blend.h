@@ -23,10 +23,6 @@
 #define CS_BLEND_WITHIN 32
 #define CS_BLEND_MODE(blend) ((celspan_blend)((unsigned)(blend) & (CS_BLEND_WITHIN - 1)))
 
-/* HARD_MIX, DARKER_COLOR and LIGHTER_COLOR leap where two numbers are equal. Numbers that differ by
- * less than this count as equal, so that rounding decides nothing. */
-#define CS_BLEND_EQUAL 0x1p-16f
-
 /* The words of celspan_blend, ended by NULL. */
 extern const char *const cs_blend_words[];
 

@@ -7,7 +7,10 @@
 
 #include "base/wide.h"
 #include "celspan/celspan.h"
-#include "model/colour/blend.h"
+
+/* HARD_MIX, DARKER_COLOR and LIGHTER_COLOR leap where two numbers are equal. Numbers that differ by
+ * less than this count as equal, so that rounding decides nothing. */
+#define CS_BLEND_EQUAL 0x1p-16f
 
 /* ---------------------------------------------------------------- channels */
 
@@ -99,6 +102,29 @@ static inline cs_wide cs_blend_lanes_whole(celspan_blend mode, cs_wide b, cs_wid
   }
 }
 
+/* ---------------------------------------------------------------- painting programs */
+
+static inline cs_wide cs_blend_lanes_painted(celspan_blend mode, cs_wide b, cs_wide s) {
+  switch (mode) {
+  case CELSPAN_BLEND_LINEAR_BURN:
+    return cs_wide_max(b + s - 1, cs_wide_all(0));
+  case CELSPAN_BLEND_VIVID_LIGHT:
+    return cs_blend_lanes_vivid(b, s);
+  case CELSPAN_BLEND_LINEAR_LIGHT:
+    return cs_wide_unit(b + (2 * s - 1));
+  case CELSPAN_BLEND_PIN_LIGHT:
+    return cs_wide_max(cs_wide_min(b, 2 * s), 2 * s - 1);
+  case CELSPAN_BLEND_HARD_MIX:
+    return cs_wide_choose(b + s >= 1 - CS_BLEND_EQUAL, cs_wide_all(1), cs_wide_all(0));
+  case CELSPAN_BLEND_SUBTRACT:
+    return cs_wide_max(b - s, cs_wide_all(0));
+  case CELSPAN_BLEND_DIVIDE:
+    return cs_blend_lanes_divide(b, s);
+  default:
+    return cs_blend_lanes_whole(mode, b, s);
+  }
+}
+
 /* ---------------------------------------------------------------- any mode */
 
 /* b: the backdrops; s: the sources. ADD is only the mode of sources within their backdrops. */
@@ -133,21 +159,7 @@ static inline cs_wide cs_blend_lanes(celspan_blend mode, cs_wide b, cs_wide s) {
     return cs_blend_lanes_softlight(b, s);
   case CELSPAN_BLEND_SOFT_LIGHT_PHOTOSHOP:
     return cs_blend_lanes_softly(b, s, cs_wide_choose(s <= 0.5f, b, cs_wide_sqrt(b)));
-  case CELSPAN_BLEND_LINEAR_BURN:
-    return cs_wide_max(b + s - 1, cs_wide_all(0));
-  case CELSPAN_BLEND_VIVID_LIGHT:
-    return cs_blend_lanes_vivid(b, s);
-  case CELSPAN_BLEND_LINEAR_LIGHT:
-    return cs_wide_unit(b + (2 * s - 1));
-  case CELSPAN_BLEND_PIN_LIGHT:
-    return cs_wide_max(cs_wide_min(b, 2 * s), 2 * s - 1);
-  case CELSPAN_BLEND_HARD_MIX:
-    return cs_wide_choose(b + s >= 1 - CS_BLEND_EQUAL, cs_wide_all(1), cs_wide_all(0));
-  case CELSPAN_BLEND_SUBTRACT:
-    return cs_wide_max(b - s, cs_wide_all(0));
-  case CELSPAN_BLEND_DIVIDE:
-    return cs_blend_lanes_divide(b, s);
   default:
-    return cs_blend_lanes_whole(mode, b, s);
+    return cs_blend_lanes_painted(mode, b, s);
   }
 }

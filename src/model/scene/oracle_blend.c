@@ -8,6 +8,9 @@
 #include "model/colour/blend.h"
 #include "model/scene/oracle.h"
 
+/* Modes that leap take numbers as equal if they differ by less: half a code of 15 bits. */
+#define EQUAL 0x1p-16
+
 const cs_oracle_sight cs_oracle_nothing = {{0, 0, 0}, {1, 1, 1}, 1};
 
 /* ---------------------------------------------------------------- separable modes */
@@ -51,7 +54,7 @@ static double unit(double x) { return fmax(0, fmin(x, 1)); }
 static double linear_burn(double b, double s) { return fmax(0, b + s - 1); }
 static double linear_light(double b, double s) { return unit(b + 2 * s - 1); }
 static double subtract(double b, double s) { return fmax(0, b - s); }
-static double hard_mix(double b, double s) { return b + s < 1 - (double)CS_BLEND_EQUAL ? 0 : 1; }
+static double hard_mix(double b, double s) { return b + s < 1 - EQUAL ? 0 : 1; }
 
 static double vivid_light(double b, double s) {
   return s < 0.5 ? color_burn(b, 2 * s) : color_dodge(b, 2 * s - 1);
@@ -131,11 +134,11 @@ static colour blend_whole(celspan_blend mode, colour b, colour s) {
 }
 
 static colour blend(celspan_blend mode, colour b, colour s) {
-  double lighter = lum(s) - lum(b), equal = (double)CS_BLEND_EQUAL;
+  double lighter = lum(s) - lum(b);
   if (mode == CELSPAN_BLEND_DARKER_COLOR)
-    return lighter < -equal ? s : b;
+    return lighter < -EQUAL ? s : b;
   if (mode == CELSPAN_BLEND_LIGHTER_COLOR)
-    return lighter > equal ? s : b;
+    return lighter > EQUAL ? s : b;
   if (mode >= CELSPAN_BLEND_HUE && mode <= CELSPAN_BLEND_LUMINOSITY)
     return blend_whole(mode, b, s);
   for (int i = 0; i < 3; i++)
