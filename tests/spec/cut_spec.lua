@@ -337,10 +337,10 @@ describe("a transition", function()
     is_near(green, colour(between(cut.wipe { angle = 90 }), 6, 8, 2))
     is_near(red, colour(between(cut.wipe { angle = 90 }), 6, 8, 3))
     local sum = 0 -- of an edge that crosses pixels: the exact areas of both shots
-    film = between(cut.wipe { angle = 30 })
+    local image = pixels(between(cut.wipe { angle = 30 }), 7)
     for y = 0, H - 1 do
       for x = 0, W - 1 do
-        local r, g, _, alpha = pixels(film, 7):get(x, y)
+        local r, g, _, alpha = image:get(x, y)
         assert.is_true(math.abs(r + g - 1) < 1e-3 and math.abs(alpha - 1) < 1e-3)
         sum = sum + g
       end

@@ -211,13 +211,16 @@ describe("strokes that abut", function()
         cap = "round", join = join }
       local image = assert(celspan.pixels(celspan.rostrum { celspan.cel { stroke } },
         { size = { 64, 64 } }))
+      local where
       for y = 0, 63 do
         for x = 0, 63 do
           local alpha = select(4, image:get(x, y))
-          assert.is_false(alpha > 0.99 and alpha < 1 - 3e-5 and holds(stroke, x, y),
-            ("stroke %d at %d, %d: %.7f"):format(case, x, y, alpha))
+          if alpha > 0.99 and alpha < 1 - 3e-5 and holds(stroke, x, y) then
+            where = ("stroke %d at %d, %d: %.7f"):format(case, x, y, alpha)
+          end
         end
       end
+      assert.is_nil(where)
     end
   end)
 end)
