@@ -29,13 +29,6 @@ local function is_found(text, patterns)
   return false
 end
 
---- Two ways into the same sandbox: the command, and the example of a host.
-local WAYS = {
-  { name = "the program", command = workbench.absolute .. " info scripts/N.lua $(cat N.options)" },
-  { name = "the library", is_host = true,
-    command = workbench.build .. "/examples/example_sandbox scripts/N.lua $(cat N.limits)" },
-}
-
 --- The limits of options, as the example takes them: seconds, steps, memory, printed bytes.
 local function limits_of(options)
   local function value(name, default)
@@ -47,18 +40,23 @@ local function limits_of(options)
     value("print", 1024 ^ 2) }, " ")
 end
 
---- Runs the scripts of a bench, several at a time; leaves NAME.code and NAME.err next to each.
-local function run_all(bench, command, list, options)
-  for i, one in ipairs(list) do
-    local given = one[4] or options
-    bench:write(i .. ".options", given)
-    bench:write(i .. ".limits", limits_of(given))
-    bench:write(i .. ".seconds", tostring((tonumber(given:match "time=([%d.]+)") or 60) + MORE))
-  end
-  bench:shell(([[cd '%s' && seq %d | xargs -P 4 -I N sh -c
-    'timeout $(cat N.seconds) %s >N.out 2>N.err
-    ; echo $? >N.code']])
-    :gsub("\n%s*", " "):format(bench.folder, #list, command))
+--- Two ways into the same sandbox: the command, and the example of a host.
+local WAYS = {
+  { name = "the program", command = function(options)
+    return ("'%s' info scripts/one.lua %s"):format(workbench.absolute, options)
+  end },
+  { name = "the library", is_host = true, command = function(options)
+    return ("'%s/examples/example_sandbox' scripts/one.lua %s")
+      :format(workbench.build, limits_of(options))
+  end },
+}
+
+--- Runs a script of a bench in one of the ways: its exit code and standard error.
+local function run(bench, way, text, options)
+  local seconds = (tonumber(options:match "time=([%d.]+)") or 60) + MORE
+  bench:write("scripts/one.lua", text)
+  local code, _, err = bench:inside(("timeout %g %s"):format(seconds, way.command(options)))
+  return code, err
 end
 
 describe("the sandbox", function()
@@ -400,16 +398,9 @@ describe("the sandbox", function()
     describe("of " .. way.name .. " withstands", function()
       local escapes = require "tests.sandbox.escapes"
 
-      setup(function()
-        for i, one in ipairs(escapes) do
-          bench:write(("scripts/%d.lua"):format(i), head() .. ESCAPE:format(one[2]))
-        end
-        run_all(bench, way.command, escapes, "")
-      end)
-
-      for i, one in ipairs(escapes) do
+      for _, one in ipairs(escapes) do
         it(one[1], function()
-          local text, code = bench:read(i .. ".err"), tonumber(bench:read(i .. ".code"))
+          local code, text = run(bench, way, head() .. ESCAPE:format(one[2]), one[4] or "")
           local answer = text:match("^HELD ([^\n]*)")
           assert.equal(0, code, text)
           assert.truthy(answer, text)
@@ -422,17 +413,10 @@ describe("the sandbox", function()
     describe("of " .. way.name .. " ends", function()
       local hangs = require "tests.sandbox.hangs"
 
-      setup(function()
-        for i, one in ipairs(hangs) do
-          bench:write(("scripts/%d.lua"):format(i), head() .. HANG:format(one[2]))
-        end
-        run_all(bench, way.command, hangs, LIMITS)
-      end)
-
-      for i, one in ipairs(hangs) do
+      for _, one in ipairs(hangs) do
         it(one[1] .. ": " .. CODES[one[3]], function()
-          local text = bench:read(i .. ".err")
-          assert.equal(one[3], tonumber(bench:read(i .. ".code")), text:sub(-400))
+          local code, text = run(bench, way, head() .. HANG:format(one[2]), one[4] or LIMITS)
+          assert.equal(one[3], code, text:sub(-400))
           if one[3] == 6 then
             assert.equal(not way.is_host, text:find("%-%-limit %a+=") ~= nil, text:sub(-400))
           end
