@@ -1,5 +1,6 @@
 -- celspan plane: the page, what its decoder draws, and what is refused.
 local library = require "celspan"
+local browsing = require "tests.support.browsing"
 local json = require "celspan.json"
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
@@ -57,14 +58,7 @@ local function node(steps)
   return assert(json.decode(done "node steps.js"))
 end
 
---- What the steps return in a browser: see browser.js.
-local function see(steps)
-  local path = bench:write("steps.js", steps)
-  local code, out, err = bench:shell(
-    ("node tests/support/browser.js '%s/chromium' about:blank '%s'"):format(bench.folder, path))
-  assert(code == 0, err)
-  return assert(json.decode(out))
-end
+local function see(steps) return browsing.see("about:blank", steps) end
 
 local it_decodes = present.program "node" and it or pending
 local it_shows = present.program("node", "chromium") and it or pending
@@ -142,7 +136,7 @@ describe("the page of a plane", function()
     celspan "render film.lua -o a.plane"
     celspan "plane a.plane -o a.html"
     local said = see(([=[
-      await page.call("Page.navigate", { url: "file://%s/a.html" });
+      await page.load("file://%s/a.html");
       const pixel = (x, y) => `[...document.querySelector("canvas")?.getContext("2d")
         .getImageData(${x}, ${y}, 1, 1).data ?? []]`;
       const at = (x, y) => page.get(pixel(x, y));
@@ -174,7 +168,7 @@ describe("the page of a plane", function()
     celspan "render film.lua -o a.plane"
     celspan "plane a.plane -o a.html"
     local said = see(([=[
-      await page.call("Page.navigate", { url: "file://%s/a.html" });
+      await page.load("file://%s/a.html");
       await page.until("typeof viewer !== 'undefined' && viewer && !here('film').hidden");
       const at = x => page.get(`[...document.querySelector("canvas").getContext("2d")
         .getImageData(${x}, 400, 1, 1).data]`);

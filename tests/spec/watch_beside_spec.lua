@@ -144,7 +144,7 @@ describe("the page of celspan watch with two films #plain", function()
         && ${stage("frame")} === document.querySelector("#frame").textContent`);
       const hash = await page.get("location.hash");
       const command = await page.get(`document.querySelector("#command").value`);
-      await page.call("Page.reload");
+      await page.load();
       await page.until(`document.querySelector("#form2 input")?.value === "1"`);
       await page.until(`document.querySelector("#stage2").getContext("2d")
         .getImageData(3, 3, 1, 1).data[0] === 255`);

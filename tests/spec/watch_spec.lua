@@ -620,9 +620,8 @@ describe("the page of celspan watch #plain", function()
       :format(path, path:match "^(.*)/")))
     local said = see("file://" .. path, [=[
       await page.until(`Number(${stage("frame")}) > 3`);
-      await page.call("Page.reload");
-      await page.pause(0.2);
-      await page.until(`document.querySelector("#stage") && Number(${stage("frame")}) > 3`);
+      await page.load();
+      await page.until(`Number(${stage("frame")}) > 3`);
       return page.get(`getComputedStyle(document.querySelector("header")).display`);]=])
     assert.equal("none", said)
     watching.stop()
@@ -635,19 +634,16 @@ describe("the page of celspan watch #plain", function()
       const cookie = await page.get("document.cookie");
       const addresses = [];
       for (const address of ["", `${await page.get("location.origin")}/`]) {
-        if (address) await page.call("Page.navigate", { url: address });
-        else await page.call("Page.reload");
-        await page.pause(0.2);
-        await page.until(`document.querySelector("#stage") && ${stage("frame")} === "1"`);
+        await page.load(address);
+        await page.until(`${stage("frame")} === "1"`);
         addresses.push(await page.get("location.pathname + location.search"));
       }
       const own = await page.get("location.origin");
-      await page.call("Page.navigate",
-        { url: `data:text/html,<script>location = "${own}/%23x=1"</script>` });
-      await page.until(`location.origin === "${own}" && document.querySelector("#stage")`);
+      await page.load(`data:text/html,<script>location = "${own}/%23x=1"</script>`,
+        new RegExp(`^${own}/$`));
       const led = await page.get("location.hash");
       await page.get("localStorage.clear()");
-      await page.call("Page.reload");
+      await page.load();
       await page.until(`document.querySelector("#news")?.textContent.includes("token is missing")`);
       return { cookie, addresses, led };]=])
     assert.same({ cookie = "", addresses = { "/", "/" }, led = "" }, said)

@@ -1,15 +1,18 @@
-// Drives a page in Debian's chromium, such as that of celspan watch, through a pipe of its own:
+// Drives pages in Debian's chromium, such as that of celspan watch, through a pipe of its own:
 //
 //   node browser.js FOLDER ADDRESS STEPS
+//   node browser.js FOLDER
 //
 // FOLDER is the browser's own, ADDRESS the page that is opened, or about:blank. STEPS is a file with
 // the body of an asynchronous function of `page`; what it returns is printed as JSON. It is not part
-// of the page.
+// of the page. Without them, each line of standard input is ADDRESS STEPS SECONDS, and is answered by
+// a line: a browser takes long to begin, and one does for many pages. They share nothing.
 const { spawn } = require("child_process");
 const fs = require("fs");
+const readline = require("readline");
 
-const [folder, address, steps] = process.argv.slice(2);
-const SECONDS = Number(process.env.CELSPAN_BROWSER_SECONDS ?? 60); // for everything
+const [folder, ...single] = process.argv.slice(2);
+const SECONDS = Number(process.env.CELSPAN_BROWSER_SECONDS ?? 60);
 
 const browser = spawn("chromium", ["--headless=new", "--no-sandbox", "--disable-gpu", "--mute-audio",
   "--no-first-run", "--disable-extensions", "--disable-background-networking",
@@ -18,12 +21,12 @@ const browser = spawn("chromium", ["--headless=new", "--no-sandbox", "--disable-
 // Ends all its processes: one that survives would write to a folder that the caller removes.
 const end = code => { process.kill(-browser.pid, "SIGKILL"); process.exit(code); };
 const fail = fault => { console.error(fault); end(1); };
-setTimeout(() => fail(`no end after ${SECONDS} seconds`), SECONDS * 1000);
 
 // ---- messages: JSON, ended by a zero
 
 let last = 0, text = "";
-const waiting = new Map(), requests = [];
+const waiting = new Map();
+let hear = () => {}; // for the events of the browser
 
 function send(method, params = {}, sessionId) {
   const id = ++last;
@@ -32,7 +35,7 @@ function send(method, params = {}, sessionId) {
 }
 
 function take(message) {
-  if (message.method === "Network.requestWillBeSent") requests.push(message.params.request.url);
+  if (message.method) hear(message);
   const call = waiting.get(message.id);
   if (!call) return;
   waiting.delete(message.id);
@@ -53,12 +56,40 @@ const CODES = { " ": "Space", ArrowLeft: "ArrowLeft", ArrowRight: "ArrowRight" }
 const TEXTS = { Enter: "\r" };
 const pause = seconds => new Promise(done => setTimeout(done, seconds * 1000));
 
-async function open() {
-  const { targetId } = await send("Target.createTarget", { url: "about:blank" });
+/** Hears all events: keeps the addresses that were asked for, and waits for documents. */
+function listener() {
+  const requests = [];
+  let wanted, isHere, done;
+  hear = ({ method, params }) => {
+    if (method === "Network.requestWillBeSent") requests.push(params.request.url);
+    const { url, urlFragment = "", parentId } = params.frame ?? {};
+    if (method === "Page.frameNavigated" && !parentId) isHere = wanted?.test(url + urlFragment);
+    if (method === "Page.loadEventFired" && isHere) done();
+  };
+  const loaded = pattern => new Promise(resolve => {
+    [wanted, isHere, done] = [pattern, false, resolve];
+  });
+  return { requests, loaded };
+}
+
+async function open(address) {
+  const { browserContextId } = await send("Target.createBrowserContext");
+  const { targetId } = await send("Target.createTarget",
+    { url: "about:blank", browserContextId, width: 1280, height: 800 });
   const { sessionId } = await send("Target.attachToTarget", { targetId, flatten: true });
   const call = (method, params) => send(method, params, sessionId);
+  const { requests, loaded } = listener();
   const page = {
     call, pause, requests,
+    close: () => send("Target.disposeBrowserContext", { browserContextId }),
+    /** Goes to an address, or loads the page again, and waits for the whole document: what was asked
+     * meanwhile would have no answer. `wanted` matches its address where others lead to it. */
+    async load(url, wanted = /^(?!about:)/) {
+      const whole = loaded(wanted);
+      const { errorText } = await (url ? call("Page.navigate", { url }) : call("Page.reload"));
+      if (errorText) throw new Error(`${url}: ${errorText}`);
+      await whole;
+    },
     /** The value of an expression in the page. */
     async get(expression) {
       const answer = await call("Runtime.evaluate",
@@ -93,17 +124,27 @@ async function open() {
       fs.writeFileSync(path, Buffer.from(data, "base64"));
     },
   };
+  await call("Page.enable");
   if (address === "about:blank") return page;
   await call("Network.enable");
-  await call("Page.navigate", { url: address });
-  await page.until("location.protocol === 'http:' && document.readyState === 'complete'");
+  await page.load(address, /^http:/);
   return page;
 }
 
+/** Prints what the steps return in a page. */
+async function act(address, steps, given) {
+  const seconds = Number(given) || SECONDS; // for everything
+  const late = setTimeout(() => fail(`no end after ${seconds} seconds`), seconds * 1000);
+  const page = await open(address);
+  const all = Object.getPrototypeOf(act).constructor("page", "require", fs.readFileSync(steps, "utf8"));
+  console.log(JSON.stringify(await all(page, require) ?? null));
+  await page.close();
+  clearTimeout(late);
+}
+
 async function main() {
-  const page = await open();
-  const act = Object.getPrototypeOf(main).constructor("page", "require", fs.readFileSync(steps, "utf8"));
-  console.log(JSON.stringify(await act(page, require) ?? null));
+  if (single.length) await act(...single);
+  else for await (const line of readline.createInterface(process.stdin)) await act(...line.split(" "));
   end(0);
 }
 

@@ -4,6 +4,7 @@
 ---   before_each(function() watching.begin { ["shot.lua"] = FILM } end)
 ---   after_each(watching.finish)
 ---   local said = watching.see(watching.watch(), [=[ return page.get("document.title"); ]=])
+local browsing = require "tests.support.browsing"
 local json = require "celspan.json"
 local workbench = require "tests.support.workbench"
 
@@ -60,22 +61,18 @@ function watching.finish()
   watching.bench:remove()
 end
 
-local function run(command, steps, variable)
+--- The result of the steps, in JavaScript, for a program that speaks to the server: stranger.js.
+function watching.speak(address, steps)
   local path = watching.bench:write("steps.js", steps)
-  local code, out, err = watching.bench:shell(("%s node tests/support/%s '%s'"):format(
-    variable or "", command, path))
+  local code, out, err = watching.bench:shell(("node tests/support/stranger.js '%s' '%s'")
+    :format(address, path))
   assert(code == 0, err)
-  return assert(json.decode(out)), out
+  return assert(json.decode(out))
 end
-
---- The result of the steps, in JavaScript, for a program that speaks to the server: see
---- stranger.js.
-function watching.speak(address, steps) return run(("stranger.js '%s'"):format(address), steps) end
 
 --- The result of the steps in a browser: see browser.js. seconds: for all steps, or nil.
 function watching.see(address, steps, seconds)
-  return run(("browser.js '%s/chromium' '%s'"):format(watching.bench.folder, address),
-    HELP .. steps, seconds and "CELSPAN_BROWSER_SECONDS=" .. seconds)
+  return browsing.see(address, HELP .. steps, seconds)
 end
 
 return watching
