@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # Makes what is given to others, in out/dist; `./run dist` calls it:
 #
-#   packaging/dist.sh [PART...]           the parts, or all: source linux npm root
+#   packaging/dist.sh [PART...]           the parts, or all: source linux npm root deb
 #   packaging/dist.sh --test [SUITE...]   tries them in roots of Debian (packaging/try.sh)
 #
-#   git --source--> celspan-VERSION.tar.gz --linux--> celspan-...-linux-x86_64.tar.gz
+#   git --source--> celspan-VERSION.tar.gz --deb--> *.deb
+#                                          --linux--> celspan-...-linux-x86_64.tar.gz
+#                                                     celspan-...-lua-x86_64.tar.gz
 #       --npm--> celspan-VERSION.tgz, --root--> celspan-...-root-x86_64.tar.gz
 #
 # Everything after the first step is made from the source archive alone.
@@ -70,6 +72,7 @@ make_linux() {
   cp packaging/linux.sh "$roots/build/build"
   quietly linux inside build /build/linux.sh "$(mirror)" "$name"
   packed "$roots/build/build" "$name" "$dist/$name.tar.gz"
+  packed "$roots/build/build/lua" "$name" "$dist/celspan-$version-lua-x86_64.tar.gz"
 }
 
 # The file is what `npm pack` would make: needs no npm here.
@@ -96,6 +99,22 @@ make_root() {
   sed "s/@VERSION@/$version/" packaging/container/scratch.Dockerfile.in >"$dist/scratch.Dockerfile"
 }
 
+make_deb() {
+  say "the Debian packages: takes ten minutes of processor time"
+  local tree=$work/deb/celspan-$version
+  rm -rf "$work/deb"
+  unpacked "$tree"
+  cp "$dist/$source" "$work/deb/celspan_$version.orig.tar.gz"
+  cp -r debian "$tree"
+  sed -i "1s/($release-/($version-/" "$tree/debian/changelog"
+  (cd "$tree" && export DEB_BUILD_OPTIONS=noautodbgsym &&
+    quietly deb dpkg-buildpackage -us -uc "-j$(nproc)")
+  # Debian gives the number of the bug that asks for the package.
+  lintian --fail-on error,warning --suppress-tags initial-upload-closes-no-bugs \
+    "$work/deb"/*.changes || die "lintian has found faults in the packages"
+  cp "$work/deb"/*.deb "$dist"
+}
+
 # What install.sh, and whoever fetches a file, compares it with.
 make_sums() {
   cp packaging/install.sh "$dist"
@@ -116,13 +135,13 @@ if [ "${1:-}" = --test ]; then
 fi
 [ $# -gt 0 ] || {
   rm -rf "$dist"
-  set -- source linux npm root
+  set -- source linux npm root deb
 }
 mkdir -p "$dist" "$work"
 for part in "$@"; do
   case $part in
-  source | linux | npm | root) "make_$part" ;;
-  *) die "unknown part '$part' (source, linux, npm, root)" ;;
+  source | linux | npm | root | deb) "make_$part" ;;
+  *) die "unknown part '$part' (source, linux, npm, root, deb)" ;;
   esac
 done
 make_sums

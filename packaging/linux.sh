@@ -4,6 +4,7 @@
 #   packaging/linux.sh MIRROR NAME      in the root's /build, which has the source in source/
 #
 #   /build/NAME/           the tree of the archive
+#   /build/lua/NAME/       what it lacks of a whole installation: the module for other programs' Lua
 #
 # What the modules need is linked statically, as the program's Lua always is. What Debian 11 has in
 # too old a version, or not as a static library, is built from the source packages of Debian 12:
@@ -13,8 +14,12 @@
 set -eu
 mirror=$1 name=$2
 cd /build
-flags=(-O2 -fPIC)
-export MAKEFLAGS=-j2
+# What nobody calls is left out by the linker; the tables that only C++ exceptions and debuggers use
+# are not made.
+small=(-ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables)
+flags=(-O2 -fPIC "${small[@]}")
+MAKEFLAGS=-j$(nproc)
+export MAKEFLAGS
 libraries=/usr/lib/x86_64-linux-gnu
 prefix=/build/libraries
 mkdir -p "$prefix/lib/pkgconfig" "$prefix/include"
@@ -127,21 +132,27 @@ make_lcms2
 make_microhttpd
 described libtiff-4 4 "-ltiff -lwebp -lzstd -llzma -ljbig -ljpeg -ldeflate -lz -pthread -lm"
 copy_stderr png16 jpeg tiff
-# The linker takes the static library where there is no other.
-for library in fribidi z png png16 jpeg tiff webp zstd lzma jbig deflate; do
-  rm "$libraries/lib$library.so"
-done
+# The linker takes the static library where there is no other. What the modules contain of them is
+# for the modules alone.
+static=(fribidi z png png16 jpeg tiff webp zstd lzma jbig deflate)
+for library in "${static[@]}"; do rm "$libraries/lib$library.so"; done
+hidden=$(printf 'lib%s.a:' "${static[@]}" expat harfbuzz lcms2 microhttpd)
 
 # ---------------------------------------------------------------- celspan
 
-# clang, because GCC 10 has no __builtin_shufflevector.
-export CC=clang CXX=clang++ PKG_CONFIG_PATH=$prefix/lib/pkgconfig LDFLAGS=-Wl,-Bsymbolic
-meson setup build source --prefix="/build/$name" --libdir=lib --buildtype=release --strip \
+# clang, because GCC 10 has no __builtin_shufflevector. -O2, which meson.build raises where rows
+# spend their time.
+export CC=clang CXX=clang++ PKG_CONFIG_PATH=$prefix/lib/pkgconfig CFLAGS=${small[*]}
+export LDFLAGS="-Wl,-Bsymbolic -Wl,--gc-sections -Wl,--exclude-libs,${hidden%:}"
+meson setup build source --prefix="/build/$name" --libdir=lib --strip \
+  -Doptimization=2 -Ddebug=false \
   -Dtests=false -Dpictures=disabled -Draster=enabled -Dart=enabled -Dcolour=enabled -Dweb=enabled
 ninja -C build -j "$(nproc)"
 meson install -C build --quiet --no-rebuild
 tree=/build/$name
 rm -rf "$tree/lib/pkgconfig" "$tree"/lib/libcelspan* "$tree/include"
+mkdir -p "lua/$name/lib"
+mv "$tree/lib/lua" "lua/$name/lib"
 cp /usr/lib/libunibreak.so.1 "$tree/lib/celspan"
 # shellcheck disable=SC2016
 patchelf --set-rpath '$ORIGIN' "$tree/lib/celspan/celspan-art.so"
@@ -186,7 +197,7 @@ TEXT
 
 # The newest version of glibc that a file asks for.
 newest() { objdump -T "$1" | grep -o 'GLIBC_[0-9.]*' | sort -Vu | tail -1; }
-for file in "$tree/bin/celspan" "$tree"/lib/celspan/*.so; do
+for file in "$tree/bin/celspan" "$tree"/lib/celspan/*.so "lua/$name/lib/lua/5.4/celspan.so"; do
   others=$(objdump -p "$file" | awk '$1 == "NEEDED" { print $2 }' |
     grep -v -E '^(libc|libm|libdl|libpthread|ld-linux-x86-64|librt|libunibreak)\.so\.' || true)
   if [ -n "$others" ]; then
