@@ -11,7 +11,8 @@ static uint64_t margin_of(const cs_ceiling *ceiling) { return ceiling->limit / 1
 
 /* rest: the part of the whole that other processes leave. */
 static void lower(cs_ceiling *ceiling, const char *whose, uint64_t whole, uint64_t rest) {
-  size_t most = (size_t)(rest / 4 * 3);
+  uint64_t part = rest / 4 * 3; /* may be more than addresses of 32 bits can reach */
+  size_t most = part < SIZE_MAX ? (size_t)part : SIZE_MAX;
   if (most >= ceiling->most)
     return;
   ceiling->most = most;

@@ -1,6 +1,7 @@
 #include "program/confine.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,6 +35,9 @@ static size_t budget = SIZE_MAX;
 
 static size_t least(size_t a, size_t b) { return a < b ? a : b; }
 
+/* A number of bytes that a user gave; there may be more than addresses of 32 bits can reach. */
+static size_t size_of(double bytes) { return bytes < (double)SIZE_MAX ? (size_t)bytes : SIZE_MAX; }
+
 cs_exit cs_confine_memory(const cs_request *request, celspan_context_desc *desc) {
   const char *text = getenv("CELSPAN_MEMORY");
   double given = 0;
@@ -44,7 +48,7 @@ cs_exit cs_confine_memory(const cs_request *request, celspan_context_desc *desc)
   cs_ceiling_init(&ceiling, &group, cs_machine_memory(), (uint64_t)given);
   budget = ceiling.most;
   cs_request_read(request, "--memory", &cached);
-  size_t caches = cached > 0 ? (size_t)cached << 20 : least(CACHE_MEMORY, budget / 4);
+  size_t caches = cached > 0 ? size_of(ldexp(cached, 20)) : least(CACHE_MEMORY, budget / 4);
   desc->defocus_bytes = caches / 3; /* divided in the same way as the defaults */
   desc->picture_bytes = 2 * desc->defocus_bytes;
   return CS_EXIT_OK;
@@ -68,13 +72,13 @@ static celspan_lua_limits limits_of(const cs_request *request) {
   limits.printed = cs_report_printed;
   limits.memory = least(limits.memory, budget);
   if (given.has[CS_LIMIT_MEMORY])
-    limits.memory = (size_t)values[CS_LIMIT_MEMORY];
+    limits.memory = size_of(values[CS_LIMIT_MEMORY]);
   if (given.has[CS_LIMIT_STEPS])
     limits.steps = (uint64_t)values[CS_LIMIT_STEPS];
   if (given.has[CS_LIMIT_TIME])
     limits.seconds = values[CS_LIMIT_TIME];
   if (given.has[CS_LIMIT_PRINT])
-    limits.print = (size_t)values[CS_LIMIT_PRINT];
+    limits.print = size_of(values[CS_LIMIT_PRINT]);
   return limits;
 }
 
@@ -107,7 +111,7 @@ void cs_confine_rendering(celspan_context *context, const cs_request *request) {
   atomic_store(&context->processors, cs_machine_processors(&group));
   context->memory->spares.most = least(CS_SPARES_MOST, budget / 16);
   if (has_limit)
-    context->memory->most_rendering = (size_t)given.values[CS_LIMIT_RENDER_MEMORY];
+    context->memory->most_rendering = size_of(given.values[CS_LIMIT_RENDER_MEMORY]);
   if (has_limit && given.values[CS_LIMIT_RENDER_MEMORY] > 0)
     ceiling.most = SIZE_MAX;
   else if (has_limit || is_trusted(request))
@@ -118,9 +122,10 @@ void cs_confine_divide(unsigned parts) {
   char bytes[32];
   if (budget == SIZE_MAX || parts == 0)
     return;
-  /* as a part of the memory that the process may use: see ceiling.h */
-  size_t part = budget / 3 * 4 / parts;
-  snprintf(bytes, sizeof bytes, "%zu", part > MEMORY_LEAST ? part : MEMORY_LEAST);
+  /* As a part of the memory that the process may use: see ceiling.h. */
+  uint64_t part = (uint64_t)budget / 3 * 4 / parts;
+  snprintf(bytes, sizeof bytes, "%llu",
+           (unsigned long long)(part > MEMORY_LEAST ? part : MEMORY_LEAST));
   setenv("CELSPAN_MEMORY", bytes, 1);
 }
 
