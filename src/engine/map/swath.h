@@ -99,7 +99,8 @@ typedef struct cs_map_rows {
 /* By how much a pixel exceeds the pixel on its left. Its size is half a line of the cache. */
 typedef struct cs_map_sum {
   float colour[4];
-  uint64_t key;  /* the same difference for keys, multiplied by HEIGHT, modulo 2^64 */
+  /* The same difference for keys, multiplied by HEIGHT, modulo 2^64; some processors align it to 4. */
+  _Alignas(8) uint64_t key;
   uint32_t head; /* the number of its first part, as cs_map_part.next */
 } cs_map_sum;
 _Static_assert(sizeof(cs_map_sum) == 32, "two sums are a line of the cache");

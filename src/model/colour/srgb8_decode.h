@@ -20,6 +20,7 @@ static inline bool cs_srgb8_decodes(cs_isa isa) {
 #ifdef __x86_64__
   return isa == CS_ISA_AVX512 && __builtin_cpu_supports("avx512vbmi");
 #else
+  (void)isa;
   return false;
 #endif
 }
