@@ -4,9 +4,12 @@
 #
 #   tests/portable/run.sh [--sample] [PLATFORM...]
 #
-#   x86-64     the program in build/
-#   musl       another C library, linked statically, without modules
-#   aarch64    the same with the GNU C library for another processor, in emulation
+#   x86-64       the program in build/, with the widest instructions of this processor
+#   x86-64-sse   the same in emulation of a processor without wider ones; only if it is named
+#   x86-64-avx2  likewise
+#   musl         another C library, linked statically, without modules
+#   aarch64      another processor, in emulation, linked statically, without modules
+#   i386         another processor, with Debian's libraries for the modules
 #
 # --sample: one question in ten.
 set -u -o pipefail
@@ -15,45 +18,73 @@ out=$PWD/out/portable
 programs=(celspan examples/example_{surface,memory,embed,host})
 every=1 outcome=0
 
+# i386_loader: most x86-64 kernels run programs of i386, by the loader of their own libraries.
+i386_loader() {
+  local root=$out/i386
+  local loader=$root/lib/ld-linux.so.2 folders=$root/usr/lib/i386-linux-gnu
+  folders+=:$root/lib/i386-linux-gnu:$root/usr/lib
+  "$loader" --version >/dev/null 2>&1 && echo "$loader --library-path $folders"
+}
+
+# emulator PLATFORM: the command that runs a program of it.
+emulator() {
+  case $1 in
+  x86-64-sse) echo qemu-x86_64 -cpu Nehalem ;;
+  x86-64-avx2) echo qemu-x86_64 -cpu max ;; # it has no wider ones
+  aarch64) echo qemu-aarch64 ;;
+  i386) i386_loader || echo "qemu-i386 -L $out/i386" ;;
+  esac
+}
+
+# options PLATFORM: of meson.
+options() {
+  echo -Dpictures=disabled -Dcolour=disabled -Dweb=disabled -Dtests=false -Doptimization=1 \
+    -Ddebug=false
+  case $1 in
+  musl | aarch64) echo -Dmodules=false -Draster=disabled -Dart=disabled ;;
+  *) echo -Draster=enabled -Dart=enabled ;;
+  esac
+}
+
 # build PLATFORM: quietly, unless it fails.
 build() {
-  local folder=$out/$1/build log=$out/$1/log
+  local folder=$out/$1/build log=$out/$1/log targets=("${programs[@]}")
+  [ "$1" != i386 ] || targets+=(examples/example_{painting,letters}
+    src/plugins/raster/celspan-raster.so src/plugins/type/celspan-art.so)
   mkdir -p "$out/$1"
   {
+    # shellcheck disable=SC2046
     tests/portable/libraries.sh "$1" "$out" &&
-      { [ -f "$folder/build.ninja" ] || meson setup "$folder" \
-        --cross-file "tests/portable/$1.txt" --cross-file "$out/$1/libraries.txt" \
-        -Dmodules=false -Dpictures=disabled -Dart=disabled -Dcolour=disabled -Dweb=disabled \
-        -Dtests=false -Doptimization=1 -Ddebug=false; } &&
-      ninja -j2 -C "$folder" "${programs[@]}"
+      { [ -f "$folder/build.ninja" ] || meson setup "$folder" $(options "$1") \
+        --cross-file "tests/portable/$1.txt" --cross-file "$out/$1/libraries.txt"; } &&
+      ninja "-j${JOBS:-$(nproc)}" -C "$folder" "${targets[@]}"
   } >"$log" 2>&1 || {
     tail -40 "$log" >&2
     return 1
   }
 }
 
-# ask PLATFORM BUILD EMULATOR: of commands that have the names of the programs, as
+# ask PLATFORM BUILD: of commands that have the names of the programs, as
 # tests/support/golden.lua calls them.
 ask() {
-  local bin=$out/$1/bin name
-  mkdir -p "$bin/examples"
+  local commands=$out/$1/commands name
+  mkdir -p "$commands/examples"
   for name in celspan examples/example_{surface,memory,embed,host,painting,letters}; do
     [ -f "$2/$name" ] || continue
-    printf '#!/bin/sh\nexec %s "%s" "$@"\n' "$3" "$2/$name" >"$bin/$name"
-    chmod +x "$bin/$name"
+    printf '#!/bin/sh\nexec %s "%s" "$@"\n' "$(emulator "$1")" "$2/$name" >"$commands/$name"
+    chmod +x "$commands/$name"
   done
-  CELSPAN=$bin/celspan CELSPAN_BUILD=$bin lua5.4 tests/portable/digests.lua "$1" "$every"
+  CELSPAN=$commands/celspan CELSPAN_BUILD=$commands lua5.4 tests/portable/digests.lua "$1" "$every"
 }
 
 [ "${1:-}" != --sample ] || { every=10 && shift; }
-[ $# != 0 ] || set -- x86-64 musl aarch64
+[ $# != 0 ] || set -- x86-64 musl aarch64 i386
 echo "| platform | equal | different | not asked |"
 echo "|---|---|---|---|"
 for platform in "$@"; do
   case $platform in
-  x86-64) ask x86-64 "$PWD/build" "" ;;
-  musl) build musl && ask musl "$out/musl/build" "" ;;
-  *) build "$platform" && ask "$platform" "$out/$platform/build" "qemu-$platform" ;;
+  x86-64*) ask "$platform" "$PWD/build" ;;
+  *) build "$platform" && ask "$platform" "$out/$platform/build" ;;
   esac || outcome=1
 done
 exit $outcome
