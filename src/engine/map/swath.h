@@ -99,7 +99,7 @@ typedef struct cs_map_rows {
 /* By how much a pixel exceeds the pixel on its left. Its size is half a line of the cache. */
 typedef struct cs_map_sum {
   float colour[4];
-  /* The same difference for keys, multiplied by HEIGHT, modulo 2^64; some processors align it to 4. */
+  /* The same difference for keys, multiplied by HEIGHT, modulo 2^64. Some systems align it to 4. */
   _Alignas(8) uint64_t key;
   uint32_t head; /* the number of its first part, as cs_map_part.next */
 } cs_map_sum;
