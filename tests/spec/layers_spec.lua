@@ -524,10 +524,10 @@ describe("the cels of a tree", function()
       { name = "m", w = 2, h = 2, x = 0, y = 0, pixel = flat(1, 2, 3), blend = "svg:multiply" },
       { name = "p", w = 2, h = 2, x = 0, y = 0, pixel = flat(1, 2, 3), blend = "svg:plus" },
       { name = "s", w = 2, h = 2, x = 0, y = 0, pixel = flat(1, 2, 3),
-        blend = "krita:hard_mix" } } }
+        blend = "krita:dissolve" } } }
     local told = {}
     for i, one in ipairs(tree.skipped) do told[i] = one.layer .. ": " .. one.what end
-    assert.are.same({ 'g/s: blend mode "hard-mix": it is shown as normal' }, told)
+    assert.are.same({ 'g/s: blend mode "dissolve": it is shown as normal' }, told)
   end)
 
   it("of Photoshop report effects that Photoshop computes", function()
@@ -1014,14 +1014,15 @@ describe("an OCA folder", function()
     local known = { normal = "normal", multiply = "multiply", add = "linear-dodge",
       linear_dodge = "linear-dodge", plus = "add", Multiply = "multiply", screen = "screen",
       soft_light = "soft-light-photoshop", soft_light_svg = "soft-light", dodge = "color-dodge",
-      burn = "color-burn", diff = "difference", luminize = "luminosity" }
+      burn = "color-burn", diff = "difference", luminize = "luminosity",
+      vivid_light = "vivid-light", ["darker color"] = "darker-color" }
     for word, blend in pairs(known) do
       local tree = assert(with_layer(('"blendingMode": "%s", '):format(word), one .. place,
         '"backgroundColor": [1, 1, 1, 1], '))
       assert.are.equal(blend, tree[2].blend)
       assert.are.same({}, tree.skipped)
     end
-    for _, word in ipairs { "erase", "vivid_light" } do
+    for _, word in ipairs { "erase", "hue_hsl" } do
       local tree = assert(with_layer(('"blendingMode": "%s", '):format(word), one .. place))
       assert.are.same({ { layer = "ink", what = ('blend mode "%s": it is shown as normal'):format(
         (word:gsub("_", "-"))) } }, tree.skipped)
