@@ -86,6 +86,14 @@ end
 
 -- ---------------------------------------------------------------- the passes
 
+--- Calls a function. A signal to stop makes what it draws fail: then it returns nothing, because
+--- the verb ends with its results so far.
+local function until_stopped(call, ...)
+  local results = table.pack(pcall(call, ...))
+  if not results[1] and not program.is_stopped() then error(results[2], 0) end
+  if results[1] then return table.unpack(results, 2, results.n) end
+end
+
 local slowest = { seconds = 0, total = 0 }
 
 --- Builds a frame, and adds the processor time that it needs.
@@ -98,14 +106,19 @@ local function try_timed(film, number)
   return good, message, code
 end
 
+--- Adds what is seen of a frame that was built, and the faults in its pictures.
+local function add_seen(film, survey, number)
+  film:faults(function(...) add_fault(number, ...) end)
+  survey:add(number)
+end
+
 local function first_pass(film, survey, numbers, scenes)
   for i, number in ipairs(numbers) do
     if program.is_stopped() then return i - 1 end
     local good, message, code = try_timed(film, number)
     if good then
       scenes[i] = film:scene()
-      film:faults(function(...) add_fault(number, ...) end)
-      survey:add(number)
+      until_stopped(add_seen, film, survey, number)
     else
       add_fault(number, "", message, code)
     end
@@ -182,7 +195,7 @@ local function check_parts(film, survey, listed, count)
       fresh, code = fresh_films(film)
       if not fresh then return done, code end
     end
-    check_again(fresh, numbers, scenes)
+    until_stopped(check_again, fresh, numbers, scenes)
   end
   return done
 end
@@ -300,7 +313,7 @@ local sound = film:check_sound()
 if sound ~= 0 then others[1] = program.reported() end
 local survey = program.part("survey.lua", program, film)
 local done, ended = check_parts(film, survey, listed, count)
-local warnings = warnings_of(survey)
+local warnings = until_stopped(warnings_of, survey) or {}
 if request.json then print_json(warnings) end
 report(done, count, ended, sound, warnings)
 return faults.code or ended or sound
