@@ -311,8 +311,10 @@ return celspan.rostrum { celspan.cel { celspan.text { "A", font = "%s", size = 2
     bench:write("film.lua", SCRIPT:format "Arial")
     refused(4, 'a font is given by its file, such as "arial.ttf"', "check film.lua")
     bench:write("film.lua", SCRIPT:format "arial.ttf")
+    refused(4, 'a font of the system is given by its whole path', "check film.lua")
+    bench:write("film.lua", SCRIPT:format "type/arial.ttf")
     local _, _, message = run "check film.lua"
-    assert.is_falsy(message:find("given by its file", 1, true), message)
+    assert.is_falsy(message:find("is given by", 1, true), message)
   end)
 
   with_art("of the system is read with --allow-system-fonts alone", function()

@@ -60,6 +60,25 @@ describe("what is seen of a film", function()
     warns "is covered by nearer cels in all of its frames, 100 % of it at least"
   end)
 
+  it_sets_type("is reported by check where one text lies over another", function()
+    film(48, 'cel(text("Read me", 20, 40, "#fff")), cel(text("Another", 24, 44, "#f80"))')
+    local one = warns 'the text "Read me" (film.lua:3) has the text "Another" over it'
+    assert.are.equal("1-48", one.frames)
+    film(48, 'cel(text("Read me", 20, 40, "#fff")), cel(text("Another", 24, 74, "#f80"))')
+    assert.same({}, warnings())
+    -- one is a copy, or passes by, or follows in a dissolve, or is a decoration
+    film(48, 'cel(text("Read me", 22, 42, "#000")), cel(text("Read me", 20, 40, "#fff"))')
+    assert.same({}, warnings())
+    film(48, 'cel(text("Read me", 100, 40, "#fff")), '
+      .. 'cel(text("Another", 280 - 14 * f.index, 40, "#f80"))')
+    assert.same({}, warnings())
+    film(48, 'cel(text("Read me", 20, 40, "#fff"):fade(1 - f.index / 47)), '
+      .. 'cel(text("Another", 20, 40, "#f80"):fade(f.index / 47))')
+    assert.same({}, warnings())
+    film(48, 'cel(text("Big", 20, 120, "#88f", 100)), cel(text("Another", 24, 104, "#fff"))')
+    assert.same({}, warnings())
+  end)
+
   it_sets_type("is right about a text that appears, passes by or is uncovered", function()
     film(48, 'cel(text("Slowly", 20, 40, "#fff"):fade(math.min(1, f.index / 20)))')
     assert.same({}, warnings())

@@ -1,14 +1,17 @@
-/* Windings: how often the outline of each layer winds around a place. A drawing has as many
- * different ones as it has faces, at most, and each has a number.
+/* Windings. At every place of a drawing, the outline of each layer winds a number of times around
+ * this place. The list of these numbers, one per layer, is a winding. A drawing has at most as many
+ * different windings as it has faces, and each winding gets a number.
  *
- *        0  |  1 = 0 and A  |  2 = 1 and B    |  1        crossing a boundary from left to right
- *           a               b                 c           leads from one to another
+ *        0  |  1 = 0 and A  |  2 = 1 and B    |  1        a boundary that is crossed from left to
+ *           a               b                 c           right leads from one winding to another
  *
- *     0 ---a--- 1 ---b--- 2        each but the first remembers how it was found: they form a
- *                                  tree, along which all can be visited with few steps
+ *     0 ---a--- 1 ---b--- 2        every winding but the first stores from which winding, and over
+ *                                  which boundary, it was first reached. This makes a tree, so
+ *                                  that a walk through all windings crosses few boundaries
  *
- * Windings are told apart by a hash that is a sum over the layers, so that the way to them does not
- * matter. Two sums of 64 bits make it unlikely beyond practice that different ones share one.
+ * A winding is found again by its hash, which is a sum over the layers, so that it does not depend
+ * on the order in which boundaries are crossed. The hash has two sums of 64 bits each, so that two
+ * windings with the same hash are not expected in practice.
  */
 #include "engine/events/bundle.h"
 

@@ -86,14 +86,6 @@ end
 
 -- ---------------------------------------------------------------- the passes
 
---- Calls a function. A signal to stop makes what it draws fail: then it returns nothing, because
---- the verb ends with its results so far.
-local function until_stopped(call, ...)
-  local results = table.pack(pcall(call, ...))
-  if not results[1] and not program.is_stopped() then error(results[2], 0) end
-  if results[1] then return table.unpack(results, 2, results.n) end
-end
-
 local slowest = { seconds = 0, total = 0 }
 
 --- Builds a frame, and adds the processor time that it needs.
@@ -118,7 +110,7 @@ local function first_pass(film, survey, numbers, scenes)
     local good, message, code = try_timed(film, number)
     if good then
       scenes[i] = film:scene()
-      until_stopped(add_seen, film, survey, number)
+      program.until_stopped(add_seen, film, survey, number)
     else
       add_fault(number, "", message, code)
     end
@@ -195,7 +187,7 @@ local function check_parts(film, survey, listed, count)
       fresh, code = fresh_films(film)
       if not fresh then return done, code end
     end
-    until_stopped(check_again, fresh, numbers, scenes)
+    program.until_stopped(check_again, fresh, numbers, scenes)
   end
   return done
 end
@@ -313,7 +305,7 @@ local sound = film:check_sound()
 if sound ~= 0 then others[1] = program.reported() end
 local survey = program.part("survey.lua", program, film)
 local done, ended = check_parts(film, survey, listed, count)
-local warnings = until_stopped(warnings_of, survey) or {}
+local warnings = program.until_stopped(warnings_of, survey) or {}
 if request.json then print_json(warnings) end
 report(done, count, ended, sound, warnings)
 return faults.code or ended or sound

@@ -73,12 +73,17 @@ end
 
 local film = program.film()
 local survey = program.part("survey.lua", program, film)
-for _, number in ipairs(film:numbers()) do
-  film:build(number)
-  survey:add(number)
+local numbers, done = film:numbers(), 0
+while done < #numbers and not program.is_stopped() do
+  program.until_stopped(function()
+    film:build(numbers[done + 1])
+    survey:add(numbers[done + 1])
+    done = done + 1
+  end)
 end
 
 facts:lists("marks", "shots", "parts", "texts", "empty", "frozen", "flashes", "unseen")
 put_film(film)
 put_survey(survey:facts())
 facts:finish()
+if done < #numbers then program.note("stopped after %d of %d frames", done, #numbers) end

@@ -166,6 +166,14 @@ function program.pass_on(words, request, own, settings)
   return words
 end
 
+--- Calls a function. A signal to stop makes what it draws fail: then it returns nothing, because
+--- the verb ends with its results so far.
+function program.until_stopped(call, ...)
+  local results = table.pack(pcall(call, ...))
+  if not results[1] and not program.is_stopped() then error(results[2], 0) end
+  if results[1] then return table.unpack(results, 2, results.n) end
+end
+
 --- Runs processes, as many at a time as `workers`. next_item() returns the next item, or nil after
 --- the last. start(item) returns its process, or nil if it could not be started; then no more
 --- processes are started. finish(item, code, signal, name) is called in the order of the items, and

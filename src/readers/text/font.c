@@ -28,21 +28,24 @@
 
 #define FILE_BYTES ((size_t)256 << 20)
 
-/* Whether a text may be the name of an installed font. */
-static bool is_family(const char *file) {
+/* What helps when a font is missing: its name may be that of a family, or of an installed font's
+ * file without the folder. */
+static const char *hint_at(const char *file) {
   const char *slash = strrchr(file, '/');
-  return !strchr(slash ? slash : file, '.');
+  if (!strchr(slash ? slash : file, '.'))
+    return "; a font is given by its file, such as \"arial.ttf\" beside the script, or one of the "
+           "system's with --allow-system-fonts";
+  if (slash)
+    return "";
+  return "; a font of the system is given by its whole path, such as "
+         "\"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf\", with --allow-system-fonts";
 }
 
 static celspan_status fail_missing(celspan_context *context, const char *file, int error) {
   const char *tried = cs_tried_find(context, file);
   char text[CS_ERROR_TEXT_SIZE];
   return cs_fail(context, CELSPAN_INPUT, "%s: %s%s%s%s", file, cs_error_text(error, text),
-                 tried ? "; also looked for at " : "", tried ? tried : "",
-                 is_family(file) ? "; a font is given by its file, such as \"arial.ttf\" "
-                                   "beside the script, or one of the system's with "
-                                   "--allow-system-fonts"
-                                 : "");
+                 tried ? "; also looked for at " : "", tried ? tried : "", hint_at(file));
 }
 
 /* Errors: INPUT when it is missing, unreadable or no file. */

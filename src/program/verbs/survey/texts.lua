@@ -9,7 +9,8 @@
 --   nearer cels, alone -> how much of the letters they cover
 --
 -- A text is measured in its 1st, 2nd, 4th, 8th ... frame, since it may appear slowly, and in every
--- frame as long as it could not be read.
+-- frame as long as it could not be read. Two texts are compared in the same way, in the frames in
+-- which both are clearly there, since one may pass the other, or follow it in a dissolve.
 local film = ...
 
 local texts = {}
@@ -17,6 +18,9 @@ texts.__index = texts
 
 local MOST = 1000            -- texts that are kept
 local CONTRAST, COVERED = 3, 0.9
+local CROSSED = 0.05         -- the share of letters that those of another text may cover
+local PAIRED = 50            -- texts of a frame that are compared with each other
+local CLEAR, RATIO = 0.6, 3  -- the least fade of such texts, and the greatest ratio of their sizes
 local EM, PIXELS = 24, 1 << 14 -- the size of letters, and of pictures, for measuring
 
 function texts.new() return setmetatable({ list = {}, shown = {} }, texts) end
@@ -33,7 +37,8 @@ local function outline_of(words) return (words:gsub("%d[%d.,\u{a0}\u{202f}']*", 
 
 local function new_text(part, words, em)
   return { words = words, outline = outline_of(words), number = part.words, box = part.box,
-           pixels = em * part.scale, over = part.over, file = part.file, line = part.line,
+           pixels = em * part.scale, over = part.over, fade = part.fade,
+           file = part.file, line = part.line,
            alone = { { part.alone, 1 } }, hash = part.drawing .. part.placement }
 end
 
@@ -154,6 +159,76 @@ local function is_measured(shown, age)
     or (shown.covered or 0) >= COVERED
 end
 
+-- ---------------------------------------------------------------- texts over texts
+
+local function meet(a, b)
+  return a[1] < b[1] + b[3] and b[1] < a[1] + a[3] and a[2] < b[2] + b[4] and b[2] < a[2] + a[4]
+end
+
+--- Whether two texts are different ones that a viewer would read: not letters of decoration behind
+--- a text, nor a text on its own copy, of which it may have only the first words.
+local function are_rivals(a, b)
+  local ratio = a.pixels / b.pixels
+  return math.min(a.fade, b.fade) >= CLEAR and ratio <= RATIO and ratio >= 1 / RATIO
+    and not a.outline:find(b.outline, 1, true) and not b.outline:find(a.outline, 1, true)
+end
+
+--- The share of the letters of `text` that the letters of `nearer` cover.
+local function crossed_by(text, nearer, look)
+  local view = view_of(text)
+  if not view then return 0 end
+  local _, alphas = look(text.alone, view)
+  local _, over = look(nearer.alone, view)
+  return alphas and over and cover_of(alphas, over) / nearer.fade or 0
+end
+
+--- What is known of two texts, of which `near` is in front; it begins when their boxes meet.
+local function pair_of(far, near, do_meet)
+  for _, pair in ipairs(far.under) do
+    if pair.near == near then return pair end
+  end
+  if not do_meet then return nil end
+  local pair = { near = near, age = 0, share = 1 }
+  table.insert(far.under, pair)
+  table.insert(near.above, pair)
+  return pair
+end
+
+--- Updates the least share of a text that a nearer one covers, for a frame that has both.
+local function add_pair(far, near, look)
+  local do_meet = meet(far.text.box, near.text.box)
+  local pair = pair_of(far.shown, near.shown, do_meet)
+  if not pair then return end
+  pair.age = pair.age + 1
+  if not do_meet then
+    pair.share = 0
+  elseif pair.share >= CROSSED and pair.age & (pair.age - 1) == 0 then
+    pair.share = math.min(pair.share, crossed_by(far.text, near.text, look))
+  end
+end
+
+--- Compares the texts of a frame, from the farthest: { text =, shown = } each. A text with the same
+--- words in front of it is the shadow of this one.
+local function add_pairs(met, look)
+  for i = 1, math.min(#met, PAIRED) do
+    for k = i + 1, math.min(#met, PAIRED) do
+      local far, near = met[i], met[k]
+      if are_rivals(far.text, near.text) then add_pair(far, near, look) end
+      far.shown.is_copied = far.shown.is_copied or far.text.outline == near.text.outline
+        and meet(far.text.box, near.text.box)
+    end
+  end
+end
+
+--- The pair of a list with the greatest share that is covered; nil: none is covered.
+local function crossing(pairs_of)
+  local worst
+  for _, pair in ipairs(pairs_of) do
+    if pair.share >= (worst and worst.share or CROSSED) then worst = pair end
+  end
+  return worst
+end
+
 -- ---------------------------------------------------------------- frames
 
 --- Adds the sides of the frame inside which the whole text lies: left, top, right, bottom.
@@ -173,7 +248,7 @@ end
 --- Begins a text in a frame.
 function texts:begin(text, frame)
   local shown = { words = text.words, first = frame, file = text.file, line = text.line,
-                  pixels = 0, share = 0, inside = {}, moves = false }
+                  pixels = 0, share = 0, inside = {}, under = {}, above = {}, moves = false }
   if #self.list < MOST then self.list[#self.list + 1] = shown else self.has_more = true end
   return shown
 end
@@ -181,7 +256,7 @@ end
 --- Adds the frame `number`, which was built last, with its parts. look(exposures, view) returns the
 --- luminances and the alphas of a picture.
 function texts:add(number, parts, look)
-  local now = {}
+  local now, met = {}, {}
   for _, one in ipairs(self.shown) do one.is_met = false end
   for _, text in ipairs(texts_of(parts)) do
     local shown = find(self.shown, text)
@@ -194,8 +269,9 @@ function texts:add(number, parts, look)
     shown.share = math.max(shown.share, texts.share_of(text.box))
     add_sides(shown, text.box)
     if is_measured(shown, number - shown.first + 1) then measure(shown, text, look) end
-    now[#now + 1] = shown
+    now[#now + 1], met[#met + 1] = shown, { text = text, shown = shown }
   end
+  add_pairs(met, look)
   self.shown = now
 end
 
@@ -239,11 +315,15 @@ end
 --- Calls add(format, ...) for each reason why a text may be hard to read. seconds: how long it is
 --- shown; nil: not known.
 function texts.judge(shown, seconds, add)
+  local pair = crossing(shown.under)
   add_outside(shown, add)
-  if shown.covered and shown.covered >= COVERED then
+  if pair then
+    add("has the text %s over it", texts.quoted(pair.near.words))
+  elseif shown.covered and shown.covered >= COVERED then
     add("is covered by nearer cels in all of its frames, %d %% of it at least",
       math.floor(shown.covered * 100 + 0.5))
-  elseif shown.contrast and shown.contrast < CONTRAST then
+  elseif shown.contrast and shown.contrast < CONTRAST
+    and not shown.is_copied and not crossing(shown.above) then
     add("has a contrast of %.1f to its background, less than %d", shown.contrast, CONTRAST)
   end
   local count = texts.words_in(shown.words)
