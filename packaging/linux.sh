@@ -156,9 +156,12 @@ mv "$tree/lib/lua" "lua/$name/lib"
 cp /usr/lib/libunibreak.so.1 "$tree/lib/celspan"
 # shellcheck disable=SC2016
 patchelf --set-rpath '$ORIGIN' "$tree/lib/celspan/celspan-art.so"
-mkdir -p "$tree/share/celspan/examples/fonts" "$tree/share/doc/celspan"
+mkdir -p "$tree/share/celspan/examples"/{fonts,type} "$tree/share/doc/celspan/docs"
 cp source/packaging/examples/*.lua "$tree/share/celspan/examples"
-cp source/README.md source/CHANGELOG.md source/LICENSE "$tree/share/doc/celspan"
+# The examples in the pages use this font.
+cp source/scripts/type/block.ttf "$tree/share/celspan/examples/type"
+cp source/README.md source/CHANGELOG.md source/LICENSE source/llms.txt "$tree/share/doc/celspan"
+cp source/docs/*.md "$tree/share/doc/celspan/docs"
 
 # ---------------------------------------------------------------- fonts, and whose work it all is
 
