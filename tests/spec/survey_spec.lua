@@ -56,6 +56,10 @@ describe("what is seen of a film", function()
     assert.same({ 1, "1-48", "film.lua", 3 }, { dim.frame, dim.frames, dim.file, dim.line })
     film(48, 'cel(text("Out", 290, 40, "#fff"))')
     warns "lies outside of the frame in all of its frames, at the right side"
+    film(48, 'cel(text("Tiny", 20, 40, "#fff", 2.4))')
+    warns "has letters of 2.4 units, less than 1/72 of the frame's height"
+    film(48, 'cel(text("Grows", 20, 40, "#fff", 2 + f.index / 40))')
+    assert.same({}, warnings())
     film(48, 'cel(text("Hid", 20, 40, "#fff")), cel(celspan.rect { 10, 10, 150, 40 })')
     warns "is covered by nearer cels in all of its frames, 100 % of it at least"
   end)

@@ -35,7 +35,8 @@ return {
   { "blur", "defocus" }, { "gaussian blur", "blur" }, { "bokeh", "defocus" },
   { "depth of field", "defocus", "multiplane" }, { "rack focus", "defocus", "multiplane" },
   { "lens blur", "defocus" }, { "directional", "blur" }, { "radial blur", "blur", "rays of light" },
-  { "feather", "soft edge" }, { "light shaft", "rays of light" },
+  { "feather", "soft edge" }, { "light shaft", "rays of light" }, { "beam", "rays of light" },
+  { "lighthouse", "rays of light" },
   { "light wrap", "mattes", "glow" },
   { "lens flare", "glow" }, { "bloom", "glow" }, { "lut", "grades" },
   { "color grading", "grades" }, { "color correction", "grades" }, { "curves", "grades" },
@@ -73,7 +74,9 @@ return {
   { "gradient along or across a stroke", "brush" }, { "conic gradient", "gradient" },
   { "mesh gradient", "gradient" }, { "ink line", "outline", "trace" }, { "fire", "particles" },
   { "smoke", "particles" }, { "explosion", "particles" }, { "dust", "particles" },
-  { "shape tween", "morph" }, { "photo", "pictures" },
+  { "shape tween", "morph" }, { "photo", "pictures" }, { "wave", "reflection in water", "paths" },
+  { "boat", "keys", "reflection in water" }, { "sea", "reflection in water" },
+  { "title fade", "crossfade", "letters" }, { "fade in", "crossfade", "ease" },
 
   -- files and programs
   { "gif", "videos" }, { "mp4", "videos" }, { "webm", "videos" }, { "prores", "videos" },

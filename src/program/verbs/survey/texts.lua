@@ -18,6 +18,7 @@ texts.__index = texts
 
 local MOST = 1000            -- texts that are kept
 local CONTRAST, COVERED = 3, 0.9
+local SMALL = 1 / 72          -- of the frame's height: 15 of 1080 pixels
 local CROSSED = 0.05         -- the share of letters that those of another text may cover
 local PAIRED = 50            -- texts of a frame that are compared with each other
 local CLEAR, RATIO = 0.6, 3  -- the least fade of such texts, and the greatest ratio of their sizes
@@ -325,6 +326,10 @@ function texts.judge(shown, seconds, add)
   elseif shown.contrast and shown.contrast < CONTRAST
     and not shown.is_copied and not crossing(shown.above) then
     add("has a contrast of %.1f to its background, less than %d", shown.contrast, CONTRAST)
+  end
+  if shown.pixels < SMALL * film.size[2] then
+    add("has letters of %.3g units, less than 1/%d of the frame's height", shown.pixels,
+      math.floor(1 / SMALL + 0.5))
   end
   local count = texts.words_in(shown.words)
   local needed = texts.needed(count)
