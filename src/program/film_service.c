@@ -476,7 +476,15 @@ static int open_film(lua_State *L) {
   return 1;
 }
 
+/* give_settings(): the scripts that this verb itself runs get the values of --set and --set-from */
+static int give_settings(lua_State *L) {
+  const cs_session *session = cs_service_session(L);
+  luaL_requiref(L, "celspan", luaopen_celspan, 0);
+  cs_service_require(L, cs_script_give_settings(session->context, session->request, L));
+  return 0;
+}
+
 void cs_service_add_film(lua_State *L) {
-  static const luaL_Reg services[] = {{"film", open_film}, {NULL, NULL}};
+  static const luaL_Reg services[] = {{"film", open_film}, CS_SERVICE(give_settings), {NULL, NULL}};
   cs_service_add(L, services);
 }

@@ -105,13 +105,29 @@ static void give_one(void *user, const char *name, const char *value) {
   cs_parameters_give(user, "--set: ", value, length, value + length + 1);
 }
 
-/* light userdata: the settings. Gives them to a state that has celspan. Runs protected. */
-static int give_settings(lua_State *L) {
+/* light userdata: the settings. Runs protected. */
+static int give_all(lua_State *L) {
   const script_settings *settings = lua_touserdata(L, 1);
   if (settings->path)
     cs_parameters_give_json(L, settings->path, settings->json.bytes, settings->json.size);
   cs_request_each(settings->request, give_one, L);
   return 0;
+}
+
+/* Gives the settings to a state that has celspan. */
+static cs_exit give_settings(lua_State *L, script_settings *settings) {
+  lua_pushcfunction(L, give_all);
+  lua_pushlightuserdata(L, settings);
+  return lua_pcall(L, 1, 0, 0) == LUA_OK ? CS_EXIT_OK : cs_script_report_start(L);
+}
+
+cs_exit cs_script_give_settings(celspan_context *context, const cs_request *request, lua_State *L) {
+  script_settings settings;
+  cs_exit outcome = open_settings(context, request, &settings);
+  if (outcome == CS_EXIT_OK)
+    outcome = give_settings(L, &settings);
+  cs_text_file_close(context, &settings.json);
+  return outcome;
 }
 
 /* ---------------------------------------------------------------- sounds */
@@ -250,12 +266,8 @@ static cs_exit start_script(cs_script *out, const cs_request *request, const cha
     outcome = cs_confine_open(request, path, &confined);
   if (outcome == CS_EXIT_OK)
     outcome = start(out, is_confined ? &confined : NULL);
-  if (outcome == CS_EXIT_OK) {
-    lua_pushcfunction(out->L, give_settings);
-    lua_pushlightuserdata(out->L, &settings);
-    if (lua_pcall(out->L, 1, 0, 0) != LUA_OK)
-      outcome = cs_script_report_start(out->L);
-  }
+  if (outcome == CS_EXIT_OK)
+    outcome = give_settings(out->L, &settings);
   out->given = hash_settings(&settings);
   cs_text_file_close(out->context, &settings.json);
   return outcome;

@@ -32,6 +32,10 @@ void cs_script_unwatch(void);
  * was no memory for the state. Returns the outcome. */
 cs_exit cs_script_report_start(lua_State *L);
 
+/* Gives the values of --set and --set-from to the scripts that a state with celspan runs. OK, or
+ * reported. */
+cs_exit cs_script_give_settings(celspan_context *context, const cs_request *request, lua_State *L);
+
 /* Runs the script under the request. OK, or reported; *out may be closed in both cases. */
 cs_exit cs_script_open(celspan_context *context, const cs_request *request, const char *path,
                        cs_script *out);

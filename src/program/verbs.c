@@ -93,11 +93,15 @@
   }
 #define JSON                                                                                       \
   { "--json", NULL, NULL, "print the same as a JSON object" }
-/* The arguments and the rights of scripts. */
-#define SCRIPT                                                                                     \
+/* The arguments of scripts. */
+#define SETTINGS                                                                                   \
   {"--set", "NAME=V", &cs_argument_setting,                                                        \
    "the value of a parameter that the script declares; may be given several times"},               \
-      {"--set-from", "FILE", &cs_argument_file, "values of parameters, as a JSON object"}, RIGHTS
+  {                                                                                                \
+    "--set-from", "FILE", &cs_argument_file, "values of parameters, as a JSON object"              \
+  }
+/* The arguments and the rights of scripts. */
+#define SCRIPT SETTINGS, RIGHTS
 #define RIGHTS                                                                                     \
   {"--trust", NULL, NULL,                                                                          \
    "give the script all of Lua, with files and programs, and no limits; decode "                   \
@@ -373,7 +377,11 @@ static const cs_option TEST[] = {
     {"--only", "PATTERN", &cs_argument_pattern, "only tests whose names match this Lua pattern"},
     {"--workers", "N", &cs_argument_workers,
      "the number of spec files at a time; default: one per processor"},
+    {"--junit", "FILE", &cs_argument_file, "also write the results as XML, for CI servers"},
+    SETTINGS,
     {0}};
+
+static const cs_option SPEC[] = {SETTINGS, {0}};
 
 static const cs_option HELP[] = {
     {"--man", NULL, NULL, "the manual page"},
@@ -548,5 +556,5 @@ const cs_verb cs_verbs[] = {
     {"help", "[WORDS]", 0, CS_OPERANDS_MAX, .is_hidden = true, .options = HELP},
     {"stage", "SCRIPT", 1, 1, .is_hidden = true, .has_script = true, .asks_files = true,
      .asks_warnings = true, .runs_again = true, .options = STAGE},
-    {"spec", "-- FILE [PATTERN]", 0, 0, .is_hidden = true, .has_script = true, .options = NONE},
+    {"spec", "-- FILE [PATTERN]", 0, 0, .is_hidden = true, .has_script = true, .options = SPEC},
     {0}};

@@ -68,6 +68,36 @@ describe("celspan test", function()
     assert.equal("", err)
   end)
 
+  it("writes the results as XML for other programs, whatever tests are called", function()
+    bench:write("first_spec.lua", [[
+      it("is <good> & \"quoted\"", function() end)
+      it("is \xff\1 wrong", function() error "with <a> reason" end)
+      pending "is for later"]])
+    assert.equal(1, (run "test first_spec.lua --junit out/report.xml"))
+    local xml = bench:read "out/report.xml"
+    for _, part in ipairs { '<testsuite name="first_spec.lua" tests="3" failures="1" skipped="1" ',
+      'name="is &lt;good&gt; &amp; &quot;quoted&quot;" ', 'name="is ?  wrong" ',
+      "with &lt;a&gt; reason</failure>", '<skipped message="is for later">' } do
+      assert.truthy(xml:find(part, 1, true), part .. "\n" .. xml)
+    end
+    assert.equal(0, (bench:shell(([[python3 -c 'import sys, xml.dom.minidom as d; d.parse("%s")']])
+      :format(bench.folder .. "/out/report.xml"))))
+  end)
+
+  it("gives the scripts of specs the values of parameters", function()
+    bench:write("film.lua", [[local celspan = require "celspan"
+return celspan.film { frames = celspan.parameters { count = 3 }.count, frame = function() end }]])
+    bench:write("count_spec.lua", [[
+      it("has frames", function() assert.equal(5, dofile("film.lua").frames) end)]])
+    assert.equal(1, (run "test count_spec.lua"))
+    assert.equal(0, (run "test count_spec.lua --set count=5"))
+    bench:write("values.json", '{ "count": 5 }')
+    assert.equal(0, (run "test count_spec.lua --set-from values.json"))
+    assert.equal(2, (run "test count_spec.lua --set count"))
+    local _, out = run "test count_spec.lua --set-from none.json"
+    assert.truthy(out:find("with exit code 4", 1, true), out)
+  end)
+
   it("prints the same, in the order of the list, with any number of workers", function()
     bench:write("slow_spec.lua", [[
       it("takes its time", function() local n = 0 for i = 1, 3e6 do n = n + i end end)]])

@@ -37,9 +37,6 @@ local function base64(bytes)
   return table.concat(parts)
 end
 
-local ENTITIES = { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" }
-local function quoted(text) return (text:gsub('[&<>"]', ENTITIES)) end
-
 local function bytes_of(path)
   local file, message = io.open(path, "rb")
   local bytes = file and file:read "a"
@@ -61,7 +58,7 @@ local facts = program.plane(path) -- fails if the file is not a plane
 -- The decoder that can also draw pictures is larger.
 local module = program.text(facts.pictures > 0 and "pictures.module" or "plane.module")
 local fields = {
-  TITLE = quoted(request.title or path:match "[^/]*$"),
+  TITLE = program.markup(request.title or path:match "[^/]*$"),
   VIEWER = program.text "viewer.js", MODULE = module, PLANE = base64(bytes_of(path)),
 }
 program.save(request.output, (program.text "plane.html":gsub("@(%u+)@", fields)))

@@ -88,11 +88,14 @@ local function items_of(one)
   return one[1] ~= nil and one or nil
 end
 
+--- A text; if it is not UTF-8, with question marks for all bytes beyond ASCII.
+function program.utf8(text) return utf8.len(text) and text or (text:gsub("[\x80-\xff]", "?")) end
+
 --- A value as JSON: tables with a field `list`, or with items, become lists; other tables become
---- objects. Bytes that are not UTF-8 become question marks.
+--- objects.
 function program.json(value)
   local function ordered(one)
-    if type(one) == "string" then return utf8.len(one) and one or (one:gsub("[\x80-\xff]", "?")) end
+    if type(one) == "string" then return program.utf8(one) end
     if type(one) ~= "table" then return one end
     local items, names, listed = {}, {}, items_of(one)
     if listed then
@@ -106,6 +109,11 @@ function program.json(value)
   end
   return require "celspan.json".encode(ordered(value))
 end
+
+local ENTITIES = { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" }
+
+--- A text in the form that HTML and XML have for it, also in attributes.
+function program.markup(text) return (text:gsub('[&<>"]', ENTITIES)) end
 
 --- The message for a frame function that returns another scene when it is called again.
 program.impure = "the frame function is not pure: called again, it returned another scene; let it "

@@ -1,8 +1,11 @@
 --- celspan spec -- FILE [PATTERN]: one spec file in busted, for `celspan test`.
 --
--- Each test leaves a record on descriptor 3, "KIND LENGTH\n" and a text of that length:
+-- Each test leaves a record on descriptor 3, "KIND SECONDS LENGTH LENGTH\n" and two texts of these
+-- lengths, the name and what is printed of the test:
 --
---   pass ""      skip "name"      fail "name (file:line)" and the message, indented      done ""
+--   pass ""      skip "name"      fail "name (file:line)" and the message, indented
+--
+-- The last record is of the kind "done".
 --
 -- busted is found where Lua 5.4 looks for modules.
 local program, request = ...
@@ -12,8 +15,11 @@ local SCRIPT = 3 -- the exit code
 local path, only = request.arguments[1], request.arguments[2]
 local records = assert(io.open("/dev/fd/3", "ab"))
 
-local function record(kind, text)
-  assert(records:write(("%s %d\n"):format(kind, #text), text))
+local begun = 0 -- when the present test began
+
+local function record(kind, name, text)
+  local head = ("%s %.6f %d %d\n"):format(kind, program.clock() - begun, #name, #text)
+  assert(records:write(head, name, text))
   assert(records:flush())
 end
 
@@ -41,19 +47,25 @@ local function failure(formatted)
   local message = text_of(formatted.message)
   local place = ("%s:%d: "):format(trace.short_src or path, trace.currentline or 0)
   if message:sub(1, #place) == place then message = message:sub(#place + 1) end
-  record("fail", ("%s (%s)%s"):format(formatted.name or path, place:sub(1, -3), indented(message)))
+  local name = formatted.name or path
+  record("fail", name, ("%s (%s)%s"):format(name, place:sub(1, -3), indented(message)))
 end
 
 package.preload["busted.outputHandlers.celspan"] = function()
   return function()
     local busted = require "busted"
     local handler = require "busted.outputHandlers.base"()
-    busted.subscribe({ "test", "end" }, function(_, _, status)
+    busted.subscribe({ "test", "start" }, function()
+      begun = program.clock()
+      return nil, true
+    end)
+    busted.subscribe({ "test", "end" }, function(element, _, status)
       if status == "success" then
-        record("pass", "")
+        record("pass", handler.getFullName(element), "")
       elseif status == "pending" then
         local pending = handler.pendings[#handler.pendings]
-        record("skip", pending.name .. (pending.message and ": " .. text_of(pending.message) or ""))
+        record("skip", pending.name, pending.name
+          .. (pending.message and ": " .. text_of(pending.message) or ""))
       elseif status == "failure" then
         failure(handler.failures[#handler.failures])
       else
@@ -66,13 +78,14 @@ package.preload["busted.outputHandlers.celspan"] = function()
       return nil, true
     end)
     busted.subscribe({ "exit" }, function()
-      record("done", "")
+      record("done", "", "")
       return nil, true
     end)
     return handler
   end
 end
 
+program.give_settings()
 program.default_signals()
 _G.arg = { [0] = "celspan test", "--ignore-lua", "--output=celspan", "--pattern=.", path }
 if only then table.insert(_G.arg, 1, "--filter=" .. only) end

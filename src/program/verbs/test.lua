@@ -6,6 +6,7 @@
 local program, request = ...
 
 local OUTPUT, MEMORY, DIFFERENT = 5, 33, 1 -- exit codes
+local OWN = { ["--junit"] = true, ["--only"] = true, ["--workers"] = true }
 local ENDING, FOLDERS_DEEP, PATH_MOST = "_spec.lua", 32, 4095
 
 -- ---------------------------------------------------------------- which
@@ -43,7 +44,7 @@ local function all_specs()
   local runs = {}
   for _, operand in ipairs(request[1] and request or { "spec" }) do
     for _, path in ipairs(specs_of(operand)) do
-      runs[#runs + 1] = { path = path, passed = 0, failed = 0, skipped = 0 }
+      runs[#runs + 1] = { path = path, tests = {}, passed = 0, failed = 0, skipped = 0 }
     end
   end
   return runs
@@ -57,7 +58,8 @@ local function start(run)
   run.records, message = io.tmpfile()
   run.printed, other = io.tmpfile()
   if run.records and run.printed then
-    local words = { "spec", "--", run.path, request.only }
+    local words = program.pass_on({ "spec" }, request, OWN, {})
+    table.move({ "--", run.path, request.only }, 1, 3, #words + 1, words)
     run.process, message = program.start(words, run.printed, run.records)
   end
   if not run.process then
@@ -66,34 +68,33 @@ local function start(run)
   return run.process
 end
 
---- Counts the results that the process recorded, each "KIND LENGTH\n" and a text, and prints those
---- of skipped and failed tests. Returns whether the process ran all tests.
+local COUNTS = { pass = "passed", skip = "skipped", fail = "failed" }
+
+--- Counts a result, and prints that of a skipped or failed test.
+local function add_test(run, test)
+  local counted = COUNTS[test.kind]
+  run[counted] = run[counted] + 1
+  run.tests[#run.tests + 1] = test
+  if test.kind ~= "pass" then print(counted .. ": " .. test.message) end
+end
+
+--- Adds the results that the process recorded (spec.lua). Returns whether it ran all tests.
 local function read_records(run)
-  local kind
   run.records:seek "set"
   for line in run.records:lines() do
-    local size
-    kind, size = line:match "^(%l+) (%d+)$"
-    local text = run.records:read(math.tointeger(size)) or ""
-    if kind == "pass" then run.passed = run.passed + 1 end
-    if kind == "skip" then
-      run.skipped = run.skipped + 1
-      print("skipped: " .. text)
-    elseif kind == "fail" then
-      run.failed = run.failed + 1
-      print("failed: " .. text)
-    end
+    local kind, seconds, name, text = line:match "^(%l+) (%S+) (%d+) (%d+)$"
+    if kind == "done" then return true end
+    add_test(run, { kind = kind, seconds = tonumber(seconds),
+                    name = run.records:read(math.tointeger(name)) or "",
+                    message = run.records:read(math.tointeger(text)) or "" })
   end
-  return kind == "done"
+  return false
 end
 
 local function report_death(run, code, signal, name)
-  run.failed = run.failed + 1
-  if code then
-    print(("failed: %s ended before its tests did, with exit code %d"):format(run.path, code))
-  else
-    print(("failed: %s was ended by signal %d (%s)"):format(run.path, signal, name))
-  end
+  local how = code and ("ended before its tests did, with exit code %d"):format(code)
+    or ("was ended by signal %d (%s)"):format(signal, name)
+  add_test(run, { kind = "fail", seconds = 0, name = run.path, message = run.path .. " " .. how })
 end
 
 local function print_run(run, ...)
@@ -139,4 +140,7 @@ local count, is_well = program.run_all(function()
   place = place + 1
   return runs[place]
 end, workers, start, print_run)
+if request.junit then
+  program.save(request.junit, program.part("junit.lua", program).report(runs, count))
+end
 return sum_up(runs, count, is_well, begun)
