@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "frames/tiles/pyramid.h"
+#include "program/task.h"
 
 bool cs_argument_read(const cs_argument *kind, const char *text, void *field) {
   return kind->read(kind, text, field);
@@ -103,6 +104,15 @@ static bool read_range(const cs_argument *kind, const char *text, void *field) {
   return take_pair(pair, read_integers(kind, text, pair, 2) && pair[0] <= pair[1], field);
 }
 
+/* I/N, or env or env/N. */
+static bool read_task(const cs_argument *kind, const char *text, void *field) {
+  int32_t task[2] = {0}, count = 0;
+  if (strncmp(text, "env", 3) != 0)
+    return read_range(kind, text, field);
+  bool is_right = !text[3] || (text[3] == '/' && read_integers(kind, text + 4, &count, 1));
+  return take_pair(task, is_right && cs_task_find(count, task), field);
+}
+
 static bool read_onion(const cs_argument *kind, const char *text, void *field) {
   int32_t pair[2];
   return take_pair(pair, read_integers(kind, text, pair, 2) && pair[0] + pair[1] > 0, field);
@@ -153,6 +163,10 @@ NUMBERS(size, "width x height in whole pixels, 1 to 1048576, such as 1920x1080",
 NUMBERS(grid, "columns x rows, each 1 to 100, such as 6x4", read_pair, 1, 100, 'x');
 NUMBERS(onion, "two numbers of frames, 0 to 16, not both 0, such as 2,1", read_onion, 0, 16, ',');
 NUMBERS(share, "a number and how many there are, such as 3/24", read_range, 1, INT32_MAX, '/');
+NUMBERS(task,
+        "a number and how many there are, such as 3/24; nor env, in a task of an array of Slurm, "
+        "Grid Engine or AWS Batch; nor env/24, there or in an indexed job of Kubernetes",
+        read_task, 1, INT32_MAX, '/');
 NUMBERS(rows, "two rows from 0, the first not below the second", read_range, 0, CS_SIDE_MAX - 1,
         '-');
 NUMBERS(levels, "two levels from 0, the first not above the second", read_range, 0, CS_SIDE_MAX - 1,

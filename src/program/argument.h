@@ -77,7 +77,7 @@ extern const cs_argument cs_argument_integer, cs_argument_every, cs_argument_meb
 /* int32_t[2]. Of rows and levels, the first is not greater than the second; of a share, both are
  * also at least 1. */
 extern const cs_argument cs_argument_size, cs_argument_grid, cs_argument_onion, cs_argument_share,
-    cs_argument_rows, cs_argument_levels;
+    cs_argument_task, cs_argument_rows, cs_argument_levels;
 /* int32_t[4]: x, y, width, height */
 extern const cs_argument cs_argument_crop;
 /* double */

@@ -414,6 +414,32 @@ describe("the template of Open Job Description", function()
   end)
 end)
 
+-- ---------------------------------------------------------------- commands
+
+describe("the commands of a job", function()
+  it("make every frame once, on whatever runs lines", function()
+    done "render film.lua -o all/#.png"
+    local lines = done "farm film.lua -o o/#.png --commands --chunk 2 --workers 1"
+    assert.equal(4, select(2, lines:gsub("\n", "")))
+    bench:write("lines.sh", lines)
+    assert.equal(0, (shell "sh lines.sh"))
+    assert.equal(frames_in "all", frames_in "o")
+    for name in frames_in("all"):gmatch "%S+" do same("all/" .. name, "o/" .. name) end
+  end)
+
+  it("make strips of a frame, and join them", function()
+    local options = "film.lua --frames 3 --size 60x700 -- 7"
+    done("render -o whole.tga " .. options)
+    bench:write("lines.sh", done("farm -o one.tga --commands --strips 2 " .. options))
+    assert.equal(0, (shell "sh lines.sh"))
+    same("whole.tga", "one.tga")
+  end)
+
+  it("need one line each", function()
+    refused("has control characters", "farm film.lua -o o/#.png --commands -- 'a\nb'")
+  end)
+end)
+
 describe("celspan farm", function()
   it("refuses more options than a task accepts, and names that are too long", function()
     refused("--scale: there are more than 128 options",

@@ -409,6 +409,13 @@ describe("render --task", function()
     assert.equal("1.png", frames_of("2/2", "--frames 3,1"))
   end)
 
+  it("is numbered by the array of a farm", function()
+    assert.equal(0, (bench:inside(("SGE_TASK_ID=2 SGE_TASK_FIRST=1 SGE_TASK_LAST=2 %s render "
+      .. "film.lua --task env -o p/#.png --size 30x90"):format(workbench.absolute))))
+    assert.equal("2.png 3.png", table.concat(bench:files "p", " "))
+    refused(2, "in an indexed job of Kubernetes", "render film.lua --task env -o p/#.png")
+  end)
+
   it("has nothing to do if the film has become shorter", function()
     local code, _, err = celspan "render film.lua --task 1/9 -o o/#.png"
     assert.equal(0, code, err)

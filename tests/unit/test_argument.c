@@ -51,6 +51,7 @@ static void what_is_no_value_is_refused(void) {
   REFUSE(grid, "|6|6x|x4|6x4x2|0x4|6x101|6*4");
   REFUSE(onion, "|0,0|1|1,|17,1|1,17|-1,1|1,2,3");
   REFUSE(share, "|1|1/|0/4|5/4|1/4/4|/4");
+  REFUSE(task, "|1|5/4|env|env/|env/0|env/4x|environment");
   REFUSE(size, "|4|0x4|4x0|4x1048577|4x4x4| 4x4|4x 4|4 x4");
   REFUSE(crop, "|1,2,3|0,0,0,4|0,0,4,0|-1,0,4,4|0,0,4,4,4");
   REFUSE(rows, "|1|5-2|1-1048576|-1-2|1-2-3");
@@ -73,6 +74,53 @@ static void limits_are_known_and_finite(void) {
          "|time=1K|time=1e7|steps=1e16|steps=nan|print= 1|print=\t1|picture-time=1e7|heap=1");
   REFUSE(limits, "memory=1e15K|picture-memory=1e13G");
   REFUSE(picture_limits, "|memory=1|time=1|picture-memory=|picture-time=1,steps=1");
+}
+
+/* ---------------------------------------------------------------- arrays of farms */
+
+/* One array at a time: the variables of the others are not set. */
+static void set_array(const char *index, const char *first, const char *last, const char *step) {
+  setenv("SLURM_ARRAY_TASK_ID", index, 1);
+  setenv("SLURM_ARRAY_TASK_MIN", first, 1);
+  setenv("SLURM_ARRAY_TASK_MAX", last, 1);
+  setenv("SLURM_ARRAY_TASK_STEP", step, 1);
+}
+
+static bool is_task(const char *text, int32_t number, int32_t count) {
+  field f;
+  const int32_t *task = (const int32_t *)(void *)f.bytes;
+  return reads(&cs_argument_task, text, &f) && task[0] == number && task[1] == count;
+}
+
+static void a_task_is_found_in_the_environment(void) {
+  CHECK(is_task("3/24", 3, 24));
+  set_array("5", "1", "9", "2");
+  CHECK(is_task("env", 3, 5));
+  CHECK(is_task("env/7", 3, 7));
+  REFUSE(task, "env/2"); /* there are fewer than the number of this task */
+  set_array("0", "0", "3", "1");
+  CHECK(is_task("env", 1, 4));
+  set_array("0", "1", "3", "1");
+  REFUSE(task, "env");
+  set_array("x", "1", "3", "1");
+  REFUSE(task, "env");
+  unsetenv("SLURM_ARRAY_TASK_ID");
+  setenv("SGE_TASK_ID", "undefined", 1); /* outside an array */
+  REFUSE(task, "env");
+  setenv("SGE_TASK_ID", "20", 1);
+  setenv("SGE_TASK_FIRST", "10", 1);
+  setenv("SGE_TASK_LAST", "40", 1);
+  setenv("SGE_TASK_STEPSIZE", "10", 1);
+  CHECK(is_task("env", 2, 4));
+  unsetenv("SGE_TASK_ID");
+  setenv("AWS_BATCH_JOB_ARRAY_INDEX", "2", 1);
+  setenv("AWS_BATCH_JOB_ARRAY_SIZE", "3", 1);
+  CHECK(is_task("env", 3, 3));
+  unsetenv("AWS_BATCH_JOB_ARRAY_INDEX");
+  setenv("JOB_COMPLETION_INDEX", "0", 1);
+  REFUSE(task, "env"); /* Kubernetes does not say how many there are */
+  CHECK(is_task("env/6", 1, 6));
+  unsetenv("JOB_COMPLETION_INDEX");
 }
 
 /* ---------------------------------------------------------------- values */
@@ -158,6 +206,7 @@ static void texts_are_kept_in_order(void) {
 int main(void) {
   _Static_assert(sizeof(cs_given_texts) <= FIELD_SIZE, "the largest field");
   what_is_no_value_is_refused();
+  a_task_is_found_in_the_environment();
   limits_are_known_and_finite();
   numbers_are_what_they_say();
   names_are_what_they_say();

@@ -1,4 +1,4 @@
---- celspan farm SCRIPT -o OUT --slurm|--openjd: a job for a render farm, on standard output.
+--- celspan farm SCRIPT -o OUT --slurm|--openjd|--commands: a job for a farm, on standard output.
 --
 --   what render would refuse --> how many tasks --> the text of the job
 --
@@ -180,6 +180,28 @@ local function slurm(job)
   return ((SLURM_HEAD .. body .. SLURM_TAIL):gsub("@([A-Z_]+)@", values))
 end
 
+-- ---------------------------------------------------------------- commands
+
+--- A line for each task, for any shell and any program that runs lines, and one that joins strips.
+local function commands(job)
+  local lines, head = {}, ("cd -- %s && ${CELSPAN:-celspan} "):format(quoted(job.folder))
+  local words, parts = words_of(job), {}
+  if job.folder:find "%c" or words:find "%c" then
+    return nil, "--commands: a command is a line, and a name or an argument has control characters"
+  end
+  local workers = job.workers and " --workers " .. job.workers or ""
+  for i = 1, job.tasks do
+    parts[i] = job.strips and quoted(strip_pattern(job.output, i)) or quoted(job.output)
+    lines[i] = ("%srender %s -o %s --%s %d/%d --resume%s%s"):format(head, quoted(job.script),
+      parts[i], job.strips and "strip" or "task", i, job.tasks, workers, words)
+  end
+  if job.strips then
+    lines[#lines + 1] = ("%sjoin %s -o %s"):format(head, table.concat(parts, " "),
+      quoted(job.output))
+  end
+  return table.concat(lines, "\n") .. "\n"
+end
+
 -- ---------------------------------------------------------------- Open Job Description
 
 local MOST_PARAMETERS, MOST_TEXT, MOST_NAME = 50, 1024, 128
@@ -330,15 +352,18 @@ end
 
 -- ---------------------------------------------------------------- what is asked for
 
-local own = { ["-o"] = true, ["--slurm"] = true, ["--openjd"] = true, ["--chunk"] = true,
+local own = { ["-o"] = true, ["--slurm"] = true, ["--openjd"] = true,
+  ["--commands"] = true, ["--chunk"] = true,
   ["--strips"] = true, ["--job-name"] = true, ["--job-memory"] = true, ["--job-time"] = true,
   ["--logs"] = true, ["--workers"] = true } -- these are not passed to the tasks
 
 local function refuse()
   local output = request.output
   if not output then program.usage "-o is missing: give -o shot.####.png, as for render" end
-  if request.slurm == request.openjd then
-    program.usage "for which farm? give --slurm or --openjd, one of them"
+  local kinds = (request.slurm and 1 or 0) + (request.openjd and 1 or 0)
+    + (request.commands and 1 or 0)
+  if kinds ~= 1 then
+    program.usage "for which farm? give --slurm, --openjd or --commands, one of them"
   end
   if request.chunk and request.strips then
     program.usage "--chunk divides a film and --strips a frame: give one of them"
@@ -383,7 +408,7 @@ for _, option in ipairs(request.given) do
   end
 end
 count_tasks(job)
-local text, message = (request.slurm and slurm or openjd)(job)
+local text, message = (request.slurm and slurm or request.openjd and openjd or commands)(job)
 if not text then program.usage("%s", message) end
 io.write(text)
 if request.slurm and job.tasks > ARRAY_MOST then
