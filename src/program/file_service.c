@@ -16,6 +16,7 @@
 #include "output/join/join.h"
 #include "output/sinks/file.h"
 #include "program/service.h"
+#include "program/sha256.h"
 #include "program/target.h"
 #include "program/video_target.h"
 
@@ -42,6 +43,39 @@ static int kind(lua_State *L) {
                     : cs_lua_script_accepts(path)  ? "script"
                                                    : "picture");
   return 1;
+}
+
+/* ---------------------------------------------------------------- contents */
+
+/* Adds the whole file. Returns false and errno if it cannot be read. */
+static bool add_file(int descriptor, cs_sha256 *sum) {
+  uint8_t part[1 << 14];
+  ssize_t got;
+  while ((got = cs_open_read_at(descriptor, part, sizeof part, (off_t)sum->size)) > 0)
+    cs_sha256_add(sum, part, (size_t)got);
+  return got == 0;
+}
+
+/* sha256(path) -> the SHA-256 of a file, in hexadecimal digits, and its size; nil: it cannot be
+ * read */
+static int sha256(lua_State *L) {
+  cs_sha256 sum;
+  int descriptor = cs_open_to_read(luaL_checkstring(L, 1));
+  cs_sha256_begin(&sum);
+  bool is_read = descriptor >= 0 && add_file(descriptor, &sum);
+  if (descriptor >= 0)
+    close(descriptor);
+  if (!is_read)
+    return 0;
+  lua_Integer size = (lua_Integer)sum.size;
+  uint8_t digest[CS_SHA256_SIZE];
+  char text[2 * CS_SHA256_SIZE + 1];
+  cs_sha256_end(&sum, digest);
+  for (size_t i = 0; i < sizeof digest; i++)
+    snprintf(text + 2 * i, 3, "%02x", digest[i]);
+  lua_pushstring(L, text);
+  lua_pushinteger(L, size);
+  return 2;
 }
 
 /* ---------------------------------------------------------------- folders */
@@ -189,10 +223,18 @@ static int join(lua_State *L) {
 }
 
 void cs_service_add_files(lua_State *L) {
-  static const luaL_Reg services[] = {
-      CS_SERVICE(kind),         CS_SERVICE(make_folders),   CS_SERVICE(entries),
-      CS_SERVICE(resolve),      CS_SERVICE(working_folder), CS_SERVICE(has_number),
-      CS_SERVICE(is_video),     CS_SERVICE(refuse_target),  CS_SERVICE(save),
-      CS_SERVICE(save_private), CS_SERVICE(join),           {NULL, NULL}};
+  static const luaL_Reg services[] = {CS_SERVICE(kind),
+                                      CS_SERVICE(make_folders),
+                                      CS_SERVICE(entries),
+                                      CS_SERVICE(resolve),
+                                      CS_SERVICE(working_folder),
+                                      CS_SERVICE(has_number),
+                                      CS_SERVICE(is_video),
+                                      CS_SERVICE(refuse_target),
+                                      CS_SERVICE(save),
+                                      CS_SERVICE(save_private),
+                                      CS_SERVICE(join),
+                                      CS_SERVICE(sha256),
+                                      {NULL, NULL}};
   cs_service_add(L, services);
 }

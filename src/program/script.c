@@ -277,7 +277,7 @@ static cs_exit open_script(celspan_context *context, const cs_request *request, 
                            bool is_silent, cs_script *out) {
   *out = (cs_script){.context = context,
                      .is_trusted = cs_request_has(request, "--trust"),
-                     .asks_files = request->verb->asks_files,
+                     .asks_files = request->verb->asks_files || cs_request_has(request, "--files"),
                      .asks_warnings = request->verb->asks_warnings && !is_silent,
                      .is_silent = is_silent};
   CS_TRY_EXIT(start_script(out, request, path));

@@ -182,7 +182,9 @@ static const cs_option CHECK[] = {
     {"--deep", NULL, NULL,
      "read every picture completely, not only its header, and have ffmpeg read the "
      "sound"},
-    {"--json", NULL, NULL, "print the faults as a JSON list on standard output"},
+    {"--files", NULL, NULL, "print the files that the film reads: KIND SIZE SHA256 PATH"},
+    {"--json", NULL, NULL,
+     "print the faults as a JSON list on standard output; with --files, the files"},
     TABLE("check the film of each row of a CSV file, whose columns are parameters"),
     SCRIPT,
     {0}};

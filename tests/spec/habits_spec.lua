@@ -331,6 +331,46 @@ return celspan.rostrum { celspan.cel { celspan.text { "A", font = "%s", size = 2
   end)
 end)
 
+describe("check --files", function()
+  before_each(function() bench = workbench.new() end)
+  after_each(function() bench:remove() end)
+
+  --- The lines that celspan prints, and the SHA-256 of these files by another program.
+  it("names what a film reads, with sums of files of any length", function()
+    local script = { 'local csv = require "celspan.csv"', 'require "part"' }
+    for _, size in ipairs { 0, 55, 56, 63, 64, 65, 119, 120, 40000 } do
+      bench:write(size .. ".csv", ("a"):rep(size))
+      script[#script + 1] = ('pcall(csv.read, "%d.csv")'):format(size)
+    end
+    script[#script + 1] = 'pcall(csv.read, "none.csv")'
+    script[#script + 1] = [[
+local celspan = require "celspan"
+return celspan.film { size = { 8, 8 }, frames = 1, frame = function()
+  return celspan.rostrum { back = "#fff" }
+end }]]
+    bench:write("part.lua", "return 1")
+    bench:write("film.lua", table.concat(script, "\n"))
+    local code, out, err = bench:celspan_inside "check film.lua --files"
+    assert.equal(0, code, err)
+    assert.equal(11, select(2, out:gsub("\n", "")))
+    assert.truthy(out:find("script %d+ %x+ film.lua\n"), out)
+    assert.truthy(out:find("module 8 %x+ [./]*part.lua\n"), out)
+    local sums = {}
+    for kind, size, sum, path in out:gmatch "(%l+) (%d+) (%x+) (%C+)\n" do
+      if kind == "data" then
+        assert.equal(size .. ".csv", path)
+        sums[#sums + 1] = sum .. "  " .. path .. "\n"
+      end
+    end
+    bench:write("sums", table.concat(sums))
+    assert.equal(0, (bench:inside "sha256sum -c sums"))
+    local _, text = bench:celspan_inside "check film.lua --files --json"
+    local list = require "celspan.json".decode(text)
+    assert.same({ 11, "0.csv", "data", 0 }, { #list, list[2].path, list[2].kind, list[2].size })
+    assert.equal(64, #list[1].sha256)
+  end)
+end)
+
 describe("a value that is made and thrown away", function()
   --- What check says, from the line on.
   local function said(name)

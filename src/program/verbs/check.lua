@@ -238,6 +238,14 @@ local function print_json(warnings)
   print(program.json { list = list })
 end
 
+--- The files that the film reads, on standard output.
+local function print_files(list)
+  if request.json then return print(program.json { list = list }) end
+  for _, one in ipairs(list) do
+    print(("%s %d %s %s"):format(one.kind, one.size, one.sha256, one.path))
+  end
+end
+
 local function plural(count) return count == 1 and "" or "s" end
 
 local function report_slowest(done)
@@ -306,6 +314,10 @@ if sound ~= 0 then others[1] = program.reported() end
 local survey = program.part("survey.lua", program, film)
 local done, ended = check_parts(film, survey, listed, count)
 local warnings = program.until_stopped(warnings_of, survey) or {}
-if request.json then print_json(warnings) end
+if request.files then
+  print_files(program.part("reads.lua", program, film, request[1]))
+elseif request.json then
+  print_json(warnings)
+end
 report(done, count, ended, sound, warnings)
 return faults.code or ended or sound

@@ -1,0 +1,35 @@
+--- celspan check --files: the files that a film reads, for those who copy it to another machine.
+local program, film, script = ...
+
+local KINDS = { lua = "module", ttf = "font", otf = "font", ttc = "font", otc = "font",
+  wav = "sound", flac = "sound", ogg = "sound", opus = "sound", mp3 = "sound", m4a = "sound",
+  aif = "sound", aiff = "sound", csv = "data", tsv = "data", json = "data", txt = "data",
+  srt = "data", vtt = "data", xdts = "data", cube = "data", dat = "data" }
+local CONTENTS = { folder = "painting", archive = "painting", psd = "painting", svg = "drawing" }
+
+--- The kind of a file: by its ending, and otherwise by its content.
+local function kind_of(path)
+  if path == script then return "script" end
+  local ending = path:lower():match "%.([^./]*)$"
+  if KINDS[ending] then return KINDS[ending] end
+  local kind = program.kind(path)
+  return CONTENTS[kind] or kind
+end
+
+--- A list of { path =, kind =, size =, sha256 = }, sorted by path, without places where a file was
+--- looked for and not found.
+local function reads()
+  local list, asked = {}, (script == "-" and "" or "+" .. script .. "\0") .. film:files()
+  local seen = {}
+  for path in asked:gmatch "%+(%Z+)%z" do
+    local sum, size = program.sha256(path)
+    if sum and not seen[path] then
+      seen[path] = true
+      list[#list + 1] = { path = path, kind = kind_of(path), size = size, sha256 = sum }
+    end
+  end
+  table.sort(list, function(a, b) return a.path < b.path end)
+  return list
+end
+
+return reads()
