@@ -158,6 +158,7 @@ NUMBERS(workers, "a whole number from 1 to 1024", read_integer, 1, 1024, 0);
 NUMBERS(port, "the number of a port, 1 to 65535", read_integer, 1, 65535, 0);
 NUMBERS(memory, "a whole number of MiB from 0 to 1048576", read_integer, 0, 1048576, 0);
 NUMBERS(quality, "a whole number from 0 to 100", read_integer, 0, 100, 0);
+NUMBERS(plays, "a whole number from 0 to 65535", read_integer, 0, 65535, 0);
 NUMBERS(size, "width x height in whole pixels, 1 to 1048576, such as 1920x1080", read_pair, 1,
         CS_SIDE_MAX, 'x');
 NUMBERS(grid, "columns x rows, each 1 to 100, such as 6x4", read_pair, 1, 100, 'x');

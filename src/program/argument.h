@@ -73,7 +73,8 @@ extern const cs_argument cs_argument_colours, cs_argument_lamp, cs_argument_ligh
 /* int32_t */
 extern const cs_argument cs_argument_integer, cs_argument_every, cs_argument_mebibytes,
     cs_argument_minutes, cs_argument_count, cs_argument_pixels, cs_argument_tile,
-    cs_argument_workers, cs_argument_port, cs_argument_memory, cs_argument_quality;
+    cs_argument_workers, cs_argument_port, cs_argument_memory, cs_argument_quality,
+    cs_argument_plays;
 /* int32_t[2]. Of rows and levels, the first is not greater than the second; of a share, both are
  * also at least 1. */
 extern const cs_argument cs_argument_size, cs_argument_grid, cs_argument_onion, cs_argument_share,

@@ -335,12 +335,19 @@ static cs_exit resume_frames(render_job *job) {
   return outcome;
 }
 
+static cs_exit refuse_video_options(const cs_request *request) {
+  static const char *const options[] = {"--quality", "--loop"};
+  for (size_t i = 0; i < sizeof options / sizeof *options; i++)
+    if (cs_request_has(request, options[i]))
+      return cs_report_usage("%s is only for videos, such as film.mp4", options[i]);
+  return CS_EXIT_OK;
+}
+
 static cs_exit refuse_stream(const cs_request *request) {
   const char *format = cs_request_text(request, "--format");
   cs_progress_style style = CS_PROGRESS_AUTO;
   cs_request_read(request, "--progress", &style);
-  if (cs_request_has(request, "--quality"))
-    return cs_report_usage("--quality is only for videos, such as film.mp4");
+  CS_TRY_EXIT(refuse_video_options(request));
   if (cs_request_has(request, "--hash"))
     return cs_report_usage("--hash prints to standard output, where -o - puts the frames: give one "
                            "of them");
@@ -375,8 +382,7 @@ static cs_exit refuse_output(celspan_context *context, const cs_request *request
                ? cs_report_usage("--strict starts no programs, and ffmpeg makes videos: render "
                                  "frames, and make the video of them")
                : cs_video_target_refuse(request, frame_count);
-  if (cs_request_has(request, "--quality"))
-    return cs_report_usage("--quality is only for videos, such as film.mp4");
+  CS_TRY_EXIT(refuse_video_options(request));
   const char *output = cs_request_text(request, "-o");
   return output ? cs_target_refuse(context, output, request) : CS_EXIT_OK;
 }

@@ -137,7 +137,7 @@ static const cs_option NONE[] = {{0}};
 
 static const cs_option RENDER[] = {
     OUTPUT("OUT", "shot.####.png, shot.%04d.exr, one.png for a single frame, - for raw frames; "
-                  "film.mp4, .mov, .webm, .mkv, .gif or .webp: a video, made by ffmpeg"),
+                  "film.mp4, .mov, .webm, .mkv, .gif, .webp or .apng: a video, made by ffmpeg"),
     FRAMES,
     SIZE,
     SCALE,
@@ -152,6 +152,8 @@ static const cs_option RENDER[] = {
     DITHER,
     {"--quality", "Q", &cs_argument_quality,
      "of a video: 0 (small) to 100 (hardly any loss); default: 75"},
+    {"--loop", "N", &cs_argument_plays,
+     "how often a .gif, .webp or .apng is played; default: 0, for ever"},
     BACKGROUND,
     CEL,
     ONION,

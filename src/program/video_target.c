@@ -36,6 +36,7 @@ static cs_video_options options_of(const cs_request *request) {
   cs_request_read(request, "--colour", &options.coding.transfer);
   cs_request_read(request, "--alpha", &options.coding.alpha);
   cs_request_read(request, "--quality", &options.quality);
+  cs_request_read(request, "--loop", &options.plays);
   return options;
 }
 
@@ -58,6 +59,10 @@ static cs_exit refuse_options(const cs_request *request, const cs_video_format *
     return cs_report_usage("%s: --keep-going leaves frames out, and a video has them all: leave it "
                            "out, or render shot.####.png",
                            output);
+  if (cs_request_has(request, "--loop") && !format->plays)
+    return cs_report_usage("%s: players decide how often %s is played: leave --loop out, or write "
+                           ".gif, .webp or .apng",
+                           output, format->name);
   if (options.coding.transfer == CELSPAN_TRANSFER_LINEAR ||
       options.coding.transfer == CELSPAN_TRANSFER_CINEON)
     return cs_report_usage("%s: a video is coded as srgb or rec709: leave --colour out", output);

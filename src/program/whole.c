@@ -19,7 +19,7 @@ bool cs_whole_is_known(const cs_whole *whole) {
 
 /* The options that only files of whole films have. */
 static void hash_options(cs_hash *hash, const cs_request *request) {
-  static const char *const options[] = {"--quality", "--background"};
+  static const char *const options[] = {"--quality", "--loop", "--background"};
   for (size_t i = 0; i < sizeof options / sizeof *options; i++)
     cs_hash_text(hash, cs_request_text(request, options[i]));
   cs_hash_word(hash, cs_request_has(request, "--no-dither"));

@@ -270,7 +270,7 @@ complete_words celspan render film.lua -- -
       usage_error("render x.lua -o y.xyz", 'the format "xyz" cannot be written')
       for _, more in ipairs { "png, tga, span, exr", "mp4, mkv, mov, webm", "plane", "wav" } do
         usage_error("render x.lua -o y.avi", more)
-        usage_error("convert x.png y.apng", more)
+        usage_error("convert x.png y.heic", more)
       end
       usage_error("render x.lua y.mp4", "unexpected argument 'y.mp4': write '-o y.mp4' if that is")
       usage_error("render x.lua -o y", "the format is unknown")

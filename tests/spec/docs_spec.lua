@@ -145,7 +145,8 @@ end)
 
 --- Whether a command makes a video.
 local function needs_ffmpeg(line)
-  for _, word in ipairs { "ffmpeg", "%.mp4", "%.mov", "%.webm", "%.mkv", "%.gif", "%.webp" } do
+  for _, word in ipairs { "ffmpeg", "%.mp4", "%.mov", "%.webm", "%.mkv", "%.gif", "%.webp",
+    "%.apng" } do
     if line:find(word) then return true end
   end
   return false

@@ -191,6 +191,44 @@ describe("a video", function()
       assert.is_true(math.abs(time - 500) <= 42, time)
     end)
 
+    it_reads("apng has its frames, length, colours and alpha, without loss", function()
+      render "-o out.apng --no-dither"
+      local found = probe("out.apng", "stream=nb_read_frames,pix_fmt,r_frame_rate")
+      assert.same({ "12", "rgba", "24/1" },
+        { found.nb_read_frames, found.pix_fmt, found.r_frame_rate })
+      assert.equal(0, worst_field "out.apng")
+      render "-o frame.png --frames 5"
+      assert.equal(pixels("frame.png", 0, 128, 80), pixels("out.apng", 4, 128, 80))
+      render "-o out.apng --depth 16 --background '#fff'"
+      assert.equal("rgb48be", probe("out.apng", "stream=pix_fmt").pix_fmt)
+    end)
+
+    it_reads("is played as often as --loop says", function()
+      --- What a file says, at the bytes behind this text.
+      local function number(name, text, skipped, format)
+        local bytes = bench:read(name)
+        local _, last = bytes:find(text, 1, true)
+        return last and (format:unpack(bytes, last + 1 + skipped))
+      end
+      for loops, stored in pairs { [0] = { 0, 0, 0 }, [1] = { nil, 1, 1 }, [3] = { 2, 3, 3 } } do
+        for _, ending in ipairs { "gif", "webp", "apng" } do
+          render("-o out.%s --frames 1-4 --loop %d", ending, loops)
+        end
+        assert.equal(stored[1], number("out.gif", "NETSCAPE2.0", 2, "<I2"))
+        assert.equal(stored[2], number("out.webp", "ANIM", 8, "<I2"))
+        assert.equal(stored[3], number("out.apng", "acTL", 4, ">I4"))
+      end
+      local code, _, err = celspan "-o out.mp4 --loop 2"
+      assert.equal(2, code)
+      assert.truthy(err:find("players decide how often mp4 is played", 1, true), err)
+      code, _, err = celspan "-o out.#.png --loop 2"
+      assert.equal(2, code)
+      assert.truthy(err:find("--loop is only for videos", 1, true), err)
+      render "-o out.gif --frames 1-4 --resume"
+      render "-o out.gif --frames 1-4 --resume --loop 4"
+      assert.equal(3, number("out.gif", "NETSCAPE2.0", 2, "<I2"))
+    end)
+
     it_reads("can be a part of the film, or coded in another way", function()
       render "-o whole.mkv"
       render "-o out.mkv --crop 32,32,64,40 --colour rec709 --dither"

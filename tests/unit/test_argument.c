@@ -46,6 +46,7 @@ static void what_is_no_value_is_refused(void) {
   REFUSE(every, "|0|-1|one");
   REFUSE(count, "|-1|1k");
   REFUSE(memory, "|-1|1048577|1G");
+  REFUSE(plays, "|-1|65536|x");
   REFUSE(quality, "|-1|101|50%");
   REFUSE(workers, "|0|1025|2.5");
   REFUSE(grid, "|6|6x|x4|6x4x2|0x4|6x101|6*4");

@@ -21,8 +21,9 @@ static const char *const PRORES[] = {"-c:v", "prores_ks",   "-profile:v", "4444"
                                      "apl0", "-alpha_bits", "16",         NULL};
 static const char *const VP9[] = {"-c:v",      "libvpx-vp9", "-b:v",    "0", "-deadline", "good",
                                   "-cpu-used", "3",          "-row-mt", "1", NULL};
-static const char *const GIF[] = {"-c:v", "gif", "-loop", "0", NULL};
-static const char *const WEBP[] = {"-c:v", "libwebp_anim", "-loop", "0", NULL};
+static const char *const GIF[] = {"-c:v", "gif", NULL};
+static const char *const WEBP[] = {"-c:v", "libwebp_anim", NULL};
+static const char *const APNG[] = {"-c:v", "apng", "-pred", "mixed", NULL};
 
 static const char *const AAC[] = {"-c:a", "aac", "-b:a", "192k", NULL};
 static const char *const FLAC[] = {"-c:a", "flac", NULL};
@@ -99,6 +100,8 @@ static const cs_video_format FORMATS[] = {
      .pixels = "pal8",
      .alpha_pixels = "pal8",
      .encoder = GIF,
+     .plays = "-loop",
+     .counts_repeats = true,
      .best = 256, /* colours of a frame's palette */
      .worst = 8,
      .mark = {0, "GIF8"}},
@@ -111,10 +114,23 @@ static const cs_video_format FORMATS[] = {
      .pixels = "bgra",
      .alpha_pixels = "bgra",
      .encoder = WEBP,
+     .plays = "-loop",
      .quality = "-quality",
      .best = 100,
      .worst = 0,
      .mark = {8, "WEBP"}},
+    {.name = "apng",
+     .muxer = "apng",
+     .is_rgb = true,
+     .has_alpha = true,
+     .most_frames_second = 1000,
+     .pixels = "rgb24",
+     .deep_pixels = "rgb48be",
+     .alpha_pixels = "rgba",
+     .deep_alpha_pixels = "rgba64be",
+     .encoder = APNG,
+     .plays = "-plays",
+     .mark = {0, "\x89PNG"}},
 };
 
 const cs_video_format *cs_video_format_named(const char *name) {
@@ -287,7 +303,7 @@ static void add_yuv(cs_video_command *command, const cs_video_format *format,
 
 static void add_pictures(cs_video_command *command, const cs_video_format *format,
                          const cs_video_options *options) {
-  if (!format->quality)
+  if (format->is_indexed)
     add_indexed(command, format, options);
   else if (!format->is_rgb)
     add_yuv(command, format, options);
@@ -296,10 +312,17 @@ static void add_pictures(cs_video_command *command, const cs_video_format *forma
     add(command, format->quality);
     add_text(command, "%d", encoder_quality(format, options->quality));
   }
-  if (format->is_rgb && format->quality) {
+  if (format->is_rgb && !format->is_indexed) {
     add(command, "-pix_fmt");
     add(command, cs_video_pixels(format, options));
   }
+}
+
+/* How often the file is played; a GIF stores how often it is repeated, and -1 for never. */
+static void add_plays(cs_video_command *command, const cs_video_format *format, int32_t plays) {
+  bool is_counted = format->counts_repeats && plays > 0;
+  add(command, format->plays);
+  add_text(command, "%d", is_counted && plays == 1 ? -1 : (int)plays - is_counted);
 }
 
 /* ---------------------------------------------------------------- sound */
@@ -336,6 +359,8 @@ void cs_video_command_encode(cs_video_command *command, const cs_video_format *f
     add(command, "-movflags");
     add(command, format->flags);
   }
+  if (format->plays)
+    add_plays(command, format, options->plays);
   add(command, "-f");
   add(command, format->muxer);
   add_text(command, "file:%s", file);

@@ -10,6 +10,7 @@
  *   webm    VP9          4:2:0, 8 bits (10 without alpha)     8 bits     Opus
  *   gif     GIF          256 colours a frame                  1 bit      none
  *   webp    WebP         4:2:0, 8 bits                        8 bits     none
+ *   apng    APNG         RGB, 8 bits (16 under --depth 16)    as deep    none
  *
  * INVARIANT: a film with a background is opaque, and its file has no alpha. In all other films,
  * alpha is kept if the format has it. No shell reads the arguments. ffmpeg opens no file to read,
@@ -34,10 +35,12 @@ typedef struct cs_video_format {
   const char *alpha_pixels, *deep_alpha_pixels;
   const char *const *encoder; /* options of ffmpeg, NULL at the end */
   const char *flags;          /* of the muxer, or NULL */
-  const char *quality;        /* the option for the quality; NULL: the size of a palette */
-  double best, worst;         /* its values at quality 100 and 0 */
-  const char *const *sound;   /* options of ffmpeg; NULL: the format has no sound */
-  struct {                    /* bytes in every file of the format */
+  const char *plays;   /* the muxer's option for how often it is played; NULL: players decide */
+  bool counts_repeats; /* that option counts what follows the first time */
+  const char *quality; /* the option for the quality; NULL: a palette's size, or lossless */
+  double best, worst;  /* its values at quality 100 and 0 */
+  const char *const *sound; /* options of ffmpeg; NULL: the format has no sound */
+  struct {                  /* bytes in every file of the format */
     size_t offset;
     const char *bytes;
   } mark;
@@ -56,6 +59,7 @@ typedef struct cs_video_options {
   bool dithers;          /* where it has 8 bits */
   bool is_opaque;        /* it has a background */
   int32_t quality;       /* 0 to 100; the same quality looks alike in every format */
+  int32_t plays;         /* how often it is played; 0: for ever */
 } cs_video_options;
 
 typedef struct cs_video_frames {
