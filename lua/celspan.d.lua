@@ -99,6 +99,63 @@ function celspan.timecode(index, fps, options) end
 ---@return celspan.object
 function celspan.echo(draw, options) end
 
+--- The part of every contour between two shares of its length.
+---@param object celspan.shape
+---@param from number
+---@param to number
+---@param options? { offset?: number, together?: boolean }
+---@return celspan.object
+function celspan.trim(object, from, to, options) end
+
+--- The object grown, or with a distance below 0 shrunk.
+---@param object celspan.shape
+---@param distance number
+---@param options? { join?: "round"|"miter"|"bevel", limit?: number } Default "round", 4
+---@return celspan.object
+function celspan.offset(object, distance, options) end
+
+--- Arcs in place of the corners between straight sides.
+---@param object celspan.shape
+---@param radius number Of an arc in a right angle
+---@return celspan.object
+function celspan.round_corners(object, radius) end
+
+--- Points at a distance from every piece of a contour, on its two sides in turn.
+---@param object celspan.shape
+---@param options { size: number, ridges: integer, smooth?: boolean } ridges: of each piece
+---@return celspan.object
+function celspan.zigzag(object, options) end
+
+--- Bloats (above 0) or puckers (below 0): joints move towards their middle, control points away.
+---@param object celspan.shape
+---@param amount number -1..1
+---@return celspan.object
+function celspan.pucker(object, amount) end
+
+--- Points turn about a centre, the less the farther they are from it.
+---@param object celspan.shape
+---@param degrees number At the centre
+---@param options? { centre?: celspan.point } Default: the middle of the bounds
+---@return celspan.object
+function celspan.twist(object, degrees, options) end
+
+--- Copies of an object, each moved, turned, scaled and faded further.
+---@param object celspan.shape
+---@param options { count: integer, offset?: number, translate?: celspan.point, rotate?: number, scale?: number|number[], centre?: celspan.point, opacity?: number[], order?: "above"|"below", each?: fun(copy: celspan.object, i: integer): celspan.object? }
+---@return celspan.object
+function celspan.repeater(object, options) end
+
+--- Objects as one shape, with the texture of the first unless another is given.
+---@param objects celspan.shape[]
+---@param options? { mode?: "merge"|"add"|"subtract"|"intersect"|"exclude", texture?: celspan.surface }
+---@return celspan.object
+function celspan.merge(objects, options) end
+
+--- A star, or without `inner` a regular polygon.
+---@param options { centre?: celspan.point, points?: integer, outer: number, inner?: number, rotate?: number, outer_round?: number, inner_round?: number, texture?: celspan.surface }
+---@return celspan.object
+function celspan.star(options) end
+
 --- The bounds of an object with a margin, as a box {x, y, w, h}.
 ---@param object celspan.shape
 ---@param margin? number|number[] On all sides, or {across, down}
@@ -221,6 +278,20 @@ function celspan.linear(fields) end
 ---@param fields celspan.radial.fields
 ---@return celspan.radial
 function celspan.radial(fields) end
+
+---@class celspan.conic.fields
+---@field [integer] table Stops {at, paint}, at ascending in 0..1
+---@field centre celspan.point
+---@field angle? number Where 0 lies, in degrees clockwise from up; default 0
+---@field matrix? number[] Nine numbers: moves the gradient alone
+
+---@class celspan.conic: celspan.texture, celspan.conic.fields
+---@field angle number
+
+--- A gradient once round a point, clockwise.
+---@param fields celspan.conic.fields
+---@return celspan.conic
+function celspan.conic(fields) end
 
 ---@class celspan.picture.fields
 ---@field box? number[] {x, y, w, h}; default the bounding rectangle of the primitive
@@ -428,11 +499,11 @@ function object:paint(texture) end
 
 ---@class celspan.rect.fields
 ---@field [integer] number x, y, width, height
----@field radius? number Of the corners; 0 or more; default 0
+---@field radius? number|number[] Of all corners, or {top left, top right, bottom right, bottom left}; default 0
 ---@field texture? celspan.surface Default "#000000"
 
 ---@class celspan.rect: celspan.object, celspan.rect.fields
----@field radius number
+---@field radius number|number[]
 ---@field texture celspan.surface
 
 --- A rectangle.

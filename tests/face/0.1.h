@@ -72,6 +72,8 @@ celspan_status celspan_texture_create_radial(celspan_context *context, celspan_p
 celspan_status celspan_texture_create_focal( celspan_context *context, celspan_point centre, double
   radius, celspan_point focus, const celspan_stop *stops, size_t stop_count, celspan_texture
   **out);
+celspan_status celspan_texture_create_conic(celspan_context *context, celspan_point centre, double
+  angle, const celspan_stop *stops, size_t stop_count, celspan_texture **out);
 typedef enum celspan_spread { CELSPAN_SPREAD_HOLD = 0, CELSPAN_SPREAD_REPEAT,
   CELSPAN_SPREAD_REFLECT } celspan_spread;
 celspan_status celspan_texture_with_spread(celspan_context *context, celspan_texture *texture,
@@ -164,6 +166,8 @@ typedef struct celspan_scanline_desc { size_t struct_size; celspan_box bounds;
 void celspan_scanline_desc_default(celspan_scanline_desc *out, size_t struct_size);
 celspan_status celspan_object_create_rect(celspan_context *context, const celspan_rect_desc *desc,
   celspan_object **out);
+celspan_status celspan_object_create_rounded(celspan_context *context, const celspan_rect_desc
+  *desc, const double radii[4], celspan_object **out);
 celspan_status celspan_object_create_triangle( celspan_context *context, const
   celspan_triangle_desc *desc, celspan_object **out);
 celspan_status celspan_object_create_ellipse( celspan_context *context, const celspan_ellipse_desc
@@ -390,6 +394,16 @@ celspan_status celspan_rostrum_pixels(celspan_context *context, celspan_rostrum 
   width, int32_t height, unsigned char *pixels);
 celspan_status celspan_frame_digest(celspan_context *context, const celspan_frame_desc *desc, const
   celspan_coding *coding, uint64_t digest[2]);
+celspan_status celspan_object_trim(celspan_context *context, celspan_object *object, double from,
+  double to, double offset, bool together, celspan_object **out);
+celspan_status celspan_object_round_corners(celspan_context *context, celspan_object *object,
+  double radius, celspan_object **out);
+celspan_status celspan_object_zigzag(celspan_context *context, celspan_object *object, double size,
+  size_t ridges, bool is_smooth, celspan_object **out);
+celspan_status celspan_object_pucker(celspan_context *context, celspan_object *object, double
+  amount, celspan_object **out);
+celspan_status celspan_object_twist(celspan_context *context, celspan_object *object, double
+  radians, const celspan_point *centre, celspan_object **out);
 typedef struct celspan_feature { const char *tag; uint32_t value; } celspan_feature;
 typedef struct celspan_variation { const char *tag; double value; } celspan_variation;
 typedef enum celspan_align { CELSPAN_ALIGN_LEFT = 0, CELSPAN_ALIGN_CENTRE, CELSPAN_ALIGN_RIGHT }

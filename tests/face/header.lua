@@ -5,8 +5,8 @@ local header = {}
 
 local FOLDER = "src/include/celspan/"
 --- The headers of the C library, in an order in which each needs only those before it.
-header.FILES = { "celspan.h", "text.h", "svg.h", "layers.h", "trace.h", "plane.h", "relight.h",
-  "track.h", "film.h" }
+header.FILES = { "celspan.h", "operators.h", "text.h", "svg.h", "layers.h", "trace.h", "plane.h",
+  "relight.h", "track.h", "film.h" }
 --- The header of the Lua face, which is a library of its own.
 header.LUA = "lua.h"
 

@@ -130,6 +130,7 @@ local items = {
   ["celspan.gradient"] = { count = 3, item = "corner" },
   ["celspan.linear.fields"] = { count = 2, item = "stop" },
   ["celspan.radial.fields"] = { count = 2, item = "stop" },
+  ["celspan.conic.fields"] = { count = 2, item = "stop" },
   ["celspan.rect.fields"] = { count = 4, item = "number" },
   ["celspan.triangle.fields"] = { count = 3, item = "celspan.point" },
   ["celspan.polygon.fields"] = { count = 4, item = "celspan.point" },

@@ -159,11 +159,13 @@ static celspan_status make_gradient(program *p, celspan_texture **out) {
   for (size_t i = 0; i < POINTS && i < stop_count; i++)
     stops[i] = (celspan_stop){(double)i / POINTS + (double)share(p) / POINTS, paint(p)};
   const celspan_stop *list = stop_count == 0 ? NULL : stops;
-  switch (take(p, 3)) {
+  switch (take(p, 4)) {
   case 0:
     return celspan_texture_create_linear(p->context, point(p), point(p), list, stop_count, out);
   case 1:
     return celspan_texture_create_radial(p->context, point(p), number(p), list, stop_count, out);
+  case 2:
+    return celspan_texture_create_conic(p->context, point(p), number(p), list, stop_count, out);
   default:
     return celspan_texture_create_focal(p->context, point(p), number(p), point(p), list, stop_count,
                                         out);

@@ -65,6 +65,12 @@ static inline celspan_texture *studio_focal(studio *s, celspan_point centre, dou
               celspan_texture_create_focal(s->context, centre, radius, focus, stops, count, &made));
 }
 
+static inline celspan_texture *studio_conic(studio *s, celspan_point centre, double angle,
+                                            const celspan_stop *stops, size_t count) {
+  STUDIO_TAKE(s, textures, texture_count, celspan_texture,
+              celspan_texture_create_conic(s->context, centre, angle, stops, count, &made));
+}
+
 static inline celspan_texture *studio_gradient(studio *s, const celspan_point points[3],
                                                const celspan_paint paints[3]) {
   STUDIO_TAKE(s, textures, texture_count, celspan_texture,

@@ -129,6 +129,10 @@ function maker:texture()
   end
   if kind == 3 then
     if self.random:once(3) then return self:repeating() end
+    if self.changes:once(4) then
+      return ("celspan.conic{ centre = %s, angle = %s, %s }"):format(self:point_text(),
+        self:number(-400, 400), self:stops())
+    end
     local extent, centre, radius = self:extent(false), self:point_text(), self:number(1, 30)
     local focus = self.random:whole(1, 2) == 1 and "focus = " .. self:point_text() .. ", " or ""
     return ("celspan.radial{ centre = %s, radius = %s, %s%s%s }")
@@ -369,6 +373,46 @@ function maker:primitive()
   return self.made[#self.made]
 end
 
+--- Path operators on an object. They have their own series of random numbers, as patterns have.
+function maker:changed(object)
+  local own = self.changes
+  local function number(low, high) return text_of(own:between(low, high)) end
+  self.traits.is_curved = true
+  local calls = {
+    function()
+      return ("celspan.trim(%s, %s, %s, { offset = %s, together = %s })"):format(object,
+        number(0, 1), number(0, 1), number(-1, 1), tostring(own:once(2)))
+    end,
+    function() return ("celspan.round_corners(%s, %s)"):format(object, number(0, 15)) end,
+    function()
+      return ("celspan.zigzag(%s, { size = %s, ridges = %d, smooth = %s })"):format(object,
+        number(-3, 3), own:whole(0, 4), tostring(own:once(2)))
+    end,
+    function() return ("celspan.pucker(%s, %s)"):format(object, number(-1, 1)) end,
+    function() return ("celspan.twist(%s, %s)"):format(object, number(-200, 200)) end,
+    function()
+      return ("celspan.repeater(%s, { count = %d, offset = %s, translate = {%s, %s}, rotate = %s, "
+        .. "scale = %s, opacity = {%s, 1}, order = %q })"):format(object, own:whole(0, 4),
+        number(-1, 1), number(-9, 9), number(-9, 9), number(-40, 40), number(0.7, 1.2),
+        number(0, 1), own:pick { "above", "below" })
+    end,
+    function()
+      return ("celspan.offset(%s, %s, { join = %q })"):format(object, number(-4, 4),
+        own:pick { "round", "miter", "bevel" })
+    end,
+    function()
+      return ("celspan.merge({ %s, celspan.star{ centre = {%s, %s}, points = %d, outer = %s, "
+        .. "inner = %s, outer_round = %s } }, { mode = %q, texture = %q })"):format(object,
+        number(0, 40), number(0, 30), own:whole(3, 7), number(3, 20), number(1, 9), number(0, 1),
+        own:pick { "merge", "add", "subtract", "intersect", "exclude" }, "#20808080")
+    end,
+  }
+  return own:pick(calls)()
+end
+
+local operable = { rect = true, triangle = true, circle = true, ellipse = true, polygon = true,
+                   nurbs = true, path = true }
+
 function maker:fresh()
   if self.has_text and self.random:once(2) then return self:text() end
   if self.is_upright and self.random:once(3) then return self:scanline() end
@@ -377,7 +421,11 @@ function maker:fresh()
     kinds = { "rect", "triangle", "circle", "ellipse", "polygon", "nurbs", "nurbs", "path", "path",
               "stroke", "stroke" }
   end
-  return self[self.random:pick(kinds)](self)
+  local kind = self.random:pick(kinds)
+  local object = self[kind](self)
+  local is_changed = operable[kind] and not self.is_straight and self.has_modes
+    and self.changes:once(8)
+  return is_changed and self:changed(object) or object
 end
 
 -- ---------------------------------------------------------------- transforms and booleans
@@ -650,6 +698,7 @@ local function start(seed, options)
     has_pictures = options.has_pictures ~= false, has_text = options.has_text, level = 0,
     lights = 1, brightest = 1, modes = prng.new(~seed),
     fillings = prng.new(seed ~ 0x7061747465726e), outlines = prng.new(seed ~ 0x6f75746c696e65),
+    changes = prng.new(seed ~ 0x6368616e6765),
     has_modes = options.has_modes ~= false and seed % 2 == 0,
     has_spaces = options.has_modes ~= false and seed % 4 == 0,
     has_grades = options.has_grades ~= false, has_patterns = options.has_patterns ~= false,

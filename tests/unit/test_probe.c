@@ -347,6 +347,17 @@ static void test_radial_gradient(studio *s) {
   EXPECT(s, r, 90, 29, 0, 1, 0, 1);
 }
 
+/* A quarter of the way round, clockwise from up; the colour jumps where it begins. */
+static void test_conic_gradient(studio *s) {
+  const celspan_stop stops[] = {{0, {{1, 0, 0}, {1, 1, 1}, 1}}, {1, {{0, 1, 0}, {1, 1, 1}, 1}}};
+  celspan_texture *texture = studio_conic(s, (celspan_point){50, 25}, 0, stops, 2);
+  celspan_rostrum *r = studio_show(s, studio_rect(s, 0, 0, 100, 50, texture));
+  EXPECT(s, r, 60, 25, 0.75, 0.25, 0, 1);
+  EXPECT(s, r, 50, 40, 0.5, 0.5, 0, 1);
+  EXPECT(s, r, 40, 35, 0.375, 0.625, 0, 1);
+  EXPECT(s, r, 40, 15, 0.125, 0.875, 0, 1);
+}
+
 /* Gradients of no length: everything lies past the last stop, the last corner. */
 static void test_degenerate_gradients(studio *s) {
   const celspan_stop stops[] = {{0, {{1, 0, 0}, {1, 1, 1}, 1}}, {1, {{0, 1, 0}, {1, 1, 1}, 1}}};
@@ -553,6 +564,7 @@ int main(void) {
       test_triangle_gradient,
       test_linear_gradient,
       test_radial_gradient,
+      test_conic_gradient,
       test_degenerate_gradients,
       test_texture_moves_with_its_object,
       test_scanline,

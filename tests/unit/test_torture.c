@@ -29,9 +29,10 @@ static celspan_object *random_blob(studio *s, test_random *random) {
                            {1, celspan_paint_rgb(0, 0, 1, 1)}};
   for (int i = 0; i < 5; i++)
     points[i] = random_point(random, -10, WIDTH + 10, -10, HEIGHT + 10);
-  celspan_texture *texture = random_below(random, 2)
-                                 ? studio_paint(s, stops[0].paint)
-                                 : studio_radial(s, (celspan_point){30, 20}, 25, stops, 3);
+  celspan_texture *textures[] = {studio_paint(s, stops[0].paint),
+                                 studio_radial(s, (celspan_point){30, 20}, 25, stops, 3),
+                                 studio_conic(s, (celspan_point){30, 20}, 2, stops, 3)};
+  celspan_texture *texture = textures[random_below(random, 3)];
   return studio_polygon(s, points, 5, CELSPAN_RULE_NONZERO, texture);
 }
 

@@ -107,6 +107,63 @@ function celspan.timecode(index, fps, options) end
 ---@return celspan.object
 function celspan.echo(draw, options) end
 
+--- The part of every contour between two shares of its length.
+---@param object celspan.shape
+---@param from number
+---@param to number
+---@param options? { offset?: number, together?: boolean }
+---@return celspan.object
+function celspan.trim(object, from, to, options) end
+
+--- The object grown, or with a distance below 0 shrunk.
+---@param object celspan.shape
+---@param distance number
+---@param options? { join?: "round"|"miter"|"bevel", limit?: number } Default "round", 4
+---@return celspan.object
+function celspan.offset(object, distance, options) end
+
+--- Arcs in place of the corners between straight sides.
+---@param object celspan.shape
+---@param radius number Of an arc in a right angle
+---@return celspan.object
+function celspan.round_corners(object, radius) end
+
+--- Points at a distance from every piece of a contour, on its two sides in turn.
+---@param object celspan.shape
+---@param options { size: number, ridges: integer, smooth?: boolean } ridges: of each piece
+---@return celspan.object
+function celspan.zigzag(object, options) end
+
+--- Bloats (above 0) or puckers (below 0): joints move towards their middle, control points away.
+---@param object celspan.shape
+---@param amount number -1..1
+---@return celspan.object
+function celspan.pucker(object, amount) end
+
+--- Points turn about a centre, the less the farther they are from it.
+---@param object celspan.shape
+---@param degrees number At the centre
+---@param options? { centre?: celspan.point } Default: the middle of the bounds
+---@return celspan.object
+function celspan.twist(object, degrees, options) end
+
+--- Copies of an object, each moved, turned, scaled and faded further.
+---@param object celspan.shape
+---@param options { count: integer, offset?: number, translate?: celspan.point, rotate?: number, scale?: number|number[], centre?: celspan.point, opacity?: number[], order?: "above"|"below", each?: fun(copy: celspan.object, i: integer): celspan.object? }
+---@return celspan.object
+function celspan.repeater(object, options) end
+
+--- Objects as one shape, with the texture of the first unless another is given.
+---@param objects celspan.shape[]
+---@param options? { mode?: "merge"|"add"|"subtract"|"intersect"|"exclude", texture?: celspan.surface }
+---@return celspan.object
+function celspan.merge(objects, options) end
+
+--- A star, or without `inner` a regular polygon.
+---@param options { centre?: celspan.point, points?: integer, outer: number, inner?: number, rotate?: number, outer_round?: number, inner_round?: number, texture?: celspan.surface }
+---@return celspan.object
+function celspan.star(options) end
+
 --- The bounds of an object with a margin, as a box {x, y, w, h}.
 ---@param object celspan.shape
 ---@param margin? number|number[] On all sides, or {across, down}
@@ -181,6 +238,8 @@ function texture:with(changes) end
 ---@noun linear: celspan.texture
 
 ---@noun radial: celspan.texture
+
+---@noun conic: celspan.texture
 
 ---@noun picture: celspan.texture
 

@@ -1,9 +1,11 @@
 #include "engine/paint/shade.h"
 
+#include "base/elementary.h"
 #include "base/number.h"
 #include "model/geometry/matrix.h"
 
 #define PLACES 64 /* found at a time */
+#define TURN 6.283185307179586
 
 static cs_shade_lanes lanes_of(const cs_paint *paint) {
   return (cs_shade_lanes){{paint->s[0], paint->s[1], paint->s[2], 0},
@@ -130,12 +132,31 @@ static void prepare_radial(cs_shade *shade) {
   set_plane(shade, 1, 0, share, -centre->y * share);
 }
 
+/* The ways along and across the direction of 0. */
+static void prepare_conic(cs_shade *shade) {
+  const celspan_point *centre = &shade->texture->variation->points[0],
+                      *ahead = &shade->texture->variation->points[1];
+  set_plane(shade, 0, ahead->x, ahead->y, -(centre->x * ahead->x + centre->y * ahead->y));
+  set_plane(shade, 1, -ahead->y, ahead->x, centre->x * ahead->y - centre->y * ahead->x);
+}
+
+double cs_shade_conic_at(const cs_shade *shade, double x, double y) {
+  const double *p = shade->plane[0], *q = shade->plane[1], *m = shade->inverse.m;
+  if (!shade->is_affine && !(m[6] * x + (m[7] * y + m[8]) > 0))
+    return NAN;
+  double turns =
+      cs_elementary_atan2(q[0] * x + (q[1] * y + q[2]), p[0] * x + (p[1] * y + p[2])) / TURN;
+  return turns < 0 ? turns + 1 : turns;
+}
+
 void cs_shade_prepare(cs_shade *shade) {
   shade->is_affine = cs_matrix_is_affine(&shade->inverse) && shade->inverse.m[8] > 0;
   if (shade->texture->kind == CS_TEXTURE_TRIANGLE)
     prepare_triangle(shade);
   else if (shade->texture->kind == CS_TEXTURE_LINEAR)
     prepare_linear(shade);
+  else if (shade->texture->kind == CS_TEXTURE_CONIC)
+    prepare_conic(shade);
   else
     prepare_radial(shade);
 }
@@ -299,6 +320,24 @@ static void break_focal(breaks *list, const cs_shade *shade, double y) {
     add_break(list, -(bp * p[0] + bq * q[0]) / speed);
 }
 
+/* Where the row crosses the lines through the centre on which the stops and 0 lie, and where it is
+ * nearest to the centre. */
+static void break_conic(breaks *list, const cs_shade *shade, double y) {
+  const celspan_texture *texture = shade->texture;
+  const double *p = shade->plane[0], *q = shade->plane[1];
+  double bp = p[1] * y + p[2], bq = q[1] * y + q[2], speed = p[0] * p[0] + q[0] * q[0];
+  for (size_t i = 0; i <= texture->variation->stop_count; i++) {
+    double sine = 0, cosine = 1;
+    if (i > 0)
+      cs_elementary_sincos(TURN * texture->variation->stops[i - 1].at, &sine, &cosine);
+    double step = q[0] * cosine - p[0] * sine;
+    if (step != 0)
+      add_break(list, -(bq * cosine - bp * sine) / step);
+  }
+  if (speed > 0)
+    add_break(list, -(bp * p[0] + bq * q[0]) / speed);
+}
+
 size_t cs_shade_break_limit(const cs_shade *shade) {
   return shade->texture->kind == CS_TEXTURE_TRIANGLE
              ? 21
@@ -313,6 +352,8 @@ size_t cs_shade_breaks(const cs_shade *shade, cs_run run, double *out) {
     break_triangle(&list, shade, &map);
   else if (shade->texture->kind == CS_TEXTURE_LINEAR)
     break_linear(&list, shade->texture, &map);
+  else if (shade->texture->kind == CS_TEXTURE_CONIC)
+    break_conic(&list, shade, run.y);
   else if (shade->eccentricity > 0)
     break_focal(&list, shade, run.y);
   else

@@ -1,4 +1,4 @@
-/* Textures given by a formula: the three-paint triangle, linear and radial gradients.
+/* Textures given by a formula: the three-paint triangle, linear, radial and conic gradients.
  *
  *     TRIANGLE: a plane through the       LINEAR: one plane, 0 at      RADIAL: two planes, the legs
  *     values at the corners, a channel    one end and 1 at the other   of the distance from the
@@ -15,6 +15,9 @@
  * focus's distance from the centre as a share of the radius,
  *   at = sqrt(P^2 + Q^2) - e P    where P = p / (radius (1 - e^2)), Q = q / (radius sqrt(1 - e^2)),
  * which solves |(p - at e radius, q)| = at radius. Without a focus e is 0. On a row `at` is convex.
+ *
+ * A conic gradient is the angle about its centre, in turns. On a row it is an arc tangent, which
+ * bends where the row is nearest to the centre, and jumps where the row crosses the direction of 0.
  *
  * Invariant: between the places that cs_shade_breaks finds the paint is a smooth function of x on a
  * row, so it may be cut into lines by comparing a few points.
@@ -46,7 +49,13 @@ static inline double cs_shade_at_known(const cs_shade *shade, double x, double y
   return w > 0 ? at / w : NAN;
 }
 
+/* The same for a conic texture, whose planes 0 and 1 are the ways along and across the direction of
+ * 0. */
+double cs_shade_conic_at(const cs_shade *shade, double x, double y);
+
 static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
+  if (shade->texture->kind == CS_TEXTURE_CONIC)
+    return cs_shade_conic_at(shade, x, y);
   return cs_shade_at_known(shade, x, y, shade->texture->kind == CS_TEXTURE_RADIAL,
                            shade->is_affine);
 }

@@ -14,7 +14,7 @@ static inline void find_places(const cs_shade *restrict shade, const double *res
 void CS_WIDE(cs_shade_places)(const cs_shade *shade, const double *x, int32_t count, double y,
                               double *at) {
   bool is_radial = shade->texture->kind == CS_TEXTURE_RADIAL;
-  if (!shade->is_affine)
+  if (!shade->is_affine || shade->texture->kind == CS_TEXTURE_CONIC)
     for (int32_t k = 0; k < count; k++)
       at[k] = cs_shade_at(shade, x[k], y);
   else if (is_radial)

@@ -4,8 +4,8 @@
  * rostrum), describes a frame (size, crop, exposures) and renders it into a sink, into pixels, into
  * a file, or row by row. There is no frame buffer: work and memory follow the number of colour
  * spans, so a frame may be a million pixels a side. Tools have headers of their own beside this
- * one: text.h, svg.h, layers.h, trace.h, plane.h, relight.h, track.h, film.h, and lua.h for Lua. It
- * is one header, because a frame needs all of it.
+ * one: operators.h, text.h, svg.h, layers.h, trace.h, plane.h, relight.h, track.h, film.h, and
+ * lua.h for Lua. It is one header, because a frame needs all of it.
  *
  * Conventions
  *   Coordinates  origin top left, x right, y down, in film units. Pixel i covers [i, i+1).
@@ -347,6 +347,11 @@ celspan_texture_create_radial(celspan_context *context, celspan_point centre, do
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_focal(
     celspan_context *context, celspan_point centre, double radius, celspan_point focus,
     const celspan_stop *stops, size_t stop_count, celspan_texture **out);
+/* Stops around a centre, from 0 at `angle`, radians clockwise from up, once round to 1. Where the
+ * last paint is not the first, the colour jumps. */
+CELSPAN_API CELSPAN_CHECKED celspan_status
+celspan_texture_create_conic(celspan_context *context, celspan_point centre, double angle,
+                             const celspan_stop *stops, size_t stop_count, celspan_texture **out);
 /* How a linear or radial gradient continues before 0 and after 1. */
 typedef enum celspan_spread {
   CELSPAN_SPREAD_HOLD = 0, /* the first and the last colour */
@@ -681,6 +686,11 @@ CELSPAN_DESCRIPTION(celspan_scanline_desc)
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_rect(celspan_context *context,
                                                                       const celspan_rect_desc *desc,
                                                                       celspan_object **out);
+/* A rectangle with a radius for each corner, clockwise from the top left; desc->radius does not
+ * count. Where two along a side are longer than it, all four become less in proportion. */
+CELSPAN_API CELSPAN_CHECKED celspan_status
+celspan_object_create_rounded(celspan_context *context, const celspan_rect_desc *desc,
+                              const double radii[4], celspan_object **out);
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_triangle(
     celspan_context *context, const celspan_triangle_desc *desc, celspan_object **out);
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_create_ellipse(

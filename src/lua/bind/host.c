@@ -107,7 +107,7 @@ void cs_host_leave(lua_State *L, lua_State *before) { cs_host_get(L)->state = be
  * out, because the script may have used another word. */
 static const char *sentence_of(const cs_host *host) {
   const char *sentence = celspan_context_error(host->context);
-  size_t word = strspn(sentence, "abcdefghijklmnopqrstuvwxyz");
+  size_t word = strspn(sentence, "abcdefghijklmnopqrstuvwxyz_");
   bool has_noun = (host->failure == CELSPAN_BAD_ARGUMENT || host->failure == CELSPAN_LIMIT) &&
                   strncmp(sentence + word, ": ", 2) == 0;
   return has_noun ? sentence + word + 2 : sentence;

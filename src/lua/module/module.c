@@ -98,6 +98,11 @@ static const luaL_Reg core_functions[] = {{"find", find},
                                           {"painting", cs_painting_read},
                                           {"blend_within", cs_placed_blend_within},
                                           {"warp", cs_derived_warp},
+                                          {"trim", cs_operators_trim},
+                                          {"round_corners", cs_operators_round_corners},
+                                          {"zigzag", cs_operators_zigzag},
+                                          {"pucker", cs_operators_pucker},
+                                          {"twist", cs_operators_twist},
                                           {"anatomy", cs_anatomy_of},
                                           {"rebuild", cs_anatomy_rebuild},
                                           {"move_texture", cs_anatomy_move},
@@ -146,14 +151,29 @@ static int compare(const void *a, const void *b) {
 /* Functions of celspan that are written in Lua; each is loaded at its first use. */
 static const struct {
   const char *name, *module, *function;
-} written_in_lua[] = {
-    {"read", "celspan.files", "text"},      {"parameters", "celspan.parameters", "declare"},
-    {"row", "celspan.layout", "row"},       {"column", "celspan.layout", "column"},
-    {"grid", "celspan.layout", "grid"},     {"align", "celspan.layout", "align"},
-    {"around", "celspan.layout", "around"}, {"letters", "celspan.layout", "letters"},
-    {"fit", "celspan.layout", "fit"},       {"count", "celspan.count", "written"},
-    {"morph", "celspan.morph", "between"},  {"brush", "celspan.brush", "line"},
-    {"echo", "celspan.echo", "trail"},      {"timecode", "celspan.count", "timecode"}};
+} written_in_lua[] = {{"read", "celspan.files", "text"},
+                      {"parameters", "celspan.parameters", "declare"},
+                      {"row", "celspan.layout", "row"},
+                      {"column", "celspan.layout", "column"},
+                      {"grid", "celspan.layout", "grid"},
+                      {"align", "celspan.layout", "align"},
+                      {"around", "celspan.layout", "around"},
+                      {"letters", "celspan.layout", "letters"},
+                      {"fit", "celspan.layout", "fit"},
+                      {"count", "celspan.count", "written"},
+                      {"morph", "celspan.morph", "between"},
+                      {"brush", "celspan.brush", "line"},
+                      {"echo", "celspan.echo", "trail"},
+                      {"timecode", "celspan.count", "timecode"},
+                      {"trim", "celspan.operators", "trim"},
+                      {"round_corners", "celspan.operators", "round_corners"},
+                      {"zigzag", "celspan.operators", "zigzag"},
+                      {"pucker", "celspan.operators", "pucker"},
+                      {"twist", "celspan.operators", "twist"},
+                      {"offset", "celspan.offset", "grown"},
+                      {"repeater", "celspan.repeater", "copies"},
+                      {"star", "celspan.star", "outline"},
+                      {"merge", "celspan.merge", "merged"}};
 
 #define WRITTEN_IN_LUA (sizeof written_in_lua / sizeof *written_in_lua)
 

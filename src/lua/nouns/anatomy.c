@@ -1,7 +1,8 @@
 /* The structure of an object, for celspan.morph: the tree of an object as tables, and back.
  *
  * A node: name, fade, and
- *   kind "boolean"  op, object, and the nodes of its operands as a list
+ *   kind "boolean"  op, object, filled (its operands are the plane of a pattern and the shape that
+ *                   it fills), and the nodes of its operands as a list
  *   kind "outline"  object, rule, paint or texture, and contours; of an even line also line, whose
  *                   width, cap, join and miter are those of a stroke
  *   kind "other"    object, as it is placed
@@ -244,6 +245,7 @@ static void put_operands(lua_State *L, const cs_boolean *boolean, const celspan_
                          bool is_filled) {
   cs_put_text(L, "kind", "boolean");
   cs_put_text(L, "op", cs_boolean_words[boolean->op]);
+  cs_put_flag(L, "filled", boolean->is_filled);
   for (size_t i = 0; i < boolean->operand_count; i++) {
     push_node(L, boolean->operands[i], matrix, is_filled);
     lua_rawseti(L, -2, (lua_Integer)i + 1);

@@ -7,9 +7,9 @@
 
 #include "lua/bind/userdata.h"
 
-extern const cs_noun cs_noun_gradient, cs_noun_linear, cs_noun_radial, cs_noun_picture,
-    cs_noun_pattern, cs_noun_rect, cs_noun_triangle, cs_noun_circle, cs_noun_ellipse,
-    cs_noun_polygon, cs_noun_nurbs, cs_noun_path, cs_noun_image, cs_noun_stroke,
+extern const cs_noun cs_noun_gradient, cs_noun_linear, cs_noun_radial, cs_noun_conic,
+    cs_noun_picture, cs_noun_pattern, cs_noun_rect, cs_noun_triangle, cs_noun_circle,
+    cs_noun_ellipse, cs_noun_polygon, cs_noun_nurbs, cs_noun_path, cs_noun_image, cs_noun_stroke,
     cs_noun_stroke_style, cs_noun_text, cs_noun_glyph, cs_noun_scanline, cs_noun_union,
     cs_noun_intersection, cs_noun_difference, cs_noun_xor, cs_noun_group, cs_noun_matte,
     cs_noun_blur, cs_noun_shadow, cs_noun_glow, cs_noun_outline, cs_noun_light, cs_noun_defocus,
@@ -39,6 +39,11 @@ int cs_derived_paint(lua_State *L);
 /* The function behind object:warp{...}: (object, function of x and y, tolerance, most pieces) ->
  * object. A tolerance or a number of 0 is the default. */
 int cs_derived_warp(lua_State *L);
+int cs_operators_trim(lua_State *L);
+int cs_operators_round_corners(lua_State *L);
+int cs_operators_zigzag(lua_State *L);
+int cs_operators_pucker(lua_State *L);
+int cs_operators_twist(lua_State *L);
 
 /* The functions behind celspan.morph (anatomy.c): (object, whether strokes are shapes) -> its tree
  * as tables; (object, { operands }) -> a boolean like it; (texture, { 9 numbers }) -> the texture,

@@ -30,6 +30,21 @@ static void check_length(const cs_form *form, int wanted, const char *shape) {
     cs_form_fail(form, "takes %s, got %d values", shape, length);
 }
 
+/* The radii of the four corners, or NULL if there is one for all, in the description. */
+static const double *read_radii(const cs_form *form, celspan_rect_desc *desc) {
+  size_t count = 0;
+  int type = cs_form_get(form, "radius");
+  if (type != LUA_TTABLE) {
+    if (type != LUA_TNIL)
+      desc->radius = cs_numbers_check(form->L, -1, form->noun->name, "field 'radius'");
+    return NULL;
+  }
+  const double *radii = cs_form_array(form, "radius", &count);
+  if (count != 4)
+    cs_form_fail(form, "field 'radius' must be a number or four numbers, got %d", (int)count);
+  return radii;
+}
+
 static void create_rect(const cs_form *form, cs_userdata *value) {
   celspan_rect_desc desc = {.struct_size = sizeof desc,
                             .x = corner(form, 1, "x"),
@@ -38,13 +53,17 @@ static void create_rect(const cs_form *form, cs_userdata *value) {
                             .height = corner(form, 4, "height")};
   check_length(form, 4, "four numbers: x, y, width, height");
   cs_fields_read(form, &desc);
+  const double *radii = read_radii(form, &desc);
   celspan_object *object = NULL;
-  cs_form_try(form, celspan_object_create_rect(cs_host_context(form->L), &desc, &object));
+  celspan_context *context = cs_host_context(form->L);
+  cs_form_try(form, radii ? celspan_object_create_rounded(context, &desc, radii, &object)
+                          : celspan_object_create_rect(context, &desc, &object));
   value->handle = object;
 }
 
-static const cs_field rect_fields[] = {{"radius", CS_NUMBER(celspan_rect_desc, radius), CS_FROM(0),
-                                        .preset = "0", .about = "Of the corners"},
+static const cs_field rect_fields[] = {{"radius", CS_OWN("number|number[]"), .preset = "0",
+                                        .about = "Of all corners, or {top left, top right, bottom "
+                                                 "right, bottom left}"},
                                        {CS_TEXTURE(celspan_rect_desc, texture)},
                                        {0}};
 

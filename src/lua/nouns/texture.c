@@ -2,6 +2,7 @@
 #include "lua/nouns/texture.h"
 
 #include <limits.h>
+#include <math.h>
 
 #include "frames/film/sequence.h"
 #include "lua/bind/files.h"
@@ -42,6 +43,7 @@ static celspan_stop *read_stops(const cs_form *form, int count) {
 typedef struct gradient {
   celspan_point from, to; /* or centre, focus */
   double radius;
+  double angle; /* degrees */
   bool has_focus, has_matrix;
   celspan_matrix matrix;
   celspan_spread spread;
@@ -89,6 +91,20 @@ static void create_radial(const cs_form *form, cs_userdata *value) {
   set_extent(form, &g, texture, value);
 }
 
+#define RADIANS 0.017453292519943295 /* in a degree */
+
+static void create_conic(const cs_form *form, cs_userdata *value) {
+  gradient g = {.spread = CELSPAN_SPREAD_HOLD};
+  cs_fields_read(form, &g);
+  int count = cs_form_length(form);
+  celspan_stop *stops = read_stops(form, count);
+  celspan_texture *texture = NULL;
+  cs_form_try(form, celspan_texture_create_conic(cs_host_context(form->L), g.from,
+                                                 RADIANS * fmod(g.angle, 360), stops, (size_t)count,
+                                                 &texture));
+  set_extent(form, &g, texture, value);
+}
+
 static const char *const spreads[] = {"hold", "repeat", "reflect", NULL};
 static const cs_field no_fields[] = {{0}};
 static const cs_field extent_fields[] = {
@@ -108,6 +124,14 @@ static const cs_field radial_fields[] = {
     {"focus", CS_POINT(gradient, to), CS_HAS(gradient, has_focus), .about = "Where 0 lies",
      .fallback = "the centre"},
     {.more = extent_fields}};
+
+static const cs_field conic_fields[] = {{"centre", CS_POINT(gradient, from), .is_required = true},
+                                        {"angle", CS_NUMBER(gradient, angle), .preset = "0",
+                                         .about = "Where 0 lies, in degrees clockwise from up"},
+                                        {"matrix", CS_NUMBERS(gradient, matrix),
+                                         CS_HAS(gradient, has_matrix),
+                                         .about = "Nine numbers: moves the gradient alone"},
+                                        {0}};
 
 /* ---------------------------------------------------------------- pictures */
 
@@ -235,6 +259,11 @@ const cs_noun cs_noun_radial = {
     STOPS,
     .fields = radial_fields,
     .create = create_radial};
+const cs_noun cs_noun_conic = {.name = "conic",
+                               .about = "A gradient once round a point, clockwise.",
+                               STOPS,
+                               .fields = conic_fields,
+                               .create = create_conic};
 const cs_noun cs_noun_picture = {
     .name = "picture",
     .about = "A picture as a texture: a file, read when it is first visible, or pixels in memory.",

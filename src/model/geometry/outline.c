@@ -152,6 +152,25 @@ celspan_status cs_outline_rounded(celspan_context *context, cs_outline *outline,
   return cs_outline_close(context, outline);
 }
 
+celspan_status cs_outline_cornered(celspan_context *context, cs_outline *outline,
+                                   const celspan_box *box, const double radii[4]) {
+  static const int ways[4][2] = {{0, 1}, {-1, 0}, {0, -1}, {1, 0}}; /* away from each corner */
+  double x = box->x, y = box->y, right = x + box->width, bottom = y + box->height;
+  const celspan_point corners[4] = {{right, y}, {right, bottom}, {x, bottom}, {x, y}};
+  CS_TRY(cs_outline_move(context, outline, at(x + radii[0], y)));
+  for (int i = 0; i < 4; i++) {
+    double radius = radii[(i + 1) % 4];
+    const int *way = ways[i], *before = ways[(i + 3) % 4];
+    celspan_point corner = corners[i];
+    CS_TRY(cs_outline_line(context, outline,
+                           at(corner.x - radius * before[0], corner.y - radius * before[1])));
+    if (radius > 0)
+      CS_TRY(quarter(context, outline, corner.x, corner.y, corner.x + radius * way[0],
+                     corner.y + radius * way[1]));
+  }
+  return cs_outline_close(context, outline);
+}
+
 celspan_status cs_outline_rect(celspan_context *context, cs_outline *outline, double x, double y,
                                double width, double height, double radius) {
   radius = fmin(radius, 0.5 * fmin(width, height));

@@ -64,6 +64,10 @@ CELSPAN_CHECKED celspan_status cs_outline_rect(celspan_context *context, cs_outl
 CELSPAN_CHECKED celspan_status cs_outline_rounded(celspan_context *context, cs_outline *outline,
                                                   const celspan_box *box, double radius_x,
                                                   double radius_y);
+/* A rectangle whose corners are quarters of circles, clockwise from the top left. The radii are 0
+ * or more, and the two along a side are together at most as long as it. */
+CELSPAN_CHECKED celspan_status cs_outline_cornered(celspan_context *context, cs_outline *outline,
+                                                   const celspan_box *box, const double radii[4]);
 CELSPAN_CHECKED celspan_status cs_outline_ellipse(celspan_context *context, cs_outline *outline,
                                                   celspan_point centre, double radius_x,
                                                   double radius_y);

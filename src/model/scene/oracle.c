@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/elementary.h"
 #include "base/number.h"
 #include "model/pictures/load.h"
 #include "model/scene/scanline.h"
@@ -103,6 +104,15 @@ static double radial_parameter(const celspan_texture *texture, celspan_point at)
   double rest = r * r - offset.x * offset.x - offset.y * offset.y;
   double half = -(px * offset.x + py * offset.y);
   return (sqrt(half * half + rest * (px * px + py * py)) - half) / rest;
+}
+
+/* The angle from the direction of 0, as the difference of two angles from up. */
+static double conic_parameter(const celspan_texture *texture, celspan_point at) {
+  celspan_point centre = texture->variation->points[0], ahead = texture->variation->points[1];
+  double turned = cs_elementary_atan2(at.x - centre.x, centre.y - at.y) -
+                  cs_elementary_atan2(ahead.x, -ahead.y);
+  double turns = turned / 6.283185307179586;
+  return turns - floor(turns);
 }
 
 /* ---------------------------------------------------------------- pictures */
@@ -218,8 +228,9 @@ static double fold(celspan_spread spread, double at) {
  * unrolled texture. */
 static cs_oracle_paint shade_gradient(const celspan_texture *given, celspan_point point,
                                       celspan_space space) {
-  double at = given->kind == CS_TEXTURE_LINEAR ? linear_parameter(given, point)
-                                               : radial_parameter(given, point);
+  double at = given->kind == CS_TEXTURE_LINEAR   ? linear_parameter(given, point)
+              : given->kind == CS_TEXTURE_RADIAL ? radial_parameter(given, point)
+                                                 : conic_parameter(given, point);
   return shade_stops(given, fold(given->variation->spread, at), space);
 }
 
@@ -251,6 +262,7 @@ celspan_status cs_oracle_texture(celspan_context *context, const celspan_texture
     return CELSPAN_OK;
   case CS_TEXTURE_LINEAR:
   case CS_TEXTURE_RADIAL:
+  case CS_TEXTURE_CONIC:
     *out = shade_gradient(texture, point, space);
     return CELSPAN_OK;
   case CS_TEXTURE_PICTURE:

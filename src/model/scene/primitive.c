@@ -1,6 +1,7 @@
 /* The public constructors of primitives: they check the description and make the primitive data,
  * that is outline, bounds and texture. */
 #include "base/description.h"
+#include "base/number.h"
 #include "model/scene/check.h"
 #include "model/scene/pattern.h"
 #include "model/scene/primitive_data.h"
@@ -55,13 +56,17 @@ static celspan_status create_rounded(celspan_context *context, cs_primitive_data
   return cs_primitive_data_complete(context, data, &outline, status, out);
 }
 
-celspan_status celspan_object_create_rect(celspan_context *context, const celspan_rect_desc *desc,
-                                          celspan_object **out) {
-  CS_READ(context, "rect", celspan_rect_desc, desc);
+static celspan_status check_rect(celspan_context *context, const celspan_rect_desc *desc) {
   CS_TRY(cs_check_number(context, "rect", "x", desc->x));
   CS_TRY(cs_check_number(context, "rect", "y", desc->y));
   CS_TRY(cs_check_size(context, "rect", "w", desc->width));
-  CS_TRY(cs_check_size(context, "rect", "h", desc->height));
+  return cs_check_size(context, "rect", "h", desc->height);
+}
+
+celspan_status celspan_object_create_rect(celspan_context *context, const celspan_rect_desc *desc,
+                                          celspan_object **out) {
+  CS_READ(context, "rect", celspan_rect_desc, desc);
+  CS_TRY(check_rect(context, desc));
   CS_TRY(cs_check_size(context, "rect", "radius", desc->radius));
   cs_primitive_data *data;
   CS_TRY(begin(context, "rect", CELSPAN_RULE_NONZERO, desc->texture, &data));
@@ -69,6 +74,38 @@ celspan_status celspan_object_create_rect(celspan_context *context, const celspa
     return create_rounded(context, data, desc, out);
   const celspan_box box = {desc->x, desc->y, desc->width, desc->height};
   return cs_primitive_data_complete_box(context, data, &box, out);
+}
+
+/* The factor by which four radii become so small that they fit. */
+static double fitting(const celspan_rect_desc *desc, const double radii[4]) {
+  double factor = 1;
+  for (int i = 0; i < 4; i++) {
+    double side = i % 2 == 0 ? desc->width : desc->height, sum = radii[i] + radii[(i + 1) % 4];
+    if (sum * factor > side)
+      factor = side / sum;
+  }
+  return factor;
+}
+
+celspan_status celspan_object_create_rounded(celspan_context *context,
+                                             const celspan_rect_desc *desc, const double radii[4],
+                                             celspan_object **out) {
+  CS_READ(context, "rect", celspan_rect_desc, desc);
+  CS_TRY(check_rect(context, desc));
+  CS_TRY(cs_check_given(context, "rect", "radii", radii));
+  for (size_t i = 0; i < 4; i++)
+    CS_TRY(cs_check_item(context, (cs_check_field){"rect", "radius", i + 1, ""}, radii[i], 0,
+                         CS_NUMBER_LIMIT));
+  double factor = fitting(desc, radii), fitted[4];
+  for (int i = 0; i < 4; i++)
+    fitted[i] = factor * radii[i];
+  cs_primitive_data *data;
+  CS_TRY(begin(context, "rect", CELSPAN_RULE_NONZERO, desc->texture, &data));
+  const celspan_box box = {desc->x, desc->y, desc->width, desc->height};
+  cs_outline outline;
+  cs_outline_init(&outline);
+  celspan_status status = cs_outline_cornered(context, &outline, &box, fitted);
+  return cs_primitive_data_complete(context, data, &outline, status, out);
 }
 
 static celspan_status check_points(celspan_context *context, const char *noun,

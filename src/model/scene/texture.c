@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/description.h"
+#include "base/elementary.h"
 #include "base/self_check.h"
 #include "model/colour/space.h"
 #include "model/pictures/store.h"
@@ -17,6 +18,8 @@
 #define FLAT_TRIANGLE 1e-12
 /* A focus lies inside its circle: at most so far from the centre, as a share of the radius. */
 #define FOCUS_SHARE 0.9999
+
+#define TURN 6.283185307179586
 
 static const cs_texture_variation no_variation = {.stop_count = 0};
 
@@ -250,6 +253,24 @@ celspan_status celspan_texture_create_focal(celspan_context *context, celspan_po
     variation->points[0] = centre;
     variation->points[1] = focus_offset(centre, radius, focus);
     variation->radius = radius;
+  }
+  return finish(texture, out);
+}
+
+celspan_status celspan_texture_create_conic(celspan_context *context, celspan_point centre,
+                                            double angle, const celspan_stop *stops,
+                                            size_t stop_count, celspan_texture **out) {
+  CS_TRY(cs_check_point(context, "conic", "centre", 0, centre));
+  CS_TRY(cs_check_number(context, "conic", "angle", angle));
+  CS_TRY(check_stops(context, "conic", stops, stop_count));
+  celspan_texture *texture = NULL;
+  CS_TRY(create_stops(context, CS_TEXTURE_CONIC, stops, stop_count, false, &texture));
+  if (texture->kind == CS_TEXTURE_CONIC) {
+    cs_texture_variation *variation = cs_texture_own(texture);
+    double sine, cosine;
+    cs_elementary_sincos(fmod(angle, TURN), &sine, &cosine);
+    variation->points[0] = centre;
+    variation->points[1] = (celspan_point){sine, -cosine};
   }
   return finish(texture, out);
 }

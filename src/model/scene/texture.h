@@ -21,6 +21,7 @@ typedef enum cs_texture_kind {
   CS_TEXTURE_TRIANGLE,
   CS_TEXTURE_LINEAR,
   CS_TEXTURE_RADIAL,
+  CS_TEXTURE_CONIC,
   CS_TEXTURE_PICTURE,
   CS_TEXTURE_PATTERN
 } cs_texture_kind;
@@ -39,10 +40,11 @@ typedef struct cs_texture_tile_calls {
 /* The values of textures that vary from point to point. */
 typedef struct cs_texture_variation {
   celspan_point points[3]; /* TRIANGLE: corners; LINEAR: from, to; RADIAL: centre, and the way
-                              from it to the focus, less than the radius */
+                              from it to the focus, less than the radius; CONIC: centre, and the
+                              direction of 0, of length 1 */
   double radius;           /* RADIAL */
   cs_paint corners[3];     /* TRIANGLE */
-  cs_stop *stops;          /* LINEAR, RADIAL */
+  cs_stop *stops;          /* LINEAR, RADIAL, CONIC */
   size_t stop_count;
   celspan_spread spread;          /* LINEAR, RADIAL; HOLD in textures of primitives and lights */
   bool has_matrix;                /* not singular: */

@@ -351,6 +351,10 @@ static celspan_status make_axis(program_maker *m, const cs_layer *layer, uint32_
     return cs_record_image(context, &stack->images[layer->index], m->record, out);
   if (layer->kind == CS_LAYER_DEFOCUSED)
     return cs_record_defocused(context, m->source->defocus[layer->index], m->record, out);
+  if (stack->shades[layer->index].texture->kind == CS_TEXTURE_CONIC)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "plane: a conic gradient is in view; a plane keeps linear, radial and triangle "
+                   "gradients");
   *out = axis_of(&stack->shades[layer->index]);
   return CELSPAN_OK;
 }

@@ -1,0 +1,95 @@
+--- Shapes as one shape: celspan.merge, and the outlines that celspan.offset works on.
+local celspan = require "celspan"
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+local outlines = require "celspan.outlines"
+
+local merge = {}
+
+local function refuse(text, ...) core.refuse("merge: " .. text:format(...)) end
+
+--- The path data of contours as core.anatomy gives them.
+function merge.data(contours)
+  local pairs_of = {}
+  for i, contour in ipairs(contours) do
+    pairs_of[i] = { contour, contour, open = contour.open }
+  end
+  return outlines.data(pairs_of, 0)
+end
+
+--- The texture of a node.
+function merge.texture(node) return node.paint and celspan.paint(node.paint) or node.texture end
+
+--- A region, with a texture. One opaque colour is left as it is: the region has been drawn with it.
+function merge.painted(region, node)
+  local is_plain = node.paint and node.paint.beta == 1
+  return is_plain and region or region:paint(merge.texture(node))
+end
+
+--- The outlines below a node. A shape that a pattern fills has no texture of its own.
+local function collect(node, list)
+  if node.kind == "outline" then
+    list[#list + 1] = node
+  elseif node.kind == "other" then
+    refuse "a rostrum, a scan-line procedure and what is blurred have no outline"
+  end
+  for i, child in ipairs(node) do
+    if i > 1 or not node.filled then
+      collect(child, list)
+      child.filled = node.filled
+    end
+  end
+  return list
+end
+
+local function join(nodes, texture)
+  local data = {}
+  for i, node in ipairs(nodes) do data[i] = merge.data(node.contours) end
+  return celspan.path { d = table.concat(data), texture = texture }
+end
+
+local operators = { add = celspan.union, subtract = celspan.difference,
+                    intersect = celspan.intersection, exclude = celspan.xor }
+
+local function read(objects, options)
+  fields.check("merge", options, { mode = "string", texture = "any" })
+  local mode = options.mode or "merge"
+  if mode ~= "merge" and not operators[mode] then
+    refuse("field 'mode' must be \"merge\", \"add\", \"subtract\", \"intersect\" or \"exclude\", "
+      .. "got %q", mode)
+  end
+  if type(objects) ~= "table" then
+    refuse("the first argument must be a list of objects, got %s", fields.kind(objects))
+  end
+  local nodes = {}
+  for i = 1, rawlen(objects) do
+    if not fields.is_object(objects[i]) then
+      refuse("item %d must be an object, got %s", i, fields.kind(objects[i]))
+    end
+    nodes[i] = collect(core.anatomy(objects[i], true), {})
+  end
+  return mode, nodes
+end
+
+--- One shape of the outlines of objects, with the texture of the first.
+---@param objects celspan.shape[]
+---@param options? { mode?: "merge"|"add"|"subtract"|"intersect"|"exclude", texture?: celspan.surface }
+---@return celspan.object
+function merge.merged(objects, options)
+  local mode, nodes = read(objects, options or {})
+  local first, all = nil, {}
+  for _, list in ipairs(nodes) do
+    first = first or list[1]
+    table.move(list, 1, #list, #all + 1, all)
+  end
+  if not first then return celspan.union {} end
+  local texture = options and options.texture
+  if not texture and first.filled then
+    refuse "the first object is filled with a pattern; give the field 'texture'"
+  end
+  texture = texture or merge.texture(first)
+  if mode == "merge" then return join(all, texture) end
+  return operators[mode](table.move(objects, 1, #objects, 1, {})):paint(texture)
+end
+
+return fields.seal("merge", merge)

@@ -1,0 +1,103 @@
+--- Path operators: celspan.trim, round_corners, zigzag, pucker and twist. The core changes the
+--- contours (celspan/operators.h); here the arguments are checked.
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+
+local operators = {}
+
+local function check_object(noun, object)
+  if not fields.is_object(object) then
+    core.refuse(("%s: the first argument must be an object, got %s"):format(noun,
+      fields.kind(object)))
+  end
+end
+
+local function check_number(noun, name, number)
+  if not fields.is_finite(number) then
+    core.refuse(("%s: %s must be a finite number, got %s"):format(noun, name,
+      fields.shown(number)))
+  end
+end
+
+local trims = { offset = "number", together = "boolean" }
+
+--- The part of each contour between two shares of its length.
+---@param object celspan.shape
+---@param from number
+---@param to number
+---@param options? { offset?: number, together?: boolean }
+---@return celspan.object
+function operators.trim(object, from, to, options)
+  check_object("trim", object)
+  check_number("trim", "the second argument, from,", from)
+  check_number("trim", "the third argument, to,", to)
+  if options == nil then return core.trim(object, from, to, 0, false) end
+  fields.check("trim", options, trims)
+  return core.trim(object, from, to, options.offset or 0, options.together or false)
+end
+
+--- Arcs in place of the corners between straight sides.
+---@param object celspan.shape
+---@param radius number
+---@return celspan.object
+function operators.round_corners(object, radius)
+  check_object("round_corners", object)
+  check_number("round_corners", "the radius", radius)
+  return core.round_corners(object, radius)
+end
+
+local zigzags = { size = "number", ridges = "number", smooth = "boolean" }
+local RIDGES_MOST = 10000
+
+--- Points on the two sides of every piece in turn.
+---@param object celspan.shape
+---@param options { size: number, ridges: integer, smooth?: boolean }
+---@return celspan.object
+function operators.zigzag(object, options)
+  check_object("zigzag", object)
+  fields.check("zigzag", options, zigzags)
+  for _, name in ipairs { "size", "ridges" } do
+    if options[name] == nil then
+      core.refuse(("zigzag: needs the field '%s', a number"):format(name))
+    end
+  end
+  local ridges = math.tointeger(options.ridges)
+  if not ridges or ridges < 0 or ridges > RIDGES_MOST then
+    core.refuse(("zigzag: field 'ridges' must be a whole number from 0 to %d, got %s"):format(
+      RIDGES_MOST, fields.shown(options.ridges)))
+  end
+  return core.zigzag(object, options.size, ridges, options.smooth or false)
+end
+
+--- Joints move towards the middle of their contour, control points away from it; or the other way.
+---@param object celspan.shape
+---@param amount number
+---@return celspan.object
+function operators.pucker(object, amount)
+  check_object("pucker", object)
+  check_number("pucker", "the amount", amount)
+  return core.pucker(object, amount)
+end
+
+local DEGREES_MOST = 360000 -- a thousand turns
+
+--- Points turn about a centre, the less the farther they are from it.
+---@param object celspan.shape
+---@param degrees number
+---@param options? { centre?: celspan.point }
+---@return celspan.object
+function operators.twist(object, degrees, options)
+  check_object("twist", object)
+  check_number("twist", "the angle", degrees)
+  if math.abs(degrees) > DEGREES_MOST then
+    core.refuse(("twist: the angle must be from -%d to %d degrees, got %s"):format(DEGREES_MOST,
+      DEGREES_MOST, fields.shown(degrees)))
+  end
+  fields.check("twist", options or {}, { centre = "table" })
+  local centre = options and options.centre
+  if not centre then return core.twist(object, degrees) end
+  fields.numbers("twist", "centre[%d]", centre, 2, "{x, y}")
+  return core.twist(object, degrees, centre[1], centre[2])
+end
+
+return fields.seal("operators", operators)

@@ -1,0 +1,102 @@
+--- Stars and regular polygons with round points: celspan.star.
+--
+--            o outer        points = 5; without `inner` the corners of a regular polygon.
+--           / \             A round point is a joint of two cubics whose arms go along the circle
+--    o-----o   o-----o      of the point. With a roundness of 1 they are as long as a quarter of
+--      \    inner  /        the way along that circle to the next joint of the same circle.
+local celspan = require "celspan"
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+
+local star = {}
+
+local POINTS_MOST = 10000
+local ROUND_MOST = 100
+
+local function refuse(text, ...) core.refuse("star: " .. text:format(...)) end
+
+local known = { centre = "table", points = "number", outer = "number", inner = "number",
+                rotate = "number", outer_round = "number", inner_round = "number",
+                texture = "any" }
+
+local function check_points(points)
+  local whole = points == nil and 5 or math.tointeger(points)
+  if not whole or whole < 2 or whole > POINTS_MOST then
+    refuse("field 'points' must be a whole number from 2 to %d, got %s", POINTS_MOST,
+      fields.shown(points))
+  end
+  return whole
+end
+
+local function check_radius(name, radius)
+  if radius and (radius < 0 or radius > 1e12) then
+    refuse("field '%s' must be from 0 to 1e12, got %s", name, fields.shown(radius))
+  end
+  return radius
+end
+
+local function check_round(name, round)
+  if round and math.abs(round) > ROUND_MOST then
+    refuse("field '%s' must be from -%d to %d, got %s", name, ROUND_MOST, ROUND_MOST,
+      fields.shown(round))
+  end
+  return round or 0
+end
+
+local function read(options)
+  fields.check("star", options, known)
+  fields.numbers("star", "centre[%d]", options.centre or { 0, 0 }, 2, "{x, y}")
+  if options.outer == nil then refuse "needs the field 'outer', a radius" end
+  local points, inner = check_points(options.points), check_radius("inner", options.inner)
+  return { x = options.centre and options.centre[1] or 0,
+           y = options.centre and options.centre[2] or 0,
+           count = inner and 2 * points or points, points = points,
+           turn = (options.rotate or 0) % 360,
+           radii = { [0] = check_radius("outer", options.outer), [1] = inner },
+           rounds = { [0] = check_round("outer_round", options.outer_round),
+                      [1] = check_round("inner_round", options.inner_round) } }
+end
+
+--- The joint number i, from 0: its place, and the vector to its control point ahead.
+local function joint(s, i)
+  local ring = s.radii[1] and i % 2 or 0
+  local angle = math.rad(s.turn + 360 * i / s.count - 90)
+  local c, d = math.cos(angle), math.sin(angle)
+  local radius = s.radii[ring]
+  local arm = s.rounds[ring] * math.pi * radius / (2 * s.points)
+  return s.x + radius * c, s.y + radius * d, -arm * d, arm * c
+end
+
+--- The corners as a polygon.
+local function straight(s, texture)
+  local corners = { texture = texture }
+  for i = 0, s.count - 1 do
+    local x, y = joint(s, i)
+    corners[i + 1] = { x, y }
+  end
+  return celspan.polygon(corners)
+end
+
+local function curved(s, texture)
+  local x, y, ax, ay = joint(s, 0)
+  local data = { ("M%.17g %.17g"):format(x, y) }
+  for i = 1, s.count do
+    local nx, ny, bx, by = joint(s, i % s.count)
+    data[i + 1] = ("C%.17g %.17g %.17g %.17g %.17g %.17g"):format(x + ax, y + ay, nx - bx, ny - by,
+      nx, ny)
+    x, y, ax, ay = nx, ny, bx, by
+  end
+  data[#data + 1] = "Z"
+  return celspan.path { d = table.concat(data), texture = texture }
+end
+
+--- A star, or a regular polygon.
+---@param options { centre?: celspan.point, points?: integer, outer: number, inner?: number, rotate?: number, outer_round?: number, inner_round?: number, texture?: celspan.surface }
+---@return celspan.object
+function star.outline(options)
+  local s = read(options)
+  local is_round = s.rounds[0] ~= 0 or s.radii[1] and s.rounds[1] ~= 0
+  return (is_round and curved or straight)(s, options.texture)
+end
+
+return fields.seal("star", star)
