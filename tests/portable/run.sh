@@ -9,7 +9,8 @@
 #   x86-64-avx2  likewise
 #   musl         another C library, linked statically, without modules
 #   aarch64      another processor, in emulation, linked statically, without modules
-#   i386         another processor, with Debian's libraries for the modules
+#   armhf        another processor, in emulation, with Debian's libraries for the modules
+#   i386         another processor, likewise, without emulation where the kernel runs its programs
 #
 # --sample: one question in ten.
 set -u -o pipefail
@@ -32,6 +33,7 @@ emulator() {
   x86-64-sse) echo qemu-x86_64 -cpu Nehalem ;;
   x86-64-avx2) echo qemu-x86_64 -cpu max ;; # it has no wider ones
   aarch64) echo qemu-aarch64 ;;
+  armhf) echo "qemu-arm -L $out/armhf -E LD_LIBRARY_PATH=$out/armhf/usr/lib/arm-linux-gnueabihf" ;;
   i386) i386_loader || echo "qemu-i386 -L $out/i386" ;;
   esac
 }
@@ -49,7 +51,7 @@ options() {
 # build PLATFORM: quietly, unless it fails.
 build() {
   local folder=$out/$1/build log=$out/$1/log targets=("${programs[@]}")
-  [ "$1" != i386 ] || targets+=(examples/example_{painting,letters}
+  [[ $1 != armhf && $1 != i386 ]] || targets+=(examples/example_{painting,letters}
     src/plugins/raster/celspan-raster.so src/plugins/type/celspan-art.so)
   mkdir -p "$out/$1"
   {
@@ -78,7 +80,7 @@ ask() {
 }
 
 [ "${1:-}" != --sample ] || { every=10 && shift; }
-[ $# != 0 ] || set -- x86-64 musl aarch64 i386
+[ $# != 0 ] || set -- x86-64 musl aarch64 armhf i386
 echo "| platform | equal | different | not asked |"
 echo "|---|---|---|---|"
 for platform in "$@"; do
