@@ -22,6 +22,10 @@ static inline int cs_open_to_read(const char *path) {
   return descriptor;
 }
 
+/* Another descriptor of an open file, which keeps the locks of the file; -1 and errno: there is
+ * none. */
+int cs_open_twice(int descriptor);
+
 /* Reads `size` bytes at an offset. Returns the number of bytes, which is less than `size` only at
  * the end of the file, or -1 and errno. */
 static inline ssize_t cs_open_read_at(int descriptor, void *bytes, size_t size, off_t offset) {

@@ -9,8 +9,9 @@
 #   x86-64-avx2  likewise
 #   musl         another C library, linked statically, without modules
 #   aarch64      another processor, in emulation, linked statically, without modules
+#   wasm         WebAssembly in node, without modules, threads and processes
 #   armhf        another processor, in emulation, with Debian's libraries for the modules
-#   i386         another processor, likewise, without emulation where the kernel runs its programs
+#   i386         likewise, but not in emulation where the kernel runs its programs
 #
 # --sample: one question in ten.
 set -u -o pipefail
@@ -33,7 +34,8 @@ emulator() {
   x86-64-sse) echo qemu-x86_64 -cpu Nehalem ;;
   x86-64-avx2) echo qemu-x86_64 -cpu max ;; # it has no wider ones
   aarch64) echo qemu-aarch64 ;;
-  armhf) echo "qemu-arm -L $out/armhf -E LD_LIBRARY_PATH=$out/armhf/usr/lib/arm-linux-gnueabihf" ;;
+  armhf) echo "qemu-arm -L $out/armhf" ;;
+  wasm) echo node --no-experimental-fetch ;; # emcc's programs would fetch their own file
   i386) i386_loader || echo "qemu-i386 -L $out/i386" ;;
   esac
 }
@@ -43,9 +45,11 @@ options() {
   echo -Dpictures=disabled -Dcolour=disabled -Dweb=disabled -Dtests=false -Doptimization=1 \
     -Ddebug=false
   case $1 in
-  musl | aarch64) echo -Dmodules=false -Draster=disabled -Dart=disabled ;;
+  musl | aarch64 | wasm) echo -Dmodules=false -Draster=disabled -Dart=disabled ;;
   *) echo -Draster=enabled -Dart=enabled ;;
   esac
+  # Meson takes the version of emcc for one of clang that does not know C17, which it is set to.
+  [ "$1" != wasm ] || echo -D{,spanfile:,planefile:}c_std=none
 }
 
 # build PLATFORM: quietly, unless it fails.
@@ -53,6 +57,7 @@ build() {
   local folder=$out/$1/build log=$out/$1/log targets=("${programs[@]}")
   [[ $1 != armhf && $1 != i386 ]] || targets+=(examples/example_{painting,letters}
     src/plugins/raster/celspan-raster.so src/plugins/type/celspan-art.so)
+  [ "$1" != wasm ] || targets=("${targets[@]/%/.js}")
   mkdir -p "$out/$1"
   {
     # shellcheck disable=SC2046
@@ -69,18 +74,20 @@ build() {
 # ask PLATFORM BUILD: of commands that have the names of the programs, as
 # tests/support/golden.lua calls them.
 ask() {
-  local commands=$out/$1/commands name
+  local commands=$out/$1/commands name program
   mkdir -p "$commands/examples"
   for name in celspan examples/example_{surface,memory,embed,host,painting,letters}; do
-    [ -f "$2/$name" ] || continue
-    printf '#!/bin/sh\nexec %s "%s" "$@"\n' "$(emulator "$1")" "$2/$name" >"$commands/$name"
+    program=$2/$name
+    [ -f "$program" ] || program+=.js
+    [ -f "$program" ] || continue
+    printf '#!/bin/sh\nexec %s "%s" "$@"\n' "$(emulator "$1")" "$program" >"$commands/$name"
     chmod +x "$commands/$name"
   done
   CELSPAN=$commands/celspan CELSPAN_BUILD=$commands lua5.4 tests/portable/digests.lua "$1" "$every"
 }
 
 [ "${1:-}" != --sample ] || { every=10 && shift; }
-[ $# != 0 ] || set -- x86-64 musl aarch64 armhf i386
+[ $# != 0 ] || set -- x86-64 musl aarch64 wasm armhf i386
 echo "| platform | equal | different | not asked |"
 echo "|---|---|---|---|"
 for platform in "$@"; do

@@ -280,7 +280,7 @@ static celspan_status finish(cs_file *file, celspan_context *context) {
     return fail(file, context, "cannot sync");
   if (context->contents && !cs_file_contents_read(file->descriptor, context->contents))
     return fail(file, context, "cannot read it back");
-  int locked = fcntl(file->descriptor, F_DUPFD_CLOEXEC, 0);
+  int locked = cs_open_twice(file->descriptor);
   if (locked < 0)
     return fail(file, context, "cannot close");
   celspan_status status = close_and_rename(file, context);

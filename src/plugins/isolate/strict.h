@@ -26,3 +26,6 @@ typedef struct cs_strict_rights {
 /* Returns NULL, or the reason of a failure: the process may then be partly confined, and must
  * end. */
 const char *cs_strict_enter(const cs_strict_rights *rights);
+
+/* Closes all descriptors from the first on. */
+void cs_strict_close(int first);

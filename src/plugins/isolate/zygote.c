@@ -7,7 +7,6 @@
 #include <string.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
-#include <sys/syscall.h>
 #include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,6 +14,7 @@
 #include "base/context.h"
 #include "model/pictures/store.h"
 #include "plugins/isolate/sound_worker.h"
+#include "plugins/isolate/strict.h"
 
 enum { WORKERS = 256 };
 
@@ -183,8 +183,7 @@ static void serve(zygote *z) {
 void cs_zygote_run(int count, char **arguments) {
   static zygote z;
   prctl(PR_SET_NAME, "celspan-decoder");
-  /* old C libraries have no function for it */
-  syscall(__NR_close_range, CS_ZYGOTE_SOCKET + 1, ~0U, 0);
+  cs_strict_close(CS_ZYGOTE_SOCKET + 1);
   cs_worker_loop_watch_faults();
   if (celspan_context_create(NULL, &z.context) != CELSPAN_OK)
     _exit(CS_WORKER_NO_MEMORY);
