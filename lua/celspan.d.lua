@@ -21,8 +21,8 @@ local celspan = {}
 
 --- Declares the parameters of a film, once, and returns their values. Each name has its default: a
 --- string, a number, a boolean, a list of strings of which one is chosen, { colour = "#f26419" },
---- { file = "a.wav" }, or { default, min =, max =, about = }. `--set` and `--set-from` give other
---- values.
+--- { file = "a.wav" }, a point { 120, 80, point = true }, a curve { ease = "outBack" }, or
+--- { default, min =, max =, about =, group = }. `--set` and `--set-from` give other values.
 ---@param parameters table<string, any>
 ---@return table<string, any> values
 function celspan.parameters(parameters) end

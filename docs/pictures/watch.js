@@ -1,10 +1,23 @@
-// The steps of watch.sh: a dark window, and frame 112.
+// The steps of watch.sh: a dark window with the rows of a shot, the values, and the form of a render.
 await page.call("Emulation.setDeviceMetricsOverride",
-  { width: 1440, height: 855, deviceScaleFactor: 1, mobile: false });
-await page.pause(4);
-for (const key of ["g", "1", "1", "2", "Enter", "t"]) {
+  { width: 1280, height: 800, deviceScaleFactor: 1, mobile: false });
+const isSettled = `document.querySelector("#stage").dataset.frame === "60"
+  && !("stale" in document.querySelector("#stage").dataset)
+  && document.querySelector("#timeline").ariaBusy === "false"`;
+const shot = async name => {
+  await page.until(isSettled);
+  await page.pause(2);
+  await page.shot(`${process.env.SHOTS}/${name}.png`);
+};
+const isDark = await page.get(`document.documentElement.dataset.theme === "dark"`);
+if (!isDark) await page.press("t");
+for (const key of ["g", "6", "0", "Enter", "s", "q"]) {
   await page.press(key);
   await page.pause(1);
 }
-await page.pause(25); // until the picture is sharp
-await page.shot(process.env.SHOT);
+await shot("watch");
+for (const key of ["s", "v"]) await page.press(key);
+await shot("watch_values");
+await page.press("v");
+await page.get(`document.querySelector("#render").click()`);
+await shot("watch_render");

@@ -1,16 +1,23 @@
 #!/bin/sh
-# The picture of the page of celspan watch, docs/pictures/watch.png: the film of `celspan init` in
+# The pictures of the page of celspan watch, docs/pictures/watch*.png: the film of watch.lua in
 # Debian's chromium. From the top of the tree:
 #
-#   docs/pictures/watch.sh FOLDER        FOLDER keeps the parts
+#   docs/pictures/watch.sh FOLDER [PROGRAM]        FOLDER keeps the parts
 set -eu
-rm -rf "$1/first"
-build/celspan init "$1/first"
-build/celspan watch "$1/first/film.lua" >"$1/watch.txt" &
+celspan=$(realpath "${2:-build/celspan}")
+rm -rf "$1/hours"
+mkdir -p "$1/hours"
+cp docs/pictures/watch.lua "$1/hours/hours.lua"
+ffmpeg -v error -y -f lavfi -i "aevalsrc=.5*sin(523*t)*max(0\,1-mod(t\,1.5)):d=12" \
+  "$1/hours/tune.wav"
+(cd "$1/hours" && exec "$celspan" watch hours.lua) >"$1/watch.txt" &
 page=$!
 trap 'kill $page' EXIT
 until grep -q http "$1/watch.txt"; do sleep 0.2; done
-CELSPAN_BROWSER_SECONDS=300 SHOT="$(cd "$1" && pwd)/page.png" \
+CELSPAN_BROWSER_SECONDS=300 SHOTS="$(cd "$1" && pwd)" \
   node tests/support/browser.js "$1/browser" \
   "$(sed 's/watching //' "$1/watch.txt")" docs/pictures/watch.js
-build/celspan convert "$1/page.png" docs/pictures/watch.png --size 960x570
+"$celspan" convert "$1/watch.png" docs/pictures/watch.png --size 960x600
+for name in values render; do
+  "$celspan" convert "$1/watch_$name.png" docs/pictures/watch_$name.png --size 800x500
+done

@@ -1,5 +1,5 @@
-/* The positions of the fields of descriptions. Printed by `lua5.4 tests/face/main.lua fields` from
- * the public headers; a test compares them. */
+/* Where the fields of descriptions begin and end. Printed by `lua5.4 tests/face/main.lua fields`
+ * from the public headers; a test compares. */
 #pragma once
 
 #define FIELD(type, name)                                                                          \

@@ -395,6 +395,8 @@ static int silence(lua_State *L) {
   return 0;
 }
 
+static int tree(lua_State *L) { return cs_stage_tree(L, &self(L)->script); }
+
 static int wave(lua_State *L) { return cs_stage_wave(L, &self(L)->script); }
 
 /* ---------------------------------------------------------------- the film */
@@ -435,17 +437,37 @@ static int describe(lua_State *L) {
 
 /* Sets the methods of the film on top of the stack. */
 static void set_methods(lua_State *L) {
-  static const luaL_Reg methods[] = {
-      CS_SERVICE(build),         {"try", try_frame},      CS_SERVICE(at),
-      CS_SERVICE(chosen),        CS_SERVICE(exposures),   CS_SERVICE(words),
-      CS_SERVICE(numbers),       CS_SERVICE(view_size),   CS_SERVICE(lay_onion),
-      CS_SERVICE(check_sound),   CS_SERVICE(scene),       CS_SERVICE(counts),
-      CS_SERVICE(names),         CS_SERVICE(ask),         CS_SERVICE(faults),
-      CS_SERVICE(drop_warnings), CS_SERVICE(files),       CS_SERVICE(picture),
-      CS_SERVICE(hits),          CS_SERVICE(alter),       CS_SERVICE(keep_line),
-      CS_SERVICE(keep_callers),  CS_SERVICE(silence),     CS_SERVICE(costs),
-      CS_SERVICE(camera),        CS_SERVICE(hold_camera), CS_SERVICE(use_camera),
-      CS_SERVICE(sound),         CS_SERVICE(wave),        {NULL, NULL}};
+  static const luaL_Reg methods[] = {CS_SERVICE(build),
+                                     {"try", try_frame},
+                                     CS_SERVICE(at),
+                                     CS_SERVICE(chosen),
+                                     CS_SERVICE(exposures),
+                                     CS_SERVICE(words),
+                                     CS_SERVICE(numbers),
+                                     CS_SERVICE(view_size),
+                                     CS_SERVICE(lay_onion),
+                                     CS_SERVICE(check_sound),
+                                     CS_SERVICE(scene),
+                                     CS_SERVICE(counts),
+                                     CS_SERVICE(names),
+                                     CS_SERVICE(ask),
+                                     CS_SERVICE(faults),
+                                     CS_SERVICE(drop_warnings),
+                                     CS_SERVICE(files),
+                                     CS_SERVICE(picture),
+                                     CS_SERVICE(hits),
+                                     CS_SERVICE(alter),
+                                     CS_SERVICE(keep_line),
+                                     CS_SERVICE(keep_callers),
+                                     CS_SERVICE(silence),
+                                     CS_SERVICE(costs),
+                                     CS_SERVICE(camera),
+                                     CS_SERVICE(hold_camera),
+                                     CS_SERVICE(use_camera),
+                                     CS_SERVICE(sound),
+                                     CS_SERVICE(wave),
+                                     CS_SERVICE(tree),
+                                     {NULL, NULL}};
   lua_createtable(L, 0, 2);
   lua_pushcfunction(L, describe);
   lua_setfield(L, -2, "__tostring");

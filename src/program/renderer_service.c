@@ -148,6 +148,14 @@ static int descriptors(lua_State *L) {
 
 /* ---------------------------------------------------------------- the process */
 
+/* renderer:stop(): asks it to end by itself, so that it removes what it has begun */
+static int stop(lua_State *L) {
+  const renderer *r = self(L);
+  if (r->id)
+    kill(-r->id, SIGTERM);
+  return 0;
+}
+
 /* renderer:finish() -> its exit code, or nil and the name of the signal that ended it. If it still
  * runs and has not closed its answers, it is ended. */
 static int finish(lua_State *L) {
@@ -204,8 +212,9 @@ static int spawn(renderer *r, const char *const *arguments) {
 
 /* renderer(words) -> a renderer | nil, message: this program with the words */
 static int open_renderer(lua_State *L) {
-  static const luaL_Reg methods[] = {CS_SERVICE(send),        CS_SERVICE(take),   CS_SERVICE(words),
-                                     CS_SERVICE(descriptors), CS_SERVICE(finish), {NULL, NULL}};
+  static const luaL_Reg methods[] = {
+      CS_SERVICE(send),   CS_SERVICE(take), CS_SERVICE(words), CS_SERVICE(descriptors),
+      CS_SERVICE(finish), CS_SERVICE(stop), {NULL, NULL}};
   const char **arguments = cs_service_push_words(L, 1);
   lua_createtable(L, 0, 8);
   renderer *r = cs_userdata_push_holder(L, "celspan.program.renderer", sizeof *r, close_renderer);

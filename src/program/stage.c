@@ -419,6 +419,70 @@ int cs_stage_hits(lua_State *L, cs_script *script) {
   return 1;
 }
 
+/* ---------------------------------------------------------------- the tree */
+
+/* A walk from front to back over what a frame has. */
+typedef struct walk {
+  lua_State *L;     /* the function that is called is argument 3 */
+  lua_Integer left; /* how many rows may still be added */
+} walk;
+
+static bool add_row(walk *w, int depth, const char *kind, cs_mark mark) {
+  celspan_origin origin = cs_mark_origin(mark);
+  if (w->left-- <= 0)
+    return false;
+  lua_pushvalue(w->L, 3);
+  lua_pushinteger(w->L, depth);
+  lua_pushstring(w->L, kind);
+  lua_pushstring(w->L, cs_mark_name(mark));
+  lua_pushstring(w->L, origin.line > 0 ? origin.source : NULL);
+  lua_pushinteger(w->L, origin.line);
+  lua_call(w->L, 5, 0);
+  return true;
+}
+
+static bool walk_rostrum(walk *w, const celspan_rostrum *rostrum, int depth);
+
+/* The objects that have a name, and what has one in the others. Recursion ends: nesting is at most
+ * CS_SCENE_DEPTH. */
+static bool walk_objects(walk *w, celspan_object *const *objects, size_t count, int depth) {
+  for (size_t i = count; i-- > 0;) {
+    const cs_primitive_data *data = objects[i]->data;
+    bool has_name = cs_mark_name(objects[i]->mark)[0] != '\0';
+    bool goes_on = !has_name || add_row(w, depth, "object", objects[i]->mark);
+    if (goes_on && data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
+      goes_on =
+          walk_objects(w, data->boolean->operands, data->boolean->operand_count, depth + has_name);
+    if (goes_on && data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
+      goes_on = walk_rostrum(w, data->rostrum, depth + has_name);
+    if (!goes_on)
+      return false;
+  }
+  return true;
+}
+
+static bool walk_rostrum(walk *w, const celspan_rostrum *rostrum, int depth) {
+  for (size_t i = rostrum->cel_count; i-- > 0;) {
+    const celspan_cel *cel = rostrum->cels[i];
+    if (!add_row(w, depth, "cel", cel->mark) ||
+        !walk_objects(w, cel->objects, cel->object_count, depth + 1))
+      return false;
+  }
+  return true;
+}
+
+/* film:tree(most, add): calls add(depth, kind, name, source or nil, line) for each cel of the
+ * frame that was built last, and for each object in it that has a name, from front to back; each is
+ * followed by its own parts, which are one deeper. At most `most` times. */
+int cs_stage_tree(lua_State *L, const cs_script *script) {
+  walk w = {.L = L, .left = luaL_checkinteger(L, 2)};
+  luaL_checkstack(L, 8, "too many objects");
+  for (size_t i = 0; i < script->frame.count; i++)
+    if (!walk_rostrum(&w, script->frame.exposures[i].rostrum, 0))
+      break;
+  return 0;
+}
+
 /* ---------------------------------------------------------------- files */
 
 /* Runs protected. -> the files that the script asked for, in the form of cs_stage_files */

@@ -14,6 +14,7 @@ bool cs_stage_frame(lua_State *L, const cs_script *script, celspan_frame_desc *o
 
 int cs_stage_picture(lua_State *L, cs_script *script);
 int cs_stage_hits(lua_State *L, cs_script *script);
+int cs_stage_tree(lua_State *L, const cs_script *script);
 int cs_stage_files(lua_State *L, cs_script *script);
 int cs_stage_sound(lua_State *L, cs_script *script);
 int cs_stage_wave(lua_State *L, cs_script *script);

@@ -9,7 +9,7 @@ const TICK = 10; // milliseconds of the kernel's clock for processes
 
 const [width, height] = IS_PLAYED ? [960, 540] : [1280, 720];
 await page.call("Emulation.setDeviceMetricsOverride",
-  { width: width + 32, height: height + 180, deviceScaleFactor: 1, mobile: false });
+  { width: width + 88, height: height + 300, deviceScaleFactor: 1, mobile: false });
 await page.until(`document.querySelector("#stage").dataset.size === "${width}x${height}"`);
 
 /** Says on standard error what is measured next. */

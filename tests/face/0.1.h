@@ -575,7 +575,8 @@ typedef struct celspan_film { size_t struct_size; int32_t width, height; double 
   int64_t first, count; const char *title; size_t mark_count; } celspan_film;
 typedef enum celspan_parameter_kind { CELSPAN_PARAMETER_TEXT = 0, CELSPAN_PARAMETER_FILE,
   CELSPAN_PARAMETER_NUMBER, CELSPAN_PARAMETER_BOOLEAN, CELSPAN_PARAMETER_CHOICE,
-  CELSPAN_PARAMETER_COLOUR } celspan_parameter_kind;
+  CELSPAN_PARAMETER_COLOUR, CELSPAN_PARAMETER_POINT, CELSPAN_PARAMETER_EASE }
+  celspan_parameter_kind;
 typedef struct celspan_parameter { size_t struct_size; const char *name; celspan_parameter_kind
   kind; const char *text; double number; double least, most; const char *const *choices; size_t
   choice_count; const char *about; } celspan_parameter;

@@ -115,6 +115,31 @@ describe("parameters", function()
       refusal(4, "--set-from " .. path .. "x"))
   end)
 
+  it("are points and curves too", function()
+    bench:write("film.lua", [[local celspan = require "celspan"
+      local p = celspan.parameters { at = { 12.5, 80, point = true }, how = { ease = "outBack" } }
+      print(p.at[1] .. " " .. p.at[2] .. " " .. #p.at .. " " .. p.how)
+      return celspan.film { size = { 1, 1 }, frames = 1, frame = function()
+        return celspan.rostrum {} end }]])
+    bench:write("p.json", '{ "at": [3, -4], "how": "linear" }')
+    for options, said in pairs { [""] = "12.5 80 2 outBack",
+                                 ["--set at=1,2e2"] = "1 200.0 2 outBack",
+                                 ["--set how=inOutQuad"] = "12.5 80 2 inOutQuad",
+                                 ["--set-from p.json"] = "3 -4 2 linear" } do
+      local _, out, err = bench:celspan_inside("check film.lua " .. options)
+      assert.truthy((out .. err):find(said, 1, true), options .. ": " .. out .. err)
+    end
+    for setting, wrong in pairs { ["at=1"] = "a point", ["at=1,2,3"] = "a point",
+                                  ["at=nan,1"] = "a point", ["how="] = "the name of a curve",
+                                  ["how=outBak"] = "the name of a curve" } do
+      local code, _, err = bench:celspan_inside("check film.lua --set " .. setting)
+      assert.equal(2, code)
+      assert.truthy(err:find("it must be " .. wrong, 1, true), err)
+    end
+    bench:write("p.json", '{ "at": [1] }')
+    assert.equal(2, (bench:celspan_inside "check film.lua --set-from p.json"))
+  end)
+
   it("are checked where they are declared", function()
     for declared, message in pairs {
       ["speed = { 5, max = 4 }"] = "'speed' has the default 5, which is not a number of at most 4",
@@ -126,7 +151,14 @@ describe("parameters", function()
       ["speed = { 1, most = 4 }"] = "'speed' is a number, which has no field 'most'",
       ["['a-b'] = 1"] = "'a-b' is not a name: letters, digits and _, not beginning with a digit",
       ["a = {}"] = "'a' must be a string, a number, a boolean, a list of strings, or a table with "
-        .. "a default as [1], colour or file",
+        .. "a default as [1], colour, ease or file",
+      ["at = { 1, point = true }"] = "'at' has the default a table, which is not a point, such as "
+        .. '"120,80"',
+      ["at = { 1, 2, 3, point = true }"] = "'at' is a point, which has no field '3'",
+      ["at = { 1, 2, point = 1 }"] = "'at' has a field 'point' that is not true",
+      ["how = { ease = 'outBak' }"] = "'how' has the default 'outBak', which is not the name of a "
+        .. 'curve, such as "outBack"',
+      ["side = { 'a', 'b', group = 1 }"] = "'side' has a field 'group' that is not a string",
     } do
       bench:write("film.lua", "local celspan = require 'celspan'\ncelspan.parameters { "
         .. declared .. " }")

@@ -40,16 +40,30 @@ describe("the page of celspan watch #plain", function()
       const themes = {};
       for (const theme of ["one", "other"]) {
         await look(theme);
-        for (const key of "vyscprn") await page.press(key);
-        await page.until(`document.querySelectorAll("#cost-rows tr").length === 3`);
-        await page.until(`document.querySelectorAll("#names li").length > 2`);
+        for (const key of "ysn") await page.press(key);
+        await page.until(`document.querySelectorAll("#names li").length > 1`);
         await page.until(`document.querySelector("#stage2").dataset.frame === "1"
           && document.querySelector("#form2 input")`);
+        await look(theme + " with values");
+        await page.press("c");
+        await page.until(`document.querySelectorAll("#cost-rows tr").length === 3`);
+        await look(theme + " with costs");
+        await page.press("q");
+        await page.until(`document.querySelectorAll("#object-list li").length > 1`);
+        await look(theme + " with objects");
+        await page.press("r");
+        await look(theme + " with faults");
+        for (const menu of ["render", "view", "comparing"]) {
+          await page.get(`document.querySelector("#${menu}").click()`);
+          await look(theme + " with the menu " + menu);
+          await page.press("Escape"); await page.press("Escape");
+        }
+        await page.press("p");
         const box = await page.get(`(() => { const box = document.querySelector("#stage")
           .getBoundingClientRect(); return [box.left + 9, box.top + 9]; })()`);
         await page.click(...box);
         await page.until(`document.querySelectorAll("#hits li").length > 1`);
-        await look(theme + " with panels");
+        await look(theme + " with the inspector");
         await page.press("?");
         await look(theme + " with keys");
         await page.get(`document.querySelector("#keys button").click()`);
@@ -61,9 +75,22 @@ describe("the page of celspan watch #plain", function()
         :gsub("\\\n", "\\n") .. [=[);
         await page.until(`document.querySelector("#error").hidden`);
         themes[await page.get("document.documentElement.dataset.theme")] = true;
-        for (const key of "vyscprt") await page.press(key);
+        for (const key of "pyst") await page.press(key);
       }
-      return { found, themes };]=])
+      const narrow = async (width, height) => {
+        await page.call("Emulation.setDeviceMetricsOverride",
+          { width, height, deviceScaleFactor: 1, mobile: false });
+        await page.press("v");
+        await look(`at ${width} x ${height}`);
+        await page.press("v");
+        return page.get(`document.documentElement.scrollWidth - innerWidth`);
+      };
+      const wide = await narrow(2560, 1440), slim = await narrow(390, 844);
+      const controls = await page.get(`[...document.querySelectorAll("button, input, select")]
+        .filter(one => one.checkVisibility() && one.getBoundingClientRect().top < 70).length`);
+      return { found, themes, overflow: [wide, slim], controls };]=], 120)
+    assert.same({ 0, 0 }, said.overflow)
+    assert.is_true(said.controls <= 9, said.controls)
     assert.same({ dark = true, light = true }, said.themes)
     assert.same("", table.concat(said.found, "\n"))
   end)

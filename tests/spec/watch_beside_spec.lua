@@ -154,7 +154,7 @@ describe("the page of celspan watch with two films #plain", function()
     assert.same({ "level 0", "level 1" }, said.captions)
     assert.same({ 255, 0, 0 }, said.difference)
     assert.equal("#2%3A=&2%3Alevel=1", said.hash)
-    assert.equal("celspan render shot.lua -o shot.####.png\n"
-      .. "celspan render shot.lua --set level=1 -o other.####.png", said.command)
+    assert.equal("celspan render shot.lua -o shot.mp4\n"
+      .. "celspan render shot.lua --set level=1 -o other.mp4", said.command)
   end)
 end)

@@ -61,7 +61,7 @@ describe("a parameter that is a file", function()
       ]=])
     assert.same({ "takes/old/green.txt", "takes/red.txt", "yellow.TXT" }, said.first)
     assert.same({ "255,0,0", "0,255,0", "255,255,255" }, said.seen)
-    assert.equal("celspan render shot.lua --set take=takes/white.txt -o shot.####.png",
+    assert.equal("celspan render shot.lua --set take=takes/white.txt -o shot.mp4",
       said.command)
   end)
 end)

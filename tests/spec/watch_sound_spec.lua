@@ -135,20 +135,23 @@ describe("the page of celspan watch with a sound #plain", function()
       assert.equal("true", said.pressed)
     end)
 
-  it("draws its wave, the mouths and the marks under the sheet", function()
+  it("draws its wave, the marks and the mouths in the timeline", function()
     local said = watching.see(watching.watch(), [=[
       await page.until(`${stage("frame")} === "1"`);
       await page.press("s");
-      await page.until(`document.querySelectorAll("#names li").length === 3`);
-      // The wave is below a row for the cel and one for the mouths.
-      const drawn = await page.get(`(() => { const rows = document.querySelector("#rows");
-        const brush = rows.getContext("2d"), r = devicePixelRatio;
-        const at = (x, y) => brush.getImageData(Math.round(x * rows.width), y * r, 1, 1).data[3];
-        return [at(0.1, 52), at(0.4, 52), at(0.6, 52), at(0.9, 52), at(0.5, 41) ]; })()`);
-      return { drawn, names: await page.get(`[...document.querySelectorAll("#names li")]
+      await page.until(`document.querySelectorAll("#names li").length === 2`);
+      await page.until(`document.querySelector("#timeline").ariaBusy === "false"`);
+      const drawn = await page.get(`(() => { const wave = document.querySelector("#wave");
+        const brush = wave.getContext("2d"), r = devicePixelRatio;
+        const at = x => brush.getImageData(Math.round(x * wave.width), 12 * r, 1, 1).data[3];
+        return [at(0.1), at(0.4), at(0.6), at(0.9)]; })()`);
+      return { drawn, mark: await page.get(`document.querySelector("[data-mark=half]")
+                 .dataset.frame`),
+               names: await page.get(`[...document.querySelectorAll("#names li")]
                  .map(one => one.title).join("\\n")`) };]=])
-    assert.equal("cel 1\nline.tsv\nsound", said.names)
-    for i, is_drawn in ipairs { false, true, true, false, true } do
+    assert.equal("cel 1\nline.tsv", said.names)
+    assert.equal("49", said.mark)
+    for i, is_drawn in ipairs { false, true, true, false } do
       assert.equal(is_drawn, said.drawn[i] > 0, i)
     end
   end)

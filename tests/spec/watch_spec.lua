@@ -505,12 +505,12 @@ describe("the page of celspan watch #plain", function()
     local said = see(watch(), [=[
       await page.until(`${stage("frame")} === "1"`);
       await page.press("s");
-      await page.until(`document.querySelectorAll("#names li").length === 3`);
+      await page.until(`document.querySelectorAll("#names li").length === 2`);
       const box = await page.get(`(() => { const b = document.querySelector("#rows")
         .getBoundingClientRect(); return [b.left, b.top, b.width, b.height]; })()`);
       await page.click(box[0] + box[2] * 29.5 / 48, box[1] + 30);
       await page.until(`${stage("frame")} === "30"`);
-      const painted = await page.get(`[8, 28].map(y => document.querySelector("#rows")
+      const painted = await page.get(`[8, 30].map(y => document.querySelector("#rows")
         .getContext("2d").getImageData(4, y * devicePixelRatio, 1, 1).data[3])`);
       return { painted, head: await page.get(`parseFloat(document.querySelector("#head").style.left)
         / document.querySelector("#rows").clientWidth * 48`),
@@ -518,7 +518,7 @@ describe("the page of celspan watch #plain", function()
                  .map(one => one.title).join("\\n")`) };]=])
     assert.same({ 255, 255 }, said.painted)
     assert.is_true(math.abs(said.head - 29.5) < 0.2, said.head)
-    assert.equal("cel 2\nground\nmarks", said.names)
+    assert.equal("cel 2\nground", said.names)
   end)
 
   it("shows the frames before and after, in red and green", function()
@@ -593,12 +593,13 @@ describe("the page of celspan watch #plain", function()
       const said = { first, colours,
                      command: await page.get(`document.querySelector("#command").value`),
                      address: await page.get("location.hash") };
-      await page.get(`document.querySelector("#defaults").click()`);
+      await page.get(`document.querySelector("#reset-values").click()`);
       await page.until(`document.querySelector("#form input[type=range]").value === "5"`);
       return { ...said, last: await page.get("location.hash") };]=])
-    assert.equal("it's|false|true|left|5|#33cc33", said.first)
+    -- In the order of the script.
+    assert.equal("#33cc33|left|5|5|true|it's|false", said.first)
     assert.same({ "51,204,51,255", "51,51,204,255" }, said.colours)
-    assert.equal("celspan render shot.lua --set size=30 --set tint=#3333cc -o shot.####.png",
+    assert.equal("celspan render shot.lua --set tint=#3333cc --set size=30 -o shot.mp4",
       said.command)
     assert.equal("#tint=%233333cc&size=30", said.address)
     assert.equal("", said.last)

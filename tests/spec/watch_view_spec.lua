@@ -223,9 +223,9 @@ describe("the page of celspan watch over its picture #plain", function()
             if (row.data[4 * x + 3]) list.push(Math.round(x / canvas.width * 64));
           }
           return [...new Set(list)]; })()`);
-        await page.until(`document.querySelector("#rows").getContext("2d")
-          .getImageData(document.querySelector("#rows").width >> 1, 1, 1, 1).data[2] < 100`);
-        const strip = await colour("rows", 0.01, 0.01);
+        await page.until(`document.querySelector("#ticks").getContext("2d")
+          .getImageData(document.querySelector("#ticks").width >> 1, 3, 1, 1).data[3] > 0`);
+        const strip = await colour("ticks", 0.01, 0.15);
         await page.press("Escape");
         await page.until(`document.querySelector("#overlay").hidden`);
         return { spans, border, strip };]=])

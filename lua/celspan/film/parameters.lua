@@ -9,6 +9,7 @@
 -- `declared`, and `refused`, the sentence about a wrong setting.
 local celspan = require "celspan"
 local core = require "celspan.core"
+local ease = require "celspan.ease"
 local fields = require "celspan.fields"
 local json = require "celspan.json"
 
@@ -31,6 +32,24 @@ end
 local function read_with(reader, given)
   if type(given) == "string" then return reader(given) end
   return given
+end
+
+--- A point { x, y } of a text such as "120,80", or of a list of two numbers; nil: it is neither.
+local function read_point(given)
+  local x, y
+  if type(given) == "string" then
+    x, y = given:match "^([^,]+),([^,]+)$"
+    x, y = x and fields.read_number(x), y and fields.read_number(y)
+  elseif type(given) == "table" and #given == 2 then
+    x, y = given[1], given[2]
+  end
+  return fields.is_finite(x) and fields.is_finite(y) and { x, y } or nil
+end
+
+--- A value as --set takes it.
+local function text_of(value)
+  if type(value) ~= "table" then return tostring(value) end
+  return ("%.14g,%.14g"):format(value[1], value[2])
 end
 
 --- The kinds of values. A reader makes a value from a text, and returns nil for a wrong text.
@@ -63,6 +82,16 @@ local kinds = {
       end
     end,
   },
+  point = {
+    type = "table",
+    allowed = function() return 'a point, such as "120,80"' end,
+    read = function(_, given) return read_point(given) end,
+  },
+  ease = {
+    type = "string",
+    allowed = function() return 'the name of a curve, such as "outBack"' end,
+    read = function(_, text) return text ~= "" and pcall(ease, text) and text or nil end,
+  },
   colour = {
     type = "string",
     allowed = function() return 'a colour, such as "#f80" or "#ff8800"' end,
@@ -85,21 +114,28 @@ end
 --- The kind of a table, and its default.
 local function kind_of_table(name, given)
   if given.colour ~= nil then return "colour", given.colour end
+  if given.ease ~= nil then return "ease", given.ease end
+  if given.point ~= nil then
+    if given.point ~= true then refuse(name, "has a field 'point' that is not true") end
+    return "point", { given[1], given[2] }
+  end
   if given.file ~= nil then return "file", given.file end
   local first = given[1]
   if type(first) == "string" then return given[2] ~= nil and "choice" or "text", first end
   if type(first) == "number" or type(first) == "boolean" then return type(first), first end
   refuse(name, "must be a string, a number, a boolean, a list of strings, or a table with a "
-    .. "default as [1], colour or file")
+    .. "default as [1], colour, ease or file")
 end
 
-local known = { number = { 1, min = 1, max = 1, about = 1 }, boolean = { 1, about = 1 },
-                text = { 1, about = 1 }, colour = { colour = 1, about = 1 },
-                file = { file = 1, about = 1 }, choice = { about = 1 } }
+local known = { number = { 1, min = 1, max = 1 }, boolean = { 1 }, text = { 1 },
+                colour = { colour = 1 }, file = { file = 1 }, choice = {}, ease = { ease = 1 },
+                point = { 1, 1, point = 1 } }
+local common = { about = "a string", group = "a string" } -- fields of all kinds
 
 local function check_names(name, kind, given)
   for field in pairs(given) do
-    if not known[kind][field] and not (kind == "choice" and math.type(field) == "integer") then
+    if not (known[kind][field] or common[field])
+      and not (kind == "choice" and math.type(field) == "integer") then
       refuse(name, "is a %s, which has no field '%s'", kind, tostring(field))
     end
   end
@@ -124,19 +160,22 @@ local function declare_one(name, given)
   local kind, default = kind_of_table(name, given)
   check_names(name, kind, given)
   local choices = kind == "choice" and read_choices(name, given) or nil
-  local one = { name = name, kind = kind, default = default, text = tostring(default),
-                min = given.min, max = given.max, about = given.about, choices = choices }
+  local one = { name = name, kind = kind, default = default, min = given.min,
+                max = given.max, about = given.about, group = given.group, choices = choices }
   for _, bound in ipairs { "min", "max" } do
     if one[bound] ~= nil and not fields.is_finite(one[bound]) then
       refuse(name, "has a field '%s' that is not a finite number", bound)
     end
   end
-  if one.about ~= nil and type(one.about) ~= "string" then
-    refuse(name, "has a field 'about' that is not a string")
+  for field in pairs(common) do
+    if one[field] ~= nil and type(one[field]) ~= "string" then
+      refuse(name, "has a field '%s' that is not a string", field)
+    end
   end
   if type(default) ~= kinds[kind].type or kinds[kind].read(one, default) == nil then
     refuse(name, "has the default %s, which is not %s", shown(default), kinds[kind].allowed(one))
   end
+  one.text = text_of(default)
   return one
 end
 
@@ -213,7 +252,9 @@ function parameters.declare(given)
   if not good then core.refuse(declared) end
   settings.declared = declared
   local values = {}
-  for _, one in ipairs(declared) do values[one.name] = one.default end
+  for _, one in ipairs(declared) do
+    values[one.name] = one.kind == "point" and read_point(one.default) or one.default
+  end
   for _, one in ipairs(settings) do
     if one.json then
       set_from(settings, declared, values, one)
@@ -236,15 +277,23 @@ end
 -- ---------------------------------------------------------------- JSON Schema
 
 local types = { text = "string", file = "string", choice = "string", colour = "string",
-                number = "number", boolean = "boolean" }
-local formats = { colour = "color", file = "path" }
+                number = "number", boolean = "boolean", ease = "string", point = "array" }
+local formats = { colour = "color", file = "path", ease = "ease", point = "point" }
 
 local function schema_of(one)
-  local members = { { "type", types[one.kind] }, { "default", one.default } }
+  local is_point = one.kind == "point"
+  local default = is_point and { list = one.default } or one.default
+  local members = { { "type", types[one.kind] }, { "default", default } }
   local function add(name, value)
     if value ~= nil then members[#members + 1] = { name, value } end
   end
+  if is_point then
+    add("items", { { "type", "number" } })
+    add("minItems", 2)
+    add("maxItems", 2)
+  end
   add("description", one.about)
+  add("group", one.group)
   add("enum", one.choices and { list = one.choices })
   add("minimum", one.min)
   add("maximum", one.max)

@@ -34,7 +34,9 @@ typedef enum celspan_parameter_kind {
   CELSPAN_PARAMETER_NUMBER,
   CELSPAN_PARAMETER_BOOLEAN,
   CELSPAN_PARAMETER_CHOICE,
-  CELSPAN_PARAMETER_COLOUR
+  CELSPAN_PARAMETER_COLOUR,
+  CELSPAN_PARAMETER_POINT, /* text: "120,80" */
+  CELSPAN_PARAMETER_EASE   /* text: the name of a curve */
 } celspan_parameter_kind;
 
 typedef struct celspan_parameter {

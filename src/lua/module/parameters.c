@@ -136,10 +136,11 @@ size_t celspan_lua_parameter_count(lua_State *L) {
 }
 
 static celspan_parameter_kind kind_of(lua_State *L) {
-  static const char *const kinds[] = {"text", "file", "number", "boolean", "choice", "colour"};
+  static const char *const kinds[] = {"text",   "file",   "number", "boolean",
+                                      "choice", "colour", "point",  "ease"};
   const char *word = cs_take_text(L, -1, "kind");
   int kind = 0;
-  while (kind < CELSPAN_PARAMETER_COLOUR && strcmp(kinds[kind], word) != 0)
+  while (kind < CELSPAN_PARAMETER_EASE && strcmp(kinds[kind], word) != 0)
     kind++;
   return (celspan_parameter_kind)kind;
 }

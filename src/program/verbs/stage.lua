@@ -11,9 +11,12 @@
 local program, request = ...
 local json = require "celspan.json"
 local core = require "celspan.core"
+local texts = require "celspan.files"
 
 local CHECK_SECONDS = 0.03 -- of checking frames, for one request
 local SHEET_MOST = 10000   -- frames of a sheet
+local SCRIPT_MOST = 1 << 20 -- bytes of a script in which parameters are looked for
+local TREE_MOST = 2000     -- cels and objects of a frame's tree
 
 local film
 
@@ -34,22 +37,43 @@ local function refuse(message, code) put { good = false, message = message, code
 
 local answers = {}
 
---- The parameters of the film, sorted by name, each described as in JSON Schema.
+--- Where a parameter is declared in the text of the script, in bytes; names that are not found come
+--- last.
+local function place_of(text, name)
+  local call = text:find "parameters%s*[({]" or 1
+  return text:find("%f[%w_]" .. name .. "%s*=[^=]", call) or math.huge
+end
+
+--- The parameters of the film in the order of the script, each described as in JSON Schema.
 local function parameters()
-  local list = {}
+  local list, places = {}, {}
+  local text = texts.read(request[1], SCRIPT_MOST) or ""
   local schema = assert(json.decode(film:ask("celspan.parameters", "schema", "")))
   for name, one in pairs(schema.properties) do
-    one.name = name
+    one.name, places[name] = name, place_of(text, name)
+    if type(one.default) == "table" then one.default = { list = one.default } end
     one.enum = one.enum and { list = one.enum }
     list[#list + 1] = one
   end
-  table.sort(list, function(a, b) return a.name < b.name end)
+  table.sort(list, function(a, b)
+    local first, second = places[a.name], places[b.name]
+    if first ~= second then return first < second end
+    return a.name < b.name
+  end)
   return { list = list }
+end
+
+--- The shots of a cut; nil: the film is not a cut.
+local function shots()
+  local text = film:ask("celspan.cut", "shots_text", tostring(film.frames))
+  return text ~= "" and json.decode(text) or nil
 end
 
 function answers.film()
   local facts = { frames = film.frames, first = film.first, fps = film.fps, size = film.size,
                   title = film.title, marks = { list = film.marks }, sound = film.has_sound }
+  local list = shots()
+  facts.shots = list and { list = list }
   put { good = true, film = facts, parameters = parameters() }
 end
 
@@ -138,10 +162,23 @@ function answers.at(ask)
   put { good = true, hits = hits }
 end
 
---- The exposure sheet of the film's first SHEET_MOST frames; nil: refused.
-local function sheet_of()
+--- The tree of the frame's cels and of the objects in them that have a name, the nearest first.
+function answers.tree(ask)
+  if not build(ask) then return end
+  local tree = { list = {} }
+  film:tree(TREE_MOST, function(depth, kind, name, source, line)
+    table.insert(tree.list, { depth = depth, kind = kind, name = name, file = source,
+                              line = source and line })
+  end)
+  put { good = true, tree = tree }
+end
+
+--- The exposure sheet of the frames `from` to `to`, of which the first is 1; nil: refused.
+local function sheet_of(from, to)
   local numbers = {}
-  for i = 1, math.min(film.frames, SHEET_MOST) do numbers[i] = film.first + i - 1 end
+  for number = from or 1, to or math.min(film.frames, SHEET_MOST) do
+    numbers[#numbers + 1] = film.first + number - 1
+  end
   local good, made = pcall(require "celspan.sheet".of, film, { frames = numbers })
   if good then return made end
   refuse(program.reported() or tostring(made))
@@ -168,24 +205,47 @@ local function is_cel(name, cells)
   return false
 end
 
---- A row for each layer, the nearest first. cells: { first frame, drawing } in order, with the
---- drawing "" where there is none. moved: the frames on which only the placement changes. cel:
---- whether the layer is a cel.
-function answers.rows()
-  local sheet, rows = sheet_of(), {}
-  if not sheet then return end
-  for i = #sheet.layers, 1, -1 do
+--- Adds the rows of the frames from..to. cells: { first frame, drawing } in order, with the drawing
+--- "" where there is none. moved: the frames on which only the placement changes. false: refused.
+local function add_rows(rows, from, to)
+  local sheet = sheet_of(from, to)
+  for i = sheet and #sheet.layers or 0, 1, -1 do
     local row = { name = sheet.layers[i], cells = { list = {} }, moved = { list = {} } }
     for j, change in ipairs(sheet:changes(i)) do
-      row.cells.list[j] = { change.frame, change.drawing or "" }
+      row.cells.list[j] = { from - 1 + change.frame, change.drawing or "" }
     end
     for frame = 1, sheet.frames do
-      if sheet:marks(i, frame).moved then table.insert(row.moved.list, frame) end
+      if sheet:marks(i, frame).moved then table.insert(row.moved.list, from - 1 + frame) end
     end
-    row.cel = is_cel(row.name, row.cells)
     rows[#rows + 1] = row
   end
-  put({ good = true }, program.json { rows = { list = rows }, frames = sheet.frames })
+  return sheet ~= nil
+end
+
+--- Adds the rows of a shot, which are named by it: "evening / nell / mouth". A shot with something
+--- over it is itself in a cel without a name.
+local function add_shot(rows, shot, last)
+  local begin = #rows + 1
+  if not add_rows(rows, shot.from, math.min(shot.to, last)) then return false end
+  for i = begin, #rows do
+    local row = rows[i]
+    row.shot, row.name = shot.name, shot.name .. " / " .. row.name:gsub("^cel 1/", "")
+      :gsub("/", " / ")
+    if shot.to < last then table.insert(row.cells.list, { shot.to + 1, "" }) end
+  end
+  return true
+end
+
+--- A row for each layer, the nearest first; in a cut those of a shot together. cel: whether the
+--- layer is a cel.
+function answers.rows()
+  local rows, last, parts = {}, math.min(film.frames, SHEET_MOST), shots()
+  for _, shot in ipairs(parts or {}) do
+    if shot.from <= last and not add_shot(rows, shot, last) then return end
+  end
+  if not parts and not add_rows(rows, 1, last) then return end
+  for _, row in ipairs(parts and {} or rows) do row.cel = is_cel(row.name, row.cells) end
+  put({ good = true }, program.json { rows = { list = rows }, frames = last })
 end
 
 --- The first `count` shapes of the mouths that the film has read, as rows.

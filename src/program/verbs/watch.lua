@@ -8,6 +8,7 @@
 -- when there is something newer than state N.
 local program, request = ...
 
+local ease = require "celspan.ease"
 local json = require "celspan.json"
 
 local function part(name) return program.part(name, program, request) end
@@ -18,14 +19,17 @@ local HELD = 20            -- seconds for which a request waits for news, or for
 local SIDE_MOST = 1048576  -- pixels
 local PIXELS_MOST = 1 << 25 -- of a picture
 local COLUMNS_MOST = 10000  -- of a wave
+local CURVE_STEPS = 48      -- of the picture of an ease
 local UNITS_MOST = 1 << 30  -- the greatest distance of a point, on either side
 
 -- The texts of the page.
-local pages = { ["/"] = "page.html", ["/again.html"] = "again.html",
-                ["/page.css"] = "page.css", ["/page.js"] = "page.js",
-                ["/fetch.js"] = "fetch.js", ["/sound.js"] = "sound.js", ["/runs.js"] = "runs.js",
-                ["/cost.js"] = "cost.js", ["/icon.svg"] = "icon.svg",
-                ["/favicon.ico"] = "icon.svg" }
+local pages = { ["/"] = "page.html", ["/again.html"] = "again.html", ["/page.css"] = "page.css",
+                ["/icon.svg"] = "icon.svg", ["/favicon.ico"] = "icon.svg" }
+for name in ([[beside compare cost costing faults fetch fields guides hands inspector news objects
+  onion over page panels pictures playing points render rows runs sound state thumb timeline values
+  view]]):gmatch "%l+" do
+  pages["/" .. name .. ".js"] = name .. ".js"
+end
 
 for _, script in ipairs(request) do
   local file, why = io.open(script, "rb")
@@ -52,6 +56,7 @@ local function tell() state.news = state.news + 1 end
 local first = watched.new(request[1], files, places, tell)
 local second = watched.new(request[2] or request[1], files, places, tell)
 local films = { first }
+local renders = part "renders.lua".new(first, tell)
 
 --- Shows or hides the second film.
 local function set_comparing(is_on)
@@ -90,7 +95,7 @@ local function describe_state()
   local said = first:describe()
   said.news, said.here, said.editor = state.news, state.here, request.editor ~= nil
   said.alone, said.second = request.is_alone or false, films[2] and second:describe()
-  said.has_two = #request == 2
+  said.has_two, said.render = #request == 2, renders.said
   return said
 end
 
@@ -262,11 +267,28 @@ local function give_point(id, film, x, y, fields)
     end)
 end
 
+--- Sends the tree of the cels and objects of a frame.
+local function give_objects(id, film, fields)
+  local number = frame_of(id, film, fields.frame or film.facts and film.facts.first)
+  if not number then return end
+  pass_on(id, film, { want = "tree", number = number }, function(head)
+    for _, one in ipairs(head.tree) do
+      one.file, one.line = places:note(one.file, one.line, film)
+    end
+    give_json(id, { list = head.tree })
+  end)
+end
+
 local kinds = { html = "text/html; charset=utf-8", css = "text/css; charset=utf-8",
                 js = "text/javascript; charset=utf-8", svg = "image/svg+xml" }
 
+--- The text of the page. Scripts travel without their comments, which are a third of them.
 local function give_text(id, name)
-  answer(id, 200, kinds[name:match "%w+$"], program.text(name))
+  local text = program.text(name)
+  if name:find "%.js$" then
+    text = ("\n" .. text):gsub("\n%s*/%*%*.-%*/", "\n"):gsub("\n%s*//[^\n]*", "")
+  end
+  answer(id, 200, kinds[name:match "%w+$"], text)
 end
 
 --- Sends the files that a parameter may name. fields: parameter=NAME.
@@ -299,12 +321,22 @@ local gets = { -- of a film
   ["/costs.json"] = give_costs,
   ["/files.json"] = give_files,
   ["/made.json"] = give_made,
+  ["/objects.json"] = give_objects,
 }
 
 --- Requests that are answered even if no film can be asked.
 local own = {}
 
 own["/counts.json"] = function(id) give_json(id, web:counts()) end
+
+--- The curve of an ease, at even steps from 0 to 1.
+own["/curve.json"] = function(id, fields)
+  local is_known, curve = pcall(ease, fields.name)
+  if not is_known then return refuse(id, 404, "there is no such curve") end
+  local list = {}
+  for i = 0, CURVE_STEPS do list[i + 1] = curve(i / CURVE_STEPS) end
+  give_json(id, { list = list })
+end
 
 own["/state.json"] = function(id, fields)
   local since = math.tointeger(fields.since) or 0
@@ -368,6 +400,18 @@ end
 posts["/compare"] = function(id, given)
   set_comparing(given.on == true)
   give_json(id, { on = given.on == true })
+end
+
+--- Begins a render, or ends it with { cancel = true }.
+posts["/render"] = function(id, given)
+  if given.cancel == true then
+    renders:cancel()
+    return give_json(id, {})
+  end
+  if not is_ready(id, first) then return end
+  local status, sentence = renders:begin(given)
+  if status ~= 200 then return refuse(id, status, sentence) end
+  give_json(id, {})
 end
 
 --- Outlines in the page what this line made, { file =, line = }.
@@ -465,8 +509,10 @@ local function step()
   give_films()
   give_news()
   programs.step()
+  renders:step()
   local sources = { web:descriptor(), files:descriptor() }
   for _, film in ipairs(films) do film.pool:add_descriptors(sources) end
+  renders:add_descriptors(sources)
   program.poll(soonest(web:run(), wait), sources)
 end
 
@@ -478,4 +524,5 @@ io.stdout:flush()
 if request.open then programs.browse(address, "celspan-" .. guard.random()) end
 while not program.is_stopped() do step() end
 programs.close()
+renders:close()
 for _, film in ipairs(films) do film:close "celspan has ended" end

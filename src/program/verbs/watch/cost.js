@@ -22,13 +22,17 @@ export function slowest() {
     .sort((a, b) => b.seconds - a.seconds).slice(0, SLOWEST);
 }
 
-/** A bar for each frame whose time is known, from y on; `due`: the seconds that a frame may take. */
-export function drawStrip(brush, y, height, unit, due, colours) {
+/** Whether a frame took longer than it is shown. */
+export const isSlow = (number, due) => times.get(number) > SLOW_SHARE * due;
+
+/** A bar for each frame whose time is known, from y on; `due`: the seconds that a frame may take.
+ * xOf, unit: of the timeline. */
+export function drawStrip(brush, y, height, xOf, unit, due, colours) {
   const most = Math.max(due, ...times.values());
   for (const [number, seconds] of times) {
     const bar = Math.max(1, seconds / most * (height - 4));
     brush.fillStyle = seconds > SLOW_SHARE * due ? colours.slow : colours.quiet;
-    brush.fillRect((number - 1) * unit, y + height - 2 - bar, Math.max(1, unit - 1), bar);
+    brush.fillRect(xOf(number - 1), y + height - 2 - bar, Math.max(1, unit - 1), bar);
   }
 }
 

@@ -39,7 +39,8 @@ const framesOfPiece = () => Math.max(1, Math.round(PIECE * film.fps));
 /** The samples of a WAV file of 16 bits and two channels. */
 function read(bytes) {
   const samples = new Int16Array(bytes, HEAD), count = samples.length / 2;
-  const buffer = new AudioBuffer({ length: Math.max(1, count), numberOfChannels: 2, sampleRate: RATE });
+  const buffer = new AudioBuffer({ length: Math.max(1, count), numberOfChannels: 2,
+                                   sampleRate: RATE });
   for (let channel = 0; channel < 2; channel++) {
     const out = buffer.getChannelData(channel);
     for (let i = 0; i < count; i++) out[i] = samples[2 * i + channel] / 32768;
@@ -73,7 +74,7 @@ function wake() {
   if (speakers.state === "suspended") speakers.resume().catch(() => {});
 }
 
-/** Plays `count` frames from place `at` on, both in frames from 0, at a time of the AudioContext. */
+/** Plays `count` frames from place `at` on, both in frames from 0, at a time of `speakers`. */
 function schedule(at, count, when, speed) {
   const number = Math.floor(at / framesOfPiece()), buffer = pieces.get(number);
   const source = new AudioBufferSourceNode(speakers, { buffer, playbackRate: speed });

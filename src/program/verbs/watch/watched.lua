@@ -150,6 +150,12 @@ function film:values()
   return values
 end
 
+--- A value as --set takes it: a point is "120,80".
+local function text_of(value)
+  if type(value) ~= "table" then return tostring(value) end
+  return table.concat(value.list or value, ",")
+end
+
 --- The parameters with their values, or with their defaults.
 function film:describe_parameters()
   local values, list = self:values(), {}
@@ -158,7 +164,7 @@ function film:describe_parameters()
     if value == nil then value = one.default end
     list[i] = { name = one.name, type = one.type, format = one.format, default = one.default,
                 minimum = one.minimum, maximum = one.maximum, description = one.description,
-                enum = one.enum, value = tostring(value) }
+                group = one.group, enum = one.enum, value = text_of(value) }
   end
   return { list = list }
 end

@@ -1,0 +1,56 @@
+// Two pictures at one place: a wipe between them, or their difference.
+import { isOther } from "/onion.js";
+import { kept, look, wish } from "/pictures.js";
+import { beside, here, isComparing, label, looks, main, view } from "/state.js";
+import { width } from "/timeline.js";
+
+const DIFFERENCE_GAIN = 4;  // so that small differences can be seen
+
+/** Whether two pictures show the same part of the same frame. */
+export const isSamePlace = (a, b) => a && b && a.number === b.number
+  && a.size.join() === b.size.join() && a.crop.join() === b.crop.join();
+
+/** Keeps the picture that is painted when one of another save takes its place. */
+export function keepOlder(picture) {
+  if (main.painted && main.painted.build !== picture.build) looks.older = main.painted;
+}
+
+/** The picture that another is compared with: of the held frame, else of the second film, else of
+ * the save before; null: it is not here. */
+function counterpart(picture) {
+  const { held, older } = looks;
+  const one = held ? kept.get(wish(held)?.address) : isComparing() ? beside.painted : older;
+  return one && isSamePlace(held ? { ...one, number: picture.number } : one, picture) ? one : null;
+}
+
+/** The bytes to paint of a picture: it, mixed with its counterpart. */
+export function mixed(picture) {
+  const other = looks.mixing && counterpart(picture);
+  if (!other) return picture.bytes;
+  const out = new Uint8ClampedArray(picture.bytes), width = picture.crop[2];
+  for (let i = 0; i < out.length; i += 4) {
+    const isOther = looks.mixing === "wipe" && i / 4 % width < width / 2;
+    for (let c = i; c < i + 4; c++) {
+      if (isOther) out[c] = other.bytes[c];
+      if (looks.mixing === "differ") out[c] = DIFFERENCE_GAIN * Math.abs(out[c] - other.bytes[c]);
+    }
+    if (looks.mixing === "differ") out[i + 3] = 255;
+  }
+  return out;
+}
+
+export function setMixing(kind) {
+  looks.mixing = looks.mixing === kind ? "" : kind;
+  here("wipe").setAttribute("aria-pressed", looks.mixing === "wipe");
+  here("differ").setAttribute("aria-pressed", looks.mixing === "differ");
+  look();
+}
+
+/** Holds the frame that is shown, so that others are compared with it; again: lets it go. */
+export function holdFrame() {
+  looks.held = looks.held === view.number ? 0 : view.number;
+  label("hold", looks.held ? `Held ${looks.held}` : "Hold");
+  here("hold").setAttribute("aria-pressed", looks.held > 0);
+  look();
+}
+

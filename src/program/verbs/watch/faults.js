@@ -1,0 +1,96 @@
+// What is wrong: the error over the picture, and the faults of all frames.
+import { placesOf } from "/inspector.js";
+import { go, stop } from "/playing.js";
+import { element, here, label, main, part, post, state, stateOf, view } from "/state.js";
+
+const FAULT_FRAMES = 6;      // frames of one fault that are listed
+
+/** The error of a film, or of the frame that is shown; null: neither. */
+function currentFault(one = main) {
+  const { shown, errors, build } = stateOf(one), refused = one.refused;
+  if (!shown) return errors[0] || null;
+  if (refused && refused.number === view.number && refused.build === build) {
+    return errors.find(known => known.message === refused.message) || refused;
+  }
+  // false until there is a picture
+  return one.painted && one.painted.build === build ? null : one.lastFault;
+}
+
+/** Shows the error over the last good picture. */
+export function showFault(one = main) {
+  if (!stateOf(one)) return; // it is no longer shown
+  const fault = one.lastFault = currentFault(one);
+  part(one, "fault").hidden = part(one, "error").hidden = !fault;
+  part(one, "error").textContent = fault ? fault.message : "";
+  const called = fault && fault.callers || [];
+  const all = fault && fault.file ? [{ file: fault.file, line: fault.line }, ...called] : called;
+  const names = all.map(({ file, line }) => `${file}:${line}`).join(" ← ");
+  part(one, "lines").replaceChildren(...state.editor ? placesOf(names, all) : []);
+  part(one, "excerpt").replaceChildren(...(fault && fault.lines || []).map(([number, text]) => {
+    const line = document.createElement(number === fault.line ? "b" : "span");
+    line.textContent = `${String(number).padStart(4)}  ${text}\n`;
+    return line;
+  }));
+  one.canvas.classList.toggle("old", Boolean(fault));
+  showNews();
+}
+
+/** What the film is doing, and how many faults a check has found. */
+export function showNews() {
+  const bad = groupFaults().length;
+  const found = `${bad} fault${bad === 1 ? "" : "s"}: ${state.errors[0]?.message}`;
+  here("news").textContent = state.building && state.seconds > 0.5 ? "building …"
+    : bad && state.shown && !currentFault() ? found : "";
+}
+
+/** The errors of the film, those of one text together: { text, frames, all }. */
+function groupFaults() {
+  const groups = new Map();
+  for (const fault of state.errors) {
+    const text = fault.message.replace(`frame ${fault.frame}: `, "")
+      .replace(/frame -?\d+ of '/, "'"); // of a shot
+    if (!groups.has(text)) groups.set(text, { text, frames: [], fault });
+    if (fault.frame !== undefined) groups.get(text).frames.push(fault.frame);
+  }
+  return [...groups.values()];
+}
+
+/** One of those as an item of the list, with ways to its frames and its line. */
+function faultItem({ text, frames, fault }) {
+  const item = element("li", { textContent: text }), ways = element("p", {});
+  if (fault.file && state.editor) {
+    const textContent = `${fault.file}:${fault.line}`;
+    ways.append(element("button", { textContent, onclick: () => post("/open", fault) }));
+  }
+  const sorted = frames.sort((a, b) => a - b);
+  ways.append(...sorted.slice(0, FAULT_FRAMES).map(name => {
+    const onclick = () => { stop(); go(name - state.film.first + 1); };
+    return element("button", { textContent: `frame ${name}`, onclick });
+  }));
+  const more = frames.length - FAULT_FRAMES;
+  const rest = `and ${more} more up to ${sorted.at(-1)}`;
+  if (more > 0) ways.append(element("small", { textContent: rest }));
+  if (ways.hasChildNodes()) item.append(ways);
+  return item;
+}
+
+/** How far the check is. */
+function checkedText(count) {
+  const { film, checked, checking, shown } = state;
+  if (!shown) return "";
+  if (checking) return `${checked} of ${film.frames} frames checked`;
+  return `${checked} frame${checked === 1 ? "" : "s"} checked${count ? "" : ": no faults"}`;
+}
+
+let listed = ""; // the faults in the list: the focus stays in a list that has not changed
+
+export function showFaults() {
+  const groups = groupFaults(), kinds = JSON.stringify([state.errors, state.editor]);
+  label("check", groups.length ? `Faults ${groups.length}` : "Faults");
+  here("check").classList.toggle("bad", groups.length > 0);
+  here("checked").textContent = checkedText(groups.length);
+  if (kinds === listed) return;
+  listed = kinds;
+  here("fault-list").replaceChildren(...groups.map(faultItem));
+}
+

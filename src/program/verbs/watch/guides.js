@@ -1,0 +1,50 @@
+// The ground of the picture, the guides over it, and the theme of the page.
+import { beside, element, here, main, part } from "/state.js";
+import { drawTimeline } from "/timeline.js";
+
+export const GUIDES = ["safe", "fields"]; // shown over the picture, one at a time
+const FIELDS = 12;           // of a field guide: rectangles around its middle
+
+export function setGround(ground) {
+  here("ground").value = ground;
+  for (const id of ["paper", "paper2"]) here(id).dataset.ground = ground;
+}
+
+export function nextGround() {
+  const { options, selectedIndex } = here("ground");
+  setGround(options[(selectedIndex + 1) % options.length].value);
+}
+
+export function nextGuide() {
+  const next = GUIDES.findIndex(guide => !here(guide).hidden) + 1;
+  for (const one of [main, beside]) {
+    GUIDES.forEach((guide, i) => { part(one, guide).hidden = i !== next; });
+  }
+  here("guides").setAttribute("aria-pressed", next < GUIDES.length);
+}
+
+/** The rectangles of the field guide, each with its number. */
+export function makeFields() {
+  for (let k = 1; k <= FIELDS; k++) {
+    for (const id of ["fields", "fields2"]) {
+      const field = element("div", { textContent: k });
+      field.style.inset = `${50 - 50 * k / FIELDS}%`;
+      here(id).append(field);
+    }
+  }
+}
+
+export function setTheme(theme) {
+  document.documentElement.dataset.theme = theme;
+  drawTimeline();
+}
+
+export function swapTheme() {
+  setTheme(document.documentElement.dataset.theme === "light" ? "dark" : "light");
+}
+
+export function fullScreen() {
+  if (document.fullscreenElement) document.exitFullscreen();
+  else document.documentElement.requestFullscreen();
+}
+

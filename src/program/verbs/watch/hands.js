@@ -1,0 +1,202 @@
+// Keys, buttons and pointers.
+import { swapComparing } from "/beside.js";
+import { holdFrame, setMixing } from "/compare.js";
+import { fullScreen, nextGround, nextGuide, setGround, swapTheme } from "/guides.js";
+import { inspect } from "/inspector.js";
+import { leavePoint, pointAt } from "/objects.js";
+import { nextOnion } from "/onion.js";
+import { outline, setSpans } from "/over.js";
+import { closeMenus, isOpen, leaveMenus, menuButtons, swapMenu, swapPanel } from "/panels.js";
+import { look, setMatte } from "/pictures.js";
+import { go, setLoop, setSpeed, start, step, stop, swapMute, toggle } from "/playing.js";
+import { copyFrom, openRender } from "/render.js";
+import { setSheet } from "/rows.js";
+import {
+  beside, frameOf, here, lanes, looks, loop, main, play, ratio, state, view,
+} from "/state.js";
+import { hideThumb, showThumb } from "/thumb.js";
+import { frameAt, goToMark, scrubTo, setSpan, turnTimeline } from "/timeline.js";
+import { loadValues, resetValues, saveValues } from "/values.js";
+import { fit, move, natural, zoom, zoomMiddle } from "/view.js";
+
+const STRIDE = 80;           // device pixels that a key moves the picture
+
+function askNumber() {
+  here("number").value = view.number;
+  here("go").showModal();
+  here("number").select();
+}
+
+/** Goes to the frame that was typed, as a number or as a timecode. */
+function goToTyped() {
+  const number = frameOf(here("number").value);
+  if (here("go").returnValue !== "go" || Number.isNaN(number)) return;
+  stop();
+  go(number);
+}
+
+/** Leaves a menu, otherwise the outline of what a line made. */
+function leave() {
+  if (!closeMenus()) outline(null);
+}
+
+const keys = {
+  " ": toggle, k: toggle,
+  ArrowLeft: event => event.shiftKey ? move(STRIDE, 0) : step(-1),
+  ArrowRight: event => event.shiftKey ? move(-STRIDE, 0) : step(1),
+  ArrowUp: event => event.shiftKey ? move(0, STRIDE) : step(1),
+  ArrowDown: event => event.shiftKey ? move(0, -STRIDE) : step(-1),
+  PageUp: () => step(-10), PageDown: () => step(10),
+  Home: () => { stop(); go(loop.from); }, End: () => { stop(); go(loop.to); },
+  "[": () => goToMark(-1), "]": () => goToMark(1),
+  j: () => start(-1),
+  l: () => play.direction > 0 ? setSpeed(play.speed * 2) : start(1),
+  i: () => setLoop(view.number, loop.to),
+  o: () => setLoop(Math.min(loop.from, view.number), view.number),
+  x: () => setLoop(1, state.film.frames),
+  p: () => swapPanel("inspector"), v: () => swapPanel("values"), r: () => swapPanel("faults"),
+  c: () => swapPanel("costs"), q: () => swapPanel("objects"),
+  s: () => setSheet(here("sheet").hidden),
+  w: () => setMixing("wipe"), d: () => setMixing("differ"),
+  h: holdFrame, n: nextOnion,
+  u: swapMute,
+  e: () => setSpans(!looks.hasSpans),
+  Escape: leave,
+  y: () => { if (!here("compare").hidden) swapComparing(); },
+  g: askNumber,
+  "+": () => zoomMiddle(1.5), "=": () => zoomMiddle(1.5), "-": () => zoomMiddle(1 / 1.5),
+  0: () => { fit(); look(); }, 1: natural,
+  a: nextGuide, b: nextGround, m: () => setMatte(!looks.isMatte), t: swapTheme, f: fullScreen,
+  "?": () => here("keys").showModal(),
+};
+
+/** Whether a key belongs to what has the focus. */
+function isTaken(event) {
+  const target = event.target, isButton = target.matches("button, summary");
+  return event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")
+    || target.matches("select, textarea, input:not([type=range], [type=checkbox])")
+    || isButton && (event.key === "Enter" || event.key === " ");
+}
+
+function hearKey(event) {
+  const act = keys[event.key];
+  if (event.key === "Escape" && event.target.matches("input, select, textarea")) {
+    return event.target.blur();
+  }
+  if (!act || !state.film && event.key !== "?" || isTaken(event)) return;
+  event.preventDefault();
+  act(event);
+}
+
+// ---------------------------------------------------------------- pointers over the picture
+
+const pointers = new Map();
+let travelled = 0;
+
+function press(one, event) {
+  if (event.target.closest(".fault, .handle")) return;
+  one.box.setPointerCapture(event.pointerId);
+  pointers.set(event.pointerId, event);
+  travelled = 0;
+}
+
+/** The middle of two pointers, and their distance. */
+function pinch(one, [a, b]) {
+  const box = one.box.getBoundingClientRect(), r = ratio();
+  return [((a.clientX + b.clientX) / 2 - box.left) * r, ((a.clientY + b.clientY) / 2 - box.top) * r,
+          Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY)];
+}
+
+function drag(one, event) {
+  const before = pointers.get(event.pointerId);
+  if (!before) return pointAt(one, event);
+  const two = pointers.size === 2 ? pinch(one, [...pointers.values()]) : null;
+  pointers.set(event.pointerId, event);
+  const dx = event.clientX - before.clientX, dy = event.clientY - before.clientY;
+  travelled += Math.abs(dx) + Math.abs(dy);
+  if (two) {
+    const [x, y, distance] = pinch(one, [...pointers.values()]);
+    zoom(distance / Math.max(1, two[2]), x, y);
+  } else if (travelled > 3) {
+    one.box.classList.add("moving");
+    move(dx * ratio(), dy * ratio());
+  }
+}
+
+function release(one, event) {
+  if (!pointers.delete(event.pointerId)) return;
+  one.box.classList.remove("moving");
+  const isClick = event.type === "pointerup" && travelled <= 3;
+  if (isClick && isOpen("inspector")) inspect(one, event.clientX, event.clientY);
+}
+
+function turn(one, event) {
+  const box = one.box.getBoundingClientRect(), r = ratio();
+  event.preventDefault();
+  const lines = event.deltaMode === 1 ? 16 : 1;
+  zoom(Math.exp(-event.deltaY * lines * (event.ctrlKey ? 0.01 : 0.0015)),
+       (event.clientX - box.left) * r, (event.clientY - box.top) * r);
+}
+
+// ---------------------------------------------------------------- what is heard
+
+const clicks = {
+  first: () => { stop(); go(loop.from); }, back: () => step(-1), play: toggle,
+  forward: () => step(1), last: () => { stop(); go(loop.to); }, fit: keys[0],
+  matte: keys.m, inspect: keys.p, tune: keys.v, outliner: keys.q, check: keys.r, cost: keys.c,
+  list: keys.s, onion: nextOnion, mute: swapMute, spans: keys.e, guides: nextGuide, hold: holdFrame,
+  wipe: keys.w, differ: keys.d, compare: keys.y, theme: swapTheme, full: fullScreen,
+  "reset-values": resetValues, "save-values": saveValues, help: keys["?"], where: askNumber,
+  "hex-copy": () => copyFrom("hex"), "command-copy": () => copyFrom("command"),
+};
+
+function hearTimeline() {
+  const lanes = here("lanes"), ruler = here("ruler");
+  ruler.addEventListener("pointerdown", event => {
+    ruler.setPointerCapture(event.pointerId);
+    scrubTo(event);
+  });
+  ruler.addEventListener("pointermove", event => {
+    if (event.buttons) scrubTo(event);
+    showThumb(event);
+  });
+  ruler.addEventListener("pointerleave", hideThumb);
+  ruler.addEventListener("dblclick", () => setSpan(0, state.film.frames));
+  for (const one of [lanes, here("cells")]) {
+    one.addEventListener("wheel", turnTimeline, { passive: false });
+  }
+  here("cells").addEventListener("click", event => { stop(); go(frameAt(event.clientX)); });
+  here("scrub").addEventListener("input", event => { stop(); go(Number(event.target.value)); });
+}
+
+function hearPictures() {
+  for (const one of [main, beside]) {
+    const hear = (name, act) => one.box.addEventListener(name, event => act(one, event),
+                                                         { passive: false });
+    hear("pointerdown", press);
+    hear("pointermove", drag);
+    hear("pointerup", release);
+    hear("pointercancel", release);
+    hear("pointerleave", leavePoint);
+    hear("wheel", turn);
+  }
+}
+
+/** Hears everything that hands do. */
+export function hearHands() {
+  document.addEventListener("keydown", hearKey);
+  document.addEventListener("pointerdown", leaveMenus);
+  // A button that was clicked loses the focus, so that the space key plays.
+  document.addEventListener("pointerup", event => event.target.closest("button, #scrub")?.blur());
+  for (const [id, act] of Object.entries(clicks)) here(id).addEventListener("click", act);
+  for (const one of menuButtons()) {
+    one.addEventListener("click", one.id === "render" ? openRender : () => swapMenu(one));
+  }
+  here("speed").addEventListener("change", event => setSpeed(Number(event.target.value)));
+  here("ground").addEventListener("change", event => setGround(event.target.value));
+  here("load-values").addEventListener("change", loadValues);
+  here("go").addEventListener("close", goToTyped);
+  hearTimeline();
+  hearPictures();
+}
+

@@ -1,0 +1,102 @@
+// News of the server: films that were saved, built, checked or rendered.
+import { showComparing } from "/beside.js";
+import { showFault, showFaults, showNews } from "/faults.js";
+import { fetch } from "/fetch.js";
+import { outline, outlined } from "/over.js";
+import { forget, look } from "/pictures.js";
+import { start, takeSound } from "/playing.js";
+import { placePoints } from "/points.js";
+import { showRender } from "/render.js";
+import { loadSheet } from "/rows.js";
+import {
+  beside, clamp, here, lanes, loop, main, pause, state, stateOf, timecode, view,
+} from "/state.js";
+import { drawTimeline, placeHead, setSpan } from "/timeline.js";
+import { sendGiven, showForm } from "/values.js";
+import { measureDesk } from "/view.js";
+
+export function showNumbers() {
+  if (!state.film) return;
+  here("frame").textContent = view.number;
+  here("frames").textContent = state.film.frames;
+  here("timecode").textContent = timecode(view.number);
+  here("scrub").value = view.number;
+  here("scrub").setAttribute("aria-valuetext", `${timecode(view.number)}, frame ${view.number}`);
+  placeHead();
+  placePoints();
+  const percent = view.scale * 100;
+  here("zoom").textContent = `${percent < 10 ? percent.toFixed(1) : Math.round(percent)} %`;
+  const whole = loop.from === 1 && loop.to === state.film.frames;
+  const [w, h] = state.film.size;
+  here("facts").textContent = `${w} × ${h}, ${state.film.fps} fps`
+    + (whole ? "" : `, loop ${loop.from} to ${loop.to}`);
+}
+
+function showState() {
+  const film = state.film;
+  document.title = `${film && film.title || state.script} – celspan`;
+  here("title").textContent = film && film.title || state.script;
+  showNews();
+  for (const one of lanes()) {
+    if (!stateOf(one).building) showFault(one);
+  }
+}
+
+/** Whether a film was saved, or failed, since the old news of it. */
+const isNewFilm = (old, news) => news
+  && (!old || old.build !== news.build || old.shown !== news.shown);
+
+function takeState(news) {
+  const old = { ...state }, { film } = old;
+  Object.assign(state, news, { film: news.film || film, second: news.second || null });
+  document.body.classList.toggle("alone", news.alone);
+  showComparing();
+  lanes().forEach(showForm);
+  sendGiven();
+  if (state.film && (!film || film.frames !== state.film.frames)) takeFrames(!film);
+  if (state.here && state.here.count !== outlined.count) outline(state.here);
+  showState();
+  showFaults();
+  showRender(state.render);
+  loadSheet();
+  if (isNewFilm(old.second, state.second)) forget(beside);
+  if (isNewFilm(old, state)) takeFilm();
+  else if (isNewFilm(old.second, state.second)) look();
+}
+
+/** The film has another number of frames than before. */
+function takeFrames(isFirst) {
+  loop.from = 1;
+  loop.to = state.film.frames;
+  setSpan(0, state.film.frames);
+  measureDesk(); // the timeline has other rows now
+  view.number = clamp(view.number, 1, state.film.frames);
+  if (isFirst && state.alone) start(1);
+}
+
+/** The film was saved, or has failed. */
+function takeFilm() {
+  takeSound();
+  forget(main);
+  drawTimeline();
+  if (outlined.place) outline(outlined.place);
+  if (state.shown) look();
+}
+
+export async function listen() {
+  for (;;) {
+    try {
+      const answer = await fetch(`/state.json?since=${state.news}`);
+      if (answer.status === 403) { // the opened address has no token
+        here("news").textContent = await answer.text();
+        return;
+      }
+      if (!answer.ok) throw new Error(await answer.text());
+      takeState(await answer.json());
+    } catch {
+      here("news").textContent = "celspan watch has ended; start it again and open its new address";
+      await pause(1);
+    }
+  }
+}
+

@@ -1,0 +1,72 @@
+// What lies over the picture: kinds of spans, and the outline of what a line made.
+import { fetch } from "/fetch.js";
+import { fetchPicture, look, place } from "/pictures.js";
+import { here, looks, main, overlay, part, play, state } from "/state.js";
+import { drawRuler } from "/timeline.js";
+
+// The line whose results are outlined, { file, line }, and the runs of frames that contain some.
+// count: how many lines editors have named.
+export const outlined = { place: null, runs: [], count: 0 };
+const OUTLINE = [255, 150, 30, 255];
+
+/** Marks in `out` the pixels at the border of what a picture covers. */
+function drawBorder(picture, out) {
+  const [, , w, h] = picture.crop, bytes = picture.bytes;
+  const isIn = (x, y) => x >= 0 && y >= 0 && x < w && y < h && bytes[4 * (y * w + x) + 3] > 127;
+  for (let y = 0; y < h; y++) {
+    for (let x = 0; x < w; x++) {
+      const own = isIn(x, y);
+      const isBorder = own !== isIn(x + 1, y) || own !== isIn(x, y + 1) || own !== isIn(x - 1, y)
+        || own !== isIn(x, y - 1);
+      if (isBorder) out.set(OUTLINE, 4 * (y * w + x));
+    }
+  }
+}
+
+/** What is to lie over a picture, as parts of an address. */
+export function overlays() {
+  const place = outlined.place;
+  const line = place && `&show=made&file=${encodeURIComponent(place.file)}&line=${place.line}`;
+  return [...looks.hasSpans ? ["&show=spans"] : [], ...line ? [line] : []];
+}
+
+/** Lays the spans, and the outline of what a line made, over a picture that is painted. */
+export async function layOver(picture) {
+  const wanted = overlays();
+  if (wanted.length === 0 || play.direction !== 0) {
+    overlay.hidden = true;
+    return;
+  }
+  const [, , w, h] = picture.crop, out = new Uint8ClampedArray(4 * w * h);
+  for (const part of wanted) {
+    const address = picture.address.replace(".runs", ".rgba") + part;
+    const layer = await fetchPicture({ ...picture, address, isOver: true }).catch(() => null);
+    if (!layer || main.isWanted || main.painted !== picture) return;
+    if (part === "&show=spans") out.set(layer.bytes);
+    else drawBorder(layer, out);
+  }
+  overlay.width = w;
+  overlay.height = h;
+  overlay.getContext("2d").putImageData(new ImageData(out, w, h), 0, 0);
+  overlay.dataset.over = picture.address + wanted;
+  overlay.hidden = false;
+}
+
+export function setSpans(isOn) {
+  looks.hasSpans = isOn;
+  here("spans").setAttribute("aria-pressed", isOn);
+  look();
+}
+
+/** Outlines what a line of the script made; null: nothing. */
+export async function outline(place) {
+  Object.assign(outlined, { place, runs: [], count: place?.count ?? outlined.count });
+  look();
+  drawRuler();
+  if (!place?.count || !state.shown) return; // of a line that an editor has named
+  const answer = await fetch(`/made.json?build=${state.build}`).catch(() => null);
+  if (!answer?.ok || outlined.place !== place) return;
+  outlined.runs = await answer.json();
+  drawRuler();
+}
+

@@ -1,0 +1,298 @@
+// Pictures of frames: asked for, kept, and painted.
+//
+//   look: the view has changed --> wish: size, crop --> /frame/N.runs --> kept --> #stage
+//
+// Pictures are wanted one after the other: while one is on its way, only the newest wish is kept.
+import { keepOlder, mixed } from "/compare.js";
+import * as cost from "/cost.js";
+import { loadCosts } from "/costing.js";
+import { showFault } from "/faults.js";
+import { fetch } from "/fetch.js";
+import { GUIDES } from "/guides.js";
+import { showNumbers } from "/news.js";
+import { loadObjects } from "/objects.js";
+import { addOthers, withOnion } from "/onion.js";
+import { layOver, overlays } from "/over.js";
+import { cels } from "/rows.js";
+import { unpack } from "/runs.js";
+import {
+  beside, clamp, here, isReady, lanes, looks, main, overlay, part, pause, play, post,
+  ratio, stage, state, stateOf, view,
+} from "/state.js";
+import { drawRuler, loadWave } from "/timeline.js";
+import { fit, frameSize, visible } from "/view.js";
+
+const KEPT_MOST = 192 << 20; // bytes of pictures that are kept
+
+// seconds after which a picture is slow: then a coarse picture is shown first
+const SLOW = 0.15;
+const VERY_SLOW = 1;         // seconds after which the coarse picture is made coarser still
+
+export const kept = new Map(); // by their addresses, the oldest first
+// by the number of the frame: a text that is the same for the same camera
+export const cameras = new Map();
+let keptBytes = 0;
+
+function keep(address, picture) {
+  kept.set(address, picture);
+  keptBytes += picture.bytes.byteLength;
+  for (const [old, one] of kept) {
+    if (keptBytes <= KEPT_MOST) break;
+    kept.delete(old);
+    keptBytes -= one.bytes.byteLength;
+  }
+}
+
+/** Forgets the pictures of a film. */
+export function forget(one) {
+  if (one === main) cameras.clear();
+  for (const [address, picture] of kept) {
+    if (picture.lane !== one) continue;
+    kept.delete(address);
+    keptBytes -= picture.bytes.byteLength;
+  }
+}
+
+/** The number in its film of the frame that a lane shows with a frame of the first: of the same
+ * time, or the last. */
+export function nameOf(one, number) {
+  const film = stateOf(one).film;
+  const index = one === main ? number - 1
+    : Math.floor((number - 1) / state.film.fps * film.fps + 1e-6);
+  return film.first + Math.min(index, film.frames - 1);
+}
+
+/** The part of a frame that is visible. coarse: that many pixels are one, in each direction. */
+export function wish(number, coarse = 1, one = main) {
+  const crop = visible(one), build = stateOf(one).build;
+  if (!crop) return null;
+  let size = frameSize(one), part = crop;
+  if (coarse > 1) {
+    size = size.map(side => Math.max(1, Math.round(side / coarse)));
+    const x = Math.floor(crop[0] / coarse), y = Math.floor(crop[1] / coarse);
+    part = [Math.min(x, size[0] - 1), Math.min(y, size[1] - 1)];
+    part.push(clamp(Math.ceil(crop[2] / coarse), 1, size[0] - part[0]),
+              clamp(Math.ceil(crop[3] / coarse), 1, size[1] - part[1]));
+  }
+  const address = `/frame/${nameOf(one, number)}.runs?size=${size.join("x")}&crop=${part.join()}`
+    + `&build=${build}${one === main ? cels.query : "&side=2"}`;
+  return { number, size, crop: part, address, build, lane: one };
+}
+
+const pageName = Math.random().toString(36).slice(2);
+let wishes = 0;
+
+export async function fetchPicture(wanted) {
+  const known = kept.get(wanted.address);
+  if (known) return known;
+  wanted.name = `${pageName}-${++wishes}`;
+  const answer = await fetch(`${wanted.address}&wish=${wanted.name}`);
+  wanted.isHere = true;
+  if (!answer.ok) throw Object.assign(new Error(await answer.text()), { status: answer.status });
+  const buffer = await answer.arrayBuffer(), [, , w, h] = wanted.crop;
+  const bytes = wanted.isOver ? new Uint8ClampedArray(buffer) : unpack(buffer, w, h);
+  const picture = { ...wanted, bytes,
+                    seconds: Number(answer.headers.get("Celspan-Seconds")),
+                    camera: answer.headers.get("Celspan-Camera") };
+  if (!wanted.isOver && wanted.lane === main && wanted.build === state.build) {
+    cost.noteTime(picture.number, picture.seconds, picture.build);
+    if (!wanted.isSeen) cameras.set(picture.number, picture.camera);
+  }
+  if (wanted.build === stateOf(wanted.lane)?.build) keep(wanted.address, picture);
+  return picture;
+}
+
+/** The coverage alone, as grey. */
+function matteOf(bytes) {
+  const out = new Uint8ClampedArray(bytes.length);
+  for (let i = 0; i < bytes.length; i += 4) {
+    out[i] = out[i + 1] = out[i + 2] = bytes[i + 3];
+    out[i + 3] = 255;
+  }
+  return out;
+}
+
+/** Marks the canvas of a lane while it does not show what was wanted last: values, frame, place. */
+export function markStale(one) {
+  const isSent = !one.isSending && !one.isChanged && one.painted?.build >= one.wantedBuild;
+  const isSeen = isReady(one) && one.painted?.address === wish(view.number, 1, one)?.address;
+  one.canvas.toggleAttribute("data-stale", !(isSent && isSeen) && play.direction === 0);
+}
+
+/** The numbers of the frames whose pictures are kept as they are seen now. */
+export function keptFrames() {
+  const size = frameSize().join(), list = [];
+  for (const one of kept.values()) {
+    if (one.lane === main && !one.isOver && !one.isSeen && one.build === state.build
+      && one.size.join() === size) list.push(one.number);
+  }
+  return list;
+}
+
+/** Puts a picture on the canvas of its lane; bytes: its own, or others in their place. */
+function put(picture, bytes) {
+  const one = picture.lane, [, , w, h] = picture.crop, canvas = one.canvas;
+  if (canvas.width !== w || canvas.height !== h) {
+    canvas.width = w;
+    canvas.height = h;
+  }
+  one.pen.putImageData(new ImageData(looks.isMatte ? matteOf(bytes) : bytes, w, h), 0, 0);
+  one.painted = picture;
+  canvas.dataset.frame = nameOf(one, picture.number);
+  canvas.dataset.size = picture.size.join("x");
+  canvas.dataset.crop = picture.crop.join();
+  canvas.dataset.build = picture.build;
+  canvas.setAttribute("aria-label", `Frame ${picture.number}`);
+  markStale(one);
+}
+
+export function paint(picture) {
+  if (picture.lane === beside) {
+    if (!isReady(beside)) return null;
+    put(picture, picture.bytes);
+    if (looks.mixing && !looks.held && main.painted) paint(main.painted);
+    return place();
+  }
+  keepOlder(picture);
+  put(picture, withOnion(picture, mixed(picture)));
+  overlay.hidden = overlay.dataset.over !== picture.address + overlays() || play.direction !== 0;
+  place();
+}
+
+/** Puts what is painted where the view has it now, stretched if it was made for another one. */
+export function place() {
+  if (!state.film) return;
+  for (const one of lanes()) placeLane(one, one === main ? [here("paper"), stage, overlay]
+    : [here("paper2"), one.canvas]);
+}
+
+function placeLane(one, layers) {
+  const painted = one.painted, r = ratio();
+  if (!painted) return;
+  const whole = frameSize(one);
+  const sx = whole[0] / painted.size[0] / r, sy = whole[1] / painted.size[1] / r;
+  const [x, y, w, h] = painted.crop;
+  for (const guide of GUIDES) {
+    Object.assign(part(one, guide).style, { left: `${view.x / r}px`, top: `${view.y / r}px`,
+      width: `${whole[0] / r}px`, height: `${whole[1] / r}px` });
+  }
+  for (const layer of layers) {
+    Object.assign(layer.style, { left: `${view.x / r + x * sx}px`, top: `${view.y / r + y * sy}px`,
+                                  width: `${w * sx}px`, height: `${h * sy}px` });
+  }
+}
+
+/** Wants the picture of the view as it is now. */
+export function look() {
+  if (view.isFitted) fit();
+  place();
+  showNumbers();
+  for (const one of lanes()) {
+    one.isWanted = true;
+    if (!one.isAsking && isReady(one)) ask(one);
+    else abandonOld(one);
+    markStale(one);
+  }
+}
+
+async function ask(one) {
+  one.isAsking = true;
+  while (one.isWanted && isReady(one)) {
+    one.isWanted = false;
+    const fine = wish(view.number, 1, one);
+    if (!fine) break;
+    try {
+      const picture = await fetchBest(fine);
+      if (picture) await takeBest(picture);
+    } catch (fault) {
+      await failed(fault, fine);
+    }
+    one.fetching = null;
+  }
+  one.isAsking = false;
+}
+
+/** Fetches a picture, and before it a coarse one if it is slow, or was at last; null: another one
+ * is wanted by then. */
+async function fetchBest(fine) {
+  const one = fine.lane, isSlow = one.slowness > SLOW && play.direction === 0;
+  if (isSlow && !kept.has(fine.address)) {
+    paint(await fetchPicture(wish(fine.number, one.slowness > VERY_SLOW ? 8 : 4, one)));
+    await new Promise(requestAnimationFrame);
+    if (one.isWanted) return null;
+  }
+  one.fetching = { wanted: fine, since: performance.now() / 1000 };
+  const arrival = fetchPicture(fine);
+  if (!isSlow) paintMeanwhile(fine, arrival);
+  return arrival;
+}
+
+/** Paints a coarse picture if a fine one does not arrive soon. */
+async function paintMeanwhile(fine, arrival) {
+  const one = fine.lane, coarse = wish(fine.number, 4, one);
+  const isOver = () => one.fetching?.wanted !== fine;
+  const has = arrival.then(() => true, () => true);
+  if (await Promise.race([has, pause(SLOW)]) || isOver() || play.direction !== 0 || !coarse) return;
+  has.then(() => abandon(coarse));
+  const picture = await fetchPicture(coarse).catch(() => null);
+  if (picture && !isOver() && fine.build === stateOf(one)?.build) paint(picture);
+}
+
+async function takeBest(picture) {
+  const one = picture.lane;
+  one.slowness = picture.seconds;
+  one.fetching = null;
+  paint(picture);
+  one.refused = null;
+  showFault(one);
+  if (one === main) await addTo(picture);
+}
+
+/** Has the server give up a picture that it has not answered. */
+export function abandon(wanted) {
+  if (!wanted.name || wanted.isHere) return;
+  post(`/abandon?side=${wanted.lane.side}`, { wish: wanted.name }).catch(() => {});
+}
+
+/** Gives up the picture that is on its way if it is slow, and not the one that is wanted now. */
+async function abandonOld(one) {
+  const old = one.fetching;
+  if (!old || old.isLeft) return;
+  old.isLeft = true;
+  await pause(old.since + SLOW - performance.now() / 1000);
+  old.isLeft = false;
+  if (one.fetching !== old || wish(view.number, 1, one)?.address === old.wanted.address) return;
+  old.isLeft = true;
+  abandon(old.wanted);
+}
+
+/** What is shown with a picture of the first film. */
+async function addTo(picture) {
+  drawRuler();
+  await addOthers(picture);
+  await layOver(picture);
+  await loadCosts(picture);
+  loadWave();
+  loadObjects();
+}
+
+/** A picture that was not made: what the film says of it is among the errors; what was busy is
+ * asked again. */
+export async function failed(fault, wanted) {
+  if (!fault.status) console.error(fault); // of the page, or there is no server
+  const one = wanted.lane;
+  if (fault.status === 422) {
+    one.refused = { number: wanted.number, build: wanted.build, message: fault.message.trim() };
+    return showFault(one);
+  }
+  if (!one.isWanted) await pause(0.3);
+  if (fault.status === 503) one.isWanted = true;
+}
+
+export function setMatte(isOn) {
+  looks.isMatte = isOn;
+  here("matte").setAttribute("aria-pressed", isOn);
+  for (const one of lanes()) if (one.painted) paint(one.painted);
+}
+
+

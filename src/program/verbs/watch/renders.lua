@@ -1,0 +1,234 @@
+--- The render that a page has asked for (celspan watch): a run of celspan render beside the page.
+--
+--   begin --> running --events of --progress json--> done | failed
+--                  \--cancel--> cancelled
+--
+-- INVARIANT: it writes into the folder of the script, or a folder in it, also where links lead; it
+-- replaces a file only if the page has said so; and what it wrote is removed when it fails or is
+-- cancelled. A name is one word of the command line behind -o, and never an option.
+local program, request = ...
+local json = require "celspan.json"
+
+local FILES_MOST = 100000 -- the most pictures of a render
+local TAIL = 2000         -- bytes of the last words that are kept
+local SIDE_MOST = 65535   -- pixels
+
+local renders = {}
+renders.__index = renders
+
+-- The endings of a file, by the format.
+local endings = { mp4 = "mp4", webm = "webm", mov = "mov", gif = "gif", webp = "webp", png = "png",
+                  exr = "exr" }
+local stills = { png = true, exr = true }
+
+-- Options for the page, not for the film.
+local own = { ["--port"] = true, ["--open"] = true, ["--size"] = true, ["--editor"] = true }
+
+--- tell(): called when pages need news.
+function renders.new(film, tell)
+  return setmetatable({ film = film, tell = tell, said = { state = "idle" } }, renders)
+end
+
+-- ---------------------------------------------------------------- what is wanted
+
+local function is_within(folder, path)
+  return path == folder or path:sub(1, #folder + 1) == folder:gsub("/$", "") .. "/"
+end
+
+--- Why a name is no name of a file beside the script; nil: it is one.
+local function fault_of_name(name, format)
+  if type(name) ~= "string" or name == "" then return "write the name of a file" end
+  if #name > 1000 or name:find "[%c\\]" then
+    return "the name is too long, or has characters that no file should have"
+  end
+  if name:sub(1, 1) == "/" then return "the file must lie beside the script: no name from /" end
+  for part in (name .. "/"):gmatch "([^/]*)/" do
+    if part == "" or part:sub(1, 1) == "." then
+      return "no part of the name may be empty or begin with a dot"
+    end
+    if part:sub(1, 1) == "-" then return "no part of the name may begin with -" end
+    if #part > 255 then return "a part of the name is too long" end
+  end
+  if name:find "%%" then return "write #### for the number of a frame" end
+  if name:match "%.(%w+)$" ~= endings[format] then
+    return ("the name of the file must end with .%s"):format(endings[format])
+  end
+end
+
+--- The path of a name, in the folder of the script; nil and why it must not be written.
+local function place_of(script, name)
+  local top = script:match "^.*/" or "./"
+  local path, folder = top .. name, program.resolve(top)
+  local above = path:match "^.*/"
+  local parent, target = program.resolve(above), program.resolve(path)
+  local is_in = folder and parent and is_within(folder, parent)
+  if not is_in or target and not is_within(folder, target) then
+    return nil, "the file must lie in the folder of the script"
+  end
+  if not program.entries(above) then return nil, "there is no such folder: make it first" end
+  return path
+end
+
+--- The frames of a text, first and last; nil: it is no range of the film.
+local function range_of(text, facts)
+  local last_frame = facts.first + facts.frames - 1
+  if text == nil or text == "" then return facts.first, last_frame end
+  local from, to = text:match "^(%-?%d+)%-(%-?%d+)$"
+  from, to = math.tointeger(from or text), math.tointeger(to or text)
+  local is_good = from and to and facts.first <= from and from <= to and to <= last_frame
+  if is_good then return from, to end
+end
+
+--- The files that a render makes.
+local function files_of(path, from, to)
+  local before, marks, after = path:match "^(.-)(#+)([^#]*)$"
+  if not marks then return { path } end
+  local list = {}
+  for number = from, to do
+    local digits = ("%0" .. #marks .. "d"):format(number)
+    list[#list + 1] = before .. digits .. after
+  end
+  return list
+end
+
+--- A whole description of what is wanted; nil and a sentence.
+function renders:read(given)
+  local facts, format = self.film.facts, given.format
+  if not endings[format] then return nil, "there is no such format" end
+  local fault = fault_of_name(given.file, format)
+  if fault then return nil, fault end
+  local path, why = place_of(self.film.script, given.file)
+  if not path then return nil, why end
+  local from, to = range_of(given.frames, facts)
+  if not from then return nil, "the film has no such frames" end
+  local is_sequence = given.file:find "#" ~= nil
+  if given.file:find "#.*[^#]+.*#" or given.file:find "#.*/" then
+    return nil, "write one #### for the number of the frame, in the last part of the name"
+  end
+  if is_sequence and not stills[format] then return nil, "a video has one file, without ####" end
+  if stills[format] and not is_sequence and from ~= to then
+    return nil, "write #### where each picture has its number, such as shot.####." .. format
+  end
+  if is_sequence and to - from >= FILES_MOST then
+    return nil, ("at most %d pictures at once"):format(FILES_MOST)
+  end
+  local w, h = (given.size or ""):match "^(%d+)x(%d+)$"
+  w, h = math.tointeger(w), math.tointeger(h)
+  if (given.size or "") ~= "" and not (w and w > 0 and h > 0 and math.max(w, h) <= SIDE_MOST) then
+    return nil, "write the size as 1280x720"
+  end
+  return { path = path, file = given.file, files = files_of(path, from, to), from = from, to = to,
+           size = w and ("%dx%d"):format(w, h), draft = given.draft == true }
+end
+
+-- ---------------------------------------------------------------- the process
+
+local function exists(path)
+  local file = io.open(path, "rb")
+  if file then file:close() end
+  return file ~= nil
+end
+
+--- The words of the run: with the rights of this one, and the values that the page has given.
+function renders:words(wanted)
+  local settings, range = {}, ("%d-%d"):format(wanted.from, wanted.to)
+  local words = { "render", self.film.script, "-o", wanted.path, "--frames", range,
+                  "--progress", "json" }
+  if wanted.size then table.move({ "--size", wanted.size }, 1, 2, #words + 1, words) end
+  if wanted.draft then words[#words + 1] = "--draft" end
+  for name, value in pairs(self.film.pool.values) do settings[#settings + 1] = { name, value } end
+  return program.pass_on(words, request, own, settings)
+end
+
+--- Begins a render. given: what the form says. Returns a status, and a sentence if it is refused.
+function renders:begin(given)
+  if self.process then return 409, "a render is running: cancel it first" end
+  for _, name in ipairs { "format", "file", "frames", "size" } do
+    if type(given[name] or "") ~= "string" then return 400, name .. " is no text" end
+  end
+  local wanted, why = self:read(given)
+  if not wanted then return 400, why end
+  wanted.made = {}
+  for _, path in ipairs(wanted.files) do
+    if not exists(path) then
+      wanted.made[#wanted.made + 1] = path
+    elseif given.replace ~= true then
+      return 409, ("%s is there already"):format(wanted.file)
+    end
+  end
+  local process, message = program.renderer(self:words(wanted))
+  if not process then return 500, message end
+  self.process, self.wanted, self.text, self.tail, self.message = process, wanted, "", "", nil
+  self:say { state = "running", file = wanted.file }
+  return 200
+end
+
+function renders:say(said)
+  self.said = said
+  self.tell()
+end
+
+--- Takes a line that the run has printed.
+function renders:hear(line)
+  local event = line:find "^{" and json.decode(line)
+  if type(event) ~= "table" or not event.event then
+    self.tail = (self.tail .. line .. "\n"):sub(-TAIL)
+  elseif event.event == "frame" or event.event == "start" then
+    self:say { state = "running", file = self.wanted.file, done = event.done or 0,
+               count = event.count, left = event.left }
+  elseif event.event == "error" then
+    self.message = self.message or event.message
+  end
+end
+
+--- Removes what the run has made and was not there before.
+function renders:remove()
+  for _, path in ipairs(self.wanted.made) do os.remove(path) end
+end
+
+function renders:finish()
+  local code, signal = self.process:finish()
+  local is_cancelled, file = self.is_cancelled, self.wanted.file
+  self.process, self.is_cancelled = nil, nil
+  if code == 0 and not is_cancelled then return self:say { state = "done", file = file } end
+  self:remove()
+  if is_cancelled then return self:say { state = "cancelled", file = file } end
+  local said = self.message or self.tail:match "([^\n]+)\n*$"
+  self:say { state = "failed", file = file,
+             message = said or signal or ("exit code %d"):format(code) }
+end
+
+--- Ends the run; what it has made is removed.
+function renders:cancel()
+  if not self.process or self.is_cancelled then return end
+  self.is_cancelled = true
+  self.process:stop()
+end
+
+--- Reads what the run has said.
+function renders:step()
+  if not self.process then return end
+  self.text = self.text .. self.process:words()
+  for line in self.text:gmatch "([^\n]*)\n" do self:hear(line) end
+  self.text = self.text:match "[^\n]*$"
+  if self.process:take() == false then
+    self.text = self.text .. self.process:words() .. "\n"
+    for line in self.text:gmatch "([^\n]+)\n" do self:hear(line) end
+    self:finish()
+  end
+end
+
+function renders:add_descriptors(list)
+  if not self.process then return end
+  for _, descriptor in ipairs { self.process:descriptors() } do list[#list + 1] = descriptor end
+end
+
+--- Ends the run when the page's server ends.
+function renders:close()
+  if not self.process then return end
+  self.process:stop()
+  self.process:finish()
+  self:remove()
+end
+
+return renders

@@ -1,0 +1,94 @@
+// What the page knows, and what it shows: the one place of its state.
+//
+//   /state.json --> state (what the server has said)    keys, hands --> view, loop, play, shown
+//                        \                                /
+//                         everything that is drawn is drawn from these
+import { fetch } from "/fetch.js";
+
+export const here = id => document.getElementById(id);
+export const stage = here("stage");
+export const desk = here("desk");
+export const overlay = here("overlay");
+
+export const state = { news: 0, build: 0, film: null, errors: [], shown: false, parameters: [],
+                second: null };
+// number: of the frame, from 1. scale: device pixels of a unit of the film; x, y: the place of the
+// frame's corner in the window, in device pixels. isFitted: scale and place follow the window.
+export const view = { number: 1, scale: 1, x: 0, y: 0, isFitted: true };
+export const loop = { from: 1, to: 1 };
+// start: by the clock of the sound while the sound is heard, otherwise by the machine's clock, in
+// seconds.
+export const play = { direction: 0, speed: 1, start: 0, isHeard: false, passed: 0, number: 1,
+                      shown: -1, painted: [] };
+// How pictures are looked at. mixing: "", "wipe" or "differ"; held: the frame that others are
+// compared with, 0: the frame before the last save; older: the picture at this place before it;
+// onion: the number of frames before and after.
+export const looks = { isMatte: false, hasSpans: false, mixing: "", held: 0, older: null,
+                       onion: 0 };
+// The part of the film that the timeline shows, in frames from 0.
+export const span = { from: 0, to: 1 };
+
+/** What is known of one of the films and its canvas. refused: the frame that could not be made,
+ * { number, build, message }. lastFault: the error that is shown. painted: the picture. slowness:
+ * the seconds that it took. fetching: the picture that is on its way, { wanted, since }. given:
+ * values of parameters, as the address holds them. */
+const lane = (side, canvas, box) => ({
+  side, canvas, box, pen: canvas.getContext("2d"), painted: null, refused: null, lastFault: null,
+  isAsking: false, isWanted: false, slowness: 0, fetching: null, given: new URLSearchParams(),
+  isGiven: false, isSending: false, isChanged: false, wantedBuild: 0, formOf: "",
+});
+export const main = lane(1, stage, desk);
+export const beside = lane(2, here("stage2"), here("desk2"));
+
+/** What the server has said of a lane's film; null: it is not shown. */
+export const stateOf = one => one === main ? state : state.second;
+export const isComparing = () => Boolean(state.second);
+export const lanes = () => isComparing() ? [main, beside] : [main];
+
+/** An element of a lane: those of the second have a 2 after their names. */
+export const part = (one, id) => here(one === main ? id : `${id}2`);
+
+export const ratio = () => window.devicePixelRatio || 1;
+export const clamp = (value, least, most) => Math.min(Math.max(value, least), most);
+
+export const pause = seconds => new Promise(done => setTimeout(done, seconds * 1000));
+
+export const post = (path, value) => fetch(path, { method: "POST", body: JSON.stringify(value) });
+
+export function element(name, properties = {}, ...children) {
+  const one = Object.assign(document.createElement(name), properties);
+  one.append(...children);
+  return one;
+}
+
+/** A picture of the sheet of icons in page.html. */
+export function icon(name) {
+  const space = "http://www.w3.org/2000/svg", picture = document.createElementNS(space, "svg");
+  const use = document.createElementNS(space, "use");
+  picture.setAttribute("aria-hidden", "true");
+  use.setAttribute("href", `#i-${name}`);
+  picture.append(use);
+  return picture;
+}
+
+/** Writes the words of a button, which may have an icon and a key beside them. */
+export function label(id, text) { here(id).querySelector("span").textContent = text; }
+
+/** Seconds and frames of a frame of the film, counted from 1: "2:12" is frame 61 at 24. */
+export function timecode(number) {
+  const rate = Math.max(1, Math.round(state.film.fps)), index = number - 1;
+  const frames = String(index % rate).padStart(String(rate - 1).length, "0");
+  return `${Math.floor(index / rate)}:${frames}`;
+}
+
+/** The frame of a text: "61", "2:12", or "1:02:12" with minutes; NaN: it is neither. */
+export function frameOf(text) {
+  if (!/^\s*\d+(:\d+){0,2}\s*$/.test(text)) return NaN;
+  const parts = text.split(":").map(Number), rate = Math.max(1, Math.round(state.film.fps));
+  if (parts.length === 1) return parts[0];
+  const frames = parts.pop(), seconds = parts.reduce((sum, one) => 60 * sum + one, 0);
+  return seconds * rate + frames + 1;
+}
+
+export const isReady = one => Boolean(stateOf(one)?.film && stateOf(one).shown);
+

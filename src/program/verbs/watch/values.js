@@ -1,0 +1,163 @@
+// Values of the film's parameters: the form, the address of the page and the command line.
+import { nameLanes } from "/beside.js";
+import { fieldOf } from "/fields.js";
+import { markStale } from "/pictures.js";
+import { placePoints } from "/points.js";
+import {
+  beside, element, here, isComparing, isReady, lanes, main, part, post, state, stateOf,
+} from "/state.js";
+
+// The address contains the values by name. A mark precedes those of the second film, and shows by
+// itself that the second film is visible.
+const MARK = "2:";
+
+export function readAddress() {
+  for (const [name, value] of new URLSearchParams(location.hash.slice(1))) {
+    const one = name.startsWith(MARK) ? beside : main;
+    if (name !== MARK) one.given.set(one === beside ? name.slice(MARK.length) : name, value);
+    else post("/compare", { on: true }).catch(() => {});
+  }
+}
+
+export function writeAddress() {
+  const all = new URLSearchParams(main.given);
+  if (isComparing() && !state.has_two) all.set(MARK, "");
+  if (isComparing()) for (const [name, value] of beside.given) all.set(MARK + name, value);
+  history.replaceState(null, "", all.size ? `/#${all}` : "/");
+}
+
+/** Sends the values; while they are on their way, only the newest are kept. */
+async function sendValues(one) {
+  one.isChanged = true;
+  markStale(one);
+  if (one.isSending) return;
+  one.isSending = true;
+  while (one.isChanged) {
+    one.isChanged = false;
+    writeAddress();
+    const path = one === main ? "/parameters" : "/parameters?side=2";
+    const answer = await post(path, Object.fromEntries(one.given)).catch(() => null);
+    if (answer?.ok) one.wantedBuild = (await answer.json()).build;
+  }
+  one.isSending = false;
+  markStale(one);
+}
+
+/** Sends the values of the address as soon as a film can take them. */
+export function sendGiven() {
+  for (const one of lanes()) {
+    if (one.isGiven || !isReady(one)) continue;
+    one.isGiven = true;
+    if (one.given.size) sendValues(one);
+  }
+}
+
+export function giveValue(one, parameter, value) {
+  one.given.set(parameter.name, value);
+  parameter.value = value;
+  showCommand();
+  nameLanes();
+  placePoints();
+  sendValues(one);
+}
+
+/** A value as the command line has it: a point is "120,80". */
+const textOf = value => Array.isArray(value) ? value.join() : String(value);
+
+export const quoted = text => /^[\w.,:=/#-]+$/.test(text) ? text
+  : `'${text.replaceAll("'", "'\\''")}'`;
+
+/** The command that renders a film with these values, without its output. */
+export const renderOf = one => {
+  const { parameters, script } = stateOf(one);
+  const changed = parameters.filter(known => known.value !== textOf(known.default));
+  const sets = changed.map(known => ` --set ${quoted(`${known.name}=${known.value}`)}`).join("");
+  return `celspan render ${quoted(script)}${sets}`;
+};
+
+function showCommand() {
+  const ending = state.film?.frames > 1 ? ".mp4" : ".png";
+  here("command").value = `${renderOf(main)} -o shot${ending}`
+    + (isComparing() ? `\n${renderOf(beside)} -o other${ending}` : "");
+}
+
+/** Makes the form of a film again if it has other parameters than before. */
+export function showForm(one) {
+  const { parameters } = stateOf(one);
+  const kinds = JSON.stringify(parameters.map(known => ({ ...known, value: null })));
+  here("tune").hidden = lanes().every(any => stateOf(any).parameters.length === 0);
+  showCommand();
+  if (kinds === one.formOf) return;
+  one.formOf = kinds;
+  part(one, "form").replaceChildren(...groupsOf(one, parameters));
+}
+
+/** The fields in their order; those of a group together, where its first one is. */
+function groupsOf(one, parameters) {
+  const list = [], groups = new Map();
+  for (const known of parameters) {
+    const made = fieldOf(one, known);
+    if (!known.group) { list.push(made); continue; }
+    if (!groups.has(known.group)) {
+      const box = element("fieldset", {}, element("legend", { textContent: known.group }));
+      groups.set(known.group, box);
+      list.push(box);
+    }
+    groups.get(known.group).append(made);
+  }
+  return list;
+}
+
+// ---------------------------------------------------------------- all values
+
+export function resetValues() {
+  for (const one of lanes()) takeValues(one, {});
+}
+
+/** Gives these values, as texts by name, and no others. */
+function takeValues(one, values) {
+  for (const name of [...one.given.keys()]) one.given.delete(name);
+  for (const [name, value] of Object.entries(values)) one.given.set(name, value);
+  one.formOf = "";
+  sendValues(one);
+}
+
+/** A value in the form of JSON that --set-from reads. */
+function jsonOf({ type, value }) {
+  if (type === "array") return value.split(",").map(Number);
+  if (type === "boolean") return value === "true";
+  return type === "number" ? Number(value) : value;
+}
+
+/** Saves the values as a file for --set-from. */
+export function saveValues() {
+  const all = Object.fromEntries(state.parameters.map(one => [one.name, jsonOf(one)]));
+  const file = new Blob([JSON.stringify(all, null, 2), "\n"], { type: "application/json" });
+  const link = element("a", { href: URL.createObjectURL(file),
+                              download: `${document.title.split(" – ")[0]}.json` });
+  link.click();
+  URL.revokeObjectURL(link.href);
+}
+
+/** Takes the values of such a file; names that the film does not have are left out, and said. */
+export async function loadValues() {
+  const [file] = here("load-values").files;
+  here("load-values").value = "";
+  const all = await file?.text().then(JSON.parse).catch(() => null);
+  if (!all || typeof all !== "object" || Array.isArray(all)) {
+    return sayValues(`${file?.name}: it must be a JSON object, { "name": value }`);
+  }
+  const known = new Set(state.parameters.map(one => one.name)), values = {}, odd = [];
+  for (const [name, value] of Object.entries(all)) {
+    if (known.has(name)) values[name] = textOf(value);
+    else odd.push(name);
+  }
+  sayValues(odd.length ? `${file.name}: the film has no ${odd.join(", ")}` : "");
+  takeValues(main, values);
+}
+
+function sayValues(text) {
+  here("values-said").textContent = text;
+  here("values-said").hidden = !text;
+}
+

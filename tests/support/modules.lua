@@ -1,0 +1,142 @@
+--- The modules of the page of celspan watch hold together. From the top of the tree:
+---
+---   lua5.4 tests/support/modules.lua
+---
+--- It prints what is wrong, and ends with 1 if something is: a module that `node --check` refuses
+--- (where there is node); a name that is neither declared, imported nor the browser's, which would
+--- silently be an element of the page with this id; an import that is not used, or that nothing
+--- exports; an export that nobody imports; a line of more than 100 characters.
+local FOLDER = "src/program/verbs/watch/"
+
+local browser = {}
+for name in ([[
+  Array AudioBuffer AudioBufferSourceNode AudioContext Blob Boolean Error ImageData Infinity
+  Int16Array JSON Map Math NaN Number Object Promise ResizeObserver Set String URL URLSearchParams
+  Uint32Array Uint8Array Uint8ClampedArray async await break catch class clearTimeout console const
+  continue default delete do document else export false finally for from function
+  getComputedStyle history if import in innerHeight innerWidth instanceof isNaN let localStorage
+  location matchMedia navigator new null of performance requestAnimationFrame return setTimeout
+  structuredClone super switch this throw true try typeof undefined var void while window yield
+  encodeURIComponent case as arguments $]]):gmatch "%S+" do browser[name] = true end
+
+local faults = {}
+local function complain(...) faults[#faults + 1] = (...):format(select(2, ...)) end
+
+local function read(path)
+  local file = assert(io.open(path, "rb"))
+  local text = file:read "a"
+  file:close()
+  return text
+end
+
+--- The text without comments, with the contents of texts taken out, and what stands in `${}` kept.
+local function bare(text)
+  text = text:gsub("/%*.-%*/", " "):gsub("(\n%s*)//[^\n]*", "%1"):gsub("^//[^\n]*", "")
+    :gsub("(%s)// [^\n]*", "%1"):gsub("\\.", ""):gsub('"[^"\n]*"', '""')
+    :gsub("'[^'\n]*'", "''"):gsub("([=(,:&|?]%s*)/[^/\n]+/[gimsuy]*", "%1''")
+  return (text:gsub("`([^`]*)`", function(inner)
+    local kept = {}
+    for one in inner:gmatch "%${(.-)}" do kept[#kept + 1] = "(" .. one .. ")" end
+    return table.concat(kept, " ")
+  end))
+end
+
+--- Notes every name in a pattern, such as { a, b: [c] }.
+local function note(names, pattern)
+  for name in pattern:gmatch "[%a_$][%w_$]*" do names[name] = true end
+end
+
+local function declared(text)
+  local names = {}
+  for name in text:gmatch "function%s+([%a_$][%w_$]*)" do names[name] = true end
+  for list in text:gmatch "function[^(]*(%b())" do note(names, list) end
+  for list in text:gmatch "(%b())%s*=>" do note(names, list) end
+  for name in text:gmatch "([%a_$][%w_$]*)%s*=>" do names[name] = true end
+  for list in text:gmatch "catch%s*(%b())" do note(names, list) end
+  for _, word in ipairs { "const", "let" } do
+    for rest in text:gmatch("%f[%w]" .. word .. "%s+([^;]-)[;]") do
+      note(names, rest:match "^%b{}" or rest:match "^%b[]" or rest:match "^[%w_$]+" or "")
+      for more in rest:gmatch ",%s*([%a_$][%w_$]*)%s*=[^=>]" do names[more] = true end
+      for more in rest:gmatch ",%s*(%b{})%s*=" do note(names, more) end
+      for more in rest:gmatch ",%s*(%b[])%s*=" do note(names, more) end
+    end
+    for rest in text:gmatch("%f[%w]" .. word .. "%s+(%b{})") do note(names, rest) end
+    for rest in text:gmatch("%f[%w]" .. word .. "%s+(%b[])") do note(names, rest) end
+    for name in text:gmatch("%f[%w]" .. word .. "%s+([%a_$][%w_$]*)") do names[name] = true end
+  end
+  return names
+end
+
+local exports, imports, texts = {}, {}, {}
+
+local function take_module(name, text)
+  exports[name], imports[name] = {}, {}
+  for word in text:gmatch "\nexport%s+[%a ]-([%a_$][%w_$]*)%s*[=(]" do
+    exports[name][word] = true
+  end
+  for word in text:gmatch "\nexport let%s+([%a_$][%w_$]*)" do exports[name][word] = true end
+  for list, from in text:gmatch 'import {([^}]*)} from "/([%w.]+)"' do
+    for word in list:gmatch "[%a_$][%w_$]*" do imports[name][word] = from end
+  end
+  for word in text:gmatch "import %* as ([%w_$]+)" do imports[name][word] = false end
+  texts[name] = bare((("\n" .. text):gsub("\nimport [^;]*;", "\n")))
+end
+
+local listing = assert(io.popen("ls " .. FOLDER))
+for name in listing:lines() do
+  if name:find "%.js$" then
+    local text = read(FOLDER .. name)
+    take_module(name, text)
+    local number = 0
+    for line in text:gmatch "([^\n]*)\n" do
+      number = number + 1
+      if utf8.len(line) > 100 then
+        complain("%s:%d: more than 100 characters", name, number)
+      end
+    end
+  end
+end
+listing:close()
+
+local wanted = {}
+for name, text in pairs(texts) do
+  local known, used = declared(text), {}
+  for before, word in text:gmatch "([^%w_$]?[^%w_$]?[^%w_$]?)([%a_$][%w_$]*)" do
+    local is_member = before:find "%.$" and not before:find "%.%.%.$"
+    if not is_member then used[word] = true end
+  end
+  for word, from in pairs(imports[name]) do
+    if not used[word] then complain("%s: the import %s is not used", name, word) end
+    if from and not exports[from][word] then
+      complain("%s: %s does not export %s", name, from, word)
+    end
+    if from then wanted[from .. word] = true end
+  end
+  for at, word, after in text:gmatch "()%f[%w_$]([%a_$][%w_$]*)()" do
+    local before = text:sub(math.max(1, at - 40), at - 1):match "[^%s]*%s*$"
+    local is_key = text:find("^%s*:", after) and not before:find "%?%s*$"
+      or before:find "%.$" and not before:find "%.%.%.$" or before:find "%?%.$"
+    if not is_key and not known[word] and imports[name][word] == nil and not browser[word] then
+      complain("%s: %s is not declared", name, word)
+      known[word] = true
+    end
+  end
+end
+for name, list in pairs(exports) do
+  for word in pairs(list) do
+    local is_whole = name == "cost.js" or name == "sound.js" -- imported as one
+    if not is_whole and not wanted[name .. word] then
+      complain("%s: nobody imports %s", name, word)
+    end
+  end
+end
+if os.execute "command -v node >/dev/null" then
+  for name in pairs(texts) do
+    local command = "node --input-type=module --check < %s%s"
+    if not os.execute(command:format(FOLDER, name)) then complain("%s: node refuses it", name) end
+  end
+end
+
+table.sort(faults)
+for _, fault in ipairs(faults) do print(fault) end
+os.exit(#faults == 0)
