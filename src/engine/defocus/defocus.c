@@ -257,6 +257,8 @@ static void release(const cs_defocused *grid, celspan_context *context, cs_defoc
 /* Boundaries alone are not enough where colours vary between them: then samples are summed. */
 static cs_defocus_way choose_way(const cs_blur *blur, bool varies) {
   bool is_gaussian = blur->kind == CELSPAN_DEFOCUS_GAUSSIAN;
+  if (blur->kind == CELSPAN_DEFOCUS_PIXEL)
+    return CS_DEFOCUS_KERNEL;
   if (varies)
     return is_gaussian ? CS_DEFOCUS_SUMS : CS_DEFOCUS_SLICES;
   double least = fmin(cs_defocus_radius(blur, 0), cs_defocus_radius(blur, 1));
@@ -415,8 +417,10 @@ celspan_status cs_defocus_kernel(celspan_context *context, const cs_defocus *def
   case CS_DEFOCUS_SUMS:
   case CS_DEFOCUS_SLICES:
     return sample_kernel(context, defocus, out);
-  case CS_DEFOCUS_KERNEL:
-    return cs_kernel_create_defocus(context, &defocus->blur, out);
+  case CS_DEFOCUS_KERNEL: /* a pixel's own mean needs no kernel */
+    return defocus->blur.kind == CELSPAN_DEFOCUS_PIXEL
+               ? CELSPAN_OK
+               : cs_kernel_create_defocus(context, &defocus->blur, out);
   }
   return CELSPAN_OK;
 }

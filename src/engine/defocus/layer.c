@@ -36,13 +36,14 @@ static cs_blur find_blur(const cs_defocus_cel *place) {
   celspan_matrix whole = celspan_matrix_then(camera, place->to_pixels);
   celspan_matrix map = touching(&whole, middle);
   const double *m = map.m;
-  double radius = place->cel->defocus_radius;
+  bool is_pixel = place->cel->defocus_kernel == CELSPAN_DEFOCUS_PIXEL;
+  double radius = is_pixel ? 0 : place->cel->defocus_radius;
   cs_blur blur = {.kind = place->cel->defocus_kernel,
                   .radius_x = radius * sqrt(m[0] * m[0] + m[1] * m[1]),
                   .radius_y = radius * sqrt(m[3] * m[3] + m[4] * m[4]),
                   .edges = {{radius * m[0], radius * m[3]}, {radius * m[1], radius * m[4]}}};
   double least = fmin(blur.radius_x, blur.radius_y);
-  if (place->is_antialiased)
+  if (place->is_antialiased && !is_pixel)
     blur.blur = cs_number_clamp((SMOOTH - least) / (SMOOTH - SHARP), 0, 1);
   return blur;
 }
@@ -50,6 +51,8 @@ static cs_blur find_blur(const cs_defocus_cel *place) {
 bool cs_defocus_layer_is_needed(const cs_defocus_cel *place) {
   if (!(place->cel->defocus_radius > 0))
     return false;
+  if (place->cel->defocus_kernel == CELSPAN_DEFOCUS_PIXEL)
+    return true;
   cs_blur blur = find_blur(place);
   return fmax(blur.radius_x, blur.radius_y) >= LEAST_RADIUS;
 }

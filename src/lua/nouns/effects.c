@@ -7,7 +7,7 @@
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/shape.h"
 
-const char *const cs_nouns_kernels[] = {"gaussian", "box", "disc", NULL};
+const char *const cs_nouns_kernels[] = {"gaussian", "box", "disc", "pixel", NULL};
 const char *const cs_nouns_edges[] = {"clear", "extend", NULL};
 
 /* ---------------------------------------------------------------- nouns */

@@ -18,7 +18,7 @@ static celspan_status check(celspan_context *context, const celspan_cel_desc *de
   CS_TRY(cs_check_choice(context, "cel", "defocus.edge", (unsigned)desc->defocus_edge,
                          CELSPAN_BLUR_EXTEND + 1));
   CS_TRY(cs_check_choice(context, "cel", "defocus.kernel", (unsigned)desc->defocus_kernel,
-                         CELSPAN_DEFOCUS_DISC + 1));
+                         CELSPAN_DEFOCUS_PIXEL + 1));
   return cs_check_choice(context, "cel", "blend", (unsigned)desc->blend, CS_BLEND_COUNT);
 }
 
