@@ -830,7 +830,7 @@ function celspan.group(fields) end
 --- How an object is blurred.
 ---@class celspan.blur.options
 ---@field radius number As of defocus, in the object's units; 0 to 1000000
----@field kernel? "gaussian"|"box"|"disc" Default "gaussian"
+---@field kernel? "gaussian"|"box"|"disc"|"pixel" Default "gaussian"
 ---@field edge? "clear"|"extend" Beyond its bounds: nothing, or what lies on their edge; default "clear"
 
 --- What shadow an object has.
@@ -875,7 +875,7 @@ function celspan.matte(art, by, options) end
 --- How far a cel is out of focus.
 ---@class celspan.defocus
 ---@field radius number Film units on the frame; 0 or more
----@field kernel? "gaussian"|"box"|"disc" Default "gaussian"
+---@field kernel? "gaussian"|"box"|"disc"|"pixel" Default "gaussian"
 ---@field edge? "clear"|"extend" Beyond the frame: the art, or what lies on its edge; default "clear"
 
 --- Steps that change colours, in this order.

@@ -226,7 +226,7 @@ typedef enum celspan_matte_from { CELSPAN_MATTE_ALPHA = 0, CELSPAN_MATTE_LUMA } 
 celspan_status celspan_object_create_matte(celspan_context *context, celspan_object *art,
   celspan_object *by, celspan_matte_from from, bool invert, celspan_object **out);
 typedef enum celspan_defocus_kernel { CELSPAN_DEFOCUS_GAUSSIAN = 0, CELSPAN_DEFOCUS_BOX,
-  CELSPAN_DEFOCUS_DISC } celspan_defocus_kernel;
+  CELSPAN_DEFOCUS_DISC, CELSPAN_DEFOCUS_PIXEL } celspan_defocus_kernel;
 typedef enum celspan_blur_edge { CELSPAN_BLUR_CLEAR = 0, CELSPAN_BLUR_EXTEND } celspan_blur_edge;
 typedef struct celspan_blur_desc { size_t struct_size; double radius; celspan_defocus_kernel
   kernel; celspan_blur_edge edge; } celspan_blur_desc;

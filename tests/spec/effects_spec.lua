@@ -61,6 +61,31 @@ describe("a blurred object", function()
     end
   end)
 
+  it("with the kernel pixel is the mean over each pixel in the space around it", function()
+    local random, list = celspan.random(11), {}
+    for i = 1, 8 do
+      local across = celspan.linear { from = { 0, 0 }, to = { 96, 64 }, { 0, "#fff" }, { 1,
+        "#e4572e40" } }
+      list[i] = celspan.ellipse { centre = { random("x" .. i) * 96, random("y" .. i) * 64 },
+        radii = { 20, 9 }, texture = i % 2 == 0 and "#203040a0" or across }:rotate(40 * i, 48, 32)
+    end
+    list.space = "srgb"
+    local art = celspan.clip(celspan.group(list), rect(0, 0, 96, 64))
+    local alone = celspan.group { art:blur(2, { kernel = "pixel" }), space = "srgb" }
+    local function bytes(object, space)
+      local rostrum = celspan.rostrum { celspan.cel { object }, space = space }
+      return assert(celspan.pixels(rostrum, { size = { 96, 64 }, film = { 96, 64 } }))
+        :bytes { depth = 8, colour = "srgb", alpha = "premultiplied" }
+    end
+    local wanted, got, plain = bytes(art, "srgb"), bytes(alone), bytes(art)
+    local differs = 0
+    for i = 1, #wanted do
+      assert.is_true(math.abs(wanted:byte(i) - got:byte(i)) <= 2, ("byte %d"):format(i))
+      if math.abs(wanted:byte(i) - plain:byte(i)) > 6 then differs = differs + 1 end
+    end
+    assert.is_true(differs > 20, differs .. " bytes")
+  end)
+
   --- Stripes. wider: what lies on the sides continues.
   local function stripes(wider)
     local list, more = {}, wider and 60 or 0

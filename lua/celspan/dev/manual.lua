@@ -9,7 +9,7 @@ local manual = {}
 manual.MODULES = {
   "ease", "keys", "motion", "multiplane", "shutter", "lips", "sheet", "svg", "trace", "track",
   "relight", "layers", "oca", "json", "csv", "captions", "cut", "sound", "spec", "puppet",
-  "particles", "colour", "chart", "typewriter",
+  "particles", "colour", "chart", "typewriter", "lottie",
 }
 local WIDTH = 100
 

@@ -1,9 +1,11 @@
---- Artwork as a film of one frame: what `celspan render drawing.svg` shows.
+--- Artwork as a film: what `celspan render drawing.svg` shows.
 --
---   artwork.film "hero.svg"       -- .svg, .ora, .kra, .psd: the whole file at its own size
+--   .svg, .ora, .kra, .psd     one frame: the whole file at its own size
+--   .json, .lottie             the animation; its slots and themes are parameters
 local celspan = require "celspan"
 local fields = require "celspan.fields"
 local layers = require "celspan.layers"
+local lottie = require "celspan.lottie"
 local parameters = require "celspan.parameters"
 local svg = require "celspan.svg"
 
@@ -15,6 +17,12 @@ local function needed(value, message)
   return value or error((message:gsub("^celspan/artwork%.lua:%d+: ", "")), 0)
 end
 
+--- A note, and what to do about it.
+local function with_advice(note)
+  local lacks_font = note:find("no font is given", 1, true)
+  return lacks_font and note .. ": 'celspan render --set font=FILE' gives one" or note
+end
+
 --- A drawing, its size, and sentences about what is left out. The parameter `font` of the film is a
 --- file for all texts.
 local function drawing(path)
@@ -22,9 +30,7 @@ local function drawing(path)
   local art = needed(svg.read(path, { fonts = font ~= "" and { default = font } or nil }))
   local notes = {}
   for i, note in ipairs(art.skipped) do
-    local lacks_font = note.what:find("no font is given", 1, true)
-    notes[i] = ("line %d: %s%s"):format(note.line, note.what,
-      lacks_font and ": 'celspan render --set font=FILE' gives one" or "")
+    notes[i] = ("line %d: %s"):format(note.line, with_advice(note.what))
   end
   return { celspan.cel { art.object } }, art.width, art.height, notes
 end
@@ -40,13 +46,68 @@ local function painting(path)
   return cels, tree.width, tree.height, notes
 end
 
+-- ---------------------------------------------------------------- Lottie
+
+--- A name that a parameter may have.
+local function word(name)
+  local made = name:gsub("[^%w_]", "_")
+  return made:find "^%d" and "_" .. made or made
+end
+
+--- How the parameter of a slot is declared, by its kind; `about` is added.
+local declare = {
+  colour = function(value) return { colour = value or "#000000" } end,
+  number = function(value) return { value or 0 } end,
+  text = function(value) return { value or "" } end,
+  list = function(value) return { table.concat(value or {}, ", ") } end,
+}
+
+--- The parameters of an animation: `font`, `theme` where it has some, and its slots. Returns them,
+--- and the slots by parameter.
+local function parameters_of(art)
+  local wanted = { font = { "", about = "A font file for the texts" } }
+  local by_name = {}
+  if #art.themes > 0 then
+    wanted.theme = { "", table.unpack(art.themes) }
+    wanted.theme.about = "A theme of the file"
+  end
+  for slot, one in pairs(art.slots) do
+    local name = word(slot)
+    if declare[one.kind] and not wanted[name] then
+      wanted[name] = declare[one.kind](one.value)
+      wanted[name].about = ("The slot '%s'"):format(slot)
+      by_name[name] = { slot = slot, default = wanted[name].colour or wanted[name][1] }
+    end
+  end
+  return wanted, by_name
+end
+
+--- The animation as a film, and notes about what looks different.
+local function animation(path)
+  local wanted, by_name = parameters_of(needed(lottie.read(path)))
+  local given, set = parameters.declare(wanted), {}
+  for name, one in pairs(by_name) do
+    if given[name] ~= one.default then set[one.slot] = given[name] end
+  end
+  local art = needed(lottie.read(path, {
+    set = set, fonts = given.font ~= "" and { default = given.font } or nil,
+    theme = wanted.theme and given.theme ~= "" and given.theme or nil,
+  }))
+  return art:film():with { title = path:match "[^/]*$" }, art.skipped
+end
+
 --- What is not shown of it is passed to `show`.
 ---@param path string Beside the script, else relative to the current folder
----@param is_drawing boolean SVG, and not a painting
+---@param kind "svg"|"painting"|"lottie"
 ---@param show fun(line: string)
 ---@return celspan.film film
-function artwork.film(path, is_drawing, show)
-  local cels, width, height, notes = (is_drawing and drawing or painting)(path)
+function artwork.film(path, kind, show)
+  if kind == "lottie" then
+    local film, skipped = animation(path)
+    for _, note in ipairs(skipped) do show(("%s: %s"):format(path, with_advice(note))) end
+    return film
+  end
+  local cels, width, height, notes = (kind == "svg" and drawing or painting)(path)
   for _, note in ipairs(notes) do show(("%s: not shown: %s"):format(path, note)) end
   local rostrum = celspan.rostrum(cels)
   return celspan.film {

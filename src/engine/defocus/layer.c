@@ -274,10 +274,11 @@ static celspan_status make_for_frame(celspan_context *context, const cs_defocus_
 static celspan_status make(celspan_context *context, const cs_defocus_cel *place,
                            const cs_blur *blur, const cs_defocus_compiler *compiler,
                            const cs_boundary_frame *visible, cs_defocus **defocus) {
-  bool varies = cel_varies(place->cel), is_own;
+  bool varies = cel_varies(place->cel), is_own = false;
   cs_own_grid grid;
   (*defocus)->key = find_key(place, blur, CS_DEFOCUS_SAMPLES);
-  CS_TRY(cs_own_grid_find(context, place, blur, varies, &is_own, &grid));
+  if (blur->kind != CELSPAN_DEFOCUS_PIXEL)
+    CS_TRY(cs_own_grid_find(context, place, blur, varies, &is_own, &grid));
   if (!is_own)
     return make_for_frame(context, place, varies, compiler, defocus);
   CS_TRY(use_own(context, place, varies, &grid, compiler, *defocus));

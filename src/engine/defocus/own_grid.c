@@ -139,7 +139,7 @@ celspan_status cs_own_grid_find(celspan_context *context, const cs_defocus_cel *
   const double *m = facing.m;
   grid_axis axes[2];
   celspan_box art;
-  *is_there = blur->kind != CELSPAN_DEFOCUS_PIXEL && m[6] == 0 && m[7] == 0 && m[8] == 1 && find_axis(&facing, blur, 0, &axes[0]) &&
+  *is_there = m[6] == 0 && m[7] == 0 && m[8] == 1 && find_axis(&facing, blur, 0, &axes[0]) &&
               find_axis(&facing, blur, 1, &axes[1]);
   if (!*is_there)
     return CELSPAN_OK;

@@ -874,8 +874,8 @@ typedef enum celspan_defocus_kernel {
   CELSPAN_DEFOCUS_GAUSSIAN = 0,
   CELSPAN_DEFOCUS_BOX,
   CELSPAN_DEFOCUS_DISC,
-  CELSPAN_DEFOCUS_PIXEL /* no blur: the mean over each pixel, in the space of what is blurred; the
-                           radius, above 0, is only how far an object's pixels may reach beyond it */
+  CELSPAN_DEFOCUS_PIXEL /* no blur: the mean over each pixel, in the space around the object; the
+                           radius, above 0, only says how far its pixels may extend beyond it */
 } celspan_defocus_kernel;
 
 /* What a blur takes from beyond the edges: those of the frame for a cel, of its bounds for an

@@ -3,6 +3,7 @@
 
 #include <stdbool.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -11,10 +12,20 @@
 
 enum { HEAD = 64 };
 
-/* White space and a byte order mark may come before an XML document; no script begins like that. */
-static bool is_markup(const char *head) {
+/* The first sign after white space and a byte order mark: '<' of an XML document, '{' of a JSON
+ * object. No script begins with these. */
+static char first_sign(const char *head) {
   const char *start = strncmp(head, "\xEF\xBB\xBF", 3) == 0 ? head + 3 : head;
-  return start[strspn(start, " \t\r\n")] == '<';
+  return start[strspn(start, " \t\r\n")];
+}
+
+/* Whether an archive is a dotLottie file. Those of paintings begin with the member `mimetype`. */
+static bool is_lottie(const char *head, const char *path) {
+  enum { NAME = 30 };
+  static const char mimetype[] = "mimetype";
+  const char *dot = strrchr(path, '.');
+  return memcmp(head + NAME, mimetype, sizeof mimetype - 1) != 0 && dot &&
+         strcasecmp(dot, ".lottie") == 0;
 }
 
 /* The start of a regular file, as a text; "" if it is not one. Returns whether it is a folder. */
@@ -34,12 +45,14 @@ static bool read_head(const char *path, char head[HEAD + 1]) {
 }
 
 cs_artwork cs_artwork_of(const char *path) {
-  char head[HEAD + 1];
-  return read_head(path, head)             ? CS_ARTWORK_FOLDER
-         : strncmp(head, "PK\3\4", 4) == 0 ? CS_ARTWORK_ARCHIVE
-         : strncmp(head, "8BPS", 4) == 0   ? CS_ARTWORK_PSD
-         : is_markup(head)                 ? CS_ARTWORK_SVG
-                                           : CS_ARTWORK_NONE;
+  char head[HEAD + 1] = {0};
+  return read_head(path, head) ? CS_ARTWORK_FOLDER
+         : strncmp(head, "PK\3\4", 4) == 0
+             ? is_lottie(head, path) ? CS_ARTWORK_LOTTIE : CS_ARTWORK_ARCHIVE
+         : strncmp(head, "8BPS", 4) == 0 ? CS_ARTWORK_PSD
+         : first_sign(head) == '<'       ? CS_ARTWORK_SVG
+         : first_sign(head) == '{'       ? CS_ARTWORK_LOTTIE
+                                         : CS_ARTWORK_NONE;
 }
 
 /* The script's folder is the folder of the file, so the name without a path is enough. */
@@ -48,7 +61,9 @@ void cs_artwork_push_film(lua_State *L, const char *path, cs_artwork kind) {
   cs_require_module(L, "celspan.artwork");
   lua_getfield(L, -1, "film");
   lua_pushstring(L, slash ? slash + 1 : path);
-  lua_pushboolean(L, kind == CS_ARTWORK_SVG);
+  lua_pushstring(L, kind == CS_ARTWORK_SVG      ? "svg"
+                    : kind == CS_ARTWORK_LOTTIE ? "lottie"
+                                                : "painting");
   lua_getglobal(L, "print");
   lua_call(L, 3, 1);
   lua_remove(L, -2);

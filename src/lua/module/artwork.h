@@ -1,5 +1,4 @@
-/* The kind of a file, by its first bytes: artwork, which is shown as a film of one frame, or
- * something else.
+/* The kind of a file, by its first bytes: artwork, which is shown as a film, or something else.
  *
  * INVARIANT: nothing here raises, except cs_artwork_push_film.
  */
@@ -12,10 +11,11 @@ typedef enum cs_artwork {
   CS_ARTWORK_FOLDER,  /* layers of a painting, or pictures */
   CS_ARTWORK_ARCHIVE, /* OpenRaster or Krita */
   CS_ARTWORK_PSD,
-  CS_ARTWORK_SVG
+  CS_ARTWORK_SVG,
+  CS_ARTWORK_LOTTIE /* JSON, or a dotLottie archive */
 } cs_artwork;
 
 cs_artwork cs_artwork_of(const char *path);
-/* Pushes the film of an archive, a PSD or an SVG. Notes about parts that are not shown are passed
- * to the global function `print`. Raises. */
+/* Pushes the film of an archive, a PSD, an SVG or a Lottie animation. Notes about parts that are
+ * not shown are passed to the global function `print`. Raises. */
 void cs_artwork_push_film(lua_State *L, const char *path, cs_artwork kind);

@@ -61,10 +61,12 @@ int cs_folders_frame_name(lua_State *L);
  *              height, and pixels: a value that celspan.image accepts as `pixels`
  *   notes[i]:  layer (its place), what */
 int cs_painting_read(lua_State *L);
+/* (path, name, most) -> the bytes of a member of a zip archive, at most that many | nil, message */
+int cs_archive_member(lua_State *L);
 
 /* ---------------------------------------------------------------- SVG */
 
-/* Adds read_svg to the table on top of the stack, for lua/celspan/read/svg.lua. */
+/* Adds read_svg and parse_svg to the table on top of the stack, for lua/celspan/read/svg.lua. */
 void cs_drawing_open(lua_State *L);
 
 /* ---------------------------------------------------------------- planes */

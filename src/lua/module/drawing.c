@@ -1,6 +1,7 @@
 /* Drawings read from SVG: the functions behind lua/celspan/read/svg.lua.
  *
  *   core.read_svg(path, fonts, space) -> drawing | nil, message
+ *   core.parse_svg(text, name) -> drawing | nil, message
  *   fonts: nil, or a list of { family, file, where it was looked for in vain }
  *   drawing:object(), :size(), :parts(), :skipped(), :key(), :with(functions by name)
  *
@@ -274,6 +275,20 @@ static int read(lua_State *L) {
   return status == CELSPAN_OK ? 1 : cs_host_fail(L, status);
 }
 
+/* A drawing that is a text, in "srgb" and without fonts. */
+static int parse(lua_State *L) {
+  celspan_svg_desc desc = CELSPAN_SVG_DESC;
+  desc.bytes = luaL_checklstring(L, 1, &desc.size);
+  desc.name = luaL_checkstring(L, 2);
+  desc.space = CELSPAN_SPACE_SRGB;
+  celspan_context *context = cs_host_context(L);
+  drawing *made = push_drawing(L);
+  cs_named_begin(L, context);
+  celspan_status status = celspan_svg_read(context, &desc, &made->svg);
+  cs_named_end(context);
+  return status == CELSPAN_OK ? 1 : cs_host_fail(L, status);
+}
+
 void cs_drawing_open(lua_State *L) {
   static const luaL_Reg methods[] = {{"key", key},           {"object", object},   {"parts", parts},
                                      {"size", size},         {"skipped", skipped}, {"with", with},
@@ -289,4 +304,6 @@ void cs_drawing_open(lua_State *L) {
   lua_pop(L, 1);
   lua_pushcfunction(L, read);
   lua_setfield(L, -2, "read_svg");
+  lua_pushcfunction(L, parse);
+  lua_setfield(L, -2, "parse_svg");
 }

@@ -198,8 +198,8 @@ celspan_status celspan_object_blur(celspan_context *context, celspan_object *obj
   CS_READ(context, "blur", celspan_blur_desc, desc);
   CS_TRY(cs_check_given(context, "blur", "the object", object));
   CS_TRY(check_blur(context, "blur", "radius", desc->radius));
-  CS_TRY(
-      cs_check_choice(context, "blur", "kernel", (unsigned)desc->kernel, CELSPAN_DEFOCUS_PIXEL + 1));
+  CS_TRY(cs_check_choice(context, "blur", "kernel", (unsigned)desc->kernel,
+                         CELSPAN_DEFOCUS_PIXEL + 1));
   CS_TRY(cs_check_choice(context, "blur", "edge", (unsigned)desc->edge, CELSPAN_BLUR_EXTEND + 1));
   return make(context, object, add_blur, desc, out);
 }

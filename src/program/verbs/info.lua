@@ -83,7 +83,17 @@ local function put_count(total)
   end
 end
 
-local function describe_film()
+--- For a Lottie animation: what it has beside its frames.
+local function put_animation()
+  local art = program.input(require "celspan.lottie".read(path))
+  facts:add("format", "lottie")
+  facts:lists("themes", "states", "skipped")
+  for _, name in ipairs(art.themes) do facts:item("themes", name, "theme %s", name) end
+  for _, name in ipairs(art.states) do facts:item("states", name, "state machine %s", name) end
+  for _, line in ipairs(art.skipped) do facts:item("skipped", line, "skipped %s", line) end
+end
+
+local function describe_film(kind)
   local film = program.film()
   local schema = film:ask("celspan.parameters", "schema", film.title or path:match "[^/]*$")
   if request.parameters and request.json then
@@ -95,6 +105,7 @@ local function describe_film()
   facts:set("parameters", json.decode(schema).properties)
   local total = count_film(film)
   put_film(film)
+  if kind == "lottie" then put_animation() end
   put_count(total)
   facts:finish()
 end
@@ -234,13 +245,14 @@ local put = {
 }
 
 local kind = program.kind(path)
-if kind ~= "script" and request.parameters then
+local is_film = kind == "script" or kind == "lottie"
+if not is_film and request.parameters then
   program.usage("--parameters is for scripts: %s is not a script", path)
 end
 if request.parts_picture and kind ~= "svg" then
   program.usage("--parts-picture is for SVG drawings: %s is not one", path)
 end
-if kind == "script" then return describe_film() end
+if is_film then return describe_film(kind) end
 program.refuse_rights()
 put[kind]()
 facts:finish()

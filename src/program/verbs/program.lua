@@ -46,7 +46,8 @@ end
 --- otherwise a celspan.picture that shows the input.
 function program.pictured(path)
   local kind = program.kind(path)
-  if kind == "picture" or kind == "script" or kind == "folder" then return path end
+  local is_film = kind == "script" or kind == "lottie"
+  if kind == "picture" or is_film or kind == "folder" then return path end
   local pixels, width, height, alpha = program.pixels(path)
   local picture = require "celspan".picture { pixels = pixels, size = { width, height },
     format = "rgba16" }

@@ -1,0 +1,249 @@
+--- Layers and compositions: functions of the frame that return an object.
+--
+--   layers = { the first in front, ... }     one above, hidden, may be the matte of the next
+local affine = require "celspan.affine"
+local celspan = require "celspan"
+local effects = require "celspan.lottie_effects"
+local masks = require "celspan.lottie_masks"
+local paint = require "celspan.lottie_paint"
+local property = require "celspan.lottie_property"
+local shapes = require "celspan.lottie_shapes"
+local text = require "celspan.lottie_text"
+local transform = require "celspan.lottie_transform"
+local values = require "celspan.lottie_values"
+
+local layers = {}
+
+local MOST_PARENTS = 100
+local modes = { [0] = "normal", "multiply", "screen", "overlay", "darken", "lighten", "color-dodge",
+                "color-burn", "hard-light", "soft-light", "difference", "exclusion", "hue",
+                "saturation", "color", "luminosity", "add", "hard-mix" }
+
+-- ---------------------------------------------------------------- contents
+
+local contents = {}
+
+--- A composition inside: its frame, its speed and its own clock.
+contents[0] = function(scope, item)
+  local comp, message = layers.asset(scope.root, item.refId)
+  if not comp then
+    scope.note(message)
+    return nil
+  end
+  local start, stretch = values.number(item.st, 0), values.number(item.sr, 1)
+  local remap = values.table(item.tm) and property.number(scope, item.tm, "the time", 0)
+  local w, h = values.number(item.w, 0), values.number(item.h, 0)
+  local frame = celspan.rect { 0, 0, math.max(0, w), math.max(0, h) }
+  if stretch == 0 then stretch = 1 end
+  return function(t)
+    local object = comp(remap and remap(t) * scope.root.fps or (t - start) / stretch)
+    return object and celspan.clip(object, frame)
+  end, true
+end
+
+--- A solid.
+contents[1] = function(scope, item)
+  local w, h = values.number(item.sw, 0), values.number(item.sh, 0)
+  local colour = values.text(item.sc, "#000000")
+  local good, texture = pcall(celspan.rgb, colour)
+  if not good then scope.note(("its colour '%s' is not known; it is black"):format(colour)) end
+  local object = celspan.rect { 0, 0, math.max(0, w), math.max(0, h),
+                                texture = good and texture or "#000" }
+  return function() return object end, false
+end
+
+--- A picture.
+contents[2] = function(scope, item)
+  local object, message = scope.root.pictures(item.refId)
+  if not object then
+    scope.note(message)
+    return nil
+  end
+  return function() return object end, false
+end
+
+--- A sound in a file beside the animation, for `sounds`. It has no picture.
+contents[6] = function(scope, item)
+  local root = scope.root
+  local path, message = root.sound_file(item.refId)
+  if not path then
+    scope.note(message)
+    return nil
+  end
+  local first, last = values.number(item.ip, 0), values.number(item.op, 0)
+  local start = values.number(item.st, 0)
+  local from, to = math.max(first, start, root.first), math.min(last, root.last)
+  if from >= to then return nil end
+  root.sounds[#root.sounds + 1] = { path, at = (from - root.first) / root.fps,
+                                    from = (from - start) / root.fps, to = (to - start) / root.fps }
+end
+
+contents[4] = function(scope, item) return shapes.compile(scope, item.shapes) end
+contents[5] = function(scope, item) return text.compile(scope, item) end
+
+local others = { [13] = "cameras are left out", [15] = "data layers are left out" }
+
+local function content_of(scope, item)
+  local read = contents[item.ty]
+  if read then return read(scope, item) end
+  if item.ty ~= 3 then
+    scope.note(others[item.ty] or ("layers of the kind %s are left out"):format(tostring(item.ty)))
+  end
+end
+
+-- ---------------------------------------------------------------- one layer
+
+--- The map of a layer through all its parents.
+local function placing(layer, by_index, seen)
+  if layer.map then return layer.map, layer.map_moves end
+  local item, scope = layer.item, layer.scope
+  local own, moves = transform.read(scope, item.ks, values.flag(item.ao))
+  local parent = item.parent ~= nil and by_index[item.parent]
+  seen = seen or {}
+  seen[#seen + 1], seen[layer] = layer, true
+  if parent and (seen[parent] or #seen > MOST_PARENTS) then
+    scope.note "its parents form a circle, or are too many; it has none"
+    parent = nil
+  end
+  if parent then
+    local outer, moves_outer = placing(parent, by_index, seen)
+    local inner = own
+    moves = moves or moves_outer
+    own = paint.memo(moves, function(t) return affine.compose(outer(t), inner(t)) end)
+  end
+  layer.map, layer.map_moves = own, moves
+  return own, moves
+end
+
+--- Fills a layer: what it shows, without its matte and its mode.
+local function compile(layer, by_index)
+  local item, scope = layer.item, layer.scope
+  local get, moves = content_of(scope, item)
+  if not get then return end
+  local map, moves_map = placing(layer, by_index)
+  local mask, moves_mask = masks.compile(scope, item.masksProperties)
+  local change, moves_effects = effects.compile(scope, item)
+  local opacity, moves_opacity = property.number(scope, values.table(item.ks) and item.ks.o,
+    "the opacity", 100)
+  local name = values.name(item.nm, "layer")
+  local all = moves or moves_map or moves_mask or moves_effects or moves_opacity
+  layer.get = paint.memo(all, function(t)
+    local share = math.min(100, opacity(t)) / 100
+    local object = share > 0 and get(t) or nil
+    if object and mask then object = mask(t, object) end
+    if object and change then object = change(t, object) end
+    if not object then return nil end
+    object = transform.apply(object, map(t))
+    return (share < 1 and celspan.group { object, opacity = share } or object):named(name)
+  end)
+end
+
+--- The picture of a layer at a frame; nil where it has none.
+local function show(layer, t)
+  if not layer.get or t < layer.first or t >= layer.last then return nil end
+  local good, object = pcall(layer.get, t)
+  if good then return object end
+  layer.scope.note(("it cannot be drawn at frame %g: %s"):format(t, tostring(object)))
+end
+
+--- The picture of a layer with its matte and its mode.
+local function show_whole(layer, t)
+  local object = show(layer, t)
+  if not object then return nil end
+  if layer.matte then object = masks.matte(object, show_whole(layer.matte, t), layer.matte_mode) end
+  if object and layer.mode ~= "normal" then object = object:blend(layer.mode) end
+  return object
+end
+
+-- ---------------------------------------------------------------- a composition
+
+local function open(scope, list)
+  local opened, by_index = {}, {}
+  for _, one in ipairs(values.items(list)) do
+    local item = one[2]
+    local own = scope.within(("[%d]"):format(one[1] - 1), item.nm)
+    local layer = { item = item, scope = own, first = values.number(item.ip, 0),
+                    last = values.number(item.op, 1e7), is_hidden = values.flag(item.hd) }
+    local mode = values.number(item.bm, 0)
+    layer.mode = modes[mode] or "normal"
+    if not modes[mode] then own.note(("the mode %g is shown as normal"):format(mode)) end
+    opened[#opened + 1] = layer
+    if item.ind ~= nil and by_index[item.ind] == nil then by_index[item.ind] = layer end
+  end
+  return opened, by_index
+end
+
+--- Finds the matte of each layer, and leaves out what is hidden.
+local function pair(opened, by_index)
+  for i, layer in ipairs(opened) do
+    local item = layer.item
+    local mode = values.number(item.tt, 0)
+    if mode >= 1 and mode <= 4 then
+      layer.matte = item.tp ~= nil and by_index[item.tp] or opened[i - 1]
+      layer.matte_mode = mode
+      if layer.matte then layer.matte.is_matte = true end
+    end
+  end
+  for _, layer in ipairs(opened) do
+    local one, count = layer, 0
+    while one and count <= #opened do one, count = one.matte, count + 1 end
+    if one then
+      layer.scope.note "its mattes form a circle; it has none"
+      layer.matte = nil
+    end
+  end
+end
+
+--- A list of layers as a function of the frame.
+local function composition(scope, list)
+  local opened, by_index = open(scope, list)
+  pair(opened, by_index)
+  local has_modes = false
+  for _, layer in ipairs(opened) do
+    if not layer.is_hidden or layer.is_matte then compile(layer, by_index) end
+    layer.is_drawn = layer.get and not layer.is_hidden and not layer.is_matte
+      and not values.flag(layer.item.td)
+    has_modes = has_modes or layer.is_drawn and layer.mode ~= "normal"
+  end
+  return function(t)
+    local objects = {}
+    for i = #opened, 1, -1 do
+      local layer = opened[i]
+      if layer.is_drawn then objects[#objects + 1] = show_whole(layer, t) end
+    end
+    if #objects == 0 then return nil end
+    if has_modes then objects.isolate = true end
+    return #objects == 1 and not has_modes and objects[1] or celspan.group(objects)
+  end
+end
+
+--- A composition of the file's assets. It keeps its last two pictures, because several layers may
+--- show it.
+---@return (fun(t: number): any)? get
+---@return string? message
+function layers.asset(root, id)
+  local asset = root.assets[id]
+  if not asset or not values.table(asset.item.layers) then
+    return nil, ("the composition '%s' is not in the file"):format(tostring(id))
+  end
+  if asset.is_open then return nil, "the composition contains itself; it is left out" end
+  if asset.get then return asset.get end
+  asset.is_open = true
+  local get = composition(asset.scope.within ".layers", asset.item.layers)
+  asset.is_open = nil
+  local times, objects, turn = {}, {}, 1
+  asset.get = function(t)
+    for i = 1, 2 do
+      if times[i] == t then return objects[i] or nil end
+    end
+    turn = 3 - turn
+    times[turn], objects[turn] = t, get(t) or false
+    return objects[turn] or nil
+  end
+  return asset.get
+end
+
+--- The whole animation.
+function layers.compile(scope, list) return composition(scope.within "layers", list) end
+
+return require "celspan.fields".seal("lottie_layers", layers)

@@ -1,0 +1,83 @@
+--- The pictures of an animation: in the file itself, in its archive, or in files beside it.
+local celspan = require "celspan"
+local core = require "celspan.core"
+local source = require "celspan.lottie_source"
+local values = require "celspan.lottie_values"
+
+local pictures = {}
+
+local frame = '<svg xmlns="http://www.w3.org/2000/svg" width="%.9g" height="%.9g">'
+  .. '<image width="%.9g" height="%.9g" preserveAspectRatio="none" href="%s"/></svg>'
+
+--- Bytes as a URI of data.
+local function uri(bytes)
+  return "data:," .. bytes:gsub("[^%w]", function(c) return ("%%%02x"):format(c:byte()) end)
+end
+
+--- The object of an embedded picture: the SVG reader decodes it.
+local function embedded(href, w, h)
+  if href:find '["<&]' then return nil, "its data are damaged" end
+  local drawing, message = core.parse_svg(frame:format(w, h, w, h, href), "the picture")
+  if not drawing then return nil, message end
+  local note = drawing:skipped()[1]
+  if note then return nil, note.what end
+  return drawing:object()
+end
+
+--- The path of a file that an asset names, below the folder of the animation.
+local function file_of(found, asset)
+  local folder = values.text(asset.u, "")
+  local name = (folder:find "^/" and folder:sub(2) or folder) .. asset.p
+  local path = core.within(found.folder, name)
+  if path then return path end
+  return nil, ("there is no file '%s'"):format(values.name(name, ""))
+end
+
+--- A picture in a file.
+local function beside(found, asset, w, h)
+  local path, message = file_of(found, asset)
+  if not path then return nil, message end
+  local good, object = pcall(celspan.image, { file = path, x = 0, y = 0, w = w, h = h })
+  if good then return object end
+  return nil, tostring(object)
+end
+
+local function open(found, asset)
+  local w, h = math.max(1, values.number(asset.w, 1)), math.max(1, values.number(asset.h, 1))
+  if type(asset.p) ~= "string" or asset.p == "" then return nil, "the picture has no name" end
+  if asset.p:find "^data:" then return embedded(asset.p, w, h) end
+  if not found.archive then return beside(found, asset, w, h) end
+  local bytes, message = source.picture(found, asset.p)
+  if not bytes then return nil, message end
+  return embedded(uri(bytes), w, h)
+end
+
+--- A function that returns the object of an asset, or nil and why it is not shown.
+---@param found table As source.open returns it
+---@param assets table<any, table>
+---@return fun(id: any): any, string?
+function pictures.reader(found, assets)
+  local known = {}
+  return function(id)
+    local asset = assets[id]
+    if not asset then return nil, ("the picture '%s' is not in the file"):format(tostring(id)) end
+    if known[asset] == nil then known[asset] = { open(found, asset.item) } end
+    local object, message = known[asset][1], known[asset][2]
+    return object, message and ("the picture '%s' is missing: %s"):format(tostring(id), message)
+  end
+end
+
+--- A function that returns the path of the sound of an asset, or nil and why it is not heard.
+function pictures.sounds(found, assets)
+  return function(id)
+    local asset = assets[id] and assets[id].item
+    if not asset or type(asset.p) ~= "string" then return nil, "its sound is not in the file" end
+    if found.archive or asset.p:find "^data:" then
+      return nil, "its sound is inside the file, and is left out; beside the file it is heard"
+    end
+    local path, message = file_of(found, asset)
+    return path, message and "its sound is missing: " .. message
+  end
+end
+
+return require "celspan.fields".seal("lottie_pictures", pictures)

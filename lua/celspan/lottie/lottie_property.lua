@@ -1,0 +1,256 @@
+--- Properties of Lottie, which may have keyframes: compiled once into functions of the frame.
+--
+--   keys   s  e        s  e        s        old: e, the end, in the same key; the last has none
+--          |---ease----|---ease----|------  new: the end is the s of the next key
+--          t           t           t
+--
+-- A property is a number, a list of numbers, or an outline (lottie_contour.lua), which is a list of
+-- numbers, too.
+local contours = require "celspan.lottie_contour"
+local ease = require "celspan.ease"
+local values = require "celspan.lottie_values"
+
+local property = {}
+
+local SAMPLES = 48 -- of the length of a spatial curve
+local MOST_KEYS = 100000
+
+-- ---------------------------------------------------------------- eases
+
+--- The coordinate of a handle. One that has a list, a number for each dimension, has the first one
+--- for all: so do the players that draw keyframes natively.
+local function coordinate(handle, axis)
+  local given = handle[axis]
+  if values.table(given) then given = given[1] end
+  return type(given) == "number" and given == given and given or nil
+end
+
+local function linear(u) return u end
+
+--- The ease of a key; handles that are missing make it linear.
+local function ease_of(key)
+  local from, to = values.table(key.o), values.table(key.i)
+  if not from or not to then return linear end
+  local x1, y1, x2, y2 = coordinate(from, "x"), coordinate(from, "y"), coordinate(to, "x"),
+    coordinate(to, "y")
+  if not (x1 and y1 and x2 and y2) or (x1 == y1 and x2 == y2) then return linear end
+  x1, x2 = math.max(0, math.min(1, x1)), math.max(0, math.min(1, x2))
+  y1, y2 = values.number(y1, 0), values.number(y2, 0)
+  return ease(("bezier:%.14g,%.14g,%.14g,%.14g"):format(x1, y1, x2, y2))
+end
+
+-- ---------------------------------------------------------------- spatial curves
+
+--- A point of a cubic.
+local function cubic(p, u)
+  local v = 1 - u
+  local a, b, c, d = v * v * v, 3 * v * v * u, 3 * v * u * u, u * u * u
+  return a * p[1] + b * p[3] + c * p[5] + d * p[7], a * p[2] + b * p[4] + c * p[6] + d * p[8]
+end
+
+--- Lengths at even parameters.
+local function measure(p)
+  local lengths, x, y = { [0] = 0 }, p[1], p[2]
+  for i = 1, SAMPLES do
+    local nx, ny = cubic(p, i / SAMPLES)
+    lengths[i] = lengths[i - 1] + math.sqrt((nx - x) ^ 2 + (ny - y) ^ 2)
+    x, y = nx, ny
+  end
+  return lengths
+end
+
+--- The point at a share of the length. Beyond the ends it continues straight.
+local function along(p, lengths, share)
+  local want, last = share * lengths[SAMPLES], SAMPLES - 1
+  local low, high = 0, last
+  while low < high do
+    local middle = (low + high + 1) // 2
+    if lengths[middle] <= want then low = middle else high = middle - 1 end
+  end
+  local span = lengths[low + 1] - lengths[low]
+  local u = span > 0 and (want - lengths[low]) / span or 0
+  if u >= 0 and u <= 1 then return cubic(p, (low + u) / SAMPLES) end
+  local x0, y0 = cubic(p, low / SAMPLES)
+  local x1, y1 = cubic(p, (low + 1) / SAMPLES)
+  return x0 + u * (x1 - x0), y0 + u * (y1 - y0)
+end
+
+--- The way of a point between two keys, where its handles are not zero.
+local function way_of(key, from, to)
+  local out, into = values.table(key.to), values.table(key.ti)
+  if not out or not into or #from < 2 then return nil end
+  local o, i = values.list(out, { 0, 0 }, 2), values.list(into, { 0, 0 }, 2)
+  if o[1] == 0 and o[2] == 0 and i[1] == 0 and i[2] == 0 then return nil end
+  local p = { from[1], from[2], from[1] + o[1], from[2] + o[2],
+              to[1] + i[1], to[2] + i[2], to[1], to[2] }
+  local lengths = measure(p)
+  return lengths[SAMPLES] > 0 and function(share) return along(p, lengths, share) end or nil
+end
+
+-- ---------------------------------------------------------------- keyframes
+
+--- The keys of a list, in the order of their times.
+local function keys_of(list)
+  local keys = {}
+  for i = 1, math.min(#list, MOST_KEYS) do
+    local key = values.table(list[i])
+    if key and type(key.t) == "number" then
+      keys[#keys + 1] = { key = key, t = values.number(key.t, 0), place = i }
+    end
+  end
+  table.sort(keys, function(a, b) return a.t < b.t or a.t == b.t and a.place < b.place end)
+  return keys
+end
+
+local function has_value(given)
+  return given ~= nil and (type(given) ~= "table" or values.table(given))
+end
+
+--- The start and the end of every key; read: makes a value of what a key holds.
+local function segments_of(keys, read)
+  local list, before = {}, nil
+  for i, one in ipairs(keys) do
+    local key, after = one.key, keys[i + 1]
+    local from = has_value(key.s) and read(key.s) or before or read(nil)
+    local to = has_value(key.e) and read(key.e)
+      or after and has_value(after.key.s) and read(after.key.s) or from
+    list[i] = { t = one.t, from = from, to = to, is_held = values.flag(key.h),
+                ease = ease_of(key), way = way_of(key, from, to) }
+    before = to
+  end
+  return list
+end
+
+--- Mixes two lists; the shape of an outline is that of the first.
+local function mix(from, to, u)
+  if #from ~= #to then return from end
+  local list = { closed = from.closed }
+  for i = 1, #from do list[i] = from[i] + u * (to[i] - from[i]) end
+  return list
+end
+
+local function within(segment, length, t)
+  local u = segment.ease((t - segment.t) / length)
+  local value = mix(segment.from, segment.to, u)
+  if segment.way then value[1], value[2] = segment.way(u) end
+  return value
+end
+
+--- The value of a list of segments at a frame.
+local function value_at(list, t)
+  local low, high = 1, #list
+  while low < high do
+    local middle = (low + high + 1) // 2
+    if list[middle].t <= t then low = middle else high = middle - 1 end
+  end
+  local segment, after = list[low], list[low + 1]
+  if t <= segment.t then return segment.from end
+  if not after then return segment.from end
+  if segment.is_held then return segment.from end
+  return within(segment, after.t - segment.t, t)
+end
+
+--- A function of the frame, which keeps its last value.
+local function animate(segments)
+  local last, value
+  return function(t)
+    if t ~= last then last, value = t, value_at(segments, t) end
+    return value
+  end
+end
+
+-- ---------------------------------------------------------------- properties
+
+--- The property that a slot of the file names, or the one that is given.
+local function resolve(scope, given, kind)
+  return values.table(given) and scope.root.slot(given.sid, kind) or given
+end
+
+--- What a property holds: its keys, or a value without keys.
+local function content_of(given)
+  if not values.table(given) then return given end
+  if given.k ~= nil then return given.k end
+  return given[1] ~= nil and given or nil
+end
+
+local function has_keys(content)
+  local first = values.table(content) and values.table(content[1])
+  return first and first.t ~= nil
+end
+
+local function note_expression(scope, given, what)
+  if values.table(given) and type(given.x) == "string" and given.x ~= "" then
+    scope.note(what .. " has an expression, which is not run; the value without it is shown")
+  end
+end
+
+--- The function of a property, and whether it moves. A key outside its times has the nearest value.
+local function compile(scope, given, what, read, kind)
+  given = resolve(scope, given, kind)
+  note_expression(scope, given, what)
+  local content = content_of(given)
+  local keys = has_keys(content) and keys_of(content)
+  if keys and #keys > 1 then
+    return animate(segments_of(keys, read)), true
+  end
+  if keys and keys[1] then content = has_value(keys[1].key.s) and keys[1].key.s or keys[1].key.e end
+  local value = read(content)
+  return function() return value end, false
+end
+
+--- A number.
+---@return fun(t: number): number
+---@return boolean moves
+function property.number(scope, given, what, default)
+  local get, moves = compile(scope, given, what,
+    function(content) return { values.number(content, default) } end, "number")
+  if moves then return function(t) return get(t)[1] end, true end
+  local value = get(0)[1]
+  return function() return value end, false
+end
+
+--- A list of numbers.
+---@return fun(t: number): number[]
+---@return boolean moves
+function property.list(scope, given, what, default)
+  local count = #default
+  return compile(scope, given, what,
+    function(content) return values.list(content, default, count) end, "list")
+end
+
+--- A list of as many numbers as there are: of a gradient.
+function property.numbers(scope, given, what)
+  return compile(scope, given, what, values.numbers, "gradient")
+end
+
+--- A colour: three numbers, 0..1. Files of version 4.0 have 0..255.
+function property.colour(scope, given, what)
+  return compile(scope, given, what, function(content)
+    local list = values.list(content, { 0, 0, 0 }, 3)
+    if math.max(list[1], list[2], list[3]) > 1.5 then
+      for i = 1, 3 do list[i] = list[i] / 255 end
+    end
+    return list
+  end, "colour")
+end
+
+--- A position, which may have a property for each axis.
+function property.point(scope, given, what)
+  given = resolve(scope, given, "list")
+  if not (values.table(given) and values.table(given.x)) then
+    return property.list(scope, given, what, { 0, 0 })
+  end
+  local x, moves_x = property.number(scope, given.x, what .. " x", 0)
+  local y, moves_y = property.number(scope, given.y, what .. " y", 0)
+  return function(t) return { x(t), y(t) } end, moves_x or moves_y
+end
+
+--- An outline. closed: what the shape says of it, in old files.
+function property.outline(scope, given, what, closed)
+  return compile(scope, given, what, function(content)
+    if values.table(content) and values.table(content[1]) then content = content[1] end
+    return contours.read(content, closed)
+  end)
+end
+
+return require "celspan.fields".seal("lottie_property", property)

@@ -1,0 +1,95 @@
+--- Transforms of Lottie: functions of the frame that return an affine map, as of celspan.affine.
+--
+--   position * rotation * skew * scale * -anchor
+local affine = require "celspan.affine"
+local paint = require "celspan.lottie_paint"
+local property = require "celspan.lottie_property"
+local values = require "celspan.lottie_values"
+
+local transform = {}
+
+local MOST_SKEW = 85 -- degrees; as in After Effects
+
+--- First the skew, then the rotation.
+local function turned(degrees, skew, axis)
+  local turn = affine.turn(degrees, 0, 0)
+  if skew == 0 then return turn end
+  local k = math.tan(math.rad(-math.max(-MOST_SKEW, math.min(MOST_SKEW, skew))))
+  local slanted = affine.compose(affine.turn(axis, 0, 0),
+    affine.compose({ 1, k, 0, 0, 1, 0 }, affine.turn(-axis, 0, 0)))
+  return affine.compose(turn, slanted)
+end
+
+--- The map of plain numbers: lists of two, and degrees.
+function transform.map(position, anchor, scale, degrees, skew, axis)
+  local m = turned(degrees, skew, axis)
+  local sx, sy = scale[1] / 100, scale[2] / 100
+  local a, b, d, e = m[1] * sx, m[2] * sy, m[4] * sx, m[5] * sy
+  return { a, b, position[1] - a * anchor[1] - b * anchor[2],
+           d, e, position[2] - d * anchor[1] - e * anchor[2] }
+end
+
+--- Whether a property has a value other than 0 somewhere.
+local function is_used(given)
+  local k = values.table(given) and given.k
+  if type(k) == "number" then return k ~= 0 end
+  if not values.table(k) then return false end
+  for i = 1, #k do
+    if values.table(k[i]) or k[i] ~= 0 then return true end
+  end
+  return false
+end
+
+--- Notes what a flattened layer loses.
+local function note_depth(scope, given)
+  for _, name in ipairs { "rx", "ry", "or" } do
+    if is_used(given[name]) then
+      scope.note "it is turned in 3D, which is shown flat, without perspective"
+      return
+    end
+  end
+end
+
+--- The angle of the way of a position at a frame, degrees.
+local function heading(position, t)
+  local before, after = position(t - 0.01), position(t + 0.01)
+  return math.deg(math.atan(after[2] - before[2], after[1] - before[1]))
+end
+
+--- given: the fields a, p, s, r or rz, sk, sa. follows: whether it turns with its way.
+---@return fun(t: number): number[] map
+---@return boolean moves
+function transform.read(scope, given, follows)
+  given = values.table(given) or {}
+  local moves = false
+  local function read(how, ...)
+    local get, is_moving = how(scope, ...)
+    moves = moves or is_moving
+    return get
+  end
+  note_depth(scope, given)
+  local anchor = read(property.list, given.a, "the anchor", { 0, 0 })
+  local position = read(property.point, given.p, "the position")
+  local follow = follows and moves
+  local scale = read(property.list, given.s, "the scale", { 100, 100 })
+  local degrees = read(property.number, given.rz or given.r, "the rotation", 0)
+  local skew = read(property.number, given.sk, "the skew", 0)
+  local axis = read(property.number, given.sa, "the axis of the skew", 0)
+  return paint.memo(moves, function(t)
+    local turn = degrees(t) + (follow and heading(position, t) or 0)
+    return transform.map(position(t), anchor(t), scale(t), turn, skew(t), axis(t))
+  end), moves
+end
+
+--- Whether a map leaves everything where it is.
+function transform.is_identity(map)
+  return map[1] == 1 and map[2] == 0 and map[3] == 0 and map[4] == 0 and map[5] == 1 and map[6] == 0
+end
+
+--- An object moved by a map.
+function transform.apply(object, map)
+  if transform.is_identity(map) then return object end
+  return object:transform(affine.matrix(map))
+end
+
+return require "celspan.fields".seal("lottie_transform", transform)

@@ -1,0 +1,78 @@
+--- Lottie animations for tests: documents written as tables, and dotLottie archives.
+local stored = require "tests.support.stored"
+
+local lotties = {}
+
+--- JSON of a table: a list if it has [1] or is empty; an object otherwise. Texts that begin with
+--- "=" are written as they are, without it.
+function lotties.json(value)
+  if type(value) == "string" and value:sub(1, 1) == "=" then return value:sub(2) end
+  if type(value) == "string" then
+    return '"' .. value:gsub('[%c"\\]', function(c) return ("\\u%04x"):format(c:byte()) end) .. '"'
+  end
+  if type(value) == "number" then return ("%.14g"):format(value) end
+  if type(value) ~= "table" then return tostring(value) end
+  local parts = {}
+  if value[1] ~= nil or next(value) == nil then
+    for i, item in ipairs(value) do parts[i] = lotties.json(item) end
+    return "[" .. table.concat(parts, ",") .. "]"
+  end
+  local names = {}
+  for name in pairs(value) do names[#names + 1] = name end
+  table.sort(names)
+  for i, name in ipairs(names) do
+    parts[i] = lotties.json(name) .. ":" .. lotties.json(value[name])
+  end
+  return "{" .. table.concat(parts, ",") .. "}"
+end
+
+--- A value without keys, and a list of keys { t, value, h = }.
+function lotties.still(value) return { a = 0, k = value } end
+
+function lotties.keys(list)
+  local keys = {}
+  for i, one in ipairs(list) do
+    local value = one[2]
+    keys[i] = { t = one[1], s = type(value) == "table" and value or { value },
+      h = one.h and 1 or 0 }
+  end
+  return { a = 1, k = keys }
+end
+
+--- A shape layer; fields are added.
+function lotties.layer(shapes, fields)
+  local layer = { ty = 4, ip = 0, op = 100, st = 0, ks = {}, shapes = shapes, nm = "art" }
+  for name, value in pairs(fields or {}) do layer[name] = value end
+  return layer
+end
+
+--- A rectangle about 0, 0 and a fill.
+function lotties.box(w, h, colour)
+  return { ty = "rc", p = { k = { 0, 0 } }, s = { k = { w, h } }, r = { k = 0 } },
+    { ty = "fl", c = { k = colour or { 1, 0, 0, 1 } }, o = { k = 100 } }
+end
+
+--- A document 100 by 100 with 100 frames at 25 a second.
+function lotties.document(layers, fields)
+  local document = { v = "5.7.0", fr = 25, ip = 0, op = 100, w = 100, h = 100, layers = layers }
+  for name, value in pairs(fields or {}) do document[name] = value end
+  return document
+end
+
+--- A zip archive of members { name, text }, stored.
+function lotties.archive(members)
+  local files, entries, at = {}, {}, 0
+  for _, member in ipairs(members) do
+    local name, text = member[1], member[2]
+    local facts = string.pack("<I4I4I4I2I2", stored.crc32(text), #text, #text, #name, 0)
+    local file = "PK\3\4" .. string.pack("<I2I2I2I2I2", 20, 0, 0, 0, 0) .. facts .. name .. text
+    entries[#entries + 1] = "PK\1\2" .. string.pack("<I2I2I2I2I2I2", 20, 20, 0, 0, 0, 0) .. facts
+      .. string.pack("<I2I2I2I4I4", 0, 0, 0, 0, at) .. name
+    files[#files + 1], at = file, at + #file
+  end
+  local list = table.concat(entries)
+  return table.concat(files) .. list
+    .. "PK\5\6" .. string.pack("<I2I2I2I2I4I4I2", 0, 0, #members, #members, #list, at, 0)
+end
+
+return lotties
