@@ -230,6 +230,7 @@ static const cs_description_field celspan_svg_desc_fields[] = {
     FIELD(celspan_svg_desc, bytes),       FIELD(celspan_svg_desc, size),
     FIELD(celspan_svg_desc, name),        FIELD(celspan_svg_desc, fonts),
     FIELD(celspan_svg_desc, font_count),  FIELD(celspan_svg_desc, space),
+    FIELD(celspan_svg_desc, seconds),
 };
 static const cs_description_field celspan_trace_desc_fields[] = {
     FIELD(celspan_trace_desc, struct_size), FIELD(celspan_trace_desc, picture),

@@ -28,12 +28,16 @@ static cs_still still_of(const cs_script *script) {
 
 static cs_exit open_artwork(celspan_context *context, const cs_request *request, const char *path,
                             int32_t frame, cs_still *out) {
-  if (frame > 1)
-    return cs_report_usage("%s: there is no frame %d: it has only frame 1", path, (int)frame);
   cs_script script;
   cs_exit outcome = cs_script_open(context, request, path, &script);
+  const int64_t count = outcome == CS_EXIT_OK ? script.film.count : 0;
+  if (outcome == CS_EXIT_OK && frame > count)
+    outcome =
+        count == 1
+            ? cs_report_usage("%s: there is no frame %d: it has only frame 1", path, (int)frame)
+            : cs_report_usage("%s: there is no frame %d: it has %d", path, (int)frame, (int)count);
   if (outcome == CS_EXIT_OK)
-    outcome = cs_script_build(&script, script.film.first);
+    outcome = cs_script_build(&script, script.film.first + (frame > 0 ? frame - 1 : 0));
   if (outcome == CS_EXIT_OK)
     *out = still_of(&script);
   cs_script_close(&script);

@@ -84,14 +84,14 @@ end)
 
 describe("artwork instead of a script", function()
   local SVG = '<svg xmlns="http://www.w3.org/2000/svg" width="19.5" height="8">'
-    .. '<rect width="10" height="8" fill="#f00"/><animate/></svg>'
+    .. '<rect width="10" height="8" fill="#f00"/><blink/></svg>'
 
   with_art("is a film of one frame, and what is not shown is printed", function()
     bench:shell("mkdir " .. bench.folder .. "/art")
     bench:write("art/hero.svg", SVG)
     local code, _, message = run "render art/hero.svg -o out.png"
     assert.equal(0, code, message)
-    assert.is_truthy(message:find("hero.svg: not shown: line 1: animate", 1, true), message)
+    assert.is_truthy(message:find("hero.svg: not shown: line 1: blink", 1, true), message)
     local _, out = run "info out.png"
     assert.is_truthy(out:find("size 20x8", 1, true), out)
     local _, red = run "probe art/hero.svg 5 4"

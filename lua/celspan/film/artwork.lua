@@ -1,15 +1,18 @@
 --- Artwork as a film: what `celspan render drawing.svg` shows.
 --
---   .svg, .ora, .kra, .psd     one frame: the whole file at its own size
+--   .svg, .ora, .kra, .psd     the whole file at its own size: one frame, or for a drawing that
+--                              moves FPS frames for each second
 --   .json, .lottie             the animation; its slots and themes are parameters
 local celspan = require "celspan"
 local fields = require "celspan.fields"
 local layers = require "celspan.layers"
-local lottie = require "celspan.lottie"
 local parameters = require "celspan.parameters"
 local svg = require "celspan.svg"
 
 local artwork = {}
+
+local FPS = 24
+local MOST = 24 * 3600 * FPS -- frames: a day
 
 --- The result of a reader. Raises an error with the reader's message, and without a line of this
 --- file.
@@ -23,8 +26,17 @@ local function with_advice(note)
   return lacks_font and note .. ": 'celspan render --set font=FILE' gives one" or note
 end
 
---- A drawing, its size, and sentences about what is left out. The parameter `font` of the film is a
---- file for all texts.
+--- The number of frames of a drawing that moves.
+local function frames_of(art, notes)
+  local count = math.max(1, math.floor(math.min(art.seconds * FPS, MOST) + 0.5))
+  if art.seconds * FPS > MOST then
+    notes[#notes + 1] = ("it moves for %g s; the film ends after a day"):format(art.seconds)
+  end
+  return count
+end
+
+--- A drawing, its size, sentences about what is left out, and for one that moves, the number of
+--- frames and its cels at a time. The parameter `font` of the film is a file for all texts.
 local function drawing(path)
   local font = parameters.declare { font = { "", about = "A font file for the texts" } }.font
   local art = needed(svg.read(path, { fonts = font ~= "" and { default = font } or nil }))
@@ -32,7 +44,9 @@ local function drawing(path)
   for i, note in ipairs(art.skipped) do
     notes[i] = ("line %d: %s"):format(note.line, with_advice(note.what))
   end
-  return { celspan.cel { art.object } }, art.width, art.height, notes
+  if not art.seconds then return { celspan.cel { art.object } }, art.width, art.height, notes end
+  local function at(seconds) return { celspan.cel { art:at(seconds) } } end
+  return at(0), art.width, art.height, notes, frames_of(art, notes), at
 end
 
 local function painting(path)
@@ -84,6 +98,7 @@ end
 
 --- The animation as a film, and notes about what looks different.
 local function animation(path)
+  local lottie = require "celspan.lottie" -- large, and most films are none
   local wanted, by_name = parameters_of(needed(lottie.read(path)))
   local given, set = parameters.declare(wanted), {}
   for name, one in pairs(by_name) do
@@ -107,12 +122,13 @@ function artwork.film(path, kind, show)
     for _, note in ipairs(skipped) do show(("%s: %s"):format(path, with_advice(note))) end
     return film
   end
-  local cels, width, height, notes = (kind == "svg" and drawing or painting)(path)
+  local cels, width, height, notes, frames, at = (kind == "svg" and drawing or painting)(path)
   for _, note in ipairs(notes) do show(("%s: not shown: %s"):format(path, note)) end
   local rostrum = celspan.rostrum(cels)
   return celspan.film {
     size = { math.max(1, math.ceil(width)), math.max(1, math.ceil(height)) },
-    title = path:match "[^/]*$", frame = function() return rostrum end,
+    title = path:match "[^/]*$", frames = frames, fps = frames and FPS,
+    frame = function(f) return at and celspan.rostrum(at(f.time)) or rostrum end,
   }
 end
 

@@ -5,6 +5,7 @@
 --   art.parts.arm                   -- the element with this id, or with this Inkscape label
 --   svg.read("sign.svg", { fonts = { Arial = "arial.ttf", default = "sans.ttf" } })   -- for text
 --   svg.read("glass.svg", { space = "linear" })   -- what is translucent mixes as light
+--   art:at(1.5)                     -- the whole, 1.5 seconds after its animations began
 --   art:with { arm = function(arm) return arm:rotate(20, 140, 90) end }
 --   art:show { mouth = "C", eyes = "open" }     -- of the parts "mouth A", "mouth B", ... only C
 --
@@ -27,23 +28,43 @@ local svg = {}
 ---@field height number
 ---@field parts table<string, celspan.object> By id, or by Inkscape label if only one element has it
 ---@field skipped celspan.svg.skipped[] The parts that were not drawn
+---@field seconds? number How long it moves: up to the end of the last animation that ends, or the longest period where all repeat for ever
 local Art = {}
-Art.__index = fields.reads("a drawing", Art)
+Art.__index = fields.reads("a drawing", Art, { seconds = true, __again = true })
 Art.__name = "celspan.svg"
 
 --- Drawings by the key of the core's cached drawing, as long as references to them exist.
 local known = setmetatable({}, { __mode = "v" })
 
-local function wrap(drawing)
+--- again: a function that reads the file at a time of its animations.
+local function wrap(drawing, again)
   local key = drawing:key()
   if known[key] then return known[key] end
   local width, height = drawing:size()
   local parts = drawing:parts()
   setmetatable(parts, { __index = fields.reads("the drawing's list of parts", {}) })
   known[key] = setmetatable({ object = drawing:object(), width = width, height = height,
-                              parts = parts, skipped = drawing:skipped(), __drawing = drawing },
+                              parts = parts, skipped = drawing:skipped(),
+                              seconds = drawing:seconds(), __drawing = drawing, __again = again },
                             Art)
   return known[key]
+end
+
+--- The whole drawing at a time: seconds after its animations began. Another time is another object,
+--- and a drawing that does not move is the same at all times. The changes of `with` and `show` are
+--- not in it.
+---@param seconds number
+---@return celspan.object object
+function Art:at(seconds)
+  fields.check_at("svg", Art, self, seconds, "a time")
+  if seconds < 0 or seconds > 1e12 then
+    core.refuse(("svg: at takes seconds from 0 to 1e12, got %s"):format(seconds))
+  end
+  if not self.__again then
+    core.refuse "svg: a drawing with changes has no times; take `at` of the drawing that was read"
+  end
+  local drawing, message = self.__again(seconds)
+  return drawing and drawing:object() or core.refuse("svg: " .. message)
 end
 
 --- The drawing with parts replaced, inner parts first. Clips, opacity and order of their ancestors
@@ -206,8 +227,13 @@ function svg.read(path, options)
   local found_at, tried = core.find(path)
   local fonts, refused = list_fonts(options, core.find)
   if not fonts then core.refuse(refused) end
-  local drawing, message = core.read_svg(found_at, fonts, options.space or "srgb")
-  if drawing then return wrap(drawing) end
+  local space = options.space or "srgb"
+  local drawing, message = core.read_svg(found_at, fonts, space)
+  if drawing then
+    return wrap(drawing, function(seconds)
+      return core.read_svg(found_at, fonts, space, seconds)
+    end)
+  end
   return nil, tried and ("%s; also looked for at %s"):format(message, tried) or message
 end
 

@@ -1,9 +1,10 @@
 /* Drawings read from SVG: the functions behind lua/celspan/read/svg.lua.
  *
- *   core.read_svg(path, fonts, space) -> drawing | nil, message
+ *   core.read_svg(path, fonts, space, seconds) -> drawing | nil, message
  *   core.parse_svg(text, name) -> drawing | nil, message
  *   fonts: nil, or a list of { family, file, where it was looked for in vain }
- *   drawing:object(), :size(), :parts(), :skipped(), :key(), :with(functions by name)
+ *   seconds: nil, or the time of its animations
+ *   drawing:object(), :seconds(), :size(), :parts(), :skipped(), :key(), :with(functions by name)
  *
  * INVARIANT: functions of the script run protected, so that memory of the core is released when
  * they raise errors.
@@ -77,6 +78,16 @@ static int size(lua_State *L) {
   lua_pushnumber(L, corner.x);
   lua_pushnumber(L, corner.y);
   return 2;
+}
+
+/* nil: it does not move. */
+static int seconds(lua_State *L) {
+  double whole = celspan_svg_seconds(self(L));
+  if (whole > 0)
+    lua_pushnumber(L, whole);
+  else
+    lua_pushnil(L);
+  return 1;
 }
 
 static int parts(lua_State *L) {
@@ -262,7 +273,8 @@ static const celspan_svg_font *read_fonts(lua_State *L, size_t *count) {
 static int read(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
   cs_svg_options options = {.fonts = NULL};
-  lua_settop(L, 3);
+  lua_settop(L, 4);
+  options.seconds = luaL_optnumber(L, 4, -1);
   if (!lua_isnil(L, 3))
     options.space =
         (celspan_space)(CELSPAN_SPACE_LINEAR + luaL_checkoption(L, 3, NULL, cs_space_words));
@@ -292,7 +304,7 @@ static int parse(lua_State *L) {
 void cs_drawing_open(lua_State *L) {
   static const luaL_Reg methods[] = {{"key", key},           {"object", object},   {"parts", parts},
                                      {"size", size},         {"skipped", skipped}, {"with", with},
-                                     {"elements", elements}, {NULL, NULL}};
+                                     {"elements", elements}, {"seconds", seconds}, {NULL, NULL}};
   /* Even if it exists already: without memory it may be incomplete. */
   luaL_newmetatable(L, METATABLE);
   lua_pushcfunction(L, release);

@@ -213,6 +213,7 @@ local function put_drawing()
   local found = program.input(program.part "inform.lua".drawing(path))
   facts:add("format", "svg")
   facts:add("size", found.size)
+  if found.seconds then facts:add("seconds", found.seconds) end
   facts:add("parts", found.parts)
   facts:lists("entries", "skipped")
   for _, one in ipairs(found.entries) do

@@ -68,7 +68,8 @@ local function of_drawing(art)
     local size, at = place_of(art.parts[name])
     entries[i] = { kind = "part", name = name, size = size, at = at }
   end
-  return { size = { art.width, art.height }, parts = #names, entries = entries,
+  return { size = { art.width, art.height }, seconds = art.seconds, parts = #names,
+           entries = entries,
            skipped = skipped_of(art.skipped, "line") }
 end
 

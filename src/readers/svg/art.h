@@ -60,6 +60,7 @@ struct celspan_svg {
   celspan_svg *origin;
   cs_svg_item *root;
   double width, height;
+  double seconds;         /* how long it moves; 0: it does not */
   celspan_space space;    /* of the object and of the parts */
   celspan_object *object; /* never NULL */
   cs_svg_part *parts;

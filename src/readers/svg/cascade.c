@@ -85,6 +85,12 @@ typedef struct collecting {
   bool has_variable; /* a value refers to variables */
 } collecting;
 
+/* The shorthand `animation` sets all properties whose names begin with it. */
+static void forget_parts(const char **values) {
+  for (int name = CS_SVG_ANIMATION + 1; name <= CS_SVG_ANIMATION_TIMING_FUNCTION; name++)
+    values[name] = NULL;
+}
+
 static celspan_status apply_declarations(collecting *c, const cs_css_declarations *list,
                                          bool is_important) {
   for (size_t i = 0; i < list->count; i++) {
@@ -96,6 +102,8 @@ static celspan_status apply_declarations(collecting *c, const cs_css_declaration
           cs_svg_variable_add(&c->document->variables, it->custom, it->value, &c->out->variables));
       continue;
     }
+    if (it->name == CS_SVG_ANIMATION)
+      forget_parts(c->out->values);
     c->out->values[it->name] = it->value;
     c->has_variable = c->has_variable || it->has_variable;
   }
@@ -160,6 +168,7 @@ celspan_status cs_svg_cascade_collect(celspan_context *context, cs_svg_document 
   apply_attributes(&c);
   CS_TRY(apply_sheet(&c, false));
   CS_TRY(apply_declarations(&c, &node->style, false));
+  CS_TRY(apply_declarations(&c, &node->moved, false));
   CS_TRY(apply_sheet(&c, true));
   CS_TRY(apply_declarations(&c, &node->style, true));
   if (*tests == 0)

@@ -1,6 +1,7 @@
 /* The value that wins for each property of an element:
  *
- *   attribute  <  rule, by weight and order  <  style="..."  <  the same with !important
+ *   attribute  <  rule, by weight and order  <  style="..."  <  animation  <  rules and style with
+ *   !important
  *
  * with the values of variables in the place of var().
  */

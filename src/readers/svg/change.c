@@ -179,6 +179,7 @@ static celspan_status copy_art(changing *c, const celspan_svg *svg) {
   bool is_changed = false;
   c->art->width = svg->width;
   c->art->height = svg->height;
+  c->art->seconds = svg->seconds;
   c->art->space = svg->space;
   c->art->origin = celspan_svg_ref((celspan_svg *)(uintptr_t)svg);
   CS_TRY(copy_notes(c, svg));

@@ -109,7 +109,9 @@ static bool cut_important(const char *begin, const char **end) {
 static const char *unprefixed(const char *name) {
   static const char prefix[] = "-webkit-";
   static const char aliases[] = "clip-path|filter|mask|mask-image|opacity|transform|"
-                                "transform-origin";
+                                "transform-origin|animation|animation-delay|animation-direction|"
+                                "animation-duration|animation-fill-mode|animation-iteration-count|"
+                                "animation-name|animation-play-state|animation-timing-function";
   if (strncmp(name, prefix, sizeof prefix - 1) != 0)
     return name;
   const char *rest = name + sizeof prefix - 1;
@@ -173,6 +175,8 @@ static celspan_status parse_declarations(const cs_css_place *place, const char *
     out->has_geometry =
         out->has_geometry || (counts && !items[count].custom &&
                               cs_svg_name_facts_of(items[count].name)->use == CS_SVG_USE_GEOMETRY);
+    out->has_motion = out->has_motion || (counts && (items[count].name == CS_SVG_ANIMATION ||
+                                                     items[count].name == CS_SVG_ANIMATION_NAME));
     out->has_nested = out->has_nested || is_nested;
     count += counts;
     begin = is_nested ? braces_end(stop, end) : stop + 1;
@@ -364,6 +368,84 @@ static const char *skip_at_rule(const char *text) {
   return text;
 }
 
+/* ---------------------------------------------------------------- keyframes */
+
+/* The shares of the time that a selector of @keyframes lists, each a frame with the same
+ * declarations: "from, 50%". What is no share is left out. */
+static void add_frames(const char *text, const char *brace, const cs_css_declarations *declarations,
+                       cs_css_frames *out) {
+  while (text < brace) {
+    double at = -1;
+    text = cs_svg_skip_space(text);
+    if (cs_svg_take_word(&text, "from"))
+      at = 0;
+    else if (cs_svg_take_word(&text, "to"))
+      at = 1;
+    else if (cs_svg_take_number(&text, &at))
+      at = *text == '%' ? at / 100 : -1;
+    if (at >= 0 && at <= 1) {
+      out->items[out->count++] = (cs_css_frame){at, *declarations};
+      out->size += 1 + declarations->count;
+    }
+    while (text < brace && *text++ != ',')
+      ;
+  }
+}
+
+/* The frames between the braces of the rule, [text, end). */
+static celspan_status parse_frames(parser *p, const char *text, const char *end,
+                                   cs_css_frames *out) {
+  size_t most = 0;
+  for (const char *at = text; at < end; at++)
+    most += *at == ',' || *at == '{';
+  out->items = cs_arena_take(p->place->context, p->place->arena, most * sizeof *out->items);
+  if (!out->items)
+    return CELSPAN_NO_MEMORY;
+  while (text < end) {
+    const char *brace = memchr(text, '{', (size_t)(end - text));
+    if (!brace)
+      break;
+    const char *after = braces_end(brace, end);
+    cs_css_declarations declarations;
+    CS_TRY(parse_declarations(p->place, brace + 1, after - (after[-1] == '}'), &declarations));
+    p->sheet->has_geometry = p->sheet->has_geometry || declarations.has_geometry;
+    add_frames(text, brace, &declarations, out);
+    text = after;
+  }
+  return CELSPAN_OK;
+}
+
+/* The name of a rule that begins with @keyframes; NULL: it is another rule. */
+static const char *frames_name(const char *text) {
+  static const char *const words[] = {"@keyframes", "@-webkit-keyframes"};
+  for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+    size_t size = strlen(words[i]);
+    if (strncasecmp(text, words[i], size) == 0 && cs_svg_is_space(text[size]))
+      return cs_svg_skip_space(text + size);
+  }
+  return NULL;
+}
+
+/* The rule at *text, whose name is at `name`; *text is moved after it. */
+static celspan_status parse_keyframes(parser *p, const char *name, const char **text) {
+  const char *brace = strchr(name, '{');
+  *text = brace ? braces_end(brace, brace + strlen(brace)) : name + strlen(name);
+  if (!brace)
+    return CELSPAN_OK;
+  const char quote = *name == '"' || *name == '\'' ? *name : 0, *end = brace;
+  while (end > name && cs_svg_is_space(end[-1]))
+    end--;
+  const bool is_quoted = quote && end > name + 1 && end[-1] == quote;
+  cs_css_frames frames = {.name = copy_trimmed(p->place, name + is_quoted, end - is_quoted)};
+  if (!frames.name)
+    return CELSPAN_NO_MEMORY;
+  CS_TRY(parse_frames(p, brace + 1, *text - ((*text)[-1] == '}'), &frames));
+  return CS_APPEND(p->place->context, p->sheet->frames, p->sheet->frames_count,
+                   p->sheet->frames_capacity, frames);
+}
+
+/* ---------------------------------------------------------------- the whole sheet */
+
 static int compare_rules(const void *a, const void *b) {
   const cs_css_rule *first = a, *second = b;
   int order = CS_SORT_ORDER(first->specificity, second->specificity);
@@ -372,6 +454,11 @@ static int compare_rules(const void *a, const void *b) {
 
 static celspan_status parse_sheet(parser *p, const char *text) {
   for (text = cs_svg_skip_space(text); *text; text = cs_svg_skip_space(text)) {
+    const char *keyframes = frames_name(text);
+    if (keyframes) {
+      CS_TRY(parse_keyframes(p, keyframes, &text));
+      continue;
+    }
     if (*text == '@') {
       p->sheet->omitted = true;
       text = skip_at_rule(text);
@@ -386,6 +473,7 @@ static celspan_status parse_sheet(parser *p, const char *text) {
     CS_TRY(parse_declarations(p->place, brace + 1, end, &declarations));
     p->sheet->omitted = p->sheet->omitted || declarations.has_nested;
     p->sheet->has_geometry = p->sheet->has_geometry || declarations.has_geometry;
+    p->sheet->has_motion = p->sheet->has_motion || declarations.has_motion;
     CS_TRY(add_selectors(p, text, brace, declarations));
     text = after;
   }
@@ -405,5 +493,6 @@ celspan_status cs_css_sheet_parse(const cs_css_place *place, const char *text, c
 
 void cs_css_sheet_finish(cs_css_sheet *sheet, celspan_context *context) {
   cs_mem_free(context->memory, sheet->rules, sheet->capacity * sizeof *sheet->rules);
+  cs_mem_free(context->memory, sheet->frames, sheet->frames_capacity * sizeof *sheet->frames);
   *sheet = (cs_css_sheet){0};
 }

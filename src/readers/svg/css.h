@@ -35,6 +35,7 @@ typedef struct cs_css_declarations {
   const cs_css_declaration *items;
   size_t count;
   bool has_geometry; /* some of them are of CS_SVG_USE_GEOMETRY */
+  bool has_motion;   /* one of them names animations */
   bool has_nested;   /* rules between the braces were left out */
 } cs_css_declarations;
 
@@ -66,11 +67,26 @@ typedef struct cs_css_rule {
   cs_css_declarations declarations;
 } cs_css_rule;
 
+/* A rule of @keyframes: a share of the time, 0..1, and what holds there. */
+typedef struct cs_css_frame {
+  double at;
+  cs_css_declarations declarations;
+} cs_css_frame;
+
+typedef struct cs_css_frames {
+  const char *name;
+  cs_css_frame *items; /* in the order of the file */
+  size_t count, size;  /* size: frames and their declarations */
+} cs_css_frames;
+
 typedef struct cs_css_sheet {
   cs_css_rule *rules; /* in ascending order of weight: later ones win */
   size_t count, capacity;
   bool omitted;
+  cs_css_frames *frames; /* a later one replaces one of the same name */
+  size_t frames_count, frames_capacity;
   bool has_geometry; /* in one of the rules */
+  bool has_motion;   /* the same for names of animations */
 } cs_css_sheet;
 
 /* Parses the contents of a `style` attribute. Errors: NO_MEMORY. */

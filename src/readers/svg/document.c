@@ -113,6 +113,7 @@ static celspan_status take_attribute(reader *r, cs_svg_node *node, const char *c
   if (name == CS_SVG_STYLE)
     CS_TRY(cs_css_declarations_parse(&css, value, &node->style));
   r->document->has_geometry = r->document->has_geometry || node->style.has_geometry;
+  r->document->has_motion = r->document->has_motion || node->style.has_motion;
   return CELSPAN_OK;
 }
 
@@ -211,6 +212,7 @@ static celspan_status add_element(reader *r, const char *tag, const char *const 
   CS_TRY(note_element(r, node, line));
   CS_TRY(read_attributes(r, node, attributes));
   CS_TRY(remember_id(r, node));
+  r->document->animation_count += cs_svg_element_animates(node->element);
   append_child(r, node);
   r->open = node;
   return CELSPAN_OK;
@@ -336,6 +338,7 @@ celspan_status cs_svg_document_read(celspan_context *context, const char *name, 
   if (status == CELSPAN_OK && r.css)
     status = cs_css_sheet_parse(&place, r.css, &out->sheet);
   out->has_geometry = out->has_geometry || out->sheet.has_geometry;
+  out->has_motion = out->has_motion || out->sheet.has_motion;
   cs_mem_free(context->memory, r.css, r.css_capacity);
   cs_mem_free(context->memory, r.characters, r.character_capacity);
   return status;

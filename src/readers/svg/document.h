@@ -29,7 +29,9 @@ typedef struct cs_svg_node {
   struct cs_svg_node *parent, *first, *last, *next; /* NULL: none; first, last: children */
   const cs_svg_attribute *attributes;
   size_t attribute_count;
-  cs_css_declarations style; /* of its attribute `style` */
+  cs_css_declarations style;    /* of its attribute `style` */
+  cs_css_declarations moved;    /* what animations give to its properties; all zero: nothing */
+  const celspan_matrix *motion; /* of animateMotion, after its own transform; NULL: none */
 } cs_svg_node;
 
 typedef struct cs_svg_document {
@@ -40,8 +42,10 @@ typedef struct cs_svg_document {
   size_t named_count, named_capacity;
   cs_hash_table ids; /* their values are indices into `named` */
   cs_css_sheet sheet;
-  uint32_t sheet_line; /* the line where the first style element begins; 0: there is none */
-  bool has_geometry;   /* a style gives places or sizes */
+  uint32_t sheet_line;    /* the line where the first style element begins; 0: there is none */
+  bool has_geometry;      /* a style gives places or sizes */
+  bool has_motion;        /* a style names animations */
+  size_t animation_count; /* elements that animate */
   cs_svg_unread unread;
   cs_svg_variables variables; /* made while styles are read */
 } cs_svg_document;

@@ -26,9 +26,25 @@ static const char *const elements[] = {CS_SVG_ELEMENT_LIST(ELEMENT)};
   "difference|exclusion|hue|saturation|color|luminosity|plus-lighter|inherit"
 
 static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
+    {"accumulate", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"additive", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"alignment-baseline", PRESENTED, FORM(WORD), BASELINES "|top|center|bottom", NULL},
     {"amplitude", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"animation", STYLED, FORM(ANY), NULL, NULL},
+    {"animation-composition", STYLED, FORM(WORD), "replace", NULL},
+    {"animation-delay", STYLED, FORM(ANY), NULL, NULL},
+    {"animation-direction", STYLED, FORM(ANY), NULL, NULL},
+    {"animation-duration", STYLED, FORM(ANY), NULL, NULL},
+    {"animation-fill-mode", STYLED, FORM(ANY), NULL, NULL},
+    {"animation-iteration-count", STYLED, FORM(ANY), NULL, NULL},
+    {"animation-name", STYLED, FORM(ANY), NULL, NULL},
+    {"animation-play-state", STYLED, FORM(ANY), NULL, NULL},
+    {"animation-timing-function", STYLED, FORM(ANY), NULL, NULL},
+    {"attributeName", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"baseline-shift", PRESENTED, FORM(LENGTH), "baseline|sub|super", NULL},
+    {"begin", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"by", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"calcMode", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"class", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"clip-path", PRESENTED, FORM(ANY), NULL, NULL},
     {"clip-rule", PRESENTED, FORM(WORD), "nonzero|evenodd", "nonzero"},
@@ -42,9 +58,11 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"display", PRESENTED, FORM(ANY), NULL, NULL},
     {"dominant-baseline", PRESENTED, FORM(WORD), BASELINES "|use-script|no-change|reset-size",
      "auto"},
+    {"dur", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"dx", ATTRIBUTE, FORM(LENGTHS), NULL, NULL},
     {"dy", ATTRIBUTE, FORM(LENGTHS), NULL, NULL},
     {"edgeMode", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"end", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"exponent", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"fill", PRESENTED, FORM(PAINT), NULL, "black"},
     {"fill-opacity", PRESENTED, FORM(SHARE), NULL, "1"},
@@ -59,6 +77,7 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"font-style", PRESENTED, FORM(SLANT), "normal|italic|oblique", "normal"},
     {"font-weight", PRESENTED, FORM(NUMBER), "normal|bold|bolder|lighter", "normal"},
     {"fr", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
+    {"from", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"fx", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
     {"fy", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
     {"gradientTransform", ATTRIBUTE, FORM(TRANSFORM), NULL, NULL},
@@ -74,6 +93,9 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"k2", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"k3", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"k4", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"keyPoints", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"keySplines", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"keyTimes", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"label", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"lengthAdjust", ATTRIBUTE, FORM(WORD), "spacing|spacingAndGlyphs", NULL},
     {"letter-spacing", PRESENTED, FORM(LENGTH), "normal", "normal"},
@@ -88,7 +110,9 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"mask-type", PRESENTED, FORM(WORD), "luminance|alpha", NULL},
     {"maskContentUnits", ATTRIBUTE, FORM(WORD), "userSpaceOnUse|objectBoundingBox", NULL},
     {"maskUnits", ATTRIBUTE, FORM(WORD), "userSpaceOnUse|objectBoundingBox", NULL},
+    {"max", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"media", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"min", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"mix-blend-mode", STYLED, FORM(WORD), BLEND_MODES, NULL},
     {"mode", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"offset", ATTRIBUTE, FORM(SHARE), NULL, NULL},
@@ -97,6 +121,7 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"orient", ATTRIBUTE, FORM(ANGLE), "auto|auto-start-reverse", NULL},
     {"overflow", PRESENTED, FORM(WORD), "visible|hidden|scroll|auto|clip|inherit", NULL},
     {"paint-order", PRESENTED, FORM(ORDER), "normal", "normal"},
+    {"path", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"pathLength", ATTRIBUTE, FORM(NUMBER), NULL, NULL},
     {"patternContentUnits", ATTRIBUTE, FORM(WORD), "userSpaceOnUse|objectBoundingBox", NULL},
     {"patternTransform", ATTRIBUTE, FORM(TRANSFORM), NULL, NULL},
@@ -108,8 +133,11 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"radius", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"refX", ATTRIBUTE, FORM(LENGTH), "left|center|right", NULL},
     {"refY", ATTRIBUTE, FORM(LENGTH), "top|center|bottom", NULL},
+    {"repeatCount", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"repeatDur", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"requiredExtensions", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"requiredFeatures", ATTRIBUTE, FORM(ANY), NULL, NULL},
+    {"restart", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"result", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"rotate", APART, FORM(ROTATION), NULL, NULL},
     {"rx", GEOMETRY, FORM(LENGTH), "auto", NULL},
@@ -137,6 +165,7 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"text-anchor", PRESENTED, FORM(WORD), "start|middle|end", "start"},
     {"text-decoration", PRESENTED, FORM(WORD), "none", NULL},
     {"textLength", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
+    {"to", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"transform", PRESENTED, FORM(TRANSFORM), "none|inherit", NULL},
     {"transform-origin", PRESENTED, FORM(ANY), NULL, NULL},
     {"translate", STYLED, FORM(TRANSLATE), "none", NULL},
@@ -180,10 +209,15 @@ bool cs_svg_element_is_drawn(cs_svg_element element) {
   if (element >= CS_SVG_ELEMENT_FE_BLEND && element <= CS_SVG_ELEMENT_FILTER)
     return false;
   switch (element) {
+  case CS_SVG_ELEMENT_ANIMATE:
+  case CS_SVG_ELEMENT_ANIMATE_MOTION:
+  case CS_SVG_ELEMENT_ANIMATE_TRANSFORM:
   case CS_SVG_ELEMENT_DESC:
   case CS_SVG_ELEMENT_FOREIGN_OBJECT:
   case CS_SVG_ELEMENT_METADATA:
+  case CS_SVG_ELEMENT_MPATH:
   case CS_SVG_ELEMENT_SCRIPT:
+  case CS_SVG_ELEMENT_SET:
   case CS_SVG_ELEMENT_TITLE:
   case CS_SVG_ELEMENT_VIEW:
   case CS_SVG_ELEMENT_OTHER:
@@ -191,6 +225,11 @@ bool cs_svg_element_is_drawn(cs_svg_element element) {
   default:
     return true;
   }
+}
+
+bool cs_svg_element_animates(cs_svg_element element) {
+  return element == CS_SVG_ELEMENT_ANIMATE || element == CS_SVG_ELEMENT_ANIMATE_MOTION ||
+         element == CS_SVG_ELEMENT_ANIMATE_TRANSFORM || element == CS_SVG_ELEMENT_SET;
 }
 
 cs_svg_name cs_svg_name_of(const char *text) {

@@ -12,9 +12,11 @@
 
 /* Each element: its enumerator after CS_SVG_ELEMENT_, its text. */
 #define CS_SVG_ELEMENT_LIST(ELEMENT)                                                               \
-  ELEMENT(A, "a"), ELEMENT(CIRCLE, "circle"), ELEMENT(CLIP_PATH, "clipPath"),                      \
-      ELEMENT(DEFS, "defs"), ELEMENT(DESC, "desc"), ELEMENT(ELLIPSE, "ellipse"),                   \
-      ELEMENT(FE_BLEND, "feBlend"), ELEMENT(FE_COLOR_MATRIX, "feColorMatrix"),                     \
+  ELEMENT(A, "a"), ELEMENT(ANIMATE, "animate"), ELEMENT(ANIMATE_MOTION, "animateMotion"),          \
+      ELEMENT(ANIMATE_TRANSFORM, "animateTransform"), ELEMENT(CIRCLE, "circle"),                   \
+      ELEMENT(CLIP_PATH, "clipPath"), ELEMENT(DEFS, "defs"), ELEMENT(DESC, "desc"),                \
+      ELEMENT(ELLIPSE, "ellipse"), ELEMENT(FE_BLEND, "feBlend"),                                   \
+      ELEMENT(FE_COLOR_MATRIX, "feColorMatrix"),                                                   \
       ELEMENT(FE_COMPONENT_TRANSFER, "feComponentTransfer"), ELEMENT(FE_COMPOSITE, "feComposite"), \
       ELEMENT(FE_DROP_SHADOW, "feDropShadow"), ELEMENT(FE_FLOOD, "feFlood"),                       \
       ELEMENT(FE_FUNC_A, "feFuncA"), ELEMENT(FE_FUNC_B, "feFuncB"), ELEMENT(FE_FUNC_G, "feFuncG"), \
@@ -25,9 +27,10 @@
       ELEMENT(FOREIGN_OBJECT, "foreignObject"), ELEMENT(G, "g"), ELEMENT(IMAGE, "image"),          \
       ELEMENT(LINE, "line"), ELEMENT(LINEAR_GRADIENT, "linearGradient"),                           \
       ELEMENT(MARKER, "marker"), ELEMENT(MASK, "mask"), ELEMENT(METADATA, "metadata"),             \
-      ELEMENT(PATH, "path"), ELEMENT(PATTERN, "pattern"), ELEMENT(POLYGON, "polygon"),             \
-      ELEMENT(POLYLINE, "polyline"), ELEMENT(RADIAL_GRADIENT, "radialGradient"),                   \
-      ELEMENT(RECT, "rect"), ELEMENT(SCRIPT, "script"), ELEMENT(STOP, "stop"),                     \
+      ELEMENT(MPATH, "mpath"), ELEMENT(PATH, "path"), ELEMENT(PATTERN, "pattern"),                 \
+      ELEMENT(POLYGON, "polygon"), ELEMENT(POLYLINE, "polyline"),                                  \
+      ELEMENT(RADIAL_GRADIENT, "radialGradient"), ELEMENT(RECT, "rect"),                           \
+      ELEMENT(SCRIPT, "script"), ELEMENT(SET, "set"), ELEMENT(STOP, "stop"),                       \
       ELEMENT(STYLE, "style"), ELEMENT(SVG, "svg"), ELEMENT(SWITCH, "switch"),                     \
       ELEMENT(SYMBOL, "symbol"), ELEMENT(TEXT, "text"), ELEMENT(TEXT_PATH, "textPath"),            \
       ELEMENT(TITLE, "title"), ELEMENT(TSPAN, "tspan"), ELEMENT(USE, "use"), ELEMENT(VIEW, "view")
@@ -42,9 +45,25 @@ typedef enum cs_svg_element {
 } cs_svg_element;
 
 typedef enum cs_svg_name {
+  CS_SVG_ACCUMULATE,
+  CS_SVG_ADDITIVE,
   CS_SVG_ALIGNMENT_BASELINE,
   CS_SVG_AMPLITUDE,
+  CS_SVG_ANIMATION,
+  CS_SVG_ANIMATION_COMPOSITION,
+  CS_SVG_ANIMATION_DELAY,
+  CS_SVG_ANIMATION_DIRECTION,
+  CS_SVG_ANIMATION_DURATION,
+  CS_SVG_ANIMATION_FILL_MODE,
+  CS_SVG_ANIMATION_ITERATION_COUNT,
+  CS_SVG_ANIMATION_NAME,
+  CS_SVG_ANIMATION_PLAY_STATE,
+  CS_SVG_ANIMATION_TIMING_FUNCTION,
+  CS_SVG_ATTRIBUTE_NAME,
   CS_SVG_BASELINE_SHIFT,
+  CS_SVG_BEGIN,
+  CS_SVG_BY,
+  CS_SVG_CALC_MODE,
   CS_SVG_CLASS,
   CS_SVG_CLIP_PATH,
   CS_SVG_CLIP_RULE,
@@ -57,9 +76,11 @@ typedef enum cs_svg_name {
   CS_SVG_DIRECTION,
   CS_SVG_DISPLAY,
   CS_SVG_DOMINANT_BASELINE,
+  CS_SVG_DUR,
   CS_SVG_DX,
   CS_SVG_DY,
   CS_SVG_EDGE_MODE,
+  CS_SVG_END,
   CS_SVG_EXPONENT,
   CS_SVG_FILL,
   CS_SVG_FILL_OPACITY,
@@ -73,6 +94,7 @@ typedef enum cs_svg_name {
   CS_SVG_FONT_STYLE,
   CS_SVG_FONT_WEIGHT,
   CS_SVG_FR,
+  CS_SVG_FROM,
   CS_SVG_FX,
   CS_SVG_FY,
   CS_SVG_GRADIENT_TRANSFORM,
@@ -88,6 +110,9 @@ typedef enum cs_svg_name {
   CS_SVG_K2,
   CS_SVG_K3,
   CS_SVG_K4,
+  CS_SVG_KEY_POINTS,
+  CS_SVG_KEY_SPLINES,
+  CS_SVG_KEY_TIMES,
   CS_SVG_LABEL,
   CS_SVG_LENGTH_ADJUST,
   CS_SVG_LETTER_SPACING,
@@ -102,7 +127,9 @@ typedef enum cs_svg_name {
   CS_SVG_MASK_TYPE,
   CS_SVG_MASK_CONTENT_UNITS,
   CS_SVG_MASK_UNITS,
+  CS_SVG_MAX,
   CS_SVG_MEDIA,
+  CS_SVG_MIN,
   CS_SVG_MIX_BLEND_MODE,
   CS_SVG_MODE,
   CS_SVG_OFFSET,
@@ -111,6 +138,7 @@ typedef enum cs_svg_name {
   CS_SVG_ORIENT,
   CS_SVG_OVERFLOW,
   CS_SVG_PAINT_ORDER,
+  CS_SVG_PATH,
   CS_SVG_PATH_LENGTH,
   CS_SVG_PATTERN_CONTENT_UNITS,
   CS_SVG_PATTERN_TRANSFORM,
@@ -122,8 +150,11 @@ typedef enum cs_svg_name {
   CS_SVG_RADIUS,
   CS_SVG_REF_X,
   CS_SVG_REF_Y,
+  CS_SVG_REPEAT_COUNT,
+  CS_SVG_REPEAT_DUR,
   CS_SVG_REQUIRED_EXTENSIONS,
   CS_SVG_REQUIRED_FEATURES,
+  CS_SVG_RESTART,
   CS_SVG_RESULT,
   CS_SVG_ROTATE,
   CS_SVG_RX,
@@ -151,6 +182,7 @@ typedef enum cs_svg_name {
   CS_SVG_TEXT_ANCHOR,
   CS_SVG_TEXT_DECORATION,
   CS_SVG_TEXT_LENGTH,
+  CS_SVG_TO,
   CS_SVG_TRANSFORM,
   CS_SVG_TRANSFORM_ORIGIN,
   CS_SVG_TRANSLATE,
@@ -214,6 +246,8 @@ typedef struct cs_svg_name_facts {
 
 /* OTHER for a name that is not in the list. */
 cs_svg_element cs_svg_element_named(const char *text);
+/* Whether it changes its parent, or the element that it names, in the course of time. */
+bool cs_svg_element_animates(cs_svg_element element);
 /* CS_SVG_NAME_COUNT for a name that is not in the list. */
 cs_svg_name cs_svg_name_of(const char *text);
 /* Whether the element or its contents may be seen; false for notes, scripts and filters. */

@@ -8,10 +8,12 @@
 
 #include "base/description.h"
 #include "base/hash.h"
+#include "base/number.h"
 #include "base/open.h"
 #include "base/sort.h"
 #include "model/scene/check.h"
 #include "readers/svg/art.h"
+#include "readers/svg/motion.h"
 #include "readers/svg/read.h"
 
 #define FILE_BYTES ((size_t)256 << 20)
@@ -143,7 +145,9 @@ static celspan_status build(cs_svg_reading *reading, const char *name, celspan_s
   celspan_svg *art;
   CS_TRY(cs_svg_art_create(reading->context, &art));
   art->space = reading->space;
-  celspan_status status = cs_svg_build(reading, art);
+  celspan_status status = cs_svg_move(reading, &art->seconds);
+  if (status == CELSPAN_OK)
+    status = cs_svg_build(reading, art);
   if (status != CELSPAN_OK)
     status = fail_in(reading->context, name, status);
   if (status == CELSPAN_OK)
@@ -195,6 +199,7 @@ static cs_svg_reading begin_reading(celspan_context *context, const cs_svg_sourc
                           .source = source,
                           .read_inner = read_inner,
                           .space = options->space,
+                          .seconds = options->seconds,
                           .tests = CS_SVG_SELECTOR_TESTS};
 }
 
@@ -249,6 +254,7 @@ static cs_hash key_of(const char *file, const struct stat *about, const cs_svg_o
   cs_hash_text(&hash, file);
   hash_about(&hash, about);
   cs_hash_word(&hash, options->space);
+  cs_hash_number(&hash, options->seconds);
   for (size_t i = 0; i < options->font_count; i++)
     hash_font(&hash, &options->fonts[i]);
   return cs_hash_end(hash);
@@ -315,7 +321,10 @@ celspan_status celspan_svg_read(celspan_context *context, const celspan_svg_desc
   if (!desc->file == !desc->bytes)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "svg: give a file or bytes, one of them");
   CS_TRY(cs_check_choice(context, "svg", "space", (unsigned)desc->space, CELSPAN_SPACE_SRGB + 1));
-  const cs_svg_options options = {desc->fonts, desc->font_count, desc->space};
+  if (!cs_number_is_sane(desc->seconds))
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "svg: seconds is %g; it must be a finite number within 1e12", desc->seconds);
+  const cs_svg_options options = {desc->fonts, desc->font_count, desc->space, desc->seconds};
   if (desc->file)
     return cs_svg_read_file(context, desc->file, &options, out);
   CS_TRY(check_fonts(context, &options));

@@ -9,6 +9,7 @@ typedef struct cs_svg_options {
   const celspan_svg_font *fonts;
   size_t font_count;
   celspan_space space;
+  double seconds; /* see celspan_svg_desc */
 } cs_svg_options;
 
 /* See celspan_svg_read. */

@@ -111,9 +111,9 @@ celspan_matrix cs_svg_transform_of(const cs_svg_style *style, const cs_svg_measu
   if (style->translate && cs_svg_parse_translate(style->translate, measure, &step))
     matrix = celspan_matrix_then(matrix, step);
   bool is_given = style->transform || style->scale || style->rotate || style->translate;
-  return is_given && style->transform_origin
-             ? cs_svg_about_origin(matrix, style->transform_origin, measure)
-             : matrix;
+  if (is_given && style->transform_origin)
+    matrix = cs_svg_about_origin(matrix, style->transform_origin, measure);
+  return style->motion ? celspan_matrix_then(matrix, *style->motion) : matrix;
 }
 
 celspan_status cs_svg_enter(cs_svg_reading *reading, const cs_svg_node *node, cs_svg_place *place) {

@@ -67,6 +67,7 @@ typedef struct cs_svg_reading {
   /* Colours keep their codes: in masks, unless the whole drawing is coded. */
   bool is_coded;
   celspan_space space;  /* of the drawing and of its parts */
+  double seconds;       /* the time of its animations; below 0: none of them is run */
   uint64_t tests;       /* how many tests of selectors are left */
   uint32_t drawn;       /* elements so far */
   uint32_t depth;       /* how many elements that are being built contain each other */

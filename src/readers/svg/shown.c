@@ -25,6 +25,9 @@ static bool passes_switch(const cs_svg_node *node) {
 /* Whether an element draws nothing by itself, so that no note is needed. */
 static bool is_silent(const cs_svg_node *node, const cs_svg_node *sizes) {
   switch (node->element) {
+  case CS_SVG_ELEMENT_ANIMATE:
+  case CS_SVG_ELEMENT_ANIMATE_MOTION:
+  case CS_SVG_ELEMENT_ANIMATE_TRANSFORM:
   case CS_SVG_ELEMENT_CHARACTERS:
   case CS_SVG_ELEMENT_CLIP_PATH:
   case CS_SVG_ELEMENT_DEFS:
@@ -34,8 +37,10 @@ static bool is_silent(const cs_svg_node *node, const cs_svg_node *sizes) {
   case CS_SVG_ELEMENT_MARKER:
   case CS_SVG_ELEMENT_MASK:
   case CS_SVG_ELEMENT_METADATA:
+  case CS_SVG_ELEMENT_MPATH:
   case CS_SVG_ELEMENT_PATTERN:
   case CS_SVG_ELEMENT_RADIAL_GRADIENT:
+  case CS_SVG_ELEMENT_SET:
   case CS_SVG_ELEMENT_STOP:
   case CS_SVG_ELEMENT_STYLE:
   case CS_SVG_ELEMENT_TITLE:
@@ -54,7 +59,8 @@ bool cs_svg_is_shown(const cs_svg_node *node, const cs_svg_node *sizes) {
 
 const cs_svg_node *cs_svg_shown_choice(const cs_svg_node *node) {
   const cs_svg_node *child = node->first;
-  while (child && (child->element == CS_SVG_ELEMENT_OTHER || !passes_switch(child)))
+  while (child && (child->element == CS_SVG_ELEMENT_OTHER ||
+                   cs_svg_element_animates(child->element) || !passes_switch(child)))
     child = child->next;
   return child;
 }

@@ -14,15 +14,6 @@ typedef struct silent_name {
 
 static const silent_name silent_names[] = {
     {"about", NULL},
-    {"animation", "none"},
-    {"animation-delay", NULL},
-    {"animation-direction", NULL},
-    {"animation-duration", NULL},
-    {"animation-fill-mode", NULL},
-    {"animation-iteration-count", NULL},
-    {"animation-name", "none"},
-    {"animation-play-state", NULL},
-    {"animation-timing-function", NULL},
     {"appearance", NULL},
     {"autofocus", NULL},
     {"backdrop-filter", "none"},

@@ -401,5 +401,6 @@ celspan_status cs_svg_style_resolve(celspan_context *context, cs_svg_document *d
   read_painting(&from, parent, out);
   cs_svg_text_style_read(node, from.values, out->font_size, parent->font_size, &out->text);
   read_own(&from, parent, out);
+  out->motion = node->motion;
   return CELSPAN_OK;
 }

@@ -78,6 +78,7 @@ typedef struct cs_svg_style {
   /* Functions, and the properties that are applied after them; NULL: none. */
   const char *transform, *translate, *rotate, *scale;
   const char *transform_origin; /* NULL: none */
+  const celspan_matrix *motion; /* applied after all of them; NULL: none */
 } cs_svg_style;
 
 cs_svg_style cs_svg_style_initial(void);

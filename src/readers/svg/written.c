@@ -17,14 +17,15 @@
 
 /* ---------------------------------------------------------------- the line */
 
-/* The line in the units of the element that refers to it; the line's own transform has been
- * applied. */
+/* The line in the units of the element that refers to it. */
 static celspan_status read_line(cs_svg_reading *reading, const cs_svg_node *path,
-                                const cs_svg_measure *measure, cs_svg_text_path *out) {
+                                const cs_svg_measure *measure, bool is_placed,
+                                cs_svg_text_path *out) {
   cs_svg_style style;
   cs_svg_line line;
   CS_TRY(cs_svg_style_in_file(reading, path, &style));
-  const celspan_matrix matrix = cs_svg_transform_of(&style, measure);
+  const celspan_matrix matrix =
+      is_placed ? cs_svg_transform_of(&style, measure) : celspan_matrix_identity();
   celspan_status status = cs_svg_line_init(reading->context, path, measure, &line);
   if (status == CELSPAN_OK && cs_svg_outline_map(&line.outline, &matrix)) {
     out->outline = line.outline;
@@ -65,17 +66,23 @@ static celspan_status read_start(cs_svg_reading *reading, const cs_svg_node *nod
   return CELSPAN_OK;
 }
 
-celspan_status cs_svg_text_path_make(cs_svg_reading *reading, const cs_svg_node *node,
-                                     const cs_svg_place *place, cs_svg_text_path *out,
-                                     bool *is_there) {
-  const cs_svg_node *path = cs_svg_linked(reading, node);
+celspan_status cs_svg_text_path_of(cs_svg_reading *reading, const cs_svg_node *path,
+                                   const cs_svg_measure *measure, bool is_placed,
+                                   cs_svg_text_path *out) {
   *out = (cs_svg_text_path){.begin = 0};
-  *is_there = false;
   cs_outline_init(&out->outline);
   if (!path || !cs_svg_is_shape(path))
     return CELSPAN_OK;
-  CS_TRY(read_line(reading, path, &place->measure, out));
-  CS_TRY(measure_line(reading->context, out));
+  CS_TRY(read_line(reading, path, measure, is_placed, out));
+  return measure_line(reading->context, out);
+}
+
+celspan_status cs_svg_text_path_make(cs_svg_reading *reading, const cs_svg_node *node,
+                                     const cs_svg_place *place, cs_svg_text_path *out,
+                                     bool *is_there) {
+  *is_there = false;
+  const cs_svg_node *path = cs_svg_linked(reading, node);
+  CS_TRY(cs_svg_text_path_of(reading, path, &place->measure, true, out));
   *is_there = out->length > 0 && cs_number_is_sane(out->length);
   if (*is_there)
     CS_TRY(read_start(reading, node, path, place, out));
@@ -102,6 +109,8 @@ static size_t piece_at(const cs_svg_text_path *path, double distance) {
   return low;
 }
 
+double cs_svg_direction(double x, double y) { return cs_elementary_atan2(y, x) * DEGREES; }
+
 celspan_point cs_svg_text_path_at(const cs_svg_text_path *path, double distance, double *degrees) {
   size_t piece = piece_at(path, distance);
   size_t next = piece + 1;
@@ -114,7 +123,7 @@ celspan_point cs_svg_text_path_at(const cs_svg_text_path *path, double distance,
   cs_curve_line_at(&line, t, &point, &velocity);
   if (velocity.x == 0 && velocity.y == 0)
     velocity = cs_curve_departure(&line);
-  *degrees = cs_elementary_atan2(velocity.y, velocity.x) * DEGREES;
+  *degrees = cs_svg_direction(velocity.x, velocity.y);
   return point;
 }
 

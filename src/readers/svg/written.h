@@ -36,8 +36,16 @@ CELSPAN_CHECKED celspan_status cs_svg_text_path_make(cs_svg_reading *reading,
                                                      const cs_svg_node *node,
                                                      const cs_svg_place *place,
                                                      cs_svg_text_path *out, bool *is_there);
+/* The line of a path or a basic shape. For NULL or another element its length is 0.
+ * is_placed: with its own transform. *out must be finished, also after a failure. Errors: as
+ * above. */
+CELSPAN_CHECKED celspan_status cs_svg_text_path_of(cs_svg_reading *reading, const cs_svg_node *path,
+                                                   const cs_svg_measure *measure, bool is_placed,
+                                                   cs_svg_text_path *out);
 void cs_svg_text_path_finish(cs_svg_text_path *path, cs_memory *memory);
 
+/* The angle of a vector in degrees. */
+double cs_svg_direction(double x, double y);
 /* The point at a distance 0 .. length from the beginning of the line, and the direction of the line
  * there in degrees. */
 celspan_point cs_svg_text_path_at(const cs_svg_text_path *path, double distance, double *degrees);

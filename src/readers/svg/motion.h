@@ -1,0 +1,21 @@
+/* Drawings that move: their animations at a time.
+ *
+ *   times      when animations run: intervals      values    values that can be mixed
+ *   clocks     begin, end, dur, ...                easing    timing functions
+ *   lists      keyTimes, keySplines, ...           matrices  transforms of different kinds
+ *        \         |                                /
+ *   smil: animate, set, path: animateMotion        keyframes: @keyframes
+ *        \         |                                /
+ *         targets: elements with the values of that time, as attributes, cs_svg_node.moved and
+ *         .motion. After this, the document is drawn like any other.
+ *
+ * Events of users, and scripts, are not run: there is a note for each.
+ */
+#pragma once
+
+#include "readers/svg/reading.h"
+
+/* Sets the document to its time, reading->seconds; below 0: it remains as it is written. *seconds:
+ * how long it moves; 0: it does not. Called before anything else is made from the document. Errors:
+ * NO_MEMORY, LIMIT, INPUT for unfit numbers. */
+CELSPAN_CHECKED celspan_status cs_svg_move(cs_svg_reading *reading, double *seconds);

@@ -1,0 +1,398 @@
+#include "readers/svg/motion_keyframes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/sort.h"
+#include "readers/svg/cascade.h"
+#include "readers/svg/forms.h"
+#include "readers/svg/motion_easing.h"
+#include "readers/svg/motion_matrices.h"
+#include "readers/svg/motion_targets.h"
+
+#define ANIMATIONS 64 /* the most of one element */
+
+/* One animation of an element. */
+typedef struct animation {
+  const cs_css_frames *frames; /* NULL: none of this name */
+  double duration, delay, rounds;
+  bool begins_backward, alternates, fills_before, fills_after, is_paused;
+  cs_svg_easing easing;
+} animation;
+
+/* A frame of one property. */
+typedef struct frame {
+  double at;
+  size_t order;
+  const char *value;  /* NULL: the value without the animation */
+  const char *easing; /* NULL: that of the animation */
+} frame;
+
+typedef struct animating {
+  cs_svg_reading *reading;
+  cs_svg_extent *extent;
+  cs_svg_node *node;
+  const cs_svg_cascade *from;
+  cs_css_place place;
+} animating;
+
+/* ---------------------------------------------------------------- lists of words */
+
+/* The end of an item of a list: the next comma outside of parentheses. */
+static const char *item_end(const char *text) {
+  int depth = 0;
+  for (; *text && (*text != ',' || depth > 0); text++)
+    depth += (*text == '(') - (*text == ')');
+  return text;
+}
+
+static size_t count_items(const char *text) {
+  size_t count = 1;
+  for (text = item_end(text); *text; text = item_end(text + 1))
+    count++;
+  return count;
+}
+
+/* Item i of a list, which begins again after its end. */
+static const char *item_at(const char *text, size_t i) {
+  for (i %= count_items(text); i > 0; i--)
+    text = item_end(text) + 1;
+  return cs_svg_skip_space(text);
+}
+
+/* ---------------------------------------------------------------- one animation */
+
+static bool take_time(const char **text, double *out) {
+  const char *at = *text;
+  double time;
+  if (!cs_svg_take_number(&at, &time))
+    return false;
+  bool is_short = cs_svg_take_word(&at, "ms");
+  if (!is_short && !cs_svg_take_word(&at, "s"))
+    return false;
+  *out = is_short ? time / 1000 : time;
+  *text = at;
+  return true;
+}
+
+static bool take_direction(const char **text, animation *out) {
+  static const char *const words[] = {"normal", "reverse", "alternate", "alternate-reverse"};
+  for (int i = 0; i < 4; i++)
+    if (cs_svg_take_word(text, words[i])) {
+      out->begins_backward = i & 1;
+      out->alternates = i > 1;
+      return true;
+    }
+  return false;
+}
+
+static bool take_fill(const char **text, animation *out) {
+  static const char *const words[] = {"none", "forwards", "backwards", "both"};
+  for (int i = 0; i < 4; i++)
+    if (cs_svg_take_word(text, words[i])) {
+      out->fills_after = i & 1;
+      out->fills_before = i > 1;
+      return true;
+    }
+  return false;
+}
+
+static bool take_state(const char **text, animation *out) {
+  bool is_paused = cs_svg_take_word(text, "paused");
+  if (!is_paused && !cs_svg_take_word(text, "running"))
+    return false;
+  out->is_paused = is_paused;
+  return true;
+}
+
+static bool take_rounds(const char **text, animation *out) {
+  double rounds = INFINITY;
+  const char *at = *text;
+  if (!cs_svg_take_word(&at, "infinite") && (!cs_svg_take_number(&at, &rounds) || rounds < 0))
+    return false;
+  out->rounds = rounds;
+  *text = at;
+  return true;
+}
+
+/* The frames of the name at *text, which is moved after it. */
+static const cs_css_frames *take_name(const cs_css_sheet *sheet, const char **text) {
+  const char quote = **text == '"' || **text == '\'' ? *(*text)++ : 0;
+  size_t size = quote ? strcspn(*text, "\"'") : strcspn(*text, " \t\r\n\f,");
+  const char *name = *text;
+  *text += size + (quote && name[size]);
+  for (size_t i = sheet->frames_count; i > 0; i--)
+    if (strlen(sheet->frames[i - 1].name) == size &&
+        memcmp(sheet->frames[i - 1].name, name, size) == 0)
+      return &sheet->frames[i - 1];
+  return NULL;
+}
+
+/* An item of `animation`: what is no other value is the name. */
+static void read_shorthand(const cs_css_sheet *sheet, const char *text, animation *out) {
+  int times = 0;
+  bool has_rounds = false, has_easing = false, has_fill = false;
+  for (text = cs_svg_skip_space(text); *text && *text != ','; text = cs_svg_skip_space(text)) {
+    double *time = times == 0 ? &out->duration : &out->delay;
+    if (times < 2 && take_time(&text, time))
+      times++;
+    else if (!has_rounds && take_rounds(&text, out))
+      has_rounds = true;
+    else if (!has_easing && cs_svg_take_easing(&text, &out->easing))
+      has_easing = true;
+    else if (!has_fill && take_fill(&text, out))
+      has_fill = true;
+    else if (!take_direction(&text, out) && !take_state(&text, out))
+      out->frames = take_name(sheet, &text);
+    if (*text && *text != ',' && !cs_svg_is_space(*text))
+      return; /* not a list of words */
+  }
+}
+
+/* The properties for one thing each, which win over the shorthand before them. */
+static void read_parts(const animating *a, size_t i, animation *out) {
+  const char *const *values = a->from->values;
+  const char *text;
+  if (values[CS_SVG_ANIMATION_NAME]) {
+    text = item_at(values[CS_SVG_ANIMATION_NAME], i);
+    out->frames = take_name(&a->reading->document->sheet, &text);
+  }
+  if (values[CS_SVG_ANIMATION_DURATION] && (text = item_at(values[CS_SVG_ANIMATION_DURATION], i)))
+    (void)take_time(&text, &out->duration);
+  if (values[CS_SVG_ANIMATION_DELAY] && (text = item_at(values[CS_SVG_ANIMATION_DELAY], i)))
+    (void)take_time(&text, &out->delay);
+  if (values[CS_SVG_ANIMATION_ITERATION_COUNT] &&
+      (text = item_at(values[CS_SVG_ANIMATION_ITERATION_COUNT], i)))
+    (void)take_rounds(&text, out);
+  if (values[CS_SVG_ANIMATION_DIRECTION] && (text = item_at(values[CS_SVG_ANIMATION_DIRECTION], i)))
+    (void)take_direction(&text, out);
+  if (values[CS_SVG_ANIMATION_FILL_MODE] && (text = item_at(values[CS_SVG_ANIMATION_FILL_MODE], i)))
+    (void)take_fill(&text, out);
+  if (values[CS_SVG_ANIMATION_PLAY_STATE] &&
+      (text = item_at(values[CS_SVG_ANIMATION_PLAY_STATE], i)))
+    (void)take_state(&text, out);
+  if (values[CS_SVG_ANIMATION_TIMING_FUNCTION] &&
+      (text = item_at(values[CS_SVG_ANIMATION_TIMING_FUNCTION], i)))
+    (void)cs_svg_take_easing(&text, &out->easing);
+}
+
+static animation read_animation(const animating *a, size_t i) {
+  animation made = {.rounds = 1};
+  const char *shorthand = a->from->values[CS_SVG_ANIMATION];
+  const char *ease = "ease";
+  (void)cs_svg_take_easing(&ease, &made.easing);
+  if (shorthand)
+    read_shorthand(&a->reading->document->sheet, item_at(shorthand, i), &made);
+  read_parts(a, i, &made);
+  made.duration = fmax(0, made.duration);
+  return made;
+}
+
+/* ---------------------------------------------------------------- times */
+
+static void add_extent(const animation *it, cs_svg_extent *out) {
+  double end = it->delay + (it->duration > 0 ? it->duration * it->rounds : 0);
+  if (it->is_paused)
+    return;
+  if (end < INFINITY)
+    out->end = fmax(out->end, end);
+  else
+    out->period = fmax(out->period, it->duration * (it->alternates ? 2 : 1));
+}
+
+/* The share of the round at `seconds`, as the direction has it. False: there is no effect. Source:
+ * Web Animations Level 1, 4.7 to 4.10. */
+static bool find_share(const animation *it, double seconds, double *share, bool *is_before) {
+  double local = (it->is_paused ? 0 : seconds) - it->delay;
+  double active = it->duration > 0 ? it->duration * it->rounds : 0;
+  bool is_after = local >= active;
+  *is_before = local < 0;
+  if ((*is_before && !it->fills_before) || (!*is_before && is_after && !it->fills_after))
+    return false;
+  double whole = *is_before ? 0 : is_after ? it->rounds : local / it->duration;
+  double round = whole < INFINITY ? floor(whole) : 0;
+  *share = whole < INFINITY ? whole - round : 1;
+  if (*share == 0 && is_after && !*is_before && whole > 0) {
+    *share = 1;
+    round--;
+  }
+  bool is_odd = fmod(round, 2) == 1;
+  bool is_backward = it->begins_backward != (it->alternates && is_odd);
+  *share = is_backward ? 1 - *share : *share;
+  *is_before = *is_before && !is_backward;
+  return true;
+}
+
+/* ---------------------------------------------------------------- values of a property */
+
+/* The value of an end of a pair, with variables replaced. Errors: NO_MEMORY, LIMIT. */
+static celspan_status read_end(animating *a, cs_svg_name name, const char *text,
+                               cs_svg_mixed *out) {
+  if (text && cs_svg_has_variable(text))
+    CS_TRY(cs_svg_variable_fill(&a->reading->document->variables, a->from->variables, text, &text));
+  if (text && cs_svg_is_word(text, "currentColor"))
+    text = a->from->values[CS_SVG_COLOR];
+  if (!text)
+    CS_TRY(cs_svg_motion_base(a->reading, a->node, name, &text));
+  CS_TRY(cs_svg_motion_count(a->reading, a->node, strlen(text)));
+  return cs_svg_mixed_read(&a->place, name, text, out);
+}
+
+/* Between two values of visibility, the one that is seen counts. */
+static bool is_shown(cs_svg_name name, const cs_svg_mixed *from) {
+  return name == CS_SVG_VISIBILITY && cs_svg_is_word(from->text, "visible");
+}
+
+/* Gives the property a value between two others; those that do not mix change in the middle. */
+static celspan_status give_between(animating *a, cs_svg_name name, const frame *low,
+                                   const frame *high, double share) {
+  cs_svg_mixed from, to, made;
+  const char *text;
+  CS_TRY(read_end(a, name, low->value, &from));
+  CS_TRY(read_end(a, name, high->value, &to));
+  made = is_shown(name, &to) || (share >= 0.5 && !is_shown(name, &from)) ? to : from;
+  if (share == 0 || share == 1)
+    made = share == 0 ? from : to;
+  else if (cs_svg_mixed_fits(&from, &to))
+    CS_TRY(cs_svg_mixed_mix(&a->place, &from, &to, share, true, &made));
+  else if (cs_svg_name_facts_of(name)->form == CS_SVG_FORM_TRANSFORM)
+    CS_TRY(cs_svg_matrices_mix(&a->place, &from, &to, share, &made));
+  CS_TRY(cs_svg_mixed_write(&a->place, &made, &text));
+  return text ? cs_svg_motion_give(a->reading, a->node, name, text) : CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- frames of a property */
+
+static int compare_frames(const void *a, const void *b) {
+  const frame *first = a, *second = b;
+  int order = CS_SORT_ORDER(first->at, second->at);
+  return order ? order : CS_SORT_ORDER(first->order, second->order);
+}
+
+/* The frames that give the property, sorted, with one at 0 and one at 1. list: has room. */
+static size_t list_frames(const cs_css_frames *frames, cs_svg_name name, frame *list) {
+  size_t count = 0;
+  bool begins = false, ends = false;
+  for (size_t i = 0; i < frames->count; i++) {
+    const cs_css_frame *it = &frames->items[i];
+    frame found = {it->at, i + 1, NULL, NULL};
+    for (size_t k = 0; k < it->declarations.count; k++) {
+      const cs_css_declaration *declaration = &it->declarations.items[k];
+      if (declaration->name == CS_SVG_ANIMATION_TIMING_FUNCTION)
+        found.easing = declaration->value;
+      else if (declaration->name == name)
+        found.value = declaration->value;
+    }
+    if (!found.value)
+      continue;
+    begins = begins || found.at == 0;
+    ends = ends || found.at == 1;
+    list[count++] = found;
+  }
+  if (!begins)
+    list[count++] = (frame){0, 0, NULL, NULL};
+  if (!ends)
+    list[count++] = (frame){1, 0, NULL, NULL};
+  qsort(list, count, sizeof *list, compare_frames);
+  return count;
+}
+
+/* The pair of frames around a share: *low, and the result after it. */
+static size_t find_pair(const frame *list, size_t count, double share, size_t *low) {
+  *low = 0;
+  while (*low + 2 < count && list[*low + 1].at <= share)
+    ++*low;
+  while (*low > 0 && list[*low].at == 1)
+    --*low;
+  size_t high = *low + 1;
+  while (high + 1 < count && list[high + 1].at == list[high].at && share >= list[high].at)
+    high++;
+  return high;
+}
+
+/* list: has room for two more frames than the animation has. */
+static celspan_status move_property(animating *a, const animation *it, cs_svg_name name,
+                                    double share, bool is_before, frame *list) {
+  size_t low, count = list_frames(it->frames, name, list);
+  size_t high = find_pair(list, count, share, &low);
+  double span = list[high].at - list[low].at;
+  double local = span > 0 ? (share - list[low].at) / span : 1;
+  cs_svg_easing easing = it->easing;
+  const char *given = list[low].easing;
+  if (given)
+    (void)cs_svg_take_easing(&given, &easing);
+  return give_between(a, name, &list[low], &list[high], cs_svg_ease(&easing, local, is_before));
+}
+
+/* ---------------------------------------------------------------- elements */
+
+/* Moves the properties that a frame gives, and that are not yet done. */
+static celspan_status move_frame(animating *a, const animation *it,
+                                 const cs_css_declarations *given, double share, bool is_before,
+                                 frame *list, bool *is_done) {
+  for (size_t k = 0; k < given->count; k++) {
+    cs_svg_name name = given->items[k].name;
+    bool is_timing = name >= CS_SVG_ANIMATION && name <= CS_SVG_ANIMATION_TIMING_FUNCTION;
+    if (given->items[k].custom || is_timing || given->items[k].is_important || is_done[name])
+      continue;
+    is_done[name] = true;
+    CS_TRY(cs_svg_motion_count(a->reading, a->node, it->frames->size));
+    CS_TRY(move_property(a, it, name, share, is_before, list));
+  }
+  return CELSPAN_OK;
+}
+
+/* Moves all properties that the frames give, each once. */
+static celspan_status move_all(animating *a, const animation *it, double share, bool is_before) {
+  bool is_done[CS_SVG_NAME_COUNT] = {false};
+  celspan_context *context = a->reading->context;
+  size_t room = it->frames->count + 2;
+  frame *list;
+  CS_TRY(cs_svg_motion_count(a->reading, a->node, it->frames->size));
+  CS_TRY(CS_MAKE(context, list, room));
+  celspan_status status = CELSPAN_OK;
+  for (size_t i = 0; i < it->frames->count && status == CELSPAN_OK; i++)
+    status = move_frame(a, it, &it->frames->items[i].declarations, share, is_before, list, is_done);
+  cs_mem_free(context->memory, list, room * sizeof *list);
+  return status;
+}
+
+/* Later animations win over those before them in the list. */
+static celspan_status move_element(animating *a) {
+  const char *names = a->from->values[CS_SVG_ANIMATION_NAME];
+  const char *list = names ? names : a->from->values[CS_SVG_ANIMATION];
+  size_t count = list ? count_items(list) : 0;
+  for (size_t i = 0; i < count && i < ANIMATIONS; i++) {
+    CS_TRY(cs_svg_motion_count(a->reading, a->node, a->reading->document->sheet.frames_count));
+    const animation it = read_animation(a, i);
+    double share;
+    bool is_before;
+    if (!it.frames)
+      continue;
+    add_extent(&it, a->extent);
+    if (a->reading->seconds >= 0 && find_share(&it, a->reading->seconds, &share, &is_before))
+      CS_TRY(move_all(a, &it, share, is_before));
+  }
+  if (count > ANIMATIONS)
+    return cs_svg_skip(a->reading, a->node, "animations after the first %d", ANIMATIONS);
+  return CELSPAN_OK;
+}
+
+/* Recursion: the depth of the document. */
+static celspan_status visit(cs_svg_reading *reading, cs_svg_extent *extent, cs_svg_node *node,
+                            const cs_svg_variable *inherited) {
+  cs_svg_cascade from;
+  CS_TRY(cs_svg_cascade_collect(reading->context, reading->document, node, inherited,
+                                &reading->tests, &from));
+  animating a = {reading, extent, node, &from, cs_svg_motion_place(reading, node)};
+  CS_TRY(move_element(&a));
+  for (cs_svg_node *child = node->first; child; child = child->next)
+    if (child->element != CS_SVG_ELEMENT_CHARACTERS)
+      CS_TRY(visit(reading, extent, child, from.variables));
+  return CELSPAN_OK;
+}
+
+celspan_status cs_svg_keyframes_run(cs_svg_reading *reading, cs_svg_extent *extent) {
+  return visit(reading, extent, reading->document->root, NULL);
+}
