@@ -131,6 +131,7 @@ return {
   ["lua/celspan/film/cut.lua"] = { "spec/cut", "spec/mix" },
   ["lua/celspan/read/sound.lua"] = { "spec/mix" },
   ["lua/celspan/film/soundtrack.lua"] = { "spec/mix" },
+  ["lua/celspan/film/shots.lua"] = { "spec/watch_studio" },
   ["heard.c"] = { "unit/embedding", "spec/mix", "spec/embedding" },
   ["parameters.c"] = { "unit/embedding", "spec/parameters", "spec/embedding" },
   ["marks.c"] = { "spec/cut", "spec/values" },

@@ -98,7 +98,7 @@ end
 
 --- The animation as a film, and notes about what looks different.
 local function animation(path)
-  local lottie = require "celspan.lottie" -- large, and most films are none
+  local lottie = require "celspan.lottie" -- it is large, and few films need it
   local wanted, by_name = parameters_of(needed(lottie.read(path)))
   local given, set = parameters.declare(wanted), {}
   for name, one in pairs(by_name) do

@@ -14,9 +14,9 @@ local celspan = require "celspan"
 local core = require "celspan.core"
 local ease = require "celspan.ease"
 local fields = require "celspan.fields"
-local json = require "celspan.json"
 local keys = require "celspan.keys"
 local ordered = require "celspan.ordered"
+local shots_of = require "celspan.shots"
 
 local cut = {}
 
@@ -555,38 +555,6 @@ local function frames_of(segments, size)
   end
 end
 
---- The films that were cut here with their shots, the last one last: { film =, shots = }.
-local made = {}
-local MOST_MADE = 100
-
---- Keeps the shots of a film, for who wants to show them.
-local function keep_shots(film, shots, segments)
-  local into = {}
-  for _, segment in ipairs(segments) do
-    if segment.between then into[segment.b or false] = segment.between.noun end
-  end
-  if #made == MOST_MADE then table.remove(made, 1) end
-  made[#made + 1] = { frames = film.frames, shots = shots, into = into }
-  return film
-end
-
---- The shots of the film with this number of frames that was cut last, as JSON: name, the frames
---- `from` and `to`, the number of frames `before` and `after` that it shares in transitions, and
---- `into`, the kind of the transition before it; "": no such film was cut.
-function cut.shots_text(frames)
-  local one
-  for _, known in ipairs(made) do
-    if known.frames == math.tointeger(frames) then one = known end
-  end
-  local list = {}
-  for i, shot in ipairs(one and one.shots or {}) do
-    list[i] = { { "name", shot.name or ("shot %d"):format(i) }, { "from", shot.start + 1 },
-                { "to", shot.start + shot.count }, { "before", shot.before },
-                { "after", shot.after }, { "into", one.into[shot] or "" } }
-  end
-  return one and json.encode { list = list } or ""
-end
-
 local cut_fields = { "parts", title = "string", sound = "any", marks = "any", over = "function" }
 
 local function new(_, parts)
@@ -596,7 +564,7 @@ local function new(_, parts)
   local shots, segments, count = lay_out(given)
   local size, over = shots[1].film.size, parts.over
   local show = frames_of(segments, size)
-  return keep_shots(celspan.film {
+  return shots_of.keep(celspan.film {
     size = size, fps = shots[1].film.fps, frames = count, title = parts.title,
     space = shots[1].film.space, sound = sounds_of(shots, parts.sound),
     marks = marks_of(shots, parts.marks),

@@ -65,7 +65,7 @@ end
 
 --- The shots of a cut; nil: the film is not a cut.
 local function shots()
-  local text = film:ask("celspan.cut", "shots_text", tostring(film.frames))
+  local text = film:ask("celspan.shots", "text", tostring(film.frames))
   return text ~= "" and json.decode(text) or nil
 end
 

@@ -1,0 +1,38 @@
+--- The shots of the films that celspan.cut made, for `celspan watch`, which shows them.
+local fields = require "celspan.fields"
+local json = require "celspan.json"
+
+local shots = {}
+
+local MOST = 100 -- films that are kept
+local films = {} -- the last one made last: { frames =, shots =, into = }
+
+--- Keeps the shots of a film. Returns the film.
+function shots.keep(film, list, segments)
+  local into = {}
+  for _, segment in ipairs(segments) do
+    if segment.between then into[segment.b or false] = segment.between.noun end
+  end
+  if #films == MOST then table.remove(films, 1) end
+  films[#films + 1] = { frames = film.frames, shots = list, into = into }
+  return film
+end
+
+--- The shots of the film with this number of frames that was cut last, as JSON: name, the frames
+--- `from` and `to`, the number of frames `before` and `after` that it shares in transitions, and
+--- `into`, the kind of the transition before it; "": no such film was cut.
+function shots.text(frames)
+  local one
+  for _, known in ipairs(films) do
+    if known.frames == math.tointeger(frames) then one = known end
+  end
+  local list = {}
+  for i, shot in ipairs(one and one.shots or {}) do
+    list[i] = { { "name", shot.name or ("shot %d"):format(i) }, { "from", shot.start + 1 },
+                { "to", shot.start + shot.count }, { "before", shot.before },
+                { "after", shot.after }, { "into", one.into[shot] or "" } }
+  end
+  return one and json.encode { list = list } or ""
+end
+
+return fields.seal("shots", shots)
