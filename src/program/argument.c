@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "frames/tiles/pyramid.h"
-#include "program/task.h"
 
 bool cs_argument_read(const cs_argument *kind, const char *text, void *field) {
   return kind->read(kind, text, field);

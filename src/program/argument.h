@@ -94,3 +94,9 @@ extern const cs_argument cs_argument_bytes;     /* double: a size such as 512M, 
 /* cs_given_limits: adds "memory=512M,steps=2e9,time=60,print=1M,render-memory=8G,picture-memory=1G,
  * picture-time=20"; the other kind accepts only the limits of pictures. */
 extern const cs_argument cs_argument_limits, cs_argument_picture_limits;
+
+/* Which task of a farm's array this process is, as the farm says in the environment. task: the
+ * number of the task, from 1, and how many there are. count: how many; 0: the farm must
+ * say it. Returns false, without a change, unless a farm's array has set its variables. Threads: no
+ * other thread changes the environment. */
+bool cs_task_find(int32_t count, int32_t task[2]);

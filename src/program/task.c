@@ -1,4 +1,5 @@
-#include "program/task.h"
+/* Which task of a farm's array this process is. */
+#include "program/argument.h"
 
 #include <stddef.h>
 #include <stdlib.h>

@@ -47,7 +47,17 @@ typedef struct gradient {
   bool has_focus, has_matrix;
   celspan_matrix matrix;
   celspan_spread spread;
+  celspan_stop *stops; /* scratch memory, left on the stack */
+  size_t count;
 } gradient;
+
+static void read_gradient(const cs_form *form, gradient *out) {
+  *out = (gradient){.spread = CELSPAN_SPREAD_HOLD};
+  cs_fields_read(form, out);
+  int count = cs_form_length(form);
+  out->stops = read_stops(form, count);
+  out->count = (size_t)count;
+}
 
 /* Gives the gradient its matrix and its spread. The value owns the texture already, so that the
  * texture is released if one of these is refused. */
@@ -69,24 +79,20 @@ static void set_extent(const cs_form *form, const gradient *given, celspan_textu
 }
 
 static void create_linear(const cs_form *form, cs_userdata *value) {
-  gradient g = {.spread = CELSPAN_SPREAD_HOLD};
-  cs_fields_read(form, &g);
-  int count = cs_form_length(form);
-  celspan_stop *stops = read_stops(form, count);
+  gradient g;
   celspan_texture *texture = NULL;
-  cs_form_try(form, celspan_texture_create_linear(cs_host_context(form->L), g.from, g.to, stops,
-                                                  (size_t)count, &texture));
+  read_gradient(form, &g);
+  cs_form_try(form, celspan_texture_create_linear(cs_host_context(form->L), g.from, g.to, g.stops,
+                                                  g.count, &texture));
   set_extent(form, &g, texture, value);
 }
 
 static void create_radial(const cs_form *form, cs_userdata *value) {
-  gradient g = {.spread = CELSPAN_SPREAD_HOLD};
-  cs_fields_read(form, &g);
-  int count = cs_form_length(form);
-  celspan_stop *stops = read_stops(form, count);
+  gradient g;
   celspan_texture *texture = NULL;
+  read_gradient(form, &g);
   cs_form_try(form, celspan_texture_create_focal(cs_host_context(form->L), g.from, g.radius,
-                                                 g.has_focus ? g.to : g.from, stops, (size_t)count,
+                                                 g.has_focus ? g.to : g.from, g.stops, g.count,
                                                  &texture));
   set_extent(form, &g, texture, value);
 }
@@ -94,13 +100,11 @@ static void create_radial(const cs_form *form, cs_userdata *value) {
 #define RADIANS 0.017453292519943295 /* in a degree */
 
 static void create_conic(const cs_form *form, cs_userdata *value) {
-  gradient g = {.spread = CELSPAN_SPREAD_HOLD};
-  cs_fields_read(form, &g);
-  int count = cs_form_length(form);
-  celspan_stop *stops = read_stops(form, count);
+  gradient g;
   celspan_texture *texture = NULL;
+  read_gradient(form, &g);
   cs_form_try(form, celspan_texture_create_conic(cs_host_context(form->L), g.from,
-                                                 RADIANS * fmod(g.angle, 360), stops, (size_t)count,
+                                                 RADIANS * fmod(g.angle, 360), g.stops, g.count,
                                                  &texture));
   set_extent(form, &g, texture, value);
 }

@@ -22,8 +22,7 @@ static bool is_name(char c) {
          c == '_' || (unsigned char)c >= 128;
 }
 
-/* A copy of [begin, end) without space at its ends. NULL if there is no memory. */
-static char *copy_trimmed(const cs_css_place *place, const char *begin, const char *end) {
+char *cs_css_copy(const cs_css_place *place, const char *begin, const char *end) {
   while (begin < end && cs_svg_is_space(*begin))
     begin++;
   while (begin < end && cs_svg_is_space(end[-1]))
@@ -148,9 +147,9 @@ static celspan_status parse_declaration(const cs_css_place *place, const char *b
   const char *colon = name_end < end ? cs_svg_skip_space(name_end) : end;
   if (colon >= end || *colon != ':' || name_end == begin)
     return CELSPAN_OK;
-  char *name = copy_trimmed(place, begin, name_end);
+  char *name = cs_css_copy(place, begin, name_end);
   out->is_important = cut_important(colon, &end);
-  out->value = copy_trimmed(place, colon + 1, end);
+  out->value = cs_css_copy(place, colon + 1, end);
   if (!name || !out->value)
     return CELSPAN_NO_MEMORY;
   for (char *at = name; *at && strncmp(name, "--", 2) != 0; at++)
@@ -206,7 +205,7 @@ static const char *take_name(parser *p, const char **text) {
   const char *begin = *text;
   while (is_name(**text))
     ++*text;
-  return copy_trimmed(p->place, begin, *text);
+  return cs_css_copy(p->place, begin, *text);
 }
 
 /* The value of a condition, quoted or a name; *text is moved to its end. NULL if there is no
@@ -218,7 +217,7 @@ static const char *take_condition_value(parser *p, const char **text) {
   const char *begin = *text;
   while (**text && **text != quote)
     ++*text;
-  const char *value = copy_trimmed(p->place, begin, *text);
+  const char *value = cs_css_copy(p->place, begin, *text);
   *text += **text == quote;
   return value;
 }
@@ -436,7 +435,7 @@ static celspan_status parse_keyframes(parser *p, const char *name, const char **
   while (end > name && cs_svg_is_space(end[-1]))
     end--;
   const bool is_quoted = quote && end > name + 1 && end[-1] == quote;
-  cs_css_frames frames = {.name = copy_trimmed(p->place, name + is_quoted, end - is_quoted)};
+  cs_css_frames frames = {.name = cs_css_copy(p->place, name + is_quoted, end - is_quoted)};
   if (!frames.name)
     return CELSPAN_NO_MEMORY;
   CS_TRY(parse_frames(p, brace + 1, *text - ((*text)[-1] == '}'), &frames));

@@ -23,6 +23,9 @@ typedef struct cs_css_place {
   uint32_t line; /* of the text */
 } cs_css_place;
 
+/* A copy of [begin, end) without space at its ends. NULL if there is no memory. */
+char *cs_css_copy(const cs_css_place *place, const char *begin, const char *end);
+
 typedef struct cs_css_declaration {
   cs_svg_name name;   /* a property; CS_SVG_NAME_COUNT: a variable */
   const char *custom; /* the variable's name, with its hyphens; NULL: no variable */

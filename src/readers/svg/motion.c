@@ -1,8 +1,6 @@
 #include "readers/svg/motion.h"
 
 #include "base/number.h"
-#include "readers/svg/motion_keyframes.h"
-#include "readers/svg/motion_smil.h"
 
 celspan_status cs_svg_move(cs_svg_reading *reading, double *seconds) {
   const cs_svg_document *document = reading->document;

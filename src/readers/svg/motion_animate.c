@@ -1,4 +1,5 @@
-#include "readers/svg/motion_animate.h"
+/* The values of animate, animateTransform and set. */
+#include "readers/svg/motion_smil.h"
 
 #include <string.h>
 

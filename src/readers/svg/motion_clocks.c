@@ -1,4 +1,5 @@
-#include "readers/svg/motion_clocks.h"
+/* The attributes of time of animation elements: dur, begin, end, repeatCount, ... */
+#include "readers/svg/motion_smil.h"
 
 #include <math.h>
 #include <stdlib.h>

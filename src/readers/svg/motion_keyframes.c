@@ -1,4 +1,5 @@
-#include "readers/svg/motion_keyframes.h"
+/* The animations of styles: @keyframes, and the properties that begin with `animation`. */
+#include "readers/svg/motion.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,8 +9,8 @@
 #include "readers/svg/cascade.h"
 #include "readers/svg/forms.h"
 #include "readers/svg/motion_easing.h"
-#include "readers/svg/motion_matrices.h"
 #include "readers/svg/motion_targets.h"
+#include "readers/svg/motion_values.h"
 
 #define ANIMATIONS 64 /* the most of one element */
 
@@ -76,26 +77,25 @@ static bool take_time(const char **text, double *out) {
   return true;
 }
 
-static bool take_direction(const char **text, animation *out) {
-  static const char *const words[] = {"normal", "reverse", "alternate", "alternate-reverse"};
+/* Which of four words comes next, so that its number is made of two flags. */
+static bool take_flags(const char **text, const char *const words[4], bool *low, bool *high) {
   for (int i = 0; i < 4; i++)
     if (cs_svg_take_word(text, words[i])) {
-      out->begins_backward = i & 1;
-      out->alternates = i > 1;
+      *low = i & 1;
+      *high = i > 1;
       return true;
     }
   return false;
 }
 
+static bool take_direction(const char **text, animation *out) {
+  static const char *const words[] = {"normal", "reverse", "alternate", "alternate-reverse"};
+  return take_flags(text, words, &out->begins_backward, &out->alternates);
+}
+
 static bool take_fill(const char **text, animation *out) {
   static const char *const words[] = {"none", "forwards", "backwards", "both"};
-  for (int i = 0; i < 4; i++)
-    if (cs_svg_take_word(text, words[i])) {
-      out->fills_after = i & 1;
-      out->fills_before = i > 1;
-      return true;
-    }
-  return false;
+  return take_flags(text, words, &out->fills_after, &out->fills_before);
 }
 
 static bool take_state(const char **text, animation *out) {

@@ -20,16 +20,7 @@ const char *cs_svg_list_part(const cs_css_place *place, const char *text, size_t
     text += strcspn(text, ";");
     text += *text == ';';
   }
-  text = cs_svg_skip_space(text);
-  size_t size = strcspn(text, ";");
-  while (size > 0 && cs_svg_is_space(text[size - 1]))
-    size--;
-  char *copy = cs_arena_take(place->context, place->arena, size + 1);
-  if (!copy)
-    return NULL;
-  memcpy(copy, text, size);
-  copy[size] = 0;
-  return copy;
+  return cs_css_copy(place, text, text + strcspn(text, ";"));
 }
 
 /* The place of a share in a list of shares: *first is the last one at or before it. False: the list

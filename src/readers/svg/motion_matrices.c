@@ -1,4 +1,5 @@
-#include "readers/svg/motion_matrices.h"
+/* Lists of transforms that do not have the same functions, mixed. */
+#include "readers/svg/motion_values.h"
 
 #include <math.h>
 #include <string.h>

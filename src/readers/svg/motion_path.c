@@ -1,4 +1,5 @@
-#include "readers/svg/motion_path.h"
+/* animateMotion: places on a line, or between points. */
+#include "readers/svg/motion_smil.h"
 
 #include <math.h>
 #include <string.h>

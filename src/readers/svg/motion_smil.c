@@ -5,9 +5,7 @@
 #include <string.h>
 
 #include "base/sort.h"
-#include "readers/svg/motion_animate.h"
-#include "readers/svg/motion_clocks.h"
-#include "readers/svg/motion_path.h"
+#include "readers/svg/motion.h"
 #include "readers/svg/silent.h"
 
 /* The animations of a document, at its time. */

@@ -50,3 +50,12 @@ double cs_svg_mixed_distance(const cs_svg_mixed *a, const cs_svg_mixed *b);
 /* The value as a text; NULL: a number is beyond 1e12. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_svg_mixed_write(const cs_css_place *place,
                                                   const cs_svg_mixed *value, const char **out);
+
+/* ---------------------------------------------------------------- transforms of different kinds */
+
+/* a + (b - a) share: if one of the lists continues the other, with functions that do nothing at the
+ * end of the shorter one; otherwise as matrices. Lists that have no matrices change in the middle.
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_svg_matrices_mix(const cs_css_place *place, const cs_svg_mixed *a,
+                                                   const cs_svg_mixed *b, double share,
+                                                   cs_svg_mixed *out);
