@@ -51,6 +51,7 @@ TEXT(file_or_folder, "the name of a folder or file");
 TEXT(frames, "a list of frames such as 1-10,20-30:2,45, 2s-4s or the name of a mark");
 TEXT(format, "the name of a file format such as png");
 TEXT(cel, "the name of a cel");
+TEXT(codec, "the name of a codec such as h265");
 TEXT(pattern, "a pattern of names");
 TEXT(picture, "png or jpg");
 TEXT(colours, "a whole number from 1 to 64, or colours like #ffffff,#203040");
@@ -157,6 +158,7 @@ NUMBERS(workers, "a whole number from 1 to 1024", read_integer, 1, 1024, 0);
 NUMBERS(port, "the number of a port, 1 to 65535", read_integer, 1, 65535, 0);
 NUMBERS(memory, "a whole number of MiB from 0 to 1048576", read_integer, 0, 1048576, 0);
 NUMBERS(quality, "a whole number from 0 to 100", read_integer, 0, 100, 0);
+NUMBERS(crf, "a whole number from 0 to 63", read_integer, 0, 63, 0);
 NUMBERS(plays, "a whole number from 0 to 65535", read_integer, 0, 65535, 0);
 NUMBERS(size, "width x height in whole pixels, 1 to 1048576, such as 1920x1080", read_pair, 1,
         CS_SIDE_MAX, 'x');

@@ -67,13 +67,13 @@ bool cs_argument_read(const cs_argument *kind, const char *text, void *field);
 /* const char *: a text that is not empty */
 extern const cs_argument cs_argument_text, cs_argument_file, cs_argument_folder,
     cs_argument_file_or_folder, cs_argument_frames, cs_argument_format, cs_argument_cel,
-    cs_argument_pattern, cs_argument_picture, cs_argument_setting;
+    cs_argument_codec, cs_argument_pattern, cs_argument_picture, cs_argument_setting;
 /* const char *: the verb interprets it */
 extern const cs_argument cs_argument_colours, cs_argument_lamp, cs_argument_light;
 /* int32_t */
 extern const cs_argument cs_argument_integer, cs_argument_every, cs_argument_mebibytes,
     cs_argument_minutes, cs_argument_count, cs_argument_pixels, cs_argument_tile,
-    cs_argument_workers, cs_argument_port, cs_argument_memory, cs_argument_quality,
+    cs_argument_workers, cs_argument_port, cs_argument_memory, cs_argument_quality, cs_argument_crf,
     cs_argument_plays;
 /* int32_t[2]. Of rows and levels, the first is not greater than the second; of a share, both are
  * also at least 1. */

@@ -336,10 +336,9 @@ static cs_exit resume_frames(render_job *job) {
 }
 
 static cs_exit refuse_video_options(const cs_request *request) {
-  static const char *const options[] = {"--quality", "--loop"};
-  for (size_t i = 0; i < sizeof options / sizeof *options; i++)
-    if (cs_request_has(request, options[i]))
-      return cs_report_usage("%s is only for videos, such as film.mp4", options[i]);
+  for (const char *const *option = cs_video_target_options; *option; option++)
+    if (cs_request_has(request, *option))
+      return cs_report_usage("%s is only for videos, such as film.mp4", *option);
   return CS_EXIT_OK;
 }
 

@@ -58,9 +58,9 @@ static cs_exit refuse_file(celspan_context *context, const char *path, const cs_
 
 /* Refuses options about pixels, which a plane does not have. */
 static cs_exit refuse_plane(const char *path, const cs_request *request) {
-  static const char *const options[] = {
-      "--size", "--scale", "--crop",      "--strip",     "--colour",  "--alpha", "--dither",
-      "--hash", "--draft", "--antialias", "--no-dither", "--quality", "--loop"};
+  static const char *const options[] = {"--size",   "--scale",     "--crop",     "--strip",
+                                        "--colour", "--alpha",     "--dither",   "--hash",
+                                        "--draft",  "--antialias", "--no-dither"};
   celspan_depth depth = CELSPAN_DEPTH_DEFAULT;
   for (size_t i = 0; i < sizeof options / sizeof *options; i++)
     if (cs_request_has(request, options[i]))

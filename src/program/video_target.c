@@ -17,21 +17,27 @@ static const cs_video_format *format_of(const cs_request *request) {
   return has_file ? cs_video_format_named(format ? format : cs_file_ending(output)) : NULL;
 }
 
+/* NULL: the format cannot contain the codec of --codec. */
+static const cs_video_codec *codec_of(const cs_request *request) {
+  return cs_video_codec_named(format_of(request), cs_request_text(request, "--codec"));
+}
+
 /* Frames of 8 bits are dithered unless that is not wanted; ffmpeg dithers those of few colours. */
-static bool is_dithered(const cs_request *request) {
-  const cs_video_format *format = format_of(request);
-  bool is_default = !cs_request_has(request, "--no-dither") && !(format && format->is_indexed);
+static bool is_dithered(const cs_request *request, const cs_video_codec *codec) {
+  bool is_default = !cs_request_has(request, "--no-dither") && !codec->is_indexed;
   return cs_request_has(request, "--dither") || is_default;
 }
 
-static cs_video_options options_of(const cs_request *request) {
+static cs_video_options options_of(const cs_request *request, const cs_video_codec *codec) {
   bool has_8 = cs_request_has(request, "--dither");
-  cs_video_options options = {.coding = CELSPAN_CODING,
-                              .dithers = is_dithered(request),
+  cs_video_options options = {.codec = codec,
+                              .coding = CELSPAN_CODING,
+                              .dithers = is_dithered(request, codec),
                               .is_opaque = cs_request_has(request, "--background"),
                               .quality = QUALITY};
   if (has_8)
     options.coding.depth = CELSPAN_DEPTH_8;
+  options.has_crf = cs_request_read(request, "--crf", &options.crf);
   cs_request_read(request, "--depth", &options.coding.depth);
   cs_request_read(request, "--colour", &options.coding.transfer);
   cs_request_read(request, "--alpha", &options.coding.alpha);
@@ -39,6 +45,8 @@ static cs_video_options options_of(const cs_request *request) {
   cs_request_read(request, "--loop", &options.plays);
   return options;
 }
+
+const char *const cs_video_target_options[] = {"--codec", "--quality", "--crf", "--loop", NULL};
 
 /* ---------------------------------------------------------------- refusals */
 
@@ -49,9 +57,32 @@ bool cs_video_target_is_wanted(const cs_request *request, size_t frame_count) {
   return frame_count != 1 && !cs_sequence_has_number(cs_request_text(request, "-o"));
 }
 
+static cs_exit refuse_codec(const cs_request *request, const cs_video_format *format) {
+  const char *output = cs_request_text(request, "-o"), *name = cs_request_text(request, "--codec");
+  const cs_video_codec *codec = codec_of(request);
+  int32_t crf = 0;
+  if (!codec) {
+    char names[128];
+    cs_video_codec_list(format, names, sizeof names);
+    return cs_report_usage("%s: --codec %s: %s contains %s", output, name, format->name, names);
+  }
+  if (!cs_request_read(request, "--crf", &crf))
+    return CS_EXIT_OK;
+  if (cs_request_has(request, "--quality"))
+    return cs_report_usage("--crf and --quality exclude each other: give one of them");
+  if (codec->most_crf == 0)
+    return cs_report_usage("%s: %s has no --crf: leave it out%s", output, codec->name,
+                           codec->quality ? ", or give --quality" : "");
+  if (crf > codec->most_crf)
+    return cs_report_usage("%s: --crf of %s is a whole number from 0 to %d", output, codec->name,
+                           (int)codec->most_crf);
+  return CS_EXIT_OK;
+}
+
 static cs_exit refuse_options(const cs_request *request, const cs_video_format *format) {
   const char *output = cs_request_text(request, "-o");
-  const cs_video_options options = options_of(request);
+  CS_TRY_EXIT(refuse_codec(request, format));
+  const cs_video_options options = options_of(request, codec_of(request));
   if (cs_sequence_has_number(output))
     return cs_report_usage("%s: a video is one file: leave the frame's number out of its name",
                            output);
@@ -68,10 +99,10 @@ static cs_exit refuse_options(const cs_request *request, const cs_video_format *
     return cs_report_usage("%s: a video is coded as srgb or rec709: leave --colour out", output);
   if (options.coding.depth == CELSPAN_DEPTH_HALF || options.coding.depth == CELSPAN_DEPTH_FLOAT)
     return cs_report_usage("%s: a video takes --depth 8 or 16", output);
-  if (!cs_video_pixels(format, &options))
+  if (!cs_video_pixels(&options))
     return cs_report_usage(
         "%s: %s holds 8 bits%s: leave --depth 16 out, or write .mov", output, format->name,
-        format->deep_pixels ? " where it has alpha (--background takes it away)" : "");
+        options.codec->deep_pixels ? " where it has alpha (--background takes it away)" : "");
   return CS_EXIT_OK;
 }
 
@@ -80,16 +111,22 @@ cs_exit cs_video_target_refuse(const cs_request *request, size_t frame_count) {
   return format->is_picture && frame_count == 0 ? CS_EXIT_OK : refuse_options(request, format);
 }
 
-/* 4:2:0 gives one colour to 2 x 2 pixels, and H.264 does not support half of such a square at the
- * edge. */
+/* 4:2:0 gives one colour to 2 x 2 pixels, and most encoders do not support half of such a square at
+ * the edge. */
 static cs_exit refuse_size(const cs_video_desc *video) {
   const char *output = video->path;
+  const cs_video_codec *codec = video->options.codec;
   int32_t width = video->frames.width, height = video->frames.height;
   int32_t even_width = width > 1 ? width & ~1 : 2, even_height = height > 1 ? height & ~1 : 2;
   if (width > MOST_SIDE || height > MOST_SIDE)
     return cs_report_usage("%s: %d x %d pixels: a video has at most %d a side", output, (int)width,
                            (int)height, MOST_SIDE);
-  if (video->format->is_halved && (even_width != width || even_height != height))
+  if (width < codec->least_width || height < codec->least_height)
+    return cs_report_usage("%s: %d x %d pixels: %s needs at least %d x %d: give a larger --size, "
+                           "or another --codec",
+                           output, (int)width, (int)height, codec->name, (int)codec->least_width,
+                           (int)codec->least_height);
+  if (codec->is_halved && (even_width != width || even_height != height))
     return cs_report_usage("%s: %d x %d pixels: %s needs an even width and height: give --size "
                            "%dx%d, or write .mov, .webm or .mkv",
                            output, (int)width, (int)height, video->format->name, (int)even_width,
@@ -124,17 +161,17 @@ static cs_exit set_sound(cs_video_desc *video, cs_script *script, const cs_reque
 cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request *request,
                              const celspan_frame_desc *frame, const cs_sequence *frames) {
   bool is_part = frame->crop_width > 0;
+  CS_TRY_EXIT(cs_video_target_refuse(request, SIZE_MAX));
   int32_t memory = 1;
   bool has_memory = cs_request_read(request, "--memory", &memory);
   cs_video_desc desc = {.path = cs_request_text(request, "-o"),
                         .format = format_of(request),
-                        .options = options_of(request),
+                        .options = options_of(request, codec_of(request)),
                         .frames = {.width = is_part ? frame->crop_width : frame->width,
                                    .height = is_part ? frame->crop_height : frame->height,
                                    .frames_second = script->film.frames_second},
                         .has_digests = cs_request_has(request, "--hash"),
                         .keeps_nothing = has_memory && memory == 0};
-  CS_TRY_EXIT(cs_video_target_refuse(request, SIZE_MAX));
   CS_TRY_EXIT(refuse_size(&desc));
   CS_TRY_EXIT(refuse_rate(&desc));
   CS_TRY_EXIT(set_sound(&desc, script, request, frames));

@@ -8,6 +8,9 @@
 #include "frames/video/video.h"
 #include "program/script.h"
 
+/* The options that only videos have; NULL at the end. */
+extern const char *const cs_video_target_options[];
+
 /* Whether OUT is a video; frame_count 0: not known yet. */
 bool cs_video_target_is_wanted(const cs_request *request, size_t frame_count);
 /* Refuses options that videos do not have. OK, or reported. frame_count 0: not known yet, and the

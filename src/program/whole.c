@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "program/soundtrack.h"
+#include "program/video_target.h"
 
 celspan_status cs_whole_open(cs_whole *whole, const cs_script *script, const cs_request *request,
                              const celspan_frame_desc *frame) {
@@ -19,9 +20,9 @@ bool cs_whole_is_known(const cs_whole *whole) {
 
 /* The options that only files of whole films have. */
 static void hash_options(cs_hash *hash, const cs_request *request) {
-  static const char *const options[] = {"--quality", "--loop", "--background"};
-  for (size_t i = 0; i < sizeof options / sizeof *options; i++)
-    cs_hash_text(hash, cs_request_text(request, options[i]));
+  for (const char *const *option = cs_video_target_options; *option; option++)
+    cs_hash_text(hash, cs_request_text(request, *option));
+  cs_hash_text(hash, cs_request_text(request, "--background"));
   cs_hash_word(hash, cs_request_has(request, "--no-dither"));
 }
 

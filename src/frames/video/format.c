@@ -14,17 +14,6 @@
 
 /* ---------------------------------------------------------------- formats */
 
-/* Drawings are flat between sharp edges: -tune animation uses bits for edges, not for grain. */
-static const char *const H264[] = {"-c:v",  "libx264",   "-preset", "medium",
-                                   "-tune", "animation", NULL};
-static const char *const PRORES[] = {"-c:v", "prores_ks",   "-profile:v", "4444", "-vendor",
-                                     "apl0", "-alpha_bits", "16",         NULL};
-static const char *const VP9[] = {"-c:v",      "libvpx-vp9", "-b:v",    "0", "-deadline", "good",
-                                  "-cpu-used", "3",          "-row-mt", "1", NULL};
-static const char *const GIF[] = {"-c:v", "gif", NULL};
-static const char *const WEBP[] = {"-c:v", "libwebp_anim", NULL};
-static const char *const APNG[] = {"-c:v", "apng", "-pred", "mixed", NULL};
-
 static const char *const AAC[] = {"-c:a", "aac", "-b:a", "192k", NULL};
 static const char *const FLAC[] = {"-c:a", "flac", NULL};
 static const char *const PCM[] = {"-c:a", "pcm_s24le", NULL};
@@ -34,101 +23,54 @@ static const char *const OPUS[] = {"-c:a", "libopus", "-b:a", "160k", NULL};
 #define ISO_FLAGS "+faststart+write_colr" /* the index comes first; colour tags are written */
 #define EBML "\x1a\x45\xdf\xa3"
 
-/* For H.264, quality 75 is the constant rate factor 18, at which most people see no difference. The
- * values of the other encoders give about the same error at 75 and below. */
 static const cs_video_format FORMATS[] = {
     {.name = "mp4",
      .muxer = "mp4",
-     .is_halved = true,
+     .codecs = {&cs_codec_h264, &cs_codec_h265, &cs_codec_av1},
      .most_frames_second = ENDLESS,
-     .pixels = "yuv420p",
-     .deep_pixels = "yuv420p10le",
-     .encoder = H264,
-     .quality = "-crf",
-     .best = 8,
-     .worst = 48,
      .sound = AAC,
      .flags = ISO_FLAGS,
      .mark = {4, "ftyp"}},
     {.name = "mkv",
      .muxer = "matroska",
+     .codecs = {&cs_codec_h264_444, &cs_codec_h265_444, &cs_codec_av1_444, &cs_codec_vp9,
+                &cs_codec_ffv1},
      .most_frames_second = 1000,
-     .pixels = "yuv444p",
-     .deep_pixels = "yuv444p10le",
-     .encoder = H264,
-     .quality = "-crf",
-     .best = 8,
-     .worst = 48,
      .sound = FLAC,
      .mark = {0, EBML}},
     {.name = "mov",
      .muxer = "mov",
-     .is_deep = true,
-     .has_alpha = true,
+     .codecs = {&cs_codec_prores, &cs_codec_prores422, &cs_codec_prores422hq, &cs_codec_dnxhr,
+                &cs_codec_h264, &cs_codec_h265},
      .most_frames_second = ENDLESS,
-     .pixels = "yuv444p10le",
-     .deep_pixels = "yuv444p10le",
-     .alpha_pixels = "yuva444p10le",
-     .deep_alpha_pixels = "yuva444p10le",
-     .encoder = PRORES,
-     .quality = "-q:v",
-     .best = 5,
-     .worst = 33,
      .sound = PCM,
      .flags = ISO_FLAGS,
      .mark = {4, "ftyp"}},
     {.name = "webm",
      .muxer = "webm",
-     .has_alpha = true,
+     .codecs = {&cs_codec_vp9, &cs_codec_av1},
      .most_frames_second = 1000,
-     .pixels = "yuv420p",
-     .deep_pixels = "yuv420p10le",
-     .alpha_pixels = "yuva420p",
-     .encoder = VP9,
-     .quality = "-crf",
-     .best = 11,
-     .worst = 63,
      .sound = OPUS,
      .mark = {0, EBML}},
     {.name = "gif",
      .muxer = "gif",
+     .codecs = {&cs_codec_gif},
      .is_picture = true,
-     .is_rgb = true,
-     .is_indexed = true,
-     .has_alpha = true,
      .most_frames_second = 100,
-     .pixels = "pal8",
-     .alpha_pixels = "pal8",
-     .encoder = GIF,
      .plays = "-loop",
      .counts_repeats = true,
-     .best = 256, /* colours of a frame's palette */
-     .worst = 8,
      .mark = {0, "GIF8"}},
     {.name = "webp",
      .muxer = "webp",
+     .codecs = {&cs_codec_webp},
      .is_picture = true,
-     .is_rgb = true,
-     .has_alpha = true,
      .most_frames_second = 1000,
-     .pixels = "bgra",
-     .alpha_pixels = "bgra",
-     .encoder = WEBP,
      .plays = "-loop",
-     .quality = "-quality",
-     .best = 100,
-     .worst = 0,
      .mark = {8, "WEBP"}},
     {.name = "apng",
      .muxer = "apng",
-     .is_rgb = true,
-     .has_alpha = true,
+     .codecs = {&cs_codec_apng},
      .most_frames_second = 1000,
-     .pixels = "rgb24",
-     .deep_pixels = "rgb48be",
-     .alpha_pixels = "rgba",
-     .deep_alpha_pixels = "rgba64be",
-     .encoder = APNG,
      .plays = "-plays",
      .mark = {0, "\x89PNG"}},
 };
@@ -140,43 +82,64 @@ const cs_video_format *cs_video_format_named(const char *name) {
   return NULL;
 }
 
+/* Adds the name to a list of names in `out`. */
+static size_t add_name(char *out, size_t size, size_t length, const char *name) {
+  const char *comma = length ? ", " : "";
+  return length < size ? length + (size_t)snprintf(out + length, size - length, "%s%s", comma, name)
+                       : length;
+}
+
 void cs_video_format_list(char *out, size_t size) {
-  for (size_t i = 0, length = 0; i < sizeof FORMATS / sizeof *FORMATS && length < size; i++)
-    length += (size_t)snprintf(out + length, size - length, "%s%s", i ? ", " : "", FORMATS[i].name);
+  for (size_t i = 0, length = 0; i < sizeof FORMATS / sizeof *FORMATS; i++)
+    length = add_name(out, size, length, FORMATS[i].name);
+}
+
+const cs_video_codec *cs_video_codec_named(const cs_video_format *format, const char *name) {
+  for (size_t i = 0; i < CS_VIDEO_CODECS && format->codecs[i]; i++)
+    if (!name || strcasecmp(name, format->codecs[i]->name) == 0)
+      return format->codecs[i];
+  return NULL;
+}
+
+void cs_video_codec_list(const cs_video_format *format, char *out, size_t size) {
+  size_t length = 0;
+  for (size_t i = 0; i < CS_VIDEO_CODECS && format->codecs[i]; i++)
+    length = add_name(out, size, length, format->codecs[i]->name);
 }
 
 /* Whether the encoder gets frames of 16 bits. */
-static bool is_deep(const cs_video_format *format, const cs_video_options *options) {
+static bool is_deep(const cs_video_options *options) {
   if (options->coding.depth == CELSPAN_DEPTH_DEFAULT)
-    return format->is_deep;
+    return options->codec->is_deep;
   return options->coding.depth == CELSPAN_DEPTH_16;
 }
 
-static bool has_alpha(const cs_video_format *format, const cs_video_options *options) {
-  return format->has_alpha && !options->is_opaque;
+static bool has_alpha(const cs_video_options *options) {
+  return options->codec->alpha_pixels && !options->is_opaque;
 }
 
-const char *cs_video_pixels(const cs_video_format *format, const cs_video_options *options) {
-  if (has_alpha(format, options))
-    return is_deep(format, options) ? format->deep_alpha_pixels : format->alpha_pixels;
-  return is_deep(format, options) ? format->deep_pixels : format->pixels;
+const char *cs_video_pixels(const cs_video_options *options) {
+  const cs_video_codec *codec = options->codec;
+  if (has_alpha(options))
+    return is_deep(options) ? codec->deep_alpha_pixels : codec->alpha_pixels;
+  return is_deep(options) ? codec->deep_pixels : codec->pixels;
 }
 
-cs_video_layout cs_video_layout_of(const cs_video_format *format, const cs_video_options *options) {
-  const char *pixels = cs_video_pixels(format, options);
+cs_video_layout cs_video_layout_of(const cs_video_options *options) {
+  const char *pixels = cs_video_pixels(options);
   return strcmp(pixels, "yuv420p") == 0   ? CS_VIDEO_420
          : strcmp(pixels, "yuv444p") == 0 ? CS_VIDEO_444
                                           : CS_VIDEO_RGBA;
 }
 
-celspan_coding cs_video_coding(const cs_video_format *format, const cs_video_options *options) {
+celspan_coding cs_video_coding(const cs_video_options *options) {
   celspan_coding coding = options->coding;
-  coding.depth = is_deep(format, options) ? CELSPAN_DEPTH_16
-                 : options->dithers       ? CELSPAN_DEPTH_8_DITHER
-                                          : CELSPAN_DEPTH_8;
+  coding.depth = is_deep(options)   ? CELSPAN_DEPTH_16
+                 : options->dithers ? CELSPAN_DEPTH_8_DITHER
+                                    : CELSPAN_DEPTH_8;
   if (coding.transfer == CELSPAN_TRANSFER_DEFAULT)
     coding.transfer = CELSPAN_TRANSFER_SRGB;
-  if (!has_alpha(format, options))
+  if (!has_alpha(options))
     coding.alpha = CELSPAN_ALPHA_PREMULTIPLIED;
   return coding;
 }
@@ -243,20 +206,20 @@ static void add_rate(cs_video_command *command, double rate) {
 
 /* Without alpha the fourth byte is declared unused, because frames over black still have alpha in
  * it. */
-static const char *frame_pixels(const cs_video_format *format, const cs_video_options *options) {
-  if (cs_video_layout_of(format, options) != CS_VIDEO_RGBA)
-    return cs_video_pixels(format, options);
-  if (is_deep(format, options))
+static const char *frame_pixels(const cs_video_options *options) {
+  if (cs_video_layout_of(options) != CS_VIDEO_RGBA)
+    return cs_video_pixels(options);
+  if (is_deep(options))
     return "rgba64le";
-  return has_alpha(format, options) ? "rgba" : "rgb0";
+  return has_alpha(options) ? "rgba" : "rgb0";
 }
 
-static void add_frames(cs_video_command *command, const cs_video_format *format,
-                       const cs_video_options *options, const cs_video_frames *frames) {
+static void add_frames(cs_video_command *command, const cs_video_options *options,
+                       const cs_video_frames *frames) {
   add(command, "-f");
   add(command, "rawvideo");
   add(command, "-pixel_format");
-  add(command, frame_pixels(format, options));
+  add(command, frame_pixels(options));
   add(command, "-video_size");
   add_text(command, "%dx%d", (int)frames->width, (int)frames->height);
   add(command, "-framerate");
@@ -267,54 +230,55 @@ static void add_frames(cs_video_command *command, const cs_video_format *format,
 /* ---------------------------------------------------------------- pictures */
 
 /* The value of the encoder's quality option. */
-static int encoder_quality(const cs_video_format *format, int32_t quality) {
-  return (int)lround(format->worst + (format->best - format->worst) * quality / 100);
+static int encoder_quality(const cs_video_options *options) {
+  const cs_video_codec *codec = options->codec;
+  if (options->has_crf)
+    return (int)options->crf;
+  return (int)lround(codec->worst + (codec->best - codec->worst) * options->quality / 100);
 }
 
 /* Makes a palette for each frame, so that frames are not kept until the last one arrives. Dithering
  * looks better than bands, and makes the file larger. */
-static void add_indexed(cs_video_command *command, const cs_video_format *format,
-                        const cs_video_options *options) {
+static void add_indexed(cs_video_command *command, const cs_video_options *options) {
   add(command, "-filter_complex");
   add_text(command,
            "[0:v]split[a][b];[a]palettegen=stats_mode=single:max_colors=%d:reserve_transparent=%d"
            "[p];[b][p]paletteuse=new=1:dither=%s",
-           encoder_quality(format, options->quality), has_alpha(format, options),
+           encoder_quality(options), has_alpha(options),
            options->quality < 50 ? "none" : "sierra2_4a");
 }
 
 /* By default ffmpeg assumes BT.601 for pictures of any size, and writes no colour tags. Rounding is
  * exact, and 2 x 2 pixels that share a colour get their mean, so that flat colours are unchanged.
  * Planes are passed on unchanged. */
-static void add_yuv(cs_video_command *command, const cs_video_format *format,
-                    const cs_video_options *options) {
+static void add_yuv(cs_video_command *command, const cs_video_options *options) {
   bool is_rec709 = options->coding.transfer == CELSPAN_TRANSFER_REC709;
   const char *transfer = is_rec709 ? "bt709" : "iec61966-2-1";
-  bool is_made = cs_video_layout_of(format, options) != CS_VIDEO_RGBA;
+  bool is_made = cs_video_layout_of(options) != CS_VIDEO_RGBA;
   const char *const tags[] = {
       "-color_range", "tv",         "-colorspace", "bt709", "-color_primaries",
       "bt709",        "-color_trc", transfer,      NULL};
   add(command, "-vf");
   add_text(command,
            "%sformat=%s,setparams=range=tv:colorspace=bt709:color_primaries=bt709:color_trc=%s",
-           is_made ? "" : FROM_RGB, cs_video_pixels(format, options), transfer);
+           is_made ? "" : FROM_RGB, cs_video_pixels(options), transfer);
   add_all(command, tags);
 }
 
-static void add_pictures(cs_video_command *command, const cs_video_format *format,
-                         const cs_video_options *options) {
-  if (format->is_indexed)
-    add_indexed(command, format, options);
-  else if (!format->is_rgb)
-    add_yuv(command, format, options);
-  add_all(command, format->encoder);
-  if (format->quality) {
-    add(command, format->quality);
-    add_text(command, "%d", encoder_quality(format, options->quality));
+static void add_pictures(cs_video_command *command, const cs_video_options *options) {
+  const cs_video_codec *codec = options->codec;
+  if (codec->is_indexed)
+    add_indexed(command, options);
+  else if (!codec->is_rgb)
+    add_yuv(command, options);
+  add_all(command, codec->encoder);
+  if (codec->quality) {
+    add(command, codec->quality);
+    add_text(command, "%d", encoder_quality(options));
   }
-  if (format->is_rgb && !format->is_indexed) {
+  if (codec->is_rgb && !codec->is_indexed) {
     add(command, "-pix_fmt");
-    add(command, cs_video_pixels(format, options));
+    add(command, cs_video_pixels(options));
   }
 }
 
@@ -349,10 +313,10 @@ void cs_video_command_encode(cs_video_command *command, const cs_video_format *f
                              const cs_video_options *options, const cs_video_frames *frames,
                              const cs_sound_stream *sound, const char *file) {
   begin(command);
-  add_frames(command, format, options, frames);
+  add_frames(command, options, frames);
   if (sound->user)
     add_samples(command, sound);
-  add_pictures(command, format, options);
+  add_pictures(command, options);
   if (sound->user)
     add_sound(command, format);
   if (format->flags) {

@@ -1,16 +1,14 @@
-/* The video formats: the encoder and the pixels for each file ending, and the command of ffmpeg.
+/* The video formats: the codecs and the sound for each file ending, and the command of ffmpeg.
  *
  *   planes of Y'CbCr, or RGBA --standard input--> [matrix and range of BT.709] --> encoder --> file
  *   sound of as many seconds --second pipe--> encoder -------------------------------^
  *
- *   ending  encoder      pixels                               alpha      sound
- *   mp4     H.264        4:2:0, 8 bits (10 under --depth 16)  none       AAC
- *   mkv     H.264        4:4:4, 8 bits (10 under --depth 16)  none       FLAC
- *   mov     ProRes 4444  4:4:4, 10 bits                       16 bits    PCM
- *   webm    VP9          4:2:0, 8 bits (10 without alpha)     8 bits     Opus
- *   gif     GIF          256 colours a frame                  1 bit      none
- *   webp    WebP         4:2:0, 8 bits                        8 bits     none
- *   apng    APNG         RGB, 8 bits (16 under --depth 16)    as deep    none
+ *   ending  codecs, the default first                        sound
+ *   mp4     h264, h265, av1                                  AAC
+ *   mkv     h264, h265, av1 (all three 4:4:4), vp9, ffv1     FLAC
+ *   mov     prores, prores422, prores422hq, dnxhr, h264, h265  PCM
+ *   webm    vp9, av1                                         Opus
+ *   gif, webp, apng: of their own                            none
  *
  * INVARIANT: a film with a background is opaque, and its file has no alpha. In all other films,
  * alpha is kept if the format has it. No shell reads the arguments. ffmpeg opens no file to read,
@@ -19,26 +17,20 @@
  */
 #pragma once
 
+#include "frames/video/codec.h"
 #include "frames/video/sound_stream.h"
 
+enum { CS_VIDEO_CODECS = 6 }; /* of a format, at most */
+
 typedef struct cs_video_format {
-  const char *name;  /* the ending */
-  const char *muxer; /* its name in ffmpeg */
-  bool is_picture;   /* one frame is a picture; several are a video */
-  bool is_halved;    /* the encoder accepts even sides only */
-  bool is_rgb;       /* the encoder accepts RGB; the file has no colour tags */
-  bool is_indexed;   /* few colours for each frame, for which ffmpeg dithers */
-  bool is_deep;      /* frames have 16 bits unless options request fewer */
-  bool has_alpha;
-  double most_frames_second;        /* the resolution of its clock */
-  const char *pixels, *deep_pixels; /* without alpha; NULL: not available */
-  const char *alpha_pixels, *deep_alpha_pixels;
-  const char *const *encoder; /* options of ffmpeg, NULL at the end */
-  const char *flags;          /* of the muxer, or NULL */
+  const char *name;                              /* the ending */
+  const char *muxer;                             /* its name in ffmpeg */
+  const cs_video_codec *codecs[CS_VIDEO_CODECS]; /* the default first; NULL after the last */
+  bool is_picture;                               /* one frame is a picture; several are a video */
+  double most_frames_second;                     /* the resolution of its clock */
+  const char *flags;                             /* of the muxer, or NULL */
   const char *plays;   /* the muxer's option for how often it is played; NULL: players decide */
   bool counts_repeats; /* that option counts what follows the first time */
-  const char *quality; /* the option for the quality; NULL: a palette's size, or lossless */
-  double best, worst;  /* its values at quality 100 and 0 */
   const char *const *sound; /* options of ffmpeg; NULL: the format has no sound */
   struct {                  /* bytes in every file of the format */
     size_t offset;
@@ -55,11 +47,14 @@ typedef enum cs_video_layout {
 
 /* The requested properties of a video. */
 typedef struct cs_video_options {
-  celspan_coding coding; /* its depth and transfer */
-  bool dithers;          /* where it has 8 bits */
-  bool is_opaque;        /* it has a background */
-  int32_t quality;       /* 0 to 100; the same quality looks alike in every format */
-  int32_t plays;         /* how often it is played; 0: for ever */
+  const cs_video_codec *codec; /* of the format */
+  celspan_coding coding;       /* its depth and transfer */
+  bool dithers;                /* where it has 8 bits */
+  bool is_opaque;              /* it has a background */
+  int32_t quality;             /* 0 to 100; the same quality looks alike with every codec */
+  bool has_crf;                /* crf is the value of -crf, whatever the quality is */
+  int32_t crf;
+  int32_t plays; /* how often it is played; 0: for ever */
 } cs_video_options;
 
 typedef struct cs_video_frames {
@@ -81,12 +76,16 @@ typedef struct cs_video_command {
 const cs_video_format *cs_video_format_named(const char *name);
 /* The names of all formats, "mp4, mkv, ...": for messages; cut if there is no place for all. */
 void cs_video_format_list(char *out, size_t size);
+/* The codec of that name, or the default for NULL; NULL: the format cannot contain it. */
+const cs_video_codec *cs_video_codec_named(const cs_video_format *format, const char *name);
+/* The names of the format's codecs, in the same way. */
+void cs_video_codec_list(const cs_video_format *format, char *out, size_t size);
 /* The pixels of the encoder under the options; NULL: not available. */
-const char *cs_video_pixels(const cs_video_format *format, const cs_video_options *options);
+const char *cs_video_pixels(const cs_video_options *options);
 /* Planes where the encoder accepts 8 bits without alpha. */
-cs_video_layout cs_video_layout_of(const cs_video_format *format, const cs_video_options *options);
+cs_video_layout cs_video_layout_of(const cs_video_options *options);
 /* The coding of the frames for the encoder; over black where there is no alpha. */
-celspan_coding cs_video_coding(const cs_video_format *format, const cs_video_options *options);
+celspan_coding cs_video_coding(const cs_video_options *options);
 
 /* The command that makes a video of raw frames, as above. sound: as long as the frames, or none.
  * file: the name of the output. */

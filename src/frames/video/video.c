@@ -44,8 +44,8 @@ celspan_status cs_video_open(cs_video *out, celspan_context *context, const cs_v
   *out = (cs_video){.context = context,
                     .path = desc->path,
                     .format = desc->format,
-                    .coding = cs_video_coding(desc->format, &desc->options),
-                    .layout = cs_video_layout_of(desc->format, &desc->options),
+                    .coding = cs_video_coding(&desc->options),
+                    .layout = cs_video_layout_of(&desc->options),
                     .has_digests = desc->has_digests,
                     .keeps_nothing = desc->keeps_nothing};
   out->stride = (size_t)frames->width * cs_pixels_size(&out->coding);

@@ -1,0 +1,112 @@
+#include "frames/video/codec.h"
+
+/* Drawings are flat between sharp edges: -tune animation uses bits for edges, not for grain. */
+static const char *const H264[] = {"-c:v",  "libx264",   "-preset", "medium",
+                                   "-tune", "animation", NULL};
+/* Players of Apple need the tag hvc1; otherwise the encoder prints notes to standard error. */
+static const char *const H265[] = {"-c:v",         "libx265",         "-preset", "medium",
+                                   "-tune",        "animation",       "-tag:v",  "hvc1",
+                                   "-x265-params", "log-level=error", NULL};
+static const char *const AV1[] = {"-c:v",      "libaom-av1", "-b:v",    "0", "-usage", "good",
+                                  "-cpu-used", "6",          "-row-mt", "1", NULL};
+static const char *const VP9[] = {"-c:v",      "libvpx-vp9", "-b:v",    "0", "-deadline", "good",
+                                  "-cpu-used", "3",          "-row-mt", "1", NULL};
+static const char *const PRORES[] = {"-c:v", "prores_ks",   "-profile:v", "4444", "-vendor",
+                                     "apl0", "-alpha_bits", "16",         NULL};
+static const char *const PRORES_422[] = {"-c:v",    "prores_ks", "-profile:v", "standard",
+                                         "-vendor", "apl0",      NULL};
+static const char *const PRORES_422HQ[] = {"-c:v",    "prores_ks", "-profile:v", "hq",
+                                           "-vendor", "apl0",      NULL};
+static const char *const DNXHR[] = {"-c:v", "dnxhd", "-profile:v", "dnxhr_hqx", NULL};
+static const char *const FFV1[] = {"-c:v", "ffv1", "-level", "3", "-g", "1", NULL};
+static const char *const GIF[] = {"-c:v", "gif", NULL};
+static const char *const WEBP[] = {"-c:v", "libwebp_anim", NULL};
+static const char *const APNG[] = {"-c:v", "apng", "-pred", "mixed", NULL};
+
+#define HALVED .is_halved = true, .pixels = "yuv420p", .deep_pixels = "yuv420p10le"
+#define WHOLE .pixels = "yuv444p", .deep_pixels = "yuv444p10le"
+
+/* For H.264, quality 75 is the constant rate factor 18, at which most people see no difference. The
+ * values of the other encoders give about the same error at 75 and below. */
+#define H264_QUALITY .encoder = H264, .quality = "-crf", .best = 8, .worst = 48, .most_crf = 51
+#define H265_QUALITY                                                                               \
+  .encoder = H265, .quality = "-crf", .best = 9, .worst = 49, .most_crf = 51, .least_width = 16,  \
+  .least_height = 16
+#define AV1_QUALITY .encoder = AV1, .quality = "-crf", .best = 11, .worst = 63, .most_crf = 63
+
+const cs_video_codec cs_codec_h264 = {.name = "h264", HALVED, H264_QUALITY};
+const cs_video_codec cs_codec_h264_444 = {.name = "h264", WHOLE, H264_QUALITY};
+const cs_video_codec cs_codec_h265 = {.name = "h265", HALVED, H265_QUALITY};
+const cs_video_codec cs_codec_h265_444 = {.name = "h265", WHOLE, H265_QUALITY};
+const cs_video_codec cs_codec_av1 = {
+    .name = "av1", .pixels = "yuv420p", .deep_pixels = "yuv420p10le", AV1_QUALITY};
+const cs_video_codec cs_codec_av1_444 = {.name = "av1", WHOLE, AV1_QUALITY};
+
+const cs_video_codec cs_codec_vp9 = {.name = "vp9",
+                                     .encoder = VP9,
+                                     .pixels = "yuv420p",
+                                     .deep_pixels = "yuv420p10le",
+                                     .alpha_pixels = "yuva420p",
+                                     .quality = "-crf",
+                                     .best = 11,
+                                     .worst = 63,
+                                     .most_crf = 63};
+
+/* ---------------------------------------------------------------- editing */
+
+#define PRORES_QUALITY .is_deep = true, .quality = "-q:v", .best = 5, .worst = 33
+
+const cs_video_codec cs_codec_prores = {.name = "prores",
+                                        .encoder = PRORES,
+                                        .pixels = "yuv444p10le",
+                                        .deep_pixels = "yuv444p10le",
+                                        .alpha_pixels = "yuva444p10le",
+                                        .deep_alpha_pixels = "yuva444p10le",
+                                        PRORES_QUALITY};
+
+#define PIXELS_422 .pixels = "yuv422p10le", .deep_pixels = "yuv422p10le"
+
+const cs_video_codec cs_codec_prores422 = {
+    .name = "prores422", .encoder = PRORES_422, PIXELS_422, PRORES_QUALITY};
+const cs_video_codec cs_codec_prores422hq = {
+    .name = "prores422hq", .encoder = PRORES_422HQ, PIXELS_422, PRORES_QUALITY};
+const cs_video_codec cs_codec_dnxhr = {.name = "dnxhr",
+                                       .encoder = DNXHR,
+                                       .is_deep = true,
+                                       PIXELS_422,
+                                       .least_width = 256,
+                                       .least_height = 120};
+
+const cs_video_codec cs_codec_ffv1 = {.name = "ffv1",
+                                      .encoder = FFV1,
+                                      .is_rgb = true,
+                                      .pixels = "bgr0",
+                                      .deep_pixels = "gbrp16le",
+                                      .alpha_pixels = "bgra",
+                                      .deep_alpha_pixels = "gbrap16le"};
+
+/* ---------------------------------------------------------------- loops */
+
+const cs_video_codec cs_codec_gif = {.name = "gif",
+                                     .encoder = GIF,
+                                     .is_rgb = true,
+                                     .is_indexed = true,
+                                     .pixels = "pal8",
+                                     .alpha_pixels = "pal8",
+                                     .best = 256, /* colours of a frame's palette */
+                                     .worst = 8};
+const cs_video_codec cs_codec_webp = {.name = "webp",
+                                      .encoder = WEBP,
+                                      .is_rgb = true,
+                                      .pixels = "bgra",
+                                      .alpha_pixels = "bgra",
+                                      .quality = "-quality",
+                                      .best = 100,
+                                      .worst = 0};
+const cs_video_codec cs_codec_apng = {.name = "apng",
+                                      .encoder = APNG,
+                                      .is_rgb = true,
+                                      .pixels = "rgb24",
+                                      .deep_pixels = "rgb48be",
+                                      .alpha_pixels = "rgba",
+                                      .deep_alpha_pixels = "rgba64be"};
