@@ -3,6 +3,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -135,6 +136,41 @@ static bool read_number(const cs_argument *kind, const char *text, void *field) 
   return true;
 }
 
+/* N or N/M, such as 30000/1001. */
+static bool read_rate(const cs_argument *kind, const char *text, void *field) {
+  double parts[2] = {0, 1};
+  char *end = NULL;
+  parts[0] = strtod(text, &end);
+  if (end == text || has_space(text))
+    return false;
+  if (*end == '/') {
+    const char *below = end + 1;
+    parts[1] = strtod(below, &end);
+    if (end == below || has_space(below))
+      return false;
+  }
+  double rate = parts[0] / parts[1];
+  if (*end || !(rate >= kind->least && rate <= kind->most))
+    return false;
+  *(double *)field = rate;
+  return true;
+}
+
+/* A number of bytes in thousands, millions or thousands of millions. */
+static bool read_millions(const cs_argument *kind, const char *text, void *field) {
+  static const char units[] = "kMG";
+  char *end = NULL;
+  double number = strtod(text, &end);
+  const char *unit = *end ? strchr(units, *end) : NULL;
+  if (end == text || has_space(text) || !unit || end[1])
+    return false;
+  number *= pow(1000, (double)(unit - units + 1));
+  if (!(number >= kind->least && number <= kind->most))
+    return false;
+  *(double *)field = number;
+  return true;
+}
+
 static bool read_positive(const cs_argument *kind, const char *text, void *field) {
   double number = 0;
   if (!read_number(kind, text, &number) || number == 0)
@@ -159,6 +195,10 @@ NUMBERS(port, "the number of a port, 1 to 65535", read_integer, 1, 65535, 0);
 NUMBERS(memory, "a whole number of MiB from 0 to 1048576", read_integer, 0, 1048576, 0);
 NUMBERS(quality, "a whole number from 0 to 100", read_integer, 0, 100, 0);
 NUMBERS(crf, "a whole number from 0 to 63", read_integer, 0, 63, 0);
+NUMBERS(millions, "thousands, millions or thousands of millions of bytes such as 500k, 8M or 1.5G",
+        read_millions, 10000, 1e15, 0);
+NUMBERS(rate, "frames per second from 0.01 to 1000, such as 25 or 30000/1001", read_rate, 0.01,
+        1000, 0);
 NUMBERS(plays, "a whole number from 0 to 65535", read_integer, 0, 65535, 0);
 NUMBERS(size, "width x height in whole pixels, 1 to 1048576, such as 1920x1080", read_pair, 1,
         CS_SIDE_MAX, 'x');
@@ -210,6 +250,8 @@ CHOICE(layout, "dzi or iiif", {"dzi", CS_PYRAMID_DZI}, {"iiif", CS_PYRAMID_IIIF}
 CHOICE(progress, "auto, bar, lines, none, json or openjd", {"auto", CS_PROGRESS_AUTO},
        {"bar", CS_PROGRESS_BAR}, {"lines", CS_PROGRESS_LINES}, {"none", CS_PROGRESS_NONE},
        {"json", CS_PROGRESS_JSON}, {"openjd", CS_PROGRESS_OPENJD});
+CHOICE(fit, "stretch, contain or cover", {"stretch", CS_FIT_STRETCH}, {"contain", CS_FIT_CONTAIN},
+       {"cover", CS_FIT_COVER});
 CHOICE(model, "translation, similarity or perspective", {"translation", 0}, {"similarity", 1},
        {"perspective", 2});
 

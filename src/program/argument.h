@@ -21,6 +21,9 @@ typedef enum cs_progress_style {
   CS_PROGRESS_OPENJD
 } cs_progress_style;
 
+/* How a film of another shape goes into a frame. */
+typedef enum cs_fit { CS_FIT_STRETCH = 0, CS_FIT_CONTAIN, CS_FIT_COVER } cs_fit;
+
 typedef struct cs_given_antialias {
   celspan_antialias_mode mode;
   celspan_filter_desc filter; /* of mode FILTER */
@@ -82,11 +85,12 @@ extern const cs_argument cs_argument_size, cs_argument_grid, cs_argument_onion, 
 /* int32_t[4]: x, y, width, height */
 extern const cs_argument cs_argument_crop;
 /* double */
-extern const cs_argument cs_argument_scale, cs_argument_tolerance, cs_argument_smooth;
+extern const cs_argument cs_argument_rate, cs_argument_millions, cs_argument_scale,
+    cs_argument_tolerance, cs_argument_smooth;
 /* The enumeration of the name: celspan_depth, celspan_transfer, celspan_alpha, cs_pyramid_layout,
- * cs_progress_style; for the model of a track, a number. */
+ * cs_progress_style, cs_fit; for the model of a track, a number. */
 extern const cs_argument cs_argument_depth, cs_argument_colour, cs_argument_alpha,
-    cs_argument_layout, cs_argument_progress, cs_argument_model;
+    cs_argument_layout, cs_argument_progress, cs_argument_fit, cs_argument_model;
 extern const cs_argument cs_argument_antialias; /* cs_given_antialias */
 extern const cs_argument cs_argument_tint;      /* float[3]: linear light, opaque */
 extern const cs_argument cs_argument_texts;     /* cs_given_texts: adds a folder */

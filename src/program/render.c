@@ -34,6 +34,7 @@ typedef struct render_job {
   cs_frame_change change;
   celspan_frame_desc frame;
   cs_sequence frames;
+  cs_sequence played; /* the frames of the film whose sound is heard; none: those of `frames` */
   cs_progress progress;
   cs_record record; /* of frames that are files */
   cs_whole whole;   /* of a film that is one file */
@@ -442,9 +443,10 @@ static cs_exit open_plane(render_job *job) {
 }
 
 static cs_exit open_whole(render_job *job) {
-  return job->is_video ? cs_video_target_open(&job->video, job->script, job->request, &job->frame,
-                                              &job->frames)
-                       : open_plane(job);
+  const cs_sequence *played = job->played.count ? &job->played : &job->frames;
+  return job->is_video
+             ? cs_video_target_open(&job->video, job->script, job->request, &job->frame, played)
+             : open_plane(job);
 }
 
 static cs_exit make_whole(render_job *job) {
@@ -500,6 +502,18 @@ static cs_exit report_no_frames(const render_job *job) {
   return CS_EXIT_OK;
 }
 
+/* With --fps, the frames of a video are those that are seen at its own rate. */
+static cs_exit retime(render_job *job) {
+  double rate;
+  celspan_context *context = job->script->context;
+  if (!job->is_video || !cs_request_read(job->request, "--fps", &rate))
+    return CS_EXIT_OK;
+  job->played = job->frames;
+  celspan_status status = cs_sequence_retime(context, &job->played,
+                                             rate / job->script->film.frames_second, &job->frames);
+  return cs_report_failure(context, status, "--fps");
+}
+
 /* Only here, where the frames are known, it is known whether the output is one picture, a film of
  * planes or a video. */
 static cs_exit make_frames(render_job *job) {
@@ -509,6 +523,7 @@ static cs_exit make_frames(render_job *job) {
   CS_TRY_EXIT(cs_change_refuse(job->script, &job->change, &job->frames));
   job->is_plane = cs_target_is_plane_film(request) && job->frames.count > 1;
   job->is_video = !job->is_plane && cs_video_target_is_wanted(request, job->frames.count);
+  CS_TRY_EXIT(retime(job));
   if (is_whole(job))
     return job->resumes ? resume_whole(job) : make_whole(job);
   if (job->output && !cs_target_is_stream(job->output))
@@ -535,6 +550,7 @@ static cs_exit run(cs_script *script, const cs_request *request) {
     outcome = make_frames(&job);
   cs_mem_free(script->context->memory, job.failed, job.failed_capacity * sizeof *job.failed);
   cs_sequence_finish(&job.frames);
+  cs_sequence_finish(&job.played);
   return outcome;
 }
 

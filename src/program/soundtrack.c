@@ -35,13 +35,6 @@ celspan_status cs_soundtrack_check(cs_script *script, bool is_deep) {
   return status == CELSPAN_OUTPUT ? CELSPAN_OK : status;
 }
 
-static bool is_run(const cs_sequence *frames) {
-  for (size_t i = 1; i < frames->count; i++)
-    if (frames->frames[i] != frames->frames[i - 1] + 1)
-      return false;
-  return true;
-}
-
 celspan_status cs_soundtrack_mix(cs_script *script, int64_t first, int64_t count,
                                  cs_sound_stream *out, int64_t *moments) {
   cs_heard track;
@@ -54,7 +47,7 @@ celspan_status cs_soundtrack_mix(cs_script *script, int64_t first, int64_t count
 
 cs_exit cs_soundtrack_open(cs_script *script, const cs_request *request, const cs_sequence *frames,
                            cs_sound_stream *out, int64_t *moments) {
-  if (!is_run(frames))
+  if (!cs_sequence_is_run(frames))
     return cs_report_usage("--frames %s: the film has a sound, which goes with one run of frames "
                            "such as 10-20",
                            cs_request_text(request, "--frames"));

@@ -46,7 +46,8 @@ static cs_video_options options_of(const cs_request *request, const cs_video_cod
   return options;
 }
 
-const char *const cs_video_target_options[] = {"--codec", "--quality", "--crf", "--loop", NULL};
+const char *const cs_video_target_options[] = {"--codec", "--quality",  "--crf", "--fps",
+                                               "--loop",  "--max-size", NULL};
 
 /* ---------------------------------------------------------------- refusals */
 
@@ -55,6 +56,19 @@ bool cs_video_target_is_wanted(const cs_request *request, size_t frame_count) {
   if (!format || !format->is_picture)
     return format != NULL;
   return frame_count != 1 && !cs_sequence_has_number(cs_request_text(request, "-o"));
+}
+
+/* Refuses --max-size where the quality cannot be changed, or is given. */
+static cs_exit refuse_limit(const cs_request *request, const cs_video_codec *codec) {
+  static const char *const options[] = {"--quality", "--crf"};
+  for (size_t i = 0; i < sizeof options / sizeof *options; i++)
+    if (cs_request_has(request, options[i]))
+      return cs_report_usage("--max-size chooses the quality: leave %s out", options[i]);
+  return codec->most_crf > 0
+             ? CS_EXIT_OK
+             : cs_report_usage("%s: --max-size is for h264, h265, av1 and vp9, whose quality can "
+                               "be chosen finely enough: leave it out, or give another --codec",
+                               cs_request_text(request, "-o"));
 }
 
 static cs_exit refuse_codec(const cs_request *request, const cs_video_format *format) {
@@ -66,6 +80,8 @@ static cs_exit refuse_codec(const cs_request *request, const cs_video_format *fo
     cs_video_codec_list(format, names, sizeof names);
     return cs_report_usage("%s: --codec %s: %s contains %s", output, name, format->name, names);
   }
+  if (cs_request_has(request, "--max-size"))
+    return refuse_limit(request, codec);
   if (!cs_request_read(request, "--crf", &crf))
     return CS_EXIT_OK;
   if (cs_request_has(request, "--quality"))
@@ -142,6 +158,12 @@ static cs_exit refuse_rate(const cs_video_desc *video) {
                          frames_second, video->format->name, video->format->most_frames_second);
 }
 
+/* The value of --max-size; 0: none. */
+static uint64_t most_bytes_of(const cs_request *request) {
+  double bytes = 0;
+  return cs_request_read(request, "--max-size", &bytes) ? (uint64_t)bytes : 0;
+}
+
 /* ---------------------------------------------------------------- sound */
 
 /* The sound of the film for these frames. */
@@ -159,7 +181,7 @@ static cs_exit set_sound(cs_video_desc *video, cs_script *script, const cs_reque
 /* ---------------------------------------------------------------- opening */
 
 cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request *request,
-                             const celspan_frame_desc *frame, const cs_sequence *frames) {
+                             const celspan_frame_desc *frame, const cs_sequence *played) {
   bool is_part = frame->crop_width > 0;
   CS_TRY_EXIT(cs_video_target_refuse(request, SIZE_MAX));
   int32_t memory = 1;
@@ -170,10 +192,18 @@ cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request 
                         .frames = {.width = is_part ? frame->crop_width : frame->width,
                                    .height = is_part ? frame->crop_height : frame->height,
                                    .frames_second = script->film.frames_second},
+                        .most_bytes = most_bytes_of(request),
                         .has_digests = cs_request_has(request, "--hash"),
                         .keeps_nothing = has_memory && memory == 0};
+  cs_request_read(request, "--fps", &desc.frames.frames_second);
   CS_TRY_EXIT(refuse_size(&desc));
   CS_TRY_EXIT(refuse_rate(&desc));
-  CS_TRY_EXIT(set_sound(&desc, script, request, frames));
-  return cs_report_failure(script->context, cs_video_open(out, script->context, &desc), NULL);
+  CS_TRY_EXIT(set_sound(&desc, script, request, played));
+  char *chapters;
+  celspan_status status = cs_chapters_make(script, played, &chapters);
+  desc.chapters = chapters;
+  if (status == CELSPAN_OK)
+    status = cs_video_open(out, script->context, &desc);
+  cs_chapters_free(script, chapters);
+  return cs_report_failure(script->context, status, NULL);
 }

@@ -16,6 +16,15 @@ bool cs_video_target_is_wanted(const cs_request *request, size_t frame_count);
 /* Refuses options that videos do not have. OK, or reported. frame_count 0: not known yet, and the
  * name of a single picture is not refused. */
 cs_exit cs_video_target_refuse(const cs_request *request, size_t frame_count);
-/* Starts the encoder for these frames, with the film's sound. OK, or reported. */
+/* Starts the encoder, with the film's sound while these frames are played. OK, or reported. */
 cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request *request,
-                             const celspan_frame_desc *frame, const cs_sequence *frames);
+                             const celspan_frame_desc *frame, const cs_sequence *played);
+
+/* ---- chapters.c */
+
+/* The marks of the film as chapters of a video of these frames: the address of a text for ffmpeg;
+ * NULL: there are none, or the frames are not a run. Those for which there is no room are left
+ * out. *out: for cs_chapters_free. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_chapters_make(const cs_script *script, const cs_sequence *played,
+                                                char **out);
+void cs_chapters_free(const cs_script *script, char *chapters);

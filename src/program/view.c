@@ -37,6 +37,36 @@ static cs_exit set_size(const cs_request *request, celspan_frame_desc *out) {
   return CS_EXIT_LIMIT;
 }
 
+/* The width in pixels of a film that has this height in pixels and its own shape. */
+static int32_t fitting(double film_side, double film_other, int32_t other) {
+  return pixels(film_side, other / film_other);
+}
+
+/* Makes a film of another shape than the output fit into it, or cover it: the frame gets the film's
+ * shape, and the output is a crop of the frame, or reaches beyond it. */
+static cs_exit set_fit(const cs_request *request, celspan_frame_desc *out) {
+  cs_fit fit = CS_FIT_STRETCH;
+  int32_t width = out->width, height = out->height;
+  if (!cs_request_read(request, "--fit", &fit) || fit == CS_FIT_STRETCH)
+    return CS_EXIT_OK;
+  bool is_wider = (double)width * out->film_height > (double)height * out->film_width;
+  if (is_wider == (fit == CS_FIT_CONTAIN))
+    out->width = fitting(out->film_width, out->film_height, height);
+  else
+    out->height = fitting(out->film_height, out->film_width, width);
+  if (out->width < 0 || out->height < 0)
+    return cs_report_usage("--fit cover: the film would have more than %d pixels a side: give a "
+                           "smaller --size",
+                           CS_SIDE_MAX);
+  if (out->width == width && out->height == height)
+    return CS_EXIT_OK;
+  out->crop_x = (out->width - width) / 2;
+  out->crop_y = (out->height - height) / 2;
+  out->crop_width = width;
+  out->crop_height = height;
+  return CS_EXIT_OK;
+}
+
 static cs_exit set_crop(const int32_t crop[4], celspan_frame_desc *out) {
   if ((int64_t)crop[0] + crop[2] > out->width || (int64_t)crop[1] + crop[3] > out->height)
     return cs_report_usage("--crop %d,%d,%d,%d is not within the frame of %d x %d pixels", crop[0],
@@ -67,6 +97,9 @@ static cs_exit set_part(const cs_request *request, celspan_frame_desc *out) {
   bool has_strip = cs_request_strip(request, strip);
   if (has_strip && has_crop)
     return cs_report_usage("--strip and --crop both say which part to make: give one of them");
+  if (out->crop_width > 0 && (has_strip || has_crop))
+    return cs_report_usage("--fit makes whole frames: leave %s out",
+                           has_crop ? "--crop" : "--strip");
   return has_crop ? set_crop(crop, out) : has_strip ? set_strip(strip, out) : CS_EXIT_OK;
 }
 
@@ -86,5 +119,6 @@ cs_exit cs_view_frame(const cs_request *request, double film_width, double film_
   cs_request_read(request, "--workers", &out->workers);
   set_antialias(request, out);
   CS_TRY_EXIT(set_size(request, out));
+  CS_TRY_EXIT(set_fit(request, out));
   return set_part(request, out);
 }

@@ -44,9 +44,18 @@ local function pixels(exposures, options)
   return table.concat(words, "\n")
 end
 
+--- A part of the frame, which may reach beyond each of its sides.
 local function random_crop(random, size)
-  local x, y = random:whole(0, size[1] - 1), random:whole(0, size[2] - 1)
-  return { x, y, random:whole(1, size[1] - x), random:whole(1, size[2] - y) }
+  local x, y = random:whole(-6, size[1] - 1), random:whole(-6, size[2] - 1)
+  return { x, y, random:whole(1, size[1] - x + 6) + math.max(0, -x),
+    random:whole(1, size[2] - y + 6) + math.max(0, -y) }
+end
+
+--- The colour of a pixel, which is clear beyond the frame.
+local function pixel(image, x, y)
+  local is_inside = x >= 0 and y >= 0 and x < image.width and y < image.height
+  if is_inside then return { image:get(x, y) } end
+  return { 0, 0, 0, 0 }
 end
 
 describe("two runs", function()
@@ -85,7 +94,7 @@ describe("a crop", function()
       local part = assert(celspan.pixels(exposures, with(options, { crop = crop })))
       for y = 0, crop[4] - 1 do
         for x = 0, crop[3] - 1 do
-          local p, q = { part:get(x, y) }, { whole:get(crop[1] + x, crop[2] + y) }
+          local p, q = pixel(part, x, y), pixel(whole, crop[1] + x, crop[2] + y)
           for c = 1, 4 do
             if math.abs(p[c] - q[c]) > tolerance then
               error(("CASE=%d: crop %s: pixel %d, %d is %s, of the whole %s"):format(

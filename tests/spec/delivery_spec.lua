@@ -50,7 +50,7 @@ describe("a delivery", function()
     local code, _, err = celspan(arguments)
     assert.equal(2, code, err)
     assert.truthy(err:find(words, 1, true), err)
-    for _, name in ipairs(bench:files()) do assert.falsy(name:find "^out%.", name) end
+    assert.is_nil(bench:read(arguments:match "-o (%S+)"))
   end
   local function stream(name)
     local code, out, err = bench:inside("ffprobe -v error -select_streams v -count_frames "
@@ -130,10 +130,123 @@ describe("a delivery", function()
     assert.equal("hevc", stream("out.mp4").codec_name)
   end)
 
+  --- The frame of the film that is seen in each frame of a video, by the bar that grows.
+  local function frames_seen(name, width)
+    local count, seen = tonumber(stream(name).nb_read_frames), {}
+    for i = 0, count - 1 do
+      local row, bright = pixels(name, i, width, 128):sub(1 + 4 * width, 8 * width), 0
+      for x = 0, width - 1 do
+        if row:byte(4 * x + 1) > 250 and row:byte(4 * x + 3) > 250 then bright = bright + 1 end
+      end
+      seen[i + 1] = bright // 4 + 1
+    end
+    return seen
+  end
+
+  it_reads("has another rate with --fps, the same length, and the sound of the film", function()
+    render "-o out.mkv --codec ffv1 --no-dither --fps 12"
+    assert.same({ 1, 3, 5, 7, 9, 11 }, frames_seen("out.mkv", 256))
+    render "-o out.mkv --codec ffv1 --no-dither --fps 48 --frames 3-5"
+    assert.same({ 3, 3, 4, 4, 5, 5 }, frames_seen("out.mkv", 256))
+    render "-o out.mkv --codec ffv1 --no-dither --fps 30"
+    assert.same({ 1, 1, 2, 3, 4, 5, 5, 6, 7, 8, 9, 9, 10, 11, 12 }, frames_seen("out.mkv", 256))
+    bench:write("film.lua", (FILM:gsub("fps = 24", "%0, sound = 'tone.wav'")))
+    local samples = string.rep(string.pack("<i2i2", 8000, -8000), 24000)
+    bench:write("tone.wav", ("<c4I4c4c4I4I2I2I4I4I2I2c4I4"):pack("RIFF", 36 + #samples, "WAVE",
+      "fmt ", 16, 1, 1, 48000, 96000, 2, 16, "data", #samples) .. samples)
+    render "-o out.mkv --fps 30000/1001 --resume"
+    local _, out = bench:inside("ffprobe -v error -show_entries "
+      .. "stream=codec_type,r_frame_rate:format=duration -of csv=p=0 out.mkv")
+    assert.truthy(out:find("video,30000/1001", 1, true), out)
+    assert.truthy(out:find("audio", 1, true), out)
+    assert.is_true(math.abs(tonumber(out:match "\n(%d+%.%d+)") - 0.5) < 0.02, out)
+    local _, _, err = celspan "-o out.mkv --fps 12 --resume"
+    assert.falsy(err:find("kept", 1, true), err)
+    assert.equal("6", stream("out.mkv").nb_read_frames)
+  end)
+
+  it_reads("has at most --max-size bytes, and most of them where it can fill them", function()
+    bench:write("film.lua", (FILM:gsub("fps = 24", "%0, sound = 'tone.wav'")))
+    local samples = string.rep(string.pack("<i2i2", 8000, -8000), 12000)
+    bench:write("tone.wav", ("<c4I4c4c4I4I2I2I4I4I2I2c4I4"):pack("RIFF", 36 + #samples, "WAVE",
+      "fmt ", 16, 1, 1, 48000, 96000, 2, 16, "data", #samples) .. samples)
+    for _, case in ipairs { { "mp4", "h264", 40 }, { "mp4", "h265", 30 }, { "webm", "vp9", 40 } } do
+      local ending, codec, most = table.unpack(case)
+      render("-o out.%s --codec %s --max-size %dk -- confetti", ending, codec, most)
+      local bytes = #bench:read("out." .. ending)
+      assert.is_true(bytes <= most * 1000 and bytes >= most * 850, codec .. bytes)
+      local code, out = bench:inside("ffprobe -v error -count_frames -show_entries "
+        .. "stream=codec_type,nb_read_frames,r_frame_rate -of csv=p=0 out." .. ending)
+      assert.equal(0, code)
+      assert.truthy(out:find("video,24/1,12", 1, true) and out:find("audio", 1, true), out)
+    end
+    for _, name in ipairs(bench:files(".", true)) do assert.falsy(name:find "%.part$", name) end
+    render "-o out.mp4 --max-size 1G"
+    local code, _, err = celspan "-o none.mp4 --max-size 10k --size 1024x512 -- confetti"
+    assert.equal(5, code, err)
+    assert.truthy(err:find "none.mp4: has %d+ bytes at the lowest quality, and may have 1", err)
+    assert.is_nil(bench:read "none.mp4")
+  end)
+
+  it_reads("has the marks of the film as chapters", function()
+    bench:write("film.lua", (FILM:gsub("fps = 24",
+      "%0, marks = { ['Opening; a = b'] = 1, ['Caf\xc3\xa9'] = 5, End = 11 }")))
+    for _, ending in ipairs { "mp4", "mkv", "mov", "webm" } do
+      render("-o out.%s --frames 3-12 --fps 12", ending)
+      local code, out, err = bench:inside("ffprobe -v error -show_chapters -of compact=nk=0 out."
+        .. ending)
+      assert.equal(0, code, err)
+      local found = {}
+      local line = "start_time=(%S-)|end=%d+|end_time=(%S-)|tag:title=([^\n]*)"
+      for from, to, name in out:gmatch(line) do
+        found[#found + 1] = ("%.3f %.3f %s"):format(from, to, name)
+      end
+      assert.same({ "0.000 0.083 Opening; a = b", "0.083 0.333 Caf\xc3\xa9", "0.333 0.417 End" },
+        found)
+    end
+    render "-o out.gif"
+    render "-o out.mp4 --frames 12-1:-1"
+    assert.equal("12", stream("out.mp4").nb_read_frames)
+  end)
+
+  it_reads("contains the film between bars, or is covered by it, with --fit", function()
+    render "-o whole.mkv --codec ffv1 --no-dither --frames 4"
+    local whole = pixels("whole.mkv", 0, 256, 128)
+    for _, workers in ipairs { 1, 3 } do
+      render("-o out.mkv --codec ffv1 --no-dither --frames 4 --size 256x300 --fit contain "
+        .. "--workers %d", workers)
+      local bars = string.rep("\0", 256 * 86 * 4)
+      assert.is_true(pixels("out.mkv", 0, 256, 300) == bars .. whole .. bars)
+      render("-o out.mkv --codec ffv1 --no-dither --frames 4 --size 300x128 --fit contain "
+        .. "--workers %d", workers)
+      local rows = {}
+      for y = 0, 127 do
+        local bar = string.rep("\0", 22 * 4)
+        rows[y + 1] = bar .. whole:sub(y * 1024 + 1, y * 1024 + 1024) .. bar
+      end
+      assert.is_true(pixels("out.mkv", 0, 300, 128) == table.concat(rows))
+      render("-o out.mkv --codec ffv1 --no-dither --frames 4 --size 128x128 --fit cover "
+        .. "--workers %d", workers)
+      for y = 0, 127 do rows[y + 1] = whole:sub(y * 1024 + 257, y * 1024 + 768) end
+      assert.is_true(pixels("out.mkv", 0, 128, 128) == table.concat(rows))
+    end
+    render "-o out.mp4 --size 256x300 --fit contain --frames 4 --background '#fff'"
+    assert.equal("\0\0\0\xff", pixels("out.mp4", 0, 256, 300):sub(1, 4))
+    refused("-o bad.mp4 --size 64x64 --fit contain --crop 1,1,4,4", "--fit makes whole frames")
+    refused("-o bad.mp4 --size 64x1048576 --fit cover", "more than 1048576 pixels a side")
+  end)
+
   it("is refused with a codec that its file does not contain", function()
     refused("-o out.mp4 --codec prores", "out.mp4: --codec prores: mp4 contains h264, h265, av1")
     refused("-o out.gif --codec h264", "gif contains gif")
     refused("-o out.#.png --codec h264", "--codec is only for videos")
+    refused("-o out.#.png --fps 12", "--fps is only for videos")
+    refused("-o out.mp4 --fps 0", "frames per second from 0.01 to 1000")
+    refused("-o out.mp4 --fps 30/0", "frames per second from 0.01 to 1000")
+    refused("-o out.mp4 --max-size 8", "bytes such as 500k, 8M or 1.5G")
+    refused("-o out.mp4 --max-size 8M --crf 20", "--max-size chooses the quality")
+    refused("-o out.mov --max-size 8M", "--max-size is for h264, h265, av1 and vp9")
+    refused("-o out.#.png --max-size 8M", "--max-size is only for videos")
     refused("-o out.mp4 --crf 64", "a whole number from 0 to 63")
     refused("-o out.mp4 --crf 52", "--crf of h264 is a whole number from 0 to 51")
     refused("-o out.mov --crf 20", "prores has no --crf: leave it out, or give --quality")

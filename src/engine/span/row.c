@@ -128,6 +128,26 @@ void cs_row_crop(cs_row *row, int32_t x0, int32_t x1) {
   row->count = kept;
 }
 
+/* Inserts clear columns before the first span. */
+static celspan_status fill_left(celspan_context *context, cs_row *row) {
+  celspan_span clear = {.x1 = row->spans[0].x0, .kind = CELSPAN_SPAN_SINGLE};
+  CS_TRY(cs_row_reserve(context, row, 1));
+  memmove(row->spans + 1, row->spans, row->count++ * sizeof *row->spans);
+  row->spans[0] = clear;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_row_fill(celspan_context *context, cs_row *row, int32_t width) {
+  celspan_span *first = row->spans;
+  bool is_clear =
+      first->kind == CELSPAN_SPAN_SINGLE && cs_v4_same(cs_v4_load(first->colour), cs_v4_all(0));
+  if (is_clear)
+    first->x0 = first->origin = 0;
+  else if (first->x0 > 0)
+    CS_TRY(fill_left(context, row));
+  return cs_row_single(context, row, row->spans[row->count - 1].x1, width, cs_v4_all(0));
+}
+
 /* Appends the part of an array span between two columns. */
 static celspan_status append_copy(celspan_context *context, cs_row *out, const celspan_span *span,
                                   int32_t x0, int32_t x1) {

@@ -104,6 +104,10 @@ void cs_row_spread_span(const celspan_span *span, int32_t x, int32_t stop, cs_v4
 /* Cuts a row to the columns [x0, x1) and moves it left by x0. The colours do not change. */
 void cs_row_crop(cs_row *row, int32_t x0, int32_t x1);
 
+/* Adds clear columns from column 0 to the first span, and from the last span to `width`. The row
+ * has a span. */
+CELSPAN_CHECKED celspan_status cs_row_fill(celspan_context *context, cs_row *row, int32_t width);
+
 /* Appends the part of another row in the columns [x0, x1), which are to the right of all columns of
  * `out`. */
 CELSPAN_CHECKED celspan_status cs_row_append(celspan_context *context, cs_row *out,

@@ -21,15 +21,19 @@ static celspan_status check_size(celspan_context *context, const celspan_frame_d
   return cs_check_positive(context, "frame", "film height", desc->film_height);
 }
 
+/* Whether a run of pixels is not too long and has one of the pixels 0 .. side - 1. */
+static bool meets(int32_t first, int32_t count, int32_t side) {
+  return count >= 1 && count <= SIDE_LIMIT && first < side && (int64_t)first + count > 0;
+}
+
 static celspan_status check_crop(celspan_context *context, const celspan_frame_desc *desc) {
   if (desc->crop_width == 0 && desc->crop_height == 0)
     return CELSPAN_OK;
-  int64_t right = (int64_t)desc->crop_x + desc->crop_width;
-  int64_t bottom = (int64_t)desc->crop_y + desc->crop_height;
-  if (desc->crop_x < 0 || desc->crop_y < 0 || desc->crop_width < 1 || desc->crop_height < 1 ||
-      right > desc->width || bottom > desc->height)
+  if (!meets(desc->crop_x, desc->crop_width, desc->width) ||
+      !meets(desc->crop_y, desc->crop_height, desc->height))
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "frame: crop %d,%d,%d,%d does not lie inside the frame of %d x %d pixels",
+                   "frame: crop %d,%d,%d,%d has no pixel of the frame of %d x %d pixels, or more "
+                   "than 1048576 a side",
                    (int)desc->crop_x, (int)desc->crop_y, (int)desc->crop_width,
                    (int)desc->crop_height, (int)desc->width, (int)desc->height);
   return CELSPAN_OK;
@@ -134,12 +138,13 @@ void cs_frame_free_plans(const cs_frame *frame, cs_plan *plans, cs_memory *memor
 
 static void set_view(cs_frame *frame, const celspan_frame_desc *desc) {
   bool has_film = desc->film_width != 0;
+  int32_t end_row = frame->crop_y + frame->crop_height;
   frame->view = (cs_view){.film_width = has_film ? desc->film_width : desc->width,
                           .film_height = has_film ? desc->film_height : desc->height,
                           .width = desc->width,
                           .height = desc->height,
-                          .first_row = frame->crop_y,
-                          .end_row = frame->crop_y + frame->crop_height,
+                          .first_row = frame->crop_y > 0 ? frame->crop_y : 0,
+                          .end_row = end_row < desc->height ? end_row : desc->height,
                           .end_column = desc->width,
                           .most_dashes = CS_COMPILE_DASHES,
                           .span_error = desc->has_tolerance ? (float)desc->tolerance : 0,

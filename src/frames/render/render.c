@@ -165,10 +165,14 @@ static bool is_backed(const celspan_rostrum *rostrum) {
   return false;
 }
 
-/* The alphas of exposures add up. The weights of a shutter of many exposures sum to 1, except for
- * rounding. */
+/* A crop that reaches beyond the frame is clear there. The alphas of exposures add up. The weights
+ * of a shutter of many exposures sum to 1, except for rounding. */
 static bool is_opaque(const celspan_frame_desc *desc) {
   double alpha = 0;
+  if (desc->crop_x < 0 || desc->crop_y < 0 ||
+      (int64_t)desc->crop_x + desc->crop_width > desc->width ||
+      (int64_t)desc->crop_y + desc->crop_height > desc->height)
+    return false;
   size_t count = desc->exposures ? desc->exposure_count : 0;
   for (size_t i = 0; i < count && count <= CS_CHECK_ITEMS; i++)
     if (desc->exposures[i].rostrum && is_backed(desc->exposures[i].rostrum))

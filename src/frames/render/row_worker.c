@@ -164,21 +164,45 @@ static celspan_status make_paned_row(cs_row_worker *worker, int32_t y, cs_row **
   return join_columns(worker, y, pane.first_column, pane.end_column);
 }
 
+/* ---------------------------------------------------------------- the crop */
+
+/* Whether the columns of the crop are the columns of the frame. */
+static bool has_all_columns(const cs_frame *frame) {
+  return frame->crop_x == 0 && frame->crop_width == frame->width;
+}
+
+/* A row of the crop that lies above or below the frame. */
+static celspan_status make_clear_row(cs_row_worker *worker, cs_row **out) {
+  *out = &worker->sum;
+  cs_row_clear(&worker->sum);
+  return cs_row_single(&worker->context, &worker->sum, 0, worker->frame->crop_width, cs_v4_all(0));
+}
+
+/* Cuts a row of the frame to the columns of the crop. */
+static celspan_status crop_row(cs_row_worker *worker, cs_row *row) {
+  const cs_frame *frame = worker->frame;
+  if (has_all_columns(frame))
+    return CELSPAN_OK;
+  cs_row_crop(row, frame->crop_x, frame->crop_x + frame->crop_width);
+  return cs_row_fill(&worker->context, row, frame->crop_width);
+}
+
 void cs_row_worker_aim(cs_row_worker *worker, unsigned char *pixels) {
   const cs_frame *frame = worker->frame;
-  if (frame->count == 1 && !frame->is_crowded && frame->crop_width == frame->width)
+  if (frame->count == 1 && !frame->is_crowded && has_all_columns(frame))
     worker->rows[0].pixels = worker->rows[0].takes_codes ? pixels : NULL;
 }
 
 celspan_status cs_row_worker_row(cs_row_worker *worker, int32_t y, const cs_row **out) {
   const cs_frame *frame = worker->frame;
   cs_row *row;
-  CS_TRY(frame->is_crowded ? make_paned_row(worker, frame->crop_y + y, &row)
-                           : make_row(worker, frame->crop_y + y, &row));
-  if (frame->crop_width != frame->width)
-    cs_row_crop(row, frame->crop_x, frame->crop_x + frame->crop_width);
+  int32_t place = frame->crop_y + y;
+  bool is_outside = place < 0 || place >= frame->height;
+  CS_TRY(is_outside          ? make_clear_row(worker, &row)
+         : frame->is_crowded ? make_paned_row(worker, place, &row)
+                             : make_row(worker, place, &row));
   *out = row;
-  return CELSPAN_OK;
+  return is_outside ? CELSPAN_OK : crop_row(worker, row);
 }
 
 uint64_t cs_row_worker_evaluations(const cs_row_worker *worker) {

@@ -43,8 +43,8 @@ CELSPAN_CHECKED celspan_status cs_row_worker_init(cs_row_worker *worker, celspan
 void cs_row_worker_finish(cs_row_worker *worker);
 /* Where the codes of the next row will be put, from its first column on; NULL: not known. */
 void cs_row_worker_aim(cs_row_worker *worker, unsigned char *pixels);
-/* Row y of the crop. The row stays valid until the next call. The message of an error is
- * in the worker's context. */
+/* Row y of the crop, clear where the crop reaches beyond the frame. The row stays valid until the
+ * next call. The message of an error is in the worker's context. */
 CELSPAN_CHECKED celspan_status cs_row_worker_row(cs_row_worker *worker, int32_t y,
                                                  const cs_row **out);
 uint64_t cs_row_worker_evaluations(const cs_row_worker *worker);

@@ -1,4 +1,20 @@
-#include "frames/video/codec.h"
+/* The video codecs: the encoder of ffmpeg for each, its pixels, and the sizes it accepts.
+ *
+ *   name        encoder        pixels                            alpha    quality 75
+ *   h264        libx264        4:2:0 (mkv 4:4:4), 8 or 10 bits   none     -crf 18
+ *   h265        libx265        4:2:0 (mkv 4:4:4), 8 or 10 bits   none     -crf 19
+ *   av1         libaom-av1     4:2:0 (mkv 4:4:4), 8 or 10 bits   none     -crf 24
+ *   vp9         libvpx-vp9     4:2:0, 8 bits (10 without alpha)  8 bits   -crf 24
+ *   prores      prores_ks      4:4:4, 10 bits                    16 bits  -q:v 12
+ *   prores422   prores_ks      4:2:2, 10 bits                    none     -q:v 12
+ *   prores422hq prores_ks      4:2:2, 10 bits                    none     -q:v 12
+ *   dnxhr       dnxhd (HQX)    4:2:2, 10 bits                    none     a fixed rate
+ *   ffv1        ffv1           RGB, 8 or 16 bits                 as deep  without loss
+ *   gif, webp, apng: the only codecs of the formats of these names
+ *
+ * INVARIANT: a file has one of the codecs that its format lists; the first of them is the default.
+ */
+#include "frames/video/format.h"
 
 /* Drawings are flat between sharp edges: -tune animation uses bits for edges, not for grain. */
 static const char *const H264[] = {"-c:v",  "libx264",   "-preset", "medium",
@@ -30,7 +46,7 @@ static const char *const APNG[] = {"-c:v", "apng", "-pred", "mixed", NULL};
  * values of the other encoders give about the same error at 75 and below. */
 #define H264_QUALITY .encoder = H264, .quality = "-crf", .best = 8, .worst = 48, .most_crf = 51
 #define H265_QUALITY                                                                               \
-  .encoder = H265, .quality = "-crf", .best = 9, .worst = 49, .most_crf = 51, .least_width = 16,  \
+  .encoder = H265, .quality = "-crf", .best = 9, .worst = 49, .most_crf = 51, .least_width = 16,   \
   .least_height = 16
 #define AV1_QUALITY .encoder = AV1, .quality = "-crf", .best = 11, .worst = 63, .most_crf = 63
 

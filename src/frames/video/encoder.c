@@ -123,14 +123,15 @@ static void write_frames(void *user, int worker) {
 
 /* ---------------------------------------------------------------- opening */
 
-static celspan_status fail_start(const cs_encoder *encoder, const char *program, int error) {
+static celspan_status fail_start(celspan_context *context, const char *name, const char *program,
+                                 int error) {
   if (error == ENOENT)
-    return cs_fail(encoder->context, CELSPAN_OUTPUT,
-                   "%s: %s, which makes videos, is not in PATH: install the package ffmpeg",
-                   encoder->name, program);
+    return cs_fail(context, CELSPAN_OUTPUT,
+                   "%s: %s, which makes videos, is not in PATH: install the package ffmpeg", name,
+                   program);
   bool is_starved = error == ENOMEM || error == EAGAIN;
-  return cs_fail(encoder->context, is_starved ? CELSPAN_NO_MEMORY : CELSPAN_OUTPUT,
-                 "%s: %s cannot be started: %s", encoder->name, program, strerror(error));
+  return cs_fail(context, is_starved ? CELSPAN_NO_MEMORY : CELSPAN_OUTPUT,
+                 "%s: %s cannot be started: %s", name, program, strerror(error));
 }
 
 static void free_places(cs_encoder *encoder) {
@@ -173,7 +174,8 @@ static celspan_status start(cs_encoder *encoder, const char *const *arguments,
                             cs_sound_stream *samples) {
   CS_TRY(make_places(encoder));
   int error = cs_child_start(&encoder->process, arguments, samples->user != NULL);
-  return error ? fail_start(encoder, arguments[0], error) : start_threads(encoder, samples);
+  return error ? fail_start(encoder->context, encoder->name, arguments[0], error)
+               : start_threads(encoder, samples);
 }
 
 static void free_all(cs_encoder *encoder) {
@@ -256,6 +258,22 @@ static celspan_status end(cs_encoder *encoder, bool has_read_all) {
                  !is_over               ? "stopped reading frames, but did not end"
                  : process->ending == 0 ? "ended before it had read every frame"
                                         : how);
+}
+
+celspan_status cs_encoder_run(celspan_context *context, const char *name,
+                              const char *const *arguments) {
+  cs_child process;
+  char how[CS_WORDS + 64];
+  int error = cs_child_start(&process, arguments, false);
+  if (error)
+    return fail_start(context, name, arguments[0], error);
+  close(process.input);
+  if (!cs_child_end(&process, INFINITY))
+    return cs_fail(context, CELSPAN_CANCELLED, "%s: stopped", name);
+  if (process.ending == 0)
+    return CELSPAN_OK;
+  cs_words_describe(&process.words, process.ending, how, sizeof how);
+  return cs_fail(context, CELSPAN_OUTPUT, "%s: ffmpeg %s", name, how);
 }
 
 /* ---------------------------------------------------------------- waiting */

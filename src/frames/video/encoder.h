@@ -74,5 +74,9 @@ CELSPAN_CHECKED celspan_status cs_encoder_repeat(cs_encoder *encoder);
 /* Waits until all frames are written and the encoder has succeeded, and closes it. Errors: as
  * above. */
 CELSPAN_CHECKED celspan_status cs_encoder_finish(cs_encoder *encoder);
+/* Runs a program that gets nothing to read, until it ends. name: of the film, for messages. Errors:
+ * OUTPUT, CANCELLED, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_encoder_run(celspan_context *context, const char *name,
+                                              const char *const *arguments);
 /* Kills the encoder and closes it, unless it is closed already. */
 void cs_encoder_discard(cs_encoder *encoder);

@@ -29,6 +29,7 @@ static const cs_video_format FORMATS[] = {
      .codecs = {&cs_codec_h264, &cs_codec_h265, &cs_codec_av1},
      .most_frames_second = ENDLESS,
      .sound = AAC,
+     .has_chapters = true,
      .flags = ISO_FLAGS,
      .mark = {4, "ftyp"}},
     {.name = "mkv",
@@ -37,6 +38,7 @@ static const cs_video_format FORMATS[] = {
                 &cs_codec_ffv1},
      .most_frames_second = 1000,
      .sound = FLAC,
+     .has_chapters = true,
      .mark = {0, EBML}},
     {.name = "mov",
      .muxer = "mov",
@@ -44,6 +46,7 @@ static const cs_video_format FORMATS[] = {
                 &cs_codec_h264, &cs_codec_h265},
      .most_frames_second = ENDLESS,
      .sound = PCM,
+     .has_chapters = true,
      .flags = ISO_FLAGS,
      .mark = {4, "ftyp"}},
     {.name = "webm",
@@ -51,6 +54,7 @@ static const cs_video_format FORMATS[] = {
      .codecs = {&cs_codec_vp9, &cs_codec_av1},
      .most_frames_second = 1000,
      .sound = OPUS,
+     .has_chapters = true,
      .mark = {0, EBML}},
     {.name = "gif",
      .muxer = "gif",
@@ -214,10 +218,14 @@ static const char *frame_pixels(const cs_video_options *options) {
   return has_alpha(options) ? "rgba" : "rgb0";
 }
 
+static void add_format(cs_video_command *command, const char *name) {
+  add(command, "-f");
+  add(command, name);
+}
+
 static void add_frames(cs_video_command *command, const cs_video_options *options,
                        const cs_video_frames *frames) {
-  add(command, "-f");
-  add(command, "rawvideo");
+  add_format(command, "rawvideo");
   add(command, "-pixel_format");
   add(command, frame_pixels(options));
   add(command, "-video_size");
@@ -251,10 +259,10 @@ static void add_indexed(cs_video_command *command, const cs_video_options *optio
 /* By default ffmpeg assumes BT.601 for pictures of any size, and writes no colour tags. Rounding is
  * exact, and 2 x 2 pixels that share a colour get their mean, so that flat colours are unchanged.
  * Planes are passed on unchanged. */
-static void add_yuv(cs_video_command *command, const cs_video_options *options) {
+static void add_yuv(cs_video_command *command, const cs_video_options *options, bool is_coded) {
   bool is_rec709 = options->coding.transfer == CELSPAN_TRANSFER_REC709;
   const char *transfer = is_rec709 ? "bt709" : "iec61966-2-1";
-  bool is_made = cs_video_layout_of(options) != CS_VIDEO_RGBA;
+  bool is_made = is_coded || cs_video_layout_of(options) != CS_VIDEO_RGBA;
   const char *const tags[] = {
       "-color_range", "tv",         "-colorspace", "bt709", "-color_primaries",
       "bt709",        "-color_trc", transfer,      NULL};
@@ -265,12 +273,14 @@ static void add_yuv(cs_video_command *command, const cs_video_options *options) 
   add_all(command, tags);
 }
 
-static void add_pictures(cs_video_command *command, const cs_video_options *options) {
+/* is_coded: the frames have the pixels of the encoder already. */
+static void add_pictures(cs_video_command *command, const cs_video_options *options,
+                         bool is_coded) {
   const cs_video_codec *codec = options->codec;
   if (codec->is_indexed)
     add_indexed(command, options);
   else if (!codec->is_rgb)
-    add_yuv(command, options);
+    add_yuv(command, options, is_coded);
   add_all(command, codec->encoder);
   if (codec->quality) {
     add(command, codec->quality);
@@ -289,11 +299,10 @@ static void add_plays(cs_video_command *command, const cs_video_format *format, 
   add_text(command, "%d", is_counted && plays == 1 ? -1 : (int)plays - is_counted);
 }
 
-/* ---------------------------------------------------------------- sound */
+/* ---------------------------------------------------------------- sound and chapters */
 
 static void add_samples(cs_video_command *command, const cs_sound_stream *samples) {
-  add(command, "-f");
-  add(command, "f32le");
+  add_format(command, "f32le");
   add(command, "-ar");
   add_text(command, "%d", (int)samples->rate);
   add(command, "-ac");
@@ -301,31 +310,86 @@ static void add_samples(cs_video_command *command, const cs_sound_stream *sample
   add_pipe(command, CS_CHILD_SAMPLES);
 }
 
-static void add_sound(cs_video_command *command, const cs_video_format *format) {
+static void add_sound(cs_video_command *command, const char *const *codec, int input) {
   add(command, "-map");
   add(command, "0:v");
   add(command, "-map");
-  add(command, "1:a");
-  add_all(command, format->sound);
+  add_text(command, "%d:a", input);
+  add_all(command, codec);
 }
 
-void cs_video_command_encode(cs_video_command *command, const cs_video_format *format,
-                             const cs_video_options *options, const cs_video_frames *frames,
-                             const cs_sound_stream *sound, const char *file) {
-  begin(command);
+/* The address contains the text itself, so that ffmpeg reads no file. */
+static void add_chapters(cs_video_command *command, const char *address) {
+  add(command, "-protocol_whitelist");
+  add(command, "data");
+  add_format(command, "ffmetadata");
+  add(command, "-i");
+  add(command, address);
+}
+
+/* ---------------------------------------------------------------- commands */
+
+/* The frames, the sound and the chapters, each if there are any. */
+static void add_inputs(cs_video_command *command, const cs_video_options *options,
+                       const cs_video_frames *frames, const cs_sound_stream *sound,
+                       const char *chapters) {
   add_frames(command, options, frames);
   if (sound->user)
     add_samples(command, sound);
-  add_pictures(command, options);
-  if (sound->user)
-    add_sound(command, format);
+  if (chapters)
+    add_chapters(command, chapters);
+}
+
+/* Everything after the encoders. */
+static void add_output(cs_video_command *command, const cs_video_format *format,
+                       const cs_video_options *options, const char *file) {
   if (format->flags) {
     add(command, "-movflags");
     add(command, format->flags);
   }
   if (format->plays)
     add_plays(command, format, options->plays);
-  add(command, "-f");
-  add(command, format->muxer);
+  add_format(command, format->muxer);
   add_text(command, "file:%s", file);
+}
+
+void cs_video_command_encode(cs_video_command *command, const cs_video_format *format,
+                             const cs_video_options *options, const cs_video_frames *frames,
+                             const cs_sound_stream *sound, const char *chapters, const char *file) {
+  begin(command);
+  add_inputs(command, options, frames, sound, format->has_chapters ? chapters : NULL);
+  add_pictures(command, options, false);
+  if (sound->user)
+    add_sound(command, format->sound, 1);
+  add_output(command, format, options, file);
+}
+
+void cs_video_command_master(cs_video_command *command, const cs_video_options *options,
+                             const cs_video_frames *frames, const cs_sound_stream *sound,
+                             const char *chapters, const char *file) {
+  static const char *const pictures[] = {"-c:v", "ffv1", "-level", "3", NULL};
+  static const char *const samples[] = {"-c:a", "pcm_f32le", NULL};
+  begin(command);
+  add_inputs(command, options, frames, sound, chapters);
+  add_yuv(command, options, false);
+  add_all(command, pictures);
+  if (sound->user)
+    add_sound(command, samples, 1);
+  add_format(command, "nut");
+  add_text(command, "file:%s", file);
+}
+
+void cs_video_command_repeat(cs_video_command *command, const cs_video_format *format,
+                             const cs_video_options *options, bool has_sound, const char *master,
+                             const char *file) {
+  begin(command);
+  add(command, "-protocol_whitelist");
+  add(command, "file");
+  add_format(command, "nut");
+  add(command, "-i");
+  add_text(command, "file:%s", master);
+  add_pictures(command, options, true);
+  if (has_sound)
+    add_sound(command, format->sound, 0);
+  add_output(command, format, options, file);
 }

@@ -17,8 +17,23 @@
  */
 #pragma once
 
-#include "frames/video/codec.h"
 #include "frames/video/sound_stream.h"
+
+/* An encoder of ffmpeg with its pixels: see codec.c. */
+typedef struct cs_video_codec {
+  const char *name;
+  const char *const *encoder;       /* options of ffmpeg, NULL at the end */
+  const char *pixels, *deep_pixels; /* without alpha; NULL: not available */
+  const char *alpha_pixels, *deep_alpha_pixels;
+  bool is_halved;                    /* the encoder accepts even sides only */
+  bool is_rgb;                       /* the encoder accepts RGB; the file has no colour tags */
+  bool is_indexed;                   /* few colours for each frame, for which ffmpeg dithers */
+  bool is_deep;                      /* frames have 16 bits unless options request fewer */
+  int32_t least_width, least_height; /* pixels */
+  const char *quality; /* the option for the quality; NULL: a palette's size, or it has none */
+  double best, worst;  /* its values at quality 100 and 0 */
+  int32_t most_crf;    /* the greatest value of -crf; 0: the encoder has no such option */
+} cs_video_codec;
 
 enum { CS_VIDEO_CODECS = 6 }; /* of a format, at most */
 
@@ -32,7 +47,8 @@ typedef struct cs_video_format {
   const char *plays;   /* the muxer's option for how often it is played; NULL: players decide */
   bool counts_repeats; /* that option counts what follows the first time */
   const char *const *sound; /* options of ffmpeg; NULL: the format has no sound */
-  struct {                  /* bytes in every file of the format */
+  bool has_chapters;
+  struct { /* bytes in every file of the format */
     size_t offset;
     const char *bytes;
   } mark;
@@ -88,7 +104,22 @@ cs_video_layout cs_video_layout_of(const cs_video_options *options);
 celspan_coding cs_video_coding(const cs_video_options *options);
 
 /* The command that makes a video of raw frames, as above. sound: as long as the frames, or none.
+ * chapters: the address of a text in the format ffmetadata, which the command borrows; NULL: none.
  * file: the name of the output. */
 void cs_video_command_encode(cs_video_command *command, const cs_video_format *format,
                              const cs_video_options *options, const cs_video_frames *frames,
-                             const cs_sound_stream *sound, const char *file);
+                             const cs_sound_stream *sound, const char *chapters, const char *file);
+/* The command that keeps the pixels of the encoder, the samples and the chapters without loss in a
+ * master file, of which videos are made by the other command. Not for codecs of RGB. */
+void cs_video_command_master(cs_video_command *command, const cs_video_options *options,
+                             const cs_video_frames *frames, const cs_sound_stream *sound,
+                             const char *chapters, const char *file);
+void cs_video_command_repeat(cs_video_command *command, const cs_video_format *format,
+                             const cs_video_options *options, bool has_sound, const char *master,
+                             const char *file);
+
+/* ---- codec.c */
+
+extern const cs_video_codec cs_codec_h264, cs_codec_h264_444, cs_codec_h265, cs_codec_h265_444,
+    cs_codec_av1, cs_codec_av1_444, cs_codec_vp9, cs_codec_prores, cs_codec_prores422,
+    cs_codec_prores422hq, cs_codec_dnxhr, cs_codec_ffv1, cs_codec_gif, cs_codec_webp, cs_codec_apng;

@@ -21,40 +21,53 @@ static size_t frame_size(const cs_video *video, int32_t width, int32_t height) {
              : cs_planes_size(width, height, video->layout == CS_VIDEO_420);
 }
 
-static celspan_status start(cs_video *video, const cs_video_command *command, int32_t width,
-                            int32_t height, cs_sound_stream *samples) {
-  size_t size = frame_size(video, width, height);
-  celspan_status status = cs_encoder_open(&video->encoder, video->context, video->path,
-                                          command->arguments, size, samples);
-  if (status != CELSPAN_OK)
-    cs_file_discard(video->file, video->context);
-  return status;
+static celspan_status open_file(cs_video *video, cs_file **file, const char **name) {
+  CS_TRY(cs_file_create(video->context, NULL, video->path, file));
+  return cs_file_temporary(*file, video->context, name);
 }
 
-static celspan_status open_file(cs_video *video, const char **name) {
+/* The files, and the command that writes the first of them. */
+static celspan_status prepare(cs_video *video, const cs_video_desc *desc,
+                              cs_video_command *command) {
+  const char *name;
   cs_temporary_sweep(video->path, is_same);
-  CS_TRY(cs_file_create(video->context, NULL, video->path, &video->file));
-  return cs_file_temporary(video->file, video->context, name);
+  CS_TRY(open_file(video, &video->file, &name));
+  if (desc->most_bytes == 0) {
+    cs_video_command_encode(command, desc->format, &desc->options, &desc->frames, &desc->sound,
+                            desc->chapters, name);
+    return CELSPAN_OK;
+  }
+  CS_TRY(open_file(video, &video->master, &name));
+  cs_video_command_master(command, &desc->options, &desc->frames, &desc->sound, desc->chapters,
+                          name);
+  return CELSPAN_OK;
+}
+
+static void discard_files(cs_video *video) {
+  cs_file_discard(video->master, video->context);
+  cs_file_discard(video->file, video->context);
 }
 
 celspan_status cs_video_open(cs_video *out, celspan_context *context, const cs_video_desc *desc) {
-  const cs_video_frames *frames = &desc->frames;
   cs_video_command command;
-  const char *name = NULL;
   *out = (cs_video){.context = context,
                     .path = desc->path,
                     .format = desc->format,
                     .coding = cs_video_coding(&desc->options),
                     .layout = cs_video_layout_of(&desc->options),
+                    .options = desc->options,
+                    .most_bytes = desc->most_bytes,
+                    .has_sound = desc->sound.user != NULL,
                     .has_digests = desc->has_digests,
                     .keeps_nothing = desc->keeps_nothing};
-  out->stride = (size_t)frames->width * cs_pixels_size(&out->coding);
+  out->stride = (size_t)desc->frames.width * cs_pixels_size(&out->coding);
   cs_sound_stream samples = desc->sound;
-  celspan_status status = open_file(out, &name);
-  if (status == CELSPAN_OK) {
-    cs_video_command_encode(&command, desc->format, &desc->options, frames, &desc->sound, name);
-    status = start(out, &command, frames->width, frames->height, &samples);
-  }
+  celspan_status status = prepare(out, desc, &command);
+  if (status == CELSPAN_OK)
+    status = cs_encoder_open(&out->encoder, context, out->path, command.arguments,
+                             frame_size(out, desc->frames.width, desc->frames.height), &samples);
+  if (status != CELSPAN_OK)
+    discard_files(out);
   cs_sound_stream_close(&samples);
   return status;
 }
@@ -183,22 +196,28 @@ static celspan_status check_mark(const cs_video *video, const char *name) {
 }
 
 static celspan_status complete(cs_video *video) {
-  const char *name;
+  const char *name, *master;
   CS_TRY(cs_encoder_finish(&video->encoder));
   CS_TRY(cs_file_temporary(video->file, video->context, &name));
+  if (video->master) {
+    CS_TRY(cs_file_temporary(video->master, video->context, &master));
+    CS_TRY(cs_video_limit(video, master, name));
+  }
   CS_TRY(check_mark(video, name));
   return cs_file_adopt(video->file, video->context);
 }
 
 celspan_status cs_video_finish(cs_video *video) {
   celspan_status status = complete(video);
-  if (status == CELSPAN_OK)
-    return cs_file_commit(video->file, video->context);
-  cs_video_discard(video);
-  return status;
+  if (status != CELSPAN_OK) {
+    cs_video_discard(video);
+    return status;
+  }
+  cs_file_discard(video->master, video->context);
+  return cs_file_commit(video->file, video->context);
 }
 
 void cs_video_discard(cs_video *video) {
   cs_encoder_discard(&video->encoder);
-  cs_file_discard(video->file, video->context);
+  discard_files(video);
 }

@@ -3,6 +3,9 @@
  *   frames --> encoder.h --> ffmpeg --> .film.mp4.1a2b.part --finish--> film.mp4
  *   samples ---------------^
  *
+ *   with a limit of bytes:
+ *   frames, samples --> ffmpeg --> master --ffmpeg, several times--> .film.mp4.1a2b.part
+ *
  * INVARIANT: the file appears under its name when cs_video_finish returns OK, not before. After
  * cs_video_finish and cs_video_discard there is no temporary file and no process.
  */
@@ -19,6 +22,8 @@ typedef struct cs_video_desc {
   cs_video_options options; /* which the format supports */
   cs_video_frames frames;
   cs_sound_stream sound; /* as long as the frames; none: there is no sound */
+  const char *chapters;  /* see cs_video_command_encode; NULL: none */
+  uint64_t most_bytes;   /* of the file, whose quality is the highest that fits; 0: any number */
   bool has_digests;      /* hashes the RGBA pixels of each frame */
   bool keeps_nothing;    /* makes a frame again that equals the previous one */
 } cs_video_desc;
@@ -31,6 +36,11 @@ typedef struct cs_video {
   cs_video_layout layout;
   size_t stride; /* of RGBA */
   cs_file *file; /* owned */
+  /* where the file has a limit: */
+  cs_file *master; /* the frames without loss; owned; NULL: there is no limit */
+  cs_video_options options;
+  uint64_t most_bytes;
+  bool has_sound;
   cs_encoder encoder;
   bool has_digests, keeps_nothing;
   bool has_last; /* the previous frame can be compared with the next one */
@@ -48,3 +58,10 @@ CELSPAN_CHECKED celspan_status cs_video_put(cs_video *video, const celspan_frame
 /* Both end the video, whatever they return. */
 CELSPAN_CHECKED celspan_status cs_video_finish(cs_video *video);
 void cs_video_discard(cs_video *video);
+
+/* ---- limit.c */
+
+/* Makes the video of its master as the file `name`, with the highest quality that fits into its
+ * limit. Errors: OUTPUT, also if the lowest quality does not fit; CANCELLED; NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_video_limit(const cs_video *video, const char *master,
+                                              const char *name);

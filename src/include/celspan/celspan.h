@@ -1254,10 +1254,11 @@ typedef struct celspan_frame_desc {
   size_t struct_size;
   const celspan_exposure *exposures; /* borrowed; light adds, alpha adds and is clamped to 1 */
   size_t exposure_count;
-  double film_width, film_height; /* film units; 0 0: the size in pixels */
-  int32_t width, height;          /* pixels of the whole frame, 1..1,048,576 */
-  int32_t crop_x, crop_y;
-  int32_t crop_width, crop_height; /* 0 0: the whole frame */
+  double film_width, film_height;  /* film units; 0 0: the size in pixels */
+  int32_t width, height;           /* pixels of the whole frame, 1..1,048,576 */
+  int32_t crop_x, crop_y;          /* below 0: the crop begins beyond the frame */
+  int32_t crop_width, crop_height; /* 0 0: the whole frame; clear beyond the frame, of which the
+                                      crop has at least one pixel; 1,048,576 at most */
   bool has_antialias;              /* false: each rostrum's own */
   celspan_antialias_mode antialias;
   const celspan_filter_desc *filter; /* where antialias is FILTER; borrowed; NULL: a box */

@@ -1,0 +1,81 @@
+/* A video with a limit of bytes: the rate factor is found by encoding the master again and again.
+ *
+ *   rate factor   best ... 18 ... 24 25 ... worst        a greater factor makes a smaller file
+ *   bytes         too many |     too many| fits          two neighbours: the right one is taken
+ *
+ * The size falls by half in about HALVING factors. So the next try is where the size would fit if
+ * this were exact, and the neighbours are found after three or four tries. A constant factor gives
+ * every frame the same quality, and needs no record of a first pass.
+ */
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "frames/video/video.h"
+
+#define HALVING 6.0 /* of 51 factors; more where an encoder has more */
+
+typedef struct search {
+  const cs_video *video;
+  const char *master, *name;
+  int32_t over, fits; /* the greatest factor known to be over the limit, the least that fits */
+  int32_t made;       /* the factor of the file as it is */
+  double bytes;       /* of that file */
+} search;
+
+static celspan_status encode(search *s, int32_t crf) {
+  const cs_video *video = s->video;
+  cs_video_options options = video->options;
+  cs_video_command command;
+  struct stat about;
+  options.has_crf = true;
+  options.crf = crf;
+  cs_video_command_repeat(&command, video->format, &options, video->has_sound, s->master, s->name);
+  CS_TRY(cs_encoder_run(video->context, video->path, command.arguments));
+  if (stat(s->name, &about) != 0)
+    return cs_fail(video->context, CELSPAN_OUTPUT, "%s: cannot be read back: %s", video->path,
+                   strerror(errno));
+  s->made = crf;
+  s->bytes = (double)about.st_size;
+  return CELSPAN_OK;
+}
+
+static celspan_status try_factor(search *s, int32_t crf) {
+  CS_TRY(encode(s, crf));
+  if (s->bytes > (double)s->video->most_bytes)
+    s->over = crf;
+  else
+    s->fits = crf;
+  return CELSPAN_OK;
+}
+
+/* A factor between the two that are known, or one of the ends of the scale. */
+static int32_t next(const search *s) {
+  const cs_video_codec *codec = s->video->options.codec;
+  double ratio = s->bytes / (double)s->video->most_bytes;
+  double step = ceil(log2(ratio) * HALVING * codec->most_crf / 51);
+  double wanted = fmax(s->over + 1, fmin(s->fits - 1, s->made + step));
+  return (int32_t)wanted;
+}
+
+celspan_status cs_video_limit(const cs_video *video, const char *master, const char *name) {
+  const cs_video_codec *codec = video->options.codec;
+  int32_t worst = codec->most_crf;
+  search s = {.video = video,
+              .master = master,
+              .name = name,
+              .over = (int32_t)codec->best - 1,
+              .fits = worst + 1};
+  int32_t crf = (int32_t)lround((codec->best + codec->worst) / 2);
+  while (s.fits - s.over > 1) {
+    CS_TRY(try_factor(&s, crf));
+    crf = next(&s);
+  }
+  if (s.fits > worst)
+    return cs_fail(video->context, CELSPAN_OUTPUT,
+                   "%s: has %.0f bytes at the lowest quality, and may have %.0f: give a smaller "
+                   "--size, fewer frames or a larger --max-size",
+                   video->path, s.bytes, (double)video->most_bytes);
+  return s.made == s.fits ? CELSPAN_OK : encode(&s, s.fits);
+}
