@@ -10,6 +10,7 @@
  */
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -129,12 +130,20 @@ static int take(lua_State *L) {
   return 1;
 }
 
-/* renderer:words() -> its output since the last call */
+/* renderer:words() -> its output since the last call, at most as much as its pipe holds: of one that
+ * has ended this is all */
 static int words(lua_State *L) {
   const renderer *r = self(L);
-  char text[PIECE];
-  ssize_t got = r->words >= 0 ? read(r->words, text, sizeof text) : 0;
-  lua_pushlstring(L, text, got > 0 ? (size_t)got : 0);
+  luaL_Buffer text;
+  luaL_buffinit(L, &text);
+  for (size_t left = ANSWER; left > 0 && r->words >= 0;) {
+    ssize_t got = read(r->words, luaL_prepbuffsize(&text, PIECE), PIECE);
+    if (got <= 0)
+      break;
+    luaL_addsize(&text, (size_t)got);
+    left -= left < (size_t)got ? left : (size_t)got;
+  }
+  luaL_pushresult(&text);
   return 1;
 }
 
@@ -148,11 +157,16 @@ static int descriptors(lua_State *L) {
 
 /* ---------------------------------------------------------------- the process */
 
-/* renderer:stop(): asks it to end by itself, so that it removes what it has begun */
+/* renderer:stop(milliseconds): asks it to end by itself, so that it removes what it has begun, and
+ * waits for that, at most so long */
 static int stop(lua_State *L) {
   const renderer *r = self(L);
-  if (r->id)
+  struct pollfd answers = {.fd = r->answers};
+  int milliseconds = (int)luaL_checkinteger(L, 2);
+  if (r->id) {
     kill(-r->id, SIGTERM);
+    poll(&answers, 1, milliseconds);
+  }
   return 0;
 }
 

@@ -151,7 +151,7 @@ describe("parameters", function()
       ["speed = { 1, most = 4 }"] = "'speed' is a number, which has no field 'most'",
       ["['a-b'] = 1"] = "'a-b' is not a name: letters, digits and _, not beginning with a digit",
       ["a = {}"] = "'a' must be a string, a number, a boolean, a list of strings, or a table with "
-        .. "a default as [1], colour, ease or file",
+        .. "a default as [1], a point, colour, ease or file",
       ["at = { 1, point = true }"] = "'at' has the default a table, which is not a point, such as "
         .. '"120,80"',
       ["at = { 1, 2, 3, point = true }"] = "'at' is a point, which has no field '3'",

@@ -124,7 +124,7 @@ local function kind_of_table(name, given)
   if type(first) == "string" then return given[2] ~= nil and "choice" or "text", first end
   if type(first) == "number" or type(first) == "boolean" then return type(first), first end
   refuse(name, "must be a string, a number, a boolean, a list of strings, or a table with a "
-    .. "default as [1], colour, ease or file")
+    .. "default as [1], a point, colour, ease or file")
 end
 
 local known = { number = { 1, min = 1, max = 1 }, boolean = { 1 }, text = { 1 },

@@ -35,6 +35,11 @@ function program.has_ending(path, ...)
   return false
 end
 
+--- Whether a path is a folder, or leads into it. Both are resolved.
+function program.is_within(folder, path)
+  return path == folder or path:sub(1, #folder + 1) == folder:gsub("/$", "") .. "/"
+end
+
 --- A frame of a film as a separate film in which it looks the same: for celspan.pixels,
 --- celspan.probe and program.write.
 function program.still(film, exposures)

@@ -87,8 +87,8 @@ local function attempt(id, call, ...)
   if not is_good then refuse(id, 500, "the answer could not be made: " .. tostring(fault)) end
 end
 
-local function give_json(id, value)
-  answer(id, 200, "application/json", program.json(value) .. "\n")
+local function give_json(id, value, status)
+  answer(id, status or 200, "application/json", program.json(value) .. "\n")
 end
 
 local function describe_state()
@@ -409,8 +409,12 @@ posts["/render"] = function(id, given)
     return give_json(id, {})
   end
   if not is_ready(id, first) then return end
-  local status, sentence = renders:begin(given)
-  if status ~= 200 then return refuse(id, status, sentence) end
+  local status, sentence, exists = renders:begin(given)
+  if exists then
+    return give_json(id, { exists = true, message = sentence }, status)
+  elseif status ~= 200 then
+    return refuse(id, status, sentence)
+  end
   give_json(id, {})
 end
 

@@ -23,15 +23,10 @@ local function kind_of(name)
   return kinds[ending] or ending
 end
 
---- Whether a path leads into a folder. Both are resolved.
-local function is_below(folder, path)
-  return path and (path == folder or path:sub(1, #folder + 1) == folder:gsub("/$", "") .. "/")
-end
-
 local function add(walk, name, depth)
   local path = walk.top .. name
   local resolved = program.resolve(path)
-  if not is_below(walk.folder, resolved) or walk.seen[resolved] then return end
+  if not resolved or not program.is_within(walk.folder, resolved) or walk.seen[resolved] then return end
   walk.seen[resolved], walk.count = true, walk.count + 1
   local entries = program.entries(path)
   if entries == false then

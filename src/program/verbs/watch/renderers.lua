@@ -25,13 +25,6 @@ renderers.__index = renderers
 --- Options for the page, not for the film.
 local own = { ["--port"] = true, ["--open"] = true, ["--size"] = true, ["--editor"] = true }
 
---- values: of parameters; they replace those of the command line.
-local function words_of(script, values)
-  local settings = {}
-  for name, value in pairs(values) do settings[#settings + 1] = { name, value } end
-  return program.pass_on({ "stage", script }, request, own, settings)
-end
-
 function renderers.new(script, note_files)
   program.divide_memory(RENDERERS_MOST * #request) -- for the renderers of each film
   return setmetatable({ script = script, list = {}, queue = {}, values = {},
@@ -74,8 +67,16 @@ end
 
 -- ---------------------------------------------------------------- one renderer
 
+--- Adds to the words of a process what the film was given: the options of the request, and the
+--- values of parameters, which replace those of the command line.
+function renderers:add_options(words)
+  local settings = {}
+  for name, value in pairs(self.values) do settings[#settings + 1] = { name, value } end
+  return program.pass_on(words, request, own, settings)
+end
+
 function renderers:start()
-  local process, message = program.renderer(words_of(self.script, self.values))
+  local process, message = program.renderer(self:add_options { "stage", self.script })
   if not process then return nil, message end
   local one = { process = process, tail = "", used = program.clock() }
   table.insert(self.list, one)
@@ -106,6 +107,21 @@ local function finish(one, ...)
   if job then job.failed(...) end
 end
 
+--- Hands the answer of a renderer to the job. A trusted script can write to the same pipe, so the
+--- message may be anything; what is wrong with it is raised as an error.
+function renderers:give(job, message)
+  local text, at = (">s4"):unpack(message)
+  local head = assert(json.decode(text))
+  self.note_files(head.files)
+  if head.good then
+    job.done(head, message:sub(at))
+  elseif job.is_abandoned then
+    job.failed(NOT_WANTED, 503)
+  else
+    job.failed(head.message, 422)
+  end
+end
+
 --- Reads what has arrived from a renderer. false: the renderer has ended.
 function renderers:listen(one)
   hear(one)
@@ -118,21 +134,9 @@ function renderers:listen(one)
   local job = one.job
   if not message or not job then return message == nil end
   one.job, one.used = nil, program.clock()
-  local text, at = (">s4"):unpack(message)
-  local head = json.decode(text)
-  if not head then
-    job.failed("the renderer's answer cannot be read", 500)
-    return false
-  end
-  self.note_files(head.files)
-  if head.good then
-    job.done(head, message:sub(at))
-  elseif job.is_abandoned then
-    job.failed(NOT_WANTED, 503)
-  else
-    job.failed(head.message, 422)
-  end
-  return true
+  local is_good = pcall(self.give, self, job, message)
+  if not is_good then job.failed("the renderer's answer cannot be read", 500) end
+  return is_good
 end
 
 -- ---------------------------------------------------------------- all of them

@@ -5,13 +5,19 @@
 --
 -- INVARIANT: it writes into the folder of the script, or a folder in it, also where links lead; it
 -- replaces a file only if the page has said so; and what it wrote is removed when it fails or is
--- cancelled. A name is one word of the command line behind -o, and never an option.
+-- cancelled. A name is one word of the command line behind -o, and never an option. What the run
+-- prints may come from the script, so only finite numbers and short texts of it are passed on.
 local program, request = ...
 local json = require "celspan.json"
 
 local FILES_MOST = 100000 -- the most pictures of a render
+local MARKS_MOST = 20     -- the most # of a name, as the renderer has them
+local LINE_MOST = 16384   -- bytes of a line; of a longer one the end is kept
 local TAIL = 2000         -- bytes of the last words that are kept
 local SIDE_MOST = 65535   -- pixels
+local NEWS = 0.25         -- seconds between two reports of the progress
+local PATIENCE = 5        -- seconds for a run to end by itself; then it is killed
+local CLOSING = 400       -- the same in milliseconds when the page's server ends, which is in a hurry
 
 local renders = {}
 renders.__index = renders
@@ -21,19 +27,12 @@ local endings = { mp4 = "mp4", webm = "webm", mov = "mov", gif = "gif", webp = "
                   exr = "exr" }
 local stills = { png = true, exr = true }
 
--- Options for the page, not for the film.
-local own = { ["--port"] = true, ["--open"] = true, ["--size"] = true, ["--editor"] = true }
-
 --- tell(): called when pages need news.
 function renders.new(film, tell)
-  return setmetatable({ film = film, tell = tell, said = { state = "idle" } }, renders)
+  return setmetatable({ film = film, tell = tell, said = { state = "idle" }, told = 0 }, renders)
 end
 
 -- ---------------------------------------------------------------- what is wanted
-
-local function is_within(folder, path)
-  return path == folder or path:sub(1, #folder + 1) == folder:gsub("/$", "") .. "/"
-end
 
 --- Why a name is no name of a file beside the script; nil: it is one.
 local function fault_of_name(name, format)
@@ -61,8 +60,8 @@ local function place_of(script, name)
   local path, folder = top .. name, program.resolve(top)
   local above = path:match "^.*/"
   local parent, target = program.resolve(above), program.resolve(path)
-  local is_in = folder and parent and is_within(folder, parent)
-  if not is_in or target and not is_within(folder, target) then
+  local is_in = folder and parent and program.is_within(folder, parent)
+  if not is_in or target and not program.is_within(folder, target) then
     return nil, "the file must lie in the folder of the script"
   end
   if not program.entries(above) then return nil, "there is no such folder: make it first" end
@@ -79,9 +78,9 @@ local function range_of(text, facts)
   if is_good then return from, to end
 end
 
---- The files that a render makes.
+--- The files that a render makes. Only the last part of a path has a number.
 local function files_of(path, from, to)
-  local before, marks, after = path:match "^(.-)(#+)([^#]*)$"
+  local before, marks, after = path:match "^(.-)(#+)([^#/]*)$"
   if not marks then return { path } end
   local list = {}
   for number = from, to do
@@ -105,6 +104,9 @@ function renders:read(given)
   if given.file:find "#.*[^#]+.*#" or given.file:find "#.*/" then
     return nil, "write one #### for the number of the frame, in the last part of the name"
   end
+  if #(given.file:match "#+" or "") > MARKS_MOST then
+    return nil, ("at most %d # for the number of the frame"):format(MARKS_MOST)
+  end
   if is_sequence and not stills[format] then return nil, "a video has one file, without ####" end
   if stills[format] and not is_sequence and from ~= to then
     return nil, "write #### where each picture has its number, such as shot.####." .. format
@@ -123,24 +125,32 @@ end
 
 -- ---------------------------------------------------------------- the process
 
-local function exists(path)
-  local file = io.open(path, "rb")
-  if file then file:close() end
-  return file ~= nil
-end
-
 --- The words of the run: with the rights of this one, and the values that the page has given.
 function renders:words(wanted)
-  local settings, range = {}, ("%d-%d"):format(wanted.from, wanted.to)
+  local range = ("%d-%d"):format(wanted.from, wanted.to)
   local words = { "render", self.film.script, "-o", wanted.path, "--frames", range,
                   "--progress", "json" }
   if wanted.size then table.move({ "--size", wanted.size }, 1, 2, #words + 1, words) end
   if wanted.draft then words[#words + 1] = "--draft" end
-  for name, value in pairs(self.film.pool.values) do settings[#settings + 1] = { name, value } end
-  return program.pass_on(words, request, own, settings)
+  return self.film.pool:add_options(words)
 end
 
---- Begins a render. given: what the form says. Returns a status, and a sentence if it is refused.
+--- Notes which files the run will make. false: one is there already, whoever may read it.
+local function note_made(wanted, may_replace)
+  wanted.made = {}
+  for _, path in ipairs(wanted.files) do
+    local _, _, why = program.entries(path)
+    if why == "missing" then
+      wanted.made[#wanted.made + 1] = path
+    elseif not may_replace then
+      return false
+    end
+  end
+  return true
+end
+
+--- Begins a render. given: what the form says. Returns a status; if it is refused also a sentence,
+--- and whether the reason is that a file exists.
 function renders:begin(given)
   if self.process then return 409, "a render is running: cancel it first" end
   for _, name in ipairs { "format", "file", "frames", "size" } do
@@ -148,13 +158,8 @@ function renders:begin(given)
   end
   local wanted, why = self:read(given)
   if not wanted then return 400, why end
-  wanted.made = {}
-  for _, path in ipairs(wanted.files) do
-    if not exists(path) then
-      wanted.made[#wanted.made + 1] = path
-    elseif given.replace ~= true then
-      return 409, ("%s is there already"):format(wanted.file)
-    end
+  if not note_made(wanted, given.replace == true) then
+    return 409, ("%s is there already"):format(wanted.file), true
   end
   local process, message = program.renderer(self:words(wanted))
   if not process then return 500, message end
@@ -163,59 +168,96 @@ function renders:begin(given)
   return 200
 end
 
-function renders:say(said)
-  self.said = said
+--- Stores what pages are told. Progress is told a few times a second, everything else at once.
+function renders:say(said, is_progress)
+  self.said, self.is_behind = said, true
+  if not is_progress then self.told = 0 end
+  self:report()
+end
+
+--- Tells the pages what they do not know yet, if it is time.
+function renders:report()
+  if not self.is_behind or program.clock() - self.told < NEWS then return end
+  self.is_behind, self.told = false, program.clock()
   self.tell()
+end
+
+-- ---------------------------------------------------------------- what the run prints
+
+--- A finite number that is not below 0; nil: the value is none.
+local function number_of(value)
+  return type(value) == "number" and value >= 0 and value < math.huge and value or nil
 end
 
 --- Takes a line that the run has printed.
 function renders:hear(line)
   local event = line:find "^{" and json.decode(line)
-  if type(event) ~= "table" or not event.event then
+  local kind = type(event) == "table" and event.event
+  if kind == "frame" or kind == "start" then
+    self:say({ state = "running", file = self.wanted.file, done = number_of(event.done) or 0,
+               count = number_of(event.count), left = number_of(event.left) }, true)
+  elseif kind == "error" and type(event.message) == "string" then
+    self.message = self.message or event.message:sub(1, TAIL)
+  elseif not kind then
     self.tail = (self.tail .. line .. "\n"):sub(-TAIL)
-  elseif event.event == "frame" or event.event == "start" then
-    self:say { state = "running", file = self.wanted.file, done = event.done or 0,
-               count = event.count, left = event.left }
-  elseif event.event == "error" then
-    self.message = self.message or event.message
   end
 end
 
---- Removes what the run has made and was not there before.
-function renders:remove()
+--- Reads what the run has printed since the last time.
+function renders:listen()
+  local text, at = self.text .. self.process:words(), 1
+  for stop in function() return text:find("\n", at, true) end do
+    self:hear(text:sub(at, stop - 1))
+    at = stop + 1
+  end
+  self.text = text:sub(math.max(at, #text - LINE_MOST + 1))
+end
+
+-- ---------------------------------------------------------------- the end
+
+--- Removes what the run has made and was not there before, and what a run that was killed has left:
+--- files whose names are as in output/sinks/file.h.
+function renders:remove(was_killed)
   for _, path in ipairs(self.wanted.made) do os.remove(path) end
+  local folder, begun = self.wanted.path:match "^.*/" or "./", {}
+  for _, path in ipairs(was_killed and self.wanted.files or {}) do
+    begun["." .. path:match "[^/]*$"] = true
+  end
+  for _, entry in ipairs(was_killed and program.entries(folder) or {}) do
+    if begun[entry:match "^(.*)%.%x%x%x%x%.part$"] then os.remove(folder .. entry) end
+  end
 end
 
 function renders:finish()
   local code, signal = self.process:finish()
-  local is_cancelled, file = self.is_cancelled, self.wanted.file
-  self.process, self.is_cancelled = nil, nil
+  local is_cancelled, file = self.stopped ~= nil, self.wanted.file
+  self.process, self.stopped = nil, nil
   if code == 0 and not is_cancelled then return self:say { state = "done", file = file } end
-  self:remove()
+  self:remove(code == nil)
   if is_cancelled then return self:say { state = "cancelled", file = file } end
   local said = self.message or self.tail:match "([^\n]+)\n*$"
   self:say { state = "failed", file = file,
              message = said or signal or ("exit code %d"):format(code) }
 end
 
---- Ends the run; what it has made is removed.
-function renders:cancel()
-  if not self.process or self.is_cancelled then return end
-  self.is_cancelled = true
-  self.process:stop()
+--- Ends the run; what it has made is removed. milliseconds: to wait for it.
+function renders:cancel(milliseconds)
+  if not self.process or self.stopped then return end
+  self.stopped = program.clock()
+  self.process:stop(milliseconds or 0)
 end
 
---- Reads what the run has said.
+--- Reads what the run has said, and ends it if it does not end by itself.
 function renders:step()
+  self:report()
   if not self.process then return end
-  self.text = self.text .. self.process:words()
-  for line in self.text:gmatch "([^\n]*)\n" do self:hear(line) end
-  self.text = self.text:match "[^\n]*$"
-  if self.process:take() == false then
-    self.text = self.text .. self.process:words() .. "\n"
-    for line in self.text:gmatch "([^\n]+)\n" do self:hear(line) end
-    self:finish()
+  self:listen()
+  local is_over = self.process:take() == false
+  if is_over then
+    self:listen()
+    self:hear(self.text)
   end
+  if is_over or self.stopped and program.clock() - self.stopped > PATIENCE then self:finish() end
 end
 
 function renders:add_descriptors(list)
@@ -226,9 +268,9 @@ end
 --- Ends the run when the page's server ends.
 function renders:close()
   if not self.process then return end
-  self.process:stop()
-  self.process:finish()
-  self:remove()
+  self.stopped = nil
+  self:cancel(CLOSING)
+  self:finish()
 end
 
 return renders
