@@ -5,12 +5,20 @@
 
 #include <lua.h>
 
+#include "model/scene/scene.h"
 #include "program/script.h"
 
 /* Reads which part of the frame that was built last is wanted: the size of the frame, and a crop of
  * it, as six numbers from index 2 on. false: the crop is outside of the frame, or has too many
  * pixels; nil and a message are pushed. */
 bool cs_stage_frame(lua_State *L, const cs_script *script, celspan_frame_desc *out);
+
+/* The label of a cel of a rostrum: its name, or its place from the rear in the form that sheets
+ * have, "cel 2", which is written to `label`. */
+enum { CS_STAGE_LABEL = 32 };
+const char *cs_stage_label(const celspan_rostrum *rostrum, size_t i, char label[CS_STAGE_LABEL]);
+/* The shot that a cel of a frame of a cut shows, if it shows nothing else; NULL: none. Borrowed. */
+celspan_rostrum *cs_stage_shot(const celspan_cel *cel);
 
 int cs_stage_picture(lua_State *L, cs_script *script);
 int cs_stage_hits(lua_State *L, cs_script *script);

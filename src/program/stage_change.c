@@ -12,22 +12,12 @@
 #include "model/scene/scene.h"
 #include "program/stage.h"
 
-enum { LABEL = 32, CELS_MOST = 256 };
+enum { CELS_MOST = 256 };
 
 static int fail(lua_State *L, const cs_script *script) {
   luaL_pushfail(L);
   lua_pushstring(L, celspan_context_error(script->context));
   return 2;
-}
-
-/* The label of a cel: its name, or its place from the rear in the form that sheets have: "cel
- * 2". */
-static const char *label_of(const celspan_rostrum *rostrum, size_t i, char label[LABEL]) {
-  const char *name = cs_mark_name(rostrum->cels[i]->mark);
-  if (name[0])
-    return name;
-  snprintf(label, LABEL, "cel %zu", i + 1);
-  return label;
 }
 
 /* ---------------------------------------------------------------- cels */
@@ -77,25 +67,70 @@ static celspan_status change_frame(cs_script *script, maker make, void *user) {
 typedef struct alteration {
   lua_State *L; /* argument 2: letters by the labels of cels */
   celspan_context *context;
+  bool is_cut;
 } alteration;
 
+/* The letters for a cel: in a shot of a cut those of "shot/label", otherwise those of its label.
+ * Pushes them; "" if there are none. */
+static const char *push_letters(const alteration *a, const celspan_rostrum *from, size_t i) {
+  char room[CS_STAGE_LABEL];
+  const char *label = cs_stage_label(from, i, room), *shot = cs_mark_name(from->mark);
+  bool is_in_shot = a->is_cut && shot[0];
+  if (is_in_shot) {
+    lua_pushfstring(a->L, "%s/%s", shot, label);
+    is_in_shot = lua_gettable(a->L, 2) == LUA_TSTRING;
+    if (!is_in_shot)
+      lua_pop(a->L, 1);
+  }
+  if (!is_in_shot && lua_getfield(a->L, 2, label) != LUA_TSTRING) {
+    lua_pop(a->L, 1);
+    lua_pushliteral(a->L, "");
+  }
+  return lua_tostring(a->L, -1);
+}
+
+static celspan_status alter_cel(void *user, const celspan_rostrum *from, size_t i,
+                                celspan_cel **out);
+
+/* *out: new; the cel with its shot altered. */
+static celspan_status alter_shot(alteration *a, const celspan_cel *cel, celspan_cel **out) {
+  const celspan_object *whole = cel->objects[0];
+  celspan_rostrum *shot;
+  celspan_object *plain = NULL, *placed = NULL, *faded = NULL;
+  CS_TRY(remake(a->context, whole->data->rostrum, alter_cel, a, &shot));
+  celspan_status status = celspan_object_create_rostrum(a->context, shot, &plain);
+  if (status == CELSPAN_OK)
+    status = celspan_object_transform(a->context, plain, whole->matrix, &placed);
+  if (status == CELSPAN_OK)
+    status = celspan_object_fade(a->context, placed, whole->fade, &faded);
+  if (status == CELSPAN_OK)
+    status = cs_cel_with(a->context, cel, faded, out);
+  celspan_object_unref(faded);
+  celspan_object_unref(placed);
+  celspan_object_unref(plain);
+  celspan_rostrum_unref(shot);
+  return status;
+}
+
+/* Recursion ends: a shot is not looked for in a shot. */
 static celspan_status alter_cel(void *user, const celspan_rostrum *from, size_t i,
                                 celspan_cel **out) {
-  const alteration *a = user;
-  char label[LABEL];
+  alteration *a = user;
   *out = NULL;
-  lua_getfield(a->L, 2, label_of(from, i, label));
-  const char *letters = lua_isstring(a->L, -1) ? lua_tostring(a->L, -1) : "";
+  if (a->is_cut && !cs_mark_name(from->mark)[0] && cs_stage_shot(from->cels[i]))
+    return alter_shot(a, from->cels[i], out);
+  const char *letters = push_letters(a, from, i);
   const cs_cel_without without = {strchr(letters, 'l'), strchr(letters, 'f')};
   bool is_hidden = strchr(letters, 'h');
   lua_pop(a->L, 1);
   return is_hidden ? CELSPAN_OK : cs_cel_bare(a->context, from->cels[i], without, out);
 }
 
-/* film:alter(letters) -> true | nil, message. letters.ground, for example, changes the cel
- * "ground": h: the cel is hidden; l: its lights are replaced by white light; f: it is in focus */
+/* film:alter(letters, is_cut) -> true | nil, message. letters.ground, for example, changes the cel
+ * with this label (stage_tree.c): h: the cel is hidden; l: its lights are replaced by white light;
+ * f: it is in focus */
 int cs_stage_alter(lua_State *L, cs_script *script) {
-  alteration a = {L, script->context};
+  alteration a = {L, script->context, lua_toboolean(L, 3)};
   luaL_checktype(L, 2, LUA_TTABLE);
   luaL_checkstack(L, 4, "too many values");
   if (change_frame(script, alter_cel, &a) != CELSPAN_OK)
@@ -300,10 +335,10 @@ int cs_stage_costs(lua_State *L, cs_script *script) {
   give_cost(L, "", (cs_mark){NULL, NULL, 0, 0}, &c);
   const celspan_rostrum *rostrum = desc.exposure_count > 0 ? desc.exposures[0].rostrum : NULL;
   for (size_t i = 0; rostrum && i < rostrum->cel_count && i < CELS_MOST; i++) {
-    char label[LABEL];
+    char label[CS_STAGE_LABEL];
     if (measure_cel(script->context, &desc, i, &c) != CELSPAN_OK)
       return fail(L, script);
-    give_cost(L, label_of(rostrum, i, label), rostrum->cels[i]->mark, &c);
+    give_cost(L, cs_stage_label(rostrum, i, label), rostrum->cels[i]->mark, &c);
   }
   lua_pushboolean(L, true);
   return 1;

@@ -515,7 +515,7 @@ end
 local function frame_at(shot, index)
   local place = math.floor((index - shot.start) * shot.speed + SMALL)
   local good, result = pcall(shot.film.at, shot.film, math.min(shot.from + place, shot.to))
-  if good then return result end
+  if good then return shots_of.marked(result, shot) end
   local name = shot.name and shot.name:gsub("%%", "%%%%")
   error(name and type(result) == "string"
     and result:gsub("frame (%d+): ", "frame %1 of '" .. name .. "': ", 1) or result, 0)

@@ -1,4 +1,5 @@
 --- The shots of the films that celspan.cut made, for `celspan watch`, which shows them.
+local celspan = require "celspan"
 local fields = require "celspan.fields"
 local json = require "celspan.json"
 
@@ -6,6 +7,8 @@ local shots = {}
 
 local MOST = 100 -- films that are kept
 local films = {} -- the last one made last: { frames =, shots =, into = }
+local is_marking = false
+local rostrum_metatable = getmetatable(celspan.rostrum {})
 
 --- Keeps the shots of a film. Returns the film.
 function shots.keep(film, list, segments)
@@ -13,9 +16,32 @@ function shots.keep(film, list, segments)
   for _, segment in ipairs(segments) do
     if segment.between then into[segment.b or false] = segment.between.noun end
   end
+  for i, shot in ipairs(list) do shot.label = shot.name or ("shot %d"):format(i) end
   if #films == MOST then table.remove(films, 1) end
   films[#films + 1] = { frames = film.frames, shots = list, into = into }
   return film
+end
+
+--- Whether the frames of shots are marked from now on: "on" or "off".
+function shots.mark(how)
+  is_marking = how == "on"
+  return ""
+end
+
+--- What a shot shows, a rostrum or a list of exposures. If frames are marked, the rostra have the
+--- name of the shot.
+function shots.marked(result, shot)
+  local function named(value)
+    return getmetatable(value) == rostrum_metatable and value:named(shot.label) or value
+  end
+  if not is_marking then return result end
+  if type(result) ~= "table" then return named(result) end
+  local list = {}
+  for i, exposure in ipairs(result) do
+    local is_pair = type(exposure) == "table"
+    list[i] = is_pair and { named(exposure[1]), exposure[2] } or named(exposure)
+  end
+  return list
 end
 
 --- The shots of the film with this number of frames that was cut last, as JSON: name, the frames
@@ -28,7 +54,7 @@ function shots.text(frames)
   end
   local list = {}
   for i, shot in ipairs(one and one.shots or {}) do
-    list[i] = { { "name", shot.name or ("shot %d"):format(i) }, { "from", shot.start + 1 },
+    list[i] = { { "name", shot.label }, { "from", shot.start + 1 },
                 { "to", shot.start + shot.count }, { "before", shot.before },
                 { "after", shot.after }, { "into", one.into[shot] or "" } }
   end

@@ -195,6 +195,11 @@ celspan_status cs_cel_bare(celspan_context *context, const celspan_cel *cel, cs_
   return create(context, &fields, cel->objects, cel->object_count, cs_mark_keep(cel->mark), out);
 }
 
+celspan_status cs_cel_with(celspan_context *context, const celspan_cel *cel, celspan_object *object,
+                           celspan_cel **out) {
+  return create(context, cel, &object, 1, cs_mark_keep(cel->mark), out);
+}
+
 celspan_blend celspan_cel_mode(const celspan_cel *cel) { return cel->blend; }
 
 const char *celspan_cel_name(const celspan_cel *cel) { return cs_mark_name(cel->mark); }

@@ -315,6 +315,9 @@ typedef struct cs_cel_without {
 } cs_cel_without;
 CELSPAN_CHECKED celspan_status cs_cel_bare(celspan_context *context, const celspan_cel *cel,
                                            cs_cel_without without, celspan_cel **out);
+/* *out: new; like `cel`, name and line included, with this object alone. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_cel_with(celspan_context *context, const celspan_cel *cel,
+                                           celspan_object *object, celspan_cel **out);
 /* *out: new; like `from`, name and line included, with these cels, which are kept.
  * cs_rostrum_change replaces the back light, too. Neither checks its arguments. For tools that show
  * a part of a frame, or show it before another ground. Errors: NO_MEMORY. */

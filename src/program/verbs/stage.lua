@@ -10,7 +10,6 @@
 -- reasons, such as checks of all of them, print nothing.
 local program, request = ...
 local json = require "celspan.json"
-local core = require "celspan.core"
 local texts = require "celspan.files"
 
 local CHECK_SECONDS = 0.03 -- of checking frames, for one request
@@ -19,6 +18,7 @@ local SCRIPT_MOST = 1 << 20 -- bytes of a script in which parameters are looked 
 local TREE_MOST = 2000     -- cels and objects of a frame's tree
 
 local film
+local parts -- the shots of a cut; nil: the film is not a cut
 
 local function put(head, bytes)
   head.files = {}
@@ -63,17 +63,10 @@ local function parameters()
   return { list = list }
 end
 
---- The shots of a cut; nil: the film is not a cut.
-local function shots()
-  local text = film:ask("celspan.shots", "text", tostring(film.frames))
-  return text ~= "" and json.decode(text) or nil
-end
-
 function answers.film()
   local facts = { frames = film.frames, first = film.first, fps = film.fps, size = film.size,
                   title = film.title, marks = { list = film.marks }, sound = film.has_sound }
-  local list = shots()
-  facts.shots = list and { list = list }
+  facts.shots = parts and { list = parts }
   put { good = true, film = facts, parameters = parameters() }
 end
 
@@ -97,10 +90,20 @@ local function letters_of(list)
   return letters
 end
 
+--- Builds a frame with a function; in a cut its shots are marked. Returns what the function does.
+local function marked(build_it, ...)
+  if parts then film:ask("celspan.shots", "mark", "on") end
+  local good, message, code = build_it(...)
+  if parts then film:ask("celspan.shots", "mark", "off") end
+  return good, message, code
+end
+
 --- Builds a frame, with its cels changed as ask.cels says. false: refused.
 local function build(ask)
-  local good, message, code = build_seen(ask.number, ask.camera)
-  if good and ask.cels then good, message = film:alter(letters_of(ask.cels)) end
+  local good, message, code = marked(build_seen, ask.number, ask.camera)
+  if good and ask.cels then
+    good, message = film:alter(letters_of(ask.cels), parts ~= nil)
+  end
   if not good then refuse(message, code) end
   return good
 end
@@ -162,15 +165,24 @@ function answers.at(ask)
   put { good = true, hits = hits }
 end
 
---- The tree of the frame's cels and of the objects in them that have a name, the nearest first.
-function answers.tree(ask)
-  if not build(ask) then return end
-  local tree = { list = {} }
-  film:tree(TREE_MOST, function(depth, kind, name, source, line)
-    table.insert(tree.list, { depth = depth, kind = kind, name = name, file = source,
-                              line = source and line })
+--- The tree of the cels of the frame that was built last, and of the objects in them that have a
+--- name, the nearest first. A cel that is in several exposures, as those of a shutter, is there
+--- once.
+local function tree_of()
+  local tree, exposures = {}, {}
+  film:tree(TREE_MOST, parts ~= nil, function(depth, kind, name, source, line, shot, label, exposure)
+    if label and shot ~= "" then label = shot .. "/" .. label end
+    if label and (exposures[label] or exposure) < exposure then return false end
+    if label then exposures[label] = exposure end
+    tree[#tree + 1] = { depth = depth, kind = kind, name = name, file = source,
+                        line = source and line, label = label }
+    return true
   end)
-  put { good = true, tree = tree }
+  return tree
+end
+
+function answers.tree(ask)
+  if build(ask) then put { good = true, tree = { list = tree_of() } } end
 end
 
 --- The exposure sheet of the frames `from` to `to`, of which the first is 1; nil: refused.
@@ -192,17 +204,26 @@ function answers.sheet()
   put({ good = true }, text)
 end
 
---- Whether a layer of the sheet is a cel in its first drawing.
-local function is_cel(name, cells)
+--- The labels of the cels of frames, as keys, which are found as they are needed.
+local function new_labels()
+  return setmetatable({}, { __index = function(frames, number)
+    local labels = {}
+    if marked(film.try, film, number) then
+      for _, one in ipairs(tree_of()) do labels[one.label or ""] = true end
+    end
+    frames[number] = labels
+    return labels
+  end })
+end
+
+--- The label of the cel in whose first drawing a layer of the sheet is; nil: the layer is no cel.
+local function label_of(labels, name, cells, shot)
   for _, cell in ipairs(cells.list) do
     if cell[2] ~= "" then
-      for _, part in ipairs(core.parts(film:at(film.first + cell[1] - 1))) do
-        if part.kind == "cel" and part.name == name then return true end
-      end
-      return false
+      local known, longer = labels[film.first + cell[1] - 1], shot and shot.name .. "/" .. name
+      return longer and known[longer] and longer or known[name] and name or nil
     end
   end
-  return false
 end
 
 --- Adds the rows of the frames from..to. cells: { first frame, drawing } in order, with the drawing
@@ -224,27 +245,30 @@ end
 
 --- Adds the rows of a shot, which are named by it: "evening / nell / mouth". A shot with something
 --- over it is itself in a cel without a name.
-local function add_shot(rows, shot, last)
+local function add_shot(rows, labels, shot, last)
   local begin = #rows + 1
   if not add_rows(rows, shot.from, math.min(shot.to, last)) then return false end
   for i = begin, #rows do
     local row = rows[i]
-    row.shot, row.name = shot.name, shot.name .. " / " .. row.name:gsub("^cel 1/", "")
-      :gsub("/", " / ")
+    local name = row.name:gsub("^cel 1/", "")
+    row.cel = label_of(labels, name, row.cells, shot)
+    row.shot, row.name = shot.name, shot.name .. " / " .. name:gsub("/", " / ")
     if shot.to < last then table.insert(row.cells.list, { shot.to + 1, "" }) end
   end
   return true
 end
 
---- A row for each layer, the nearest first; in a cut those of a shot together. cel: whether the
---- layer is a cel.
+--- A row for each layer, the nearest first; in a cut those of a shot together. cel: the label of the
+--- cel that the layer is.
 function answers.rows()
-  local rows, last, parts = {}, math.min(film.frames, SHEET_MOST), shots()
+  local rows, labels, last = {}, new_labels(), math.min(film.frames, SHEET_MOST)
   for _, shot in ipairs(parts or {}) do
-    if shot.from <= last and not add_shot(rows, shot, last) then return end
+    if shot.from <= last and not add_shot(rows, labels, shot, last) then return end
   end
   if not parts and not add_rows(rows, 1, last) then return end
-  for _, row in ipairs(parts and {} or rows) do row.cel = is_cel(row.name, row.cells) end
+  for _, row in ipairs(parts and {} or rows) do
+    row.cel = label_of(labels, row.name, row.cells)
+  end
   put({ good = true }, program.json { rows = { list = rows }, frames = last })
 end
 
@@ -378,6 +402,8 @@ local good, made = pcall(program.film, request[1])
 if good then
   film = made
   film:keep_callers(false)
+  local text = film:ask("celspan.shots", "text", tostring(film.frames))
+  parts = text ~= "" and json.decode(text) or nil
 end
 for ask in take do
   if not film then

@@ -15,8 +15,7 @@ const tree = { list: [], address: "" };
 const folded = new Set(); // paths of rows whose children are hidden
 let pointed = 0;          // the number of the newest question about the place of the pointer
 
-export const celNames = () => tree.list.filter(one => one.kind === "cel" && one.depth === 0)
-  .map(one => one.name);
+export const celNames = () => tree.list.map(one => one.cel).filter(Boolean);
 
 /** Asks for the tree of the frame that is shown, if it is seen. */
 export async function loadObjects() {
@@ -39,12 +38,12 @@ function pathsOf(list) {
   const shots = shotsOf().filter(shot => shot.at <= at && at < shot.at + shot.count);
   const shot = shots.length === 1 ? [shots[0].name] : []; // in a transition there are two
   return list.map((one, i) => {
-    const name = one.name || one.kind;
+    const cel = one.label, name = one.name || cel?.replace(/^.*\//, "") || one.kind;
     names.length = one.depth;
     names.push(name);
     const plain = [...shot, ...names].join("/"), count = seen.get(plain) || 0;
     seen.set(plain, count + 1);
-    return { ...one, label: name, path: count ? `${plain} ${count + 1}` : plain,
+    return { ...one, cel, label: name, path: count ? `${plain} ${count + 1}` : plain,
              isParent: (list[i + 1]?.depth ?? 0) > one.depth };
   });
 }
@@ -75,7 +74,7 @@ function objectRow(one) {
   const name = element("button", { className: "name", title: place, textContent: one.label,
     onclick: () => { if (state.editor && place) post("/open", one); } });
   row.append(one.isParent ? fold : element("i", { className: "leaf" }), name);
-  if (one.kind === "cel" && one.depth === 0) row.append(...objectSwitches(one.name));
+  if (one.cel) row.append(...objectSwitches(one.cel));
   row.addEventListener("pointerenter", () => outline(one.file ? one : null));
   row.addEventListener("pointerleave", () => outline(null));
   row.addEventListener("focusin", () => outline(one.file ? one : null));

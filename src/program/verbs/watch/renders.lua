@@ -7,7 +7,7 @@
 -- replaces a file only if the page has said so; and what it wrote is removed when it fails or is
 -- cancelled. A name is one word of the command line behind -o, and never an option. What the run
 -- prints may come from the script, so only finite numbers and short texts of it are passed on.
-local program, request = ...
+local program = ...
 local json = require "celspan.json"
 
 local FILES_MOST = 100000 -- the most pictures of a render

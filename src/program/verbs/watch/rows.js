@@ -52,7 +52,7 @@ function rowName(row) {
   one.dataset.row = row.name;
   if (!row.heading) {
     one.append(element("span", { textContent: row.name }));
-    if (row.cel) one.append(...Object.keys(SWITCHES).map(letter => celSwitch(row.name, letter)));
+    if (row.cel) one.append(...Object.keys(SWITCHES).map(letter => celSwitch(row.cel, letter)));
     return one;
   }
   const isOn = isUnfolded(row.name);
@@ -99,7 +99,7 @@ function celSwitch(name, letter) {
 /** The part of the address that says how cels are shown. */
 function queryCels() {
   const hasSolo = Object.keys(cels.letters).some(name => hasLetter(name, "s")), all = {};
-  const names = new Set([...sheet.rows.filter(row => row.cel).map(row => row.name), ...celNames()]);
+  const names = new Set([...sheet.rows.map(row => row.cel).filter(Boolean), ...celNames()]);
   for (const name of names) {
     const letters = cels.letters[name] || "";
     const own = letters.replace("s", "") + (hasSolo && !letters.includes("s") ? "h" : "");
