@@ -416,6 +416,7 @@ static void set_marks(lua_State *L, const cs_film_info *info) {
 /* Sets the fields of a celspan.film. */
 static void set_facts(lua_State *L, const cs_film_info *info) {
   cs_put_integer(L, "first", info->first);
+  cs_put_integer(L, "poster", info->poster);
   cs_put_integer(L, "frames", info->count);
   cs_put_number(L, "fps", info->frames_second);
   cs_put_text(L, "title", info->title);

@@ -42,6 +42,21 @@ describe("a film", function()
     refuses { duration = -1 }
   end)
 
+  it("has a poster, which is one of its frames", function()
+    local function film_with(poster)
+      return { frames = 48, first = 11, poster = poster, frame = print }
+    end
+    for _, poster in ipairs { 11, 58, "0s", "1.99s" } do
+      assert.equal(poster, celspan.film(film_with(poster)).poster)
+    end
+    for _, poster in ipairs { 10, 59, 11.5, 0 / 0, "2s", "bell", "11", true, {} } do
+      local message = raised.message(celspan.film, film_with(poster))
+      assert.is_truthy(message:find('field \'poster\' must be a frame of the film, 11 to 58, or a '
+        .. 'time in it, such as "2s", got ', 1, true), message)
+    end
+    raised.message(function() celspan.film(film_with(58)):with { frames = 9 } end)
+  end)
+
   it("names the line and the frame of an error", function()
     local line = debug.getinfo(1, "l").currentline + 2
     local film = celspan.film { frames = 9, frame = function()

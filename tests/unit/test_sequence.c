@@ -131,6 +131,19 @@ static void times_are_those_of_frames(celspan_context *context) {
   }
 }
 
+static void frames_are_seen_at_times(void) {
+  const cs_film_info film = {.frames_second = 2, .first = 11, .count = 11};
+  static const char *const none[] = {"",      "2",  "5.5s", "-1s", "1s-2s", "99999999999999s",
+                                     "title", "1.", " 1s",  "1s "};
+  int64_t frame = 0;
+  CHECK(cs_sequence_seen(&film, "0s", &frame) && frame == 11);
+  CHECK(cs_sequence_seen(&film, "1.49s", &frame) && frame == 13);
+  CHECK(cs_sequence_seen(&film, "1.5s", &frame) && frame == 14);
+  CHECK(cs_sequence_seen(&film, "5.49s", &frame) && frame == 21);
+  for (size_t i = 0; i < sizeof none / sizeof *none; i++)
+    CHECK(!cs_sequence_seen(&film, none[i], &frame));
+}
+
 static void marks_and_times_are_refused_where_they_are_wrong(celspan_context *context) {
   const cs_film_info film = {
       .frames_second = 2, .first = 11, .count = 11, .marks = marks, .mark_count = 5};
@@ -272,6 +285,7 @@ int main(void) {
   lists_are_refused_where_they_are_wrong(context);
   marks_and_times_mean_frames_of_a_film(context);
   times_are_those_of_frames(context);
+  frames_are_seen_at_times();
   marks_and_times_are_refused_where_they_are_wrong(context);
   frames_lie_within_a_film(context);
   names_have_their_number_in_one_place(context);

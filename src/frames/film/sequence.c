@@ -102,18 +102,24 @@ static size_t match_time(const char *text) {
                                                                                         : 0;
 }
 
-/* The digits are read here and not by strtod, which depends on the host's language. */
-static celspan_status read_time(reader *r, double *out) {
+/* The seconds of a time. The digits are read here and not by strtod, which depends on the host's
+ * language. */
+static double seconds_of(const char *time) {
   double seconds = 0, place = 1;
+  for (; *time != '.' && *time != 's'; time++)
+    seconds = seconds * 10 + (*time - '0');
+  for (time += *time == '.'; *time != 's'; time++)
+    seconds += (*time - '0') * (place /= 10);
+  return seconds;
+}
+
+static celspan_status read_time(reader *r, double *out) {
   skip_spaces(r);
-  if (match_time(r->at) == 0)
+  size_t length = match_time(r->at);
+  if (length == 0)
     return refuse(r, "a time such as 4s is missing");
-  for (; *r->at != '.' && *r->at != 's'; r->at++)
-    seconds = seconds * 10 + (*r->at - '0');
-  for (r->at += *r->at == '.'; *r->at != 's'; r->at++)
-    seconds += (*r->at - '0') * (place /= 10);
-  r->at++;
-  *out = seconds;
+  double seconds = *out = seconds_of(r->at);
+  r->at += length;
   return seconds * r->film->frames_second <= (double)MOST_NUMBER
              ? CELSPAN_OK
              : refuse(r, "the time is too late");
@@ -130,17 +136,32 @@ static int64_t find_index(const cs_film_info *film, double seconds) {
   return index;
 }
 
+/* The index of the frame that is seen at this time. */
+static int64_t find_seen(const cs_film_info *film, double seconds) {
+  int64_t index = find_index(film, seconds);
+  return index - ((double)index / film->frames_second > seconds);
+}
+
+bool cs_sequence_seen(const cs_film_info *film, const char *time, int64_t *out) {
+  size_t length = match_time(time);
+  double seconds = length > 0 && time[length] == '\0' ? seconds_of(time) : INFINITY;
+  if (!(seconds * film->frames_second <= (double)MOST_NUMBER))
+    return false;
+  int64_t index = find_seen(film, seconds);
+  *out = film->first + index;
+  return index < film->count;
+}
+
 static celspan_status read_times(reader *r, cs_sequence *out) {
   double from, to;
   CS_TRY(read_time(r, &from));
-  int64_t first = find_index(r->film, from), last = first;
+  int64_t first = find_seen(r->film, from), last = first;
   if (skip(r, '-')) {
     CS_TRY(read_time(r, &to));
+    first = find_index(r->film, from);
     last = find_index(r->film, to) - 1;
     if (last < first)
       return refuse(r, "no frame begins between the two times");
-  } else if ((double)first / r->film->frames_second > from) {
-    first = --last;
   }
   return append_steps(r, out, r->film->first + first, r->film->first + last);
 }

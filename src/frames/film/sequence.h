@@ -44,6 +44,10 @@ CELSPAN_CHECKED celspan_status cs_sequence_within(celspan_context *context,
                                                   const cs_sequence *sequence, int64_t first,
                                                   int64_t count);
 
+/* The frame of a film that is seen at a time such as "2s". false: the text is no time, or one after
+ * the film. */
+bool cs_sequence_seen(const cs_film_info *film, const char *time, int64_t *out);
+
 /* Whether the pattern has a place for a number. */
 bool cs_sequence_has_number(const char *pattern);
 /* Whether a name could belong to a frame of the pattern; both are without their folder. */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "frames/film/sequence.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/construct.h"
 #include "lua/bind/fields.h"
@@ -42,6 +43,33 @@ static int64_t count_frames(const film_form *film) {
                             : film->frames;
 }
 
+/* Reads a frame of a film: its number, or a time such as "2s". false: it is neither. */
+static bool read_poster(lua_State *L, int index, const cs_film_info *film, int64_t *out) {
+  if (lua_type(L, index) == LUA_TSTRING)
+    return cs_sequence_seen(film, lua_tostring(L, index), out);
+  double number = lua_type(L, index) == LUA_TNUMBER ? lua_tonumber(L, index) : NAN;
+  if (!(number >= (double)film->first && number < (double)(film->first + film->count)))
+    return false;
+  *out = (int64_t)number;
+  return number == (double)*out;
+}
+
+static void check_poster(const cs_form *form, const film_form *read) {
+  lua_State *L = form->L;
+  const cs_film_info film = {
+      .frames_second = read->fps, .first = read->first, .count = count_frames(read)};
+  int64_t poster;
+  int type = cs_form_get(form, "poster"), index = lua_gettop(L);
+  if (type != LUA_TNIL && !read_poster(L, index, &film, &poster))
+    cs_form_fail(form, "field 'poster' must be a frame of the film, %s to %s, or a time in it, such "
+                       "as \"2s\", got %s",
+                 cs_form_digits(L, (double)film.first),
+                 cs_form_digits(L, (double)(film.first + film.count - 1)),
+                 type == LUA_TSTRING || type == LUA_TNUMBER ? luaL_tolstring(L, index, NULL)
+                                                            : cs_userdata_type(L, index));
+  lua_pop(L, 1);
+}
+
 static void check_film(const cs_form *form, cs_userdata *value) {
   lua_State *L = form->L;
   int film = lua_gettop(L);
@@ -56,6 +84,7 @@ static void check_film(const cs_form *form, cs_userdata *value) {
   cs_sounds_check(form);
   cs_marks_push(form, read.first, count_frames(&read));
   lua_setiuservalue(L, film, MARKS);
+  check_poster(form, &read);
   if (cs_form_get(form, "frame") != LUA_TFUNCTION)
     cs_form_fail(form, "field 'frame' must be a function(f) that returns a rostrum, got %s",
                  cs_userdata_type(L, -1));
@@ -106,6 +135,8 @@ static const cs_field fields[] = {
      .about = "Seconds by which all sounds begin later; a negative value cuts the beginning"},
     {"marks", CS_OWN("table<string, integer>"),
      .about = "Names of frames, { title = 1 }, for --frames"},
+    {"poster", CS_OWN("integer|string"),
+     .about = "The frame that stands for the film, by its number or a time such as \"2s\""},
     {"frame", CS_OWN("fun(f: celspan.frame): celspan.exposures"), .is_required = true,
      .about = "A pure function of f"},
     {0}};
@@ -208,6 +239,9 @@ void cs_lua_film_read(lua_State *L, int film, cs_film_info *out) {
   out->has_sound = type == LUA_TSTRING || (type == LUA_TTABLE && cs_list_length(L, -1) > 0);
   lua_getiuservalue(L, film, MARKS);
   out->marks = cs_marks_read(L, -1, &out->mark_count);
+  out->poster = out->first;
+  lua_getfield(L, table, "poster");
+  read_poster(L, -1, out, &out->poster);
   lua_settop(L, table - 1);
 }
 

@@ -64,8 +64,9 @@ local function parameters()
 end
 
 function answers.film()
-  local facts = { frames = film.frames, first = film.first, fps = film.fps, size = film.size,
-                  title = film.title, marks = { list = film.marks }, sound = film.has_sound }
+  local facts = { frames = film.frames, first = film.first, poster = film.poster, fps = film.fps,
+                  size = film.size, title = film.title, marks = { list = film.marks },
+                  sound = film.has_sound }
   facts.shots = parts and { list = parts }
   put { good = true, film = facts, parameters = parameters() }
 end

@@ -70,6 +70,7 @@ function takeFrames(isFirst) {
   loop.to = state.film.frames;
   setSpan(0, state.film.frames);
   measureDesk(); // the timeline has other rows now
+  if (isFirst && !state.alone) view.number = state.film.poster - state.film.first + 1;
   view.number = clamp(view.number, 1, state.film.frames);
   if (isFirst && state.alone) start(1);
 }
