@@ -75,8 +75,8 @@ static bool walk_objects(walk *w, celspan_object *const *objects, size_t count, 
   for (size_t i = count; i-- > 0;) {
     const cs_primitive_data *data = objects[i]->data;
     bool has_name = cs_mark_name(objects[i]->mark)[0] != '\0', is_new = true;
-    bool goes_on = !has_name || add_row(w, &(row){.depth = depth, .kind = "object"},
-                                        objects[i]->mark, &is_new);
+    bool goes_on = !has_name ||
+                   add_row(w, &(row){.depth = depth, .kind = "object"}, objects[i]->mark, &is_new);
     if (goes_on && data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
       goes_on =
           walk_objects(w, data->boolean->operands, data->boolean->operand_count, depth + has_name);

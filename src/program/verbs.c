@@ -228,6 +228,8 @@ static const cs_option WATCH[] = {
      "what a click on a line of the script starts, such as 'code -g {file}:{line}'"},
     {"--size", "WxH", &cs_argument_size,
      "pixels of a frame for programs that do not give a size; default: the film's"},
+    {"-o", "DIR", &cs_argument_folder,
+     "the folder of the files that the page renders; default: that of the script"},
     WORKERS,
     SCRIPT,
     MEMORY,

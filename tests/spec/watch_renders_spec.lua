@@ -76,6 +76,26 @@ describe("the files of a render from the page", function()
     assert.truthy(watching.bench:read(("0"):rep(19) .. "1.png"))
   end)
 
+  it("are in the folder of -o, and in no other", function()
+    watching.bench:inside "mkdir -p out/in && ln -s ../out out/same && ln -s .. out/away"
+    local said = speak("shot.lua -o out", [=[
+      const found = { folder: (await whole()).folder };
+      const bad = { up: "../a.png", away: "away/a.png", root: "/tmp/a.png", none: "no/a.png" };
+      for (const [name, file] of Object.entries({ plain: "a.png", inner: "in/b.png",
+          same: "same/c.png", ...bad })) {
+        found[name] = await render({ format: "png", frames: "1", file });
+        await until(isOver);
+      }
+      return found;]=])
+    assert.same({ folder = "out/", plain = 200, inner = 200, same = 200, up = 400, away = 400,
+                  root = 400, none = 400 }, said)
+    assert.same({ "a.png", "away", "c.png", "in", "same" }, watching.bench:files "out")
+    assert.same({ "b.png" }, watching.bench:files "out/in")
+    local code, _, message = watching.bench:celspan_inside "watch shot.lua -o missing"
+    assert.equal(5, code)
+    assert.truthy(message:find("-o missing: there is no such folder", 1, true), message)
+  end)
+
   it("are of one render at a time, which no question can replace", function()
     local said = speak(nil, [=[
       await render({ format: "gif", file: "a.gif" });

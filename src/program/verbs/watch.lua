@@ -37,6 +37,12 @@ for _, script in ipairs(request) do
   file:close()
 end
 
+local folder = request.output and request.output:gsub("/*$", "/") -- of the files of renders
+if folder and not program.entries(folder) then
+  program.fail("output", "-o %s: there is no such folder, or it cannot be read", request.output)
+end
+folder = folder or request[1]:match "^.*/" or ""
+
 local web = program.web(math.tointeger(request.port) or 0)
 local door = guard.new(web.port, pages)
 local files = part "files.lua".new()
@@ -56,7 +62,7 @@ local function tell() state.news = state.news + 1 end
 local first = watched.new(request[1], files, places, tell)
 local second = watched.new(request[2] or request[1], files, places, tell)
 local films = { first }
-local renders = part "renders.lua".new(first, tell)
+local renders = part "renders.lua".new(first, folder, tell)
 
 --- Shows or hides the second film.
 local function set_comparing(is_on)
@@ -95,7 +101,7 @@ local function describe_state()
   local said = first:describe()
   said.news, said.here, said.editor = state.news, state.here, request.editor ~= nil
   said.alone, said.second = request.is_alone or false, films[2] and second:describe()
-  said.has_two, said.render = #request == 2, renders.said
+  said.has_two, said.render, said.folder = #request == 2, renders.said, folder
   return said
 end
 

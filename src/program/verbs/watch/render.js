@@ -51,7 +51,7 @@ function renderWish() {
 function showRenderCommand() {
   if (!state.film) return;
   if (!isNamed) renderField("file").value = proposedFile();
-  const { frames, size, draft } = renderWish(), folder = state.script.match(/^(.*\/)?/)[0];
+  const { frames, size, draft } = renderWish(), { folder } = state;
   const words = [frames && `--frames ${frames}`, size && `--size ${size}`, draft && "--draft"];
   here("render-command").value = [`${renderOf(main)}`, ...words.filter(Boolean),
                                   `-o ${quoted(folder + renderField("file").value)}`].join(" ");

@@ -23,7 +23,8 @@ local renderers = {}
 renderers.__index = renderers
 
 --- Options for the page, not for the film.
-local own = { ["--port"] = true, ["--open"] = true, ["--size"] = true, ["--editor"] = true }
+local own = { ["--port"] = true, ["--open"] = true, ["--size"] = true, ["--editor"] = true,
+              ["-o"] = true }
 
 function renderers.new(script, note_files)
   program.divide_memory(RENDERERS_MOST * #request) -- for the renderers of each film

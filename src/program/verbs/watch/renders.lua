@@ -3,8 +3,8 @@
 --   begin --> running --events of --progress json--> done | failed
 --                  \--cancel--> cancelled
 --
--- INVARIANT: it writes into the folder of the script, or a folder in it, also where links lead; it
--- replaces a file only if the page has said so; and what it wrote is removed when it fails or is
+-- INVARIANT: it writes into the folder of the script, or that of -o, or a folder in it, also where
+-- links lead; it replaces a file only if the page has said so; and what it wrote is removed when it fails or is
 -- cancelled. A name is one word of the command line behind -o, and never an option. What the run
 -- prints may come from the script, so only finite numbers and short texts of it are passed on.
 local program = ...
@@ -27,20 +27,22 @@ local endings = { mp4 = "mp4", webm = "webm", mov = "mov", gif = "gif", webp = "
                   exr = "exr" }
 local stills = { png = true, exr = true }
 
---- tell(): called when pages need news.
-function renders.new(film, tell)
-  return setmetatable({ film = film, tell = tell, said = { state = "idle" }, told = 0 }, renders)
+--- folder: of the files, with a / at its end; "" for the working folder. tell(): called when pages
+--- need news.
+function renders.new(film, folder, tell)
+  return setmetatable({ film = film, folder = folder, tell = tell, said = { state = "idle" },
+                        told = 0 }, renders)
 end
 
 -- ---------------------------------------------------------------- what is wanted
 
---- Why a name is no name of a file beside the script; nil: it is one.
+--- Why a name is no name of a file in a folder; nil: it is one.
 local function fault_of_name(name, format)
   if type(name) ~= "string" or name == "" then return "write the name of a file" end
   if #name > 1000 or name:find "[%c\\]" then
     return "the name is too long, or has characters that no file should have"
   end
-  if name:sub(1, 1) == "/" then return "the file must lie beside the script: no name from /" end
+  if name:sub(1, 1) == "/" then return "the file must lie in the folder of the renders: no name from /" end
   for part in (name .. "/"):gmatch "([^/]*)/" do
     if part == "" or part:sub(1, 1) == "." then
       return "no part of the name may be empty or begin with a dot"
@@ -54,15 +56,15 @@ local function fault_of_name(name, format)
   end
 end
 
---- The path of a name, in the folder of the script; nil and why it must not be written.
-local function place_of(script, name)
-  local top = script:match "^.*/" or "./"
+--- The path of a name in the folder of the renders; nil and why it must not be written.
+local function place_of(top, name)
+  top = top == "" and "./" or top
   local path, folder = top .. name, program.resolve(top)
   local above = path:match "^.*/"
   local parent, target = program.resolve(above), program.resolve(path)
   local is_in = folder and parent and program.is_within(folder, parent)
   if not is_in or target and not program.is_within(folder, target) then
-    return nil, "the file must lie in the folder of the script"
+    return nil, "the file must lie in the folder of the renders, " .. top
   end
   if not program.entries(above) then return nil, "there is no such folder: make it first" end
   return path
@@ -96,7 +98,7 @@ function renders:read(given)
   if not endings[format] then return nil, "there is no such format" end
   local fault = fault_of_name(given.file, format)
   if fault then return nil, fault end
-  local path, why = place_of(self.film.script, given.file)
+  local path, why = place_of(self.folder, given.file)
   if not path then return nil, why end
   local from, to = range_of(given.frames, facts)
   if not from then return nil, "the film has no such frames" end
