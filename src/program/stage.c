@@ -9,6 +9,7 @@
 #include "frames/process/interrupt.h"
 #include "lua/bind/host.h"
 #include "lua/bind/named.h"
+#include "lua/bind/put.h"
 #include "lua/bind/userdata.h"
 #include "model/scene/scene.h"
 #include "output/png/chunk.h"
@@ -344,16 +345,39 @@ static void push_callers(const search *s, cs_mark mark) {
   lua_pop(script, 1);
 }
 
-static void add_hit(search *s, const char *kind, cs_mark mark) {
+/* Pushes a light: its red, green and blue, or "texture". */
+static void push_light(lua_State *L, const cs_light *light) {
+  const double channels[] = {light->flat.r, light->flat.g, light->flat.b};
+  if (light->texture) {
+    lua_pushliteral(L, "texture");
+    return;
+  }
+  lua_createtable(L, 3, 0);
+  for (int i = 0; i < 3; i++) {
+    lua_pushnumber(L, channels[i]);
+    lua_rawseti(L, -2, i + 1);
+  }
+}
+
+/* light: the front light of a cel; NULL: of an object. */
+static void add_hit(search *s, cs_mark mark, double opacity, const cs_light *light) {
   celspan_origin origin = cs_mark_origin(mark);
   s->count++;
   lua_pushvalue(s->L, 4);
-  lua_pushstring(s->L, kind);
-  lua_pushstring(s->L, cs_mark_name(mark));
-  lua_pushstring(s->L, origin.line > 0 ? origin.source : NULL);
-  lua_pushinteger(s->L, origin.line);
+  lua_createtable(s->L, 0, 8);
+  cs_put_text(s->L, "kind", light ? "cel" : "object");
+  cs_put_text(s->L, "name", cs_mark_name(mark));
+  cs_put_text(s->L, "file", origin.line > 0 ? origin.source : NULL);
+  if (origin.line > 0)
+    cs_put_integer(s->L, "line", origin.line);
+  cs_put_number(s->L, "opacity", opacity);
   push_callers(s, mark);
-  lua_call(s->L, 5, 0);
+  lua_setfield(s->L, -2, "callers");
+  if (light) {
+    push_light(s->L, light);
+    lua_setfield(s->L, -2, "light");
+  }
+  lua_call(s->L, 1, 0);
 }
 
 /* The size of the film of a rostrum: a nested rostrum has its own. */
@@ -379,7 +403,7 @@ static celspan_status search_objects(search *s, celspan_object *const *objects, 
     if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
       CS_TRY(search_rostrum(s, data->rostrum, (extent){data->rostrum->width, data->rostrum->height},
                             &inner));
-    add_hit(s, "object", objects[i]->mark);
+    add_hit(s, objects[i]->mark, objects[i]->fade, NULL);
   }
   return CELSPAN_OK;
 }
@@ -393,15 +417,17 @@ static celspan_status search_rostrum(search *s, const celspan_rostrum *rostrum, 
     celspan_matrix inner = celspan_matrix_then(placed, *matrix);
     size_t before = s->count;
     CS_TRY(search_objects(s, cel->objects, cel->object_count, &inner));
+    const cs_light light = cs_scene_front(rostrum, cel);
     if (s->count > before)
-      add_hit(s, "cel", cel->mark);
+      add_hit(s, cel->mark, cel->opacity, &light);
   }
   return CELSPAN_OK;
 }
 
-/* film:hits(x, y, add) -> nil | message: calls add(kind, name, source or nil, line, callers) for
- * each object and cel that covers the point in the frame that was built last, from front to back.
- * Each follows its own parts. x, y: film units. */
+/* film:hits(x, y, add) -> nil | message: calls add({ kind =, name =, file =, line =, callers =,
+ * opacity =, light = }) for each object and cel that covers the point in the frame that was built
+ * last, from front to back. Each follows its own parts. file and line: nil if they are not known.
+ * light: that shines on a cel, its red, green and blue, or "texture". x, y: film units. */
 int cs_stage_hits(lua_State *L, cs_script *script) {
   search s = {.L = L,
               .context = script->context,

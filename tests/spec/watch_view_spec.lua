@@ -111,6 +111,28 @@ describe("a frame in another way", function()
     assert.equal("ball", json.decode(said)[2].name)
   end)
 
+  it("has objects and cels with an opacity, and cels with a light", function()
+    watching.bench:write("shot.lua", [[
+local celspan = require "celspan"
+local dot = celspan.circle { centre = { 32, 18 }, radius = 6 }
+return celspan.film { size = { 64, 36 }, frames = 1, frame = function()
+  return celspan.rostrum { brightness = 0.5,
+    celspan.cel { dot, front = { on = "cel", texture = celspan.linear { { 0, "#f00" }, { 1, "#00f" },
+      from = { 0, 0 }, to = { 64, 0 } } } },
+    celspan.cel { dot, opacity = 0.25, front = { 1, 0.5, 0 } }, celspan.cel { dot:fade(0.75) } }
+end }
+]])
+    local said = json.decode(watching.speak(watching.watch(), [=[
+      return (await web.get("/at/32,18.json?frame=1")).body;]=]))
+    local found = {}
+    for i, one in ipairs(said) do
+      local light = type(one.light) == "table" and table.concat(one.light, " ") or one.light or "-"
+      found[i] = ("%s %g %s"):format(one.kind, one.opacity, light)
+    end
+    assert.same({ "object 0.75 -", "cel 1 0.5 0.5 0.5", "object 1 -", "cel 0.25 0.5 0.25 0.0",
+                  "object 1 -", "cel 1 texture" }, found)
+  end)
+
   it("says through which lines an object was made", function()
     watching.bench:write("shot.lua", [[
 local celspan = require "celspan"

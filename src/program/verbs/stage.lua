@@ -158,10 +158,7 @@ function answers.at(ask)
   film:keep_callers(false)
   if not is_built then return end
   local hits = {}
-  local message = film:hits(ask.x, ask.y, function(kind, name, source, line, callers)
-    hits[#hits + 1] = { kind = kind, name = name, file = source, line = source and line,
-                        callers = callers }
-  end)
+  local message = film:hits(ask.x, ask.y, function(hit) hits[#hits + 1] = hit end)
   if message then return refuse(message) end
   put { good = true, hits = hits }
 end
