@@ -133,6 +133,42 @@ end }
                   "object 1 -", "cel 1 texture" }, found)
   end)
 
+  it("has parts of drawings, with their lines in the drawing", function()
+    if not present.art() then return pending "celspan was built without the art module" end
+    watching.bench:write("nell.svg", [[
+<svg xmlns="http://www.w3.org/2000/svg" width="64" height="36">
+  <rect width="64" height="36" fill="#ccc"/>
+  <g id="hand">
+    <circle id="thumb" cx="30" cy="18" r="8" fill="#f00"/>
+    <circle cx="50" cy="18" r="8" fill="#00f"/>
+  </g>
+</svg>
+]])
+    watching.bench:write("shot.lua", [[
+local celspan = require "celspan"
+local art = require "celspan.svg".read "nell.svg"
+return celspan.film { size = { 64, 36 }, frames = 2, frame = function(f)
+  local shown = f.number == 1 and art
+    or art:with { thumb = function(one) return one:translate(1, 0) end }
+  return celspan.rostrum { celspan.cel { shown.object } }
+end }
+]])
+    local said = watching.speak(watching.watch "shot.lua --editor true", [=[
+      const at = async number => JSON.parse((await web.get(`/at/30,18.json?frame=${number}`)).body)
+        .map(one => `${one.name} ${one.file}:${one.line}`);
+      const headers = { Origin: `http://127.0.0.1:${web.port}` };
+      const found = { first: await at(1), second: await at(2) };
+      const post = line => web.get("/open",
+        { method: "POST", headers, body: JSON.stringify({ file: "nell.svg", line }) });
+      return { ...found, open: [(await post(4)).status, (await post(7)).status] };]=])
+    local wanted = { "thumb nell.svg:4", "hand nell.svg:3", " nell.svg:2", " nell.svg:1",
+                     " shot.lua:6" }
+    assert.same(wanted, said.first)
+    assert.same(wanted[1], said.second[1])
+    assert.same(wanted[2], said.second[2])
+    assert.same({ 200, 404 }, said.open)
+  end)
+
   it("says through which lines an object was made", function()
     watching.bench:write("shot.lua", [[
 local celspan = require "celspan"

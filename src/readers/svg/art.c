@@ -171,7 +171,7 @@ static celspan_status name(celspan_context *context, const char *id, celspan_obj
   return cs_svg_object_replace(status, made, object);
 }
 
-celspan_status cs_svg_item_compose(celspan_context *context, cs_svg_item *item) {
+static celspan_status compose(celspan_context *context, cs_svg_item *item) {
   celspan_object_unref(item->object);
   item->object = NULL;
   if (item->own)
@@ -193,6 +193,15 @@ celspan_status cs_svg_item_compose(celspan_context *context, cs_svg_item *item) 
   if (item->object && item->id)
     CS_TRY(name(context, item->id, &item->object));
   return CELSPAN_OK;
+}
+
+celspan_status cs_svg_item_compose(celspan_context *context, cs_svg_item *item) {
+  const cs_mark before = context->origin;
+  if (item->facts)
+    context->origin = item->facts->place;
+  celspan_status status = compose(context, item);
+  context->origin = before;
+  return status;
 }
 
 /* ---------------------------------------------------------------- parts */

@@ -20,6 +20,7 @@ typedef struct cs_svg_facts {
   uint32_t number, line;     /* number: among all elements of the file, from 1 */
   const char *tag, *classes; /* classes: NULL if there are none; both in the arena */
   char fill[8];              /* "#rrggbb" for a shape or text; "": it has no flat colour */
+  cs_mark place;             /* of its objects: "nell.svg", line 12; without a name */
 } cs_svg_facts;
 
 typedef struct cs_svg_item {

@@ -491,6 +491,7 @@ celspan_status cs_svg_build(cs_svg_reading *reading, celspan_svg *art) {
   if (reading->document->sheet.omitted)
     CS_TRY(cs_svg_skip(reading, &(cs_svg_node){.line = reading->document->sheet_line},
                        "style: selectors or at-rules that are not supported"));
+  celspan_context_set_origin(reading->context, reading->source->name, (int32_t)node->line);
   CS_TRY(cs_svg_item_compose(reading->context, art->root));
   return cs_svg_art_complete(reading->context, art);
 }

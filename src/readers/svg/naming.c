@@ -19,14 +19,16 @@ static void write_fill(const cs_svg_style *style, char out[8]) {
   snprintf(out, 8, "#%02x%02x%02x", codes[0], codes[1], codes[2]);
 }
 
-static celspan_status note_facts(celspan_context *context, celspan_svg *art,
+/* From here on the new objects are of this line of the file. */
+static celspan_status note_facts(celspan_context *context, celspan_svg *art, const char *name,
                                  const cs_svg_node *node, const cs_svg_style *style,
                                  cs_svg_item *item) {
   const char *classes = cs_svg_node_value(node, CS_SVG_CLASS);
   cs_svg_facts *facts = cs_arena_take(context, &art->arena, sizeof *facts);
   if (!facts)
     return CELSPAN_NO_MEMORY;
-  *facts = (cs_svg_facts){.number = node->number, .line = node->line};
+  celspan_context_set_origin(context, name, (int32_t)node->line);
+  *facts = (cs_svg_facts){.number = node->number, .line = node->line, .place = context->origin};
   CS_TRY(cs_svg_text_copy(context, art, node->tag, &facts->tag));
   if (classes && *classes)
     CS_TRY(cs_svg_text_copy(context, art, classes, &facts->classes));
@@ -46,7 +48,7 @@ celspan_status cs_svg_item_name(cs_svg_reading *reading, celspan_svg *art, const
   if (label && *label)
     CS_TRY(cs_svg_text_copy(context, art, label, &item->label));
   if (node->parent)
-    CS_TRY(note_facts(context, art, node, &place->style, item));
+    CS_TRY(note_facts(context, art, reading->source->name, node, &place->style, item));
   item->is_moved = place->is_moved;
   if (item->is_moved) {
     item->moved = place->moved;

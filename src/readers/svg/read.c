@@ -145,9 +145,11 @@ static celspan_status build(cs_svg_reading *reading, const char *name, celspan_s
   celspan_svg *art;
   CS_TRY(cs_svg_art_create(reading->context, &art));
   art->space = reading->space;
+  const cs_mark before = reading->context->origin; /* the parts of the drawing have others */
   celspan_status status = cs_svg_move(reading, &art->seconds);
   if (status == CELSPAN_OK)
     status = cs_svg_build(reading, art);
+  reading->context->origin = before;
   if (status != CELSPAN_OK)
     status = fail_in(reading->context, name, status);
   if (status == CELSPAN_OK)
