@@ -307,38 +307,29 @@ static int differing(lua_State *L) {
 
 /* ---------------------------------------------------------------- onion skin: the film */
 
-typedef struct onion {
-  int32_t counts[2]; /* before, after */
-  const char *cel;   /* NULL: all */
-  const celspan_frame_desc *frame;
-} onion;
-
-/* film, light userdata: an onion -> film. Runs protected. */
+/* film, light userdata: a cs_onion -> film. Runs protected. */
 static int lay(lua_State *L) {
   static const luaL_Reg functions[] = {
       {"same", same}, {"same_art", same_art}, {"differing", differing}, {NULL, NULL}};
-  const onion *o = lua_touserdata(L, 2);
+  const cs_onion *o = lua_touserdata(L, 2);
   cs_verb_text_load(L, "onion.lua");
   luaL_newlib(L, functions);
   lua_pushvalue(L, 1);
   lua_pushinteger(L, o->counts[0]);
   lua_pushinteger(L, o->counts[1]);
-  lua_pushinteger(L, o->frame->width);
-  lua_pushinteger(L, o->frame->height);
+  lua_pushinteger(L, o->width);
+  lua_pushinteger(L, o->height);
   lua_pushstring(L, o->cel);
-  lua_call(L, 7, 1);
+  lua_pushstring(L, o->labels);
+  lua_call(L, 8, 1);
   return 1;
 }
 
-cs_exit cs_change_lay_onion(cs_script *script, const cs_request *request,
-                            const celspan_frame_desc *frame) {
-  onion o = {.frame = frame, .cel = cs_request_text(request, "--cel")};
-  if (!cs_request_read(request, "--onion", o.counts))
-    return CS_EXIT_OK;
+static cs_exit lay_onion(cs_script *script, const cs_onion *onion) {
   lua_State *L = script->L;
   lua_pushcfunction(L, lay);
   lua_pushvalue(L, CS_SCRIPT_FILM);
-  lua_pushlightuserdata(L, &o);
+  lua_pushlightuserdata(L, (void *)(uintptr_t)onion);
   cs_host_begin(L, CS_HOST_VERB, 0);
   int outcome = lua_pcall(L, 2, 1, 0);
   cs_host_end(L);
@@ -346,4 +337,22 @@ cs_exit cs_change_lay_onion(cs_script *script, const cs_request *request,
     return cs_report_failure(script->context, cs_lua_error_report(L, outcome), NULL);
   lua_replace(L, CS_SCRIPT_FILM);
   return CS_EXIT_OK;
+}
+
+cs_exit cs_change_lay_onion(cs_script *script, const cs_request *request,
+                            const celspan_frame_desc *frame) {
+  cs_onion onion = {
+      .width = frame->width, .height = frame->height, .cel = cs_request_text(request, "--cel")};
+  if (!cs_request_read(request, "--onion", onion.counts))
+    return CS_EXIT_OK;
+  return lay_onion(script, &onion);
+}
+
+celspan_status cs_change_try_onion(cs_script *script, const cs_onion *onion, int64_t number) {
+  lua_State *L = script->L;
+  lua_pushvalue(L, CS_SCRIPT_FILM);
+  celspan_status status =
+      lay_onion(script, onion) == CS_EXIT_OK ? cs_script_try(script, number) : CELSPAN_CALLBACK;
+  lua_replace(L, CS_SCRIPT_FILM);
+  return status;
 }

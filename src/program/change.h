@@ -36,3 +36,13 @@ CELSPAN_CHECKED celspan_status cs_change_frame(celspan_context *context,
  * if the option is not given; or reported. */
 cs_exit cs_change_lay_onion(cs_script *script, const cs_request *request,
                             const celspan_frame_desc *frame);
+
+typedef struct cs_onion {
+  int32_t counts[2];     /* frames before, after */
+  int32_t width, height; /* of the skins, in pixels */
+  const char *cel;       /* --cel; NULL: none */
+  const char *labels;    /* for celspan watch, see verbs/onion.lua; NULL: a render */
+} cs_onion;
+/* cs_script_try for one frame of the film with skins; the film of the script remains. */
+CELSPAN_CHECKED celspan_status cs_change_try_onion(cs_script *script, const cs_onion *onion,
+                                                   int64_t number);

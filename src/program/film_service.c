@@ -70,16 +70,20 @@ static int build(lua_State *L) {
   return 0;
 }
 
-/* film:try(number) -> true | nil, message, exit code */
-static int try_frame(lua_State *L) {
-  film *f = self(L);
-  celspan_status status = cs_script_try(&f->script, luaL_checkinteger(L, 2));
+/* Pushes true; if a frame could not be built, false, the message and the exit code. */
+static int push_outcome(lua_State *L, const film *f, celspan_status status) {
   lua_pushboolean(L, status == CELSPAN_OK);
   if (status == CELSPAN_OK)
     return 1;
   lua_pushstring(L, celspan_context_error(f->script.context));
   lua_pushinteger(L, cs_report_exit(status));
   return 3;
+}
+
+/* film:try(number) -> true | false, message, exit code */
+static int try_frame(lua_State *L) {
+  film *f = self(L);
+  return push_outcome(L, f, cs_script_try(&f->script, luaL_checkinteger(L, 2)));
 }
 
 /* film:at(number) -> its exposures */
@@ -142,6 +146,18 @@ static int lay_onion(lua_State *L) {
   cs_service_require(L,
                      cs_change_lay_onion(&self(L)->script, cs_service_session(L)->request, &frame));
   return 0;
+}
+
+/* film:onion(number, before, after, width, height, labels): as film:try, with skins of this size of
+ * so many frames before and after. labels: of the cels that they are made of, for onion.lua. */
+static int try_onion(lua_State *L) {
+  film *f = self(L);
+  const cs_onion onion = {
+      .counts = {(int32_t)luaL_checkinteger(L, 3), (int32_t)luaL_checkinteger(L, 4)},
+      .width = (int32_t)luaL_checkinteger(L, 5),
+      .height = (int32_t)luaL_checkinteger(L, 6),
+      .labels = luaL_checkstring(L, 7)};
+  return push_outcome(L, f, cs_change_try_onion(&f->script, &onion, luaL_checkinteger(L, 2)));
 }
 
 /* film:check_sound() -> 0, or the exit code for a fault of the sound, which is reported */
@@ -438,37 +454,22 @@ static int describe(lua_State *L) {
 
 /* Sets the methods of the film on top of the stack. */
 static void set_methods(lua_State *L) {
-  static const luaL_Reg methods[] = {CS_SERVICE(build),
-                                     {"try", try_frame},
-                                     CS_SERVICE(at),
-                                     CS_SERVICE(chosen),
-                                     CS_SERVICE(exposures),
-                                     CS_SERVICE(words),
-                                     CS_SERVICE(numbers),
-                                     CS_SERVICE(view_size),
-                                     CS_SERVICE(lay_onion),
-                                     CS_SERVICE(check_sound),
-                                     CS_SERVICE(scene),
-                                     CS_SERVICE(counts),
-                                     CS_SERVICE(names),
-                                     CS_SERVICE(ask),
-                                     CS_SERVICE(faults),
-                                     CS_SERVICE(drop_warnings),
-                                     CS_SERVICE(files),
-                                     CS_SERVICE(picture),
-                                     CS_SERVICE(hits),
-                                     CS_SERVICE(alter),
-                                     CS_SERVICE(keep_line),
-                                     CS_SERVICE(keep_callers),
-                                     CS_SERVICE(silence),
-                                     CS_SERVICE(costs),
-                                     CS_SERVICE(camera),
-                                     CS_SERVICE(hold_camera),
-                                     CS_SERVICE(use_camera),
-                                     CS_SERVICE(sound),
-                                     CS_SERVICE(wave),
-                                     CS_SERVICE(tree),
-                                     {NULL, NULL}};
+  static const luaL_Reg methods[] = {CS_SERVICE(build),         {"try", try_frame},
+                                     {"onion", try_onion},      CS_SERVICE(at),
+                                     CS_SERVICE(chosen),        CS_SERVICE(exposures),
+                                     CS_SERVICE(words),         CS_SERVICE(numbers),
+                                     CS_SERVICE(view_size),     CS_SERVICE(lay_onion),
+                                     CS_SERVICE(check_sound),   CS_SERVICE(scene),
+                                     CS_SERVICE(counts),        CS_SERVICE(names),
+                                     CS_SERVICE(ask),           CS_SERVICE(faults),
+                                     CS_SERVICE(drop_warnings), CS_SERVICE(files),
+                                     CS_SERVICE(picture),       CS_SERVICE(hits),
+                                     CS_SERVICE(alter),         CS_SERVICE(keep_line),
+                                     CS_SERVICE(keep_callers),  CS_SERVICE(silence),
+                                     CS_SERVICE(costs),         CS_SERVICE(camera),
+                                     CS_SERVICE(hold_camera),   CS_SERVICE(use_camera),
+                                     CS_SERVICE(sound),         CS_SERVICE(wave),
+                                     CS_SERVICE(tree),          {NULL, NULL}};
   lua_createtable(L, 0, 2);
   lua_pushcfunction(L, describe);
   lua_setfield(L, -2, "__tostring");

@@ -104,3 +104,68 @@ describe("the cels of a frame", function()
                   "shot 2 / cel 2 shot 2/cel 2", "shot 2 / nell shot 2/nell" }, said.sheet)
   end)
 end)
+
+-- A ground, a ball that moves, and a box that moves behind it.
+local ONION = [[
+local celspan = require "celspan"
+return celspan.film { size = { 64, 36 }, frames = 9, frame = function(f)
+  return celspan.rostrum {
+    celspan.cel { celspan.rect { 0, 0, 64, 36, texture = "#fff" } }:named "ground",
+    celspan.cel { celspan.rect { 8 * f.number - 8, 24, 8, 8, texture = "#000" } },
+    celspan.cel { celspan.rect { 8 * f.number - 8, 4, 8, 8, texture = "#000" } }:named "ball" }
+end }
+]]
+
+describe("the onion skin of a frame", function()
+  it("is that of a render, of all cels but grounds or of those that are chosen", function()
+    local said = speak(ONION, [=[
+      const all = (await web.get("/frame/3.png?size=64x36&onion=1,1")).body;
+      require("fs").writeFileSync(process.argv[3] + ".png", Buffer.from(all, "latin1"));
+      const pixel = async (query, x, y) => {
+        const { status, body } = await web.get(`/frame/3.rgba?size=64x36&onion=${query}`);
+        return status !== 200 ? [status] : [0, 1, 2].map(i => body.charCodeAt(4 * (64 * y + x) + i));
+      };
+      const skins = list => `1,1&skins=${encodeURIComponent(JSON.stringify(list))}`;
+      const hide = cels => `&cels=${encodeURIComponent(JSON.stringify(cels))}`;
+      return { own: await pixel("1,1", 20, 8), before: await pixel("1,1", 12, 8),
+               after: await pixel("1,1", 28, 8), box: await pixel("1,1", 12, 28),
+               ball: await pixel(skins(["ball"]), 12, 8), none: await pixel(skins(["ball"]), 12, 28),
+               second: await pixel(skins(["cel 2"]), 12, 28), early: await pixel("1,0", 28, 8),
+               hidden: await pixel("1,1" + hide({ "cel 2": "h" }), 20, 28),
+               shown: await pixel("1,1" + hide({ "cel 2": "h" }), 20, 8),
+               plain: (await web.get("/frame/3.rgba?size=64x36&onion=0,0")).body
+                 === (await web.get("/frame/3.rgba?size=64x36")).body,
+               large: (await web.get("/frame/3.rgba?size=100000x56250&crop=0,0,9,9&onion=1,1"))
+                 .status,
+               bad: await web.statuses(["onion=1", "onion=17,0", "onion=-1,1", "onion=1,1&skins=x",
+                 "onion=1,1&skins=%7B%22a%22:1%7D", "onion=1,1&skins=[1]"].map(query =>
+                   [`/frame/3.rgba?${query}&token=${web.token}`])) };]=])
+    local function is_red(one) return one[1] > one[2] + 15 and one[1] > one[3] + 15 end
+    local function is_green(one) return one[2] > one[1] + 15 and one[2] > one[3] + 15 end
+    local white = { 255, 255, 255 }
+    assert.same({ 0, 0, 0 }, said.own)
+    assert.is_true(is_red(said.before) and is_green(said.after) and is_red(said.box))
+    assert.is_true(is_red(said.ball) and is_red(said.second))
+    assert.same({ white, white }, { said.none, said.early })
+    assert.is_true(said.hidden[1] > 0)
+    assert.same({ 0, 0, 0 }, said.shown)
+    assert.is_true(said.plain)
+    assert.equal(200, said.large)
+    assert.same({ 400, 400, 400, 400, 400, 400 }, said.bad)
+    watching.bench:celspan_inside "render shot.lua -o r.png --frames 3 --size 64x36 --onion 1,1"
+    assert.equal(0, (watching.bench:celspan_inside "compare r.png steps.js.png"))
+  end)
+
+  it("chooses cels of the shots of a cut", function()
+    local said = speak((CUT:gsub("PARTS", ""):gsub("32, 36, texture = colour",
+      "f.number, 36, texture = colour"):gsub("frame = function%(%)", "frame = function(f)")), [=[
+      const pixel = async skins => {
+        const { body } = await web.get("/frame/4.rgba?size=64x36&onion=0,4&skins="
+          + encodeURIComponent(JSON.stringify(skins)));
+        return [0, 1, 2, 3].map(i => body.charCodeAt(4 * (64 * 9 + 5) + i));
+      };
+      return { seen: await pixel(["evening/nell"]), other: await pixel(["shot 2/nell"]) };]=])
+    assert.is_true(said.seen[4] > 0)
+    assert.equal(0, said.other[4])
+  end)
+end)

@@ -61,8 +61,9 @@ static void check_poster(const cs_form *form, const film_form *read) {
   int64_t poster;
   int type = cs_form_get(form, "poster"), index = lua_gettop(L);
   if (type != LUA_TNIL && !read_poster(L, index, &film, &poster))
-    cs_form_fail(form, "field 'poster' must be a frame of the film, %s to %s, or a time in it, such "
-                       "as \"2s\", got %s",
+    cs_form_fail(form,
+                 "field 'poster' must be a frame of the film, %s to %s, or a time in it, such "
+                 "as \"2s\", got %s",
                  cs_form_digits(L, (double)film.first),
                  cs_form_digits(L, (double)(film.first + film.count - 1)),
                  type == LUA_TSTRING || type == LUA_TNUMBER ? luaL_tolstring(L, index, NULL)

@@ -17,11 +17,15 @@
 -- A camera that moves shows nothing: the camera of the frame sees the other frames too, and where
 -- the rearmost cel and another one are only shifted and scaled, as celspan.multiplane does it, cels
 -- that are only shifted and scaled count as held. With the name of a cel, all others are left out.
-local core, film, before, after, width, height, name = ...
+--
+-- For celspan watch each cel has its label (program/stage_tree.c) as its name, and `labels` chooses
+-- the cels that skins are made of: "\nnell\ncel 2\n"; "": all that are no ground; nil: for a render.
+local core, film, before, after, width, height, name, labels = ...
 local celspan = require "celspan"
 
 local RED, GREEN = { 1, 0.18, 0.12 }, { 0.1, 0.75, 0.2 }
 local COARSE = 64 -- pixels a side, to find out whether a cel covers the frame
+local NAME_MOST = 255 -- bytes
 
 local rostrum_metatable = getmetatable(celspan.rostrum {})
 
@@ -35,8 +39,24 @@ end
 --- The values of a list between two indices, as a list.
 local function slice(list, from, to) return { table.unpack(list, from, to) } end
 
+--- The rostrum with the label of each cel as its name. In a cut it is itself called like its shot.
+local function labelled(rostrum)
+  local cels, shot = {}, rostrum.name and rostrum.name .. "/" or ""
+  for i = 1, #rostrum do
+    local label = shot .. (rostrum[i].name or "cel " .. i)
+    cels[i] = #label <= NAME_MOST and rostrum[i]:named(label) or rostrum[i]
+  end
+  return rostrum:with(cels)
+end
+
+--- Whether skins are made of a cel.
+local function is_chosen(cel)
+  return (labels or "") == "" or labels:find("\n" .. (cel.name or "") .. "\n", 1, true) ~= nil
+end
+
 --- The rostrum with only the cels of the chosen name, if there is a name.
 local function chosen(rostrum)
+  if labels then return labelled(rostrum) end
   if not name then return rostrum end
   local cels = {}
   for i = 1, #rostrum do
@@ -159,10 +179,11 @@ end
 --- The drawing of another frame, without everything that this frame has, too; nil: nothing is left.
 local function rest_of(other, frame, is_like)
   local list, has_any, camera = drawing_of(other, { frame }, is_like), false, frame[1][1].camera
+  if (labels or "") ~= "" then list = slice(other, 1, #other) end
   for i, exposure in ipairs(list) do
     local cels = {}
     for j = 1, #exposure[1] do
-      if not holds(frame, exposure[1][j], is_like) then
+      if is_chosen(exposure[1][j]) and not holds(frame, exposure[1][j], is_like) then
         cels[#cels + 1] = exposure[1][j]:with { back = { 0, 0, 0, 0 } }
       end
     end

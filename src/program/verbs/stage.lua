@@ -16,6 +16,7 @@ local CHECK_SECONDS = 0.03 -- of checking frames, for one request
 local SHEET_MOST = 10000   -- frames of a sheet
 local SCRIPT_MOST = 1 << 20 -- bytes of a script in which parameters are looked for
 local TREE_MOST = 2000     -- cels and objects of a frame's tree
+local SKIN_MOST = 2048     -- pixels of a side of an onion skin
 
 local film
 local parts -- the shots of a cut; nil: the film is not a cut
@@ -91,6 +92,16 @@ local function letters_of(list)
   return letters
 end
 
+--- Builds a frame with the skins of ask.onion, { before, after }, of the cels with the labels that
+--- ask.skins lists, or of all that are no ground.
+local function build_onion(ask)
+  local w, h = table.unpack(ask.size)
+  local shrunk = math.min(1, SKIN_MOST / math.max(w, h))
+  local labels = #ask.skins > 0 and "\n" .. table.concat(ask.skins, "\n") .. "\n" or ""
+  return film:onion(ask.number, ask.onion[1], ask.onion[2], math.max(1, math.floor(shrunk * w)),
+    math.max(1, math.floor(shrunk * h)), labels)
+end
+
 --- Builds a frame with a function; in a cut its shots are marked. Returns what the function does.
 local function marked(build_it, ...)
   if parts then film:ask("celspan.shots", "mark", "on") end
@@ -101,7 +112,12 @@ end
 
 --- Builds a frame, with its cels changed as ask.cels says. false: refused.
 local function build(ask)
-  local good, message, code = marked(build_seen, ask.number, ask.camera)
+  local good, message, code
+  if ask.onion then
+    good, message, code = marked(build_onion, ask)
+  else
+    good, message, code = marked(build_seen, ask.number, ask.camera)
+  end
   if good and ask.cels then
     good, message = film:alter(letters_of(ask.cels), parts ~= nil)
   end

@@ -18,6 +18,7 @@ local programs = part "programs.lua"
 local HELD = 20            -- seconds for which a request waits for news, or for a film
 local SIDE_MOST = 1048576  -- pixels
 local PIXELS_MOST = 1 << 25 -- of a picture
+local ONION_MOST = 16       -- frames before, and after
 local COLUMNS_MOST = 10000  -- of a wave
 local CURVE_STEPS = 48      -- of the picture of an ease
 local UNITS_MOST = 1 << 30  -- the greatest distance of a point, on either side
@@ -159,6 +160,28 @@ local function cels_of(text)
   return { list = list }
 end
 
+--- The labels of a JSON list; nil: it is no list of texts.
+local function labels_of(text)
+  local list = json.decode(text)
+  if type(list) ~= "table" then return nil end
+  for i, label in pairs(list) do
+    if math.type(i) ~= "integer" or type(label) ~= "string" or label:find "[%z\n]" then return nil end
+  end
+  return list
+end
+
+--- Adds the onion skin that a request wants. nil: refused.
+local function add_onion(id, ask, fields)
+  if not fields.onion then return true end
+  local counts, skins = numbers(fields.onion, 2), labels_of(fields.skins or "[]")
+  if not counts or not skins or math.max(counts[1], counts[2]) > ONION_MOST then
+    return refuse(id, 400, ("write onion=BEFORE,AFTER, at most %d each, and skins= as a JSON list "
+      .. "of cels"):format(ONION_MOST))
+  end
+  ask.onion, ask.skins = { list = counts }, { list = skins }
+  return true
+end
+
 --- The view that a request wants, in the words of the renderers: number, size, crop, cels; nil:
 --- refused.
 local function view_of(id, film, text, fields)
@@ -196,7 +219,7 @@ local function give_frame(id, film, text, fields, ending)
   local ask = view_of(id, film, text, fields)
   if not ask then return end
   ask.want, ask.what = "frame", ending
-  if not add_show(id, ask, fields) then return end
+  if not add_show(id, ask, fields) or not add_onion(id, ask, fields) then return end
   if fields.show and ending ~= "rgba" then return refuse(id, 400, "show= needs /frame/N.rgba") end
   local kind = ending == "png" and "image/png" or "application/octet-stream"
   pass_on(id, film, ask,
