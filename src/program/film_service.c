@@ -149,7 +149,7 @@ static int lay_onion(lua_State *L) {
 }
 
 /* film:onion(number, before, after, width, height, labels): as film:try, with skins of this size of
- * so many frames before and after. labels: of the cels that they are made of, for onion.lua. */
+ * that many frames before and after. labels: of the cels that they are made of, for onion.lua. */
 static int try_onion(lua_State *L) {
   film *f = self(L);
   const cs_onion onion = {

@@ -130,8 +130,8 @@ static int take(lua_State *L) {
   return 1;
 }
 
-/* renderer:words() -> its output since the last call, at most as much as its pipe holds: of one that
- * has ended this is all */
+/* renderer:words() -> its output since the last call, at most as much as its pipe holds: of one
+ * that has ended this is all */
 static int words(lua_State *L) {
   const renderer *r = self(L);
   luaL_Buffer text;

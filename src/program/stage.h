@@ -18,7 +18,7 @@ bool cs_stage_frame(lua_State *L, const cs_script *script, celspan_frame_desc *o
 enum { CS_STAGE_LABEL = 32 };
 const char *cs_stage_label(const celspan_rostrum *rostrum, size_t i, char label[CS_STAGE_LABEL]);
 /* The shot that a cel of a frame of a cut shows, if it shows nothing else; NULL: none. Borrowed. */
-celspan_rostrum *cs_stage_shot(const celspan_cel *cel);
+celspan_rostrum *cs_stage_part(const celspan_cel *cel);
 
 int cs_stage_picture(lua_State *L, cs_script *script);
 int cs_stage_hits(lua_State *L, cs_script *script);

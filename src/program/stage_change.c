@@ -93,12 +93,12 @@ static celspan_status alter_cel(void *user, const celspan_rostrum *from, size_t 
                                 celspan_cel **out);
 
 /* *out: new; the cel with its shot altered. */
-static celspan_status alter_shot(alteration *a, const celspan_cel *cel, celspan_cel **out) {
+static celspan_status alter_part(alteration *a, const celspan_cel *cel, celspan_cel **out) {
   const celspan_object *whole = cel->objects[0];
-  celspan_rostrum *shot;
+  celspan_rostrum *part;
   celspan_object *plain = NULL, *placed = NULL, *faded = NULL;
-  CS_TRY(remake(a->context, whole->data->rostrum, alter_cel, a, &shot));
-  celspan_status status = celspan_object_create_rostrum(a->context, shot, &plain);
+  CS_TRY(remake(a->context, whole->data->rostrum, alter_cel, a, &part));
+  celspan_status status = celspan_object_create_rostrum(a->context, part, &plain);
   if (status == CELSPAN_OK)
     status = celspan_object_transform(a->context, plain, whole->matrix, &placed);
   if (status == CELSPAN_OK)
@@ -108,7 +108,7 @@ static celspan_status alter_shot(alteration *a, const celspan_cel *cel, celspan_
   celspan_object_unref(faded);
   celspan_object_unref(placed);
   celspan_object_unref(plain);
-  celspan_rostrum_unref(shot);
+  celspan_rostrum_unref(part);
   return status;
 }
 
@@ -117,8 +117,8 @@ static celspan_status alter_cel(void *user, const celspan_rostrum *from, size_t 
                                 celspan_cel **out) {
   alteration *a = user;
   *out = NULL;
-  if (a->is_cut && !cs_mark_name(from->mark)[0] && cs_stage_shot(from->cels[i]))
-    return alter_shot(a, from->cels[i], out);
+  if (a->is_cut && !cs_mark_name(from->mark)[0] && cs_stage_part(from->cels[i]))
+    return alter_part(a, from->cels[i], out);
   const char *letters = push_letters(a, from, i);
   const cs_cel_without without = {strchr(letters, 'l'), strchr(letters, 'f')};
   bool is_hidden = strchr(letters, 'h');

@@ -7,8 +7,8 @@
  *   of the shot "evening" of a cut:
  *   cel "nell"                   cel nell, 0                    evening/nell
  *
- * In a cut the rostrum of a shot has the name of the shot (celspan.shots). Where something lies over
- * the shots, this rostrum is alone in a cel, which is left out of the tree.
+ * In a cut the rostrum of a shot has the name of the shot (celspan.shots). Where something lies
+ * over the shots, this rostrum is alone in a cel, which is left out of the tree.
  */
 #include <lauxlib.h>
 #include <stdio.h>
@@ -23,11 +23,11 @@ const char *cs_stage_label(const celspan_rostrum *rostrum, size_t i, char label[
   return label;
 }
 
-celspan_rostrum *cs_stage_shot(const celspan_cel *cel) {
+celspan_rostrum *cs_stage_part(const celspan_cel *cel) {
   const cs_primitive_data *data = cel->object_count == 1 ? cel->objects[0]->data : NULL;
-  bool is_shot = data && data->kind == CS_PRIMITIVE_DATA_ROSTRUM && !data->repeat &&
+  bool is_part = data && data->kind == CS_PRIMITIVE_DATA_ROSTRUM && !data->repeat &&
                  cs_mark_name(data->rostrum->mark)[0] != '\0';
-  return is_shot ? data->rostrum : NULL;
+  return is_part ? data->rostrum : NULL;
 }
 
 /* ---------------------------------------------------------------- the walk */
@@ -43,7 +43,7 @@ typedef struct walk {
 /* What there is to know of a row, but its mark. label: NULL: it has none. */
 typedef struct row {
   int depth;
-  const char *kind, *shot, *label;
+  const char *kind, *part, *label;
 } row;
 
 /* is_new: whether its parts follow. false: no more rows are wanted. */
@@ -57,7 +57,7 @@ static bool add_row(walk *w, const row *r, cs_mark mark, bool *is_new) {
   lua_pushstring(w->L, cs_mark_name(mark));
   lua_pushstring(w->L, origin.line > 0 ? origin.source : NULL);
   lua_pushinteger(w->L, origin.line);
-  lua_pushstring(w->L, r->shot);
+  lua_pushstring(w->L, r->part);
   lua_pushstring(w->L, r->label);
   lua_pushinteger(w->L, w->exposure);
   lua_call(w->L, 8, 1);
@@ -110,18 +110,18 @@ static bool walk_outer(walk *w, const celspan_rostrum *rostrum) {
   for (size_t i = rostrum->cel_count; i-- > 0;) {
     char label[CS_STAGE_LABEL];
     const celspan_cel *cel = rostrum->cels[i];
-    const celspan_rostrum *shot = w->is_cut && !name[0] ? cs_stage_shot(cel) : NULL;
-    const row cel_row = {.kind = "cel", .shot = name, .label = cs_stage_label(rostrum, i, label)};
-    if (!(shot ? walk_outer(w, shot) : walk_cel(w, cel, &cel_row)))
+    const celspan_rostrum *part = w->is_cut && !name[0] ? cs_stage_part(cel) : NULL;
+    const row cel_row = {.kind = "cel", .part = name, .label = cs_stage_label(rostrum, i, label)};
+    if (!(part ? walk_outer(w, part) : walk_cel(w, cel, &cel_row)))
       return false;
   }
   return true;
 }
 
-/* film:tree(most, is_cut, add): calls add(depth, kind, name, source or nil, line, shot or nil, label
- * or nil, exposure) for each cel of the frame that was built last, and for each object in it that
- * has a name, from front to back. If add returns true, the parts of the row follow, which are one
- * deeper. At most `most` rows. */
+/* film:tree(most, is_cut, add): calls add(depth, kind, name, source or nil, line, shot or nil,
+ * label or nil, exposure) for each cel of the frame that was built last, and for each object in it
+ * that has a name, from front to back. If add returns true, the parts of the row follow, which are
+ * one deeper. At most `most` rows. */
 int cs_stage_tree(lua_State *L, const cs_script *script) {
   walk w = {.L = L, .left = luaL_checkinteger(L, 2), .is_cut = lua_toboolean(L, 3)};
   luaL_checkstack(L, 10, "too many objects");

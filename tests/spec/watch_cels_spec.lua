@@ -34,8 +34,8 @@ end } }
 
 after_each(watching.finish)
 
---- What a server says of a script: the colours of a pixel in frames with cels changed, and the trees
---- of frames, each as a list of "depth kind name label".
+--- What a server says of a script: the colours of a pixel in frames with cels changed, and the
+--- trees of frames, each as a list of "depth kind name label".
 local HELP = [=[
   const colour = async (number, cels, x, y) => {
     const query = `size=64x36&cels=${encodeURIComponent(JSON.stringify(cels))}`;
@@ -123,13 +123,15 @@ describe("the onion skin of a frame", function()
       require("fs").writeFileSync(process.argv[3] + ".png", Buffer.from(all, "latin1"));
       const pixel = async (query, x, y) => {
         const { status, body } = await web.get(`/frame/3.rgba?size=64x36&onion=${query}`);
-        return status !== 200 ? [status] : [0, 1, 2].map(i => body.charCodeAt(4 * (64 * y + x) + i));
+        const at = 4 * (64 * y + x);
+        return status !== 200 ? [status] : [0, 1, 2].map(i => body.charCodeAt(at + i));
       };
       const skins = list => `1,1&skins=${encodeURIComponent(JSON.stringify(list))}`;
       const hide = cels => `&cels=${encodeURIComponent(JSON.stringify(cels))}`;
       return { own: await pixel("1,1", 20, 8), before: await pixel("1,1", 12, 8),
                after: await pixel("1,1", 28, 8), box: await pixel("1,1", 12, 28),
-               ball: await pixel(skins(["ball"]), 12, 8), none: await pixel(skins(["ball"]), 12, 28),
+               ball: await pixel(skins(["ball"]), 12, 8),
+               none: await pixel(skins(["ball"]), 12, 28),
                second: await pixel(skins(["cel 2"]), 12, 28), early: await pixel("1,0", 28, 8),
                hidden: await pixel("1,1" + hide({ "cel 2": "h" }), 20, 28),
                shown: await pixel("1,1" + hide({ "cel 2": "h" }), 20, 8),

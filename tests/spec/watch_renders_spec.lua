@@ -51,8 +51,8 @@ describe("the files of a render from the page", function()
       const first = await ask(still);
       await render({ format: "gif", file: "out.gif" });
       await render({ cancel: true });
-      return { status: first.status, body: first.body, last: await until(isOver),
-               good: await render({ ...still, file: "two.##.png" }), done: await until(isOver) };]=])
+      const last = await until(isOver), good = await render({ ...still, file: "two.##.png" });
+      return { status: first.status, body: first.body, last, good, done: await until(isOver) };]=])
     assert.equal(409, said.status)
     assert.same({ exists = true, message = "out.png is there already" }, json.decode(said.body))
     assert.same({ "cancelled", 200, "done" }, { said.last.state, said.good, said.done.state })
@@ -110,7 +110,8 @@ end)
 
 describe("what a render prints", function()
   it("is read in a moment, whatever the length of its lines", function()
-    watching.bench:write("shot.lua", film 'io.stderr:write(("x"):rep(4000000), "\\n") error "no paint"')
+    watching.bench:write("shot.lua",
+      film 'io.stderr:write(("x"):rep(4000000), "\\n") error "no paint"')
     local said = speak("shot.lua --trust", [=[
       await render({ format: "png", file: "a.png", frames: "1" });
       return await until(isOver);]=])
@@ -118,7 +119,7 @@ describe("what a render prints", function()
     assert.equal("shot.lua:3: frame 1: no paint", said.message)
   end)
 
-  it("changes nothing but numbers and a short text in what the page is told", function()
+  it("changes nothing but numbers and a short text in the state of the page", function()
     watching.bench:write("shot.lua", film [[
       print '{"event": "frame", "done": 1e999, "count": {"a": 1}, "left": "<b>"}'
       print '{"event": "error", "message": {"a": 1}}'
@@ -139,7 +140,7 @@ describe("what a render prints", function()
     assert.is_true(#said.last.message <= 2000)
   end)
 
-  it("is told a few times a second", function()
+  it("is reported a few times a second", function()
     local said = speak(nil, [=[
       const before = (await whole()).news, began = Date.now();
       await render({ format: "png", file: "x.######.png" });

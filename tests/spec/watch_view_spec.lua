@@ -117,8 +117,8 @@ local celspan = require "celspan"
 local dot = celspan.circle { centre = { 32, 18 }, radius = 6 }
 return celspan.film { size = { 64, 36 }, frames = 1, frame = function()
   return celspan.rostrum { brightness = 0.5,
-    celspan.cel { dot, front = { on = "cel", texture = celspan.linear { { 0, "#f00" }, { 1, "#00f" },
-      from = { 0, 0 }, to = { 64, 0 } } } },
+    celspan.cel { dot, front = { on = "cel", texture = celspan.linear { from = { 0, 0 },
+      to = { 64, 0 }, { 0, "#f00" }, { 1, "#00f" } } } },
     celspan.cel { dot, opacity = 0.25, front = { 1, 0.5, 0 } }, celspan.cel { dot:fade(0.75) } }
 end }
 ]])

@@ -136,12 +136,12 @@ static void frames_are_seen_at_times(void) {
   static const char *const none[] = {"",      "2",  "5.5s", "-1s", "1s-2s", "99999999999999s",
                                      "title", "1.", " 1s",  "1s "};
   int64_t frame = 0;
-  CHECK(cs_sequence_seen(&film, "0s", &frame) && frame == 11);
-  CHECK(cs_sequence_seen(&film, "1.49s", &frame) && frame == 13);
-  CHECK(cs_sequence_seen(&film, "1.5s", &frame) && frame == 14);
-  CHECK(cs_sequence_seen(&film, "5.49s", &frame) && frame == 21);
+  CHECK(cs_sequence_at_time(&film, "0s", &frame) && frame == 11);
+  CHECK(cs_sequence_at_time(&film, "1.49s", &frame) && frame == 13);
+  CHECK(cs_sequence_at_time(&film, "1.5s", &frame) && frame == 14);
+  CHECK(cs_sequence_at_time(&film, "5.49s", &frame) && frame == 21);
   for (size_t i = 0; i < sizeof none / sizeof *none; i++)
-    CHECK(!cs_sequence_seen(&film, none[i], &frame));
+    CHECK(!cs_sequence_at_time(&film, none[i], &frame));
 }
 
 static void marks_and_times_are_refused_where_they_are_wrong(celspan_context *context) {

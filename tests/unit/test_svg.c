@@ -188,7 +188,8 @@ static celspan_status read_and_change(celspan_context *context, memory_watch *wa
   watch->fail_at = 0;
   return status;
 }
-/* The places of parts are left out if the names of their files cannot be kept: a drawing has few. */
+/* The places of parts are left out if the names of their files cannot be kept. A drawing has
+ * few. */
 enum { NAMES_MOST = 2 };
 
 /* Whichever allocation fails, alone or with all that follow: the status says so, nothing leaks, and

@@ -19,10 +19,10 @@ typedef struct cs_film_info {
   int32_t width, height; /* film units, and pixels unless another size is asked for */
   celspan_space space;
   double frames_second;
-  int64_t first, count;      /* frames first .. first + count - 1 */
-  const char *title;         /* NULL: none; the film's own, borrowed */
-  bool has_sound;            /* one file or more */
-  int64_t poster;            /* the frame that stands for the film; `first` unless it says another */
+  int64_t first, count; /* frames first .. first + count - 1 */
+  const char *title;    /* NULL: none; the film's own, borrowed */
+  bool has_sound;       /* one file or more */
+  int64_t poster;       /* the frame that stands for the film; `first` unless it says another */
   const cs_film_mark *marks; /* in the order of their frames; the film's own, borrowed */
   size_t mark_count;
 } cs_film_info;

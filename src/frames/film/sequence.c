@@ -137,17 +137,17 @@ static int64_t find_index(const cs_film_info *film, double seconds) {
 }
 
 /* The index of the frame that is seen at this time. */
-static int64_t find_seen(const cs_film_info *film, double seconds) {
+static int64_t find_visible(const cs_film_info *film, double seconds) {
   int64_t index = find_index(film, seconds);
   return index - ((double)index / film->frames_second > seconds);
 }
 
-bool cs_sequence_seen(const cs_film_info *film, const char *time, int64_t *out) {
+bool cs_sequence_at_time(const cs_film_info *film, const char *time, int64_t *out) {
   size_t length = match_time(time);
   double seconds = length > 0 && time[length] == '\0' ? seconds_of(time) : INFINITY;
   if (!(seconds * film->frames_second <= (double)MOST_NUMBER))
     return false;
-  int64_t index = find_seen(film, seconds);
+  int64_t index = find_visible(film, seconds);
   *out = film->first + index;
   return index < film->count;
 }
@@ -155,7 +155,7 @@ bool cs_sequence_seen(const cs_film_info *film, const char *time, int64_t *out) 
 static celspan_status read_times(reader *r, cs_sequence *out) {
   double from, to;
   CS_TRY(read_time(r, &from));
-  int64_t first = find_seen(r->film, from), last = first;
+  int64_t first = find_visible(r->film, from), last = first;
   if (skip(r, '-')) {
     CS_TRY(read_time(r, &to));
     first = find_index(r->film, from);

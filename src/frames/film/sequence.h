@@ -46,7 +46,7 @@ CELSPAN_CHECKED celspan_status cs_sequence_within(celspan_context *context,
 
 /* The frame of a film that is seen at a time such as "2s". false: the text is no time, or one after
  * the film. */
-bool cs_sequence_seen(const cs_film_info *film, const char *time, int64_t *out);
+bool cs_sequence_at_time(const cs_film_info *film, const char *time, int64_t *out);
 
 /* Whether the pattern has a place for a number. */
 bool cs_sequence_has_number(const char *pattern);

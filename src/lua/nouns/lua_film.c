@@ -46,7 +46,7 @@ static int64_t count_frames(const film_form *film) {
 /* Reads a frame of a film: its number, or a time such as "2s". false: it is neither. */
 static bool read_poster(lua_State *L, int index, const cs_film_info *film, int64_t *out) {
   if (lua_type(L, index) == LUA_TSTRING)
-    return cs_sequence_seen(film, lua_tostring(L, index), out);
+    return cs_sequence_at_time(film, lua_tostring(L, index), out);
   double number = lua_type(L, index) == LUA_TNUMBER ? lua_tonumber(L, index) : NAN;
   if (!(number >= (double)film->first && number < (double)(film->first + film->count)))
     return false;

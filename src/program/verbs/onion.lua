@@ -19,7 +19,7 @@
 -- that are only shifted and scaled count as held. With the name of a cel, all others are left out.
 --
 -- For celspan watch each cel has its label (program/stage_tree.c) as its name, and `labels` chooses
--- the cels that skins are made of: "\nnell\ncel 2\n"; "": all that are no ground; nil: for a render.
+-- the cels that skins are made of: "\nnell\ncel 2\n"; "": all that are no ground; nil: a render.
 local core, film, before, after, width, height, name, labels = ...
 local celspan = require "celspan"
 
@@ -39,7 +39,8 @@ end
 --- The values of a list between two indices, as a list.
 local function slice(list, from, to) return { table.unpack(list, from, to) } end
 
---- The rostrum with the label of each cel as its name. In a cut it is itself called like its shot.
+--- The rostrum with the label of each cel as its name. In a cut it has itself the name of its
+--- shot.
 local function labelled(rostrum)
   local cels, shot = {}, rostrum.name and rostrum.name .. "/" or ""
   for i = 1, #rostrum do

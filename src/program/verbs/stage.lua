@@ -184,7 +184,8 @@ end
 --- once.
 local function tree_of()
   local tree, exposures = {}, {}
-  film:tree(TREE_MOST, parts ~= nil, function(depth, kind, name, source, line, shot, label, exposure)
+  film:tree(TREE_MOST, parts ~= nil, function(depth, kind, name, source, line, shot, label,
+                                              exposure)
     if label and shot ~= "" then label = shot .. "/" .. label end
     if label and (exposures[label] or exposure) < exposure then return false end
     if label then exposures[label] = exposure end
@@ -272,8 +273,8 @@ local function add_shot(rows, labels, shot, last)
   return true
 end
 
---- A row for each layer, the nearest first; in a cut those of a shot together. cel: the label of the
---- cel that the layer is.
+--- A row for each layer, the nearest first; in a cut those of a shot together. cel: the label of
+--- the cel that the layer is.
 function answers.rows()
   local rows, labels, last = {}, new_labels(), math.min(film.frames, SHEET_MOST)
   for _, shot in ipairs(parts or {}) do

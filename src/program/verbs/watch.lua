@@ -165,7 +165,8 @@ local function labels_of(text)
   local list = json.decode(text)
   if type(list) ~= "table" then return nil end
   for i, label in pairs(list) do
-    if math.type(i) ~= "integer" or type(label) ~= "string" or label:find "[%z\n]" then return nil end
+    local is_label = type(label) == "string" and not label:find "[%z\n]"
+    if math.type(i) ~= "integer" or not is_label then return nil end
   end
   return list
 end

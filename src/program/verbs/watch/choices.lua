@@ -26,7 +26,8 @@ end
 local function add(walk, name, depth)
   local path = walk.top .. name
   local resolved = program.resolve(path)
-  if not resolved or not program.is_within(walk.folder, resolved) or walk.seen[resolved] then return end
+  local is_inside = resolved and program.is_within(walk.folder, resolved)
+  if not is_inside or walk.seen[resolved] then return end
   walk.seen[resolved], walk.count = true, walk.count + 1
   local entries = program.entries(path)
   if entries == false then

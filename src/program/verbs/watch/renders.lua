@@ -4,8 +4,8 @@
 --                  \--cancel--> cancelled
 --
 -- INVARIANT: it writes into the folder of the script, or that of -o, or a folder in it, also where
--- links lead; it replaces a file only if the page has said so; and what it wrote is removed when it fails or is
--- cancelled. A name is one word of the command line behind -o, and never an option. What the run
+-- links lead; it replaces a file only if the page has said so; and what it wrote is removed when it
+-- fails or is cancelled. A name is one word of the command line behind -o, and never an option. What the run
 -- prints may come from the script, so only finite numbers and short texts of it are passed on.
 local program = ...
 local json = require "celspan.json"
@@ -17,7 +17,7 @@ local TAIL = 2000         -- bytes of the last words that are kept
 local SIDE_MOST = 65535   -- pixels
 local NEWS = 0.25         -- seconds between two reports of the progress
 local PATIENCE = 5        -- seconds for a run to end by itself; then it is killed
-local CLOSING = 400       -- the same in milliseconds when the page's server ends, which is in a hurry
+local CLOSING = 400       -- milliseconds for it when the page's server ends, which is in a hurry
 
 local renders = {}
 renders.__index = renders
@@ -31,7 +31,7 @@ local stills = { png = true, exr = true }
 --- need news.
 function renders.new(film, folder, tell)
   return setmetatable({ film = film, folder = folder, tell = tell, said = { state = "idle" },
-                        told = 0 }, renders)
+                        reported = 0 }, renders)
 end
 
 -- ---------------------------------------------------------------- what is wanted
@@ -42,7 +42,9 @@ local function fault_of_name(name, format)
   if #name > 1000 or name:find "[%c\\]" then
     return "the name is too long, or has characters that no file should have"
   end
-  if name:sub(1, 1) == "/" then return "the file must lie in the folder of the renders: no name from /" end
+  if name:sub(1, 1) == "/" then
+    return "the file must lie in the folder of the renders: no name from /"
+  end
   for part in (name .. "/"):gmatch "([^/]*)/" do
     if part == "" or part:sub(1, 1) == "." then
       return "no part of the name may be empty or begin with a dot"
@@ -170,23 +172,24 @@ function renders:begin(given)
   return 200
 end
 
---- Stores what pages are told. Progress is told a few times a second, everything else at once.
+--- Stores the state for the pages. Progress is reported a few times a second, everything else at
+--- once.
 function renders:say(said, is_progress)
   self.said, self.is_behind = said, true
-  if not is_progress then self.told = 0 end
+  if not is_progress then self.reported = 0 end
   self:report()
 end
 
---- Tells the pages what they do not know yet, if it is time.
+--- Reports what the pages do not know yet, if it is time.
 function renders:report()
-  if not self.is_behind or program.clock() - self.told < NEWS then return end
-  self.is_behind, self.told = false, program.clock()
+  if not self.is_behind or program.clock() - self.reported < NEWS then return end
+  self.is_behind, self.reported = false, program.clock()
   self.tell()
 end
 
 -- ---------------------------------------------------------------- what the run prints
 
---- A finite number that is not below 0; nil: the value is none.
+--- A finite number that is not below 0; nil: the value is something else.
 local function number_of(value)
   return type(value) == "number" and value >= 0 and value < math.huge and value or nil
 end
