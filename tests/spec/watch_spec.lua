@@ -43,7 +43,7 @@ describe("the server of celspan watch", function()
       all["/frame/1.png"] = Buffer.from(all["/frame/1.png"][1], "latin1").toString("base64");
       return all;]=])
     local film = json.decode(said["/film.json"][2])
-    assert.same({ frames = 48, first = 1, fps = 24, size = { 64, 36 }, title = "Ball",
+    assert.same({ frames = 48, first = 1, poster = 1, fps = 24, size = { 64, 36 }, title = "Ball",
                   sound = false, marks = { { frame = 24, name = "half" } } }, film)
     assert.equal("[]\n", said["/errors.json"][2])
     local _, sheet = bench:celspan_inside "sheet shot.lua"

@@ -5,8 +5,9 @@
 --
 -- INVARIANT: it writes into the folder of the script, or that of -o, or a folder in it, also where
 -- links lead; it replaces a file only if the page has said so; and what it wrote is removed when it
--- fails or is cancelled. A name is one word of the command line behind -o, and never an option. What the run
--- prints may come from the script, so only finite numbers and short texts of it are passed on.
+-- fails or is cancelled. A name is one word of the command line behind -o, and never an option.
+-- What the run prints may come from the script, so only finite numbers and short texts of it are
+-- passed on.
 local program = ...
 local json = require "celspan.json"
 
