@@ -298,7 +298,7 @@ describe("the page of celspan watch over its picture #plain", function()
         .getImageData(document.querySelector("#stage").width >> 1,
           document.querySelector("#stage").height >> 1, 1, 1).data].join() !== "${old}"`);
       await page.press("s");
-      await page.until(`document.querySelectorAll("#names button").length === 12`);
+      await page.until(`document.querySelectorAll("#names button").length === 15`);
       const seen = [];
       const press = async what => {
         const old = (await colour("stage", 0.5, 0.5)).join();
@@ -306,13 +306,13 @@ describe("the page of celspan watch over its picture #plain", function()
         await wait(old);
         seen.push((await colour("stage", 0.5, 0.5)).join());
       };
-      await press("ball: light off");
-      await press("ball: hidden");
-      await press("ball: hidden");
-      await press("ground: solo");
-      await press("ball: solo");
+      await press("Light off: ball");
+      await press("Hide: ball");
+      await press("Hide: ball");
+      await press("Solo: ground");
+      await press("Solo: ball");
       return { seen, pressed: await page.get(`document.querySelector(
-        '[aria-label="ball: light off"]').ariaPressed`) };]=])
+        '[aria-label="Light off: ball"]').ariaPressed`) };]=])
     assert.same({ "204,51,51,255", "255,224,176,255", "204,51,51,255", "255,224,176,255",
                   "204,51,51,255" }, said.seen)
     assert.equal("true", said.pressed)

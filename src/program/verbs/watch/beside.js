@@ -1,7 +1,10 @@
 // Two films side by side.
+import { post } from "/fetch.js";
 import { showPanel } from "/panels.js";
 import { forget } from "/pictures.js";
-import { beside, here, isComparing, lanes, main, part, post, state, stateOf } from "/state.js";
+import {
+  beside, here, isComparing, lanes, main, part, setPressed, state, stateOf,
+} from "/state.js";
 import { writeAddress } from "/values.js";
 
 // isOn: the last wish; null after it was fulfilled. sent: resolved when the server has received all
@@ -37,7 +40,7 @@ export function showComparing() {
   const canCompare = state.has_two || state.parameters.length > 0;
   for (const id of ["desk2", "caption", "caption2", "beside"]) here(id).hidden = !isOn;
   here("compare").hidden = !canCompare;
-  here("compare").setAttribute("aria-pressed", isOn);
+  setPressed("compare", isOn);
   here("beside-title").textContent = state.has_two ? `Values of ${state.second?.script}`
     : "Compare with these values";
   nameLanes();

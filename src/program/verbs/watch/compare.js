@@ -1,8 +1,6 @@
 // Two pictures at one place: a wipe between them, or their difference.
-import { isOther } from "/onion.js";
 import { kept, look, wish } from "/pictures.js";
-import { beside, here, isComparing, label, looks, main, view } from "/state.js";
-import { width } from "/timeline.js";
+import { beside, isComparing, label, looks, main, setPressed, view } from "/state.js";
 
 const DIFFERENCE_GAIN = 4;  // so that small differences can be seen
 
@@ -29,9 +27,9 @@ export function mixed(picture) {
   if (!other) return picture.bytes;
   const out = new Uint8ClampedArray(picture.bytes), width = picture.crop[2];
   for (let i = 0; i < out.length; i += 4) {
-    const isOther = looks.mixing === "wipe" && i / 4 % width < width / 2;
+    const isLeft = looks.mixing === "wipe" && i / 4 % width < width / 2;
     for (let c = i; c < i + 4; c++) {
-      if (isOther) out[c] = other.bytes[c];
+      if (isLeft) out[c] = other.bytes[c];
       if (looks.mixing === "differ") out[c] = DIFFERENCE_GAIN * Math.abs(out[c] - other.bytes[c]);
     }
     if (looks.mixing === "differ") out[i + 3] = 255;
@@ -41,8 +39,7 @@ export function mixed(picture) {
 
 export function setMixing(kind) {
   looks.mixing = looks.mixing === kind ? "" : kind;
-  here("wipe").setAttribute("aria-pressed", looks.mixing === "wipe");
-  here("differ").setAttribute("aria-pressed", looks.mixing === "differ");
+  for (const id of ["wipe", "differ"]) setPressed(id, looks.mixing === id);
   look();
 }
 
@@ -50,7 +47,7 @@ export function setMixing(kind) {
 export function holdFrame() {
   looks.held = looks.held === view.number ? 0 : view.number;
   label("hold", looks.held ? `Held ${looks.held}` : "Hold");
-  here("hold").setAttribute("aria-pressed", looks.held > 0);
+  setPressed("hold", looks.held > 0);
   look();
 }
 

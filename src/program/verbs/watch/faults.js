@@ -1,7 +1,7 @@
 // What is wrong: the error over the picture, and the faults of all frames.
-import { placesOf } from "/inspector.js";
-import { go, stop } from "/playing.js";
-import { element, here, label, main, part, post, state, stateOf, view } from "/state.js";
+import { placeButton, placesOf } from "/inspector.js";
+import { jump } from "/playing.js";
+import { element, here, label, main, part, state, stateOf, view } from "/state.js";
 
 const FAULT_FRAMES = 6;      // frames of one fault that are listed
 
@@ -22,15 +22,12 @@ export function showFault(one = main) {
   const fault = one.lastFault = currentFault(one);
   part(one, "fault").hidden = part(one, "error").hidden = !fault;
   part(one, "error").textContent = fault ? fault.message : "";
-  const called = fault && fault.callers || [];
-  const all = fault && fault.file ? [{ file: fault.file, line: fault.line }, ...called] : called;
+  const all = fault ? [...fault.file ? [fault] : [], ...fault.callers ?? []] : [];
   const names = all.map(({ file, line }) => `${file}:${line}`).join(" ← ");
   part(one, "lines").replaceChildren(...state.editor ? placesOf(names, all) : []);
-  part(one, "excerpt").replaceChildren(...(fault && fault.lines || []).map(([number, text]) => {
-    const line = document.createElement(number === fault.line ? "b" : "span");
-    line.textContent = `${String(number).padStart(4)}  ${text}\n`;
-    return line;
-  }));
+  part(one, "excerpt").replaceChildren(...(fault?.lines ?? []).map(([number, text]) =>
+    element(number === fault.line ? "b" : "span",
+            { textContent: `${String(number).padStart(4)}  ${text}\n` })));
   one.canvas.classList.toggle("old", Boolean(fault));
   showNews();
 }
@@ -58,13 +55,10 @@ function groupFaults() {
 /** One of those as an item of the list, with ways to its frames and its line. */
 function faultItem({ text, frames, fault }) {
   const item = element("li", { textContent: text }), ways = element("p", {});
-  if (fault.file && state.editor) {
-    const textContent = `${fault.file}:${fault.line}`;
-    ways.append(element("button", { textContent, onclick: () => post("/open", fault) }));
-  }
+  if (fault.file && state.editor) ways.append(placeButton(fault));
   const sorted = frames.sort((a, b) => a - b);
   ways.append(...sorted.slice(0, FAULT_FRAMES).map(name => {
-    const onclick = () => { stop(); go(name - state.film.first + 1); };
+    const onclick = () => jump(name - state.film.first + 1);
     return element("button", { textContent: `frame ${name}`, onclick });
   }));
   const more = frames.length - FAULT_FRAMES;

@@ -2,7 +2,7 @@
 //
 // The address that celspan prints has the token. The browser keeps it for this address and this
 // port alone, and the page sends it in a header: a cookie would go to all servers of this machine.
-const NAME = "celspan-token";
+const NAME = "celspan-token", BUSY = 503;
 
 let token = new URLSearchParams(location.search).get("token");
 try {
@@ -15,3 +15,37 @@ try {
 /** fetch, with the token. Modules of the page import it in place of the browser's. */
 export const fetch = (address, more = {}) =>
   window.fetch(address, { ...more, headers: { "Celspan-Token": token || "" } });
+
+export const post = (path, value) => fetch(path, { method: "POST", body: JSON.stringify(value) });
+
+export const pause = seconds => new Promise(done => setTimeout(done, seconds * 1000));
+
+/** The JSON of an address; null: it was refused. Renderers that are busy are asked again as long as
+ * it is wanted. */
+export async function read(address, isWanted = () => true) {
+  for (;;) {
+    const answer = await fetch(address).catch(() => null);
+    if (answer?.ok) return answer.json();
+    if (answer?.status !== BUSY || !isWanted()) return null;
+    await pause(0.3);
+  }
+}
+
+/** A function that runs `act` with a value: while it runs, only the newest value is kept. `act` is
+ * given the value, and a function that says whether there is no newer one. */
+export function newest(act) {
+  let next = null, isRunning = false;
+  return async value => {
+    next = { value };
+    if (isRunning) return;
+    isRunning = true;
+    try {
+      for (let one = next; one; one = next) {
+        next = null;
+        await act(one.value, () => !next);
+      }
+    } finally {
+      isRunning = false;
+    }
+  };
+}

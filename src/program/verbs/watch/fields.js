@@ -1,5 +1,5 @@
 // The fields of the form of values: one for each kind of parameter.
-import { fetch } from "/fetch.js";
+import { read } from "/fetch.js";
 import { element, stateOf } from "/state.js";
 import { coloursOf } from "/timeline.js";
 import { giveValue } from "/values.js";
@@ -11,22 +11,19 @@ const EASES = ["linear", "hold", "spring", ...["Quad", "Cubic", "Quart", "Quint"
 /** Puts the files that a parameter may name into its list. The film's folder may have new ones. */
 async function listFiles(choice, one, parameter) {
   const query = new URLSearchParams({ parameter: parameter.name, side: one.side });
-  const answer = await fetch(`/files.json?${query}`).catch(() => null);
-  if (!answer || !answer.ok) return;
-  const names = [...new Set([choice.value, ...await answer.json()])].sort();
+  const names = [...new Set([choice.value, ...await read(`/files.json?${query}`) ?? []])].sort();
   const old = [...choice.options].map(option => option.value);
   if (old.join("\n") === names.join("\n")) return;
-  const { value } = choice;
-  choice.replaceChildren(...names.map(textContent => element("option", { textContent })));
-  choice.value = value;
+  fill(choice, names, choice.value);
 }
 
-function choiceOf(texts, value) {
-  const options = texts.map(text => element("option", { textContent: text }));
-  const choice = element("select", {}, ...options);
+function fill(choice, texts, value) {
+  choice.replaceChildren(...texts.map(textContent => element("option", { textContent })));
   choice.value = value;
   return choice;
 }
+
+const choiceOf = (texts, value) => fill(element("select"), texts, value);
 
 /** What a parameter is changed with. */
 function control(one) {
@@ -65,9 +62,9 @@ function curveOf(select) {
   const canvas = element("canvas", { className: "curve", width: 176, height: 96, role: "img" });
   const draw = async () => {
     const name = select.value;
-    const answer = await fetch(`/curve.json?name=${encodeURIComponent(name)}`).catch(() => null);
-    if (!answer?.ok || name !== select.value) return;
-    drawCurve(canvas, await answer.json());
+    const values = await read(`/curve.json?name=${encodeURIComponent(name)}`);
+    if (!values || name !== select.value) return;
+    drawCurve(canvas, values);
     canvas.ariaLabel = `The curve ${name}`;
   };
   select.addEventListener("input", draw);

@@ -1,5 +1,5 @@
 // The ground of the picture, the guides over it, and the theme of the page.
-import { beside, element, here, main, part } from "/state.js";
+import { beside, element, here, main, part, setPressed } from "/state.js";
 import { drawTimeline } from "/timeline.js";
 
 export const GUIDES = ["safe", "fields"]; // shown over the picture, one at a time
@@ -20,16 +20,15 @@ export function nextGuide() {
   for (const one of [main, beside]) {
     GUIDES.forEach((guide, i) => { part(one, guide).hidden = i !== next; });
   }
-  here("guides").setAttribute("aria-pressed", next < GUIDES.length);
+  setPressed("guides", next < GUIDES.length);
 }
 
 /** The rectangles of the field guide, each with its number. */
 export function makeFields() {
   for (let k = 1; k <= FIELDS; k++) {
     for (const id of ["fields", "fields2"]) {
-      const field = element("div", { textContent: k });
-      field.style.inset = `${50 - 50 * k / FIELDS}%`;
-      here(id).append(field);
+      const style = { inset: `${50 - 50 * k / FIELDS}%` };
+      here(id).append(element("div", { textContent: k, style }));
     }
   }
 }

@@ -6,14 +6,11 @@ import { inspect } from "/inspector.js";
 import { leavePoint, pointAt } from "/objects.js";
 import { nextOnion } from "/onion.js";
 import { outline, setSpans } from "/over.js";
-import { closeMenus, isOpen, leaveMenus, menuButtons, swapMenu, swapPanel } from "/panels.js";
+import { closeMenus, hearMenus, isOpen, swapPanel } from "/panels.js";
 import { look, setMatte } from "/pictures.js";
-import { go, setLoop, setSpeed, start, step, stop, swapMute, toggle } from "/playing.js";
-import { copyFrom, openRender } from "/render.js";
-import { setSheet } from "/rows.js";
-import {
-  beside, frameOf, here, lanes, looks, loop, main, play, ratio, state, view,
-} from "/state.js";
+import { jump, setLoop, setSpeed, start, step, swapMute, toggle } from "/playing.js";
+import { drawSheet, setSheet } from "/rows.js";
+import { beside, frameOf, here, looks, loop, main, play, ratio, state, view } from "/state.js";
 import { hideThumb, showThumb } from "/thumb.js";
 import { frameAt, goToMark, scrubTo, setSpan, turnTimeline } from "/timeline.js";
 import { loadValues, resetValues, saveValues } from "/values.js";
@@ -23,16 +20,15 @@ const STRIDE = 80;           // device pixels that a key moves the picture
 
 function askNumber() {
   here("number").value = view.number;
+  here("go").returnValue = "";
   here("go").showModal();
   here("number").select();
 }
 
 /** Goes to the frame that was typed, as a number or as a timecode. */
 function goToTyped() {
-  const number = frameOf(here("number").value);
-  if (here("go").returnValue !== "go" || Number.isNaN(number)) return;
-  stop();
-  go(number);
+  const number = state.film ? frameOf(here("number").value) : NaN;
+  if (here("go").returnValue === "go" && !Number.isNaN(number)) jump(number);
 }
 
 /** Leaves a menu, otherwise the outline of what a line made. */
@@ -47,13 +43,13 @@ const keys = {
   ArrowUp: event => event.shiftKey ? move(0, STRIDE) : step(1),
   ArrowDown: event => event.shiftKey ? move(0, -STRIDE) : step(-1),
   PageUp: () => step(-10), PageDown: () => step(10),
-  Home: () => { stop(); go(loop.from); }, End: () => { stop(); go(loop.to); },
+  Home: () => jump(loop.from), End: () => jump(loop.to),
   "[": () => goToMark(-1), "]": () => goToMark(1),
   j: () => start(-1),
   l: () => play.direction > 0 ? setSpeed(play.speed * 2) : start(1),
   i: () => setLoop(view.number, loop.to),
   o: () => setLoop(Math.min(loop.from, view.number), view.number),
-  x: () => setLoop(1, state.film.frames),
+  x: () => setLoop(1, Infinity),
   p: () => swapPanel("inspector"), v: () => swapPanel("values"), r: () => swapPanel("faults"),
   c: () => swapPanel("costs"), q: () => swapPanel("objects"),
   s: () => setSheet(here("sheet").hidden),
@@ -70,20 +66,20 @@ const keys = {
   "?": () => here("keys").showModal(),
 };
 
-/** Whether a key belongs to what has the focus. */
-function isTaken(event) {
-  const target = event.target, isButton = target.matches("button, summary");
-  return event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")
+/** Whether a key belongs to what has the focus. After a click on a button, the space key plays. */
+function isTaken({ target, key, ctrlKey, metaKey, altKey }) {
+  return ctrlKey || metaKey || altKey || document.querySelector("dialog[open]")
     || target.matches("select, textarea, input:not([type=range], [type=checkbox])")
-    || isButton && (event.key === "Enter" || event.key === " ");
+    || target.matches("[type=range]") && /^(Arrow|Page|Home|End)/.test(key)
+    || target.matches(":is(button, input):focus-visible") && (key === "Enter" || key === " ");
 }
 
 function hearKey(event) {
   const act = keys[event.key];
-  if (event.key === "Escape" && event.target.matches("input, select, textarea")) {
+  if (event.key === "Escape" && event.target.matches("main :is(input, select, textarea)")) {
     return event.target.blur();
   }
-  if (!act || !state.film && event.key !== "?" || isTaken(event)) return;
+  if (!act || isTaken(event)) return;
   event.preventDefault();
   act(event);
 }
@@ -140,15 +136,22 @@ function turn(one, event) {
 
 // ---------------------------------------------------------------- what is heard
 
-const clicks = {
-  first: () => { stop(); go(loop.from); }, back: () => step(-1), play: toggle,
-  forward: () => step(1), last: () => { stop(); go(loop.to); }, fit: keys[0],
-  matte: keys.m, inspect: keys.p, tune: keys.v, outliner: keys.q, check: keys.r, cost: keys.c,
-  list: keys.s, onion: nextOnion, mute: swapMute, spans: keys.e, guides: nextGuide, hold: holdFrame,
-  wipe: keys.w, differ: keys.d, compare: keys.y, theme: swapTheme, full: fullScreen,
-  "reset-values": resetValues, "save-values": saveValues, help: keys["?"], where: askNumber,
-  "hex-copy": () => copyFrom("hex"), "command-copy": () => copyFrom("command"),
-};
+/** Copies the text of a field, or selects it where that is not allowed. */
+async function copyFrom(id) {
+  await navigator.clipboard?.writeText(here(id).value).catch(() => here(id).select());
+}
+
+/** Hears the buttons that do what a key does, and those that copy. */
+function hearButtons() {
+  for (const one of document.querySelectorAll("[data-key]")) {
+    one.addEventListener("click", () => keys[one.dataset.key]({}));
+  }
+  for (const one of document.querySelectorAll("[data-copy]")) {
+    one.addEventListener("click", () => copyFrom(one.dataset.copy));
+  }
+  here("save-values").addEventListener("click", saveValues);
+  here("reset-values").addEventListener("click", resetValues);
+}
 
 function hearTimeline() {
   const lanes = here("lanes"), ruler = here("ruler");
@@ -161,12 +164,13 @@ function hearTimeline() {
     showThumb(event);
   });
   ruler.addEventListener("pointerleave", hideThumb);
-  ruler.addEventListener("dblclick", () => setSpan(0, state.film.frames));
+  ruler.addEventListener("dblclick", () => { if (state.film) setSpan(0, state.film.frames); });
   for (const one of [lanes, here("cells")]) {
     one.addEventListener("wheel", turnTimeline, { passive: false });
   }
-  here("cells").addEventListener("click", event => { stop(); go(frameAt(event.clientX)); });
-  here("scrub").addEventListener("input", event => { stop(); go(Number(event.target.value)); });
+  here("timeline").addEventListener("scroll", drawSheet);
+  here("cells").addEventListener("click", event => jump(frameAt(event.clientX)));
+  here("scrub").addEventListener("input", event => jump(Number(event.target.value)));
 }
 
 function hearPictures() {
@@ -185,18 +189,12 @@ function hearPictures() {
 /** Hears everything that hands do. */
 export function hearHands() {
   document.addEventListener("keydown", hearKey);
-  document.addEventListener("pointerdown", leaveMenus);
-  // A button that was clicked loses the focus, so that the space key plays.
-  document.addEventListener("pointerup", event => event.target.closest("button, #scrub")?.blur());
-  for (const [id, act] of Object.entries(clicks)) here(id).addEventListener("click", act);
-  for (const one of menuButtons()) {
-    one.addEventListener("click", one.id === "render" ? openRender : () => swapMenu(one));
-  }
   here("speed").addEventListener("change", event => setSpeed(Number(event.target.value)));
   here("ground").addEventListener("change", event => setGround(event.target.value));
   here("load-values").addEventListener("change", loadValues);
   here("go").addEventListener("close", goToTyped);
+  hearButtons();
+  hearMenus();
   hearTimeline();
   hearPictures();
 }
-

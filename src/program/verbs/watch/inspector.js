@@ -1,9 +1,9 @@
 // The inspector: the colour, the place and the objects at a point.
-import { fetch } from "/fetch.js";
-import { nameOf, place } from "/pictures.js";
-import { element, here, post, state, stateOf, view } from "/state.js";
+import { post, read } from "/fetch.js";
+import { nameOf } from "/pictures.js";
+import { element, here, state, stateOf, view } from "/state.js";
 
-let asked_at = ""; // the point whose objects are wanted
+let asked = ""; // the point whose objects are wanted
 
 const hex = code => code.toString(16).padStart(2, "0");
 
@@ -15,15 +15,20 @@ function showColour(one, x, y) {
   here("colour").hidden = false;
 }
 
+/** The place in a file of an object or an error: a button if there is an editor that opens it. */
+export function placeButton(one) {
+  const textContent = one.file ? `${one.file}:${one.line}` : "";
+  if (!state.editor || !textContent) return element("small", { textContent });
+  return element("button", { textContent, onclick: () => post("/open", one) });
+}
+
 /** A text with the places in it as buttons, if there is an editor that opens them. */
 export function placesOf(text, places) {
-  if (!state.editor) return [element("small", { textContent: text })];
   const parts = [];
-  for (const place of places) {
-    const name = `${place.file}:${place.line}`, at = text.indexOf(name);
-    const button = element("button", { textContent: name, onclick: () => post("/open", place) });
+  for (const one of state.editor ? places : []) {
+    const button = placeButton(one), at = text.indexOf(button.textContent);
     parts.push(element("small", { textContent: text.slice(0, at) }), button);
-    text = text.slice(at + name.length);
+    text = text.slice(at + button.textContent.length);
   }
   return [...parts, element("small", { textContent: text })];
 }
@@ -41,34 +46,29 @@ export function pointOf(one, clientX, clientY) {
 }
 
 /** The objects at a point, from front to back. */
-export async function hitsAt(one, { x, y }) {
+export async function hitsAt(one, { x, y }, isWanted) {
   const name = nameOf(one, view.number);
-  const answer = await fetch(`/at/${x.toFixed(6)},${y.toFixed(6)}.json?frame=${name}`
-    + `&side=${one.side}`).catch(() => null);
-  return answer?.ok ? answer.json() : [];
+  return await read(`/at/${x.toFixed(6)},${y.toFixed(6)}.json?frame=${name}&side=${one.side}`,
+                    isWanted) ?? [];
 }
 
 function hitItem(hit) {
-  const item = element("li", {}), place = hit.file ? `${hit.file}:${hit.line}` : "";
-  const where = element(state.editor && place ? "button" : "small", { textContent: place });
-  if (where.matches("button")) where.onclick = () => post("/open", hit);
-  item.append(hit.name ? `${hit.name} (${hit.kind})` : `${hit.kind} without a name`, " ", where);
-  if (hit.via) item.append(" ", ...placesOf(hit.via, hit.callers));
-  return item;
+  const words = hit.name ? `${hit.name} (${hit.kind})` : `${hit.kind} without a name`;
+  return element("li", {}, words, " ", placeButton(hit),
+                 ...hit.via ? [" ", ...placesOf(hit.via, hit.callers)] : []);
 }
 
 /** Shows the colour and the objects at a point of the window, in CSS pixels. */
 export async function inspect(one, clientX, clientY) {
   const point = pointOf(one, clientX, clientY);
   if (!point) return;
-  const wanted = asked_at = `${one.side} ${view.number} ${point.x} ${point.y}`;
+  const wanted = asked = `${one.side} ${view.number} ${point.x} ${point.y}`;
   here("place").textContent = `x ${point.x.toFixed(2)}, y ${point.y.toFixed(2)}`;
   showColour(one, point.column, point.row);
   here("inspector").setAttribute("aria-busy", "true");
-  const hits = await hitsAt(one, point);
-  if (wanted !== asked_at) return;
+  const hits = await hitsAt(one, point, () => wanted === asked);
+  if (wanted !== asked) return;
   here("inspector").setAttribute("aria-busy", "false");
   here("hint").textContent = hits.length ? "" : "Nothing is there.";
   here("hits").replaceChildren(...hits.map(hitItem));
 }
-

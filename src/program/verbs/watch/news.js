@@ -1,50 +1,43 @@
 // News of the server: films that were saved, built, checked or rendered.
 import { showComparing } from "/beside.js";
 import { showFault, showFaults, showNews } from "/faults.js";
-import { fetch } from "/fetch.js";
+import { fetch, pause } from "/fetch.js";
 import { outline, outlined } from "/over.js";
 import { forget, look } from "/pictures.js";
 import { start, takeSound } from "/playing.js";
 import { placePoints } from "/points.js";
 import { showRender } from "/render.js";
 import { loadSheet } from "/rows.js";
-import {
-  beside, clamp, here, lanes, loop, main, pause, state, stateOf, timecode, view,
-} from "/state.js";
+import { beside, clamp, here, lanes, loop, main, state, stateOf, timecode, view } from "/state.js";
 import { drawTimeline, placeHead, setSpan } from "/timeline.js";
 import { sendGiven, showForm } from "/values.js";
 import { measureDesk } from "/view.js";
 
 export function showNumbers() {
   if (!state.film) return;
+  const whole = loop.from === 1 && loop.to === state.film.frames, percent = view.scale * 100;
   here("frame").textContent = view.number;
   here("frames").textContent = state.film.frames;
   here("timecode").textContent = timecode(view.number);
   here("scrub").value = view.number;
   here("scrub").setAttribute("aria-valuetext", `${timecode(view.number)}, frame ${view.number}`);
+  here("zoom").textContent = `${percent < 10 ? percent.toFixed(1) : Math.round(percent)} %`;
+  here("facts").textContent = `${state.film.size.join(" × ")}, ${state.film.fps} fps`
+    + (whole ? "" : `, loop ${loop.from} to ${loop.to}`);
   placeHead();
   placePoints();
-  const percent = view.scale * 100;
-  here("zoom").textContent = `${percent < 10 ? percent.toFixed(1) : Math.round(percent)} %`;
-  const whole = loop.from === 1 && loop.to === state.film.frames;
-  const [w, h] = state.film.size;
-  here("facts").textContent = `${w} × ${h}, ${state.film.fps} fps`
-    + (whole ? "" : `, loop ${loop.from} to ${loop.to}`);
 }
 
 function showState() {
-  const film = state.film;
-  document.title = `${film && film.title || state.script} – celspan`;
-  here("title").textContent = film && film.title || state.script;
+  const title = here("title").textContent = state.film?.title || state.script;
+  document.title = `${title} – celspan`;
   showNews();
-  for (const one of lanes()) {
-    if (!stateOf(one).building) showFault(one);
-  }
+  for (const one of lanes()) if (!stateOf(one).building) showFault(one);
 }
 
-/** Whether a film was saved, or failed, since the old news of it. */
+/** Whether a film was saved, has failed or is ready since the old news of it. */
 const isNewFilm = (old, news) => news
-  && (!old || old.build !== news.build || old.shown !== news.shown);
+  && (!old || ["build", "shown", "building"].some(name => old[name] !== news[name]));
 
 function takeState(news) {
   const old = { ...state }, { film } = old;
@@ -57,9 +50,10 @@ function takeState(news) {
   if (state.here && state.here.count !== outlined.count) outline(state.here);
   showState();
   showFaults();
-  showRender(state.render);
+  showRender();
   loadSheet();
-  if (isNewFilm(old.second, state.second)) forget(beside);
+  if (state.second && old.second?.build !== state.second.build) forget(beside);
+  if (old.build !== state.build) forget(main);
   if (isNewFilm(old, state)) takeFilm();
   else if (isNewFilm(old.second, state.second)) look();
 }
@@ -75,10 +69,9 @@ function takeFrames(isFirst) {
   if (isFirst && state.alone) start(1);
 }
 
-/** The film was saved, or has failed. */
+/** The film was saved, has failed, or is ready. */
 function takeFilm() {
-  takeSound();
-  forget(main);
+  if (!state.building) takeSound();
   drawTimeline();
   if (outlined.place) outline(outlined.place);
   if (state.shown) look();
@@ -100,4 +93,3 @@ export async function listen() {
     }
   }
 }
-

@@ -1,19 +1,18 @@
 // The outliner: a tree of the frame's cels, and of what has a name in them.
 //
 //   /objects.json?frame=N --> tree --> a row for each
-//   the pointer over a row outlines what its line made, over the picture the object there
-import { fetch } from "/fetch.js";
+//   the pointer over a row outlines what its line made; over the picture, it names the object there
+import { newest, pause, post, read } from "/fetch.js";
 import { hitsAt, pointOf } from "/inspector.js";
 import { outline, outlined } from "/over.js";
 import { isOpen } from "/panels.js";
-import { nameOf, place } from "/pictures.js";
-import { hasLetter, swapLetter } from "/rows.js";
-import { element, here, icon, label, main, pause, play, post, state, view } from "/state.js";
+import { look, nameOf } from "/pictures.js";
+import { cels, queryCels, switchesOf } from "/rows.js";
+import { element, here, icon, main, play, refill, state, view } from "/state.js";
 import { shotsOf } from "/timeline.js";
 
 const tree = { list: [], address: "" };
 const folded = new Set(); // paths of rows whose children are hidden
-let pointed = 0;          // the number of the newest question about the place of the pointer
 
 export const celNames = () => tree.list.map(one => one.cel).filter(Boolean);
 
@@ -21,29 +20,41 @@ export const celNames = () => tree.list.map(one => one.cel).filter(Boolean);
 export async function loadObjects() {
   if (here("objects").hidden || !state.shown || play.direction !== 0) return;
   const address = `/objects.json?frame=${nameOf(main, view.number)}&build=${state.build}`;
-  if (address === tree.address) return;
+  if (address === tree.address) return showObjects();
   tree.address = address;
-  here("objects").setAttribute("aria-busy", "true");
-  const answer = await fetch(address).catch(() => null);
-  const list = answer?.ok ? await answer.json() : [];
+  setReading(true);
+  const list = await read(address, () => address === tree.address);
   if (address !== tree.address) return;
-  here("objects").setAttribute("aria-busy", "false");
-  tree.list = pathsOf(list);
+  setReading(false);
+  tree.list = pathsOf(list ?? []);
   showObjects();
+  const { query } = cels;
+  queryCels();
+  if (cels.query !== query) look();
 }
 
-/** The rows with their paths, "shot/cel/name", and whether they have children. */
+function setReading(isOn) {
+  here("objects").setAttribute("aria-busy", isOn);
+  here("objects-hint").hidden = isOn || tree.list.length > 0;
+}
+
+/** The rows with what they are called, their paths, "shot/cel/name", and whether they have parts.
+ * cel: the name by which a cel is shown in another way, its place from the rear if it has none. */
 function pathsOf(list) {
   const at = view.number - 1, names = [], seen = new Map();
   const shots = shotsOf().filter(shot => shot.at <= at && at < shot.at + shot.count);
   const shot = shots.length === 1 ? [shots[0].name] : []; // in a transition there are two
+  const isOuter = one => one.kind === "cel" && one.depth === 0;
+  let left = list.filter(isOuter).length;
   return list.map((one, i) => {
-    const cel = one.label, name = one.name || cel?.replace(/^.*\//, "") || one.kind;
+    const cel = one.label ?? (isOuter(one) ? one.name || `cel ${left}` : undefined);
+    const label = one.name || cel || one.kind;
+    if (isOuter(one)) left--;
     names.length = one.depth;
-    names.push(name);
+    names.push(label);
     const plain = [...shot, ...names].join("/"), count = seen.get(plain) || 0;
     seen.set(plain, count + 1);
-    return { ...one, cel, label: name, path: count ? `${plain} ${count + 1}` : plain,
+    return { ...one, cel, label, path: count ? `${plain} ${count + 1}` : plain,
              isParent: (list[i + 1]?.depth ?? 0) > one.depth };
   });
 }
@@ -58,58 +69,50 @@ function shownRows() {
   });
 }
 
-const BUTTONS = { s: ["Solo", "solo"], h: ["Hide", "eye"], l: ["Light off", "light"],
-                  f: ["Focus off", "focus"] };
-
 function objectRow(one) {
-  const row = element("li", { className: one.kind }), isFolded = folded.has(one.path);
-  row.dataset.object = one.path;
-  row.style.setProperty("--depth", one.depth);
-  const fold = element("button", { className: "fold", ariaLabel: `${one.label}: parts`,
-    ariaExpanded: String(!isFolded), onclick: () => {
+  const fold = () => element("button", { className: "fold", ariaLabel: `${one.label}: parts`,
+    ariaExpanded: String(!folded.has(one.path)), onclick: () => {
       if (!folded.delete(one.path)) folded.add(one.path);
       showObjects();
     } }, icon("fold"));
-  const place = one.file ? `${one.file}:${one.line}` : "";
-  const name = element("button", { className: "name", title: place, textContent: one.label,
-    onclick: () => { if (state.editor && place) post("/open", one); } });
-  row.append(one.isParent ? fold : element("i", { className: "leaf" }), name);
-  if (one.cel) row.append(...objectSwitches(one.cel));
-  row.addEventListener("pointerenter", () => outline(one.file ? one : null));
-  row.addEventListener("pointerleave", () => outline(null));
-  row.addEventListener("focusin", () => outline(one.file ? one : null));
-  row.addEventListener("focusout", () => outline(null));
+  const name = element("button", { className: "name", textContent: one.label,
+    title: one.file ? `${one.file}:${one.line}` : "",
+    onclick: () => { if (state.editor && one.file) post("/open", one); } });
+  const row = element("li", { className: one.kind, dataset: { object: one.path } },
+    one.isParent ? fold() : element("i", { className: "leaf" }), name,
+    ...one.cel ? switchesOf(one.cel) : []);
+  row.style.setProperty("--depth", one.depth);
+  for (const event of ["pointerenter", "pointerleave", "focusin", "focusout"]) {
+    const isIn = /enter|in$/.test(event);
+    row.addEventListener(event, () => outline(isIn && one.file ? one : null));
+  }
   return row;
-}
-
-function objectSwitches(name) {
-  return Object.entries(BUTTONS).map(([letter, [what, picture]]) => element("button",
-    { className: "switch", title: what, ariaLabel: `${what}: ${name}`,
-      ariaPressed: String(hasLetter(name, letter)), onclick: () => swapLetter(name, letter) },
-    icon(picture)));
 }
 
 export function showObjects() {
   if (here("objects").hidden) return;
-  const focus = document.activeElement?.closest("[data-object]")?.dataset.object;
-  here("object-list").replaceChildren(...shownRows().map(objectRow));
-  here("objects-hint").hidden = tree.list.length > 0;
-  if (focus) [...here("object-list").children].find(one => one.dataset.object === focus)
-    ?.querySelector("button").focus();
+  refill(here("object-list"), shownRows().map(objectRow));
+  setReading(here("objects").ariaBusy === "true");
 }
 
 // ---------------------------------------------------------------- under the pointer
 
+let isPointing = false; // whether the pointer is over the picture
+
+const nameAt = newest(async ({ one, event }, isNewest) => {
+  const point = pointOf(one, event.clientX, event.clientY);
+  await pause(0.06); // until the pointer rests
+  if (!isNewest()) return;
+  const hit = point ? (await hitsAt(one, point, isNewest)).find(known => known.name) : null;
+  if (isPointing) nameUnder(hit);
+});
+
 /** Names and outlines the object at the pointer, while the objects or the inspector are seen. */
-export async function pointAt(one, event) {
+export function pointAt(one, event) {
   const isWanted = isOpen("objects") || isOpen("inspector");
   if (one !== main || !isWanted || event.buttons || play.direction !== 0) return;
-  const wanted = ++pointed, point = pointOf(one, event.clientX, event.clientY);
-  await pause(0.06); // until the pointer rests
-  if (wanted !== pointed) return;
-  const hit = point ? (await hitsAt(one, point)).find(known => known.name) : null;
-  if (wanted !== pointed) return;
-  nameUnder(hit);
+  isPointing = true;
+  nameAt({ one, event });
 }
 
 function nameUnder(hit) {
@@ -120,7 +123,6 @@ function nameUnder(hit) {
 }
 
 export function leavePoint() {
-  pointed++;
+  isPointing = false;
   nameUnder(null);
 }
-

@@ -1,7 +1,8 @@
-// The onion skin: frames before and after, tinted.
+// The onion skin: frames before and after, tinted. Of chosen cels, they lie behind them.
 import { isSamePlace } from "/compare.js";
 import { cameras, fetchPicture, kept, look, nameOf, paint, wish } from "/pictures.js";
-import { here, label, looks, main, play, state } from "/state.js";
+import { cels } from "/rows.js";
+import { label, looks, main, play, setPressed, state } from "/state.js";
 
 const ONION_MOST = 3;
 // of 255: smaller differences are noise at edges that lie between other pixels
@@ -9,9 +10,10 @@ const DIFFERENCE_LEAST = 4;
 const BEFORE = [230, 40, 40];
 const AFTER = [30, 170, 60];
 
-/** A frame as the camera of a picture sees it, so that its movement shows nothing. */
+/** A frame, or the chosen cels of it, as the camera of a picture sees it: its movement shows
+ * nothing. */
 function wishSeen(number, picture) {
-  const wanted = wish(number), camera = cameras.get(number);
+  const wanted = wish(number, 1, main, cels.onion || cels.query), camera = cameras.get(number);
   if (!wanted || camera === undefined || camera === picture.camera) return wanted;
   const address = `${wanted.address}&camera=${nameOf(main, picture.number)}`;
   return { ...wanted, address, isSeen: true };
@@ -32,21 +34,25 @@ function neighbours(picture) {
 }
 
 /** Whether the pixel of two pictures at this byte differs by enough to show. */
-export function isOther(one, other, i) {
+function isOther(one, other, i) {
   for (let c = i; c < i + 4; c++) {
     if (Math.abs(one[c] - other[c]) >= DIFFERENCE_LEAST) return true;
   }
   return false;
 }
 
-/** Lays the pictures around one over it, tinted, where they differ from it. */
+/** Lays the pictures around one over it, tinted, where they differ from it; those of chosen cels
+ * only where these do not cover. */
 export function withOnion(picture, bytes) {
-  if (looks.onion === 0 || play.direction !== 0) return bytes;
-  const out = new Uint8ClampedArray(bytes);
+  const own = cels.onion ? kept.get(wishSeen(picture.number, picture)?.address) : picture;
+  if (looks.onion === 0 || play.direction !== 0 || !own) return bytes;
+  const out = new Uint8ClampedArray(bytes), { bytes: base } = own;
   for (const [one, tint, weight] of neighbours(picture)) {
     for (let i = 0; i < out.length; i += 4) {
-      if (!isOther(one.bytes, picture.bytes, i)) continue;
-      const share = weight * Math.max(one.bytes[i + 3], 96) / 255;
+      if (!isOther(one.bytes, base, i)) continue;
+      const covered = cels.onion ? one.bytes[i + 3] * (1 - base[i + 3] / 255)
+        : Math.max(one.bytes[i + 3], 96);
+      const share = weight * covered / 255;
       for (let c = 0; c < 3; c++) {
         out[i + c] += share * (0.3 * one.bytes[i + c] + 0.7 * tint[c] - out[i + c]);
       }
@@ -63,7 +69,7 @@ async function fetchOther(wishOther) {
 
 /** Fetches the other pictures that are shown with one that is painted, and paints it again. */
 export async function addOthers(picture) {
-  const numbers = [];
+  const numbers = looks.onion && cels.onion ? [picture.number] : [];
   for (let k = 1; k <= looks.onion; k++) numbers.push(picture.number - k, picture.number + k);
   if (numbers.length === 0 && !(looks.held && looks.mixing) || play.direction !== 0) return;
   if (looks.held && looks.mixing) await fetchOther(() => wish(looks.held));
@@ -77,7 +83,7 @@ export async function addOthers(picture) {
 export function nextOnion() {
   looks.onion = (looks.onion + 1) % (ONION_MOST + 1);
   label("onion", looks.onion ? `Onion ${looks.onion}` : "Onion");
-  here("onion").setAttribute("aria-pressed", looks.onion > 0);
+  setPressed("onion", looks.onion > 0);
   look();
 }
 

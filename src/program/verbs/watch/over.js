@@ -1,7 +1,7 @@
 // What lies over the picture: kinds of spans, and the outline of what a line made.
-import { fetch } from "/fetch.js";
-import { fetchPicture, look, place } from "/pictures.js";
-import { here, looks, main, overlay, part, play, state } from "/state.js";
+import { read } from "/fetch.js";
+import { fetchPicture, look } from "/pictures.js";
+import { looks, main, overlay, play, setPressed, state } from "/state.js";
 import { drawRuler } from "/timeline.js";
 
 // The line whose results are outlined, { file, line }, and the runs of frames that contain some.
@@ -38,11 +38,11 @@ export async function layOver(picture) {
     return;
   }
   const [, , w, h] = picture.crop, out = new Uint8ClampedArray(4 * w * h);
-  for (const part of wanted) {
-    const address = picture.address.replace(".runs", ".rgba") + part;
+  for (const show of wanted) {
+    const address = picture.address.replace(".runs", ".rgba") + show;
     const layer = await fetchPicture({ ...picture, address, isOver: true }).catch(() => null);
     if (!layer || main.isWanted || main.painted !== picture) return;
-    if (part === "&show=spans") out.set(layer.bytes);
+    if (show === "&show=spans") out.set(layer.bytes);
     else drawBorder(layer, out);
   }
   overlay.width = w;
@@ -54,7 +54,7 @@ export async function layOver(picture) {
 
 export function setSpans(isOn) {
   looks.hasSpans = isOn;
-  here("spans").setAttribute("aria-pressed", isOn);
+  setPressed("spans", isOn);
   look();
 }
 
@@ -64,9 +64,10 @@ export async function outline(place) {
   look();
   drawRuler();
   if (!place?.count || !state.shown) return; // of a line that an editor has named
-  const answer = await fetch(`/made.json?build=${state.build}`).catch(() => null);
-  if (!answer?.ok || outlined.place !== place) return;
-  outlined.runs = await answer.json();
+  const isWanted = () => outlined.place === place;
+  const runs = await read(`/made.json?build=${state.build}`, isWanted);
+  if (!runs || !isWanted()) return;
+  outlined.runs = runs;
   drawRuler();
 }
 

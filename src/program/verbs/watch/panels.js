@@ -1,9 +1,6 @@
-// Panels at the right, one at a time, and menus at the top.
+// Panels at the right, one at a time, and menus at the top: what a button's aria-controls names.
 import { here } from "/state.js";
 
-// The panels and the elements that open them.
-const OPENERS = { values: "tune", objects: "outliner", inspector: "inspect", faults: "check",
-                  costs: "cost" };
 const opened = new Map(); // what is done when a panel opens or closes, by its name
 
 /** Names what is done with a panel when it opens or closes: act(isOn). */
@@ -11,45 +8,48 @@ export function onPanel(id, act) { opened.set(id, act); }
 
 export const isOpen = id => !here(id).hidden;
 
-function setPanel(id, isOn) {
+/** Shows or hides what a button opens. The focus in it goes back to the button. */
+function setOpen(button, isOn) {
+  const id = button.getAttribute("aria-controls");
   if (isOpen(id) === isOn) return;
+  if (here(id).contains(document.activeElement)) button.focus();
   here(id).hidden = !isOn;
-  here(OPENERS[id]).setAttribute("aria-expanded", isOn);
+  button.setAttribute("aria-expanded", isOn);
   opened.get(id)?.(isOn);
 }
 
 /** Shows a panel in the place of the one that is there; "": none. */
 export function showPanel(id) {
-  for (const other of Object.keys(OPENERS)) if (other !== id) setPanel(other, false);
-  if (id) setPanel(id, true);
+  const others = [...document.querySelectorAll("#panels > aside")].map(one => one.id);
+  for (const one of [...others.filter(other => other !== id), id]) {
+    if (one) setOpen(document.querySelector(`[aria-controls="${one}"]`), one === id);
+  }
 }
 
 export const swapPanel = id => showPanel(isOpen(id) ? "" : id);
 
 // ---------------------------------------------------------------- menus
 
-export const menuButtons = () => [...document.querySelectorAll("[data-menu]")];
-
-function setMenu(button, isOn) {
-  button.setAttribute("aria-expanded", isOn);
-  here(button.getAttribute("aria-controls")).hidden = !isOn;
-}
+const menuButtons = () => [...document.querySelectorAll("[data-menu]")];
+const isExpanded = button => button.getAttribute("aria-expanded") === "true";
 
 /** Closes the menus. Returns whether one was open. */
 export function closeMenus() {
-  const open = menuButtons().filter(button => button.getAttribute("aria-expanded") === "true");
-  open.forEach(button => setMenu(button, false));
+  const open = menuButtons().filter(isExpanded);
+  open.forEach(button => setOpen(button, false));
   return open.length > 0;
 }
 
-export function swapMenu(button) {
-  const wasOn = button.getAttribute("aria-expanded") === "true";
+function swapMenu({ currentTarget: button }) {
+  const wasOn = isExpanded(button);
   closeMenus();
-  setMenu(button, !wasOn);
+  setOpen(button, !wasOn);
 }
 
-/** A press beside a menu closes it. */
-export function leaveMenus(event) {
-  if (!event.target.closest("[data-menu], .menu")) closeMenus();
+/** Hears the buttons of the menus. A press beside a menu closes it. */
+export function hearMenus() {
+  for (const button of menuButtons()) button.addEventListener("click", swapMenu);
+  document.addEventListener("pointerdown", event => {
+    if (!event.target.closest("[data-menu], .menu")) closeMenus();
+  });
 }
-

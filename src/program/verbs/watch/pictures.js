@@ -7,7 +7,7 @@ import { keepOlder, mixed } from "/compare.js";
 import * as cost from "/cost.js";
 import { loadCosts } from "/costing.js";
 import { showFault } from "/faults.js";
-import { fetch } from "/fetch.js";
+import { fetch, pause, post } from "/fetch.js";
 import { GUIDES } from "/guides.js";
 import { showNumbers } from "/news.js";
 import { loadObjects } from "/objects.js";
@@ -16,8 +16,8 @@ import { layOver, overlays } from "/over.js";
 import { cels } from "/rows.js";
 import { unpack } from "/runs.js";
 import {
-  beside, clamp, here, isReady, lanes, looks, main, overlay, part, pause, play, post,
-  ratio, stage, state, stateOf, view,
+  beside, clamp, here, isReady, lanes, looks, main, overlay, part, play, ratio, setPressed, stage,
+  state, stateOf, view,
 } from "/state.js";
 import { drawRuler, loadWave } from "/timeline.js";
 import { fit, frameSize, visible } from "/view.js";
@@ -62,8 +62,9 @@ export function nameOf(one, number) {
   return film.first + Math.min(index, film.frames - 1);
 }
 
-/** The part of a frame that is visible. coarse: that many pixels are one, in each direction. */
-export function wish(number, coarse = 1, one = main) {
+/** The part of a frame that is visible. coarse: that many pixels are one, in each direction. query:
+ * how cels are shown. */
+export function wish(number, coarse = 1, one = main, query = cels.query) {
   const crop = visible(one), build = stateOf(one).build;
   if (!crop) return null;
   let size = frameSize(one), part = crop;
@@ -75,8 +76,8 @@ export function wish(number, coarse = 1, one = main) {
               clamp(Math.ceil(crop[3] / coarse), 1, size[1] - part[1]));
   }
   const address = `/frame/${nameOf(one, number)}.runs?size=${size.join("x")}&crop=${part.join()}`
-    + `&build=${build}${one === main ? cels.query : "&side=2"}`;
-  return { number, size, crop: part, address, build, lane: one };
+    + `&build=${build}${one === main ? query : "&side=2"}`;
+  return { number, size, crop: part, address, build, query, lane: one };
 }
 
 const pageName = Math.random().toString(36).slice(2);
@@ -95,7 +96,7 @@ export async function fetchPicture(wanted) {
                     seconds: Number(answer.headers.get("Celspan-Seconds")),
                     camera: answer.headers.get("Celspan-Camera") };
   if (!wanted.isOver && wanted.lane === main && wanted.build === state.build) {
-    cost.noteTime(picture.number, picture.seconds, picture.build);
+    if (isSeenNow(picture)) cost.noteTime(picture.number, picture.seconds, picture.build);
     if (!wanted.isSeen) cameras.set(picture.number, picture.camera);
   }
   if (wanted.build === stateOf(wanted.lane)?.build) keep(wanted.address, picture);
@@ -119,14 +120,15 @@ export function markStale(one) {
   one.canvas.toggleAttribute("data-stale", !(isSent && isSeen) && play.direction === 0);
 }
 
+/** Whether a picture is of the first film as it is seen now, and not of an onion skin. */
+const isSeenNow = one => one.lane === main && !one.isOver && !one.isSeen
+  && one.build === state.build && one.query === cels.query;
+
 /** The numbers of the frames whose pictures are kept as they are seen now. */
 export function keptFrames() {
-  const size = frameSize().join(), list = [];
-  for (const one of kept.values()) {
-    if (one.lane === main && !one.isOver && !one.isSeen && one.build === state.build
-      && one.size.join() === size) list.push(one.number);
-  }
-  return list;
+  const size = frameSize().join();
+  return [...kept.values()].filter(one => isSeenNow(one) && one.size.join() === size)
+    .map(one => one.number);
 }
 
 /** Puts a picture on the canvas of its lane; bytes: its own, or others in their place. */
@@ -138,10 +140,8 @@ function put(picture, bytes) {
   }
   one.pen.putImageData(new ImageData(looks.isMatte ? matteOf(bytes) : bytes, w, h), 0, 0);
   one.painted = picture;
-  canvas.dataset.frame = nameOf(one, picture.number);
-  canvas.dataset.size = picture.size.join("x");
-  canvas.dataset.crop = picture.crop.join();
-  canvas.dataset.build = picture.build;
+  Object.assign(canvas.dataset, { frame: nameOf(one, picture.number), size: picture.size.join("x"),
+                                  crop: picture.crop.join(), build: picture.build });
   canvas.setAttribute("aria-label", `Frame ${picture.number}`);
   markStale(one);
 }
@@ -160,7 +160,7 @@ export function paint(picture) {
 }
 
 /** Puts what is painted where the view has it now, stretched if it was made for another one. */
-export function place() {
+function place() {
   if (!state.film) return;
   for (const one of lanes()) placeLane(one, one === main ? [here("paper"), stage, overlay]
     : [here("paper2"), one.canvas]);
@@ -291,8 +291,6 @@ export async function failed(fault, wanted) {
 
 export function setMatte(isOn) {
   looks.isMatte = isOn;
-  here("matte").setAttribute("aria-pressed", isOn);
+  setPressed("matte", isOn);
   for (const one of lanes()) if (one.painted) paint(one.painted);
 }
-
-

@@ -5,14 +5,14 @@ import { showFault } from "/faults.js";
 import { showNumbers } from "/news.js";
 import { abandon, failed, fetchPicture, kept, look, paint, wish } from "/pictures.js";
 import * as sound from "/sound.js";
-import { clamp, here, icon, isReady, lanes, loop, play, state, view } from "/state.js";
-import { drawRuler, followHead, heard } from "/timeline.js";
+import { clamp, here, icon, isReady, lanes, loop, play, setPressed, state, view } from "/state.js";
+import { drawRuler, followHead } from "/timeline.js";
 
 // pictures that are requested ahead while playing, and at the same time
 const AHEAD = 8, AT_ONCE = 3;
 const BEHIND = 24;           // frames that a picture may be late
 
-export function go(number) {
+function go(number) {
   if (!state.film) return;
   view.number = clamp(Math.round(number) || 1, 1, state.film.frames);
   lanes().forEach(showFault);
@@ -21,10 +21,13 @@ export function go(number) {
   look();
 }
 
-export function step(by) {
+/** Goes to a frame, and stays there. */
+export function jump(number) {
   stop();
-  go(view.number + by);
+  go(number);
 }
+
+export const step = by => jump(view.number + by);
 
 export function start(direction) {
   if (!state.film) return;
@@ -41,7 +44,7 @@ export function start(direction) {
   requestAnimationFrame(tick);
 }
 
-export function stop() {
+function stop() {
   play.direction = 0;
   for (const wanted of [...asked.values()].flat()) abandon(wanted);
   sound.end();
@@ -95,10 +98,11 @@ function askAhead(passed) {
 /** The lanes that play: with one whose film cannot be shown the other plays alone. */
 const playing = () => lanes().filter(isReady);
 
+const wishes = number => playing().map(one => wish(number, 1, one)).filter(Boolean);
+
 /** Asks for a frame of all films that play, if it is not here and not on its way. */
 function askBoth(number) {
-  const all = playing().map(one => wish(number, 1, one)).filter(Boolean);
-  const missing = all.filter(wanted => !kept.has(wanted.address));
+  const missing = wishes(number).filter(wanted => !kept.has(wanted.address));
   if (missing.length === 0 || asked.has(number)) return;
   const began = performance.now();
   asked.set(number, missing);
@@ -111,8 +115,7 @@ function askBoth(number) {
 function duePictures(passed) {
   for (let at = passed; at > play.shown && at > passed - BEHIND; at--) {
     const number = onward(play.number, at * play.direction);
-    const wanted = playing().map(one => wish(number, 1, one)).filter(Boolean);
-    const pictures = wanted.map(one => kept.get(one.address));
+    const pictures = wishes(number).map(one => kept.get(one.address));
     if (pictures.length > 0 && pictures.every(Boolean)) return { pictures, number, at };
   }
   return null;
@@ -161,6 +164,7 @@ export function setSpeed(speed) {
 }
 
 export function setLoop(from, to) {
+  if (!state.film) return;
   loop.from = clamp(from, 1, state.film.frames);
   loop.to = clamp(to, loop.from, state.film.frames);
   if (play.direction !== 0) start(play.direction);
@@ -176,7 +180,7 @@ export function takeSound() {
 
 export function swapMute() {
   const isMuted = here("mute").getAttribute("aria-pressed") !== "true";
-  here("mute").setAttribute("aria-pressed", isMuted);
+  setPressed("mute", isMuted);
   sound.mute(isMuted);
   if (!isMuted && play.direction > 0) start(1);
 }

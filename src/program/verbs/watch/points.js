@@ -1,5 +1,4 @@
 // Handles on the picture for parameters that are points.
-import { step } from "/playing.js";
 import { desk, element, here, main, play, ratio, state, view } from "/state.js";
 import { giveValue } from "/values.js";
 
@@ -14,14 +13,14 @@ function givePoint(name, x, y) {
   if (!one) return;
   const text = [x, y].map(side => Number(side.toFixed(2))).join();
   giveValue(main, one, text);
-  const field = here("form").elements[name];
+  const field = here("form").elements.namedItem(name);
   if (field) field.value = text;
 }
 
 /** A handle: it is dragged, and the arrow keys move it by a unit, with shift by ten. */
 function makeHandle(name) {
-  const one = element("button", { className: "handle", title: name, ariaLabel: `Point ${name}` });
-  one.dataset.point = name;
+  const one = element("button", { className: "handle", title: name, ariaLabel: `Point ${name}`,
+                                  dataset: { point: name } });
   one.addEventListener("pointerdown", event => {
     event.stopPropagation();
     one.setPointerCapture(event.pointerId);
@@ -60,8 +59,8 @@ export function placePoints() {
   for (const one of points) {
     if (!handles.has(one.name)) handles.set(one.name, makeHandle(one.name));
     const [x, y] = placeOf(one), handle = handles.get(one.name), r = ratio();
-    handle.style.left = `${(view.x + x * view.scale) / r}px`;
-    handle.style.top = `${(view.y + y * view.scale) / r}px`;
+    Object.assign(handle.style, { left: `${(view.x + x * view.scale) / r}px`,
+                                  top: `${(view.y + y * view.scale) / r}px` });
     handle.hidden = play.direction !== 0;
   }
 }

@@ -1,121 +1,153 @@
 // The exposure sheet: a row for each cel, as wide as the timeline above it. In a cut the rows of a
-// shot are below its name, and unfold.
+// shot are below its name, and unfold; so are those of the second film.
+//
+//   /sheet.json --> sheet.rows --what is unfolded--> sheet.shown --> the names, and the canvas
+//
+// The canvas covers what is seen of them: browsers have no canvas as high as two thousand rows.
 import * as cost from "/cost.js";
-import { fetch } from "/fetch.js";
+import { read } from "/fetch.js";
 import { celNames, showObjects } from "/objects.js";
+import { nextOnion } from "/onion.js";
 import { look } from "/pictures.js";
-import { element, here, icon, state, view } from "/state.js";
+import {
+  clamp, element, here, icon, isReady, lanes, looks, main, refill, state, stateOf, view,
+} from "/state.js";
 import { brushOf, busy, coloursOf, heard, setBusy, shotsOf, unit, xOf } from "/timeline.js";
 
 const ROW = 22, STRIP = 32;  // CSS pixels
 export const SHEET_MOST = 10000;    // frames of a sheet, as the server has them
 const ROWS_MOST = 2000;      // rows that are shown
-const sheet = { rows: [], frames: 1, build: 0 };
+const sheet = { rows: [], shown: [], builds: "" };
 const unfolded = new Map();  // whether the rows of a shot are shown, by its name
 
-/** Asks for the sheet if it is open and older than the film. */
+/** The builds of the films whose sheets are wanted. */
+const buildsOf = () => lanes().filter(isReady).map(one => stateOf(one).build).join();
+
+/** Asks for the sheets if they are seen and older than the films. */
 export async function loadSheet() {
-  if (here("sheet").hidden || !state.shown || sheet.build === state.build) return;
-  const build = sheet.build = state.build;
+  const builds = buildsOf(), isWanted = () => builds === buildsOf();
+  if (here("sheet").hidden || !state.shown || sheet.builds === builds) return;
+  sheet.builds = builds;
   setBusy("sheet", true);
-  const answer = await fetch(`/sheet.json?build=${build}`).catch(() => null);
-  const said = answer?.ok ? await answer.json() : { rows: [], frames: 1 };
-  if (build !== state.build) return;
-  Object.assign(sheet, said);
+  const said = await Promise.all(lanes().filter(isReady).map(async one => [one,
+    await read(`/sheet.json?side=${one.side}&build=${stateOf(one).build}`, isWanted)]));
+  if (!isWanted()) return;
+  sheet.rows = said.flatMap(([one, all]) => all ? rowsOf(one, all) : []);
   setBusy("sheet", false);
-  nameRows();
-  drawSheet();
+  showSheet();
 }
+
+/** The rows of a film; those of the second are below its name, with its frames at their times. */
+function rowsOf(one, { rows, frames }) {
+  if (one === main) return rows.map(row => ({ ...row, end: frames + 1 }));
+  const rate = state.film.fps / state.second.film.fps, at = frame => (frame - 1) * rate + 1;
+  return rows.map(({ name, cells, moved }) => ({ name, end: at(frames + 1),
+    shot: state.has_two ? state.second.script : "Other values",
+    cells: cells.map(([from, drawing]) => [at(from), drawing]), moved: (moved || []).map(at) }));
+}
+
+const shotOf = name => shotsOf().find(one => one.name === name);
 
 /** Whether the rows of a shot are shown: at first those of the shot that is seen. */
 function isUnfolded(name) {
-  if (unfolded.has(name)) return unfolded.get(name);
-  const shot = shotsOf().find(one => one.name === name);
-  return !shot || view.number > shot.at && view.number <= shot.at + shot.count;
+  if (!unfolded.has(name)) {
+    const shot = shotOf(name);
+    unfolded.set(name, !shot || view.number > shot.at && view.number <= shot.at + shot.count);
+  }
+  return unfolded.get(name);
 }
 
 /** The rows that are shown; those with `heading` are shots. */
-function rowsOf() {
+function unfoldedRows() {
   const list = [];
-  let last = null;
+  let last, isOn = true;
   for (const row of sheet.rows) {
-    if (row.shot && row.shot !== last) list.push({ name: row.shot, heading: true, cells: [] });
+    if (row.shot !== last) {
+      isOn = !row.shot || isUnfolded(row.shot);
+      if (row.shot) list.push({ name: row.shot, heading: true, shot: shotOf(row.shot) });
+    }
     last = row.shot;
-    if (!row.shot || isUnfolded(row.shot)) list.push(row);
+    if (isOn) list.push(row);
   }
   return [...list, ...heard.lips].slice(0, ROWS_MOST);
 }
 
 /** The name of a row: that of a shot unfolds. */
-function rowName(row) {
-  const one = element("li", { title: row.name, className: row.heading ? "heading" : "" });
-  one.dataset.row = row.name;
-  if (!row.heading) {
-    one.append(element("span", { textContent: row.name }));
-    if (row.cel) one.append(...Object.keys(SWITCHES).map(letter => celSwitch(row.cel, letter)));
-    return one;
-  }
-  const isOn = isUnfolded(row.name);
-  one.append(element("button", { className: "fold", ariaExpanded: String(isOn), onclick: () => {
-    unfolded.set(row.name, !isOn);
-    nameRows();
-    drawSheet();
-  } }, icon("fold"), element("span", { textContent: row.name })));
-  return one;
+function rowName({ name, heading, cel }) {
+  const words = element("span", { textContent: name }), isOn = unfolded.get(name);
+  const fold = heading && element("button", { className: "fold", ariaExpanded: String(isOn),
+    onclick: () => { unfolded.set(name, !isOn); showSheet(); } }, icon("fold"), words);
+  return element("li", { title: name, className: heading ? "heading" : "", dataset: { row: name } },
+                 fold || words, ...cel ? switchesOf(name) : []);
 }
 
-export function nameRows() {
+const stripHeight = () => here("costs").hidden ? 0 : STRIP;
+
+/** Makes the rows again, their names and what is drawn of them. */
+export function showSheet() {
+  if (here("sheet").hidden) return;
+  sheet.shown = unfoldedRows();
   const strip = element("li", { title: "milliseconds", className: "strip" },
                         element("span", { textContent: "milliseconds" }));
-  here("names").replaceChildren(...rowsOf().map(rowName), ...here("costs").hidden ? [] : [strip]);
+  refill(here("names"), [...sheet.shown.map(rowName), ...stripHeight() ? [strip] : []]);
+  drawSheet();
 }
 
 // ---------------------------------------------------------------- cels in another way
 
-// The letters of /frame/N, and s: all other cels are hidden.
-const SWITCHES = { s: "solo", h: "hidden", l: "light off", f: "focus off" };
-export const cels = { letters: {}, query: "" }; // letters: by the names of the cels
+//   a row's buttons --> letters of the cel --> cels.query: pictures; cels.onion: their neighbours
+//
+// The letters of /frame/N; s: all others are hidden; o: neighbours of this one are shown.
+const SWITCHES = { s: "Solo", h: "Hide", l: "Light off", f: "Focus off", o: "Onion" };
+const letters = new Map(); // by the names of the cels
 
-export const hasLetter = (name, letter) => (cels.letters[name] || "").includes(letter);
+// Parts of the address that say how cels are shown; onion: the chosen ones alone, "": all.
+export const cels = { query: "", onion: "" };
 
-/** Changes how a cel is shown. */
-export function swapLetter(name, letter) {
-  const old = cels.letters[name] || "";
-  cels.letters[name] = old.includes(letter) ? old.replace(letter, "") : old + letter;
+const has = (name, letter) => (letters.get(name) || "").includes(letter);
+const isAny = letter => [...letters.keys()].some(name => has(name, letter));
+
+/** The buttons that change how one cel is shown. */
+export function switchesOf(name) {
+  return Object.entries(SWITCHES).map(([letter, what]) => element("button",
+    { className: "switch", title: what, ariaLabel: `${what}: ${name}`,
+      ariaPressed: String(has(name, letter)), onclick: () => swapLetter(name, letter) },
+    icon(what.split(" ")[0].toLowerCase())));
+}
+
+function swapLetter(name, letter) {
+  const old = letters.get(name) || "";
+  letters.set(name, old.includes(letter) ? old.replace(letter, "") : old + letter);
   queryCels();
-  nameRows();
+  showSheet();
   showObjects();
+  if (letter === "o" && looks.onion === 0) nextOnion();
   look();
 }
 
-/** A button that changes how one cel is shown. */
-function celSwitch(name, letter) {
-  const what = SWITCHES[letter];
-  return element("button", { className: "switch", textContent: letter.toUpperCase(),
-    title: `${name}: ${what}`, ariaLabel: `${name}: ${what}`,
-    ariaPressed: String(hasLetter(name, letter)), onclick: () => swapLetter(name, letter) });
+/** The part of the address for the letters of each cel, by a function of its name. */
+function queryOf(lettersOf) {
+  const rows = sheet.rows.filter(row => row.cel).map(row => row.name);
+  const names = [...new Set([...letters.keys(), ...rows, ...celNames()])];
+  const all = names.map(name => [name, lettersOf(name)]).filter(([, own]) => own);
+  return all.length ? `&cels=${encodeURIComponent(JSON.stringify(Object.fromEntries(all)))}` : "";
 }
 
-/** The part of the address that says how cels are shown. */
-function queryCels() {
-  const hasSolo = Object.keys(cels.letters).some(name => hasLetter(name, "s")), all = {};
-  const names = new Set([...sheet.rows.map(row => row.cel).filter(Boolean), ...celNames()]);
-  for (const name of names) {
-    const letters = cels.letters[name] || "";
-    const own = letters.replace("s", "") + (hasSolo && !letters.includes("s") ? "h" : "");
-    if (own) all[name] = own;
-  }
-  const isPlain = Object.keys(all).length === 0;
-  cels.query = isPlain ? "" : `&cels=${encodeURIComponent(JSON.stringify(all))}`;
+/** Says again how cels are shown, also those of a frame whose cels are known now. */
+export function queryCels() {
+  const own = name => (letters.get(name) || "").replace(/[so]/g, "");
+  const only = letter => name => own(name) + (isAny(letter) && !has(name, letter) ? "h" : "");
+  cels.query = queryOf(only("s"));
+  cels.onion = isAny("o") ? queryOf(only("o")) : "";
 }
 
 // ---------------------------------------------------------------- drawing
 
 /** A row of the sheet: a box for each drawing as long as it is held, a dot where it only moves. */
 function drawRow(brush, row, y, colours) {
-  const one = unit();
+  const one = unit(), end = row.end ?? state.film.frames + 1;
   row.cells.forEach(([from, name], i) => {
-    const until = i + 1 < row.cells.length ? row.cells[i + 1][0] : sheet.frames + 1;
+    const until = i + 1 < row.cells.length ? row.cells[i + 1][0] : end;
     const x = xOf(from - 1), wide = (until - from) * one;
     if (!name || x > brush.canvas.width || x + wide < 0) return;
     brush.fillStyle = i % 2 ? colours.odd : colours.even;
@@ -129,33 +161,34 @@ function drawRow(brush, row, y, colours) {
   }
 }
 
-function drawHeading(brush, row, y, colours) {
-  const shot = shotsOf().find(one => one.name === row.name);
+function drawHeading(brush, { shot }, y, colours) {
   brush.fillStyle = colours.line;
   if (shot) brush.fillRect(xOf(shot.at), y + 4, Math.max(1, shot.count * unit() - 1), ROW - 8);
 }
 
+/** Draws the rows that are seen. */
 export function drawSheet() {
   if (here("sheet").hidden || !state.film) return;
-  const rows = rowsOf(), strip = here("costs").hidden ? 0 : STRIP;
-  const height = Math.max(1, rows.length) * ROW + strip, colours = coloursOf();
+  const rows = sheet.shown, strip = stripHeight(), all = Math.max(1, rows.length) * ROW + strip;
+  const top = clamp(here("timeline").scrollTop - here("sheet").offsetTop, 0, all - ROW);
+  const height = Math.min(all - top, innerHeight), colours = coloursOf();
+  here("cells").style.height = `${all}px`;
+  here("rows").style.top = `${top}px`;
   const brush = brushOf(here("rows"), height);
-  if (sheet.rows.length === 0) {
+  brush.translate(0, -top);
+  if (rows.length === 0) {
     brush.fillStyle = colours.quiet;
     brush.fillText(busy.has("sheet") ? "being read …" : "no cels", 6, 15);
   }
-  rows.forEach((row, i) => (row.heading ? drawHeading : drawRow)(brush, row, i * ROW, colours));
-  if (strip) {
-    cost.drawStrip(brush, height - STRIP, STRIP, xOf, unit(), 1 / state.film.fps, colours);
+  for (let i = Math.floor(top / ROW); i < rows.length && i * ROW < top + height; i++) {
+    (rows[i].heading ? drawHeading : drawRow)(brush, rows[i], i * ROW, colours);
   }
+  if (strip) cost.drawStrip(brush, all - STRIP, STRIP, xOf, unit(), 1 / state.film.fps, colours);
 }
 
 export function setSheet(isOn) {
   here("sheet").hidden = !isOn;
   here("list").setAttribute("aria-expanded", isOn);
-  if (!isOn) return;
   loadSheet();
-  nameRows();
-  drawSheet();
+  showSheet();
 }
-

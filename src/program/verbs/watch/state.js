@@ -3,8 +3,6 @@
 //   /state.json --> state (what the server has said)    keys, hands --> view, loop, play, shown
 //                        \                                /
 //                         everything that is drawn is drawn from these
-import { fetch } from "/fetch.js";
-
 export const here = id => document.getElementById(id);
 export const stage = here("stage");
 export const desk = here("desk");
@@ -31,11 +29,11 @@ export const span = { from: 0, to: 1 };
 /** What is known of one of the films and its canvas. refused: the frame that could not be made,
  * { number, build, message }. lastFault: the error that is shown. painted: the picture. slowness:
  * the seconds that it took. fetching: the picture that is on its way, { wanted, since }. given:
- * values of parameters, as the address holds them. */
+ * values of parameters, as the address holds them. isRefilled: all of them have been given anew. */
 const lane = (side, canvas, box) => ({
   side, canvas, box, pen: canvas.getContext("2d"), painted: null, refused: null, lastFault: null,
   isAsking: false, isWanted: false, slowness: 0, fetching: null, given: new URLSearchParams(),
-  isGiven: false, isSending: false, isChanged: false, wantedBuild: 0, formOf: "",
+  isGiven: false, isSending: false, isChanged: false, isRefilled: false, wantedBuild: 0, formOf: "",
 });
 export const main = lane(1, stage, desk);
 export const beside = lane(2, here("stage2"), here("desk2"));
@@ -51,14 +49,24 @@ export const part = (one, id) => here(one === main ? id : `${id}2`);
 export const ratio = () => window.devicePixelRatio || 1;
 export const clamp = (value, least, most) => Math.min(Math.max(value, least), most);
 
-export const pause = seconds => new Promise(done => setTimeout(done, seconds * 1000));
-
-export const post = (path, value) => fetch(path, { method: "POST", body: JSON.stringify(value) });
-
 export function element(name, properties = {}, ...children) {
-  const one = Object.assign(document.createElement(name), properties);
+  const { dataset = {}, style = {}, ...rest } = properties;
+  const one = Object.assign(document.createElement(name), rest);
+  Object.assign(one.dataset, dataset);
+  Object.assign(one.style, style);
   one.append(...children);
   return one;
+}
+
+/** Replaces the rows of a list. The focus stays at the same button of the row of the same name. */
+export function refill(list, rows) {
+  const old = document.activeElement, row = [...list.children].find(one => one.contains(old));
+  const nameOf = one => Object.values(one.dataset)[0];
+  const buttonsOf = one => [one, ...one.querySelectorAll("button")];
+  const at = row ? buttonsOf(row).indexOf(old) : -1;
+  const next = row && rows.find(one => nameOf(one) === nameOf(row));
+  list.replaceChildren(...rows);
+  if (next) buttonsOf(next)[at]?.focus();
 }
 
 /** A picture of the sheet of icons in page.html. */
@@ -73,6 +81,9 @@ export function icon(name) {
 
 /** Writes the words of a button, which may have an icon and a key beside them. */
 export function label(id, text) { here(id).querySelector("span").textContent = text; }
+
+/** Says of a button whether what it does is on. */
+export function setPressed(id, isOn) { here(id).setAttribute("aria-pressed", isOn); }
 
 /** Seconds and frames of a frame of the film, counted from 1: "2:12" is frame 61 at 24. */
 export function timecode(number) {

@@ -1,33 +1,37 @@
-// The timeline: a ruler, the shots of a cut, marks and the wave of the sound, as wide as `span`.
+// The timeline: a ruler, the shots of a cut, marks, captions and the wave of the sound, as wide as
+// `span`.
 //
 //   frames from 0 --xOf--> CSS pixels: frame k is from xOf(k) to xOf(k + 1)
 //
 // Hands change `span`, the loop or the frame; everything here is drawn from them.
 import * as cost from "/cost.js";
-import { fetch } from "/fetch.js";
+import { read } from "/fetch.js";
 import { outlined } from "/over.js";
 import { keptFrames } from "/pictures.js";
-import { go, stop } from "/playing.js";
-import { SHEET_MOST, drawSheet, nameRows } from "/rows.js";
-import { clamp, element, here, loop, ratio, span, state, timecode, view } from "/state.js";
+import { jump } from "/playing.js";
+import { SHEET_MOST, drawSheet, showSheet } from "/rows.js";
+import {
+  clamp, element, here, loop, ratio, refill, span, state, timecode, view,
+} from "/state.js";
 
 const RULER = 26, WAVE = 34;   // CSS pixels
 const WAVE_COLUMNS = 2000;
 const LABEL_LEAST = 68;        // pixels between two numbers of the ruler
 const SNAP = 6;                // pixels within which a drag goes to a mark
 const CLOSEST = 4;             // frames, the least that the timeline shows
-const BLOCKS_MOST = 1000;      // shots, and marks, that are shown as elements
+const BLOCKS_MOST = 1000;      // shots, or marks, that are shown at once
+const MARK_LEAST = 12, EDGE = 9; // pixels: of a mark; how far a block goes beyond the window
 
-export let width = 1;                 // of the rows, in CSS pixels
+let width = 1;                        // of the rows, in CSS pixels
 export const heard = { columns: [], lips: [], build: 0 }; // of /wave.json
 
 export const unit = () => width / (span.to - span.from);
 export const xOf = frame => (frame - span.from) * unit();
+/** The place in the film, in frames from 0, at a place of the window. */
+const placeAt = clientX =>
+  span.from + (clientX - here("lanes").getBoundingClientRect().left) / unit();
 /** The number of the frame at a place of the window, from 1. */
-export const frameAt = clientX => {
-  const box = here("lanes").getBoundingClientRect();
-  return clamp(Math.floor(span.from + (clientX - box.left) / unit()) + 1, 1, state.film.frames);
-};
+export const frameAt = clientX => clamp(Math.floor(placeAt(clientX)) + 1, 1, state.film.frames);
 
 /** A brush for a canvas that is as wide as the rows. */
 export function brushOf(canvas, height) {
@@ -60,14 +64,13 @@ function rulerStep() {
 
 function drawTicks(brush, colours) {
   const stride = rulerStep(), first = Math.floor(span.from / stride) * stride;
-  const small = stride * unit() > 5 * LABEL_LEAST / 4 && stride > 1 ? stride / 2 : stride;
-  for (let k = first; k < span.to; k += small) {
+  const isHalved = stride % 2 === 0 && stride * unit() > 5 * LABEL_LEAST / 4;
+  for (let k = first; k < span.to; k += isHalved ? stride / 2 : stride) {
     const x = xOf(k), hasNumber = (k - first) % stride === 0;
     brush.fillStyle = colours.line;
     brush.fillRect(x, hasNumber ? 8 : 15, 1, RULER);
-    if (!hasNumber || k < 0) continue;
     brush.fillStyle = colours.quiet;
-    brush.fillText(timecode(k + 1), x + 4, 17);
+    if (hasNumber) brush.fillText(timecode(k + 1), x + 4, 17);
   }
 }
 
@@ -83,91 +86,88 @@ export function drawRuler() {
   if (!state.film) return;
   const brush = brushOf(here("ticks"), RULER), colours = coloursOf();
   const isWhole = loop.from === 1 && loop.to === state.film.frames;
-  if (!isWhole) {
-    brush.fillStyle = colours.tint;
-    brush.fillRect(xOf(loop.from - 1), 0, (loop.to - loop.from + 1) * unit(), RULER);
-  }
+  const drawLoop = (colour, height) => {
+    brush.fillStyle = colour;
+    if (!isWhole) brush.fillRect(xOf(loop.from - 1), 0, (loop.to - loop.from + 1) * unit(), height);
+  };
+  drawLoop(colours.tint, RULER);
   drawTicks(brush, colours);
   drawReady(brush, colours);
-  brush.fillStyle = colours.accent;
-  if (!isWhole) brush.fillRect(xOf(loop.from - 1), 0, (loop.to - loop.from + 1) * unit(), 2);
+  drawLoop(colours.accent, 2);
   for (const [from, to] of outlined.runs) {
     const x = xOf(from - state.film.first);
     brush.fillRect(x, 2, Math.max(2, (to - from + 1) * unit()), 3);
   }
 }
 
-// ---------------------------------------------------------------- shots and marks
+// ---------------------------------------------------------------- shots, marks and captions
 
-/** A block of the timeline as wide as some frames, from 0. */
-function block(one, from, count) {
-  one.style.left = `${xOf(from)}px`;
-  one.style.width = `${Math.max(1, count * unit() - 1)}px`;
-  return one;
+const made = { film: null, shots: [], marks: [], captions: [] }; // with `at` and `count`
+
+/** The shots, marks and captions of the film, with their places: `at`, from 0, `count` frames. */
+function blocksOf() {
+  const { film } = state, { first = 0, shots = [], marks = [], captions = [] } = film ?? {};
+  if (made.film === film) return made;
+  const block = (one, i) => ({ ...one, at: one.from - first, count: one.to - one.from + 1, i });
+  const known = new Set(shots.map(shot => `${shot.name} ${shot.from}`));
+  const free = marks.filter(mark => !known.has(`${mark.name} ${mark.frame}`));
+  return Object.assign(made, { film, shots: shots.map(block), captions: captions.map(block),
+    marks: free.map((mark, i) => ({ ...mark, at: mark.frame - first,
+      count: (free[i + 1]?.frame ?? Infinity) - mark.frame })) });
 }
 
 /** The shots of the film, each with the frames that it has alone or in transitions, from 0. */
-export function shotsOf() {
-  return (state.film.shots || []).slice(0, BLOCKS_MOST)
-    .map(shot => ({ ...shot, at: shot.from - state.film.first, count: shot.to - shot.from + 1 }));
+export const shotsOf = () => blocksOf().shots;
+
+/** An element of the timeline as wide as its frames, and not much wider than the window. */
+function block(name, { at, count }, properties, ...children) {
+  const left = clamp(xOf(at), -EDGE, width + EDGE), one = element(name, properties, ...children);
+  const right = clamp(xOf(at + count), left, width + EDGE);
+  Object.assign(one.style, { left: `${left}px`, width: `${Math.max(1, right - left - 1)}px` });
+  return one;
 }
 
-function shotBlock(shot) {
-  const one = element("button", { className: "shot", title: `${shot.name}: frames ${shot.from} to `
-    + `${shot.to}`, onclick: () => { stop(); go(shot.at + 1); } }, element("span",
-    { textContent: shot.name }));
-  Object.assign(one.dataset, { shot: shot.name, from: shot.from, to: shot.to });
-  one.style.paddingLeft = `${shot.before * unit() + 6}px`;
-  return block(one, shot.at, shot.count);
+const named = (one, className, title, dataset) => block("button", one, { className, title, dataset,
+  onclick: () => jump(one.at + 1) }, element("span", { textContent: one.name ?? one.text }));
+
+/** A shot, and the transition into it from the one before it, or from nothing. */
+function shotBlocks(shot) {
+  const { name, from, to, before, into, at, i } = shot;
+  const one = named(shot, i % 2 ? "shot odd" : "shot", `${name}: frames ${from} to ${to}`,
+                    { shot: name, from, to });
+  one.style.paddingLeft = `${clamp(xOf(at + before) - Math.max(xOf(at), -EDGE), 0, width) + 6}px`;
+  if (!before) return [one];
+  return [one, block("i", { at, count: before }, { className: "join", dataset: { transition: into },
+                                                  title: `${into}, ${before} frames` })];
 }
 
-/** The transition into a shot from the one before it, or from nothing. */
-function joinBlock(shot) {
-  const one = element("i", { className: "join", title: `${shot.into}, ${shot.before} frames` });
-  one.dataset.transition = shot.into;
-  return block(one, shot.at, shot.before);
+function markBlock(mark) {
+  const { name, frame } = mark;
+  const one = named(mark, "mark", `${name}: frame ${frame}`, { mark: name, frame });
+  one.style.minWidth = `${MARK_LEAST}px`;
+  return one;
 }
 
-function showShots() {
-  const shots = shotsOf();
-  for (const id of ["shots", "shots-head"]) here(id).hidden = shots.length === 0;
-  here("shots").replaceChildren(...shots.map(shotBlock),
-    ...shots.filter(shot => shot.before > 0).map(joinBlock));
-}
+const captionBlock = one => named(one, "shot caption-block", one.text,
+                                  { text: one.text, from: one.from, to: one.to });
 
-/** The marks that are not shots, in the order of their frames. */
-function marksOf() {
-  const shots = new Set((state.film.shots || []).map(shot => `${shot.name} ${shot.from}`));
-  return state.film.marks.filter(mark => !shots.has(`${mark.name} ${mark.frame}`))
-    .slice(0, BLOCKS_MOST);
-}
-
-function showMarks() {
-  const marks = marksOf();
-  for (const id of ["marks", "marks-head"]) here(id).hidden = marks.length === 0;
-  here("marks").replaceChildren(...marks.map((mark, i) => {
-    const at = mark.frame - state.film.first, next = marks[i + 1]?.frame ?? Infinity;
-    const one = element("button", { className: "mark", title: `${mark.name}: frame ${mark.frame}`,
-      onclick: () => { stop(); go(at + 1); } }, element("span", { textContent: mark.name }));
-    Object.assign(one.dataset, { mark: mark.name, frame: mark.frame });
-    one.style.left = `${xOf(at)}px`;
-    one.style.maxWidth = `${Math.max(12, (next - mark.frame) * unit() - 2)}px`;
-    return one;
-  }));
+/** Fills a row of the timeline with those that are seen; without any it is hidden. */
+function fillRow(id, list, make) {
+  here(id).hidden = here(`${id}-head`).hidden = list.length === 0;
+  refill(here(id), list.filter(one => one.at + one.count > span.from && one.at < span.to)
+    .slice(0, BLOCKS_MOST).flatMap(make));
 }
 
 /** Where shots and marks begin, as numbers of frames from 1. */
-const placesToSnap = () => [...new Set([...state.film.marks, ...state.film.shots || []]
-  .map(one => (one.frame ?? one.from) - state.film.first + 1))].sort((a, b) => a - b);
+const placesToSnap = () => [...blocksOf().shots, ...made.marks].map(one => one.at + 1)
+  .sort((a, b) => a - b);
 
 /** Goes to the next mark in a direction. */
 export function goToMark(direction) {
   const all = placesToSnap();
   const next = direction > 0 ? all.find(one => one > view.number)
     : all.findLast(one => one < view.number);
-  if (next === undefined) return;
-  stop();
-  go(next);
+  if (next !== undefined) jump(next);
 }
 
 // ---------------------------------------------------------------- the sound
@@ -175,23 +175,21 @@ export function goToMark(direction) {
 /** Asks for the wave of the sound and the mouths, once for a save. */
 export async function loadWave() {
   if (!state.shown || heard.build === state.build) return;
-  const build = heard.build = state.build;
+  const build = heard.build = state.build, isWanted = () => build === state.build;
   setBusy("wave", true);
-  const answer = await fetch(`/wave.json?columns=${WAVE_COLUMNS}&build=${build}`).catch(() => null);
-  const said = answer?.ok ? await answer.json() : {};
-  if (build !== state.build) return;
+  const said = await read(`/wave.json?columns=${WAVE_COLUMNS}&build=${build}`, isWanted);
+  if (!isWanted()) return;
   Object.assign(heard, { columns: [], lips: [] }, said);
   setBusy("wave", false);
-  nameRows();
+  showSheet();
   drawTimeline();
 }
 
 function drawWave() {
-  const hasSound = Boolean(state.film.sound), brush = brushOf(here("wave"), WAVE);
-  for (const id of ["wave", "wave-head"]) here(id).hidden = !hasSound;
-  const colours = coloursOf(), count = Math.min(state.film.frames, SHEET_MOST);
-  brush.fillStyle = colours.wave;
-  if (heard.columns.length === 0) brush.fillText("being read …", 6, WAVE / 2 + 4);
+  here("wave").hidden = here("wave-head").hidden = !state.film.sound;
+  const brush = brushOf(here("wave"), WAVE), count = Math.min(state.film.frames, SHEET_MOST);
+  brush.fillStyle = coloursOf().wave;
+  if (busy.has("wave")) brush.fillText("being read …", 6, WAVE / 2 + 4);
   const each = count / Math.max(1, heard.columns.length);
   heard.columns.forEach((height, i) => {
     const half = Math.max(0.5, height / 255 * (WAVE / 2 - 2));
@@ -219,10 +217,12 @@ export function placeHead() {
 
 export function drawTimeline() {
   if (!state.film) return;
+  const { shots, marks, captions } = blocksOf();
   Object.assign(here("scrub"), { min: 1, max: state.film.frames, value: view.number });
   drawRuler();
-  showShots();
-  showMarks();
+  fillRow("shots", shots, shotBlocks);
+  fillRow("marks", marks, markBlock);
+  fillRow("captions", captions, captionBlock);
   drawWave();
   drawSheet();
   placeHead();
@@ -245,26 +245,22 @@ export function setSpan(from, to) {
 export function turnTimeline(event) {
   if (!state.film || event.ctrlKey) return;
   event.preventDefault();
-  const lines = event.deltaMode === 1 ? 16 : 1, count = span.to - span.from;
-  const aside = event.deltaX + (event.shiftKey ? event.deltaY : 0);
-  if (aside) return setSpan(span.from + aside * lines / unit(), span.to + aside * lines / unit());
-  const at = span.from + (event.clientX - here("lanes").getBoundingClientRect().left) / unit();
+  const lines = event.deltaMode === 1 ? 16 : 1, at = placeAt(event.clientX);
+  const aside = (event.deltaX + (event.shiftKey ? event.deltaY : 0)) * lines / unit();
+  if (aside) return setSpan(span.from + aside, span.to + aside);
   const factor = Math.exp(event.deltaY * lines * 0.002);
-  setSpan(at - (at - span.from) * factor, at + (span.to - at) * factor, count);
+  setSpan(at - (at - span.from) * factor, at + (span.to - at) * factor);
 }
 
-/** The frame that a drag goes to: a mark that is near, unless the alt key is down. */
+/** The frame that a drag goes to: the nearest mark that is near, unless the alt key is down. */
 function snapped(event) {
-  const number = frameAt(event.clientX);
-  if (event.altKey) return number;
-  const near = placesToSnap().find(one => Math.abs(one - number) * unit() <= SNAP);
-  return near ?? number;
+  const number = frameAt(event.clientX), farOf = one => Math.abs(one - number) * unit();
+  const [near] = event.altKey ? [] : placesToSnap().sort((a, b) => farOf(a) - farOf(b));
+  return farOf(near) <= SNAP ? near : number;
 }
 
 export function scrubTo(event) {
-  if (!state.film || !event.buttons || event.button > 0) return;
-  stop();
-  go(snapped(event));
+  if (state.film && event.buttons && event.button <= 0) jump(snapped(event));
 }
 
 /** Brings the frame that is shown into the timeline while it is zoomed. */
@@ -272,4 +268,3 @@ export function followHead() {
   const at = view.number - 1, count = span.to - span.from;
   if (at < span.from || at >= span.to) setSpan(at - count / 10, at + count * 0.9);
 }
-

@@ -1,10 +1,11 @@
 // Values of the film's parameters: the form, the address of the page and the command line.
 import { nameLanes } from "/beside.js";
+import { post } from "/fetch.js";
 import { fieldOf } from "/fields.js";
 import { markStale } from "/pictures.js";
 import { placePoints } from "/points.js";
 import {
-  beside, element, here, isComparing, isReady, lanes, main, part, post, state, stateOf,
+  beside, element, here, isComparing, isReady, lanes, main, part, state, stateOf,
 } from "/state.js";
 
 // The address contains the values by name. A mark precedes those of the second film, and shows by
@@ -41,6 +42,7 @@ async function sendValues(one) {
   }
   one.isSending = false;
   markStale(one);
+  showForm(one);
 }
 
 /** Sends the values of the address as soon as a film can take them. */
@@ -64,15 +66,17 @@ export function giveValue(one, parameter, value) {
 /** A value as the command line has it: a point is "120,80". */
 const textOf = value => Array.isArray(value) ? value.join() : String(value);
 
-export const quoted = text => /^[\w.,:=/#-]+$/.test(text) ? text
+export const quoted = text => /^[\w.,:=/-][\w.,:=/#-]*$/.test(text) ? text
   : `'${text.replaceAll("'", "'\\''")}'`;
 
-/** The command that renders a film with these values, without its output. */
+/** The command that renders a film with the options of this run and these values, without its
+ * output. */
 export const renderOf = one => {
   const { parameters, script } = stateOf(one);
   const changed = parameters.filter(known => known.value !== textOf(known.default));
   const sets = changed.map(known => ` --set ${quoted(`${known.name}=${known.value}`)}`).join("");
-  return `celspan render ${quoted(script)}${sets}`;
+  const options = (state.options ?? []).map(word => ` ${quoted(word)}`).join("");
+  return `celspan render ${quoted(script)}${options}${sets}`;
 };
 
 function showCommand() {
@@ -81,13 +85,17 @@ function showCommand() {
     + (isComparing() ? `\n${renderOf(beside)} -o other${ending}` : "");
 }
 
-/** Makes the form of a film again if it has other parameters than before. */
+/** Makes the form of a film again if it has other parameters than before, or after all its values
+ * have been given anew, when the server has them. */
 export function showForm(one) {
-  const { parameters } = stateOf(one);
+  if (!stateOf(one)) return; // it is no longer shown
+  const { parameters, build } = stateOf(one);
+  const isRefilled = one.isRefilled && !one.isSending && build >= one.wantedBuild;
   const kinds = JSON.stringify(parameters.map(known => ({ ...known, value: null })));
   here("tune").hidden = lanes().every(any => stateOf(any).parameters.length === 0);
   showCommand();
-  if (kinds === one.formOf) return;
+  if (kinds === one.formOf && !isRefilled) return;
+  if (isRefilled) one.isRefilled = false;
   one.formOf = kinds;
   part(one, "form").replaceChildren(...groupsOf(one, parameters));
 }
@@ -111,14 +119,13 @@ function groupsOf(one, parameters) {
 // ---------------------------------------------------------------- all values
 
 export function resetValues() {
-  for (const one of lanes()) takeValues(one, {});
+  for (const one of lanes()) takeValues(one, []);
 }
 
-/** Gives these values, as texts by name, and no others. */
+/** Gives these values, as pairs of a name and a text, and no others. */
 function takeValues(one, values) {
-  for (const name of [...one.given.keys()]) one.given.delete(name);
-  for (const [name, value] of Object.entries(values)) one.given.set(name, value);
-  one.formOf = "";
+  one.given = new URLSearchParams(values);
+  one.isRefilled = true;
   sendValues(one);
 }
 
@@ -139,21 +146,28 @@ export function saveValues() {
   URL.revokeObjectURL(link.href);
 }
 
-/** Takes the values of such a file; names that the film does not have are left out, and said. */
+/** Whether something of such a file can be a value: a text, a number, true or false, or numbers. */
+const isValue = value => ["string", "number", "boolean"].includes(typeof value)
+  || Array.isArray(value) && value.length > 0 && value.every(one => typeof one === "number");
+
+/** Takes the values of such a file. What the film cannot take is left out, and said. */
 export async function loadValues() {
   const [file] = here("load-values").files;
   here("load-values").value = "";
-  const all = await file?.text().then(JSON.parse).catch(() => null);
+  const all = await file?.text().then(text => JSON.parse(text)).catch(() => null);
   if (!all || typeof all !== "object" || Array.isArray(all)) {
     return sayValues(`${file?.name}: it must be a JSON object, { "name": value }`);
   }
-  const known = new Set(state.parameters.map(one => one.name)), values = {}, odd = [];
+  const known = new Set(state.parameters.map(one => one.name));
+  const kinds = { odd: [], bad: [], good: [] };
   for (const [name, value] of Object.entries(all)) {
-    if (known.has(name)) values[name] = textOf(value);
-    else odd.push(name);
+    const kind = !known.has(name) ? "odd" : isValue(value) ? "good" : "bad";
+    kinds[kind].push([name, textOf(value)]);
   }
-  sayValues(odd.length ? `${file.name}: the film has no ${odd.join(", ")}` : "");
-  takeValues(main, values);
+  const say = (list, before, after) => list.length
+    ? `${file.name}: ${before}${list.map(([name]) => name).join(", ")}${after}. ` : "";
+  sayValues(say(kinds.odd, "the film has no ", "") + say(kinds.bad, "", " cannot be that"));
+  takeValues(main, kinds.good);
 }
 
 function sayValues(text) {
