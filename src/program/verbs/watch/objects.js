@@ -20,7 +20,7 @@ export const celNames = () => tree.list.map(one => one.cel).filter(Boolean);
 export async function loadObjects() {
   if (here("objects").hidden || !state.shown || play.direction !== 0) return;
   const address = `/objects.json?frame=${nameOf(main, view.number)}&build=${state.build}`;
-  if (address === tree.address) return showObjects();
+  if (address === tree.address) return;
   tree.address = address;
   setReading(true);
   const list = await read(address, () => address === tree.address);

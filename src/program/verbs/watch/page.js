@@ -8,7 +8,7 @@ import { swapCosting } from "/costing.js";
 import { makeFields, setGround, setTheme } from "/guides.js";
 import { hearHands } from "/hands.js";
 import { listen } from "/news.js";
-import { leavePoint, loadObjects } from "/objects.js";
+import { leavePoint, loadObjects, showObjects } from "/objects.js";
 import { onPanel } from "/panels.js";
 import { look } from "/pictures.js";
 import { beginRender } from "/render.js";
@@ -23,7 +23,7 @@ readAddress();
 setGround("checker");
 makeFields();
 onPanel("costs", swapCosting);
-onPanel("objects", isOn => { if (isOn) loadObjects(); else leavePoint(); });
+onPanel("objects", isOn => { if (isOn) { showObjects(); loadObjects(); } else leavePoint(); });
 onPanel("inspector", isOn => {
   for (const one of [main, beside]) one.box.classList.toggle("inspecting", isOn);
   if (!isOn) leavePoint();

@@ -58,9 +58,10 @@ export function element(name, properties = {}, ...children) {
   return one;
 }
 
-/** Replaces the rows of a list. The focus stays at the same button of the row of the same name. */
+/** Replaces the rows of a list. The focus of a key, not that of a click, stays at the same button of
+ * the row of the same name. */
 export function refill(list, rows) {
-  const old = document.activeElement, row = [...list.children].find(one => one.contains(old));
+  const old = list.querySelector(":focus-visible"), row = [...list.children].find(one => old && one.contains(old));
   const nameOf = one => Object.values(one.dataset)[0];
   const buttonsOf = one => [one, ...one.querySelectorAll("button")];
   const at = row ? buttonsOf(row).indexOf(old) : -1;
