@@ -8,8 +8,10 @@ import { start, takeSound } from "/playing.js";
 import { placePoints } from "/points.js";
 import { showRender } from "/render.js";
 import { loadSheet } from "/rows.js";
-import { beside, clamp, here, lanes, loop, main, state, stateOf, timecode, view } from "/state.js";
-import { drawTimeline, placeHead, setSpan } from "/timeline.js";
+import {
+  beside, clamp, here, lanes, loop, main, span, state, stateOf, timecode, view,
+} from "/state.js";
+import { drawTimeline, placeHead } from "/timeline.js";
 import { sendGiven, showForm } from "/values.js";
 import { measureDesk } from "/view.js";
 
@@ -62,9 +64,7 @@ function takeState(news) {
 function takeFrames(isFirst) {
   loop.from = 1;
   loop.to = state.film.frames;
-  setSpan(0, state.film.frames);
-  measureDesk(); // the timeline has other rows now
-  if (isFirst && !state.alone) view.number = state.film.poster - state.film.first + 1;
+  Object.assign(span, { from: 0, to: state.film.frames });
   view.number = clamp(view.number, 1, state.film.frames);
   if (isFirst && state.alone) start(1);
 }
@@ -73,6 +73,7 @@ function takeFrames(isFirst) {
 function takeFilm() {
   if (!state.building) takeSound();
   drawTimeline();
+  measureDesk(); // the timeline may have other rows now
   if (outlined.place) outline(outlined.place);
   if (state.shown) look();
 }

@@ -73,8 +73,11 @@ function unfoldedRows() {
 }
 
 /** The name of a row: that of a shot unfolds. */
-function rowName({ name, heading, cel }) {
-  const words = element("span", { textContent: name }), isOn = unfolded.get(name);
+function rowName({ name, shot, heading, cel }) {
+  const before = !heading && name.startsWith(`${shot} / `) ? `${shot} / ` : "";
+  const words = element("span", {}, element("i", { textContent: before }),
+                        name.slice(before.length));
+  const isOn = unfolded.get(name);
   const fold = heading && element("button", { className: "fold", ariaExpanded: String(isOn),
     onclick: () => { unfolded.set(name, !isOn); showSheet(); } }, icon("fold"), words);
   return element("li", { title: name, className: heading ? "heading" : "", dataset: { row: name } },

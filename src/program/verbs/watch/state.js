@@ -58,14 +58,15 @@ export function element(name, properties = {}, ...children) {
   return one;
 }
 
-/** Replaces the rows of a list. The focus of a key, not that of a click, stays at the same button of
- * the row of the same name. */
+/** Replaces the rows of a list. The focus of a key, not that of a click, stays at the same button
+ * of the row of the same name. */
 export function refill(list, rows) {
-  const old = list.querySelector(":focus-visible"), row = [...list.children].find(one => old && one.contains(old));
   const nameOf = one => Object.values(one.dataset)[0];
   const buttonsOf = one => [one, ...one.querySelectorAll("button")];
-  const at = row ? buttonsOf(row).indexOf(old) : -1;
+  const old = list.querySelector(":focus-visible");
+  const row = old && [...list.children].find(one => one.contains(old));
   const next = row && rows.find(one => nameOf(one) === nameOf(row));
+  const at = row ? buttonsOf(row).indexOf(old) : -1;
   list.replaceChildren(...rows);
   if (next) buttonsOf(next)[at]?.focus();
 }
