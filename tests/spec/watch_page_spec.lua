@@ -87,7 +87,8 @@ describe("the page of celspan watch under hands #plain", function()
   it("draws a sheet of many rows where it is scrolled to", function()
     local said = see [=[
       await stub(`if (address.startsWith("/sheet.json")) return json({ frames: 400,
-        rows: Array.from({ length: 1500 }, (_, i) => ({ name: "cel " + i, cells: [[1, "1"]] })) })`);
+        rows: Array.from({ length: 1500 }, (_, i) =>
+          ({ name: "cel " + i, cells: [[1, "1"]] })) })`);
       await page.press("s");
       await page.until(`document.querySelectorAll("[data-row]").length === 1500`);
       const found = await of("#rows", `one.height <= innerHeight`);
@@ -134,7 +135,8 @@ describe("the page of celspan watch under hands #plain", function()
         seen[kind] = (seen[kind] ?? 0) + 1; if (seen[kind] < 3) return json({}, 503); }`);
       await page.press("s");
       await page.press("q");
-      const isBusy = await of("#objects", "one.ariaBusy"), hint = await of("#objects-hint", "one.hidden");
+      const isBusy = await of("#objects", "one.ariaBusy");
+      const hint = await of("#objects-hint", "one.hidden");
       const words = await of("#objects h2", `getComputedStyle(one, "::after").content`);
       await page.until(`document.querySelectorAll("[data-object]").length === 3`);
       await page.until(`document.querySelectorAll("[data-row]").length === 3`);
@@ -200,7 +202,8 @@ describe("the page of celspan watch under hands #plain", function()
       await page.until(`document.querySelector("#command").value.includes("constructor=0")`);
       await set("#form [name=dim]", "one.focus({ focusVisible: true })");
       await page.press(" ");
-      const isDim = await of("#form [name=dim]", "one.checked"), label = await of("#play", "one.ariaLabel");
+      const isDim = await of("#form [name=dim]", "one.checked");
+      const label = await of("#play", "one.ariaLabel");
       await page.press("Escape");
       await page.press("g");
       await set("#number", `one.value = "5"`);
@@ -273,7 +276,8 @@ describe("the page of celspan watch under hands #plain", function()
       await stub(`if (address.startsWith("/at/")) { seen.now = (seen.now ?? 0) + 1;
         seen.most = Math.max(seen.most ?? 0, seen.now); seen.count = (seen.count ?? 0) + 1;
         await new Promise(done => setTimeout(done, 300)); seen.now--; }`);
-      const [x, y] = await of("#stage", `(box => [box.x + 99, box.y + 99])(one.getBoundingClientRect())`);
+      const [x, y] = await of("#stage",
+        `(box => [box.x + 99, box.y + 99])(one.getBoundingClientRect())`);
       for (let i = 0; i < 8; i++) {
         await page.mouse("mouseMoved", x + 4 * i, y);
         await page.pause(0.1);
@@ -293,7 +297,8 @@ describe("the page of celspan watch under hands #plain", function()
       await page.until(`document.querySelector("#stage2").dataset.frame === "1"`);
       await page.press("s");
       await page.until(`document.querySelectorAll("[data-row]").length === 5`);
-      return page.get(`[...document.querySelectorAll("[data-row]")].map(one => one.dataset.row)`);]=])
+      return page.get(`[...document.querySelectorAll("[data-row]")]
+        .map(one => one.dataset.row)`);]=])
     assert.same({ "dot", "__proto__", "cel 1", "other.lua", "late" }, said)
   end)
 end)

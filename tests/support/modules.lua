@@ -4,8 +4,9 @@
 ---
 --- It prints what is wrong, and ends with 1 if something is: a module that `node --check` refuses
 --- (where there is node); a name that is neither declared, imported nor the browser's, which would
---- silently be an element of the page with this id; an import that is not used, or that nothing
---- exports; an export that nobody imports; a line of more than 100 characters.
+--- silently be an element of the page with this id; an import that is not used, that something
+--- else of its name hides, or that nothing exports; an export that nobody imports; a line of more
+--- than 100 characters.
 local FOLDER = "src/program/verbs/watch/"
 
 local browser = {}
@@ -67,6 +68,15 @@ local function declared(text)
   return names
 end
 
+--- The names of the constants and variables of a module and its functions.
+local function stored(text)
+  local names = {}
+  for rest in text:gmatch "%f[%w][cl][oe][nt]s?t?%s+([%a_$][^;]-);" do
+    for name in ("," .. rest):gmatch ",%s*([%a_$][%w_$]*)%s*=[^=>]" do names[name] = true end
+  end
+  return names
+end
+
 local exports, imports, texts = {}, {}, {}
 
 local function take_module(name, text)
@@ -100,13 +110,14 @@ listing:close()
 
 local wanted = {}
 for name, text in pairs(texts) do
-  local known, used = declared(text), {}
+  local known, used, hidden = declared(text), {}, stored(text)
   for before, word in text:gmatch "([^%w_$]?[^%w_$]?[^%w_$]?)([%a_$][%w_$]*)" do
     local is_member = before:find "%.$" and not before:find "%.%.%.$"
     if not is_member then used[word] = true end
   end
   for word, from in pairs(imports[name]) do
     if not used[word] then complain("%s: the import %s is not used", name, word) end
+    if hidden[word] then complain("%s: the import %s is hidden by another", name, word) end
     if from and not exports[from][word] then
       complain("%s: %s does not export %s", name, from, word)
     end

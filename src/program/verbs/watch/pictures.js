@@ -67,17 +67,17 @@ export function nameOf(one, number) {
 export function wish(number, coarse = 1, one = main, query = cels.query) {
   const crop = visible(one), build = stateOf(one).build;
   if (!crop) return null;
-  let size = frameSize(one), part = crop;
+  let size = frameSize(one), area = crop;
   if (coarse > 1) {
     size = size.map(side => Math.max(1, Math.round(side / coarse)));
     const x = Math.floor(crop[0] / coarse), y = Math.floor(crop[1] / coarse);
-    part = [Math.min(x, size[0] - 1), Math.min(y, size[1] - 1)];
-    part.push(clamp(Math.ceil(crop[2] / coarse), 1, size[0] - part[0]),
-              clamp(Math.ceil(crop[3] / coarse), 1, size[1] - part[1]));
+    area = [Math.min(x, size[0] - 1), Math.min(y, size[1] - 1)];
+    area.push(clamp(Math.ceil(crop[2] / coarse), 1, size[0] - area[0]),
+              clamp(Math.ceil(crop[3] / coarse), 1, size[1] - area[1]));
   }
-  const address = `/frame/${nameOf(one, number)}.runs?size=${size.join("x")}&crop=${part.join()}`
+  const address = `/frame/${nameOf(one, number)}.runs?size=${size.join("x")}&crop=${area.join()}`
     + `&build=${build}${one === main ? query : "&side=2"}`;
-  return { number, size, crop: part, address, build, query, lane: one };
+  return { number, size, crop: area, address, build, query, lane: one };
 }
 
 const pageName = Math.random().toString(36).slice(2);
