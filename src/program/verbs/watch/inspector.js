@@ -52,10 +52,19 @@ export async function hitsAt(one, { x, y }, isWanted) {
                     isWanted) ?? [];
 }
 
+/** The opacity of an object that is not opaque, and the light on a cel that is not white. */
+function looksOf({ opacity = 1, light }) {
+  const shine = Array.isArray(light) ? light.map(one => Number(one.toFixed(3))).join(", ") : light;
+  const words = [opacity < 1 && `opacity ${Number(opacity.toFixed(3))}`,
+                 shine && shine !== "1, 1, 1" && `light ${shine}`];
+  return words.filter(Boolean).map(textContent => element("small", { textContent }));
+}
+
 function hitItem(hit) {
   const words = hit.name ? `${hit.name} (${hit.kind})` : `${hit.kind} without a name`;
   return element("li", {}, words, " ", placeButton(hit),
-                 ...hit.via ? [" ", ...placesOf(hit.via, hit.callers)] : []);
+                 ...hit.via ? [" ", ...placesOf(hit.via, hit.callers)] : [],
+                 ...looksOf(hit).flatMap(one => [" ", one]));
 }
 
 /** Shows the colour and the objects at a point of the window, in CSS pixels. */

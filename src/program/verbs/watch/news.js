@@ -60,12 +60,13 @@ function takeState(news) {
   else if (isNewFilm(old.second, state.second)) look();
 }
 
-/** The film has another number of frames than before. */
+/** The film has another number of frames than before; the first one opens at its poster. */
 function takeFrames(isFirst) {
   loop.from = 1;
   loop.to = state.film.frames;
   Object.assign(span, { from: 0, to: state.film.frames });
-  view.number = clamp(view.number, 1, state.film.frames);
+  const { first, poster = first, frames } = state.film;
+  view.number = clamp(isFirst && !state.alone ? poster - first + 1 : view.number, 1, frames);
   if (isFirst && state.alone) start(1);
 }
 

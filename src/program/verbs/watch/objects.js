@@ -48,7 +48,7 @@ function pathsOf(list) {
   let left = list.filter(isOuter).length;
   return list.map((one, i) => {
     const cel = one.label ?? (isOuter(one) ? one.name || `cel ${left}` : undefined);
-    const label = one.name || cel || one.kind;
+    const label = one.name || cel?.replace(/^.*\//, "") || one.kind;
     if (isOuter(one)) left--;
     names.length = one.depth;
     names.push(label);

@@ -39,7 +39,8 @@ export async function loadSheet() {
 
 /** The rows of a film; those of the second are below its name, with its frames at their times. */
 function rowsOf(one, { rows, frames }) {
-  if (one === main) return rows.map(row => ({ ...row, end: frames + 1 }));
+  const cel = row => row.cel === true ? row.name : row.cel; // by which it is shown in another way
+  if (one === main) return rows.map(row => ({ ...row, cel: cel(row), end: frames + 1 }));
   const rate = state.film.fps / state.second.film.fps, at = frame => (frame - 1) * rate + 1;
   return rows.map(({ name, cells, moved }) => ({ name, end: at(frames + 1),
     shot: state.has_two ? state.second.script : "Other values",
@@ -81,7 +82,7 @@ function rowName({ name, shot, heading, cel }) {
   const fold = heading && element("button", { className: "fold", ariaExpanded: String(isOn),
     onclick: () => { unfolded.set(name, !isOn); showSheet(); } }, icon("fold"), words);
   return element("li", { title: name, className: heading ? "heading" : "", dataset: { row: name } },
-                 fold || words, ...cel ? switchesOf(name) : []);
+                 fold || words, ...cel ? switchesOf(cel) : []);
 }
 
 const stripHeight = () => here("costs").hidden ? 0 : STRIP;
@@ -130,7 +131,7 @@ function swapLetter(name, letter) {
 
 /** The part of the address for the letters of each cel, by a function of its name. */
 function queryOf(lettersOf) {
-  const rows = sheet.rows.filter(row => row.cel).map(row => row.name);
+  const rows = sheet.rows.map(row => row.cel).filter(Boolean);
   const names = [...new Set([...letters.keys(), ...rows, ...celNames()])];
   const all = names.map(name => [name, lettersOf(name)]).filter(([, own]) => own);
   return all.length ? `&cels=${encodeURIComponent(JSON.stringify(Object.fromEntries(all)))}` : "";
