@@ -185,11 +185,13 @@ describe("the page of celspan watch under hands #plain", function()
   end)
 
   it("takes a film when it is ready, and not only when it was saved", function()
+    local tall = film("late = 9", 3e8):gsub("{ 64, 36 }", "{ 36, 64 }")
     local said = see([=[
-      await page.press("i");
       page.write("]=] .. watching.bench.folder .. [=[/shot.lua", ]=]
-      .. ("%q"):format(film("late = 9", 3e8)):gsub("\\\n", "\\n") .. [=[);
+      .. ("%q"):format(tall):gsub("\\\n", "\\n") .. [=[);
       await page.until(`document.querySelector("[data-mark=late]")`);
+      await page.until(`document.querySelector("#stage").width
+        < document.querySelector("#stage").height`);
       return all("[data-mark]", "one.dataset.mark");]=])
     assert.same({ "late" }, said)
   end)
