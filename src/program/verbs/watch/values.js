@@ -86,7 +86,7 @@ function showCommand() {
 }
 
 /** Makes the form of a film again if it has other parameters than before, or after all its values
- * have been given anew, when the server has them. */
+ * have been given again, when the server has them. */
 export function showForm(one) {
   if (!stateOf(one)) return; // it is no longer shown
   const { parameters, build } = stateOf(one);
