@@ -65,7 +65,7 @@ function takeFrames(isFirst) {
   loop.from = 1;
   loop.to = state.film.frames;
   Object.assign(span, { from: 0, to: state.film.frames });
-  const { first, poster = first, frames } = state.film;
+  const { first, poster, frames } = state.film;
   view.number = clamp(isFirst && !state.alone ? poster - first + 1 : view.number, 1, frames);
   if (isFirst && state.alone) start(1);
 }

@@ -39,17 +39,13 @@ function setReading(isOn) {
 }
 
 /** The rows with what they are called, their paths, "shot/cel/name", and whether they have parts.
- * cel: the name by which a cel is shown in another way, its place from the rear if it has none. */
+ * cel: the label by which a cel is shown in another way. */
 function pathsOf(list) {
   const at = view.number - 1, names = [], seen = new Map();
   const shots = shotsOf().filter(shot => shot.at <= at && at < shot.at + shot.count);
   const shot = shots.length === 1 ? [shots[0].name] : []; // in a transition there are two
-  const isOuter = one => one.kind === "cel" && one.depth === 0;
-  let left = list.filter(isOuter).length;
   return list.map((one, i) => {
-    const cel = one.label ?? (isOuter(one) ? one.name || `cel ${left}` : undefined);
-    const label = one.name || cel?.replace(/^.*\//, "") || one.kind;
-    if (isOuter(one)) left--;
+    const cel = one.label, label = one.name || cel?.replace(/^.*\//, "") || one.kind;
     names.length = one.depth;
     names.push(label);
     const plain = [...shot, ...names].join("/"), count = seen.get(plain) || 0;

@@ -43,8 +43,7 @@ function renderWish() {
 function showRenderCommand() {
   if (!state.film) return;
   if (!isNamed) nameFile();
-  const { file, frames, size, draft } = renderWish();
-  const { folder = state.script.match(/^(.*\/)?/)[0] } = state;
+  const { file, frames, size, draft } = renderWish(), { folder } = state;
   const words = [frames && `--frames ${frames}`, size && `--size ${size}`, draft && "--draft"];
   here("render-command").value = [renderOf(main), ...words.filter(Boolean),
                                   `-o ${quoted(folder + file)}`].join(" ");

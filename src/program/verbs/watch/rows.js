@@ -39,8 +39,7 @@ export async function loadSheet() {
 
 /** The rows of a film; those of the second are below its name, with its frames at their times. */
 function rowsOf(one, { rows, frames }) {
-  const cel = row => row.cel === true ? row.name : row.cel; // by which it is shown in another way
-  if (one === main) return rows.map(row => ({ ...row, cel: cel(row), end: frames + 1 }));
+  if (one === main) return rows.map(row => ({ ...row, end: frames + 1 }));
   const rate = state.film.fps / state.second.film.fps, at = frame => (frame - 1) * rate + 1;
   return rows.map(({ name, cells, moved }) => ({ name, end: at(frames + 1),
     shot: state.has_two ? state.second.script : "Other values",

@@ -29,7 +29,7 @@ export const span = { from: 0, to: 1 };
 /** What is known of one of the films and its canvas. refused: the frame that could not be made,
  * { number, build, message }. lastFault: the error that is shown. painted: the picture. slowness:
  * the seconds that it took. fetching: the picture that is on its way, { wanted, since }. given:
- * values of parameters, as the address holds them. isRefilled: all of them have been given again. */
+ * values of parameters, as the address holds them. isRefilled: all of them were given again. */
 const lane = (side, canvas, box) => ({
   side, canvas, box, pen: canvas.getContext("2d"), painted: null, refused: null, lastFault: null,
   isAsking: false, isWanted: false, slowness: 0, fetching: null, given: new URLSearchParams(),
