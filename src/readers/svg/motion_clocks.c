@@ -140,9 +140,18 @@ static bool read_moment(const cs_svg_animations *all, const char *text, const ch
   return read_follower(all, text, end, out);
 }
 
-/* Reads begin or end; what only an event or a script gives is noted. */
+static int compare_moments(const void *a, const void *b) {
+  const cs_svg_moment *first = a, *second = b;
+  int order = CS_SORT_ORDER(first->after >= 0, second->after >= 0);
+  order = order ? order : CS_SORT_ORDER(first->offset, second->offset);
+  return order ? order : CS_SORT_ORDER(first->after, second->after);
+}
+
+/* Reads begin or end; what only an event or a script gives is noted. *is_open: the list has it, or
+ * "indefinite". */
 static celspan_status read_moments(const cs_svg_animations *all, const cs_svg_node *node,
-                                   cs_svg_name name, cs_svg_moment **list, size_t *count) {
+                                   cs_svg_name name, cs_svg_moment **list, size_t *count,
+                                   bool *is_open) {
   const char *text = cs_svg_node_value(node, name);
   size_t parts = text ? cs_svg_list_count(text) : 0;
   *list = cs_arena_take(all->reading->context, &all->reading->document->arena,
@@ -154,15 +163,17 @@ static celspan_status read_moments(const cs_svg_animations *all, const cs_svg_no
     text = cs_svg_skip_space(text);
     const char *end = text + strcspn(text, ";");
     const bool is_never = cs_svg_take_word(&(const char *){text}, "indefinite");
-    if (read_moment(all, text, end, &(*list)[*count]))
-      ++*count;
-    else if (!is_noted && !(is_never && name == CS_SVG_END)) {
+    bool is_read = read_moment(all, text, end, &(*list)[*count]);
+    *count += is_read;
+    *is_open = *is_open || !is_read;
+    if (!is_read && !is_noted && !(is_never && name == CS_SVG_END)) {
       is_noted = true;
       CS_TRY(cs_svg_skip(all->reading, node, "%.40s: %s \"%.*s\" is not run", node->tag,
                          cs_svg_name_text(name), (int)(end - text > 40 ? 40 : end - text), text));
     }
     text = end + (*end == ';');
   }
+  qsort(*list, *count, sizeof **list, compare_moments);
   return CELSPAN_OK;
 }
 
@@ -175,8 +186,9 @@ celspan_status cs_svg_timing_read(const cs_svg_animations *all, const cs_svg_nod
     out->restart = CS_SVG_RESTART_NEVER;
   else if (restart && cs_svg_is_word(restart, "whenNotActive"))
     out->restart = CS_SVG_RESTART_WHEN_NOT_ACTIVE;
-  CS_TRY(read_moments(all, node, CS_SVG_BEGIN, &out->begins, &out->begin_count));
-  CS_TRY(read_moments(all, node, CS_SVG_END, &out->ends, &out->end_count));
+  bool begin_is_open = false;
+  CS_TRY(read_moments(all, node, CS_SVG_BEGIN, &out->begins, &out->begin_count, &begin_is_open));
+  CS_TRY(read_moments(all, node, CS_SVG_END, &out->ends, &out->end_count, &out->end_is_open));
   if (!cs_svg_node_value(node, CS_SVG_BEGIN))
     out->begins[out->begin_count++] = (cs_svg_moment){.after = -1};
   return CELSPAN_OK;

@@ -1,9 +1,9 @@
 /* When the animations of a document run: intervals from their begin and end, which may follow those
  * of other animations.
  *
- *   a: begin="0;c.end" dur="1"     a |--|     |--|        The events are handled in the order of
- *   b: begin="a.end" dur="1"       b    |--|     |--|     time; an animation that begins informs
- *   c: begin="b.end" dur=".5"      c       |-|      |     those that wait for it.
+ *   a: begin="0;c.end" dur="1"     a |--|     |--|        The next interval of each animation is
+ *   b: begin="a.end" dur="1"       b    |--|     |--|     known before it begins. Each change of it
+ *   c: begin="b.end" dur=".5"      c       |-|      |     moves those that wait for it, also back.
  *
  * Source: SMIL 3.0, 5.4, as far as no event of a user and no script takes part.
  */
@@ -33,9 +33,9 @@ typedef struct cs_svg_timing {
   double whole;       /* from the beginning, with repeats; INFINITY: for ever */
   double least, most; /* min and max of an interval */
   cs_svg_restart restart;
-  cs_svg_moment *begins, *ends;
+  cs_svg_moment *begins, *ends; /* those of the document first, sorted */
   size_t begin_count, end_count;
-  bool has_end; /* it is written */
+  bool end_is_open; /* an event or nothing at all ends it, if its other ends are over */
 } cs_svg_timing;
 
 /* The last interval of an animation that has begun. */
