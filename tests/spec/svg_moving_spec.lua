@@ -125,6 +125,7 @@ describe("a browser shows the same", function()
         end
       end
     end
+    if os.getenv "CELSPAN_VERBOSE" then print("# " .. table.concat(others, "\n# ")) end
     print(("# %s: %d of %d pictures are alike"):format(name, alike, all))
     assert.is_true(alike >= ALIKE * all, table.concat(others, "\n"))
   end
@@ -206,6 +207,134 @@ describe("a drawing", function()
     assert.has_error(function() art:at() end)
     assert.has_error(function() art:with({}):at(1) end)
     assert.is_nil((read(""):at(1e12):bounds()))
+  end)
+end)
+
+describe("times", function()
+  --- Where each box of a drawing is in x at a time, of `lanes` of 10 px.
+  local function places(seconds, ...)
+    local boxes = {}
+    for i, text in ipairs { ... } do
+      boxes[i] = ('<rect width="10" height="10" y="%d"><animate attributeName="x" values="20;40" '
+        .. 'fill="freeze" %s/></rect>'):format(10 * i - 10, text)
+    end
+    local art, found = read(table.concat(boxes)), {}
+    for i = 1, #boxes do
+      local part = celspan.clip(art:at(seconds), celspan.rect { 0, 10 * i - 10, 100, 10 })
+      local film = celspan.film { size = { 100, 10 * #boxes }, frames = 1,
+                                  frame = function()
+                                    return celspan.rostrum { celspan.cel { part } }
+                                  end }
+      local bytes, x = assert(celspan.pixels(film)):bytes { depth = 8 }, 0
+      while bytes:byte(((10 * i - 5) * 100 + x) * 4 + 4) < 128 do x = x + 1 end
+      found[i] = x
+    end
+    return found
+  end
+
+  it("keep an end that is known before the beginning", function()
+    local first, second = 'id="a" dur="0.5s"', 'begin="1s" end="a.end+1.2s" dur="2s"'
+    assert.are.same({ 40, 25 }, places(1.5, first, second))
+    assert.are.same({ 40, 27 }, places(2.5, first, second))
+  end)
+
+  it("know a beginning before the one that it follows", function()
+    local first, second = 'id="a" begin="3s" dur="1s"', 'begin="a.begin-2s" dur="2s"'
+    assert.are.same({ 0, 30 }, places(2, first, second))
+    assert.are.same({ 24, 30 },
+      places(2, 'id="a" begin="1s" dur="5s"', 'begin="a.end-5s" dur="2s"'))
+  end)
+
+  it("move back and are withdrawn with the moments that they follow", function()
+    local function three(seconds, ends, again)
+      return places(seconds, ('id="a" begin="2s" dur="1s" end="%s"'):format(ends),
+        'begin="a.end-1.5s" dur="2s"', ('id="c" begin="d.begin-1.1s" dur="0.2s"'),
+        ('id="d" begin="0s; %s" dur="0.3s"'):format(again))[2]
+    end
+    assert.are.equal(25, three(2, "c.end+9s", "1s"))
+    assert.are.equal(30, three(2, "c.end+2.4s", "1s"))
+    assert.are.equal(0, three(2, "c.end", "1s"))
+  end)
+
+  it("follow an end that is indefinite, and do not follow the last of the others", function()
+    assert.are.same({ 30, 0, 30, 30 }, places(1.5, 'begin="1s" end="0.5s; indefinite" dur="1s"',
+      'begin="1s" end="0.5s" dur="1s"', 'begin="1s" end="0.5s; click" dur="1s"',
+      'begin="1s" end="indefinite" dur="1s"'))
+  end)
+end)
+
+describe("values", function()
+  local function at(text, seconds) return x_at(read(box(text)), seconds) end
+
+  it("that do not mix are not paced", function()
+    assert.are.equal(0, (read('<g><rect width="9" height="9"/><animate attributeName="visibility" '
+      .. 'values="visible;hidden;visible;hidden;visible" calcMode="paced" dur="5s"/></g>')
+      :at(2.5):bounds()))
+    assert.is_nil((read('<rect width="9" height="9"><animate attributeName="display" '
+      .. 'values="inline;none;inline;none;none" calcMode="paced" dur="5s"/></rect>')
+      :at(3.5):bounds()))
+    assert.are.equal(12, at('<animate attributeName="x" values="0;10;20" calcMode="paced" '
+      .. 'keyTimes="0;0.9;1" dur="5s"/>', 3))
+    -- of the angles of turns only, not of their centres
+    assert.are.near(-10, at('<animateTransform attributeName="transform" type="rotate" '
+      .. 'values="0;30;180" calcMode="paced" dur="2s"/>', 1), 1e-9)
+  end)
+
+  it("begin with what the element inherits, however deep it is", function()
+    local rules, depth = {}, 100
+    for i = 1, 200 do rules[i] = ("nothing g x%d{fill:red}"):format(i) end
+    local boxes = {}
+    for i = 1, 200 do
+      boxes[i] = '<rect width="10" height="10"><animate attributeName="fill" to="#fff" dur="2s"/>'
+        .. "</rect>"
+    end
+    local art = read("<style>" .. table.concat(rules) .. "</style>" .. ("<g>"):rep(depth)
+      .. table.concat(boxes) .. ("</g>"):rep(depth))
+    assert.are.equal(0, x_at(art, 1))
+  end)
+end)
+
+describe("keyframes", function()
+  --- Where a box in which 0 to 40 px is animated by the style begins at a time.
+  local function at(seconds, style, frames)
+    local text = "<style>@keyframes k{%s} rect{animation:%s}</style>"
+    return x_at(read(text:format(frames or "from{x:0px}to{x:40px}", style) .. box ""), seconds)
+  end
+
+  it("step before and after, forwards and backwards", function()
+    assert.are.equal(0, at(0, "k 1s steps(2,start) 1s both"))
+    assert.are.equal(20, at(1, "k 1s steps(2,start) 1s both"))
+    assert.are.equal(0, at(2, "k 1s steps(2,start) reverse both"))
+    assert.are.equal(40, at(0, "k 1s steps(2,end) 1s reverse both"))
+    assert.are.equal(20, at(0.5, "k 1s linear;animation-timing-function:steps(2.5)"))
+    assert.are.equal(20, at(0.5, "k 1s linear;animation-timing-function:steps(1,jump-none)"))
+    assert.are.equal(40, at(0.5, "k 1s linear;animation-timing-function:steps(2,jump-none)"))
+  end)
+
+  it("at the same share are replaced, and those that are important do not count", function()
+    assert.are.equal(15, at(0.25, "k 1s linear", "50%{x:20px}50%{x:30px}"))
+    assert.are.equal(10, at(0.25, "k 1s linear",
+      "50%{x:20px;animation-timing-function:step-end}50%{x:30px}"))
+    assert.are.equal(5, at(0.25, "k 1s linear", "from{x:0px}to{x:20px}to{x:40px!important}"))
+  end)
+
+  it("have names that begin like other words", function()
+    for _, name in ipairs { "reverse2", "infinite2", "both_", "paused.x", "ease-in-2" } do
+      local text = "<style>@keyframes %s{to{x:40px}} rect{animation:%s 1s linear}</style>" .. box ""
+      assert.are.equal(20, x_at(read(text:format(name, name)), 0.5), name)
+    end
+    assert.are.equal(0, at(0.5, "k 1s linear other"))
+  end)
+
+  it("mix the colour that is inherited", function()
+    local text = '<g color="#fff"><rect width="10" height="10"/></g><style>@keyframes k'
+      .. "{from{fill:currentColor} to{fill:currentColor}} rect{animation:k 1s}</style>"
+    local art = read(text)
+    local film = celspan.film { size = { 1, 1 }, frames = 1, frame = function()
+      return celspan.rostrum { celspan.cel { art:at(0.5) } }
+    end }
+    assert.are.same({ 255, 255, 255, 255 },
+      { assert(celspan.pixels(film)):bytes { depth = 8 }:byte(1, 4) })
   end)
 end)
 
@@ -296,6 +425,39 @@ describe("bad input", function()
       local ok, message = pcall(art.at, art, 100)
       assert.is_true(ok or tostring(message):find "begin and end too often" ~= nil, message)
     end
+  end)
+
+  it("is refused in time, where many elements have long lists of animations", function()
+    local text = "<style>@keyframes k{to{x:9px}} rect{animation:%s;animation-delay:%s}</style>%s"
+    local begun = os.clock()
+    local ok, message = svg.read(bench:write("lists.svg", moving.document { text:format(
+      ("k 1s,"):rep(63) .. "k 1s", ("0s,"):rep(100000) .. "0s", ("<rect/>"):rep(2000)) }))
+    assert.is_nil(ok)
+    assert.is_truthy(message:find("the values of the animations are too long together", 1, true))
+    assert.is_true(os.clock() - begun < 10)
+  end)
+
+  it("takes little memory, where an element has many animations", function()
+    local names = { "opacity", "fill", "stroke", "stroke-width", "stroke-opacity", "fill-opacity",
+                    "visibility", "font-size", "stroke-dashoffset", "stroke-miterlimit", "x", "y",
+                    "width", "height", "rx", "ry", "transform", "color", "letter-spacing",
+                    "word-spacing", "stop-opacity", "flood-opacity", "stop-color", "flood-color",
+                    "cx", "cy", "r", "rotate", "scale", "translate", "fill-rule", "clip-rule",
+                    "stroke-linecap", "stroke-linejoin", "display", "font-weight" }
+    local frames = {}
+    for i, name in ipairs(names) do frames[i] = name .. ":inherit" end
+    local text = "<style>@keyframes k{from{%s}} rect{animation:%s}</style>"
+    local function peak()
+      local file = assert(io.open "/proc/self/status")
+      local size = tonumber(file:read "a":match "VmHWM:%s*(%d+)")
+      file:close()
+      return size
+    end
+    local art = read(text:format(table.concat(frames, ";"), ("k 1s,"):rep(63) .. "k 1s")
+      .. ("<rect/>"):rep(20))
+    local before = peak()
+    art:at(0.5)
+    assert.is_true(peak() - before < 64 * 1024)
   end)
 
   it("is read in time, with 100,000 animations", function()

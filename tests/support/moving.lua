@@ -22,6 +22,17 @@ local function turn(text)
   return box('<animateTransform attributeName="transform" ' .. text .. "/>")
 end
 
+--- Three boxes, one above the other, each animated in x.
+local function lanes(...)
+  local parts = {}
+  for i, text in ipairs { ... } do
+    local colour = ({ "#bc4749", "#386641", "#2a6f97" })[i]
+    parts[i] = ('<rect width="20" height="20" y="%d" fill="%s"><animate attributeName="x" '
+      .. 'from="20" to="80" %s/></rect>'):format(30 * i - 20, colour, text)
+  end
+  return { table.concat(parts) }
+end
+
 local function fly(text) return arrow("<animateMotion " .. text .. "</animateMotion>") end
 
 moving.smil = {
@@ -100,6 +111,35 @@ moving.smil = {
     .. 'values="#one;#two" dur="2s" repeatCount="indefinite"/></use><defs><rect id="one" '
     .. 'width="20" height="20" fill="gold"/><circle id="two" cx="10" cy="10" r="10" '
     .. 'fill="red"/></defs>' },
+  -- an end that is known before the beginning, and one that comes too early
+  lanes('id="a" dur="0.5s"', 'begin="1s" end="a.end+1.2s" dur="2s" fill="freeze"',
+    'begin="0.2s; 1.1s" end="a.end-0.2s; 2s" dur="0.8s"'),
+  -- beginnings before those that they follow
+  lanes('id="a" begin="1.5s" dur="0.6s"', 'begin="a.begin-0.8s" dur="1s"',
+    'begin="a.end-1.6s" dur="1.2s" fill="freeze"'),
+  -- a beginning that moves back, because the end that it follows comes earlier
+  lanes('id="a" begin="0.5s" dur="3s" end="c.begin; 9s"', 'begin="a.end-0.5s" dur="0.8s"',
+    'id="c" begin="0s; 1.2s" dur="0.4s"'),
+  lanes('begin="0.4s; 1s" end="0.6s; indefinite" dur="1s"',
+    'begin="0.4s; 1s" end="0.6s" dur="1s" fill="freeze"',
+    'begin="1s" end="1s; 2s" dur="1.5s" fill="freeze"'),
+  lanes('id="a" begin="0s; b.end" dur="0.4s" restart="whenNotActive"',
+    'id="b" begin="a.begin+0.3s" dur="0.5s"', 'begin="a.end" end="b.begin+0.3s" dur="2s"'),
+  box('<animate attributeName="visibility" values="visible;hidden;visible;hidden;visible" '
+    .. 'calcMode="paced" dur="2.4s"/>'),
+  dot('<animate attributeName="fill" values="#000;#800000;#ff0" calcMode="paced" dur="2.4s"/>'),
+  -- what is not given has an initial value, which differs
+  { '<radialGradient id="g"><stop stop-color="#fff"/><stop offset="1" stop-color="#2a6f97"/>'
+    .. '<animate attributeName="cx" to="10%" dur="2s" fill="freeze"/><animate attributeName="cy" '
+    .. 'to="60%" dur="2s" fill="freeze"/><animate attributeName="r" to="90%" dur="2s" '
+    .. 'fill="freeze"/></radialGradient><rect width="100" height="100" fill="url(#g)"/>' },
+  { '<filter id="f" color-interpolation-filters="sRGB"><feComponentTransfer><feFuncR type="gamma">'
+    .. '<animate attributeName="amplitude" to="0.2" dur="2s"/></feFuncR><feFuncG type="gamma">'
+    .. '<animate attributeName="exponent" to="3" dur="2s"/></feFuncG></feComponentTransfer>'
+    .. '</filter><rect width="100" height="100" fill="#c08040" filter="url(#f)"/>' },
+  { '<g color="#386641" fill="gold"><g><rect width="60" height="60"><animate attributeName="fill" '
+    .. 'to="currentColor" dur="2s"/></rect></g></g>' },
+  turn 'type="scale" by="0.5" dur="0.8s" accumulate="sum" repeatDur="2.1s" fill="freeze"',
 }
 
 --- A box with a style, and keyframes.
@@ -157,6 +197,28 @@ moving.styles = {
   styled("animation: k 2s linear infinite; fill: rgba(255,0,0,.2)",
     "to{fill:rgba(0,0,255,1)}", '<rect class="m" width="90" height="90"/>'),
   styled("animation: k 2s linear paused; animation-delay: -0.7s", SLIDE),
+  -- steps at their very beginning and end, forwards and backwards
+  styled("animation: k 1s steps(3, start) 1.2s both", SLIDE),
+  styled("animation: k 1s steps(3, end) reverse both", SLIDE),
+  styled("animation: k 1s steps(3, start) 0.3s reverse both", SLIDE),
+  styled("animation: k 0.5s steps(2, jump-both) 2 alternate both", SLIDE),
+  styled("animation: k 2s linear; animation-timing-function: steps(2.5)", SLIDE),
+  styled("animation: k 2s linear; animation-timing-function: steps(1, jump-none)", SLIDE),
+  -- of frames at the same share the last one counts, and what is important does not
+  styled("animation: k 2s linear infinite",
+    "50%{transform:translateX(10px)} 50%{transform:translateX(45px)}"),
+  styled("animation: k 2s linear",
+    "50%{fill:red;transform:translateX(45px);animation-timing-function:step-end} 50%{fill:gold}"),
+  styled("animation: k 2s linear", "from{transform:translateX(20px) !important} "
+    .. "to{transform:translateX(45px); fill: red !important}"),
+  styled("animation: k 2s linear; fill: #386641 !important", "to{fill:red;transform:scale(1.4)}"),
+  { "<style>@keyframes k{50%{fill:currentColor}} .m{animation:k 2s linear}</style>"
+    .. '<g color="#386641"><g fill="#f2c14e"><rect class="m" width="60" height="60"/></g></g>' },
+  { "<style>@keyframes reverse2{to{transform:translateX(45px)}} .m{animation: reverse2 2s linear}"
+    .. "@keyframes ease.2{to{x:0}} </style>" .. BOX:gsub("<rect ", '<rect class="m" '):format "" },
+  styled("animation: k 2s linear; transform-box: view-box", "to{transform-origin:100px 100px;"
+    .. "transform:rotate(40deg)}"),
+  styled("animation: k 2s linear", "to{cx:80px;cy:60px;r:20px}", '<circle class="m" cy="20"/>'),
 }
 
 moving.times = { 0.13, 0.57, 1.06, 1.63, 2.37 }

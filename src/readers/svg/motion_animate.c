@@ -73,11 +73,11 @@ static const char *mode_of(const applying *a) {
 }
 
 /* The distances of the values of a list that is paced; NULL: it is not. */
-static celspan_status measure(applying *a, size_t count, double **out) {
+static celspan_status measure(applying *a, const char *mode, size_t count, double **out) {
   cs_svg_mixed before, next;
   const char *list = value(a, CS_SVG_VALUES);
   *out = NULL;
-  if (!cs_svg_is_word(mode_of(a), "paced") || count < 2)
+  if (!cs_svg_is_word(mode, "paced") || count < 2)
     return CELSPAN_OK;
   if (!(*out = cs_arena_take(a->reading->context, a->place.arena, count * sizeof **out)))
     return CELSPAN_NO_MEMORY;
@@ -108,9 +108,9 @@ static celspan_status list_value(applying *a, cs_svg_mixed *out, cs_svg_mixed *l
   *counts = count > 0;
   if (count == 0)
     return CELSPAN_OK;
-  CS_TRY(measure(a, count, &distances));
   CS_TRY(read_part(a, list, count - 1, last));
   const char *mode = last->frame ? mode_of(a) : "discrete";
+  CS_TRY(measure(a, mode, count, &distances));
   *counts =
       cs_svg_list_place(a->it->node, mode, a->progress->share, count, distances, &first, &share);
   if (!*counts)

@@ -1,6 +1,7 @@
 #include "readers/svg/motion_easing.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/number.h"
 
@@ -42,6 +43,13 @@ double cs_svg_ease(const cs_svg_easing *easing, double share, bool is_before) {
   return cubic(easing->at[1], easing->at[3], parameter_at(easing->at, share));
 }
 
+bool cs_svg_easings_equal(const cs_svg_easing *a, const cs_svg_easing *b) {
+  bool is_same = a->steps == b->steps && a->jumps == b->jumps;
+  for (int i = 0; i < 4; i++)
+    is_same = is_same && a->at[i] == b->at[i];
+  return is_same;
+}
+
 /* ---------------------------------------------------------------- texts */
 
 /* Four numbers between parentheses; x must be within 0..1. */
@@ -73,10 +81,12 @@ static bool take_jumps(const char **text, int *out) {
   return false;
 }
 
+/* A whole number, without a point; with jump-none at least 2. */
 static bool take_steps(const char **text, cs_svg_easing *out) {
-  const char *at = cs_svg_skip_space(*text);
+  const char *at = cs_svg_skip_space(*text), *number = at;
   double steps;
-  if (!cs_svg_take_number(&at, &steps) || steps < 1 || steps > 1e6)
+  if (!cs_svg_take_number(&at, &steps) || steps < 1 || steps > 1e6 ||
+      number + strspn(number, "+0123456789") != at)
     return false;
   out->steps = (int)steps;
   out->jumps = 2;
@@ -84,7 +94,7 @@ static bool take_steps(const char **text, cs_svg_easing *out) {
   if (*at != ')' && !take_jumps(&at, &out->jumps))
     return false;
   at = cs_svg_skip_space(at);
-  if (*at != ')')
+  if (*at != ')' || (out->steps == 1 && out->jumps == 0))
     return false;
   *text = at + 1;
   return true;

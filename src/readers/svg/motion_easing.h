@@ -11,5 +11,6 @@ typedef struct cs_svg_easing {
 
 /* The share at a share of the time. is_before: the time is before its beginning. */
 double cs_svg_ease(const cs_svg_easing *easing, double share, bool is_before);
+bool cs_svg_easings_equal(const cs_svg_easing *a, const cs_svg_easing *b);
 /* A timing function of CSS at *text, which is moved after it; false: there is none. */
 bool cs_svg_take_easing(const char **text, cs_svg_easing *out);

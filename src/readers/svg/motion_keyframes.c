@@ -26,8 +26,8 @@ typedef struct animation {
 typedef struct frame {
   double at;
   size_t order;
-  const char *value;  /* NULL: the value without the animation */
-  const char *easing; /* NULL: that of the animation */
+  const char *value; /* NULL: the value without the animation */
+  cs_svg_easing easing;
 } frame;
 
 typedef struct animating {
@@ -64,6 +64,15 @@ static const char *item_at(const char *text, size_t i) {
 
 /* ---------------------------------------------------------------- one animation */
 
+/* A word that ends with its item: "ease" is no part of the name "ease.2". */
+static bool take_keyword(const char **text, const char *word) {
+  const char *at = *text;
+  if (!cs_svg_take_word(&at, word) || (*at && *at != ',' && !cs_svg_is_space(*at)))
+    return false;
+  *text = at;
+  return true;
+}
+
 static bool take_time(const char **text, double *out) {
   const char *at = *text;
   double time;
@@ -80,7 +89,7 @@ static bool take_time(const char **text, double *out) {
 /* Which of four words comes next, so that its number is made of two flags. */
 static bool take_flags(const char **text, const char *const words[4], bool *low, bool *high) {
   for (int i = 0; i < 4; i++)
-    if (cs_svg_take_word(text, words[i])) {
+    if (take_keyword(text, words[i])) {
       *low = i & 1;
       *high = i > 1;
       return true;
@@ -99,8 +108,8 @@ static bool take_fill(const char **text, animation *out) {
 }
 
 static bool take_state(const char **text, animation *out) {
-  bool is_paused = cs_svg_take_word(text, "paused");
-  if (!is_paused && !cs_svg_take_word(text, "running"))
+  bool is_paused = take_keyword(text, "paused");
+  if (!is_paused && !take_keyword(text, "running"))
     return false;
   out->is_paused = is_paused;
   return true;
@@ -109,7 +118,7 @@ static bool take_state(const char **text, animation *out) {
 static bool take_rounds(const char **text, animation *out) {
   double rounds = INFINITY;
   const char *at = *text;
-  if (!cs_svg_take_word(&at, "infinite") && (!cs_svg_take_number(&at, &rounds) || rounds < 0))
+  if (!take_keyword(&at, "infinite") && (!cs_svg_take_number(&at, &rounds) || rounds < 0))
     return false;
   out->rounds = rounds;
   *text = at;
@@ -122,17 +131,18 @@ static const cs_css_frames *take_name(const cs_css_sheet *sheet, const char **te
   size_t size = quote ? strcspn(*text, "\"'") : strcspn(*text, " \t\r\n\f,");
   const char *name = *text;
   *text += size + (quote && name[size]);
-  for (size_t i = sheet->frames_count; i > 0; i--)
-    if (strlen(sheet->frames[i - 1].name) == size &&
-        memcmp(sheet->frames[i - 1].name, name, size) == 0)
+  for (size_t i = sheet->frames_count; i > 0; i--) {
+    const char *known = sheet->frames[i - 1].name;
+    if (strncmp(known, name, size) == 0 && !known[size])
       return &sheet->frames[i - 1];
+  }
   return NULL;
 }
 
-/* An item of `animation`: what is no other value is the name. */
+/* An item of `animation`: what is no other value is the name. With two names it is invalid. */
 static void read_shorthand(const cs_css_sheet *sheet, const char *text, animation *out) {
   int times = 0;
-  bool has_rounds = false, has_easing = false, has_fill = false;
+  bool has_rounds = false, has_easing = false, has_fill = false, has_name = false;
   for (text = cs_svg_skip_space(text); *text && *text != ','; text = cs_svg_skip_space(text)) {
     double *time = times == 0 ? &out->duration : &out->delay;
     if (times < 2 && take_time(&text, time))
@@ -143,8 +153,12 @@ static void read_shorthand(const cs_css_sheet *sheet, const char *text, animatio
       has_easing = true;
     else if (!has_fill && take_fill(&text, out))
       has_fill = true;
-    else if (!take_direction(&text, out) && !take_state(&text, out))
-      out->frames = take_name(sheet, &text);
+    else if (!take_direction(&text, out) && !take_state(&text, out)) {
+      out->frames = has_name ? NULL : take_name(sheet, &text);
+      if (has_name)
+        return;
+      has_name = true;
+    }
     if (*text && *text != ',' && !cs_svg_is_space(*text))
       return; /* not a list of words */
   }
@@ -220,7 +234,7 @@ static bool find_share(const animation *it, double seconds, double *share, bool 
   bool is_odd = fmod(round, 2) == 1;
   bool is_backward = it->begins_backward != (it->alternates && is_odd);
   *share = is_backward ? 1 - *share : *share;
-  *is_before = *is_before && !is_backward;
+  *is_before = *is_before ? !is_backward : is_after && is_backward;
   return true;
 }
 
@@ -232,7 +246,7 @@ static celspan_status read_end(animating *a, cs_svg_name name, const char *text,
   if (text && cs_svg_has_variable(text))
     CS_TRY(cs_svg_variable_fill(&a->reading->document->variables, a->from->variables, text, &text));
   if (text && cs_svg_is_word(text, "currentColor"))
-    text = a->from->values[CS_SVG_COLOR];
+    CS_TRY(cs_svg_motion_base(a->reading, a->node, CS_SVG_COLOR, &text));
   if (!text)
     CS_TRY(cs_svg_motion_base(a->reading, a->node, name, &text));
   CS_TRY(cs_svg_motion_count(a->reading, a->node, strlen(text)));
@@ -270,20 +284,40 @@ static int compare_frames(const void *a, const void *b) {
   return order ? order : CS_SORT_ORDER(first->order, second->order);
 }
 
+/* A frame of the property; without a value: the declarations do not give it. */
+static frame frame_of(const cs_css_frame *it, size_t order, cs_svg_name name,
+                      const cs_svg_easing *easing) {
+  frame found = {it->at, order, NULL, *easing};
+  for (size_t k = 0; k < it->declarations.count; k++) {
+    const cs_css_declaration *declaration = &it->declarations.items[k];
+    const char *text = declaration->value;
+    if (declaration->is_important)
+      continue;
+    if (declaration->name == CS_SVG_ANIMATION_TIMING_FUNCTION)
+      (void)cs_svg_take_easing(&text, &found.easing);
+    else if (declaration->name == name)
+      found.value = text;
+  }
+  return found;
+}
+
+/* Of frames at the same share with the same easing, the last one counts. Source: CSS Animations
+ * Level 2, 3. */
+static size_t drop_replaced(frame *list, size_t count) {
+  size_t left = 0;
+  for (size_t i = 0; i < count; i++)
+    if (i + 1 == count || list[i + 1].at != list[i].at ||
+        !cs_svg_easings_equal(&list[i + 1].easing, &list[i].easing))
+      list[left++] = list[i];
+  return left;
+}
+
 /* The frames that give the property, sorted, with one at 0 and one at 1. list: has room. */
-static size_t list_frames(const cs_css_frames *frames, cs_svg_name name, frame *list) {
+static size_t list_frames(const animation *it, cs_svg_name name, frame *list) {
   size_t count = 0;
   bool begins = false, ends = false;
-  for (size_t i = 0; i < frames->count; i++) {
-    const cs_css_frame *it = &frames->items[i];
-    frame found = {it->at, i + 1, NULL, NULL};
-    for (size_t k = 0; k < it->declarations.count; k++) {
-      const cs_css_declaration *declaration = &it->declarations.items[k];
-      if (declaration->name == CS_SVG_ANIMATION_TIMING_FUNCTION)
-        found.easing = declaration->value;
-      else if (declaration->name == name)
-        found.value = declaration->value;
-    }
+  for (size_t i = 0; i < it->frames->count; i++) {
+    const frame found = frame_of(&it->frames->items[i], i + 1, name, &it->easing);
     if (!found.value)
       continue;
     begins = begins || found.at == 0;
@@ -291,38 +325,28 @@ static size_t list_frames(const cs_css_frames *frames, cs_svg_name name, frame *
     list[count++] = found;
   }
   if (!begins)
-    list[count++] = (frame){0, 0, NULL, NULL};
+    list[count++] = (frame){0, 0, NULL, it->easing};
   if (!ends)
-    list[count++] = (frame){1, 0, NULL, NULL};
+    list[count++] = (frame){1, 0, NULL, it->easing};
   qsort(list, count, sizeof *list, compare_frames);
-  return count;
+  return drop_replaced(list, count);
 }
 
-/* The pair of frames around a share: *low, and the result after it. */
-static size_t find_pair(const frame *list, size_t count, double share, size_t *low) {
-  *low = 0;
-  while (*low + 2 < count && list[*low + 1].at <= share)
-    ++*low;
-  while (*low > 0 && list[*low].at == 1)
-    --*low;
-  size_t high = *low + 1;
-  while (high + 1 < count && list[high + 1].at == list[high].at && share >= list[high].at)
-    high++;
-  return high;
+/* The frame at or before a share, which another one follows. */
+static size_t find_frame(const frame *list, size_t count, double share) {
+  size_t low = 0;
+  while (low + 2 < count && list[low + 1].at <= share)
+    low++;
+  return low;
 }
 
 /* list: has room for two more frames than the animation has. */
 static celspan_status move_property(animating *a, const animation *it, cs_svg_name name,
                                     double share, bool is_before, frame *list) {
-  size_t low, count = list_frames(it->frames, name, list);
-  size_t high = find_pair(list, count, share, &low);
-  double span = list[high].at - list[low].at;
-  double local = span > 0 ? (share - list[low].at) / span : 1;
-  cs_svg_easing easing = it->easing;
-  const char *given = list[low].easing;
-  if (given)
-    (void)cs_svg_take_easing(&given, &easing);
-  return give_between(a, name, &list[low], &list[high], cs_svg_ease(&easing, local, is_before));
+  const size_t count = list_frames(it, name, list);
+  const frame *low = &list[find_frame(list, count, share)], *high = low + 1;
+  double span = high->at - low->at, local = span > 0 ? (share - low->at) / span : 1;
+  return give_between(a, name, low, high, cs_svg_ease(&low->easing, local, is_before));
 }
 
 /* ---------------------------------------------------------------- elements */
@@ -358,13 +382,21 @@ static celspan_status move_all(animating *a, const animation *it, double share, 
   return status;
 }
 
+/* The bytes and frames that are read for each animation of an element. */
+static size_t cost_of(const animating *a) {
+  size_t cost = a->reading->document->sheet.frames_count;
+  for (int name = CS_SVG_ANIMATION; name <= CS_SVG_ANIMATION_TIMING_FUNCTION; name++)
+    cost += a->from->values[name] ? strlen(a->from->values[name]) : 0;
+  return cost;
+}
+
 /* Later animations win over those before them in the list. */
 static celspan_status move_element(animating *a) {
   const char *names = a->from->values[CS_SVG_ANIMATION_NAME];
   const char *list = names ? names : a->from->values[CS_SVG_ANIMATION];
-  size_t count = list ? count_items(list) : 0;
+  size_t cost = list ? cost_of(a) : 0, count = list ? count_items(list) : 0;
   for (size_t i = 0; i < count && i < ANIMATIONS; i++) {
-    CS_TRY(cs_svg_motion_count(a->reading, a->node, a->reading->document->sheet.frames_count));
+    CS_TRY(cs_svg_motion_count(a->reading, a->node, cost));
     const animation it = read_animation(a, i);
     double share;
     bool is_before;

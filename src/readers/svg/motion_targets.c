@@ -25,55 +25,84 @@ celspan_status cs_svg_motion_count(cs_svg_reading *reading, const cs_svg_node *n
 
 /* ---------------------------------------------------------------- values before */
 
-/* Values of properties that are not inherited, and of attributes, where none is given. */
+/* The initial values of properties that are not inherited and of attributes, where they are not 0.
+ * CS_SVG_ELEMENT_COUNT: of all elements that are not in a line before. */
+static const struct {
+  cs_svg_name name;
+  cs_svg_element element;
+  const char *value;
+} initials[] = {
+    {CS_SVG_AMPLITUDE, CS_SVG_ELEMENT_COUNT, "1"},
+    {CS_SVG_CLIP_PATH, CS_SVG_ELEMENT_COUNT, "none"},
+    {CS_SVG_CX, CS_SVG_ELEMENT_RADIAL_GRADIENT, "50%"},
+    {CS_SVG_CY, CS_SVG_ELEMENT_RADIAL_GRADIENT, "50%"},
+    {CS_SVG_DISPLAY, CS_SVG_ELEMENT_COUNT, "inline"},
+    {CS_SVG_DX, CS_SVG_ELEMENT_FE_DROP_SHADOW, "2"},
+    {CS_SVG_DY, CS_SVG_ELEMENT_FE_DROP_SHADOW, "2"},
+    {CS_SVG_EXPONENT, CS_SVG_ELEMENT_COUNT, "1"},
+    {CS_SVG_FILTER, CS_SVG_ELEMENT_COUNT, "none"},
+    {CS_SVG_FLOOD_COLOR, CS_SVG_ELEMENT_COUNT, "black"},
+    {CS_SVG_FLOOD_OPACITY, CS_SVG_ELEMENT_COUNT, "1"},
+    {CS_SVG_HEIGHT, CS_SVG_ELEMENT_FILTER, "120%"},
+    {CS_SVG_HEIGHT, CS_SVG_ELEMENT_MASK, "120%"},
+    {CS_SVG_HEIGHT, CS_SVG_ELEMENT_SVG, "100%"},
+    {CS_SVG_MARKER_HEIGHT, CS_SVG_ELEMENT_COUNT, "3"},
+    {CS_SVG_MARKER_WIDTH, CS_SVG_ELEMENT_COUNT, "3"},
+    {CS_SVG_MASK, CS_SVG_ELEMENT_COUNT, "none"},
+    {CS_SVG_OPACITY, CS_SVG_ELEMENT_COUNT, "1"},
+    {CS_SVG_R, CS_SVG_ELEMENT_RADIAL_GRADIENT, "50%"},
+    {CS_SVG_SCALE, CS_SVG_ELEMENT_COUNT, "none"},
+    {CS_SVG_SLOPE, CS_SVG_ELEMENT_COUNT, "1"},
+    {CS_SVG_STD_DEVIATION, CS_SVG_ELEMENT_FE_DROP_SHADOW, "2"},
+    {CS_SVG_STOP_COLOR, CS_SVG_ELEMENT_COUNT, "black"},
+    {CS_SVG_STOP_OPACITY, CS_SVG_ELEMENT_COUNT, "1"},
+    {CS_SVG_TRANSFORM, CS_SVG_ELEMENT_COUNT, "none"},
+    {CS_SVG_TRANSFORM_ORIGIN, CS_SVG_ELEMENT_COUNT, "0 0"},
+    {CS_SVG_TRANSLATE, CS_SVG_ELEMENT_COUNT, "none"},
+    {CS_SVG_WIDTH, CS_SVG_ELEMENT_FILTER, "120%"},
+    {CS_SVG_WIDTH, CS_SVG_ELEMENT_MASK, "120%"},
+    {CS_SVG_WIDTH, CS_SVG_ELEMENT_SVG, "100%"},
+    {CS_SVG_X, CS_SVG_ELEMENT_FILTER, "-10%"},
+    {CS_SVG_X, CS_SVG_ELEMENT_MASK, "-10%"},
+    {CS_SVG_X2, CS_SVG_ELEMENT_LINEAR_GRADIENT, "100%"},
+    {CS_SVG_Y, CS_SVG_ELEMENT_FILTER, "-10%"},
+    {CS_SVG_Y, CS_SVG_ELEMENT_MASK, "-10%"},
+};
+
 static const char *initial_of(const cs_svg_node *node, cs_svg_name name) {
-  switch (name) {
-  case CS_SVG_OPACITY:
-  case CS_SVG_STOP_OPACITY:
-  case CS_SVG_FLOOD_OPACITY:
-  case CS_SVG_SLOPE:
-    return "1";
-  case CS_SVG_STOP_COLOR:
-  case CS_SVG_FLOOD_COLOR:
-    return "black";
-  case CS_SVG_TRANSFORM:
-  case CS_SVG_TRANSLATE:
-  case CS_SVG_SCALE:
-  case CS_SVG_FILTER:
-  case CS_SVG_CLIP_PATH:
-  case CS_SVG_MASK:
-    return "none";
-  case CS_SVG_DISPLAY:
-    return "inline";
-  case CS_SVG_X2:
-    return node->element == CS_SVG_ELEMENT_LINEAR_GRADIENT ? "100%" : "0";
-  default:
-    return "0";
-  }
+  for (size_t i = 0; i < sizeof initials / sizeof *initials; i++)
+    if (initials[i].name == name &&
+        (initials[i].element == node->element || initials[i].element == CS_SVG_ELEMENT_COUNT))
+      return initials[i].value;
+  return "0";
 }
 
-/* Recursion: the depth of the document. */
-static celspan_status variables_of(cs_svg_reading *reading, const cs_svg_node *node,
-                                   cs_svg_cascade *out) {
+/* The values of an element, and *value of the property that it has or inherits; NULL: none. Each
+ * element above it is asked once. Recursion: the depth of the document. */
+static celspan_status collect(cs_svg_reading *reading, const cs_svg_node *node, cs_svg_name name,
+                              cs_svg_cascade *out, const char **value) {
   const cs_svg_variable *inherited = NULL;
+  *value = NULL;
   if (node->parent) {
-    CS_TRY(variables_of(reading, node->parent, out));
+    CS_TRY(collect(reading, node->parent, name, out, value));
     inherited = out->variables;
   }
-  return cs_svg_cascade_collect(reading->context, reading->document, node, inherited,
-                                &reading->tests, out);
+  CS_TRY(cs_svg_cascade_collect(reading->context, reading->document, node, inherited,
+                                &reading->tests, out));
+  const char *given = out->values[name];
+  bool is_inherited = cs_svg_name_facts_of(name)->initial;
+  bool inherits = given ? cs_svg_is_word(given, "inherit") : is_inherited;
+  *value = inherits ? *value : given;
+  return CELSPAN_OK;
 }
 
 celspan_status cs_svg_motion_base(cs_svg_reading *reading, const cs_svg_node *node,
                                   cs_svg_name name, const char **out) {
   const cs_svg_name_facts *facts = cs_svg_name_facts_of(name);
+  cs_svg_cascade from;
   *out = NULL;
   if (facts->use != CS_SVG_USE_ATTRIBUTE)
-    for (const cs_svg_node *at = node; at && !*out; at = facts->initial ? at->parent : NULL) {
-      cs_svg_cascade from;
-      CS_TRY(variables_of(reading, at, &from));
-      *out = from.values[name];
-    }
+    CS_TRY(collect(reading, node, name, &from, out));
   if (!*out && !facts->initial)
     *out = cs_svg_node_value(node, name);
   if (!*out || cs_svg_is_word(*out, "inherit"))
@@ -100,18 +129,23 @@ static celspan_status give_attribute(cs_svg_reading *reading, cs_svg_node *node,
   return CELSPAN_OK;
 }
 
+/* The memory, which only this function writes, is doubled whenever it is full: at 2^n values. */
 static celspan_status give_property(cs_svg_reading *reading, cs_svg_node *node, cs_svg_name name,
                                     const char *value) {
   cs_css_declarations *moved = &node->moved;
-  cs_css_declaration *items = cs_arena_take(reading->context, &reading->document->arena,
-                                            (moved->count + 1) * sizeof *items);
-  if (!items)
-    return CELSPAN_NO_MEMORY;
-  if (moved->count > 0)
-    memcpy(items, moved->items, moved->count * sizeof *items);
-  items[moved->count] = (cs_css_declaration){.name = name, .value = value};
+  size_t count = moved->count;
+  cs_css_declaration *items = (cs_css_declaration *)(size_t)moved->items;
+  if ((count & (count - 1)) == 0) {
+    items =
+        cs_arena_take(reading->context, &reading->document->arena, (2 * count + 1) * sizeof *items);
+    if (!items)
+      return CELSPAN_NO_MEMORY;
+    if (count > 0)
+      memcpy(items, moved->items, count * sizeof *items);
+  }
+  items[count] = (cs_css_declaration){.name = name, .value = value};
   moved->items = items;
-  moved->count++;
+  moved->count = count + 1;
   return CELSPAN_OK;
 }
 
