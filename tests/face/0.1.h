@@ -404,6 +404,8 @@ celspan_status celspan_object_pucker(celspan_context *context, celspan_object *o
   amount, celspan_object **out);
 celspan_status celspan_object_twist(celspan_context *context, celspan_object *object, double
   radians, const celspan_point *centre, celspan_object **out);
+celspan_status celspan_object_offset(celspan_context *context, celspan_object *object, double
+  distance, celspan_stroke_join join, double limit, celspan_object **out);
 typedef struct celspan_feature { const char *tag; uint32_t value; } celspan_feature;
 typedef struct celspan_variation { const char *tag; double value; } celspan_variation;
 typedef enum celspan_align { CELSPAN_ALIGN_LEFT = 0, CELSPAN_ALIGN_CENTRE, CELSPAN_ALIGN_RIGHT }

@@ -170,7 +170,6 @@ return {
   ["lua/celspan/draw/colour.lua"] = { "spec/layout" },
   ["lua/celspan/draw/echo.lua"] = { "spec/layout" },
   ["lua/celspan/draw/merge.lua"] = { "spec/operators" },
-  ["lua/celspan/draw/offset.lua"] = { "spec/operators" },
   ["lua/celspan/draw/operators.lua"] = { "spec/operators" },
   ["lua/celspan/draw/repeater.lua"] = { "spec/operators" },
   ["lua/celspan/draw/star.lua"] = { "spec/operators" },

@@ -162,6 +162,15 @@ describe("round corners", function()
       9)) - 1)
   end)
 
+  it("are round at the end of a needle, too", function()
+    for _, height in ipairs { 1e-3, 1e-7, 1e-9 } do
+      local needle = celspan.triangle { { 0, 0 }, { 100, 0 }, { 0, height } }
+      local x, _, width = celspan.round_corners(needle, 1):bounds()
+      close(0, x, 1e-9)
+      close(99, width, 1e-3)
+    end
+  end)
+
   it("scale with the transform inside the object", function()
     local plate = celspan.round_corners(rect(0, 0, 10, 6):scale(10), 20)
     assert.is_true(plate:contains(6, 6))

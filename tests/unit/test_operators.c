@@ -35,7 +35,7 @@ static void finish(art *a, const memory_watch *watch) {
   CHECK(watch->blocks == 0 && watch->bytes == 0 && watch->size_errors == 0);
 }
 
-#define OPERATORS 6
+#define OPERATORS 8
 
 static celspan_status operate(const art *a, int which, celspan_object **out) {
   const celspan_point centre = {10, 10};
@@ -50,6 +50,10 @@ static celspan_status operate(const art *a, int which, celspan_object **out) {
     return celspan_object_zigzag(a->context, a->whole, 1, 2, true, out);
   case 4:
     return celspan_object_pucker(a->context, a->whole, -0.5, out);
+  case 5:
+    return celspan_object_offset(a->context, a->whole, 3, CELSPAN_STROKE_JOIN_MITER, 4, out);
+  case 6:
+    return celspan_object_offset(a->context, a->whole, -1, CELSPAN_STROKE_JOIN_ROUND, 4, out);
   default:
     return celspan_object_twist(a->context, a->whole, 1, &centre, out);
   }
@@ -71,6 +75,29 @@ static void a_trimmed_rectangle_ends_at_its_chord(void) {
   finish(&a, &watch);
 }
 
+/* Also in a transform that is uneven. */
+static void an_offset_counts_around_the_object(void) {
+  memory_watch watch = {0};
+  art a;
+  celspan_object *placed, *grown;
+  celspan_box box;
+  make(&a, &watch);
+  const celspan_matrix uneven = {{2, 0, 5, 0, 0.5, 7, 0, 0, 1}};
+  CHECK(celspan_object_transform(a.context, a.parts[0], &uneven, &placed) == CELSPAN_OK);
+  CHECK(celspan_object_offset(a.context, placed, 3, CELSPAN_STROKE_JOIN_MITER, 4, &grown) ==
+        CELSPAN_OK);
+  CHECK(celspan_object_bounds(grown, &box));
+  CHECK(fabs(box.x - 2) < 1e-9 && fabs(box.y - 4) < 1e-9);
+  CHECK(fabs(box.width - 86) < 1e-9 && fabs(box.height - 16) < 1e-9);
+  celspan_object_unref(grown);
+  CHECK(celspan_object_offset(a.context, placed, 0, CELSPAN_STROKE_JOIN_MITER, 4, &grown) ==
+            CELSPAN_OK &&
+        grown == placed);
+  celspan_object_unref(grown);
+  celspan_object_unref(placed);
+  finish(&a, &watch);
+}
+
 static void wrong_numbers_are_refused(void) {
   memory_watch watch = {0};
   art a;
@@ -86,6 +113,12 @@ static void wrong_numbers_are_refused(void) {
   CHECK(celspan_object_pucker(a.context, a.whole, 1.5, &made) == CELSPAN_BAD_ARGUMENT);
   CHECK(celspan_object_twist(a.context, a.whole, INFINITY, NULL, &made) == CELSPAN_BAD_ARGUMENT);
   CHECK(strstr(celspan_context_error(a.context), "twist: the angle"));
+  const celspan_stroke_join join = CELSPAN_STROKE_JOIN_ROUND;
+  CHECK(celspan_object_offset(a.context, a.whole, 2e12, join, 4, &made) == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_object_offset(a.context, a.whole, 1, join, 0.5, &made) == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_object_offset(a.context, a.whole, 1, (celspan_stroke_join)3, 4, &made) ==
+        CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_object_offset(a.context, NULL, 1, join, 4, &made) == CELSPAN_BAD_ARGUMENT);
   finish(&a, &watch);
 }
 
@@ -113,6 +146,7 @@ static void memory_that_runs_out_is_refused(void) {
 
 int main(void) {
   a_trimmed_rectangle_ends_at_its_chord();
+  an_offset_counts_around_the_object();
   wrong_numbers_are_refused();
   memory_that_runs_out_is_refused();
   return check_done();

@@ -1,4 +1,4 @@
---- Shapes as one shape: celspan.merge, and the outlines that celspan.offset works on.
+--- Shapes as one shape: celspan.merge.
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
@@ -9,7 +9,7 @@ local merge = {}
 local function refuse(text, ...) core.refuse("merge: " .. text:format(...)) end
 
 --- The path data of contours as core.anatomy gives them.
-function merge.data(contours)
+local function data_of(contours)
   local pairs_of = {}
   for i, contour in ipairs(contours) do
     pairs_of[i] = { contour, contour, open = contour.open }
@@ -18,13 +18,7 @@ function merge.data(contours)
 end
 
 --- The texture of a node.
-function merge.texture(node) return node.paint and celspan.paint(node.paint) or node.texture end
-
---- A region, with a texture. One opaque colour is left as it is: the region has been drawn with it.
-function merge.painted(region, node)
-  local is_plain = node.paint and node.paint.beta == 1
-  return is_plain and region or region:paint(merge.texture(node))
-end
+local function texture_of(node) return node.paint and celspan.paint(node.paint) or node.texture end
 
 --- The outlines below a node. A shape that a pattern fills has no texture of its own.
 local function collect(node, list)
@@ -44,7 +38,7 @@ end
 
 local function join(nodes, texture)
   local data = {}
-  for i, node in ipairs(nodes) do data[i] = merge.data(node.contours) end
+  for i, node in ipairs(nodes) do data[i] = data_of(node.contours) end
   return celspan.path { d = table.concat(data), texture = texture }
 end
 
@@ -87,7 +81,7 @@ function merge.merged(objects, options)
   if not texture and first.filled then
     refuse "the first object is filled with a pattern; give the field 'texture'"
   end
-  texture = texture or merge.texture(first)
+  texture = texture or texture_of(first)
   if mode == "merge" then return join(all, texture) end
   return operators[mode](table.move(objects, 1, #objects, 1, {})):paint(texture)
 end

@@ -1,4 +1,4 @@
---- Path operators: celspan.trim, round_corners, zigzag, pucker and twist. The core changes the
+--- Path operators: celspan.trim, round_corners, zigzag, pucker, twist and offset. The core changes the
 --- contours (celspan/operators.h); here the arguments are checked.
 local core = require "celspan.core"
 local fields = require "celspan.fields"
@@ -98,6 +98,32 @@ function operators.twist(object, degrees, options)
   if not centre then return core.twist(object, degrees) end
   fields.numbers("twist", "centre[%d]", centre, 2, "{x, y}")
   return core.twist(object, degrees, centre[1], centre[2])
+end
+
+local joins = { round = true, miter = true, bevel = true }
+local LIMIT = 4 -- of miters, as of strokes
+
+--- The object with its outlines moved outwards (above 0) or inwards.
+---@param object celspan.shape
+---@param distance number
+---@param options? { join?: "round"|"miter"|"bevel", limit?: number }
+---@return celspan.object
+function operators.offset(object, distance, options)
+  check_object("offset", object)
+  if not fields.is_finite(distance) or math.abs(distance) > 1e12 then
+    core.refuse("offset: the distance must be a number from -1e12 to 1e12, got "
+      .. fields.shown(distance))
+  end
+  fields.check("offset", options or {}, { join = "string", limit = "number" })
+  local join, limit = options and options.join or "round", options and options.limit or LIMIT
+  if not joins[join] then
+    core.refuse(("offset: field 'join' must be \"round\", \"miter\" or \"bevel\", got %q"):format(
+      join))
+  end
+  if limit < 1 or limit > 1e6 then
+    core.refuse("offset: field 'limit' must be from 1 to 1000000, got " .. fields.shown(limit))
+  end
+  return core.offset(object, distance, join, limit)
 end
 
 return fields.seal("operators", operators)

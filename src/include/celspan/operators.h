@@ -52,6 +52,16 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_twist(celspan_context 
                                                                 const celspan_point *centre,
                                                                 celspan_object **out);
 
+/* The object grown, or with a distance below 0 shrunk, in the units around it. join: of outer
+ * corners, limit: of miters, as for strokes, 1 to 1,000,000. It makes shapes in these units, of the
+ * object's shapes and of strokes along their outlines, and no strokes: a closed line grows like the
+ * shape inside it, an open one becomes a line around it, and one with dashes, or with a width that
+ * varies, grows like a shape. Errors: BAD_ARGUMENT also where it reaches the horizon of a
+ * perspective. */
+CELSPAN_API CELSPAN_CHECKED celspan_status
+celspan_object_offset(celspan_context *context, celspan_object *object, double distance,
+                      celspan_stroke_join join, double limit, celspan_object **out);
+
 #ifdef __cplusplus
 }
 #endif

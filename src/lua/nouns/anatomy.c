@@ -120,23 +120,6 @@ static bool is_closed(const cs_stroke *stroke, size_t contour) {
   return false;
 }
 
-/* Whether the stroke is drawn along its whole line with one width. */
-static bool is_even(const cs_stroke *stroke) {
-  if (stroke->dashes.place_count > 0 || stroke->part_count != stroke->line.contour_count)
-    return false;
-  for (size_t i = 0; i < stroke->part_count; i++) {
-    const cs_stroke_part *part = &stroke->parts[i];
-    size_t begin, end;
-    cs_stroke_contour(&stroke->line, part->contour, &begin, &end);
-    if (part->contour != i || part->count != end - begin || part->begin != 0 || part->end != 1)
-      return false;
-  }
-  for (size_t i = 0; i < stroke->radius_count; i++)
-    if (stroke->radii[i] != stroke->largest)
-      return false;
-  return stroke->line.contour_count > 0;
-}
-
 static celspan_status stay(void *user, celspan_context *context, celspan_point from,
                            celspan_point *to) {
   (void)user, (void)context;
@@ -219,7 +202,7 @@ static void put_outline(lua_State *L, const cs_primitive_data *data, const celsp
   double extent = cs_number_length(data->bounds.width, data->bounds.height) *
                   cs_number_length(matrix->m[0], matrix->m[3]);
   cs_outline_box room;
-  bool is_line = !is_filled && data->stroke && is_even(data->stroke) && cs_matrix_is_affine(matrix);
+  bool is_line = !is_filled && data->stroke && cs_stroke_is_plain(data->stroke) && cs_matrix_is_affine(matrix);
   cs_put_text(L, "kind", "outline");
   cs_put_text(L, "rule",
               data->rule == CELSPAN_RULE_EVENODD && !data->stroke ? "evenodd" : "nonzero");

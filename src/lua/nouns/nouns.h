@@ -43,6 +43,7 @@ int cs_operators_trim(lua_State *L);
 int cs_operators_round_corners(lua_State *L);
 int cs_operators_zigzag(lua_State *L);
 int cs_operators_pucker(lua_State *L);
+int cs_operators_offset(lua_State *L);
 int cs_operators_twist(lua_State *L);
 
 /* The functions behind celspan.morph (anatomy.c): (object, whether strokes are shapes) -> its tree

@@ -62,6 +62,16 @@ int cs_operators_pucker(lua_State *L) {
                 celspan_object_pucker(p.context, p.object, luaL_checknumber(L, 2), &p.made));
 }
 
+/* object, distance, join, limit */
+int cs_operators_offset(lua_State *L) {
+  lua_settop(L, 4);
+  pair p = begin(L, "offset");
+  int join = luaL_checkoption(L, 3, NULL, cs_nouns_joins);
+  return finish(L, "offset", &p,
+                celspan_object_offset(p.context, p.object, luaL_checknumber(L, 2),
+                                      (celspan_stroke_join)join, luaL_checknumber(L, 4), &p.made));
+}
+
 int cs_operators_twist(lua_State *L) {
   lua_settop(L, 4);
   pair p = begin(L, "twist");

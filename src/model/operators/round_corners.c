@@ -54,7 +54,8 @@ static corner corner_of(const piece *in, const piece *out, double radius) {
   c.is_round = true;
   c.from = (celspan_point){in->b.x - before * ix, in->b.y - before * iy};
   c.to = (celspan_point){out->a.x + after * ox, out->a.y + after * oy};
-  c.weight = sqrt(0.5 * (1 + (ix * ox + iy * oy)));
+  /* by the length of the sum, which is exact where the sides nearly turn back, in a needle */
+  c.weight = 0.5 * cs_number_length(ix + ox, iy + oy);
   return c;
 }
 

@@ -19,6 +19,22 @@ double cs_stroke_extent_of_caps(const cs_stroke *stroke) {
   return stroke->cap == CELSPAN_STROKE_CAP_SQUARE ? sqrt(2) : 1;
 }
 
+bool cs_stroke_is_plain(const cs_stroke *stroke) {
+  if (stroke->dashes.place_count > 0 || stroke->part_count != stroke->line.contour_count)
+    return false;
+  for (size_t i = 0; i < stroke->part_count; i++) {
+    const cs_stroke_part *part = &stroke->parts[i];
+    size_t begin, end;
+    cs_stroke_contour(&stroke->line, part->contour, &begin, &end);
+    if (part->contour != i || part->count != end - begin || part->begin != 0 || part->end != 1)
+      return false;
+  }
+  for (size_t i = 0; i < stroke->radius_count; i++)
+    if (stroke->radii[i] != stroke->largest)
+      return false;
+  return stroke->line.contour_count > 0;
+}
+
 double cs_stroke_extent(const cs_stroke *stroke) {
   double extent = cs_stroke_extent_of_caps(stroke);
   return stroke->join == CELSPAN_STROKE_JOIN_MITER ? fmax(extent, stroke->miter) : extent;

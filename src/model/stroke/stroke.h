@@ -87,6 +87,8 @@ CELSPAN_CHECKED celspan_status cs_stroke_init(celspan_context *context, cs_strok
 void cs_stroke_finish(cs_stroke *stroke, cs_memory *memory);
 void cs_stroke_hash(cs_hash *hash, const cs_stroke *stroke);
 
+/* Whether it is drawn along its whole line with one width, without dashes: one part a contour. */
+bool cs_stroke_is_plain(const cs_stroke *stroke);
 /* How far beyond the line a stroke may extend, in radii: spokes, caps and joins. */
 double cs_stroke_extent(const cs_stroke *stroke);
 /* The same without joins. */
