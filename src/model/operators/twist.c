@@ -13,6 +13,8 @@
 
 /* Of the longer side of the object: a hundredth of a pixel of an object of 2,600 pixels. */
 #define WITHIN 0x1p-18
+/* A stretch of an outline over an eighth of this many radians is not examined whole. */
+#define SMOOTH 16
 #define TURNS_MOST 1000 /* of the whole twist */
 
 typedef struct twist {
@@ -21,35 +23,31 @@ typedef struct twist {
   celspan_point centre;
   double radius; /* from the centre to the farthest corner of the bounds */
   double extent; /* the longer side of the bounds */
-  celspan_matrix place, back;
 } twist;
-
-static celspan_point apply(const celspan_matrix *matrix, celspan_point p) {
-  return cs_lines_point(cs_matrix_apply(matrix, (cs_hpoint){p.x, p.y, 1}));
-}
 
 static celspan_status turn(void *user, celspan_context *context, celspan_point from,
                            celspan_point *to) {
   (void)context;
   const twist *t = user;
-  celspan_point p = apply(&t->place, from);
-  double x = p.x - t->centre.x, y = p.y - t->centre.y, sine, cosine;
+  double x = from.x - t->centre.x, y = from.y - t->centre.y, sine, cosine;
   double share = 1 - cs_number_length(x, y) / t->radius;
-  cs_elementary_sincos(t->radians * fmax(share, 0), &sine, &cosine);
-  *to = apply(&t->back, (celspan_point){t->centre.x + (cosine * x - sine * y),
-                                        t->centre.y + (sine * x + cosine * y)});
+  cs_elementary_sincos(share > 0 ? t->radians * share : 0, &sine, &cosine);
+  *to =
+      (celspan_point){t->centre.x + (cosine * x - sine * y), t->centre.y + (sine * x + cosine * y)};
   return CELSPAN_OK;
 }
 
-/* Copies a contour that has been bent and closed; an open one without the line that closes it. */
-static celspan_status copy_contour(celspan_context *context, const cs_lines *bent, size_t contour,
-                                   bool is_closed, bool is_parted, cs_lines *to) {
+/* Copies a contour that has been bent and closed, back into the units of its primitive; an open one
+ * without the line that closes it. */
+static celspan_status copy_contour(celspan_context *context, const cs_lines *bent,
+                                   const celspan_matrix *back, size_t contour, bool is_closed,
+                                   bool is_parted, cs_lines *to) {
   cs_bezier piece;
   size_t begin, end;
   cs_stroke_contour(&bent->outline, contour, &begin, &end);
   end -= !is_closed && is_parted;
   for (size_t i = begin; i < end; i++) {
-    cs_lines_load(bent, i, &piece);
+    cs_bezier_load(&bent->outline, i, back, &piece);
     if (i == begin)
       CS_TRY(cs_lines_begin(context, to, piece.points[0]));
     CS_TRY(cs_lines_add(context, to, &piece));
@@ -66,33 +64,33 @@ static bool is_parted(const cs_lines *lines, const cs_lines_contour *contour) {
 }
 
 static celspan_status copy(celspan_context *context, const cs_lines *from, const cs_lines *bent,
-                           cs_lines *to) {
+                           const celspan_matrix *back, cs_lines *to) {
   size_t closed_at = 0;
   for (size_t i = 0; i < bent->outline.contour_count; i++) {
     const cs_lines_contour contour = cs_lines_contour_at(from, i, &closed_at);
-    CS_TRY(copy_contour(context, bent, i, contour.is_closed, is_parted(from, &contour), to));
+    CS_TRY(copy_contour(context, bent, back, i, contour.is_closed, is_parted(from, &contour), to));
   }
   return CELSPAN_OK;
 }
 
 static celspan_status change(cs_operation *operation, const cs_lines *from,
                              const celspan_matrix *place, double scale, cs_lines *to) {
-  const celspan_matrix identity = celspan_matrix_identity();
   celspan_context *context = operation->context;
   twist *t = (twist *)operation;
-  t->place = *place;
-  if (!celspan_matrix_inverse(*place, &t->back))
+  celspan_matrix back;
+  (void)scale;
+  if (!celspan_matrix_inverse(*place, &back))
     return CELSPAN_OK;
   const cs_warp_map map = {.context = context,
                            .call = turn,
                            .user = t,
-                           .within = WITHIN * t->extent / scale,
-                           .extent = t->extent / scale};
+                           .within = WITHIN * t->extent,
+                           .extent = SMOOTH * t->radius / fabs(t->radians)};
   cs_lines bent;
   cs_lines_init(&bent, true);
-  celspan_status status = cs_warp_bend(&map, &from->outline, &identity, &bent.outline);
+  celspan_status status = cs_warp_bend(&map, &from->outline, place, &bent.outline);
   if (status == CELSPAN_OK)
-    status = copy(context, from, &bent, to);
+    status = copy(context, from, &bent, &back, to);
   cs_lines_finish(&bent, context->memory);
   return status;
 }

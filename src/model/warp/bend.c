@@ -7,6 +7,7 @@
 
 /* The most halvings of a piece. If the error is still too large after these, the map has a jump. */
 #define DEPTH 40
+#define PARTS 16 /* the most into which a stretch is divided at once */
 /* A cubic is only examined if it is no longer than this share of the object, or after FORCED
  * halvings: in a longer cubic the map may turn twice. */
 #define LONG 0.125
@@ -17,7 +18,8 @@
 typedef struct bender {
   const cs_warp_map *map;
   cs_outline *out;
-  cs_bezier piece; /* placed; all weights above 0 */
+  cs_bezier piece;    /* placed; all weights above 0 */
+  bool is_polynomial; /* all weights are 1 */
   size_t cubics;
   int forced; /* halvings of this piece that are always made */
 } bender;
@@ -33,10 +35,22 @@ static celspan_point projected(cs_hpoint point) {
 }
 
 /* The point of a piece at a parameter, by de Casteljau; equal numbers stay equal. */
-static celspan_point point_at(const cs_bezier *piece, double t) {
+static celspan_point polynomial_at(const cs_bezier *piece, double t) {
+  double x[CS_BEZIER_DEGREE + 1], y[CS_BEZIER_DEGREE + 1];
+  for (int i = 0; i <= piece->degree; i++) {
+    x[i] = piece->points[i].x;
+    y[i] = piece->points[i].y;
+  }
+  for (int level = piece->degree; level > 0; level--)
+    for (int i = 0; i < level; i++) {
+      x[i] += t * (x[i + 1] - x[i]);
+      y[i] += t * (y[i + 1] - y[i]);
+    }
+  return (celspan_point){x[0], y[0]};
+}
+
+static celspan_point rational_at(const cs_bezier *piece, double t) {
   cs_hpoint p[CS_BEZIER_DEGREE + 1];
-  if (t == 1) /* the beginning of the next piece, to the bit */
-    return projected(piece->points[piece->degree]);
   for (int i = 0; i <= piece->degree; i++)
     p[i] = piece->points[i];
   for (int level = piece->degree; level > 0; level--)
@@ -46,8 +60,14 @@ static celspan_point point_at(const cs_bezier *piece, double t) {
   return projected(p[0]);
 }
 
+static celspan_point point_at(const bender *b, double t) {
+  if (t == 1) /* the beginning of the next piece, to the bit */
+    return projected(b->piece.points[b->piece.degree]);
+  return b->is_polynomial ? polynomial_at(&b->piece, t) : rational_at(&b->piece, t);
+}
+
 static celspan_status image(const bender *b, double t, celspan_point *out) {
-  return cs_warp_at(b->map, point_at(&b->piece, t), out);
+  return cs_warp_at(b->map, point_at(b, t), out);
 }
 
 static double distance(celspan_point p, celspan_point q) {
@@ -83,17 +103,27 @@ static bool is_line(const stretch *s, celspan_point q1, celspan_point q2, double
          distance(q2, mixed(s->a, s->b, 2 / 3.0)) <= within;
 }
 
-static celspan_status check(const bender *b, const stretch *s, const celspan_point cubic[4],
-                            double within, bool *is_right) {
+/* How far the map is from the cubic, at most, at places near where a smooth one is farthest. */
+static celspan_status measure(const bender *b, const stretch *s, const celspan_point cubic[4],
+                              double *error) {
   /* uneven steps, because waves could be missed between even ones */
   static const double places[] = {0.5, 0.1283, 0.8761};
-  *is_right = true;
-  for (int i = 0; i < 3 && *is_right; i++) {
+  *error = 0;
+  for (int i = 0; i < 3; i++) {
     celspan_point there;
     CS_TRY(image(b, s->from + places[i] * (s->to - s->from), &there));
-    *is_right = distance(there, cubic_at(cubic, places[i])) <= within;
+    *error = fmax(*error, distance(there, cubic_at(cubic, places[i])));
   }
   return CELSPAN_OK;
+}
+
+/* Into how many parts a stretch is divided whose error is this many times too large: the error falls
+ * with the fourth power of the length. *halvings: as many as this counts for. */
+static int parts_for(double error, int *halvings) {
+  double parts = ceil(sqrt(sqrt(error)));
+  int count = parts < PARTS ? (int)fmax(parts, 2) : PARTS;
+  *halvings = 1 + (count > 2) + (count > 4) + (count > 8);
+  return count;
 }
 
 static celspan_status append(bender *b, const celspan_point cubic[4], bool is_line) {
@@ -115,7 +145,7 @@ static celspan_status end_halving(bender *b, const stretch *s) {
   const celspan_point straight[4] = {s->a, s->a, s->b, s->b};
   if (distance(s->a, s->b) <= b->map->within)
     return append(b, straight, true);
-  celspan_point at = point_at(&b->piece, s->from);
+  celspan_point at = point_at(b, s->from);
   return cs_fail(b->map->context, CELSPAN_BAD_ARGUMENT,
                  "warp: the map jumps at the point %g, %g, from %g, %g to %g, %g; it must be "
                  "continuous on the object",
@@ -123,25 +153,31 @@ static celspan_status end_halving(bender *b, const stretch *s) {
 }
 
 static celspan_status bend(bender *b, stretch s, int depth) {
+  int parts = 2, halvings = 1;
   if (depth >= b->forced) {
-    double within = SAFE * b->map->within;
+    double within = SAFE * b->map->within, error;
     celspan_point q1, q2, cubic[4];
-    bool is_right;
     CS_TRY(image(b, s.from + (s.to - s.from) / 3, &q1));
     CS_TRY(image(b, s.from + 2 * (s.to - s.from) / 3, &q2));
     fit(&s, q1, q2, cubic);
-    CS_TRY(check(b, &s, cubic, within, &is_right));
-    if (is_right)
+    CS_TRY(measure(b, &s, cubic, &error));
+    if (error <= within)
       return append(b, cubic, is_line(&s, q1, q2, (b->map->within - within) / 2));
-    if (depth == DEPTH)
+    if (depth >= DEPTH)
       return end_halving(b, &s);
+    parts = parts_for(error / within, &halvings);
   }
-  stretch low = s, high = s;
-  low.to = high.from = 0.5 * (s.from + s.to);
-  CS_TRY(image(b, low.to, &low.b));
-  high.a = low.b;
-  CS_TRY(bend(b, low, depth + 1));
-  return bend(b, high, depth + 1);
+  stretch part = {s.from, s.from, s.a, s.a};
+  for (int i = 1; i <= parts; i++) {
+    part.from = part.to;
+    part.a = part.b;
+    part.to = i < parts ? s.from + i * (s.to - s.from) / parts : s.to;
+    part.b = s.b;
+    if (i < parts)
+      CS_TRY(image(b, part.to, &part.b));
+    CS_TRY(bend(b, part, depth + halvings));
+  }
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- outlines */
@@ -150,7 +186,9 @@ static celspan_status load(bender *b, const cs_outline *outline, size_t i,
                            const celspan_matrix *matrix) {
   cs_bezier_load(outline, i, matrix, &b->piece);
   double length = 0;
+  b->is_polynomial = true;
   for (int k = 0; k <= b->piece.degree; k++) {
+    b->is_polynomial = b->is_polynomial && b->piece.points[k].w == 1;
     if (!(b->piece.points[k].w > 0))
       return cs_warp_fail_at_horizon(b->map);
     if (k > 0)

@@ -1,4 +1,4 @@
-/* Outlines under a map: each piece is followed by cubics, which are halved until they are right.
+/* Outlines under a map: each piece is followed by cubics, which are divided until they are right.
  *
  *      p0         p3               q1         a cubic goes through the images of the parameters
  *       *--+---+--*        ->    .*--+-.      0, 1/3, 2/3 and 1. It is compared with the map
