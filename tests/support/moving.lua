@@ -219,6 +219,22 @@ moving.styles = {
   styled("animation: k 2s linear; transform-box: view-box", "to{transform-origin:100px 100px;"
     .. "transform:rotate(40deg)}"),
   styled("animation: k 2s linear", "to{cx:80px;cy:60px;r:20px}", '<circle class="m" cy="20"/>'),
+  -- about the box of the element
+  styled("animation: k 2s linear infinite; transform-box: fill-box; transform-origin: center",
+    "to{transform:rotate(360deg)}"),
+  styled("animation: k 2s linear; transform-box: fill-box", "to{transform:rotate(90deg)}"),
+  styled("animation: k 2s linear; transform-box: fill-box; transform-origin: 100% 0",
+    "from{transform:translate(0,0) scale(.2)} to{transform:translate(50%,100%) scale(1.5)}"),
+  styled("animation: k 2s linear infinite; transform-box: fill-box; transform-origin: 50% 50%",
+    "to{transform:rotate(180deg)}", '<g class="m"><rect x="10" y="40" width="40" height="20"/>'
+      .. '<circle cx="70" cy="50" r="20" fill="gold"/><rect class="m" x="65" y="30" '
+      .. 'width="20" height="8" fill="red"/></g>'),
+  styled("animation: k 2s linear", "to{translate:40px;scale:1.5 .5;rotate:20deg}"),
+  styled("animation: k 2s linear", "from{translate:none;scale:2;rotate:none} 50%{scale:1 .5}"
+    .. "to{translate:20px 40px;rotate:-30deg}"),
+  styled("animation: k 2s linear infinite; transform-box: content-box; transform-origin: 25% 75%",
+    "to{rotate:90deg;scale:1.5}", '<g transform="translate(10 5) rotate(10)"><rect class="m" '
+      .. 'x="20" y="20" width="40" height="20" stroke="red" stroke-width="6"/></g>'),
 }
 
 moving.times = { 0.13, 0.57, 1.06, 1.63, 2.37 }

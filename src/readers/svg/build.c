@@ -115,7 +115,7 @@ static celspan_status find_home(builder *b, const cs_svg_node *node, const cs_sv
   cs_svg_style style;
   for (; node && node->parent; node = node->parent) {
     CS_TRY(cs_svg_style_in_file(b->reading, node, &style));
-    whole = celspan_matrix_then(whole, cs_svg_transform_of(&style, &root->measure));
+    whole = celspan_matrix_then(whole, cs_svg_transform_of(&style, &root->measure, NULL));
   }
   *out = celspan_matrix_then(whole, b->root_matrix);
   return CELSPAN_OK;

@@ -32,6 +32,7 @@ typedef struct cs_svg_node {
   cs_css_declarations style;    /* of its attribute `style` */
   cs_css_declarations moved;    /* what animations give to its properties; all zero: nothing */
   const celspan_matrix *motion; /* of animateMotion, after its own transform; NULL: none */
+  struct cs_svg_own_box *box;   /* of its contents at its own place; NULL: not yet asked for */
 } cs_svg_node;
 
 typedef struct cs_svg_document {

@@ -240,6 +240,17 @@ static bool find_share(const animation *it, double seconds, double *share, bool 
 
 /* ---------------------------------------------------------------- values of a property */
 
+/* `none` is no change, and the second number of translate and scale may be left out. */
+static celspan_status complete(animating *a, cs_svg_name name, cs_svg_mixed *value) {
+  bool is_scale = name == CS_SVG_SCALE, is_pair = is_scale || name == CS_SVG_TRANSLATE;
+  size_t count = is_pair ? 2 : name == CS_SVG_ROTATE ? 1 : 0;
+  if (value->count >= count || (value->count > 0 && strchr(value->text, '%')))
+    return CELSPAN_OK;
+  double first = value->count > 0 ? value->numbers[0].value : 1;
+  const double missing[2] = {is_scale ? first : 0, is_scale ? first : 0};
+  return cs_svg_mixed_fit(&a->place, missing, count, value);
+}
+
 /* The value of an end of a pair, with variables replaced. Errors: NO_MEMORY, LIMIT. */
 static celspan_status read_end(animating *a, cs_svg_name name, const char *text,
                                cs_svg_mixed *out) {
@@ -250,7 +261,8 @@ static celspan_status read_end(animating *a, cs_svg_name name, const char *text,
   if (!text)
     CS_TRY(cs_svg_motion_base(a->reading, a->node, name, &text));
   CS_TRY(cs_svg_motion_count(a->reading, a->node, strlen(text)));
-  return cs_svg_mixed_read(&a->place, name, text, out);
+  CS_TRY(cs_svg_mixed_read(&a->place, name, text, out));
+  return complete(a, name, out);
 }
 
 /* Between two values of visibility, the one that is seen counts. */

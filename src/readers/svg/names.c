@@ -167,6 +167,7 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"textLength", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
     {"to", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"transform", PRESENTED, FORM(TRANSFORM), "none|inherit", NULL},
+    {"transform-box", STYLED, FORM(WORD), "view-box|fill-box|content-box", NULL},
     {"transform-origin", PRESENTED, FORM(ANY), NULL, NULL},
     {"translate", STYLED, FORM(TRANSLATE), "none", NULL},
     {"type", ATTRIBUTE, FORM(ANY), NULL, NULL},

@@ -13,6 +13,7 @@
 #include "base/sort.h"
 #include "model/scene/check.h"
 #include "readers/svg/art.h"
+#include "readers/svg/boxes.h"
 #include "readers/svg/motion.h"
 #include "readers/svg/read.h"
 
@@ -200,6 +201,7 @@ static cs_svg_reading begin_reading(celspan_context *context, const cs_svg_sourc
   return (cs_svg_reading){.context = context,
                           .source = source,
                           .read_inner = read_inner,
+                          .box_of = cs_svg_box_of,
                           .space = options->space,
                           .seconds = options->seconds,
                           .tests = CS_SVG_SELECTOR_TESTS};

@@ -92,15 +92,23 @@ static celspan_point origin_of(const char *text, const cs_svg_measure *measure) 
   return origin;
 }
 
-celspan_matrix cs_svg_about_origin(celspan_matrix matrix, const char *text,
-                                   const cs_svg_measure *measure) {
-  celspan_point origin = origin_of(text, measure);
+static celspan_matrix about(celspan_matrix matrix, celspan_point origin) {
   matrix = celspan_matrix_then(celspan_matrix_translation(-origin.x, -origin.y), matrix);
   return celspan_matrix_then(matrix, celspan_matrix_translation(origin.x, origin.y));
 }
 
+celspan_matrix cs_svg_about_origin(celspan_matrix matrix, const char *text,
+                                   const cs_svg_measure *measure) {
+  return about(matrix, origin_of(text, measure));
+}
+
+static bool has_transform(const cs_svg_style *style) {
+  return style->transform || style->scale || style->rotate || style->translate;
+}
+
 /* Source: CSS Transforms Module Level 2, 7: the functions are applied first. */
-celspan_matrix cs_svg_transform_of(const cs_svg_style *style, const cs_svg_measure *measure) {
+celspan_matrix cs_svg_transform_of(const cs_svg_style *style, const cs_svg_measure *measure,
+                                   const celspan_box *box) {
   celspan_matrix matrix = celspan_matrix_identity(), step;
   if (style->transform && cs_svg_parse_transform(style->transform, measure, &step))
     matrix = step;
@@ -110,10 +118,60 @@ celspan_matrix cs_svg_transform_of(const cs_svg_style *style, const cs_svg_measu
     matrix = celspan_matrix_then(matrix, step);
   if (style->translate && cs_svg_parse_translate(style->translate, measure, &step))
     matrix = celspan_matrix_then(matrix, step);
-  bool is_given = style->transform || style->scale || style->rotate || style->translate;
-  if (is_given && style->transform_origin)
+  if (has_transform(style) && style->transform_origin)
     matrix = cs_svg_about_origin(matrix, style->transform_origin, measure);
+  if (box)
+    matrix = about(matrix, (celspan_point){box->x, box->y});
   return style->motion ? celspan_matrix_then(matrix, *style->motion) : matrix;
+}
+
+/* The box of an element, for a viewport of this size. It is kept, because the boxes of the elements
+ * around it need it again. */
+struct cs_svg_own_box {
+  celspan_box box;
+  double width, height;
+};
+
+/* Measures an element at `place`, which has its style. */
+static celspan_status own_box(cs_svg_reading *reading, const cs_svg_node *node,
+                              const cs_svg_place *place, celspan_box *out) {
+  const cs_svg_open open = {node, place->open};
+  const cs_svg_measure *measure = &place->measure;
+  const struct cs_svg_own_box *known = node->box;
+  bool is_kept = !place->is_moved && !place->sizes, is_there = false;
+  if (is_kept && known && known->width == measure->width && known->height == measure->height) {
+    *out = known->box;
+    return CELSPAN_OK;
+  }
+  cs_svg_place own = *place;
+  own.matrix = celspan_matrix_identity();
+  own.open = &open;
+  *out = (celspan_box){0};
+  CS_TRY(reading->box_of(reading, node, &own, out, &is_there));
+  if (!is_kept)
+    return CELSPAN_OK;
+  struct cs_svg_own_box *made =
+      cs_arena_take(reading->context, &reading->document->arena, sizeof *made);
+  if (!made)
+    return CELSPAN_NO_MEMORY;
+  *made = (struct cs_svg_own_box){*out, measure->width, measure->height};
+  ((cs_svg_node *)(size_t)node)->box = made;
+  return CELSPAN_OK;
+}
+
+static celspan_status find_transform(cs_svg_reading *reading, const cs_svg_node *node,
+                                     const cs_svg_place *place, celspan_matrix *out) {
+  cs_svg_measure measure = place->measure;
+  celspan_box box;
+  if (!place->style.is_about_box || !has_transform(&place->style)) {
+    *out = cs_svg_transform_of(&place->style, &measure, NULL);
+    return CELSPAN_OK;
+  }
+  CS_TRY(own_box(reading, node, place, &box));
+  measure.width = box.width;
+  measure.height = box.height;
+  *out = cs_svg_transform_of(&place->style, &measure, &box);
+  return CELSPAN_OK;
 }
 
 celspan_status cs_svg_enter(cs_svg_reading *reading, const cs_svg_node *node, cs_svg_place *place) {
@@ -126,8 +184,9 @@ celspan_status cs_svg_enter(cs_svg_reading *reading, const cs_svg_node *node, cs
   if (place->style.transform && cs_svg_is_unfit(place->style.transform))
     return cs_fail(reading->context, CELSPAN_INPUT, "line %u: transform is \"%.40s\"", node->line,
                    place->style.transform);
-  place->matrix =
-      celspan_matrix_then(cs_svg_transform_of(&place->style, &place->measure), place->matrix);
+  celspan_matrix matrix;
+  CS_TRY(find_transform(reading, node, place, &matrix));
+  place->matrix = celspan_matrix_then(matrix, place->matrix);
   for (int i = 0; i < 9; i++)
     if (!cs_number_is_sane(place->matrix.m[i]))
       return cs_fail(reading->context, CELSPAN_INPUT,

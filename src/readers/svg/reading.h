@@ -64,6 +64,9 @@ typedef struct cs_svg_reading {
   celspan_status (*draw)(struct cs_svg_reading *reading, const cs_svg_node *node, bool is_whole,
                          const struct cs_svg_place *place, celspan_object **out);
   void *builder; /* for it */
+  /* cs_svg_box_of, which enters the elements inside the one that it measures. */
+  celspan_status (*box_of)(struct cs_svg_reading *reading, const cs_svg_node *node,
+                           const struct cs_svg_place *place, celspan_box *out, bool *is_there);
   /* Colours keep their codes: in masks, unless the whole drawing is coded. */
   bool is_coded;
   celspan_space space;  /* of the drawing and of its parts */
@@ -130,8 +133,10 @@ CELSPAN_CHECKED celspan_status cs_svg_enter(cs_svg_reading *reading, const cs_sv
 /* A transform about the origin that the attribute transform-origin gives. */
 celspan_matrix cs_svg_about_origin(celspan_matrix matrix, const char *origin,
                                    const cs_svg_measure *measure);
-/* An element's transform with its origin; the identity if there is no transform. */
-celspan_matrix cs_svg_transform_of(const cs_svg_style *style, const cs_svg_measure *measure);
+/* An element's transform with its origin; the identity if there is no transform. measure: of the
+ * viewport, or of the element's own box, which is `box`; else NULL. */
+celspan_matrix cs_svg_transform_of(const cs_svg_style *style, const cs_svg_measure *measure,
+                                   const celspan_box *box);
 
 /* The paint of a colour: opacity multiplies its alpha. */
 celspan_paint cs_svg_paint_of(const cs_svg_reading *reading, const cs_svg_colour *colour,

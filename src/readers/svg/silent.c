@@ -166,7 +166,6 @@ static const silent_name silent_names[] = {
     {"text-wrap", NULL},
     {"title", NULL},
     {"touch-action", NULL},
-    {"transform-box", "view-box"},
     {"transform-style", "flat"},
     {"transition", NULL},
     {"transition-delay", NULL},

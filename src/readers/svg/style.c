@@ -229,6 +229,7 @@ static void inherit(const cs_svg_style *parent, cs_svg_style *out) {
   out->shows_overflow = out->uses_alpha = out->keeps_width = false;
   out->stop_colour = initial.stop_colour;
   out->flood_colour = initial.flood_colour;
+  out->is_about_box = false;
   out->transform = out->translate = out->rotate = out->scale = out->transform_origin = NULL;
 }
 
@@ -372,6 +373,8 @@ static void read_own(const cs_svg_cascade *from, const cs_svg_style *parent, cs_
   out->rotate = values[CS_SVG_ROTATE];
   out->scale = values[CS_SVG_SCALE];
   out->transform_origin = values[CS_SVG_TRANSFORM_ORIGIN];
+  out->is_about_box =
+      values[CS_SVG_TRANSFORM_BOX] && !cs_svg_is_word(values[CS_SVG_TRANSFORM_BOX], "view-box");
 }
 
 static celspan_status check_numbers(celspan_context *context, const cs_svg_cascade *from,

@@ -78,6 +78,7 @@ typedef struct cs_svg_style {
   /* Functions, and the properties that are applied after them; NULL: none. */
   const char *transform, *translate, *rotate, *scale;
   const char *transform_origin; /* NULL: none */
+  bool is_about_box;            /* their shares and their origin are of the element's own box */
   const celspan_matrix *motion; /* applied after all of them; NULL: none */
 } cs_svg_style;
 

@@ -25,7 +25,7 @@ static celspan_status read_line(cs_svg_reading *reading, const cs_svg_node *path
   cs_svg_line line;
   CS_TRY(cs_svg_style_in_file(reading, path, &style));
   const celspan_matrix matrix =
-      is_placed ? cs_svg_transform_of(&style, measure) : celspan_matrix_identity();
+      is_placed ? cs_svg_transform_of(&style, measure, NULL) : celspan_matrix_identity();
   celspan_status status = cs_svg_line_init(reading->context, path, measure, &line);
   if (status == CELSPAN_OK && cs_svg_outline_map(&line.outline, &matrix)) {
     out->outline = line.outline;
