@@ -326,6 +326,25 @@ describe("keyframes", function()
     assert.are.equal(0, at(0.5, "k 1s linear other"))
   end)
 
+  it("are added to the value without them", function()
+    local function width(composition, style, frames)
+      local text = "<style>@keyframes k{%s} rect{%s;animation:k 1s linear;animation-composition:%s}"
+        .. "</style>" .. box ""
+      local _, _, w = read(text:format(frames, style, composition)):at(0.5):bounds()
+      return w
+    end
+    assert.are.equal(20, width("replace", "width:10px", "from{width:10px}to{width:30px}"))
+    assert.are.equal(30, width("add", "width:10px", "from{width:10px}to{width:30px}"))
+    assert.are.equal(25, width("add", "width:10px", "to{width:30px}"))
+    local wide = "from{scale:2}to{scale:2}"
+    assert.are.near(60, width("add", "scale:3", wide), 1e-9)
+    assert.are.near(40, width("accumulate", "scale:3", wide), 1e-9)
+    wide = "from{transform:scale(2)}to{transform:scale(2)}"
+    assert.are.near(60, width("add", "transform:scale(3)", wide), 1e-9)
+    assert.are.near(40, width("accumulate", "transform:scale(3)", wide), 1e-9)
+    assert.are.near(20, width("accumulate", "transform:none", wide), 1e-9)
+  end)
+
   it("mix the colour that is inherited", function()
     local text = '<g color="#fff"><rect width="10" height="10"/></g><style>@keyframes k'
       .. "{from{fill:currentColor} to{fill:currentColor}} rect{animation:k 1s}</style>"
@@ -411,6 +430,20 @@ describe("bad input", function()
       .. 'repeatCount="1e12"/>'))
     assert.are.equal(1e12, art.seconds)
     assert.has_no_error(function() art:at(1e11) end)
+  end)
+
+  it("does not measure boxes in boxes again and again", function()
+    local art = read("<style>g{transform:rotate(90deg);transform-box:fill-box;transform-origin:"
+      .. 'center}</style><defs><g id="g">' .. ("<g>"):rep(39) .. '<rect width="10" height="6"/>'
+      .. ("</g>"):rep(40) .. '</defs><use href="#g" x="20"/>')
+    assert.are.equal(20, (art.object:bounds()))
+  end)
+
+  it("stops where intervals change each other in a circle", function()
+    local art = read(box('<animate id="a" attributeName="x" to="3" begin="b.end-0.5s;0" '
+      .. 'end="b.begin;indefinite" dur="1s"/><animate id="b" attributeName="y" by="3" '
+      .. 'begin="a.begin-0.2s;a.end" dur="0.4s" restart="whenNotActive"/>'))
+    assert.has_no_error(function() art:at(5) end)
   end)
 
   it("ends where animations wait for each other in circles", function()

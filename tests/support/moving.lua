@@ -219,6 +219,19 @@ moving.styles = {
   styled("animation: k 2s linear; transform-box: view-box", "to{transform-origin:100px 100px;"
     .. "transform:rotate(40deg)}"),
   styled("animation: k 2s linear", "to{cx:80px;cy:60px;r:20px}", '<circle class="m" cy="20"/>'),
+  -- added to the value without the animation
+  styled("animation: k 2s linear; animation-composition: add; transform: rotate(20deg)",
+    "to{transform:translate(40px,-20px)}"),
+  styled("animation: k 2s linear; animation-composition: accumulate; transform: translate(9px,9px)"
+    .. " scale(2)", "from{transform:translate(-20px,0) scale(.5)} to{transform:translate(9px,-20px)"
+    .. " scale(.8)}"),
+  styled("animation: k 2s linear, l 1.5s linear infinite; animation-composition: replace, add;"
+    .. "stroke: red; stroke-width: 3px", "to{stroke-width:9px}} @keyframes l{50%{stroke-width:8px;"
+    .. "transform:scale(.5)}"),
+  styled("animation: k 2s linear; scale: 1.5; translate: 5px 9px; rotate: 10deg",
+    "from{scale:.5;translate:20px;rotate:10deg;animation-composition:add} to{scale:2 1;"
+    .. "translate:10px;rotate:40deg;animation-composition:add}"),
+  styled("animation: k 2s linear; animation-composition: add; fill: #402010", "to{fill:#103050}"),
   -- about the box of the element
   styled("animation: k 2s linear infinite; transform-box: fill-box; transform-origin: center",
     "to{transform:rotate(360deg)}"),

@@ -1,5 +1,5 @@
---- Path operators: celspan.trim, round_corners, zigzag, pucker, twist and offset. The core changes the
---- contours (celspan/operators.h); here the arguments are checked.
+--- Path operators: celspan.trim, round_corners, zigzag, pucker, twist and offset. The core changes
+--- the contours (celspan/operators.h); here the arguments are checked.
 local core = require "celspan.core"
 local fields = require "celspan.fields"
 

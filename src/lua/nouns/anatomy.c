@@ -202,7 +202,8 @@ static void put_outline(lua_State *L, const cs_primitive_data *data, const celsp
   double extent = cs_number_length(data->bounds.width, data->bounds.height) *
                   cs_number_length(matrix->m[0], matrix->m[3]);
   cs_outline_box room;
-  bool is_line = !is_filled && data->stroke && cs_stroke_is_plain(data->stroke) && cs_matrix_is_affine(matrix);
+  bool is_line =
+      !is_filled && data->stroke && cs_stroke_is_plain(data->stroke) && cs_matrix_is_affine(matrix);
   cs_put_text(L, "kind", "outline");
   cs_put_text(L, "rule",
               data->rule == CELSPAN_RULE_EVENODD && !data->stroke ? "evenodd" : "nonzero");

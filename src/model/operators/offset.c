@@ -67,8 +67,7 @@ static celspan_status place(const growing *g, const cs_lines *from, wanted which
 
 /* ---------------------------------------------------------------- shapes */
 
-/* *out: what is in the first and the second, or in the first alone. Both are released; the second
- * may be NULL: the first. */
+/* Both objects are released. second: NULL: *out is the first. */
 static celspan_status combine(const growing *g, celspan_operator op, celspan_object *first,
                               celspan_object *second, celspan_object **out) {
   celspan_object *const both[] = {first, second};

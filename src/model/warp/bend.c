@@ -117,8 +117,8 @@ static celspan_status measure(const bender *b, const stretch *s, const celspan_p
   return CELSPAN_OK;
 }
 
-/* Into how many parts a stretch is divided whose error is this many times too large: the error falls
- * with the fourth power of the length. *halvings: as many as this counts for. */
+/* Into how many parts a stretch is divided whose error is this many times too large: the error
+ * falls with the fourth power of the length. *halvings: as many as this counts for. */
 static int parts_for(double error, int *halvings) {
   double parts = ceil(sqrt(sqrt(error)));
   int count = parts < PARTS ? (int)fmax(parts, 2) : PARTS;

@@ -8,6 +8,7 @@
 #include "base/sort.h"
 #include "readers/svg/cascade.h"
 #include "readers/svg/forms.h"
+#include "readers/svg/motion_compose.h"
 #include "readers/svg/motion_easing.h"
 #include "readers/svg/motion_targets.h"
 #include "readers/svg/motion_values.h"
@@ -20,6 +21,7 @@ typedef struct animation {
   double duration, delay, rounds;
   bool begins_backward, alternates, fills_before, fills_after, is_paused;
   cs_svg_easing easing;
+  cs_svg_composition composition;
 } animation;
 
 /* A frame of one property. */
@@ -28,6 +30,7 @@ typedef struct frame {
   size_t order;
   const char *value; /* NULL: the value without the animation */
   cs_svg_easing easing;
+  cs_svg_composition composition;
 } frame;
 
 typedef struct animating {
@@ -115,6 +118,16 @@ static bool take_state(const char **text, animation *out) {
   return true;
 }
 
+static bool take_composition(const char **text, cs_svg_composition *out) {
+  static const char *const words[] = {"replace", "add", "accumulate"};
+  for (int i = 0; i < 3; i++)
+    if (take_keyword(text, words[i])) {
+      *out = (cs_svg_composition)i;
+      return true;
+    }
+  return false;
+}
+
 static bool take_rounds(const char **text, animation *out) {
   double rounds = INFINITY;
   const char *at = *text;
@@ -189,6 +202,9 @@ static void read_parts(const animating *a, size_t i, animation *out) {
   if (values[CS_SVG_ANIMATION_TIMING_FUNCTION] &&
       (text = item_at(values[CS_SVG_ANIMATION_TIMING_FUNCTION], i)))
     (void)cs_svg_take_easing(&text, &out->easing);
+  if (values[CS_SVG_ANIMATION_COMPOSITION] &&
+      (text = item_at(values[CS_SVG_ANIMATION_COMPOSITION], i)))
+    (void)take_composition(&text, &out->composition);
 }
 
 static animation read_animation(const animating *a, size_t i) {
@@ -265,6 +281,17 @@ static celspan_status read_end(animating *a, cs_svg_name name, const char *text,
   return complete(a, name, out);
 }
 
+/* The value of a frame, added to the one without the animation if it asks for that. */
+static celspan_status read_frame(animating *a, cs_svg_name name, const frame *it,
+                                 cs_svg_mixed *out) {
+  cs_svg_mixed under;
+  CS_TRY(read_end(a, name, it->value, out));
+  if (!it->value || it->composition == CS_SVG_COMPOSITION_REPLACE)
+    return CELSPAN_OK;
+  CS_TRY(read_end(a, name, NULL, &under));
+  return cs_svg_motion_compose(&a->place, name, it->composition, &under, out);
+}
+
 /* Between two values of visibility, the one that is seen counts. */
 static bool is_shown(cs_svg_name name, const cs_svg_mixed *from) {
   return name == CS_SVG_VISIBILITY && cs_svg_is_word(from->text, "visible");
@@ -275,8 +302,8 @@ static celspan_status give_between(animating *a, cs_svg_name name, const frame *
                                    const frame *high, double share) {
   cs_svg_mixed from, to, made;
   const char *text;
-  CS_TRY(read_end(a, name, low->value, &from));
-  CS_TRY(read_end(a, name, high->value, &to));
+  CS_TRY(read_frame(a, name, low, &from));
+  CS_TRY(read_frame(a, name, high, &to));
   made = is_shown(name, &to) || (share >= 0.5 && !is_shown(name, &from)) ? to : from;
   if (share == 0 || share == 1)
     made = share == 0 ? from : to;
@@ -297,9 +324,8 @@ static int compare_frames(const void *a, const void *b) {
 }
 
 /* A frame of the property; without a value: the declarations do not give it. */
-static frame frame_of(const cs_css_frame *it, size_t order, cs_svg_name name,
-                      const cs_svg_easing *easing) {
-  frame found = {it->at, order, NULL, *easing};
+static frame frame_of(const cs_css_frame *it, size_t order, cs_svg_name name, const animation *of) {
+  frame found = {it->at, order, NULL, of->easing, of->composition};
   for (size_t k = 0; k < it->declarations.count; k++) {
     const cs_css_declaration *declaration = &it->declarations.items[k];
     const char *text = declaration->value;
@@ -307,18 +333,21 @@ static frame frame_of(const cs_css_frame *it, size_t order, cs_svg_name name,
       continue;
     if (declaration->name == CS_SVG_ANIMATION_TIMING_FUNCTION)
       (void)cs_svg_take_easing(&text, &found.easing);
+    else if (declaration->name == CS_SVG_ANIMATION_COMPOSITION)
+      (void)take_composition(&text, &found.composition);
     else if (declaration->name == name)
       found.value = text;
   }
   return found;
 }
 
-/* Of frames at the same share with the same easing, the last one counts. Source: CSS Animations
- * Level 2, 3. */
+/* Of frames at the same share with the same easing and composition, the last one counts. Source:
+ * CSS Animations Level 2, 3. */
 static size_t drop_replaced(frame *list, size_t count) {
   size_t left = 0;
   for (size_t i = 0; i < count; i++)
     if (i + 1 == count || list[i + 1].at != list[i].at ||
+        list[i + 1].composition != list[i].composition ||
         !cs_svg_easings_equal(&list[i + 1].easing, &list[i].easing))
       list[left++] = list[i];
   return left;
@@ -329,7 +358,7 @@ static size_t list_frames(const animation *it, cs_svg_name name, frame *list) {
   size_t count = 0;
   bool begins = false, ends = false;
   for (size_t i = 0; i < it->frames->count; i++) {
-    const frame found = frame_of(&it->frames->items[i], i + 1, name, &it->easing);
+    const frame found = frame_of(&it->frames->items[i], i + 1, name, it);
     if (!found.value)
       continue;
     begins = begins || found.at == 0;
@@ -337,9 +366,9 @@ static size_t list_frames(const animation *it, cs_svg_name name, frame *list) {
     list[count++] = found;
   }
   if (!begins)
-    list[count++] = (frame){0, 0, NULL, it->easing};
+    list[count++] = (frame){.at = 0, .easing = it->easing};
   if (!ends)
-    list[count++] = (frame){1, 0, NULL, it->easing};
+    list[count++] = (frame){.at = 1, .easing = it->easing};
   qsort(list, count, sizeof *list, compare_frames);
   return drop_replaced(list, count);
 }

@@ -47,6 +47,23 @@ static bool continues(const cs_svg_mixed *a, const cs_svg_mixed *b) {
          strncmp(a->frame, b->frame, strlen(a->frame)) == 0;
 }
 
+celspan_status cs_svg_matrices_add(const cs_css_place *place, const cs_svg_mixed *a,
+                                   const cs_svg_mixed *b, cs_svg_mixed *out) {
+  const char *frame = a->frame;
+  bool is_bare = *frame == '#'; /* of the property scale */
+  size_t function = 0, argument = 0, number = 0;
+  CS_TRY(cs_svg_mixed_add(place, a, b, 1, out));
+  for (size_t at = 0; frame[at]; at++) {
+    if (frame[at] == '#')
+      out->numbers[number++].value -= is_bare ? 1 : neutral(frame, function, argument++);
+    if (frame[at] == ')') {
+      function = at + 1;
+      argument = 0;
+    }
+  }
+  return CELSPAN_OK;
+}
+
 /* ---------------------------------------------------------------- matrices */
 
 /* A matrix of the plane: first the scales, then the slant, the turn and the shift. */

@@ -7,6 +7,8 @@
 /* How many steps for each animation are tried to find whether they ever end. */
 #define TRIES 64
 #define SCANS 16 /* moments that are looked at in one step */
+/* How often an interval may change at one time: then it is part of a circle, and stays. */
+#define CHANGES 100
 
 typedef enum kind { END, BEGIN } kind; /* at the same time, ends come first */
 
@@ -40,6 +42,7 @@ typedef struct state {
   double after;      /* the end of the interval before; -INFINITY: none */
   double period;     /* between its last two beginnings; 0: it began once */
   uint32_t serial;
+  uint32_t changes, wave; /* changes: in this wave, the changes that one event leads to */
 } state;
 
 typedef struct running {
@@ -57,6 +60,7 @@ typedef struct running {
   uint32_t unused; /* the first of `kept` that can be used again */
   event *heap;     /* a heap: the earliest first */
   size_t waiting, capacity;
+  uint32_t wave;             /* the number of events so far */
   double last_end;           /* of the intervals that ended */
   size_t steps, scans, most; /* of work so far; most: of steps */
 } running;
@@ -235,6 +239,12 @@ static void inform(running *c, uint32_t animation) {
   }
 }
 
+static bool may_change(const running *c, state *s) {
+  s->changes = s->wave == c->wave ? s->changes + 1 : 1;
+  s->wave = c->wave;
+  return s->changes <= CHANGES;
+}
+
 /* Finds the interval that runs or comes next, which others may have changed. */
 static celspan_status resolve(running *c, uint32_t animation) {
   state *s = &c->states[animation];
@@ -244,7 +254,7 @@ static celspan_status resolve(running *c, uint32_t animation) {
     (void)find_end(c, animation, begin, &end);
   else if (!find_next(c, animation, &begin, &end))
     begin = end = INFINITY;
-  if (begin == s->begin && end == s->end)
+  if ((begin == s->begin && end == s->end) || !may_change(c, s))
     return CELSPAN_OK;
   s->begin = begin;
   s->end = end;
@@ -256,6 +266,7 @@ static celspan_status resolve(running *c, uint32_t animation) {
 }
 
 static celspan_status settle(running *c) {
+  c->wave++;
   while (c->queued > 0 && !is_spent(c)) {
     uint32_t animation = c->queue[c->first];
     c->first = (c->first + 1) % c->count;

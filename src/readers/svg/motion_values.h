@@ -59,3 +59,7 @@ CELSPAN_CHECKED celspan_status cs_svg_mixed_write(const cs_css_place *place,
 CELSPAN_CHECKED celspan_status cs_svg_matrices_mix(const cs_css_place *place, const cs_svg_mixed *a,
                                                    const cs_svg_mixed *b, double share,
                                                    cs_svg_mixed *out);
+/* The sum of lists with the same functions: of what they change. Scales of 2 and 3 are 4. The same
+ * errors. */
+CELSPAN_CHECKED celspan_status cs_svg_matrices_add(const cs_css_place *place, const cs_svg_mixed *a,
+                                                   const cs_svg_mixed *b, cs_svg_mixed *out);

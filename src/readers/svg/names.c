@@ -31,7 +31,7 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"alignment-baseline", PRESENTED, FORM(WORD), BASELINES "|top|center|bottom", NULL},
     {"amplitude", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"animation", STYLED, FORM(ANY), NULL, NULL},
-    {"animation-composition", STYLED, FORM(WORD), "replace", NULL},
+    {"animation-composition", STYLED, FORM(ANY), NULL, NULL},
     {"animation-delay", STYLED, FORM(ANY), NULL, NULL},
     {"animation-direction", STYLED, FORM(ANY), NULL, NULL},
     {"animation-duration", STYLED, FORM(ANY), NULL, NULL},

@@ -125,22 +125,31 @@ celspan_matrix cs_svg_transform_of(const cs_svg_style *style, const cs_svg_measu
   return style->motion ? celspan_matrix_then(matrix, *style->motion) : matrix;
 }
 
-/* The box of an element, for a viewport of this size. It is kept, because the boxes of the elements
- * around it need it again. */
+/* The box of an element, for a viewport of this size and what its texts inherit. It is kept,
+ * because the boxes of the elements around it need it again. */
 struct cs_svg_own_box {
   celspan_box box;
-  double width, height;
+  double width, height, font_size;
+  cs_svg_text_style text;
 };
+
+static bool is_box_for(const struct cs_svg_own_box *known, const cs_svg_place *place) {
+  const cs_svg_text_style *a = &known->text, *b = &place->style.text;
+  return known->width == place->measure.width && known->height == place->measure.height &&
+         known->font_size == place->measure.font_size && a->font_family == b->font_family &&
+         a->is_italic == b->is_italic && a->is_bold == b->is_bold &&
+         a->letter_spacing == b->letter_spacing && a->word_spacing == b->word_spacing &&
+         a->anchor == b->anchor && a->dominant == b->dominant && a->raised == b->raised &&
+         a->is_leftward == b->is_leftward && a->is_preserved == b->is_preserved;
+}
 
 /* Measures an element at `place`, which has its style. */
 static celspan_status own_box(cs_svg_reading *reading, const cs_svg_node *node,
                               const cs_svg_place *place, celspan_box *out) {
   const cs_svg_open open = {node, place->open};
-  const cs_svg_measure *measure = &place->measure;
-  const struct cs_svg_own_box *known = node->box;
-  bool is_kept = !place->is_moved && !place->sizes, is_there = false;
-  if (is_kept && known && known->width == measure->width && known->height == measure->height) {
-    *out = known->box;
+  bool is_kept = !place->sizes, is_there = false;
+  if (is_kept && node->box && is_box_for(node->box, place)) {
+    *out = node->box->box;
     return CELSPAN_OK;
   }
   cs_svg_place own = *place;
@@ -154,7 +163,8 @@ static celspan_status own_box(cs_svg_reading *reading, const cs_svg_node *node,
       cs_arena_take(reading->context, &reading->document->arena, sizeof *made);
   if (!made)
     return CELSPAN_NO_MEMORY;
-  *made = (struct cs_svg_own_box){*out, measure->width, measure->height};
+  *made = (struct cs_svg_own_box){*out, place->measure.width, place->measure.height,
+                                  place->measure.font_size, place->style.text};
   ((cs_svg_node *)(size_t)node)->box = made;
   return CELSPAN_OK;
 }
