@@ -15,6 +15,7 @@ MODULE_PACKAGES=(libexpat1-dev libharfbuzz-dev libfribidi-dev libunibreak-dev li
 
 # What Debian calls the processor, and the folder of its libraries; nothing: it has no such.
 case $name in
+aarch64) debian=arm64 triplet=aarch64-linux-gnu ;;
 armhf) debian=armhf triplet=arm-linux-gnueabihf ;;
 i386) debian=i386 triplet=i386-linux-gnu ;;
 *) debian='' triplet='' ;;

@@ -8,9 +8,9 @@
 #   x86-64-sse   the same in emulation of a processor without wider ones; only if it is named
 #   x86-64-avx2  likewise
 #   musl         another C library, linked statically, without modules
-#   aarch64      another processor, in emulation, linked statically, without modules
 #   wasm         WebAssembly in node, without modules, threads and processes
-#   armhf        another processor, in emulation, with Debian's libraries for the modules
+#   aarch64      another processor, in emulation, with Debian's libraries for the modules
+#   armhf        likewise
 #   i386         likewise, but not in emulation where the kernel runs its programs
 #
 # --sample: one question in ten.
@@ -33,7 +33,7 @@ emulator() {
   case $1 in
   x86-64-sse) echo qemu-x86_64 -cpu Nehalem ;;
   x86-64-avx2) echo qemu-x86_64 -cpu max ;; # it has no wider ones
-  aarch64) echo qemu-aarch64 ;;
+  aarch64) echo "qemu-aarch64 -L $out/aarch64" ;;
   armhf) echo "qemu-arm -L $out/armhf" ;;
   wasm) echo node --no-experimental-fetch ;; # emcc's programs would fetch their own file
   i386) i386_loader || echo "qemu-i386 -L $out/i386" ;;
@@ -45,7 +45,7 @@ options() {
   echo -Dpictures=disabled -Dcolour=disabled -Dweb=disabled -Dtests=false -Doptimization=1 \
     -Ddebug=false
   case $1 in
-  musl | aarch64 | wasm) echo -Dmodules=false -Draster=disabled -Dart=disabled ;;
+  musl | wasm) echo -Dmodules=false -Draster=disabled -Dart=disabled ;;
   *) echo -Draster=enabled -Dart=enabled ;;
   esac
   # Meson takes the version of emcc for one of clang that does not know C17, which it is set to.
@@ -55,7 +55,7 @@ options() {
 # build PLATFORM: quietly, unless it fails.
 build() {
   local folder=$out/$1/build log=$out/$1/log targets=("${programs[@]}")
-  [[ $1 != armhf && $1 != i386 ]] || targets+=(examples/example_{painting,letters}
+  [[ $1 = musl || $1 = wasm ]] || targets+=(examples/example_{painting,letters}
     src/plugins/raster/celspan-raster.so src/plugins/type/celspan-art.so)
   [ "$1" != wasm ] || targets=("${targets[@]/%/.js}")
   mkdir -p "$out/$1"
@@ -87,7 +87,7 @@ ask() {
 }
 
 [ "${1:-}" != --sample ] || { every=10 && shift; }
-[ $# != 0 ] || set -- x86-64 musl aarch64 wasm armhf i386
+[ $# != 0 ] || set -- x86-64 musl wasm aarch64 armhf i386
 echo "| platform | equal | different | not asked |"
 echo "|---|---|---|---|"
 for platform in "$@"; do
