@@ -5,7 +5,7 @@
 #   packaging/dist.sh --test [SUITE...]   tries them in roots of Debian (packaging/try.sh)
 #
 #   git --source--> celspan-VERSION.tar.gz --deb--> *.deb
-#                                          --linux--> celspan-...-linux-x86_64.tar.gz
+#                                          --linux--> celspan-...-linux-x86_64.tar.gz, .tar.xz
 #                                                     celspan-...-lua-x86_64.tar.gz
 #       --npm--> celspan-VERSION.tgz, --root--> celspan-...-root-x86_64.tar.gz
 #
@@ -47,11 +47,17 @@ unpacked() {
   tar -xzf "$dist/$source" -C "$1" --strip-components=1
 }
 
-# packed FOLDER NAME FILE: packs the folder NAME in FOLDER, with the same bytes each time.
-packed() {
+# collected FOLDER NAME: the folder NAME in FOLDER as one file, with the same bytes each time.
+collected() {
   tar -C "$1" --sort=name --owner=0 --group=0 --numeric-owner \
-    --mtime="@$(git log -1 --format=%ct)" -cf - "$2" | gzip -9n >"$3"
+    --mtime="@$(git log -1 --format=%ct)" -cf - "$2"
 }
+
+# packed FOLDER NAME FILE
+packed() { collected "$1" "$2" | gzip -9n >"$3"; }
+
+# as_xz: packs what it reads. Most of it is code, in which jumps are written as where they lead.
+as_xz() { xz --check=crc32 --x86 --lzma2=preset=9e,lc=4,pb=0; }
 
 make_source() {
   say "the source archive"
@@ -72,6 +78,7 @@ make_linux() {
   cp packaging/linux.sh "$roots/build/build"
   quietly linux inside build /build/linux.sh "$(mirror)" "$name"
   packed "$roots/build/build" "$name" "$dist/$name.tar.gz"
+  collected "$roots/build/build" "$name" | as_xz >"$dist/$name.tar.xz"
   packed "$roots/build/build/lua" "$name" "$dist/celspan-$version-lua-x86_64.tar.gz"
 }
 

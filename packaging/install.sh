@@ -42,14 +42,13 @@ while [ $# -gt 0 ]; do
   shift
 done
 
-for tool in gzip sha256sum tar; do
-  command -v "$tool" >/dev/null || die "the program $tool is missing"
-done
 [ "$(uname -s) $(uname -m)" = "Linux x86_64" ] ||
   die "the archive is for Linux on x86-64, and this is $(uname -s) on $(uname -m)"
 
 if [ -z "$archive" ]; then
-  for found in "$here"/celspan-*-linux-x86_64.tar.gz; do
+  for found in "$here"/celspan-*-linux-x86_64.tar.[gx]z; do
+    # The same version may lie there in both forms; the first one can be unpacked everywhere.
+    [ ! -f "${found%xz}gz" ] || continue
     [ -z "$archive" ] || die "there are several archives beside this script: name one of them"
     archive=$found
   done
@@ -63,10 +62,15 @@ fi
 # ---------------------------------------------------------------- the sum
 
 name=$(basename "$archive")
-version=${name%-linux-x86_64.tar.gz}
+version=${name%-linux-x86_64.tar.[gx]z}
 case $version in
 "$name" | *[!a-zA-Z0-9.+~-]*) die "$name is not the name of an archive of celspan" ;;
 esac
+packer=gzip letter=z
+[ "${name%.xz}" = "$name" ] || packer=xz letter=J
+for tool in "$packer" sha256sum tar; do
+  command -v "$tool" >/dev/null || die "the program $tool is missing"
+done
 sums=$(dirname "$archive")/SHA256SUMS
 [ -f "$sums" ] || die "SHA256SUMS is missing beside $archive"
 wanted=$(while read -r sum file; do
@@ -98,7 +102,7 @@ for left in "$prefix/lib/.$version".*; do
 done
 
 mkdir "$unpacked" || die "$prefix/lib cannot be written: give another --prefix DIR"
-tar -xzf "$archive" -C "$unpacked" --strip-components=1 --no-same-owner ||
+tar "-x${letter}f" "$archive" -C "$unpacked" --strip-components=1 --no-same-owner ||
   die "the archive could not be unpacked in $prefix/lib: is the disk full?"
 said=$("$unpacked/bin/celspan" --version 2>&1) ||
   die "celspan does not run here: $said"

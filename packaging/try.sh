@@ -116,8 +116,8 @@ TEXT
 
 print_sizes() {
   (cd "$dist" && find . -maxdepth 1 -type f -printf '%9s bytes  %f\n' | sort -k3)
-  gzip -dc "$dist/$name.tar.gz" | tar --delete --wildcards '*/celspan-raster.so' | gzip -9n |
-    wc -c | xargs printf '%9d bytes  the archive for Linux without its module for pictures\n'
+  gzip -dc "$dist/$name.tar.gz" | tar --delete --wildcards '*/celspan-raster.so' | as_xz |
+    wc -c | xargs printf '%9d bytes  the .tar.xz for Linux without its module for pictures\n'
 }
 
 try() {

@@ -9,16 +9,17 @@ local bench
 
 local function shell(format, ...) return bench:inside(format:format(...)) end
 
---- An archive of this version beside install.sh, with its sum. program: a shell script.
-local function pack(version, program)
+--- An archive of this version beside install.sh, with its sum. program: a shell script; ending: of
+--- the archive's name.
+local function pack(version, program, ending)
   local name = "celspan-" .. version .. "-linux-x86_64"
   bench:write("program", "#!/bin/sh\n" .. (program or "echo celspan " .. version) .. "\n")
   local code, _, err = shell([[mkdir -p %s/bin %s/share/man/man1 && cp program %s/bin/celspan &&
     chmod +x %s/bin/celspan && echo page >%s/share/man/man1/celspan.1 &&
-    tar -czf %s.tar.gz %s && rm -r %s program && sha256sum celspan-*.tar.gz >SHA256SUMS]],
-    name, name, name, name, name, name, name, name)
+    tar -caf %s.tar.%s %s && rm -r %s program && sha256sum celspan-*.tar.?z >SHA256SUMS]],
+    name, name, name, name, name, name, ending or "gz", name, name)
   assert.equal(0, code, err)
-  return name .. ".tar.gz"
+  return name .. ".tar." .. (ending or "gz")
 end
 
 local function install(words)
@@ -58,6 +59,25 @@ describe("install.sh", function()
       assert.same({ 0, "celspan " .. version .. "\n", "" },
         { shell("'%s/bin/%s'", PREFIX, name) })
     end
+  end)
+
+  it("takes the .tar.xz where it lies alone, and the .tar.gz where both do", function()
+    local at = ("--prefix '%s'"):format(PREFIX)
+    for _, ending in ipairs { "xz", "gz" } do
+      pack("0.1.0", "echo " .. ending, ending)
+      local code, _, err = install(at)
+      assert.same({ 0, "" }, { code, err })
+      assert.equal(ending .. "\n", select(2, shell("'%s/bin/celspan'", PREFIX)))
+    end
+    assert.equal("celspan-0.1.0", versions())
+  end)
+
+  it("says that what unpacks the archive is missing", function()
+    pack("0.1.0", nil, "xz")
+    shell "mkdir tools && ln -s $(which dirname basename uname tar sha256sum sh) tools"
+    local code, out, err = shell("PATH=tools sh install.sh --prefix '%s'", PREFIX)
+    assert.same({ 1, "", "install.sh: the program xz is missing\n" }, { code, out, err })
+    assert.same({}, bench:files "Öl und Käse")
   end)
 
   it("replaces the same version", function()
