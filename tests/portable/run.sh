@@ -9,6 +9,7 @@
 #   x86-64-avx2  likewise
 #   musl         another C library, linked statically, without modules
 #   wasm         WebAssembly in node, without modules, threads and processes
+#   windows      in wine, linked statically, without modules and processes
 #   aarch64      another processor, in emulation, with Debian's libraries for the modules
 #   armhf        likewise
 #   i386         likewise, but not in emulation where the kernel runs its programs
@@ -36,6 +37,7 @@ emulator() {
   aarch64) echo "qemu-aarch64 -L $out/aarch64" ;;
   armhf) echo "qemu-arm -L $out/armhf" ;;
   wasm) echo node --no-experimental-fetch ;; # emcc's programs would fetch their own file
+  windows) echo "env WINEDEBUG=-all WINEPREFIX=$out/windows/wine /usr/lib/wine/wine64" ;;
   i386) i386_loader || echo "qemu-i386 -L $out/i386" ;;
   esac
 }
@@ -45,7 +47,7 @@ options() {
   echo -Dpictures=disabled -Dcolour=disabled -Dweb=disabled -Dtests=false -Doptimization=1 \
     -Ddebug=false
   case $1 in
-  musl | wasm) echo -Dmodules=false -Draster=disabled -Dart=disabled ;;
+  musl | wasm | windows) echo -Dmodules=false -Draster=disabled -Dart=disabled ;;
   *) echo -Draster=enabled -Dart=enabled ;;
   esac
   # Meson takes the version of emcc for one of clang that does not know C17, which it is set to.
@@ -55,9 +57,10 @@ options() {
 # build PLATFORM: quietly, unless it fails.
 build() {
   local folder=$out/$1/build log=$out/$1/log targets=("${programs[@]}")
-  [[ $1 = musl || $1 = wasm ]] || targets+=(examples/example_{painting,letters}
+  [[ $1 =~ musl|wasm|windows ]] || targets+=(examples/example_{painting,letters}
     src/plugins/raster/celspan-raster.so src/plugins/type/celspan-art.so)
   [ "$1" != wasm ] || targets=("${targets[@]/%/.js}")
+  [ "$1" != windows ] || targets=("${targets[@]/%/.exe}")
   mkdir -p "$out/$1"
   {
     # shellcheck disable=SC2046
@@ -77,17 +80,17 @@ ask() {
   local commands=$out/$1/commands name program
   mkdir -p "$commands/examples"
   for name in celspan examples/example_{surface,memory,embed,host,painting,letters}; do
-    program=$2/$name
-    [ -f "$program" ] || program+=.js
-    [ -f "$program" ] || continue
-    printf '#!/bin/sh\nexec %s "%s" "$@"\n' "$(emulator "$1")" "$program" >"$commands/$name"
-    chmod +x "$commands/$name"
+    for program in "$2/$name"{,.js,.exe}; do
+      [ -f "$program" ] || continue
+      printf '#!/bin/sh\nexec %s "%s" "$@"\n' "$(emulator "$1")" "$program" >"$commands/$name"
+      chmod +x "$commands/$name"
+    done
   done
   CELSPAN=$commands/celspan CELSPAN_BUILD=$commands lua5.4 tests/portable/digests.lua "$1" "$every"
 }
 
 [ "${1:-}" != --sample ] || { every=10 && shift; }
-[ $# != 0 ] || set -- x86-64 musl wasm aarch64 armhf i386
+[ $# != 0 ] || set -- x86-64 musl wasm windows aarch64 armhf i386
 echo "| platform | equal | different | not asked |"
 echo "|---|---|---|---|"
 for platform in "$@"; do

@@ -369,7 +369,7 @@ static void differentiate(const polynomial *p, polynomial *out) {
 }
 
 /* The same polynomial, written with a higher degree. */
-static void raise(polynomial *p, int degree) {
+static void elevate(polynomial *p, int degree) {
   polynomial one = {.degree = degree - p->degree}, low = *p;
   for (int i = 0; i <= one.degree; i++)
     one.c[i] = 1;
@@ -423,9 +423,9 @@ int cs_curve_swallow_changes(const cs_curve *curve, double changes[CS_CURVE_SWAL
   square_of_way(&x, &w, &along);
   square_of_way(&y, &w, &across);
   int degree = growth.degree > along.degree ? growth.degree : along.degree;
-  raise(&growth, degree);
-  raise(&along, degree);
-  raise(&across, degree);
+  elevate(&growth, degree);
+  elevate(&along, degree);
+  elevate(&across, degree);
   double size = 0;
   for (int i = 0; i <= degree; i++) {
     size = fmax(size, fmax(fabs(growth.c[i]), fmax(fabs(along.c[i]), fabs(across.c[i]))));
