@@ -8,32 +8,14 @@ local present = require "tests.support.present"
 local raised = require "tests.support.raised"
 local workbench = require "tests.support.workbench"
 
-local bench, count = workbench.new(), 0
+local bench = workbench.new()
+local try, write = lotties.reader(bench)
 local still, keys, layer, box, document = lotties.still, lotties.keys, lotties.layer, lotties.box,
   lotties.document
 
-local function write(what, ending)
-  count = count + 1
-  local text = type(what) == "table" and lotties.json(what) or what
-  return bench:write(("%d.%s"):format(count, ending or "json"), text)
-end
+local function read(layers, fields, options) return assert(try(layers, fields, options)) end
 
-local function read(layers, fields, options)
-  return assert(lottie.read(write(document(layers, fields)), options))
-end
-
---- The code of a point at a frame: "ff0000 255".
-local function at(art, frame, x, y)
-  local r, g, b, a = celspan.probe(celspan.rostrum { celspan.cel { art:at(frame) } }, x, y,
-    { film = { 100, 100 } })
-  local function code(c)
-    c = a > 0 and c / a or 0
-    c = c <= 0.0031308 and 12.92 * c or 1.055 * c ^ (1 / 2.4) - 0.055
-    return math.floor(255 * math.min(1, math.max(0, c)) + 0.5)
-  end
-  return ("%02x%02x%02x %d"):format(code(r), code(g), code(b), math.floor(255 * a + 0.5))
-end
-
+local at = lotties.code
 local RED, NONE = "ff0000 255", "000000 0"
 local function placed(x, y, fields)
   local ks = { p = still { x, y } }

@@ -1,4 +1,6 @@
 --- Lottie animations for tests: documents written as tables, and dotLottie archives.
+local celspan = require "celspan"
+local lottie = require "celspan.lottie"
 local stored = require "tests.support.stored"
 
 local lotties = {}
@@ -57,6 +59,33 @@ function lotties.document(layers, fields)
   local document = { v = "5.7.0", fr = 25, ip = 0, op = 100, w = 100, h = 100, layers = layers }
   for name, value in pairs(fields or {}) do document[name] = value end
   return document
+end
+
+--- A reader for documents of layers and fields, which are written to a workbench.
+---@return fun(layers: table[], fields?: table, options?: table): any art, string? message
+---@return fun(what: string|table, ending?: string): string path
+function lotties.reader(bench)
+  local count = 0
+  local function write(what, ending)
+    count = count + 1
+    local text = type(what) == "table" and lotties.json(what) or what
+    return bench:write(("%d.%s"):format(count, ending or "json"), text)
+  end
+  return function(layers, fields, options)
+    return lottie.read(write(lotties.document(layers, fields)), options)
+  end, write
+end
+
+--- The code of a point at a frame: "ff0000 255".
+function lotties.code(art, frame, x, y)
+  local r, g, b, a = celspan.probe(celspan.rostrum { celspan.cel { art:at(frame) } }, x, y,
+    { film = { 100, 100 } })
+  local function code(c)
+    c = a > 0 and c / a or 0
+    c = c <= 0.0031308 and 12.92 * c or 1.055 * c ^ (1 / 2.4) - 0.055
+    return math.floor(255 * math.min(1, math.max(0, c)) + 0.5)
+  end
+  return ("%02x%02x%02x %d"):format(code(r), code(g), code(b), math.floor(255 * a + 0.5))
 end
 
 --- A zip archive of members { name, text }, stored.

@@ -22,6 +22,7 @@ local function collect(list, found)
     if path then
       local k = values.table(path.k)
       local outline = contours.read(k and (values.table(k[1]) or k), false)
+      outline.closed = true -- some files say that the outlines of letters are open
       if #outline > 0 then found[#found + 1] = outline end
     end
   end
@@ -63,16 +64,6 @@ local function own_letter(root, font, char, size)
            scale = size / 100 }
 end
 
-local function line_of_outlines(root, font, text, size)
-  local line = {}
-  for _, code in utf8.codes(text) do
-    local letter = own_letter(root, font, utf8.char(code), size)
-    if not letter then return nil end
-    line[#line + 1] = letter
-  end
-  return line
-end
-
 --- The file of a font: by family and style, by family, or the one for all others.
 local function font_file(root, font)
   local family, style = tostring(font.fFamily), tostring(font.fStyle)
@@ -83,7 +74,8 @@ end
 --- Players place letter by letter, without the font's kerning and ligatures.
 local plain = { kern = false, liga = false }
 
-local function line_of_font(root, font, text, size)
+--- The letters of a text from a font file; nil and why there are none.
+local function of_font(root, font, text, size)
   local file, line = font_file(root, font), {}
   if not file then
     local name = values.name(font.fFamily, "the text") .. " " .. values.name(font.fStyle, "")
@@ -97,12 +89,40 @@ local function line_of_font(root, font, text, size)
   return line
 end
 
+--- Adds a character that the outlines in the file lack, from a font or as nothing.
+local function add_missing(root, font, char, size, line)
+  for _, letter in ipairs(of_font(root, font, char, size) or {}) do line[#line + 1] = letter end
+end
+
+--- The letters of a line from the outlines in the file. Returns also the characters that it lacks;
+--- nil: it lacks all.
+local function of_outlines(root, font, text, size)
+  local line, missing, has_any = {}, {}, false
+  for _, code in utf8.codes(text) do
+    local char = utf8.char(code)
+    local letter = own_letter(root, font, char, size)
+    has_any = has_any or letter ~= nil
+    if letter then
+      line[#line + 1] = letter
+    else
+      add_missing(root, font, char, size, line)
+      missing[#missing + 1] = char
+    end
+  end
+  if has_any then return line, table.concat(missing) end
+end
+
 --- The letters of a line without line ends.
-local function line_of(root, font, text, size)
+local function line_of(root, font, text, size, note)
   if text == "" then return {} end
-  local line = next(root.chars) and line_of_outlines(root, font, text, size)
-  if line then return line end
-  return line_of_font(root, font, text, size)
+  local line, missing = nil, ""
+  if next(root.chars) then line, missing = of_outlines(root, font, text, size) end
+  if not line then return of_font(root, font, text, size) end
+  if missing ~= "" then
+    note(("the file has no outlines of '%s'; %s"):format(values.name(missing, "?"),
+      font_file(root, font) and "they are those of the font that is given" or "they are left out"))
+  end
+  return line
 end
 
 -- ---------------------------------------------------------------- lines
@@ -173,7 +193,7 @@ function letters.lay(root, given, note)
   if leading == 0 then leading = LEADING * size end
   local top = box and corner[2] + values.number(font.ascent, 75) / 100 * size or 0
   for _, part in ipairs(split(text)) do
-    local line, message = line_of(root, font, part, size)
+    local line, message = line_of(root, font, part, size, note)
     if not line then
       note(message)
       return {}
@@ -194,13 +214,11 @@ function letters.object(letter, texture, stroke)
     if #letter.outlines == 0 then return nil end
     letter.d = letter.d or contours.data(letter.outlines)
     local k = letter.scale
-    local object = stroke and celspan.stroke { d = letter.d, width = stroke / k, join = "round",
-                                               texture = texture }
-      or celspan.path { d = letter.d, texture = texture }
-    return object:scale(k)
+    local fields = { d = letter.d, texture = texture, width = stroke and stroke / k }
+    return (stroke and celspan.stroke or celspan.path)(fields):scale(k)
   end
   local object = letter.object
-  object = stroke and object:stroke { width = stroke, join = "round", texture = texture }
+  object = stroke and object:stroke { width = stroke, texture = texture }
     or object:with { texture = texture }
   return object:translate(-letter.from, 0)
 end

@@ -1,4 +1,5 @@
 --- Range selectors of text animators: how much of an animator each letter gets.
+local ease = require "celspan.ease"
 local property = require "celspan.lottie_property"
 local values = require "celspan.lottie_values"
 
@@ -57,6 +58,34 @@ local function count(list, based)
   return numbers, n
 end
 
+--- A square is as soft as its smoothness: at 50 % the middle half of a step is stretched to all of
+--- it, at 0 % a letter is in it or not.
+local function sharpened(x, smooth)
+  return held((x - (0.5 - smooth / 2)) / math.max(smooth, 1e-9))
+end
+
+--- The ease of a range: how it leaves its least value and comes to its greatest, each from -1 to 1.
+local function eased(x, low, high)
+  if low == 0 and high == 0 or x <= 0 or x >= 1 then return x end
+  return ease(("bezier:%.9g,%.9g,%.9g,%.9g"):format(math.max(0, low), math.max(0, -low),
+    1 - math.max(0, high), 1 + math.min(0, high)))(x)
+end
+
+--- How the value of a shape is changed by the smoothness, the eases and the mode.
+local function changes_of(scope, given, shape, number)
+  local least, greatest = number("ne", 0), number("xe", 0)
+  local smooth = shape == shapes[1] and given.sm ~= nil and number("sm", 100)
+  local is_taken = values.number(given.m, 1) == 2 -- the others are for several ranges
+  if given.rn == 1 then scope.note "the random order of the range is left out" end
+  if given.t == 1 then scope.note "the range is an expression, which is not run" end
+  local function share(get, t) return math.max(-1, math.min(1, get(t) / 100)) end
+  return function(x, t)
+    x = eased(x, share(least, t), share(greatest, t))
+    if smooth then x = sharpened(x, math.max(0, math.min(1, smooth(t) / 100))) end
+    return is_taken and 1 - x or x
+  end
+end
+
 --- A selector as a function of the letters, the number of one and the frame.
 ---@return fun(list: table[], i: integer, t: number): number
 ---@return boolean moves
@@ -73,7 +102,7 @@ function ranges.compile(scope, given)
   local amount = number("a", 100)
   local shape = shapes[values.number(given.sh, 1)] or shapes[1]
   local based = values.number(given.b, 1)
-  if given.rn == 1 then scope.note "the random order of the range is left out" end
+  local change = changes_of(scope, given, shape, number)
   local of = setmetatable({}, { __mode = "k" })
   return function(list, i, t)
     if not of[list] then of[list] = { count(list, based) } end
@@ -81,7 +110,7 @@ function ranges.compile(scope, given)
     local unit = by_index and 1 or n / 100
     local s, e = (first(t) + offset(t)) * unit, (last(t) + offset(t)) * unit
     if s > e then s, e = e, s end
-    return shape(numbers[i], s, e) * amount(t) / 100
+    return change(shape(numbers[i], s, e), t) * amount(t) / 100
   end, moves
 end
 

@@ -5,6 +5,7 @@ local letters = require "celspan.lottie_letters"
 local paint = require "celspan.lottie_paint"
 local property = require "celspan.lottie_property"
 local ranges = require "celspan.lottie_ranges"
+local text_path = require "celspan.lottie_text_path"
 local transform = require "celspan.lottie_transform"
 local values = require "celspan.lottie_values"
 
@@ -42,28 +43,44 @@ end
 
 -- ---------------------------------------------------------------- animators
 
-local numbers = { r = 0, o = 100, sw = 0, t = 0, sk = 0, sa = 0, fo = 100, so = 100 }
-local points = { p = { 0, 0 }, s = { 100, 100 }, a = { 0, 0 } }
+--- What animators change, by short names, in the order in which it is read: its default, and what
+--- reads it.
+local known = {
+  { "a", { 0, 0 }, property.list }, { "p", { 0, 0 }, property.list },
+  { "s", { 100, 100 }, property.list }, { "r", 0, property.number }, { "sk", 0, property.number },
+  { "sa", 0, property.number }, { "o", 100, property.number }, { "fo", 100, property.number },
+  { "so", 100, property.number }, { "sw", 0, property.number }, { "t", 0, property.number },
+  { "fc", nil, property.colour }, { "sc", nil, property.colour },
+}
+local is_known = {}
+for _, one in ipairs(known) do is_known[one[1]] = true end
+
+--- Notes what an animator has and does not change here.
+local function note_others(scope, a)
+  local others = {}
+  for name in pairs(a) do
+    if type(name) == "string" and not is_known[name] then
+      others[#others + 1] = ("'%s'"):format(values.name(name, "?"))
+    end
+  end
+  table.sort(others)
+  if others[1] then
+    scope.note(("what the animator changes by %s is left out"):format(table.concat(others, ", ")))
+  end
+end
 
 --- An animator: its properties by their short names, and its ranges.
 local function animator(scope, item)
   local a, made = values.table(item.a) or {}, { get = {} }
   local moves = false
-  local function keep(name, get, is_moving)
-    made.get[name], moves = get, moves or is_moving
+  for _, one in ipairs(known) do
+    local name, default, read = one[1], one[2], one[3]
+    if a[name] ~= nil then
+      local get, is_moving = read(scope, a[name], "the animator's " .. name, default)
+      made.get[name], moves = get, moves or is_moving
+    end
   end
-  for name, default in pairs(numbers) do
-    if a[name] ~= nil then keep(name, property.number(scope, a[name], "the animator's " .. name,
-      default)) end
-  end
-  for name, default in pairs(points) do
-    if a[name] ~= nil then keep(name, property.list(scope, a[name], "the animator's " .. name,
-      default)) end
-  end
-  for _, name in ipairs { "fc", "sc" } do
-    if a[name] ~= nil then keep(name, property.colour(scope, a[name], "the animator's colour")) end
-  end
-  if a.bl ~= nil then scope.note "the animator's blur is left out" end
+  note_others(scope, a)
   local range, is_moving = ranges.compile(scope, item.s)
   made.range = range
   return made, moves or is_moving
@@ -83,8 +100,15 @@ local function animate(one, look, k, t)
     look.sx, look.sy = look.sx * (1 + k * (s[1] / 100 - 1)), look.sy * (1 + k * (s[2] / 100 - 1))
   end
   if get.r then look.turn = look.turn + k * get.r(t) end
+  if get.a then
+    local anchor = get.a(t)
+    look.ax, look.ay = look.ax + k * anchor[1], look.ay + k * anchor[2]
+  end
   if get.sk then look.skew = look.skew + k * get.sk(t) end
+  if get.sa then look.axis = look.axis + k * get.sa(t) end
   if get.o then look.opacity = look.opacity * (1 + k * (get.o(t) / 100 - 1)) end
+  if get.fo then look.fill_opacity = look.fill_opacity * (1 + k * (get.fo(t) / 100 - 1)) end
+  if get.so then look.stroke_opacity = look.stroke_opacity * (1 + k * (get.so(t) / 100 - 1)) end
   if get.fc then look.fill = look.fill and mixed(look.fill, get.fc(t), k) end
   if get.sc then look.stroke = mixed(look.stroke or { 0, 0, 0 }, get.sc(t), k) end
   if get.sw then look.width = look.width + k * get.sw(t) end
@@ -100,22 +124,26 @@ end
 --- The drawn letter in its look, at 0, 0.
 local function painted(letter, look, over)
   local parts = {}
-  if look.fill then parts[1] = letters.object(letter, texture(look.fill, 1)) end
-  if look.stroke and look.width > 0 then
-    local line = letters.object(letter, texture(look.stroke, 1), look.width)
+  if look.fill and look.fill_opacity > 0 then
+    parts[1] = letters.object(letter, texture(look.fill, look.fill_opacity))
+  end
+  if look.stroke and look.width > 0 and look.stroke_opacity > 0 then
+    local line = letters.object(letter, texture(look.stroke, look.stroke_opacity), look.width)
     table.insert(parts, over and 1 or #parts + 1, line)
   end
   if #parts < 2 then return parts[1] end
   return celspan.union(parts)
 end
 
-local function shown(letter, look, over, shift)
+--- place: the map of its middle on a path, or nil.
+local function shown(letter, look, over, shift, place)
   local object = look.opacity > 0 and painted(letter, look, over)
   if not object then return nil end
   local middle = letter.advance / 2
-  local map = transform.map({ letter.x + shift + look.x + middle, letter.y + look.y }, { middle,
-    0 },
-    { look.sx * 100, look.sy * 100 }, look.turn, look.skew, 0)
+  local x = place and 0 or letter.x + shift + look.x + middle
+  local map = transform.map({ x, letter.y + look.y }, { middle + look.ax, look.ay },
+    { look.sx * 100, look.sy * 100 }, look.turn, look.skew, look.axis)
+  if place then map = affine.compose(place, map) end
   object = object:transform(affine.matrix(map))
   return look.opacity < 1 and celspan.group { object, opacity = look.opacity } or object
 end
@@ -133,8 +161,9 @@ end
 --- How all letters of a document look before they are animated.
 local function base_look(given)
   local fill, stroke = colour_of(given.fc), colour_of(given.sc)
-  return { x = 0, y = 0, sx = 1, sy = 1, turn = 0, skew = 0, opacity = 1, tracking = 0, fill = fill,
-           stroke = stroke, width = stroke and values.number(given.sw, 0) or 0 }
+  return { x = 0, y = 0, ax = 0, ay = 0, sx = 1, sy = 1, turn = 0, skew = 0, axis = 0, opacity = 1,
+           fill_opacity = 1, stroke_opacity = 1, tracking = 0, fill = fill, stroke = stroke,
+           width = stroke and values.number(given.sw, 0) or 0 }
 end
 
 --- The looks of all letters, and how much wider animated tracking makes each line.
@@ -151,16 +180,28 @@ end
 
 local shares = { [0] = 0, 1, 0.5 }
 
-local function draw(list, given, animators, t)
+--- path: as text_path.compile returns it.
+local function draw(list, given, animators, path, t)
   local looks, extra, size = looks_of(list, given, animators, t)
   local objects, shift, line = {}, 0, nil
-  local share = shares[values.number(given.j, 0) % 3] or 0
+  local justify = values.number(given.j, 0) % 3
+  local share, place_of = shares[justify] or 0, path and path(list, justify, t)
   for i, letter in ipairs(list) do
     if letter.line ~= line then line, shift = letter.line, -share * extra[letter.line] end
-    objects[#objects + 1] = shown(letter, looks[i], given.of ~= true, shift)
+    local place = place_of and place_of(i, shift + looks[i].x)
+    objects[#objects + 1] = shown(letter, looks[i], given.of ~= true, shift, place)
     shift = shift + looks[i].tracking * size / 1000
   end
   return #objects > 0 and celspan.union(objects) or nil
+end
+
+--- Notes letters that turn and grow about other points than the middle of each.
+local function note_grouping(scope, given)
+  local more = values.table(given.m) or {}
+  local shift = values.table(more.a) and values.list(more.a.k, { 0, 0 }, 2) or { 0, 0 }
+  if values.number(more.g, 1) ~= 1 or shift[1] ~= 0 or shift[2] ~= 0 then
+    scope.note "the grouping of its anchors is left out; each letter turns about its middle"
+  end
 end
 
 --- The contents of a text layer.
@@ -175,13 +216,15 @@ function text.compile(scope, item)
       one[2])
     animators[n], moves = made, moves or is_moving
   end
-  if values.table(given.p) and given.p.m ~= nil then scope.note "the text's path is left out" end
+  local path, moves_path = text_path.compile(scope, item)
+  moves = moves or moves_path
+  note_grouping(scope, given)
   local laid = {}
   for _, one in ipairs(list) do laid[one.value] = letters.lay(scope.root, one.value, scope.note) end
   return paint.memo(moves, function(t)
     local document = document_at(list, t)
     if not document then return nil end
-    return draw(laid[document], document, animators, t)
+    return draw(laid[document], document, animators, path, t)
   end), moves
 end
 
