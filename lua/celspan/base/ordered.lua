@@ -13,4 +13,14 @@ function ordered.last(list, most, field)
   return low
 end
 
+--- The names of a table, which are strings, in the order of their bytes.
+---@param named table<string, any>
+---@return string[]
+function ordered.names(named)
+  local names = {}
+  for name in pairs(named) do names[#names + 1] = name end
+  table.sort(names)
+  return names
+end
+
 return ordered

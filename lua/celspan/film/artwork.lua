@@ -6,6 +6,7 @@
 local celspan = require "celspan"
 local fields = require "celspan.fields"
 local layers = require "celspan.layers"
+local ordered = require "celspan.ordered"
 local parameters = require "celspan.parameters"
 local svg = require "celspan.svg"
 
@@ -85,8 +86,8 @@ local function parameters_of(art)
     wanted.theme = { "", table.unpack(art.themes) }
     wanted.theme.about = "A theme of the file"
   end
-  for slot, one in pairs(art.slots) do
-    local name = word(slot)
+  for _, slot in ipairs(ordered.names(art.slots)) do
+    local one, name = art.slots[slot], word(slot)
     if declare[one.kind] and not wanted[name] then
       wanted[name] = declare[one.kind](one.value)
       wanted[name].about = ("The slot '%s'"):format(slot)

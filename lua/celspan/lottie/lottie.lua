@@ -14,6 +14,7 @@ local letters = require "celspan.lottie_letters"
 local pictures = require "celspan.lottie_pictures"
 local scope = require "celspan.lottie_scope"
 local slots = require "celspan.lottie_slots"
+local sounds = require "celspan.lottie_sounds"
 local source = require "celspan.lottie_source"
 local values = require "celspan.lottie_values"
 
@@ -39,10 +40,18 @@ local compiled = setmetatable({}, { __mode = "k" })
 
 -- ---------------------------------------------------------------- frames
 
---- The object of a frame, cut to the animation's frame; nil: nothing.
-local function picture(art, t)
-  local object = compiled[art](t)
-  return object and celspan.clip(object, celspan.rect { 0, 0, art.size[1], art.size[2] })
+--- The object of a frame, cut to the animation's frame; nothing where it cannot be drawn. finish:
+--- changes it.
+local function picture(art, t, finish)
+  local own = compiled[art]
+  local good, object = pcall(function()
+    local whole = own.get(t)
+    whole = whole and celspan.clip(whole, celspan.rect { 0, 0, art.size[1], art.size[2] })
+    return whole and finish and finish(whole) or whole or celspan.union {}
+  end)
+  if good then return object end
+  own.note(("it cannot be drawn at frame %g: %s"):format(t, tostring(object)))
+  return celspan.union {}
 end
 
 --- The animation at a frame, also between two. Its colours are mixed as sRGB codes, and so are the
@@ -51,10 +60,10 @@ end
 ---@return celspan.object object
 function Art:at(frame)
   fields.check_at("lottie", Art, self, frame, "a frame")
-  local object = picture(self, frame)
-  if not object then return celspan.union {} end
   local margin = math.max(self.size[1], self.size[2]) / 64 -- more than a pixel, in all but icons
-  return celspan.group { object:blur(margin, { kernel = "pixel" }), space = "srgb" }
+  return picture(self, frame, function(object)
+    return celspan.group { object:blur(margin, { kernel = "pixel" }), space = "srgb" }
+  end)
 end
 
 --- The animation as a film in sRGB codes. Its frames have the numbers of the animation's own count.
@@ -73,7 +82,7 @@ function Art:film()
     frames = math.max(1, math.ceil(self.last) - first),
     sound = #self.sounds > 0 and self.sounds or nil,
     frame = function(f)
-      return celspan.rostrum { celspan.cel { picture(self, f.number) or celspan.union {} } }
+      return celspan.rostrum { celspan.cel { picture(self, f.number) } }
     end,
   }
 end
@@ -86,6 +95,7 @@ local function assets_of(root, document)
     local id = one[2].id
     if id ~= nil and not assets[id] then
       assets[id] = { item = one[2], scope = root.scope.within(("assets[%d]"):format(one[1] - 1)) }
+      root.asset_ids[#root.asset_ids + 1] = id
     end
   end
   return assets
@@ -104,7 +114,7 @@ end
 local function root_of(found, options)
   local document = values.table(found.document) or {}
   local root = { skipped = {}, fps = 0, font_files = {}, chars = letters.table_of(document),
-                 fonts = letters.fonts_of(document), sounds = {} }
+                 fonts = letters.fonts_of(document), sounds = {}, asset_ids = {} }
   root.scope = scope.new(root)
   root.assets = assets_of(root, document)
   root.pictures = pictures.reader(found, root.assets)
@@ -115,7 +125,8 @@ end
 
 --- Notes pictures that are missing and that no layer shows.
 local function note_pictures(root)
-  for id, asset in pairs(root.assets) do
+  for _, id in ipairs(root.asset_ids) do
+    local asset = root.assets[id]
     if asset.item.p ~= nil and asset.item.w ~= nil then
       local object, message = root.pictures(id)
       if not object then asset.scope.note(message) end
@@ -127,16 +138,16 @@ end
 local function compile(found, root, facts, list)
   local document = found.document
   root.fps, root.first, root.last = facts.fps, facts.first, facts.last
-  root.slot = slots.finder(list)
+  root.slot, root.gradient = slots.finder(list), slots.gradients(list)
   local get = layers.compile(root.scope, document.layers)
+  sounds.collect(root, document.layers)
   note_pictures(root)
   if #found.states > 0 then root.scope.note "its state machines are not run" end
   local art = setmetatable({ size = { facts.width, facts.height }, fps = facts.fps,
     first = facts.first, last = facts.last, markers = markers_of(document),
-      slots = slots.list(list),
     themes = found.themes, states = found.states, sounds = root.sounds, skipped = root.skipped },
-      Art)
-  compiled[art] = get
+    Art)
+  compiled[art] = { get = get, note = root.scope.note }
   return art
 end
 
@@ -145,10 +156,15 @@ end
 ---@field theme? string The id of a theme of a dotLottie file
 ---@field set? table<string, any> Values by slot
 
-local function check_fonts(fonts)
-  for name, file in next, fonts or {} do
+local function check_names(options)
+  for name, file in next, options.fonts or {} do
     if type(name) ~= "string" or type(file) ~= "string" then
       core.refuse "lottie: read: fonts are files by name, such as { default = \"sans.ttf\" }"
+    end
+  end
+  for name in next, options.set or {} do
+    if type(name) ~= "string" then
+      core.refuse "lottie: read: set is values by slot, such as { tint = \"#f80\" }"
     end
   end
 end
@@ -165,16 +181,20 @@ function lottie.read(path, options)
   end
   options = options == nil and {} or options
   fields.check("lottie: read", options, known)
-  check_fonts(options.fonts)
+  check_names(options)
   local found, message = source.open(path)
   if not found then return nil, message end
   local root = root_of(found, options)
   local facts, wrong = check.examine(found.document, root.assets)
   if not facts then return nil, ("%s: %s"):format(path, wrong) end
   local list = slots.read(found.document)
-  wrong = slots.apply(found, list, options.theme or found.theme, options.set)
+  wrong = slots.apply(found, list, options.theme or found.theme, options.set, root.scope.note)
   if wrong then return nil, ("%s: %s"):format(path, wrong) end
-  return compile(found, root, facts, list)
+  local art = compile(found, root, facts, list)
+  wrong = slots.finish(list)
+  if wrong then return nil, ("%s: %s"):format(path, wrong) end
+  art.slots = slots.list(list)
+  return art
 end
 
 --- lottie.read for an animation that must be readable: raises an error if it is not.

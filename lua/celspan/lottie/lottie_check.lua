@@ -5,6 +5,7 @@ local values = require "celspan.lottie_values"
 local check = {}
 
 check.most_layers = 200000 -- with all compositions unfolded
+local MOST_DEPTH = 200 -- compositions in compositions
 local MOST_SIZE = 1048576 -- units, as for films
 local MOST_FRAMES = 10000000
 
@@ -37,7 +38,11 @@ local function count(list, assets, counted, depth)
       end
       total = total + counted[id]
     end
-    if total > check.most_layers or depth > 200 then
+    if depth > MOST_DEPTH then
+      error({ message = ("layers: compositions are nested more than %d deep; that is the limit")
+        :format(MOST_DEPTH) }, 0)
+    end
+    if total > check.most_layers then
       error({ message = ("layers: with all compositions unfolded there are more than %d; that is "
         .. "the limit"):format(check.most_layers) }, 0)
     end

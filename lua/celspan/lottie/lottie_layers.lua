@@ -15,6 +15,7 @@ local values = require "celspan.lottie_values"
 local layers = {}
 
 local MOST_PARENTS = 100
+local MOST_MATTES = 20 -- of mattes of mattes
 local modes = { [0] = "normal", "multiply", "screen", "overlay", "darken", "lighten", "color-dodge",
                 "color-burn", "hard-light", "soft-light", "difference", "exclusion", "hue",
                 "saturation", "color", "luminosity", "add", "hard-mix" }
@@ -62,21 +63,8 @@ contents[2] = function(scope, item)
   return function() return object end, false
 end
 
---- A sound in a file beside the animation, for `sounds`. It has no picture.
-contents[6] = function(scope, item)
-  local root = scope.root
-  local path, message = root.sound_file(item.refId)
-  if not path then
-    scope.note(message)
-    return nil
-  end
-  local first, last = values.number(item.ip, 0), values.number(item.op, 0)
-  local start = values.number(item.st, 0)
-  local from, to = math.max(first, start, root.first), math.min(last, root.last)
-  if from >= to then return nil end
-  root.sounds[#root.sounds + 1] = { path, at = (from - root.first) / root.fps,
-                                    from = (from - start) / root.fps, to = (to - start) / root.fps }
-end
+--- A sound has no picture; lottie_sounds.lua collects all.
+contents[6] = function() end
 
 contents[4] = function(scope, item) return shapes.compile(scope, item.shapes) end
 contents[5] = function(scope, item) return text.compile(scope, item) end
@@ -101,12 +89,15 @@ local function placing(layer, by_index, seen)
   local parent = item.parent ~= nil and by_index[item.parent]
   seen = seen or {}
   seen[#seen + 1], seen[layer] = layer, true
-  if parent and (seen[parent] or #seen > MOST_PARENTS) then
+  local is_wrong = parent and (seen[parent] or #seen > MOST_PARENTS)
+  local outer, moves_outer
+  if parent and not is_wrong then outer, moves_outer = placing(parent, by_index, seen) end
+  layer.depth = outer and parent.depth + 1 or 0
+  if is_wrong or layer.depth > MOST_PARENTS then
     scope.note "its parents form a circle, or are too many; it has none"
-    parent = nil
+    outer, layer.depth = nil, 0
   end
-  if parent then
-    local outer, moves_outer = placing(parent, by_index, seen)
+  if outer then
     local inner = own
     moves = moves or moves_outer
     own = paint.memo(moves, function(t) return affine.compose(outer(t), inner(t)) end)
@@ -138,21 +129,23 @@ local function compile(layer, by_index)
   end)
 end
 
---- The picture of a layer at a frame; nil where it has none.
-local function show(layer, t)
+--- The picture of a layer with its matte and its mode, at a frame; nil where it has none.
+local function picture(layer, t)
   if not layer.get or t < layer.first or t >= layer.last then return nil end
-  local good, object = pcall(layer.get, t)
-  if good then return object end
-  layer.scope.note(("it cannot be drawn at frame %g: %s"):format(t, tostring(object)))
-end
-
---- The picture of a layer with its matte and its mode.
-local function show_whole(layer, t)
-  local object = show(layer, t)
+  local object = layer.get(t)
   if not object then return nil end
-  if layer.matte then object = masks.matte(object, show_whole(layer.matte, t), layer.matte_mode) end
+  if layer.matte then object = masks.matte(object, layer.matte.show(t), layer.matte_mode) end
   if object and layer.mode ~= "normal" then object = object:blend(layer.mode) end
   return object
+end
+
+--- The same as a function, which keeps its last value: many layers may have the same matte.
+local function shower(layer)
+  return paint.memo(true, function(t)
+    local good, object = pcall(picture, layer, t)
+    if good then return object end
+    layer.scope.note(("it cannot be drawn at frame %g: %s"):format(t, tostring(object)))
+  end)
 end
 
 -- ---------------------------------------------------------------- a composition
@@ -173,7 +166,29 @@ local function open(scope, list)
   return opened, by_index
 end
 
---- Finds the matte of each layer, and leaves out what is hidden.
+--- Counts the mattes of mattes behind each layer, and cuts circles and what is too deep.
+--- `mattes` of a layer is nil before the first visit, and false during it.
+local function count_mattes(layer)
+  local way = {}
+  while layer and layer.mattes == nil do
+    layer.mattes, way[#way + 1] = false, layer
+    layer = layer.matte
+  end
+  if layer and layer.mattes == false then
+    way[#way].scope.note "its mattes form a circle; it has none"
+    way[#way].matte, layer = nil, nil
+  end
+  local count = layer and layer.mattes + 1 or 0
+  for i = #way, 1, -1 do
+    if count > MOST_MATTES then
+      way[i].scope.note(("more than %d mattes of mattes; it has none"):format(MOST_MATTES))
+      way[i].matte, count = nil, 0
+    end
+    way[i].mattes, count = count, count + 1
+  end
+end
+
+--- Finds the matte of each layer.
 local function pair(opened, by_index)
   for i, layer in ipairs(opened) do
     local item = layer.item
@@ -181,16 +196,11 @@ local function pair(opened, by_index)
     if mode >= 1 and mode <= 4 then
       layer.matte = item.tp ~= nil and by_index[item.tp] or opened[i - 1]
       layer.matte_mode = mode
-      if layer.matte then layer.matte.is_matte = true end
     end
   end
+  for _, layer in ipairs(opened) do count_mattes(layer) end
   for _, layer in ipairs(opened) do
-    local one, count = layer, 0
-    while one and count <= #opened do one, count = one.matte, count + 1 end
-    if one then
-      layer.scope.note "its mattes form a circle; it has none"
-      layer.matte = nil
-    end
+    if layer.matte then layer.matte.is_matte = true end
   end
 end
 
@@ -200,6 +210,7 @@ local function composition(scope, list)
   pair(opened, by_index)
   local has_modes = false
   for _, layer in ipairs(opened) do
+    layer.show = shower(layer)
     if not layer.is_hidden or layer.is_matte then compile(layer, by_index) end
     layer.is_drawn = layer.get and not layer.is_hidden and not layer.is_matte
       and not values.flag(layer.item.td)
@@ -209,7 +220,7 @@ local function composition(scope, list)
     local objects = {}
     for i = #opened, 1, -1 do
       local layer = opened[i]
-      if layer.is_drawn then objects[#objects + 1] = show_whole(layer, t) end
+      if layer.is_drawn then objects[#objects + 1] = layer.show(t) end
     end
     if #objects == 0 then return nil end
     if has_modes then objects.isolate = true end

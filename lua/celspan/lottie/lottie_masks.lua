@@ -8,6 +8,8 @@ local values = require "celspan.lottie_values"
 local masks = {}
 
 local FAR = 1e5 -- units: beyond every layer
+local MOST_STEPS = 20 -- of masks of different modes: each nests the others one level deeper
+local MOST_DIFFERENCES = 6 -- each doubles what is drawn
 
 local function everywhere() return celspan.rect { -FAR, -FAR, 2 * FAR, 2 * FAR,
   texture = "#fff" } end
@@ -46,54 +48,80 @@ local function compile_one(scope, item)
     end
     return shape and (share < 1 and shape:fade(math.max(0, share)) or shape)
   end)
-  return { get = get, moves = moves, mode = item.mode or "a" }
+  return get, moves
 end
 
 local function without(a, b) return celspan.matte(a, b, { invert = true }) end
 
---- Two masks as one, by the mode of the second.
+--- The area before a mask, or several of one mode, and theirs as one, by the mode.
 local combine = {
   a = function(before, one) return celspan.group { before, one } end,
   s = without,
   i = function(before, one) return celspan.matte(before, one) end,
   f = function(before, one) return celspan.group { without(before, one), without(one, before) } end,
 }
-combine.d, combine.l = combine.i, combine.a -- of areas, the lesser and the greater
+local same = { d = "i", l = "a" } -- of areas, the lesser and the greater
 
 --- The first mask: what is subtracted is subtracted from everything.
-local function begin(one, shape)
-  if one.mode == "s" then return shape and without(everywhere(), shape) or everywhere() end
+local function begin(mode, shape)
+  if mode == "s" then return shape and without(everywhere(), shape) or everywhere() end
   return shape
 end
 
-local function join(one, before, shape)
+local function join(mode, before, shape)
   if not shape then
-    if one.mode == "i" or one.mode == "d" then return nil end
+    if mode == "i" then return nil end
     return before
   end
   if not before then
-    if one.mode == "s" or one.mode == "i" or one.mode == "d" then return nil end
+    if mode == "s" or mode == "i" then return nil end
     return shape
   end
-  return (combine[one.mode] or combine.a)(before, shape)
+  return combine[mode](before, shape)
+end
+
+--- The masks of a layer in steps: those that are added, or subtracted, one after the other are one.
+local function steps_of(scope, given)
+  local steps, moves, differences = {}, false, 0
+  for _, one in ipairs(values.items(given)) do
+    local own = scope.within((".masksProperties[%d]"):format(one[1] - 1), one[2].nm)
+    local mode = same[one[2].mode] or combine[one[2].mode] and one[2].mode or "a"
+    local last = steps[#steps]
+    if one[2].mode ~= "n" and not values.flag(one[2].hd) then
+      local is_new = not last or last.mode ~= mode or mode == "i" or mode == "f"
+      if mode == "f" then differences = differences + 1 end
+      if is_new and #steps == MOST_STEPS or differences > MOST_DIFFERENCES then
+        own.note("its layer has too many masks of several modes; this one and those after it are "
+          .. "left out")
+        break
+      end
+      if is_new then
+        last = { mode = mode }
+        steps[#steps + 1] = last
+      end
+      local get, is_moving = compile_one(own, one[2])
+      last[#last + 1], moves = get, moves or is_moving
+    end
+  end
+  return steps, moves
+end
+
+--- The shape of a step at a frame; nil: nothing.
+local function shape_of(step, t)
+  local shapes = {}
+  for _, get in ipairs(step) do shapes[#shapes + 1] = get(t) end
+  return #shapes > 1 and celspan.group(shapes) or shapes[1]
 end
 
 --- Puts an object behind the masks of its layer.
 ---@return (fun(t: number, object: any): any)? mask nil: there are no masks
 ---@return boolean moves
 function masks.compile(scope, given)
-  local list, moves = {}, false
-  for _, one in ipairs(values.items(given)) do
-    local own = scope.within((".masksProperties[%d]"):format(one[1] - 1), one[2].nm)
-    if one[2].mode ~= "n" and not values.flag(one[2].hd) then
-      local mask = compile_one(own, one[2])
-      list[#list + 1], moves = mask, moves or mask.moves
-    end
-  end
-  if #list == 0 then return nil, false end
+  local steps, moves = steps_of(scope, given)
+  if #steps == 0 then return nil, false end
   local shape = paint.memo(moves, function(t)
-    local made = begin(list[1], list[1].get(t))
-    for i = 2, #list do made = join(list[i], made, list[i].get(t)) end
+    local made = begin(steps[1].mode, shape_of(steps[1], t))
+    for i = 2, #steps do made = join(steps[i].mode, made, shape_of(steps[i], t)) end
     return made
   end)
   return function(t, object)

@@ -121,7 +121,7 @@ local function shape_of(is_radial, from, to, share, degrees)
 end
 
 local function gradient(scope, item, what)
-  local colours = values.table(item.g) or {}
+  local colours = scope.root.gradient(values.table(item.g) or {})
   local count = math.min(MOST_STOPS, math.max(0, math.floor(values.number(colours.p, 0))))
   local moves = false
   local function read(how, ...)

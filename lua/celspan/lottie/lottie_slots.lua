@@ -2,6 +2,8 @@
 --
 --   "slots": { "tint": { "p": { "a": 0, "k": [1, 0, 0] } } }       and { "sid": "tint" } in layers
 local celspan = require "celspan"
+local core = require "celspan.core"
+local ordered = require "celspan.ordered"
 local source = require "celspan.lottie_source"
 local values = require "celspan.lottie_values"
 
@@ -40,22 +42,32 @@ local kinds = {
   text = { shown = "a text", read = function(value) return values.text(value) end },
 }
 
---- The text document of a slot with other words.
-local function with_words(property, words)
+--- The documents of a text: keys { t =, s = }.
+local function documents(property)
   local k = values.table(property) and values.table(property.k)
+  if k and k[1] == nil and values.table(k.s) then return { { 1, k } } end
+  return values.items(k)
+end
+
+--- A document with other words.
+local function reworded(document, words)
+  local copy = {}
+  for name, value in pairs(values.table(document) or {}) do copy[name] = value end
+  copy.t = words
+  return copy
+end
+
+--- The text of a slot with other words.
+local function with_words(property, words)
   local keys = {}
-  for i, one in ipairs(values.items(k)) do
-    local s = {}
-    for name, value in pairs(values.table(one[2].s) or {}) do s[name] = value end
-    s.t = words
-    keys[i] = { t = one[2].t, s = s }
+  for i, one in ipairs(documents(property)) do
+    keys[i] = { t = one[2].t or 0, s = reworded(one[2].s, words) }
   end
   return { k = #keys > 0 and keys or words }
 end
 
---- Sets a slot to a value; a message if it is of another kind.
-local function set_one(list, name, value)
-  local slot = list[name]
+--- Sets a slot to a value from outside; a message if it is of another kind.
+local function set_one(slot, name, value)
   local kind = kinds[slot.kind]
   local read = kind and kind.read(value)
   if read == nil or read == false then
@@ -81,8 +93,8 @@ local function kind_of(property)
   return (#k == 3 or #k == 4) and "colour" or #k > 4 and "gradient" or nil
 end
 
---- The slots of a document: { property =, kind = } by id. The kind is that of
---- the property that uses a slot; until then it is guessed from the value.
+--- The slots of a document: { property =, kind = } by id. The kind is that of the first property
+--- that uses a slot, and is guessed from the value where none does.
 function slots.read(document)
   local list = {}
   for name, slot in pairs(values.table(document.slots) or {}) do
@@ -91,16 +103,6 @@ function slots.read(document)
     end
   end
   return list
-end
-
---- A function that finds the property of a slot for those that name it.
-function slots.finder(list)
-  return function(name, kind)
-    local slot = type(name) == "string" and list[name]
-    if not slot then return nil end
-    slot.kind = kind
-    return slot.property
-  end
 end
 
 --- The value that a slot has without a setting: a colour as "#rrggbb", a number, a list or a text;
@@ -143,64 +145,129 @@ local function gradient_of(value)
   return table.move(alphas, 1, #alphas, #list + 1, list)
 end
 
+--- What a rule of a theme says at one time, as a property of the slot's kind has it.
+local function meant(slot, value)
+  if slot.kind == "text" then
+    local words = values.table(value) and value.text or value
+    local first = documents(slot.property)[1]
+    return reworded(first and first[2].s, values.text(words, ""))
+  end
+  if slot.kind ~= "gradient" or not values.table(value) then return value end
+  slot.count = #values.items(value)
+  return gradient_of(value)
+end
+
 --- The keys of a rule; theirs are { frame =, value =, inTangent =, outTangent =, hold = }.
-local function keys_of(list)
+local function keys_of(slot, list)
   local keys = {}
   for i, one in ipairs(values.items(list)) do
     local key = one[2]
-    local value = key.value
+    local value = meant(slot, key.value)
     keys[i] = { t = values.number(key.frame, 0), s = values.table(value) or { value },
                 h = values.flag(key.hold) and 1 or 0, i = key.inTangent, o = key.outTangent }
   end
   return keys
 end
 
---- Applies the rules of a theme.
-local function apply(list, rules)
+--- Gives a slot the property that its rule and its setting say, when its kind is known.
+local function settle(slot, name)
+  local rule = slot.rule
+  slot.is_settled = true
+  if rule and values.table(rule.keyframes) then
+    slot.property = { a = 1, k = keys_of(slot, rule.keyframes) }
+  elseif rule and slot.kind == "text" then
+    slot.property = with_words(slot.property, meant(slot, rule.value).t)
+  elseif rule and rule.value ~= nil then
+    slot.property = { k = meant(slot, rule.value) }
+  end
+  if slot.given ~= nil then slot.wrong = set_one(slot, name, slot.given) end
+end
+
+--- A function that finds the property of a slot for those that name it.
+function slots.finder(list)
+  return function(name, kind)
+    local slot = type(name) == "string" and list[name]
+    if not slot then return nil end
+    if not slot.is_settled then
+      slot.kind = kind or "path"
+      settle(slot, name)
+    end
+    return slot.property
+  end
+end
+
+--- A function that finds the colours of a gradient, { p = their number, k = }, which may be a slot.
+function slots.gradients(list)
+  local find = slots.finder(list)
+  return function(given)
+    local k = values.table(given.k)
+    local name = given.sid or k and k.sid
+    local property = values.table(find(name, "gradient"))
+    if not property then return given end
+    local own = values.table(property.k)
+    if own and own.k ~= nil then return { p = property.p or given.p, k = own } end
+    return { p = list[name].count or given.p, k = property }
+  end
+end
+
+--- Settles what no property uses. Returns a message if a value is of another kind than its slot.
+---@return string? message
+function slots.finish(list)
+  for _, name in ipairs(ordered.names(list)) do
+    local slot = list[name]
+    if not slot.is_settled then settle(slot, name) end
+    if slot.wrong then return slot.wrong end
+  end
+end
+
+--- Whether a rule is for this animation of the file.
+local function is_for(rule, id)
+  local list = values.table(rule.animations)
+  if not list or list[1] == nil then return true end
+  for _, one in ipairs(list) do
+    if one == id then return true end
+  end
+  return false
+end
+
+--- Keeps the rules of a theme until the kinds of their slots are known.
+local function keep(list, rules, id, note)
   for _, one in ipairs(rules) do
-    local rule, slot = one[2], list[one[2].id]
-    if slot and values.table(rule.keyframes) then
-      slot.property = { a = 1, k = keys_of(rule.keyframes) }
-    elseif slot and rule.type == "Gradient" then
-      slot.property = { k = gradient_of(rule.value) }
-    elseif slot and slot.kind == "text" and values.table(rule.value) then
-      slot.property = with_words(slot.property, values.text(rule.value.text, ""))
-    elseif slot and slot.kind == "text" then
-      slot.property = with_words(slot.property, values.text(rule.value, ""))
-    elseif slot and rule.value ~= nil then
-      slot.property = { k = rule.value }
+    local rule = one[2]
+    local slot = type(rule.id) == "string" and list[rule.id]
+    if slot and is_for(rule, id) then
+      slot.rule = rule
+      if rule.expression ~= nil then
+        note(("the theme's rule for '%s' has an expression, which is not run"):format(rule.id))
+      end
+    elseif is_for(rule, id) then
+      note(("the theme has a rule for '%s', which is no slot of the animation"):format(
+        values.name(rule.id, "?")))
     end
   end
 end
 
-local function sorted(list)
-  local names = {}
-  for name in pairs(list) do names[#names + 1] = name end
-  table.sort(names)
-  return names
-end
-
---- Applies a theme, then values by slot. Returns a message if one of them is unknown.
+--- Keeps the rules of a theme, then values by slot. Returns a message if one of them is unknown.
 ---@param found table As source.open returns it
 ---@param list table<string, table>
 ---@param theme? string
 ---@param set? table<string, any>
+---@param note fun(what: string)
 ---@return string? message
-function slots.apply(found, list, theme, set)
+function slots.apply(found, list, theme, set, note)
   if theme and theme ~= "" then
     local rules, message = source.theme(found, theme)
     if not rules then return message end
-    apply(list, rules)
+    keep(list, rules, found.id, note)
   end
-  for _, name in ipairs(sorted(set or {})) do
+  for _, name in ipairs(ordered.names(set or {})) do
     if not list[name] then
-      local names = sorted(list)
-      local hint = require "celspan.core".nearest(name, names)
+      local names = ordered.names(list)
+      local hint = core.nearest(name, names)
       return ("there is no slot '%s'%s"):format(name, hint and ("; did you mean '%s'?"):format(hint)
         or #names > 0 and "; there are " .. table.concat(names, ", ") or "")
     end
-    local message = set_one(list, name, set[name])
-    if message then return message end
+    list[name].given = set[name]
   end
 end
 

@@ -65,14 +65,14 @@ local function open_archive(path, found_at)
   local document
   document, problem = decode(text, ("%s: %s.json"):format(path, entry.id))
   if document == nil then return nil, problem end
-  return { document = document, archive = found_at, themes = ids(manifest.themes),
+  return { document = document, archive = found_at, id = entry.id, themes = ids(manifest.themes),
            states = ids(values.table(manifest.stateMachines) or manifest.states),
            theme = values.text(entry.initialTheme) or values.text(entry.defaultTheme) }
 end
 
 --- The document of a file; archive: its path, if it is one.
 ---@param path string
----@return table? found { document, archive, folder, themes, states, theme }
+---@return table? found { document, archive, id, folder, themes, states, theme }
 ---@return string? message
 function source.open(path)
   local text, message = files.read_found(path, json.most_bytes)

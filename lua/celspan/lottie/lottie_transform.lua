@@ -9,6 +9,8 @@ local values = require "celspan.lottie_values"
 local transform = {}
 
 local MOST_SKEW = 85 -- degrees; as in After Effects
+local STEP = 0.01 -- frames, between the places that give the direction of a way
+local MOST_TRIES = 20 -- keys at which a layer that stands still may have moved
 
 --- First the skew, then the rotation.
 local function turned(degrees, skew, axis)
@@ -50,10 +52,45 @@ local function note_depth(scope, given)
   end
 end
 
---- The angle of the way of a position at a frame, degrees.
-local function heading(position, t)
-  local before, after = position(t - 0.01), position(t + 0.01)
-  return math.deg(math.atan(after[2] - before[2], after[1] - before[1]))
+--- Adds the times of the keys of a property.
+local function add_times(given, times)
+  local keys = values.items(values.table(given) and given.k)
+  for _, one in ipairs(keys) do
+    if type(one[2].t) == "number" then times[#times + 1] = values.number(one[2].t, 0) end
+  end
+end
+
+--- The times of all keys of a position, which may have a property for each axis.
+local function times_of(given)
+  local times = {}
+  add_times(given, times)
+  if values.table(given) then
+    add_times(given.x, times)
+    add_times(given.y, times)
+  end
+  table.sort(times)
+  return times
+end
+
+--- The angle of the way of a position at a frame, degrees; nil: it stands still.
+local function angle_at(position, t)
+  local before, after = position(t - STEP), position(t + STEP)
+  local x, y = after[1] - before[1], after[2] - before[2]
+  return (x ~= 0 or y ~= 0) and math.deg(math.atan(y, x)) or nil
+end
+
+--- The same; where it stands still, that of the way before, or else of the way after.
+local function heading(position, times, t)
+  local angle = angle_at(position, t)
+  local last = #times
+  while last > 0 and times[last] > t do last = last - 1 end
+  for i = last, math.max(1, last - MOST_TRIES), -1 do
+    angle = angle or angle_at(position, times[i] - STEP)
+  end
+  for i = last + 1, math.min(#times, last + MOST_TRIES) do
+    angle = angle or angle_at(position, times[i] + STEP)
+  end
+  return angle or 0
 end
 
 --- given: the fields a, p, s, r or rz, sk, sa. follows: whether it turns with its way.
@@ -70,13 +107,13 @@ function transform.read(scope, given, follows)
   note_depth(scope, given)
   local anchor = read(property.list, given.a, "the anchor", { 0, 0 })
   local position = read(property.point, given.p, "the position")
-  local follow = follows and moves
+  local times = follows and moves and times_of(values.table(given.p))
   local scale = read(property.list, given.s, "the scale", { 100, 100 })
   local degrees = read(property.number, given.rz or given.r, "the rotation", 0)
   local skew = read(property.number, given.sk, "the skew", 0)
   local axis = read(property.number, given.sa, "the axis of the skew", 0)
   return paint.memo(moves, function(t)
-    local turn = degrees(t) + (follow and heading(position, t) or 0)
+    local turn = degrees(t) + (times and heading(position, times, t) or 0)
     return transform.map(position(t), anchor(t), scale(t), turn, skew(t), axis(t))
   end), moves
 end
