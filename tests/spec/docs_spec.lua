@@ -12,6 +12,7 @@
 --            and, after `cd FOLDER`, in that folder
 --   ```c     a part of one of the programs in examples/
 local celspan = require "celspan"
+local lotties = require "tests.support.lotties"
 local markdown = require "tests.support.markdown"
 local pictures = require "docs.pictures.list"
 local present = require "tests.support.present"
@@ -31,10 +32,21 @@ for path in system.output("ls docs/*.md"):gmatch "[^\n]+" do pages[#pages + 1] =
 
 local folder
 
+--- What `zip -r NAME.lottie` makes of a folder of the examples; zip is not installed everywhere.
+local function pack(name)
+  local members = {}
+  local names = system.output(("cd %s/%s && find . -type f | sort"):format(folder, name))
+  for file in names:gmatch "%./([^\n]+)" do
+    members[#members + 1] = { file, markdown.read(("%s/%s/%s"):format(folder, name, file)) }
+  end
+  system.write(("%s/%s.lottie"):format(folder, name), lotties.archive(members))
+end
+
 setup(function()
   folder = os.tmpname()
   os.remove(folder)
-  assert(os.execute(("mkdir -p %s/bin && ln -s %s %s/bin/celspan"):format(folder, BINARY, folder)))
+  assert(os.execute(("mkdir -p %s/bin %s/card/a %s/card/t && ln -s %s %s/bin/celspan"):format(
+    folder, folder, folder, BINARY, folder)))
   assert(os.execute(("cp -r %s/scripts/pictures %s/scripts/drawings %s/scripts/type "
     .. "%s/scripts/paintings "
     .. "%s/scripts/demo/line.tsv %s/"):format(root, root, root, root, root, folder)))
@@ -43,6 +55,7 @@ setup(function()
       return block.language == "lua" and block.name or block.language == "text"
     end)
   end
+  pack "card"
 end)
 
 teardown(function() os.execute("rm -r " .. folder) end)
