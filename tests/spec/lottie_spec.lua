@@ -64,6 +64,8 @@ describe("an animation", function()
     local film = art:film()
     assert.same({ 5, 5, 25 }, { film.frames, film.first, film.fps })
     assert.same(6, film.marks.go)
+    film = read({}, { markers = { { tm = 1, cm = "2:a\r" }, { tm = 2, cm = " b, c " } } }):film()
+    assert.same({ 1, 2 }, { film.marks["m2_a"], film.marks["b_ c"] })
   end)
 
   it("refuses what is no number, and what is unknown", function()

@@ -20,6 +20,8 @@ local values = require "celspan.lottie_values"
 
 local lottie = {}
 
+local MOST_MARKERS = 100000 -- as a film has marks
+
 ---@class celspan.lottie.art
 ---@field size number[] Width and height, in units
 ---@field fps number
@@ -66,6 +68,12 @@ function Art:at(frame)
   end)
 end
 
+--- The name of a marker as that of a mark, which begins with no digit and has no comma or colon.
+local function mark_name(name)
+  local made = name:gsub("[,:]", "_"):gsub("^%s+", ""):gsub("%s+$", "")
+  return made:find "^[^%d%-]" and made or "m" .. made
+end
+
 --- The animation as a film in sRGB codes. Its frames have the numbers of the animation's own count.
 ---@return celspan.film film
 function Art:film()
@@ -74,7 +82,7 @@ function Art:film()
   local marks = {}
   for _, marker in ipairs(self.markers) do
     local frame = math.floor(marker[2] + 0.5)
-    if frame >= first and frame < self.last then marks[marker[1]] = frame end
+    if frame >= first and frame < self.last then marks[mark_name(marker[1])] = frame end
   end
   local size = { math.ceil(self.size[1]), math.ceil(self.size[2]) }
   return celspan.film {
@@ -101,9 +109,14 @@ local function assets_of(root, document)
   return assets
 end
 
-local function markers_of(document)
+local function markers_of(root, document)
   local markers = {}
   for i, one in ipairs(values.items(document.markers)) do
+    if i > MOST_MARKERS then
+      root.scope.note(("there are more than %d markers; the others are left out"):format(
+        MOST_MARKERS))
+      break
+    end
     local from = values.number(one[2].tm, 0)
     markers[i] = { values.name(one[2].cm, "marker"), from, from + values.number(one[2].dr, 0) }
   end
@@ -144,7 +157,7 @@ local function compile(found, root, facts, list)
   note_pictures(root)
   if #found.states > 0 then root.scope.note "its state machines are not run" end
   local art = setmetatable({ size = { facts.width, facts.height }, fps = facts.fps,
-    first = facts.first, last = facts.last, markers = markers_of(document),
+    first = facts.first, last = facts.last, markers = markers_of(root, document),
     themes = found.themes, states = found.states, sounds = root.sounds, skipped = root.skipped },
     Art)
   compiled[art] = { get = get, note = root.scope.note }
