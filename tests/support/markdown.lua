@@ -18,7 +18,7 @@ function markdown.blocks(path)
       open.text = table.concat(open, "\n") .. "\n"
       open.name = open.text:match "^%-%- (%w[%w_]*)%.lua[:\n]"
       open.options = open.text:match "^%-%- [^\n]*(%-%-allow%-system%-fonts)" or ""
-      open.file = open.name and open.name .. ".lua" or above:match "`([%w_./-]+)`:$"
+      open.file = open.name and open.name .. ".lua" or above:match "`([%w_.-]+)`:$"
       blocks[#blocks + 1] = open
       open, above = nil, ""
     elseif open then
