@@ -10,10 +10,10 @@ local RED, NONE = "ff0000 255", "000000 0"
 
 teardown(function() bench:remove() end)
 
---- A square of half the size beside the pen.
+--- A square of half the size beside the pen. Its outline is open, as some files have it.
 local function square()
   local none = { { 0, 0 }, { 0, 0 }, { 0, 0 }, { 0, 0 } }
-  return { ty = "gr", it = { { ty = "sh", ks = { k = { c = true, i = none, o = none,
+  return { ty = "gr", it = { { ty = "sh", ks = { k = { c = false, i = none, o = none,
     v = { { 0, -50 }, { 50, -50 }, { 50, 0 }, { 0, 0 } } } } } } }
 end
 local with = { chars = { { ch = "I", fFamily = "F", style = "R", size = 10, w = 100,
@@ -54,8 +54,9 @@ describe("animators", function()
       .. "about its middle" }, read({}, { m = { g = 2, a = still { 0, 0 } } }).skipped)
   end)
 
-  it("end strokes of letters in corners", function()
+  it("end strokes of letters in corners, also where an outline is open", function()
     local art = read { sc = { 0, 0, 1 }, sw = 4 }
+    assert.same("0000ff 255", at(art, 0, 49, 45))
     assert.same("0000ff 255", at(art, 0, 48.2, 38.2)) -- a round join would leave it clear
   end)
 end)

@@ -2,6 +2,7 @@
 --
 --   position * rotation * skew * scale * -anchor
 local affine = require "celspan.affine"
+local ordered = require "celspan.ordered"
 local paint = require "celspan.lottie_paint"
 local property = require "celspan.lottie_property"
 local values = require "celspan.lottie_values"
@@ -82,8 +83,7 @@ end
 --- The same; where it stands still, that of the way before, or else of the way after.
 local function heading(position, times, t)
   local angle = angle_at(position, t)
-  local last = #times
-  while last > 0 and times[last] > t do last = last - 1 end
+  local last = ordered.last(times, t)
   for i = last, math.max(1, last - MOST_TRIES), -1 do
     angle = angle or angle_at(position, times[i] - STEP)
   end
