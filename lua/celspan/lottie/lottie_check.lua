@@ -62,7 +62,7 @@ local function examine(document, assets)
                   fps = number(document, "fr", 1e-3, 1000) }
   local first, last = number(document, "ip", -MOST_FRAMES, MOST_FRAMES),
     number(document, "op", -MOST_FRAMES, MOST_FRAMES)
-  facts.first, facts.last = math.floor(first * 1e6 + 0.5) / 1e6, math.floor(last * 1e6 + 0.5) / 1e6
+  facts.first, facts.last = values.frame(first, first), values.frame(last, last)
   if facts.last <= facts.first then
     error({ message = ("op is %.14g; it must be after ip, %.14g"):format(last, first) }, 0)
   end

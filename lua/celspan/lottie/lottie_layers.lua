@@ -31,7 +31,7 @@ contents[0] = function(scope, item)
     scope.note(message)
     return nil
   end
-  local start, stretch = values.number(item.st, 0), values.number(item.sr, 1)
+  local start, stretch = values.frame(item.st, 0), values.number(item.sr, 1)
   local remap = values.table(item.tm) and property.number(scope, item.tm, "the time", 0)
   local w, h = values.number(item.w, 0), values.number(item.h, 0)
   local frame = celspan.rect { 0, 0, math.max(0, w), math.max(0, h) }
@@ -89,13 +89,11 @@ local function placing(layer, by_index, seen)
   local parent = item.parent ~= nil and by_index[item.parent]
   seen = seen or {}
   seen[#seen + 1], seen[layer] = layer, true
-  local is_wrong = parent and (seen[parent] or #seen > MOST_PARENTS)
-  local outer, moves_outer
-  if parent and not is_wrong then outer, moves_outer = placing(parent, by_index, seen) end
-  layer.depth = outer and parent.depth + 1 or 0
-  if is_wrong or layer.depth > MOST_PARENTS then
+  if parent and not seen[parent] and #seen < MOST_PARENTS then placing(parent, by_index, seen) end
+  layer.depth = parent and (parent.depth or MOST_PARENTS) + 1 or 1
+  if layer.depth > MOST_PARENTS then
     scope.note "its parents form a circle, or are too many; it has none"
-    outer, layer.depth = nil, 0
+    parent, layer.depth = nil, 1
   end
   if outer then
     local inner = own
@@ -155,8 +153,8 @@ local function open(scope, list)
   for _, one in ipairs(values.items(list)) do
     local item = one[2]
     local own = scope.within(("[%d]"):format(one[1] - 1), item.nm)
-    local layer = { item = item, scope = own, first = values.number(item.ip, 0),
-                    last = values.number(item.op, 1e7), is_hidden = values.flag(item.hd) }
+    local layer = { item = item, scope = own, first = values.frame(item.ip, 0),
+                    last = values.frame(item.op, 1e7), is_hidden = values.flag(item.hd) }
     local mode = values.number(item.bm, 0)
     layer.mode = modes[mode] or "normal"
     if not modes[mode] then own.note(("the mode %g is shown as normal"):format(mode)) end

@@ -39,6 +39,19 @@ local function ease_of(key)
   return ease(("bezier:%.14g,%.14g,%.14g,%.14g"):format(x1, y1, x2, y2))
 end
 
+--- Whether a dimension that changes would have another ease than the first one.
+local function is_uneven(key, from, to)
+  for _, handle in ipairs { values.table(key.o) or {}, values.table(key.i) or {} } do
+    for _, axis in ipairs { "x", "y" } do
+      local list = values.table(handle[axis]) or {}
+      for i = 2, math.min(#list, #from, #to) do
+        if list[i] ~= list[1] and from[i] ~= to[i] then return true end
+      end
+    end
+  end
+  return false
+end
+
 -- ---------------------------------------------------------------- spatial curves
 
 --- A point of a cubic.
@@ -95,7 +108,7 @@ local function keys_of(list)
   for i = 1, math.min(#list, MOST_KEYS) do
     local key = values.table(list[i])
     if key and type(key.t) == "number" then
-      keys[#keys + 1] = { key = key, t = values.number(key.t, 0), place = i }
+      keys[#keys + 1] = { key = key, t = values.frame(key.t, 0), place = i }
     end
   end
   table.sort(keys, function(a, b) return a.t < b.t or a.t == b.t and a.place < b.place end)
@@ -106,8 +119,9 @@ local function has_value(given)
   return given ~= nil and (type(given) ~= "table" or values.table(given))
 end
 
---- The start and the end of every key; read: makes a value of what a key holds.
-local function segments_of(keys, read)
+--- The start and the end of every key; read: makes a value of what a key holds. note: takes what
+--- looks different.
+local function segments_of(keys, read, note)
   local list, before = {}, nil
   for i, one in ipairs(keys) do
     local key, after = one.key, keys[i + 1]
@@ -116,6 +130,9 @@ local function segments_of(keys, read)
       or after and has_value(after.key.s) and read(after.key.s) or from
     list[i] = { t = one.t, from = from, to = to, is_held = values.flag(key.h),
                 ease = ease_of(key), way = way_of(key, from, to) }
+    if after and is_uneven(key, from, to) then
+      note "has an ease for each dimension; the first is taken for all"
+    end
     before = to
   end
   return list
@@ -191,7 +208,8 @@ local function compile(scope, given, what, read, kind)
   local content = content_of(given)
   local keys = has_keys(content) and keys_of(content)
   if keys and #keys > 1 then
-    return animate(segments_of(keys, read)), true
+    local function note(text) scope.note(("%s %s"):format(what, text)) end
+    return animate(segments_of(keys, read, note)), true
   end
   if keys and keys[1] then content = has_value(keys[1].key.s) and keys[1].key.s or keys[1].key.e end
   local value = read(content)

@@ -16,6 +16,14 @@ function values.number(given, default)
   return given > MOST and MOST or given < -MOST and -MOST or given
 end
 
+--- A frame. Programs write 15.0000006 and mean 15, which would be another frame.
+---@param given any
+---@param default number
+---@return number
+function values.frame(given, default)
+  return math.floor(values.number(given, default) * 1e3 + 0.5) / 1e3
+end
+
 --- A list of `count` numbers; a single number stands for its first one.
 ---@param given any
 ---@param default number[]
