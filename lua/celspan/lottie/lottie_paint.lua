@@ -6,7 +6,7 @@ local values = require "celspan.lottie_values"
 
 local paint = {}
 
-local MIDDLES = 6 -- stops between two of different alpha, where colours are not premultiplied
+local MIDDLES = 6 -- stops between two of different colour and alpha, which are not premultiplied
 local MOST_STOPS = 500
 
 local function held(x) return x < 0 and 0 or x > 1 and 1 or x end
@@ -52,53 +52,79 @@ local function stops_of(list, first, count, size)
   return stops
 end
 
---- The values of stops at a place.
-local function between(stops, at, size)
-  local before, after = stops[1], stops[#stops]
-  for _, stop in ipairs(stops) do
-    if stop[1] <= at then before = stop else after = stop break end
+--- The values just before a place, and from it on. cursor: of places that only grow.
+local function sides(stops, cursor, at)
+  while stops[cursor.n + 1] and stops[cursor.n + 1][1] < at do cursor.n = cursor.n + 1 end
+  local function mixed(one, other)
+    if not one or not other then return one or other end
+    local u, values_of = (at - one[1]) / (other[1] - one[1]), {}
+    for i = 2, #one do values_of[i] = one[i] + u * (other[i] - one[i]) end
+    return values_of
   end
-  local gap = after[1] - before[1]
-  local u = gap > 0 and held((at - before[1]) / gap) or 0
-  local mixed = {}
-  for i = 2, size do mixed[i] = before[i] + u * (after[i] - before[i]) end
-  return mixed
+  local first, n = stops[cursor.n], cursor.n + 1
+  if not stops[n] or stops[n][1] > at then
+    local here = mixed(first, stops[n])
+    return here, here
+  end
+  local before = stops[n]
+  while stops[n + 1] and stops[n + 1][1] == at do n = n + 1 end
+  return before, stops[n]
 end
 
---- All places where the colour or the alpha has a stop, and some between them where the alpha
---- changes.
+local function differ(a, b)
+  for i = 2, #a do
+    if a[i] ~= b[i] then return true end
+  end
+  return false
+end
+
+--- All places where the colour or the alpha has a stop, each once.
 local function places_of(colours, alphas)
   local places, all = {}, {}
   for _, list in ipairs { colours, alphas } do
     for _, stop in ipairs(list) do places[#places + 1] = stop[1] end
   end
   table.sort(places)
-  for i, at in ipairs(places) do
-    all[#all + 1] = at
-    local after = places[i + 1]
-    for k = 1, #alphas > 0 and after and after > at and MIDDLES or 0 do
-      all[#all + 1] = at + (after - at) * k / (MIDDLES + 1)
-    end
+  for _, at in ipairs(places) do
+    if all[#all] ~= at then all[#all + 1] = at end
   end
   return all
+end
+
+--- Stops { at, colour, alpha } of colours and alphas that have stops of their own. Colours are
+--- mixed as they are and celspan mixes them times alpha, so there are some more where both change.
+--- Where one of them jumps there are two.
+local function join_stops(colours, alphas)
+  local list, of_colours, of_alphas = {}, { n = 0 }, { n = 0 }
+  local function add(at, c, a) list[#list + 1] = { at, c, a } end
+  for _, at in ipairs(places_of(colours, alphas)) do
+    local c, c_after = sides(colours, of_colours, at)
+    local a, a_after = sides(alphas, of_alphas, at)
+    local last = list[#list]
+    if last and differ(last[2], c) and differ(last[3], a) then
+      for k = 1, MIDDLES do
+        local u, colour = k / (MIDDLES + 1), {}
+        for i = 2, 4 do colour[i] = last[2][i] + u * (c[i] - last[2][i]) end
+        add(last[1] + u * (at - last[1]), colour, { 0, last[3][2] + u * (a[2] - last[3][2]) })
+      end
+    end
+    add(at, c, a)
+    if differ(c, c_after) or differ(a, a_after) then add(at, c_after, a_after) end
+  end
+  return list
 end
 
 --- Adds stops { at, paint } to the fields of a gradient. numbers: `count` times at, r, g, b; then
 --- at, alpha.
 local function add_stops(numbers, count, opacity, fields)
   local colours = stops_of(numbers, 1, count, 4)
-  local rest = #numbers - 4 * count
-  local alphas = rest >= 2 and stops_of(numbers, 4 * count + 1, rest // 2, 2) or {}
+  local rest = math.min(MOST_STOPS, math.max(0, (#numbers - 4 * count) // 2))
+  local alphas = stops_of(numbers, 4 * count + 1, rest, 2)
   if #colours == 0 then return false end
-  if #alphas == 0 then
-    for i, stop in ipairs(colours) do
-      fields[i] = { stop[1], paint.coded(stop[2], stop[3], stop[4], opacity) }
-    end
-    return true
-  end
-  for i, at in ipairs(places_of(colours, alphas)) do
-    local c, a = between(colours, at, 4), between(alphas, at, 2)
-    fields[i] = { at, paint.coded(c[2], c[3], c[4], a[2] * opacity) }
+  if #alphas == 0 then alphas = { { 0, 1 } } end
+  for i, stop in ipairs(join_stops(colours, alphas)) do
+    local c = stop[2]
+    fields[i] = { stop[1], paint.coded(c[2], c[3], c[4], stop[3][2] * opacity) }
   end
   return true
 end
