@@ -1,6 +1,5 @@
 --- Lottie animations for tests: documents written as tables, and dotLottie archives.
 local celspan = require "celspan"
-local lottie = require "celspan.lottie"
 local stored = require "tests.support.stored"
 
 local lotties = {}
@@ -61,22 +60,7 @@ function lotties.document(layers, fields)
   return document
 end
 
---- A reader for documents of layers and fields, which are written to a workbench.
----@return fun(layers: table[], fields?: table, options?: table): any art, string? message
----@return fun(what: string|table, ending?: string): string path
-function lotties.reader(bench)
-  local count = 0
-  local function write(what, ending)
-    count = count + 1
-    local text = type(what) == "table" and lotties.json(what) or what
-    return bench:write(("%d.%s"):format(count, ending or "json"), text)
-  end
-  return function(layers, fields, options)
-    return lottie.read(write(lotties.document(layers, fields)), options)
-  end, write
-end
-
---- The code of a point at a frame: "ff0000 255".
+--- The code of a point of an animation at a frame: "ff0000 255".
 function lotties.code(art, frame, x, y)
   local r, g, b, a = celspan.probe(celspan.rostrum { celspan.cel { art:at(frame) } }, x, y,
     { film = { 100, 100 } })

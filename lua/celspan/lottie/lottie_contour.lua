@@ -92,6 +92,35 @@ function contours.data(lists)
   return table.concat(parts)
 end
 
+--- Whether a cubic, six numbers before and after place k, is a straight line in even steps.
+local function is_side(c, k)
+  local size = math.abs(c[k + 7] - c[k + 1]) + math.abs(c[k + 8] - c[k + 2])
+  local function is_third(x, a, b) return math.abs(3 * x - 2 * a - b) <= 1e-6 * size end
+  return is_third(c[k + 3], c[k + 1], c[k + 7]) and is_third(c[k + 4], c[k + 2], c[k + 8])
+    and is_third(c[k + 5], c[k + 7], c[k + 1]) and is_third(c[k + 6], c[k + 8], c[k + 2])
+end
+
+--- The outline of a contour as core.anatomy gives it: a point, and six numbers for each cubic. Its
+--- straight sides get no handles.
+function contours.of_cubics(c)
+  local list, count = { closed = not c.open }, (#c - 2) // 6
+  for n = 0, count do
+    local k = 6 * n
+    for i = 1, 5, 2 do list[k + i], list[k + i + 1] = c[k + 1], c[k + 2] end
+  end
+  for k = 0, 6 * (count - 1), 6 do
+    if not is_side(c, k) then
+      list[k + 5], list[k + 6], list[k + 9], list[k + 10] = c[k + 3], c[k + 4], c[k + 5], c[k + 6]
+    end
+  end
+  local last = 6 * count
+  if list.closed and count > 0 and list[1] == list[last + 1] and list[2] == list[last + 2] then
+    list[3], list[4] = list[last + 3], list[last + 4]
+    for i = last + 6, last + 1, -1 do list[i] = nil end
+  end
+  return list
+end
+
 -- ---------------------------------------------------------------- forms
 
 local function add(list, x, y, ix, iy, ox, oy)

@@ -5,6 +5,8 @@
 -- A style paints the forms above it in its group, also those of groups above it. A change acts on
 -- the forms above it, for all styles: those above it, too.
 local celspan = require "celspan"
+local changes = require "celspan.lottie_changes"
+local forms = require "celspan.lottie_forms"
 local geometry = require "celspan.lottie_geometry"
 local paint = require "celspan.lottie_paint"
 local property = require "celspan.lottie_property"
@@ -15,6 +17,7 @@ local shapes = {}
 
 local MOST_COPIES = 10000 -- of a repeater
 local MOST_DASHES = 64
+local MOST_VERTICES = 2000000 -- that all styles of a file paint, each change of them counted again
 local caps = { "butt", "round", "square" }
 local joins = { "miter", "round", "bevel" }
 
@@ -25,7 +28,7 @@ local function fill(scope, item, one)
   local rule = item.r == 2 and "evenodd" or "nonzero"
   return paint.memo(moves or one.moves, function(t)
     local painted = texture(t)
-    return painted and geometry.fill(one, t, painted, rule)
+    return painted and geometry.draw(one, t, { texture = painted, rule = rule })
   end), moves or one.moves
 end
 
@@ -63,8 +66,9 @@ local function stroke(scope, item, one)
     local painted, wide = texture(t), width(t)
     if not painted or wide <= 0 then return nil end
     local list, offset = dash(t)
-    return geometry.stroke(one, t, { width = wide, cap = cap, join = join, miter = miter,
-      dash = list, dash_offset = list and offset or nil, texture = painted })
+    local line = { width = wide, cap = cap, join = join, miter = miter, dash = list,
+                   dash_offset = list and offset or nil }
+    return geometry.draw(one, t, { texture = painted, line = line })
   end), moves
 end
 
@@ -98,15 +102,11 @@ local function place(draw, map, opacity, moves)
   end) }
 end
 
---- The copies of a repeater: transform number k is the power k of its own.
-local function repeater(scope, item)
+--- The maps and the opacities of the copies of a repeater, the last in front, as functions of the
+--- frame. Transform number k is the power k of its own.
+local function copies(scope, item)
   local tr = values.table(item.tr) or {}
-  local moves = false
-  local function read(how, ...)
-    local get, is_moving = how(scope, ...)
-    moves = moves or is_moving
-    return get
-  end
+  local read, state = forms.reader(scope)
   local count, offset = read(property.number, item.c, "the copies", 0),
     read(property.number, item.o, "the offset", 0)
   local position, anchor = read(property.point, tr.p, "the position"),
@@ -119,27 +119,39 @@ local function repeater(scope, item)
     local size = math.abs(base / 100) ^ k
     return 100 * (base < 0 and math.floor(k) % 2 == 1 and -size or size)
   end
-  local function copy(object, t, i, n)
-    local k, p, s, a = i + offset(t), position(t), scale(t), anchor(t)
-    local map = transform.map({ a[1] + k * p[1], a[2] + k * p[2] }, a,
+  local function map_of(t, k)
+    local p, s, a = position(t), scale(t), anchor(t)
+    return transform.map({ a[1] + k * p[1], a[2] + k * p[2] }, a,
       { power(s[1], k), power(s[2], k) }, k * degrees(t), 0, 0)
-    local u = n > 1 and i / n or 0
-    local share = math.max(0, math.min(100, from(t) + u * (to(t) - from(t)))) / 100
-    if share == 0 then return nil end
-    object = transform.apply(object, map)
-    return share < 1 and celspan.group { object, opacity = share } or object
   end
-  return function(draw)
-    return { moves = moves or draw.moves, get = paint.memo(moves or draw.moves, function(t)
-      local object, n = draw.get(t), math.floor(math.min(MOST_COPIES, count(t)))
-      local copies = {}
-      for i = 0, object and n - 1 or -1 do
-        local k = item.m == 2 and i or n - 1 - i
-        copies[#copies + 1] = copy(object, t, k, n)
+  local function number(t) return math.max(0, math.floor(math.min(MOST_COPIES, count(t)))) end
+  local made = { moves = state.moves, most = math.max(1, number(scope.root.first)) }
+  made.maps = paint.memo(made.moves, function(t)
+    local n, maps, shares = number(t), {}, {}
+    for i = 1, n do
+      local k = item.m == 2 and i - 1 or n - i
+      local u = n > 1 and k / n or 0
+      maps[i] = map_of(t, k + offset(t))
+      shares[i] = math.max(0, math.min(100, from(t) + u * (to(t) - from(t)))) / 100
+    end
+    return { maps = maps, shares = shares }
+  end)
+  return made
+end
+
+--- The copies of a draw.
+local function repeat_draw(draw, made)
+  local moves = made.moves or draw.moves
+  return { moves = moves, get = paint.memo(moves, function(t)
+    local object, list, objects = draw.get(t), made.maps(t), {}
+    for i, share in ipairs(object and list.shares or {}) do
+      if share > 0 then
+        local copy = transform.apply(object, list.maps[i])
+        objects[#objects + 1] = share < 1 and celspan.group { copy, opacity = share } or copy
       end
-      return #copies > 0 and celspan.union(copies) or nil
-    end) }
-  end
+    end
+    return #objects > 0 and celspan.union(objects) or nil
+  end) }
 end
 
 -- ---------------------------------------------------------------- groups
@@ -155,7 +167,7 @@ local function sort_items(scope, list, pending)
     if item.ty == "tr" and not values.flag(item.hd) then
       tr = one
     elseif not values.flag(item.hd) then
-      one.change = geometry.change(own, item)
+      one.change = changes.read(own, item)
       if one.change then pending[#pending + 1] = one.change end
       sorted[#sorted + 1] = one
     end
@@ -165,19 +177,42 @@ end
 
 local compile
 
+--- Layers have modes; those of styles in them are not drawn.
+local function note_mode(one)
+  local mode = values.number(one.item.bm, 0)
+  if mode ~= 0 then one.scope.note(("its mode %g is shown as normal"):format(mode)) end
+end
+
+--- Whether this many more vertices can be painted; notes it if not.
+local function can_afford(scope, vertices)
+  local root = scope.root
+  root.vertices = (root.vertices or 0) + vertices
+  if root.vertices <= MOST_VERTICES then return true end
+  scope.note(("it is left out, because the file has more than %d vertices to paint"):format(
+    MOST_VERTICES))
+  return false
+end
+
 --- Adds a nested group: its picture, and its outlines for the styles that come after it.
 local function add_group(one, pending, list, draws)
   local nested = compile(one.scope.within ".it", one.item.it, pending)
   draws[#draws + 1] = nested.draw
-  for _, geo in ipairs(nested.geometries) do list[#list + 1] = geo end
+  for _, geo in ipairs(nested.geometries) do geometry.add(list, geo) end
 end
 
 local function add_style(one, pending, list, draws)
   local changed = list
-  if #list == 0 then return end
+  note_mode(one)
+  if #list == 0 or not can_afford(one.scope, list.size * (1 + #pending)) then return end
   for i = #pending, 1, -1 do changed = pending[i](changed) end
   local get, moves = styles[one.item.ty](one.scope, one.item, geometry.join(changed))
   draws[#draws + 1] = { get = get, moves = moves }
+end
+
+--- The outlines with a repeater's copies of them, for the styles that come after it.
+local function repeat_outlines(one, made, list)
+  if not can_afford(one.scope, list.size * made.most) then return list end
+  return geometry.copy(list, function(t) return made.maps(t).maps end, made.moves, made.most)
 end
 
 --- The transform of a group, on its picture and on its outlines.
@@ -198,22 +233,23 @@ end
 function compile(scope, given, pending)
   local base = #pending
   local sorted, tr = sort_items(scope, given, pending)
-  local list, draws = {}, {}
+  local list, draws = geometry.list(), {}
   for n = #sorted, 1, -1 do
     local one = sorted[n]
     local ty, item = one.item.ty, one.item
     local form = geometry.form(one.scope, item)
     if form then
-      list[#list + 1] = form
+      geometry.add(list, form)
     elseif one.change then
       pending[#pending] = nil
-      if #list > 0 then list = one.change(list) end
+      if #list > 0 and can_afford(one.scope, list.size) then list = one.change(list) end
     elseif ty == "gr" then
       add_group(one, pending, list, draws)
     elseif styles[ty] then
       add_style(one, pending, list, draws)
     elseif ty == "rp" then
-      draws = { repeater(one.scope, item)(draw_all(draws)) }
+      local made = copies(one.scope, item)
+      draws, list = { repeat_draw(draw_all(draws), made) }, repeat_outlines(one, made, list)
     elseif type(ty) == "string" and ty ~= "no" then
       one.scope.note(("'%s' is not known and is left out"):format(ty))
     end
