@@ -140,12 +140,24 @@ static celspan_status compose(celspan_context *context, celspan_object *object,
   return status;
 }
 
+/* The bounds of what is blurred. Means over pixels are 0 around the object, wherever the frame
+ * ends, so the outlines of its strokes need not be made. */
+static celspan_status blurred_bounds(celspan_context *context, celspan_object *object,
+                                     const celspan_blur_desc *desc, bool *is_there,
+                                     celspan_box *out) {
+  const celspan_matrix identity = celspan_matrix_identity();
+  if (desc->kernel != CELSPAN_DEFOCUS_PIXEL || desc->edge == CELSPAN_BLUR_EXTEND)
+    return cs_bounds_object(context, object, is_there, out);
+  *is_there = cs_bounds_around(&object, 1, &identity, out);
+  return CELSPAN_OK;
+}
+
 /* For an object without a mode. brightness: the factor of its light. */
 static celspan_status blur(celspan_context *context, celspan_object *object,
                            const celspan_blur_desc *desc, double brightness, celspan_object **out) {
   celspan_box box = {0};
   bool is_there;
-  CS_TRY(cs_bounds_object(context, object, &is_there, &box));
+  CS_TRY(blurred_bounds(context, object, desc, &is_there, &box));
   double extent =
       desc->radius * (desc->kernel == CELSPAN_DEFOCUS_GAUSSIAN ? EXTENT_GAUSSIAN : EXTENT);
   const bool extends = desc->edge == CELSPAN_BLUR_EXTEND;
