@@ -121,12 +121,32 @@ local function bezier_at(a, b, t)
   return 3 * s * s * t * a + 3 * s * t * t * b + t * t * t
 end
 
+local DEPTH, NEAR = 52, 44 -- halvings of 0..1 by bisection, and those that Newton's method saves
+
+--- The place that is u by Newton's method; of no use where the curve is nearly upright.
+local function guess(x1, x2, u)
+  local c, b = 3 * x1, 3 * (x2 - 2 * x1)
+  local a, t = 1 - c - b, u
+  for _ = 1, 5 do
+    t = t - (((a * t + b) * t + c) * t - u) / ((3 * a * t + 2 * b) * t + c)
+  end
+  return t
+end
+
 --- A curve through 0, 0 and 1, 1 with these inner control points. Finds y at the place where x is
---- u, by bisection.
+--- u, by bisection, which begins next to the guess if it is right.
 local function bezier_curve(x1, y1, x2, y2)
   return held(function(u)
-    local low, high = 0, 1
-    for _ = 1, 52 do
+    local low, high, halvings = 0, 1, DEPTH
+    local place = guess(x1, x2, u) * 2 ^ NEAR
+    if place > 0 and place < 2 ^ NEAR then
+      local from = math.floor(place) / 2 ^ NEAR
+      local to = from + 2 ^ -NEAR
+      if bezier_at(x1, x2, from) < u and bezier_at(x1, x2, to) >= u then
+        low, high, halvings = from, to, DEPTH - NEAR
+      end
+    end
+    for _ = 1, halvings do
       local middle = (low + high) / 2
       if bezier_at(x1, x2, middle) < u then low = middle else high = middle end
     end
