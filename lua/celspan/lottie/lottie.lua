@@ -11,6 +11,7 @@ local core = require "celspan.core"
 local fields = require "celspan.fields"
 local layers = require "celspan.lottie_layers"
 local letters = require "celspan.lottie_letters"
+local paint = require "celspan.lottie_paint"
 local pictures = require "celspan.lottie_pictures"
 local scope = require "celspan.lottie_scope"
 local slots = require "celspan.lottie_slots"
@@ -37,23 +38,27 @@ local Art = {}
 Art.__index = fields.reads("a Lottie animation", Art)
 Art.__name = "celspan.lottie"
 
---- Functions of the frame by animation, hidden from scripts.
+--- Pictures and blurred pictures by animation, both functions of the frame, hidden from scripts.
 local compiled = setmetatable({}, { __mode = "k" })
 
 -- ---------------------------------------------------------------- frames
 
---- The object of a frame, cut to the animation's frame; nothing where it cannot be drawn. finish:
---- changes it.
-local function picture(art, t, finish)
-  local own = compiled[art]
-  local good, object = pcall(function()
-    local whole = own.get(t)
-    whole = whole and celspan.clip(whole, celspan.rect { 0, 0, art.size[1], art.size[2] })
-    return whole and finish and finish(whole) or whole or celspan.union {}
+--- The object of a frame, cut to the animation's frame, and what `at` makes of it; nil: nothing.
+local function pictures_of(get, width, height)
+  local frame = celspan.rect { 0, 0, width, height }
+  local margin = math.max(width, height) / 64 -- more than a pixel, in all but icons
+  local cut = paint.keep(function(object) return celspan.clip(object, frame) end)
+  local averaged = paint.keep(function(object)
+    return celspan.group { object:blur(margin, { kernel = "pixel" }), space = "srgb" }
   end)
-  if good then return object end
-  own.note(("it cannot be drawn at frame %g: %s"):format(t, tostring(object)))
-  return celspan.union {}
+  local function picture(t)
+    local object = get(t)
+    return object and cut(object)
+  end
+  return { plain = picture, averaged = function(t)
+    local object = picture(t)
+    return object and averaged(object)
+  end }
 end
 
 --- The animation at a frame, also between two. Its colours are mixed as sRGB codes, and so are the
@@ -62,16 +67,7 @@ end
 ---@return celspan.object object
 function Art:at(frame)
   fields.check_at("lottie", Art, self, frame, "a frame")
-  local margin = math.max(self.size[1], self.size[2]) / 64 -- more than a pixel, in all but icons
-  return picture(self, frame, function(object)
-    return celspan.group { object:blur(margin, { kernel = "pixel" }), space = "srgb" }
-  end)
-end
-
---- The name of a marker as that of a mark, which begins with no digit and has no comma or colon.
-local function mark_name(name)
-  local made = name:gsub("[,:]", "_"):gsub("^%s+", ""):gsub("%s+$", "")
-  return made:find "^[^%d%-]" and made or "m" .. made
+  return compiled[self].averaged(frame) or celspan.union {}
 end
 
 --- The animation as a film in sRGB codes. Its frames have the numbers of the animation's own count.
@@ -90,7 +86,7 @@ function Art:film()
     frames = math.max(1, math.ceil(self.last) - first),
     sound = #self.sounds > 0 and self.sounds or nil,
     frame = function(f)
-      return celspan.rostrum { celspan.cel { picture(self, f.number) } }
+      return celspan.rostrum { celspan.cel { compiled[self].plain(f.number) or celspan.union {} } }
     end,
   }
 end
@@ -159,8 +155,8 @@ local function compile(found, root, facts, list)
   local art = setmetatable({ size = { facts.width, facts.height }, fps = facts.fps,
     first = facts.first, last = facts.last, markers = markers_of(root, document),
     themes = found.themes, states = found.states, sounds = root.sounds, skipped = root.skipped },
-    Art)
-  compiled[art] = { get = get, note = root.scope.note }
+      Art)
+  compiled[art] = pictures_of(get, facts.width, facts.height)
   return art
 end
 

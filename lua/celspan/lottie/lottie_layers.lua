@@ -24,6 +24,17 @@ local modes = { [0] = "normal", "multiply", "screen", "overlay", "darken", "ligh
 
 local contents = {}
 
+--- A function that cuts a composition to a frame, for all layers that show it.
+local function cutter(asset, w, h)
+  local key = ("%.9g %.9g"):format(w, h)
+  asset.cutters = asset.cutters or {}
+  if not asset.cutters[key] then
+    local frame = celspan.rect { 0, 0, math.max(0, w), math.max(0, h) }
+    asset.cutters[key] = paint.keep(function(object) return celspan.clip(object, frame) end)
+  end
+  return asset.cutters[key]
+end
+
 --- A composition inside: its frame, its speed and its own clock.
 contents[0] = function(scope, item)
   local comp, message = layers.asset(scope.root, item.refId)
@@ -33,12 +44,12 @@ contents[0] = function(scope, item)
   end
   local start, stretch = values.frame(item.st, 0), values.number(item.sr, 1)
   local remap = values.table(item.tm) and property.number(scope, item.tm, "the time", 0)
-  local w, h = values.number(item.w, 0), values.number(item.h, 0)
-  local frame = celspan.rect { 0, 0, math.max(0, w), math.max(0, h) }
+  local cut = cutter(scope.root.assets[item.refId], values.number(item.w, 0),
+    values.number(item.h, 0))
   if stretch == 0 then stretch = 1 end
   return function(t)
     local object = comp(remap and remap(t) * scope.root.fps or (t - start) / stretch)
-    return object and celspan.clip(object, frame)
+    return object and cut(object)
   end, true
 end
 
@@ -98,7 +109,8 @@ local function placing(layer, by_index, seen)
   if outer then
     local inner = own
     moves = moves or moves_outer
-    own = paint.memo(moves, function(t) return affine.compose(outer(t), inner(t)) end)
+    local both = paint.keep(affine.compose)
+    own = paint.memo(moves, function(t) return both(outer(t), inner(t)) end)
   end
   layer.map, layer.map_moves = own, moves
   return own, moves
@@ -115,15 +127,17 @@ local function compile(layer, by_index)
   local opacity, moves_opacity = property.number(scope, values.table(item.ks) and item.ks.o,
     "the opacity", 100)
   local name = values.name(item.nm, "layer")
+  local place = paint.keep(function(object, at, share)
+    object = transform.apply(object, at)
+    return (share < 1 and celspan.group { object, opacity = share } or object):named(name)
+  end)
   local all = moves or moves_map or moves_mask or moves_effects or moves_opacity
   layer.get = paint.memo(all, function(t)
     local share = math.min(100, opacity(t)) / 100
     local object = share > 0 and get(t) or nil
     if object and mask then object = mask(t, object) end
     if object and change then object = change(t, object) end
-    if not object then return nil end
-    object = transform.apply(object, map(t))
-    return (share < 1 and celspan.group { object, opacity = share } or object):named(name)
+    return object and place(object, map(t), share)
   end)
 end
 
@@ -132,8 +146,8 @@ local function picture(layer, t)
   if not layer.get or t < layer.first or t >= layer.last then return nil end
   local object = layer.get(t)
   if not object then return nil end
-  if layer.matte then object = masks.matte(object, layer.matte.show(t), layer.matte_mode) end
-  if object and layer.mode ~= "normal" then object = object:blend(layer.mode) end
+  if layer.matte then object = layer.cover(object, show_whole(layer.matte, t), layer.matte_mode) end
+  if object and layer.mode ~= "normal" then object = layer.blend(object, layer.mode) end
   return object
 end
 
@@ -157,6 +171,8 @@ local function open(scope, list)
                     last = values.frame(item.op, 1e7), is_hidden = values.flag(item.hd) }
     local mode = values.number(item.bm, 0)
     layer.mode = modes[mode] or "normal"
+    layer.cover = paint.keep(masks.matte)
+    layer.blend = paint.keep(function(object, by) return object:blend(by) end)
     if not modes[mode] then own.note(("the mode %g is shown as normal"):format(mode)) end
     opened[#opened + 1] = layer
     if item.ind ~= nil and by_index[item.ind] == nil then by_index[item.ind] = layer end
@@ -214,15 +230,18 @@ local function composition(scope, list)
       and not values.flag(layer.item.td)
     has_modes = has_modes or layer.is_drawn and layer.mode ~= "normal"
   end
+  local join = paint.keep_list(function(objects)
+    if #objects == 1 and not has_modes then return objects[1] end
+    objects.isolate = has_modes or nil
+    return celspan.group(objects)
+  end)
   return function(t)
     local objects = {}
     for i = #opened, 1, -1 do
       local layer = opened[i]
       if layer.is_drawn then objects[#objects + 1] = layer.show(t) end
     end
-    if #objects == 0 then return nil end
-    if has_modes then objects.isolate = true end
-    return #objects == 1 and not has_modes and objects[1] or celspan.group(objects)
+    return #objects > 0 and join(objects) or nil
   end
 end
 

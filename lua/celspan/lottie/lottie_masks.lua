@@ -124,9 +124,10 @@ function masks.compile(scope, given)
     for i = 2, #steps do made = join(steps[i].mode, made, shape_of(steps[i], t)) end
     return made
   end)
+  local cover = paint.keep(celspan.matte)
   return function(t, object)
     local by = shape(t)
-    return by and celspan.matte(object, by)
+    return by and cover(object, by)
   end, moves
 end
 

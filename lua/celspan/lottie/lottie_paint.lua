@@ -26,14 +26,44 @@ function paint.memo(moves, make)
   end
 end
 
+--- A function of up to six values that keeps its last result: while they are the same, so is the
+--- object that is made of them, and what celspan knows of it is found again.
+function paint.keep(make)
+  local a, b, c, d, e, f, value
+  return function(u, v, w, x, y, z)
+    if value == nil or u ~= a or v ~= b or w ~= c or x ~= d or y ~= e or z ~= f then
+      a, b, c, d, e, f = u, v, w, x, y, z
+      value = make(u, v, w, x, y, z)
+    end
+    return value
+  end
+end
+
+--- The same for a function of a list, which is compared item by item.
+function paint.keep_list(make)
+  local last, value
+  return function(list)
+    local is_same = last and #last == #list
+    for i = 1, is_same and #list or 0 do
+      if last[i] ~= list[i] then
+        is_same = false
+        break
+      end
+    end
+    if not is_same then last, value = list, make(list) end
+    return value
+  end
+end
+
 --- A texture, and whether it moves.
 local function plain(scope, item, what)
   local colour, moves_colour = property.colour(scope, item.c, what .. " colour")
   local opacity, moves_opacity = property.number(scope, item.o, what .. " opacity", 100)
   local moves = moves_colour or moves_opacity
+  local made = paint.keep(function(c, alpha) return paint.coded(c[1], c[2], c[3], alpha) end)
   return paint.memo(moves, function(t)
-    local c, alpha = colour(t), held(opacity(t) / 100)
-    return alpha > 0 and paint.coded(c[1], c[2], c[3], alpha) or nil
+    local alpha = held(opacity(t) / 100)
+    return alpha > 0 and made(colour(t), alpha) or nil
   end), moves
 end
 
@@ -161,11 +191,13 @@ local function gradient(scope, item, what)
   local opacity = read(property.number, item.o, what .. " opacity", 100)
   local share = read(property.number, item.h, what .. " highlight", 0)
   local degrees = read(property.number, item.a, what .. " highlight's angle", 0)
+  local made = paint.keep(function(stops, alpha, a, b, highlight, angle)
+    local make, fields = shape_of(item.t == 2, a, b, highlight, angle)
+    return add_stops(stops, count, alpha, fields) and make(fields) or nil
+  end)
   return paint.memo(moves, function(t)
-    local make, fields = shape_of(item.t == 2, from(t), to(t), share(t) / 100, degrees(t))
     local alpha = held(opacity(t) / 100)
-    if alpha == 0 or not add_stops(numbers(t), count, alpha, fields) then return nil end
-    return make(fields)
+    return alpha > 0 and made(numbers(t), alpha, from(t), to(t), share(t) / 100, degrees(t)) or nil
   end), moves
 end
 

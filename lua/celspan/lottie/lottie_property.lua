@@ -131,7 +131,7 @@ local function segments_of(keys, read, note)
     list[i] = { t = one.t, from = from, to = to, is_held = values.flag(key.h),
                 ease = ease_of(key), way = way_of(key, from, to) }
     if after and is_uneven(key, from, to) then
-      note "has an ease for each dimension; the first is taken for all"
+      note "has an ease for each dimension; the first stands for all"
     end
     before = to
   end
@@ -260,7 +260,12 @@ function property.point(scope, given, what)
   end
   local x, moves_x = property.number(scope, given.x, what .. " x", 0)
   local y, moves_y = property.number(scope, given.y, what .. " y", 0)
-  return function(t) return { x(t), y(t) } end, moves_x or moves_y
+  local at, beside, value
+  return function(t)
+    local u, v = x(t), y(t)
+    if u ~= at or v ~= beside then at, beside, value = u, v, { u, v } end
+    return value
+  end, moves_x or moves_y
 end
 
 --- An outline. closed: what the shape says of it, in old files.

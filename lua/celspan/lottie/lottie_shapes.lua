@@ -80,6 +80,7 @@ local styles = { fl = fill, gf = fill, st = stroke, gs = stroke }
 local function draw_all(draws)
   local moves = false
   for _, one in ipairs(draws) do moves = moves or one.moves end
+  local join = paint.keep_list(celspan.union)
   return { moves = moves, get = paint.memo(moves, function(t)
     local objects = {}
     for i = #draws, 1, -1 do
@@ -87,18 +88,20 @@ local function draw_all(draws)
       if object then objects[#objects + 1] = object end
     end
     if #objects < 2 then return objects[1] end
-    return celspan.union(objects)
+    return join(objects)
   end) }
 end
 
 --- A draw under a map and an opacity (per cent).
 local function place(draw, map, opacity, moves)
   moves = moves or draw.moves
+  local placed = paint.keep(function(object, at, share)
+    object = transform.apply(object, at)
+    return share < 100 and celspan.group { object, opacity = share / 100 } or object
+  end)
   return { moves = moves, get = paint.memo(moves, function(t)
     local object, share = draw.get(t), math.min(100, opacity(t))
-    if not object or share <= 0 then return nil end
-    object = transform.apply(object, map(t))
-    return share < 100 and celspan.group { object, opacity = share / 100 } or object
+    return object and share > 0 and placed(object, map(t), share) or nil
   end) }
 end
 

@@ -112,9 +112,10 @@ function transform.read(scope, given, follows)
   local degrees = read(property.number, given.rz or given.r, "the rotation", 0)
   local skew = read(property.number, given.sk, "the skew", 0)
   local axis = read(property.number, given.sa, "the axis of the skew", 0)
+  local made = paint.keep(transform.map)
   return paint.memo(moves, function(t)
-    local turn = degrees(t) + (times and heading(position, times, t) or 0)
-    return transform.map(position(t), anchor(t), scale(t), turn, skew(t), axis(t))
+    local turn = degrees(t) + (follow and heading(position, t) or 0)
+    return made(position(t), anchor(t), scale(t), turn, skew(t), axis(t))
   end), moves
 end
 

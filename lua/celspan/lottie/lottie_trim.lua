@@ -6,30 +6,53 @@ local contours = require "celspan.lottie_contour"
 local trim = {}
 
 local STEPS = 5 -- of Newton's method; each doubles the number of right digits
-local nodes = { { 0, 128 / 225 }, { 0.5384693101056831, 0.47862867049936647 },
-                { -0.5384693101056831, 0.47862867049936647 },
-                { 0.9061798459386640, 0.23692688505618908 },
-                { -0.9061798459386640, 0.23692688505618908 } }
+local PARTS = 4 -- of a piece, in which Gauss's rule is used
+
+--- Places 0..1 and weights of Gauss's rule with five nodes in each part.
+local places, weights = {}, {}
+for part = 0, PARTS - 1 do
+  for _, node in ipairs { { 0, 128 / 225 }, { 0.5384693101056831, 0.47862867049936647 },
+                          { -0.5384693101056831, 0.47862867049936647 },
+                          { 0.9061798459386640, 0.23692688505618908 },
+                          { -0.9061798459386640, 0.23692688505618908 } } do
+    places[#places + 1] = (2 * part + 1 + node[1]) / (2 * PARTS)
+    weights[#weights + 1] = node[2] / (2 * PARTS)
+  end
+end
+
+--- The derivative of a cubic as polynomials: ax u^2 + bx u + cx, and likewise in y.
+local function slopes(p)
+  local x1, x2, x3 = 3 * (p[3] - p[1]), 3 * (p[5] - p[3]), 3 * (p[7] - p[5])
+  local y1, y2, y3 = 3 * (p[4] - p[2]), 3 * (p[6] - p[4]), 3 * (p[8] - p[6])
+  return x3 - 2 * x2 + x1, 2 * (x2 - x1), x1, y3 - 2 * y2 + y1, 2 * (y2 - y1), y1
+end
 
 local function speed(p, u)
-  local v = 1 - u
-  local dx = 3 * (v * v * (p[3] - p[1]) + 2 * v * u * (p[5] - p[3]) + u * u * (p[7] - p[5]))
-  local dy = 3 * (v * v * (p[4] - p[2]) + 2 * v * u * (p[6] - p[4]) + u * u * (p[8] - p[6]))
+  local ax, bx, cx, ay, by, cy = slopes(p)
+  local dx, dy = (ax * u + bx) * u + cx, (ay * u + by) * u + cy
   return math.sqrt(dx * dx + dy * dy)
 end
 
---- The length from the start to u, by Gauss's rule on four parts.
+--- The length from the start to u.
 local function length_to(p, u)
-  local sum, half = 0, u / 8
-  for part = 0, 3 do
-    local middle = half * (2 * part + 1)
-    for _, node in ipairs(nodes) do sum = sum + node[2] * speed(p, middle + half * node[1]) end
+  local ax, bx, cx, ay, by, cy = slopes(p)
+  local sum, sqrt = 0, math.sqrt
+  for i = 1, #places do
+    local v = u * places[i]
+    local dx, dy = (ax * v + bx) * v + cx, (ay * v + by) * v + cy
+    sum = sum + weights[i] * sqrt(dx * dx + dy * dy)
   end
-  return sum * half
+  return sum * u
 end
 
 local function is_straight(p)
   return p[1] == p[3] and p[2] == p[4] and p[5] == p[7] and p[6] == p[8]
+end
+
+--- The length of a piece.
+local function length_of_piece(p)
+  if not is_straight(p) then return length_to(p, 1) end
+  return math.sqrt((p[7] - p[1]) ^ 2 + (p[8] - p[2]) ^ 2)
 end
 
 --- The parameter at a length of a piece.
@@ -53,7 +76,7 @@ local function measure(list)
   local way = { length = 0 }
   for n = 1, contours.count(list) do
     local piece = { points = { contours.piece(list, n) } }
-    piece.start, piece.length = way.length, length_to(piece.points, 1)
+    piece.start, piece.length = way.length, length_of_piece(piece.points)
     way[n], way.length = piece, way.length + piece.length
   end
   known[list] = way
