@@ -234,6 +234,16 @@ describe("frames with noise in their numbers", function()
   end)
 end)
 
+describe("markers", function()
+  it("are marks of the film, whatever their names are", function()
+    local art = read({}, { markers = { { tm = 1, cm = "1", dr = 0 },
+                                       { tm = 2, cm = "a,b:c", dr = 0 } } })
+    assert.same({ "1", 1, 1 }, art.markers[1])
+    local marks = art:film().marks
+    assert.same({ 1, 2 }, { marks["marker 1"], marks["a_b_c"] })
+  end)
+end)
+
 describe("what does not change", function()
   it("keeps its object from frame to frame", function()
     local tr = { o = still(50), p = still { 50, 50 }, r = keys { { 0, 0 }, { 10, 90 } } }
