@@ -15,6 +15,7 @@ local compositing = require "tests.bench.parts_compositing"
 local files = require "tests.bench.parts_files"
 local film = require "tests.bench.parts_film"
 local frames = require "tests.bench.parts_frames"
+local lottie = require "tests.bench.parts_lottie"
 local planes = require "tests.bench.parts_planes"
 local pictures = require "tests.bench.parts_pictures"
 local shapes = require "tests.bench.parts_shapes"
@@ -43,6 +44,7 @@ local parts = {
   { "demo", "the demo film to PNG", film.demo },
   { "film", "films, frame by frame", frames.film },
   { "planes", "plane files beside frames", planes.planes },
+  { "lottie", "heavy Lottie animations", lottie.lottie },
   { "beside", "one film, made by what people would pick instead", beside.beside },
 }
 
