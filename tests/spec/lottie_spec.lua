@@ -14,15 +14,7 @@ local still, keys, layer, box, document = lotties.still, lotties.keys, lotties.l
   lotties.document
 local at = lotties.code
 
-local function write(what, ending)
-  count = count + 1
-  local text = type(what) == "table" and lotties.json(what) or what
-  return bench:write(("%d.%s"):format(count, ending or "json"), text)
-end
-
-local function read(layers, fields, options)
-  return assert(lottie.read(write(document(layers, fields)), options))
-end
+local function read(layers, fields, options) return assert(try(layers, fields, options)) end
 
 local RED, NONE = "ff0000 255", "000000 0"
 local function placed(x, y, fields)

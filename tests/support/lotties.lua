@@ -1,5 +1,6 @@
 --- Lottie animations for tests: documents written as tables, and dotLottie archives.
 local celspan = require "celspan"
+local lottie = require "celspan.lottie"
 local stored = require "tests.support.stored"
 
 local lotties = {}
@@ -58,6 +59,21 @@ function lotties.document(layers, fields)
   local document = { v = "5.7.0", fr = 25, ip = 0, op = 100, w = 100, h = 100, layers = layers }
   for name, value in pairs(fields or {}) do document[name] = value end
   return document
+end
+
+--- A reader for documents of layers and fields, which are written to a workbench.
+---@return fun(layers: table[], fields?: table, options?: table): any art, string? message
+---@return fun(what: string|table, ending?: string): string path
+function lotties.reader(bench)
+  local count = 0
+  local function write(what, ending)
+    count = count + 1
+    local text = type(what) == "table" and lotties.json(what) or what
+    return bench:write(("%d.%s"):format(count, ending or "json"), text)
+  end
+  return function(layers, fields, options)
+    return lottie.read(write(lotties.document(layers, fields)), options)
+  end, write
 end
 
 --- The code of a point of an animation at a frame: "ff0000 255".

@@ -43,22 +43,30 @@ local compiled = setmetatable({}, { __mode = "k" })
 
 -- ---------------------------------------------------------------- frames
 
---- The object of a frame, cut to the animation's frame, and what `at` makes of it; nil: nothing.
-local function pictures_of(get, width, height)
+--- What `at` and films show at a frame: the object, cut to the animation's frame, and nothing where
+--- it cannot be drawn.
+local function pictures_of(get, width, height, note)
   local frame = celspan.rect { 0, 0, width, height }
   local margin = math.max(width, height) / 64 -- more than a pixel, in all but icons
   local cut = paint.keep(function(object) return celspan.clip(object, frame) end)
   local averaged = paint.keep(function(object)
     return celspan.group { object:blur(margin, { kernel = "pixel" }), space = "srgb" }
   end)
+  local function safely(make)
+    return function(t)
+      local good, object = pcall(make, t)
+      if not good then note(("it cannot be drawn at frame %g: %s"):format(t, tostring(object))) end
+      return good and object or celspan.union {}
+    end
+  end
   local function picture(t)
     local object = get(t)
     return object and cut(object)
   end
-  return { plain = picture, averaged = function(t)
+  return { plain = safely(picture), averaged = safely(function(t)
     local object = picture(t)
     return object and averaged(object)
-  end }
+  end) }
 end
 
 --- The animation at a frame, also between two. Its colours are mixed as sRGB codes, and so are the
@@ -67,7 +75,13 @@ end
 ---@return celspan.object object
 function Art:at(frame)
   fields.check_at("lottie", Art, self, frame, "a frame")
-  return compiled[self].averaged(frame) or celspan.union {}
+  return compiled[self].averaged(frame)
+end
+
+--- The name of a marker as that of a mark, which begins with no digit and has no comma or colon.
+local function mark_name(name)
+  local made = name:gsub("[,:]", "_"):gsub("^%s+", ""):gsub("%s+$", "")
+  return made:find "^[^%d%-]" and made or "m" .. made
 end
 
 --- The name of a marker as that of a mark, which begins with a letter and has no comma or colon.
@@ -92,7 +106,7 @@ function Art:film()
     frames = math.max(1, math.ceil(self.last) - first),
     sound = #self.sounds > 0 and self.sounds or nil,
     frame = function(f)
-      return celspan.rostrum { celspan.cel { compiled[self].plain(f.number) or celspan.union {} } }
+      return celspan.rostrum { celspan.cel { compiled[self].plain(f.number) } }
     end,
   }
 end
@@ -161,8 +175,8 @@ local function compile(found, root, facts, list)
   local art = setmetatable({ size = { facts.width, facts.height }, fps = facts.fps,
     first = facts.first, last = facts.last, markers = markers_of(root, document),
     themes = found.themes, states = found.states, sounds = root.sounds, skipped = root.skipped },
-      Art)
-  compiled[art] = pictures_of(get, facts.width, facts.height)
+    Art)
+  compiled[art] = pictures_of(get, facts.width, facts.height, root.scope.note)
   return art
 end
 

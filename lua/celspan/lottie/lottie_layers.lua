@@ -106,7 +106,8 @@ local function placing(layer, by_index, seen)
     scope.note "its parents form a circle, or are too many; it has none"
     parent, layer.depth = nil, 1
   end
-  if outer then
+  if parent then
+    local outer, moves_outer = placing(parent, by_index, seen)
     local inner = own
     moves = moves or moves_outer
     local both = paint.keep(affine.compose)
@@ -146,7 +147,7 @@ local function picture(layer, t)
   if not layer.get or t < layer.first or t >= layer.last then return nil end
   local object = layer.get(t)
   if not object then return nil end
-  if layer.matte then object = layer.cover(object, show_whole(layer.matte, t), layer.matte_mode) end
+  if layer.matte then object = layer.cover(object, layer.matte.show(t), layer.matte_mode) end
   if object and layer.mode ~= "normal" then object = layer.blend(object, layer.mode) end
   return object
 end

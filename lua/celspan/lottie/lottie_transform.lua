@@ -114,7 +114,7 @@ function transform.read(scope, given, follows)
   local axis = read(property.number, given.sa, "the axis of the skew", 0)
   local made = paint.keep(transform.map)
   return paint.memo(moves, function(t)
-    local turn = degrees(t) + (follow and heading(position, t) or 0)
+    local turn = degrees(t) + (times and heading(position, times, t) or 0)
     return made(position(t), anchor(t), scale(t), turn, skew(t), axis(t))
   end), moves
 end
