@@ -25,7 +25,7 @@ typedef enum cs_message_kind {
   CS_MESSAGE_START = 1, /* to the zygote, with a descriptor: fork a worker */
   CS_MESSAGE_END,       /* to the zygote: end a worker; answered with how it ended */
   /* with the file as descriptor; in shared memory: the layer, then the space. For a worker that
-   * decodes a sound, `text` is the format's name in ffmpeg */
+   * runs ffmpeg, `text` is the format's name there */
   CS_MESSAGE_OPEN,
   CS_MESSAGE_READ,
   CS_MESSAGE_LIST,
@@ -44,10 +44,13 @@ typedef enum cs_worker_task {
   /* one picture, also through the picture module; the only limit is for loading */
   CS_WORKER_WRITES,
   CS_WORKER_SAMPLES, /* colour profiles, through the colour module */
-  CS_WORKER_LISTENS  /* to one sound, by running ffmpeg */
+  /* the rest each have one file, and run ffmpeg: to decode a sound, */
+  CS_WORKER_LISTENS,
+  CS_WORKER_LISTS,  /* to list the pictures of a movie (ffprobe), */
+  CS_WORKER_WATCHES /* and to decode these */
 } cs_worker_task;
 
-/* The message that brings the shared memory, or the pipe for the samples of a sound. */
+/* The message that brings the shared memory, or the pipe for what ffmpeg writes. */
 typedef struct cs_message_start {
   uint64_t memory; /* the most bytes that the worker may allocate after its start; 0: any */
   double loading;  /* the most seconds for loading the module; 0: any */
@@ -63,6 +66,13 @@ typedef struct cs_message_sound {
   int32_t rate, channels;
   double speed; /* 1: the original speed */
 } cs_message_sound;
+
+/* Which pictures of a movie are decoded, and how. */
+typedef struct cs_message_movie {
+  double from; /* seconds, by the times of the file: where decoding begins, if has_from is set */
+  int32_t has_from, width, height;
+  char pixels[16], decoder[16]; /* names of ffmpeg; decoder "": the usual one */
+} cs_message_movie;
 
 /* cs_colour_request without its bytes. */
 typedef struct cs_message_profile {
@@ -94,6 +104,7 @@ typedef struct cs_message {
     cs_message_start start;
     cs_message_open open;
     cs_message_sound sound;
+    cs_message_movie movie;
     celspan_rectangle rectangle;
     cs_message_header header;
     cs_picture_part part;

@@ -13,7 +13,7 @@
 
 #include "base/context.h"
 #include "model/pictures/store.h"
-#include "plugins/isolate/sound_worker.h"
+#include "plugins/isolate/media_worker.h"
 #include "plugins/isolate/strict.h"
 
 enum { WORKERS = 256 };
@@ -37,7 +37,7 @@ bool cs_zygote_is_meant(int count, char **arguments) {
 
 /* ---------------------------------------------------------------- the end of workers */
 
-/* A worker that decodes a sound leads a group, which contains all processes that it has started. */
+/* A worker that runs ffmpeg leads a group, which contains all processes that it has started. */
 static void kill_worker(pid_t worker) {
   kill(worker, SIGKILL);
   kill(-worker, SIGKILL);
@@ -84,8 +84,8 @@ static _Noreturn void become_worker(const zygote *z, const cs_message_start *sta
                                .socket = socket,
                                .memory = memory};
   close(CS_ZYGOTE_SOCKET);
-  if (start->task == CS_WORKER_LISTENS)
-    cs_sound_worker_run(&desc);
+  if (start->task >= CS_WORKER_LISTENS)
+    cs_media_worker_run(&desc);
   cs_worker_loop_run(&desc);
 }
 
