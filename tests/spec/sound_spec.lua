@@ -107,7 +107,6 @@ local REFUSED = {
   ["empty.wav"] = "",
   ["byte.wav"] = "R",
   ["short.wav"] = "RIFF\0\0\0\0",
-  ["clip.wav"] = "RIFF\0\0\0\0AVI LIST",
   ["turned.wav"] = "RIFX\0\0\0\0WAVEfmt ",
   ["large.w64"] = "riff\x2e\x91\xcf\x11\xa5\xd6\x28\xdb\x04\xc1\0\0" .. ("\0"):rep(64),
   ["zeros.mp3"] = ("\0"):rep(4096),
@@ -117,10 +116,6 @@ local REFUSED = {
   ["tag.mp3"] = "ID3\4\0\0\0\0\0\10" .. ("\0"):rep(10) .. hls "../secret.wav",
   ["long-tag.mp3"] = "ID3\4\0\0\x7f\x7f\x7f\x7f" .. ("\0"):rep(64),
   ["tag-stream.mp3"] = "ID3\4\0\0\0\0\0\0\xff\xf1\x50\x80\x01\x7f\xfc" .. ("\0"):rep(40),
-  ["attached.mkv"] = element("\x1a\x45\xdf\xa3", "\x42\x82\x88matroska")
-    .. element("\x18\x53\x80\x67", element("\x19\x41\xa4\x69", "\x61\xa7\x80")),
-  ["linked.mka"] = element("\x1a\x45\xdf\xa3", "\x42\x82\x88matroska")
-    .. element("\x18\x53\x80\x67", element("\x15\x49\xa9\x66", "\x3e\x83\xbb\x8d../secret.mkv")),
   ["reference.mov"] = atom("moov", atom("rmra", atom("rmda", atom("rdrf", "\0\0\0\0url \0\0\0\14"
     .. "../secret.wav")))),
   ["external.mov"] = external("OUT/secret.wav"):sub(17),
@@ -142,6 +137,11 @@ local REFUSED = {
 --- refused. `good` is a WAV file of silence.
 local good = wav()
 local STRANGE = {
+  ["clip.wav"] = "RIFF\0\0\0\0AVI LIST",
+  ["attached.mkv"] = element("\x1a\x45\xdf\xa3", "\x42\x82\x88matroska")
+    .. element("\x18\x53\x80\x67", element("\x19\x41\xa4\x69", "\x61\xa7\x80")),
+  ["linked.mka"] = element("\x1a\x45\xdf\xa3", "\x42\x82\x88matroska")
+    .. element("\x18\x53\x80\x67", element("\x15\x49\xa9\x66", "\x3e\x83\xbb\x8d../secret.mkv")),
   ["good.wav"] = good,
   ["reading.txt"] = good,
   ["slow.wav"] = wav { rate = 3, data = ("\0\0"):rep(3) },

@@ -15,7 +15,9 @@
  *   wav         RIFF, RF64 or BW64, a size, WAVE             wav
  *   flac        fLaC                                         flac
  *   ogg, opus   OggS                                         ogg
- *   m4a         a size, ftyp                                 mov
+ *   m4a, mp4    a size, ftyp                                 mov
+ *   mkv, webm   1a 45 df a3                                  matroska
+ *   avi         RIFF, a size, AVI                            avi
  *   mp3         the header of a frame of layer 3             mp3
  *   mp3, flac   ID3, with a tag before one of the two        mp3, flac
  *
@@ -46,6 +48,10 @@ static const char *kind_of(const unsigned char bytes[HEAD]) {
     return "ogg";
   if (has(bytes, 4, "ftyp"))
     return "mov";
+  if (has(bytes, 0, "\x1a\x45\xdf\xa3"))
+    return "matroska";
+  if (has(bytes, 0, "RIFF") && has(bytes, 8, "AVI "))
+    return "avi";
   return is_mp3(bytes) ? "mp3" : NULL;
 }
 

@@ -1,6 +1,6 @@
 /* The sound files of films: the one place where they are opened and decoded.
  *
- *   file --> its format --plugins/isolate/sound_worker.h--> decoder.c --> cs_sound_stream
+ *   file --> its format --plugins/isolate/media_worker.h--> decoder.c --> cs_sound_stream
  *
  * INVARIANT: a sound is opened here, and nothing else opens it by its name. Pipes, devices and
  * folders are refused at once. A decoder that sends no more samples is ended after the time limit
