@@ -93,6 +93,30 @@ function celspan.count(value, options) end
 ---@return string
 function celspan.timecode(index, fps, options) end
 
+--- The pictures of a movie, or of numbered files, by their times.
+---@class celspan.footage
+---@field size number[] {w, h}, upright, with square pixels
+---@field fps number
+---@field frames integer
+---@field seconds number
+---@field sound boolean
+local footage = {}
+
+--- The picture that is shown at a time.
+---@param seconds number
+---@return celspan.texture
+function footage:at(seconds) end
+
+--- The picture with this number.
+---@param number integer From 1
+---@return celspan.texture
+function footage:frame(number) end
+
+--- Opens a movie, or numbered files such as "plate.####.exr".
+---@param options { file: string, from?: number, to?: number, speed?: number, loop?: boolean, fps?: number, alpha?: "straight"|"premultiplied", colour?: string, layer?: string }
+---@return celspan.footage
+function celspan.footage(options) end
+
 --- An object with its earlier moments, fainter, behind it.
 ---@param draw fun(k: integer): celspan.object? The object k steps ago; nil: nothing
 ---@param options? { count?: integer, fade?: number } Default 5, 0.7

@@ -111,12 +111,13 @@ for _, recipe in ipairs {
   { "sprite_sheet", 1 }, { "transparent_video", 30, background = "#21465a" },
   { "crossfade", strip = "24,31,37" }, { "rotoscope", strip = "1,3,7" },
   { "speed_ramp", strip = "9,30,62" }, { "mixed_sound", 66 },
+  { "over_footage", 30, "360x202", before = "plates" },
   { "light_rays", 30, "360x202" }, { "glitch_title", strip = "9,30" }, { "logo_reveal", 84 },
   { "film_leader", 32, "360x202" }, { "every_shape", 20 }, { "scarf_walk", 40 },
   { "harvest_charts", 72 }, { "deep_title", 20, "360x202" }, { "cel_shading", 18 },
 } do
   list[#list + 1] = { name = recipe[1], page = "docs/cookbook.md", frame = recipe[2],
-    size = recipe[3], strip = recipe.strip, background = recipe.background }
+    size = recipe[3], strip = recipe.strip, background = recipe.background, before = recipe.before }
 end
 
 return list

@@ -56,7 +56,8 @@ for _, picture in ipairs(list) do
   local script, options = picture.script, nil
   if not script then script, options = extract(picture.page, picture.name) end
   if picture.before then
-    run(("cd %s/examples && lua5.4"):format(folder), picture.before .. ".lua")
+    run(("modules=$(realpath $(dirname %s)) && cd %s/examples && LUA_CPATH=$modules/?.so lua5.4")
+      :format(binary, folder), picture.before .. ".lua")
   end
   local output = folder .. "/" .. picture.name .. ".png"
   if picture.strip then

@@ -15,6 +15,7 @@
 #include "lua/module/lua_script.h"
 #include "output/join/join.h"
 #include "output/sinks/file.h"
+#include "program/movies.h"
 #include "program/service.h"
 #include "program/sha256.h"
 #include "program/target.h"
@@ -221,18 +222,12 @@ static int join(lua_State *L) {
 }
 
 void cs_service_add_files(lua_State *L) {
-  static const luaL_Reg services[] = {CS_SERVICE(kind),
-                                      CS_SERVICE(make_folders),
-                                      CS_SERVICE(entries),
-                                      CS_SERVICE(resolve),
-                                      CS_SERVICE(working_folder),
-                                      CS_SERVICE(has_number),
-                                      CS_SERVICE(is_video),
-                                      CS_SERVICE(refuse_target),
-                                      CS_SERVICE(save),
-                                      CS_SERVICE(save_private),
-                                      CS_SERVICE(join),
-                                      CS_SERVICE(sha256),
-                                      {NULL, NULL}};
+  static const luaL_Reg services[] = {CS_SERVICE(kind),           CS_SERVICE(make_folders),
+                                      CS_SERVICE(entries),        CS_SERVICE(resolve),
+                                      CS_SERVICE(working_folder), CS_SERVICE(has_number),
+                                      CS_SERVICE(is_video),       CS_SERVICE(refuse_target),
+                                      CS_SERVICE(save),           CS_SERVICE(save_private),
+                                      CS_SERVICE(join),           CS_SERVICE(sha256),
+                                      {"is_movie", cs_movies_is}, {NULL, NULL}};
   cs_service_add(L, services);
 }

@@ -13,6 +13,7 @@
 #include "lua/bind/lua_error.h"
 #include "lua/bind/put.h"
 #include "lua/module/core.h"
+#include "program/movies.h"
 #include "program/script.h"
 #include "program/service.h"
 #include "program/verb_text.h"
@@ -115,6 +116,7 @@ static void open_libraries(lua_State *L, celspan_context *context) {
   luaL_setfuncs(L, modules, 0);
   lua_pop(L, 1);
   cs_core_open(L);
+  cs_movies_give(L);
 }
 
 /* Whether the annotations are in this folder. */

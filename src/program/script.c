@@ -21,6 +21,7 @@
 #include "lua/module/parameters.h"
 #include "plugins/sound/loudness.h"
 #include "program/confine.h"
+#include "program/movies.h"
 #include "program/request.h"
 #include "program/text_file.h"
 #include "program/view.h"
@@ -212,6 +213,7 @@ static int prepare(lua_State *L) {
   }
   luaL_requiref(L, "celspan", luaopen_celspan, 0);
   give_sounds(L);
+  cs_movies_give(L);
   if (script->is_silent) {
     lua_pushcfunction(L, print_nothing);
     lua_setglobal(L, "print");

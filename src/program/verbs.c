@@ -424,11 +424,13 @@ const cs_verb cs_verbs[] = {
               "alpha.",
      .options = RENDER, .run = cs_verb_render},
     {"info", "SCRIPT|FILE", 1, 1, .has_script = true,
-     .summary = "Prints figures about a film, picture, painting, drawing, span or plane file.",
+     .summary =
+         "Prints figures about a film, picture, movie, painting, drawing, span or plane file.",
      .notes = "The type of the file is detected from its content. Every frame of a film is "
               "built. Only the headers of a picture are read: format, size, channels, "
-              "alpha, depth, colour, subimages and layers. A span or plane file is read to "
-              "its end, and every checksum is verified.",
+              "alpha, depth, colour, subimages and layers. Of a movie, the times of all pictures "
+              "are read. A span or plane file is read to its end, and every checksum is "
+              "verified.",
      .options = INFO},
     {"check", "SCRIPT", 1, 1, .has_script = true, .asks_warnings = true,
      .summary = "Builds every frame, and reports all faults and what viewers would miss.",

@@ -53,6 +53,12 @@ int cs_folders_frame_name(lua_State *L);
  * without one cannot read sounds. */
 #define CS_CORE_HEAR "celspan.hear" /* its name in the registry */
 
+/* ---------------------------------------------------------------- movies */
+
+/* A function that a host may provide to open movies: (path, tried | nil) -> facts | nil, message.
+ * facts: as program/movies.c puts them, with `picture`, a function. */
+#define CS_CORE_MOVIE "celspan.movie" /* its name in the registry */
+
 /* ---------------------------------------------------------------- layered documents */
 
 /* (path) -> { width =, height =, layers = {...}, notes = {...} } | nil, message

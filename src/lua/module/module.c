@@ -70,17 +70,22 @@ static int call_outside(lua_State *L) {
  * so that error handlers do not find it there. */
 static int outside(lua_State *L) { return push_around(L, call_outside); }
 
-/* core.hear(path, tried): see core.h. */
-static int hear(lua_State *L) {
-  if (lua_getfield(L, LUA_REGISTRYINDEX, CS_CORE_HEAR) != LUA_TFUNCTION) {
+/* Calls a function that the program provides, with the arguments. */
+static int call_program(lua_State *L, const char *name, const char *what) {
+  if (lua_getfield(L, LUA_REGISTRYINDEX, name) != LUA_TFUNCTION) {
     lua_pushnil(L);
-    lua_pushliteral(L, "sounds are read by the program celspan alone: run the script with it");
+    lua_pushfstring(L, "%s are read by the program celspan alone: run the script with it", what);
     return 2;
   }
   lua_insert(L, 1);
   lua_call(L, lua_gettop(L) - 1, 2);
   return 2;
 }
+
+/* core.hear(path, tried), core.movie(path, tried): see core.h. */
+static int hear(lua_State *L) { return call_program(L, CS_CORE_HEAR, "sounds"); }
+
+static int movie(lua_State *L) { return call_program(L, CS_CORE_MOVIE, "movies"); }
 
 static const luaL_Reg core_functions[] = {{"find", find},
                                           {"nearest", nearest},
@@ -94,6 +99,7 @@ static const luaL_Reg core_functions[] = {{"find", find},
                                           {"settings", cs_parameters_settings},
                                           {"sounds", cs_lua_film_sounds},
                                           {"hear", hear},
+                                          {"movie", movie},
                                           {"difference", cs_difference_of},
                                           {"painting", cs_painting_read},
                                           {"archive", cs_archive_member},
@@ -167,6 +173,7 @@ static const struct {
                       {"brush", "celspan.brush", "line"},
                       {"echo", "celspan.echo", "trail"},
                       {"timecode", "celspan.count", "timecode"},
+                      {"footage", "celspan.footage", "open"},
                       {"trim", "celspan.operators", "trim"},
                       {"round_corners", "celspan.operators", "round_corners"},
                       {"zigzag", "celspan.operators", "zigzag"},

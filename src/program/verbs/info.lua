@@ -1,5 +1,5 @@
---- celspan info SCRIPT|FILE: facts about a film, a picture, artwork, a span file or a plane, one
---- "name value" a line. The content of the file decides which of these it is.
+--- celspan info SCRIPT|FILE: facts about a film, a picture, a movie, artwork, a span file or a
+--- plane, one "name value" a line. The content of the file decides which of these it is.
 local program, request = ...
 local json = require "celspan.json"
 
@@ -235,8 +235,27 @@ local function put_psd()
   facts:line("layers unread: %s", message)
 end
 
+-- ---------------------------------------------------------------- movies
+
+local function put_movie()
+  local movie = program.input(require "celspan.footage".describe(path))
+  facts:add("format", movie.container)
+  facts:add("codec", movie.codec)
+  facts:add("size", movie.size)
+  facts:add("fps", movie.fps)
+  facts:add("frames", movie.count)
+  facts:add("seconds", movie.finish)
+  facts:add("alpha", movie.alpha and "straight" or "none")
+  facts:add("depth", movie.bits)
+  facts:add("pixels", movie.pixels)
+  facts:add("colour", movie.matrix)
+  facts:add("sound", movie.sound and "yes" or "no")
+  facts:add("bytes", movie.bytes)
+end
+
 local put = {
   picture = put_picture,
+  movie = put_movie,
   span = put_spans,
   plane = put_plane,
   archive = function() describe_painting "painting" end,
@@ -246,6 +265,7 @@ local put = {
 }
 
 local kind = program.kind(path)
+if kind == "picture" and program.is_movie(path) then kind = "movie" end
 local is_film = kind == "script" or kind == "lottie"
 if not is_film and request.parameters then
   program.usage("--parameters is for scripts: %s is not a script", path)

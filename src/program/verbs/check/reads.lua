@@ -4,6 +4,8 @@ local program, film, script = ...
 local KINDS = { lua = "module", ttf = "font", otf = "font", ttc = "font", otc = "font",
   wav = "sound", flac = "sound", ogg = "sound", opus = "sound", mp3 = "sound", m4a = "sound",
   aif = "sound", aiff = "sound", csv = "data", tsv = "data", json = "data", txt = "data",
+  mp4 = "movie", m4v = "movie", mov = "movie", mkv = "movie", webm = "movie", avi = "movie",
+  mxf = "movie", ogv = "movie", ts = "movie", y4m = "movie",
   srt = "data", vtt = "data", xdts = "data", cube = "data", dat = "data" }
 local CONTENTS = { folder = "painting", archive = "painting", psd = "painting", svg = "drawing" }
 

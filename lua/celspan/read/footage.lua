@@ -1,0 +1,239 @@
+--- Footage: the pictures of a movie, or of numbered files, by their times: celspan.footage.
+--
+--   file   |  1  |  2  |  3  |  4  |  5  |  6  |      seconds of the file
+--              from ^                  ^ to
+--   clip         |  1  |  2  |  3  |                  from its `from`; divided by its speed
+--
+--   clip:at(seconds)   the last picture whose time is at most that, within half a tick
+local celspan = require "celspan"
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+
+local footage = {}
+
+local RATE = 24 -- pictures a second of numbered files
+local FASTEST = 1000 -- of a speed
+local RANGES = 8 -- of missing files in a message
+
+local function refuse(text, ...) core.refuse("footage: " .. text:format(...)) end
+
+---@class celspan.footage
+---@field size number[] {w, h} in pixels, upright, with square pixels
+---@field fps number Pictures a second; of a movie without a constant rate the mean
+---@field frames integer Pictures from `from` to `to`
+---@field seconds number How long these are shown, at the clip's speed
+---@field sound boolean Whether the file has one: `sound = "clip.mp4"` of a film plays it
+local Clip = {}
+
+--- What is hidden from scripts: source, first, last, from, length (seconds of the file), speed,
+--- loop.
+local data_of = setmetatable({}, { __mode = "k" })
+
+local metatable = {
+  __name = "celspan.footage",
+  __index = fields.reads("footage", Clip),
+  __newindex = function() refuse "clips are immutable" end,
+}
+
+-- ---------------------------------------------------------------- sources
+
+-- A source has: size, fps, count, finish (seconds at which its last picture ends), tick (seconds),
+-- sound, time(i) (seconds of picture i, from 1), texture(i).
+
+--- "1003-1005, 1010": the numbers that a list leaves out.
+local function missing_in(numbers)
+  local ranges, count = {}, 0
+  for i = 2, #numbers do
+    local first, last = numbers[i - 1] + 1, numbers[i] - 1
+    if first <= last then
+      count = count + last - first + 1
+      ranges[#ranges + 1] = first == last and ("%d"):format(first) or ("%d-%d"):format(first, last)
+    end
+  end
+  if #ranges > RANGES then
+    ranges[RANGES + 1] = ("and more up to %d"):format(numbers[#numbers])
+  end
+  return table.concat(ranges, ", ", 1, math.min(#ranges, RANGES + 1)), count
+end
+
+--- The numbers of the files of a pattern.
+local function find_numbers(pattern)
+  local found_at, tried = core.find(pattern)
+  local numbers, message = core.frames(found_at)
+  if tried and (not numbers or #numbers == 0) then numbers = core.frames(tried) or numbers end
+  if not numbers then refuse("%s", message) end
+  if #numbers == 0 then
+    refuse("%s: there are no such files%s", pattern,
+      tried and "; also looked for at " .. tried or "")
+  end
+  return numbers
+end
+
+local function open_files(given)
+  local numbers = find_numbers(given.file)
+  local missing, count = missing_in(numbers)
+  if count > 0 then
+    refuse("%s: %s missing: %s", given.file, count == 1 and "a file is" or count .. " files are",
+      missing)
+  end
+  if given.alpha then
+    refuse "field 'alpha' is for movies; the alpha of numbered files is that of their format"
+  end
+  local fps, textures = given.fps or RATE, {}
+  if fps <= 0 then refuse("field 'fps' must be above 0, got %s", fields.shown(fps)) end
+  for i, number in ipairs(numbers) do
+    textures[i] = celspan.picture { file = given.file, frame = number, colour = given.colour,
+                                    layer = given.layer }
+  end
+  local width, height = core.picture_size(textures[1])
+  return { size = { width, height }, fps = fps, count = #numbers, finish = #numbers / fps,
+           tick = 1e-6, sound = false,
+           time = function(i) return (i - 1) / fps end,
+           texture = function(i) return textures[i] end }
+end
+
+--- The upright size, with square pixels: the side that grows is the stored width.
+local function size_of(facts)
+  local aspect = facts.aspect or { 1, 1 }
+  local width, height = facts.width * aspect[1] / aspect[2], facts.height
+  width = math.max(1, math.floor(width + .5))
+  if facts.turns % 2 == 1 then width, height = height, width end
+  return { width, height }
+end
+
+local function check_transfer(given, facts)
+  if not given.colour and (facts.transfer == "smpte2084" or facts.transfer == "arib-std-b67") then
+    refuse("%s is of high dynamic range (%s), which is not read: convert it to BT.709, or give "
+      .. "'colour' to take its codes as they are", given.file,
+      facts.transfer == "smpte2084" and "PQ" or "HLG")
+  end
+end
+
+--- What there is to know about a movie: the facts of core.movie with size, fps, tick (seconds),
+--- finish (seconds at which the last picture ends) and time(i); or nil and a message.
+function footage.describe(path, tried)
+  local facts, message = core.movie(path, tried)
+  if not facts then return nil, message end
+  local tick = facts.tick[1] / facts.tick[2]
+  local function ticks(i) return (("=i8"):unpack(facts.times, i * 8 - 7)) end
+  local first, fps = ticks(1), facts.rate and facts.rate[1] / facts.rate[2]
+  local last = facts.last > 0 and facts.last * tick or fps and 1 / fps or tick
+  facts.size, facts.tick = size_of(facts), tick
+  facts.finish = (ticks(facts.count) - first) * tick + last
+  facts.fps = fps or facts.count / facts.finish
+  function facts.time(i) return (ticks(i) - first) * tick end
+  return facts
+end
+
+local function open_movie(given)
+  local facts, message = footage.describe(core.find(given.file))
+  if not facts then refuse("%s", message) end
+  check_transfer(given, facts)
+  if given.fps or given.layer then
+    refuse("field '%s' is for numbered files; %s is a movie", given.fps and "fps" or "layer",
+      given.file)
+  end
+  local textures, premultiplied = setmetatable({}, { __mode = "v" }), given.alpha == "premultiplied"
+  function facts.texture(i)
+    textures[i] = textures[i] or celspan.picture { colour = given.colour or "srgb",
+      pixels = facts.picture(i, premultiplied) }
+    return textures[i]
+  end
+  return facts
+end
+
+-- ---------------------------------------------------------------- times
+
+--- The last picture of a source whose time is at most `seconds`, within half a tick; at least 1.
+local function place_at(source, seconds)
+  local low, high = 1, source.count
+  seconds = seconds + source.tick / 2
+  while low < high do
+    local middle = (low + high + 1) // 2
+    if source.time(middle) <= seconds then
+      low = middle
+    else
+      high = middle - 1
+    end
+  end
+  return low
+end
+
+--- The last picture that begins before a time.
+local function place_before(source, seconds)
+  local place = place_at(source, seconds)
+  if place > 1 and source.time(place) >= seconds - source.tick / 2 then place = place - 1 end
+  return place
+end
+
+local function check_times(given, source)
+  local from, to, speed = given.from or 0, given.to, given.speed or 1
+  if speed <= 0 or speed > FASTEST then
+    refuse("field 'speed' must be above 0 and at most %d, got %s", FASTEST, fields.shown(speed))
+  end
+  if from < 0 or from >= source.finish then
+    refuse("field 'from' must be from 0 to before the end, at %.6g seconds, got %s", source.finish,
+      fields.shown(from))
+  end
+  if to and to <= from then
+    refuse("field 'to' must be above 'from', %s, got %s", fields.shown(from), fields.shown(to))
+  end
+  return from, math.min(to or source.finish, source.finish), speed
+end
+
+-- ---------------------------------------------------------------- clips
+
+local function check_words(given)
+  if given.alpha and given.alpha ~= "straight" and given.alpha ~= "premultiplied" then
+    refuse("field 'alpha' must be \"straight\" or \"premultiplied\", got %q", given.alpha)
+  end
+  if not given.file then refuse "field 'file' must be a string, got nil" end
+end
+
+--- Opens a movie, or numbered files.
+---@param options { file: string, from?: number, to?: number, speed?: number, loop?: boolean, fps?: number, alpha?: "straight"|"premultiplied", colour?: string, layer?: string }
+---@return celspan.footage
+function footage.open(options)
+  fields.check("footage", options, { file = "string", from = "number", to = "number",
+    speed = "number", loop = "boolean", fps = "number", alpha = "string", colour = "string",
+    layer = "string" })
+  check_words(options)
+  local is_numbered = options.file:find "#" or options.file:find "%%0?%d*d"
+  local source = (is_numbered and open_files or open_movie)(options)
+  local from, to, speed = check_times(options, source)
+  local first = place_at(source, from)
+  local last = math.max(first, place_before(source, to))
+  local clip = setmetatable({ size = source.size, fps = source.fps, frames = last - first + 1,
+    seconds = (to - from) / speed, sound = source.sound }, metatable)
+  data_of[clip] = { source = source, first = first, last = last, from = from, length = to - from,
+                    speed = speed, loop = options.loop }
+  return clip
+end
+
+--- The picture that is shown at a time; before the first one the first, after the end the last, or
+--- from the start again with `loop`.
+---@param seconds number
+---@return celspan.texture
+function Clip:at(seconds)
+  fields.check_at("footage", metatable, self, seconds, "seconds")
+  local data = data_of[self]
+  local since = seconds * data.speed
+  if data.loop then since = since % data.length end
+  local place = place_at(data.source, data.from + math.max(0, math.min(since, data.length)))
+  return data.source.texture(math.max(data.first, math.min(place, data.last)))
+end
+
+--- The picture with this number, from 1; beyond the ends as at those times.
+---@param number integer
+---@return celspan.texture
+function Clip:frame(number)
+  fields.self("footage", metatable, self, "frame")
+  if not fields.is_finite(number) or number ~= math.floor(number) then
+    refuse("frame takes a whole number from 1, got %s", fields.shown(number))
+  end
+  local data = data_of[self]
+  local place = data.loop and (number - 1) % self.frames or math.min(number, self.frames) - 1
+  return data.source.texture(data.first + math.tointeger(math.max(0, place)))
+end
+
+return fields.publish("footage", footage, Clip)

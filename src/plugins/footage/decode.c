@@ -1,0 +1,428 @@
+#include "plugins/footage/decode.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+
+enum {
+  AHEAD = 24,  /* pictures that are decoded rather than that another worker starts */
+  RUNNING = 64 /* workers at a time, of all movies */
+};
+
+enum { BEGUN = 1, LOST = 2 }; /* marks: decoding began here; it cannot be decoded */
+
+/* ---------------------------------------------------------------- the cache */
+
+static void clear(cs_cache_entry *entry, cs_memory *memory) {
+  cs_decode_picture *picture = (cs_decode_picture *)entry;
+  cs_mem_free(memory, picture->planes, picture->size);
+}
+
+static celspan_status create_cache(celspan_context *context, cs_service **out) {
+  return cs_cache_service_create(context, sizeof(cs_decode_picture), clear,
+                                 context->root->picture_bytes / 4, out);
+}
+
+static const cs_service_kind cache_kind = {create_cache, cs_cache_service_destroy,
+                                           cs_cache_service_trim};
+
+static celspan_status get_cache(celspan_context *context, cs_cache **out) {
+  cs_service *service;
+  CS_TRY(cs_context_service(context, &cache_kind, &service));
+  *out = cs_cache_of(service);
+  return CELSPAN_OK;
+}
+
+static cs_cache_key key_of(const cs_decode *d, size_t place) {
+  return (cs_cache_key){d->key.a, d->key.b, d->key.c + place};
+}
+
+void cs_decode_release(celspan_context *context, cs_decode_picture *picture) {
+  cs_cache *cache;
+  if (get_cache(context, &cache) == CELSPAN_OK)
+    cs_cache_unpin(cache, &picture->cached);
+}
+
+/* ---------------------------------------------------------------- workers */
+
+static struct {
+  pthread_mutex_t lock;
+  cs_decode *list; /* with workers, the latest first */
+  size_t count;
+} all = {.lock = PTHREAD_MUTEX_INITIALIZER};
+
+/* Ends the worker. The caller has locked both locks. */
+static void end_worker(cs_decode *d) {
+  cs_decode **link = &all.list;
+  while (*link && *link != d)
+    link = &(*link)->running;
+  if (*link) {
+    *link = d->running;
+    all.count--;
+  }
+  cs_media_close(&d->media);
+  d->is_running = false;
+}
+
+static void stop(cs_decode *d) {
+  if (!d->is_running)
+    return;
+  pthread_mutex_lock(&all.lock);
+  end_worker(d);
+  pthread_mutex_unlock(&all.lock);
+}
+
+/* Notes that a worker runs. Where there are too many, ends the oldest that nobody waits for. */
+static void note_worker(cs_decode *d) {
+  cs_decode *oldest = NULL;
+  pthread_mutex_lock(&all.lock);
+  for (cs_decode *at = all.list; at && all.count >= RUNNING; at = at->running) {
+    if (pthread_mutex_trylock(&at->lock) != 0)
+      continue;
+    if (oldest)
+      pthread_mutex_unlock(&oldest->lock);
+    oldest = at;
+  }
+  if (oldest) {
+    end_worker(oldest);
+    pthread_mutex_unlock(&oldest->lock);
+  }
+  d->running = all.list;
+  all.list = d;
+  all.count++;
+  d->is_running = true;
+  pthread_mutex_unlock(&all.lock);
+}
+
+/* ---------------------------------------------------------------- what the worker says */
+
+/* A line "frame:0 pts:512 pts_time:0.04" is the time of a picture, which may be missing; the line
+ * "t=1" comes after each. Others are words. */
+static bool take_line(cs_decode *d) {
+  long long time = INT64_MIN;
+  d->line[d->line_size] = 0;
+  d->line_size = 0;
+  if (strcmp(d->line, "t=1") == 0)
+    return true;
+  const char *at = strncmp(d->line, "frame:", 6) == 0 ? strstr(d->line, " pts:") : NULL;
+  if (!at || d->time_count == CS_DECODE_TIMES)
+    return false;
+  (void)!sscanf(at, " pts:%lld", &time);
+  d->times[(d->first_time + d->time_count++) % CS_DECODE_TIMES] = time;
+  return true;
+}
+
+static bool hear(void *user, const char *bytes, size_t size) {
+  cs_decode *d = user;
+  bool is_known = true;
+  for (size_t i = 0; i < size; i++) {
+    if (bytes[i] == '\n')
+      is_known = take_line(d) && is_known;
+    else if (d->line_size < sizeof d->line - 1)
+      d->line[d->line_size++] = bytes[i];
+  }
+  return is_known;
+}
+
+/* ---------------------------------------------------------------- beginning */
+
+/* The last picture up to a place at which decoding can begin. */
+static size_t key_before(const cs_decode *d, size_t place) {
+  while (place > 0 && !d->listing->pictures[place].is_key)
+    place--;
+  return place;
+}
+
+static celspan_status open_again(const cs_decode *d, celspan_context *context, cs_kind_file *out) {
+  CS_TRY(cs_kind_open(context, d->path, NULL, out));
+  if (out->size == d->file.size && out->time == d->file.time && out->number == d->file.number)
+    return CELSPAN_OK;
+  close(out->descriptor);
+  return cs_fail(context, CELSPAN_INPUT, "the movie %s has changed since it was opened", d->path);
+}
+
+static cs_message message_of(const cs_decode *d, size_t place) {
+  const cs_listing *listing = d->listing;
+  cs_message message = {
+      .kind = CS_MESSAGE_OPEN,
+      .movie = {.has_from = place > 0, .width = listing->width, .height = listing->height}};
+  /* half a tick more, so that rounding does not lead to an earlier picture */
+  double ticks = (double)listing->pictures[place].time + .5;
+  message.movie.from = ticks * listing->tick[0] / listing->tick[1];
+  snprintf(message.text, sizeof message.text, "%s", d->file.kind);
+  memcpy(message.movie.pixels, d->pixels, sizeof d->pixels);
+  memcpy(message.movie.decoder, d->decoder, sizeof d->decoder);
+  return message;
+}
+
+/* Starts a worker at a picture where decoding can begin. */
+static celspan_status begin(cs_decode *d, celspan_context *context, size_t place) {
+  const cs_message message = message_of(d, place);
+  cs_kind_file file;
+  stop(d);
+  CS_TRY(open_again(d, context, &file));
+  d->media = (cs_media)CS_MEDIA("movie", "pictures", d->path);
+  d->media.hear = hear;
+  d->media.user = d;
+  d->time_count = d->line_size = 0;
+  d->next = d->begin = place;
+  celspan_status status =
+      cs_media_start(&d->media, context, CS_WORKER_WATCHES, &message, file.descriptor);
+  close(file.descriptor);
+  if (status == CELSPAN_OK)
+    note_worker(d);
+  else
+    cs_media_close(&d->media);
+  return status;
+}
+
+/* ---------------------------------------------------------------- the next picture */
+
+/* The place of a time; false: no picture has it. */
+static bool find_place(const cs_decode *d, int64_t time, size_t *place) {
+  size_t low = 0, high = d->listing->count;
+  while (low < high) {
+    size_t middle = low + (high - low) / 2;
+    if (d->listing->pictures[middle].time < time)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  *place = low;
+  return low < d->listing->count && d->listing->pictures[low].time == time;
+}
+
+/* Waits for the time of the next picture. *is_over: there are no more pictures. */
+static celspan_status next_time(cs_decode *d, celspan_context *context, int64_t *time,
+                                bool *is_over) {
+  double since = cs_clock_seconds();
+  *is_over = false;
+  while (d->time_count == 0 && d->media.socket >= 0)
+    CS_TRY(cs_media_wait(&d->media, context, since, NULL));
+  *is_over = d->time_count == 0;
+  if (*is_over)
+    return CELSPAN_OK;
+  *time = d->times[d->first_time];
+  d->first_time = (d->first_time + 1) % CS_DECODE_TIMES;
+  d->time_count--;
+  return CELSPAN_OK;
+}
+
+/* Reads the picture into a new entry, which is counted, but not in the cache yet. */
+static celspan_status read_picture(cs_decode *d, celspan_context *context, cs_cache *cache,
+                                   size_t place, cs_decode_picture **out, bool *is_over) {
+  size_t got = 0, size = cs_raw_size(&d->planes);
+  cs_cache_entry *entry;
+  CS_TRY(cs_cache_create(cache, context, key_of(d, place), sizeof **out + size, &entry));
+  cs_decode_picture *picture = (cs_decode_picture *)entry;
+  picture->size = size;
+  picture->planes = cs_mem_resize(cache->memory, NULL, 0, size);
+  celspan_status status = picture->planes ? CELSPAN_OK : cs_fail_memory(context);
+  if (status == CELSPAN_OK)
+    status = cs_media_read(&d->media, context, picture->planes, size, &got);
+  *is_over = got < size;
+  if (status == CELSPAN_OK && !*is_over) {
+    d->decoded++;
+    *out = picture;
+    return CELSPAN_OK;
+  }
+  cs_cache_discard(cache, entry);
+  return status;
+}
+
+/* Reads the next picture, and puts it into the cache; if its place is `wanted`, pins it there and
+ * returns it in *out. */
+static celspan_status step(cs_decode *d, celspan_context *context, cs_cache *cache, size_t wanted,
+                           cs_decode_picture **out, bool *is_over) {
+  cs_decode_picture *picture = NULL;
+  int64_t time = 0;
+  size_t place;
+  CS_TRY(next_time(d, context, &time, is_over));
+  if (*is_over)
+    return cs_media_conclude(&d->media, context);
+  bool is_known = find_place(d, time, &place);
+  CS_TRY(read_picture(d, context, cache, place, &picture, is_over));
+  if (*is_over)
+    return cs_media_conclude(&d->media, context);
+  if (!is_known) {
+    cs_cache_discard(cache, &picture->cached);
+    return CELSPAN_OK;
+  }
+  cs_cache_entry *kept = cs_cache_insert(cache, &picture->cached, place == wanted);
+  if (place == wanted)
+    *out = (cs_decode_picture *)kept;
+  d->next = place + 1;
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- a picture */
+
+/* Decodes up to a place. *out is NULL if the picture did not come. */
+static celspan_status advance(cs_decode *d, celspan_context *context, cs_cache *cache, size_t place,
+                              cs_decode_picture **out) {
+  bool is_over = false;
+  *out = NULL;
+  celspan_status status = CELSPAN_OK;
+  while (status == CELSPAN_OK && !*out && !is_over && d->next <= place)
+    status = step(d, context, cache, place, out, &is_over);
+  if (status != CELSPAN_OK || is_over)
+    stop(d);
+  return status;
+}
+
+/* Continues up to the next place where decoding can begin, if all this fits into the cache. What
+ * fails here fails again where it is asked for. */
+static void complete(cs_decode *d, celspan_context *context, cs_cache *cache, size_t place) {
+  size_t end = place + 1, most = cache->budget / 2 / cs_raw_size(&d->planes);
+  while (end < d->listing->count && !d->listing->pictures[end].is_key)
+    end++;
+  cs_decode_picture *none = NULL;
+  celspan_context own;
+  cs_context_branch(&own, context);
+  if (end - key_before(d, place) <= most && d->is_running && d->next < end &&
+      advance(d, &own, cache, end - 1, &none) == CELSPAN_OK && none)
+    cs_cache_unpin(cache, &none->cached);
+}
+
+/* Begins before a place, unless decoding is on its way to it. *is_again: it has begun at the same
+ * picture before. */
+static celspan_status approach(cs_decode *d, celspan_context *context, size_t place,
+                               bool *is_again) {
+  size_t key = key_before(d, place);
+  *is_again = false;
+  if (d->is_running && d->next <= place && (key <= d->next || place - d->next <= AHEAD))
+    return CELSPAN_OK;
+  *is_again = d->marks[key] & BEGUN;
+  d->marks[key] |= BEGUN;
+  return begin(d, context, key);
+}
+
+/* The picture did not come: tries from one picture earlier at which decoding can begin, and then
+ * from the beginning. */
+static celspan_status retry(cs_decode *d, celspan_context *context, cs_cache *cache, size_t place,
+                            cs_decode_picture **out) {
+  size_t key = key_before(d, place);
+  bool was_whole = d->begin == 0;
+  if (key > 0 && !was_whole) {
+    CS_TRY(begin(d, context, key_before(d, key - 1)));
+    CS_TRY(advance(d, context, cache, place, out));
+    was_whole = d->begin == 0;
+  }
+  if (!*out && !was_whole) {
+    CS_TRY(begin(d, context, 0));
+    CS_TRY(advance(d, context, cache, place, out));
+  }
+  if (!*out)
+    d->marks[place] |= LOST;
+  return CELSPAN_OK;
+}
+
+/* The picture that is shown at a place: the last one that can be decoded, or the first one. */
+static bool find_shown(const cs_decode *d, size_t *place) {
+  size_t before = *place, after = *place;
+  while (before > 0 && d->marks[before] & LOST)
+    before--;
+  while (after < d->listing->count && d->marks[after] & LOST)
+    after++;
+  *place = d->marks[before] & LOST ? after : before;
+  return *place < d->listing->count;
+}
+
+static celspan_status fetch(cs_decode *d, celspan_context *context, cs_cache *cache, size_t place,
+                            cs_decode_picture **out) {
+  bool is_again = false;
+  CS_TRY(approach(d, context, place, &is_again));
+  CS_TRY(advance(d, context, cache, place, out));
+  if (!*out)
+    CS_TRY(retry(d, context, cache, place, out));
+  if (*out && is_again)
+    complete(d, context, cache, place);
+  return CELSPAN_OK;
+}
+
+static celspan_status find(cs_decode *d, celspan_context *context, cs_cache *cache, size_t place,
+                           cs_decode_picture **out) {
+  *out = NULL;
+  while (find_shown(d, &place)) {
+    *out = (cs_decode_picture *)cs_cache_pin(cache, key_of(d, place));
+    if (!*out)
+      CS_TRY(fetch(d, context, cache, place, out));
+    if (*out)
+      return CELSPAN_OK;
+  }
+  return cs_fail(context, CELSPAN_INPUT, "the movie %s: none of its pictures can be decoded",
+                 d->path);
+}
+
+celspan_status cs_decode_get(cs_decode *d, celspan_context *context, size_t place,
+                             cs_decode_picture **out) {
+  cs_cache *cache;
+  CS_TRY(get_cache(context, &cache));
+  cs_cache_raise_budget(cache, 4 * cs_raw_size(&d->planes));
+  pthread_mutex_lock(&d->lock);
+  celspan_status status = find(d, context, cache, place, out);
+  pthread_mutex_unlock(&d->lock);
+  return status;
+}
+
+/* ---------------------------------------------------------------- life */
+
+/* ffmpeg's own decoder of VP9 leaves out its alpha. */
+static void choose_decoder(cs_decode *d) {
+  const char *name = "";
+  if (d->listing->has_alpha)
+    name = strcmp(d->listing->codec, "vp9") == 0   ? "libvpx-vp9"
+           : strcmp(d->listing->codec, "vp8") == 0 ? "libvpx"
+                                                   : "";
+  snprintf(d->decoder, sizeof d->decoder, "%s", name);
+}
+
+static celspan_status set_planes(cs_decode *d, celspan_context *context) {
+  const cs_listing *listing = d->listing;
+  bool is_yuva = *d->decoder && strncmp(listing->pixels, "yuv4", 4) == 0;
+  char name[40];
+  snprintf(name, sizeof name, "%s%s", is_yuva ? "yuva" : "", listing->pixels + (is_yuva ? 3 : 0));
+  cs_raw_parse(name, &d->planes, d->pixels);
+  const float *shares = cs_raw_matrix(listing->matrix, listing->height);
+  if (!shares)
+    return cs_fail(context, CELSPAN_INPUT,
+                   "the movie %s has colours by the matrix %s, which is not read: convert it to "
+                   "BT.709",
+                   d->path, listing->matrix);
+  d->planes.red = shares[0];
+  d->planes.blue = shares[1];
+  d->planes.width = listing->width;
+  d->planes.height = listing->height;
+  d->planes.turns = listing->turns;
+  d->planes.is_full = d->planes.is_full || listing->is_full;
+  cs_raw_set_site(&d->planes, listing->site);
+  return CELSPAN_OK;
+}
+
+void cs_decode_begin(cs_decode *d, const cs_listing *listing) {
+  *d = (cs_decode){.listing = listing};
+  pthread_mutex_init(&d->lock, NULL);
+}
+
+celspan_status cs_decode_init(cs_decode *d, celspan_context *context, const char *path,
+                              const cs_kind_file *file) {
+  d->file = *file;
+  d->path = cs_mem_resize(context->memory, NULL, 0, strlen(path) + 1);
+  d->marks = cs_mem_array(context->memory, d->listing->count, 1);
+  if (!d->path || !d->marks)
+    return cs_fail_memory(context);
+  strcpy(d->path, path);
+  choose_decoder(d);
+  return set_planes(d, context);
+}
+
+void cs_decode_finish(cs_decode *d, cs_memory *memory) {
+  pthread_mutex_lock(&d->lock); /* another movie may be ending its worker */
+  stop(d);
+  pthread_mutex_unlock(&d->lock);
+  pthread_mutex_destroy(&d->lock);
+  cs_mem_free(memory, d->path, d->path ? strlen(d->path) + 1 : 0);
+  cs_mem_free(memory, d->marks, d->marks ? d->listing->count : 0);
+}

@@ -1,0 +1,65 @@
+/* The raw pictures of a movie, decoded by ffmpeg in a worker (plugins/isolate/media.h).
+ *
+ *   place   0   1   2   3   4   5   6   7   8
+ *           K           .   .   K                K: decoding can begin here
+ *                       ^ next: the worker waits with this one, and decodes it meanwhile
+ *
+ *   asked for 4: decoding continues.  8: a worker begins at 5.  1: a worker begins at 0.
+ *
+ * Every picture that is passed on the way is kept, as long as there is room. Where decoding begins
+ * at the same picture for the second time, it continues up to the next such picture: so pictures in
+ * any order are decoded about twice.
+ *
+ * INVARIANT: a picture is found by its time, which ffmpeg reports, and not by counting. A picture
+ * that ffmpeg cannot decode, even from the beginning of the file, shows the one before it.
+ */
+#pragma once
+
+#include <pthread.h>
+
+#include "base/cache.h"
+#include "plugins/footage/listing.h"
+#include "plugins/footage/raw.h"
+#include "plugins/isolate/media.h"
+
+enum { CS_DECODE_TIMES = 1024 };
+
+typedef struct cs_decode {
+  const cs_listing *listing; /* borrowed */
+  char *path;                /* owned */
+  cs_kind_file file;         /* without its descriptor */
+  cs_raw planes;
+  char pixels[16], decoder[16]; /* names of ffmpeg */
+  cs_cache_key key;             /* of picture 0 */
+  unsigned char *marks;         /* of each picture */
+  pthread_mutex_t lock;         /* guards what follows, and the marks */
+  struct cs_decode *running;    /* the next one with a worker */
+  bool is_running;
+  cs_media media;
+  size_t next;                    /* the place after the last picture that came */
+  size_t begin;                   /* where the worker has begun */
+  uint64_t decoded;               /* pictures that came, of all workers */
+  int64_t times[CS_DECODE_TIMES]; /* of pictures that have not been read; a ring */
+  size_t first_time, time_count;
+  char line[128]; /* of what the worker says, so far */
+  size_t line_size;
+} cs_decode;
+
+/* A picture in the cache. */
+typedef struct cs_decode_picture {
+  cs_cache_entry cached;
+  unsigned char *planes;
+  size_t size;
+} cs_decode_picture;
+
+/* listing: borrowed; it may still be empty. */
+void cs_decode_begin(cs_decode *decode, const cs_listing *listing);
+/* The listing is complete now. Errors: NO_MEMORY, INPUT. */
+CELSPAN_CHECKED celspan_status cs_decode_init(cs_decode *decode, celspan_context *context,
+                                              const char *path, const cs_kind_file *file);
+void cs_decode_finish(cs_decode *decode, cs_memory *memory);
+/* The picture at a place, with a pin, until cs_decode_release. Errors: INPUT, LIMIT, NO_MEMORY,
+ * OUTPUT, CANCELLED. */
+CELSPAN_CHECKED celspan_status cs_decode_get(cs_decode *decode, celspan_context *context,
+                                             size_t place, cs_decode_picture **out);
+void cs_decode_release(celspan_context *context, cs_decode_picture *picture);

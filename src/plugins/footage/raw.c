@@ -1,0 +1,167 @@
+#include "plugins/footage/raw.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { HIGH = 720 /* rows from which a movie without a tag is treated as BT.709 */ };
+
+/* ---------------------------------------------------------------- what codes mean */
+
+static const float BT601[] = {.299f, .114f}, BT709[] = {.2126f, .0722f},
+                   BT2020[] = {.2627f, .0593f};
+
+const float *cs_raw_matrix(const char *name, int32_t height) {
+  static const struct {
+    const char *name;
+    const float *shares;
+  } known[] = {{"bt709", BT709},
+               {"bt470bg", BT601},
+               {"smpte170m", BT601},
+               {"bt2020nc", BT2020},
+               {"gbr", BT709}};
+  if (!*name || strcmp(name, "unknown") == 0 || strcmp(name, "unspecified") == 0)
+    return height >= HIGH ? BT709 : BT601;
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+    if (strcmp(name, known[i].name) == 0)
+      return known[i].shares;
+  return NULL;
+}
+
+void cs_raw_set_site(cs_raw *planes, const char *name) {
+  bool is_left =
+      strcmp(name, "center") != 0 && strcmp(name, "top") != 0 && strcmp(name, "bottom") != 0;
+  bool is_top = strncmp(name, "top", 3) == 0, is_bottom = strncmp(name, "bottom", 6) == 0;
+  planes->site_x = is_left || planes->across == 1 ? 0 : .5f;
+  planes->site_y = is_top || planes->down == 1 ? 0 : is_bottom ? 1 : .5f;
+}
+
+/* ---------------------------------------------------------------- forms of pixels */
+
+/* The forms whose planes are read as they are: what comes before the number of bits. */
+static const struct {
+  const char *name;
+  cs_raw form;
+} forms[] = {
+    {"yuv420p", {.has_colour = true, .across = 2, .down = 2}},
+    {"yuv422p", {.has_colour = true, .across = 2, .down = 1}},
+    {"yuv444p", {.has_colour = true, .across = 1, .down = 1}},
+    {"yuvj420p", {.has_colour = true, .across = 2, .down = 2, .is_full = true}},
+    {"yuvj422p", {.has_colour = true, .across = 2, .down = 1, .is_full = true}},
+    {"yuvj444p", {.has_colour = true, .across = 1, .down = 1, .is_full = true}},
+    {"yuva420p", {.has_colour = true, .across = 2, .down = 2, .has_alpha = true}},
+    {"yuva422p", {.has_colour = true, .across = 2, .down = 1, .has_alpha = true}},
+    {"yuva444p", {.has_colour = true, .across = 1, .down = 1, .has_alpha = true}},
+    {"gbrp", {.has_colour = true, .is_rgb = true, .across = 1, .down = 1}},
+    {"gbrap", {.has_colour = true, .is_rgb = true, .across = 1, .down = 1, .has_alpha = true}},
+    {"gray", {.across = 1, .down = 1}},
+};
+
+/* Forms with the same numbers in another order, and the form of planes that ffmpeg makes of them
+ * without changing one. */
+static const char *const orders[][2] = {
+    {"nv12", "yuv420p"},       {"nv21", "yuv420p"},       {"p010le", "yuv420p10le"},
+    {"yuyv422", "yuv422p"},    {"uyvy422", "yuv422p"},    {"rgba", "gbrap"},
+    {"bgra", "gbrap"},         {"argb", "gbrap"},         {"abgr", "gbrap"},
+    {"pal8", "gbrap"},         {"rgb48le", "gbrp16le"},   {"rgb48be", "gbrp16le"},
+    {"rgba64le", "gbrap16le"}, {"rgba64be", "gbrap16le"}, {"ya8", "yuva444p"},
+};
+
+static bool parse_form(const char *name, cs_raw *out) {
+  for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
+    size_t length = strlen(forms[i].name);
+    if (strncmp(name, forms[i].name, length) != 0)
+      continue;
+    char *end;
+    const char *rest = name + length;
+    long bits = *rest ? strtol(rest, &end, 10) : 8;
+    if (bits < 8 || bits > 16 || (*rest && strcmp(end, "le") != 0))
+      continue;
+    *out = forms[i].form;
+    out->bits = (int)bits;
+    return true;
+  }
+  return false;
+}
+
+void cs_raw_parse(const char *name, cs_raw *out, char wanted[16]) {
+  snprintf(wanted, 16, "%s", name);
+  if (parse_form(wanted, out))
+    return;
+  snprintf(wanted, 16, "%s", "gbrp");
+  for (size_t i = 0; i < sizeof orders / sizeof *orders; i++)
+    if (strcmp(name, orders[i][0]) == 0)
+      snprintf(wanted, 16, "%s", orders[i][1]);
+  (void)!parse_form(wanted, out);
+}
+
+/* ---------------------------------------------------------------- sizes */
+
+size_t cs_raw_size(const cs_raw *planes) {
+  size_t width = (size_t)planes->width, height = (size_t)planes->height;
+  size_t across = (size_t)planes->across, down = (size_t)planes->down;
+  size_t colour = (width + across - 1) / across * ((height + down - 1) / down);
+  size_t samples = width * height * (planes->has_alpha ? 2 : 1);
+  return (samples + (planes->has_colour ? 2 * colour : 0)) * (planes->bits > 8 ? 2 : 1);
+}
+
+size_t cs_raw_pixel(const cs_raw *planes) { return planes->bits > 8 ? 8 : 4; }
+
+void cs_raw_upright(const cs_raw *planes, int32_t *width, int32_t *height) {
+  *width = planes->turns % 2 ? planes->height : planes->width;
+  *height = planes->turns % 2 ? planes->width : planes->height;
+}
+
+/* ---------------------------------------------------------------- conversion */
+
+static void put_codes(const float *from, size_t pixel, unsigned char *out) {
+  const float most = pixel == 8 ? 65535 : 255;
+  for (int c = 0; c < 4; c++) {
+    float value = from[c] < 0 ? 0 : from[c] > 1 ? 1 : from[c];
+    uint16_t code = (uint16_t)(value * most + .5f);
+    if (pixel == 8)
+      memcpy(out + 2 * c, &code, sizeof code);
+    else
+      out[c] = (unsigned char)code;
+  }
+}
+
+/* A rectangle of the upright picture, in the picture as it is stored. */
+static celspan_rectangle stored(const cs_raw *planes, const celspan_rectangle *r) {
+  const int32_t width = planes->width, height = planes->height;
+  switch (planes->turns) {
+  case 1:
+    return (celspan_rectangle){r->y, height - r->x - r->width, r->height, r->width};
+  case 2:
+    return (celspan_rectangle){width - r->x - r->width, height - r->y - r->height, r->width,
+                               r->height};
+  case 3:
+    return (celspan_rectangle){width - r->y - r->height, r->x, r->height, r->width};
+  default:
+    return *r;
+  }
+}
+
+/* Where the stored pixel (x, y) of the rectangle's `width` x `height` stored pixels goes. */
+static size_t place_of(const cs_raw *planes, const celspan_rectangle *from, int32_t x, int32_t y,
+                       size_t stride, size_t pixel) {
+  const int32_t last_x = from->width - 1, last_y = from->height - 1;
+  const int32_t columns[] = {x, last_y - y, last_x - x, y}, rows[] = {y, x, last_y - y, last_x - x};
+  return (size_t)rows[planes->turns] * stride + (size_t)columns[planes->turns] * pixel;
+}
+
+celspan_status cs_raw_convert(const cs_raw *planes, celspan_context *context,
+                              const unsigned char *picture, const celspan_rectangle *rectangle,
+                              unsigned char *out, size_t stride) {
+  const celspan_rectangle from = stored(planes, rectangle);
+  const size_t pixel = cs_raw_pixel(planes), count = 4 * (size_t)from.width;
+  float *row;
+  CS_TRY(CS_MAKE(context, row, count));
+  for (int32_t y = 0; y < from.height; y++) {
+    cs_raw_row(planes, picture, from.x, from.y + y, from.width, row);
+    for (int32_t x = 0; x < from.width; x++)
+      put_codes(row + 4 * x, pixel, out + place_of(planes, &from, x, y, stride, pixel));
+  }
+  cs_mem_free(context->memory, row, count * sizeof *row);
+  return CELSPAN_OK;
+}

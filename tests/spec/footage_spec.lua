@@ -1,0 +1,329 @@
+-- Footage: each picture is the one that ffmpeg has at the time, converted exactly; bad movies are
+-- refused in one sentence, and numbered files begin anywhere.
+
+local present = require "tests.support.present"
+local workbench = require "tests.support.workbench"
+
+local it_decodes = present.program("ffmpeg", "ffprobe") and it or pending
+
+local W, H = 64, 36
+local TEST = "-f lavfi -i testsrc2=s=64x36:r=%s:d=%s,noise=alls=40:allf=t "
+local X264 = "-c:v libx264 -pix_fmt %s -g 12 -bf 2 "
+
+-- A film of all its pictures, or of those at its own times.
+local FILM = [[
+local celspan = require "celspan"
+local name, way, fps = ...
+local clip = celspan.footage { file = name }
+local w, h = clip.size[1], clip.size[2]
+local count = way == "at" and math.floor(clip.seconds * fps) or clip.frames
+print(("%d %d %.4f %d %.3f %s"):format(w, h, clip.fps, clip.frames, clip.seconds, clip.sound))
+return celspan.film { size = { w, h }, fps = tonumber(fps) or 24, frames = count,
+  frame = function(f)
+    local n = way == "back" and clip.frames - f.index or f.index + 1
+    local shown = way == "at" and clip:at(f.time) or clip:frame(n)
+    return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, w, h, texture = shown } } }
+  end }
+]]
+
+local function run(bench, command)
+  local code, _, err = bench:inside(command)
+  assert(code == 0, command .. ": " .. err)
+end
+
+--- Makes a clip. made: arguments of ffmpeg.
+local function make(bench, name, made) run(bench, "ffmpeg -v error -y " .. made .. " " .. name) end
+
+-- ---------------------------------------------------------------- what ffmpeg has
+
+--- The times of the pictures, in seconds from the first one, and the tick.
+local function times_of(bench, name)
+  run(bench, ("ffmpeg -v error -y -copyts -i %s -map 0:V:0 -vsync passthrough -enc_time_base -1 "
+    .. "-f framemd5 times.txt"):format(name))
+  local text, times = bench:read "times.txt", {}
+  local a, b = text:match "#tb 0: (%d+)/(%d+)"
+  for pts in text:gmatch "\n0, *%-?%d+, *(%-?%d+)," do times[#times + 1] = pts * a / b end
+  for i = #times, 1, -1 do times[i] = times[i] - times[1] end
+  return times, a / b
+end
+
+--- The raw planes of all pictures.
+local function planes_of(bench, name, form)
+  run(bench, ("ffmpeg -v error -y -noautorotate %s-i %s -map 0:V:0 -vsync passthrough -f rawvideo "
+    .. "-pix_fmt %s raw"):format(form.decoder or "", name, form.pixels))
+  return bench:read "raw"
+end
+
+local function floor_to(value, most) return math.max(0, math.min(most, value)) end
+
+--- R'G'B' of a pixel of a picture, in codes from 0 to 1, by exact formulas.
+local function exact(raw, form, picture, x, y)
+  local bytes, most = form.bits > 8 and 2 or 1, (1 << form.bits) - 1
+  local cw, ch = (W + form.across - 1) // form.across, (H + form.down - 1) // form.down
+  local size = (W * H * (form.alpha and 2 or 1) + 2 * cw * ch) * bytes
+  local function sample(start, width, sx, sy)
+    return (("<I" .. bytes):unpack(raw, picture * size + (start + sy * width + sx) * bytes + 1))
+  end
+  local function colour(start)
+    local px, py = x / form.across, form.down == 1 and y or (y - .5) / 2
+    local x0, y0 = math.floor(px), math.floor(py)
+    local function at(i, j)
+      return sample(start, cw, floor_to(x0 + i, cw - 1), floor_to(y0 + j, ch - 1))
+    end
+    local u, v = px - x0, py - y0
+    return (1 - v) * ((1 - u) * at(0, 0) + u * at(1, 0)) + v * ((1 - u) * at(0, 1) + u * at(1, 1))
+  end
+  local unit = 1 << (form.bits - 8)
+  local black, light, chroma = 16 * unit, 219 * unit, 224 * unit
+  if form.full then black, light, chroma = 0, most, most end
+  local kr, kb = table.unpack(form.matrix or { .299, .114 })
+  local l = (sample(0, W, x, y) - black) / light
+  local cb = (colour(W * H) - 128 * unit) / chroma
+  local cr = (colour(W * H + cw * ch) - 128 * unit) / chroma
+  local r, b = l + 2 * (1 - kr) * cr, l + 2 * (1 - kb) * cb
+  local alpha = form.alpha and sample(W * H + 2 * cw * ch, W, x, y) / most or 1
+  return { r, (l - kr * r - kb * b) / (1 - kr - kb), b, alpha }
+end
+
+-- ---------------------------------------------------------------- comparing
+
+--- The upright place of a stored pixel.
+local function upright(form, x, y)
+  if form.turns == 1 then return H - 1 - y, x, H end
+  if form.turns == 3 then return y, W - 1 - x, H end
+  return x, y, W
+end
+
+--- The largest difference, in 8-bit codes, between frame `shown` of the render and a picture.
+local function difference(codes, shown, raw, form, picture)
+  local worst = 0
+  for i = 0, 119 do
+    local x, y = i * 37 % W, i * 23 % H
+    local wanted, ux, uy, width = exact(raw, form, picture, x, y), upright(form, x, y)
+    local at = (shown * W * H + uy * width + ux) * 4
+    for c = 1, wanted[4] > 0 and 4 or 0 do
+      worst = math.max(worst, math.abs(codes:byte(at + c) - 255 * floor_to(wanted[c], 1)))
+    end
+  end
+  return worst
+end
+
+--- Renders a clip; returns the codes of all frames, RGBA of 8 bits, and what the script printed.
+local function render(bench, name, way, fps)
+  local code, _, err = bench:celspan_inside("render film.lua -o f.%%04d.png -- %s %s %s", name, way,
+    fps or 24)
+  assert(code == 0, err)
+  run(bench, "ffmpeg -v error -y -f image2 -i f.%04d.png -f rawvideo -pix_fmt rgba codes")
+  local codes = bench:read "codes"
+  os.execute(("rm -f '%s'/f.*.png"):format(bench.folder))
+  return codes, err
+end
+
+local function check(bench, name, form)
+  local raw, times, tick = planes_of(bench, name, form), times_of(bench, name)
+  local codes = render(bench, name, "at", 50)
+  local count = #codes // (W * H * 4)
+  assert(count >= 20, name .. ": " .. count .. " frames")
+  for shown = 0, count - 1, 7 do
+    local place = 1
+    while times[place + 1] and times[place + 1] <= shown / 50 + tick / 2 do place = place + 1 end
+    local worst = difference(codes, shown, raw, form, place - 1)
+    assert(worst <= 2, ("%s: frame %d differs from picture %d by %.1f"):format(name, shown, place,
+      worst))
+    local other = place < #times and place or place - 2
+    assert(difference(codes, shown, raw, form, other) > 2, name .. ": its neighbour is equal")
+  end
+end
+
+-- ---------------------------------------------------------------- clips
+
+local P420 = { pixels = "yuv420p", across = 2, down = 2, bits = 8 }
+local function like(form, fields)
+  local copy = {}
+  for key, value in pairs(form) do copy[key] = value end
+  for key, value in pairs(fields) do copy[key] = value end
+  return copy
+end
+
+local clips = {}
+local function add(name, made, form) clips[#clips + 1] = { name, made, form or P420 } end
+
+for _, rate in ipairs { "12", "24000/1001", "24", "25", "30", "60" } do
+  add(("r%s.mp4"):format(rate:match "^%d+" .. (rate:find "/" and "n" or "")),
+    TEST:format(rate, 1) .. X264:format "yuv420p")
+end
+add("matroska.mkv", TEST:format(24, 1) .. X264:format "yuv420p")
+add("variable.mp4", TEST:format(30, 2)
+  .. "-vf \"select='not(mod(n,5))+not(mod(n,7))',setpts=PTS\" -vsync vfr " .. X264:format "yuv420p")
+add("ten.mp4", TEST:format(24, 1) .. X264:format "yuv420p10le",
+  like(P420, { pixels = "yuv420p10le", bits = 10 }))
+add("wide.mp4", TEST:format(24, 1) .. X264:format "yuv422p",
+  like(P420, { pixels = "yuv422p", down = 1 }))
+add("full.mp4", TEST:format(24, 1) .. X264:format "yuv444p" .. "-color_range pc -colorspace bt709",
+  like(P420, { pixels = "yuvj444p", across = 1, down = 1, full = true, matrix = { .2126, .0722 } }))
+add("broad.mp4", TEST:format(24, 1) .. X264:format "yuv420p" .. "-colorspace bt2020nc",
+  like(P420, { matrix = { .2627, .0593 } }))
+add("alpha.webm", TEST:format(24, 1) .. "-vf format=yuva420p,colorchannelmixer=aa=0.5 "
+  .. "-c:v libvpx-vp9 -pix_fmt yuva420p -b:v 500k",
+  like(P420, { pixels = "yuva420p", alpha = true, decoder = "-c:v libvpx-vp9 " }))
+add("alpha.mov", TEST:format(24, 1) .. "-vf format=yuva444p10le,colorchannelmixer=aa=0.5 "
+  .. "-c:v prores_ks -pix_fmt yuva444p10le",
+  { pixels = "yuva444p12le", across = 1, down = 1, bits = 12, alpha = true })
+
+describe("footage", function()
+  local bench
+
+  before_each(function()
+    bench = workbench.new()
+    bench:write("film.lua", FILM)
+  end)
+  after_each(function() bench:remove() end)
+
+  local function fails(name, pattern)
+    local code, _, err = bench:celspan_inside("render film.lua -o f.%%04d.png -- %s frame", name)
+    assert.are_not.equal(0, code)
+    assert.matches(pattern, err)
+  end
+
+  for _, clip in ipairs(clips) do
+    it_decodes("shows the pictures of " .. clip[1] .. " at their times", function()
+      make(bench, clip[1], clip[2])
+      check(bench, clip[1], clip[3])
+    end)
+  end
+
+  it_decodes("follows an edit list, and turns a picture upright", function()
+    make(bench, "whole.mp4", TEST:format(24, 2) .. X264:format "yuv420p")
+    make(bench, "edit.mp4", "-ss 0.7 -i whole.mp4 -c copy")
+    check(bench, "edit.mp4", P420)
+    make(bench, "right.mp4", "-i whole.mp4 -c copy -metadata:s:v rotate=270")
+    check(bench, "right.mp4", like(P420, { turns = 1 }))
+    make(bench, "left.mp4", "-i whole.mp4 -c copy -metadata:s:v rotate=90")
+    check(bench, "left.mp4", like(P420, { turns = 3 }))
+  end)
+
+  it_decodes("shows the same pictures in any order", function()
+    make(bench, "a.mp4", TEST:format(24, 2) .. X264:format "yuv420p")
+    local forwards, said = render(bench, "a.mp4", "frame")
+    assert.matches("64 36 24%.0000 48 2%.000 false", said)
+    local backwards, size = render(bench, "a.mp4", "back"), W * H * 4
+    assert.are.equal(48 * size, #backwards)
+    for i = 0, 47 do
+      assert(forwards:sub(i * size + 1, (i + 1) * size)
+        == backwards:sub((47 - i) * size + 1, (48 - i) * size), "picture " .. i + 1)
+    end
+  end)
+
+  it_decodes("shows each picture in its frame, though the clock of a file is rounded", function()
+    make(bench, "a.mkv", TEST:format(24, 2) .. X264:format "yuv420p")
+    local numbered, timed = render(bench, "a.mkv", "frame"), render(bench, "a.mkv", "at", 24)
+    assert(#timed >= 46 * W * H * 4 and numbered:sub(1, #timed) == timed, #timed)
+  end)
+
+  it_decodes("has a sound, which a film plays", function()
+    make(bench, "a.mkv", TEST:format(24, 1) .. "-f lavfi -i sine=d=1 " .. X264:format "yuv420p"
+      .. "-c:a libvorbis")
+    bench:write("heard.lua", [[
+      local celspan = require "celspan"
+      local clip = celspan.footage { file = "a.mkv" }
+      return celspan.film { size = clip.size, fps = 24, frames = 24, frame = function()
+        return celspan.rostrum {}
+      end, sound = clip.sound and "a.mkv" or nil }]])
+    assert.are.equal(0, (bench:celspan_inside "sound heard.lua -o mix.wav"))
+    local mix = bench:read "mix.wav"
+    assert(#mix > 48000 * 4 and mix:sub(100000, 100999):find "[^%z]", #mix)
+  end)
+
+  it_decodes("makes pixels square", function()
+    make(bench, "square.mp4", TEST:format(24, 1) .. X264:format "yuv420p" .. "-vf setsar=4/3")
+    local _, said = render(bench, "square.mp4", "frame")
+    assert.matches("^85 36 ", said)
+  end)
+
+  it_decodes("shows the pictures of a movie that ends early or changes its size", function()
+    make(bench, "whole.mkv", TEST:format(24, 2) .. X264:format "yuv420p"
+      .. "-cluster_time_limit 200")
+    local whole = bench:read "whole.mkv"
+    bench:write("early.mkv", whole:sub(1, #whole // 2))
+    local codes, said = render(bench, "early.mkv", "frame")
+    local count = tonumber(said:match "^%d+ %d+ [%d.]+ (%d+)")
+    assert(count > 5 and count < 48 and #codes == count * W * H * 4, said)
+    make(bench, "one.ts", TEST:format(25, 1) .. X264:format "yuv420p")
+    make(bench, "two.ts", "-f lavfi -i testsrc2=s=128x72:r=25:d=1 " .. X264:format "yuv420p"
+      .. "-output_ts_offset 1")
+    bench:write("change.ts", bench:read "one.ts" .. bench:read "two.ts")
+    codes, said = render(bench, "change.ts", "frame")
+    assert.matches("^64 36 ", said)
+    assert(#codes > 40 * W * H * 4, said)
+  end)
+
+  it_decodes("refuses what is not a movie with pictures, in one sentence", function()
+    make(bench, "sound.mp4", "-f lavfi -i sine=d=1 -c:a aac")
+    fails("sound.mp4", "the movie sound.mp4 has no moving pictures, only sound")
+    bench:write("list.mp4", "#EXTM3U\nfile:///etc/passwd\n")
+    fails("list.mp4", "has none of the formats that are read")
+    bench:write("list.txt", "ffconcat version 1.0\nfile sound.mp4\n")
+    fails("list.txt", "has none of the formats that are read")
+    bench:write("empty.mp4", "")
+    fails("empty.mp4", "has none of the formats that are read")
+    bench:write("part.mp4", bench:read("sound.mp4"):sub(1, 600))
+    fails("part.mp4", "the movie part.mp4 cannot be read: ffmpeg ended with exit code 1")
+    fails("none.mp4", "the movie none.mp4 cannot be opened: No such file or directory")
+    fails(".", "the movie %. ")
+  end)
+
+  it_decodes("is described by info", function()
+    make(bench, "a.webm", TEST:format(24, 1) .. "-c:v libvpx-vp9")
+    local code, out = bench:celspan_inside "info a.webm"
+    assert.are.equal(0, code)
+    assert.matches("^format matroska\ncodec vp9\nsize 64x36\nfps 24\nframes 24\n", out)
+  end)
+
+  it("shows numbered files, which begin anywhere", function()
+    bench:write("plates.lua", [[
+      local celspan = require "celspan"
+      return celspan.film { size = { 8, 8 }, frames = 6, frame = function(f)
+        local grey = f.index / 10
+        return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 8, 8,
+          texture = celspan.rgb(grey, grey, grey) } } }
+      end }]])
+    bench:write("show.lua", [[
+      local celspan = require "celspan"
+      local clip = celspan.footage { file = "p.####.png", fps = 12, from = 1 / 12, to = .4 }
+      print(clip.frames, clip.seconds, clip.size[1], clip.fps)
+      return celspan.film { size = clip.size, fps = 12, frames = clip.frames, frame = function(f)
+        return celspan.rostrum { celspan.cel {
+          celspan.rect { 0, 0, 8, 8, texture = clip:at(f.time) } } }
+      end }]])
+    assert.are.equal(0, (bench:celspan_inside "render plates.lua -o 'p.####.png'"))
+    for i = 6, 1, -1 do
+      os.rename(("%s/p.%04d.png"):format(bench.folder, i),
+        ("%s/p.%04d.png"):format(bench.folder, 1000 + i))
+    end
+    local code, _, err = bench:celspan_inside "render show.lua -o 's.####.png'"
+    assert.are.equal(0, code)
+    assert.matches("^4\t0%.31666", err)
+    for i = 1, 4 do
+      assert.are.equal(0, (bench:celspan_inside("compare s.%04d.png p.%04d.png", i, 1001 + i)))
+    end
+    os.remove(bench.folder .. "/p.1003.png")
+    os.remove(bench.folder .. "/p.1005.png")
+    code, _, err = bench:celspan_inside "render show.lua -o 's.####.png'"
+    assert.are_not.equal(0, code)
+    assert.matches("footage: p.####.png: 2 files are missing: 1003, 1005", err, 1, true)
+  end)
+
+  it("refuses wrong fields", function()
+    local function refused(fields, message)
+      bench:write("wrong.lua", "local celspan = require 'celspan'\ncelspan.footage " .. fields)
+      local code, _, err = bench:celspan_inside "check wrong.lua"
+      assert.are_not.equal(0, code)
+      assert.matches("wrong.lua:2: footage: " .. message, err)
+    end
+    refused("{}", "field 'file' must be a string, got nil")
+    refused("{ file = 'a.mp4', alpha = 'none' }", "field 'alpha' must be")
+    refused("{ file = 'a.mp4', form = 1 }", "unknown field 'form'; did you mean 'from'%?")
+    refused("{ file = 'a.####.png' }", "a.####.png: there are no such files")
+  end)
+end)
+
