@@ -240,7 +240,7 @@ describe("markers", function()
                                        { tm = 2, cm = "a,b:c", dr = 0 } } })
     assert.same({ "1", 1, 1 }, art.markers[1])
     local marks = art:film().marks
-    assert.same({ 1, 2 }, { marks["marker 1"], marks["a_b_c"] })
+    assert.same({ 1, 2 }, { marks.m1, marks["a_b_c"] })
   end)
 end)
 

@@ -84,12 +84,6 @@ local function mark_name(name)
   return made:find "^[^%d%-]" and made or "m" .. made
 end
 
---- The name of a marker as that of a mark, which begins with a letter and has no comma or colon.
-local function mark_name(name)
-  name = name:gsub("[,:]", "_")
-  return name:find "^%a" and name or "marker " .. name
-end
-
 --- The animation as a film in sRGB codes. Its frames have the numbers of the animation's own count.
 ---@return celspan.film film
 function Art:film()
