@@ -289,7 +289,7 @@ static void check_refusals(studio *s) {
   bad.width = 1048577;
   CHECK(celspan_frame_digest(s->context, &bad, NULL, digest) == CELSPAN_LIMIT);
   bad = desc;
-  bad.crop_x = 90, bad.crop_width = 8, bad.crop_height = 1;
+  bad.crop_x = bad.width, bad.crop_width = 8, bad.crop_height = 1;
   CHECK(celspan_frame_digest(s->context, &bad, NULL, digest) == CELSPAN_BAD_ARGUMENT);
   bad = desc;
   bad.struct_size = 8;
