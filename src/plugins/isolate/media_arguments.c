@@ -22,7 +22,8 @@ static void add_all(cs_media_arguments *out, const char *const *arguments, size_
 }
 
 /* Adds an option and its value, which has numbers. */
-static void add_value(cs_media_arguments *out, const char *option, const char *format, ...) {
+__attribute__((format(printf, 3, 4))) static void
+add_value(cs_media_arguments *out, const char *option, const char *format, ...) {
   va_list values;
   char *text = out->texts + out->size;
   va_start(values, format);
