@@ -905,6 +905,9 @@ function celspan.matte(art, by, options) end
 --- Steps that change colours, in this order.
 ---@class celspan.grade
 ---@field exposure? number Stops: times 2 to the power of this; -64 to 64; default 0
+---@field slope? number[] {r, g, b}; of the ASC CDL: (c slope + offset)^power, held above 0; default {1, 1, 1}
+---@field offset? number[] {r, g, b}; default {0, 0, 0}
+---@field power? number[] {r, g, b}; 0.0009765625 to 1024; default {1, 1, 1}
 ---@field contrast? number 0 or more; default 1
 ---@field pivot? number What contrast leaves as it is; default 0.18, and 0.46 in "srgb"
 ---@field saturation? number 0 or more; default 1
@@ -914,7 +917,9 @@ function celspan.matte(art, by, options) end
 ---@field gamma? number 0.0009765625 to 1024; default 1
 ---@field matrix? number[][] 3 rows of 4: red, green, blue by those, and 1
 ---@field curve? celspan.point[]|celspan.point[][] {in, out}, ..., for all channels or three times: a monotone cubic
+---@field steps? integer Levels of each channel's sRGB code; 2 to 256; default none
 ---@field lut? string The name of a .cube file
+---@field lut_space? "linear"|"srgb" What the numbers of the table are: sRGB codes, or light; default "srgb"
 
 ---@class celspan.cel.fields
 ---@field [integer] celspan.shape

@@ -98,7 +98,9 @@ static const cs_description_field celspan_grade_desc_fields[] = {
     FIELD(celspan_grade_desc, tint),        FIELD(celspan_grade_desc, gamma),
     FIELD(celspan_grade_desc, has_matrix),  FIELD(celspan_grade_desc, matrix),
     FIELD(celspan_grade_desc, curve),       FIELD(celspan_grade_desc, curve_count),
-    FIELD(celspan_grade_desc, lut),
+    FIELD(celspan_grade_desc, lut),         FIELD(celspan_grade_desc, lut_space),
+    FIELD(celspan_grade_desc, slope),       FIELD(celspan_grade_desc, offset),
+    FIELD(celspan_grade_desc, power),       FIELD(celspan_grade_desc, steps),
 };
 static const cs_description_field celspan_group_desc_fields[] = {
     FIELD(celspan_group_desc, struct_size),  FIELD(celspan_group_desc, objects),

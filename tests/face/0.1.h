@@ -205,7 +205,8 @@ typedef struct celspan_grade celspan_grade;
 typedef struct celspan_grade_desc { size_t struct_size; double exposure; double contrast; bool
   has_pivot; double pivot; double saturation, hue; double temperature, tint; double gamma; bool
   has_matrix; double matrix[3][4]; const celspan_point *curve[3]; size_t curve_count[3]; const char
-  *lut; } celspan_grade_desc;
+  *lut; celspan_space lut_space; double slope[3], offset[3], power[3]; int steps; }
+  celspan_grade_desc;
 void celspan_grade_desc_default(celspan_grade_desc *out, size_t struct_size);
 celspan_status celspan_grade_create(celspan_context *context, const celspan_grade_desc *desc,
   celspan_grade **out);

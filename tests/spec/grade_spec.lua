@@ -139,6 +139,10 @@ describe("the fields of a grade", function()
     fails({ curve = { { 0, 0 }, { 0, 1 } } }, "curve%[2%] goes in at 0, after 0")
     fails({ curve = { { { 0, 0 }, { 1, 1 } }, { { 0, 0 }, { 1, 1 } } } }, "got 2 lists")
     fails({ curve = 3 }, "curve")
+    fails({ slope = 2 }, "slope")
+    fails({ power = { 1, 1, 0 } }, "power is 0; it must be")
+    fails({ steps = 1 }, "steps")
+    fails({ lut_space = "log" }, "lut_space.*linear.*srgb")
     fails({ lut = "nowhere.cube" }, "nowhere.cube: No such file or directory")
   end)
 
@@ -150,11 +154,44 @@ describe("the fields of a grade", function()
   end)
 end)
 
+describe("the ASC CDL", function()
+  it("follows the exposure: slope, offset, then the power of positive numbers", function()
+    local group = celspan.group { square(grey), grade = { exposure = 1, slope = { 0.5, 2, 1 },
+      offset = { 0.25, 0, -0.75 }, power = { 2, 1, 1 } } }
+    near({ 0.25, 1, 0, 1 }, of_object(group), 0, 0)
+  end)
+end)
+
+describe("the steps of a grade", function()
+  it("are levels of codes, in light and in codes", function()
+    for _, space in ipairs { "linear", "srgb" } do
+      local group = celspan.group { space = space, grade = { steps = 3 },
+        square(celspan.rgb(decode(0.2), decode(0.4), decode(0.9))) }
+      near({ 0, decode(0.5), 1, 1 }, of_object(group), 0, 0)
+    end
+  end)
+
+  it("fall where the code of a gradient crosses them, alike in the probe", function()
+    local ramp = celspan.linear { from = { 0, 0 }, to = { 90, 0 }, { 0, "#000" }, { 1, "#fff" } }
+    local rostrum = celspan.rostrum { celspan.cel {
+      celspan.group { rect(0, 0, 90, 1, ramp), space = "srgb", grade = { steps = 3 } } } }
+    local image = seen(rostrum, 90, 1)
+    for x = 0, 89 do
+      local r, g, b, a = celspan.probe(rostrum, x + 0.5, 0.5, { film = { 90, 1 } })
+      local code = (x + 0.5) / 90 -- the stops of a gradient are mixed in the space around them
+      local level = code < 1 / 3 and 0 or code < 2 / 3 and decode(0.5) or 1
+      near({ r, g, b, a }, image, x, 0)
+      near({ level, level, level, 1 }, image, x, 0)
+    end
+  end)
+end)
+
 describe("a table of colours", function()
-  local function graded(text, colour)
+  local function graded(text, colour, space)
     local image
     with_file(text, function(name)
-      image = of_object(celspan.group { square(colour), grade = { lut = name } })
+      image = of_object(celspan.group { square(colour),
+        grade = { lut = name, lut_space = space or "linear" } })
     end)
     return image
   end
@@ -164,6 +201,13 @@ describe("a table of colours", function()
       "DOMAIN_MAX 0.5 0.5 0.5\r\n0 0 0\r\n0.5 0.25 0.75\r\n1 1 0\r\n"
     near({ 0.25, 0.125, 0.375, 1 }, graded(text, celspan.rgb(0.125, 0.125, 0.125)), 0, 0)
     near({ 1, 1, 0, 1 }, graded(text, celspan.rgb(1, 1, 1)), 0, 0)
+  end)
+
+  it("holds codes of sRGB if it does not say otherwise", function()
+    local text = "LUT_1D_SIZE 2\n1 0 0\n0 1 0.5\n"
+    local c = celspan.rgb(decode(0.25), decode(0.5), decode(0.75))
+    near({ decode(0.75), decode(0.5), decode(0.375), 1 }, graded(text, c, "srgb"), 0, 0)
+    near({ 1 - decode(0.25), decode(0.5), decode(0.75) / 2, 1 }, graded(text, c), 0, 0)
   end)
 
   it("of three dimensions is trilinear; red changes first", function()

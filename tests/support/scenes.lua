@@ -488,6 +488,10 @@ end
 
 local steps = {
   function(r) return "exposure = " .. text_of(r:between(-1, 1)) end,
+  function(r)
+    return ("slope = { %s, 1, 0.5 }, offset = { 0, -0.1, 0.2 }, power = { 1, 1, %s }")
+      :format(text_of(r:between(0, 2)), text_of(r:between(1, 2)))
+  end,
   function(r) return "contrast = " .. text_of(r:between(0.3, 1.5)) end,
   function(r) return "saturation = " .. text_of(r:between(0, 1.5)) end,
   function(r) return "hue = " .. text_of(r:between(-180, 180)) end,

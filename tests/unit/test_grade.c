@@ -22,6 +22,14 @@ static void exposure(const celspan_grade_desc *desc, celspan_space space, double
     c[i] *= pow(2, desc->exposure);
 }
 
+static void cdl(const celspan_grade_desc *desc, celspan_space space, double c[3]) {
+  (void)space;
+  for (int i = 0; i < 3; i++) {
+    const double held = c[i] * desc->slope[i] + desc->offset[i];
+    c[i] = held <= 0 ? 0 : pow(held, desc->power[i]);
+  }
+}
+
 static void contrast(const celspan_grade_desc *desc, celspan_space space, double c[3]) {
   double pivot = space == CELSPAN_SPACE_SRGB ? 0.46 : 0.18;
   pivot = desc->has_pivot ? desc->pivot : pivot;
@@ -80,7 +88,7 @@ static void matrix(const celspan_grade_desc *desc, celspan_space space, double c
            desc->matrix[i][2] * from[2] + desc->matrix[i][3];
 }
 
-static const step steps[] = {exposure, contrast, saturation, hue, balance, bend, matrix};
+static const step steps[] = {exposure, cdl, contrast, saturation, hue, balance, bend, matrix};
 #define STEPS (sizeof steps / sizeof *steps)
 
 /* ---------------------------------------------------------------- random grades */
@@ -88,6 +96,12 @@ static const step steps[] = {exposure, contrast, saturation, hue, balance, bend,
 static void vary_step(test_random *random, size_t k, celspan_grade_desc *desc) {
   if (steps[k] == exposure)
     desc->exposure = random_between(random, -2, 2);
+  else if (steps[k] == cdl)
+    for (int i = 0; i < 3; i++) {
+      desc->slope[i] = random_between(random, 0, 2);
+      desc->offset[i] = random_between(random, -0.3, 0.3);
+      desc->power[i] = random_between(random, 1, 3);
+    }
   else if (steps[k] == contrast)
     desc->contrast = random_between(random, 0, 2);
   else if (steps[k] == saturation)
@@ -250,7 +264,11 @@ static void test_cubes(bool is_solid) {
                     .domain = {-0.5, 0, 0.1, 1, 2, 0.9},
                     .values = values,
                     .count = is_solid ? side * side * side : side};
-    celspan_grade grade = {.steps = {.exponent = 1, .cube = &cube}, .desc = CELSPAN_GRADE_DESC};
+    celspan_grade grade = {
+        .steps = {.exponent = 1, .cube = &cube, .cube_space = CELSPAN_SPACE_SRGB},
+        .desc = CELSPAN_GRADE_DESC};
+    if (i % 2)
+      grade.desc.lut_space = grade.steps.cube_space = CELSPAN_SPACE_LINEAR;
     for (size_t k = 0; k < cube.count; k++)
       for (int c = 0; c < 3; c++)
         values[k][c] = (float)random_between(&random, -0.2, 1.2);
@@ -263,6 +281,45 @@ static void test_cubes(bool is_solid) {
       check_grade(&grade, CELSPAN_SPACE_LINEAR, colour, expected, random_between(&random, 0.05, 1));
     }
   }
+}
+
+/* ---------------------------------------------------------------- steps of codes */
+
+static double code_of(double light) {
+  return light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055;
+}
+
+/* In codes and in light, each colour has the code of the band that its code lies in, and codes at
+ * the border of two bands have the upper one. */
+static void check_step(const celspan_grade *grade, celspan_space space, double value, int k) {
+  const double step_code = k / (grade->desc.steps - 1.0), seen[3] = {value, value, value};
+  const double light =
+      step_code <= 0.04045 ? step_code / 12.92 : pow((step_code + 0.055) / 1.055, 2.4);
+  const double made = space == CELSPAN_SPACE_SRGB ? step_code : light;
+  check_grade(grade, space, seen, (double[3]){made, made, made}, 0.5);
+}
+
+static void test_rounding(void) {
+  for (int count = 2; count <= CS_GRADE_STEPS; count += count < 8 ? 1 : 62) {
+    celspan_grade_desc desc = CELSPAN_GRADE_DESC;
+    celspan_grade *grade;
+    desc.steps = count;
+    CHECK(celspan_grade_create(context, &desc, &grade) == CELSPAN_OK);
+    for (int k = 0; k < count; k++) {
+      check_step(grade, CELSPAN_SPACE_SRGB, (k + 0.5) / count, k);
+      check_step(grade, CELSPAN_SPACE_SRGB, (double)k / count, k);
+    }
+    for (int i = -20; i <= 150; i++) {
+      const double band = code_of(i / 100.0) * count, k = floor(band);
+      if (band - k > 0.01 && band - k < 0.99)
+        check_step(grade, CELSPAN_SPACE_LINEAR, i / 100.0, (int)fmax(0, fmin(k, count - 1)));
+    }
+    celspan_grade_unref(grade);
+  }
+  celspan_grade_desc wrong = CELSPAN_GRADE_DESC;
+  celspan_grade *none;
+  wrong.steps = 1;
+  CHECK(celspan_grade_create(context, &wrong, &none) == CELSPAN_BAD_ARGUMENT);
 }
 
 /* ---------------------------------------------------------------- the ends */
@@ -320,6 +377,7 @@ int main(void) {
   test_curves();
   test_cubes(false);
   test_cubes(true);
+  test_rounding();
   test_ends();
   test_far();
   celspan_context_destroy(context);

@@ -809,6 +809,12 @@ typedef struct celspan_grade_desc {
   size_t curve_count[3];         /* 0: none, else 2..1024 */
   const char *lut;               /* the name of a .cube file, or NULL: colours are clamped to its
                                     domain, and interpolated trilinearly */
+  celspan_space lut_space;       /* the numbers that the table is for: codes (SRGB) or LINEAR */
+  /* The ASC CDL, after the exposure: c * slope + offset, held above 0, to the power, which has the
+   * range of gamma. Colours are not held where all nine numbers do nothing. */
+  double slope[3], offset[3], power[3];
+  int steps; /* after the curves: as many equal levels of each channel's sRGB code from 0 through 1,
+                2..256; a code at a border takes the upper one. 0: none */
 } celspan_grade_desc;
 
 CELSPAN_DESCRIPTION(celspan_grade_desc)

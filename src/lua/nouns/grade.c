@@ -12,12 +12,19 @@
 typedef struct grade_form {
   celspan_grade_desc desc;
   const char *lut;
+  int lut_space; /* of cs_space_words */
 } grade_form;
 
 #define FORM grade_form
 static const cs_field fields[] = {
     {"exposure", CS_NUMBER(FORM, desc.exposure), .least = -CELSPAN_GRADE_STOPS,
      .most = CELSPAN_GRADE_STOPS, .preset = "0", .about = "Stops: times 2 to the power of this"},
+    {"slope", CS_NUMBERS(FORM, desc.slope), .shape = "three numbers {r, g, b}",
+     .about = "Of the ASC CDL: (c slope + offset)^power, held above 0", .fallback = "{1, 1, 1}"},
+    {"offset", CS_NUMBERS(FORM, desc.offset), .shape = "three numbers {r, g, b}",
+     .fallback = "{0, 0, 0}"},
+    {"power", CS_NUMBERS(FORM, desc.power), .shape = "three numbers {r, g, b}",
+     .about = "0.0009765625 to 1024", .fallback = "{1, 1, 1}"},
     {"contrast", CS_NUMBER(FORM, desc.contrast), CS_FROM(0), .preset = "1"},
     {"pivot", CS_NUMBER(FORM, desc.pivot), CS_HAS(FORM, desc.has_pivot),
      .about = "What contrast leaves as it is", .fallback = "0.18, and 0.46 in \"srgb\""},
@@ -32,7 +39,11 @@ static const cs_field fields[] = {
     {"matrix", CS_OWN("number[][]"), .about = "3 rows of 4: red, green, blue by those, and 1"},
     {"curve", CS_OWN("celspan.point[]|celspan.point[][]"),
      .about = "{in, out}, ..., for all channels or three times: a monotone cubic"},
+    {"steps", CS_WHOLE(FORM, desc.steps), .least = 2, .most = CS_GRADE_STEPS,
+     .about = "Levels of each channel's sRGB code", .fallback = "none"},
     {"lut", CS_TEXT(FORM, lut), .about = "The name of a .cube file"},
+    {"lut_space", CS_CHOICE(FORM, lut_space, cs_space_words),
+     .about = "What the numbers of the table are: sRGB codes, or light", .preset = "srgb"},
     {0}};
 const cs_noun cs_noun_grade = {.name = "grade",
                                .about = "Steps that change colours, in this order.",
@@ -116,7 +127,7 @@ static void read_curves(const cs_form *form, celspan_grade_desc *desc) {
 
 celspan_grade *cs_grade_of(const cs_form *outer) {
   lua_State *L = outer->L;
-  grade_form read = {.desc = CELSPAN_GRADE_DESC};
+  grade_form read = {.desc = CELSPAN_GRADE_DESC, .lut_space = 1};
   celspan_grade *grade = NULL;
   int type = cs_form_get(outer, "grade");
   if (type == LUA_TNIL)
@@ -129,6 +140,7 @@ celspan_grade *cs_grade_of(const cs_form *outer) {
   named.name = lua_pushfstring(L, "%s: grade", outer->noun->name);
   cs_form form = cs_form_open(L, &named, -2);
   cs_fields_read(&form, &read);
+  read.desc.lut_space = (celspan_space)(CELSPAN_SPACE_LINEAR + read.lut_space);
   read.desc.hue = cs_placed_radians(read.desc.hue);
   read_matrix(&form, &read.desc);
   read_curves(&form, &read.desc);

@@ -5,6 +5,7 @@
 
 #include "base/elementary.h"
 #include "base/number.h"
+#include "model/colour/transfer.h"
 
 #define LN2 0.69314718055994530942
 
@@ -26,19 +27,18 @@ static cs_grade_map then(const cs_grade_map *first, const cs_grade_map *next) {
   return both;
 }
 
-/* Multiplies each channel by its factor, and adds the same number to each. */
-static cs_grade_map scaling(const double factors[3], double add) {
+/* Multiplies each channel by its factor, and adds its number. */
+static cs_grade_map scaling(const double factors[3], const double add[3]) {
   cs_grade_map map = {.is_given = true};
   for (int c = 0; c < 3; c++) {
     map.rows[c][c] = factors[c];
-    map.rows[c][3] = add;
+    map.rows[c][3] = add[c];
   }
   return map;
 }
 
 static cs_grade_map grey_scaling(double factor, double add) {
-  const double factors[3] = {factor, factor, factor};
-  return scaling(factors, add);
+  return scaling((double[3]){factor, factor, factor}, (double[3]){add, add, add});
 }
 
 /* As feColorMatrix of Filter Effects Level 1, with luma of six digits. */
@@ -71,7 +71,20 @@ static cs_grade_map balance_map(double temperature, double tint) {
   double sum = luma[0] * gains[0] + luma[1] * gains[1] + luma[2] * gains[2];
   for (int c = 0; c < 3; c++)
     gains[c] /= sum;
-  return scaling(gains, 0);
+  return scaling(gains, (double[3]){0, 0, 0});
+}
+
+static bool has_cdl(const celspan_grade_desc *desc) {
+  bool has = false;
+  for (int c = 0; c < 3; c++)
+    has |= desc->slope[c] != 1 || desc->offset[c] != 0 || desc->power[c] != 1;
+  return has;
+}
+
+static cs_grade_map cdl_of(const celspan_grade_desc *desc) {
+  cs_grade_map exposed = grey_scaling(power_of_two(desc->exposure), 0);
+  cs_grade_map next = scaling(desc->slope, desc->offset);
+  return has_cdl(desc) ? then(&exposed, &next) : same;
 }
 
 static double pivot_of(const celspan_grade_desc *desc, int space) {
@@ -84,7 +97,7 @@ static cs_grade_map balance_of(const celspan_grade_desc *desc, int space) {
     bool is_given;
     cs_grade_map map;
   } steps[] = {
-      {desc->exposure != 0, grey_scaling(power_of_two(desc->exposure), 0)},
+      {desc->exposure != 0 && !has_cdl(desc), grey_scaling(power_of_two(desc->exposure), 0)},
       {k != 1, grey_scaling(k, pivot - k * pivot)},
       {desc->saturation != 1, saturation_map(desc->saturation)},
       {desc->hue != 0, hue_map(desc->hue)},
@@ -170,7 +183,12 @@ static double on_curve(const cs_grade_curve *curve, double x) {
 
 celspan_status cs_grade_make(celspan_context *context, const celspan_grade_desc *desc,
                              cs_grade *out) {
-  *out = (cs_grade){.exponent = 1 / desc->gamma, .matrix = same};
+  *out = (cs_grade){.cdl = cdl_of(desc),
+                    .power = {desc->power[0], desc->power[1], desc->power[2]},
+                    .exponent = 1 / desc->gamma,
+                    .matrix = same,
+                    .steps = desc->steps,
+                    .cube_space = desc->lut_space};
   for (int space = CELSPAN_SPACE_LINEAR; space < CS_SPACES; space++)
     out->balance[space] = balance_of(desc, space);
   out->matrix.is_given = desc->has_matrix;
@@ -197,7 +215,53 @@ static double bend(double value, double exponent) {
   return value < 0 ? -size : size;
 }
 
+static void apply_cdl(const cs_grade *grade, double colour[3]) {
+  if (!grade->cdl.is_given)
+    return;
+  apply_map(&grade->cdl, colour);
+  for (int c = 0; c < 3; c++)
+    colour[c] = bend(fmax(colour[c], 0), grade->power[c]);
+}
+
+/* ---------------------------------------------------------------- in codes or in light */
+
+/* The number of one space in another. */
+static double converted(double value, celspan_space from, celspan_space to) {
+  if (from == to)
+    return value;
+  return (double)(to == CELSPAN_SPACE_SRGB
+                      ? cs_transfer_encode(CELSPAN_TRANSFER_SRGB, (float)value)
+                      : cs_transfer_decode(CELSPAN_TRANSFER_SRGB, (float)value));
+}
+
+/* A code that lies on a border, within CS_GRADE_BORDER, takes the upper step, so that rounding
+ * decides nothing. */
+static double step_of(double code, int steps) {
+  double step = floor((code + CS_GRADE_BORDER) * steps);
+  return cs_number_clamp(step, 0, steps - 1) / (steps - 1);
+}
+
+static void apply_steps(const cs_grade *grade, celspan_space space, double colour[3]) {
+  for (int c = 0; c < 3 && grade->steps > 0; c++) {
+    double code = converted(colour[c], space, CELSPAN_SPACE_SRGB);
+    colour[c] = converted(step_of(code, grade->steps), CELSPAN_SPACE_SRGB, space);
+  }
+}
+
+static void apply_cube(const cs_grade *grade, celspan_space space, double colour[3]) {
+  if (!grade->cube)
+    return;
+  for (int c = 0; c < 3; c++)
+    colour[c] = converted(colour[c], space, grade->cube_space);
+  cs_cube_apply(grade->cube, colour);
+  for (int c = 0; c < 3; c++)
+    colour[c] = converted(colour[c], grade->cube_space, space);
+}
+
+/* ---------------------------------------------------------------- all steps */
+
 void cs_grade_colour(const cs_grade *grade, celspan_space space, double colour[3]) {
+  apply_cdl(grade, colour);
   apply_map(&grade->balance[space], colour);
   for (int c = 0; c < 3; c++)
     colour[c] = bend(colour[c], grade->exponent);
@@ -205,8 +269,8 @@ void cs_grade_colour(const cs_grade *grade, celspan_space space, double colour[3
   for (int c = 0; c < 3; c++)
     if (grade->curves[c].count > 0)
       colour[c] = on_curve(&grade->curves[c], colour[c]);
-  if (grade->cube)
-    cs_cube_apply(grade->cube, colour);
+  apply_steps(grade, space, colour);
+  apply_cube(grade, space, colour);
   for (int c = 0; c < 3; c++)
     colour[c] = cs_number_clamp(colour[c], -CS_GRADE_MOST, CS_GRADE_MOST);
 }

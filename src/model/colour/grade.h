@@ -1,7 +1,10 @@
 /* Grades: changes of a colour, step by step, in the numbers of a space.
  *
- *   exposure   contrast   saturation   hue   temperature, tint     gamma    matrix   curves   table
- *   '------------------- one affine map a space -------------'    |c|^1/g   affine
+ *   exposure   slope, offset  power   contrast  saturation  hue  temperature, tint
+ *   '------- affine -------'   c^p    '---------- one affine map a space --------'
+ *
+ *   gamma    matrix   curves   steps    table         steps: in codes; table: in codes or in light
+ *   |c|^1/g  affine            _|--
  *
  * Invariant: steps that would do nothing are left out, so that a colour stays as it is, to the bit,
  * where all of them do nothing; the result is finite.
@@ -11,8 +14,10 @@
 #include "model/colour/cube.h"
 #include "model/colour/space.h"
 
-#define CS_GRADE_POINTS 1024 /* of a curve, at most */
-#define CS_GRADE_MOST 1e12   /* between two steps, colours are clamped to this and its negative */
+#define CS_GRADE_POINTS 1024    /* of a curve, at most */
+#define CS_GRADE_STEPS 256      /* of a code, at most */
+#define CS_GRADE_BORDER 0x1p-16 /* of steps: half a code of 15 bits */
+#define CS_GRADE_MOST 1e12 /* between two steps, colours are clamped to this and its negative */
 
 /* A map of colours: each row makes one channel of the result from the channels of the colour and
  * 1. */
@@ -30,11 +35,15 @@ typedef struct cs_grade_curve {
 } cs_grade_curve;
 
 typedef struct cs_grade {
-  cs_grade_map balance[CS_SPACES]; /* everything from exposure to tint */
+  cs_grade_map cdl;                /* exposure, slope and offset, where there is a CDL */
+  double power[3];                 /* behind these */
+  cs_grade_map balance[CS_SPACES]; /* everything up to tint that is not in `cdl` */
   double exponent;                 /* 1 / gamma */
   cs_grade_map matrix;
   cs_grade_curve curves[3];
-  cs_cube *cube; /* NULL: none. A reference */
+  int steps;                /* of codes; 0: none */
+  celspan_space cube_space; /* of the numbers in the table */
+  cs_cube *cube;            /* NULL: none. A reference */
 } cs_grade;
 
 /* desc: checked before. Fills everything except the cube. Errors: NO_MEMORY; *out must be finished

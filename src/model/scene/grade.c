@@ -33,6 +33,16 @@ static celspan_status check_matrix(celspan_context *context, const celspan_grade
   return CELSPAN_OK;
 }
 
+static celspan_status check_cdl(celspan_context *context, const celspan_grade_desc *desc) {
+  for (int c = 0; c < 3; c++) {
+    CS_TRY(cs_check_number(context, "grade", "slope", desc->slope[c]));
+    CS_TRY(cs_check_number(context, "grade", "offset", desc->offset[c]));
+    CS_TRY(cs_check_range(context, "grade", "power", desc->power[c], 1.0 / CELSPAN_GRADE_GAMMA,
+                          CELSPAN_GRADE_GAMMA));
+  }
+  return CELSPAN_OK;
+}
+
 static celspan_status check(celspan_context *context, const celspan_grade_desc *desc) {
   CS_TRY(cs_check_range(context, "grade", "exposure", desc->exposure, -CELSPAN_GRADE_STOPS,
                         CELSPAN_GRADE_STOPS));
@@ -44,7 +54,13 @@ static celspan_status check(celspan_context *context, const celspan_grade_desc *
   CS_TRY(cs_check_range(context, "grade", "tint", desc->tint, -1, 1));
   CS_TRY(cs_check_range(context, "grade", "gamma", desc->gamma, 1.0 / CELSPAN_GRADE_GAMMA,
                         CELSPAN_GRADE_GAMMA));
+  CS_TRY(check_cdl(context, desc));
   CS_TRY(check_matrix(context, desc));
+  CS_TRY(cs_check_choice(context, "grade", "lut_space",
+                         (unsigned)desc->lut_space - CELSPAN_SPACE_LINEAR,
+                         CS_SPACES - CELSPAN_SPACE_LINEAR));
+  if (desc->steps != 0)
+    CS_TRY(cs_check_range(context, "grade", "steps", desc->steps, 2, CS_GRADE_STEPS));
   for (int c = 0; c < 3; c++)
     CS_TRY(check_curve(context, desc->curve[c], desc->curve_count[c]));
   return CELSPAN_OK;
@@ -61,6 +77,9 @@ static cs_hash hash_grade(const cs_grade *steps) {
   cs_hash hash = cs_hash_begin(CS_VALUE_GRADE);
   for (int space = CELSPAN_SPACE_LINEAR; space < CS_SPACES; space++)
     hash_map(&hash, &steps->balance[space]);
+  hash_map(&hash, &steps->cdl);
+  for (int c = 0; c < 3; c++)
+    cs_hash_number(&hash, steps->power[c]);
   cs_hash_number(&hash, steps->exponent);
   hash_map(&hash, &steps->matrix);
   for (int c = 0; c < 3; c++) {
@@ -68,8 +87,11 @@ static cs_hash hash_grade(const cs_grade *steps) {
     for (size_t i = 0; i < steps->curves[c].count; i++)
       cs_value_hash_point(&hash, steps->curves[c].points[i]);
   }
-  if (steps->cube)
+  cs_hash_word(&hash, (uint64_t)steps->steps);
+  if (steps->cube) {
+    cs_hash_word(&hash, steps->cube_space);
     cs_hash_hash(&hash, steps->cube->hash);
+  }
   return cs_hash_end(hash);
 }
 

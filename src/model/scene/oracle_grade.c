@@ -11,11 +11,26 @@ static double luma_of(const double c[3]) { return 0.2126 * c[0] + 0.7152 * c[1] 
 
 static double two_to(double exponent) { return cs_elementary_pow(2, exponent); }
 
-static void expose(const celspan_grade_desc *desc, celspan_space space, double c[3]) {
+static void expose(double exposure, double c[3]) {
+  for (int i = 0; i < 3; i++)
+    c[i] *= two_to(exposure);
+}
+
+/* The text of the ASC CDL clamps to 0..1 before the power; films have brighter light, so only
+ * negative numbers are held. */
+static void decide(const celspan_grade_desc *desc, double c[3]) {
+  bool is_idle = true;
+  for (int i = 0; i < 3; i++)
+    is_idle = is_idle && desc->slope[i] == 1 && desc->offset[i] == 0 && desc->power[i] == 1;
+  for (int i = 0; i < 3 && !is_idle; i++)
+    c[i] = cs_elementary_pow(fmax(0, c[i] * desc->slope[i] + desc->offset[i]), desc->power[i]);
+}
+
+static void spread(const celspan_grade_desc *desc, celspan_space space, double c[3]) {
   double usual = space == CELSPAN_SPACE_SRGB ? 0.46 : 0.18;
   double pivot = desc->has_pivot ? desc->pivot : usual;
   for (int i = 0; i < 3; i++)
-    c[i] = (c[i] * two_to(desc->exposure) - pivot) * desc->contrast + pivot;
+    c[i] = (c[i] - pivot) * desc->contrast + pivot;
 }
 
 static void saturate(double saturation, double c[3]) {
@@ -114,11 +129,30 @@ static void sum_corners(const cs_cube *cube, double c[3]) {
   memcpy(c, sum, sizeof sum);
 }
 
+/* ---------------------------------------------------------------- in codes or in light */
+
+static void convert(celspan_space from, celspan_space to, double c[3]) {
+  for (int i = 0; i < 3 && from != to; i++)
+    c[i] = cs_oracle_convert(to, c[i], 1);
+}
+
+/* The step whose band contains the code: band k is from k/n to (k + 1)/n. */
+static void round_codes(int steps, double c[3]) {
+  for (int i = 0; i < 3; i++) {
+    int k = 0;
+    while (k < steps - 1 && c[i] + CS_GRADE_BORDER >= (k + 1.0) / steps)
+      k++;
+    c[i] = k / (steps - 1.0);
+  }
+}
+
 /* ---------------------------------------------------------------- grades */
 
 static void grade_colour(const celspan_grade *grade, celspan_space space, double c[3]) {
   const celspan_grade_desc *desc = &grade->desc;
-  expose(desc, space, c);
+  expose(desc->exposure, c);
+  decide(desc, c);
+  spread(desc, space, c);
   saturate(desc->saturation, c);
   turn(desc->hue, c);
   warm(desc->temperature, desc->tint, c);
@@ -127,8 +161,16 @@ static void grade_colour(const celspan_grade *grade, celspan_space space, double
   for (int i = 0; i < 3; i++)
     if (desc->curve_count[i] > 0)
       c[i] = curve_at(desc->curve[i], desc->curve_count[i], c[i]);
-  if (grade->steps.cube)
+  if (desc->steps > 0) {
+    convert(space, CELSPAN_SPACE_SRGB, c);
+    round_codes(desc->steps, c);
+    convert(CELSPAN_SPACE_SRGB, space, c);
+  }
+  if (grade->steps.cube) {
+    convert(space, desc->lut_space, c);
     sum_corners(grade->steps.cube, c);
+    convert(desc->lut_space, space, c);
+  }
 }
 
 void cs_oracle_grade(const celspan_grade *grade, celspan_space space, cs_oracle_sight *sight) {
