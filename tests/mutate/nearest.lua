@@ -178,6 +178,7 @@ return {
   ["lua/celspan/draw/merge.lua"] = { "spec/operators" },
   ["lua/celspan/draw/operators.lua"] = { "spec/operators" },
   ["lua/celspan/draw/repeater.lua"] = { "spec/operators" },
+  ["lua/celspan/draw/composite.lua"] = { "spec/composite" },
   ["lua/celspan/draw/star.lua"] = { "spec/operators" },
   ["lua/celspan/draw/typewriter.lua"] = { "spec/layout" },
   ["lua/celspan/draw/count.lua"] = { "spec/layout" },

@@ -183,6 +183,13 @@ function celspan.repeater(object, options) end
 ---@return celspan.object
 function celspan.merge(objects, options) end
 
+--- Two objects by an operator of Porter and Duff.
+---@param a celspan.shape The source, in front
+---@param b celspan.shape The backdrop
+---@param operator "over"|"in"|"out"|"atop"|"xor"
+---@return celspan.object
+function celspan.composite(a, b, operator) end
+
 --- A star, or without `inner` a regular polygon.
 ---@param options { centre?: celspan.point, points?: integer, outer: number, inner?: number, rotate?: number, outer_round?: number, inner_round?: number, texture?: celspan.surface }
 ---@return celspan.object

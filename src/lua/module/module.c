@@ -182,7 +182,8 @@ static const struct {
                       {"offset", "celspan.operators", "offset"},
                       {"repeater", "celspan.repeater", "copies"},
                       {"star", "celspan.star", "outline"},
-                      {"merge", "celspan.merge", "merged"}};
+                      {"merge", "celspan.merge", "merged"},
+                      {"composite", "celspan.composite", "of"}};
 
 #define WRITTEN_IN_LUA (sizeof written_in_lua / sizeof *written_in_lua)
 

@@ -1,0 +1,62 @@
+--- Two objects by the operators of Porter and Duff: celspan.composite.
+--
+--            over        in         out        atop        xor
+--   a only   a           -          a          -           a
+--   both     a over b    a          -          a           -
+--   b only   b           -          -          b           b
+local celspan = require "celspan"
+local core = require "celspan.core"
+local fields = require "celspan.fields"
+
+local composite = {}
+
+local function without(art, by) return celspan.matte(art, by, { invert = true }) end
+
+--- The sum of two premultiplied paints that together are never more than whole.
+local function sum(rear, front)
+  return celspan.group { rear, front:blend "add", isolate = true }
+end
+
+local operators = {
+  over = function(a, b) return celspan.group { b, a } end,
+  ["in"] = function(a, b) return celspan.matte(a, b) end,
+  out = without,
+  atop = function(a, b) return sum(without(b, a), celspan.matte(a, b)) end,
+  xor = function(a, b) return sum(without(b, a), without(a, b)) end,
+}
+
+--- What nodes of other compositors are called here.
+local theirs = {
+  under = 'celspan.composite(b, a, "over")', mask = 'celspan.composite(b, a, "in")',
+  stencil = 'celspan.composite(b, a, "out")', copy = "a", held = "b",
+  plus = 'a:blend "add"', minus = 'a:blend "subtract"', from = 'b:blend "subtract"',
+  max = 'a:blend "lighten"', min = 'a:blend "darken"', multiply = 'a:blend "multiply"',
+  screen = 'a:blend "screen"', difference = 'a:blend "difference"', divide = 'a:blend "divide"',
+  exclusion = 'a:blend "exclusion"',
+}
+
+local function refuse(operator)
+  local advice = theirs[operator or false]
+  local got = type(operator) == "string" and ("%q"):format(operator) or fields.kind(operator)
+  core.refuse(("composite: the operator must be \"over\", \"in\", \"out\", \"atop\" or \"xor\", "
+    .. "got %s%s"):format(got, advice and "; write " .. advice or ""))
+end
+
+--- Combines two objects by an operator of Porter and Duff.
+---@param a celspan.shape The source, in front
+---@param b celspan.shape The backdrop
+---@param operator "over"|"in"|"out"|"atop"|"xor"
+---@return celspan.object
+function composite.of(a, b, operator)
+  for i, object in pairs { a or false, b or false } do
+    if not fields.is_object(object) then
+      core.refuse(("composite: argument %d must be an object, got %s"):format(i,
+        fields.kind(object or nil)))
+    end
+  end
+  local combine = operators[operator]
+  if not combine then refuse(operator) end
+  return combine(a, b)
+end
+
+return fields.seal("composite", composite)

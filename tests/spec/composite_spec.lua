@@ -1,0 +1,53 @@
+-- celspan.composite: the operators of Porter and Duff.
+local celspan = require "celspan"
+local images = require "tests.support.images"
+
+local function square(r, g, b, a)
+  return celspan.rect { 0, 0, 1, 1, texture = celspan.rgb(r, g, b, a) }
+end
+
+local function seen(object)
+  local rostrum = celspan.rostrum { celspan.cel { object } }
+  local image = assert(celspan.pixels(rostrum, { size = { 1, 1 } }))
+  images.near({ celspan.probe(rostrum, 0.5, 0.5, { film = { 1, 1 } }) }, image, 0, 0)
+  return image
+end
+
+describe("two objects are composited", function()
+  -- how much of the source and of the backdrop stays, by the alphas of both: Porter and Duff, 1984
+  local shares = {
+    over = function(a) return 1, 1 - a end,
+    ["in"] = function(_, b) return b, 0 end,
+    out = function(_, b) return 1 - b, 0 end,
+    atop = function(a, b) return b, 1 - a end,
+    xor = function(a, b) return 1 - b, 1 - a end,
+  }
+  for operator, share in pairs(shares) do
+    it(("by %q"):format(operator), function()
+      for _, alphas in ipairs { { 1, 1 }, { 0.25, 0.75 }, { 1, 0.25 }, { 0.75, 1 } } do
+        local a, b = alphas[1], alphas[2]
+        local of_a, of_b = share(a, b)
+        local source, backdrop = square(1, 0.5, 0, a), square(0, 0.25, 1, b)
+        local image = seen(celspan.composite(source, backdrop, operator))
+        images.near({ of_a * a, 0.5 * of_a * a + 0.25 * of_b * b, of_b * b, of_a * a + of_b * b },
+          image, 0, 0)
+      end
+    end)
+  end
+
+  it("inside each other, apart from the backdrop of the whole", function()
+    local ring = celspan.composite(square(1, 1, 1, 0.5), square(0, 0, 0, 0.5), "xor")
+    local image = seen(celspan.group { square(0, 0, 1), celspan.composite(ring, square(1, 0, 0),
+      "in") })
+    images.near({ 0.25, 0.25, 0.75, 1 }, image, 0, 0)
+  end)
+
+  it("and other operators are refused with what to write", function()
+    local a = square(1, 1, 1)
+    assert.error_matches(function() celspan.composite(a, a, "stencil") end,
+      'got "stencil"; write celspan.composite%(b, a, "out"%)')
+    assert.error_matches(function() celspan.composite(a, a) end, '"in".*got nil')
+    assert.error_matches(function() celspan.composite(a, 3, "in") end, "argument 2 must be")
+    assert.error_matches(function() celspan.composite(nil, a, "in") end, "argument 1 must be")
+  end)
+end)
