@@ -180,10 +180,27 @@ static cs_exit set_sound(cs_video_desc *video, cs_script *script, const cs_reque
 
 /* ---------------------------------------------------------------- opening */
 
-cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request *request,
-                             const celspan_frame_desc *frame, const cs_sequence *played) {
+/* The sound belongs to the video as soon as it is opened. */
+static cs_exit open_with_sound(cs_video *out, cs_script *script, const cs_request *request,
+                               cs_video_desc *desc, const cs_sequence *played) {
+  CS_TRY_EXIT(set_sound(desc, script, request, played));
+  return cs_report_failure(script->context, cs_video_open(out, script->context, desc), NULL);
+}
+
+static cs_exit open_with_chapters(cs_video *out, cs_script *script, const cs_request *request,
+                                  cs_video_desc *desc, const cs_sequence *played) {
+  char *chapters;
+  celspan_status status = cs_chapters_make(script, played, &chapters);
+  CS_TRY_EXIT(cs_report_failure(script->context, status, NULL));
+  desc->chapters = chapters;
+  cs_exit outcome = open_with_sound(out, script, request, desc, played);
+  cs_chapters_free(script, chapters);
+  return outcome;
+}
+
+static cs_video_desc describe(const cs_script *script, const cs_request *request,
+                              const celspan_frame_desc *frame) {
   bool is_part = frame->crop_width > 0;
-  CS_TRY_EXIT(cs_video_target_refuse(request, SIZE_MAX));
   int32_t memory = 1;
   bool has_memory = cs_request_read(request, "--memory", &memory);
   cs_video_desc desc = {.path = cs_request_text(request, "-o"),
@@ -196,14 +213,14 @@ cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request 
                         .has_digests = cs_request_has(request, "--hash"),
                         .keeps_nothing = has_memory && memory == 0};
   cs_request_read(request, "--fps", &desc.frames.frames_second);
+  return desc;
+}
+
+cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request *request,
+                             const celspan_frame_desc *frame, const cs_sequence *played) {
+  CS_TRY_EXIT(cs_video_target_refuse(request, SIZE_MAX));
+  cs_video_desc desc = describe(script, request, frame);
   CS_TRY_EXIT(refuse_size(&desc));
   CS_TRY_EXIT(refuse_rate(&desc));
-  CS_TRY_EXIT(set_sound(&desc, script, request, played));
-  char *chapters;
-  celspan_status status = cs_chapters_make(script, played, &chapters);
-  desc.chapters = chapters;
-  if (status == CELSPAN_OK)
-    status = cs_video_open(out, script->context, &desc);
-  cs_chapters_free(script, chapters);
-  return cs_report_failure(script->context, status, NULL);
+  return open_with_chapters(out, script, request, &desc, played);
 }
