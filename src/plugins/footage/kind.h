@@ -1,16 +1,4 @@
-/* The containers of movies, found from the first bytes of a file, whatever its name.
- *
- *   container        first bytes                        in ffmpeg
- *   mp4, mov         a size, ftyp, moov, mdat, wide     mov
- *   mkv, webm        1a 45 df a3                        matroska
- *   avi              RIFF, a size, AVI                  avi
- *   mxf              06 0e 2b 34                        mxf
- *   ogv              OggS                               ogg
- *   ts               47 at 0 and at 188                 mpegts
- *   y4m              YUV4MPEG2                          yuv4mpegpipe
- *
- * INVARIANT: all other files are refused, above all lists of files, addresses and texts.
- */
+/* Files of movies, which are opened by name here and nowhere else. */
 #pragma once
 
 #include "base/context.h"
@@ -22,8 +10,6 @@ typedef struct cs_kind_file {
   int64_t size, time; /* nanoseconds */
   uint64_t number;
 } cs_kind_file;
-
-#define CS_KIND_NAMES "mp4, mov, mkv, webm, avi, mxf, ogv, ts or y4m"
 
 /* Opens a movie; the caller closes its descriptor. tried: another path that does not exist either,
  * or NULL. Errors: INPUT. */

@@ -6,82 +6,7 @@
 #include <sys/stat.h>
 
 #include "base/open.h"
-
-/* ---------------------------------------------------------------- formats */
-
-/* The formats of sounds, found from the first bytes of a file, whatever its name.
- *
- *   format      first bytes                                  in ffmpeg
- *   wav         RIFF, RF64 or BW64, a size, WAVE             wav
- *   flac        fLaC                                         flac
- *   ogg, opus   OggS                                         ogg
- *   m4a, mp4    a size, ftyp                                 mov
- *   mkv, webm   1a 45 df a3                                  matroska
- *   avi         RIFF, a size, AVI                            avi
- *   mp3         the header of a frame of layer 3             mp3
- *   mp3, flac   ID3, with a tag before one of the two        mp3, flac
- *
- * INVARIANT: all other files are refused, above all lists of files, addresses and texts.
- */
-
-#define KINDS "wav, mp3, flac, ogg, opus or m4a"
-
-enum { HEAD = 12, TAG_HEAD = 10 };
-
-static bool has(const unsigned char *bytes, size_t offset, const char *name) {
-  return memcmp(bytes + offset, name, strlen(name)) == 0;
-}
-
-/* The header of a frame of MPEG audio, layer 3, whose version, bit rate and sampling rate exist. */
-static bool is_mp3(const unsigned char *bytes) {
-  return bytes[0] == 0xff && (bytes[1] & 0xe6) == 0xe2 && (bytes[1] & 0x18) != 0x08 &&
-         (bytes[2] & 0xf0) != 0xf0 && (bytes[2] & 0x0c) != 0x0c;
-}
-
-static const char *kind_of(const unsigned char bytes[HEAD]) {
-  bool is_riff = has(bytes, 0, "RIFF") || has(bytes, 0, "RF64") || has(bytes, 0, "BW64");
-  if (is_riff && has(bytes, 8, "WAVE"))
-    return "wav";
-  if (has(bytes, 0, "fLaC"))
-    return "flac";
-  if (has(bytes, 0, "OggS"))
-    return "ogg";
-  if (has(bytes, 4, "ftyp"))
-    return "mov";
-  if (has(bytes, 0, "\x1a\x45\xdf\xa3"))
-    return "matroska";
-  if (has(bytes, 0, "RIFF") && has(bytes, 8, "AVI "))
-    return "avi";
-  return is_mp3(bytes) ? "mp3" : NULL;
-}
-
-/* Bytes of an ID3 tag, whose size has seven bits in each byte. */
-static off_t tag_size(const unsigned char *tag) {
-  off_t size = 0;
-  for (int i = 6; i < TAG_HEAD; i++)
-    size = size * 128 + (tag[i] & 0x7f);
-  return size + TAG_HEAD + (tag[5] & 0x10 ? TAG_HEAD : 0);
-}
-
-/* Missing bytes of a shorter file are zeros. false: it cannot be read. */
-static bool read_head(int descriptor, off_t offset, unsigned char out[HEAD]) {
-  memset(out, 0, HEAD);
-  return cs_open_read_at(descriptor, out, HEAD, offset) >= 0;
-}
-
-/* ffmpeg's name for the format of the file behind the descriptor; NULL: it is of another format,
- * or, with errno not 0, it cannot be read. */
-static const char *find_kind(int descriptor) {
-  unsigned char bytes[HEAD];
-  errno = 0;
-  if (!read_head(descriptor, 0, bytes))
-    return NULL;
-  if (!has(bytes, 0, "ID3"))
-    return kind_of(bytes);
-  if (!read_head(descriptor, tag_size(bytes), bytes))
-    return NULL;
-  return is_mp3(bytes) ? "mp3" : has(bytes, 0, "fLaC") ? "flac" : NULL;
-}
+#include "plugins/isolate/media_kind.h"
 
 /* ---------------------------------------------------------------- finding */
 
@@ -101,14 +26,14 @@ static celspan_status recognize(celspan_context *context, const char *path, int 
     return refuse_opening(context, path, NULL, EISDIR);
   if (!S_ISREG(found.st_mode))
     return cs_fail(context, CELSPAN_INPUT, "the sound %s is not a file; a sound must be one", path);
-  *kind = find_kind(descriptor);
+  *kind = cs_media_kind(descriptor, CS_MEDIA_SOUND);
   if (!*kind && errno)
     return cs_fail(context, CELSPAN_INPUT, "the sound %s cannot be read: %s", path,
                    strerror(errno));
   if (!*kind)
     return cs_fail(context, CELSPAN_INPUT,
                    "the sound %s has none of the formats that are read, which are found by the "
-                   "first bytes of a file and not by its name: convert it to " KINDS,
+                   "first bytes of a file and not by its name: convert it to " CS_MEDIA_SOUNDS,
                    path);
   return CELSPAN_OK;
 }
