@@ -11,7 +11,9 @@ enum {
   RUNNING = 64 /* workers at a time, of all movies */
 };
 
-enum { BEGUN = 1, LOST = 2 }; /* marks: decoding began here; it cannot be decoded */
+/* Marks: decoding began here; it cannot be decoded; decoding got stuck on the way to the next place
+ * where it can begin. */
+enum { BEGUN = 1, LOST = 2, STUCK = 4 };
 
 /* ---------------------------------------------------------------- the cache */
 
@@ -98,32 +100,25 @@ static void note_worker(cs_decode *d) {
 
 /* ---------------------------------------------------------------- what the worker says */
 
-/* A line "frame:0 pts:512 pts_time:0.04" is the time of a picture, which may be missing; the line
- * "t=1" comes after each. Others are words. */
-static bool take_line(cs_decode *d) {
+/* Each message of the socket is what ffmpeg wrote at once. "frame:0 pts:512 pts_time:0.04" is the
+ * time of a picture, which may be missing; "t=1" comes after each. All others are words, also parts
+ * of a line, which other threads of ffmpeg may write between two messages. */
+static bool hear(void *user, const char *bytes, size_t size) {
+  cs_decode *d = user;
+  char line[128];
   long long time = INT64_MIN;
-  d->line[d->line_size] = 0;
-  d->line_size = 0;
-  if (strcmp(d->line, "t=1") == 0)
+  snprintf(line, sizeof line, "%.*s", (int)size, bytes);
+  d->heard++;
+  if (strcmp(line, "t=1\n") == 0)
     return true;
-  const char *at = strncmp(d->line, "frame:", 6) == 0 ? strstr(d->line, " pts:") : NULL;
-  if (!at || d->time_count == CS_DECODE_TIMES)
+  const char *at = strncmp(line, "frame:", 6) == 0 ? strstr(line, " pts:") : NULL;
+  if (!at || d->time_count == CS_DECODE_TIMES) {
+    d->has_erred = true;
     return false;
+  }
   (void)!sscanf(at, " pts:%lld", &time);
   d->times[(d->first_time + d->time_count++) % CS_DECODE_TIMES] = time;
   return true;
-}
-
-static bool hear(void *user, const char *bytes, size_t size) {
-  cs_decode *d = user;
-  bool is_known = true;
-  for (size_t i = 0; i < size; i++) {
-    if (bytes[i] == '\n')
-      is_known = take_line(d) && is_known;
-    else if (d->line_size < sizeof d->line - 1)
-      d->line[d->line_size++] = bytes[i];
-  }
-  return is_known;
 }
 
 /* ---------------------------------------------------------------- beginning */
@@ -145,9 +140,11 @@ static celspan_status open_again(const cs_decode *d, celspan_context *context, c
 
 static cs_message message_of(const cs_decode *d, size_t place) {
   const cs_listing *listing = d->listing;
-  cs_message message = {
-      .kind = CS_MESSAGE_OPEN,
-      .movie = {.has_from = place > 0, .width = listing->width, .height = listing->height}};
+  cs_message message = {.kind = CS_MESSAGE_OPEN,
+                        .movie = {.has_from = place > 0,
+                                  .width = listing->width,
+                                  .height = listing->height,
+                                  .is_careful = d->is_careful}};
   /* half a tick more, so that rounding does not lead to an earlier picture */
   double ticks = (double)listing->pictures[place].time + .5;
   message.movie.from = ticks * listing->tick[0] / listing->tick[1];
@@ -166,7 +163,7 @@ static celspan_status begin(cs_decode *d, celspan_context *context, size_t place
   d->media = (cs_media)CS_MEDIA("movie", "pictures", d->path);
   d->media.hear = hear;
   d->media.user = d;
-  d->time_count = d->line_size = 0;
+  d->time_count = 0;
   d->next = d->begin = place;
   celspan_status status =
       cs_media_start(&d->media, context, CS_WORKER_WATCHES, &message, file.descriptor);
@@ -194,13 +191,19 @@ static bool find_place(const cs_decode *d, int64_t time, size_t *place) {
   return low < d->listing->count && d->listing->pictures[low].time == time;
 }
 
-/* Waits for the time of the next picture. *is_over: there are no more pictures. */
+/* Waits for the time of the next picture, which is said before its first byte is written.
+ * *is_over: there are no more pictures, or there is one without a time. */
 static celspan_status next_time(cs_decode *d, celspan_context *context, int64_t *time,
                                 bool *is_over) {
   double since = cs_clock_seconds();
+  bool is_readable = false;
+  uint64_t heard;
   *is_over = false;
-  while (d->time_count == 0 && d->media.socket >= 0)
-    CS_TRY(cs_media_wait(&d->media, context, since, NULL));
+  do {
+    heard = d->heard;
+    if (d->time_count == 0)
+      CS_TRY(cs_media_wait(&d->media, context, since, &is_readable));
+  } while (d->time_count == 0 && (!is_readable || d->heard > heard));
   *is_over = d->time_count == 0;
   if (*is_over)
     return CELSPAN_OK;
@@ -232,8 +235,25 @@ static celspan_status read_picture(cs_decode *d, celspan_context *context, cs_ca
   return status;
 }
 
+/* No more pictures come of the worker. What it says of the movie is no failure: other pictures may
+ * be decoded by another one. */
+static celspan_status conclude(cs_decode *d, celspan_context *context) {
+  celspan_context own;
+  cs_context_branch(&own, context);
+  cs_media_shut(&d->media);
+  celspan_status status = cs_media_conclude(&d->media, &own);
+  if (status == CELSPAN_OK || status == CELSPAN_INPUT)
+    return CELSPAN_OK;
+  return cs_fail(context, status, "%s", own.error);
+}
+
+/* Whether a picture looks as it does whatever was decoded before. */
+static bool is_kept(const cs_decode *d, size_t place, size_t wanted) {
+  return place == wanted || !d->is_careful || key_before(d, place) == d->begin;
+}
+
 /* Reads the next picture, and puts it into the cache; if its place is `wanted`, pins it there and
- * returns it in *out. */
+ * returns it in *out. *is_over: none comes, or decoding must be careful from now on. */
 static celspan_status step(cs_decode *d, celspan_context *context, cs_cache *cache, size_t wanted,
                            cs_decode_picture **out, bool *is_over) {
   cs_decode_picture *picture = NULL;
@@ -241,19 +261,24 @@ static celspan_status step(cs_decode *d, celspan_context *context, cs_cache *cac
   size_t place;
   CS_TRY(next_time(d, context, &time, is_over));
   if (*is_over)
-    return cs_media_conclude(&d->media, context);
+    return conclude(d, context);
+  *is_over = d->has_erred && !d->is_careful;
+  d->is_careful = d->is_careful || d->has_erred;
+  if (*is_over)
+    return CELSPAN_OK;
   bool is_known = find_place(d, time, &place);
   CS_TRY(read_picture(d, context, cache, place, &picture, is_over));
   if (*is_over)
-    return cs_media_conclude(&d->media, context);
-  if (!is_known) {
+    return conclude(d, context);
+  if (is_known)
+    d->next = place + 1;
+  if (!is_known || !is_kept(d, place, wanted)) {
     cs_cache_discard(cache, &picture->cached);
     return CELSPAN_OK;
   }
   cs_cache_entry *kept = cs_cache_insert(cache, &picture->cached, place == wanted);
   if (place == wanted)
     *out = (cs_decode_picture *)kept;
-  d->next = place + 1;
   return CELSPAN_OK;
 }
 
@@ -272,18 +297,28 @@ static celspan_status advance(cs_decode *d, celspan_context *context, cs_cache *
   return status;
 }
 
-/* Continues up to the next place where decoding can begin, if all this fits into the cache. What
- * fails here fails again where it is asked for. */
-static void complete(cs_decode *d, celspan_context *context, cs_cache *cache, size_t place) {
-  size_t end = place + 1, most = cache->budget / 2 / cs_raw_size(&d->planes);
+/* Continues up to the next place where decoding can begin, if all this fits into the cache. A
+ * picture for which the time is over was not asked for, and fails where it is: this is tried once,
+ * so that no other picture waits for it again. */
+static celspan_status complete(cs_decode *d, celspan_context *context, cs_cache *cache,
+                               size_t place) {
+  size_t key = key_before(d, place), end = place + 1;
+  size_t most = cache->budget / 2 / cs_raw_size(&d->planes);
   while (end < d->listing->count && !d->listing->pictures[end].is_key)
     end++;
+  if (end - key > most || !d->is_running || d->next >= end || d->marks[key] & STUCK)
+    return CELSPAN_OK;
   cs_decode_picture *none = NULL;
   celspan_context own;
   cs_context_branch(&own, context);
-  if (end - key_before(d, place) <= most && d->is_running && d->next < end &&
-      advance(d, &own, cache, end - 1, &none) == CELSPAN_OK && none)
+  celspan_status status = advance(d, &own, cache, end - 1, &none);
+  if (none)
     cs_cache_unpin(cache, &none->cached);
+  if (status == CELSPAN_LIMIT)
+    d->marks[key] |= STUCK;
+  return status == CELSPAN_OK || status == CELSPAN_LIMIT
+             ? CELSPAN_OK
+             : cs_fail(context, status, "%s", own.error);
 }
 
 /* Begins before a place, unless decoding is on its way to it. *is_again: it has begun at the same
@@ -292,7 +327,8 @@ static celspan_status approach(cs_decode *d, celspan_context *context, size_t pl
                                bool *is_again) {
   size_t key = key_before(d, place);
   *is_again = false;
-  if (d->is_running && d->next <= place && (key <= d->next || place - d->next <= AHEAD))
+  bool is_near = d->is_careful ? d->begin == key : key <= d->next || place - d->next <= AHEAD;
+  if (d->is_running && d->next <= place && is_near)
     return CELSPAN_OK;
   *is_again = d->marks[key] & BEGUN;
   d->marks[key] |= BEGUN;
@@ -334,12 +370,20 @@ static celspan_status fetch(cs_decode *d, celspan_context *context, cs_cache *ca
                             cs_decode_picture **out) {
   bool is_again = false;
   CS_TRY(approach(d, context, place, &is_again));
+  bool was_careful = d->is_careful;
   CS_TRY(advance(d, context, cache, place, out));
+  if (!*out && d->is_careful && !was_careful) {
+    CS_TRY(begin(d, context, key_before(d, place)));
+    CS_TRY(advance(d, context, cache, place, out));
+  }
   if (!*out)
     CS_TRY(retry(d, context, cache, place, out));
-  if (*out && is_again)
-    complete(d, context, cache, place);
-  return CELSPAN_OK;
+  if (!*out || !is_again)
+    return CELSPAN_OK;
+  celspan_status status = complete(d, context, cache, place);
+  if (status != CELSPAN_OK)
+    cs_cache_unpin(cache, &(*out)->cached);
+  return status;
 }
 
 static celspan_status find(cs_decode *d, celspan_context *context, cs_cache *cache, size_t place,
@@ -352,15 +396,16 @@ static celspan_status find(cs_decode *d, celspan_context *context, cs_cache *cac
     if (*out)
       return CELSPAN_OK;
   }
-  return cs_fail(context, CELSPAN_INPUT, "the movie %s: none of its pictures can be decoded",
-                 d->path);
+  return cs_fail(context, CELSPAN_INPUT, "the movie %s: none of its pictures can be decoded%s%s",
+                 d->path, d->media.words.size > 0 ? ": " : "", d->media.words.text);
 }
 
 celspan_status cs_decode_get(cs_decode *d, celspan_context *context, size_t place,
                              cs_decode_picture **out) {
   cs_cache *cache;
   CS_TRY(get_cache(context, &cache));
-  cs_cache_raise_budget(cache, 4 * cs_raw_size(&d->planes));
+  size_t size = cs_raw_size(&d->planes), most = context->root->picture_bytes;
+  cs_cache_raise_budget(cache, size < most / 4 ? 4 * size : most);
   pthread_mutex_lock(&d->lock);
   celspan_status status = find(d, context, cache, place, out);
   pthread_mutex_unlock(&d->lock);
@@ -379,6 +424,18 @@ static void choose_decoder(cs_decode *d) {
   snprintf(d->decoder, sizeof d->decoder, "%s", name);
 }
 
+/* The size is what the file says: it must not decide how much memory is used. */
+static celspan_status check_size(const cs_decode *d, celspan_context *context) {
+  size_t size = cs_raw_size(&d->planes), most = context->root->picture_bytes;
+  if (size <= most)
+    return CELSPAN_OK;
+  return cs_fail(context, CELSPAN_LIMIT,
+                 "the movie %s cannot be read: a picture of %d x %d pixels takes %zu MiB, and the "
+                 "memory for pictures is %zu MiB: give more by --memory, or make it smaller",
+                 d->path, (int)d->planes.width, (int)d->planes.height, (size >> 20) + 1,
+                 most >> 20);
+}
+
 static celspan_status set_planes(cs_decode *d, celspan_context *context) {
   const cs_listing *listing = d->listing;
   bool is_yuva = *d->decoder && strncmp(listing->pixels, "yuv4", 4) == 0;
@@ -386,19 +443,20 @@ static celspan_status set_planes(cs_decode *d, celspan_context *context) {
   snprintf(name, sizeof name, "%s%s", is_yuva ? "yuva" : "", listing->pixels + (is_yuva ? 3 : 0));
   cs_raw_parse(name, &d->planes, d->pixels);
   const float *shares = cs_raw_matrix(listing->matrix, listing->height);
-  if (!shares)
+  bool is_mixed = d->planes.has_colour && !d->planes.is_rgb;
+  if (!shares && is_mixed)
     return cs_fail(context, CELSPAN_INPUT,
                    "the movie %s has colours by the matrix %s, which is not read: convert it to "
                    "BT.709",
                    d->path, listing->matrix);
-  d->planes.red = shares[0];
-  d->planes.blue = shares[1];
+  d->planes.red = shares ? shares[0] : 0;
+  d->planes.blue = shares ? shares[1] : 0;
   d->planes.width = listing->width;
   d->planes.height = listing->height;
   d->planes.turns = listing->turns;
-  d->planes.is_full = d->planes.is_full || listing->is_full;
+  cs_raw_set_range(&d->planes, listing->range);
   cs_raw_set_site(&d->planes, listing->site);
-  return CELSPAN_OK;
+  return check_size(d, context);
 }
 
 void cs_decode_begin(cs_decode *d, const cs_listing *listing) {

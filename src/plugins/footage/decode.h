@@ -10,8 +10,14 @@
  * at the same picture for the second time, it continues up to the next such picture: so pictures in
  * any order are decoded about twice.
  *
+ * Where a part between two such pictures does not fit into half of the cache, it does not continue,
+ * and each picture in any order is decoded with those from there up to it.
+ *
  * INVARIANT: a picture is found by its time, which ffmpeg reports, and not by counting. A picture
- * that ffmpeg cannot decode, even from the beginning of the file, shows the one before it.
+ * that ffmpeg cannot decode, even from the beginning of the file, shows the one before it. What
+ * ffmpeg makes of damaged pictures depends on its threads and on what it decoded before: once it
+ * has said words, decoding is careful: with one thread, and a worker for each part of the movie, from
+ * the place where decoding can begin to the next.
  */
 #pragma once
 
@@ -41,8 +47,9 @@ typedef struct cs_decode {
   uint64_t decoded;               /* pictures that came, of all workers */
   int64_t times[CS_DECODE_TIMES]; /* of pictures that have not been read; a ring */
   size_t first_time, time_count;
-  char line[128]; /* of what the worker says, so far */
-  size_t line_size;
+  uint64_t heard; /* messages of the workers */
+  bool has_erred; /* a worker said words */
+  bool is_careful;
 } cs_decode;
 
 /* A picture in the cache. */

@@ -6,7 +6,12 @@
 
 #include "plugins/isolate/media.h"
 
-enum { LINE = 2048, PART = 65536, STREAMS = 64 };
+enum {
+  LINE = 2048,
+  PART = 65536,
+  STREAMS = 64,
+  SHARE = 64 << 20 /* bytes of a file that may be listed within the time limit of a picture */
+};
 
 /* A packet of any stream. Which streams there are is said after the packets. */
 typedef struct packet {
@@ -17,6 +22,7 @@ typedef struct packet {
 
 typedef struct reading {
   celspan_context *context;
+  const char *path;
   cs_listing *out;
   packet *packets;
   size_t count, capacity;
@@ -65,6 +71,12 @@ static void find_fraction(const char *line, const char *name, int32_t out[2]) {
 
 /* ---------------------------------------------------------------- lines */
 
+static celspan_status fail_long(const reading *r, const char *what, int most) {
+  return cs_fail(r->context, CELSPAN_LIMIT,
+                 "the movie %s cannot be read: it has more than %d %s: cut it into shorter ones",
+                 r->path, most, what);
+}
+
 static celspan_status add_packet(reading *r, const char *line) {
   packet found = {0};
   int64_t stream = -1;
@@ -82,7 +94,7 @@ static celspan_status add_packet(reading *r, const char *line) {
   found.stream = (int16_t)stream;
   found.is_key = strchr(flags, 'K');
   if (r->count == 8 * (size_t)CS_LISTING_PICTURES)
-    return CELSPAN_OK;
+    return fail_long(r, "parts", 8 * CS_LISTING_PICTURES);
   CS_TRY(CS_RESERVE(r->context, r->packets, r->capacity, r->count + 1));
   r->packets[r->count++] = found;
   return CELSPAN_OK;
@@ -97,7 +109,6 @@ static int turns_of(const char *line) {
 
 static void read_video(reading *r, const char *line) {
   cs_listing *out = r->out;
-  char range[32] = "";
   int64_t width = 0, height = 0, alpha = 0;
   find_number(line, "width", &width);
   find_number(line, "height", &height);
@@ -112,7 +123,7 @@ static void read_video(reading *r, const char *line) {
   find_text(line, "color_space", out->matrix, sizeof out->matrix);
   find_text(line, "color_transfer", out->transfer, sizeof out->transfer);
   find_text(line, "chroma_location", out->site, sizeof out->site);
-  out->is_full = find_text(line, "color_range", range, sizeof range) && strcmp(range, "pc") == 0;
+  find_text(line, "color_range", out->range, sizeof out->range);
   out->has_alpha = alpha == 1;
   out->turns = turns_of(line);
 }
@@ -195,8 +206,10 @@ static celspan_status take_pictures(reading *r) {
   int64_t latest = INT64_MIN;
   for (size_t i = 0; i < r->count; i++) {
     const packet *p = &r->packets[i];
-    if (p->stream != r->video || out->count == CS_LISTING_PICTURES)
+    if (p->stream != r->video)
       continue;
+    if (out->count == CS_LISTING_PICTURES)
+      return fail_long(r, "pictures", CS_LISTING_PICTURES);
     CS_TRY(CS_RESERVE(r->context, out->pictures, out->capacity, out->count + 1));
     out->pictures[out->count++] = (cs_listing_picture){p->time, p->is_key};
     if (p->time > latest) {
@@ -208,8 +221,9 @@ static celspan_status take_pictures(reading *r) {
   return CELSPAN_OK;
 }
 
-static celspan_status check(reading *r, const char *path) {
+static celspan_status check(reading *r) {
   const cs_listing *out = r->out;
+  const char *path = r->path;
   if (r->video < 0)
     return cs_fail(r->context, CELSPAN_INPUT, "the movie %s has no moving pictures%s", path,
                    out->has_sound ? ", only sound" : "");
@@ -234,14 +248,15 @@ celspan_status cs_listing_read(celspan_context *context, const char *path, const
   reading *r;
   *out = (cs_listing){.memory = context->memory};
   CS_TRY(CS_MAKE(context, r, 1));
-  *r = (reading){.context = context, .out = out, .video = -1};
+  *r = (reading){.context = context, .path = path, .out = out, .video = -1};
   snprintf(message.text, sizeof message.text, "%s", file->kind);
+  media.shares = 1 + (double)file->size / SHARE;
   celspan_status status =
       cs_media_start(&media, context, CS_WORKER_LISTS, &message, file->descriptor);
   if (status == CELSPAN_OK)
     status = read_all(r, &media);
   if (status == CELSPAN_OK)
-    status = check(r, path);
+    status = check(r);
   cs_media_close(&media);
   cs_mem_free(context->memory, r->packets, r->capacity * sizeof *r->packets);
   cs_mem_free(context->memory, r, sizeof *r);

@@ -27,7 +27,8 @@ typedef struct cs_listing {
   int32_t width, height, aspect[2], tick[2], rate[2]; /* fractions; rate 0: not given */
   int turns;                                          /* quarters clockwise, to be upright */
   char codec[32], pixels[32], matrix[32], transfer[32], site[32];
-  bool is_full, has_alpha, has_sound; /* has_alpha: in packets of its own, as of VP9 */
+  char range[8];             /* "tv" or "pc", or another word: not given */
+  bool has_alpha, has_sound; /* has_alpha: in packets of its own, as of VP9 */
   cs_listing_picture *pictures;
   size_t count, capacity;
   int64_t last; /* ticks for which the last picture is shown; 0: not given */

@@ -28,6 +28,13 @@ const float *cs_raw_matrix(const char *name, int32_t height) {
   return NULL;
 }
 
+void cs_raw_set_range(cs_raw *planes, const char *name) {
+  if (strcmp(name, "pc") == 0)
+    planes->is_full = true;
+  else if (planes->is_rgb)
+    planes->is_full = planes->is_made || strcmp(name, "tv") != 0;
+}
+
 void cs_raw_set_site(cs_raw *planes, const char *name) {
   bool is_left =
       strcmp(name, "center") != 0 && strcmp(name, "top") != 0 && strcmp(name, "bottom") != 0;
@@ -63,8 +70,9 @@ static const char *const orders[][2] = {
     {"nv12", "yuv420p"},       {"nv21", "yuv420p"},       {"p010le", "yuv420p10le"},
     {"yuyv422", "yuv422p"},    {"uyvy422", "yuv422p"},    {"rgba", "gbrap"},
     {"bgra", "gbrap"},         {"argb", "gbrap"},         {"abgr", "gbrap"},
-    {"pal8", "gbrap"},         {"rgb48le", "gbrp16le"},   {"rgb48be", "gbrp16le"},
-    {"rgba64le", "gbrap16le"}, {"rgba64be", "gbrap16le"}, {"ya8", "yuva444p"},
+    {"pal8", "gbrap"},         {"rgb48le", "gbrp16le"},   {"bgr48le", "gbrp16le"},
+    {"rgba64le", "gbrap16le"}, {"bgra64le", "gbrap16le"}, {"ya8", "gbrap"},
+    {"ya16le", "gbrap16le"},
 };
 
 static bool parse_form(const char *name, cs_raw *out) {
@@ -84,15 +92,31 @@ static bool parse_form(const char *name, cs_raw *out) {
   return false;
 }
 
-void cs_raw_parse(const char *name, cs_raw *out, char wanted[16]) {
-  snprintf(wanted, 16, "%s", name);
-  if (parse_form(wanted, out))
-    return;
-  snprintf(wanted, 16, "%s", "gbrp");
+/* Planes of R'G'B' that hold what a form has which is not read: names with a letter for alpha have
+ * it, and those with an order of bytes have more than 8 bits. */
+static const char *nearest_form(const char *name) {
+  static const char *const with_alpha[] = {"ya", "yuva", "ayuv", "vuya", "rgba", "bgra", "gbra"};
+  bool has_alpha = false, is_deep = strlen(name) > 2 && strcmp(name + strlen(name) - 2, "le") == 0;
+  for (size_t i = 0; i < sizeof with_alpha / sizeof *with_alpha; i++)
+    has_alpha = has_alpha || strncmp(name, with_alpha[i], strlen(with_alpha[i])) == 0;
   for (size_t i = 0; i < sizeof orders / sizeof *orders; i++)
     if (strcmp(name, orders[i][0]) == 0)
-      snprintf(wanted, 16, "%s", orders[i][1]);
-  (void)!parse_form(wanted, out);
+      return orders[i][1];
+  return has_alpha ? is_deep ? "gbrap16le" : "gbrap" : is_deep ? "gbrp16le" : "gbrp";
+}
+
+void cs_raw_parse(const char *name, cs_raw *out, char wanted[16]) {
+  size_t length = (size_t)snprintf(wanted, 16, "%s", name);
+  if (length > 2 && length < 16 && strcmp(wanted + length - 2, "be") == 0)
+    wanted[length - 2] = 'l'; /* the same numbers in the other order of bytes */
+  if (parse_form(wanted, out))
+    return;
+  const char *nearest = nearest_form(wanted);
+  bool is_gray = strncmp(wanted, "ya", 2) == 0;
+  bool is_rgb = strstr(wanted, "rgb") || strstr(wanted, "bgr") || strstr(wanted, "gbr");
+  (void)!parse_form(nearest, out);
+  out->is_made = out->is_rgb && !is_gray && !is_rgb;
+  snprintf(wanted, 16, "%s", nearest);
 }
 
 /* ---------------------------------------------------------------- sizes */

@@ -18,6 +18,7 @@ typedef struct cs_raw {
   int bits;              /* of a sample: 8 to 16; of more than 8 in two bytes, the low one first */
   bool has_colour, is_rgb; /* is_rgb: planes of G', B', R' instead of Y', Cb, Cr */
   bool has_alpha, is_full; /* is_full: codes use their whole range */
+  bool is_made;            /* ffmpeg makes R'G'B' of another kind of colours, in the whole range */
   int32_t across, down;    /* pixels for a sample of colour: 1 or 2 */
   float site_x, site_y;    /* of the first sample of colour, in pixels right and down of the first
                                sample of light */
@@ -31,6 +32,9 @@ const float *cs_raw_matrix(const char *name, int32_t height);
 /* Reads ffmpeg's name of a form of pixels. wanted: the form that ffmpeg shall write: the same; or,
  * where its planes are not read here, another one, to which `out` belongs. */
 void cs_raw_parse(const char *name, cs_raw *out, char wanted[16]);
+/* Sets the range by ffmpeg's name of it. Without one, R'G'B' have the whole range, and Y'CbCr the
+ * limited one, unless their form says more. */
+void cs_raw_set_range(cs_raw *planes, const char *name);
 /* Sets the place of colour's samples by ffmpeg's name of it. */
 void cs_raw_set_site(cs_raw *planes, const char *name);
 /* Bytes of a picture. */

@@ -101,13 +101,12 @@ static void put_grey(const plane *light, const scale *by, int32_t x, int32_t y, 
 }
 
 /* Planes are in the order green, blue, red. */
-static void put_rgb(const cs_raw *planes, const plane *all, int32_t x, int32_t y, int32_t count,
+static void put_rgb(const plane *all, const scale *by, int32_t x, int32_t y, int32_t count,
                     float *out) {
-  const float unit = 1 / (float)((1 << planes->bits) - 1);
   static const int places[] = {1, 2, 0};
   for (int c = 0; c < 3; c++)
     for (int32_t i = 0; i < count; i++)
-      out[4 * i + places[c]] = sample(&all[c], x + i, y) * unit;
+      out[4 * i + places[c]] = (sample(&all[c], x + i, y) - by->black) * by->light;
 }
 
 static void put_colour(const cs_raw *planes, const plane *all, const scale *by, int32_t x,
@@ -129,7 +128,7 @@ void cs_raw_row(const cs_raw *planes, const unsigned char *picture, int32_t x, i
   for (int i = 0; i < 4; i++)
     all[i] = plane_of(planes, picture, i);
   if (planes->is_rgb)
-    put_rgb(planes, all, x, y, count, out);
+    put_rgb(all, &by, x, y, count, out);
   else if (planes->has_colour)
     put_colour(planes, all, &by, x, y, count, out);
   else

@@ -20,7 +20,20 @@ enum { PAUSE = 50 /* milliseconds between two checks for a signal to stop */ };
 
 /* ---------------------------------------------------------------- failures */
 
+static bool is_late(const cs_media *m, double since, bool is_ready) {
+  double now = cs_clock_seconds();
+  bool is_stuck = !is_ready && now - since > m->seconds;
+  bool is_over = m->shares > 0 && now - m->begin > m->shares * m->seconds;
+  return m->seconds > 0 && (is_stuck || is_over);
+}
+
 static celspan_status fail_late(const cs_media *m, celspan_context *context) {
+  if (m->shares > 0)
+    return cs_fail(
+        context, CELSPAN_LIMIT,
+        "the %s %s cannot be read: its %s was not whole after %.3g seconds, or came to a "
+        "halt, and reading was stopped (--limit picture-time=SECONDS)",
+        m->noun, m->path, m->unit, cs_clock_seconds() - m->begin);
   return cs_fail(context, CELSPAN_LIMIT,
                  "the %s %s cannot be read: for %g seconds no %s came of it, and decoding was "
                  "stopped (--limit picture-time=SECONDS)",
@@ -51,17 +64,17 @@ static celspan_status fail_ending(cs_media *m, celspan_context *context, int end
   remove_name(&m->words);
   if (is_exit && WEXITSTATUS(ending) == CS_MEDIA_WORKER_MISSING)
     return cs_fail(context, CELSPAN_OUTPUT,
-                   "the %s %s cannot be read: ffmpeg, which reads %ss, is not in PATH: install the "
+                   "the %s %s cannot be read: %s, which reads %ss, is not in PATH: install the "
                    "package ffmpeg",
-                   m->noun, m->path, m->noun);
+                   m->noun, m->path, m->program, m->noun);
   if (is_starved(m, ending))
     return cs_fail(context, CELSPAN_NO_MEMORY,
                    "the %s %s cannot be read: out of memory: decoding it needs more than %llu "
                    "MiB, or than the system has (--limit picture-memory=SIZE)",
                    m->noun, m->path, (unsigned long long)(m->memory >> 20));
   cs_words_describe(&m->words, ending, how, sizeof how);
-  return cs_fail(context, CELSPAN_INPUT, "the %s %s cannot be read: ffmpeg %s", m->noun, m->path,
-                 how);
+  return cs_fail(context, CELSPAN_INPUT, "the %s %s cannot be read: %s %s", m->noun, m->path,
+                 m->program, how);
 }
 
 /* ---------------------------------------------------------------- what the worker sends */
@@ -80,10 +93,9 @@ static void hear(cs_media *m) {
 
 celspan_status cs_media_wait(cs_media *m, celspan_context *context, double since,
                              bool *is_readable) {
-  const int pipe = is_readable ? m->pipe : -1;
-  bool is_ready = pipe < 0 && m->socket < 0, is_heard = false;
+  bool is_ready = m->pipe < 0 && m->socket < 0, is_heard = false;
   while (!is_ready && !is_heard) {
-    struct pollfd both[] = {{.fd = pipe, .events = POLLIN}, {.fd = m->socket, .events = POLLIN}};
+    struct pollfd both[] = {{.fd = m->pipe, .events = POLLIN}, {.fd = m->socket, .events = POLLIN}};
     int count = poll(both, 2, PAUSE);
     if (cs_interrupt_signal() || atomic_load(&m->stops))
       return cs_fail(context, CELSPAN_CANCELLED, "%s: stopped", m->path);
@@ -91,11 +103,10 @@ celspan_status cs_media_wait(cs_media *m, celspan_context *context, double since
     is_heard = count > 0 && both[1].revents;
     if (is_heard)
       hear(m);
-    if (!is_ready && m->seconds > 0 && cs_clock_seconds() - since > m->seconds)
+    if (is_late(m, since, is_ready))
       return fail_late(m, context);
   }
-  if (is_readable)
-    *is_readable = is_ready;
+  *is_readable = is_ready;
   return CELSPAN_OK;
 }
 
@@ -113,14 +124,18 @@ celspan_status cs_media_read(cs_media *m, celspan_context *context, unsigned cha
     ssize_t part = read(m->pipe, out + *got, size - *got);
     if (part < 0 && errno == EINTR)
       continue;
-    if (part <= 0) {
-      close(m->pipe);
-      m->pipe = -1;
-    }
+    if (part <= 0)
+      cs_media_shut(m);
     *got += part > 0 ? (size_t)part : 0;
     since = cs_clock_seconds();
   }
   return CELSPAN_OK;
+}
+
+void cs_media_shut(cs_media *m) {
+  if (m->pipe >= 0)
+    close(m->pipe);
+  m->pipe = -1;
 }
 
 celspan_status cs_media_conclude(cs_media *m, celspan_context *context) {
@@ -142,12 +157,11 @@ celspan_status cs_media_conclude(cs_media *m, celspan_context *context) {
 void cs_media_close(cs_media *m) {
   if (m->has_worker)
     cs_client_end(m->number);
-  if (m->pipe >= 0)
-    close(m->pipe);
+  cs_media_shut(m);
   if (m->socket >= 0)
     close(m->socket);
   m->has_worker = false;
-  m->pipe = m->socket = -1;
+  m->socket = -1;
 }
 
 /* ---------------------------------------------------------------- its start */
@@ -158,6 +172,8 @@ static celspan_status start_worker(cs_media *m, celspan_context *context, cs_wor
   const cs_message_start start = {
       .memory = limits.memory ? limits.memory + CS_MEDIA_WORKER_LOADED : 0, .task = (int32_t)task};
   cs_picture_failure failure;
+  m->program = task == CS_WORKER_LISTS ? "ffprobe" : "ffmpeg";
+  m->begin = cs_clock_seconds();
   m->seconds = limits.seconds;
   m->memory = limits.memory;
   m->pipe = ends[0];

@@ -14,11 +14,14 @@
 
 typedef struct cs_media {
   const char *noun, *unit, *path; /* for messages: "sound", "samples"; borrowed */
+  const char *program;            /* which the worker becomes */
   int pipe, socket;               /* what the worker writes, and says; -1: closed */
   uint32_t number;                /* of the worker in the zygote */
   bool has_worker;
   cs_words words;    /* its last ones */
   double seconds;    /* the most seconds until more arrives; 0: any */
+  double shares;     /* the most seconds for all, in multiples of these; 0: any */
+  double begin;      /* its start by the clock */
   uint64_t memory;   /* the limit; 0: any */
   atomic_bool stops; /* a read must end */
   /* Gets what the worker says, and returns whether these were no words. NULL: all are words. */
@@ -39,10 +42,13 @@ CELSPAN_CHECKED celspan_status cs_media_start(cs_media *media, celspan_context *
 CELSPAN_CHECKED celspan_status cs_media_read(cs_media *media, celspan_context *context,
                                              unsigned char *out, size_t size, size_t *got);
 /* Waits until the pipe or the socket has something, and hears what is said. since: the time by the
- * clock from which the limit counts. *is_readable: the pipe can be read, or both are closed;
- * NULL: only the socket is waited for. Errors: LIMIT, CANCELLED. */
+ * clock from which the limit counts. *is_readable: the pipe can be read, or both are closed. When
+ * bytes can be read, what was said before they were written can be heard.
+ * Errors: LIMIT, CANCELLED. */
 CELSPAN_CHECKED celspan_status cs_media_wait(cs_media *media, celspan_context *context,
                                              double since, bool *is_readable);
+/* Closes the pipe, so that a worker that would write more ends. */
+void cs_media_shut(cs_media *media);
 /* The outcome of the worker after its last byte. Errors: INPUT, with the words of ffmpeg; OUTPUT,
  * if there is no ffmpeg; NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_media_conclude(cs_media *media, celspan_context *context);

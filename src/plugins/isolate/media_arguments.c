@@ -107,7 +107,8 @@ static void add_pictures(const cs_message_movie *movie, cs_media_arguments *out)
 static void make_movie(const cs_message *message, const char *file, cs_media_arguments *out) {
   const cs_message_movie *movie = &message->movie;
   begin(out, "ffmpeg");
-  ADD(out, "-nostdin", "-filter_threads", "1", "-threads", "2", "-copyts", "-noautorotate");
+  ADD(out, "-nostdin", "-filter_threads", "1", "-copyts", "-noautorotate", "-max_error_rate", "1",
+      "-threads", movie->is_careful ? "1" : "2");
   if (movie->decoder[0])
     ADD(out, "-c:v", movie->decoder);
   if (movie->has_from) {

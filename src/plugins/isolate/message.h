@@ -71,6 +71,7 @@ typedef struct cs_message_sound {
 typedef struct cs_message_movie {
   double from; /* seconds, by the times of the file: where decoding begins, if has_from is set */
   int32_t has_from, width, height;
+  int32_t is_careful; /* what is damaged looks the same each time, which takes one thread */
   char pixels[16], decoder[16]; /* names of ffmpeg; decoder "": the usual one */
 } cs_message_movie;
 
