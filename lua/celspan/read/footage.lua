@@ -4,7 +4,7 @@
 --              from ^                  ^ to
 --   clip         |  1  |  2  |  3  |                  from its `from`; divided by its speed
 --
---   clip:at(seconds)   the last picture whose time is at most that, within half a tick
+--   clip:at(seconds)   the last picture whose time is at most that, as far as the clock is exact
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
@@ -37,8 +37,8 @@ local metatable = {
 
 -- ---------------------------------------------------------------- sources
 
--- A source has: size, fps, count, finish (seconds at which its last picture ends), tick (seconds),
--- sound, time(i) (seconds of picture i, from 1), texture(i).
+-- A source has: size, fps, count, finish (seconds at which its last picture ends), slack (by how
+-- many seconds its times may be too late), sound, time(i) (seconds of picture i, from 1), texture(i).
 
 --- "1003-1005, 1010": the numbers that a list leaves out.
 local function missing_in(numbers)
@@ -56,21 +56,22 @@ local function missing_in(numbers)
   return table.concat(ranges, ", ", 1, math.min(#ranges, RANGES + 1)), count
 end
 
---- The numbers of the files of a pattern.
-local function find_numbers(pattern)
+--- The numbers of the files of a pattern. no_movie: why no movie has that very name.
+local function find_numbers(pattern, no_movie)
   local found_at, tried = core.find(pattern)
   local numbers, message = core.frames(found_at)
   if tried and (not numbers or #numbers == 0) then numbers = core.frames(tried) or numbers end
   if not numbers then refuse("%s", message) end
   if #numbers == 0 then
-    refuse("%s: there are no such files%s", pattern,
-      tried and "; also looked for at " .. tried or "")
+    refuse("%s: there are no such files%s%s", pattern,
+      tried and "; also looked for at " .. tried or "",
+      no_movie:find "No such file" and "" or "; and " .. no_movie)
   end
   return numbers
 end
 
-local function open_files(given)
-  local numbers = find_numbers(given.file)
+local function open_files(given, no_movie)
+  local numbers = find_numbers(given.file, no_movie)
   local missing, count = missing_in(numbers)
   if count > 0 then
     refuse("%s: %s missing: %s", given.file, count == 1 and "a file is" or count .. " files are",
@@ -79,17 +80,27 @@ local function open_files(given)
   if given.alpha then
     refuse "field 'alpha' is for movies; the alpha of numbered files is that of their format"
   end
-  local fps, textures = given.fps or RATE, {}
+  local fps, textures = given.fps or RATE, setmetatable({}, { __mode = "v" })
   if fps <= 0 then refuse("field 'fps' must be above 0, got %s", fields.shown(fps)) end
-  for i, number in ipairs(numbers) do
-    textures[i] = celspan.picture { file = given.file, frame = number, colour = given.colour,
-                                    layer = given.layer }
+  local function open(i)
+    return celspan.picture { file = given.file, frame = numbers[i], colour = given.colour,
+                             layer = given.layer }
   end
-  local width, height = core.picture_size(textures[1])
+  local width, height = core.picture_size(open(1))
+  local function texture(i)
+    local found = textures[i] or open(i)
+    local w, h = core.picture_size(found)
+    if w ~= width or h ~= height then
+      refuse("%s: number %d has %d x %d pixels, and the first one %d x %d: all must have one size",
+        given.file, numbers[i], w, h, width, height)
+    end
+    textures[i] = found
+    return found
+  end
   return { size = { width, height }, fps = fps, count = #numbers, finish = #numbers / fps,
-           tick = 1e-6, sound = false,
+           slack = 1e-6, sound = false,
            time = function(i) return (i - 1) / fps end,
-           texture = function(i) return textures[i] end }
+           texture = texture }
 end
 
 --- The upright size, with square pixels: the side that grows is the stored width.
@@ -121,13 +132,15 @@ function footage.describe(path, tried)
   facts.size, facts.tick = size_of(facts), tick
   facts.finish = (ticks(facts.count) - first) * tick + last
   facts.fps = fps or facts.count / facts.finish
+  -- Where a picture lasts a whole number of ticks, times are exact; elsewhere they are rounded, and
+  -- half a tick too late at most.
+  local lasting = 1 / (facts.fps * tick)
+  facts.slack = math.abs(lasting - math.floor(lasting + .5)) < 1e-6 and 1e-6 or tick / 2
   function facts.time(i) return (ticks(i) - first) * tick end
   return facts
 end
 
-local function open_movie(given)
-  local facts, message = footage.describe(core.find(given.file))
-  if not facts then refuse("%s", message) end
+local function open_movie(given, facts)
   check_transfer(given, facts)
   if given.fps or given.layer then
     refuse("field '%s' is for numbered files; %s is a movie", given.fps and "fps" or "layer",
@@ -144,10 +157,11 @@ end
 
 -- ---------------------------------------------------------------- times
 
---- The last picture of a source whose time is at most `seconds`, within half a tick; at least 1.
+--- The last picture of a source whose time is at most `seconds`, as far as its clock is exact; at
+--- least 1.
 local function place_at(source, seconds)
   local low, high = 1, source.count
-  seconds = seconds + source.tick / 2
+  seconds = seconds + source.slack
   while low < high do
     local middle = (low + high + 1) // 2
     if source.time(middle) <= seconds then
@@ -162,8 +176,16 @@ end
 --- The last picture that begins before a time.
 local function place_before(source, seconds)
   local place = place_at(source, seconds)
-  if place > 1 and source.time(place) >= seconds - source.tick / 2 then place = place - 1 end
+  if place > 1 and source.time(place) >= seconds - source.slack then place = place - 1 end
   return place
+end
+
+--- A movie may have a name such as take#3.mp4, too.
+local function open_source(given)
+  local facts, message = footage.describe(core.find(given.file))
+  if facts then return open_movie(given, facts) end
+  if given.file:find "#" or given.file:find "%%0?%d*d" then return open_files(given, message) end
+  refuse("%s", message)
 end
 
 local function check_times(given, source)
@@ -198,8 +220,7 @@ function footage.open(options)
     speed = "number", loop = "boolean", fps = "number", alpha = "string", colour = "string",
     layer = "string" })
   check_words(options)
-  local is_numbered = options.file:find "#" or options.file:find "%%0?%d*d"
-  local source = (is_numbered and open_files or open_movie)(options)
+  local source = open_source(options)
   local from, to, speed = check_times(options, source)
   local first = place_at(source, from)
   local last = math.max(first, place_before(source, to))
@@ -217,8 +238,8 @@ end
 function Clip:at(seconds)
   fields.check_at("footage", metatable, self, seconds, "seconds")
   local data = data_of[self]
-  local since = seconds * data.speed
-  if data.loop then since = since % data.length end
+  local since, slack = seconds * data.speed, data.source.slack
+  if data.loop then since = (since + slack) % data.length - slack end
   local place = place_at(data.source, data.from + math.max(0, math.min(since, data.length)))
   return data.source.texture(math.max(data.first, math.min(place, data.last)))
 end
