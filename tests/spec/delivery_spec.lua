@@ -1,5 +1,6 @@
 -- Deliveries: codecs, and what ffprobe and ffmpeg read back from them.
 
+local movies = require "tests.support.movies"
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
@@ -52,23 +53,14 @@ describe("a delivery", function()
     assert.truthy(err:find(words, 1, true), err)
     assert.is_nil(bench:read(arguments:match "-o (%S+)"))
   end
-  local function stream(name)
-    local code, out, err = bench:inside("ffprobe -v error -select_streams v -count_frames "
-      .. "-show_entries stream=codec_name,profile,pix_fmt,nb_read_frames -of default=nw=1 " .. name)
-    assert.equal(0, code, err)
-    local found = {}
-    for key, value in out:gmatch "([%w_]+)=([^\n]*)" do found[key] = value end
-    return found
-  end
+  local function stream(name) return movies.stream(bench, name) end
   --- The pixels of a frame from 0, as RGBA of 8 or 16 bits.
   local function pixels(name, frame, width, height, bits)
-    local code, out, err = bench:inside(("ffmpeg -v error %s -i %s -vf "
-      .. "scale=flags=accurate_rnd+full_chroma_int -f rawvideo -pix_fmt %s -"):format(
-      name:find "webm$" and stream(name).codec_name == "vp9" and "-c:v libvpx-vp9" or "", name,
-      bits == 16 and "rgba64le" or "rgba"))
-    assert.equal(0, code, err)
+    local is_vp9 = name:find "webm$" and stream(name).codec_name == "vp9"
+    local all = movies.pixels(bench, name, bits == 16 and "rgba64le" or "rgba",
+      is_vp9 and "-c:v libvpx-vp9" or "", "-vf scale=flags=accurate_rnd+full_chroma_int")
     local size = width * height * (bits or 8) // 2
-    return out:sub(frame * size + 1, (frame + 1) * size)
+    return all:sub(frame * size + 1, (frame + 1) * size)
   end
   --- The greatest difference between a field's colour and the middle of the field in a picture.
   local function worst_field(bytes, count)

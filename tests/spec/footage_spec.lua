@@ -1,6 +1,7 @@
 -- Footage: each picture is the one that ffmpeg has at the time, converted exactly; bad movies are
 -- refused in one sentence, and numbered files begin anywhere.
 
+local movies = require "tests.support.movies"
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
@@ -10,29 +11,7 @@ local W, H = 64, 36
 local TEST = "-f lavfi -i testsrc2=s=64x36:r=%s:d=%s,noise=alls=40:allf=t "
 local X264 = "-c:v libx264 -pix_fmt %s -g 12 -bf 2 "
 
--- A film of all its pictures, or of those at its own times.
-local FILM = [[
-local celspan = require "celspan"
-local name, way, fps = ...
-local clip = celspan.footage { file = name }
-local w, h = clip.size[1], clip.size[2]
-local count = way == "at" and math.floor(clip.seconds * fps) or clip.frames
-print(("%d %d %.4f %d %.3f %s"):format(w, h, clip.fps, clip.frames, clip.seconds, clip.sound))
-return celspan.film { size = { w, h }, fps = tonumber(fps) or 24, frames = count,
-  frame = function(f)
-    local n = way == "back" and clip.frames - f.index or f.index + 1
-    local shown = way == "at" and clip:at(f.time) or clip:frame(n)
-    return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, w, h, texture = shown } } }
-  end }
-]]
-
-local function run(bench, command)
-  local code, _, err = bench:inside(command)
-  assert(code == 0, command .. ": " .. err)
-end
-
---- Makes a clip. made: arguments of ffmpeg.
-local function make(bench, name, made) run(bench, "ffmpeg -v error -y " .. made .. " " .. name) end
+local run, make, render = movies.run, movies.make, movies.render
 
 -- ---------------------------------------------------------------- what ffmpeg has
 
@@ -49,9 +28,8 @@ end
 
 --- The raw planes of all pictures.
 local function planes_of(bench, name, form)
-  run(bench, ("ffmpeg -v error -y -noautorotate %s-i %s -map 0:V:0 -vsync passthrough -f rawvideo "
-    .. "-pix_fmt %s raw"):format(form.decoder or "", name, form.pixels))
-  return bench:read "raw"
+  return movies.pixels(bench, name, form.pixels, "-noautorotate " .. (form.decoder or ""),
+    "-vsync passthrough")
 end
 
 local function floor_to(value, most) return math.max(0, math.min(most, value)) end
@@ -74,6 +52,11 @@ local function exact(raw, form, picture, x, y)
     return (1 - v) * ((1 - u) * at(0, 0) + u * at(1, 0)) + v * ((1 - u) * at(0, 1) + u * at(1, 1))
   end
   local unit = 1 << (form.bits - 8)
+  if form.rgb then
+    local low, range = form.limited and 16 * unit or 0, form.limited and 219 * unit or most
+    local function light(plane) return (sample(plane * W * H, W, x, y) - low) / range end
+    return { light(2), light(0), light(1), 1 }
+  end
   local black, light, chroma = 16 * unit, 219 * unit, 224 * unit
   if form.full then black, light, chroma = 0, most, most end
   local kr, kb = table.unpack(form.matrix or { .299, .114 })
@@ -108,25 +91,15 @@ local function difference(codes, shown, raw, form, picture)
   return worst
 end
 
---- Renders a clip; returns the codes of all frames, RGBA of 8 bits, and what the script printed.
-local function render(bench, name, way, fps)
-  local code, _, err = bench:celspan_inside("render film.lua -o f.%%04d.png -- %s %s %s", name, way,
-    fps or 24)
-  assert(code == 0, err)
-  run(bench, "ffmpeg -v error -y -f image2 -i f.%04d.png -f rawvideo -pix_fmt rgba codes")
-  local codes = bench:read "codes"
-  os.execute(("rm -f '%s'/f.*.png"):format(bench.folder))
-  return codes, err
-end
-
 local function check(bench, name, form)
   local raw, times, tick = planes_of(bench, name, form), times_of(bench, name)
-  local codes = render(bench, name, "at", 50)
+  local codes = render(bench, name, "at", 50, form.colour)
+  local slack = form.is_exact and 1e-6 or tick / 2
   local count = #codes // (W * H * 4)
   assert(count >= 20, name .. ": " .. count .. " frames")
   for shown = 0, count - 1, 7 do
     local place = 1
-    while times[place + 1] and times[place + 1] <= shown / 50 + tick / 2 do place = place + 1 end
+    while times[place + 1] and times[place + 1] <= shown / 50 + slack do place = place + 1 end
     local worst = difference(codes, shown, raw, form, place - 1)
     assert(worst <= 2, ("%s: frame %d differs from picture %d by %.1f"):format(name, shown, place,
       worst))
@@ -170,12 +143,28 @@ add("alpha.mov", TEST:format(24, 1) .. "-vf format=yuva444p10le,colorchannelmixe
   .. "-c:v prores_ks -pix_fmt yuva444p10le",
   { pixels = "yuva444p12le", across = 1, down = 1, bits = 12, alpha = true })
 
+local PLAIN = like(P420, { pixels = "yuv444p", across = 1, down = 1, is_exact = true })
+add("plain.y4m", TEST:format(24, 1) .. "-pix_fmt yuv444p", PLAIN)
+add("plain.avi", TEST:format(24, 1) .. "-c:v ffv1 -pix_fmt yuv444p", PLAIN)
+add("plain.mxf", TEST:format(24, 1) .. "-c:v mpeg2video -pix_fmt yuv422p -q:v 2",
+  like(PLAIN, { pixels = "yuv422p", across = 2 }))
+add("plain.ts", TEST:format(25, 1) .. X264:format "yuv420p")
+add("reorder.mkv", TEST:format(24, 1) .. "-c:v libx264 -pix_fmt yuv420p -g 48 -bf 8 -x264-params "
+  .. "b-pyramid=normal:b-adapt=0")
+add("limited.mkv", TEST:format(24, 1) .. "-c:v ffv1 -pix_fmt gbrp -color_range tv",
+  { pixels = "gbrp", rgb = true, limited = true, across = 1, down = 1, bits = 8 })
+add("rgb.mkv", TEST:format(24, 1) .. "-c:v ffv1 -pix_fmt gbrp10le",
+  { pixels = "gbrp10le", rgb = true, across = 1, down = 1, bits = 10 })
+add("pq.mkv", TEST:format(24, 1) .. X264:format "yuv420p10le" .. "-colorspace bt2020nc "
+  .. "-color_trc smpte2084 -color_primaries bt2020",
+  like(P420, { pixels = "yuv420p10le", bits = 10, matrix = { .2627, .0593 }, colour = "srgb" }))
+
 describe("footage", function()
   local bench
 
   before_each(function()
     bench = workbench.new()
-    bench:write("film.lua", FILM)
+    bench:write("film.lua", movies.FILM)
   end)
   after_each(function() bench:remove() end)
 
@@ -267,7 +256,7 @@ describe("footage", function()
     bench:write("empty.mp4", "")
     fails("empty.mp4", "has none of the formats that are read")
     bench:write("part.mp4", bench:read("sound.mp4"):sub(1, 600))
-    fails("part.mp4", "the movie part.mp4 cannot be read: ffmpeg ended with exit code 1")
+    fails("part.mp4", "the movie part.mp4 cannot be read: ffprobe ended with exit code 1")
     fails("none.mp4", "the movie none.mp4 cannot be opened: No such file or directory")
     fails(".", "the movie %. ")
   end)

@@ -12,6 +12,8 @@
  *   slow     sends a form with another rate than it was asked for
  *   odd      sends infinite samples and a part of one, and ends well
  *   long     sends samples without end
+ *   trickle  in the place of ffprobe: lists a picture now and then, without end
+ *   flood    lists more pictures than a movie may have
  *
  * Started by a test itself, with the word as argument, it does the same without confinement.
  */
@@ -144,6 +146,17 @@ static void eat(void) {
   exit(1);
 }
 
+/* Lists pictures, with a pause (microseconds) after each. */
+static void list_pictures(int count, useconds_t pause) {
+  for (int i = 0; i < count; i++) {
+    printf("packet|stream_index=0|pts=%d|duration=1|flags=K_\n", i);
+    if (pause > 0 && (fflush(stdout) != 0 || usleep(pause) != 0))
+      return;
+  }
+  printf("stream|index=0|codec_name=h264|codec_type=video|width=2|height=2|pix_fmt=yuv420p|"
+         "time_base=1/25|avg_frame_rate=25/1\n");
+}
+
 static void act(const char *word) {
   if (strcmp(word, "try") == 0)
     try_all();
@@ -155,6 +168,10 @@ static void act(const char *word) {
     eat();
   else if (strcmp(word, "babble") == 0)
     puts("nothing that is a sound");
+  else if (strcmp(word, "trickle") == 0)
+    list_pictures(1000000, 200000);
+  else if (strcmp(word, "flood") == 0)
+    list_pictures(4000001, 0);
   else if (strcmp(word, "wide") == 0)
     send_samples(65, 0);
   else if (strcmp(word, "slow") == 0)

@@ -1,0 +1,209 @@
+-- Footage that is damaged, lies, or has another form than its name says.
+
+local movies = require "tests.support.movies"
+local present = require "tests.support.present"
+local prng = require "tests.support.prng"
+local workbench = require "tests.support.workbench"
+
+local it_decodes = present.program("ffmpeg", "ffprobe") and it or pending
+local HOSTILE = workbench.build .. "/tests/hostile_ffmpeg"
+
+local W, H = 64, 36
+local FRAME = W * H * 4
+local TEST = "-f lavfi -i testsrc2=s=64x36:r=24:d=%s,noise=alls=40:allf=t "
+local X264 = "-c:v libx264 -pix_fmt yuv420p -g 12 -bf 2 -threads 1 "
+
+describe("footage that is not as it should be", function()
+  local bench
+
+  before_each(function()
+    bench = workbench.new()
+    bench:write("film.lua", movies.FILM)
+  end)
+  after_each(function() bench:remove() end)
+
+  local function fails(code, arguments, pattern)
+    local found, _, err = bench:celspan_inside("render film.lua -o f.%%04d.png %s", arguments)
+    assert.equal(code, found, err)
+    assert.matches(pattern, err)
+  end
+  local function checks(script)
+    bench:write("checked.lua", script)
+    local code, out, err = bench:celspan_inside "check checked.lua"
+    assert.equal(0, code, out .. err)
+  end
+
+  -- -------------------------------------------------------------- damage
+
+  it_decodes("shows the same pictures of a damaged movie in any order, and all of them", function()
+    for _, amount in ipairs { 200, 300, 3000 } do
+      movies.make(bench, "bad.mp4", ("-f lavfi -i testsrc2=s=320x180:r=24:d=3,noise=alls=40:allf=t "
+        .. "%s-bsf:v noise=amount=%d"):format(X264, amount))
+      local forwards, said = movies.render(bench, "bad.mp4", "frame")
+      local count, size = tonumber(said:match "^%d+ %d+ [%d.]+ (%d+)"), 320 * 180 * 4
+      assert.equal(count * size, #forwards)
+      local backwards = movies.render(bench, "bad.mp4", "back")
+      for i = 0, count - 1 do
+        assert(forwards:sub(i * size + 1, (i + 1) * size)
+          == backwards:sub((count - 1 - i) * size + 1, (count - i) * size), "picture " .. i + 1)
+      end
+    end
+  end)
+
+  -- A movie of each container with bytes changed: a picture or one sentence, and never a crash.
+  it_decodes("shows or refuses damaged containers", function()
+    local kinds = { mp4 = X264, mov = "-c:v prores_ks ", mkv = X264, avi = "-c:v mjpeg ",
+      ts = X264, mxf = "-c:v mpeg2video ", webm = "-c:v libvpx-vp9 ", y4m = "-pix_fmt yuv420p " }
+    for kind, coding in pairs(kinds) do
+      local name, random = "a." .. kind, prng.new(#kind * 7 + kind:byte())
+      movies.make(bench, name, TEST:format(.5) .. coding)
+      local whole = bench:read(name)
+      for case = 1, 4 do
+        local bytes = { whole:byte(1, math.min(#whole, 60000)) }
+        for _ = 1, case * 8 do bytes[random:whole(13, #bytes)] = random:whole(0, 255) end
+        local parts = {}
+        for i = 1, #bytes, 4000 do
+          parts[#parts + 1] = string.char(table.unpack(bytes, i, math.min(#bytes, i + 3999)))
+        end
+        bench:write(name, table.concat(parts) .. whole:sub(60001))
+        local code, _, err = bench:celspan_inside(
+          "render film.lua --limit picture-time=5 --frames 1-last:4 -o f.%%04d.png -- %s frame",
+          name)
+        assert(code == 0 or (code >= 2 and code <= 6) or code == 33, name .. case .. ": " .. err)
+        assert.falsy(err:find("for 5 seconds", 1, true), err)
+      end
+    end
+  end)
+
+  -- -------------------------------------------------------------- limits
+
+  it_decodes("is limited in what a picture takes, and in the number of pictures", function()
+    movies.make(bench, "large.mkv", "-f lavfi -i color=s=6000x4000:r=1:d=1 -c:v ffv1 -pix_fmt gbrp")
+    fails(6, "--memory 64 -- large.mkv frame",
+      "a picture of 6000 x 4000 pixels takes 69 MiB, and the memory for pictures is 42 MiB")
+  end)
+
+  it_decodes("is listed within a time, and to a length", function()
+    movies.run(bench, ("mkdir bin && cp '%s' bin/ffprobe"):format(HOSTILE))
+    local function lists(word, pattern)
+      bench:write("a.mp4", "\0\0\0\20ftyp" .. word)
+      local code, _, err = bench:inside(("PATH=\"$PWD/bin:$PATH\" timeout 60 '%s' render film.lua "
+        .. "--limit picture-time=%d -o f.%%04d.png -- a.mp4 frame"):format(workbench.binary,
+        word == "trickle" and 1 or 20))
+      assert.equal(6, code, err)
+      assert.matches(pattern, err)
+    end
+    lists("trickle", "its list of pictures was not whole after 1.?%d* seconds")
+    lists("flood", "it has more than 4000000 pictures")
+  end)
+
+  it_decodes("names the program that is missing", function()
+    movies.make(bench, "a.mp4", TEST:format(1) .. X264)
+    movies.run(bench, "mkdir bin && ln -s \"$(command -v ffmpeg)\" bin/ffmpeg")
+    local code, _, err = bench:inside(("PATH=\"$PWD/bin\" '%s' render film.lua -o f.%%04d.png "
+      .. "-- a.mp4 frame"):format(workbench.binary))
+    assert.equal(5, code)
+    assert.matches("ffprobe, which reads movies, is not in PATH: install the package ffmpeg", err)
+  end)
+
+  -- -------------------------------------------------------------- names and first bytes
+
+  it_decodes("may have a name like that of numbered files", function()
+    for _, name in ipairs { "take#3.mp4", "100%done.mp4" } do
+      movies.make(bench, "a.mp4", TEST:format(1) .. X264)
+      os.rename(bench.folder .. "/a.mp4", bench.folder .. "/" .. name)
+      local codes = movies.render(bench, name, "frame")
+      assert.equal(24 * FRAME, #codes)
+    end
+  end)
+
+  it("is not a still picture that is packed like an mp4", function()
+    for _, brand in ipairs { "avif", "avis", "heic", "mif1", "crx " } do
+      bench:write("a.mp4", "\0\0\0\20ftyp" .. brand .. ("\0"):rep(200))
+      local code, out, err = bench:celspan_inside "info a.mp4"
+      assert.are_not.equal(0, code, out)
+      assert.falsy(err:find("the movie", 1, true), err)
+    end
+  end)
+
+  it_decodes("has a sound in each container of movies", function()
+    for kind, coding in pairs { mov = "-c:a pcm_s16le", ts = "-c:a mp2", mxf = "-c:a pcm_s16le" } do
+      movies.make(bench, "a." .. kind, "-f lavfi -i testsrc2=s=64x36:r=25:d=1 -f lavfi -i sine=d=1 "
+        .. "-c:v mpeg2video -ar 48000 " .. coding)
+      bench:write("heard.lua", ([[
+        local celspan = require "celspan"
+        local clip = celspan.footage { file = "a.%s" }
+        return celspan.film { size = clip.size, fps = 25, frames = 25, frame = function()
+          return celspan.rostrum {}
+        end, sound = clip.sound and "a.%s" or nil }]]):format(kind, kind))
+      local code, _, err = bench:celspan_inside "sound heard.lua -o mix.wav"
+      assert.equal(0, code, err)
+      assert(bench:read("mix.wav"):sub(100000, 100999):find "[^%z]")
+    end
+  end)
+
+  -- -------------------------------------------------------------- grey, and matrices
+
+  it_decodes("has the grey and the alpha of grey movies, of 8 and 16 bits", function()
+    for _, layout in ipairs { "ya8", "ya16be" } do
+      movies.make(bench, "a.mov", TEST:format(.5) .. "-vf format=yuva444p,geq=lum='X*3+N':"
+        .. "cb=128:cr=128:a='255-Y*5',format=" .. layout .. " -c:v png")
+      local codes = movies.render(bench, "a.mov", "frame")
+      local wanted, worst = movies.pixels(bench, "a.mov", "ya8"), 0
+      for i = 0, #codes // 4 - 1, 5 do
+        local grey, alpha = wanted:byte(2 * i + 1, 2 * i + 2)
+        if alpha > 0 then
+          for c = 1, 3 do worst = math.max(worst, math.abs(codes:byte(4 * i + c) - grey)) end
+        end
+        worst = math.max(worst, math.abs(codes:byte(4 * i + 4) - alpha))
+      end
+      assert(worst <= 2 and #codes == 12 * FRAME, layout .. ": " .. worst)
+    end
+  end)
+
+  it_decodes("needs no matrix that is read where there are no colours to mix", function()
+    for _, layout in ipairs { "gray", "gbrp" } do
+      movies.make(bench, "a.mkv", TEST:format(.5) .. "-c:v ffv1 -pix_fmt " .. layout
+        .. " -colorspace ycgco")
+      assert.equal(12 * FRAME, #movies.render(bench, "a.mkv", "frame"))
+    end
+    movies.make(bench, "a.mkv", TEST:format(.5) .. "-c:v ffv1 -pix_fmt yuv444p -colorspace ycgco")
+    fails(4, "-- a.mkv frame", "has colours by the matrix")
+  end)
+
+  it_decodes("of high dynamic range is refused, unless its codes are taken", function()
+    movies.make(bench, "a.mkv", TEST:format(.5) .. X264 .. "-color_trc smpte2084")
+    fails(3, "-- a.mkv frame", "is of high dynamic range %(PQ%), which is not read")
+    movies.render(bench, "a.mkv", "frame", 24, "rec709")
+  end)
+
+  -- -------------------------------------------------------------- numbered files
+
+  it("begins its loop again at its length, however this is rounded", function()
+    for i = 1, 3 do bench:write(("p.%04d.ppm"):format(i), "P6 1 1 255 abc") end
+    checks [[
+      local celspan = require "celspan"
+      local clip = celspan.footage { file = "p.####.ppm", fps = 10, loop = true }
+      local shown = { clip:frame(1), clip:frame(2), clip:frame(3) }
+      for i = 0, 600 do
+        assert(clip:at(i * .1) == shown[i % 3 + 1], i)
+        assert(clip:at(i / 3 * .3) == shown[i % 3 + 1], i)
+      end
+      return celspan.rostrum {}]]
+  end)
+
+  it("opens numbered files when they are seen, which have one size", function()
+    bench:write("p.0001.ppm", "P6 1 1 255 abc")
+    bench:write("p.0002.ppm", "P6 2 1 255 abcdef")
+    bench:write("p.0003.ppm", "no picture")
+    checks [[
+      local celspan = require "celspan"
+      local clip = celspan.footage { file = "p.####.ppm" }
+      assert(clip.frames == 3)
+      clip:frame(1)
+      local is_open, message = pcall(clip.frame, clip, 2)
+      assert(not is_open and tostring(message):find(
+        "p.####.ppm: number 2 has 2 x 1 pixels, and the first one 1 x 1", 1, true), message)
+      return celspan.rostrum {}]]
+  end)
+end)
