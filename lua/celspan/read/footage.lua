@@ -38,7 +38,8 @@ local metatable = {
 -- ---------------------------------------------------------------- sources
 
 -- A source has: size, fps, count, finish (seconds at which its last picture ends), slack (by how
--- many seconds its times may be too late), sound, time(i) (seconds of picture i, from 1), texture(i).
+-- many seconds its times may be too late), sound, time(i) (seconds of picture i, from 1),
+-- texture(i).
 
 --- "1003-1005, 1010": the numbers that a list leaves out.
 local function missing_in(numbers)

@@ -16,8 +16,8 @@
  * INVARIANT: a picture is found by its time, which ffmpeg reports, and not by counting. A picture
  * that ffmpeg cannot decode, even from the beginning of the file, shows the one before it. What
  * ffmpeg makes of damaged pictures depends on its threads and on what it decoded before: once it
- * has said words, decoding is careful: with one thread, and a worker for each part of the movie, from
- * the place where decoding can begin to the next.
+ * has said words, decoding is careful: with one thread, and a worker for each part of the movie,
+ * from a place where decoding can begin to the next.
  */
 #pragma once
 
