@@ -126,22 +126,6 @@ describe("footage that is not as it should be", function()
     end
   end)
 
-  it_decodes("has a sound in each container of movies", function()
-    for kind, coding in pairs { mov = "-c:a pcm_s16le", ts = "-c:a mp2", mxf = "-c:a pcm_s16le" } do
-      movies.make(bench, "a." .. kind, "-f lavfi -i testsrc2=s=64x36:r=25:d=1 -f lavfi -i sine=d=1 "
-        .. "-c:v mpeg2video -ar 48000 " .. coding)
-      bench:write("heard.lua", ([[
-        local celspan = require "celspan"
-        local clip = celspan.footage { file = "a.%s" }
-        return celspan.film { size = clip.size, fps = 25, frames = 25, frame = function()
-          return celspan.rostrum {}
-        end, sound = clip.sound and "a.%s" or nil }]]):format(kind, kind))
-      local code, _, err = bench:celspan_inside "sound heard.lua -o mix.wav"
-      assert.equal(0, code, err)
-      assert(bench:read("mix.wav"):sub(100000, 100999):find "[^%z]")
-    end
-  end)
-
   -- -------------------------------------------------------------- grey, and matrices
 
   it_decodes("has the grey and the alpha of grey movies, of 8 and 16 bits", function()
