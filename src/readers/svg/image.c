@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/address.h"
 #include "celspan/svg.h"
 #include "readers/svg/shapes.h"
 
@@ -45,7 +46,7 @@ static celspan_status show_picture(image *of, celspan_picture_desc *picture) {
 }
 
 /* A picture that is contained in the drawing. */
-static celspan_status show_bytes(image *of, const cs_svg_image_data *data) {
+static celspan_status show_bytes(image *of, const cs_address_data *data) {
   celspan_picture_desc picture = {.struct_size = sizeof picture, .file = NULL};
   CS_TRY(cs_svg_image_picture(of->reading, of->node, data->bytes, data->size, &picture.surface));
   if (!picture.surface)
@@ -121,7 +122,7 @@ static celspan_status show_drawing(image *of, cs_svg_source inner, const char *b
 
 /* ---------------------------------------------------------------- where they are */
 
-static celspan_status show_data(image *of, const cs_svg_image_data *data) {
+static celspan_status show_data(image *of, const cs_address_data *data) {
   const cs_svg_source inner = {.name = "the drawing in it"};
   return cs_svg_image_is_drawing(data->bytes, data->size)
              ? show_drawing(of, inner, (const char *)data->bytes, data->size)
@@ -130,13 +131,13 @@ static celspan_status show_data(image *of, const cs_svg_image_data *data) {
 
 static celspan_status show_embedded(image *of, const char *href) {
   celspan_context *context = of->reading->context;
-  cs_svg_image_data data;
+  cs_address_data data;
   bool is_broken;
   CS_TRY(cs_svg_image_count(of->reading, of->node, strlen(href)));
-  celspan_status status = cs_svg_image_data_read(context, href, &data, &is_broken);
+  celspan_status status = cs_address_read(context, href, &data, &is_broken);
   if (status == CELSPAN_OK)
     status = is_broken ? note(of, "its data: address is damaged") : show_data(of, &data);
-  cs_svg_image_data_finish(&data, context);
+  cs_address_finish(&data, context);
   return status;
 }
 
@@ -235,7 +236,7 @@ static celspan_status show(image *of) {
     return CELSPAN_OK;
   if (!cs_svg_kept_image_find(of->reading, of->node, &found)) {
     href = cs_svg_skip_space(href);
-    CS_TRY(cs_svg_image_is_data(href) ? show_embedded(of, href) : show_linked(of, href));
+    CS_TRY(cs_address_is_data(href) ? show_embedded(of, href) : show_linked(of, href));
     found = (cs_svg_kept_image){of->object, of->width, of->height};
     CS_TRY(cs_svg_kept_image_add(of->reading, of->node, found));
   }

@@ -30,10 +30,8 @@ CELSPAN_CHECKED celspan_status cs_svg_image_in_box(cs_svg_reading *reading, cons
 
 /* ---------------------------------------------------------------- where the bytes are */
 
-/* Where the bytes of an image are: in its href itself, or in a file below the drawing's own folder.
- *
- *   data:image/png;base64,iVBORw0KGgo...     bytes by base64
- *   data:image/svg+xml,%3Csvg xmlns=...      bytes unchanged, and by per cents
+/* Where the bytes of an image are: in its href itself (base/address.h), or in a file below the
+ * drawing's own folder.
  *
  *   "art/hero.svg" names "hand.png"      ->  "art/hand.png"
  *                        "parts/arm.svg" ->  "art/parts/arm.svg"
@@ -41,20 +39,6 @@ CELSPAN_CHECKED celspan_status cs_svg_image_in_box(cs_svg_reading *reading, cons
  *
  * The first bytes determine the format: the type before the comma is often wrong.
  */
-typedef struct cs_svg_image_data {
-  unsigned char *bytes;
-  size_t size, capacity;
-} cs_svg_image_data;
-
-bool cs_svg_image_is_data(const char *href);
-/* The bytes of a data: URI. *is_broken: it has no comma, or invalid base64. *out must be finished
- * even after a failure. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_svg_image_data_read(celspan_context *context, const char *href,
-                                                      cs_svg_image_data *out, bool *is_broken);
-void cs_svg_image_data_finish(cs_svg_image_data *data, celspan_context *context);
-/* The byte that an escape such as "%41" means; -1 where text does not begin with one. */
-int cs_svg_image_unescape(const char *text);
-
 /* Whether bytes begin like an SVG file. */
 bool cs_svg_image_is_drawing(const unsigned char *bytes, size_t size);
 

@@ -4,9 +4,9 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
+#include "base/address.h"
 #include "base/number.h"
 #include "model/pictures/store.h"
 #include "readers/layered/png.h"
@@ -113,24 +113,6 @@ static celspan_status read_png(decoding *d, const unsigned char *bytes, size_t s
 
 /* ---------------------------------------------------------------- other formats */
 
-/* Makes a file without a name in memory that contains these bytes; -1, and errno: it cannot be
- * made. */
-static int nameless_file(const unsigned char *bytes, size_t size) {
-  int descriptor = memfd_create("celspan image", MFD_CLOEXEC);
-  size_t done = 0;
-  while (descriptor >= 0 && done < size) {
-    ssize_t count = write(descriptor, bytes + done, size - done);
-    if (count < 0 && errno == EINTR)
-      continue;
-    if (count <= 0) {
-      close(descriptor);
-      return -1;
-    }
-    done += (size_t)count;
-  }
-  return descriptor;
-}
-
 /* Converts shares of full scale, which the module gives, back to codes. */
 static void put_codes(const decoding *d, const float *rgba, size_t count, unsigned char *out) {
   for (size_t i = 0; i < count; i++) {
@@ -208,7 +190,7 @@ static celspan_status read_by_module(decoding *d, int descriptor, celspan_surfac
 
 static celspan_status read_other(decoding *d, const unsigned char *bytes, size_t size,
                                  celspan_surface **out) {
-  int descriptor = nameless_file(bytes, size);
+  int descriptor = cs_address_file(bytes, size);
   if (descriptor < 0)
     return note(d, strerror(errno));
   celspan_status status = read_by_module(d, descriptor, out);

@@ -1,102 +1,16 @@
-/* The bytes of images: in an href itself, or in a file. */
+/* The bytes of images in files. */
 #include "readers/svg/image.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/address.h"
 #include "base/error_text.h"
-#include "base/hex.h"
 #include "base/open.h"
 #include "base/resolve.h"
-
-/* ---------------------------------------------------------------- codes */
-
-int cs_svg_image_unescape(const char *text) {
-  int high = text[0] == '%' ? cs_hex_digit(text[1]) : -1;
-  int low = high >= 0 ? cs_hex_digit(text[2]) : -1;
-  return low >= 0 ? 16 * high + low : -1;
-}
-
-/* Reads the next byte of a URI; an escape such as %41 is one byte. */
-static unsigned char take_byte(const char **text) {
-  int escaped = cs_svg_image_unescape(*text);
-  unsigned char byte = escaped >= 0 ? (unsigned char)escaped : (unsigned char)**text;
-  *text += escaped >= 0 ? 3 : 1;
-  return byte;
-}
-
-/* -1 for a character that is not a digit of base64. */
-static int base64_digit(unsigned char c) {
-  if (c >= 'A' && c <= 'Z')
-    return c - 'A';
-  if (c >= 'a' && c <= 'z')
-    return c - 'a' + 26;
-  if (c >= '0' && c <= '9')
-    return c - '0' + 52;
-  return c == '+' || c == '-' ? 62 : c == '/' || c == '_' ? 63 : -1;
-}
-
-/* Source: RFC 4648, 4. Space is skipped, and "=" ends the data. out has room for three quarters of
- * the text. */
-static bool decode_base64(const char *text, cs_svg_image_data *out) {
-  uint32_t bits = 0;
-  int count = 0;
-  while (*text) {
-    unsigned char c = take_byte(&text);
-    int digit = base64_digit(c);
-    if (c == '=')
-      return true;
-    if (digit < 0 && !strchr(" \t\n\r\f", c))
-      return false;
-    if (digit < 0)
-      continue;
-    bits = bits << 6 | (uint32_t)digit;
-    count += 6;
-    if (count >= 8) {
-      count -= 8;
-      out->bytes[out->size++] = (unsigned char)(bits >> count);
-    }
-  }
-  return true;
-}
-
-/* ---------------------------------------------------------------- URIs */
-
-bool cs_svg_image_is_data(const char *href) { return strncasecmp(href, "data:", 5) == 0; }
-
-celspan_status cs_svg_image_data_read(celspan_context *context, const char *href,
-                                      cs_svg_image_data *out, bool *is_broken) {
-  static const char mark[] = ";base64";
-  const size_t mark_size = sizeof mark - 1;
-  *out = (cs_svg_image_data){NULL, 0, 0};
-  const char *comma = strchr(href, ',');
-  *is_broken = !comma;
-  if (!comma)
-    return CELSPAN_OK;
-  const char *text = comma + 1;
-  while (comma > href && comma[-1] == ' ')
-    comma--;
-  bool is_coded =
-      (size_t)(comma - href) >= mark_size && strncasecmp(comma - mark_size, mark, mark_size) == 0;
-  out->capacity = strlen(text) + 1;
-  out->bytes = cs_mem_resize(context->memory, NULL, 0, out->capacity);
-  if (!out->bytes)
-    return cs_fail_memory(context);
-  if (is_coded)
-    *is_broken = !decode_base64(text, out);
-  while (!is_coded && *text)
-    out->bytes[out->size++] = take_byte(&text);
-  return CELSPAN_OK;
-}
-
-void cs_svg_image_data_finish(cs_svg_image_data *data, celspan_context *context) {
-  cs_mem_free(context->memory, data->bytes, data->capacity);
-  *data = (cs_svg_image_data){NULL, 0, 0};
-}
 
 /* ---------------------------------------------------------------- kinds */
 
@@ -129,7 +43,7 @@ static bool has_parent_folder(const char *name) {
 static bool unescape(const char *href, char out[CS_SVG_PATH]) {
   size_t size = 0;
   while (*href && size + 1 < CS_SVG_PATH) {
-    int escaped = cs_svg_image_unescape(href);
+    int escaped = cs_address_unescape(href);
     if (escaped == 0)
       return false;
     out[size++] = escaped > 0 ? (char)escaped : *href;
