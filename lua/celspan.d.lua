@@ -1021,7 +1021,7 @@ function frame:random(label, m, n) end
 
 --- A sound of a film, and when it is heard.
 ---@class celspan.film.sound
----@field [integer] string|celspan.film A file, or a film whose sounds are meant
+---@field [integer] string|celspan.film A file, an address data:... of one, or a film whose sounds are meant
 ---@field at? number Second of the film at which it begins; -1e9 to 1e9; default 0
 ---@field from? number Second of the file at which it begins; 0 to 1e9; default 0
 ---@field to? number Second of the file at which it ends; more than 0, at most 1e9; default the end of the file

@@ -196,13 +196,17 @@ local STRANGE = {
 --- Arguments that name no file of the folder, and a part of the message.
 local MISSING = {
   { "nowhere.wav", "cannot be opened: No such file" },
+  { "data:audio/wav;base64", "film: sound 1: the sound data:%.%.%. is damaged: it must have a" },
+  { "data:audio/wav;base64,UklG*", "the sound data:%.%.%. is damaged" },
+  { "data:,no sound at all", "the sound data:%.%.%. has none of the formats" },
+  { "DATA:audio/mpegurl,#EXTM3U%0afile:///OUT/secret.wav", NO_FORMAT },
   { "../secret.wav", "scripts in the sandbox can read only" },
   { "OUT/secret.wav", "scripts in the sandbox can read only" },
   { "around/secret.wav", "scripts in the sandbox can read only" },
   { "link.wav", "scripts in the sandbox can read only" },
   { "file:../secret.wav", "cannot be opened: No such file" },
   { "concat:../secret.wav", "cannot be opened: No such file" },
-  { "data:audio/wav;base64,UklGRg", "cannot be opened: No such file" },
+  { "data:audio/wav;base64,UklGRg", "the sound data:%.%.%. has none of the formats" },
   { "http://127.0.0.1:9/secret.wav", "cannot be opened: No such file" },
   { "folder", "cannot be opened: Is a directory" },
   { "pipe", "is not a file; a sound must be one" },
@@ -356,6 +360,25 @@ describe("a sound", function()
       workbench.absolute)
     assert.equal(4, code, err)
     assert.truthy(err:find "cannot be read: ffmpeg ended", err)
+  end)
+
+  it("in an address is the same as in a file, also without --trust and with --strict", function()
+    if not has_ffmpeg then return pending "there is no ffmpeg" end
+    bench:write("in/tone.wav", tone())
+    local address = "data:audio/wav," .. tone():gsub("[^%w]", function(c)
+      return ("%%%02x"):format(c:byte())
+    end)
+    local mixes = {}
+    address = "-- '" .. address .. "'"
+    for i, one in ipairs { "-- tone.wav", address, "--strict " .. address,
+      '-- "data:;base64,$(base64 -w 0 tone.wav)"' } do
+      local code, _, err = in_folder("'%s' sound film.lua -o mix.wav --progress none %s",
+        workbench.absolute, one)
+      assert.equal(0, code, err)
+      mixes[i] = bench:read "in/mix.wav"
+      assert.is_true(#mixes[i] > 48000 and mixes[i]:find("[^\0]", 100) ~= nil)
+      assert.is_true(mixes[i] == mixes[1], one:sub(1, 30))
+    end
   end)
 
   it("is silent where it has no samples, however slow or empty it is", function()

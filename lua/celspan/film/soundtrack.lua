@@ -86,7 +86,8 @@ local function of_film(sound, depth)
     inner.start, inner.speed = moved(inner.start), inner.speed * sound.speed
     if inner.speed < SLOWEST or inner.speed > FASTEST then
       error(("film: sound %d: %s: it is heard at %.4g times its speed, in films that are sounds of "
-        .. "films; 0.01 to 100 times is possible"):format(sound.number, inner.path, inner.speed), 0)
+        .. "films; 0.01 to 100 times is possible"):format(sound.number,
+        (inner.path:gsub("^data:.*", "data:...")), inner.speed), 0)
     end
     inner.left, inner.right = inner.left * left, inner.right * right
     if is_heard(inner.passages) then list[#list + 1] = inner end

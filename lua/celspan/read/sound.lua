@@ -107,14 +107,14 @@ function Sound:onsets()
 end
 
 --- Reads a sound: WAV, FLAC, MP3, Ogg, Opus or M4A.
----@param file string Relative to the caller's file, else to the script
+---@param file string Relative to the caller's file, else to the script; or an address data:...
 ---@return celspan.sound.loudness? sound
 ---@return string? message
 function sound.read(file)
   if type(file) ~= "string" then
     core.refuse("sound: read takes a file name, got " .. type(file))
   end
-  local seconds, sums = core.hear(core.find(file))
+  local seconds, sums = core.hear(file:find "^data:" and file or core.find(file))
   if not seconds then return nil, sums end
   local value = setmetatable({ seconds = seconds }, metatable)
   sums_of[value] = sums

@@ -79,10 +79,10 @@ typedef struct celspan_sound_ducker {
 /* A file that is heard. */
 typedef struct celspan_sound {
   size_t struct_size;
-  const char *path;
-  double start;   /* second of the film at which second 0 of the file is or would be heard */
-  double speed;   /* 2: twice as fast, at the same pitch */
-  double gain[2]; /* of the left and the right channel: factors of the amplitude */
+  const char *path; /* of a file, or an address data:... that contains it */
+  double start;     /* second of the film at which second 0 of the file is or would be heard */
+  double speed;     /* 2: twice as fast, at the same pitch */
+  double gain[2];   /* of the left and the right channel: factors of the amplitude */
   const celspan_sound_passage *passages; /* the sound's own, and of films in films: all are open */
   size_t passage_count;                  /* while it is heard; 1 or more */
   const celspan_sound_ducker *duckers;

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/address.h"
 #include "lua/bind/fields.h"
 #include "lua/bind/files.h"
 #include "lua/bind/list.h"
@@ -49,14 +50,15 @@ static const cs_field fields[] = {
     {"duck_release", SECONDS(duck_release), .preset = "0.1",
      .about = "Seconds in which it becomes louder again, after"},
     {0}};
-const cs_noun cs_noun_sound = {.name = "film: sound",
-                               .about = "A sound of a film, and when it is heard.",
-                               .table = "celspan.film.sound",
-                               .list = CS_LIST_TUPLE,
-                               .item = "file",
-                               .item_written = "string|celspan.film",
-                               .item_about = "A file, or a film whose sounds are meant",
-                               .fields = fields};
+const cs_noun cs_noun_sound = {
+    .name = "film: sound",
+    .about = "A sound of a film, and when it is heard.",
+    .table = "celspan.film.sound",
+    .list = CS_LIST_TUPLE,
+    .item = "file",
+    .item_written = "string|celspan.film",
+    .item_about = "A file, an address data:... of one, or a film whose sounds are meant",
+    .fields = fields};
 
 /* Raises an error unless the value on top of the stack is the name of a file or, inside a table, a
  * film. */
@@ -213,6 +215,10 @@ static void put_file(lua_State *L, const char *folder) {
   lua_rawseti(L, -2, 1);
   if (lua_type(L, -2) != LUA_TSTRING)
     return;
+  if (cs_address_is_data(lua_tostring(L, -2))) {
+    cs_put_text(L, "path", lua_tostring(L, -2));
+    return;
+  }
   cs_files_find_from(L, folder, lua_tostring(L, -2), &tried);
   lua_setfield(L, -3, "tried");
   lua_setfield(L, -2, "path");

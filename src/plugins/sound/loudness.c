@@ -81,7 +81,7 @@ static celspan_status add_all(listening *l, celspan_context *context, const char
       return cs_fail(context, CELSPAN_LIMIT,
                      "the sound %s has more than %d hours, which is the "
                      "limit",
-                     path, CS_LOUDNESS_HOURS);
+                     cs_sound_name(path), CS_LOUDNESS_HOURS);
   }
   return CS_APPEND(context, out->sums, out->count, out->capacity, l->sum);
 }

@@ -75,7 +75,7 @@ static celspan_status open_samples(celspan_context *context, const cs_mix_sound 
   return cs_fail(context, CELSPAN_INPUT,
                  "the sound %s cannot be read: its decoder sent invalid samples; it is damaged or "
                  "malicious",
-                 sound->path);
+                 cs_sound_name(sound->path));
 }
 
 static void drop_kept(mix *m, part *p) {
@@ -147,8 +147,8 @@ static celspan_status refuse_from(celspan_context *context, const part *p) {
   const cs_mix_sound *sound = &p->sound;
   double seconds = (double)p->moments / CS_MIX_RATE * sound->speed;
   return cs_fail(context, CELSPAN_INPUT,
-                 "field 'from' must be below the length of %s, %.6g seconds, got %.6g", sound->path,
-                 seconds, sound->from);
+                 "field 'from' must be below the length of %s, %.6g seconds, got %.6g",
+                 cs_sound_name(sound->path), seconds, sound->from);
 }
 
 /* Whether a sound is heard in the mix, or is close enough to duck a sound that is heard. */

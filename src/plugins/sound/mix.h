@@ -26,7 +26,7 @@ enum {
 };
 
 typedef struct cs_mix_sound {
-  const char *path;
+  const char *path;  /* of a file, or an address that contains it */
   const char *tried; /* another path that does not exist either, or NULL */
   double start;      /* second of the film at which the first sample would be heard */
   double speed;      /* above 0 */

@@ -5,10 +5,13 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/address.h"
 #include "base/open.h"
 #include "plugins/isolate/media_kind.h"
 
 /* ---------------------------------------------------------------- finding */
+
+const char *cs_sound_name(const char *path) { return cs_address_is_data(path) ? "data:..." : path; }
 
 static celspan_status refuse_opening(celspan_context *context, const char *path, const char *tried,
                                      int error) {
@@ -38,13 +41,30 @@ static celspan_status recognize(celspan_context *context, const char *path, int 
   return CELSPAN_OK;
 }
 
+/* *descriptor: of a file in memory that has the bytes of an address. */
+static celspan_status open_data(celspan_context *context, const char *address, int *descriptor) {
+  cs_address_data data;
+  bool is_broken = false;
+  celspan_status status = cs_address_read(context, address, &data, &is_broken);
+  if (status == CELSPAN_OK && is_broken)
+    status = cs_fail(context, CELSPAN_INPUT,
+                     "the sound %s is damaged: it must have a comma, and behind it base64 or bytes",
+                     cs_sound_name(address));
+  *descriptor = status == CELSPAN_OK ? cs_address_file(data.bytes, data.size) : -1;
+  if (status == CELSPAN_OK && *descriptor < 0)
+    status = refuse_opening(context, cs_sound_name(address), NULL, errno);
+  cs_address_finish(&data, context);
+  return status;
+}
+
 /* *descriptor: of the sound; *kind: its format; both are set if the result is OK. */
 static celspan_status open_file(celspan_context *context, const char *path, const char *tried,
                                 int *descriptor, const char **kind) {
-  *descriptor = cs_open_to_read(path);
-  if (*descriptor < 0)
+  if (cs_address_is_data(path))
+    CS_TRY(open_data(context, path, descriptor));
+  else if ((*descriptor = cs_open_to_read(path)) < 0)
     return refuse_opening(context, path, tried, errno);
-  celspan_status status = recognize(context, path, *descriptor, kind);
+  celspan_status status = recognize(context, cs_sound_name(path), *descriptor, kind);
   if (status != CELSPAN_OK)
     close(*descriptor);
   return status;
@@ -66,7 +86,7 @@ celspan_status cs_sound_open(celspan_context *context, const cs_sound_request *r
   int descriptor;
   *out = (cs_sound_stream){.user = NULL};
   CS_TRY(open_file(context, request->path, NULL, &descriptor, &kind));
-  const cs_decoder_desc desc = {.path = request->path,
+  const cs_decoder_desc desc = {.path = cs_sound_name(request->path),
                                 .kind = kind,
                                 .descriptor = descriptor,
                                 .rate = request->rate,

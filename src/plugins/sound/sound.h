@@ -11,11 +11,13 @@
 #include "frames/video/sound_stream.h"
 
 typedef struct cs_sound_request {
-  const char *path;
+  const char *path;       /* of a file, or an address that contains it (base/address.h) */
   int32_t rate, channels; /* the wanted ones; 0: those of the file */
   double speed;           /* 2: twice as fast, without changing the pitch; 0 and 1: unchanged */
 } cs_sound_request;
 
+/* What messages call a sound: its path, or the beginning of its address. */
+const char *cs_sound_name(const char *path);
 /* Checks that the file can be opened and has one of the formats. tried: other paths that do not
  * exist either, or NULL. Errors: INPUT. */
 CELSPAN_CHECKED celspan_status cs_sound_find(celspan_context *context, const char *path,
