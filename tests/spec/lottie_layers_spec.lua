@@ -193,6 +193,45 @@ describe("sounds", function()
     assert.same(1, #list)
   end)
 
+  it("may be inside the file, by an address", function()
+    local inside = { id = "v", p = "data:audio/wav;base64,UklGRg==", e = 1 }
+    local art = read({ song() }, { assets = { inside } })
+    assert.same({ inside.p, {} }, { art.sounds[1][1], art.skipped })
+  end)
+
+  it("may be in the archive, in the folder of either version", function()
+    for version, folders in pairs { ["1"] = { "animations/", "audio/" }, ["2"] = { "a/", "u/" } } do
+      local path = write(lotties.archive {
+        { "manifest.json", lotties.json { version = version, animations = { { id = "m" } } } },
+        { folders[1] .. "m.json", lotties.json(lotties.document({ song() },
+          { assets = { { id = "v", p = "b.wav", u = "/audio/" } } })) },
+        { folders[2] .. "b.wav", "RIFF \0\255,%" },
+      }, "lottie")
+      local art = assert(require "celspan.lottie".read(path))
+      assert.same({ "data:,RIFF%20%00%ff%2c%25", {} }, { art.sounds[1][1], art.skipped })
+    end
+  end)
+
+  it("inside the file are at most 128 MiB, counted for each layer", function()
+    local inside, many = { id = "v", p = "data:," .. ("a"):rep(16 << 20) }, {}
+    for i = 1, 10 do many[i] = song() end
+    local art = read(many, { assets = { inside } })
+    assert.same(7, #art.sounds) -- with its first letters, the eighth is beyond
+    assert.matches("layers%[7%].*its sound is missing: the sounds inside the file are larger",
+      art.skipped[1])
+  end)
+
+  it("that are not in the archive or the file are noted", function()
+    local art = read({ song() }, { assets = { { id = "v", p = "none.wav" } } })
+    assert.matches("its sound is missing: there is no file 'none.wav'", art.skipped[1])
+    local path = write(lotties.archive {
+      { "manifest.json", lotties.json { animations = { { id = "m" } } } },
+      { "a/m.json", lotties.json(lotties.document({ song() }, { assets = { voice } })) },
+    }, "lottie")
+    art = assert(require "celspan.lottie".read(path))
+    assert.matches("its sound is missing: .*the archive has no 'u/a.wav'", art.skipped[1])
+  end)
+
   it("are at most a thousand", function()
     local many = {}
     for i = 1, 1002 do many[i] = song() end

@@ -9,10 +9,9 @@ local pictures = {}
 local frame = '<svg xmlns="http://www.w3.org/2000/svg" width="%.9g" height="%.9g">'
   .. '<image width="%.9g" height="%.9g" preserveAspectRatio="none" href="%s"/></svg>'
 
---- Bytes as a URI of data.
-local function uri(bytes)
-  return "data:," .. bytes:gsub("[^%w]", function(c) return ("%%%02x"):format(c:byte()) end)
-end
+-- Bytes of all sounds inside the file, as they are written in it or in addresses.
+local MOST_SOUND = 128 * 1024 * 1024
+local TOO_MUCH = "the sounds inside the file are larger than 128 MiB, counted again for each layer"
 
 --- The object of an embedded picture: the SVG reader decodes it.
 local function embedded(href, w, h)
@@ -47,9 +46,9 @@ local function open(found, asset)
   if type(asset.p) ~= "string" or asset.p == "" then return nil, "the picture has no name" end
   if asset.p:find "^data:" then return embedded(asset.p, w, h) end
   if not found.archive then return beside(found, asset, w, h) end
-  local bytes, message = source.picture(found, asset.p)
-  if not bytes then return nil, message end
-  return embedded(uri(bytes), w, h)
+  local address, message = source.address(found, "picture", asset.p)
+  if not address then return nil, message end
+  return embedded(address, w, h)
 end
 
 --- A function that returns the object of an asset, or nil and why it is not shown.
@@ -67,16 +66,26 @@ function pictures.reader(found, assets)
   end
 end
 
---- A function that returns the path of the sound of an asset, or nil and why it is not heard.
+--- The path of the sound of an asset, or an address that contains it.
+local function sound_of(found, asset)
+  if asset.p:find "^data:" then return asset.p end
+  if found.archive then return source.address(found, "sound", asset.p) end
+  return file_of(found, asset)
+end
+
+--- A function that returns the path of the sound of an asset, or an address that contains it; or
+--- nil and why it is not heard.
 function pictures.sounds(found, assets)
+  local known = {}
+  local left = MOST_SOUND -- each layer's own: each is decoded alone
   return function(id)
     local asset = assets[id] and assets[id].item
     if not asset or type(asset.p) ~= "string" then return nil, "its sound is not in the file" end
-    if found.archive or asset.p:find "^data:" then
-      return nil, "its sound is inside the file, and is left out; beside the file it is heard"
-    end
-    local path, message = file_of(found, asset)
-    return path, message and "its sound is missing: " .. message
+    if left >= 0 and known[asset] == nil then known[asset] = { sound_of(found, asset) } end
+    local path, message = table.unpack(known[asset] or {}, 1, 2)
+    left = left - (path and path:find "^data:" and #path or 0)
+    if path and left >= 0 then return path end
+    return nil, "its sound is missing: " .. (left < 0 and TOO_MUCH or message)
   end
 end
 

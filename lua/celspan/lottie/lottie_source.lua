@@ -1,7 +1,8 @@
 --- The documents of a file: one JSON, or the members of a dotLottie archive.
 --
---   version 1: manifest.json, animations/ID.json, images/NAME, themes/ID.json, states/ID.json
---   version 2: manifest.json, a/ID.json, i/NAME, t/ID.json, s/ID.json
+--   version 1: manifest.json, animations/ID.json, images/NAME, audio/NAME, themes/ID.json,
+--              states/ID.json
+--   version 2: manifest.json, a/ID.json, i/NAME, u/NAME, t/ID.json, s/ID.json
 local core = require "celspan.core"
 local files = require "celspan.files"
 local json = require "celspan.json"
@@ -10,7 +11,11 @@ local values = require "celspan.lottie_values"
 local source = {}
 
 local folders = { animation = { "a/", "animations/" }, picture = { "i/", "images/" },
-                  theme = { "t/", "themes/" } }
+                  sound = { "u/", "audio/" }, theme = { "t/", "themes/" } }
+
+--- Bytes as addresses have them.
+local escapes = {}
+for byte = 0, 255 do escapes[string.char(byte)] = ("%%%02x"):format(byte) end
 
 --- The value of a JSON text; the message begins with the name of what is read.
 local function decode(text, name)
@@ -85,8 +90,17 @@ function source.open(path)
            states = {} }
 end
 
---- The bytes of a picture in the archive.
-function source.picture(found, name) return member(found.archive, "picture", name) end
+--- A picture or sound of the archive as an address that contains it.
+---@param found table
+---@param kind "picture" | "sound"
+---@param name string
+---@return string? address
+---@return string? message
+function source.address(found, kind, name)
+  local bytes, message = member(found.archive, kind, name)
+  if not bytes then return nil, message end
+  return "data:," .. bytes:gsub("[^%w]", escapes)
+end
 
 --- The rules of a theme: a list of { id =, value = }.
 ---@return table[]? rules
