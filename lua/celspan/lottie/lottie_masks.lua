@@ -27,18 +27,13 @@ end
 --- One mask as a function of the frame: an object that says by its alpha how much is there; nil:
 --- nothing.
 local function compile_one(scope, item)
-  local moves = false
-  local function read(how, ...)
-    local get, is_moving = how(scope, ...)
-    moves = moves or is_moving
-    return get
-  end
+  local read, moves = property.reader(scope)
   local outline = read(property.outline, item.pt, "the mask's path", item.cl == true)
   local opacity = read(property.number, item.o, "the mask's opacity", 100)
   local grow = read(property.number, item.x, "the mask's expansion", 0)
   local feather = read(property.list, item.f, "the mask's feather", { 0, 0 })
   local inverts = values.flag(item.inv)
-  local get = paint.memo(moves, function(t)
+  local get = paint.memo(moves(), function(t)
     local list, soft, share = outline(t), feather(t), opacity(t) / 100
     local shape = #list > 0 and area(list, grow(t)) or nil
     local radius = math.max(0, (soft[1] + soft[2]) / 2)
@@ -48,7 +43,7 @@ local function compile_one(scope, item)
     end
     return shape and (share < 1 and shape:fade(math.max(0, share)) or shape)
   end)
-  return get, moves
+  return get, moves()
 end
 
 local function without(a, b) return celspan.matte(a, b, { invert = true }) end

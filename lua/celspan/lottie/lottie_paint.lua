@@ -179,12 +179,7 @@ end
 local function gradient(scope, item, what)
   local colours = scope.root.gradient(values.table(item.g) or {})
   local count = math.min(MOST_STOPS, math.max(0, math.floor(values.number(colours.p, 0))))
-  local moves = false
-  local function read(how, ...)
-    local get, is_moving = how(scope, ...)
-    moves = moves or is_moving
-    return get
-  end
+  local read, moves = property.reader(scope)
   local numbers = read(property.numbers, colours.k, what .. " colours")
   local from = read(property.list, item.s, what .. " start", { 0, 0 })
   local to = read(property.list, item.e, what .. " end", { 0, 0 })
@@ -195,10 +190,10 @@ local function gradient(scope, item, what)
     local make, fields = shape_of(item.t == 2, a, b, highlight, angle)
     return add_stops(stops, count, alpha, fields) and make(fields) or nil
   end)
-  return paint.memo(moves, function(t)
+  return paint.memo(moves(), function(t)
     local alpha = held(opacity(t) / 100)
     return alpha > 0 and made(numbers(t), alpha, from(t), to(t), share(t) / 100, degrees(t)) or nil
-  end), moves
+  end), moves()
 end
 
 --- The texture of a fill or a stroke: fl, st, gf or gs.

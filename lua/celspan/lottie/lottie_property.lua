@@ -276,4 +276,15 @@ function property.outline(scope, given, what, closed)
   end)
 end
 
+--- How to read several properties: a function that takes one of the functions above and what it
+--- takes behind the scope, and another that says whether one of the properties so far moves.
+function property.reader(scope)
+  local moves = false
+  return function(how, ...)
+    local get, is_moving = how(scope, ...)
+    moves = moves or is_moving
+    return get
+  end, function() return moves end
+end
+
 return require "celspan.fields".seal("lottie_property", property)

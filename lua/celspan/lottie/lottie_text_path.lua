@@ -107,19 +107,14 @@ function text_path.compile(scope, item)
     scope.note(("the text's path, the mask %g, is not in the file"):format(given.m))
     return nil, false
   end
-  local moves = false
-  local function read(how, ...)
-    local get, is_moving = how(scope, ...)
-    moves = moves or is_moving
-    return get
-  end
+  local read, moves = property.reader(scope)
   local outline = read(property.outline, mask.pt, "the text's path", mask.cl == true)
   local first = read(property.number, given.f, "the text's first margin", 0)
   local last = read(property.number, given.l, "the text's last margin", 0)
   local upright = read(property.number, given.p, "the text's perpendicularity", 1)
   local forced = read(property.number, given.a, "the text's alignment", 0)
   local reversed = read(property.number, given.r, "the text's direction", 0)
-  local way = paint.memo(moves, function(t)
+  local way = paint.memo(moves(), function(t)
     local list = outline(t)
     return measure(reversed(t) ~= 0 and contours.reverse(list) or list) or false
   end)
@@ -132,7 +127,7 @@ function text_path.compile(scope, item)
       local x, y, angle = along(on, places[i] + by)
       return affine.compose({ 1, 0, x, 0, 1, y }, affine.turn(turns and math.deg(angle) or 0, 0, 0))
     end
-  end, moves
+  end, moves()
 end
 
 return require "celspan.fields".seal("lottie_text_path", text_path)

@@ -98,25 +98,20 @@ end
 ---@return boolean moves
 function transform.read(scope, given, follows)
   given = values.table(given) or {}
-  local moves = false
-  local function read(how, ...)
-    local get, is_moving = how(scope, ...)
-    moves = moves or is_moving
-    return get
-  end
+  local read, moves = property.reader(scope)
   note_depth(scope, given)
   local anchor = read(property.list, given.a, "the anchor", { 0, 0 })
   local position = read(property.point, given.p, "the position")
-  local times = follows and moves and times_of(values.table(given.p))
+  local times = follows and moves() and times_of(values.table(given.p))
   local scale = read(property.list, given.s, "the scale", { 100, 100 })
   local degrees = read(property.number, given.rz or given.r, "the rotation", 0)
   local skew = read(property.number, given.sk, "the skew", 0)
   local axis = read(property.number, given.sa, "the axis of the skew", 0)
   local made = paint.keep(transform.map)
-  return paint.memo(moves, function(t)
+  return paint.memo(moves(), function(t)
     local turn = degrees(t) + (times and heading(position, times, t) or 0)
     return made(position(t), anchor(t), scale(t), turn, skew(t), axis(t))
-  end), moves
+  end), moves()
 end
 
 --- Whether a map leaves everything where it is.
