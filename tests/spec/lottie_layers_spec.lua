@@ -215,8 +215,10 @@ describe("sounds", function()
   it("inside the file are at most 128 MiB, counted for each layer", function()
     local inside, many = { id = "v", p = "data:," .. ("a"):rep(16 << 20) }, {}
     for i = 1, 10 do many[i] = song() end
-    local art = read(many, { assets = { inside } })
-    assert.same(7, #art.sounds) -- with its first letters, the eighth is beyond
+    many[11] = song { refId = "w" }
+    local art = read(many, { assets = { inside, { id = "w", p = "a.wav" } } })
+    assert.same(8, #art.sounds) -- with its first letters, the eighth is beyond; a.wav is a file
+    assert.matches("a%.wav$", art.sounds[8][1])
     assert.matches("layers%[7%].*its sound is missing: the sounds inside the file are larger",
       art.skipped[1])
   end)

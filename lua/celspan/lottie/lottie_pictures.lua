@@ -81,11 +81,14 @@ function pictures.sounds(found, assets)
   return function(id)
     local asset = assets[id] and assets[id].item
     if not asset or type(asset.p) ~= "string" then return nil, "its sound is not in the file" end
-    if left >= 0 and known[asset] == nil then known[asset] = { sound_of(found, asset) } end
+    local is_inside = found.archive or asset.p:find "^data:"
+    if not known[asset] and not (is_inside and left < 0) then
+      known[asset] = { sound_of(found, asset) }
+    end
     local path, message = table.unpack(known[asset] or {}, 1, 2)
-    left = left - (path and path:find "^data:" and #path or 0)
-    if path and left >= 0 then return path end
-    return nil, "its sound is missing: " .. (left < 0 and TOO_MUCH or message)
+    if is_inside then left = left - #(path or "") end
+    if is_inside and left < 0 then path, message = nil, TOO_MUCH end
+    return path, message and "its sound is missing: " .. message
   end
 end
 
