@@ -168,8 +168,9 @@ static int run(lua_State *L) {
   cs_verb_text_load(L, "program.lua");
   lua_pushvalue(L, 1);
   lua_call(L, 1, 0);
-  bool has_table = cs_request_has(session->request, "--table");
-  lua_pushfstring(L, "%s.lua", has_table ? "table" : session->request->verb->name);
+  const cs_verb *verb = session->request->verb;
+  bool runs_rows = !verb->plans_rows && cs_request_has(session->request, "--table");
+  lua_pushfstring(L, "%s.lua", runs_rows ? "table" : verb->name);
   cs_verb_text_load(L, lua_tostring(L, -1));
   lua_insert(L, 1);
   lua_settop(L, 3);

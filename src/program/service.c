@@ -169,6 +169,16 @@ static int refuse(lua_State *L) {
 
 /* ---------------------------------------------------------------- the request */
 
+/* task() -> the number of the task that --task names, from 1, and how many there are | nothing */
+static int task(lua_State *L) {
+  int32_t pair[2];
+  if (!cs_request_read(cs_service_session(L)->request, "--task", pair))
+    return 0;
+  lua_pushinteger(L, pair[0]);
+  lua_pushinteger(L, pair[1]);
+  return 2;
+}
+
 /* Refuses the options of scripts, because this run has no script. */
 static int refuse_rights(lua_State *L) {
   cs_service_require(L, cs_confine_refuse(cs_service_session(L)->request));
@@ -183,11 +193,12 @@ static int push_text(lua_State *L) {
 }
 
 void cs_service_add_reports(lua_State *L) {
-  static const luaL_Reg services[] = {
-      CS_SERVICE(note),     {"error", report_error},   CS_SERVICE(fail),
-      CS_SERVICE(check),    {"input", check_input},    CS_SERVICE(show),
-      CS_SERVICE(refuse),   CS_SERVICE(refuse_rights), CS_SERVICE(outcome),
-      CS_SERVICE(reported), CS_SERVICE(is_stopped),    {"text", push_text},
-      {NULL, NULL}};
+  static const luaL_Reg services[] = {CS_SERVICE(note),       {"error", report_error},
+                                      CS_SERVICE(fail),       CS_SERVICE(check),
+                                      {"input", check_input}, CS_SERVICE(show),
+                                      CS_SERVICE(refuse),     CS_SERVICE(refuse_rights),
+                                      CS_SERVICE(outcome),    CS_SERVICE(reported),
+                                      CS_SERVICE(is_stopped), {"text", push_text},
+                                      CS_SERVICE(task),       {NULL, NULL}};
   cs_service_add(L, services);
 }

@@ -54,6 +54,29 @@
   {                                                                                                \
     "--no-dither", NULL, NULL, "8 bits rounded to nearest; the default except of videos"           \
   }
+#define FIT                                                                                        \
+  {                                                                                                \
+    "--fit", "HOW", &cs_argument_fit,                                                              \
+        "where --size has another shape than the film: stretch, contain (with clear bars) or "     \
+        "cover"                                                                                    \
+  }
+#define VIDEO                                                                                      \
+  {"--quality", "Q", &cs_argument_quality,                                                         \
+   "of a video: 0 (small) to 100 (hardly any loss); default: 75"},                                 \
+      {"--codec", "NAME", &cs_argument_codec,                                                      \
+       "of a video: h264, h265, av1, vp9, prores, prores422, prores422hq, dnxhr, ffv1"},           \
+      {"--fps", "N", &cs_argument_rate,                                                            \
+       "of a video: another rate of frames; the length is the film's, and pictures are held or "   \
+       "left "                                                                                     \
+       "out"},                                                                                     \
+      {"--max-size", "BYTES", &cs_argument_millions,                                               \
+       "of a video: the highest quality that fits into so many bytes, such as 8M"},                \
+      {"--crf", "N", &cs_argument_crf,                                                             \
+       "the constant rate factor of h264, h265, av1 or vp9, instead of --quality"},                \
+  {                                                                                                \
+    "--loop", "N", &cs_argument_plays,                                                             \
+        "how often a .gif, .webp or .apng is played; default: 0, for ever"                         \
+  }
 #define BACKGROUND                                                                                 \
   {                                                                                                \
     "--background", "RGB", &cs_argument_tint,                                                      \
@@ -140,31 +163,19 @@ static const cs_option RENDER[] = {
                   "film.mp4, .mov, .webm, .mkv, .gif, .webp or .apng: a video, made by ffmpeg"),
     FRAMES,
     SIZE,
-    {"--fit", "HOW", &cs_argument_fit,
-     "where --size has another shape than the film: stretch, contain (with clear bars) or cover"},
+    FIT,
     SCALE,
     {"--draft", NULL, NULL, "half the size and no antialiasing, to look at a film soon"},
     CROP,
     {"--strip", "I/N", &cs_argument_share,
      "only the I-th of N strips of the frame, for 'celspan join'"},
     {"--task", "I/N", &cs_argument_task,
-     "only the I-th of N parts of the frames; env: as the array of a farm says, or env/N"},
+     "only the I-th of N parts of the frames, or with --table of the rows; env: as the array of a "
+     "farm says, or env/N"},
     ANTIALIAS,
     CODING,
     DITHER,
-    {"--quality", "Q", &cs_argument_quality,
-     "of a video: 0 (small) to 100 (hardly any loss); default: 75"},
-    {"--codec", "NAME", &cs_argument_codec,
-     "of a video: h264, h265, av1, vp9, prores, prores422, prores422hq, dnxhr, ffv1"},
-    {"--fps", "N", &cs_argument_rate,
-     "of a video: another rate of frames; the length is the film's, and pictures are held or left "
-     "out"},
-    {"--max-size", "BYTES", &cs_argument_millions,
-     "of a video: the highest quality that fits into so many bytes, such as 8M"},
-    {"--crf", "N", &cs_argument_crf,
-     "the constant rate factor of h264, h265, av1 or vp9, instead of --quality"},
-    {"--loop", "N", &cs_argument_plays,
-     "how often a .gif, .webp or .apng is played; default: 0, for ever"},
+    VIDEO,
     BACKGROUND,
     CEL,
     ONION,
@@ -361,7 +372,8 @@ static const cs_option FARM[] = {
     {"--slurm", NULL, NULL, "an array script for Slurm"},
     {"--openjd", NULL, NULL, "a template of Open Job Description 2023-09, in JSON"},
     {"--commands", NULL, NULL, "a command for each task, a line each"},
-    {"--chunk", "N", &cs_argument_every, "the largest number of frames in a task; default: 10"},
+    {"--chunk", "N", &cs_argument_every,
+     "the largest number of frames in a task; default: 10, or with --table 1 row"},
     {"--strips", "N", &cs_argument_every,
      "one frame in N strips, with a task for each strip and one that joins them"},
     {"--job-name", "NAME", &cs_argument_text,
@@ -375,16 +387,19 @@ static const cs_option FARM[] = {
      "processors, and threads, of each task; default: the farm's"},
     FRAMES,
     SIZE,
+    FIT,
     SCALE,
     CROP,
     ANTIALIAS,
     CODING,
     DITHER,
+    VIDEO,
     BACKGROUND,
     CEL,
     ONION,
     FORCE,
     KEEP_GOING,
+    TABLE("a film for each row of a CSV file, as for render: tasks are rows"),
     SCRIPT,
     MEMORY,
     {0}};
@@ -548,12 +563,14 @@ const cs_verb cs_verbs[] = {
               "region is not found are reported as lost. The module celspan.track reads the "
               "track and places art on it.",
      .options = TRACK},
-    {"farm", "SCRIPT -o OUT", 1, 1, .has_script = true, .runs_again = true,
+    {"farm", "SCRIPT -o OUT", 1, 1, .has_script = true, .runs_again = true, .plans_rows = true,
+     .asks_files = true,
      .summary = "Writes a job for a render farm: an array script for Slurm, or an Open Job "
                 "Description.",
      .notes = "The job is written to standard output. Its tasks render the frames to OUT as "
               "'celspan render' does: in chunks that continue where they were stopped, or "
-              "one frame in strips, which are joined at the end.",
+              "one frame in strips, which are joined at the end. With --table its tasks render "
+              "rows of the table.",
      .options = FARM},
     {"join", "STRIP ... -o OUT", 1, CS_OPERANDS_MAX,
      .summary = "Joins strips of a frame without decompressing them.",

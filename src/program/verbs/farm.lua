@@ -6,17 +6,18 @@
 -- part of the frames, or of the frame, each: all that can be known to fail on a farm fails here.
 --
 --   job.strips    whether tasks are strips of one frame, else parts of the frames
---   job.tasks     how many; job.frames: how many frames they make
+--   job.tasks     how many; job.frames: how many frames they make, or job.rows: films of --table
+--   job.chunk     the most frames, or rows, of a task; job.numbers: of the frames
 --   job.script, job.output, job.folder    as they were given, and the folder they were given in
 --   job.options   of render, in their order: {name =, value =}; value nil: a flag
 --   job.arguments of the script
 --   job.name, job.logs, job.workers, job.memory (MiB), job.minutes    nil: not given
+--   job.table     of --table; job.has_values: whether it or --set-from sets parameters
 --   job.version   of celspan
 local program, request = ...
 local core = require "celspan.core"
-local json = require "celspan.json"
 
-local CHUNK = 10 -- frames of a task
+local CHUNK, CHUNK_ROWS = 10, 1 -- frames of a task; films of a task with --table
 local STRIPS_MOST = 1000 -- the most that one command can join
 local OPTIONS_MOST, PATH_MOST = 128, 4095
 local ARRAY_MOST = 1000 -- the most tasks of an array that Slurm accepts by default
@@ -27,8 +28,6 @@ local function absolute(path, folder)
   return path:sub(1, 1) == "/" and path or folder:gsub("/$", "") .. "/" .. path
 end
 
-local function split(path) return path:match "^(.*)/([^/]*)$" end
-
 --- The ending of a strip's file, which is that of its picture.
 local function ending_of(path) return path:match "%.([^./]*)$" or "" end
 
@@ -36,15 +35,23 @@ local function strip_pattern(output, number)
   return ("%s.strips/%s.%s"):format(output, number, ending_of(output))
 end
 
+--- A text for a comment: control characters are replaced, so that it remains on its line.
+local function plain(text) return (text:gsub("%c", "?")) end
+
 local function name_of(job)
   return job.name or job.script:match "([^/]+)$":gsub("%.lua$", "")
 end
 
 local function summary_of(job)
   if job.strips then return ("one frame of %s in %d strips"):format(job.script, job.tasks) end
-  return ("%d %s of %s in %d %s"):format(job.frames, job.frames == 1 and "frame" or "frames",
-    job.script, job.tasks, job.tasks == 1 and "task" or "tasks")
+  local count, what = job.rows or job.frames, job.rows and "film" or "frame"
+  return ("%d %s%s of %s in %d task%s"):format(count, what, count == 1 and "" or "s", job.script,
+    job.tasks, job.tasks == 1 and "" or "s")
 end
+
+--- What the template of Open Job Description has in common with the others.
+local names = { absolute = absolute, strip_pattern = strip_pattern, name_of = name_of,
+                summary_of = summary_of, plain = plain }
 
 -- ---------------------------------------------------------------- Slurm
 
@@ -53,9 +60,6 @@ local function quoted(text)
   if text:find "^[%w%%+,./:=@_-]+$" then return text end
   return "'" .. text:gsub("'", [['\'']]) .. "'"
 end
-
---- A text for a comment: control characters are replaced, so that it remains on its line.
-local function plain(text) return (text:gsub("%c", "?")) end
 
 --- The arguments after the usual ones of render, with a space before each.
 local function words_of(job)
@@ -202,154 +206,6 @@ local function commands(job)
   return table.concat(lines, "\n") .. "\n"
 end
 
--- ---------------------------------------------------------------- Open Job Description
-
-local MOST_PARAMETERS, MOST_TEXT, MOST_NAME = 50, 1024, 128
-
---- The parameters of the job; each is added when it is needed.
-local function new_parameters()
-  local parameters = { list = {}, counts = {} }
-  function parameters:add(name, kind, default, more)
-    local members = { { "name", name }, { "type", kind }, { "default", default } }
-    for _, member in ipairs(more or {}) do table.insert(members, member) end
-    table.insert(self.list, members)
-    if #default > MOST_TEXT then
-      self.fault = ("%s has more than %d characters"):format(name, MOST_TEXT)
-    end
-    return ("{{Param.%s}}"):format(name)
-  end
-  --- Sets a parameter that may be set several times: the last value counts.
-  function parameters:set(name, value)
-    for _, members in ipairs(self.list) do
-      if members[1][2] == name then members[3][2] = value return ("{{Param.%s}}"):format(name) end
-    end
-    return self:add(name, "STRING", value)
-  end
-  --- Adds the next of several parameters of a kind: Allow1, Allow2.
-  function parameters:add_numbered(kind, ...)
-    self.counts[kind] = (self.counts[kind] or 0) + 1
-    return self:add(kind .. self.counts[kind], ...)
-  end
-  --- A text as an argument, which may contain neither control characters nor braces.
-  function parameters:argument(text)
-    if not text:find "%c" and not text:find("{{", 1, true) then return text end
-    return self:add_numbered("Text", "STRING", text)
-  end
-  return parameters
-end
-
-local FILE_IN = { { "objectType", "FILE" }, { "dataFlow", "IN" } }
-local FOLDER_IN = { { "objectType", "DIRECTORY" }, { "dataFlow", "IN" } }
-local FOLDER_OUT = { { "objectType", "DIRECTORY" }, { "dataFlow", "OUT" } }
-
-local function add_options(job, parameters, arguments)
-  for _, option in ipairs(job.options) do
-    arguments[#arguments + 1] = option.name
-    if option.name == "--set" then
-      local name, value = option.value:match "^(.-)=(.*)$"
-      arguments[#arguments + 1] = name .. "=" .. parameters:set("Set_" .. name, value)
-    elseif option.name == "--set-from" then
-      arguments[#arguments + 1] = parameters:add("SetFrom", "PATH",
-        absolute(option.value, job.folder), FILE_IN)
-    elseif option.name == "--allow" then
-      arguments[#arguments + 1] = parameters:add_numbered("Allow", "PATH",
-        absolute(option.value, job.folder), FOLDER_IN)
-    elseif option.value then
-      arguments[#arguments + 1] = parameters:argument(option.value)
-    end
-  end
-  if #job.arguments > 0 then arguments[#arguments + 1] = "--" end
-  for _, argument in ipairs(job.arguments) do
-    arguments[#arguments + 1] = parameters:argument(argument)
-  end
-end
-
-local function action(arguments, minutes)
-  local members = { { "command", "{{Param.Celspan}}" }, { "args", { list = arguments } } }
-  if minutes then members[#members + 1] = { "timeout", 60 * minutes } end
-  members[#members + 1] = { "cancelation",
-    { { "mode", "NOTIFY_THEN_TERMINATE" }, { "notifyPeriodInSeconds", 10 } } }
-  return { { "actions", { { "onRun", members } } } }
-end
-
-local function requirements(job)
-  local amounts = {}
-  local function add(name, least) amounts[#amounts + 1] = { { "name", name }, { "min", least } } end
-  if job.workers then add("amount.worker.vcpu", job.workers) end
-  if job.memory then add("amount.worker.memory", job.memory) end
-  return #amounts > 0 and { { "amounts", { list = amounts } } } or nil
-end
-
---- output: in the form for the arguments of a task.
-local function render_step(job, parameters, script, output)
-  local task = job.strips and "Strip" or "Task"
-  local number = ("{{Task.Param.%s}}"):format(task)
-  local range = job.tasks == 1 and "1" or "1-" .. job.tasks
-  local arguments = { "render", script, "-o",
-    job.strips and strip_pattern(output, number) or output,
-    job.strips and "--strip" or "--task", ("%s/%d"):format(number, job.tasks),
-    "--resume", "--progress", "openjd" }
-  if job.workers then
-    table.move({ "--workers", tostring(job.workers) }, 1, 2, #arguments + 1, arguments)
-  end
-  add_options(job, parameters, arguments)
-  local step = { { "name", "Render" },
-    { "parameterSpace", { { "taskParameterDefinitions", { list = {
-      { { "name", task }, { "type", "INT" }, { "range", range } } } } } } },
-    { "script", action(arguments, job.minutes) } }
-  local needs = requirements(job)
-  if needs then table.insert(step, 2, { "hostRequirements", needs }) end
-  return step
-end
-
-local function join_step(job, output)
-  local arguments = { "join" }
-  for i = 1, job.tasks do arguments[#arguments + 1] = strip_pattern(output, i) end
-  table.move({ "-o", output }, 1, 2, #arguments + 1, arguments)
-  return { { "name", "Join" },
-    { "dependencies", { list = { { { "dependsOn", "Render" } } } } },
-    { "script", action(arguments) } }
-end
-
---- Without control characters and braces, and not too long.
-local function template_name(job)
-  local name = plain(name_of(job)):gsub("[{}]", "-")
-  local cut = utf8.len(name) and utf8.offset(name, MOST_NAME + 1)
-  return cut and name:sub(1, cut - 1) or name
-end
-
-local function template_text(job, parameters, steps)
-  return json.encode({
-    { "specificationVersion", "jobtemplate-2023-09" },
-    { "name", template_name(job) },
-    { "description", ("%s, written by celspan %s."):format(plain(summary_of(job)), job.version) },
-    { "parameterDefinitions", { list = parameters.list } },
-    { "steps", { list = steps } },
-  }) .. "\n"
-end
-
-local function openjd(job)
-  local parameters = new_parameters()
-  local folder, file = split(absolute(job.output, job.folder))
-  parameters:add("Celspan", "STRING", "celspan")
-  local script = parameters:add("Script", "PATH", absolute(job.script, job.folder), FILE_IN)
-  local place = parameters:add("Output", "PATH", folder == "" and "/" or folder, FOLDER_OUT)
-  local output = place .. "/" .. parameters:argument(file)
-  local steps = { render_step(job, parameters, script, output) }
-  if job.strips then steps[2] = join_step(job, output) end
-  local fault = parameters.fault
-  if #parameters.list > MOST_PARAMETERS then
-    fault = ("it needs %d parameters, and a template has at most %d: give fewer --allow")
-      :format(#parameters.list, MOST_PARAMETERS)
-  end
-  if fault then return nil, "Open Job Description: " .. fault end
-  local text = template_text(job, parameters, steps)
-  if not utf8.len(text) then
-    return nil, "Open Job Description: the template is UTF-8, and a name or an argument is not"
-  end
-  return text
-end
-
 -- ---------------------------------------------------------------- what is asked for
 
 local own = { ["-o"] = true, ["--slurm"] = true, ["--openjd"] = true,
@@ -365,23 +221,34 @@ local function refuse()
   if kinds ~= 1 then
     program.usage "for which farm? give --slurm, --openjd or --commands, one of them"
   end
-  if request.chunk and request.strips then
-    program.usage "--chunk divides a film and --strips a frame: give one of them"
+  if request.strips and (request.chunk or request.table) then
+    program.usage("%s divides %s and --strips a frame: give one of them",
+      request.table and "--table" or "--chunk", request.table and "its rows" or "a film")
   end
   if request.strips and math.tointeger(request.strips) > STRIPS_MOST then
     program.usage("--strips %s: at most %d strips can be joined at once", request.strips,
       STRIPS_MOST)
   end
-  if output == "-" or program.is_video(output) then
+  if output == "-" or not request.table and program.is_video(output) then
     program.usage "a farm makes files of frames: give -o shot.####.png (and make a video of them)"
   end
   if #output > PATH_MOST then program.usage("%.80s...: the name is too long", output) end
-  program.refuse_target(output)
+  if not request.table then program.refuse_target(output) end
+end
+
+--- How many tasks have the most of `chunk`.
+local function tasks_of(count, chunk) return (count + chunk - 1) // chunk end
+
+--- Sets the numbers of films and tasks. Every row is checked, but no frame is counted: films may
+--- differ in their length.
+local function count_rows(job, film)
+  job.rows, job.output = program.part("rows.lua", program, request, film).count, request.output
+  job.chunk = math.tointeger(request.chunk) or CHUNK_ROWS
+  job.tasks = tasks_of(job.rows, job.chunk)
 end
 
 --- Sets the numbers of frames and tasks, and the output of each task.
-local function count_tasks(job)
-  local film = program.film()
+local function count_tasks(job, film)
   local numbers = film:numbers(request.output)
   job.frames, job.tasks, job.output = #numbers, math.tointeger(request.strips), request.output
   if request.strips then
@@ -390,8 +257,8 @@ local function count_tasks(job)
     end
     job.output = program.check(core.frame_name(request.output, numbers[1]))
   else
-    local chunk = math.tointeger(request.chunk) or CHUNK
-    job.tasks = (#numbers + chunk - 1) // chunk
+    job.chunk, job.numbers = math.tointeger(request.chunk) or CHUNK, numbers
+    job.tasks = tasks_of(#numbers, job.chunk)
   end
   film:view_size() -- refuses a size that is impossible for the film
 end
@@ -400,15 +267,22 @@ refuse()
 local job = { strips = request.strips, script = request[1], folder = program.working_folder(),
   name = request.job_name, logs = request.logs, workers = math.tointeger(request.workers),
   memory = math.tointeger(request.job_memory), minutes = math.tointeger(request.job_time),
-  arguments = request.arguments, options = {}, version = program.version }
+  arguments = request.arguments, options = {}, version = program.version, table = request.table,
+  has_values = request.table or request.set_from }
 for _, option in ipairs(request.given) do
   if not own[option.name] then table.insert(job.options, option) end
   if #job.options > OPTIONS_MOST then
     program.usage("%s: there are more than %d options", option.name, OPTIONS_MOST)
   end
 end
-count_tasks(job)
-local text, message = (request.slurm and slurm or request.openjd and openjd or commands)(job)
+local film = program.film()
+if request.table then count_rows(job, film) else count_tasks(job, film) end
+local text, message
+if request.openjd then
+  text, message = program.part("openjd.lua", program, film, job, names)
+else
+  text, message = (request.slurm and slurm or commands)(job)
+end
 if not text then program.usage("%s", message) end
 io.write(text)
 if request.slurm and job.tasks > ARRAY_MOST then

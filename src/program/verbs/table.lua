@@ -2,152 +2,31 @@
 --
 --   table --> every row is checked --> a process a row, with --set, as many as workers --> summary
 --
--- Rows are read from the text one by one, twice, so that only the names of the outputs are kept.
+-- With --task I/N, only the I-th of N parts of the rows are made; all of them are checked.
 -- --keep-going is about rows, and the process of a row does not get it. It gets --resume: it keeps
 -- what would come out the same, which its events report.
 local program, request = ...
-local csv = require "celspan.csv"
 local json = require "celspan.json"
 
 local is_check = request.verb == "check" -- no files are written
 local has_events = request.verb == "render" or request.verb == "sound"
 local is_json = request.progress == "json"
 local NAMED_MOST = 20 -- the most failed rows that the summary names
-local OUTPUT_MOST = 4095 -- the most bytes of a name
-local PIECE = 65536      -- bytes of the table that are read at a time
-
--- ---------------------------------------------------------------- the table
-
---- The text of the table, which may come through a pipe.
-local function read_text(path)
-  local pieces, size = {}, 0
-  local file, message = io.open(path, "rb")
-  while file and size <= csv.most_bytes do
-    local piece, problem = file:read(PIECE)
-    if problem then program.fail("input", "--table %s: %s", path, problem) end
-    if not piece then break end
-    pieces[#pieces + 1], size = piece, size + #piece
-  end
-  if not file then program.fail("input", "--table %s", message) end
-  file:close()
-  if size > csv.most_bytes then
-    program.fail("input", "--table %s: it has more than %d bytes, which is the limit", path,
-      csv.most_bytes)
-  end
-  return table.concat(pieces)
-end
-
---- Returns the results of a call that reads the table.
-local function try(call, ...)
-  local good, one, other = pcall(call, ...)
-  if good then return one, other end
-  program.fail("input", "--table %s: %s", request.table, type(one) == "table" and one.message
-    or one)
-end
-
---- Returns the names of the columns, and a function that returns each row of texts with its line,
---- and nil after the last row.
-local function reader(text)
-  local header, next_row = try(csv.rows, text)
-  return header, function() return try(next_row) end
-end
-
--- ---------------------------------------------------------------- a row
-
---- The output of a row: each {name} in OUT is replaced by the text in that column. For `check`, the
---- line of the row.
-local function output_of(row, line, columns)
-  if is_check then return "line " .. line end
-  local output = request.output:gsub("{([%w_]+)}", function(name)
-    local text = row[columns[name]]
-    if text == "" or text:find "/" or text:find("..", 1, true) or text:find "%c" then
-      program.usage("--table %s: line %d: column '%s' is '%s': in the name of a file it must not "
-        .. "be empty nor have / or .. in it", request.table, line, name, text)
-    end
-    return text
-  end)
-  if #output > OUTPUT_MOST then
-    program.usage("--table %s: line %d: the name of the output has more than %d bytes",
-      request.table, line, OUTPUT_MOST)
-  end
-  return output
-end
 
 --- The options that are not passed to a row's process, because it has its own values for them, or
 --- no use.
 local own = { ["-o"] = true, ["--table"] = true, ["--workers"] = true, ["--progress"] = true,
-              ["--keep-going"] = true }
+              ["--keep-going"] = true, ["--task"] = true }
 
-local function words_of(row, output, header, is_parameter, threads)
-  local settings = {}
-  for i, name in ipairs(header) do
-    if is_parameter[name] then settings[#settings + 1] = { name, row[i] } end
-  end
+local function words_of(item, threads)
   local words = { request.verb, request[1] }
   local function add(name, value) table.move({ name, value }, 1, 2, #words + 1, words) end
-  if not is_check then add("-o", output) end
+  if not is_check then add("-o", item.output) end
   if request.verb == "render" or request.verb == "contact" then
     add("--workers", tostring(threads))
   end
   if has_events then add("--progress", "json") end
-  return program.pass_on(words, request, own, settings)
-end
-
--- ---------------------------------------------------------------- checks
-
---- The names of the script's parameters, as keys.
-local function parameters_of(film)
-  local names = {}
-  for name in pairs(assert(json.decode(film:ask("celspan.parameters", "schema", ""))).properties) do
-    names[name] = true
-  end
-  return names
-end
-
---- The places of the columns by their names.
-local function check_header(header, is_parameter)
-  if #header == 0 then
-    program.usage("--table %s: it is empty: its first line names the columns", request.table)
-  end
-  local columns = try(csv.columns, header)
-  if is_check then return columns end
-  for _, name in ipairs(header) do
-    if not is_parameter[name] and not request.output:find("{" .. name .. "}", 1, true) then
-      program.usage("--table %s: column '%s' is neither a parameter of the script nor {%s} in OUT",
-        request.table, name, name)
-    end
-  end
-  for name in request.output:gmatch "{([%w_]+)}" do
-    if not columns[name] then
-      program.usage("--table %s: there is no column '%s' for {%s} in OUT; there are %s",
-        request.table, name, name, table.concat(header, ", "))
-    end
-  end
-  return columns
-end
-
---- Checks the values of every row, and that no two rows have the same output. Returns the number of
---- rows.
-local function check_rows(text, film, columns, is_parameter)
-  local header, next_row = reader(text)
-  local lines, count = {}, 0
-  for row, line in next_row do
-    for i, name in ipairs(header) do
-      local fault = is_parameter[name]
-        and film:ask("celspan.parameters", "fault", name .. "=" .. row[i]) or ""
-      if fault ~= "" then
-        program.usage("--table %s: line %d: %s", request.table, line, fault)
-      end
-    end
-    local output = output_of(row, line, columns)
-    if lines[output] then
-      program.usage("--table %s: lines %d and %d would both make %s: put a column in OUT, as "
-        .. "{NAME}", request.table, lines[output], line, output)
-    end
-    lines[output], count = line, count + 1
-  end
-  if count == 0 then program.usage("--table %s: it has no rows", request.table) end
-  return count
+  return program.pass_on(words, request, own, item.settings)
 end
 
 -- ---------------------------------------------------------------- the processes
@@ -212,6 +91,9 @@ local function count_row(tally, item, last)
   tally[how] = tally[how] + 1
   tell { event = "row", line = item.line, output = item.output, how = how, done = tally.ended,
          count = tally.count }
+  if request.progress == "openjd" then
+    print(("openjd_progress: %.1f"):format(100 * tally.ended / tally.count))
+  end
   if not is_json and request.progress ~= "none" then
     program.note("%d/%d %s%s", tally.ended, tally.count, item.output, is_kept and ": kept" or "")
   end
@@ -257,18 +139,26 @@ end
 
 -- ---------------------------------------------------------------- the run
 
---- Makes the rows of a table; returns the exit code.
-local function make_rows(tally, text, columns, is_parameter)
+--- The first and the last row of this task; of all rows if there are no tasks.
+local function share_of(count)
+  local number, of = program.task()
+  if not number then return 1, count end
+  return count * (number - 1) // of + 1, count * number // of
+end
+
+--- Makes rows; returns the exit code.
+local function make_rows(tally, rows, first)
   local workers = math.tointeger(request.workers) or 0
   if workers == 0 then workers = program.processors() end
   local threads = math.max(1, workers // tally.count)
-  local header, next_row = reader(text)
+  local taken = 0
+  for _ = 2, first do rows.next() end
   local function next_item()
-    local row, line = next_row()
-    if not row then return nil end
-    local output = output_of(row, line, columns)
-    return { line = line, output = output,
-             words = words_of(row, output, header, is_parameter, threads) }
+    if taken == tally.count then return nil end
+    taken = taken + 1
+    local item = rows.next()
+    item.words = words_of(item, threads)
+    return item
   end
   local function finish(item, code, ...)
     local last = show(item)
@@ -286,21 +176,13 @@ local function make_rows(tally, text, columns, is_parameter)
   return #tally.failed > 0 and request.keep_going and 1 or tally.outcome
 end
 
-local function run(text, count, columns, is_parameter)
-  local tally = new_tally(count)
-  tell { event = "start", count = count }
-  local code = make_rows(tally, text, columns, is_parameter)
-  sum_up(tally, code)
-  return code
-end
-
 if request.hash then program.usage("--table renders several films: leave --hash out") end
 if request.json then program.usage("--table checks several films: leave --json out") end
-if not is_check and (not request.output or request.output == "-") then
-  program.usage("--table writes files: name them by its columns, as -o {NAME}.%s",
-    ({ render = "mp4", sound = "wav" })[request.verb] or "png")
-end
-local text, film = read_text(request.table), program.film()
-local is_parameter, header = parameters_of(film), reader(text)
-local columns = check_header(header, is_parameter)
-return run(text, check_rows(text, film, columns, is_parameter), columns, is_parameter)
+local rows = program.part("rows.lua", program, request, program.film())
+local first, last = share_of(rows.count)
+local tally = new_tally(last - first + 1)
+if tally.count == 0 then return program.note("task %d of %d has no rows", program.task()) end
+tell { event = "start", count = tally.count }
+local code = make_rows(tally, rows, first)
+sum_up(tally, code)
+return code
