@@ -246,17 +246,51 @@ local function check_identifier(text)
   assert.is_truthy(text:find "^[A-Za-z_][A-Za-z0-9_]*$" and #text <= 64, text)
 end
 
---- 2.1 and 2.2
-local function check_parameter(parameter)
-  local where = parameter.name
-  check_identifier(where)
-  check_text(parameter.default, 1024, where, true)
-  if parameter.type == "STRING" then return check_fields(parameter, "name type default", where) end
-  assert.equal("PATH", parameter.type)
-  check_fields(parameter, "name type default objectType dataFlow", where)
+--- 2.3 and 2.4
+local function check_number(parameter)
+  local value = parameter.default
+  assert.is_true(parameter.type == "FLOAT" or math.type(value) == "integer", parameter.name)
+  assert.equal("number", type(value))
+  assert.is_true(value >= (parameter.minValue or value) and value <= (parameter.maxValue or value))
+end
+
+--- 2.1 and 2.5
+local function check_string(parameter)
+  assert.equal("string", type(parameter.default))
+  assert.is_true(assert(utf8.len(parameter.default)) <= 1024, parameter.name)
+  local is_allowed = not parameter.allowedValues
+  for _, value in ipairs(parameter.allowedValues or {}) do
+    is_allowed = is_allowed or value == parameter.default
+  end
+  assert.is_true(is_allowed, parameter.name)
+end
+
+--- 2.2
+local function check_path(parameter)
+  check_string(parameter)
   assert.is_truthy(({ FILE = true, DIRECTORY = true })[parameter.objectType])
   assert.is_truthy(({ IN = true, OUT = true })[parameter.dataFlow])
   assert.equal("/", parameter.default:sub(1, 1))
+end
+
+local KINDS = {
+  STRING = { fields = "allowedValues?", check = check_string },
+  PATH = { fields = "objectType dataFlow", check = check_path },
+  INT = { fields = "minValue? maxValue?", check = check_number },
+  FLOAT = { fields = "minValue? maxValue?", check = check_number },
+}
+
+--- 2
+local function check_parameter(parameter)
+  local where, kind = parameter.name, assert(KINDS[parameter.type], parameter.type)
+  check_identifier(where)
+  check_fields(parameter, "name type default description? userInterface? " .. kind.fields, where)
+  kind.check(parameter)
+  if parameter.description then check_text(parameter.description, 2048, where) end
+  if parameter.userInterface then
+    check_fields(parameter.userInterface, "groupLabel", where)
+    check_text(parameter.userInterface.groupLabel, 64, where)
+  end
 end
 
 --- 7.3: every {{...}} names something that exists.
@@ -284,15 +318,29 @@ local function check_script(script, known)
   assert.is_true(action.cancelation.notifyPeriodInSeconds <= 600)
 end
 
+--- 3.4.1.5
+local function check_chunks(chunks, known)
+  check_fields(chunks, "defaultTaskCount rangeConstraint", "chunks")
+  check_format(chunks.defaultTaskCount, known, "chunks")
+  assert.equal("NONCONTIGUOUS", chunks.rangeConstraint)
+end
+
 --- 3.4
-local function check_space(space, known)
+local function check_space(space, known, extensions)
   check_fields(space, "taskParameterDefinitions", "parameterSpace")
   assert.equal(1, #space.taskParameterDefinitions)
   local task = space.taskParameterDefinitions[1]
-  check_fields(task, "name type range", "task parameter")
   check_identifier(task.name)
-  assert.equal("INT", task.type)
-  assert.is_truthy(task.range == "1" or task.range:find "^1%-%d+$")
+  check_format(task.range, known, "range")
+  if extensions.TASK_CHUNKING then
+    assert.equal("CHUNK[INT]", task.type)
+    check_fields(task, "name type range chunks", "task parameter")
+    check_chunks(task.chunks, known)
+  else
+    assert.equal("INT", task.type)
+    check_fields(task, "name type range", "task parameter")
+    assert.is_truthy(task.range:find "^{{" or task.range == "1" or task.range:find "^1%-%d+$")
+  end
   known["Task.Param." .. task.name] = true
 end
 
@@ -308,8 +356,11 @@ end
 
 --- 1.1
 local function check_template(job)
-  check_fields(job, "specificationVersion name description parameterDefinitions steps", "template")
+  check_fields(job, "specificationVersion extensions? name description parameterDefinitions steps",
+    "template")
   assert.equal("jobtemplate-2023-09", job.specificationVersion)
+  assert.same({ "TASK_CHUNKING" }, job.extensions or { "TASK_CHUNKING" })
+  local extensions = { TASK_CHUNKING = job.extensions ~= nil }
   check_text(job.name, 128, "name")
   check_format(job.name, {}, "name")
   check_text(job.description, 2048, "description")
@@ -329,22 +380,50 @@ local function check_template(job)
       assert.is_true(steps[on.dependsOn])
     end
     if step.hostRequirements then check_requirements(step.hostRequirements) end
-    if step.parameterSpace then check_space(step.parameterSpace, own) end
+    if step.parameterSpace then check_space(step.parameterSpace, own, extensions) end
     check_script(step.script, own)
     steps[step.name] = true
   end
 end
 
---- The commands of a step, one per line, as an engine would run them.
-local function commands_of(job, step)
+--- 3.4.1.1.1: the numbers of a range, in increasing order; ranges must not overlap.
+local function numbers_of(range)
+  local list, seen = {}, {}
+  for element in range:gmatch "[^,]+" do
+    local first, last, step = element:match "^(%-?%d+)%-(%-?%d+):?(%d*)$"
+    if not first then first, last, step = element, element, "" end
+    for number = tonumber(first), tonumber(last), tonumber(step) or 1 do
+      assert.is_nil(seen[number], range)
+      list[#list + 1], seen[number] = number, true
+    end
+  end
+  table.sort(list)
+  return list
+end
+
+--- What the parameter of the tasks is in each of them.
+local function tasks_of(task, values)
+  if not task then return { "" } end
+  local numbers, list = numbers_of((task.range:gsub("{{(.-)}}", values))), {}
+  local most = task.chunks and tonumber((task.chunks.defaultTaskCount:gsub("{{(.-)}}", values)))
+  for i = 1, #numbers, most or 1 do
+    list[#list + 1] = table.concat(numbers, ",", i, math.min(#numbers, i + (most or 1) - 1))
+  end
+  return list
+end
+
+--- The commands of a step, one per line, as an engine would run them. set: values of parameters of
+--- the job that somebody has changed.
+local function commands_of(job, step, set)
   local values, commands = {}, {}
   for _, parameter in ipairs(job.parameterDefinitions) do
-    values["Param." .. parameter.name] = parameter.default
+    local value = set and set[parameter.name] or parameter.default
+    values["Param." .. parameter.name] = tostring(value)
   end
   values["Param.Celspan"] = workbench.absolute
   local task = step.parameterSpace and step.parameterSpace.taskParameterDefinitions[1]
-  for i = 1, task and tonumber(task.range:match "%d+$") or 1 do
-    if task then values["Task.Param." .. task.name] = tostring(i) end
+  for i, value in ipairs(tasks_of(task, values)) do
+    if task then values["Task.Param." .. task.name] = value end
     local action, words = step.script.actions.onRun, {}
     for _, text in ipairs { action.command, table.unpack(action.args) } do
       words[#words + 1] = word(text:gsub("{{(.-)}}", values))
@@ -354,9 +433,9 @@ local function commands_of(job, step)
   return commands
 end
 
-local function run_job(job)
+local function run_job(job, set)
   for _, step in ipairs(job.steps) do
-    for _, command in ipairs(commands_of(job, step)) do
+    for _, command in ipairs(commands_of(job, step, set)) do
       local code, out, err = bench:shell(command)
       assert.equal(0, code, err)
       assert.is_truthy(step.name == "Join" or out:find("openjd_progress: 100", 1, true), out)
@@ -411,6 +490,159 @@ describe("the template of Open Job Description", function()
     local many = {}
     for i = 1, 48 do many[i] = word("{{" .. i) end
     refused("at most 50", "farm film.lua --openjd -o o/#.png -- " .. table.concat(many, " "))
+  end)
+
+  it("names frames by ranges, and in chunks only where a task has several", function()
+    local job = template "-o o/#.png --frames 9,3,4,5,7 --chunk 2"
+    check_template(job)
+    local step = job.steps[1]
+    assert.same({ "3,4", "5,7", "9" }, tasks_of(step.parameterSpace.taskParameterDefinitions[1],
+      { ["Param.Frames"] = "3-5,7-9:2", ["Param.Chunk"] = "2" }))
+    local by_name = {}
+    for _, one in ipairs(job.parameterDefinitions) do by_name[one.name] = one.default end
+    assert.equal("3-5,7,9", by_name.Frames)
+    assert.equal(2, by_name.Chunk)
+    run_job(job)
+    assert.equal("3.png 4.png 5.png 7.png 9.png", frames_in "o")
+    job = template "-o p/#.png --chunk 1 --frames 3-9:3"
+    check_template(job)
+    assert.is_nil(job.extensions)
+    run_job(job, { Frames = "4-6:2,8" }) -- as somebody has changed it
+    assert.equal("4.png 6.png 8.png", frames_in "p")
+  end)
+
+  it("offers what the script declares, and gives it to the tasks", function()
+    bench:write("set.lua", [[
+      local celspan = require "celspan"
+      local p = celspan.parameters {
+        radius = { 10, min = 1, max = 30, about = "Of the\ndisc", group = "Disc" },
+        loud = false, mood = { "calm", "wild" }, at = { 9, 20, point = true },
+        title = "", big = 1e9, [("x"):rep(64)] = 1 }
+      return celspan.film { size = { 60, 40 }, frames = 2, frame = function()
+        return celspan.rostrum { celspan.cel { celspan.circle { centre = p.at, radius = p.radius,
+          texture = p.mood == "wild" and "#f00" or p.loud and "#0f0" or "#00f" } } }
+      end }]])
+    local arguments = "farm set.lua --openjd -o o/#.png --chunk 1 "
+    local job = assert(json.decode(done(arguments .. "--set radius=5 --set loud=yes --set at=30,2")))
+    check_template(job)
+    local by_name = {}
+    for _, one in ipairs(job.parameterDefinitions) do by_name[one.name] = one end
+    assert.equal(5, by_name.Set_radius.default)
+    assert.equal("FLOAT", by_name.Set_radius.type)
+    assert.equal(30, by_name.Set_radius.maxValue)
+    assert.equal("Of the?disc", by_name.Set_radius.description)
+    assert.equal("Disc", by_name.Set_radius.userInterface.groupLabel)
+    assert.equal("30,2", by_name.Set_at.default)
+    assert.same({ "calm", "wild" }, by_name.Set_mood.allowedValues)
+    run_job(job, { Set_radius = "7.5", Set_mood = "wild" })
+    done "render set.lua -o w/#.png --set radius=7.5 --set mood=wild --set at=30,2"
+    for i = 1, 2 do same(("o/%d.png"):format(i), ("w/%d.png"):format(i)) end
+    bench:write("values.json", '{ "radius": 6 }')
+    job = assert(json.decode(done(arguments .. "--set-from values.json --set mood=wild")))
+    check_template(job)
+    run_job(job)
+    done "render set.lua -o w/#.png --set radius=6 --set mood=wild"
+    same("o/2.png", "w/2.png")
+  end)
+
+  it("names the script's folder, and files elsewhere", function()
+    assert.equal(true, os.execute(("mkdir -p %s/scene %s/far"):format(word(bench.folder),
+      word(bench.folder))))
+    bench:write("far/part.lua", "return 7")
+    bench:write("scene/near.lua", "return 8")
+    bench:write("scene/film.lua", 'require "near" require "part"\n' .. FILM)
+    local function paths(options)
+      local text = done("farm scene/film.lua --openjd -o out/#.png " .. options)
+      local job, list = assert(json.decode(text)), {}
+      check_template(job)
+      for _, one in ipairs(job.parameterDefinitions) do
+        if one.dataFlow == "IN" then
+          list[#list + 1] = one.name .. " " .. one.default:sub(#bench.folder + 2)
+        end
+      end
+      return table.concat(list, ", ")
+    end
+    local code, out, err = shell("CELSPAN_PATH=" .. word(bench.folder .. "/far/?.lua")
+      .. ' "$CELSPAN" farm scene/film.lua --openjd -o out/#.png')
+    assert.equal(0, code, err)
+    assert.is_truthy(out:find("far/part.lua", 1, true), out)
+    bench:write("scene/film.lua", 'require "near"\n' .. FILM)
+    assert.equal("Script scene/film.lua, Folder scene", paths "")
+    assert.equal("Script scene/film.lua, Folder scene, Allow1 far", paths "--allow far")
+  end)
+end)
+
+-- ---------------------------------------------------------------- tables
+
+local TABLE = "name,radius\nred,5\nblue,12\n\"the 'big' one\",30\n"
+
+describe("a job of a table", function()
+  before_each(function()
+    bench:write("set.lua", [[
+      local celspan = require "celspan"
+      local p = celspan.parameters { radius = 10 }
+      return celspan.film { size = { 60, 40 }, frames = 2, frame = function(f)
+        return celspan.rostrum { celspan.cel { celspan.circle { centre = { 20 * f.number, 20 },
+          radius = p.radius, texture = "#c04030" } } }
+      end }]])
+    bench:write("night.csv", TABLE)
+    done "render set.lua -o 'w/{name}/#.png' --table night.csv"
+  end)
+
+  local function check_films(folder)
+    for _, name in ipairs { "red", "blue", "the 'big' one" } do
+      for i = 1, 2 do
+        same(("%s/%s/%d.png"):format(folder, name, i), ("w/%s/%d.png"):format(name, i))
+      end
+    end
+  end
+
+  local OPTIONS = "farm set.lua -o '%s/{name}/#.png' --table night.csv "
+
+  it("makes every film once, by each way", function()
+    bench:write("lines.sh", done(OPTIONS:format "a" .. "--commands"))
+    assert.equal(3, select(2, bench:read "lines.sh":gsub("\n", "")))
+    assert.equal(0, (shell "sh lines.sh"))
+    check_films "a"
+    bench:write("job.sh", done(OPTIONS:format "b" .. "--slurm --chunk 2"))
+    assert.equal(2, count_of(bench:read "job.sh"))
+    for i = 1, 2 do
+      local before = #bench:files "b"
+      local code, _, err = run_task(i)
+      assert.equal(0, code, err)
+      assert.is_true(#bench:files "b" > before)
+    end
+    check_films "b"
+    local job = assert(json.decode(done(OPTIONS:format "c" .. "--openjd")))
+    check_template(job)
+    assert.equal("3 films of set.lua in 3 tasks", job.description:match "^(.-),")
+    run_job(job)
+    check_films "c"
+  end)
+
+  it("makes the rows of its task, and checks all", function()
+    local function task(share)
+      local _, _, err = celspan("render set.lua -o 'd/{name}.png' --frames 1 --table night.csv "
+        .. "--task " .. share)
+      return err
+    end
+    assert.is_truthy(task "1/3":find("1/1 d/red.png", 1, true))
+    assert.is_truthy(task "2/2":find("2/2 d/the 'big' one.png", 1, true))
+    assert.is_truthy(task "1/9":find("task 1 of 9 has no rows", 1, true))
+    bench:write("night.csv", TABLE:gsub("30", "x"))
+    assert.is_truthy(task "1/3":find("line 4", 1, true))
+    refused("line 4", OPTIONS:format "a" .. "--commands")
+  end)
+
+  it("may make videos, and no strips", function()
+    assert.is_truthy(done("farm set.lua -o '{name}.mp4' --table night.csv --commands --quality 9")
+      :find("--table night.csv --quality 9", 1, true))
+    refused("--table divides its rows", OPTIONS:format "a" .. "--commands --strips 2")
+    bench:write("same.csv", "radius\n5\n12\n")
+    refused("lines 2 and 3 would both make", "farm set.lua -o o.mp4 --table same.csv --slurm")
+    local code, _, err = celspan "farm set.lua -o '{name}.mp4' --table no.csv --slurm"
+    assert.equal(4, code)
+    assert.is_truthy(err:find("no.csv", 1, true))
   end)
 end)
 

@@ -63,15 +63,12 @@ end
 
 -- ---------------------------------------------------------------- what the script declares
 
-local KINDS = { integer = "INT", number = "FLOAT", boolean = "STRING", string = "STRING",
-                array = "STRING" }
+local KINDS = { number = "FLOAT", boolean = "STRING", string = "STRING", array = "STRING" }
 
 --- The value of a parameter as the type of the template has it: a text of --set, or the default.
 local function value_of(one, value)
   if type(value) == "table" then return ("%.14g,%.14g"):format(value[1], value[2]) end
-  if KINDS[one.type] == "STRING" then return tostring(value) end
-  local number = tonumber(value)
-  return one.type == "integer" and math.tointeger(number) or number
+  return KINDS[one.type] == "FLOAT" and tonumber(value) or tostring(value)
 end
 
 --- The values that a text may have; nil: any.
