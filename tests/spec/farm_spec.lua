@@ -1,7 +1,8 @@
--- celspan farm: its script for Slurm is run as Slurm would run an array, and its template for Open
--- Job Description is compared with the specification (2023-09) and run with its parameters filled
--- in.
+-- celspan farm: its script for Slurm is run as Slurm would run an array, and its commands by a shell
+-- and by engines. openjd_spec.lua has the template of Open Job Description.
 local json = require "celspan.json"
+local openjd = require "tests.support.openjd"
+local present = require "tests.support.present"
 local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
@@ -217,361 +218,6 @@ describe("the script for Slurm", function()
   end)
 end)
 
--- ---------------------------------------------------------------- Open Job Description
-
-local function template(arguments)
-  local text = done("farm film.lua --openjd " .. arguments)
-  return assert(json.decode(text)), text
-end
-
---- Whether a table has only these fields; a name that ends in ? may be missing.
-local function check_fields(value, names, where)
-  local allowed = {}
-  for name in names:gmatch "%S+" do
-    local bare = name:gsub("%?$", "")
-    allowed[bare] = true
-    assert.is_true(name ~= bare or value[bare] ~= nil, where .. " lacks " .. bare)
-  end
-  for name in pairs(value) do assert.is_truthy(allowed[name], where .. " has " .. name) end
-end
-
-local function check_text(text, most, where, takes_controls)
-  assert.equal("string", type(text), where)
-  local length = assert(utf8.len(text), where)
-  assert.is_true(length >= 1 and length <= most, where)
-  assert.is_true(takes_controls or not text:find "%c", where)
-end
-
-local function check_identifier(text)
-  assert.is_truthy(text:find "^[A-Za-z_][A-Za-z0-9_]*$" and #text <= 64, text)
-end
-
---- 2.3 and 2.4
-local function check_number(parameter)
-  local value = parameter.default
-  assert.is_true(parameter.type == "FLOAT" or math.type(value) == "integer", parameter.name)
-  assert.equal("number", type(value))
-  assert.is_true(value >= (parameter.minValue or value) and value <= (parameter.maxValue or value))
-end
-
---- 2.1 and 2.5
-local function check_string(parameter)
-  assert.equal("string", type(parameter.default))
-  assert.is_true(assert(utf8.len(parameter.default)) <= 1024, parameter.name)
-  local is_allowed = not parameter.allowedValues
-  for _, value in ipairs(parameter.allowedValues or {}) do
-    is_allowed = is_allowed or value == parameter.default
-  end
-  assert.is_true(is_allowed, parameter.name)
-end
-
---- 2.2
-local function check_path(parameter)
-  check_string(parameter)
-  assert.is_truthy(({ FILE = true, DIRECTORY = true })[parameter.objectType])
-  assert.is_truthy(({ IN = true, OUT = true })[parameter.dataFlow])
-  assert.equal("/", parameter.default:sub(1, 1))
-end
-
-local KINDS = {
-  STRING = { fields = "allowedValues?", check = check_string },
-  PATH = { fields = "objectType dataFlow", check = check_path },
-  INT = { fields = "minValue? maxValue?", check = check_number },
-  FLOAT = { fields = "minValue? maxValue?", check = check_number },
-}
-
---- 2
-local function check_parameter(parameter)
-  local where, kind = parameter.name, assert(KINDS[parameter.type], parameter.type)
-  check_identifier(where)
-  check_fields(parameter, "name type default description? userInterface? " .. kind.fields, where)
-  kind.check(parameter)
-  if parameter.description then check_text(parameter.description, 2048, where) end
-  if parameter.userInterface then
-    check_fields(parameter.userInterface, "groupLabel", where)
-    check_text(parameter.userInterface.groupLabel, 64, where)
-  end
-end
-
---- 7.3: every {{...}} names something that exists.
-local function check_format(text, known, where)
-  for name in text:gmatch "{{(.-)}}" do assert.is_true(known[name], where .. ": " .. name) end
-  assert.is_nil(text:gsub("{{.-}}", ""):find("{{", 1, true), where)
-end
-
---- 3.5 and 5
-local function check_script(script, known)
-  check_fields(script, "actions", "script")
-  check_fields(script.actions, "onRun", "actions")
-  local action = script.actions.onRun
-  check_fields(action, "command args timeout? cancelation", "onRun")
-  check_text(action.command, 1000, "command")
-  check_format(action.command, known, "command")
-  for i, argument in ipairs(action.args) do
-    check_text(argument, 10000, "argument " .. i)
-    check_format(argument, known, "argument " .. i)
-  end
-  assert.equal("integer", math.type(action.timeout or 1))
-  assert.is_true((action.timeout or 1) > 0)
-  check_fields(action.cancelation, "mode notifyPeriodInSeconds", "cancelation")
-  assert.equal("NOTIFY_THEN_TERMINATE", action.cancelation.mode)
-  assert.is_true(action.cancelation.notifyPeriodInSeconds <= 600)
-end
-
---- 3.4.1.5
-local function check_chunks(chunks, known)
-  check_fields(chunks, "defaultTaskCount rangeConstraint", "chunks")
-  check_format(chunks.defaultTaskCount, known, "chunks")
-  assert.equal("NONCONTIGUOUS", chunks.rangeConstraint)
-end
-
---- 3.4
-local function check_space(space, known, extensions)
-  check_fields(space, "taskParameterDefinitions", "parameterSpace")
-  assert.equal(1, #space.taskParameterDefinitions)
-  local task = space.taskParameterDefinitions[1]
-  check_identifier(task.name)
-  check_format(task.range, known, "range")
-  if extensions.TASK_CHUNKING then
-    assert.equal("CHUNK[INT]", task.type)
-    check_fields(task, "name type range chunks", "task parameter")
-    check_chunks(task.chunks, known)
-  else
-    assert.equal("INT", task.type)
-    check_fields(task, "name type range", "task parameter")
-    assert.is_truthy(task.range:find "^{{" or task.range == "1" or task.range:find "^1%-%d+$")
-  end
-  known["Task.Param." .. task.name] = true
-end
-
---- 3.3
-local function check_requirements(needs)
-  check_fields(needs, "amounts", "hostRequirements")
-  for _, amount in ipairs(needs.amounts) do
-    check_fields(amount, "name min", "amount")
-    assert.is_truthy(amount.name == "amount.worker.vcpu" or amount.name == "amount.worker.memory")
-    assert.is_true(amount.min > 0)
-  end
-end
-
---- 1.1
-local function check_template(job)
-  check_fields(job, "specificationVersion extensions? name description parameterDefinitions steps",
-    "template")
-  assert.equal("jobtemplate-2023-09", job.specificationVersion)
-  assert.same({ "TASK_CHUNKING" }, job.extensions or { "TASK_CHUNKING" })
-  local extensions = { TASK_CHUNKING = job.extensions ~= nil }
-  check_text(job.name, 128, "name")
-  check_format(job.name, {}, "name")
-  check_text(job.description, 2048, "description")
-  assert.is_true(#job.parameterDefinitions <= 50)
-  local known, steps = {}, {}
-  for _, parameter in ipairs(job.parameterDefinitions) do
-    check_parameter(parameter)
-    assert.is_nil(known["Param." .. parameter.name])
-    known["Param." .. parameter.name] = true
-  end
-  for _, step in ipairs(job.steps) do
-    check_fields(step, "name dependencies? hostRequirements? parameterSpace? script", "step")
-    check_text(step.name, 64, "step")
-    local own = setmetatable({}, { __index = known })
-    for _, on in ipairs(step.dependencies or {}) do
-      check_fields(on, "dependsOn", "dependency")
-      assert.is_true(steps[on.dependsOn])
-    end
-    if step.hostRequirements then check_requirements(step.hostRequirements) end
-    if step.parameterSpace then check_space(step.parameterSpace, own, extensions) end
-    check_script(step.script, own)
-    steps[step.name] = true
-  end
-end
-
---- 3.4.1.1.1: the numbers of a range, in increasing order; ranges must not overlap.
-local function numbers_of(range)
-  local list, seen = {}, {}
-  for element in range:gmatch "[^,]+" do
-    local first, last, step = element:match "^(%-?%d+)%-(%-?%d+):?(%d*)$"
-    if not first then first, last, step = element, element, "" end
-    for number = tonumber(first), tonumber(last), tonumber(step) or 1 do
-      assert.is_nil(seen[number], range)
-      list[#list + 1], seen[number] = number, true
-    end
-  end
-  table.sort(list)
-  return list
-end
-
---- What the parameter of the tasks is in each of them.
-local function tasks_of(task, values)
-  if not task then return { "" } end
-  local numbers, list = numbers_of((task.range:gsub("{{(.-)}}", values))), {}
-  local most = task.chunks and tonumber((task.chunks.defaultTaskCount:gsub("{{(.-)}}", values)))
-  for i = 1, #numbers, most or 1 do
-    list[#list + 1] = table.concat(numbers, ",", i, math.min(#numbers, i + (most or 1) - 1))
-  end
-  return list
-end
-
---- The commands of a step, one per line, as an engine would run them. set: values of parameters of
---- the job that somebody has changed.
-local function commands_of(job, step, set)
-  local values, commands = {}, {}
-  for _, parameter in ipairs(job.parameterDefinitions) do
-    local value = set and set[parameter.name] or parameter.default
-    values["Param." .. parameter.name] = tostring(value)
-  end
-  values["Param.Celspan"] = workbench.absolute
-  local task = step.parameterSpace and step.parameterSpace.taskParameterDefinitions[1]
-  for i, value in ipairs(tasks_of(task, values)) do
-    if task then values["Task.Param." .. task.name] = value end
-    local action, words = step.script.actions.onRun, {}
-    for _, text in ipairs { action.command, table.unpack(action.args) } do
-      words[#words + 1] = word(text:gsub("{{(.-)}}", values))
-    end
-    commands[i] = "cd / && " .. table.concat(words, " ")
-  end
-  return commands
-end
-
-local function run_job(job, set)
-  for _, step in ipairs(job.steps) do
-    for _, command in ipairs(commands_of(job, step, set)) do
-      local code, out, err = bench:shell(command)
-      assert.equal(0, code, err)
-      assert.is_truthy(step.name == "Join" or out:find("openjd_progress: 100", 1, true), out)
-    end
-  end
-end
-
-describe("the template of Open Job Description", function()
-  it("makes every frame once", function()
-    done "render film.lua -o whole/####.png --progress none"
-    for chunk, tasks in pairs { [1] = 7, [3] = 3, [50] = 1 } do
-      os.execute("rm -rf " .. bench.folder .. "/out")
-      local job = template("-o out/####.png --chunk " .. chunk)
-      check_template(job)
-      assert.equal(tasks, #commands_of(job, job.steps[1]))
-      run_job(job)
-      for i = 3, 9 do same(("out/%04d.png"):format(i), ("whole/%04d.png"):format(i)) end
-    end
-  end)
-
-  it("makes strips of a frame, and then joins them", function()
-    local job = template "-o 'a b/one.span' --frames 4 --size 70x1100 --strips 3"
-    check_template(job)
-    assert.same({ { dependsOn = "Render" } }, job.steps[2].dependencies)
-    run_job(job)
-    done "render film.lua -o whole.span --frames 4 --size 70x1100"
-    same("a b/one.span", "whole.span")
-  end)
-
-  it("passes options and arguments on, unusual ones as parameters", function()
-    local odd = [[it's "a" $HOME {{x}} \ é]] .. "\nend"
-    assert.equal(true, os.execute("mkdir " .. word(bench.folder .. "/" .. odd)))
-    local job, text = template(("-o %s --frames 5,3 --size 30x20 --allow %s --limit time=9 "
-      .. "--background=#102030 --job-memory 900 --job-time 2 --workers 2 --job-name %s -- 7.5 %s")
-      :format(word(odd .. "/{{y}}.#.png"), word(odd), word "a{{b}}\nc", word(odd)))
-    check_template(job)
-    assert.is_truthy(text:find('"Text1"', 1, true))
-    assert.equal("a--b--?c", job.name)
-    assert.equal(120, job.steps[1].script.actions.onRun.timeout)
-    assert.same({ { name = "amount.worker.vcpu", min = 2 },
-                  { name = "amount.worker.memory", min = 900 } },
-      job.steps[1].hostRequirements.amounts)
-    run_job(job)
-    done("render film.lua -o whole/#.png --frames 5,3 --size 30x20 --background '#102030' -- 7.5")
-    same(odd .. "/{{y}}.5.png", "whole/5.png")
-  end)
-
-  it("refuses values that a template cannot contain", function()
-    refused("has more than 1024 characters",
-      "farm film.lua --openjd -o o/#.png -- " .. word("\n" .. ("x"):rep(1024)))
-    refused("the template is UTF-8", "farm film.lua --openjd -o o/#.png -- '\xff'")
-    local many = {}
-    for i = 1, 48 do many[i] = word("{{" .. i) end
-    refused("at most 50", "farm film.lua --openjd -o o/#.png -- " .. table.concat(many, " "))
-  end)
-
-  it("names frames by ranges, and in chunks only where a task has several", function()
-    local job = template "-o o/#.png --frames 9,3,4,5,7 --chunk 2"
-    check_template(job)
-    local step = job.steps[1]
-    assert.same({ "3,4", "5,7", "9" }, tasks_of(step.parameterSpace.taskParameterDefinitions[1],
-      { ["Param.Frames"] = "3-5,7-9:2", ["Param.Chunk"] = "2" }))
-    local by_name = {}
-    for _, one in ipairs(job.parameterDefinitions) do by_name[one.name] = one.default end
-    assert.equal("3-5,7,9", by_name.Frames)
-    assert.equal(2, by_name.Chunk)
-    run_job(job)
-    assert.equal("3.png 4.png 5.png 7.png 9.png", frames_in "o")
-    job = template "-o p/#.png --chunk 1 --frames 3-9:3"
-    check_template(job)
-    assert.is_nil(job.extensions)
-    run_job(job, { Frames = "4-6:2,8" }) -- as somebody has changed it
-    assert.equal("4.png 6.png 8.png", frames_in "p")
-  end)
-
-  it("offers what the script declares, and gives it to the tasks", function()
-    bench:write("set.lua", [[
-      local celspan = require "celspan"
-      local p = celspan.parameters {
-        radius = { 10, min = 1, max = 30, about = "Of the\ndisc", group = "Disc" },
-        loud = false, mood = { "calm", "wild" }, at = { 9, 20, point = true },
-        title = "", big = 1e9, [("x"):rep(64)] = 1 }
-      return celspan.film { size = { 60, 40 }, frames = 2, frame = function()
-        return celspan.rostrum { celspan.cel { celspan.circle { centre = p.at, radius = p.radius,
-          texture = p.mood == "wild" and "#f00" or p.loud and "#0f0" or "#00f" } } }
-      end }]])
-    local arguments = "farm set.lua --openjd -o o/#.png --chunk 1 "
-    local job = assert(json.decode(done(arguments .. "--set radius=5 --set loud=yes --set at=30,2")))
-    check_template(job)
-    local by_name = {}
-    for _, one in ipairs(job.parameterDefinitions) do by_name[one.name] = one end
-    assert.equal(5, by_name.Set_radius.default)
-    assert.equal("FLOAT", by_name.Set_radius.type)
-    assert.equal(30, by_name.Set_radius.maxValue)
-    assert.equal("Of the?disc", by_name.Set_radius.description)
-    assert.equal("Disc", by_name.Set_radius.userInterface.groupLabel)
-    assert.equal("30,2", by_name.Set_at.default)
-    assert.same({ "calm", "wild" }, by_name.Set_mood.allowedValues)
-    run_job(job, { Set_radius = "7.5", Set_mood = "wild" })
-    done "render set.lua -o w/#.png --set radius=7.5 --set mood=wild --set at=30,2"
-    for i = 1, 2 do same(("o/%d.png"):format(i), ("w/%d.png"):format(i)) end
-    bench:write("values.json", '{ "radius": 6 }')
-    job = assert(json.decode(done(arguments .. "--set-from values.json --set mood=wild")))
-    check_template(job)
-    run_job(job)
-    done "render set.lua -o w/#.png --set radius=6 --set mood=wild"
-    same("o/2.png", "w/2.png")
-  end)
-
-  it("names the script's folder, and files elsewhere", function()
-    assert.equal(true, os.execute(("mkdir -p %s/scene %s/far"):format(word(bench.folder),
-      word(bench.folder))))
-    bench:write("far/part.lua", "return 7")
-    bench:write("scene/near.lua", "return 8")
-    bench:write("scene/film.lua", 'require "near" require "part"\n' .. FILM)
-    local function paths(options)
-      local text = done("farm scene/film.lua --openjd -o out/#.png " .. options)
-      local job, list = assert(json.decode(text)), {}
-      check_template(job)
-      for _, one in ipairs(job.parameterDefinitions) do
-        if one.dataFlow == "IN" then
-          list[#list + 1] = one.name .. " " .. one.default:sub(#bench.folder + 2)
-        end
-      end
-      return table.concat(list, ", ")
-    end
-    local code, out, err = shell("CELSPAN_PATH=" .. word(bench.folder .. "/far/?.lua")
-      .. ' "$CELSPAN" farm scene/film.lua --openjd -o out/#.png')
-    assert.equal(0, code, err)
-    assert.is_truthy(out:find("far/part.lua", 1, true), out)
-    bench:write("scene/film.lua", 'require "near"\n' .. FILM)
-    assert.equal("Script scene/film.lua, Folder scene", paths "")
-    assert.equal("Script scene/film.lua, Folder scene, Allow1 far", paths "--allow far")
-  end)
-end)
-
 -- ---------------------------------------------------------------- tables
 
 local TABLE = "name,radius\nred,5\nblue,12\n\"the 'big' one\",30\n"
@@ -614,9 +260,9 @@ describe("a job of a table", function()
     end
     check_films "b"
     local job = assert(json.decode(done(OPTIONS:format "c" .. "--openjd")))
-    check_template(job)
+    openjd.check(job)
     assert.equal("3 films of set.lua in 3 tasks", job.description:match "^(.-),")
-    run_job(job)
+    openjd.run(job, bench)
     check_films "c"
   end)
 
@@ -669,6 +315,51 @@ describe("the commands of a job", function()
 
   it("need one line each", function()
     refused("has control characters", "farm film.lua -o o/#.png --commands -- 'a\nb'")
+  end)
+end)
+
+-- ---------------------------------------------------------------- engines
+
+--- The block of code of docs/farm.md that contains a text.
+local function example(text)
+  local file = assert(io.open "docs/farm.md")
+  local page = file:read "a"
+  file:close()
+  for block in page:gmatch "\n```%w+\n(.-)```" do
+    if block:find(text, 1, true) then return block end
+  end
+  error("docs/farm.md has no example with " .. text)
+end
+
+describe("the examples of engines", function()
+  before_each(function()
+    bench:write("film.lua", (FILM:gsub("frames = 7, first = 3", "frames = 240")))
+    done "render film.lua -o whole/shot.####.png --progress none"
+  end)
+
+  --- Runs an example, with the program that is tested as `celspan`, and compares all frames.
+  local function check_frames(commands)
+    bench:write("example.sh", commands)
+    bench:shell(("ln -sf %s %s/celspan"):format(word(workbench.absolute), word(bench.folder)))
+    local code, _, err = shell('export HOME="$PWD" PATH="$PWD:$PATH" && unset CELSPAN && '
+      .. "sh -e example.sh")
+    assert.equal(0, code, err)
+    for i = 1, 240 do
+      same(("out/shot.%04d.png"):format(i), ("whole/shot.%04d.png"):format(i))
+    end
+  end
+
+  local it_in_parallel = present.program "parallel" and it or pending
+  it_in_parallel("run in GNU parallel", function()
+    check_frames(example "--commands" .. example "parallel -j")
+    assert.equal(12 + 1, select(2, bench:read "log.txt":gsub("\n", "")))
+  end)
+
+  local it_in_snakemake = present.program "snakemake" and it or pending
+  it_in_snakemake("run in Snakemake", function()
+    bench:write("Snakefile", example "rule task")
+    check_frames(example "--commands" .. example "snakemake --cores")
+    assert.equal(12, #bench:files "tasks")
   end)
 end)
 
