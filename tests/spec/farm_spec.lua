@@ -1,5 +1,5 @@
--- celspan farm: its script for Slurm is run as Slurm would run an array, and its commands by a shell
--- and by engines. openjd_spec.lua has the template of Open Job Description.
+-- celspan farm: its script for Slurm is run as Slurm would run an array, and its commands by a
+-- shell and by engines. openjd_spec.lua has the template of Open Job Description.
 local json = require "celspan.json"
 local openjd = require "tests.support.openjd"
 local present = require "tests.support.present"

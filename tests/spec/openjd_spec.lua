@@ -1,5 +1,5 @@
--- celspan farm --openjd: the template is compared with the specification, and run with its parameters
--- filled in.
+-- celspan farm --openjd: the template is compared with the specification, and run with its
+-- parameters filled in.
 local json = require "celspan.json"
 local openjd = require "tests.support.openjd"
 local system = require "tests.support.system"
@@ -111,7 +111,8 @@ describe("the template of Open Job Description", function()
     local job = template "-o o/#.png --frames 9,3,4,5,7 --chunk 2"
     openjd.check(job)
     local step = job.steps[1]
-    assert.same({ "3,4", "5,7", "9" }, openjd.tasks_of(step.parameterSpace.taskParameterDefinitions[1],
+    local task = step.parameterSpace.taskParameterDefinitions[1]
+    assert.same({ "3,4", "5,7", "9" }, openjd.tasks_of(task,
       { ["Param.Frames"] = "3-5,7-9:2", ["Param.Chunk"] = "2" }))
     local by_name = {}
     for _, one in ipairs(job.parameterDefinitions) do by_name[one.name] = one.default end
@@ -138,7 +139,8 @@ describe("the template of Open Job Description", function()
           texture = p.mood == "wild" and "#f00" or p.loud and "#0f0" or "#00f" } } }
       end }]])
     local arguments = "farm set.lua --openjd -o o/#.png --chunk 1 "
-    local job = assert(json.decode(done(arguments .. "--set radius=5 --set loud=yes --set at=30,2")))
+    local settings = "--set radius=5 --set loud=yes --set at=30,2"
+    local job = assert(json.decode(done(arguments .. settings)))
     openjd.check(job)
     local by_name = {}
     for _, one in ipairs(job.parameterDefinitions) do by_name[one.name] = one end
