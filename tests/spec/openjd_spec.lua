@@ -123,6 +123,8 @@ describe("the template of Open Job Description", function()
     job = template "-o p/#.png --chunk 1 --frames 3-9:3"
     openjd.check(job)
     assert.is_nil(job.extensions)
+    local frames = job.parameterDefinitions[5]
+    assert.same({ "Frames", "3-9:3" }, { frames.name, frames.default })
     openjd.run(job, bench, { Frames = "4-6:2,8" }) -- as somebody has changed it
     assert.equal("4.png 6.png 8.png", frames_in "p")
   end)
