@@ -135,6 +135,8 @@ describe("the onion skin of a frame", function()
                second: await pixel(skins(["cel 2"]), 12, 28), early: await pixel("1,0", 28, 8),
                hidden: await pixel("1,1" + hide({ "cel 2": "h" }), 20, 28),
                shown: await pixel("1,1" + hide({ "cel 2": "h" }), 20, 8),
+               rest: await pixel("1,1" + hide({ "cel 2": "h" }), 12, 8),
+               gone: await pixel("1,1" + hide({ "cel 2": "h" }), 12, 28),
                plain: (await web.get("/frame/3.rgba?size=64x36&onion=0,0")).body
                  === (await web.get("/frame/3.rgba?size=64x36")).body,
                large: (await web.get("/frame/3.rgba?size=100000x56250&crop=0,0,9,9&onion=1,1"))
@@ -149,7 +151,8 @@ describe("the onion skin of a frame", function()
     assert.is_true(is_red(said.before) and is_green(said.after) and is_red(said.box))
     assert.is_true(is_red(said.ball) and is_red(said.second))
     assert.same({ white, white }, { said.none, said.early })
-    assert.is_true(said.hidden[1] > 0)
+    assert.is_true(said.hidden[1] > 0 and is_red(said.rest))
+    assert.same(white, said.gone)
     assert.same({ 0, 0, 0 }, said.shown)
     assert.is_true(said.plain)
     assert.equal(200, said.large)

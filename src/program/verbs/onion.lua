@@ -19,13 +19,21 @@
 -- that are only shifted and scaled count as held. With the name of a cel, all others are left out.
 --
 -- For celspan watch each cel has its label (program/stage_tree.c) as its name, and `labels` chooses
--- the cels that skins are made of: "\nnell\ncel 2\n"; "": all that are no ground; nil: a render.
+-- the cels that skins are made of, and then those that are hidden: "\nnell\ncel 2\n" .. "\nsun\n".
+-- "\n": none; then skins are made of all that are no ground. nil: a render.
 local core, film, before, after, width, height, name, labels = ...
 local celspan = require "celspan"
 
 local RED, GREEN = { 1, 0.18, 0.12 }, { 0.1, 0.75, 0.2 }
 local COARSE = 64 -- pixels a side, to find out whether a cel covers the frame
 local NAME_MOST = 255 -- bytes
+local SKIN = "\u{F0000}" -- the name of a skin among cels with labels: of no script's language
+
+local skinned, hidden = "\n", "\n" -- the two parts of `labels`
+if labels then
+  local at = labels:find("\n\n", 1, true)
+  skinned, hidden = labels:sub(1, at), labels:sub(at + 1)
+end
 
 local rostrum_metatable = getmetatable(celspan.rostrum {})
 
@@ -52,7 +60,8 @@ end
 
 --- Whether skins are made of a cel.
 local function is_chosen(cel)
-  return (labels or "") == "" or labels:find("\n" .. (cel.name or "") .. "\n", 1, true) ~= nil
+  local line = "\n" .. (cel.name or "") .. "\n"
+  return (skinned == "\n" or skinned:find(line, 1, true)) and not hidden:find(line, 1, true)
 end
 
 --- The rostrum with only the cels of the chosen name, if there is a name.
@@ -180,7 +189,7 @@ end
 --- The drawing of another frame, without everything that this frame has, too; nil: nothing is left.
 local function rest_of(other, frame, is_like)
   local list, has_any, camera = drawing_of(other, { frame }, is_like), false, frame[1][1].camera
-  if (labels or "") ~= "" then list = slice(other, 1, #other) end
+  if skinned ~= "\n" then list = slice(other, 1, #other) end
   for i, exposure in ipairs(list) do
     local cels = {}
     for j = 1, #exposure[1] do
@@ -202,8 +211,11 @@ local function image_of(bytes)
 end
 
 --- A cel with the name that was asked for, if there is one: cels with other names are removed
---- later.
-local function called(cel) return name and cel:named(name) or cel end
+--- later. Nor has a skin the label of another cel.
+local function called(cel)
+  local own = labels and SKIN or name
+  return own and cel:named(own) or cel
+end
 
 --- A cel that shows the pixels of the rest of a frame, where they differ from the drawing of this
 --- frame.

@@ -92,12 +92,20 @@ local function letters_of(list)
   return letters
 end
 
+--- Labels, each between two ends of lines.
+local function lines_of(labels)
+  return "\n" .. (#labels > 0 and table.concat(labels, "\n") .. "\n" or "")
+end
+
 --- Builds a frame with the skins of ask.onion, { before, after }, of the cels with the labels that
---- ask.skins lists, or of all that are no ground.
+--- ask.skins lists, or of all that are no ground; but not of those that ask.cels hides.
 local function build_onion(ask)
   local w, h = table.unpack(ask.size)
-  local shrunk = math.min(1, SKIN_MOST / math.max(w, h))
-  local labels = #ask.skins > 0 and "\n" .. table.concat(ask.skins, "\n") .. "\n" or ""
+  local shrunk, hidden = math.min(1, SKIN_MOST / math.max(w, h)), {}
+  for _, one in ipairs(ask.cels or {}) do
+    if one[2]:find "h" then hidden[#hidden + 1] = one[1] end
+  end
+  local labels = lines_of(ask.skins) .. lines_of(hidden)
   return film:onion(ask.number, ask.onion[1], ask.onion[2], math.max(1, math.floor(shrunk * w)),
     math.max(1, math.floor(shrunk * h)), labels)
 end

@@ -27,7 +27,7 @@ local UNITS_MOST = 1 << 30  -- the greatest distance of a point, on either side
 local pages = { ["/"] = "page.html", ["/again.html"] = "again.html", ["/page.css"] = "page.css",
                 ["/icon.svg"] = "icon.svg", ["/favicon.ico"] = "icon.svg" }
 for name in ([[beside compare cost costing faults fetch fields guides hands inspector news objects
-  onion over page panels pictures playing points render rows runs sound state thumb timeline values
+  over page panels pictures playing points render rows runs sound state thumb timeline values
   view]]):gmatch "%l+" do
   pages["/" .. name .. ".js"] = name .. ".js"
 end

@@ -1,11 +1,13 @@
 // Two pictures at one place: a wipe between them, or their difference.
-import { kept, look, wish } from "/pictures.js";
-import { beside, isComparing, label, looks, main, setPressed, view } from "/state.js";
+import { fetchPicture, kept, look, paint, wish } from "/pictures.js";
+import {
+  beside, isComparing, label, looks, main, play, setPressed, view,
+} from "/state.js";
 
 const DIFFERENCE_GAIN = 4;  // so that small differences can be seen
 
 /** Whether two pictures show the same part of the same frame. */
-export const isSamePlace = (a, b) => a && b && a.number === b.number
+const isSamePlace = (a, b) => a && b && a.number === b.number
   && a.size.join() === b.size.join() && a.crop.join() === b.crop.join();
 
 /** Keeps the picture that is painted when one of another save takes its place. */
@@ -35,6 +37,14 @@ export function mixed(picture) {
     if (looks.mixing === "differ") out[i + 3] = 255;
   }
   return out;
+}
+
+/** Fetches the held frame for a picture that is painted, and paints it again. */
+export async function addHeld(picture) {
+  const wanted = looks.held && looks.mixing && !play.direction && !main.isWanted && wish(looks.held);
+  if (!wanted || kept.has(wanted.address)) return;
+  await fetchPicture(wanted).catch(() => {});
+  if (main.painted === picture && !main.isWanted) paint(picture);
 }
 
 export function setMixing(kind) {

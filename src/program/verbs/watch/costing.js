@@ -9,7 +9,7 @@ import { element, here, main, play } from "/state.js";
 /** Fills the table with what a painted picture costs, if it is open. */
 export async function loadCosts(picture) {
   if (here("costs").hidden || play.direction !== 0) return;
-  const address = picture.address.replace(/^\/frame\/(-?\d+)\.runs\?/, "/costs.json?frame=$1&");
+  const address = picture.plain.replace(/^\/frame\/(-?\d+)\.runs\?/, "/costs.json?frame=$1&");
   const list = await read(address, () => main.painted === picture);
   if (!list || main.painted !== picture) return;
   here("cost-rows").replaceChildren(...list.map((one, i) => {

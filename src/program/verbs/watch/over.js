@@ -39,7 +39,7 @@ export async function layOver(picture) {
   }
   const [, , w, h] = picture.crop, out = new Uint8ClampedArray(4 * w * h);
   for (const show of wanted) {
-    const address = picture.address.replace(".runs", ".rgba") + show;
+    const address = picture.plain.replace(".runs", ".rgba") + show;
     const layer = await fetchPicture({ ...picture, address, isOver: true }).catch(() => null);
     if (!layer || main.isWanted || main.painted !== picture) return;
     if (show === "&show=spans") out.set(layer.bytes);

@@ -3,7 +3,7 @@
 //   look: the view has changed --> wish: size, crop --> /frame/N.runs --> kept --> #stage
 //
 // Pictures are wanted one after the other: while one is on its way, only the newest wish is kept.
-import { keepOlder, mixed } from "/compare.js";
+import { addHeld, keepOlder, mixed } from "/compare.js";
 import * as cost from "/cost.js";
 import { loadCosts } from "/costing.js";
 import { showFault } from "/faults.js";
@@ -11,7 +11,6 @@ import { fetch, pause, post } from "/fetch.js";
 import { GUIDES } from "/guides.js";
 import { showNumbers } from "/news.js";
 import { loadObjects } from "/objects.js";
-import { addOthers, withOnion } from "/onion.js";
 import { layOver, overlays } from "/over.js";
 import { cels } from "/rows.js";
 import { unpack } from "/runs.js";
@@ -29,8 +28,6 @@ const SLOW = 0.15;
 const VERY_SLOW = 1;         // seconds after which the coarse picture is made coarser still
 
 export const kept = new Map(); // by their addresses, the oldest first
-// by the number of the frame: a text that is the same for the same camera
-export const cameras = new Map();
 let keptBytes = 0;
 
 function keep(address, picture) {
@@ -45,7 +42,6 @@ function keep(address, picture) {
 
 /** Forgets the pictures of a film. */
 export function forget(one) {
-  if (one === main) cameras.clear();
   for (const [address, picture] of kept) {
     if (picture.lane !== one) continue;
     kept.delete(address);
@@ -62,9 +58,13 @@ export function nameOf(one, number) {
   return film.first + Math.min(index, film.frames - 1);
 }
 
-/** The part of a frame that is visible. coarse: that many pixels are one, in each direction. query:
- * how cels are shown. */
-export function wish(number, coarse = 1, one = main, query = cels.query) {
+/** The onion skin of a lane, as a part of an address: there is none while the film plays. */
+const onionOf = one => one === main && looks.onion && play.direction === 0
+  ? `&onion=${looks.onion},${looks.onion}${cels.skins}` : "";
+
+/** The part of a frame that is visible. coarse: that many pixels are one, in each direction. plain:
+ * the address without an onion skin; query: how cels are shown. */
+export function wish(number, coarse = 1, one = main) {
   const crop = visible(one), build = stateOf(one).build;
   if (!crop) return null;
   let size = frameSize(one), area = crop;
@@ -75,9 +75,10 @@ export function wish(number, coarse = 1, one = main, query = cels.query) {
     area.push(clamp(Math.ceil(crop[2] / coarse), 1, size[0] - area[0]),
               clamp(Math.ceil(crop[3] / coarse), 1, size[1] - area[1]));
   }
-  const address = `/frame/${nameOf(one, number)}.runs?size=${size.join("x")}&crop=${area.join()}`
-    + `&build=${build}${one === main ? query : "&side=2"}`;
-  return { number, size, crop: area, address, build, query, lane: one };
+  const query = one === main ? cels.query : "&side=2";
+  const plain = `/frame/${nameOf(one, number)}.runs?size=${size.join("x")}&crop=${area.join()}`
+    + `&build=${build}${query}`;
+  return { number, size, crop: area, address: plain + onionOf(one), plain, build, query, lane: one };
 }
 
 const pageName = Math.random().toString(36).slice(2);
@@ -93,12 +94,8 @@ export async function fetchPicture(wanted) {
   const buffer = await answer.arrayBuffer(), [, , w, h] = wanted.crop;
   const bytes = wanted.isOver ? new Uint8ClampedArray(buffer) : unpack(buffer, w, h);
   const picture = { ...wanted, bytes,
-                    seconds: Number(answer.headers.get("Celspan-Seconds")),
-                    camera: answer.headers.get("Celspan-Camera") };
-  if (!wanted.isOver && wanted.lane === main && wanted.build === state.build) {
-    if (isSeenNow(picture)) cost.noteTime(picture.number, picture.seconds, picture.build);
-    if (!wanted.isSeen) cameras.set(picture.number, picture.camera);
-  }
+                    seconds: Number(answer.headers.get("Celspan-Seconds")) };
+  if (isSeenNow(picture)) cost.noteTime(picture.number, picture.seconds, picture.build);
   if (wanted.build === stateOf(wanted.lane)?.build) keep(wanted.address, picture);
   return picture;
 }
@@ -120,8 +117,8 @@ export function markStale(one) {
   one.canvas.toggleAttribute("data-stale", !(isSent && isSeen) && play.direction === 0);
 }
 
-/** Whether a picture is of the first film as it is seen now, and not of an onion skin. */
-const isSeenNow = one => one.lane === main && !one.isOver && !one.isSeen
+/** Whether a picture is of the first film as it is seen now, without an onion skin. */
+const isSeenNow = one => one.lane === main && !one.isOver && one.address === one.plain
   && one.build === state.build && one.query === cels.query;
 
 /** The numbers of the frames whose pictures are kept as they are seen now. */
@@ -154,7 +151,7 @@ export function paint(picture) {
     return place();
   }
   keepOlder(picture);
-  put(picture, withOnion(picture, mixed(picture)));
+  put(picture, mixed(picture));
   overlay.hidden = overlay.dataset.over !== picture.address + overlays() || play.direction !== 0;
   place();
 }
@@ -269,7 +266,7 @@ async function abandonOld(one) {
 /** What is shown with a picture of the first film. */
 async function addTo(picture) {
   drawRuler();
-  await addOthers(picture);
+  await addHeld(picture);
   await layOver(picture);
   await loadCosts(picture);
   loadWave();

@@ -7,16 +7,17 @@
 import * as cost from "/cost.js";
 import { read } from "/fetch.js";
 import { celNames, showObjects } from "/objects.js";
-import { nextOnion } from "/onion.js";
 import { look } from "/pictures.js";
 import {
-  clamp, element, here, icon, isReady, lanes, looks, main, refill, state, stateOf, view,
+  clamp, element, here, icon, isReady, label, lanes, looks, main, refill, setPressed, state, stateOf,
+  view,
 } from "/state.js";
 import { brushOf, busy, coloursOf, heard, setBusy, shotsOf, unit, xOf } from "/timeline.js";
 
 const ROW = 22, STRIP = 32;  // CSS pixels
 export const SHEET_MOST = 10000;    // frames of a sheet, as the server has them
 const ROWS_MOST = 2000;      // rows that are shown
+const ONION_MOST = 3;        // frames before and after
 const sheet = { rows: [], shown: [], builds: "" };
 const unfolded = new Map();  // whether the rows of a shot are shown, by its name
 
@@ -98,14 +99,14 @@ export function showSheet() {
 
 // ---------------------------------------------------------------- cels in another way
 
-//   a row's buttons --> letters of the cel --> cels.query: pictures; cels.onion: their neighbours
+//   a row's buttons --> letters of the cel --> cels.query: pictures; cels.skins: their onion skin
 //
-// The letters of /frame/N; s: all others are hidden; o: neighbours of this one are shown.
+// The letters of /frame/N; s: all others are hidden; o: the onion skin is made of this one.
 const SWITCHES = { s: "Solo", h: "Hide", l: "Light off", f: "Focus off", o: "Onion" };
 const letters = new Map(); // by the names of the cels
 
-// Parts of the address that say how cels are shown; onion: the chosen ones alone, "": all.
-export const cels = { query: "", onion: "" };
+// Parts of the address that say how cels are shown; skins: of the onion skin, "": of all but grounds.
+export const cels = { query: "", skins: "" };
 
 const has = (name, letter) => (letters.get(name) || "").includes(letter);
 const isAny = letter => [...letters.keys()].some(name => has(name, letter));
@@ -128,20 +129,24 @@ function swapLetter(name, letter) {
   look();
 }
 
-/** The part of the address for the letters of each cel, by a function of its name. */
-function queryOf(lettersOf) {
-  const rows = sheet.rows.map(row => row.cel).filter(Boolean);
-  const names = [...new Set([...letters.keys(), ...rows, ...celNames()])];
-  const all = names.map(name => [name, lettersOf(name)]).filter(([, own]) => own);
-  return all.length ? `&cels=${encodeURIComponent(JSON.stringify(Object.fromEntries(all)))}` : "";
-}
-
 /** Says again how cels are shown, also those of a frame whose cels are known now. */
 export function queryCels() {
-  const own = name => (letters.get(name) || "").replace(/[so]/g, "");
-  const only = letter => name => own(name) + (isAny(letter) && !has(name, letter) ? "h" : "");
-  cels.query = queryOf(only("s"));
-  cels.onion = isAny("o") ? queryOf(only("o")) : "";
+  const rows = sheet.rows.map(row => row.cel).filter(Boolean), isSolo = isAny("s");
+  const names = [...new Set([...letters.keys(), ...rows, ...celNames()])];
+  const all = names.map(name => [name, (letters.get(name) || "").replace(/[so]/g, "")
+    + (isSolo && !has(name, "s") ? "h" : "")]).filter(([, own]) => own);
+  const skins = names.filter(name => has(name, "o"));
+  const part = (name, value) => `&${name}=${encodeURIComponent(JSON.stringify(value))}`;
+  cels.query = all.length ? part("cels", Object.fromEntries(all)) : "";
+  cels.skins = skins.length ? part("skins", skins) : "";
+}
+
+/** The onion skin of one more frame before and after, or none. */
+export function nextOnion() {
+  looks.onion = (looks.onion + 1) % (ONION_MOST + 1);
+  label("onion", looks.onion ? `Onion ${looks.onion}` : "Onion");
+  setPressed("onion", looks.onion > 0);
+  look();
 }
 
 // ---------------------------------------------------------------- drawing
