@@ -111,6 +111,17 @@ describe("a render from the page", function()
     assert.is_nil(watching.bench:read "all.04.png")
   end)
 
+  it("has a command with the options and arguments of the run", function()
+    watching.bench:write("a.json", '{ "level": 3 }')
+    local words = "--set dim=true --set-from a.json --trust --workers 1 --size 32x18 shot.lua"
+    local said = watching.speak(watching.watch(words .. " -- one 'a b'"), [=[
+      await web.get("/frame/1.png");
+      return JSON.parse((await web.get("/state.json")).body);]=])
+    assert.same({ "--trust", "--workers", "1" }, said.options)
+    assert.same({ "one", "a b" }, said.arguments)
+    assert.equal("true", said.parameters[5].value)
+  end)
+
   it("refuses files outside of the folder, options in names, and what the film is not", function()
     watching.bench:inside "mkdir in && ln -s /tmp away"
     local said = watching.speak(watching.watch(), FORMS .. [=[
@@ -150,7 +161,8 @@ describe("a render from the page", function()
 
   it("leaves nothing when it is cancelled or fails", function()
     watching.bench:write("shot.lua", SLOW)
-    local said = watching.speak(watching.watch(), FORMS .. [=[
+    local address = watching.watch()
+    local said = watching.speak(address, FORMS .. [=[
       await render({ format: "png", file: "x.######.png" });
       for (let now = await state(); !(now.done > 20); now = await state()) await web.pause(0.02);
       const busy = await render({ format: "png", file: "y.png", frames: "1" });
@@ -162,7 +174,10 @@ describe("a render from the page", function()
     assert.falsy(out:find "png", out)
     watching.bench:write("shot.lua", (SLOW:gsub("return celspan.rostrum", 'if f.number == 3 then '
       .. 'error "no paint" end %0')))
-    said = watching.speak(watching.watch(), FORMS .. [=[
+    said = watching.speak(address, FORMS .. [=[
+      for (let is; !(is?.build > 1 && is.shown); await web.pause(0.02)) {
+        is = JSON.parse((await web.get("/state.json")).body);
+      }
       await render({ format: "png", file: "x.######.png", frames: "1-9" });
       return await until("failed", "done");]=])
     assert.equal("failed", said.state)
@@ -224,7 +239,7 @@ describe("the page of celspan watch as a studio #plain", function()
   end)
 
   it("has objects, values with handles, and a form that renders", function()
-    local said = watching.see(watching.watch(), [=[
+    local said = watching.see(watching.watch "--strict shot.lua -- 'a b'", [=[
       await page.until(`${stage("frame")} === "1"`);
       await page.press("q");
       await page.until(`document.querySelectorAll("[data-object]").length === 3`);
@@ -260,9 +275,11 @@ describe("the page of celspan watch as a studio #plain", function()
     assert.same({ "word", "sun", "how", "level", "dim" }, said.names)
     assert.truthy(said.group:find("Light.*sun.*its place.*how"))
     assert.is_true(said.isStale)
-    assert.equal("celspan render shot.lua --set sun=21,18 -o shot.mp4", said.command)
+    assert.equal("celspan render shot.lua --strict --set sun=21,18 -o shot.mp4 -- 'a b'",
+      said.command)
     assert.same({ "shot.png", "idle" }, { said.file, said.state })
-    assert.equal("celspan render shot.lua --set sun=21,18 --frames 1 -o shot.png", said.line)
+    assert.equal("celspan render shot.lua --strict --set sun=21,18 --frames 1 -o shot.png -- 'a b'",
+      said.line)
     assert.truthy(watching.bench:read "shot.png")
   end)
 end)

@@ -4,7 +4,7 @@
 import { post } from "/fetch.js";
 import { onPanel } from "/panels.js";
 import { here, label, loop, main, state, view } from "/state.js";
-import { quoted, renderOf } from "/values.js";
+import { renderOf } from "/values.js";
 
 let isNamed = false;    // whether the name of the file was typed
 let isProposed = false; // whether the format and the frames were
@@ -44,9 +44,9 @@ function showRenderCommand() {
   if (!state.film) return;
   if (!isNamed) nameFile();
   const { file, frames, size, draft } = renderWish(), { folder } = state;
-  const words = [frames && `--frames ${frames}`, size && `--size ${size}`, draft && "--draft"];
-  here("render-command").value = [renderOf(main), ...words.filter(Boolean),
-                                  `-o ${quoted(folder + file)}`].join(" ");
+  const more = [...frames ? ["--frames", frames] : [], ...size ? ["--size", size] : [],
+                ...draft ? ["--draft"] : []];
+  here("render-command").value = renderOf(main, folder + file, more);
 }
 
 /** Proposes what the film is, once: a video if it moves, with the sound if it has one. */

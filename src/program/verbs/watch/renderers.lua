@@ -25,6 +25,13 @@ renderers.__index = renderers
 --- Options for the page, not for the film.
 local own = { ["--port"] = true, ["--open"] = true, ["--size"] = true, ["--editor"] = true,
               ["-o"] = true }
+--- Those, and options whose values the page has as those of parameters.
+local shown = setmetatable({ ["--set"] = true, ["--set-from"] = true }, { __index = own })
+
+--- The options with which films are made, as words of a command, without values of parameters.
+function renderers.options()
+  return program.pass_on({}, { given = request.given, arguments = {} }, shown, {})
+end
 
 function renderers.new(script, note_files)
   program.divide_memory(RENDERERS_MOST * #request) -- for the renderers of each film

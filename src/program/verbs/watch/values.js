@@ -66,23 +66,24 @@ export function giveValue(one, parameter, value) {
 /** A value as the command line has it: a point is "120,80". */
 const textOf = value => Array.isArray(value) ? value.join() : String(value);
 
-export const quoted = text => /^[\w.,:=/-][\w.,:=/#-]*$/.test(text) ? text
+const quoted = text => /^[\w.,:=/-][\w.,:=/#-]*$/.test(text) ? text
   : `'${text.replaceAll("'", "'\\''")}'`;
 
-/** The command that renders a film with the options of this run and these values, without its
- * output. */
-export const renderOf = one => {
-  const { parameters, script } = stateOf(one);
+/** The command that renders a film to a file with these values, the options and the arguments of
+ * this run, and more words. */
+export function renderOf(one, file, more = []) {
+  const { parameters, script, options, arguments: last } = stateOf(one);
   const changed = parameters.filter(known => known.value !== textOf(known.default));
-  const sets = changed.map(known => ` --set ${quoted(`${known.name}=${known.value}`)}`).join("");
-  const options = (state.options ?? []).map(word => ` ${quoted(word)}`).join("");
-  return `celspan render ${quoted(script)}${options}${sets}`;
-};
+  const sets = changed.flatMap(known => ["--set", `${known.name}=${known.value}`]);
+  const words = [script, ...options, ...sets, ...more, "-o", file, ...last.length ? ["--"] : [],
+                 ...last];
+  return `celspan render ${words.map(quoted).join(" ")}`;
+}
 
 function showCommand() {
   const ending = state.film?.frames > 1 ? ".mp4" : ".png";
-  here("command").value = `${renderOf(main)} -o shot${ending}`
-    + (isComparing() ? `\n${renderOf(beside)} -o other${ending}` : "");
+  here("command").value = renderOf(main, `shot${ending}`)
+    + (isComparing() ? `\n${renderOf(beside, `other${ending}`)}` : "");
 }
 
 /** Makes the form of a film again if it has other parameters than before, or after all its values

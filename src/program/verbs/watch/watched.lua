@@ -174,7 +174,8 @@ function film:describe()
            seconds = self.is_building and program.clock() - self.began or 0,
            checked = self.checked, checking = self.check_state ~= nil,
            film = self.facts, shown = self.is_shown or false, errors = { list = self.errors },
-           script = self.script, parameters = self:describe_parameters() }
+           script = self.script, parameters = self:describe_parameters(),
+           options = { list = renderers.options() }, arguments = { list = request.arguments } }
 end
 
 --- Asks the renderers. Calls give(head, bytes) or refuse(status, sentence). wish: the name by which
