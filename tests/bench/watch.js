@@ -1,11 +1,12 @@
 // Measures the page of celspan watch, as steps of tests/support/browser.js (./run bench watch): what
-// an animator waits for, in milliseconds; and what a picture costs in processor time, by the way in
-// which it travels. The film is the demo with a parameter, in the folder of SHOT. With
+// an animator waits for, in milliseconds; what the page and its server hold; and what a picture costs
+// in processor time, by the way in which it travels. The film is the demo with a parameter, in the folder of SHOT. With
 // CELSPAN_PLAYED=1 the film is only played, at its own size.
 const { readFileSync, readdirSync, writeFileSync, appendFileSync } = require("fs");
 const SHOT = process.env.CELSPAN_SHOT, SERVER = process.env.CELSPAN_SERVER;
 const IS_PLAYED = Boolean(process.env.CELSPAN_PLAYED);
 const TICK = 10; // milliseconds of the kernel's clock for processes
+const PAGE = 4096; // bytes of a page of memory
 
 const [width, height] = IS_PLAYED ? [960, 540] : [1280, 720];
 await page.call("Emulation.setDeviceMetricsOverride",
@@ -54,23 +55,53 @@ async function save(i) {
   return await painted - began;
 }
 
-/** The time of the processors that a process and all that it has started have used, in
- * milliseconds. */
-function timeOf(root) {
-  const parents = new Map(), times = new Map();
+/** The sum over a process and all that it has started: of(fields of /proc/N/stat from the third). */
+function sumOf(root, of) {
+  const parents = new Map(), values = new Map();
   for (const id of readdirSync("/proc").filter(name => /^\d+$/.test(name))) {
     try {
       const fields = readFileSync(`/proc/${id}/stat`, "utf8").replace(/^.*\) /, "").split(" ");
       parents.set(id, fields[1]);
-      times.set(id, (Number(fields[11]) + Number(fields[12])) * TICK);
+      values.set(id, of(fields));
     } catch { /* it has ended */ }
   }
   const isUnder = id => id === root || parents.has(id) && isUnder(parents.get(id));
-  return [...times].reduce((all, [id, time]) => all + (isUnder(id) ? time : 0), 0);
+  return [...values].reduce((all, [id, value]) => all + (isUnder(id) ? value : 0), 0);
 }
 
+/** Milliseconds of the processors. */
+const timeOf = root => sumOf(root, fields => (Number(fields[11]) + Number(fields[12])) * TICK);
 const serverTime = () => timeOf(SERVER);
 const pageTime = () => timeOf(String(process.pid)); // with the browser and what draws for it
+
+/** What the server and its renderers hold, and the page's scripts, in MiB; the bytes of the scripts
+ * and styles that the page has asked for. */
+async function sizes() {
+  await page.call("Performance.enable");
+  const { metrics } = await page.call("Performance.getMetrics");
+  const heap = metrics.find(one => one.name === "JSHeapUsedSize").value;
+  const bytes = await page.get(`performance.getEntriesByType("resource")
+    .filter(one => /[.](js|css)$/.test(one.name))
+    .reduce((all, one) => all + one.decodedBodySize, 0)`);
+  return { server_mib: Math.round(sumOf(SERVER, fields => Number(fields[21])) * PAGE / 1048576),
+           scripts_mib: Math.round(heap / 1048576), page_bytes: bytes };
+}
+
+/** Milliseconds from opening the page until its first picture. */
+async function first(count) {
+  const list = [];
+  await page.call("Page.addScriptToEvaluateOnNewDocument", { source: `
+    (function look() {
+      if (document.querySelector("#stage")?.dataset.frame) window.firstAt = performance.now();
+      else requestAnimationFrame(look);
+    })();` });
+  for (let i = 0; i < count; i++) {
+    await page.load();
+    await page.until("window.firstAt");
+    list.push(await page.get("window.firstAt"));
+  }
+  return Math.round(middle(list));
+}
 
 /** What `count` frames cost that come as PNG, as rows of RGBA or as runs, each painted. */
 async function travel(ending, count) {
@@ -117,6 +148,8 @@ async function play(seconds) {
 
 /** Everything else, with the demo. */
 async function measure(said) {
+  begin("opening");
+  said.first_ms = await first(9);
   begin("saving");
   const saves = [];
   for (let i = 0; i < 15; i++) {
@@ -149,4 +182,5 @@ async function measure(said) {
 const said = { load: readFileSync("/proc/loadavg", "utf8").split(" ")[0] };
 if (!IS_PLAYED) await measure(said);
 said.play = await play(IS_PLAYED ? 20 : 8);
+Object.assign(said, await sizes());
 return said;

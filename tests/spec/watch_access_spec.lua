@@ -23,6 +23,35 @@ return celspan.film { size = { 64, 36 }, fps = 24, frames = 48, marks = { half =
 before_each(function() watching.begin { ["shot.lua"] = FILM } end)
 after_each(watching.finish)
 
+describe("the controls of the page of celspan watch #plain", function()
+  it("have names, and those with a key say it, as the list of keys does", function()
+    local said = watching.see(watching.watch(), [=[
+      await page.until(`${stage("frame")} === "1"`);
+      for (const key of "sq") await page.press(key);
+      await page.until(`document.querySelectorAll("#object-list li, #names li").length === 4`);
+      return page.get(`(() => {
+        const words = { " ": "space", ArrowLeft: "left", ArrowRight: "right" };
+        const marks = { left: "←", right: "→" };
+        const listed = [...document.querySelectorAll("#keys dt")]
+          .flatMap(one => one.textContent.split(/,? /));
+        const controls = [...document.querySelectorAll("button, summary, select, input, textarea")];
+        const nameOf = one => one.ariaLabel || one.labels?.[0]?.textContent.trim()
+          || one.textContent.trim() || document.getElementById(
+            one.getAttribute("aria-labelledby"))?.textContent;
+        const bad = controls.filter(one => !nameOf(one)).map(one => one.outerHTML);
+        const keyed = controls.filter(one => one.dataset.key);
+        for (const one of keyed) {
+          const { key } = one.dataset, word = words[key] ?? key;
+          if (!one.title.endsWith("(" + word + ")")) bad.push(one.id + ": its title: " + one.title);
+          if (key !== "?" && !listed.includes(marks[word] ?? word)) bad.push(one.id + ": not listed");
+        }
+        return { bad, controls: controls.length, keyed: keyed.length };
+      })()`);]=])
+    assert.same({}, said.bad)
+    assert.is_true(said.controls > 60 and said.keyed >= 25, said.controls .. ", " .. said.keyed)
+  end)
+end)
+
 describe("the page of celspan watch #plain", function()
   it("has no fault that axe-core finds, dark and light, with panels, dialogs and errors", function()
     local said = watching.see(watching.watch "shot.lua --editor true", [=[

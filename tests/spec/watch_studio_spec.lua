@@ -201,9 +201,11 @@ describe("the page of celspan watch as a studio #plain", function()
           .then(text => new TextEncoder().encode(text).length)`));
       }
       return { bytes, count: new Set(names).size,
+               asked: page.requests.filter(url => url.endsWith("/state.json?since=0")).length,
                foreign: page.requests.filter(url => !url.startsWith("http://127.0.0.1:")) };]=])
     assert.is_true(said.bytes <= 122880, said.bytes)
     assert.is_true(said.count > 20, said.count)
+    assert.equal(1, said.asked)
     assert.same({}, said.foreign)
   end)
 

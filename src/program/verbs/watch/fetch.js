@@ -16,6 +16,10 @@ try {
 export const fetch = (address, more = {}) =>
   window.fetch(address, { ...more, headers: { "Celspan-Token": token || "" } });
 
+/** What the server says first. It is asked for while other modules are on their way, because the
+ * first picture waits for it. */
+export const firstState = fetch("/state.json?since=0").catch(() => null);
+
 export const post = (path, value) => fetch(path, { method: "POST", body: JSON.stringify(value) });
 
 export const pause = seconds => new Promise(done => setTimeout(done, seconds * 1000));

@@ -1,7 +1,7 @@
 // News of the server: films that were saved, built, checked or rendered.
 import { showComparing } from "/beside.js";
 import { showFault, showFaults, showNews } from "/faults.js";
-import { fetch, pause } from "/fetch.js";
+import { fetch, firstState, pause } from "/fetch.js";
 import { outline, outlined } from "/over.js";
 import { forget, look } from "/pictures.js";
 import { start, takeSound } from "/playing.js";
@@ -80,9 +80,9 @@ function takeFilm() {
 }
 
 export async function listen() {
-  for (;;) {
+  for (let first = firstState; ; first = null) {
     try {
-      const answer = await fetch(`/state.json?since=${state.news}`);
+      const answer = await first ?? await fetch(`/state.json?since=${state.news}`);
       if (answer.status === 403) { // the opened address has no token
         here("news").textContent = await answer.text();
         return;
