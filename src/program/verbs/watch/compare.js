@@ -41,7 +41,8 @@ export function mixed(picture) {
 
 /** Fetches the held frame for a picture that is painted, and paints it again. */
 export async function addHeld(picture) {
-  const wanted = looks.held && looks.mixing && !play.direction && !main.isWanted && wish(looks.held);
+  const isShown = looks.held && looks.mixing && play.direction === 0 && !main.isWanted;
+  const wanted = isShown ? wish(looks.held) : null;
   if (!wanted || kept.has(wanted.address)) return;
   await fetchPicture(wanted).catch(() => {});
   if (main.painted === picture && !main.isWanted) paint(picture);

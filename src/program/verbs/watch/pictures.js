@@ -78,7 +78,8 @@ export function wish(number, coarse = 1, one = main) {
   const query = one === main ? cels.query : "&side=2";
   const plain = `/frame/${nameOf(one, number)}.runs?size=${size.join("x")}&crop=${area.join()}`
     + `&build=${build}${query}`;
-  return { number, size, crop: area, address: plain + onionOf(one), plain, build, query, lane: one };
+  const address = plain + onionOf(one);
+  return { number, size, crop: area, address, plain, build, query, lane: one };
 }
 
 const pageName = Math.random().toString(36).slice(2);

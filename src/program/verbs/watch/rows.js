@@ -9,8 +9,8 @@ import { read } from "/fetch.js";
 import { celNames, showObjects } from "/objects.js";
 import { look } from "/pictures.js";
 import {
-  clamp, element, here, icon, isReady, label, lanes, looks, main, refill, setPressed, state, stateOf,
-  view,
+  clamp, element, here, icon, isReady, label, lanes, looks, main, refill, setPressed, state,
+  stateOf, view,
 } from "/state.js";
 import { brushOf, busy, coloursOf, heard, setBusy, shotsOf, unit, xOf } from "/timeline.js";
 
@@ -105,7 +105,8 @@ export function showSheet() {
 const SWITCHES = { s: "Solo", h: "Hide", l: "Light off", f: "Focus off", o: "Onion" };
 const letters = new Map(); // by the names of the cels
 
-// Parts of the address that say how cels are shown; skins: of the onion skin, "": of all but grounds.
+// Parts of the address that say how cels are shown; skins: of what the onion skin is made, "": of
+// all but grounds.
 export const cels = { query: "", skins: "" };
 
 const has = (name, letter) => (letters.get(name) || "").includes(letter);

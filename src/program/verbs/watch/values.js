@@ -82,8 +82,8 @@ export function renderOf(one, file, more = []) {
 
 function showCommand() {
   const ending = state.film?.frames > 1 ? ".mp4" : ".png";
-  here("command").value = renderOf(main, `shot${ending}`)
-    + (isComparing() ? `\n${renderOf(beside, `other${ending}`)}` : "");
+  const others = isComparing() ? [renderOf(beside, `other${ending}`)] : [];
+  here("command").value = [renderOf(main, `shot${ending}`), ...others].join("\n");
 }
 
 /** Makes the form of a film again if it has other parameters than before, or after all its values
