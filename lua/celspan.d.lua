@@ -633,7 +633,7 @@ function celspan.path(fields) end
 ---@field join? "miter"|"round"|"bevel" Default "miter"
 ---@field miter? number The longest miter, in widths; 1 to 1000000; default 4
 ---@field dash? number[] Lengths drawn and left out in turn
----@field dash_offset? number The distance into the dashes at which each subpath begins; default 0
+---@field dash_offset? number The distance into the dashes at which each subpath begins; while it grows, dashes move towards the beginning; default 0
 ---@field taper? number[] {begin, end}: lengths over which the width grows from 0 and falls to 0
 ---@field profile? "straight"|"round" Of tapers; round: without a corner where the taper ends; default "straight"
 ---@field from? number Where drawing begins, as a fraction of the whole length; default 0
@@ -651,7 +651,7 @@ function celspan.path(fields) end
 ---@field join? "miter"|"round"|"bevel" Default "miter"
 ---@field miter? number The longest miter, in widths; 1 to 1000000; default 4
 ---@field dash? number[] Lengths drawn and left out in turn
----@field dash_offset? number The distance into the dashes at which each subpath begins; default 0
+---@field dash_offset? number The distance into the dashes at which each subpath begins; while it grows, dashes move towards the beginning; default 0
 ---@field taper? number[] {begin, end}: lengths over which the width grows from 0 and falls to 0
 ---@field profile? "straight"|"round" Of tapers; round: without a corner where the taper ends; default "straight"
 ---@field from? number Where drawing begins, as a fraction of the whole length; default 0

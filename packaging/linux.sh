@@ -162,6 +162,8 @@ cp source/packaging/examples/*.lua "$tree/share/celspan/examples"
 cp source/scripts/type/block.ttf "$tree/share/celspan/examples/type"
 cp source/README.md source/CHANGELOG.md source/LICENSE source/llms.txt "$tree/share/doc/celspan"
 cp source/docs/*.md "$tree/share/doc/celspan/docs"
+# The pictures are not in the archive, so its pages do not show any.
+sed -i -e '/^| \[!\[/d' -e 's/!\[[^]]*\]([^)]*) *//g' "$tree/share/doc/celspan"/{,docs/}*.md
 
 # ---------------------------------------------------------------- fonts, and whose work it all is
 

@@ -1,5 +1,6 @@
 #include "program/target.h"
 
+#include <inttypes.h>
 #include <string.h>
 
 #include "frames/plane/plane.h"
@@ -128,8 +129,8 @@ cs_exit cs_target_frames(const cs_script *script, const cs_request *request, con
                      !cs_video_target_is_wanted(request, 0) && !cs_target_is_plane_film(request);
   if (is_one_file && out->count > 1)
     return cs_report_usage("%s: several frames (%zu) need a number in the name, such as "
-                           "shot.####.png",
-                           output, out->count);
+                           "shot.####.png; for one, name it: --frames %" PRId64,
+                           output, out->count, out->frames[0]);
   take_task(request, out);
   return CS_EXIT_OK;
 }

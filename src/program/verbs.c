@@ -165,7 +165,7 @@ static const cs_option RENDER[] = {
     SIZE,
     FIT,
     SCALE,
-    {"--draft", NULL, NULL, "half the size and no antialiasing, to look at a film soon"},
+    {"--draft", NULL, NULL, "half the size and no antialiasing (jagged), to look at a film soon"},
     CROP,
     {"--strip", "I/N", &cs_argument_share,
      "only the I-th of N strips of the frame, for 'celspan join'"},

@@ -303,7 +303,7 @@ complete_words celspan render film.lua -- -
 
     it("includes asking for frames that the film does not have", function()
       local one = folder .. "/one.png"
-      usage_error("render " .. plain .. " -o " .. one, "several frames")
+      usage_error("render " .. plain .. " -o " .. one, "for one, name it: --frames 1\n")
       usage_error("render " .. plain .. " -o " .. folder .. "/f.####.png --frames 12-13", "13")
       usage_error("render " .. plain .. " -o " .. folder .. "/f.####.png --frames 1-3,2", "2")
       usage_error("render " .. plain .. " -o " .. one .. " --frames 1 --crop 4,0,5,4", "8 x 4")

@@ -63,6 +63,9 @@ local expected = {
   ["logo reveal"] = "logo_reveal", ["echo"] = "lua echo", ["auto layout"] = "every_shape",
   ["chromatic aberration"] = "glitch_title", ["extruded"] = "deep_title",
   ["cel shading"] = "cel_shading", ["chart"] = "lua chart",
+  ["river"] = "water_reflection", ["caption pill"] = "srt_subtitles", ["bell"] = "mixed_sound",
+  ["sound maker"] = "mixed_sound", ["lantern"] = "neon_glow", ["dashed line"] = "lua stroke",
+  ["sway"] = 'docs/guide-puppet.md, "What follows"', ["cloud"] = "lua object:blur",
   ["parralax"] = 'docs/guide.md, "Parallax"', ["xsheet"] = 'docs/guide.md, "Exposure sheets"',
 }
 

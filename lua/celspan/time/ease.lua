@@ -9,6 +9,9 @@
 --   ease "linear", ease "hold", ease "spring", ease "steps:4", ease "bezier:.4,0,.2,1",
 --   ease(function)
 --
+-- in, out, inOut and outIn go with Quad, Cubic, Quart, Quint, Sine, Expo, Circ, Back, Bounce and
+-- Elastic. `in` begins slowly, `out` ends slowly, `inOut` does both.
+--
 -- A curve starts at 0 for u <= 0 and ends at 1 for u >= 1; back, elastic and spring overshoot
 -- between.
 local core = require "celspan.core"

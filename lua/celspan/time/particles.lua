@@ -1,10 +1,14 @@
 --- Particles: snow, sparks, leaves, rain, as a function of time.
 --
---   local snow = particles{ seed = "snow", rate = 40, life = 6, at = { 0, -10, 1280, 0 },
+--   local snow = particles{ seed = "snow", rate = 40, life = 6, at = { 640, -10, 660, 0 },
 --                           velocity = { 10, 90, 30, 20 } }
 --   for _, p in ipairs(snow:at(f.time)) do
 --     cels[#cels + 1] = flake:translate(p.x, p.y):fade(1 - p.age)
 --   end
+--
+-- `at` is the middle of where they are born, and how far from it, to each side: from x - across to
+-- x + across for { x, y, across, down }, which is no box { x, y, w, h }. `velocity` is a middle and
+-- how far from it in the same way.
 --
 -- Particle n is born at n / rate seconds. Everything about a particle follows from its number and
 -- the time, so every frame can be made by itself. Its path is a parabola under gravity, slowed by

@@ -82,7 +82,8 @@ static const cs_field style_fields[] = {
      .about = "The longest miter, in widths"},
     {"dash", CS_OWN("number[]"), .about = "Lengths drawn and left out in turn"},
     {"dash_offset", CS_NUMBER(DESC, dash_offset), .preset = "0",
-     .about = "The distance into the dashes at which each subpath begins"},
+     .about = "The distance into the dashes at which each subpath begins; while it grows, dashes "
+              "move towards the beginning"},
     {"taper", CS_NUMBERS(DESC, taper),
      .about = "{begin, end}: lengths over which the width grows from 0 and falls to 0"},
     {"profile", CS_CHOICE(DESC, profile, profiles), .preset = "straight",

@@ -79,7 +79,10 @@ return {
   { "mesh gradient", "gradient" }, { "ink line", "outline", "trace" }, { "fire", "particles" },
   { "smoke", "particles" }, { "explosion", "particles" }, { "dust", "particles" },
   { "shape tween", "morph" }, { "photo", "pictures" }, { "wave", "reflection in water", "paths" },
-  { "boat", "keys", "reflection in water" }, { "sea", "reflection in water" },
+  { "river", "paths", "reflection in water" }, { "cloud", "noise", "blur" },
+  { "lantern", "lamp" }, { "sway", "wiggle", "what follows" }, { "dash", "stroke" },
+  { "dashed line", "stroke" }, { "boat", "keys", "reflection in water" },
+  { "sea", "reflection in water" },
   { "title fade", "crossfade", "letters" }, { "fade in", "crossfade", "ease" },
 
   -- files and programs

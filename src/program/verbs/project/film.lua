@@ -1,7 +1,9 @@
 -- @NAME@: a cat, a falling star, and a town that wakes up.
 --
 --   celspan watch film.lua                     in the browser, while you change it
---   celspan render film.lua -o out/film.mp4
+--   celspan render film.lua -o out/film.mp4    needs ffmpeg
+--
+-- For letters, copy a font file into this folder: README.md says which are there to copy.
 local celspan = require "celspan"
 local ease = require "celspan.ease"
 local multiplane = require "celspan.multiplane"
