@@ -185,13 +185,23 @@ static celspan_status start_worker(cs_media *m, celspan_context *context, cs_wor
   return CELSPAN_OK;
 }
 
+/* Some systems have no processes for us, such as Windows: no more memory would help there. */
+static celspan_status fail_pipe(const cs_media *m, celspan_context *context, int error) {
+  if (error == ENOSYS)
+    return cs_fail(context, CELSPAN_OUTPUT,
+                   "the %s %s cannot be read: ffmpeg reads %ss, and celspan cannot start other "
+                   "programs on this system",
+                   m->noun, m->path, m->noun);
+  return cs_fail(context, CELSPAN_NO_MEMORY, "the %s %s cannot be read: no pipe: %s", m->noun,
+                 m->path, strerror(error));
+}
+
 celspan_status cs_media_start(cs_media *m, celspan_context *context, cs_worker_task task,
                               const cs_message *message, int descriptor) {
   int ends[2];
   int error = cs_spawn_pipe(ends);
   if (error)
-    return cs_fail(context, CELSPAN_NO_MEMORY, "the %s %s cannot be read: no pipe: %s", m->noun,
-                   m->path, strerror(error));
+    return fail_pipe(m, context, error);
   CS_TRY(start_worker(m, context, task, ends));
   /* If the message cannot be sent, the worker has ended, and the first read finds this. */
   (void)!cs_message_send(m->socket, message, descriptor);
