@@ -362,6 +362,25 @@ describe("a sound", function()
     assert.truthy(err:find "cannot be read: ffmpeg ended", err)
   end)
 
+  it("in an address is the same as in a file, also without --trust and with --strict", function()
+    if not has_ffmpeg then return pending "there is no ffmpeg" end
+    bench:write("in/tone.wav", tone())
+    local address = "data:audio/wav," .. tone():gsub("[^%w]", function(c)
+      return ("%%%02x"):format(c:byte())
+    end)
+    local mixes = {}
+    address = "-- '" .. address .. "'"
+    for i, one in ipairs { "-- tone.wav", address, "--strict " .. address,
+      '-- "data:;base64,$(base64 -w 0 tone.wav)"' } do
+      local code, _, err = in_folder("'%s' sound film.lua -o mix.wav --progress none %s",
+        workbench.absolute, one)
+      assert.equal(0, code, err)
+      mixes[i] = bench:read "in/mix.wav"
+      assert.is_true(#mixes[i] > 48000 and mixes[i]:find("[^\0]", 100) ~= nil)
+      assert.is_true(mixes[i] == mixes[1], one:sub(1, 30))
+    end
+  end)
+
   it("is refused with a sentence where no other program can be started, as on Windows", function()
     if not present.program "strace" then return pending "there is no strace" end
     bench:write("in/film.wav", tone())
