@@ -204,7 +204,8 @@ static const cs_description_field celspan_sink_fields[] = {
 static const cs_description_field celspan_coding_fields[] = {
     FIELD(celspan_coding, struct_size), FIELD(celspan_coding, depth),
     FIELD(celspan_coding, transfer),    FIELD(celspan_coding, alpha),
-    FIELD(celspan_coding, space),
+    FIELD(celspan_coding, space),       FIELD(celspan_coding, convert),
+    FIELD(celspan_coding, user),        FIELD(celspan_coding, colour),
 };
 static const cs_description_field celspan_file_desc_fields[] = {
     FIELD(celspan_file_desc, struct_size),   FIELD(celspan_file_desc, format),

@@ -371,7 +371,8 @@ typedef enum celspan_depth { CELSPAN_DEPTH_DEFAULT = 0, CELSPAN_DEPTH_8, CELSPAN
 typedef enum celspan_transfer { CELSPAN_TRANSFER_DEFAULT = 0, CELSPAN_TRANSFER_LINEAR,
   CELSPAN_TRANSFER_SRGB, CELSPAN_TRANSFER_REC709, CELSPAN_TRANSFER_CINEON } celspan_transfer;
 typedef struct celspan_coding { size_t struct_size; celspan_depth depth; celspan_transfer transfer;
-  celspan_alpha alpha; celspan_space space; } celspan_coding;
+  celspan_alpha alpha; celspan_space space; void (*convert)(void *user, float *rgba, size_t count);
+  void *user; const char *colour; } celspan_coding;
 void celspan_coding_default(celspan_coding *out, size_t struct_size);
 size_t celspan_coding_pixel_size(const celspan_coding *coding);
 void celspan_spans_code(const celspan_coding *coding, const celspan_span *spans, size_t span_count,

@@ -568,9 +568,10 @@ static void misuse_sink(program *p) {
   celspan_coding coded = CELSPAN_CODING;
   file.coding = &coded;
   file.workers = 1;
-  coded = (celspan_coding){sizeof(celspan_coding), (celspan_depth)word(p, 6),
-                           (celspan_transfer)word(p, 5), (celspan_alpha)word(p, 3),
-                           (celspan_space)word(p, 3)};
+  coded.depth = (celspan_depth)word(p, 6);
+  coded.transfer = (celspan_transfer)word(p, 5);
+  coded.alpha = (celspan_alpha)word(p, 3);
+  coded.space = (celspan_space)word(p, 3);
   if (celspan_file_sink_create(p->context, paths[take(p, 4)], take(p, 4) ? &file : NULL, &sink) !=
       CELSPAN_OK)
     return;

@@ -207,10 +207,56 @@ static void check_rows(void) {
     for (int transfer = CELSPAN_TRANSFER_LINEAR; transfer <= CELSPAN_TRANSFER_CINEON; transfer++)
       for (int alpha = CELSPAN_ALPHA_STRAIGHT; alpha <= CELSPAN_ALPHA_PREMULTIPLIED; alpha++)
         for (int space = CELSPAN_SPACE_LINEAR; space <= CELSPAN_SPACE_SRGB; space++)
-          check_row((celspan_coding){sizeof(celspan_coding), (celspan_depth)depth,
-                                     (celspan_transfer)transfer, (celspan_alpha)alpha,
-                                     (celspan_space)space},
+          check_row((celspan_coding){.struct_size = sizeof(celspan_coding),
+                                     .depth = (celspan_depth)depth,
+                                     .transfer = (celspan_transfer)transfer,
+                                     .alpha = (celspan_alpha)alpha,
+                                     .space = (celspan_space)space},
                     spans, count);
+}
+
+/* ---------------------------------------------------------------- conversions */
+
+/* Mixes channels and adds to black, so that premultiplied colours would give other numbers. */
+static void swap_and_add(void *user, float *rgba, size_t count) {
+  const float *added = user;
+  for (; count > 0; count--, rgba += 4) {
+    float red = rgba[0];
+    rgba[0] = rgba[2] + *added;
+    rgba[1] = rgba[1] * rgba[1] + *added;
+    rgba[2] = red + *added;
+  }
+}
+
+static void check_converted(celspan_depth depth, celspan_alpha alpha, const float rgba[4],
+                            const float expected[4]) {
+  static float added = 0.25f;
+  const celspan_coding given = {.struct_size = sizeof given,
+                                .depth = depth,
+                                .alpha = alpha,
+                                .convert = swap_and_add,
+                                .user = &added,
+                                .colour = "swapped"};
+  celspan_coding coding = cs_pixels_resolve(&given, CELSPAN_DEPTH_8);
+  float coded[4];
+  cs_pixels_encode(&coding, rgba, coded);
+  CHECK(memcmp(coded, expected, sizeof coded) == 0);
+  CHECK(!cs_pixels_takes_codes(&coding));
+  CHECK(strcmp(cs_pixels_colour(&coding), "swapped") == 0);
+}
+
+static void check_conversions(void) {
+  const float half[4] = {0.25f, 0.125f, 0.0625f, 0.5f}, glow[4] = {0.25f, 0.5f, 0.5f, 0};
+  const float clear[4] = {0, 0, 0, 0};
+  for (int depth = CELSPAN_DEPTH_8; depth <= CELSPAN_DEPTH_FLOAT; depth++) {
+    check_converted((celspan_depth)depth, CELSPAN_ALPHA_STRAIGHT, half,
+                    (float[4]){0.375f, 0.3125f, 0.75f, 0.5f});
+    check_converted((celspan_depth)depth, CELSPAN_ALPHA_PREMULTIPLIED, half,
+                    (float[4]){0.1875f, 0.15625f, 0.375f, 0.5f});
+    check_converted((celspan_depth)depth, CELSPAN_ALPHA_PREMULTIPLIED, glow,
+                    (float[4]){0.75f, 0.5f, 0.5f, 0});
+    check_converted((celspan_depth)depth, CELSPAN_ALPHA_PREMULTIPLIED, clear, clear);
+  }
 }
 
 /* ---------------------------------------------------------------- the usual coding */
@@ -341,6 +387,7 @@ int main(void) {
   check_premultiplied();
   check_16();
   check_rows();
+  check_conversions();
   check_lengths((celspan_coding){.struct_size = sizeof(celspan_coding),
                                  .depth = CELSPAN_DEPTH_8,
                                  .transfer = CELSPAN_TRANSFER_SRGB,

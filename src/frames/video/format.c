@@ -260,7 +260,8 @@ static void add_indexed(cs_video_command *command, const cs_video_options *optio
  * exact, and 2 x 2 pixels that share a colour get their mean, so that flat colours are unchanged.
  * Planes are passed on unchanged. */
 static void add_yuv(cs_video_command *command, const cs_video_options *options, bool is_coded) {
-  bool is_rec709 = options->coding.transfer == CELSPAN_TRANSFER_REC709;
+  /* Players take nearly every film of a colour-managed pipeline for BT.709. */
+  bool is_rec709 = options->coding.convert || options->coding.transfer == CELSPAN_TRANSFER_REC709;
   const char *transfer = is_rec709 ? "bt709" : "iec61966-2-1";
   bool is_made = is_coded || cs_video_layout_of(options) != CS_VIDEO_RGBA;
   const char *const tags[] = {

@@ -1380,6 +1380,12 @@ typedef struct celspan_coding {
   celspan_alpha alpha;
   celspan_space space; /* of the spans. SRGB: codes of sRGB are their numbers, others are made of
                           the light that these stand for. What renders a frame sets it */
+  /* NULL, or instead of `transfer`: replaces straight linear light by the numbers that are coded,
+   * in `count` pixels of four floats, of which the fourth stays. It is called by several threads
+   * at once, and the same light must always give the same numbers. */
+  void (*convert)(void *user, float *rgba, size_t count);
+  void *user;
+  const char *colour; /* with `convert`: the name of the space, for the headers of files */
 } celspan_coding;
 
 CELSPAN_DESCRIPTION(celspan_coding)

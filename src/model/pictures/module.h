@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define CS_PICTURE_MODULE_VERSION 4u
+#define CS_PICTURE_MODULE_VERSION 5u
 #define CS_PICTURE_SIDE 1048576
 #define CS_PICTURE_CHANNELS 64
 
@@ -78,9 +78,9 @@ typedef struct cs_picture_output {
   celspan_depth depth;      /* never DEFAULT */
   int bits; /* how many bits of each value are used: 10 in a depth of 16 for film; 0: all */
   bool is_straight;
-  celspan_transfer transfer; /* for the header */
-  const char *title;         /* NULL: none */
-  double frames_second;      /* 0: none */
+  const char *colour;   /* "srgb", "linear", "rec709", "cineon", or another space's name */
+  const char *title;    /* NULL: none */
+  double frames_second; /* 0: none */
   int32_t frame;
 } cs_picture_output;
 

@@ -2,6 +2,7 @@
  *
  *   signature | IHDR | sRGB or gAMA | tEXt, iTXt | csST, of a strip | IDAT, IDAT, ... | IEND
  */
+#include <stdio.h>
 #include <string.h>
 
 #include "output/png/chunk.h"
@@ -35,6 +36,17 @@ static celspan_status put_image_data(void *user, celspan_context *context, const
   return put_chunk(user, context, "IDAT", bytes, size);
 }
 
+/* A space that has no chunk of its own is named in a text. */
+static celspan_status put_space(png_sink *sink, celspan_context *context) {
+  char text[300];
+  static const char keyword[] = "colour\0\0\0\0"; /* not compressed, in no language */
+  memcpy(text, keyword, sizeof keyword);
+  int length = snprintf(text + sizeof keyword, sizeof text - sizeof keyword, "%s",
+                        cs_pixels_colour(&sink->coding));
+  size_t size = sizeof keyword + (size_t)(length < 0 ? 0 : length);
+  return put_chunk(sink, context, "iTXt", text, size < sizeof text ? size : sizeof text - 1);
+}
+
 static celspan_status put_colour_space(png_sink *sink, celspan_context *context) {
   static const unsigned char perceptual[1] = {0};
   unsigned char gamma[4];
@@ -43,7 +55,7 @@ static celspan_status put_colour_space(png_sink *sink, celspan_context *context)
     return put_chunk(sink, context, "sRGB", perceptual, sizeof perceptual);
   if (sink->coding.transfer == CELSPAN_TRANSFER_LINEAR)
     return put_chunk(sink, context, "gAMA", gamma, sizeof gamma);
-  return CELSPAN_OK;
+  return sink->coding.convert ? put_space(sink, context) : CELSPAN_OK;
 }
 
 static celspan_status put_place(png_sink *sink, celspan_context *context) {

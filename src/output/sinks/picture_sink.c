@@ -117,7 +117,7 @@ static celspan_status choose_coding(celspan_context *context, const char *path,
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "%s: %s files hold premultiplied alpha, not straight", path, format->name);
   celspan_coding coding = *asked;
-  if (format->is_film && coding.transfer == CELSPAN_TRANSFER_DEFAULT)
+  if (format->is_film && coding.transfer == CELSPAN_TRANSFER_DEFAULT && !coding.convert)
     coding.transfer = CELSPAN_TRANSFER_CINEON;
   if (format->is_multiplied)
     coding.alpha = CELSPAN_ALPHA_PREMULTIPLIED;
@@ -215,7 +215,7 @@ static celspan_status open_file(picture_sink *sink, celspan_context *context) {
                               .depth = sink->depth,
                               .bits = sink->bits,
                               .is_straight = sink->coding.alpha == CELSPAN_ALPHA_STRAIGHT,
-                              .transfer = sink->coding.transfer,
+                              .colour = cs_pixels_colour(&sink->coding),
                               .title = sink->title,
                               .frames_second = sink->frames_second,
                               .frame = sink->frame};

@@ -64,11 +64,23 @@ celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth def
   if (resolved.depth == CELSPAN_DEPTH_8_DITHER)
     resolved.depth = CELSPAN_DEPTH_8;
   bool integer = resolved.depth == CELSPAN_DEPTH_8 || resolved.depth == CELSPAN_DEPTH_16;
+  if (resolved.convert)
+    resolved.transfer = CS_TRANSFER_CONVERTED;
   if (resolved.transfer == CELSPAN_TRANSFER_DEFAULT)
     resolved.transfer = integer ? CELSPAN_TRANSFER_SRGB : CELSPAN_TRANSFER_LINEAR;
   if (resolved.alpha == CELSPAN_ALPHA_DEFAULT)
     resolved.alpha = integer ? CELSPAN_ALPHA_STRAIGHT : CELSPAN_ALPHA_PREMULTIPLIED;
   return resolved;
+}
+
+const char *cs_pixels_colour(const celspan_coding *coding) {
+  static const char *const names[] = {
+      [CELSPAN_TRANSFER_LINEAR] = "linear",
+      [CELSPAN_TRANSFER_SRGB] = "srgb",
+      [CELSPAN_TRANSFER_REC709] = "rec709",
+      [CELSPAN_TRANSFER_CINEON] = "cineon",
+  };
+  return !coding->convert ? names[coding->transfer] : coding->colour ? coding->colour : "converted";
 }
 
 bool cs_pixels_takes_codes(const celspan_coding *coding) {
@@ -125,12 +137,34 @@ static bool is_in_codes(const celspan_coding *coding) {
   return coding->space == CELSPAN_SPACE_SRGB && coding->transfer == CELSPAN_TRANSFER_SRGB;
 }
 
+/* Conversions mix channels and have curves, so that only straight light can be given to them. Light
+ * without alpha is converted as if it were opaque. What is clear has no colour that could be
+ * multiplied by alpha. */
+static void convert(const celspan_coding *coding, float rgba[4]) {
+  bool is_straight = coding->alpha == CELSPAN_ALPHA_STRAIGHT;
+  float alpha = rgba[3], factor = !is_straight && alpha > 0 ? alpha : 1;
+  cs_space_decode(coding->space, rgba);
+  bool is_clear = alpha == 0 && rgba[0] == 0 && rgba[1] == 0 && rgba[2] == 0;
+  if (is_clear && !is_straight)
+    return;
+  for (int c = 0; c < 3; c++)
+    rgba[c] = alpha > 0 ? rgba[c] / alpha : is_straight ? 0 : rgba[c];
+  coding->convert(coding->user, rgba, 1);
+  for (int c = 0; c < 3; c++)
+    rgba[c] *= factor;
+  rgba[3] = alpha;
+}
+
 /* The colour to which the transfer curve is applied. */
 void cs_pixels_encode(const celspan_coding *coding, const float rgba[4], float coded[4]) {
   bool is_divided_first = coding->alpha == CS_ALPHA_CODED && rgba[3] > 0;
   bool divide = (coding->alpha == CELSPAN_ALPHA_STRAIGHT || is_divided_first) && rgba[3] != 1;
   bool is_coded = is_in_codes(coding);
   memcpy(coded, rgba, 4 * sizeof *coded);
+  if (coding->convert) {
+    convert(coding, coded);
+    return;
+  }
   if (!is_coded)
     cs_space_decode(coding->space, coded);
   for (int c = 0; c < 3; c++) {

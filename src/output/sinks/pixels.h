@@ -31,6 +31,12 @@ size_t cs_pixels_size(const celspan_coding *coding);
  * light is coded as if it were opaque. */
 #define CS_ALPHA_CODED ((celspan_alpha)(CELSPAN_ALPHA_PREMULTIPLIED + 1))
 
+/* The transfer of a resolved coding with a conversion. */
+#define CS_TRANSFER_CONVERTED ((celspan_transfer)(CELSPAN_TRANSFER_CINEON + 1))
+
+/* The name of a resolved coding's colours: "srgb", "linear", "rec709", "cineon", or of its
+ * space. */
+const char *cs_pixels_colour(const celspan_coding *coding);
 /* The coding with all defaults filled in, for integers and floats. 8_DITHER becomes 8:
  * output/sinks/dither.h does the rest. */
 celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth default_depth);

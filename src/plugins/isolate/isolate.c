@@ -73,10 +73,11 @@ static cs_picture_writer *create(const cs_picture_output *output) {
 
 static celspan_status begin(cs_picture_writer *writer, const cs_picture_output *output,
                             cs_picture_failure *failure) {
-  const char *texts[3 + CS_PICTURE_CHANNELS] = {output->name, output->format, output->title};
+  const char *texts[4 + CS_PICTURE_CHANNELS] = {output->name, output->format, output->colour,
+                                                output->title};
   size_t name_count = output->names ? (size_t)output->channels : 0;
   for (size_t i = 0; i < name_count; i++)
-    texts[3 + i] = output->names[i];
+    texts[4 + i] = output->names[i];
   cs_message message = {.kind = CS_MESSAGE_WRITE,
                         .output = {.width = output->width,
                                    .height = output->height,
@@ -84,12 +85,11 @@ static celspan_status begin(cs_picture_writer *writer, const cs_picture_output *
                                    .depth = (int32_t)output->depth,
                                    .bits = output->bits,
                                    .is_straight = output->is_straight,
-                                   .transfer = (int32_t)output->transfer,
                                    .frame = output->frame,
                                    .has_title = output->title != NULL,
                                    .has_names = output->names != NULL,
                                    .frames_second = output->frames_second}};
-  if (!cs_worker_put_texts(writer->worker, texts, 3 + name_count))
+  if (!cs_worker_put_texts(writer->worker, texts, 4 + name_count))
     return cs_worker_fail(failure, CELSPAN_OUTPUT, writer->name, "its title is too long");
   return ask(writer, &message, failure);
 }

@@ -30,7 +30,7 @@ typedef enum cs_message_kind {
   CS_MESSAGE_READ,
   CS_MESSAGE_LIST,
   CS_MESSAGE_CLOSE, /* not answered */
-  CS_MESSAGE_WRITE, /* in shared memory: name, format, title, names of channels */
+  CS_MESSAGE_WRITE, /* in shared memory: name, format, colour, title, names of channels */
   CS_MESSAGE_ROWS,
   CS_MESSAGE_COMPLETE,
   CS_MESSAGE_PROFILE, /* in shared memory: the profile; the answer puts the table there */
@@ -94,7 +94,7 @@ typedef struct cs_message_header {
 
 /* cs_picture_output without its texts. */
 typedef struct cs_message_output {
-  int32_t width, height, channels, depth, bits, is_straight, transfer, frame, has_title, has_names;
+  int32_t width, height, channels, depth, bits, is_straight, frame, has_title, has_names;
   double frames_second;
 } cs_message_output;
 

@@ -256,7 +256,8 @@ static bool put_bytes(void *user, uint64_t offset, const void *bytes, size_t siz
 static void open_writer(worker_loop *loop, cs_message *message) {
   const cs_message_output *from = &message->output;
   const char *name = (const char *)loop->shared, *format = name + strlen(name) + 1;
-  const char *title = format + strlen(format) + 1, *names[CS_PICTURE_CHANNELS];
+  const char *colour = format + strlen(format) + 1, *title = colour + strlen(colour) + 1;
+  const char *names[CS_PICTURE_CHANNELS];
   for (int i = 0; from->has_names && i < from->channels; i++)
     names[i] = i ? names[i - 1] + strlen(names[i - 1]) + 1 : title + strlen(title) + 1;
   cs_picture_failure failure = {CELSPAN_OK, ""};
@@ -271,7 +272,7 @@ static void open_writer(worker_loop *loop, cs_message *message) {
                                     .depth = (celspan_depth)from->depth,
                                     .bits = from->bits,
                                     .is_straight = from->is_straight != 0,
-                                    .transfer = (celspan_transfer)from->transfer,
+                                    .colour = colour,
                                     .title = from->has_title ? title : NULL,
                                     .frames_second = from->frames_second,
                                     .frame = from->frame};

@@ -94,23 +94,22 @@ TypeDesc type_of(celspan_depth depth) {
   }
 }
 
-struct TransferNames {
+struct ColourNames {
+  const char *colour; /* as celspan reads it back */
   const char *space;  /* in OpenImageIO */
-  const char *colour; /* the name that celspan reads back */
   const char *film;   /* in the header of a film scan */
 };
 
-TransferNames names_of(celspan_transfer transfer) {
-  switch (transfer) {
-  case CELSPAN_TRANSFER_LINEAR:
-    return {"Linear", "linear", "Linear"};
-  case CELSPAN_TRANSFER_REC709:
-    return {"Rec709", "rec709", "ITU-R 709-4"};
-  case CELSPAN_TRANSFER_CINEON:
-    return {"KodakLog", "cineon", "Printing density"};
-  default:
-    return {"sRGB", "srgb", "Undefined"};
-  }
+/* Of another space than these, only OpenEXR has the name. */
+ColourNames names_of(const cs_picture_output &output) {
+  static const ColourNames known[] = {{"linear", "Linear", "Linear"},
+                                      {"rec709", "Rec709", "ITU-R 709-4"},
+                                      {"cineon", "KodakLog", "Printing density"},
+                                      {"srgb", "sRGB", "Undefined"}};
+  for (const ColourNames &names : known)
+    if (strcmp(names.colour, output.colour) == 0)
+      return names;
+  return {output.colour, nullptr, "User defined"};
 }
 
 void describe_rate(ImageSpec &spec, double rate) {
@@ -142,8 +141,9 @@ ImageSpec make_spec(const cs_picture_output &output) {
   describe_rate(spec, output.frames_second);
   spec.attribute("celspan:frame", int(output.frame));
   /* In a TIFF this would add a second directory, and the library would read the file again. */
-  if (format != "tiff")
-    spec.attribute("oiio:ColorSpace", names_of(output.transfer).space);
+  const ColourNames names = names_of(output);
+  if (format != "tiff" && names.space)
+    spec.attribute("oiio:ColorSpace", names.space);
   /* The library would write the present time, and equal frames would differ. */
   spec.attribute("DateTime", "1970:01:01 00:00:00");
   if (output.bits)
@@ -151,7 +151,7 @@ ImageSpec make_spec(const cs_picture_output &output) {
   if (output.channels == 4 && output.is_straight)
     spec.attribute("oiio:UnassociatedAlpha", 1);
   if (format == "openexr")
-    spec.attribute("celspan:colour", names_of(output.transfer).colour);
+    spec.attribute("celspan:colour", names.colour);
   if (format == "openexr" || format == "tiff")
     spec.attribute("compression", "zip");
   if (format == "jpeg") {
@@ -161,7 +161,7 @@ ImageSpec make_spec(const cs_picture_output &output) {
   if (format == "webp")
     spec.attribute("compression", "webp:100");
   if (format == "dpx")
-    spec.attribute("dpx:Transfer", names_of(output.transfer).film);
+    spec.attribute("dpx:Transfer", names.film);
   return spec;
 }
 

@@ -79,18 +79,10 @@ static void put_channels(writing *w) {
   cs_write_put(w->target, "", 1);
 }
 
-/* The name that celspan reads back. */
-static const char *colour_of(celspan_transfer transfer) {
-  return transfer == CELSPAN_TRANSFER_LINEAR   ? "linear"
-         : transfer == CELSPAN_TRANSFER_REC709 ? "rec709"
-         : transfer == CELSPAN_TRANSFER_CINEON ? "cineon"
-                                               : "srgb";
-}
-
 static void put_header(writing *w) {
   put_number(w, CS_EXR_MAGIC);
   put_number(w, VERSION);
-  put_string(w, "celspan:colour", colour_of(w->output->transfer));
+  put_string(w, "celspan:colour", w->output->colour);
   put_channels(w);
   if (w->output->title)
     put_string(w, "comments", w->output->title);

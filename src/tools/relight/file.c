@@ -64,7 +64,7 @@ static celspan_status write_file(celspan_context *context, job *j, const char *p
                                     .channels = CHANNELS,
                                     .names = names,
                                     .depth = CELSPAN_DEPTH_FLOAT,
-                                    .transfer = CELSPAN_TRANSFER_LINEAR};
+                                    .colour = "linear"};
   CS_TRY(cs_picture_file_open(context, &output, &j->file));
   celspan_status status = write_rows(context, j);
   if (status == CELSPAN_OK)
