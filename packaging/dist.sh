@@ -64,7 +64,7 @@ make_source() {
   [ -z "$(git status --porcelain)" ] || say "changes that are not committed are left out"
   rm -rf "$work/plain"
   quietly source meson setup "$work/plain" -Dlua=disabled -Dpictures=disabled -Dart=disabled \
-    -Dcolour=disabled -Dtests=false
+    -Dcolour=disabled -Dspaces=disabled -Dtests=false
   quietly source meson dist -C "$work/plain" --no-tests --formats gztar --allow-dirty
   mv "$work/plain/meson-dist/$source" "$dist"
   unpacked "$work/source/${source%.tar.gz}" # packed again: with the same bytes each time

@@ -52,6 +52,7 @@ TEXT(file_or_folder, "the name of a folder or file");
 TEXT(frames, "a list of frames such as 1-10,20-30:2,45, 2s-4s or the name of a mark");
 TEXT(format, "the name of a file format such as png");
 TEXT(cel, "the name of a cel");
+TEXT(colour, "srgb, linear, rec709, cineon, or the name of a colour space");
 TEXT(codec, "the name of a codec such as h265");
 TEXT(pattern, "a pattern of names");
 TEXT(picture, "png or jpg");
@@ -241,9 +242,6 @@ static bool choose(const cs_argument *kind, const char *text, void *field) {
 
 CHOICE(depth, "8, 16, half or float", {"8", CELSPAN_DEPTH_8}, {"16", CELSPAN_DEPTH_16},
        {"half", CELSPAN_DEPTH_HALF}, {"float", CELSPAN_DEPTH_FLOAT});
-CHOICE(colour, "srgb, linear, rec709 or cineon", {"srgb", CELSPAN_TRANSFER_SRGB},
-       {"linear", CELSPAN_TRANSFER_LINEAR}, {"rec709", CELSPAN_TRANSFER_REC709},
-       {"cineon", CELSPAN_TRANSFER_CINEON});
 CHOICE(alpha, "straight or premultiplied", {"straight", CELSPAN_ALPHA_STRAIGHT},
        {"premultiplied", CELSPAN_ALPHA_PREMULTIPLIED});
 CHOICE(layout, "dzi or iiif", {"dzi", CS_PYRAMID_DZI}, {"iiif", CS_PYRAMID_IIIF});

@@ -70,7 +70,8 @@ bool cs_argument_read(const cs_argument *kind, const char *text, void *field);
 /* const char *: a text that is not empty */
 extern const cs_argument cs_argument_text, cs_argument_file, cs_argument_folder,
     cs_argument_file_or_folder, cs_argument_frames, cs_argument_format, cs_argument_cel,
-    cs_argument_codec, cs_argument_pattern, cs_argument_picture, cs_argument_setting;
+    cs_argument_codec, cs_argument_colour, cs_argument_pattern, cs_argument_picture,
+    cs_argument_setting;
 /* const char *: the verb interprets it */
 extern const cs_argument cs_argument_colours, cs_argument_lamp, cs_argument_light;
 /* int32_t */
@@ -87,10 +88,10 @@ extern const cs_argument cs_argument_crop;
 /* double */
 extern const cs_argument cs_argument_rate, cs_argument_millions, cs_argument_scale,
     cs_argument_tolerance, cs_argument_smooth;
-/* The enumeration of the name: celspan_depth, celspan_transfer, celspan_alpha, cs_pyramid_layout,
+/* The enumeration of the name: celspan_depth, celspan_alpha, cs_pyramid_layout,
  * cs_progress_style, cs_fit; for the model of a track, a number. */
-extern const cs_argument cs_argument_depth, cs_argument_colour, cs_argument_alpha,
-    cs_argument_layout, cs_argument_progress, cs_argument_fit, cs_argument_model;
+extern const cs_argument cs_argument_depth, cs_argument_alpha, cs_argument_layout,
+    cs_argument_progress, cs_argument_fit, cs_argument_model;
 extern const cs_argument cs_argument_antialias; /* cs_given_antialias */
 extern const cs_argument cs_argument_tint;      /* float[3]: linear light, opaque */
 extern const cs_argument cs_argument_texts;     /* cs_given_texts: adds a folder */

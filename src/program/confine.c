@@ -256,7 +256,7 @@ static void output_folder(const cs_request *request, char out[PATH_SIZE]) {
  * that options name. */
 static bool add_own_folders(const cs_request *request, cs_roots *read) {
   static const char *const variables[] = {"OCIO", "CELSPAN_PICTURE_MODULE", "CELSPAN_ART_MODULE",
-                                          "CELSPAN_COLOUR_MODULE"};
+                                          "CELSPAN_COLOUR_MODULE", "CELSPAN_SPACE_MODULE"};
   char folder[PATH_SIZE], library[PATH_SIZE + 64];
   bool is_known = cs_program_folder(folder, PATH_SIZE);
   bool is_good = !is_known || cs_roots_add(read, folder);

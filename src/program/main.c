@@ -22,6 +22,7 @@
 #include "program/confine.h"
 #include "program/lua_verb.h"
 #include "program/progress.h"
+#include "program/spaces.h"
 #include "program/text_file.h"
 #include "program/verbs.h"
 
@@ -90,13 +91,17 @@ static cs_exit run(cs_request *request) {
     return CS_EXIT_MEMORY;
   }
   cs_confine_rendering(context, request);
-  cs_exit outcome = cs_confine_pictures(context, request);
+  cs_spaces spaces;
+  cs_exit outcome = cs_spaces_open(context, request, &spaces);
+  if (outcome == CS_EXIT_OK)
+    outcome = cs_confine_pictures(context, request);
   if (outcome == CS_EXIT_OK)
     outcome = read_script(context, request, &script);
   if (outcome == CS_EXIT_OK)
     outcome = is_in_lua(request) ? cs_lua_verb_run(context, request)
                                  : request->verb->run(context, request);
   cs_text_file_close(context, &script);
+  cs_spaces_close(&spaces);
   celspan_context_destroy(context);
   cs_isolate_finish();
   return outcome;

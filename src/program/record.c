@@ -13,6 +13,7 @@
 #include "frames/process/journal.h"
 #include "output/sinks/file_copy.h"
 #include "output/sinks/temporary.h"
+#include "program/spaces.h"
 #include "program/target.h"
 
 enum { LINE_SIZE = 256 };
@@ -47,6 +48,8 @@ static cs_hash hash_options(const cs_script *script, const cs_request *request,
   cs_hash_word(&hash, (uint64_t)coding->depth);
   cs_hash_word(&hash, (uint64_t)coding->transfer);
   cs_hash_word(&hash, (uint64_t)coding->alpha);
+  if (request->spaces)
+    cs_hash_text(&hash, request->spaces->digest);
   cs_hash_text(&hash, cs_request_text(request, "--format"));
   if (cs_request_has(request, "--strip"))
     cs_hash_text(&hash, "strip");

@@ -50,7 +50,8 @@ typedef struct cs_request {
   size_t script_size;
   char *const *script_arguments; /* the arguments after "--" */
   size_t script_argument_count;
-  cs_given_antialias antialias; /* of --antialias; it is kept here because frames point to it */
+  const struct cs_spaces *spaces; /* NULL: colours are coded along a curve */
+  cs_given_antialias antialias;   /* of --antialias; it is kept here because frames point to it */
 } cs_request;
 
 /* words: the words after the verb. OK, or reported and CS_EXIT_USAGE. */

@@ -6,12 +6,13 @@
 #include "frames/plane/plane.h"
 #include "output/sinks/file.h"
 #include "output/sinks/sink.h"
+#include "program/spaces.h"
 #include "program/video_target.h"
 
 celspan_coding cs_target_coding(const cs_request *request) {
   celspan_coding coding = {.struct_size = sizeof coding};
   cs_request_read(request, "--depth", &coding.depth);
-  cs_request_read(request, "--colour", &coding.transfer);
+  cs_spaces_set(request, &coding);
   cs_request_read(request, "--alpha", &coding.alpha);
   if (cs_request_has(request, "--dither"))
     coding.depth = CELSPAN_DEPTH_8_DITHER;
@@ -59,9 +60,9 @@ static cs_exit refuse_file(celspan_context *context, const char *path, const cs_
 
 /* Refuses options about pixels, which a plane does not have. */
 static cs_exit refuse_plane(const char *path, const cs_request *request) {
-  static const char *const options[] = {"--size",   "--scale",     "--crop",     "--strip",
-                                        "--colour", "--alpha",     "--dither",   "--hash",
-                                        "--draft",  "--antialias", "--no-dither"};
+  static const char *const options[] = {
+      "--size", "--scale", "--crop",      "--strip",     "--colour",  "--alpha", "--dither",
+      "--hash", "--draft", "--antialias", "--no-dither", "--display", "--view"};
   celspan_depth depth = CELSPAN_DEPTH_DEFAULT;
   for (size_t i = 0; i < sizeof options / sizeof *options; i++)
     if (cs_request_has(request, options[i]))

@@ -42,7 +42,13 @@
   {"--format", "NAME", &cs_argument_format, "the file format; default: by the extension of OUT"},  \
       {"--depth", "DEPTH", &cs_argument_depth, "8, 16, half or float; default: by the format"},    \
       {"--colour", "CODING", &cs_argument_colour,                                                  \
-       "srgb, linear, rec709 or cineon; default: srgb, floats linear"},                            \
+       "srgb, linear, rec709, cineon, or a space of --ocio; default: srgb, floats linear"},        \
+      {"--display", "NAME", &cs_argument_text,                                                     \
+       "instead of --colour: as this display of --ocio shows the light"},                          \
+      {"--view", "NAME", &cs_argument_text,                                                        \
+       "in this view of the display; default: the configuration's"},                               \
+      {"--ocio", "FILE", &cs_argument_file,                                                        \
+       "the OpenColorIO configuration; default: the environment variable OCIO"},                   \
   {                                                                                                \
     "--alpha", "KIND", &cs_argument_alpha,                                                         \
         "straight or premultiplied; default: straight, floats premultiplied"                       \

@@ -4,6 +4,7 @@
 
 #include "output/sinks/file.h"
 #include "program/soundtrack.h"
+#include "program/spaces.h"
 
 enum {
   MOST_SIDE = 16384, /* the limit of H.264, VP9 and WebP */
@@ -39,7 +40,7 @@ static cs_video_options options_of(const cs_request *request, const cs_video_cod
     options.coding.depth = CELSPAN_DEPTH_8;
   options.has_crf = cs_request_read(request, "--crf", &options.crf);
   cs_request_read(request, "--depth", &options.coding.depth);
-  cs_request_read(request, "--colour", &options.coding.transfer);
+  cs_spaces_set(request, &options.coding);
   cs_request_read(request, "--alpha", &options.coding.alpha);
   cs_request_read(request, "--quality", &options.quality);
   cs_request_read(request, "--loop", &options.plays);

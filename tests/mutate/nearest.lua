@@ -97,6 +97,7 @@ return {
   icc = { "unit/profile", "unit/fuzz-profile" },
   xml = { "unit/fuzz-svg", "spec/svg_same" },
   type = { "unit/xml", "unit/text", "unit/fuzz-text", "spec/text", "spec/svg" },
+  ocio = { "unit/pixels", "spec/spaces" },
   oiio = { "unit/inspect", "unit/fuzz-picture-png", "unit/fuzz-picture-psd", "unit/picture_sink",
     "spec/formats", "spec/decoded", "unit/picture" },
   plugin = { "spec/span" },

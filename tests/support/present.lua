@@ -42,6 +42,9 @@ function present.colour()
   return contains "reading colour profiles" and not contains "built without Little CMS"
 end
 
+--- Whether there is a module for the spaces of an OpenColorIO configuration.
+function present.spaces() return not contains "built without OpenColorIO" end
+
 --- Whether celspan watch can show a page: it was built with libmicrohttpd.
 function present.web() return not contains "built without libmicrohttpd" end
 

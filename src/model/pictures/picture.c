@@ -78,8 +78,8 @@ static celspan_status check(celspan_context *context, const celspan_picture_desc
   if (desc->colour && !cs_transfer_parse(desc->colour, &transfer) && !getenv("OCIO"))
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "picture: colour is \"%s\"; it must be \"srgb\", \"linear\", \"rec709\", "
-                   "\"cineon\", or a space of the OpenColorIO configuration that the environment "
-                   "variable OCIO names",
+                   "\"cineon\", or a space of the OpenColorIO configuration that --ocio or the "
+                   "environment variable OCIO names",
                    desc->colour);
   return CELSPAN_OK;
 }

@@ -13,7 +13,6 @@
  * One file, because the header's facts and the reading of rectangles share channels, windows and
  * orientation.
  */
-#include <OpenImageIO/color.h>
 #include <OpenImageIO/imagebufalgo.h>
 
 #include <algorithm>
@@ -22,6 +21,9 @@
 #include <mutex>
 #include <vector>
 
+#ifndef CELSPAN_WITHOUT_SPACES
+#include "plugins/ocio/conversion.h"
+#endif
 #include "plugins/oiio/shared.h"
 #include "plugins/oiio/sniff.h"
 #include "plugins/oiio/source.h"
@@ -48,7 +50,11 @@ struct cs_picture_reader {
   int data_x, data_y;              /* the data window, from the display window's corner */
   int stored_width, stored_height; /* the display window as stored, before turning */
   int next_row = 0;                /* of the data window, for sequential formats */
-  OIIO::ColorProcessorHandle processor;
+#ifndef CELSPAN_WITHOUT_SPACES
+  OCIO_NAMESPACE::ConstCPUProcessorRcPtr processor; /* to light */
+#else
+  void *processor = nullptr;
+#endif
   std::vector<float> batch;
   std::vector<unsigned char> stored;
 };
@@ -288,12 +294,17 @@ void choose_space(cs_picture_reader &reader, const char *space) {
         std::string("colour \"") + space +
             "\" is not known; \"srgb\", \"linear\", "
             "\"rec709\" and \"cineon\" are, and the spaces of an OpenColorIO configuration "
-            "when the environment variable OCIO names one");
-  static const OIIO::ColorConfig config;
-  reader.processor = config.createColorProcessor(space, "scene_linear");
-  if (!reader.processor)
-    throw Failure(CELSPAN_BAD_ARGUMENT, std::string("colour \"") + space +
-                                            "\" is not a space of the OpenColorIO configuration");
+            "that --ocio or the environment variable OCIO names");
+#ifdef CELSPAN_WITHOUT_SPACES
+  throw Failure(CELSPAN_BAD_ARGUMENT, "this celspan was built without OpenColorIO; build it with "
+                                      "-Dspaces=enabled");
+#else
+  try {
+    reader.processor = make_conversion({getenv("OCIO"), space, "", "", true}).processor;
+  } catch (const ConversionFailure &e) {
+    throw Failure(CELSPAN_BAD_ARGUMENT, e.what());
+  }
+#endif
 }
 
 /* Whole rows of the chosen channels as they are stored. Asked for another type, the library would
@@ -442,8 +453,10 @@ void apply_space(const cs_picture_reader &reader, float *rgba, int32_t width, in
     if (is_coded && rgba[4 * i + 3] > 0)
       for (int c = 0; c < 3; c++)
         rgba[4 * i + c] /= rgba[4 * i + 3];
-  const ptrdiff_t pixel = 4 * sizeof(float);
-  reader.processor->apply(rgba, width, height, 4, sizeof(float), pixel, pixel * width);
+#ifndef CELSPAN_WITHOUT_SPACES
+  for (int64_t i = 0; i < int64_t(width) * height; i++)
+    reader.processor->applyRGB(rgba + 4 * i);
+#endif
   for (int64_t i = 0; i < int64_t(width) * height; i++)
     for (int c = 0; c < 3; c++)
       rgba[4 * i + c] *= rgba[4 * i + 3];

@@ -275,14 +275,13 @@ for _, option in ipairs(request.given) do
     program.usage("%s: there are more than %d options", option.name, OPTIONS_MOST)
   end
 end
-local film = program.film()
-if request.table then count_rows(job, film) else count_tasks(job, film) end
-local text, message
-if request.openjd then
-  text, message = program.part("openjd.lua", program, film, job, names)
-else
-  text, message = (request.slurm and slurm or commands)(job)
+-- The machines of a farm do not have this machine's environment.
+local configuration = os.getenv "OCIO"
+if configuration and not request.ocio then
+  table.insert(job.options, { name = "--ocio", value = configuration })
 end
+count_tasks(job)
+local text, message = (request.slurm and slurm or request.openjd and openjd or commands)(job)
 if not text then program.usage("%s", message) end
 io.write(text)
 if request.slurm and job.tasks > ARRAY_MOST then

@@ -19,8 +19,9 @@ local environment = {
     "the file of the module celspan-picture.so, if celspan does not find it" },
   { "CELSPAN_ART_MODULE", "the same for celspan-art.so: type, drawings, paintings" },
   { "CELSPAN_COLOUR_MODULE", "the same for celspan-colour.so: colour profiles" },
+  { "CELSPAN_SPACE_MODULE", "the same for celspan-space.so: spaces of OpenColorIO" },
   { "CELSPAN_WEB_MODULE", "the same for celspan-web.so: watch and play" },
-  { "OCIO", "an OpenColorIO configuration: its colour spaces may be named in colour" },
+  { "OCIO", "an OpenColorIO configuration: its spaces may be named in colour and --colour" },
 }
 
 local verbs = program.verbs()
