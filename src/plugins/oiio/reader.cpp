@@ -296,6 +296,7 @@ void choose_space(cs_picture_reader &reader, const char *space) {
             "\"rec709\" and \"cineon\" are, and the spaces of an OpenColorIO configuration "
             "that --ocio or the environment variable OCIO names");
 #ifdef CELSPAN_WITHOUT_SPACES
+  static_cast<void>(reader);
   throw Failure(CELSPAN_BAD_ARGUMENT, "this celspan was built without OpenColorIO; build it with "
                                       "-Dspaces=enabled");
 #else
