@@ -280,8 +280,14 @@ local configuration = os.getenv "OCIO"
 if configuration and not request.ocio then
   table.insert(job.options, { name = "--ocio", value = configuration })
 end
-count_tasks(job)
-local text, message = (request.slurm and slurm or request.openjd and openjd or commands)(job)
+local film = program.film()
+if request.table then count_rows(job, film) else count_tasks(job, film) end
+local text, message
+if request.openjd then
+  text, message = program.part("openjd.lua", program, film, job, names)
+else
+  text, message = (request.slurm and slurm or commands)(job)
+end
 if not text then program.usage("%s", message) end
 io.write(text)
 if request.slurm and job.tasks > ARRAY_MOST then
