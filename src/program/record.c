@@ -53,6 +53,8 @@ static cs_hash hash_options(const cs_script *script, const cs_request *request,
   cs_hash_text(&hash, cs_request_text(request, "--format"));
   if (cs_request_has(request, "--strip"))
     cs_hash_text(&hash, "strip");
+  if (cs_request_has(request, "--layers"))
+    cs_hash_text(&hash, "layers");
   cs_hash_text(&hash, script->film.title);
   cs_hash_number(&hash, script->film.frames_second);
   cs_hash_word(&hash, script->film.count > 1);

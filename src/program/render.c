@@ -10,8 +10,10 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/context.h"
+#include "frames/apart/apart.h"
 #include "frames/film/shoot.h"
 #include "frames/plane/plane.h"
 #include "frames/video/video.h"
@@ -31,6 +33,7 @@ typedef struct render_job {
   const cs_request *request;
   const char *output; /* NULL: digests alone */
   bool has_digests, resumes, keeps_going;
+  bool has_layers, has_noted; /* noted: that the layers do not add up to the frame */
   cs_frame_change change;
   celspan_frame_desc frame;
   cs_sequence frames;
@@ -176,11 +179,24 @@ static const char *destination_of(const render_job *job, const cs_shoot_frame *f
                                        : frame->path;
 }
 
+/* Says once in a run that layers over each other are not the frame. */
+static void tell_layers(render_job *job, int64_t number, const cs_film_frame *built) {
+  char why[CS_APART_WHY];
+  if (!job->has_layers || job->has_noted ||
+      cs_apart_sums(built->exposures, built->count, job->script->film.space, why))
+    return;
+  cs_report_note("frame %" PRId64 ": its layers over each other are not the frame: %s", number,
+                 why);
+  job->has_noted = true;
+}
+
 static celspan_status build(void *user, int64_t number, cs_film_frame *out) {
-  const render_job *job = user;
+  render_job *job = user;
   cs_film_frame built;
   CS_TRY(cs_lua_film_build(job->script->L, CS_SCRIPT_FILM, number, &built));
   celspan_status status = cs_change_frame(job->script->context, &job->change, &built);
+  if (status == CELSPAN_OK)
+    tell_layers(job, number, &built);
   if (status == CELSPAN_OK)
     *out = built;
   else
@@ -277,6 +293,7 @@ static celspan_status run_shoot(render_job *job) {
                                  : job->is_plane ? put_plane
                                  : is_stream     ? put_raw
                                                  : NULL,
+                          .write = job->has_layers ? cs_apart_write_exr : NULL,
                           .keep = job->resumes ? keep : NULL,
                           .build = build,
                           .finished = finished,
@@ -416,6 +433,23 @@ static cs_exit refuse_division(const cs_request *request, const char *output) {
   return CS_EXIT_OK;
 }
 
+/* Refuses layers where the output can have none. */
+static cs_exit refuse_layers(const cs_request *request, const char *output) {
+  celspan_transfer transfer = CELSPAN_TRANSFER_LINEAR;
+  if (!cs_request_has(request, "--layers"))
+    return CS_EXIT_OK;
+  const char *format = cs_request_text(request, "--format");
+  const char *ending = format ? format : output ? cs_file_ending(output) : "";
+  if (strcasecmp(ending, "exr") != 0 && strcasecmp(ending, "openexr") != 0)
+    return cs_report_usage("--layers: only OpenEXR files have layers: give -o shot.####.exr");
+  if (cs_request_has(request, "--hash"))
+    return cs_report_usage("--hash is of one picture: leave it or --layers out");
+  cs_request_read(request, "--colour", &transfer);
+  return transfer == CELSPAN_TRANSFER_LINEAR
+             ? CS_EXIT_OK
+             : cs_report_usage("--layers are in linear light: leave --colour out");
+}
+
 /* Refuses wrong requests as far as possible without running the script. */
 static cs_exit refuse_early(celspan_context *context, const cs_request *request) {
   const char *output = cs_request_text(request, "-o");
@@ -424,6 +458,7 @@ static cs_exit refuse_early(celspan_context *context, const cs_request *request)
   CS_TRY_EXIT(refuse_resume(request, output));
   CS_TRY_EXIT(refuse_dither(request));
   CS_TRY_EXIT(refuse_division(request, output));
+  CS_TRY_EXIT(refuse_layers(request, output));
   if (output && cs_target_is_stream(output))
     return refuse_stream(request);
   return refuse_output(context, request, 0);
@@ -538,6 +573,7 @@ static cs_exit run(cs_script *script, const cs_request *request) {
                     .has_digests = cs_request_has(request, "--hash"),
                     .resumes = cs_request_has(request, "--resume"),
                     .keeps_going = cs_request_has(request, "--keep-going"),
+                    .has_layers = cs_request_has(request, "--layers"),
                     .change = cs_change_read(request)};
   const cs_film_frame unknown = {0};
   cs_exit outcome = cs_view_frame(request, script->film.width, script->film.height, &job.frame);

@@ -93,6 +93,11 @@
     "--cel", "NAME", &cs_argument_cel,                                                             \
         "only the cels with this name (cel:named), with their lights"                              \
   }
+#define LAYERS                                                                                     \
+  {                                                                                                \
+    "--layers", "WHAT", &cs_argument_layers,                                                       \
+        "cels: an OpenEXR file also has each cel alone, as channels NAME.R NAME.G NAME.B NAME.A"   \
+  }
 #define ONION                                                                                      \
   {                                                                                                \
     "--onion", "B,A", &cs_argument_onion,                                                          \
@@ -184,6 +189,7 @@ static const cs_option RENDER[] = {
     VIDEO,
     BACKGROUND,
     CEL,
+    LAYERS,
     ONION,
     WORKERS,
     PROGRESS,
@@ -402,6 +408,7 @@ static const cs_option FARM[] = {
     VIDEO,
     BACKGROUND,
     CEL,
+    LAYERS,
     ONION,
     FORCE,
     KEEP_GOING,

@@ -47,6 +47,8 @@ return {
   program = { "golden/golden", "spec/change", "spec/cli", "spec/sequence", "spec/shown",
     "spec/video" },
   raster = { "spec/raster" },
+  exr = { "spec/raster", "spec/apart" },
+  apart = { "spec/apart" },
   ["program.c"] = { "spec/install", "spec/container" },
   process = { "spec/stop", "spec/decoder", "spec/tiles", "spec/video" },
   still = { "spec/span", "spec/formats", "property/spanfile", "spec/cli" },

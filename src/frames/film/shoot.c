@@ -166,6 +166,8 @@ static celspan_status make_frame(const job *j, celspan_context *context,
         context, desc, frame->path,
         cs_plane_depth(shoot->file.coding ? shoot->file.coding->depth : CELSPAN_DEPTH_DEFAULT));
   celspan_file_desc file = describe_file(j, frame->number, desc);
+  if (shoot->write)
+    return shoot->write(context, desc, frame->path, &file);
   return shoot->has_digests ? make_both(context, desc, frame->path, &file, frame->digest)
                             : celspan_frame_write(context, desc, frame->path, &file, NULL);
 }

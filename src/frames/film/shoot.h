@@ -57,6 +57,9 @@ typedef struct cs_shoot {
    * the frame was not made, and frame->digest where there are digests. Calling thread, in order.
    * NULL: files. */
   celspan_status (*put)(void *user, const celspan_frame_desc *desc, cs_shoot_frame *frame);
+  /* Writes the file of a frame instead of celspan_frame_write. Any thread. NULL: that one. */
+  celspan_status (*write)(celspan_context *context, const celspan_frame_desc *desc,
+                          const char *path, const celspan_file_desc *file);
   /* Whether the frame exists already. Its number, path and hashes are set; where there are digests,
    * this function sets the frame's. Calling thread. NULL: no frame exists. */
   bool (*keep)(void *user, cs_shoot_frame *frame);

@@ -20,7 +20,7 @@ extern "C" {
 
 #define CS_PICTURE_MODULE_VERSION 5u
 #define CS_PICTURE_SIDE 1048576
-#define CS_PICTURE_CHANNELS 64
+#define CS_PICTURE_CHANNELS 1024
 
 typedef struct cs_picture_failure {
   celspan_status status;

@@ -520,8 +520,8 @@ std::unique_ptr<cs_picture_reader> make_reader(const cs_picture_request &request
   if (spec.depth > 1)
     throw Failure(CELSPAN_INPUT, "is a volume, not a picture");
   if (spec.nchannels < 1 || spec.nchannels > CS_PICTURE_CHANNELS)
-    throw Failure(CELSPAN_LIMIT,
-                  "has " + std::to_string(spec.nchannels) + " channels; at most 64 are read");
+    throw Failure(CELSPAN_LIMIT, "has " + std::to_string(spec.nchannels) + " channels; at most " +
+                                     std::to_string(CS_PICTURE_CHANNELS) + " are read");
   choose_space(*reader, request.space);
   return reader;
 }

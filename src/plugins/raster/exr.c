@@ -12,8 +12,7 @@ enum {
   DEEP = 0x800,
   PARTS = 0x1000,
   PACKED_NONE = 0,
-  PACKED_RUNS = 1,
-  PACKED_ROW = 2 /* zlib, one row */
+  PACKED_RUNS = 1
 };
 
 typedef struct channel {
@@ -29,8 +28,8 @@ typedef struct window {
 typedef struct reading {
   const cs_raster_file *file;
   size_t at;
-  bool is_over; /* a read went beyond the end */
-  channel channels[CS_PICTURE_CHANNELS];
+  bool is_over;      /* a read went beyond the end */
+  channel *channels; /* CS_PICTURE_CHANNELS; owned */
   int count;
   int packing;
   window data, shown;
@@ -82,7 +81,8 @@ static celspan_status read_channels(reading *r) {
   char name[NAME];
   while (take_name(r, name)) {
     if (r->count == CS_PICTURE_CHANNELS)
-      return cs_raster_fail(r->failure, CELSPAN_LIMIT, "has more than 64 channels");
+      return cs_raster_fail(r->failure, CELSPAN_LIMIT, "has more than %d channels",
+                            CS_PICTURE_CHANNELS);
     channel *c = &r->channels[r->count++];
     memcpy(c->name, name, NAME);
     c->type = (cs_exr_type)number(r);
@@ -188,7 +188,8 @@ static void choose_colour(reading *r) {
 
 /* ---------------------------------------------------------------- rows */
 
-void cs_exr_restore(unsigned char *from, size_t size, unsigned char *out) {
+/* The reverse of what is done before compression: changes `from`, and fills `out`. */
+static void restore(unsigned char *from, size_t size, unsigned char *out) {
   for (size_t i = 1; i < size; i++)
     from[i] = (unsigned char)(from[i] + from[i - 1] - 128);
   for (size_t i = 0; i < size; i++)
@@ -220,11 +221,11 @@ static bool unpack(reading *r, const unsigned char *from, size_t size, size_t ro
     return true;
   }
   bool is_good = r->packing == PACKED_RUNS ? unpack_runs(from, size, r->scratch, room)
-                 : r->packing >= PACKED_ROW
+                 : r->packing >= CS_EXR_ROW
                      ? uncompress(r->scratch, &got, from, (uLong)size) == Z_OK && got == room
                      : false;
   if (is_good)
-    cs_exr_restore(r->scratch, room, r->rows);
+    restore(r->scratch, room, r->rows);
   return is_good;
 }
 
@@ -317,6 +318,9 @@ static bool is_sane(window w) {
 celspan_status cs_raster_exr(const cs_raster_file *file, cs_raster *out,
                              cs_picture_failure *failure) {
   reading r = {.file = file, .out = out, .failure = failure};
+  r.channels = malloc(CS_PICTURE_CHANNELS * sizeof *r.channels);
+  if (!r.channels)
+    return cs_raster_fail(failure, CELSPAN_NO_MEMORY, "out of memory");
   celspan_status status = read_header(&r);
   if (status == CELSPAN_OK)
     status = choose_channels(&r);
@@ -328,6 +332,7 @@ celspan_status cs_raster_exr(const cs_raster_file *file, cs_raster *out,
                             (uint64_t)((int64_t)r.shown.y1 - r.shown.y0 + 1), failure);
   if (status == CELSPAN_OK)
     status = read_chunks(&r);
+  free(r.channels);
   free(r.rows);
   free(r.scratch);
   return status;
