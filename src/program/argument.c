@@ -157,15 +157,16 @@ static bool read_rate(const cs_argument *kind, const char *text, void *field) {
   return true;
 }
 
-/* A number of bytes in thousands, millions or thousands of millions. */
+/* A number of bytes, also in thousands, millions or thousands of millions. */
 static bool read_millions(const cs_argument *kind, const char *text, void *field) {
   static const char units[] = "kMG";
   char *end = NULL;
   double number = strtod(text, &end);
   const char *unit = *end ? strchr(units, *end) : NULL;
-  if (end == text || has_space(text) || !unit || end[1])
+  if (end == text || has_space(text) || (*end && (!unit || end[1])))
     return false;
-  number *= pow(1000, (double)(unit - units + 1));
+  if (unit)
+    number *= pow(1000, (double)(unit - units + 1));
   if (!(number >= kind->least && number <= kind->most))
     return false;
   *(double *)field = number;
@@ -196,7 +197,7 @@ NUMBERS(port, "the number of a port, 1 to 65535", read_integer, 1, 65535, 0);
 NUMBERS(memory, "a whole number of MiB from 0 to 1048576", read_integer, 0, 1048576, 0);
 NUMBERS(quality, "a whole number from 0 to 100", read_integer, 0, 100, 0);
 NUMBERS(crf, "a whole number from 0 to 63", read_integer, 0, 63, 0);
-NUMBERS(millions, "thousands, millions or thousands of millions of bytes such as 500k, 8M or 1.5G",
+NUMBERS(millions, "at least 10,000 bytes, such as 500k, 8M, 1.5G (in thousands) or 8000000",
         read_millions, 10000, 1e15, 0);
 NUMBERS(rate, "frames per second from 0.01 to 1000, such as 25 or 30000/1001", read_rate, 0.01,
         1000, 0);

@@ -59,17 +59,27 @@ bool cs_video_target_is_wanted(const cs_request *request, size_t frame_count) {
   return frame_count != 1 && !cs_sequence_has_number(cs_request_text(request, "-o"));
 }
 
+/* Whether a codec of the format has a quality that --max-size can choose. */
+static bool contains_limited(const cs_video_format *format) {
+  for (size_t i = 0; i < CS_VIDEO_CODECS && format->codecs[i]; i++)
+    if (format->codecs[i]->most_crf > 0)
+      return true;
+  return false;
+}
+
 /* Refuses --max-size where the quality cannot be changed, or is given. */
 static cs_exit refuse_limit(const cs_request *request, const cs_video_codec *codec) {
   static const char *const options[] = {"--quality", "--crf"};
   for (size_t i = 0; i < sizeof options / sizeof *options; i++)
     if (cs_request_has(request, options[i]))
       return cs_report_usage("--max-size chooses the quality: leave %s out", options[i]);
-  return codec->most_crf > 0
-             ? CS_EXIT_OK
-             : cs_report_usage("%s: --max-size is for h264, h265, av1 and vp9, whose quality can "
-                               "be chosen finely enough: leave it out, or give another --codec",
-                               cs_request_text(request, "-o"));
+  if (codec->most_crf > 0)
+    return CS_EXIT_OK;
+  return cs_report_usage("%s: --max-size is for h264, h265, av1 and vp9, whose quality can be "
+                         "chosen finely enough: leave it out, or %s",
+                         cs_request_text(request, "-o"),
+                         contains_limited(format_of(request)) ? "give another --codec"
+                                                              : "write .mp4, .webm or .mkv");
 }
 
 static cs_exit refuse_codec(const cs_request *request, const cs_video_format *format) {
@@ -118,7 +128,7 @@ static cs_exit refuse_options(const cs_request *request, const cs_video_format *
     return cs_report_usage("%s: a video takes --depth 8 or 16", output);
   if (!cs_video_pixels(&options))
     return cs_report_usage(
-        "%s: %s holds 8 bits%s: leave --depth 16 out, or write .mov", output, format->name,
+        "%s: %s holds 8 bits%s: leave --depth 16 out, or write .mov", output, options.codec->name,
         options.codec->deep_pixels ? " where it has alpha (--background takes it away)" : "");
   return CS_EXIT_OK;
 }
@@ -144,10 +154,10 @@ static cs_exit refuse_size(const cs_video_desc *video) {
                            output, (int)width, (int)height, codec->name, (int)codec->least_width,
                            (int)codec->least_height);
   if (codec->is_halved && (even_width != width || even_height != height))
-    return cs_report_usage("%s: %d x %d pixels: %s needs an even width and height: give --size "
-                           "%dx%d, or write .mov, .webm or .mkv",
-                           output, (int)width, (int)height, video->format->name, (int)even_width,
-                           (int)even_height);
+    return cs_report_usage("%s: %d x %d pixels: %s needs an even width and height in %s: give "
+                           "--size %dx%d, or write .webm or .mkv",
+                           output, (int)width, (int)height, codec->name, video->format->name,
+                           (int)even_width, (int)even_height);
   return CS_EXIT_OK;
 }
 

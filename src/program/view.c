@@ -47,7 +47,11 @@ static int32_t fitting(double film_side, double film_other, int32_t other) {
 static cs_exit set_fit(const cs_request *request, celspan_frame_desc *out) {
   cs_fit fit = CS_FIT_STRETCH;
   int32_t width = out->width, height = out->height;
-  if (!cs_request_read(request, "--fit", &fit) || fit == CS_FIT_STRETCH)
+  if (!cs_request_read(request, "--fit", &fit))
+    return CS_EXIT_OK;
+  if (!cs_request_has(request, "--size"))
+    return cs_report_usage("--fit is for a --size of another shape than the film's: give --size");
+  if (fit == CS_FIT_STRETCH)
     return CS_EXIT_OK;
   bool is_wider = (double)width * out->film_height > (double)height * out->film_width;
   if (is_wider == (fit == CS_FIT_CONTAIN))

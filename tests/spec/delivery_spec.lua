@@ -31,6 +31,12 @@ end }
 local COLOURS = { { 0x28, 0x50, 0x6e }, { 0x5a, 0x6e, 0x46 }, { 160, 160, 160 },
   { 0xc8, 0xb4, 0xbe } }
 
+--- A WAV file of one channel with these samples of 16 bits, 48000 a second.
+local function wave(samples)
+  return ("<c4I4c4c4I4I2I2I4I4I2I2c4I4"):pack("RIFF", 36 + #samples, "WAVE", "fmt ", 16, 1, 1,
+    48000, 96000, 2, 16, "data", #samples) .. samples
+end
+
 describe("a delivery", function()
   local bench
 
@@ -144,8 +150,7 @@ describe("a delivery", function()
     assert.same({ 1, 1, 2, 3, 4, 5, 5, 6, 7, 8, 9, 9, 10, 11, 12 }, frames_seen("out.mkv", 256))
     bench:write("film.lua", (FILM:gsub("fps = 24", "%0, sound = 'tone.wav'")))
     local samples = string.rep(string.pack("<i2i2", 8000, -8000), 24000)
-    bench:write("tone.wav", ("<c4I4c4c4I4I2I2I4I4I2I2c4I4"):pack("RIFF", 36 + #samples, "WAVE",
-      "fmt ", 16, 1, 1, 48000, 96000, 2, 16, "data", #samples) .. samples)
+    bench:write("tone.wav", wave(samples))
     render "-o out.mkv --fps 30000/1001 --resume"
     local _, out = bench:inside("ffprobe -v error -show_entries "
       .. "stream=codec_type,r_frame_rate:format=duration -of csv=p=0 out.mkv")
@@ -160,8 +165,7 @@ describe("a delivery", function()
   it_reads("has at most --max-size bytes, and most of them where it can fill them", function()
     bench:write("film.lua", (FILM:gsub("fps = 24", "%0, sound = 'tone.wav'")))
     local samples = string.rep(string.pack("<i2i2", 8000, -8000), 12000)
-    bench:write("tone.wav", ("<c4I4c4c4I4I2I2I4I4I2I2c4I4"):pack("RIFF", 36 + #samples, "WAVE",
-      "fmt ", 16, 1, 1, 48000, 96000, 2, 16, "data", #samples) .. samples)
+    bench:write("tone.wav", wave(samples))
     for _, case in ipairs { { "mp4", "h264", 40 }, { "mp4", "h265", 30 }, { "webm", "vp9", 40 } } do
       local ending, codec, most = table.unpack(case)
       render("-o out.%s --codec %s --max-size %dk -- confetti", ending, codec, most)
@@ -178,6 +182,28 @@ describe("a delivery", function()
     assert.equal(5, code, err)
     assert.truthy(err:find "none.mp4: has %d+ bytes at the lowest quality, and may have 1", err)
     assert.is_nil(bench:read "none.mp4")
+  end)
+
+  --- Puts a program called ffmpeg first in PATH, which adds a line to the file `calls` and runs
+  --- ffmpeg. Returns the setting of PATH.
+  local function counted()
+    local _, where = bench:shell "command -v ffmpeg"
+    assert(os.execute(("mkdir -p '%s/bin'"):format(bench.folder)))
+    bench:write("bin/ffmpeg", ("#!/bin/sh\necho >>'%s/calls'\nexec %s \"$@\"\n"):format(
+      bench.folder, where:match "%S+"))
+    assert(os.execute(("chmod +x '%s/bin/ffmpeg'"):format(bench.folder)))
+    return ("PATH='%s/bin:%s'"):format(bench.folder, os.getenv "PATH")
+  end
+
+  it_reads("is found in a few tries where most bytes do not depend on the quality", function()
+    bench:write("film.lua", (FILM:gsub("frames = 12", "frames = 900"):gsub("4 %* f.index", "9")))
+    render "-o least.mp4 --crf 46"
+    local path = counted()
+    local code, _, err = bench:inside(("%s '%s' render film.lua --progress none -o out.mp4 "
+      .. "--max-size %d"):format(path, workbench.absolute, #bench:read "least.mp4"))
+    assert.equal(0, code, err)
+    assert.is_true(#bench:read "calls" <= 11, #bench:read "calls")
+    assert.is_true(#bench:read "out.mp4" <= #bench:read "least.mp4")
   end)
 
   it_reads("has the marks of the film as chapters", function()
@@ -225,7 +251,10 @@ describe("a delivery", function()
     render "-o out.mp4 --size 256x300 --fit contain --frames 4 --background '#fff'"
     assert.equal("\0\0\0\xff", pixels("out.mp4", 0, 256, 300):sub(1, 4))
     refused("-o bad.mp4 --size 64x64 --fit contain --crop 1,1,4,4", "--fit makes whole frames")
-    refused("-o bad.mp4 --size 64x1048576 --fit cover", "more than 1048576 pixels a side")
+    refused("-o bad.mp4 --size 64x1048576 --fit cover",
+      "--fit cover: the film would have more than 1048576 pixels a side")
+    refused("-o bad.mp4 --fit cover", "--fit is for a --size of another shape")
+    refused("-o bad.mp4 --scale 2 --fit stretch", "--fit is for a --size of another shape")
   end)
 
   it("is refused with a codec that its file does not contain", function()
@@ -235,7 +264,14 @@ describe("a delivery", function()
     refused("-o out.#.png --fps 12", "--fps is only for videos")
     refused("-o out.mp4 --fps 0", "frames per second from 0.01 to 1000")
     refused("-o out.mp4 --fps 30/0", "frames per second from 0.01 to 1000")
-    refused("-o out.mp4 --max-size 8", "bytes such as 500k, 8M or 1.5G")
+    refused("-o out.mp4 --max-size 8", "at least 10,000 bytes, such as 500k, 8M")
+    refused("-o out.mp4 --max-size 8MM", "at least 10,000 bytes, such as 500k, 8M")
+    refused("-o out.mp4 --max-size 10000kB", "at least 10,000 bytes, such as 500k, 8M")
+    refused("-o out.gif --max-size 8000000", "leave it out, or write .mp4, .webm or .mkv")
+    refused("-o out.mov --max-size 8000000", "leave it out, or give another --codec")
+    refused("-o out.mov --codec h264 --size 255x128", "h264 needs an even width and height in mov: "
+      .. "give --size 254x128, or write .webm or .mkv")
+    refused("-o out.mkv --codec vp9 --depth 16", "vp9 holds 8 bits where it has alpha")
     refused("-o out.mp4 --max-size 8M --crf 20", "--max-size chooses the quality")
     refused("-o out.mov --max-size 8M", "--max-size is for h264, h265, av1 and vp9")
     refused("-o out.#.png --max-size 8M", "--max-size is only for videos")

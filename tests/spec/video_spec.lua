@@ -303,8 +303,8 @@ describe("a video", function()
       end
       local code, _, err = celspan "-o odd.mp4 --size 63x41"
       assert.equal(2, code)
-      assert.truthy(err:find("odd.mp4: 63 x 41 pixels: mp4 needs an even width and height: give "
-        .. "--size 62x40", 1, true), err)
+      assert.truthy(err:find("odd.mp4: 63 x 41 pixels: h264 needs an even width and height in mp4: "
+        .. "give --size 62x40, or write .webm or .mkv", 1, true), err)
     end)
 
     it_reads("is larger with more --quality", function()
@@ -491,14 +491,14 @@ end }]])
       ["-o out.####.mp4"] = "leave the frame's number out",
       ["-o out.mp4 --depth float"] = "takes --depth 8 or 16",
       ["-o out.mp4 --colour linear"] = "coded as srgb or rec709",
-      ["-o out.webm --depth 16"] = "webm holds 8 bits where it has alpha",
+      ["-o out.webm --depth 16"] = "vp9 holds 8 bits where it has alpha",
       ["-o out.gif --depth 16"] = "gif holds 8 bits",
       ["-o out.mp4 --quality 101"] = "a whole number from 0 to 100",
       ["-o out.####.png --quality 50"] = "--quality is only for videos",
       ["-o - --quality 50"] = "--quality is only for videos",
       ["-o out.mp4 --size 20000x20"] = "a video has at most 16384 a side",
       ["-o out.mp4 --size 20x20000"] = "a video has at most 16384 a side",
-      ["-o out.mp4 --size 1x7"] = "mp4 needs an even width and height: give --size 2x6",
+      ["-o out.mp4 --size 1x7"] = "h264 needs an even width and height in mp4: give --size 2x6",
       ["-o out.mp4 --size 8x1"] = "give --size 8x2",
     } do
       local code, _, err = celspan(arguments)

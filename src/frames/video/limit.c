@@ -4,8 +4,9 @@
  *   bytes         too many |     too many| fits          two neighbours: the right one is taken
  *
  * The size falls by half in about HALVING factors. So the next try is where the size would fit if
- * this were exact, and the neighbours are found after three or four tries. A constant factor gives
- * every frame the same quality, and needs no record of a first pass.
+ * this were exact, and the neighbours are found after three or four tries. What does not depend on
+ * the factor, such as sound, makes this wrong: after GUESSES tries the middle of what is left is
+ * tried. A constant factor gives every frame the same quality, and needs no record of a first pass.
  */
 #include <errno.h>
 #include <math.h>
@@ -15,6 +16,7 @@
 #include "frames/video/video.h"
 
 #define HALVING 6.0 /* of 51 factors; more where an encoder has more */
+#define GUESSES 3
 
 typedef struct search {
   const cs_video *video;
@@ -22,6 +24,7 @@ typedef struct search {
   int32_t over, fits; /* the greatest factor known to be over the limit, the least that fits */
   int32_t made;       /* the factor of the file as it is */
   double bytes;       /* of that file */
+  int tries;
 } search;
 
 static celspan_status encode(search *s, int32_t crf) {
@@ -43,6 +46,7 @@ static celspan_status encode(search *s, int32_t crf) {
 
 static celspan_status try_factor(search *s, int32_t crf) {
   CS_TRY(encode(s, crf));
+  s->tries++;
   if (s->bytes > (double)s->video->most_bytes)
     s->over = crf;
   else
@@ -53,6 +57,8 @@ static celspan_status try_factor(search *s, int32_t crf) {
 /* A factor between the two that are known, or one of the ends of the scale. */
 static int32_t next(const search *s) {
   const cs_video_codec *codec = s->video->options.codec;
+  if (s->tries >= GUESSES)
+    return s->over + (s->fits - s->over) / 2;
   double ratio = s->bytes / (double)s->video->most_bytes;
   double step = ceil(log2(ratio) * HALVING * codec->most_crf / 51);
   double wanted = fmax(s->over + 1, fmin(s->fits - 1, s->made + step));
