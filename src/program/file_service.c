@@ -24,11 +24,12 @@
 /* ---------------------------------------------------------------- kinds */
 
 /* kind(path) -> the kind of a file, by its first bytes: "folder", "archive", "psd", "svg",
- * "lottie", "span", "plane", "script" or "picture" */
+ * "lottie", "files" (a pattern of numbered pictures), "span", "plane", "script" or "picture" */
 static int kind(lua_State *L) {
   static const char *const artworks[] = {
-      [CS_ARTWORK_FOLDER] = "folder", [CS_ARTWORK_ARCHIVE] = "archive", [CS_ARTWORK_PSD] = "psd",
-      [CS_ARTWORK_SVG] = "svg",       [CS_ARTWORK_LOTTIE] = "lottie",
+      [CS_ARTWORK_FOLDER] = "folder", [CS_ARTWORK_ARCHIVE] = "archive",
+      [CS_ARTWORK_PSD] = "psd",       [CS_ARTWORK_SVG] = "svg",
+      [CS_ARTWORK_LOTTIE] = "lottie", [CS_ARTWORK_FILES] = "files",
   };
   const char *path = luaL_checkstring(L, 1);
   if (cs_service_session(L)->request->script && strcmp(path, "-") == 0) {

@@ -94,6 +94,8 @@ static int open_movie(lua_State *L) {
 void cs_movies_give(lua_State *L) {
   lua_pushcfunction(L, open_movie);
   lua_setfield(L, LUA_REGISTRYINDEX, CS_CORE_MOVIE);
+  lua_pushcfunction(L, cs_movies_is);
+  lua_setfield(L, LUA_REGISTRYINDEX, CS_CORE_IS_MOVIE);
 }
 
 int cs_movies_is(lua_State *L) {

@@ -104,6 +104,20 @@
         "show the drawings of the B frames before (red) and of the A frames after (green) "        \
         "behind the drawing of each frame"                                                         \
   }
+/* The coding of a video. */
+#define VIDEO                                                                                      \
+  {"--quality", "Q", &cs_argument_quality,                                                         \
+   "of a video: 0 (small) to 100 (hardly any loss); default: 75"},                                 \
+      {"--codec", "NAME", &cs_argument_codec,                                                      \
+       "of a video: h264, h265, av1, vp9, prores, prores422, prores422hq, dnxhr, ffv1"},           \
+      {"--max-size", "BYTES", &cs_argument_millions,                                               \
+       "of a video: the highest quality that fits into so many bytes, such as 8M"},                \
+      {"--crf", "N", &cs_argument_crf,                                                             \
+       "the constant rate factor of h264, h265, av1 or vp9, instead of --quality"},                \
+  {                                                                                                \
+    "--loop", "N", &cs_argument_plays,                                                             \
+        "how often a .gif, .webp or .apng is played; default: 0, for ever"                         \
+  }
 #define FORCE                                                                                      \
   {                                                                                                \
     "--force", NULL, NULL,                                                                         \
@@ -187,6 +201,9 @@ static const cs_option RENDER[] = {
     CODING,
     DITHER,
     VIDEO,
+    {"--fps", "N", &cs_argument_rate,
+     "of a video: another rate of frames; the length is the film's, and pictures are held or left "
+     "out"},
     BACKGROUND,
     CEL,
     LAYERS,
@@ -260,7 +277,20 @@ static const cs_option WATCH[] = {
 
 static const cs_option STAGE[] = {WORKERS, SCRIPT, MEMORY, {0}};
 
-static const cs_option CONVERT[] = {FRAME, SIZE, CROP, CODING, WORKERS, PICTURE_RIGHTS, {0}};
+static const cs_option CONVERT[] = {
+    FRAME,
+    SIZE,
+    CROP,
+    CODING,
+    VIDEO,
+    {"--fps", "N", &cs_argument_rate, "of a video of pictures: their rate; default: 24"},
+    {"--sound", "FILE", &cs_argument_file,
+     "of a video: its sound, or a script, of whose film the sound is taken"},
+    BACKGROUND,
+    PROGRESS,
+    WORKERS,
+    PICTURE_RIGHTS,
+    {0}};
 
 static const cs_option PLANE[] = {
     OUTPUT("PAGE", "the page to write, an HTML file"),
@@ -506,7 +536,7 @@ const cs_verb cs_verbs[] = {
      .options = PROBE},
     {"convert", "IN OUT", 2, 2,
      .summary = "Converts a picture, painting, drawing, span or plane file to another format or "
-                "size.",
+                "size; numbered pictures or a movie to a video.",
      .options = CONVERT},
     {"plane", "FILE -o PAGE", 1, 1, .summary = "Makes a page that shows a plane file at any size.",
      .notes = "The plane and its decoder, as WebAssembly, are in the page, which needs nothing "

@@ -257,6 +257,62 @@ describe("a delivery", function()
     refused("-o bad.mp4 --scale 2 --fit stretch", "--fit is for a --size of another shape")
   end)
 
+  it_reads("is made of frames that are there, or of a movie, with the sound of a film", function()
+    bench:write("film.lua", (FILM:gsub("fps = 24", "%0, sound = 'tone.wav'")))
+    bench:write("tone.wav", wave(string.rep(string.pack("<i2i2", 8000, -8000), 12000)))
+    assert(os.execute(("mkdir -p '%s/f'"):format(bench.folder)))
+    render "-o f/f.####.png -- glass"
+    local function convert(arguments)
+      local code, _, err = bench:celspan_inside("convert " .. arguments .. " --progress none")
+      assert.equal(0, code, err)
+    end
+    convert "'f/f.####.png' out.mkv --codec ffv1 --fps 12 --sound film.lua"
+    assert.equal("ffv1", stream("out.mkv").codec_name)
+    for i = 0, 11 do
+      local name = ("f/f.%04d.png"):format(i + 1)
+      assert.is_true(pixels(name, 0, 256, 128) == pixels("out.mkv", i, 256, 128), name)
+    end
+    local _, out = bench:inside("ffprobe -v error -show_entries "
+      .. "stream=codec_type,r_frame_rate:format=duration -of csv=p=0 out.mkv")
+    assert.truthy(out:find("video,12/1", 1, true) and out:find("audio", 1, true), out)
+    assert.is_true(math.abs(tonumber(out:match "\n(%d+%.%d+)") - 1) < 0.02, out)
+    convert "out.mkv again.mkv --codec ffv1 --size 128x64"
+    assert.equal("12", stream("again.mkv").nb_read_frames)
+    local _, sounds = bench:inside("ffprobe -v error -show_entries stream=codec_name -of csv "
+      .. "again.mkv")
+    assert.truthy(sounds:find "flac", sounds)
+    convert "out.mkv one.png --frame 7"
+    assert.is_true(pixels("one.png", 0, 256, 128) == pixels("out.mkv", 6, 256, 128))
+    local code, told, err = bench:celspan_inside "info 'f/f.####.png' --json"
+    assert.equal(0, code, err)
+    assert.truthy(told:find('"frames": 12', 1, true), told)
+    for _, command in ipairs { "contact out.mkv -o sheet.png", "check out.mkv",
+                               "render 'f/f.####.png' --set fps=6 -o slow.gif" } do
+      code, _, err = bench:celspan_inside(command)
+      assert.equal(0, code, err)
+    end
+    assert.is_true(os.remove(bench.folder .. "/f/f.0003.png"))
+    for i = 9, 10 do os.remove(("%s/f/f.%04d.png"):format(bench.folder, i)) end
+    for command, words in pairs {
+      ["'f/f.####.png' bad.mp4"] = "f.####.png: 3 files are missing: 3, 9-10",
+      ["'g/f.####.png' bad.mp4"] = "g/f.####.png: No such file",
+      ["'f/g.####.png' bad.mp4"] = "g.####.png: there are no such files",
+      ["out.mkv bad.mkv --fps 3"] = "--fps is the rate of numbered pictures",
+      ["one.png bad.png --sound film.lua"] = "--sound is for numbered pictures or a movie",
+      ["one.png bad.png --max-size 1M"] = "--max-size is for numbered pictures or a movie",
+      ["out.mkv bad.png"] = "several frames (12) need a number",
+      ["out.mkv bad.mkv --sound none.wav"] = "none.wav",
+    } do
+      code, _, err = bench:celspan_inside("convert " .. command)
+      assert.is_true(code > 0)
+      assert.truthy(err:find(words, 1, true), err)
+      assert.is_nil(bench:read "bad.mp4" or bench:read "bad.mkv" or bench:read "bad.png")
+    end
+    bench:write("short.mkv", bench:read "out.mkv":sub(1, 700))
+    code, _, err = bench:celspan_inside "render short.mkv -o bad.mp4"
+    assert.is_true(code > 0 and err:find("short.mkv", 1, true) ~= nil, err)
+  end)
+
   it("is refused with a codec that its file does not contain", function()
     refused("-o out.mp4 --codec prores", "out.mp4: --codec prores: mp4 contains h264, h265, av1")
     refused("-o out.gif --codec h264", "gif contains gif")

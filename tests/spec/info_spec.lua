@@ -215,8 +215,8 @@ describe("the verb info", function()
                               "tiles %s -o " .. folder .. "/t" } do
         local code, out, err = celspan(verb:format(path))
         assert.same({ 3, "" }, { code, out }, verb)
-        assert.equal(("celspan: error: %s: is not a Lua script, a drawing or a painting, but a "
-          .. "picture or other binary data, which is no film ('celspan info %s' describes it, "
+        assert.equal(("celspan: error: %s: is not a Lua script, a drawing, a painting or a movie, "
+          .. "but a picture or other binary data, which is no film ('celspan info %s' describes it, "
           .. "'celspan convert' makes pictures of it)\n"):format(path, path), err)
       end
     end)

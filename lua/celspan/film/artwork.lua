@@ -3,7 +3,10 @@
 --   .svg, .ora, .kra, .psd     the whole file at its own size: one frame, or for a drawing that
 --                              moves FPS frames for each second
 --   .json, .lottie             the animation; its slots and themes are parameters
+--   a movie, x.####.png        its pictures, one a frame; the sound, and of files the rate, are
+--                              parameters
 local celspan = require "celspan"
+local core = require "celspan.core"
 local fields = require "celspan.fields"
 local layers = require "celspan.layers"
 local ordered = require "celspan.ordered"
@@ -112,12 +115,45 @@ local function animation(path)
   return art:film():with { title = path:match "[^/]*$" }, art.skipped
 end
 
---- What is not shown of it is passed to `show`.
+-- ---------------------------------------------------------------- footage
+
+--- The pictures of a clip as a film with another sound, unless that is "". A frame shows what the
+--- clip shows at its middle: where the rate varies, pictures are held or left out.
+local function shown(clip, path, sound)
+  local w, h = clip.size[1], clip.size[2]
+  return celspan.film {
+    size = clip.size, fps = clip.fps, title = path:match "[^/]*$",
+    frames = math.max(1, math.floor(clip.seconds * clip.fps + 0.5)),
+    sound = sound ~= "" and sound or clip.sound and path or nil,
+    frame = function(f)
+      return celspan.rostrum { celspan.cel {
+        celspan.rect { 0, 0, w, h, texture = clip:at(f.middle) } } }
+    end,
+  }
+end
+
+local SOUND = { "", about = "A sound instead of the file's own" }
+
+local function movie(path)
+  if not core.is_movie((core.find(path))) then return nil end
+  local given = parameters.declare { sound = SOUND }
+  return shown(celspan.footage { file = path }, path, given.sound)
+end
+
+local function files(path)
+  local given = parameters.declare { sound = SOUND,
+    fps = { FPS, min = 0.01, max = 1000, about = "Frames per second" } }
+  return shown(celspan.footage { file = path, fps = given.fps }, path, given.sound)
+end
+
+--- What is not shown of it is passed to `show`. nil: the file is not of this kind.
 ---@param path string Beside the script, else relative to the current folder
----@param kind "svg"|"painting"|"lottie"
+---@param kind "svg"|"painting"|"lottie"|"movie"|"files"
 ---@param show fun(line: string)
----@return celspan.film film
+---@return celspan.film? film
 function artwork.film(path, kind, show)
+  if kind == "movie" then return movie(path) end
+  if kind == "files" then return files(path) end
   if kind == "lottie" then
     local film, skipped = animation(path)
     for _, note in ipairs(skipped) do show(("%s: %s"):format(path, with_advice(note))) end

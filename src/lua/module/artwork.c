@@ -1,13 +1,16 @@
 #include "lua/module/artwork.h"
 #include "lua/bind/require.h"
 
+#include <limits.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/open.h"
+#include "frames/film/sequence.h"
 #include "lua/module/core.h"
 
 enum { HEAD = 64 };
@@ -44,8 +47,22 @@ static bool read_head(const char *path, char head[HEAD + 1]) {
   return is_known && S_ISDIR(facts.st_mode);
 }
 
+/* Whether the folder of a path exists. */
+static bool has_folder(const char *path) {
+  char folder[PATH_MAX];
+  const char *slash = strrchr(path, '/');
+  int size = slash ? snprintf(folder, sizeof folder, "%.*s/", (int)(slash - path), path) : 0;
+  return size == 0 || (size > 0 && (size_t)size < sizeof folder && access(folder, F_OK) == 0);
+}
+
+static bool is_pattern(const char *path) {
+  return cs_sequence_has_number(path) && access(path, F_OK) != 0 && has_folder(path);
+}
+
 cs_artwork cs_artwork_of(const char *path) {
   char head[HEAD + 1] = {0};
+  if (is_pattern(path))
+    return CS_ARTWORK_FILES;
   return read_head(path, head) ? CS_ARTWORK_FOLDER
          : strncmp(head, "PK\3\4", 4) == 0
              ? is_lottie(head, path) ? CS_ARTWORK_LOTTIE : CS_ARTWORK_ARCHIVE
@@ -63,6 +80,8 @@ void cs_artwork_push_film(lua_State *L, const char *path, cs_artwork kind) {
   lua_pushstring(L, slash ? slash + 1 : path);
   lua_pushstring(L, kind == CS_ARTWORK_SVG      ? "svg"
                     : kind == CS_ARTWORK_LOTTIE ? "lottie"
+                    : kind == CS_ARTWORK_FILES  ? "files"
+                    : kind == CS_ARTWORK_NONE   ? "movie"
                                                 : "painting");
   lua_getglobal(L, "print");
   lua_call(L, 3, 1);

@@ -110,8 +110,8 @@ static int refuse_result(lua_State *L, const char *path) {
 /* The message of all verbs that take films for a file that is not a film. */
 static int refuse_file(lua_State *L, const char *path) {
   return luaL_error(L,
-                    "%s: is not a Lua script, a drawing or a painting, but a picture or other "
-                    "binary data, which is no film ('celspan info %s' describes it, 'celspan "
+                    "%s: is not a Lua script, a drawing, a painting or a movie, but a picture or "
+                    "other binary data, which is no film ('celspan info %s' describes it, 'celspan "
                     "convert' makes pictures of it)",
                     path, path);
 }
@@ -144,6 +144,15 @@ static int load(lua_State *L, call *c) {
   return outcome;
 }
 
+/* Pushes the film of a file that is no script; false: it is one, or no film. */
+static bool push_artwork(lua_State *L, const char *path) {
+  cs_artwork artwork = cs_artwork_of(path);
+  if (artwork == CS_ARTWORK_FOLDER || (artwork == CS_ARTWORK_NONE && cs_lua_script_accepts(path)))
+    return false;
+  cs_artwork_push_film(L, path, artwork);
+  return !lua_isnil(L, -1);
+}
+
 /* light userdata -> film. Runs protected. */
 static int run(lua_State *L) {
   call *c = lua_touserdata(L, 1);
@@ -153,11 +162,8 @@ static int run(lua_State *L) {
   cs_host_allow(L, folder);
   if (!cs_host_confines(L))
     set_search_path(L, folder); /* a sandbox has its own `require` */
-  cs_artwork artwork = c->text ? CS_ARTWORK_NONE : cs_artwork_of(c->path);
-  if (artwork > CS_ARTWORK_FOLDER) {
-    cs_artwork_push_film(L, c->path, artwork);
+  if (!c->text && push_artwork(L, c->path))
     return 1;
-  }
   int outcome = load(L, c);
   if (outcome == LUA_ERRSYNTAX && cs_lua_error_position(lua_tostring(L, -1)) == 0)
     return luaL_error(L, "%s: %s", c->path, lua_tostring(L, -1)); /* a compiled chunk */

@@ -82,10 +82,12 @@ static int call_program(lua_State *L, const char *name, const char *what) {
   return 2;
 }
 
-/* core.hear(path, tried), core.movie(path, tried): see core.h. */
+/* core.hear(path, tried), core.movie(path, tried), core.is_movie(path): see core.h. */
 static int hear(lua_State *L) { return call_program(L, CS_CORE_HEAR, "sounds"); }
 
 static int movie(lua_State *L) { return call_program(L, CS_CORE_MOVIE, "movies"); }
+
+static int is_movie(lua_State *L) { return call_program(L, CS_CORE_IS_MOVIE, "movies"); }
 
 static const luaL_Reg core_functions[] = {{"find", find},
                                           {"nearest", nearest},
@@ -100,6 +102,7 @@ static const luaL_Reg core_functions[] = {{"find", find},
                                           {"sounds", cs_lua_film_sounds},
                                           {"hear", hear},
                                           {"movie", movie},
+                                          {"is_movie", is_movie},
                                           {"difference", cs_difference_of},
                                           {"painting", cs_painting_read},
                                           {"archive", cs_archive_member},

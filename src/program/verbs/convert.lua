@@ -1,10 +1,79 @@
---- celspan convert IN OUT: converts a picture to another format, or a drawing or a layered painting
---- to a picture.
+--- celspan convert IN OUT: converts a picture to another format, a drawing or a layered painting to
+--- a picture, and numbered pictures or a movie to a video or other pictures.
+---
+---   frames.####.png --celspan render--> film.mp4      the pictures are a film (artwork.lua)
+---   film.lua --celspan sound--> a temporary file --^
 local program, request = ...
 
+local ONLY_VIDEO = { "quality", "codec", "max_size", "crf", "loop", "fps", "sound", "background",
+                     "progress" }
+local OWN = { ["--fps"] = true, ["--sound"] = true, ["--frame"] = true }
+
+--- Runs this program, whose messages are shown. Returns its exit code.
+local function run(words)
+  local process, message = program.start(words, io.stderr)
+  if not process then program.fail("output", "celspan cannot be started: %s", message) end
+  local _, code = program.wait()
+  return code or 1
+end
+
+--- Frames per second, as a number in digits.
+local function rate()
+  local above, below = request.fps:match "^(.*)/(.*)$"
+  return ("%.17g"):format((above or request.fps) / (below or 1))
+end
+
+--- Writes the sound of a script to a temporary file. Returns its name, or nil and the exit code.
+local function mix(script)
+  local name = os.tmpname()
+  os.remove(name)
+  local code = run { "sound", script, "-o", name .. ".wav" }
+  return code == 0 and name .. ".wav", code
+end
+
+--- Makes the output of a film of pictures; returns the exit code.
+local function render(input, output)
+  local words, settings = { "render", input, "-o", output }, {}
+  local function add(...) table.move({ ... }, 1, select("#", ...), #words + 1, words) end
+  local sound, made, code = request.sound, nil, nil
+  if request.frame then add("--frames", request.frame) end
+  if request.fps then settings[1] = { "fps", rate() } end
+  if sound and program.kind(sound) == "script" then
+    made, code = mix(sound)
+    if not made then return code end
+    sound = made
+  end
+  if sound then
+    sound = program.resolve(sound)
+    settings[#settings + 1] = { "sound", sound }
+    add("--allow", sound:match "^(.*/)")
+  end
+  code = run(program.pass_on(words, request, OWN, settings))
+  if made then os.remove(made) end
+  return code
+end
+
+local kind = program.kind(request[1])
+local is_files = kind == "files"
+if is_files or kind == "picture" and program.is_movie(request[1]) then
+  if request.fps and not is_files then
+    program.usage("--fps is the rate of numbered pictures, and %s has its own", request[1])
+  end
+  return render(request[1], request[2])
+end
+if program.has_number(request[1]) then
+  local file, message = io.open(request[1])
+  if not file then program.fail("input", "%s", message) end
+  file:close()
+end
+for _, name in ipairs(ONLY_VIDEO) do
+  if request[name] then
+    program.usage("--%s is for numbered pictures or a movie", (name:gsub("_", "-")))
+  end
+end
 if program.has_number(request[2]) then
   program.usage("%s: one picture is written, so its name has no place for a number", request[2])
 end
 program.refuse_target(request[2])
-if program.kind(request[1]) == "plane" then program.refuse_self(request[1], request[2]) end
+if kind == "plane" then program.refuse_self(request[1], request[2]) end
 program.convert(request[1], request[2])

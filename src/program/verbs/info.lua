@@ -266,7 +266,7 @@ local put = {
 
 local kind = program.kind(path)
 if kind == "picture" and program.is_movie(path) then kind = "movie" end
-local is_film = kind == "script" or kind == "lottie"
+local is_film = kind == "script" or kind == "lottie" or kind == "files"
 if not is_film and request.parameters then
   program.usage("--parameters is for scripts: %s is not a script", path)
 end
