@@ -1047,6 +1047,7 @@ function frame:random(label, m, n) end
 ---@field sound? string|celspan.film.sound|celspan.film.sound[] A file, a sound, or a list of sounds, which are mixed
 ---@field sound_offset? number Seconds by which all sounds begin later; a negative value cuts the beginning; -1e9 to 1e9; default 0
 ---@field marks? table<string, integer> Names of frames, { title = 1 }, for --frames
+---@field captions? string|celspan.captions A .srt or .vtt file, or captions: a track of subtitles in videos
 ---@field poster? integer|string The frame that stands for the film, by its number or a time such as "2s"
 ---@field frame fun(f: celspan.frame): celspan.exposures A pure function of f
 

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "lua/module/subtitles.h"
 #include "output/sinks/file.h"
 #include "program/soundtrack.h"
 #include "program/spaces.h"
@@ -189,6 +190,26 @@ static cs_exit set_sound(cs_video_desc *video, cs_script *script, const cs_reque
   return CS_EXIT_OK;
 }
 
+/* ---------------------------------------------------------------- captions */
+
+/* The captions while these frames are played. They remain on the script's stack, and therefore live
+ * as long as the script. */
+static cs_exit set_captions(cs_video_desc *video, cs_script *script, const cs_sequence *frames) {
+  const cs_film_info *film = &script->film;
+  if (!film->has_captions || !cs_sequence_is_run(frames))
+    return CS_EXIT_OK;
+  if (!video->format->captions) {
+    cs_report_note("%s: %s holds no captions: they are left out", video->path, video->format->name);
+    return CS_EXIT_OK;
+  }
+  celspan_status status = cs_subtitles_push(
+      script->L, CS_SCRIPT_FILM, (double)(frames->frames[0] - film->first) / film->frames_second,
+      (double)frames->count / film->frames_second);
+  const char *text = status == CELSPAN_OK ? lua_tostring(script->L, -1) : "";
+  video->captions = text[0] ? text : NULL;
+  return cs_report_failure(script->context, status, NULL);
+}
+
 /* ---------------------------------------------------------------- opening */
 
 /* The sound belongs to the video as soon as it is opened. */
@@ -233,5 +254,13 @@ cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request 
   cs_video_desc desc = describe(script, request, frame);
   CS_TRY_EXIT(refuse_size(&desc));
   CS_TRY_EXIT(refuse_rate(&desc));
-  return open_with_chapters(out, script, request, &desc, played);
+  CS_TRY_EXIT(set_captions(&desc, script, played));
+  CS_TRY_EXIT(set_sound(&desc, script, request, played));
+  char *chapters;
+  celspan_status status = cs_chapters_make(script, played, &chapters);
+  desc.chapters = chapters;
+  if (status == CELSPAN_OK)
+    status = cs_video_open(out, script->context, &desc);
+  cs_chapters_free(script, chapters);
+  return cs_report_failure(script->context, status, NULL);
 }

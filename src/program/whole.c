@@ -2,6 +2,7 @@
 
 #include <stdio.h>
 
+#include "lua/module/subtitles.h"
 #include "program/soundtrack.h"
 #include "program/video_target.h"
 
@@ -26,6 +27,22 @@ static void hash_options(cs_hash *hash, const cs_request *request) {
   cs_hash_word(hash, cs_request_has(request, "--no-dither"));
 }
 
+/* Marks and captions, which are in videos. */
+static celspan_status hash_texts(cs_hash *hash, cs_script *script) {
+  const cs_film_info *film = &script->film;
+  for (size_t i = 0; i < film->mark_count; i++) {
+    cs_hash_text(hash, film->marks[i].name);
+    cs_hash_word(hash, (uint64_t)film->marks[i].frame);
+  }
+  if (!film->has_captions)
+    return CELSPAN_OK;
+  CS_TRY(
+      cs_subtitles_push(script->L, CS_SCRIPT_FILM, 0, (double)film->count / film->frames_second));
+  cs_hash_text(hash, lua_tostring(script->L, -1));
+  lua_pop(script->L, 1);
+  return CELSPAN_OK;
+}
+
 celspan_status cs_whole_begin(cs_whole *whole, cs_script *script, const cs_request *request,
                               const cs_sequence *frames) {
   cs_hash hash = cs_hash_begin(frames->count);
@@ -34,6 +51,7 @@ celspan_status cs_whole_begin(cs_whole *whole, cs_script *script, const cs_reque
     cs_hash_word(&hash, (uint64_t)frames->frames[i]);
   if (script->film.has_sound)
     CS_TRY(cs_soundtrack_hash(script, &hash));
+  CS_TRY(hash_texts(&hash, script));
   whole->file.is_named = true;
   whole->file.scene = hash;
   return CELSPAN_OK;

@@ -227,6 +227,64 @@ describe("a delivery", function()
     assert.equal("12", stream("out.mp4").nb_read_frames)
   end)
 
+  --- The captions that a video has, as SubRip without numbers.
+  local function captions_of(name)
+    local code, out, err = bench:inside("ffmpeg -v error -i " .. name .. " -map 0:s -f srt -")
+    assert.equal(0, code, err)
+    return (out:gsub("\r", ""):gsub("^%d+\n", ""):gsub("\n%d+\n", "\n"):gsub("%s+$", ""))
+  end
+
+  it_reads("has the captions of the film as subtitles", function()
+    bench:write("said.vtt", "WEBVTT\n\n00:00.000 --> 00:00.200\n<i>Good</i> day\n\n"
+      .. "00:00.250 --> 00:09.000\n<v Ann>Caf\xc3\xa9 &amp; more:\nso = 1; # \\\n")
+    bench:write("film.lua", (FILM:gsub("fps = 24", "%0, captions = 'said.vtt', marks = { a = 1 }")))
+    local kinds = { mp4 = "mov_text", mov = "mov_text", mkv = "subrip", webm = "webvtt" }
+    for ending, kind in pairs(kinds) do
+      render("-o out.%s", ending)
+      local _, out = bench:inside("ffprobe -v error -select_streams s -show_entries "
+        .. "stream=codec_name -of csv=p=0 out." .. ending)
+      assert.equal(kind, out:match "[%w_]+", out)
+      local text = captions_of("out." .. ending)
+      assert.truthy(text:find("^00:00:00,000 %-%-> 00:00:00,200\nGood day"), text)
+      assert.truthy(text:find("00:00:00,250 --> 00:00:00,500\nCaf\xc3\xa9 & more:\nso = 1; # \\", 1,
+        true), text)
+      assert.equal("12", stream("out." .. ending).nb_read_frames)
+    end
+    for _, name in ipairs(bench:files()) do assert.falsy(name:find "%.part$", name) end
+    render "-o part.mp4 --frames 4-6 --max-size 50k"
+    local text = captions_of "part.mp4"
+    assert.truthy(text:find("^00:00:00,000 %-%-> 00:00:00,075\nGood day"), text)
+    assert.is_nil(text:find("more", 1, true))
+    local _, _, err = celspan "-o out.gif"
+    assert.truthy(err:find("out.gif: gif holds no captions: they are left out", 1, true), err)
+  end)
+
+  it_reads("has captions of a script, and is made again with --resume for others", function()
+    local function with(list)
+      bench:write("film.lua", (FILM:gsub("fps = 24", "%0, captions = " .. list:gsub("%%", "%%%%"))))
+      return celspan "-o out.mkv --resume"
+    end
+    assert.equal(0, (with "{ { from = 0, to = 1, text = 'one\\n\\n \\ntwo' } }"))
+    assert.equal("00:00:00,000 --> 00:00:00,500\none\ntwo", captions_of "out.mkv")
+    assert.equal(0, (with "{ { from = 0, to = .3, text = 'other' } }"))
+    assert.equal("00:00:00,000 --> 00:00:00,300\nother", captions_of "out.mkv")
+    os.remove(bench.folder .. "/out.mkv")
+    for list, words in pairs {
+      ["{ { from = 0, text = 'a' } }"] = "film: captions: caption 1 must be { from = seconds",
+      ["{ { from = 0, to = 0 / 0, text = 'a' } }"] = "caption 1 must be",
+      ["{ { from = 0, to = 1, text = '\\xff' } }"] = "caption 1 must be",
+      ["{ { from = 1, to = 1, text = 'a' } }"] = "caption 1 ends before it begins",
+      ["'none.srt'"] = "none.srt",
+      ["'film.lua'"] = "film.lua: line 1",
+      ["7"] = "field 'captions' must be the name of a file, or captions as celspan.captions",
+    } do
+      local code, _, err = with(list)
+      assert.equal(3, code, err)
+      assert.truthy(err:find(words, 1, true), err)
+      assert.is_nil(bench:read "out.mkv")
+    end
+  end)
+
   it_reads("contains the film between bars, or is covered by it, with --fit", function()
     render "-o whole.mkv --codec ffv1 --no-dither --frames 4"
     local whole = pixels("whole.mkv", 0, 256, 128)

@@ -216,8 +216,8 @@ describe("the verb info", function()
         local code, out, err = celspan(verb:format(path))
         assert.same({ 3, "" }, { code, out }, verb)
         assert.equal(("celspan: error: %s: is not a Lua script, a drawing, a painting or a movie, "
-          .. "but a picture or other binary data, which is no film ('celspan info %s' describes it, "
-          .. "'celspan convert' makes pictures of it)\n"):format(path, path), err)
+          .. "but a picture or other binary data, which is no film ('celspan info %s' describes "
+          .. "it, 'celspan convert' makes pictures of it)\n"):format(path, path), err)
       end
     end)
 

@@ -22,7 +22,8 @@ typedef struct cs_film_info {
   int64_t first, count; /* frames first .. first + count - 1 */
   const char *title;    /* NULL: none; the film's own, borrowed */
   bool has_sound;       /* one file or more */
-  int64_t poster;       /* the frame that stands for the film; `first` unless it says another */
+  bool has_captions;
+  int64_t poster; /* the frame that stands for the film; `first` unless it says another */
   const cs_film_mark *marks; /* in the order of their frames; the film's own, borrowed */
   size_t mark_count;
 } cs_film_info;

@@ -30,6 +30,7 @@ static const cs_video_format FORMATS[] = {
      .most_frames_second = ENDLESS,
      .sound = AAC,
      .has_chapters = true,
+     .captions = "mov_text",
      .flags = ISO_FLAGS,
      .mark = {4, "ftyp"}},
     {.name = "mkv",
@@ -39,6 +40,7 @@ static const cs_video_format FORMATS[] = {
      .most_frames_second = 1000,
      .sound = FLAC,
      .has_chapters = true,
+     .captions = "srt",
      .mark = {0, EBML}},
     {.name = "mov",
      .muxer = "mov",
@@ -47,6 +49,7 @@ static const cs_video_format FORMATS[] = {
      .most_frames_second = ENDLESS,
      .sound = PCM,
      .has_chapters = true,
+     .captions = "mov_text",
      .flags = ISO_FLAGS,
      .mark = {4, "ftyp"}},
     {.name = "webm",
@@ -55,6 +58,7 @@ static const cs_video_format FORMATS[] = {
      .most_frames_second = 1000,
      .sound = OPUS,
      .has_chapters = true,
+     .captions = "webvtt",
      .mark = {0, EBML}},
     {.name = "gif",
      .muxer = "gif",
@@ -328,6 +332,27 @@ static void add_chapters(cs_video_command *command, const char *address) {
   add(command, address);
 }
 
+static void add_file(cs_video_command *command, const char *format, const char *name) {
+  add(command, "-protocol_whitelist");
+  add(command, "file");
+  add_format(command, format);
+  add(command, "-i");
+  add_text(command, "file:%s", name);
+}
+
+/* input: the number of the file of captions. */
+static void add_captions(cs_video_command *command, const cs_video_format *format, int input,
+                         bool has_sound) {
+  if (!has_sound) {
+    add(command, "-map");
+    add(command, "0:v");
+  }
+  add(command, "-map");
+  add_text(command, "%d:s", input);
+  add(command, "-c:s");
+  add(command, format->captions);
+}
+
 /* ---------------------------------------------------------------- commands */
 
 /* The frames, the sound and the chapters, each if there are any. */
@@ -356,12 +381,19 @@ static void add_output(cs_video_command *command, const cs_video_format *format,
 
 void cs_video_command_encode(cs_video_command *command, const cs_video_format *format,
                              const cs_video_options *options, const cs_video_frames *frames,
-                             const cs_sound_stream *sound, const char *chapters, const char *file) {
+                             const cs_sound_stream *sound, const cs_video_texts *texts,
+                             const char *file) {
+  const char *chapters = format->has_chapters ? texts->chapters : NULL;
+  bool has_sound = sound->user != NULL, has_captions = format->captions && texts->captions;
   begin(command);
-  add_inputs(command, options, frames, sound, format->has_chapters ? chapters : NULL);
+  add_inputs(command, options, frames, sound, chapters);
+  if (has_captions)
+    add_file(command, "srt", texts->captions);
   add_pictures(command, options, false);
-  if (sound->user)
+  if (has_sound)
     add_sound(command, format->sound, 1);
+  if (has_captions)
+    add_captions(command, format, 1 + has_sound + (chapters != NULL), has_sound);
   add_output(command, format, options, file);
 }
 
@@ -382,15 +414,16 @@ void cs_video_command_master(cs_video_command *command, const cs_video_options *
 
 void cs_video_command_repeat(cs_video_command *command, const cs_video_format *format,
                              const cs_video_options *options, bool has_sound, const char *master,
-                             const char *file) {
+                             const char *captions, const char *file) {
+  bool has_captions = format->captions && captions;
   begin(command);
-  add(command, "-protocol_whitelist");
-  add(command, "file");
-  add_format(command, "nut");
-  add(command, "-i");
-  add_text(command, "file:%s", master);
+  add_file(command, "nut", master);
+  if (has_captions)
+    add_file(command, "srt", captions);
   add_pictures(command, options, true);
   if (has_sound)
     add_sound(command, format->sound, 0);
+  if (has_captions)
+    add_captions(command, format, 1, has_sound);
   add_output(command, format, options, file);
 }

@@ -11,9 +11,9 @@
  *   gif, webp, apng: of their own                            none
  *
  * INVARIANT: a film with a background is opaque, and its file has no alpha. In all other films,
- * alpha is kept if the format has it. No shell reads the arguments. ffmpeg opens no file to read,
- * and the name of its output file begins with "file:", so that it cannot be an option or an
- * address.
+ * alpha is kept if the format has it. No shell reads the arguments. ffmpeg opens no file to read
+ * but those that celspan has just written beside the output, and the names of files begin with
+ * "file:", so that they cannot be options or addresses.
  */
 #pragma once
 
@@ -48,7 +48,8 @@ typedef struct cs_video_format {
   bool counts_repeats; /* that option counts what follows the first time */
   const char *const *sound; /* options of ffmpeg; NULL: the format has no sound */
   bool has_chapters;
-  struct { /* bytes in every file of the format */
+  const char *captions; /* the encoder of captions; NULL: the format has none */
+  struct {              /* bytes in every file of the format */
     size_t offset;
     const char *bytes;
   } mark;
@@ -78,7 +79,13 @@ typedef struct cs_video_frames {
   double frames_second;
 } cs_video_frames;
 
-enum { CS_VIDEO_ARGUMENTS = 72, CS_VIDEO_TEXT = 16384 };
+/* Texts beside the frames; NULL: none. */
+typedef struct cs_video_texts {
+  const char *chapters; /* the address of a text in the format ffmetadata */
+  const char *captions; /* the name of a SubRip file */
+} cs_video_texts;
+
+enum { CS_VIDEO_ARGUMENTS = 96, CS_VIDEO_TEXT = 16384 };
 
 /* Arguments of ffmpeg, its name first. */
 typedef struct cs_video_command {
@@ -104,19 +111,21 @@ cs_video_layout cs_video_layout_of(const cs_video_options *options);
 celspan_coding cs_video_coding(const cs_video_options *options);
 
 /* The command that makes a video of raw frames, as above. sound: as long as the frames, or none.
- * chapters: the address of a text in the format ffmetadata, which the command borrows; NULL: none.
- * file: the name of the output. */
+ * texts: borrowed by the command; left out where the format has no place for them. file: the name
+ * of the output. */
 void cs_video_command_encode(cs_video_command *command, const cs_video_format *format,
                              const cs_video_options *options, const cs_video_frames *frames,
-                             const cs_sound_stream *sound, const char *chapters, const char *file);
+                             const cs_sound_stream *sound, const cs_video_texts *texts,
+                             const char *file);
 /* The command that keeps the pixels of the encoder, the samples and the chapters without loss in a
- * master file, of which videos are made by the other command. Not for codecs of RGB. */
+ * master file, of which videos are made by the other command, with the captions. Not for codecs of
+ * RGB. */
 void cs_video_command_master(cs_video_command *command, const cs_video_options *options,
                              const cs_video_frames *frames, const cs_sound_stream *sound,
                              const char *chapters, const char *file);
 void cs_video_command_repeat(cs_video_command *command, const cs_video_format *format,
                              const cs_video_options *options, bool has_sound, const char *master,
-                             const char *file);
+                             const char *captions, const char *file);
 
 /* ---- codec.c */
 

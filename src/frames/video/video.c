@@ -26,15 +26,26 @@ static celspan_status open_file(cs_video *video, cs_file **file, const char **na
   return cs_file_temporary(*file, video->context, name);
 }
 
+static celspan_status write_captions(cs_video *video, const char *captions) {
+  const char *name;
+  if (!captions)
+    return CELSPAN_OK;
+  CS_TRY(open_file(video, &video->captions, &name));
+  CS_TRY(cs_file_write(video->captions, video->context, captions, strlen(captions)));
+  return cs_file_temporary(video->captions, video->context, &video->captions_name);
+}
+
 /* The files, and the command that writes the first of them. */
 static celspan_status prepare(cs_video *video, const cs_video_desc *desc,
                               cs_video_command *command) {
   const char *name;
   cs_temporary_sweep(video->path, is_same);
   CS_TRY(open_file(video, &video->file, &name));
+  CS_TRY(write_captions(video, desc->captions));
   if (desc->most_bytes == 0) {
+    const cs_video_texts texts = {desc->chapters, video->captions_name};
     cs_video_command_encode(command, desc->format, &desc->options, &desc->frames, &desc->sound,
-                            desc->chapters, name);
+                            &texts, name);
     return CELSPAN_OK;
   }
   CS_TRY(open_file(video, &video->master, &name));
@@ -43,8 +54,13 @@ static celspan_status prepare(cs_video *video, const cs_video_desc *desc,
   return CELSPAN_OK;
 }
 
-static void discard_files(cs_video *video) {
+static void discard_sources(cs_video *video) {
   cs_file_discard(video->master, video->context);
+  cs_file_discard(video->captions, video->context);
+}
+
+static void discard_files(cs_video *video) {
+  discard_sources(video);
   cs_file_discard(video->file, video->context);
 }
 
@@ -213,7 +229,7 @@ celspan_status cs_video_finish(cs_video *video) {
     cs_video_discard(video);
     return status;
   }
-  cs_file_discard(video->master, video->context);
+  discard_sources(video);
   return cs_file_commit(video->file, video->context);
 }
 

@@ -18,6 +18,6 @@ typedef enum cs_artwork {
 
 cs_artwork cs_artwork_of(const char *path);
 /* Pushes the film of an archive, a PSD, an SVG, a Lottie animation, numbered pictures, or for
- * CS_ARTWORK_NONE of a movie; nil: the file is not a movie. Notes about parts that are not shown are
- * passed to the global function `print`. Raises. */
+ * CS_ARTWORK_NONE of a movie; nil: the file is not a movie. Notes about parts that are not shown
+ * are passed to the global function `print`. Raises. */
 void cs_artwork_push_film(lua_State *L, const char *path, cs_artwork kind);

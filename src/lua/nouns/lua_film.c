@@ -71,6 +71,17 @@ static void check_poster(const cs_form *form, const film_form *read) {
   lua_pop(L, 1);
 }
 
+static void check_captions(const cs_form *form) {
+  lua_State *L = form->L;
+  int type = cs_form_get(form, "captions");
+  if (type != LUA_TNIL && type != LUA_TTABLE && type != LUA_TSTRING)
+    cs_form_fail(form,
+                 "field 'captions' must be the name of a file, or captions as celspan.captions "
+                 "reads them, got %s",
+                 cs_userdata_type(L, -1));
+  lua_pop(L, 1);
+}
+
 static void check_film(const cs_form *form, cs_userdata *value) {
   lua_State *L = form->L;
   int film = lua_gettop(L);
@@ -86,6 +97,7 @@ static void check_film(const cs_form *form, cs_userdata *value) {
   cs_marks_push(form, read.first, count_frames(&read));
   lua_setiuservalue(L, film, MARKS);
   check_poster(form, &read);
+  check_captions(form);
   if (cs_form_get(form, "frame") != LUA_TFUNCTION)
     cs_form_fail(form, "field 'frame' must be a function(f) that returns a rostrum, got %s",
                  cs_userdata_type(L, -1));
@@ -136,6 +148,8 @@ static const cs_field fields[] = {
      .about = "Seconds by which all sounds begin later; a negative value cuts the beginning"},
     {"marks", CS_OWN("table<string, integer>"),
      .about = "Names of frames, { title = 1 }, for --frames"},
+    {"captions", CS_OWN("string|celspan.captions"),
+     .about = "A .srt or .vtt file, or captions: a track of subtitles in videos"},
     {"poster", CS_OWN("integer|string"),
      .about = "The frame that stands for the film, by its number or a time such as \"2s\""},
     {"frame", CS_OWN("fun(f: celspan.frame): celspan.exposures"), .is_required = true,
@@ -240,6 +254,7 @@ void cs_lua_film_read(lua_State *L, int film, cs_film_info *out) {
   out->has_sound = type == LUA_TSTRING || (type == LUA_TTABLE && cs_list_length(L, -1) > 0);
   lua_getiuservalue(L, film, MARKS);
   out->marks = cs_marks_read(L, -1, &out->mark_count);
+  out->has_captions = lua_getfield(L, table, "captions") != LUA_TNIL;
   out->poster = out->first;
   lua_getfield(L, table, "poster");
   read_poster(L, -1, out, &out->poster);
@@ -253,6 +268,18 @@ int cs_lua_film_sounds(lua_State *L) {
   lua_getiuservalue(L, 1, SOUND_FOLDER);
   cs_sounds_push(L, 2, lua_tostring(L, 3));
   return 1;
+}
+
+int cs_lua_film_captions(lua_State *L) {
+  const char *tried;
+  cs_userdata_self(L, &cs_kind_film, "captions");
+  lua_settop(L, 1);
+  lua_getiuservalue(L, 1, SOUND_FOLDER);
+  lua_getiuservalue(L, 1, 1);
+  if (lua_getfield(L, 3, "captions") != LUA_TSTRING)
+    return 1;
+  cs_files_find_from(L, lua_tostring(L, 2), lua_tostring(L, 4), &tried);
+  return 3;
 }
 
 /* ---------------------------------------------------------------- the `f` of frame functions */
