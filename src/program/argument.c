@@ -219,6 +219,7 @@ NUMBERS(crop, "four whole numbers of pixels, width and height above 0", read_cro
         ',');
 NUMBERS(scale, "a number above 0 such as 0.5", read_positive, 0, CS_SIDE_MAX, 0);
 NUMBERS(tolerance, "a number, 0 or more", read_number, 0, DBL_MAX, 0);
+NUMBERS(loudness, "LUFS from -60 to 0, such as -14 or -23", read_number, -60, 0, 0);
 NUMBERS(smooth, "a number from 0 to 16", read_number, 0, 16, 0);
 
 /* ---------------------------------------------------------------- names */

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "lua/module/heard.h"
+#include "plugins/sound/loudness.h"
 
 /* The sounds of the film. They remain on the script's stack, and therefore live as long as the
  * script. */
@@ -45,13 +46,45 @@ celspan_status cs_soundtrack_mix(cs_script *script, int64_t first, int64_t count
                      (double)(first - script->film.first) / rate, *moments, out);
 }
 
+/* ---------------------------------------------------------------- --loudness */
+
+/* The factor for the loudness. *out: a stream that was read to its end; closed. */
+static celspan_status find_gain(cs_script *script, const char *film, double lufs,
+                                cs_sound_stream *samples, double *gain) {
+  cs_loudness loudness;
+  celspan_status status = cs_loudness_hear(script->context, samples, film, &loudness);
+  cs_sound_stream_close(samples);
+  CS_TRY(status);
+  *gain = cs_loudness_gain(&loudness, lufs);
+  if (*gain == 0)
+    cs_report_note("%s: the sound is silent, and stays so with --loudness", film);
+  else if (*gain * loudness.peak > 1)
+    cs_report_note("%s: with --loudness %g the sound is up to %.1f dB louder than full scale, and "
+                   "cut there where the file holds no more",
+                   film, lufs, 20 * log10(*gain * loudness.peak));
+  cs_loudness_finish(&loudness, script->context);
+  return CELSPAN_OK;
+}
+
+/* Mixes the sound, which is heard to its end first where its loudness is given. */
+static celspan_status open_mix(cs_script *script, const cs_request *request,
+                               const cs_sequence *frames, cs_sound_stream *out, int64_t *moments) {
+  int64_t first = frames->frames[0], count = (int64_t)frames->count;
+  double lufs, gain;
+  CS_TRY(cs_soundtrack_mix(script, first, count, out, moments));
+  if (!cs_request_read(request, "--loudness", &lufs))
+    return CELSPAN_OK;
+  CS_TRY(find_gain(script, request->operands[0], lufs, out, &gain));
+  CS_TRY(cs_soundtrack_mix(script, first, count, out, moments));
+  return gain == 0 ? CELSPAN_OK : cs_amplify(script->context, out, gain);
+}
+
 cs_exit cs_soundtrack_open(cs_script *script, const cs_request *request, const cs_sequence *frames,
                            cs_sound_stream *out, int64_t *moments) {
   if (!cs_sequence_is_run(frames))
     return cs_report_usage("--frames %s: the film has a sound, which goes with one run of frames "
                            "such as 10-20",
                            cs_request_text(request, "--frames"));
-  celspan_status status =
-      cs_soundtrack_mix(script, frames->frames[0], (int64_t)frames->count, out, moments);
+  celspan_status status = open_mix(script, request, frames, out, moments);
   return cs_report_failure(script->context, status, NULL);
 }

@@ -18,6 +18,7 @@ CELSPAN_CHECKED celspan_status cs_soundtrack_check(cs_script *script, bool is_de
  * Errors: those of celspan_lua_sounds and cs_mix_open. */
 CELSPAN_CHECKED celspan_status cs_soundtrack_mix(cs_script *script, int64_t first, int64_t count,
                                                  cs_sound_stream *out, int64_t *moments);
-/* Mixes the sound of a run of frames; *moments: the number of moments. OK, or reported. */
+/* Mixes the sound of a run of frames, as loud as --loudness says; *moments: the number of moments.
+ * OK, or reported. */
 cs_exit cs_soundtrack_open(cs_script *script, const cs_request *request, const cs_sequence *frames,
                            cs_sound_stream *out, int64_t *moments);

@@ -104,6 +104,11 @@
         "show the drawings of the B frames before (red) and of the A frames after (green) "        \
         "behind the drawing of each frame"                                                         \
   }
+#define LOUDNESS                                                                                   \
+  {                                                                                                \
+    "--loudness", "LUFS", &cs_argument_loudness,                                                   \
+        "the loudness of the whole sound by EBU R 128, such as -14; default: as it is mixed"       \
+  }
 /* The coding of a video. */
 #define VIDEO                                                                                      \
   {"--quality", "Q", &cs_argument_quality,                                                         \
@@ -114,7 +119,7 @@
        "of a video: the highest quality that fits into so many bytes, such as 8M"},                \
       {"--crf", "N", &cs_argument_crf,                                                             \
        "the constant rate factor of h264, h265, av1 or vp9, instead of --quality"},                \
-  {                                                                                                \
+      LOUDNESS, {                                                                                  \
     "--loop", "N", &cs_argument_plays,                                                             \
         "how often a .gif, .webp or .apng is played; default: 0, for ever"                         \
   }
@@ -350,6 +355,7 @@ static const cs_option SOUND[] = {
     OUTPUT("OUT.wav", "48,000 samples a second, stereo"),
     FRAMES,
     {"--depth", "DEPTH", &cs_argument_depth, "16 or float; default: 16"},
+    LOUDNESS,
     {"--resume", NULL, NULL, "keep the file of an earlier run with --resume that would not change"},
     TABLE("a sound for each row of a CSV file, whose columns are parameters, or {NAME} in OUT"),
     {"--keep-going", NULL, NULL,

@@ -48,8 +48,8 @@ static cs_video_options options_of(const cs_request *request, const cs_video_cod
   return options;
 }
 
-const char *const cs_video_target_options[] = {"--codec", "--quality",  "--crf", "--fps",
-                                               "--loop",  "--max-size", NULL};
+const char *const cs_video_target_options[] = {"--codec", "--quality",  "--crf",      "--fps",
+                                               "--loop",  "--max-size", "--loudness", NULL};
 
 /* ---------------------------------------------------------------- refusals */
 
@@ -183,7 +183,10 @@ static cs_exit set_sound(cs_video_desc *video, cs_script *script, const cs_reque
                          const cs_sequence *frames) {
   int64_t moments;
   if (!script->film.has_sound)
-    return CS_EXIT_OK;
+    return cs_request_has(request, "--loudness")
+               ? cs_report_usage("%s: the film has no sound: leave --loudness out",
+                                 request->operands[0])
+               : CS_EXIT_OK;
   if (video->format->sound)
     return cs_soundtrack_open(script, request, frames, &video->sound, &moments);
   cs_report_note("%s: %s holds no sound: it is left out", video->path, video->format->name);

@@ -285,6 +285,42 @@ describe("a delivery", function()
     end
   end)
 
+  it_reads("is as loud as --loudness says, by EBU R 128", function()
+    local samples = {}
+    for i = 1, 4 * 48000 do
+      local loud = i < 48000 and 8 or i < 96000 and 400 or 4000 -- the quiet part does not count
+      samples[i] = ("<i2"):pack(math.floor((math.sin(i * .05) + math.sin(i * .31)) * loud))
+    end
+    bench:write("tone.wav", wave(table.concat(samples)))
+    bench:write("film.lua", (FILM:gsub("frames = 12", "sound = 'tone.wav', frames = 96")))
+    local function loudness(name)
+      local code, _, err = bench:inside("ffmpeg -nostats -i " .. name
+        .. " -af ebur128=framelog=verbose -f null -")
+      assert.equal(0, code, err)
+      return tonumber(err:match ".*I:%s+(-?[%d.]+) LUFS"), err
+    end
+    for _, lufs in ipairs { -14, -23.5, -30 } do
+      for _, ending in ipairs { "mkv", "mp4", "webm" } do
+        render("-o out.%s --loudness %g --frames 1-96", ending, lufs)
+        local found, words = loudness("out." .. ending)
+        assert.is_true(math.abs(found - lufs) <= 0.5, ending .. found .. words)
+      end
+      local code, _, err = bench:celspan_inside("sound film.lua -o out.wav --loudness %g", lufs)
+      assert.equal(0, code, err)
+      assert.is_true(math.abs(loudness "out.wav" - lufs) <= 0.1, loudness "out.wav")
+    end
+    local _, _, err = celspan "-o out.mkv --loudness 0"
+    assert.truthy(err:find("film.lua: with %-%-loudness 0 the sound is up to %d+%.%d dB "
+      .. "louder"), err)
+    bench:write("tone.wav", wave(string.rep("\0", 8000)))
+    _, _, err = celspan "-o out.mkv --loudness -14"
+    assert.truthy(err:find("film.lua: the sound is silent", 1, true), err)
+    bench:write("film.lua", FILM)
+    refused("-o bad.mp4 --loudness -14", "the film has no sound: leave --loudness out")
+    refused("-o bad.mp4 --loudness 3", "LUFS from -60 to 0, such as -14 or -23")
+    refused("-o bad.#.png --loudness -14", "--loudness is only for videos")
+  end)
+
   it_reads("contains the film between bars, or is covered by it, with --fit", function()
     render "-o whole.mkv --codec ffv1 --no-dither --frames 4"
     local whole = pixels("whole.mkv", 0, 256, 128)

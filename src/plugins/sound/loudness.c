@@ -1,7 +1,9 @@
 #include "plugins/sound/loudness.h"
 
+#include <math.h>
 #include <string.h>
 
+#include "base/elementary.h"
 #include "plugins/sound/sound.h"
 
 enum { PIECE = 1024, LOW_FREQUENCY = 1 << 3 /* its bit among the places of WAV files */ };
@@ -23,7 +25,7 @@ typedef struct memory {
 } memory;
 
 typedef struct listening {
-  cs_sound_stream samples;
+  cs_sound_stream samples; /* borrowed while it is heard */
   memory kept[CS_SOUND_STREAM_CHANNELS][2];
   double weights[CS_SOUND_STREAM_CHANNELS];
   float piece[PIECE * CS_SOUND_STREAM_CHANNELS];
@@ -61,6 +63,7 @@ static void set_weights(listening *l) {
 static celspan_status add_moment(listening *l, celspan_context *context, const float *moment,
                                  cs_loudness *out) {
   for (int32_t c = 0; c < l->samples.channels; c++) {
+    out->peak = fmax(out->peak, fabs((double)moment[c]));
     double y = pass(&high_pass, &l->kept[c][1], pass(&shelf, &l->kept[c][0], (double)moment[c]));
     l->sum += l->weights[c] * y * y;
   }
@@ -86,28 +89,67 @@ static celspan_status add_all(listening *l, celspan_context *context, const char
   return CS_APPEND(context, out->sums, out->count, out->capacity, l->sum);
 }
 
-static celspan_status measure(listening *l, celspan_context *context, const char *path,
-                              cs_loudness *out) {
-  const cs_sound_request request = {.path = path, .rate = CS_LOUDNESS_RATE};
+static celspan_status listen(listening *l, celspan_context *context, const char *name,
+                             cs_loudness *out) {
   CS_TRY(CS_APPEND(context, out->sums, out->count, out->capacity, 0));
-  CS_TRY(cs_sound_open(context, &request, &l->samples));
   set_weights(l);
-  celspan_status status = add_all(l, context, path, out);
-  cs_sound_stream_close(&l->samples);
+  return add_all(l, context, name, out);
+}
+
+celspan_status cs_loudness_hear(celspan_context *context, const cs_sound_stream *samples,
+                                const char *name, cs_loudness *out) {
+  listening *l;
+  *out = (cs_loudness){.sums = NULL};
+  CS_TRY(CS_MAKE(context, l, 1));
+  l->samples = *samples;
+  celspan_status status = listen(l, context, name, out);
+  cs_mem_free(context->memory, l, sizeof *l);
+  if (status != CELSPAN_OK)
+    cs_loudness_finish(out, context);
   return status;
 }
 
 celspan_status cs_loudness_measure(celspan_context *context, const char *path, const char *tried,
                                    cs_loudness *out) {
-  listening *l;
+  const cs_sound_request request = {.path = path, .rate = CS_LOUDNESS_RATE};
+  cs_sound_stream samples;
   *out = (cs_loudness){.sums = NULL};
   CS_TRY(cs_sound_find(context, path, tried));
-  CS_TRY(CS_MAKE(context, l, 1));
-  celspan_status status = measure(l, context, path, out);
-  cs_mem_free(context->memory, l, sizeof *l);
-  if (status != CELSPAN_OK)
-    cs_loudness_finish(out, context);
+  CS_TRY(cs_sound_open(context, &request, &samples));
+  celspan_status status = cs_loudness_hear(context, &samples, path, out);
+  cs_sound_stream_close(&samples);
   return status;
+}
+
+/* ---------------------------------------------------------------- the whole */
+
+enum { MOMENTARY = 40, STRIDE = 10 /* steps */ };
+#define OFFSET 0.691       /* LUFS */
+#define LEAST_LOUD (-70.0) /* LUFS */
+#define BELOW_MEAN 0.1     /* a share: 10 LU */
+
+/* The mean square at which a sound has this loudness. */
+static double power_at(double lufs) { return cs_elementary_pow(10, (lufs + OFFSET) / 10); }
+
+/* The mean square of the parts of 0.4 s above a limit; 0: there are none. A shorter sound is one
+ * part. */
+static double mean_above(const cs_loudness *l, double limit) {
+  size_t steps = (size_t)(l->moments / CS_LOUDNESS_STEP), used = 0;
+  double sum = 0;
+  if (steps < MOMENTARY)
+    return l->moments > 0 ? l->sums[l->count - 1] / (double)l->moments : 0;
+  for (size_t i = 0; i + MOMENTARY <= steps; i += STRIDE) {
+    double power = (l->sums[i + MOMENTARY] - l->sums[i]) / (MOMENTARY * CS_LOUDNESS_STEP);
+    sum += power > limit ? power : 0;
+    used += power > limit;
+  }
+  return used > 0 ? sum / (double)used : 0;
+}
+
+double cs_loudness_gain(const cs_loudness *loudness, double lufs) {
+  double least = power_at(LEAST_LOUD), mean = mean_above(loudness, least);
+  double power = mean_above(loudness, fmax(least, mean * BELOW_MEAN));
+  return power > least ? sqrt(power_at(lufs) / power) : 0;
 }
 
 void cs_loudness_finish(cs_loudness *loudness, celspan_context *context) {

@@ -5,8 +5,8 @@
 ---   film.lua --celspan sound--> a temporary file --^
 local program, request = ...
 
-local ONLY_VIDEO = { "quality", "codec", "max_size", "crf", "loop", "fps", "sound", "background",
-                     "progress" }
+local ONLY_VIDEO = { "quality", "codec", "max_size", "crf", "loop", "loudness", "fps", "sound",
+                     "background", "progress" }
 local OWN = { ["--fps"] = true, ["--sound"] = true, ["--frame"] = true }
 
 --- Runs this program, whose messages are shown. Returns its exit code.
@@ -35,7 +35,7 @@ end
 local function render(input, output)
   local words, settings = { "render", input, "-o", output }, {}
   local function add(...) table.move({ ... }, 1, select("#", ...), #words + 1, words) end
-  local sound, made, code = request.sound, nil, nil
+  local sound, made, code = request.sound
   if request.frame then add("--frames", request.frame) end
   if request.fps then settings[1] = { "fps", rate() } end
   if sound and program.kind(sound) == "script" then
