@@ -66,23 +66,6 @@
         "where --size has another shape than the film: stretch, contain (with clear bars) or "     \
         "cover"                                                                                    \
   }
-#define VIDEO                                                                                      \
-  {"--quality", "Q", &cs_argument_quality,                                                         \
-   "of a video: 0 (small) to 100 (hardly any loss); default: 75"},                                 \
-      {"--codec", "NAME", &cs_argument_codec,                                                      \
-       "of a video: h264, h265, av1, vp9, prores, prores422, prores422hq, dnxhr, ffv1"},           \
-      {"--fps", "N", &cs_argument_rate,                                                            \
-       "of a video: another rate of frames; the length is the film's, and pictures are held or "   \
-       "left "                                                                                     \
-       "out"},                                                                                     \
-      {"--max-size", "BYTES", &cs_argument_millions,                                               \
-       "of a video: the highest quality that fits into so many bytes, such as 8M"},                \
-      {"--crf", "N", &cs_argument_crf,                                                             \
-       "the constant rate factor of h264, h265, av1 or vp9, instead of --quality"},                \
-  {                                                                                                \
-    "--loop", "N", &cs_argument_plays,                                                             \
-        "how often a .gif, .webp or .apng is played; default: 0, for ever"                         \
-  }
 #define BACKGROUND                                                                                 \
   {                                                                                                \
     "--background", "RGB", &cs_argument_tint,                                                      \
@@ -108,6 +91,12 @@
   {                                                                                                \
     "--loudness", "LUFS", &cs_argument_loudness,                                                   \
         "the loudness of the whole sound by EBU R 128, such as -14; default: as it is mixed"       \
+  }
+#define RATE                                                                                       \
+  {                                                                                                \
+    "--fps", "N", &cs_argument_rate,                                                               \
+        "of a video: another rate of frames; the length is the film's, and pictures are held or "  \
+        "left out"                                                                                 \
   }
 /* The coding of a video. */
 #define VIDEO                                                                                      \
@@ -206,9 +195,7 @@ static const cs_option RENDER[] = {
     CODING,
     DITHER,
     VIDEO,
-    {"--fps", "N", &cs_argument_rate,
-     "of a video: another rate of frames; the length is the film's, and pictures are held or left "
-     "out"},
+    RATE,
     BACKGROUND,
     CEL,
     LAYERS,
@@ -442,6 +429,7 @@ static const cs_option FARM[] = {
     CODING,
     DITHER,
     VIDEO,
+    RATE,
     BACKGROUND,
     CEL,
     LAYERS,

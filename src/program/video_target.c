@@ -258,12 +258,5 @@ cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request 
   CS_TRY_EXIT(refuse_size(&desc));
   CS_TRY_EXIT(refuse_rate(&desc));
   CS_TRY_EXIT(set_captions(&desc, script, played));
-  CS_TRY_EXIT(set_sound(&desc, script, request, played));
-  char *chapters;
-  celspan_status status = cs_chapters_make(script, played, &chapters);
-  desc.chapters = chapters;
-  if (status == CELSPAN_OK)
-    status = cs_video_open(out, script->context, &desc);
-  cs_chapters_free(script, chapters);
-  return cs_report_failure(script->context, status, NULL);
+  return open_with_chapters(out, script, request, &desc, played);
 }

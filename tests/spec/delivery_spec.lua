@@ -197,7 +197,7 @@ describe("a delivery", function()
 
   it_reads("is found in a few tries where most bytes do not depend on the quality", function()
     bench:write("film.lua", (FILM:gsub("frames = 12", "frames = 900"):gsub("4 %* f.index", "9")))
-    render "-o least.mp4 --crf 46"
+    render "-o least.mp4 --crf 48"
     local path = counted()
     local code, _, err = bench:inside(("%s '%s' render film.lua --progress none -o out.mp4 "
       .. "--max-size %d"):format(path, workbench.absolute, #bench:read "least.mp4"))
