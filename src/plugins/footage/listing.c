@@ -194,7 +194,8 @@ static int compare(const void *a, const void *b) {
 /* Sorts the pictures by their times, and drops those whose time has occurred. */
 static void sort(cs_listing *out) {
   size_t count = 0;
-  qsort(out->pictures, out->count, sizeof *out->pictures, compare);
+  if (out->count > 0) /* else there is no array */
+    qsort(out->pictures, out->count, sizeof *out->pictures, compare);
   for (size_t i = 0; i < out->count; i++)
     if (i == 0 || out->pictures[i].time != out->pictures[count - 1].time)
       out->pictures[count++] = out->pictures[i];
