@@ -435,7 +435,7 @@ static cs_exit refuse_division(const cs_request *request, const char *output) {
 
 /* Refuses layers where the output can have none. */
 static cs_exit refuse_layers(const cs_request *request, const char *output) {
-  celspan_transfer transfer = CELSPAN_TRANSFER_LINEAR;
+  const char *colour = cs_request_text(request, "--colour");
   if (!cs_request_has(request, "--layers"))
     return CS_EXIT_OK;
   const char *format = cs_request_text(request, "--format");
@@ -444,10 +444,11 @@ static cs_exit refuse_layers(const cs_request *request, const char *output) {
     return cs_report_usage("--layers: only OpenEXR files have layers: give -o shot.####.exr");
   if (cs_request_has(request, "--hash"))
     return cs_report_usage("--hash is of one picture: leave it or --layers out");
-  cs_request_read(request, "--colour", &transfer);
-  return transfer == CELSPAN_TRANSFER_LINEAR
-             ? CS_EXIT_OK
-             : cs_report_usage("--layers are in linear light: leave --colour out");
+  bool is_light = !colour || strcmp(colour, "linear") == 0;
+  if (is_light && !cs_request_has(request, "--display") && !cs_request_has(request, "--view"))
+    return CS_EXIT_OK;
+  return cs_report_usage("--layers are in linear light: leave %s out",
+                         is_light ? "--display and --view" : "--colour");
 }
 
 /* Refuses wrong requests as far as possible without running the script. */

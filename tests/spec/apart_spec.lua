@@ -197,7 +197,7 @@ describe("--layers cels", function()
   end)
 
   it_reads("is a different file for --resume", function()
-    render(SUMS, "--layers cels --resume -o 'x.#.exr'")
+    render(SUMS, "--layers cels --colour linear --resume -o 'x.#.exr'")
     local made = bench:read "x.1.exr"
     render(SUMS, "--resume -o 'x.#.exr'")
     assert.not_equal(made, bench:read "x.1.exr")
