@@ -268,6 +268,14 @@ describe("a delivery", function()
     assert.equal("00:00:00,000 --> 00:00:00,500\none\ntwo", captions_of "out.mkv")
     assert.equal(0, (with "{ { from = 0, to = .3, text = 'other' } }"))
     assert.equal("00:00:00,000 --> 00:00:00,300\nother", captions_of "out.mkv")
+    local overlaps = "{ { from = -1, to = .3, text = 'a' }, { from = 0.1, to = 9, text = 'c' }, "
+      .. "{ from = -2, to = .3, text = 'b' } }"
+    assert.equal(0, (with(overlaps)))
+    celspan "-o out.mp4"
+    for _, ending in ipairs { "mkv", "mp4" } do
+      assert.equal("00:00:00,000 --> 00:00:00,100\na\nb\n\n00:00:00,100 --> 00:00:00,300\na\nb\nc"
+        .. "\n\n00:00:00,300 --> 00:00:00,500\nc", captions_of("out." .. ending))
+    end
     os.remove(bench.folder .. "/out.mkv")
     for list, words in pairs {
       ["{ { from = 0, text = 'a' } }"] = "film: captions: caption 1 must be { from = seconds",
@@ -394,6 +402,7 @@ describe("a delivery", function()
       ["out.mkv bad.mkv --fps 3"] = "--fps is the rate of numbered pictures",
       ["one.png bad.png --sound film.lua"] = "--sound is for numbered pictures or a movie",
       ["one.png bad.png --max-size 1M"] = "--max-size is for numbered pictures or a movie",
+      ["'f/f.####.png' 'f/f.####.png'"] = "would replace the pictures while they are read",
       ["out.mkv bad.png"] = "several frames (12) need a number",
       ["out.mkv bad.mkv --sound none.wav"] = "none.wav",
     } do

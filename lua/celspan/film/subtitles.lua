@@ -1,8 +1,11 @@
 --- The captions of a film as SubRip text, for the subtitles of videos.
 --
 --   captions    |--a--|   |---b---|            seconds of the film
+--                           |---c---|
 --   frames            |      shown      |
---   text                  |---b---|            from the first frame that is shown
+--   text                  |b|-b c-|c|          from the first frame that is shown
+--
+-- Formats of videos show one text at a time, so where captions overlap their texts are joined.
 local captions = require "celspan.captions"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
@@ -11,7 +14,6 @@ local files = require "celspan.files"
 local subtitles = {}
 
 local MOST_BYTES = 16 * 1024 * 1024 -- of a file
-local LEAST = 0.001 -- seconds that a caption is shown, which is the unit of the format
 
 local function fail(text, ...) error("film: captions: " .. text:format(...), 0) end
 
@@ -31,8 +33,7 @@ local function check(one, i)
   if one.to <= one.from then fail("caption %d ends before it begins, or at the same time", i) end
 end
 
-local function time(seconds)
-  local milli = math.floor(seconds * 1000 + 0.5)
+local function time(milli)
   return ("%02d:%02d:%02d,%03d"):format(milli // 3600000, milli // 60000 % 60, milli // 1000 % 60,
     milli % 1000)
 end
@@ -41,6 +42,44 @@ end
 local function lines(text)
   return (text:gsub("%c", function(c) return c == "\n" and c or " " end)
     :gsub("\n%s*\n", "\n"):gsub("^%s+", ""):gsub("%s+$", ""))
+end
+
+--- The captions between two times, from which seconds are counted, in milliseconds.
+local function shown(list, first, seconds)
+  local cut = {}
+  for i, one in ipairs(list) do
+    check(one, i)
+    local from, to = math.max(0, one.from - first), math.min(seconds, one.to - first)
+    from, to = math.floor(from * 1000 + 0.5), math.floor(to * 1000 + 0.5)
+    local text = lines(one.text)
+    if from < to and text ~= "" then
+      cut[#cut + 1] = { from = from, to = to, text = text, i = i }
+    end
+  end
+  table.sort(cut, function(a, b) return a.from < b.from or a.from == b.from and a.i < b.i end)
+  return cut
+end
+
+--- The same captions without overlaps: each change of what is shown begins a text.
+local function apart(list)
+  local times, active, place, parts = {}, {}, 1, {}
+  for i, one in ipairs(list) do times[2 * i - 1], times[2 * i] = one.from, one.to end
+  table.sort(times)
+  for k = 1, #times - 1 do
+    local from, texts, kept = times[k], {}, {}
+    while list[place] and list[place].from <= from do
+      table.insert(active, list[place])
+      place = place + 1
+    end
+    for _, one in ipairs(active) do
+      if one.to > from then kept[#kept + 1], texts[#texts + 1] = one, one.text end
+    end
+    active = kept
+    if texts[1] and from < times[k + 1] then
+      parts[#parts + 1] = { from = from, to = times[k + 1], text = table.concat(texts, "\n") }
+    end
+  end
+  return parts
 end
 
 --- The captions that are shown in the given seconds from `first` on; "" for none.
@@ -52,13 +91,8 @@ function subtitles.srt(film, first, seconds)
   local list, path, tried = core.captions(film)
   if path then list = read(list, path, tried) end
   local blocks = {}
-  for i, one in ipairs(list) do
-    check(one, i)
-    local from, to = math.max(0, one.from - first), math.min(seconds, one.to - first)
-    local text = lines(one.text)
-    if to - from >= LEAST and text ~= "" then
-      blocks[#blocks + 1] = ("%d\n%s --> %s\n%s\n"):format(#blocks + 1, time(from), time(to), text)
-    end
+  for i, one in ipairs(apart(shown(list, first, seconds))) do
+    blocks[i] = ("%d\n%s --> %s\n%s\n"):format(i, time(one.from), time(one.to), one.text)
   end
   return table.concat(blocks, "\n")
 end

@@ -46,7 +46,7 @@ local function render(input, output)
   if sound then
     sound = program.resolve(sound)
     settings[#settings + 1] = { "sound", sound }
-    add("--allow", sound:match "^(.*/)")
+    if not request.trust then add("--allow", sound:match "^(.*/)") end
   end
   code = run(program.pass_on(words, request, OWN, settings))
   if made then os.remove(made) end
@@ -58,6 +58,9 @@ local is_files = kind == "files"
 if is_files or kind == "picture" and program.is_movie(request[1]) then
   if request.fps and not is_files then
     program.usage("--fps is the rate of numbered pictures, and %s has its own", request[1])
+  end
+  if request[1] == request[2] then
+    program.usage("the output would replace the pictures while they are read: give another name")
   end
   return render(request[1], request[2])
 end
