@@ -14,6 +14,17 @@ local function seen(object)
 end
 
 describe("two objects are composited", function()
+  it("and the modes of other programs' nodes are those that messages name", function()
+    local a, b = square(0.75, 0.75, 0.75), square(0.5, 0.5, 0.5)
+    for node, value in pairs { minus = 0.25, from = 0, plus = 1.25, max = 0.75, min = 0.5 } do
+      local _, message = pcall(celspan.composite, a, b, node)
+      local advice = message:match "write (.*)$"
+      local front = load("local a, b = ... return " .. advice)(a, b)
+      local rear = advice:sub(1, 1) == "a" and b or a
+      images.near({ value, value, value, 1 }, seen(celspan.group { rear, front }), 0, 0)
+    end
+  end)
+
   -- how much of the source and of the backdrop stays, by the alphas of both: Porter and Duff, 1984
   local shares = {
     over = function(a) return 1, 1 - a end,

@@ -25,13 +25,14 @@ local operators = {
   xor = function(a, b) return sum(without(b, a), without(a, b)) end,
 }
 
---- What nodes of other compositors are called here.
+--- What nodes of other compositors are called here. The modes of a source over a backdrop take the
+--- source from the backdrop and divide the backdrop by it.
 local theirs = {
   under = 'celspan.composite(b, a, "over")', mask = 'celspan.composite(b, a, "in")',
-  stencil = 'celspan.composite(b, a, "out")', copy = "a", held = "b",
-  plus = 'a:blend "add"', minus = 'a:blend "subtract"', from = 'b:blend "subtract"',
+  stencil = 'celspan.composite(b, a, "out")', copy = "a",
+  plus = 'a:blend "add"', minus = 'b:blend "subtract"', from = 'a:blend "subtract"',
   max = 'a:blend "lighten"', min = 'a:blend "darken"', multiply = 'a:blend "multiply"',
-  screen = 'a:blend "screen"', difference = 'a:blend "difference"', divide = 'a:blend "divide"',
+  screen = 'a:blend "screen"', difference = 'a:blend "difference"', divide = 'b:blend "divide"',
   exclusion = 'a:blend "exclusion"',
 }
 

@@ -277,7 +277,7 @@ for _, option in ipairs(request.given) do
 end
 -- The machines of a farm do not have this machine's environment.
 local configuration = os.getenv "OCIO"
-if configuration and not request.ocio then
+if configuration and configuration ~= "" and not request.ocio then
   table.insert(job.options, { name = "--ocio", value = configuration })
 end
 local film = program.film()
