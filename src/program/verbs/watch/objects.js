@@ -11,6 +11,7 @@ import { cels, queryCels, switchesOf } from "/rows.js";
 import { element, here, icon, main, play, refill, state, view } from "/state.js";
 import { shotsOf } from "/timeline.js";
 
+const ROWS_MOST = 2000; // of the server's answer
 const tree = { list: [], address: "" };
 const folded = new Set(); // paths of rows whose children are hidden
 
@@ -35,7 +36,9 @@ export async function loadObjects() {
 
 function setReading(isOn) {
   here("objects").setAttribute("aria-busy", isOn);
-  here("objects-hint").hidden = isOn || tree.list.length > 0;
+  const { length } = tree.list, hint = here("objects-hint");
+  hint.hidden = isOn || (length > 0 && length < ROWS_MOST);
+  hint.textContent = length ? `These are the first ${length}.` : "Nothing has a name in this frame.";
 }
 
 /** The rows with what they are called, their paths, "shot/cel/name", and whether they have parts.

@@ -16,7 +16,8 @@ import {
 
 const RULER = 26, WAVE = 34;   // CSS pixels
 const WAVE_COLUMNS = 2000;
-const LABEL_LEAST = 68;        // pixels between two numbers of the ruler
+const LABEL_LEAST = 68;        // pixels between two numbers of the ruler, where they are short
+const LABEL_GAP = 20, DIGIT = 7;
 const SNAP = 6;                // pixels within which a drag goes to a mark
 const CLOSEST = 4;             // frames, the least that the timeline shows
 const BLOCKS_MOST = 1000;      // shots, or marks, that are shown at once
@@ -53,9 +54,13 @@ export function coloursOf() {
 
 // ---------------------------------------------------------------- the ruler
 
+/** Pixels between two numbers of the ruler: the last is the longest. */
+const labelLeast = () =>
+  Math.max(LABEL_LEAST, timecode(Math.ceil(span.to)).length * DIGIT + LABEL_GAP);
+
 /** Frames between two numbers of the ruler: a divisor of a second, or whole seconds. */
 function rulerStep() {
-  const rate = Math.max(1, Math.round(state.film.fps)), least = LABEL_LEAST / unit();
+  const rate = Math.max(1, Math.round(state.film.fps)), least = labelLeast() / unit();
   const seconds = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 1800, 3600].map(one => one * rate);
   const steps = [1, 2, 3, 4, 5, 6, 8, 10, 12].filter(one => rate % one === 0 && one < rate);
   return [...steps, ...seconds].find(one => one >= least)
@@ -64,7 +69,7 @@ function rulerStep() {
 
 function drawTicks(brush, colours) {
   const stride = rulerStep(), first = Math.floor(span.from / stride) * stride;
-  const isHalved = stride % 2 === 0 && stride * unit() > 5 * LABEL_LEAST / 4;
+  const isHalved = stride % 2 === 0 && stride * unit() > 5 * labelLeast() / 4;
   for (let k = first; k < span.to; k += isHalved ? stride / 2 : stride) {
     const x = xOf(k), hasNumber = (k - first) % stride === 0;
     brush.fillStyle = colours.line;
