@@ -4,7 +4,7 @@
 import { post } from "/fetch.js";
 import { onPanel } from "/panels.js";
 import { here, label, loop, main, state, view } from "/state.js";
-import { renderOf } from "/values.js";
+import { renderOf, stemOf } from "/values.js";
 
 let isNamed = false;    // whether the name of the file was typed
 let isProposed = false; // whether the format and the frames were
@@ -21,9 +21,8 @@ function ending() {
 
 /** Proposes the name of the file, or gives the name that was typed the ending of the format. */
 function nameFile() {
-  const stem = isNamed ? field("file").value.replace(/(\.#+)?\.[^./]*$/, "")
-    : state.script.match(/[^/]*$/)[0].replace(/\.lua$/, "");
-  field("file").value = `${stem || "film"}.${ending()}`;
+  const stem = isNamed ? field("file").value.replace(/(\.#+)?\.[^./]*$/, "") : stemOf();
+  field("file").value = `${stem}.${ending()}`;
 }
 
 /** The frames of the range, as the command line has them; "": all. */

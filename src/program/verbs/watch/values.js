@@ -80,10 +80,13 @@ export function renderOf(one, file, more = []) {
   return `celspan render ${words.map(quoted).join(" ")}`;
 }
 
+/** What a render of the film that is watched is called, without an ending. */
+export const stemOf = () => state.script.match(/[^/]*$/)[0].replace(/\.\w+$/, "") || "film";
+
 function showCommand() {
   const ending = state.film?.frames > 1 ? ".mp4" : ".png";
   const others = isComparing() ? [renderOf(beside, `other${ending}`)] : [];
-  here("command").value = [renderOf(main, `shot${ending}`), ...others].join("\n");
+  here("command").value = [renderOf(main, stemOf() + ending), ...others].join("\n");
 }
 
 /** Makes the form of a film again if it has other parameters than before, or after all its values
