@@ -111,6 +111,7 @@ for _, recipe in ipairs {
   { "sprite_sheet", 1 }, { "transparent_video", 30, background = "#21465a" },
   { "crossfade", strip = "24,31,37" }, { "rotoscope", strip = "1,3,7" },
   { "speed_ramp", strip = "9,30,62" }, { "mixed_sound", 66 },
+  { "dancing_city", 112, before = "sounds" },
   { "over_footage", 30, "360x202", before = "plates" },
   { "light_rays", 30, "360x202" }, { "glitch_title", strip = "9,30" }, { "logo_reveal", 84 },
   { "film_leader", 32, "360x202" }, { "every_shape", 20 }, { "scarf_walk", 40 },

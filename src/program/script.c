@@ -20,6 +20,8 @@
 #include "lua/module/lua_script.h"
 #include "lua/module/parameters.h"
 #include "plugins/sound/loudness.h"
+#include "plugins/sound/sound.h"
+#include "plugins/sound/spectrum.h"
 #include "program/confine.h"
 #include "program/movies.h"
 #include "program/request.h"
@@ -148,16 +150,37 @@ static int hear(lua_State *L) {
   celspan_status status = cs_loudness_measure(cs_host_context(L), path, tried, loudness);
   if (status != CELSPAN_OK)
     return cs_host_fail(L, status);
-  lua_pushnumber(L, (double)loudness->moments / CS_LOUDNESS_RATE);
+  lua_pushnumber(L, (double)loudness->moments / CS_SOUND_HEARD_RATE);
   lua_pushlstring(L, (const char *)loudness->sums, loudness->count * sizeof *loudness->sums);
   return 2;
 }
 
-/* Gives the scripts of a state, which has a context, the function for the loudness of files
- * (CS_CORE_HEAR), for lua/celspan/read/sound.lua. Raises. */
+static int release_spectrum(lua_State *L) {
+  cs_spectrum *spectrum = lua_touserdata(L, 1);
+  if (spectrum->steps)
+    cs_spectrum_finish(spectrum, cs_host_context(L));
+  return 0;
+}
+
+/* (path, tried | nil) -> levels | nil, message */
+static int hear_spectrum(lua_State *L) {
+  const char *path = luaL_checkstring(L, 1), *tried = luaL_optstring(L, 2, NULL);
+  cs_spectrum *spectrum =
+      cs_userdata_push_holder(L, "celspan.program.spectrum", sizeof *spectrum, release_spectrum);
+  celspan_status status = cs_spectrum_measure(cs_host_context(L), path, tried, spectrum);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
+  lua_pushlstring(L, (const char *)spectrum->steps, spectrum->count * sizeof *spectrum->steps);
+  return 1;
+}
+
+/* Gives the scripts of a state, which has a context, the functions for the loudness and the
+ * spectrum of files, for lua/celspan/read/sound.lua. Raises. */
 static void give_sounds(lua_State *L) {
   lua_pushcfunction(L, hear);
   lua_setfield(L, LUA_REGISTRYINDEX, CS_CORE_HEAR);
+  lua_pushcfunction(L, hear_spectrum);
+  lua_setfield(L, LUA_REGISTRYINDEX, CS_CORE_SPECTRUM);
 }
 
 /* ---------------------------------------------------------------- the state */

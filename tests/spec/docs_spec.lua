@@ -55,6 +55,7 @@ setup(function()
     end)
   end
   pack_card()
+  assert(os.execute(("cd %s && %s sounds.lua"):format(folder, interpreter)))
 end)
 
 teardown(function() os.execute("rm -r " .. folder) end)

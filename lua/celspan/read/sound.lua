@@ -2,11 +2,14 @@
 --
 --   local voice = assert(sound.read "voice.wav")
 --   local mouth = voice:loudness(f.time)      -- 0..1
---   local beats = voice:onsets()              -- seconds
+--   local notes = voice:onsets()              -- seconds
+--   local bars = voice:spectrum(f.time, 12)   -- 0..1 each, from low to high
+--   local beats, tempo = voice:beats()        -- seconds, and beats per minute
 --
 -- Loudness is that of EBU R 128, momentary: of the last 0.4 seconds.
 local core = require "celspan.core"
 local fields = require "celspan.fields"
+local spectrum = require "celspan.spectrum"
 
 local sound = {}
 
@@ -24,8 +27,13 @@ local ONSET_STEPS, APART = 3, 10
 ---@field seconds number How long it is
 local Sound = {}
 
---- Data that are hidden from scripts: the sums of a sound, 8 bytes each.
+local BANDS, BANDS_MOST = 24, 96
+
+--- Data that are hidden from scripts: the sums of a sound, 8 bytes each; the paths by which its
+--- file is found; its levels by band, once they are asked for.
 local sums_of = setmetatable({}, { __mode = "k" })
+local paths_of = setmetatable({}, { __mode = "k" })
+local levels_of = setmetatable({}, { __mode = "k" })
 
 local read_field = fields.reads("a sound", Sound)
 local metatable = {
@@ -58,14 +66,19 @@ local function level(square)
   return square > 0 and -0.691 + 10 * math.log(square, 10) or -math.huge
 end
 
+local function check_seconds(seconds, method)
+  if not fields.is_finite(seconds) then
+    core.refuse(("sound: %s takes seconds, a finite number, got %s")
+      :format(method, fields.shown(seconds)))
+  end
+end
+
 --- The loudness of the 0.4 seconds before a time: 0 is -60 LUFS or less, 1 is 0 LUFS or more.
 ---@param seconds number Of the sound
 ---@return number loudness 0..1
 function Sound:loudness(seconds)
   check(self, "loudness")
-  if not fields.is_finite(seconds) then
-    core.refuse("sound: loudness takes seconds, a finite number, got " .. fields.shown(seconds))
-  end
+  check_seconds(seconds, "loudness")
   local sums = sums_of[self]
   local square = sum_before(sums, seconds) - sum_before(sums, seconds - WINDOW)
   local lufs = level(square / (WINDOW / STEP * MOMENTS))
@@ -106,6 +119,42 @@ function Sound:onsets()
   return list
 end
 
+--- The levels of a sound by band. The file is decoded again at the first call, and refused if it is
+--- not there any more.
+local function levels(self)
+  if not levels_of[self] then
+    local found, message = core.spectrum(table.unpack(paths_of[self]))
+    levels_of[self] = found or core.refuse(message)
+  end
+  return levels_of[self]
+end
+
+--- How loud the sound is around a time, in bands from 40 Hz to 16 kHz whose frequencies have equal
+--- ratios: 0 is -60 dB or less, 1 is a sine of full scale.
+---@param seconds number Of the sound
+---@param bands? integer How many, 1 to 96 (default 24)
+---@return number[] levels 0..1 each, from low to high
+function Sound:spectrum(seconds, bands)
+  check(self, "spectrum")
+  check_seconds(seconds, "spectrum")
+  bands = bands == nil and BANDS or bands
+  local count = math.type(bands) and math.tointeger(bands)
+  if not count or count < 1 or count > BANDS_MOST then
+    core.refuse(("sound: spectrum takes a number of bands, 1 to %d, got %s")
+      :format(BANDS_MOST, fields.shown(bands)))
+  end
+  return spectrum.at(levels(self), seconds, count)
+end
+
+--- The beats of music with an even pulse, to a hundredth of a second; none, and 0, where nothing
+--- returns.
+---@return number[] seconds
+---@return number tempo Beats per minute
+function Sound:beats()
+  check(self, "beats")
+  return spectrum.beats(levels(self))
+end
+
 --- Reads a sound: WAV, FLAC, MP3, Ogg, Opus or M4A.
 ---@param file string Relative to the caller's file, else to the script; or an address data:...
 ---@return celspan.sound.loudness? sound
@@ -114,10 +163,11 @@ function sound.read(file)
   if type(file) ~= "string" then
     core.refuse("sound: read takes a file name, got " .. type(file))
   end
-  local seconds, sums = core.hear(file:find "^data:" and file or core.find(file))
+  local paths = { file:find "^data:" and file or core.find(file) }
+  local seconds, sums = core.hear(table.unpack(paths))
   if not seconds then return nil, sums end
   local value = setmetatable({ seconds = seconds }, metatable)
-  sums_of[value] = sums
+  sums_of[value], paths_of[value] = sums, paths
   return value
 end
 

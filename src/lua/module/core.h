@@ -52,6 +52,9 @@ int cs_folders_frame_name(lua_State *L);
  * message. sums: 8-byte floats, as plugins/sound/loudness.h describes them. Scripts of a state
  * without one cannot read sounds. */
 #define CS_CORE_HEAR "celspan.hear" /* its name in the registry */
+/* Another one: (path, tried | nil) -> levels | nil, message. levels: a byte for each band of each
+ * step, as plugins/sound/spectrum.h describes them. */
+#define CS_CORE_SPECTRUM "celspan.spectrum"
 
 /* ---------------------------------------------------------------- movies */
 

@@ -82,8 +82,11 @@ static int call_program(lua_State *L, const char *name, const char *what) {
   return 2;
 }
 
-/* core.hear(path, tried), core.movie(path, tried), core.is_movie(path): see core.h. */
+/* core.hear(path, tried), core.spectrum(path, tried), core.movie(path, tried),
+ * core.is_movie(path): see core.h. */
 static int hear(lua_State *L) { return call_program(L, CS_CORE_HEAR, "sounds"); }
+
+static int spectrum(lua_State *L) { return call_program(L, CS_CORE_SPECTRUM, "sounds"); }
 
 static int movie(lua_State *L) { return call_program(L, CS_CORE_MOVIE, "movies"); }
 
@@ -102,6 +105,7 @@ static const luaL_Reg core_functions[] = {{"find", find},
                                           {"sounds", cs_lua_film_sounds},
                                           {"captions", cs_lua_film_captions},
                                           {"hear", hear},
+                                          {"spectrum", spectrum},
                                           {"movie", movie},
                                           {"is_movie", is_movie},
                                           {"difference", cs_difference_of},

@@ -6,7 +6,7 @@
 #include "base/elementary.h"
 #include "plugins/sound/sound.h"
 
-enum { PIECE = 1024, LOW_FREQUENCY = 1 << 3 /* its bit among the places of WAV files */ };
+enum { LOW_FREQUENCY = 1 << 3 /* its bit among the places of WAV files */ };
 #define BEHIND ((uint32_t)0x38730) /* the places beside and behind the listener */
 
 /* A filter of second order: y = b0 x + b1 x' + b2 x'' - a1 y' - a2 y''. */
@@ -25,10 +25,10 @@ typedef struct memory {
 } memory;
 
 typedef struct listening {
-  cs_sound_stream samples; /* borrowed while it is heard */
+  const cs_sound_stream *samples;
+  cs_loudness *out;
   memory kept[CS_SOUND_STREAM_CHANNELS][2];
   double weights[CS_SOUND_STREAM_CHANNELS];
-  float piece[PIECE * CS_SOUND_STREAM_CHANNELS];
   double sum;
 } listening;
 
@@ -50,8 +50,8 @@ static uint32_t usual_places(int32_t channels) {
 
 /* Channels behind the listener count more; the channel for low frequencies does not count. */
 static void set_weights(listening *l) {
-  uint32_t places = l->samples.places ? l->samples.places : usual_places(l->samples.channels);
-  for (int32_t c = 0; c < l->samples.channels; c++) {
+  uint32_t places = l->samples->places ? l->samples->places : usual_places(l->samples->channels);
+  for (int32_t c = 0; c < l->samples->channels; c++) {
     uint32_t place = places & (~places + 1);
     places &= places - 1;
     l->weights[c] = place == LOW_FREQUENCY ? 0 : place & BEHIND ? 1.41 : 1;
@@ -60,50 +60,39 @@ static void set_weights(listening *l) {
 
 /* ---------------------------------------------------------------- sums */
 
-static celspan_status add_moment(listening *l, celspan_context *context, const float *moment,
-                                 cs_loudness *out) {
-  for (int32_t c = 0; c < l->samples.channels; c++) {
-    out->peak = fmax(out->peak, fabs((double)moment[c]));
+static celspan_status add_sum(listening *l, celspan_context *context) {
+  return CS_APPEND(context, l->out->sums, l->out->count, l->out->capacity, l->sum);
+}
+
+static celspan_status add_moment(listening *l, celspan_context *context, const float *moment) {
+  for (int32_t c = 0; c < l->samples->channels; c++) {
+    l->out->peak = fmax(l->out->peak, fabs((double)moment[c]));
     double y = pass(&high_pass, &l->kept[c][1], pass(&shelf, &l->kept[c][0], (double)moment[c]));
     l->sum += l->weights[c] * y * y;
   }
-  if (++out->moments % CS_LOUDNESS_STEP != 0)
-    return CELSPAN_OK;
-  return CS_APPEND(context, out->sums, out->count, out->capacity, l->sum);
+  return ++l->out->moments % CS_LOUDNESS_STEP == 0 ? add_sum(l, context) : CELSPAN_OK;
 }
 
-static celspan_status add_all(listening *l, celspan_context *context, const char *path,
-                              cs_loudness *out) {
-  const int64_t most = (int64_t)CS_LOUDNESS_HOURS * 3600 * CS_LOUDNESS_RATE;
-  size_t got = PIECE;
-  while (got == PIECE) {
-    CS_TRY(l->samples.read(l->samples.user, context, l->piece, PIECE, &got));
-    for (size_t i = 0; i < got; i++)
-      CS_TRY(add_moment(l, context, l->piece + i * (size_t)l->samples.channels, out));
-    if (out->moments > most)
-      return cs_fail(context, CELSPAN_LIMIT,
-                     "the sound %s has more than %d hours, which is the "
-                     "limit",
-                     cs_sound_name(path), CS_LOUDNESS_HOURS);
-  }
-  return CS_APPEND(context, out->sums, out->count, out->capacity, l->sum);
+static celspan_status add_moments(void *user, celspan_context *context, const float *moments,
+                                  size_t count) {
+  listening *l = user;
+  for (size_t i = 0; i < count; i++)
+    CS_TRY(add_moment(l, context, moments + i * (size_t)l->samples->channels));
+  return CELSPAN_OK;
 }
 
-static celspan_status listen(listening *l, celspan_context *context, const char *name,
-                             cs_loudness *out) {
-  CS_TRY(CS_APPEND(context, out->sums, out->count, out->capacity, 0));
+static celspan_status listen(listening *l, celspan_context *context, const char *name) {
+  CS_TRY(add_sum(l, context));
   set_weights(l);
-  return add_all(l, context, name, out);
+  CS_TRY(cs_sound_each(context, l->samples, name, add_moments, l));
+  return add_sum(l, context);
 }
 
 celspan_status cs_loudness_hear(celspan_context *context, const cs_sound_stream *samples,
                                 const char *name, cs_loudness *out) {
-  listening *l;
+  listening l = {.samples = samples, .out = out};
   *out = (cs_loudness){.sums = NULL};
-  CS_TRY(CS_MAKE(context, l, 1));
-  l->samples = *samples;
-  celspan_status status = listen(l, context, name, out);
-  cs_mem_free(context->memory, l, sizeof *l);
+  celspan_status status = listen(&l, context, name);
   if (status != CELSPAN_OK)
     cs_loudness_finish(out, context);
   return status;
@@ -111,10 +100,9 @@ celspan_status cs_loudness_hear(celspan_context *context, const cs_sound_stream 
 
 celspan_status cs_loudness_measure(celspan_context *context, const char *path, const char *tried,
                                    cs_loudness *out) {
-  const cs_sound_request request = {.path = path, .rate = CS_LOUDNESS_RATE};
+  const cs_sound_request request = {.path = path, .tried = tried, .rate = CS_SOUND_HEARD_RATE};
   cs_sound_stream samples;
   *out = (cs_loudness){.sums = NULL};
-  CS_TRY(cs_sound_find(context, path, tried));
   CS_TRY(cs_sound_open(context, &request, &samples));
   celspan_status status = cs_loudness_hear(context, &samples, path, out);
   cs_sound_stream_close(&samples);

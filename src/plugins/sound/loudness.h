@@ -11,11 +11,7 @@
 
 #include "frames/video/sound_stream.h"
 
-enum {
-  CS_LOUDNESS_RATE = 48000,
-  CS_LOUDNESS_STEP = 480, /* moments of a sum */
-  CS_LOUDNESS_HOURS = 24  /* the longest sound */
-};
+enum { CS_LOUDNESS_STEP = 480 /* moments of a sum */ };
 
 typedef struct cs_loudness {
   double *sums; /* owned; sums[i]: of all moments before step i; sums[0] is 0 */
@@ -28,7 +24,7 @@ typedef struct cs_loudness {
  * cs_loudness_finish. Errors: those of cs_sound_open; LIMIT. */
 CELSPAN_CHECKED celspan_status cs_loudness_measure(celspan_context *context, const char *path,
                                                    const char *tried, cs_loudness *out);
-/* The same for a stream of CS_LOUDNESS_RATE, which is read to its end. name: for messages. */
+/* The same for a stream of CS_SOUND_HEARD_RATE, which is read to its end. name: for messages. */
 CELSPAN_CHECKED celspan_status cs_loudness_hear(celspan_context *context,
                                                 const cs_sound_stream *samples, const char *name,
                                                 cs_loudness *out);

@@ -85,7 +85,7 @@ celspan_status cs_sound_open(celspan_context *context, const cs_sound_request *r
   const char *kind;
   int descriptor;
   *out = (cs_sound_stream){.user = NULL};
-  CS_TRY(open_file(context, request->path, NULL, &descriptor, &kind));
+  CS_TRY(open_file(context, request->path, request->tried, &descriptor, &kind));
   const cs_decoder_desc desc = {.path = cs_sound_name(request->path),
                                 .kind = kind,
                                 .descriptor = descriptor,
@@ -94,5 +94,37 @@ celspan_status cs_sound_open(celspan_context *context, const cs_sound_request *r
                                 .speed = request->speed > 0 ? request->speed : 1};
   celspan_status status = cs_decoder_open(context, &desc, out);
   close(descriptor);
+  return status;
+}
+
+/* ---------------------------------------------------------------- hearing */
+
+enum { PIECE = 1024 };
+
+/* piece: room for PIECE moments. */
+static celspan_status give_all(celspan_context *context, const cs_sound_stream *samples,
+                               const char *name, cs_sound_take *take, void *user, float *piece) {
+  const int64_t most = (int64_t)CS_SOUND_HOURS * 3600 * CS_SOUND_HEARD_RATE;
+  int64_t moments = 0;
+  size_t got = PIECE;
+  while (got == PIECE) {
+    CS_TRY(samples->read(samples->user, context, piece, PIECE, &got));
+    CS_TRY(take(user, context, piece, got));
+    moments += (int64_t)got;
+    if (moments > most)
+      return cs_fail(context, CELSPAN_LIMIT,
+                     "the sound %s has more than %d hours, which is the limit", cs_sound_name(name),
+                     CS_SOUND_HOURS);
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_sound_each(celspan_context *context, const cs_sound_stream *samples,
+                             const char *name, cs_sound_take *take, void *user) {
+  float *piece;
+  size_t count = PIECE * (size_t)samples->channels;
+  CS_TRY(CS_MAKE(context, piece, count));
+  celspan_status status = give_all(context, samples, name, take, user, piece);
+  cs_mem_free(context->memory, piece, count * sizeof *piece);
   return status;
 }

@@ -12,6 +12,7 @@
 
 typedef struct cs_sound_request {
   const char *path;       /* of a file, or an address that contains it (base/address.h) */
+  const char *tried;      /* other paths that do not exist either, for messages; NULL: none */
   int32_t rate, channels; /* the wanted ones; 0: those of the file */
   double speed;           /* 2: twice as fast, without changing the pitch; 0 and 1: unchanged */
 } cs_sound_request;
@@ -26,6 +27,18 @@ CELSPAN_CHECKED celspan_status cs_sound_find(celspan_context *context, const cha
  * ffmpeg; LIMIT; OUTPUT, if there is no ffmpeg; NO_MEMORY; CANCELLED. */
 CELSPAN_CHECKED celspan_status cs_sound_open(celspan_context *context,
                                              const cs_sound_request *request, cs_sound_stream *out);
+
+enum { CS_SOUND_HOURS = 24, CS_SOUND_HEARD_RATE = 48000 /* moments in a second */ };
+
+/* Takes `count` moments of a stream, one after another. */
+typedef celspan_status cs_sound_take(void *user, celspan_context *context, const float *moments,
+                                     size_t count);
+
+/* Gives all moments of a stream of CS_SOUND_HEARD_RATE to `take`, in their order. name: for
+ * messages. Errors: those of the stream and of `take`; NO_MEMORY; LIMIT beyond CS_SOUND_HOURS. */
+CELSPAN_CHECKED celspan_status cs_sound_each(celspan_context *context,
+                                             const cs_sound_stream *samples, const char *name,
+                                             cs_sound_take *take, void *user);
 
 /* ---- decoder.c */
 

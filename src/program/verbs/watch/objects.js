@@ -38,7 +38,8 @@ function setReading(isOn) {
   here("objects").setAttribute("aria-busy", isOn);
   const { length } = tree.list, hint = here("objects-hint");
   hint.hidden = isOn || (length > 0 && length < ROWS_MOST);
-  hint.textContent = length ? `These are the first ${length}.` : "Nothing has a name in this frame.";
+  hint.textContent = length ? `These are the first ${length}.`
+    : "Nothing has a name in this frame.";
 }
 
 /** The rows with what they are called, their paths, "shot/cel/name", and whether they have parts.
