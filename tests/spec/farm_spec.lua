@@ -1,58 +1,18 @@
 -- celspan farm: its script for Slurm is run as Slurm would run an array, and its commands by a
 -- shell and by engines. openjd_spec.lua has the template of Open Job Description.
+local farm = require "tests.support.farm"
 local json = require "celspan.json"
 local openjd = require "tests.support.openjd"
 local present = require "tests.support.present"
-local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
-local FILM = [[
-local celspan = require "celspan"
-local radius = tonumber((...)) or 20
-return celspan.film { size = { 60, 40 }, frames = 7, first = 3, frame = function(f)
-  return celspan.rostrum { celspan.cel { celspan.circle { centre = { 5 * f.number, 20 },
-    radius = radius, texture = "#c04030" } } }
-end }
-]]
+local celspan, done, frames_in, refused, same, shell, word =
+  farm.celspan, farm.done, farm.frames_in, farm.refused, farm.same, farm.shell, farm.word
 
 local bench
 
-before_each(function()
-  bench = workbench.new()
-  bench:write("film.lua", FILM)
-end)
-after_each(function() bench:remove() end)
-
-local word = system.quote
-
---- In the folder of the bench.
-local function shell(command)
-  return bench:shell(("cd %s && CELSPAN=%s && export CELSPAN && %s"):format(word(bench.folder),
-    word(workbench.absolute), command))
-end
-
-local function celspan(arguments) return shell('"$CELSPAN" ' .. arguments) end
-
-local function done(arguments)
-  local code, out, err = celspan(arguments)
-  assert.equal(0, code, err)
-  return out
-end
-
-local function refused(text, arguments)
-  local code, out, err = celspan(arguments)
-  assert.equal(2, code, err)
-  assert.equal("", out)
-  assert.is_truthy(err:find(text, 1, true), err)
-end
-
---- The files of frames, without records.
-local function frames_in(folder)
-  local _, names = bench:shell("ls " .. word(bench.folder .. "/" .. folder))
-  return (names:gsub("\n$", ""):gsub("\n", " "))
-end
-
-local function same(a, b) assert.equal(bench:read(a), bench:read(b), a .. " is not " .. b) end
+before_each(function() bench = farm.begin() end)
+after_each(farm.finish)
 
 -- ---------------------------------------------------------------- Slurm
 
@@ -113,7 +73,7 @@ describe("the script for Slurm", function()
 
   it("passes on the options for the script's rights", function()
     slurm "-o out/#.png --frames 3"
-    bench:write("film.lua", "assert(os.execute)\n" .. FILM)
+    bench:write("film.lua", "assert(os.execute)\n" .. farm.FILM)
     assert.equal(3, (run_task(1)))
     slurm "-o out/#.png --frames 3 --trust"
     assert.equal(0, (run_task(1)))
@@ -210,7 +170,7 @@ describe("the script for Slurm", function()
   end)
 
   it("warns about arrays that Slurm may not accept", function()
-    bench:write("long.lua", FILM:gsub("frames = 7", "frames = 5000"))
+    bench:write("long.lua", farm.FILM:gsub("frames = 7", "frames = 5000"))
     local _, _, err = celspan "farm long.lua -o out/#.png --slurm --chunk 2"
     assert.is_truthy(err:find("2500 tasks: Slurm takes arrays of 1000", 1, true), err)
     _, _, err = celspan "farm long.lua -o out/#.png --slurm --chunk 5"
@@ -333,7 +293,7 @@ end
 
 describe("the examples of engines", function()
   before_each(function()
-    bench:write("film.lua", (FILM:gsub("frames = 7, first = 3", "frames = 240")))
+    bench:write("film.lua", (farm.FILM:gsub("frames = 7, first = 3", "frames = 240")))
     done "render film.lua -o whole/shot.####.png --progress none"
   end)
 

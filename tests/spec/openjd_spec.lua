@@ -1,57 +1,16 @@
 -- celspan farm --openjd: the template is compared with the specification, and run with its
 -- parameters filled in.
+local farm = require "tests.support.farm"
 local json = require "celspan.json"
 local openjd = require "tests.support.openjd"
-local system = require "tests.support.system"
-local workbench = require "tests.support.workbench"
 
-local FILM = [[
-local celspan = require "celspan"
-local radius = tonumber((...)) or 20
-return celspan.film { size = { 60, 40 }, frames = 7, first = 3, frame = function(f)
-  return celspan.rostrum { celspan.cel { celspan.circle { centre = { 5 * f.number, 20 },
-    radius = radius, texture = "#c04030" } } }
-end }
-]]
+local done, frames_in, refused, same, shell, word =
+  farm.done, farm.frames_in, farm.refused, farm.same, farm.shell, farm.word
 
 local bench
 
-before_each(function()
-  bench = workbench.new()
-  bench:write("film.lua", FILM)
-end)
-after_each(function() bench:remove() end)
-
-local word = system.quote
-
---- In the folder of the bench.
-local function shell(command)
-  return bench:shell(("cd %s && CELSPAN=%s && export CELSPAN && %s"):format(word(bench.folder),
-    word(workbench.absolute), command))
-end
-
-local function celspan(arguments) return shell('"$CELSPAN" ' .. arguments) end
-
-local function done(arguments)
-  local code, out, err = celspan(arguments)
-  assert.equal(0, code, err)
-  return out
-end
-
-local function refused(text, arguments)
-  local code, out, err = celspan(arguments)
-  assert.equal(2, code, err)
-  assert.equal("", out)
-  assert.is_truthy(err:find(text, 1, true), err)
-end
-
---- The files of frames, without records.
-local function frames_in(folder)
-  local _, names = bench:shell("ls " .. word(bench.folder .. "/" .. folder))
-  return (names:gsub("\n$", ""):gsub("\n", " "))
-end
-
-local function same(a, b) assert.equal(bench:read(a), bench:read(b), a .. " is not " .. b) end
+before_each(function() bench = farm.begin() end)
+after_each(farm.finish)
 
 local function template(arguments)
   local text = done("farm film.lua --openjd " .. arguments)
@@ -169,7 +128,7 @@ describe("the template of Open Job Description", function()
       word(bench.folder))))
     bench:write("far/part.lua", "return 7")
     bench:write("scene/near.lua", "return 8")
-    bench:write("scene/film.lua", 'require "near" require "part"\n' .. FILM)
+    bench:write("scene/film.lua", 'require "near" require "part"\n' .. farm.FILM)
     local function paths(options)
       local text = done("farm scene/film.lua --openjd -o out/#.png " .. options)
       local job, list = assert(json.decode(text)), {}
@@ -185,7 +144,7 @@ describe("the template of Open Job Description", function()
       .. ' "$CELSPAN" farm scene/film.lua --openjd -o out/#.png')
     assert.equal(0, code, err)
     assert.is_truthy(out:find("far/part.lua", 1, true), out)
-    bench:write("scene/film.lua", 'require "near"\n' .. FILM)
+    bench:write("scene/film.lua", 'require "near"\n' .. farm.FILM)
     assert.equal("Script scene/film.lua, Folder scene", paths "")
     assert.equal("Script scene/film.lua, Folder scene, Allow1 far", paths "--allow far")
   end)
