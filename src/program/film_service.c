@@ -17,14 +17,17 @@
 #include "lua/bind/userdata.h"
 #include "lua/bind/warnings.h"
 #include "lua/module/core.h"
+#include "lua/module/subtitles.h"
 #include "model/colour/space.h"
 #include "model/scene/inspect.h"
 #include "model/scene/scene.h"
 #include "program/change.h"
+#include "program/refusals.h"
 #include "program/service.h"
 #include "program/soundtrack.h"
 #include "program/stage.h"
 #include "program/target.h"
+#include "program/verbs.h"
 #include "program/view.h"
 
 typedef struct film {
@@ -139,6 +142,22 @@ static int view_size(lua_State *L) {
   return 2;
 }
 
+/* film:refuse(words, is_whole): ends the verb if `render` would refuse these words for the film;
+ * is_whole: for its size and its rate, too */
+static int refuse(lua_State *L) {
+  const cs_session *session = cs_service_session(L);
+  const cs_script *script = &self(L)->script;
+  const char **words = cs_service_push_words(L, 2) + 1;
+  cs_request request;
+  cs_service_require(L, cs_request_parse(cs_verb_named("render"), lua_rawlen(L, 2),
+                                         (char *const *)words, &request));
+  request.spaces = session->request->spaces;
+  cs_service_require(L, cs_refusals_early(session->context, &request));
+  if (lua_toboolean(L, 3))
+    cs_service_require(L, cs_refusals_of_film(script, &request));
+  return 0;
+}
+
 /* film:lay_onion(width, height): replaces the film by that of --onion, with skins of this size. */
 static int lay_onion(lua_State *L) {
   const celspan_frame_desc frame = {.width = (int32_t)luaL_checkinteger(L, 2),
@@ -160,11 +179,29 @@ static int try_onion(lua_State *L) {
   return push_outcome(L, f, cs_change_try_onion(&f->script, &onion, luaL_checkinteger(L, 2)));
 }
 
-/* film:check_sound() -> 0, or the exit code for a fault of the sound, which is reported */
-static int check_sound(lua_State *L) {
+static celspan_status read_captions(cs_script *script) {
+  const cs_film_info *info = &script->film;
+  if (!info->has_captions)
+    return CELSPAN_OK;
+  celspan_status status =
+      cs_subtitles_push(script->L, CS_SCRIPT_FILM, 0, (double)info->count / info->frames_second);
+  if (status == CELSPAN_OK)
+    lua_pop(script->L, 1);
+  return status;
+}
+
+/* film:check_tracks(is_silent) -> 0, or the exit code for a fault of the sound or else the captions,
+ * both of which are read; it is reported unless is_silent */
+static int check_tracks(lua_State *L) {
   film *f = self(L);
-  celspan_status status = cs_soundtrack_check(&f->script, f->pictures.is_deep);
-  lua_pushinteger(L, cs_report_failure(f->script.context, status, NULL));
+  const celspan_context *context = f->script.context;
+  bool is_silent = lua_toboolean(L, 2);
+  celspan_status sound = cs_soundtrack_check(&f->script, f->pictures.is_deep);
+  cs_exit outcome = is_silent ? cs_report_exit(sound) : cs_report_failure(context, sound, NULL);
+  celspan_status captions = read_captions(&f->script);
+  if (outcome == CS_EXIT_OK && !is_silent)
+    outcome = cs_report_failure(context, captions, NULL);
+  lua_pushinteger(L, outcome != CS_EXIT_OK ? outcome : cs_report_exit(captions));
   return 1;
 }
 
@@ -454,22 +491,18 @@ static int describe(lua_State *L) {
 
 /* Sets the methods of the film on top of the stack. */
 static void set_methods(lua_State *L) {
-  static const luaL_Reg methods[] = {CS_SERVICE(build),         {"try", try_frame},
-                                     {"onion", try_onion},      CS_SERVICE(at),
-                                     CS_SERVICE(chosen),        CS_SERVICE(exposures),
-                                     CS_SERVICE(words),         CS_SERVICE(numbers),
-                                     CS_SERVICE(view_size),     CS_SERVICE(lay_onion),
-                                     CS_SERVICE(check_sound),   CS_SERVICE(scene),
-                                     CS_SERVICE(counts),        CS_SERVICE(names),
-                                     CS_SERVICE(ask),           CS_SERVICE(faults),
-                                     CS_SERVICE(drop_warnings), CS_SERVICE(files),
-                                     CS_SERVICE(picture),       CS_SERVICE(hits),
-                                     CS_SERVICE(alter),         CS_SERVICE(keep_line),
-                                     CS_SERVICE(keep_callers),  CS_SERVICE(silence),
-                                     CS_SERVICE(costs),         CS_SERVICE(camera),
-                                     CS_SERVICE(hold_camera),   CS_SERVICE(use_camera),
-                                     CS_SERVICE(sound),         CS_SERVICE(wave),
-                                     CS_SERVICE(tree),          {NULL, NULL}};
+  static const luaL_Reg methods[] = {
+      CS_SERVICE(build),      {"try", try_frame},        {"onion", try_onion},
+      CS_SERVICE(at),         CS_SERVICE(chosen),        CS_SERVICE(exposures),
+      CS_SERVICE(words),      CS_SERVICE(numbers),       CS_SERVICE(view_size),
+      CS_SERVICE(lay_onion),  CS_SERVICE(check_tracks),  CS_SERVICE(scene),
+      CS_SERVICE(counts),     CS_SERVICE(names),         CS_SERVICE(ask),
+      CS_SERVICE(faults),     CS_SERVICE(drop_warnings), CS_SERVICE(files),
+      CS_SERVICE(picture),    CS_SERVICE(hits),          CS_SERVICE(alter),
+      CS_SERVICE(keep_line),  CS_SERVICE(keep_callers),  CS_SERVICE(silence),
+      CS_SERVICE(costs),      CS_SERVICE(camera),        CS_SERVICE(hold_camera),
+      CS_SERVICE(use_camera), CS_SERVICE(sound),         CS_SERVICE(wave),
+      CS_SERVICE(tree),       CS_SERVICE(refuse),        {NULL, NULL}};
   lua_createtable(L, 0, 2);
   lua_pushcfunction(L, describe);
   lua_setfield(L, -2, "__tostring");

@@ -28,13 +28,6 @@
 
 enum { VERBS_MOST = 32 };
 
-static const cs_verb *find_verb(const char *name) {
-  for (const cs_verb *verb = cs_verbs; verb->name; verb++)
-    if (strcmp(verb->name, name) == 0)
-      return verb;
-  return NULL;
-}
-
 /* Reports that a file was given instead of a verb. */
 static cs_exit refuse_file(const char *name) {
   const char *dot = strrchr(name, '.');
@@ -120,7 +113,7 @@ static cs_exit parse_and_run(const cs_verb *verb, size_t count, char *const *wor
  * listed. */
 static cs_exit help(size_t count, char *const *words) {
   bool is_list = count > 0 && strcmp(words[0], "help") == 0;
-  return parse_and_run(find_verb("help"), is_list ? 0 : count, words);
+  return parse_and_run(cs_verb_named("help"), is_list ? 0 : count, words);
 }
 
 static cs_exit help_word(const char *word) { return help(1, (char *const *)&word); }
@@ -146,7 +139,7 @@ static cs_exit dispatch(int count, char **arguments) {
     return help_word(first);
   if (strcmp(first, "help") == 0 || strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)
     return help((size_t)count - 2, arguments + 2);
-  const cs_verb *verb = find_verb(first);
+  const cs_verb *verb = cs_verb_named(first);
   if (verb)
     return run_verb(verb, (size_t)count - 2, arguments + 2);
   return strchr(first, '.') ? refuse_file(first) : refuse_verb(first);

@@ -2,6 +2,8 @@
  * printed; lines that begin with a space are not wrapped. One file, because it is one list. */
 #include "program/verbs.h"
 
+#include <string.h>
+
 /* ---------------------------------------------------------------- options of several verbs */
 
 #define OUTPUT(value, help)                                                                        \
@@ -633,3 +635,10 @@ const cs_verb cs_verbs[] = {
      .asks_warnings = true, .runs_again = true, .options = STAGE},
     {"spec", "-- FILE [PATTERN]", 0, 0, .is_hidden = true, .has_script = true, .options = SPEC},
     {0}};
+
+const cs_verb *cs_verb_named(const char *name) {
+  for (const cs_verb *verb = cs_verbs; verb->name; verb++)
+    if (strcmp(verb->name, name) == 0)
+      return verb;
+  return NULL;
+}

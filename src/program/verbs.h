@@ -7,6 +7,8 @@
 
 /* In the order of the help; the last one has no name. */
 extern const cs_verb cs_verbs[];
+/* NULL: there is none. */
+const cs_verb *cs_verb_named(const char *name);
 
 cs_exit cs_verb_render(celspan_context *context, const cs_request *request);
 cs_exit cs_verb_sound(celspan_context *context, const cs_request *request);

@@ -251,12 +251,18 @@ static cs_video_desc describe(const cs_script *script, const cs_request *request
   return desc;
 }
 
+cs_exit cs_video_target_refuse_frames(const cs_script *script, const cs_request *request,
+                                      const celspan_frame_desc *frame) {
+  const cs_video_desc desc = describe(script, request, frame);
+  CS_TRY_EXIT(refuse_size(&desc));
+  return refuse_rate(&desc);
+}
+
 cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request *request,
                              const celspan_frame_desc *frame, const cs_sequence *played) {
   CS_TRY_EXIT(cs_video_target_refuse(request, SIZE_MAX));
+  CS_TRY_EXIT(cs_video_target_refuse_frames(script, request, frame));
   cs_video_desc desc = describe(script, request, frame);
-  CS_TRY_EXIT(refuse_size(&desc));
-  CS_TRY_EXIT(refuse_rate(&desc));
   CS_TRY_EXIT(set_captions(&desc, script, played));
   return open_with_chapters(out, script, request, &desc, played);
 }

@@ -16,6 +16,9 @@ bool cs_video_target_is_wanted(const cs_request *request, size_t frame_count);
 /* Refuses options that videos do not have. OK, or reported. frame_count 0: not known yet, and the
  * name of a single picture is not refused. */
 cs_exit cs_video_target_refuse(const cs_request *request, size_t frame_count);
+/* Refuses frames of a size, or a rate, that the codec does not have. OK, or reported. */
+cs_exit cs_video_target_refuse_frames(const cs_script *script, const cs_request *request,
+                                      const celspan_frame_desc *frame);
 /* Starts the encoder, with the film's sound while these frames are played. OK, or reported. */
 cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request *request,
                              const celspan_frame_desc *frame, const cs_sequence *played);

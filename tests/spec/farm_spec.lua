@@ -240,6 +240,38 @@ describe("a job of a table", function()
     refused("line 4", OPTIONS:format "a" .. "--commands")
   end)
 
+  it("refuses what the run of a row would refuse", function()
+    local refusals = {
+      ["-o '{name}.xyz'"] = "cannot be written",
+      ["-o '{name}.png' --frames 1 --max-size 2M"] = "--max-size is only for videos",
+      ["-o '{name}.mp4' --fit cover"] = "give --size",
+      ["-o '{name}.mp4' --size 61x41"] = "needs an even width and height",
+      ["-o '{name}.mp4' --codec ffv1"] = "mp4 contains",
+      ["-o '{name}-#.mp4'"] = "leave the frame's number out",
+    }
+    for options, text in pairs(refusals) do
+      refused(text, "farm set.lua --table night.csv --commands " .. options)
+    end
+    bench:write("formats.csv", "name,ending\na,png\nb,xyz\n")
+    refused("b.xyz: the format \"xyz\"",
+      "farm set.lua --table formats.csv --commands -o '{name}.{ending}' --frames 1")
+    done "farm set.lua --table night.csv --commands -o '{name}.mp4' --size 60x40 --codec h264"
+    done "farm set.lua --table night.csv --commands -o '{name}.mp4' --keep-going"
+  end)
+
+  it("leaves sizes that are not given to the rows, whose films have their own", function()
+    bench:write("sized.lua", [[
+      local celspan = require "celspan"
+      local p = celspan.parameters { side = 41 }
+      return celspan.film { size = { p.side, p.side }, frames = 1, frame = function()
+        return celspan.rostrum { back = "#fff" }
+      end }]])
+    bench:write("sizes.csv", "side\n40\n")
+    local arguments = "sized.lua -o o.mp4 --table sizes.csv"
+    done("farm --commands " .. arguments)
+    done("render " .. arguments)
+  end)
+
   it("may make videos, and no strips", function()
     assert.is_truthy(done("farm set.lua -o '{name}.mp4' --table night.csv --commands --quality 9")
       :find("--table night.csv --quality 9", 1, true))
@@ -275,6 +307,9 @@ describe("the commands of a job", function()
 
   it("need one line each", function()
     refused("has control characters", "farm film.lua -o o/#.png --commands -- 'a\nb'")
+    refused("has control characters", "farm film.lua -o 'o\n/#.png' --commands")
+    bench:write("a\nb.lua", farm.FILM)
+    refused("has control characters", "farm 'a\nb.lua' -o o/#.png --commands")
   end)
 end)
 
@@ -357,6 +392,28 @@ describe("celspan farm", function()
     bench:write("bad.lua", "error 'bad'")
     assert.equal(3, (celspan "farm bad.lua -o o/#.png --slurm"))
     assert.equal(4, (celspan "farm none.lua -o o/#.png --slurm"))
+  end)
+
+  it("refuses what every task would refuse", function()
+    for options, text in pairs {
+      ["-o o.#.png --quality 50"] = "--quality is only for videos",
+      ["-o o.#.png --fps 12"] = "--fps is only for videos",
+      ["-o o.#.png --loudness -14"] = "--loudness is only for videos",
+      ["-o o.#.png --layers cels"] = "only OpenEXR files have layers",
+      ["-o o.#.exr --layers cels --colour rec709"] = "--layers are in linear light",
+      ["-o o.#.png --dither --depth 16"] = "--dither makes 8 bits",
+      ["-o o.plane"] = "a film of planes is made in one run",
+      ["-o o.plane --keep-going"] = "a plane file is made whole",
+      ["-o o.#.xyz"] = "cannot be written",
+      ["-o o.#.png --fit cover"] = "give --size",
+      ["-o o.#.png --crop 50,0,20,20"] = "is not within the frame",
+    } do
+      refused(text, "farm film.lua --commands " .. options)
+    end
+    for _, options in ipairs { "--colour linear --layers cels -o o.#.exr", "--force -o o.#.png",
+                               "--keep-going --depth 16 -o o.#.png" } do
+      done("farm film.lua --commands " .. options)
+    end
   end)
 
   it("refuses formats whose strips cannot be joined", function()

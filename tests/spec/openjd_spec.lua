@@ -3,6 +3,8 @@
 local farm = require "tests.support.farm"
 local json = require "celspan.json"
 local openjd = require "tests.support.openjd"
+local present = require "tests.support.present"
+local workbench = require "tests.support.workbench"
 
 local done, frames_in, refused, same, shell, word =
   farm.done, farm.frames_in, farm.refused, farm.same, farm.shell, farm.word
@@ -147,5 +149,136 @@ describe("the template of Open Job Description", function()
     bench:write("scene/film.lua", 'require "near"\n' .. farm.FILM)
     assert.equal("Script scene/film.lua, Folder scene", paths "")
     assert.equal("Script scene/film.lua, Folder scene, Allow1 far", paths "--allow far")
+  end)
+
+  --- The defaults of the parameters of a job, by their names.
+  local function defaults_of(job)
+    local values = {}
+    for _, one in ipairs(job.parameterDefinitions) do values[one.name] = one.default end
+    return values
+  end
+
+  --- The template for other scripts than film.lua, in the form of the specification.
+  local function checked(arguments)
+    local job = assert(json.decode(done("farm --openjd " .. arguments)))
+    openjd.check(job)
+    return job, defaults_of(job)
+  end
+
+  it("finds files for strips and tables, and those of videos", function()
+    local outside = workbench.new()
+    outside:write("a.csv", "1")
+    outside:write("talk.srt", "1\n00:00:00,000 --> 00:00:01,000\nhello\n")
+    outside:write("hum.wav", "RIFF")
+    bench:write("far.lua", ([[
+      local celspan = require "celspan"
+      celspan.parameters { radius = 10 }
+      return celspan.film { size = { 60, 1200 }, frames = 2, captions = "%s/talk.srt",
+        sound = "%s/hum.wav", frame = function()
+          require "celspan.csv".read "%s/a.csv"
+          return celspan.rostrum { back = "#fff" }
+        end }]]):gsub("%%s", outside.folder))
+    bench:write("rows.csv", "radius,name\n2,a\n")
+    local allowed = " --trust"
+    local _, values = checked("far.lua -o o.png --frames 1 --strips 2" .. allowed)
+    assert.same({ outside.folder .. "/a.csv" }, { values.File1, values.File2 })
+    _, values = checked("far.lua -o '{name}/#.png' --table rows.csv" .. allowed)
+    assert.same({ outside.folder .. "/a.csv" }, { values.File1, values.File2 })
+    _, values = checked("far.lua -o '{name}.mp4' --table rows.csv" .. allowed)
+    assert.same({ outside.folder .. "/a.csv", outside.folder .. "/hum.wav",
+                  outside.folder .. "/talk.srt" }, { values.File1, values.File2, values.File3 })
+    outside:remove()
+  end)
+
+  it("leaves room for files before it offers what the script declares", function()
+    local outside = workbench.new()
+    local script = { 'local celspan, csv = require "celspan", require "celspan.csv"',
+                     "celspan.parameters {" }
+    for i = 1, 40 do script[#script + 1] = ("p%d = %d,"):format(i, i) end
+    script[#script + 1] = "}"
+    for i = 1, 8 do
+      script[#script + 1] = ("csv.read %q"):format(outside:write(i .. ".csv", "1"))
+    end
+    bench:write("many.lua", table.concat(script, "\n") .. "\n" .. farm.FILM:gsub("^local[^\n]*", ""))
+    local job, values = checked "many.lua -o o/#.png --set p7=70 --trust"
+    assert.equal(outside.folder .. "/8.csv", values.File8)
+    assert.equal(70, values.Set_p7)
+    assert.is_nil(values.Set_p8)
+    assert.is_true(#job.parameterDefinitions <= 50)
+    outside:remove()
+  end)
+
+  it("keeps braces of either side out of its arguments", function()
+    local job, values = checked "film.lua -o 'o/a}}b.#.png' --frames 3 -- 7.5"
+    assert.equal("a}}b.#.png", values.Text1)
+    openjd.run(job, bench)
+    done "render film.lua -o w.png --frames 3 -- 7.5"
+    same("o/a}}b.3.png", "w.png")
+  end)
+
+  it("refuses a folder whose name the rows of a table would replace", function()
+    bench:write("rows.csv", "name\na\n")
+    bench:shell("mkdir -p " .. word(bench.folder .. "/a{name}/{{b"))
+    local arguments = '"$CELSPAN" farm --openjd --table %s/rows.csv ../%s -o %s'
+    local code, _, err = shell("cd 'a{name}' && " .. arguments:format("..", "film.lua", "'{name}/#.png'"))
+    assert.equal(2, code)
+    assert.is_truthy(err:find("takes {name} in the name of the folder", 1, true), err)
+    local out
+    code, out, err = shell("cd 'a{name}/{{b' && " .. arguments:format("../..", "../film.lua",
+      word(bench.folder .. "/{name}/#.png")))
+    assert.equal(0, code, err)
+    local job = assert(json.decode(out))
+    openjd.check(job)
+    openjd.run(job, bench)
+    assert.equal("3.png 4.png 5.png 6.png 7.png 8.png 9.png", frames_in "a")
+  end)
+
+  it("names the folder of numbered pictures, and a painting's folder", function()
+    done "render film.lua -o plates/p.####.png"
+    local job, values = checked "'plates/p.####.png' -o o/#.png"
+    assert.is_nil(values.Script)
+    assert.equal(bench.folder .. "/plates", values.Folder)
+    openjd.run(job, bench)
+    done "render 'plates/p.####.png' -o w/#.png"
+    assert.equal(frames_in "w", frames_in "o")
+    same("o/9.png", "w/9.png")
+  end)
+
+  local it_converts = present.spaces() and it or pending
+  it_converts("names the configuration of colours, and its folder", function()
+    bench:shell("mkdir -p " .. bench.folder .. "/show/luts " .. bench.folder .. "/scene")
+    bench:write("show/luts/half.cube", "LUT_3D_SIZE 2\n" .. ("0 0 0\n"):rep(7) .. "0.5 0.5 0.5\n")
+    bench:write("show/config.ocio", [[ocio_profile_version: 2
+search_path: luts
+roles:
+  default: light
+  scene_linear: light
+displays:
+  screen:
+    - !<View> {name: half, colorspace: half}
+colorspaces:
+  - !<ColorSpace>
+    name: light
+    aliases: [lin_rec709]
+  - !<ColorSpace>
+    name: half
+    from_reference: !<FileTransform> {src: half.cube}
+]])
+    bench:write("scene/film.lua", farm.FILM)
+    local options = "scene/film.lua --colour half --frames 3 "
+    local job, values = checked(options .. "-o o/#.png --ocio show/config.ocio")
+    assert.equal(bench.folder .. "/show/config.ocio", values.Ocio)
+    assert.equal(bench.folder .. "/show", values.OcioFolder)
+    openjd.run(job, bench)
+    done("render " .. options .. "-o w/#.png --ocio show/config.ocio")
+    same("o/3.png", "w/3.png")
+    local _, out = shell("OCIO=show/config.ocio \"$CELSPAN\" farm --openjd -o p/#.png " .. options)
+    assert.equal(values.Ocio, defaults_of(assert(json.decode(out))).Ocio)
+    _, values = checked("scene/film.lua -o o/#.png --ocio ocio://default")
+    assert.is_nil(values.Ocio)
+    bench:write("scene/config.ocio", bench:read "show/config.ocio")
+    _, values = checked("scene/film.lua -o o/#.png --ocio scene/config.ocio")
+    assert.equal(bench.folder .. "/scene/config.ocio", values.Ocio)
+    assert.is_nil(values.OcioFolder)
   end)
 end)

@@ -2,7 +2,7 @@
 --
 --   frames of a part   1 2 3 ... n | n+1 ...        in parts, so that memory is bounded:
 --
---   the film's sound
+--   the film's sound and captions
 --   first pass  -->   in order: frames that cannot be built, pictures that cannot be read
 --   a sample    < - - in fresh films, last frame first: a frame whose scene now differs was not
 --                     made by a pure function of its number. The films share the sample, because
@@ -255,7 +255,7 @@ local function report_slowest(done)
 end
 
 --- ended: an error that ended the checks, and was already reported.
-local function report(done, count, ended, sound, warnings)
+local function report(done, count, ended, tracks, warnings)
   for _, fault in ipairs(request.json and {} or faults) do
     program.error("%s: %s", frames_of(fault), sentence_of(fault))
   end
@@ -275,7 +275,7 @@ local function report(done, count, ended, sound, warnings)
       faults.met, plural(faults.met), done, plural(done))
   elseif done == count and not ended then
     program.note("%d frame%s checked: no faults%s%s", done, plural(done),
-      sound == 0 and "" or " except in the sound",
+      tracks == 0 and "" or " except in the sound or the captions",
       #warnings == 0 and "" or (", %d warning%s"):format(#warnings, plural(#warnings)))
   end
 end
@@ -309,8 +309,8 @@ else
 end
 local listed = request.frames and film:numbers()
 local count = listed and #listed or film.frames
-local sound = film:check_sound()
-if sound ~= 0 then others[1] = program.reported() end
+local tracks = film:check_tracks()
+if tracks ~= 0 then others[1] = program.reported() end
 local survey = program.part("survey.lua", program, film)
 local done, ended = check_parts(film, survey, listed, count)
 local warnings = program.until_stopped(warnings_of, survey) or {}
@@ -319,5 +319,5 @@ if request.files then
 elseif request.json then
   print_json(warnings)
 end
-report(done, count, ended, sound, warnings)
-return faults.code or ended or sound
+report(done, count, ended, tracks, warnings)
+return faults.code or ended or tracks

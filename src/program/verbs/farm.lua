@@ -7,7 +7,8 @@
 --
 --   job.strips    whether tasks are strips of one frame, else parts of the frames
 --   job.tasks     how many; job.frames: how many frames they make, or job.rows: films of --table
---   job.chunk     the most frames, or rows, of a task; job.numbers: of the frames
+--   job.chunk     the most frames, or rows, of a task; nil: tasks are strips
+--   job.numbers   of the frames; nil: of a table, whose films may differ
 --   job.script, job.output, job.folder    as they were given, and the folder they were given in
 --   job.options   of render, in their order: {name =, value =}; value nil: a flag
 --   job.arguments of the script
@@ -19,7 +20,7 @@ local core = require "celspan.core"
 
 local CHUNK, CHUNK_ROWS = 10, 1 -- frames of a task; films of a task with --table
 local STRIPS_MOST = 1000 -- the most that one command can join
-local OPTIONS_MOST, PATH_MOST = 128, 4095
+local OPTIONS_MOST = 128
 local ARRAY_MOST = 1000 -- the most tasks of an array that Slurm accepts by default
 
 -- ---------------------------------------------------------------- both engines
@@ -190,7 +191,7 @@ end
 local function commands(job)
   local lines, head = {}, ("cd -- %s && ${CELSPAN:-celspan} "):format(quoted(job.folder))
   local words, parts = words_of(job), {}
-  if job.folder:find "%c" or words:find "%c" then
+  if (job.folder .. job.script .. job.output .. words):find "%c" then
     return nil, "--commands: a command is a line, and a name or an argument has control characters"
   end
   local workers = job.workers and " --workers " .. job.workers or ""
@@ -232,17 +233,29 @@ local function refuse()
   if output == "-" or not request.table and program.is_video(output) then
     program.usage "a farm makes files of frames: give -o shot.####.png (and make a video of them)"
   end
-  if #output > PATH_MOST then program.usage("%.80s...: the name is too long", output) end
-  if not request.table then program.refuse_target(output) end
+  if #output > program.path_most then program.usage("%.80s...: the name is too long", output) end
 end
 
 --- How many tasks have the most of `chunk`.
 local function tasks_of(count, chunk) return (count + chunk - 1) // chunk end
 
+--- Options of the job that are not those of a row: the process of a row does not get them.
+local not_of_rows = setmetatable({ ["--table"] = true, ["--keep-going"] = true }, { __index = own })
+
+--- Refuses what `render` would refuse of a task, or of a row, with this output. division: --task or
+--- --strip with its value; nil: a row. Films of a table may differ in their size, unless it is given.
+local function refuse_run(film, output, division, value)
+  local words = { request[1], "-o", output, "--resume", division, value }
+  film:refuse(program.pass_on(words, request, division and own or not_of_rows, {}),
+    division or request.size or request.fit)
+end
+
 --- Sets the numbers of films and tasks. Every row is checked, but no frame is counted: films may
 --- differ in their length.
 local function count_rows(job, film)
-  job.rows, job.output = program.part("rows.lua", program, request, film).count, request.output
+  local rows = program.part("rows.lua", program, request, film)
+  for row in rows.next do refuse_run(film, row.output) end
+  job.rows, job.output = rows.count, request.output
   job.chunk = math.tointeger(request.chunk) or CHUNK_ROWS
   job.tasks = tasks_of(job.rows, job.chunk)
 end
@@ -251,16 +264,18 @@ end
 local function count_tasks(job, film)
   local numbers = film:numbers(request.output)
   job.frames, job.tasks, job.output = #numbers, math.tointeger(request.strips), request.output
+  job.numbers = numbers
   if request.strips then
     if #numbers ~= 1 then
       program.usage("--strips divides one frame, and there are %d: name it with --frames", #numbers)
     end
     job.output = program.check(core.frame_name(request.output, numbers[1]))
+    refuse_run(film, strip_pattern(job.output, 1), "--strip", job.tasks .. "/" .. job.tasks)
   else
-    job.chunk, job.numbers = math.tointeger(request.chunk) or CHUNK, numbers
+    job.chunk = math.tointeger(request.chunk) or CHUNK
     job.tasks = tasks_of(#numbers, job.chunk)
+    refuse_run(film, job.output, "--task", "1/" .. job.tasks)
   end
-  film:view_size() -- refuses a size that is impossible for the film
 end
 
 refuse()

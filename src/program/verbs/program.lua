@@ -1,6 +1,8 @@
 --- What every verb in Lua uses: the services of service.c, and the functions added to them here.
 local program = ...
 
+program.path_most = 4095 -- the most bytes of the name of a file
+
 local fail, note, report = program.fail, program.note, program.error
 
 --- "celspan: ..." on standard error.

@@ -331,7 +331,7 @@ local scenes = {} -- of the frames that were checked, by number
 
 --- Adds the faults of the sound and the script.
 local function add_whole(faults)
-  if film:check_sound() ~= 0 then faults[1] = { message = program.reported() } end
+  if film:check_tracks() ~= 0 then faults[1] = { message = program.reported() } end
   for _, message in ipairs(program.part("dropped.lua", program).of_script(request[1])) do
     faults[#faults + 1] = { message = message }
   end

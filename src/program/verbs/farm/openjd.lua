@@ -5,7 +5,7 @@
 --
 --   Celspan Script Folder Output    the program; the script and its folder; where frames go
 --   Frames Chunk                    which frames, and how many a task makes
---   Table                           of --table
+--   Table Ocio OcioFolder           of --table and --ocio, and the folder with its tables
 --   Set_NAME                        of the script's parameter NAME
 --   File1 ... Allow1 ...            files outside of the script's folder; folders of --allow
 --   Text1 ...                       arguments that a template cannot contain as they are
@@ -16,6 +16,8 @@ local json = require "celspan.json"
 
 local MOST_PARAMETERS, MOST_TEXT, MOST_NAME = 50, 1024, 128 -- 1.1, 2.5, 1.1.1
 local MOST_ABOUT, MOST_LABEL, MOST_IDENTIFIER = 2048, 64, 64 -- 7.2, 2.6, 7.1
+
+local counts_frames = not job.strips and not job.rows -- else it counts strips, or parts of rows
 
 local function split(path) return path:match "^(.*)/([^/]*)$" end
 
@@ -55,9 +57,10 @@ function parameters:add_path(name, path, object, flow)
   return self:add(name, "PATH", path, { { "objectType", object }, { "dataFlow", flow } })
 end
 
---- A text as an argument, which may contain neither control characters nor braces.
+--- A text as an argument, which may contain neither control characters nor pairs of braces, whether
+--- they open or close.
 function parameters:argument(text)
-  if not text:find "%c" and not text:find("{{", 1, true) then return text end
+  if not text:find "%c" and not text:find "{{" and not text:find "}}" then return text end
   return self:add(self:numbered "Text", "STRING", text)
 end
 
@@ -111,8 +114,9 @@ local function given_values()
 end
 
 --- Names of parameters: those of --set, and, if there is room for all and neither --set-from nor
---- --table gives values, the others too. Returns them with what the script declares of each.
-local function offered(given)
+--- --table gives values, the others too. files: how many other parameters there will be. Returns
+--- them with what the script declares of each.
+local function offered(given, files)
   local declared = json.decode(film:ask("celspan.parameters", "schema", "")).properties
   local all, some = {}, {}
   for name in pairs(declared) do
@@ -122,15 +126,16 @@ local function offered(given)
     end
   end
   local room = MOST_PARAMETERS - #parameters.list - #job.options - #job.arguments
+    - files
   local list = (job.has_values or #all > room) and some or all
   table.sort(list)
   return list, declared
 end
 
 --- Adds --set for the script's parameters, each of which is a parameter of the job.
-local function add_settings(arguments)
+local function add_settings(arguments, files)
   local given = given_values()
-  local list, declared = offered(given)
+  local list, declared = offered(given, files)
   for _, name in ipairs(list) do
     local one, text = declared[name], given[name]
     local value = value_of(one, text or one.default)
@@ -163,17 +168,19 @@ local function is_in_folders(path)
   return false
 end
 
---- Builds the frames, so that the film says which files it reads. A frame that fails is left to its
---- task.
+--- Builds the frames, so that the film says which files it reads. What fails is left to its task.
+--- Of a table, which has videos, the film with the script's own values is read.
 local function build()
-  for _, number in ipairs(job.numbers or {}) do
+  for i = 1, job.numbers and #job.numbers or film.frames do
     if program.is_stopped() then return end
+    local number = job.numbers and job.numbers[i] or film.first + i - 1
     if film:try(number) then film:faults(function() end) end
   end
+  if program.is_video(job.output) then film:check_tracks(true) end
 end
 
---- Names the files outside of the folders that are parameters.
-local function add_files()
+--- The files that the film reads outside of the folders that are parameters.
+local function find_files()
   program.until_stopped(build)
   local paths = {}
   for path in film:files():gmatch "%+(%Z+)%z" do
@@ -184,6 +191,10 @@ local function add_files()
     end
   end
   table.sort(paths)
+  return paths
+end
+
+local function add_files(paths)
   for _, path in ipairs(paths) do
     parameters:add_path(parameters:numbered "File", path, "FILE", "IN")
   end
@@ -194,21 +205,43 @@ end
 --- Options that are parameters of the job, and are added by themselves.
 local OWN = { ["--set"] = true, ["--table"] = true }
 
+--- The configuration of --ocio, which names tables by their places in its folder. Some are built
+--- into OpenColorIO, and an archive has its tables in it.
+local function add_configuration(value)
+  if value:find "^ocio://" then return parameters:argument(value) end
+  local path = absolute(value)
+  local text = parameters:add_path("Ocio", path, "FILE", "IN")
+  if not path:find "%.ocioz$" and not is_in_folders(path) then
+    add_folder("OcioFolder", split(path))
+  end
+  return text
+end
+
+--- How the values of options that name files become arguments.
+local PATHS = {
+  ["--ocio"] = add_configuration,
+  ["--set-from"] = function(value)
+    return parameters:add_path("SetFrom", absolute(value), "FILE", "IN")
+  end,
+  ["--allow"] = function(value)
+    return add_folder(parameters:numbered "Allow", absolute(value))
+  end,
+}
+
 local function add_options(arguments)
   for _, option in ipairs(job.options) do
-    if not OWN[option.name] and not (option.name == "--frames" and job.numbers) then
+    if not OWN[option.name] and not (option.name == "--frames" and counts_frames) then
       arguments[#arguments + 1] = option.name
-      local path = option.value and absolute(option.value)
-      if option.name == "--set-from" then
-        arguments[#arguments + 1] = parameters:add_path("SetFrom", path, "FILE", "IN")
-      elseif option.name == "--allow" then
-        arguments[#arguments + 1] = add_folder(parameters:numbered "Allow", path)
-      elseif option.value then
-        arguments[#arguments + 1] = parameters:argument(option.value)
+      if option.value then
+        local add = PATHS[option.name]
+        arguments[#arguments + 1] = add and add(option.value)
+          or parameters:argument(option.value)
       end
     end
   end
-  add_settings(arguments)
+  local files = find_files()
+  add_settings(arguments, #files)
+  add_files(files)
   if #job.arguments > 0 then arguments[#arguments + 1] = "--" end
   for _, argument in ipairs(job.arguments) do
     arguments[#arguments + 1] = parameters:argument(argument)
@@ -249,7 +282,7 @@ end
 
 --- The definition of what differs from task to task, and its arguments.
 local function task_of()
-  if job.numbers then
+  if counts_frames then
     local frames = parameters:add("Frames", "STRING", ranges_of(job.numbers))
     local members = { { "name", "Frames" }, { "type", "INT" }, { "range", frames } }
     if job.chunk > 1 then
@@ -306,7 +339,7 @@ end
 
 local function template_text(steps)
   local members = { { "specificationVersion", "jobtemplate-2023-09" } }
-  if job.numbers and job.chunk > 1 then
+  if counts_frames and job.chunk > 1 then
     members[2] = { "extensions", { list = { "TASK_CHUNKING" } } }
   end
   local about = ("%s, written by celspan %s."):format(names.summary_of(job), job.version)
@@ -329,21 +362,34 @@ end
 --- The folder of the output, and the rest of its name. The folders of films of a table have names
 --- of their own.
 local function place_of_output()
-  local path = absolute(job.output)
-  local fixed = job.rows and path:match "^([^{]*)/" or split(path)
-  return fixed, path:sub(#fixed + 2)
+  local path, fixed = job.output, split(job.output)
+  if job.rows then fixed = path:match "^([^{]*)/" end
+  if not fixed then return job.folder, path end
+  return absolute(fixed == "" and "/" or fixed), path:sub(#fixed + 2)
+end
+
+--- The script as an argument. Numbered pictures are no file that could be mapped: their folder is.
+local function add_script()
+  local path = absolute(job.script)
+  local entries = program.entries(path)
+  local script = entries ~= nil
+    and parameters:add_path("Script", path, entries and "DIRECTORY" or "FILE", "IN")
+  local folder, name = split(path)
+  local place = add_folder("Folder", folder == "" and "/" or folder)
+  return script or place .. "/" .. parameters:argument(name)
 end
 
 local folder, file = place_of_output()
+if job.rows and folder:find "{[%w_]+}" then
+  return nil, ("--table takes %s in the name of the folder %s for a column: run this elsewhere")
+    :format(folder:match "{[%w_]+}", folder)
+end
 parameters:add("Celspan", "STRING", "celspan")
-local script_path = absolute(job.script)
-local script = parameters:add_path("Script", script_path, "FILE", "IN")
-add_folder("Folder", split(script_path))
-local place = parameters:add_path("Output", folder == "" and "/" or folder, "DIRECTORY", "OUT")
+local script = add_script()
+local place = parameters:add_path("Output", folder, "DIRECTORY", "OUT")
 local output = place .. "/" .. parameters:argument(file)
 local steps = { render_step(script, output) }
 if job.strips then steps[2] = join_step(output) end
-add_files()
 local text = template_text(steps)
 local fault = fault_of(text)
 if fault then return nil, "Open Job Description: " .. fault end

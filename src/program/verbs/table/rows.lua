@@ -9,8 +9,7 @@ local csv = require "celspan.csv"
 local json = require "celspan.json"
 
 local is_check = request.verb == "check" -- no files are written
-local OUTPUT_MOST = 4095 -- the most bytes of a name
-local PIECE = 65536      -- bytes of the table that are read at a time
+local PIECE = 65536 -- bytes of the table that are read at a time
 
 -- ---------------------------------------------------------------- the table
 
@@ -62,9 +61,9 @@ local function output_of(row, line, columns)
     end
     return text
   end)
-  if #output > OUTPUT_MOST then
+  if #output > program.path_most then
     program.usage("--table %s: line %d: the name of the output has more than %d bytes",
-      request.table, line, OUTPUT_MOST)
+      request.table, line, program.path_most)
   end
   return output
 end
