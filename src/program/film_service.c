@@ -190,8 +190,8 @@ static celspan_status read_captions(cs_script *script) {
   return status;
 }
 
-/* film:check_tracks(is_silent) -> 0, or the exit code for a fault of the sound or else the captions,
- * both of which are read; it is reported unless is_silent */
+/* film:check_tracks(is_silent) -> 0, or the exit code for a fault of the sound or else of the
+ * captions, both of which are read; it is reported unless is_silent */
 static int check_tracks(lua_State *L) {
   film *f = self(L);
   const celspan_context *context = f->script.context;

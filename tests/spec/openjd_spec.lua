@@ -4,6 +4,7 @@ local farm = require "tests.support.farm"
 local json = require "celspan.json"
 local openjd = require "tests.support.openjd"
 local present = require "tests.support.present"
+local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
 local done, frames_in, refused, same, shell, word =
@@ -199,7 +200,8 @@ describe("the template of Open Job Description", function()
     for i = 1, 8 do
       script[#script + 1] = ("csv.read %q"):format(outside:write(i .. ".csv", "1"))
     end
-    bench:write("many.lua", table.concat(script, "\n") .. "\n" .. farm.FILM:gsub("^local[^\n]*", ""))
+    script[#script + 1] = farm.FILM:gsub("^local[^\n]*", "")
+    bench:write("many.lua", table.concat(script, "\n"))
     local job, values = checked "many.lua -o o/#.png --set p7=70 --trust"
     assert.equal(outside.folder .. "/8.csv", values.File8)
     assert.equal(70, values.Set_p7)
@@ -220,7 +222,8 @@ describe("the template of Open Job Description", function()
     bench:write("rows.csv", "name\na\n")
     bench:shell("mkdir -p " .. word(bench.folder .. "/a{name}/{{b"))
     local arguments = '"$CELSPAN" farm --openjd --table %s/rows.csv ../%s -o %s'
-    local code, _, err = shell("cd 'a{name}' && " .. arguments:format("..", "film.lua", "'{name}/#.png'"))
+    local code, _, err = shell("cd 'a{name}' && " .. arguments:format("..", "film.lua",
+      "'{name}/#.png'"))
     assert.equal(2, code)
     assert.is_truthy(err:find("takes {name} in the name of the folder", 1, true), err)
     local out
@@ -280,5 +283,147 @@ colorspaces:
     _, values = checked("scene/film.lua -o o/#.png --ocio scene/config.ocio")
     assert.equal(bench.folder .. "/scene/config.ocio", values.Ocio)
     assert.is_nil(values.OcioFolder)
+  end)
+
+  it("keeps texts of any kind within the rules", function()
+    bench:write("odd.lua", [[
+      local celspan = require "celspan"
+      celspan.parameters { plain = { 1, about = "", group = "" },
+        a = { 2, about = "one\u{85}two", group = "g\u{9f}" },
+        long = { "x", ("y"):rep(2000) } }
+      return celspan.film { size = { 60, 1200 }, frames = 1, frame = function()
+        return celspan.rostrum { back = "#fff" }
+      end }]])
+    local job, values =
+      checked "odd.lua -o 'o/{{a.png' --format png --strips 2 -- 'a\u{85}b' 'c\u{85}'"
+    assert.equal("{{a.png", values.Text1)
+    assert.equal("x", values.Set_long)
+    openjd.run(job, bench)
+    done "render odd.lua -o w.png --frames 1"
+    assert.is_truthy(bench:read "o/{{a.png")
+    job = checked("odd.lua -o 'o.{{x' --format png -- " .. ("a}} "):rep(60))
+    assert.equal("odd", job.name)
+    bench:write(".lua", farm.FILM)
+    assert.equal(".lua", checked(".lua -o o/#.png").name)
+    for _, one in ipairs(job.parameterDefinitions) do
+      if one.name == "Set_a" then
+        assert.equal("one?two", one.description)
+        assert.equal("g?", one.userInterface.groupLabel)
+      end
+    end
+  end)
+
+  it("has these fields, all of which are in the specification", function()
+    bench:write("set.lua", [[
+      local celspan = require "celspan"
+      celspan.parameters { size = { 10, min = 1, max = 30, about = "Of it", group = "Disc" },
+        mood = { "calm", "wild" } }
+      return celspan.film { size = { 60, 1200 }, frames = 2, frame = function()
+        return celspan.rostrum { back = "#fff" }
+      end }]])
+    bench:write("rows.csv", "size\n1\n2\n")
+    local fields = {}
+    for _, arguments in ipairs { "set.lua -o o/#.png --job-time 1 --job-memory 9 --workers 2",
+                                 "set.lua -o o/#.png --chunk 1",
+                                 "set.lua -o o.png --frames 1 --strips 2",
+                                 "set.lua -o 'o/{size}/#.png' --table rows.csv" } do
+      for name in pairs(openjd.check(checked(arguments))) do fields[name] = true end
+    end
+    local list = {}
+    for name in pairs(fields) do list[#list + 1] = name end
+    table.sort(list)
+    assert.equal([[
+description
+extensions
+name
+parameterDefinitions
+parameterDefinitions.allowedValues
+parameterDefinitions.dataFlow
+parameterDefinitions.default
+parameterDefinitions.description
+parameterDefinitions.maxValue
+parameterDefinitions.minValue
+parameterDefinitions.name
+parameterDefinitions.objectType
+parameterDefinitions.type
+parameterDefinitions.userInterface
+parameterDefinitions.userInterface.groupLabel
+specificationVersion
+steps
+steps.dependencies
+steps.dependencies.dependsOn
+steps.hostRequirements
+steps.hostRequirements.amounts
+steps.hostRequirements.amounts.min
+steps.hostRequirements.amounts.name
+steps.name
+steps.parameterSpace
+steps.parameterSpace.taskParameterDefinitions
+steps.parameterSpace.taskParameterDefinitions.chunks
+steps.parameterSpace.taskParameterDefinitions.chunks.defaultTaskCount
+steps.parameterSpace.taskParameterDefinitions.chunks.rangeConstraint
+steps.parameterSpace.taskParameterDefinitions.name
+steps.parameterSpace.taskParameterDefinitions.range
+steps.parameterSpace.taskParameterDefinitions.type
+steps.script
+steps.script.actions
+steps.script.actions.onRun
+steps.script.actions.onRun.args
+steps.script.actions.onRun.cancelation
+steps.script.actions.onRun.cancelation.mode
+steps.script.actions.onRun.cancelation.notifyPeriodInSeconds
+steps.script.actions.onRun.command
+steps.script.actions.onRun.timeout]], table.concat(list, "\n"))
+  end)
+
+  it("is held against rules that refuse what is wrong", function()
+    local text = done "farm film.lua --openjd -o o/#.png --job-time 1 --workers 2"
+    local function refuses(change)
+      local job = assert(json.decode(text))
+      change(job, job.steps[1], job.steps[1].script.actions.onRun,
+        job.steps[1].parameterSpace.taskParameterDefinitions[1])
+      return not pcall(openjd.check, job)
+    end
+    assert.is_false(refuses(function() end))
+    for _, change in ipairs {
+      function(job) job.extensions = nil end,
+      function(job) job.name = "{{Param.Script}}" end,
+      function(job) job.name = "a\u{85}" end,
+      function(job) job.comment = "mine" end,
+      function(job) job.steps = {} end,
+      function(job) job.steps[2] = job.steps[1] end,
+      function(job) job.parameterDefinitions[1].default = ("x"):rep(1025) end,
+      function(job) job.parameterDefinitions[1].name = "a-b" end,
+      function(job) job.parameterDefinitions[2].objectType = "LINK" end,
+      function(job) job.parameterDefinitions[3].name = job.parameterDefinitions[2].name end,
+      function(job) job.parameterDefinitions[1].allowedValues = { "other" } end,
+      function(job) job.parameterDefinitions[1].description = "" end,
+      function(_, step) step.dependencies = { { dependsOn = "Join" } } end,
+      function(_, step) step.hostRequirements.amounts[1].min = "2" end,
+      function(_, step) step.hostRequirements.amounts[1].min = 0 end,
+      function(_, step) step.script.actions.onExit = step.script.actions.onRun end,
+      function(_, _, run) run.args[1] = "a}}" end,
+      function(_, _, run) run.args[1] = "{{Param.None}}" end,
+      function(_, _, run) run.args[1] = "a\tb" end,
+      function(_, _, run) run.timeout = 0 end,
+      function(_, _, run) run.cancelation.notifyPeriodInSeconds = 601 end,
+      function(_, _, run) run.command = nil end,
+      function(_, _, _, task) task.range = "1-" end,
+      function(_, _, _, task) task.range = "{{Param.Script}}" end,
+      function(_, _, _, task) task.chunks.rangeConstraint = "ANY" end,
+      function(_, _, _, task) task.chunks.defaultTaskCount = 0 end,
+    } do
+      assert.is_true(refuses(change))
+    end
+  end)
+
+  local it_selects = present.program "jq" and it or pending
+  it_selects("has its paths as values, by the line in the page", function()
+    local page = system.read "docs/farm.md"
+    bench:write("job.json", done "farm film.lua --openjd -o o/#.png")
+    assert.equal(0, (shell(assert(page:match "\n(jq [^\n]*)"))))
+    local values = assert(json.decode(bench:read "values.json"))
+    assert.same({ Script = bench.folder .. "/film.lua", Folder = bench.folder,
+                  Output = bench.folder .. "/o" }, values)
   end)
 end)

@@ -32,15 +32,18 @@ end
 --- The ending of a strip's file, which is that of its picture.
 local function ending_of(path) return path:match "%.([^./]*)$" or "" end
 
-local function strip_pattern(output, number)
-  return ("%s.strips/%s.%s"):format(output, number, ending_of(output))
+--- The name of a strip's file; ending: of the output, which may be a text that stands for it.
+local function strip_pattern(output, number, ending)
+  return ("%s.strips/%s.%s"):format(output, number, ending or ending_of(output))
 end
 
---- A text for a comment: control characters are replaced, so that it remains on its line.
-local function plain(text) return (text:gsub("%c", "?")) end
+--- A text for a comment: control characters, also those of Latin 1, are replaced, so that it stays
+--- on its line.
+local function plain(text) return (text:gsub("%c", "?"):gsub("\xC2[\x80-\x9F]", "?")) end
 
+--- The name of the job, which is not empty: a script may be named ".lua".
 local function name_of(job)
-  return job.name or job.script:match "([^/]+)$":gsub("%.lua$", "")
+  return job.name or job.script:match "([^/]+)/*$":gsub("(.)%.lua$", "%1")
 end
 
 local function summary_of(job)
@@ -51,8 +54,8 @@ local function summary_of(job)
 end
 
 --- What the template of Open Job Description has in common with the others.
-local names = { absolute = absolute, strip_pattern = strip_pattern, name_of = name_of,
-                summary_of = summary_of, plain = plain }
+local names = { absolute = absolute, strip_pattern = strip_pattern, ending_of = ending_of,
+                name_of = name_of, summary_of = summary_of, plain = plain }
 
 -- ---------------------------------------------------------------- Slurm
 
@@ -243,7 +246,8 @@ local function tasks_of(count, chunk) return (count + chunk - 1) // chunk end
 local not_of_rows = setmetatable({ ["--table"] = true, ["--keep-going"] = true }, { __index = own })
 
 --- Refuses what `render` would refuse of a task, or of a row, with this output. division: --task or
---- --strip with its value; nil: a row. Films of a table may differ in their size, unless it is given.
+--- --strip, with its value; nil: a row. Films of a table may differ in their size, unless it is
+--- given.
 local function refuse_run(film, output, division, value)
   local words = { request[1], "-o", output, "--resume", division, value }
   film:refuse(program.pass_on(words, request, division and own or not_of_rows, {}),

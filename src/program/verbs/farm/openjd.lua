@@ -33,7 +33,7 @@ end
 -- ---------------------------------------------------------------- parameters
 
 --- The parameters of the job; each is added when it is needed.
-local parameters = { list = {}, counts = {} }
+local parameters = { list = {}, counts = {}, texts = {} }
 
 --- more: members after the default. Returns the text that stands for the value.
 function parameters:add(name, kind, default, more)
@@ -60,8 +60,9 @@ end
 --- A text as an argument, which may contain neither control characters nor pairs of braces, whether
 --- they open or close.
 function parameters:argument(text)
-  if not text:find "%c" and not text:find "{{" and not text:find "}}" then return text end
-  return self:add(self:numbered "Text", "STRING", text)
+  if names.plain(text) == text and not text:find "{{" and not text:find "}}" then return text end
+  self.texts[text] = self.texts[text] or self:add(self:numbered "Text", "STRING", text)
+  return self.texts[text]
 end
 
 -- ---------------------------------------------------------------- what the script declares
@@ -80,16 +81,26 @@ local function choices_of(one)
   return list and { list = list }
 end
 
+--- Whether a value is one of the choices, all of which a template can contain. --set takes other
+--- words for true.
+local function is_among(choices, value)
+  local is_there = false
+  for _, choice in ipairs(choices and choices.list or {}) do
+    if (utf8.len(choice) or MOST_TEXT + 1) > MOST_TEXT then return false end
+    is_there = is_there or choice == value
+  end
+  return is_there
+end
+
 --- The members of the description of a parameter after its default; value: the default.
 local function members_of(one, value)
   local members, interface, choices = {}, {}, choices_of(one)
   local function add(name, member)
     if member ~= nil then members[#members + 1] = { name, member } end
   end
-  add("description", one.description and short(one.description, MOST_ABOUT))
-  for _, choice in ipairs(choices and choices.list or {}) do
-    if choice == value then add("allowedValues", choices) end -- --set takes other words for true
-  end
+  local about = one.description or ""
+  add("description", about ~= "" and short(about, MOST_ABOUT) or nil)
+  if is_among(choices, value) then add("allowedValues", choices) end
   if KINDS[one.type] ~= "STRING" then
     add("minValue", one.minimum)
     add("maxValue", one.maximum)
@@ -300,11 +311,15 @@ local function task_of()
     ("{{Task.Param.%s}}/%d"):format(name, job.tasks) }
 end
 
+local function strip_pattern(output, number)
+  return names.strip_pattern(output, number, parameters:argument(names.ending_of(job.output)))
+end
+
 --- output: in the form for the arguments of a task.
 local function render_step(script, output)
   local task, words = task_of()
   local arguments = { "render", script, "-o",
-    job.strips and names.strip_pattern(output, "{{Task.Param.Strip}}") or output }
+    job.strips and strip_pattern(output, "{{Task.Param.Strip}}") or output }
   local function add(...) table.move({ ... }, 1, select("#", ...), #arguments + 1, arguments) end
   add(table.unpack(words))
   add("--resume", "--progress", "openjd")
@@ -323,7 +338,7 @@ end
 
 local function join_step(output)
   local arguments = { "join" }
-  for i = 1, job.tasks do arguments[#arguments + 1] = names.strip_pattern(output, i) end
+  for i = 1, job.tasks do arguments[#arguments + 1] = strip_pattern(output, i) end
   table.move({ "-o", output }, 1, 2, #arguments + 1, arguments)
   return { { "name", "Join" },
     { "dependencies", { list = { { { "dependsOn", "Render" } } } } },
