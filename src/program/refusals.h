@@ -1,4 +1,4 @@
-/* What `render` refuses before the first frame. `farm` asks the same of the commands of a job. */
+/* What `render` refuses before the first frame. `farm` asks the same for the commands of a job. */
 #pragma once
 
 #include "program/script.h"

@@ -9,28 +9,14 @@
 # Needs Debian's slurmctld, slurmd and munge, root (as in a container), and build/celspan, or the
 # program that CELSPAN names. Everything is in a temporary folder and on ports of its own; in the
 # end it is stopped and removed.
-set -u -o pipefail
-root=$(cd "$(dirname "$0")/../.." && pwd)
+. "$(dirname "$0")/engine.sh"
 side=${1:-100000}
-celspan=$(realpath "${CELSPAN:-$root/build/celspan}")
-work=$(mktemp -d)
 ports=$((20000 + RANDOM % 20000))
-processes=()
-
-say() { printf '== %s\n' "$*"; }
-
-die() {
-  printf 'slurm.sh: %s\n' "$*" >&2
-  tail -n 20 "$work"/*.log 2>/dev/null >&2
-  exit 1
-}
 
 finish() {
   scancel --user=root >/dev/null 2>&1
   sleep 1
-  for process in "${processes[@]}"; do kill "$process" 2>/dev/null; done
-  wait 2>/dev/null
-  rm -rf "$work"
+  finish_engine
 }
 trap finish EXIT
 
@@ -108,20 +94,6 @@ number_of() { sed -n 's/.*Submitted batch job //p' | head -n 1; }
 # The state of a task, as long as Slurm remembers it.
 state_of() { scontrol show job "$1" | grep -o 'JobState=[A-Z_]*\|Restarts=[0-9]*' | tr '\n' ' '; }
 
-film() {
-  cat >"$work/film.lua" <<'TEXT'
-local celspan = require "celspan"
-return celspan.film { size = { 1000, 1000 }, frames = 240, frame = function(f)
-  local discs = {}
-  for i = 1, 200 do
-    discs[i] = celspan.circle { centre = { i * 37 % 1000, i * 61 % 1000 }, radius = 5 + i % 50,
-      texture = i % 2 == 0 and "#c04030" or "#30508080" }:translate(f.number, 0)
-  end
-  return celspan.rostrum { celspan.cel(discs) }
-end }
-TEXT
-}
-
 # ---------------------------------------------------------------- what is shown
 
 # Kills the celspan of a task while it runs, not the script that called it.
@@ -148,11 +120,8 @@ array() {
   restarts=$(state_of "${job}_2")
   say "task 2: $restarts"
   case $restarts in *COMPLETED*Restarts=1*) ;; *) die "task 2 was not put back" ;; esac
-  "$celspan" render film.lua -o whole/####.png --progress none || die "render failed"
-  for frame in whole/*.png; do
-    cmp "$frame" "shots of film/${frame##*/}" || die "a frame differs"
-  done
-  say "240 frames, the same as in one run; $(find 'logs of it' -name '*.log' | wc -l) logs"
+  same_frames "shots of film"
+  say "$(find 'logs of it' -name '*.log' | wc -l) logs"
 }
 
 # strips ENDING SIDE: a frame of SIDE pixels a side in 16 strips.
@@ -192,10 +161,7 @@ same_pictures() {
   say "the same pixels: $(cat one.txt); $(stat -c %s "$1") and $(stat -c %s "$2") bytes"
 }
 
-[ "$(id -u)" = 0 ] || die "run it as root, in a container"
-for program in munged slurmctld slurmd sbatch; do
-  command -v "$program" >/dev/null || die "$program is missing: install slurmctld, slurmd and munge"
-done
+need munged slurmctld slurmd sbatch
 configure
 start
 cd "$work" || exit 1

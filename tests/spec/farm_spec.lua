@@ -313,6 +313,61 @@ describe("the commands of a job", function()
   end)
 end)
 
+-- ---------------------------------------------------------------- arrays
+
+--- What engines say in the environment of task i of n, i from 1.
+local ARRAYS = {
+  ["Slurm"] = { "env", function(i, n)
+    return ("SLURM_ARRAY_TASK_ID=%d SLURM_ARRAY_TASK_MIN=0 SLURM_ARRAY_TASK_MAX=%d "
+      .. "SLURM_ARRAY_TASK_STEP=5"):format(5 * (i - 1), 5 * (n - 1))
+  end },
+  ["Grid Engine"] = { "env", function(i, n)
+    return ("SGE_TASK_ID=%d SGE_TASK_FIRST=1 SGE_TASK_LAST=%d SGE_TASK_STEPSIZE=1"):format(i, n)
+  end },
+  ["AWS Batch"] = { "env", function(i, n)
+    return ("AWS_BATCH_JOB_ARRAY_INDEX=%d AWS_BATCH_JOB_ARRAY_SIZE=%d"):format(i - 1, n)
+  end },
+  ["Kubernetes"] = { "env/24", function(i) return "JOB_COMPLETION_INDEX=" .. i - 1 end },
+}
+
+describe("an array without a script", function()
+  --- Runs a task of an array of 24. Returns what shell does.
+  local function run(array, i)
+    return shell(("env %s \"$CELSPAN\" render long.lua -o o/#.png --progress none --task %s")
+      :format(array[2](i, 24), array[1]))
+  end
+
+  before_each(function()
+    bench:write("long.lua", (farm.FILM:gsub("frames = 7, first = 3", "frames = 240")))
+  end)
+
+  for name, array in pairs(ARRAYS) do
+    it("makes each of 240 frames in one task: " .. name, function()
+      local before = 0
+      for i = 1, 24 do
+        local code, _, err = run(array, i)
+        assert.equal(0, code, err)
+        assert.equal(before + 10, #bench:files "o")
+        before = #bench:files "o"
+      end
+    end)
+
+    it("refuses numbers outside of the array: " .. name, function()
+      for _, i in ipairs { 0, 25 } do
+        local code, out, err = run(array, i)
+        assert.equal(2, code)
+        assert.equal("", out)
+        assert.is_truthy(err:find("--task: '" .. array[1] .. "' is not", 1, true), err)
+      end
+    end)
+  end
+
+  it("needs the variables of an engine", function()
+    refused("--task: 'env' is not", "render long.lua -o o/#.png --task env")
+    refused("--task: 'env/24' is not", "render long.lua -o o/#.png --task env/24")
+  end)
+end)
+
 -- ---------------------------------------------------------------- engines
 
 --- The block of code of docs/farm.md that contains a text.

@@ -31,9 +31,8 @@ local function text(least, most, takes_controls)
   end
 end
 
---- 7.3: braces come in pairs, and what is between them is a value that is known there. The limit
---- is that of the text before values are put in, where the specification gives it for the text
---- after: they make it longer.
+--- 7.3: braces come in pairs, around the name of a value that is known there. The limit is held
+--- against the text before values are put in.
 local function format_string(least, most, takes_controls)
   local check = text(least, most, takes_controls)
   return function(value, place)
