@@ -39,6 +39,11 @@
     "--workers", "N", &cs_argument_workers,                                                        \
         "the number of rendering threads; default: one per processor"                              \
   }
+#define OCIO                                                                                       \
+  {                                                                                                \
+    "--ocio", "FILE", &cs_argument_file,                                                           \
+        "the OpenColorIO configuration; default: the environment variable OCIO"                    \
+  }
 /* The coding of a file's pixels. */
 #define CODING                                                                                     \
   {"--format", "NAME", &cs_argument_format, "the file format; default: by the extension of OUT"},  \
@@ -49,9 +54,7 @@
        "instead of --colour: as this display of --ocio shows the light"},                          \
       {"--view", "NAME", &cs_argument_text,                                                        \
        "in this view of the display; default: the configuration's"},                               \
-      {"--ocio", "FILE", &cs_argument_file,                                                        \
-       "the OpenColorIO configuration; default: the environment variable OCIO"},                   \
-  {                                                                                                \
+      OCIO, {                                                                                      \
     "--alpha", "KIND", &cs_argument_alpha,                                                         \
         "straight or premultiplied; default: straight, floats premultiplied"                       \
   }
@@ -232,6 +235,7 @@ static const cs_option CHECK[] = {
     {"--files", NULL, NULL, "print the files that the film reads: KIND SIZE SHA256 PATH"},
     {"--json", NULL, NULL,
      "print the faults as a JSON list on standard output; with --files, the files"},
+    OCIO,
     TABLE("check the film of each row of a CSV file, whose columns are parameters"),
     SCRIPT,
     {0}};

@@ -315,7 +315,7 @@ local survey = program.part("survey.lua", program, film)
 local done, ended = check_parts(film, survey, listed, count)
 local warnings = program.until_stopped(warnings_of, survey) or {}
 if request.files then
-  print_files(program.part("reads.lua", program, film, request[1]))
+  print_files(program.part("reads.lua", program, film, request))
 elseif request.json then
   print_json(warnings)
 end

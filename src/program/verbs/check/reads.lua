@@ -1,12 +1,15 @@
 --- celspan check --files: the files that a film reads, for those who copy it to another machine.
-local program, film, script = ...
+local program, film, request = ...
+
+local script = request[1]
 
 local KINDS = { lua = "module", ttf = "font", otf = "font", ttc = "font", otc = "font",
   wav = "sound", flac = "sound", ogg = "sound", opus = "sound", mp3 = "sound", m4a = "sound",
   aif = "sound", aiff = "sound", csv = "data", tsv = "data", json = "data", txt = "data",
   mp4 = "movie", m4v = "movie", mov = "movie", mkv = "movie", webm = "movie", avi = "movie",
   mxf = "movie", ogv = "movie", ts = "movie", y4m = "movie",
-  srt = "data", vtt = "data", xdts = "data", cube = "data", dat = "data" }
+  srt = "data", vtt = "data", xdts = "data", cube = "data", dat = "data", ocio = "data",
+  ocioz = "data" }
 local CONTENTS = { folder = "painting", archive = "painting", psd = "painting", svg = "drawing" }
 
 --- The kind of a file: by its ending, and otherwise by its content.
@@ -18,12 +21,23 @@ local function kind_of(path)
   return CONTENTS[kind] or kind
 end
 
+--- The files that the command line and the environment name.
+local function given()
+  local list, configuration = {}, request.ocio or os.getenv "OCIO" or ""
+  if configuration ~= "" and not configuration:find "^ocio://" then
+    list = program.part("luts.lua", program, configuration)
+  end
+  if script ~= "-" then list[#list + 1] = script end
+  list[#list + 1] = request.set_from
+  return list
+end
+
 --- A list of { path =, kind =, size =, sha256 = }, sorted by path, without places where a file was
 --- looked for and not found.
 local function reads()
-  local list, asked = {}, (script == "-" and "" or "+" .. script .. "\0") .. film:files()
-  local seen = {}
-  for path in asked:gmatch "%+(%Z+)%z" do
+  local list, seen, paths = {}, {}, given()
+  for path in film:files():gmatch "%+(%Z+)%z" do paths[#paths + 1] = path end
+  for _, path in ipairs(paths) do
     local sum, size = program.sha256(path)
     if sum and not seen[path] then
       seen[path] = true
