@@ -195,19 +195,29 @@ static cs_exit set_sound(cs_video_desc *video, cs_script *script, const cs_reque
 
 /* ---------------------------------------------------------------- captions */
 
+static void tell_no_captions(const cs_video_desc *video) {
+  if (video->format->captions)
+    cs_report_note("%s: its captions are left out, because they go with one run of frames such as "
+                   "10-20",
+                   video->path);
+  else
+    cs_report_note("%s: %s holds no captions: they are left out", video->path, video->format->name);
+}
+
 /* The captions while these frames are played. They remain on the script's stack, and therefore live
  * as long as the script. */
 static cs_exit set_captions(cs_video_desc *video, cs_script *script, const cs_sequence *frames) {
   const cs_film_info *film = &script->film;
-  if (!film->has_captions || !cs_sequence_is_run(frames))
+  if (!film->has_captions)
     return CS_EXIT_OK;
-  if (!video->format->captions) {
-    cs_report_note("%s: %s holds no captions: they are left out", video->path, video->format->name);
+  if (!video->format->captions || !cs_sequence_is_run(frames)) {
+    tell_no_captions(video);
     return CS_EXIT_OK;
   }
-  celspan_status status = cs_subtitles_push(
-      script->L, CS_SCRIPT_FILM, (double)(frames->frames[0] - film->first) / film->frames_second,
-      (double)frames->count / film->frames_second);
+  celspan_status status =
+      cs_subtitles_push(script->L, CS_SCRIPT_FILM, video->format->captions_form,
+                        (double)(frames->frames[0] - film->first) / film->frames_second,
+                        (double)frames->count / film->frames_second);
   const char *text = status == CELSPAN_OK ? lua_tostring(script->L, -1) : "";
   video->captions = text[0] ? text : NULL;
   return cs_report_failure(script->context, status, NULL);

@@ -36,8 +36,8 @@ static celspan_status hash_texts(cs_hash *hash, cs_script *script) {
   }
   if (!film->has_captions)
     return CELSPAN_OK;
-  CS_TRY(
-      cs_subtitles_push(script->L, CS_SCRIPT_FILM, 0, (double)film->count / film->frames_second));
+  CS_TRY(cs_subtitles_push(script->L, CS_SCRIPT_FILM, "srt", 0,
+                           (double)film->count / film->frames_second));
   cs_hash_text(hash, lua_tostring(script->L, -1));
   lua_pop(script->L, 1);
   return CELSPAN_OK;

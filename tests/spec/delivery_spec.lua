@@ -257,6 +257,39 @@ describe("a delivery", function()
     assert.is_nil(text:find("more", 1, true))
     local _, _, err = celspan "-o out.gif"
     assert.truthy(err:find("out.gif: gif holds no captions: they are left out", 1, true), err)
+    _, _, err = celspan "-o part.mp4 --frames 1-12:2"
+    assert.truthy(err:find("part.mp4: its captions are left out, because they go with one run", 1,
+      true), err)
+  end)
+
+  --- The bytes of the captions in a video, as in a list of packets.
+  local function cues_of(name)
+    local code, out, err = bench:inside("ffprobe -v error -select_streams s -show_packets "
+      .. "-show_data -show_entries packet=data " .. name)
+    assert.equal(0, code, err)
+    local bytes = {}
+    for line in out:gmatch "\n%x+: (.-)  " do
+      bytes[#bytes + 1] = line:gsub(" ", ""):gsub("%x%x",
+        function(two) return string.char(tonumber(two, 16)) end)
+    end
+    return (table.concat(bytes):gsub("\r", ""))
+  end
+
+  it_reads("has captions whose signs are no markup", function()
+    local text = "<Ann> a <b>c</b> &lt; &nbsp;& {\\x} {y:1} C:\\new <3\n"
+      .. "00:01:00,000 --> 00:02:00,000"
+    bench:write("film.lua", (FILM:gsub("fps = 24", function(fps)
+      return ("%s, captions = { { from = 0, to = 1, text = %q } }"):format(fps, text)
+    end)))
+    local coded = text:gsub("[&<>]", { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;" })
+    for _, ending in ipairs { "mp4", "mov", "mkv", "webm" } do
+      render("-o out.%s", ending)
+      local found = cues_of("out." .. ending):gsub("\u{2060}", "")
+      assert.truthy(found:find(ending == "webm" and coded or text, 1, true), ending .. found)
+      local back = captions_of("out." .. ending):gsub("\u{2060}", "")
+      assert.truthy(ending == "webm" or back:find("^00:00:00,000 %-%-> 00:00:00,500\n"), back)
+      assert.equal(text, ending == "webm" and text or back:match "\n(.*)", ending)
+    end
   end)
 
   it_reads("has captions of a script, and is made again with --resume for others", function()

@@ -5,6 +5,7 @@ local core = require "celspan.core"
 local files = {}
 
 local MOST_BYTES = 256 * 1024 * 1024 -- of a file that a script reads as text
+files.MOST_CAPTIONS = 64 * 1024 * 1024 -- bytes of a file of captions
 
 --- The text of a regular file.
 ---@param path string

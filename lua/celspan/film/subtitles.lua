@@ -1,4 +1,4 @@
---- The captions of a film as SubRip text, for the subtitles of videos.
+--- The captions of a film as a text that ffmpeg reads, for the subtitles of videos.
 --
 --   captions    |--a--|   |---b---|            seconds of the film
 --                           |---c---|
@@ -6,6 +6,9 @@
 --   text                  |b|-b c-|c|          from the first frame that is shown
 --
 -- Formats of videos show one text at a time, so where captions overlap their texts are joined.
+--
+-- Nothing in a text is markup: WebVTT has entities for this. SubRip has nothing, and ffmpeg reads
+-- HTML, {\codes} and \n in it: an invisible character makes them plain text.
 local captions = require "celspan.captions"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
@@ -13,12 +16,12 @@ local files = require "celspan.files"
 
 local subtitles = {}
 
-local MOST_BYTES = 16 * 1024 * 1024 -- of a file
+local WORD_JOINER = "\u{2060}" -- no width, no break
 
 local function fail(text, ...) error("film: captions: " .. text:format(...), 0) end
 
 local function read(name, path, tried)
-  local text, message = files.read(path, MOST_BYTES)
+  local text, message = files.read(path, files.MOST_CAPTIONS)
   if not text then fail("%s%s", message, tried and "; also looked for at " .. tried or "") end
   local list, problem = captions.decode(text)
   return list or fail("%s: %s", name, problem)
@@ -33,9 +36,26 @@ local function check(one, i)
   if one.to <= one.from then fail("caption %d ends before it begins, or at the same time", i) end
 end
 
-local function time(milli)
-  return ("%02d:%02d:%02d,%03d"):format(milli // 3600000, milli // 60000 % 60, milli // 1000 % 60,
-    milli % 1000)
+-- What is different in the two formats.
+local FORMS = {
+  srt = {
+    head = "", point = ",",
+    plain = function(text)
+      return (text:gsub("[<{&]%f[%a/\\#]", "%0" .. WORD_JOINER)
+        :gsub("\\%f[%a]", "%0" .. WORD_JOINER):gsub("%-%->", "--" .. WORD_JOINER .. ">"))
+    end,
+  },
+  webvtt = {
+    head = "WEBVTT\n\n", point = ".",
+    plain = function(text)
+      return (text:gsub("[&<>]", { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;" }))
+    end,
+  },
+}
+
+local function time(milli, point)
+  return ("%02d:%02d:%02d%s%03d"):format(milli // 3600000, milli // 60000 % 60, milli // 1000 % 60,
+    point, milli % 1000)
 end
 
 --- The text without empty lines, which end a caption.
@@ -84,17 +104,19 @@ end
 
 --- The captions that are shown in the given seconds from `first` on; "" for none.
 ---@param film celspan.film
+---@param form "srt"|"webvtt"
 ---@param first number
 ---@param seconds number
 ---@return string text
-function subtitles.srt(film, first, seconds)
+function subtitles.text(film, form, first, seconds)
   local list, path, tried = core.captions(film)
   if path then list = read(list, path, tried) end
-  local blocks = {}
+  local blocks, rules = {}, FORMS[form]
   for i, one in ipairs(apart(shown(list, first, seconds))) do
-    blocks[i] = ("%d\n%s --> %s\n%s\n"):format(i, time(one.from), time(one.to), one.text)
+    blocks[i] = ("%d\n%s --> %s\n%s\n"):format(i, time(one.from, rules.point),
+      time(one.to, rules.point), rules.plain(one.text))
   end
-  return table.concat(blocks, "\n")
+  return blocks[1] and rules.head .. table.concat(blocks, "\n") or ""
 end
 
 return fields.seal("subtitles", subtitles)

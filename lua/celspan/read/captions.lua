@@ -11,8 +11,6 @@ local ordered = require "celspan.ordered"
 
 local captions = {}
 
-local MOST_BYTES = 64 * 1024 * 1024
-
 ---@class celspan.captions.caption
 ---@field from number Seconds; the caption is shown from here ...
 ---@field to number ... until just before this
@@ -180,7 +178,7 @@ function captions.read(path)
   if type(path) ~= "string" then
     core.refuse("captions: read takes a file name, got " .. type(path))
   end
-  local text, message = files.read_found(path, MOST_BYTES)
+  local text, message = files.read_found(path, files.MOST_CAPTIONS)
   if not text then return nil, message end
   local list, problem = captions.decode(text)
   if not list then return nil, ("%s: %s"):format(path, problem) end

@@ -19,6 +19,7 @@ static const char *const FLAC[] = {"-c:a", "flac", NULL};
 static const char *const PCM[] = {"-c:a", "pcm_s24le", NULL};
 static const char *const OPUS[] = {"-c:a", "libopus", "-b:a", "160k", NULL};
 
+#define SUBRIP "srt"
 #define ENDLESS 1e6
 #define ISO_FLAGS "+faststart+write_colr" /* the index comes first; colour tags are written */
 #define EBML "\x1a\x45\xdf\xa3"
@@ -31,6 +32,7 @@ static const cs_video_format FORMATS[] = {
      .sound = AAC,
      .has_chapters = true,
      .captions = "mov_text",
+     .captions_form = SUBRIP,
      .flags = ISO_FLAGS,
      .mark = {4, "ftyp"}},
     {.name = "mkv",
@@ -41,6 +43,7 @@ static const cs_video_format FORMATS[] = {
      .sound = FLAC,
      .has_chapters = true,
      .captions = "srt",
+     .captions_form = SUBRIP,
      .mark = {0, EBML}},
     {.name = "mov",
      .muxer = "mov",
@@ -50,6 +53,7 @@ static const cs_video_format FORMATS[] = {
      .sound = PCM,
      .has_chapters = true,
      .captions = "mov_text",
+     .captions_form = SUBRIP,
      .flags = ISO_FLAGS,
      .mark = {4, "ftyp"}},
     {.name = "webm",
@@ -58,7 +62,8 @@ static const cs_video_format FORMATS[] = {
      .most_frames_second = 1000,
      .sound = OPUS,
      .has_chapters = true,
-     .captions = "webvtt",
+     .captions = "copy", /* the encoder writes no entities */
+     .captions_form = "webvtt",
      .mark = {0, EBML}},
     {.name = "gif",
      .muxer = "gif",
@@ -388,7 +393,7 @@ void cs_video_command_encode(cs_video_command *command, const cs_video_format *f
   begin(command);
   add_inputs(command, options, frames, sound, chapters);
   if (has_captions)
-    add_file(command, "srt", texts->captions);
+    add_file(command, format->captions_form, texts->captions);
   add_pictures(command, options, false);
   if (has_sound)
     add_sound(command, format->sound, 1);
@@ -419,7 +424,7 @@ void cs_video_command_repeat(cs_video_command *command, const cs_video_format *f
   begin(command);
   add_file(command, "nut", master);
   if (has_captions)
-    add_file(command, "srt", captions);
+    add_file(command, format->captions_form, captions);
   add_pictures(command, options, true);
   if (has_sound)
     add_sound(command, format->sound, 0);

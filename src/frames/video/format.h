@@ -49,6 +49,7 @@ typedef struct cs_video_format {
   const char *const *sound; /* options of ffmpeg; NULL: the format has no sound */
   bool has_chapters;
   const char *captions; /* the encoder of captions; NULL: the format has none */
+  const char *captions_form; /* of the file that they are read from: "srt" or "webvtt" */
   struct {              /* bytes in every file of the format */
     size_t offset;
     const char *bytes;
@@ -82,7 +83,7 @@ typedef struct cs_video_frames {
 /* Texts beside the frames; NULL: none. */
 typedef struct cs_video_texts {
   const char *chapters; /* the address of a text in the format ffmetadata */
-  const char *captions; /* the name of a SubRip file */
+  const char *captions; /* the name of a file in the captions_form of the format */
 } cs_video_texts;
 
 enum { CS_VIDEO_ARGUMENTS = 96, CS_VIDEO_TEXT = 16384 };

@@ -23,7 +23,7 @@ typedef struct cs_video_desc {
   cs_video_frames frames;
   cs_sound_stream sound; /* as long as the frames; none: there is no sound */
   const char *chapters;  /* as in cs_video_texts; NULL: none */
-  const char *captions;  /* a text in the format SubRip; NULL: none */
+  const char *captions;  /* a text in the captions_form of the format; NULL: none */
   uint64_t most_bytes;   /* of the file, whose quality is the highest that fits; 0: any number */
   bool has_digests;      /* hashes the RGBA pixels of each frame */
   bool keeps_nothing;    /* makes a frame again that equals the previous one */
