@@ -536,6 +536,59 @@ describe("a film at other times", function()
   end)
 end)
 
+describe("captions", function()
+  local bench
+  before_each(function() bench = workbench.new() end)
+  after_each(function() bench:remove() end)
+
+  local said = { { from = 0, to = 2, text = "a" }, { from = 1, to = 2.5, text = "b" } }
+  local function rounded(list)
+    local texts = {}
+    for i, one in ipairs(list or {}) do
+      texts[i] = ("%.3f %.3f %s"):format(one.from, one.to, one.text)
+    end
+    return table.concat(texts, ", ")
+  end
+
+  it("move with their shots, are cut with them, and come before those of the cut", function()
+    local film, black = (shot("#fff", 12, { captions = said, first = 10 })), (shot("#000", 4))
+    local whole = cut { black, { film = film, from = 16, to = 19 },
+      cut.dissolve(0.5), { film = film, speed = 2 },
+      captions = { { from = 0, to = 9, text = "c" } } }
+    assert.equal("1.000 1.500 a, 1.000 2.000 b, 1.500 2.500 a, 2.000 2.750 b, 0.000 9.000 c",
+      rounded(whole.captions))
+    assert.equal(2, #said)
+    assert.is_nil(cut { black }.captions)
+    assert.equal("none.srt", cut { black, captions = "none.srt" }.captions)
+    fails("field 'captions' must be the name of a file", cut, { film, captions = 7 })
+    fails("cut: captions: ", cut, { film, captions = "none.srt" })
+    fails("caption 1 must be", cut, { (shot("#fff", 4, { captions = { 7 } })) })
+  end)
+
+  it("of other times are shown where the film goes forwards evenly", function()
+    local film = (shot("#fff", 12, { captions = said }))
+    local slow = cut.retime(film, { { 0, 1 }, { 2, 5 }, { 3, 5 }, { 5, 13 } })
+    assert.equal("0.000 2.000 a, 3.000 4.000 a, 3.000 4.500 b", rounded(slow.captions))
+    assert.is_nil(cut.retime(film, { { 0, 9 }, { 2, 1 } }).captions)
+    assert.is_nil(cut.retime((shot("#fff", 12)), { { 0, 1 }, { 2, 9 } }).captions)
+  end)
+
+  it("are read from files of the shots' scripts", function()
+    bench:write("said.srt", "1\n00:00:00,500 --> 00:00:01,000\nhello\n")
+    bench:write("film.lua", [[
+local celspan, cut = require "celspan", require "celspan.cut"
+local shot = celspan.film { size = { 8, 8 }, fps = 4, frames = 4, captions = "said.srt",
+  frame = function() return celspan.rostrum {} end }
+local list = cut { shot, shot, captions = "said.srt" }.captions
+for _, one in ipairs(list) do print(one.from, one.to, one.text) end
+return shot]])
+    local code, out, err = bench:celspan_inside "check film.lua"
+    assert.equal(0, code, err)
+    assert.truthy((out .. err):find("0.5\t1.0\thello\n1.5\t2.0\thello\n0.5\t1.0\thello", 1, true),
+      out .. err)
+  end)
+end)
+
 describe("a mark", function()
   local bench
 

@@ -4,12 +4,13 @@
 --
 -- A frame of the new film is a frame of one shot, or a transition between those of two. Only these
 -- frames are built. Nothing else of a shot is known here, so its lips, sheets and cameras move with
--- it; its sounds and marks are moved by name.
+-- it; its sounds, captions and marks are moved by name.
 --
 --   shot 1   |==================|               start 0, count 20
 --   shot 2                 |=======...          start 20 - n: n frames of a transition
 --
 -- One file, because a transition is little more than its two halves, and needs the cut around it.
+local captions = require "celspan.captions"
 local celspan = require "celspan"
 local core = require "celspan.core"
 local ease = require "celspan.ease"
@@ -17,6 +18,7 @@ local fields = require "celspan.fields"
 local keys = require "celspan.keys"
 local ordered = require "celspan.ordered"
 local shots_of = require "celspan.shots"
+local subtitles = require "celspan.subtitles"
 
 local cut = {}
 
@@ -440,7 +442,7 @@ local function lay_out(parts)
   return shots, segments, start
 end
 
--- ---------------------------------------------------------------- sounds and marks
+-- ---------------------------------------------------------------- sounds, captions, marks
 
 --- The sound of a film as a list.
 local function list_of(sound)
@@ -452,22 +454,51 @@ local function list_of(sound)
   return sound
 end
 
---- The sounds of the shots, which fade in and out with the pictures, and the sounds of the cut.
+--- The piece of a film that a shot shows, as a sound. It fades in and out with the pictures.
+local function piece_of(shot)
+  local film, fps = shot.film, shot.film.fps
+  return { film, at = shot.start / fps, from = (shot.from - film.first) / fps,
+           to = (shot.to - film.first + 1) / fps, speed = shot.speed, name = shot.name,
+           fade = { shot.before / fps, shot.after / fps } }
+end
+
+--- The sounds of the shots and the sounds of the cut.
 local function sounds_of(shots, own)
   local sounds = {}
   for _, shot in ipairs(shots) do
-    local film, fps = shot.film, shot.film.fps
-    if #list_of(film.sound) > 0 then
-      sounds[#sounds + 1] = { film, at = shot.start / fps, from = (shot.from - film.first) / fps,
-                              to = (shot.to - film.first + 1) / fps, speed = shot.speed,
-                              name = shot.name,
-                              fade = { shot.before / fps, shot.after / fps } }
-    end
+    if #list_of(shot.film.sound) > 0 then sounds[#sounds + 1] = piece_of(shot) end
   end
   if type(own) ~= "nil" and type(own) ~= "string" and type(own) ~= "table" then return own end
   local list = list_of(own)
   for i = 1, #list do sounds[#sounds + 1] = list[i] end
   return #sounds > 0 and sounds or nil
+end
+
+--- Adds the captions of a piece. known: the captions of films that were read before.
+local function add_captions(list, piece, known)
+  local film = piece[1]
+  known[film] = known[film] or subtitles.list(film)
+  for _, one in ipairs(known[film]) do
+    local from, to = math.max(one.from, piece.from), math.min(one.to, piece.to)
+    if from < to then
+      list[#list + 1] = { from = piece.at + (from - piece.from) / piece.speed,
+                          to = piece.at + (to - piece.from) / piece.speed, text = one.text }
+    end
+  end
+end
+
+--- The captions of pieces of films, and those of the cut. If no piece has any, the film itself reads
+--- the file of the cut.
+local function captions_of(pieces, own)
+  local list, known = {}, {}
+  for _, piece in ipairs(pieces) do add_captions(list, piece, known) end
+  if own == nil then return #list > 0 and list or nil end
+  if #list == 0 or type(own) ~= "table" and type(own) ~= "string" then return own end
+  if type(own) == "string" then
+    local read, message = captions.read(own)
+    own = read or core.refuse("cut: captions: " .. message)
+  end
+  return table.move(own, 1, #own, #list + 1, list)
 end
 
 --- The first frame of a mark, and its last one, if it has one.
@@ -555,27 +586,29 @@ local function frames_of(segments, size)
   end
 end
 
-local cut_fields = { "parts", title = "string", sound = "any", marks = "any", over = "function" }
+local cut_fields = { "parts", title = "string", sound = "any", marks = "any", captions = "any",
+                     over = "function" }
 
 local function new(_, parts)
   fields.check("cut", parts, cut_fields)
   local given = {}
   for i = 1, rawlen(parts) do given[#given + 1] = parts[i] or nil end
   local shots, segments, count = lay_out(given)
-  local size, over = shots[1].film.size, parts.over
+  local size, over, pieces = shots[1].film.size, parts.over, {}
+  for i, shot in ipairs(shots) do pieces[i] = piece_of(shot) end
   local show = frames_of(segments, size)
   return shots_of.keep(celspan.film {
     size = size, fps = shots[1].film.fps, frames = count, title = parts.title,
     space = shots[1].film.space, sound = sounds_of(shots, parts.sound),
-    marks = marks_of(shots, parts.marks),
+    marks = marks_of(shots, parts.marks), captions = captions_of(pieces, parts.captions),
     frame = over and function(f) return lay_over(show(f), over(f), f, size) end or show,
   }, shots, segments)
 end
 
 -- ---------------------------------------------------------------- other times
 
---- Adds the sound between the keys `key` and `after`, if the film runs forwards at an even speed
---- between them. The sound begins at `at`.
+--- Adds the piece between the keys `key` and `after`, if the film runs forwards at an even speed
+--- between them. It begins at `at`.
 local function add_piece(list, film, key, after, at)
   local seconds, frames = after.time - key.time, after.value - key.value
   local speed = seconds > 0 and frames / film.fps / seconds or 0
@@ -584,15 +617,15 @@ local function add_piece(list, film, key, after, at)
                       to = (after.value - film.first) / film.fps, speed = speed }
 end
 
---- The sound of a film with new times. Where the film is held, reversed or eased, there is no
---- sound.
-local function retimed_sound(film, track, duration)
-  if #list_of(film.sound) == 0 then return nil end
+--- The pieces of a film with new times that are heard and have captions: where the film is held,
+--- reversed or eased, there are none.
+local function pieces_of(film, track, duration)
+  if #list_of(film.sound) == 0 and film.captions == nil then return {} end
   local list, first, last = {}, track.keys[1].time, track.keys[#track.keys].time
   local turns = track.loop and last > first and math.ceil((duration - first) / (last - first)) or 1
   if turns * #track.keys > MOST_PIECES then
-    core.refuse(("cut: retime: the sound has more than %d pieces, which is the limit: give the "
-      .. "film no sound, film:with{ sound = {} }"):format(MOST_PIECES))
+    core.refuse(("cut: retime: the sound or the captions have more than %d pieces, which is the "
+      .. "limit: give the film none, film:with{ sound = {}, captions = {} }"):format(MOST_PIECES))
   end
   for turn = 0, turns - 1 do
     for i = 1, track.loop == "mirror" and turn % 2 == 1 and 0 or #track.keys - 1 do
@@ -656,9 +689,10 @@ function cut.retime(film, list, duration)
     return math.max(film.first, math.min(last, number))
   end
   local count = math.max(1, math.floor(duration * film.fps + 0.5))
+  local pieces = pieces_of(film, track, duration)
   return celspan.film {
     size = film.size, fps = film.fps, frames = count, title = film.title, space = film.space,
-    sound = retimed_sound(film, track, duration),
+    sound = #list_of(film.sound) > 0 and pieces or nil, captions = captions_of(pieces),
     marks = retimed_marks(film, count, number_at),
     frame = function(f) return film:at(number_at(f.index)) end,
   }
@@ -676,6 +710,7 @@ end
 ---@field title? string
 ---@field sound? string|celspan.film.sound|celspan.film.sound[] In addition to the sounds of the films
 ---@field marks? table<string, integer|integer[]> In addition to those of the films
+---@field captions? string|celspan.captions In addition to those of the films
 ---@field over? fun(f: celspan.film.frame): celspan.cel|celspan.cel[]|nil What is over all shots
 
 ---@class celspan.cut

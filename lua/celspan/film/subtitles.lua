@@ -68,7 +68,6 @@ end
 local function shown(list, first, seconds)
   local cut = {}
   for i, one in ipairs(list) do
-    check(one, i)
     local from, to = math.max(0, one.from - first), math.min(seconds, one.to - first)
     from, to = math.floor(from * 1000 + 0.5), math.floor(to * 1000 + 0.5)
     local text = lines(one.text)
@@ -102,6 +101,16 @@ local function apart(list)
   return parts
 end
 
+--- All captions of a film.
+---@param film celspan.film
+---@return celspan.captions.caption[]
+function subtitles.list(film)
+  local list, path, tried = core.captions(film)
+  if path then list = read(list, path, tried) end
+  for i, one in ipairs(list or {}) do check(one, i) end
+  return list or {}
+end
+
 --- The captions that are shown in the given seconds from `first` on; "" for none.
 ---@param film celspan.film
 ---@param form "srt"|"webvtt"
@@ -109,10 +118,8 @@ end
 ---@param seconds number
 ---@return string text
 function subtitles.text(film, form, first, seconds)
-  local list, path, tried = core.captions(film)
-  if path then list = read(list, path, tried) end
   local blocks, rules = {}, FORMS[form]
-  for i, one in ipairs(apart(shown(list, first, seconds))) do
+  for i, one in ipairs(apart(shown(subtitles.list(film), first, seconds))) do
     blocks[i] = ("%d\n%s --> %s\n%s\n"):format(i, time(one.from, rules.point),
       time(one.to, rules.point), rules.plain(one.text))
   end
