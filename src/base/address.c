@@ -102,7 +102,9 @@ int cs_address_file(const unsigned char *bytes, size_t size) {
     if (count < 0 && errno == EINTR)
       continue;
     if (count <= 0) {
+      int error = count < 0 ? errno : EIO;
       close(descriptor);
+      errno = error;
       return -1;
     }
     done += (size_t)count;

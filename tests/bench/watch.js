@@ -1,7 +1,7 @@
-// Measures the page of celspan watch, as steps of tests/support/browser.js (./run bench watch): what
-// an animator waits for, in milliseconds; what the page and its server hold; and what a picture costs
-// in processor time, by the way in which it travels. The film is the demo with a parameter, in the folder of SHOT. With
-// CELSPAN_PLAYED=1 the film is only played, at its own size.
+// Measures the page of celspan watch, as steps of tests/support/browser.js (./run bench watch):
+// what an animator waits for, in milliseconds; what the page and its server hold; and what a
+// picture costs in processor time, by the way in which it travels. The film is the demo with a
+// parameter, in the folder of SHOT. With CELSPAN_PLAYED=1 the film is only played, at its own size.
 const { readFileSync, readdirSync, writeFileSync, appendFileSync } = require("fs");
 const SHOT = process.env.CELSPAN_SHOT, SERVER = process.env.CELSPAN_SERVER;
 const IS_PLAYED = Boolean(process.env.CELSPAN_PLAYED);
@@ -55,7 +55,7 @@ async function save(i) {
   return await painted - began;
 }
 
-/** The sum over a process and all that it has started: of(fields of /proc/N/stat from the third). */
+/** The sum over a process and all that it has started: of(fields of /proc/N/stat from the 3rd). */
 function sumOf(root, of) {
   const parents = new Map(), values = new Map();
   for (const id of readdirSync("/proc").filter(name => /^\d+$/.test(name))) {

@@ -392,15 +392,21 @@ describe("a delivery", function()
     refused("-o bad.mp4 --scale 2 --fit stretch", "--fit is for a --size of another shape")
   end)
 
-  it_reads("is made of frames that are there, or of a movie, with the sound of a film", function()
+  local function convert(arguments)
+    local code, _, err = bench:celspan_inside("convert " .. arguments .. " --progress none")
+    assert.equal(0, code, err)
+  end
+
+  --- Writes the frames f/f.0001.png to 12, and film.lua with a sound of half a second.
+  local function write_frames()
     bench:write("film.lua", (FILM:gsub("fps = 24", "%0, sound = 'tone.wav'")))
     bench:write("tone.wav", wave(string.rep(string.pack("<i2i2", 8000, -8000), 12000)))
     assert(os.execute(("mkdir -p '%s/f'"):format(bench.folder)))
     render "-o f/f.####.png -- glass"
-    local function convert(arguments)
-      local code, _, err = bench:celspan_inside("convert " .. arguments .. " --progress none")
-      assert.equal(0, code, err)
-    end
+  end
+
+  it_reads("is made of frames that are there, with the sound of a film", function()
+    write_frames()
     convert "'f/f.####.png' out.mkv --codec ffv1 --fps 12 --sound film.lua"
     assert.equal("ffv1", stream("out.mkv").codec_name)
     for i = 0, 11 do
@@ -411,21 +417,50 @@ describe("a delivery", function()
       .. "stream=codec_type,r_frame_rate:format=duration -of csv=p=0 out.mkv")
     assert.truthy(out:find("video,12/1", 1, true) and out:find("audio", 1, true), out)
     assert.is_true(math.abs(tonumber(out:match "\n(%d+%.%d+)") - 1) < 0.02, out)
-    convert "out.mkv again.mkv --codec ffv1 --size 128x64"
+    local code, told, err = bench:celspan_inside "info 'f/f.####.png' --json"
+    assert.equal(0, code, err)
+    assert.truthy(told:find('"frames": 12', 1, true), told)
+    code, _, err = bench:celspan_inside "render 'f/f.####.png' --set fps=6 -o slow.gif"
+    assert.equal(0, code, err)
+  end)
+
+  it_reads("takes the sound of a script that is trusted, and leaves no sound behind", function()
+    write_frames()
+    assert(os.execute(("mkdir '%s/show'"):format(bench.folder)))
+    bench:write("show/film.lua", (FILM:gsub("fps = 24", "%0, sound = '../tone.wav'")))
+    local code, _, err = bench:celspan_inside "convert 'f/f.####.png' a.mkv --sound show/film.lua"
+    assert.is_true(code > 0, err)
+    assert.is_nil(bench:read "a.mkv")
+    convert "'f/f.####.png' out.mkv --fps 12 --sound show/film.lua --trust"
+    local _, sounds = bench:inside("ffprobe -v error -show_entries stream=codec_name -of csv "
+      .. "out.mkv")
+    assert.truthy(sounds:find "flac", sounds)
+    for _, name in ipairs(bench:files()) do assert.falsy(name:find "sound", name) end
+  end)
+
+  it_reads("is made of a movie, also with --trust", function()
+    write_frames()
+    convert "'f/f.####.png' out.mkv --codec ffv1 --sound tone.wav"
+    convert "out.mkv again.mkv --codec ffv1 --size 128x64 --trust"
     assert.equal("12", stream("again.mkv").nb_read_frames)
     local _, sounds = bench:inside("ffprobe -v error -show_entries stream=codec_name -of csv "
       .. "again.mkv")
     assert.truthy(sounds:find "flac", sounds)
     convert "out.mkv one.png --frame 7"
     assert.is_true(pixels("one.png", 0, 256, 128) == pixels("out.mkv", 6, 256, 128))
-    local code, told, err = bench:celspan_inside "info 'f/f.####.png' --json"
-    assert.equal(0, code, err)
-    assert.truthy(told:find('"frames": 12', 1, true), told)
-    for _, command in ipairs { "contact out.mkv -o sheet.png", "check out.mkv",
-                               "render 'f/f.####.png' --set fps=6 -o slow.gif" } do
-      code, _, err = bench:celspan_inside(command)
+    for _, command in ipairs { "contact out.mkv -o sheet.png", "check out.mkv" } do
+      local code, _, err = bench:celspan_inside(command)
       assert.equal(0, code, err)
     end
+    bench:write("short.mkv", bench:read "out.mkv":sub(1, 700))
+    local code, _, err = bench:celspan_inside "render short.mkv -o bad.mp4"
+    assert.is_true(code > 0 and err:find("short.mkv", 1, true) ~= nil, err)
+  end)
+
+  it_reads("is not made of frames that are missing, or of one picture", function()
+    write_frames()
+    convert "'f/f.####.png' out.mkv"
+    assert.equal(0, (bench:celspan_inside "convert f/f.0007.png one.png"))
     assert.is_true(os.remove(bench.folder .. "/f/f.0003.png"))
     for i = 9, 10 do os.remove(("%s/f/f.%04d.png"):format(bench.folder, i)) end
     for command, words in pairs {
@@ -439,14 +474,27 @@ describe("a delivery", function()
       ["out.mkv bad.png"] = "several frames (12) need a number",
       ["out.mkv bad.mkv --sound none.wav"] = "none.wav",
     } do
-      code, _, err = bench:celspan_inside("convert " .. command)
+      local code, _, err = bench:celspan_inside("convert " .. command)
       assert.is_true(code > 0)
       assert.truthy(err:find(words, 1, true), err)
       assert.is_nil(bench:read "bad.mp4" or bench:read "bad.mkv" or bench:read "bad.png")
     end
-    bench:write("short.mkv", bench:read "out.mkv":sub(1, 700))
-    code, _, err = bench:celspan_inside "render short.mkv -o bad.mp4"
-    assert.is_true(code > 0 and err:find("short.mkv", 1, true) ~= nil, err)
+  end)
+
+  it_reads("has a limit of bytes with captions and a sound, also of each row of a table", function()
+    bench:write("tone.wav", wave(string.rep(string.pack("<i2i2", 8000, -8000), 12000)))
+    bench:write("said.srt", "1\n00:00:00,000 --> 00:00:00,400\nhello\n")
+    bench:write("film.lua", 'require "celspan".parameters { tint = 1 }\n' .. FILM:gsub("fps = 24",
+      "%0, sound = 'tone.wav', captions = 'said.srt'"))
+    bench:write("rows.csv", "tint\n3\n4\n")
+    render "--table rows.csv -o '{tint}.mkv' --max-size 60k"
+    for _, name in ipairs { "3.mkv", "4.mkv" } do
+      assert.is_true(#bench:read(name) <= 60000)
+      local _, out = bench:inside("ffprobe -v error -show_entries stream=codec_type -of csv=p=0 "
+        .. name)
+      assert.equal("video\naudio\nsubtitle\n", out)
+      assert.equal("00:00:00,000 --> 00:00:00,400\nhello", captions_of(name))
+    end
   end)
 
   it("is refused with a codec that its file does not contain", function()

@@ -305,6 +305,11 @@ describe("the commands of a job", function()
     same("whole.tga", "one.tga")
   end)
 
+  it("have quotes around words that zsh replaces", function()
+    local lines = done "farm film.lua -o o/#.png --commands -- =ls a=b"
+    assert.truthy(lines:find(" -- '=ls' a=b\n", 1, true), lines)
+  end)
+
   it("need one line each", function()
     refused("has control characters", "farm film.lua -o o/#.png --commands -- 'a\nb'")
     refused("has control characters", "farm film.lua -o 'o\n/#.png' --commands")

@@ -81,7 +81,7 @@ void cs_artwork_push_film(lua_State *L, const char *path, cs_artwork kind) {
   lua_pushstring(L, kind == CS_ARTWORK_SVG      ? "svg"
                     : kind == CS_ARTWORK_LOTTIE ? "lottie"
                     : kind == CS_ARTWORK_FILES  ? "files"
-                    : kind == CS_ARTWORK_NONE   ? "movie"
+                    : kind == CS_ARTWORK_MOVIE  ? "movie"
                                                 : "painting");
   lua_getglobal(L, "print");
   lua_call(L, 3, 1);

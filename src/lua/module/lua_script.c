@@ -149,7 +149,7 @@ static bool push_artwork(lua_State *L, const char *path) {
   cs_artwork artwork = cs_artwork_of(path);
   if (artwork == CS_ARTWORK_FOLDER || (artwork == CS_ARTWORK_NONE && cs_lua_script_accepts(path)))
     return false;
-  cs_artwork_push_film(L, path, artwork);
+  cs_artwork_push_film(L, path, artwork == CS_ARTWORK_NONE ? CS_ARTWORK_MOVIE : artwork);
   return !lua_isnil(L, -1);
 }
 

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/address.h"
 #include "base/open.h"
 #include "plugins/sound/sound.h"
 
@@ -401,7 +402,8 @@ static void hash_numbers(cs_hash *hash, const double *numbers, int count) {
 
 static void hash_sound(cs_hash *hash, const cs_mix_sound *sound) {
   cs_hash_text(hash, sound->path);
-  cs_open_hash(hash, sound->path);
+  if (!cs_address_is_data(sound->path))
+    cs_open_hash(hash, sound->path);
   hash_numbers(hash, (double[]){sound->start, sound->speed, sound->gain[0], sound->gain[1]}, 4);
   cs_hash_word(hash, sound->passage_count);
   for (size_t i = 0; i < sound->passage_count; i++) {

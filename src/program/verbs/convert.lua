@@ -2,11 +2,14 @@
 --- a picture, and numbered pictures or a movie to a video or other pictures.
 ---
 ---   frames.####.png --celspan render--> film.mp4      the pictures are a film (artwork.lua)
----   film.lua --celspan sound--> a temporary file --^
+---   film.lua --celspan sound--> .film.mp4.sound.wav --^
+---
+--- If a run is killed, that file remains; the next run replaces and removes it.
 local program, request = ...
 
 local ONLY_VIDEO = { "quality", "codec", "max_size", "crf", "loop", "loudness", "fps", "sound",
                      "background", "progress" }
+local RIGHTS = { ["--trust"] = true, ["--limit"] = true }
 local OWN = { ["--fps"] = true, ["--sound"] = true, ["--frame"] = true }
 
 --- Runs this program, whose messages are shown. Returns its exit code.
@@ -23,12 +26,21 @@ local function rate()
   return ("%.17g"):format((above or request.fps) / (below or 1))
 end
 
---- Writes the sound of a script to a temporary file. Returns its name, or nil and the exit code.
-local function mix(script)
-  local name = os.tmpname()
+--- Writes the sound of a script to a file beside the output. Returns its name, or nil and the exit
+--- code.
+local function mix(script, output)
+  local folder, base = output:match "^(.-)([^/]*)$"
+  local name = folder .. "." .. base .. ".sound.wav"
+  local words = { "sound", script, "-o", name, "--progress", "none" }
+  for _, option in ipairs(request.given) do
+    if RIGHTS[option.name] then
+      table.move({ option.name, option.value }, 1, 2, #words + 1, words)
+    end
+  end
+  local code = run(words)
+  if code == 0 and not program.is_stopped() then return name end
   os.remove(name)
-  local code = run { "sound", script, "-o", name .. ".wav" }
-  return code == 0 and name .. ".wav", code
+  return nil, code
 end
 
 --- Makes the output of a film of pictures; returns the exit code.
@@ -39,7 +51,7 @@ local function render(input, output)
   if request.frame then add("--frames", request.frame) end
   if request.fps then settings[1] = { "fps", rate() } end
   if sound and program.kind(sound) == "script" then
-    made, code = mix(sound)
+    made, code = mix(sound, output)
     if not made then return code end
     sound = made
   end

@@ -59,9 +59,10 @@ local names = { absolute = absolute, strip_pattern = strip_pattern, ending_of = 
 
 -- ---------------------------------------------------------------- Slurm
 
---- A word for bash with any contents: between single quotes all characters stand for themselves.
+--- A word for any shell with any contents: between single quotes all characters stand for
+--- themselves. zsh replaces a word that begins with =.
 local function quoted(text)
-  if text:find "^[%w%%+,./:=@_-]+$" then return text end
+  if text:find "^[%w%%+,./:=@_-]+$" and text:byte() ~= ("="):byte() then return text end
   return "'" .. text:gsub("'", [['\'']]) .. "'"
 end
 

@@ -66,7 +66,7 @@ export function giveValue(one, parameter, value) {
 /** A value as the command line has it: a point is "120,80". */
 const textOf = value => Array.isArray(value) ? value.join() : String(value);
 
-const quoted = text => /^[\w.,:=/-][\w.,:=/#-]*$/.test(text) ? text
+const quoted = text => /^[\w.,:/-][\w.,:=/#-]*$/.test(text) ? text
   : `'${text.replaceAll("'", "'\\''")}'`;
 
 /** The command that renders a film to a file with these values, the options and the arguments of
