@@ -327,10 +327,13 @@ static celspan_status complete_whole(render_job *job) {
 /* The frames of a video are finished only when the whole file is. */
 static cs_exit shoot_whole(render_job *job) {
   cs_exit outcome = shoot(job);
-  if (outcome == CS_EXIT_OK)
-    return cs_report_failure(job->script->context, complete_whole(job), NULL);
-  discard_whole(job);
-  return outcome;
+  if (outcome != CS_EXIT_OK) {
+    discard_whole(job);
+    return outcome;
+  }
+  CS_TRY_EXIT(cs_report_failure(job->script->context, complete_whole(job), NULL));
+  return job->is_video ? cs_video_target_add_poster(job->script, job->request, &job->frame)
+                       : CS_EXIT_OK;
 }
 
 static void start_progress(render_job *job) {
@@ -389,7 +392,8 @@ static bool is_unchanged(render_job *job) {
   job->surveys = true;
   celspan_status status = run_shoot(job);
   job->surveys = false;
-  return status == CELSPAN_OK && cs_whole_is_kept(&job->whole);
+  bool is_all = !job->is_video || cs_video_target_has_poster(job->script, job->request);
+  return status == CELSPAN_OK && is_all && cs_whole_is_kept(&job->whole);
 }
 
 static cs_exit report_kept(render_job *job) {

@@ -4,6 +4,7 @@
 
 #include "lua/module/subtitles.h"
 #include "output/sinks/file.h"
+#include "program/poster.h"
 #include "program/soundtrack.h"
 #include "program/spaces.h"
 
@@ -243,6 +244,18 @@ static cs_exit open_with_chapters(cs_video *out, cs_script *script, const cs_req
   return outcome;
 }
 
+static cs_exit open_with_poster(cs_video *out, cs_script *script, const cs_request *request,
+                                cs_video_desc *desc, const celspan_frame_desc *frame,
+                                const cs_sequence *played) {
+  unsigned char *pixels;
+  size_t size = 0;
+  CS_TRY_EXIT(cs_poster_make(script, request, desc->format, frame, &pixels, &size));
+  desc->poster = pixels;
+  cs_exit outcome = open_with_chapters(out, script, request, desc, played);
+  cs_mem_free(script->context->memory, pixels, size);
+  return outcome;
+}
+
 static cs_video_desc describe(const cs_script *script, const cs_request *request,
                               const celspan_frame_desc *frame) {
   bool is_part = frame->crop_width > 0;
@@ -274,5 +287,14 @@ cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request 
   CS_TRY_EXIT(cs_video_target_refuse_frames(script, request, frame));
   cs_video_desc desc = describe(script, request, frame);
   CS_TRY_EXIT(set_captions(&desc, script, played));
-  return open_with_chapters(out, script, request, &desc, played);
+  return open_with_poster(out, script, request, &desc, frame, played);
+}
+
+bool cs_video_target_has_poster(const cs_script *script, const cs_request *request) {
+  return cs_poster_is_there(script, request, format_of(request));
+}
+
+cs_exit cs_video_target_add_poster(cs_script *script, const cs_request *request,
+                                   const celspan_frame_desc *frame) {
+  return cs_poster_write(script, request, format_of(request), frame);
 }

@@ -22,6 +22,11 @@ cs_exit cs_video_target_refuse_frames(const cs_script *script, const cs_request 
 /* Starts the encoder, with the film's sound while these frames are played. OK, or reported. */
 cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request *request,
                              const celspan_frame_desc *frame, const cs_sequence *played);
+/* Writes the film's poster beside the complete video, if there is one. OK, or reported. */
+cs_exit cs_video_target_add_poster(cs_script *script, const cs_request *request,
+                                   const celspan_frame_desc *frame);
+/* Whether that file is there, or none is wanted. */
+bool cs_video_target_has_poster(const cs_script *script, const cs_request *request);
 
 /* ---- chapters.c */
 

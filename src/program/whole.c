@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "lua/module/subtitles.h"
+#include "program/poster.h"
 #include "program/soundtrack.h"
 #include "program/video_target.h"
 
@@ -52,6 +53,7 @@ celspan_status cs_whole_begin(cs_whole *whole, cs_script *script, const cs_reque
   if (script->film.has_sound)
     CS_TRY(cs_soundtrack_hash(script, &hash));
   CS_TRY(hash_texts(&hash, script));
+  CS_TRY(cs_poster_hash(script, &hash));
   whole->file.is_named = true;
   whole->file.scene = hash;
   return CELSPAN_OK;

@@ -326,6 +326,57 @@ describe("a delivery", function()
     end
   end)
 
+  it_reads("has the poster of the film as an attached picture in mp4, and beside others", function()
+    local function with(poster, more)
+      bench:write("film.lua", (FILM:gsub("fps = 24", ("%%0, poster = %s%s"):format(poster,
+        more or ""))))
+    end
+    bench:write("said.srt", "1\n00:00:00,000 --> 00:00:00,400\nhello\n")
+    bench:write("tone.wav", wave(string.rep(string.pack("<i2i2", 8000, -8000), 12000)))
+    render "-o poster.png --frames 8 -- glass"
+    local expected = pixels("poster.png", 0, 256, 128)
+    with("8", ", marks = { a = 1 }, captions = 'said.srt', sound = 'tone.wav'")
+    for i, options in ipairs { "", "--codec h265", "--codec av1", "--max-size 80k" } do
+      render("-o out.mp4 --frames 1-6 %s -- glass", options)
+      local _, out = bench:inside("ffprobe -v error -show_entries "
+        .. "stream=codec_type:stream_disposition=attached_pic -of csv=p=0 out.mp4")
+      assert.truthy(out:find "^video,0\naudio,0\nsubtitle,0\n" and out:find "\nvideo,1", out)
+      bench:inside "ffmpeg -v error -y -i out.mp4 -map 0:v:1 -c copy attached.png"
+      assert.is_true(pixels("attached.png", 0, 256, 128) == expected, options)
+      assert.is_true(i < 4 or #bench:read "out.mp4" <= 80000)
+      assert.equal("00:00:00,000 --> 00:00:00,250\nhello", captions_of "out.mp4")
+    end
+    for _, name in ipairs(bench:files()) do assert.falsy(name:find "%.part$", name) end
+    for _, ending in ipairs { "mov", "mkv", "webm" } do
+      render("-o film.%s --resume -- glass", ending)
+      assert.is_true(pixels("film.poster.png", 0, 256, 128) == expected)
+      os.remove(bench.folder .. "/film.poster.png")
+    end
+    render "-o film.webm --resume -- glass"
+    assert.is_true(pixels("film.poster.png", 0, 256, 128) == expected)
+    local _, _, err = bench:celspan_inside("render film.lua -o film.webm --resume "
+      .. "--progress lines -- glass")
+    assert.truthy(err:find("kept", 1, true), err)
+    with "4"
+    render "-o film.webm --resume -- glass"
+    assert.is_true(pixels("film.poster.png", 0, 256, 128) ~= expected)
+    os.remove(bench.folder .. "/film.poster.png")
+    render "-o film.gif"
+    assert.is_nil(bench:read "film.poster.png")
+    bench:write("film.lua", FILM)
+    render "-o film.webm"
+    assert.is_nil(bench:read "film.poster.png")
+    with "5"
+    bench:write("film.lua", (bench:read "film.lua":gsub("local fields = {}",
+      "if f.number == 5 then error 'no' end %0")))
+    for _, ending in ipairs { "mp4", "webm" } do
+      local code, _, message = celspan("-o bad.%s --frames 1-3", ending)
+      assert.equal(3, code)
+      assert.truthy(message:find("frame 5", 1, true), message)
+    end
+    assert.is_nil(bench:read "bad.mp4" or bench:read "bad.poster.png")
+  end)
+
   it_reads("is as loud as --loudness says, by EBU R 128", function()
     local samples = {}
     for i = 1, 4 * 48000 do

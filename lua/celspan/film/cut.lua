@@ -487,8 +487,8 @@ local function add_captions(list, piece, known)
   end
 end
 
---- The captions of pieces of films, and those of the cut. If no piece has any, the film itself reads
---- the file of the cut.
+--- The captions of pieces of films, and those of the cut. If no piece has any, the film itself
+--- reads the file of the cut.
 local function captions_of(pieces, own)
   local list, known = {}, {}
   for _, piece in ipairs(pieces) do add_captions(list, piece, known) end

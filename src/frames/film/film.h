@@ -23,7 +23,8 @@ typedef struct cs_film_info {
   const char *title;    /* NULL: none; the film's own, borrowed */
   bool has_sound;       /* one file or more */
   bool has_captions;
-  int64_t poster; /* the frame that stands for the film; `first` unless it says another */
+  bool has_poster; /* the film says which */
+  int64_t poster;  /* the frame that stands for the film; `first` unless it says another */
   const cs_film_mark *marks; /* in the order of their frames; the film's own, borrowed */
   size_t mark_count;
 } cs_film_info;

@@ -20,8 +20,8 @@
 static const char *const H264[] = {"-c:v",  "libx264",   "-preset", "medium",
                                    "-tune", "animation", NULL};
 /* Players of Apple need the tag hvc1; otherwise the encoder prints notes to standard error. */
-static const char *const H265[] = {"-c:v",         "libx265",         "-preset", "medium",
-                                   "-tune",        "animation",       "-tag:v",  "hvc1",
+static const char *const H265[] = {"-c:v",         "libx265",         "-preset",  "medium",
+                                   "-tune",        "animation",       "-tag:v:0", "hvc1",
                                    "-x265-params", "log-level=error", NULL};
 static const char *const AV1[] = {"-c:v",      "libaom-av1", "-b:v",    "0", "-usage", "good",
                                   "-cpu-used", "6",          "-row-mt", "1", NULL};

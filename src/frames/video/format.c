@@ -31,6 +31,7 @@ static const cs_video_format FORMATS[] = {
      .most_frames_second = ENDLESS,
      .sound = AAC,
      .has_chapters = true,
+     .poster = CS_POSTER_ATTACHED,
      .captions = "mov_text",
      .captions_form = SUBRIP,
      .flags = ISO_FLAGS,
@@ -42,6 +43,7 @@ static const cs_video_format FORMATS[] = {
      .most_frames_second = 1000,
      .sound = FLAC,
      .has_chapters = true,
+     .poster = CS_POSTER_BESIDE,
      .captions = "srt",
      .captions_form = SUBRIP,
      .mark = {0, EBML}},
@@ -52,6 +54,7 @@ static const cs_video_format FORMATS[] = {
      .most_frames_second = ENDLESS,
      .sound = PCM,
      .has_chapters = true,
+     .poster = CS_POSTER_BESIDE,
      .captions = "mov_text",
      .captions_form = SUBRIP,
      .flags = ISO_FLAGS,
@@ -62,6 +65,7 @@ static const cs_video_format FORMATS[] = {
      .most_frames_second = 1000,
      .sound = OPUS,
      .has_chapters = true,
+     .poster = CS_POSTER_BESIDE,
      .captions = "copy", /* the encoder writes no entities */
      .captions_form = "webvtt",
      .mark = {0, EBML}},
@@ -232,13 +236,17 @@ static void add_format(cs_video_command *command, const char *name) {
   add(command, name);
 }
 
-static void add_frames(cs_video_command *command, const cs_video_options *options,
-                       const cs_video_frames *frames) {
+static void add_raw(cs_video_command *command, const char *pixels, int32_t width, int32_t height) {
   add_format(command, "rawvideo");
   add(command, "-pixel_format");
-  add(command, frame_pixels(options));
+  add(command, pixels);
   add(command, "-video_size");
-  add_text(command, "%dx%d", (int)frames->width, (int)frames->height);
+  add_text(command, "%dx%d", (int)width, (int)height);
+}
+
+static void add_frames(cs_video_command *command, const cs_video_options *options,
+                       const cs_video_frames *frames) {
+  add_raw(command, frame_pixels(options), frames->width, frames->height);
   add(command, "-framerate");
   add_rate(command, frames->frames_second);
   add_pipe(command, 0);
@@ -320,11 +328,13 @@ static void add_samples(cs_video_command *command, const cs_sound_stream *sample
   add_pipe(command, CS_CHILD_SAMPLES);
 }
 
+static void add_map(cs_video_command *command, int input, char kind) {
+  add(command, "-map");
+  add_text(command, "%d:%c", input, kind);
+}
+
 static void add_sound(cs_video_command *command, const char *const *codec, int input) {
-  add(command, "-map");
-  add(command, "0:v");
-  add(command, "-map");
-  add_text(command, "%d:a", input);
+  add_map(command, input, 'a');
   add_all(command, codec);
 }
 
@@ -337,25 +347,44 @@ static void add_chapters(cs_video_command *command, const char *address) {
   add(command, address);
 }
 
-static void add_file(cs_video_command *command, const char *format, const char *name) {
+static void add_input(cs_video_command *command, const char *name) {
   add(command, "-protocol_whitelist");
   add(command, "file");
-  add_format(command, format);
   add(command, "-i");
   add_text(command, "file:%s", name);
 }
 
-/* input: the number of the file of captions. */
-static void add_captions(cs_video_command *command, const cs_video_format *format, int input,
-                         bool has_sound) {
-  if (!has_sound) {
-    add(command, "-map");
-    add(command, "0:v");
+static void add_file(cs_video_command *command, const char *format, const char *name) {
+  add_format(command, format);
+  add_input(command, name);
+}
+
+/* Adds the files of the captions and of the poster, each if there is one. */
+static void add_extras(cs_video_command *command, const cs_video_format *format,
+                       const cs_video_extras *extras) {
+  if (extras->captions)
+    add_file(command, format->captions_form, extras->captions);
+  if (!extras->poster)
+    return;
+  add_raw(command, "rgba", extras->width, extras->height);
+  add_input(command, extras->poster);
+}
+
+/* Adds the streams of these files. input: the number of the first of them. */
+static void add_extra_streams(cs_video_command *command, const cs_video_format *format, int input,
+                              const cs_video_extras *extras) {
+  static const char *const poster[] = {
+      "-c:v:1",           "png",          "-filter:v:1", "null", "-pix_fmt:v:1", "rgba",
+      "-disposition:v:1", "attached_pic", NULL};
+  if (extras->captions) {
+    add_map(command, input++, 's');
+    add(command, "-c:s");
+    add(command, format->captions);
   }
-  add(command, "-map");
-  add_text(command, "%d:s", input);
-  add(command, "-c:s");
-  add(command, format->captions);
+  if (!extras->poster)
+    return;
+  add_map(command, input, 'v');
+  add_all(command, poster);
 }
 
 /* ---------------------------------------------------------------- commands */
@@ -384,28 +413,37 @@ static void add_output(cs_video_command *command, const cs_video_format *format,
   add_text(command, "file:%s", file);
 }
 
+/* What the format has a place for. */
+static cs_video_extras taken(const cs_video_format *format, const cs_video_extras *extras) {
+  cs_video_extras own = *extras;
+  own.chapters = format->has_chapters ? extras->chapters : NULL;
+  own.captions = format->captions ? extras->captions : NULL;
+  own.poster = format->poster == CS_POSTER_ATTACHED ? extras->poster : NULL;
+  return own;
+}
+
 void cs_video_command_encode(cs_video_command *command, const cs_video_format *format,
                              const cs_video_options *options, const cs_video_frames *frames,
-                             const cs_sound_stream *sound, const cs_video_texts *texts,
+                             const cs_sound_stream *sound, const cs_video_extras *extras,
                              const char *file) {
-  const char *chapters = format->has_chapters ? texts->chapters : NULL;
-  bool has_sound = sound->user != NULL, has_captions = format->captions && texts->captions;
+  const cs_video_extras own = taken(format, extras);
+  bool has_sound = sound->user != NULL;
   begin(command);
-  add_inputs(command, options, frames, sound, chapters);
-  if (has_captions)
-    add_file(command, format->captions_form, texts->captions);
+  add_inputs(command, options, frames, sound, own.chapters);
+  add_extras(command, format, &own);
   add_pictures(command, options, false);
+  if (!options->codec->is_indexed)
+    add_map(command, 0, 'v');
   if (has_sound)
     add_sound(command, format->sound, 1);
-  if (has_captions)
-    add_captions(command, format, 1 + has_sound + (chapters != NULL), has_sound);
+  add_extra_streams(command, format, 1 + has_sound + (own.chapters != NULL), &own);
   add_output(command, format, options, file);
 }
 
 void cs_video_command_master(cs_video_command *command, const cs_video_options *options,
                              const cs_video_frames *frames, const cs_sound_stream *sound,
                              const char *chapters, const char *file) {
-  static const char *const pictures[] = {"-c:v", "ffv1", "-level", "3", NULL};
+  static const char *const pictures[] = {"-map", "0:v", "-c:v", "ffv1", "-level", "3", NULL};
   static const char *const samples[] = {"-c:a", "pcm_f32le", NULL};
   begin(command);
   add_inputs(command, options, frames, sound, chapters);
@@ -419,16 +457,15 @@ void cs_video_command_master(cs_video_command *command, const cs_video_options *
 
 void cs_video_command_repeat(cs_video_command *command, const cs_video_format *format,
                              const cs_video_options *options, bool has_sound, const char *master,
-                             const char *captions, const char *file) {
-  bool has_captions = format->captions && captions;
+                             const cs_video_extras *extras, const char *file) {
+  const cs_video_extras own = taken(format, extras);
   begin(command);
   add_file(command, "nut", master);
-  if (has_captions)
-    add_file(command, format->captions_form, captions);
+  add_extras(command, format, &own);
   add_pictures(command, options, true);
+  add_map(command, 0, 'v');
   if (has_sound)
     add_sound(command, format->sound, 0);
-  if (has_captions)
-    add_captions(command, format, 1, has_sound);
+  add_extra_streams(command, format, 1, &own);
   add_output(command, format, options, file);
 }

@@ -2,6 +2,7 @@
  *
  *   planes of Y'CbCr, or RGBA --standard input--> [matrix and range of BT.709] --> encoder --> file
  *   sound of as many seconds --second pipe--> encoder -------------------------------^
+ *   captions, poster --files--------------------------------------------------------^
  *
  *   ending  codecs, the default first                        sound
  *   mp4     h264, h265, av1                                  AAC
@@ -37,6 +38,13 @@ typedef struct cs_video_codec {
 
 enum { CS_VIDEO_CODECS = 6 }; /* of a format, at most */
 
+/* Where the picture of a film's poster is. */
+typedef enum cs_video_poster {
+  CS_POSTER_NONE,
+  CS_POSTER_ATTACHED, /* in the file */
+  CS_POSTER_BESIDE
+} cs_video_poster;
+
 typedef struct cs_video_format {
   const char *name;                              /* the ending */
   const char *muxer;                             /* its name in ffmpeg */
@@ -48,9 +56,10 @@ typedef struct cs_video_format {
   bool counts_repeats; /* that option counts what follows the first time */
   const char *const *sound; /* options of ffmpeg; NULL: the format has no sound */
   bool has_chapters;
-  const char *captions; /* the encoder of captions; NULL: the format has none */
+  cs_video_poster poster;
+  const char *captions;      /* the encoder of captions; NULL: the format has none */
   const char *captions_form; /* of the file that they are read from: "srt" or "webvtt" */
-  struct {              /* bytes in every file of the format */
+  struct {                   /* bytes in every file of the format */
     size_t offset;
     const char *bytes;
   } mark;
@@ -80,13 +89,15 @@ typedef struct cs_video_frames {
   double frames_second;
 } cs_video_frames;
 
-/* Texts beside the frames; NULL: none. */
-typedef struct cs_video_texts {
-  const char *chapters; /* the address of a text in the format ffmetadata */
-  const char *captions; /* the name of a file in the captions_form of the format */
-} cs_video_texts;
+/* Texts and a picture that a video has in addition; NULL: none. */
+typedef struct cs_video_extras {
+  const char *chapters;  /* the address of a text in the format ffmetadata */
+  const char *captions;  /* the name of a file in the captions_form of the format */
+  const char *poster;    /* the name of a file of pixels: RGBA of 8 bits */
+  int32_t width, height; /* of the poster */
+} cs_video_extras;
 
-enum { CS_VIDEO_ARGUMENTS = 96, CS_VIDEO_TEXT = 16384 };
+enum { CS_VIDEO_ARGUMENTS = 160, CS_VIDEO_TEXT = 16384 };
 
 /* Arguments of ffmpeg, its name first. */
 typedef struct cs_video_command {
@@ -112,21 +123,21 @@ cs_video_layout cs_video_layout_of(const cs_video_options *options);
 celspan_coding cs_video_coding(const cs_video_options *options);
 
 /* The command that makes a video of raw frames, as above. sound: as long as the frames, or none.
- * texts: borrowed by the command; left out where the format has no place for them. file: the name
+ * extras: borrowed by the command; left out where the format has no place for them. file: the name
  * of the output. */
 void cs_video_command_encode(cs_video_command *command, const cs_video_format *format,
                              const cs_video_options *options, const cs_video_frames *frames,
-                             const cs_sound_stream *sound, const cs_video_texts *texts,
+                             const cs_sound_stream *sound, const cs_video_extras *extras,
                              const char *file);
 /* The command that keeps the pixels of the encoder, the samples and the chapters without loss in a
- * master file, of which videos are made by the other command, with the captions. Not for codecs of
- * RGB. */
+ * master file, of which videos are made by the other command, with all extras but the chapters. Not
+ * for codecs of RGB. */
 void cs_video_command_master(cs_video_command *command, const cs_video_options *options,
                              const cs_video_frames *frames, const cs_sound_stream *sound,
                              const char *chapters, const char *file);
 void cs_video_command_repeat(cs_video_command *command, const cs_video_format *format,
                              const cs_video_options *options, bool has_sound, const char *master,
-                             const char *captions, const char *file);
+                             const cs_video_extras *extras, const char *file);
 
 /* ---- codec.c */
 

@@ -35,7 +35,7 @@ static celspan_status encode(search *s, int32_t crf) {
   options.has_crf = true;
   options.crf = crf;
   cs_video_command_repeat(&command, video->format, &options, video->has_sound, s->master,
-                          video->captions_name, s->name);
+                          &video->extras, s->name);
   CS_TRY(cs_encoder_run(video->context, video->path, command.arguments));
   if (stat(s->name, &about) != 0)
     return cs_fail(video->context, CELSPAN_OUTPUT, "%s: cannot be read back: %s", video->path,

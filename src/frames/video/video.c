@@ -26,13 +26,22 @@ static celspan_status open_file(cs_video *video, cs_file **file, const char **na
   return cs_file_temporary(*file, video->context, name);
 }
 
-static celspan_status write_captions(cs_video *video, const char *captions) {
-  const char *name;
-  if (!captions)
+/* Writes a file that ffmpeg reads. *name: of the file. */
+static celspan_status write_extra(cs_video *video, const void *bytes, size_t size, cs_file **file,
+                                  const char **name) {
+  if (!bytes)
     return CELSPAN_OK;
-  CS_TRY(open_file(video, &video->captions, &name));
-  CS_TRY(cs_file_write(video->captions, video->context, captions, strlen(captions)));
-  return cs_file_temporary(video->captions, video->context, &video->captions_name);
+  CS_TRY(open_file(video, file, name));
+  CS_TRY(cs_file_write(*file, video->context, bytes, size));
+  return cs_file_temporary(*file, video->context, name);
+}
+
+static celspan_status write_extras(cs_video *video, const cs_video_desc *desc) {
+  const size_t pixels = (size_t)desc->frames.width * (size_t)desc->frames.height;
+  cs_video_extras *extras = &video->extras;
+  CS_TRY(write_extra(video, desc->captions, desc->captions ? strlen(desc->captions) : 0,
+                     &video->captions, &extras->captions));
+  return write_extra(video, desc->poster, 4 * pixels, &video->poster, &extras->poster);
 }
 
 /* The files, and the command that writes the first of them. */
@@ -41,11 +50,12 @@ static celspan_status prepare(cs_video *video, const cs_video_desc *desc,
   const char *name;
   cs_temporary_sweep(video->path, is_same);
   CS_TRY(open_file(video, &video->file, &name));
-  CS_TRY(write_captions(video, desc->captions));
+  CS_TRY(write_extras(video, desc));
   if (desc->most_bytes == 0) {
-    const cs_video_texts texts = {desc->chapters, video->captions_name};
+    cs_video_extras extras = video->extras;
+    extras.chapters = desc->chapters;
     cs_video_command_encode(command, desc->format, &desc->options, &desc->frames, &desc->sound,
-                            &texts, name);
+                            &extras, name);
     return CELSPAN_OK;
   }
   CS_TRY(open_file(video, &video->master, &name));
@@ -57,6 +67,7 @@ static celspan_status prepare(cs_video *video, const cs_video_desc *desc,
 static void discard_sources(cs_video *video) {
   cs_file_discard(video->master, video->context);
   cs_file_discard(video->captions, video->context);
+  cs_file_discard(video->poster, video->context);
 }
 
 static void discard_files(cs_video *video) {
@@ -72,6 +83,7 @@ celspan_status cs_video_open(cs_video *out, celspan_context *context, const cs_v
                     .coding = cs_video_coding(&desc->options),
                     .layout = cs_video_layout_of(&desc->options),
                     .options = desc->options,
+                    .extras = {.width = desc->frames.width, .height = desc->frames.height},
                     .most_bytes = desc->most_bytes,
                     .has_sound = desc->sound.user != NULL,
                     .has_digests = desc->has_digests,

@@ -21,12 +21,13 @@ typedef struct cs_video_desc {
   const cs_video_format *format;
   cs_video_options options; /* which the format supports */
   cs_video_frames frames;
-  cs_sound_stream sound; /* as long as the frames; none: there is no sound */
-  const char *chapters;  /* as in cs_video_texts; NULL: none */
-  const char *captions;  /* a text in the captions_form of the format; NULL: none */
-  uint64_t most_bytes;   /* of the file, whose quality is the highest that fits; 0: any number */
-  bool has_digests;      /* hashes the RGBA pixels of each frame */
-  bool keeps_nothing;    /* makes a frame again that equals the previous one */
+  cs_sound_stream sound;       /* as long as the frames; none: there is no sound */
+  const char *chapters;        /* as in cs_video_extras; NULL: none */
+  const char *captions;        /* a text in the captions_form of the format; NULL: none */
+  const unsigned char *poster; /* RGBA of 8 bits, of the frames' size; NULL: none */
+  uint64_t most_bytes; /* of the file, whose quality is the highest that fits; 0: any number */
+  bool has_digests;    /* hashes the RGBA pixels of each frame */
+  bool keeps_nothing;  /* makes a frame again that equals the previous one */
 } cs_video_desc;
 
 typedef struct cs_video {
@@ -35,10 +36,10 @@ typedef struct cs_video {
   const cs_video_format *format;
   celspan_coding coding;
   cs_video_layout layout;
-  size_t stride;             /* of RGBA */
-  cs_file *file;             /* owned */
-  cs_file *captions;         /* the captions, which ffmpeg reads; owned; NULL: none */
-  const char *captions_name; /* of that file */
+  size_t stride;              /* of RGBA */
+  cs_file *file;              /* owned */
+  cs_file *captions, *poster; /* which ffmpeg reads; owned; NULL: none */
+  cs_video_extras extras;     /* their names, without the chapters */
   /* where the file has a limit: */
   cs_file *master; /* the frames without loss; owned; NULL: there is no limit */
   cs_video_options options;

@@ -256,7 +256,7 @@ void cs_lua_film_read(lua_State *L, int film, cs_film_info *out) {
   out->marks = cs_marks_read(L, -1, &out->mark_count);
   out->has_captions = lua_getfield(L, table, "captions") != LUA_TNIL;
   out->poster = out->first;
-  lua_getfield(L, table, "poster");
+  out->has_poster = lua_getfield(L, table, "poster") != LUA_TNIL;
   read_poster(L, -1, out, &out->poster);
   lua_settop(L, table - 1);
 }
