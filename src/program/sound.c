@@ -1,5 +1,11 @@
-/* celspan sound SCRIPT -o mix.wav: the mixed sound of a film, or of a run of its frames. */
+/* celspan sound SCRIPT -o mix.wav: the mixed sound of a film, or of a run of its frames.
+ *
+ *   --stems -o mix.{name}.wav    mix.voice.wav, mix.music.wav, mix.rest.wav: they add up to the mix
+ */
+#include <limits.h>
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 #include <strings.h>
 
 #include "base/context.h"
@@ -10,6 +16,20 @@
 #include "program/target.h"
 #include "program/verbs.h"
 #include "program/whole.h"
+
+#define PLACE "{name}" /* of the name of a stem */
+
+static cs_exit refuse_stems(const cs_request *request, const char *output) {
+  if (!cs_request_has(request, "--stems"))
+    return CS_EXIT_OK;
+  if (!strstr(output, PLACE))
+    return cs_report_usage("%s: --stems writes several files: put " PLACE " into the name, as in "
+                           "mix." PLACE ".wav",
+                           output);
+  if (cs_request_has(request, "--resume"))
+    return cs_report_usage("--stems and --resume exclude each other: give one of them");
+  return CS_EXIT_OK;
+}
 
 static cs_exit refuse_request(const cs_script *script, const cs_request *request, bool *is_float) {
   const char *output = cs_request_text(request, "-o");
@@ -25,6 +45,7 @@ static cs_exit refuse_request(const cs_script *script, const cs_request *request
   if (cs_request_has(request, "--keep-going"))
     return cs_report_usage("--keep-going is about the rows of a table: give --table, or leave it "
                            "out");
+  CS_TRY_EXIT(refuse_stems(request, output));
   if (!script->film.has_sound)
     return cs_report_usage("%s: the film has no sound", request->operands[0]);
   return CS_EXIT_OK;
@@ -37,21 +58,65 @@ static void report_peak(const char *output, double peak, bool is_float) {
                    output, 20 * log10(peak), is_float ? "" : ", and cut there");
 }
 
-static cs_exit write_mix(cs_script *script, const cs_request *request, const cs_sequence *frames,
-                         bool is_float, cs_file_contents *contents) {
-  const char *output = cs_request_text(request, "-o");
+/* stem: the only one that is heard; NULL: all. */
+static cs_exit write_file(cs_script *script, const cs_request *request, const cs_sequence *frames,
+                          const char *stem, const char *output, bool is_float) {
   cs_sound_stream samples;
   int64_t moments;
   double peak = 0;
-  CS_TRY_EXIT(cs_soundtrack_open(script, request, frames, &samples, &moments));
-  script->context->contents = contents;
+  CS_TRY_EXIT(cs_soundtrack_open(script, request, frames, stem, &samples, &moments));
   celspan_status status =
       cs_wave_file_write(script->context, output, &samples, moments, is_float, &peak);
-  script->context->contents = NULL;
   cs_sound_stream_close(&samples);
   if (status == CELSPAN_OK)
     report_peak(output, peak, is_float);
   return cs_report_failure(script->context, status, NULL);
+}
+
+static cs_exit write_mix(cs_script *script, const cs_request *request, const cs_sequence *frames,
+                         bool is_float, cs_file_contents *contents) {
+  script->context->contents = contents;
+  cs_exit outcome =
+      write_file(script, request, frames, NULL, cs_request_text(request, "-o"), is_float);
+  script->context->contents = NULL;
+  return outcome;
+}
+
+/* ---------------------------------------------------------------- --stems */
+
+/* Replaces the place in the output by the name of the stem. */
+static cs_exit name_stem(const char *output, const char *stem, char path[PATH_MAX]) {
+  const char *place = strstr(output, PLACE);
+  if (stem[0] == '\0' || strchr(stem, '/') || strcmp(stem, "..") == 0)
+    return cs_report_usage("--stems: the sound '%s' needs a name without / for its file", stem);
+  int size = snprintf(path, PATH_MAX, "%.*s%s%s", (int)(place - output), output, stem,
+                      place + sizeof PLACE - 1);
+  return size < PATH_MAX
+             ? CS_EXIT_OK
+             : cs_report_usage("%s: the name of the stem '%s' would be too long", output, stem);
+}
+
+/* Whether an earlier sound has the same stem. */
+static bool is_known(const cs_heard *track, size_t place) {
+  for (size_t i = 0; i < place; i++)
+    if (strcmp(track->sounds[i].stem, track->sounds[place].stem) == 0)
+      return true;
+  return false;
+}
+
+static cs_exit write_stems(cs_script *script, const cs_request *request, const cs_sequence *frames,
+                           bool is_float) {
+  cs_heard track;
+  char path[PATH_MAX];
+  celspan_status status = cs_soundtrack_read(script, &track);
+  CS_TRY_EXIT(cs_report_failure(script->context, status, NULL));
+  for (size_t i = 0; i < track.count; i++) {
+    if (is_known(&track, i))
+      continue;
+    CS_TRY_EXIT(name_stem(cs_request_text(request, "-o"), track.sounds[i].stem, path));
+    CS_TRY_EXIT(write_file(script, request, frames, track.sounds[i].stem, path, is_float));
+  }
+  return CS_EXIT_OK;
 }
 
 /* ---------------------------------------------------------------- --resume */
@@ -87,9 +152,10 @@ static cs_exit make(cs_script *script, const cs_request *request, const cs_seque
   cs_request_read(request, "--progress", &style);
   cs_progress_start(&progress, style, 1);
   progress.noun = "sound";
-  cs_exit outcome = cs_request_has(request, "--resume")
-                        ? resume(script, request, frames, is_float, &is_kept)
-                        : write_mix(script, request, frames, is_float, NULL);
+  cs_exit outcome =
+      cs_request_has(request, "--resume")  ? resume(script, request, frames, is_float, &is_kept)
+      : cs_request_has(request, "--stems") ? write_stems(script, request, frames, is_float)
+                                           : write_mix(script, request, frames, is_float, NULL);
   if (outcome == CS_EXIT_OK)
     cs_progress_frame(&progress, 1, cs_request_text(request, "-o"), is_kept ? "kept" : "made");
   cs_progress_end(&progress, (cs_progress_failures){NULL, 0}, (int)outcome);

@@ -1,19 +1,17 @@
 #include "program/soundtrack.h"
 
 #include <math.h>
+#include <string.h>
 
-#include "lua/module/heard.h"
 #include "plugins/sound/loudness.h"
 
-/* The sounds of the film. They remain on the script's stack, and therefore live as long as the
- * script. */
-static celspan_status read_sounds(cs_script *script, cs_heard *out) {
+celspan_status cs_soundtrack_read(cs_script *script, cs_heard *out) {
   return cs_heard_push(script->L, CS_SCRIPT_FILM, out);
 }
 
 celspan_status cs_soundtrack_hash(cs_script *script, cs_hash *hash) {
   cs_heard track;
-  CS_TRY(read_sounds(script, &track));
+  CS_TRY(cs_soundtrack_read(script, &track));
   cs_mix_hash(hash, track.sounds, track.count);
   return CELSPAN_OK;
 }
@@ -26,7 +24,7 @@ celspan_status cs_soundtrack_check(cs_script *script, bool is_deep) {
   cs_heard track;
   cs_sound_stream samples = {.user = NULL};
   const cs_film_info *film = &script->film;
-  CS_TRY(read_sounds(script, &track));
+  CS_TRY(cs_soundtrack_read(script, &track));
   if (!is_deep)
     return cs_mix_find(script->context, track.sounds, track.count);
   celspan_status status =
@@ -36,14 +34,38 @@ celspan_status cs_soundtrack_check(cs_script *script, bool is_deep) {
   return status == CELSPAN_OUTPUT ? CELSPAN_OK : status;
 }
 
+static celspan_status open_track(cs_script *script, const cs_heard *track, int64_t first,
+                                 int64_t moments, cs_sound_stream *out) {
+  return cs_mix_open(script->context, track->sounds, track->count,
+                     (double)(first - script->film.first) / script->film.frames_second, moments,
+                     out);
+}
+
 celspan_status cs_soundtrack_mix(cs_script *script, int64_t first, int64_t count,
                                  cs_sound_stream *out, int64_t *moments) {
   cs_heard track;
-  double rate = script->film.frames_second;
-  *moments = moments_of((double)count / rate);
-  CS_TRY(read_sounds(script, &track));
-  return cs_mix_open(script->context, track.sounds, track.count,
-                     (double)(first - script->film.first) / rate, *moments, out);
+  *moments = moments_of((double)count / script->film.frames_second);
+  CS_TRY(cs_soundtrack_read(script, &track));
+  return open_track(script, &track, first, *moments, out);
+}
+
+/* Mixes one stem. The other sounds are silent, but lower those of the stem as in the whole mix. */
+static celspan_status mix_stem(cs_script *script, int64_t first, int64_t moments, const char *stem,
+                               cs_sound_stream *out) {
+  cs_heard track;
+  celspan_context *context = script->context;
+  CS_TRY(cs_soundtrack_read(script, &track));
+  cs_mix_sound *sounds = cs_mem_array(context->memory, track.count, sizeof *sounds);
+  if (!sounds)
+    return cs_fail_memory(context);
+  memcpy(sounds, track.sounds, track.count * sizeof *sounds);
+  for (size_t i = 0; i < track.count; i++)
+    if (strcmp(sounds[i].stem, stem) != 0)
+      memset(sounds[i].gain, 0, sizeof sounds[i].gain);
+  const cs_heard one = {.sounds = sounds, .count = track.count};
+  celspan_status status = open_track(script, &one, first, moments, out);
+  cs_mem_free(context->memory, sounds, track.count * sizeof *sounds);
+  return status;
 }
 
 /* ---------------------------------------------------------------- --loudness */
@@ -68,23 +90,29 @@ static celspan_status find_gain(cs_script *script, const char *film, double lufs
 
 /* Mixes the sound, which is heard to its end first where its loudness is given. */
 static celspan_status open_mix(cs_script *script, const cs_request *request,
-                               const cs_sequence *frames, cs_sound_stream *out, int64_t *moments) {
+                               const cs_sequence *frames, const char *stem, cs_sound_stream *out,
+                               int64_t *moments) {
   int64_t first = frames->frames[0], count = (int64_t)frames->count;
-  double lufs, gain;
-  CS_TRY(cs_soundtrack_mix(script, first, count, out, moments));
-  if (!cs_request_read(request, "--loudness", &lufs))
-    return CELSPAN_OK;
-  CS_TRY(find_gain(script, request->operands[0], lufs, out, &gain));
-  CS_TRY(cs_soundtrack_mix(script, first, count, out, moments));
+  double lufs, gain = 0;
+  bool has_loudness = cs_request_read(request, "--loudness", &lufs);
+  *moments = moments_of((double)count / script->film.frames_second);
+  if (has_loudness || !stem)
+    CS_TRY(cs_soundtrack_mix(script, first, count, out, moments));
+  if (has_loudness)
+    CS_TRY(find_gain(script, request->operands[0], lufs, out, &gain));
+  if (stem)
+    CS_TRY(mix_stem(script, first, *moments, stem, out));
+  else if (has_loudness)
+    CS_TRY(cs_soundtrack_mix(script, first, count, out, moments));
   return gain == 0 ? CELSPAN_OK : cs_amplify(script->context, out, gain);
 }
 
 cs_exit cs_soundtrack_open(cs_script *script, const cs_request *request, const cs_sequence *frames,
-                           cs_sound_stream *out, int64_t *moments) {
+                           const char *stem, cs_sound_stream *out, int64_t *moments) {
   if (!cs_sequence_is_run(frames))
     return cs_report_usage("--frames %s: the film has a sound, which goes with one run of frames "
                            "such as 10-20",
                            cs_request_text(request, "--frames"));
-  celspan_status status = open_mix(script, request, frames, out, moments);
+  celspan_status status = open_mix(script, request, frames, stem, out, moments);
   return cs_report_failure(script->context, status, NULL);
 }

@@ -349,6 +349,7 @@ static const cs_option SOUND[] = {
     FRAMES,
     {"--depth", "DEPTH", &cs_argument_depth, "16 or float; default: 16"},
     LOUDNESS,
+    {"--stems", NULL, NULL, "a file for each name of a sound, by {name} in OUT; others are 'rest'"},
     {"--resume", NULL, NULL, "keep the file of an earlier run with --resume that would not change"},
     TABLE("a sound for each row of a CSV file, whose columns are parameters, or {NAME} in OUT"),
     {"--keep-going", NULL, NULL,

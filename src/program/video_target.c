@@ -189,7 +189,7 @@ static cs_exit set_sound(cs_video_desc *video, cs_script *script, const cs_reque
                                  request->operands[0])
                : CS_EXIT_OK;
   if (video->format->sound)
-    return cs_soundtrack_open(script, request, frames, &video->sound, &moments);
+    return cs_soundtrack_open(script, request, frames, NULL, &video->sound, &moments);
   cs_report_note("%s: %s holds no sound: it is left out", video->path, video->format->name);
   return CS_EXIT_OK;
 }

@@ -413,6 +413,64 @@ describe("a delivery", function()
     refused("-o bad.#.png --loudness -14", "--loudness is only for videos")
   end)
 
+  --- The samples of a WAV file of floats.
+  local function samples_of(name)
+    local bytes, list = assert(bench:read(name), name), {}
+    local at = assert(bytes:find("data", 1, true)) + 8
+    for place = at, #bytes - 3, 4 do list[#list + 1] = string.unpack("<f", bytes, place) end
+    return list
+  end
+
+  it_reads("has stems by the names of its sounds, which add up to its sound", function()
+    bench:write("tone.wav", wave(string.rep(string.pack("<i2i2", 8000, -8000), 12000)))
+    bench:write("low.wav", wave(string.rep(string.pack("<i2i2i2i2", 900, 700, -600, -900), 6000)))
+    bench:write("film.lua", [[
+local celspan, cut = require "celspan", require "celspan.cut"
+local function film(sound)
+  return celspan.film { size = { 8, 8 }, fps = 24, frames = 12, sound = sound,
+    frame = function() return celspan.rostrum {} end }
+end
+local shot = film { { "tone.wav", at = 0.2, gain = 0.7, name = "voice" }, { "low.wav", pan = 0.5 },
+  { "low.wav", name = "music", duck = "voice", gain = 2 } }
+return ({ shot = shot, cut = cut { shot, { film = shot, name = "b" }, shot } })[...] ]])
+    for kind, names in pairs { shot = { "music", "rest", "voice" },
+                               cut = { "b", "music", "rest", "voice" } } do
+      for _, more in ipairs { "", "--loudness -20" } do
+        local function sound(arguments)
+          local code, _, err = bench:celspan_inside("sound film.lua --depth float %s %s -- %s",
+            arguments, more, kind)
+          assert.equal(0, code, err)
+        end
+        sound "-o whole.wav"
+        sound "--stems -o 's/mix.{name}.wav'"
+        local files = bench:files "s"
+        local sum, whole = {}, samples_of "whole.wav"
+        for i, name in ipairs(names) do
+          assert.equal(("mix.%s.wav"):format(name), files[i])
+          local loudest = 0
+          for k, value in ipairs(samples_of("s/" .. files[i])) do
+            sum[k], loudest = (sum[k] or 0) + value, math.max(loudest, math.abs(value))
+          end
+          assert.is_true(loudest > 0.01, name)
+        end
+        assert.equal(#names, #files)
+        for k = 1, #whole do assert.is_true(math.abs(whole[k] - sum[k]) < 1e-6) end
+        os.execute(("rm -r '%s/s'"):format(bench.folder))
+      end
+    end
+    for arguments, words in pairs {
+      ["--stems -o mix.wav"] = "put {name} into the name, as in mix.{name}.wav",
+      ["--stems --resume -o '{name}.wav'"] = "--stems and --resume exclude each other",
+    } do
+      local code, _, err = bench:celspan_inside("sound film.lua " .. arguments .. " -- shot")
+      assert.equal(2, code)
+      assert.truthy(err:find(words, 1, true), err)
+    end
+    bench:write("film.lua", (FILM:gsub("fps = 24", "%0, sound = { 'tone.wav', name = 'a/b' }")))
+    local code, _, err = bench:celspan_inside "sound film.lua --stems -o '{name}.wav'"
+    assert.truthy(code == 2 and err:find("the sound 'a/b' needs a name without /", 1, true), err)
+  end)
+
   it_reads("contains the film between bars, or is covered by it, with --fit", function()
     render "-o whole.mkv --codec ffv1 --no-dither --frames 4"
     local whole = pixels("whole.mkv", 0, 256, 128)

@@ -17,6 +17,7 @@ local core = require "celspan.core"
 ---@field left number
 ---@field right number
 ---@field passages number[][] { begin, end, fade in, fade out }
+---@field stem string The file of `celspan sound --stems` that has it
 ---@field names table<string, true> Its own, and those of the films that it is in
 ---@field duckers celspan.soundtrack.ducker[]
 
@@ -31,6 +32,7 @@ local soundtrack = {}
 
 local MOST = 10000 -- sounds
 local DEEPEST = 1000 -- nested films: each level takes time for all its sounds
+local UNNAMED = "rest" -- the stem of sounds without a name
 local SLOWEST, FASTEST = 0.01, 100 -- of the original speed
 
 --- Constant power: the squares of both factors add up to 2, and both are 1 in the middle.
@@ -52,6 +54,7 @@ local function of_file(sound)
   return { {
     path = sound.path, tried = sound.tried, number = sound.number, start = start,
     speed = sound.speed, from = sound.from, left = left, right = right, duckers = {}, names = {},
+    stem = UNNAMED,
     passages = { { sound.at, sound.to and start + sound.to / sound.speed or math.huge,
       sound.fade_in, sound.fade_out } },
   } }
@@ -138,7 +141,9 @@ function flatten(film, depth)
     sound.at = sound.at + film.sound_offset
     local list = sound.path and of_file(sound) or of_film(sound, depth)
     items[i] = { sound = sound, list = list }
-    for _, one in ipairs(sound.name and list or {}) do one.names[sound.name] = true end
+    for _, one in ipairs(sound.name and list or {}) do
+      one.names[sound.name], one.stem = true, sound.name
+    end
     table.move(list, 1, #list, #all + 1, all)
     if #all > MOST then
       error(("the film has more than %d sounds, which is the limit"):format(MOST), 0)

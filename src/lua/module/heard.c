@@ -55,6 +55,7 @@ static void read_sound(lua_State *L, int kept, cs_mix_sound *out) {
   *out =
       (cs_mix_sound){.path = cs_take_text(L, -1, "path"),
                      .tried = cs_take_text(L, -1, "tried"),
+                     .stem = cs_take_text(L, -1, "stem"),
                      .number = (int)cs_take_number(L, -1, "number", 0),
                      .start = cs_take_number(L, -1, "start", 0),
                      .speed = cs_take_number(L, -1, "speed", 0),
