@@ -471,6 +471,44 @@ return ({ shot = shot, cut = cut { shot, { film = shot, name = "b" }, shot } })[
     assert.truthy(code == 2 and err:find("the sound 'a/b' needs a name without /", 1, true), err)
   end)
 
+  --- The sizes of all palettes of a GIF, and the number of its frames.
+  local function palettes_of(bytes)
+    local list, at, frames = {}, 14, 0
+    local function skip_table(flags)
+      if flags & 0x80 == 0 then return end
+      local size = 3 << (flags & 7) + 1
+      list[#list + 1], at = size, at + size
+    end
+    local function skip_blocks()
+      while bytes:byte(at) > 0 do at = at + bytes:byte(at) + 1 end
+      at = at + 1
+    end
+    skip_table(bytes:byte(11))
+    while bytes:byte(at) ~= 0x3b do
+      if bytes:byte(at) == 0x21 then
+        at = at + 2
+      else
+        frames, at = frames + 1, at + 10
+        skip_table(bytes:byte(at - 1))
+        at = at + 1
+      end
+      skip_blocks()
+    end
+    return list, frames
+  end
+
+  it_reads("has one palette in a GIF, of the colours of all its frames", function()
+    for _, kind in ipairs { "confetti", "glass" } do
+      render("-o out.gif -- %s", kind)
+      local palettes, frames = palettes_of(bench:read "out.gif")
+      assert.equal(12, frames)
+      assert.is_true(#palettes <= 2, #palettes) -- of the file, and of its first frame
+      assert.is_true(worst_field(pixels("out.gif", 5, 256, 128), kind == "glass" and 2 or 0) <= 3)
+    end
+    assert.equal(0, pixels("out.gif", 11, 256, 128):byte(-1))
+    for _, name in ipairs(bench:files()) do assert.falsy(name:find "%.part$", name) end
+  end)
+
   it_reads("contains the film between bars, or is covered by it, with --fit", function()
     render "-o whole.mkv --codec ffv1 --no-dither --frames 4"
     local whole = pixels("whole.mkv", 0, 256, 128)

@@ -262,17 +262,6 @@ static int encoder_quality(const cs_video_options *options) {
   return (int)lround(codec->worst + (codec->best - codec->worst) * options->quality / 100);
 }
 
-/* Makes a palette for each frame, so that frames are not kept until the last one arrives. Dithering
- * looks better than bands, and makes the file larger. */
-static void add_indexed(cs_video_command *command, const cs_video_options *options) {
-  add(command, "-filter_complex");
-  add_text(command,
-           "[0:v]split[a][b];[a]palettegen=stats_mode=single:max_colors=%d:reserve_transparent=%d"
-           "[p];[b][p]paletteuse=new=1:dither=%s",
-           encoder_quality(options), has_alpha(options),
-           options->quality < 50 ? "none" : "sierra2_4a");
-}
-
 /* By default ffmpeg assumes BT.601 for pictures of any size, and writes no colour tags. Rounding is
  * exact, and 2 x 2 pixels that share a colour get their mean, so that flat colours are unchanged.
  * Planes are passed on unchanged. */
@@ -291,23 +280,24 @@ static void add_yuv(cs_video_command *command, const cs_video_options *options, 
   add_all(command, tags);
 }
 
+static void add_pixels(cs_video_command *command, const char *pixels) {
+  add(command, "-pix_fmt");
+  add(command, pixels);
+}
+
 /* is_coded: the frames have the pixels of the encoder already. */
 static void add_pictures(cs_video_command *command, const cs_video_options *options,
                          bool is_coded) {
   const cs_video_codec *codec = options->codec;
-  if (codec->is_indexed)
-    add_indexed(command, options);
-  else if (!codec->is_rgb)
+  if (!codec->is_rgb)
     add_yuv(command, options, is_coded);
   add_all(command, codec->encoder);
   if (codec->quality) {
     add(command, codec->quality);
     add_text(command, "%d", encoder_quality(options));
   }
-  if (codec->is_rgb && !codec->is_indexed) {
-    add(command, "-pix_fmt");
-    add(command, cs_video_pixels(options));
-  }
+  if (codec->is_rgb)
+    add_pixels(command, cs_video_pixels(options));
 }
 
 /* How often the file is played; a GIF stores how often it is repeated, and -1 for never. */
@@ -432,8 +422,7 @@ void cs_video_command_encode(cs_video_command *command, const cs_video_format *f
   add_inputs(command, options, frames, sound, own.chapters);
   add_extras(command, format, &own);
   add_pictures(command, options, false);
-  if (!options->codec->is_indexed)
-    add_map(command, 0, 'v');
+  add_map(command, 0, 'v');
   if (has_sound)
     add_sound(command, format->sound, 1);
   add_extra_streams(command, format, 1 + has_sound + (own.chapters != NULL), &own);
@@ -447,7 +436,10 @@ void cs_video_command_master(cs_video_command *command, const cs_video_options *
   static const char *const samples[] = {"-c:a", "pcm_f32le", NULL};
   begin(command);
   add_inputs(command, options, frames, sound, chapters);
-  add_yuv(command, options, false);
+  if (options->codec->is_indexed)
+    add_pixels(command, has_alpha(options) ? "bgra" : "bgr0");
+  else
+    add_yuv(command, options, false);
   add_all(command, pictures);
   if (sound->user)
     add_sound(command, samples, 1);
@@ -467,5 +459,34 @@ void cs_video_command_repeat(cs_video_command *command, const cs_video_format *f
   if (has_sound)
     add_sound(command, format->sound, 0);
   add_extra_streams(command, format, 1, &own);
+  add_output(command, format, options, file);
+}
+
+/* ---------------------------------------------------------------- indexed films */
+
+void cs_video_command_palette(cs_video_command *command, const cs_video_options *options,
+                              const char *master, const char *palette) {
+  begin(command);
+  add_file(command, "nut", master);
+  add(command, "-vf");
+  add_text(command, "palettegen=stats_mode=full:max_colors=%d:reserve_transparent=%d",
+           encoder_quality(options), has_alpha(options));
+  add_pixels(command, "rgba");
+  add_format(command, "rawvideo");
+  add_text(command, "file:%s", palette);
+}
+
+/* Dithering looks better than bands, and makes the file larger. */
+void cs_video_command_index(cs_video_command *command, const cs_video_format *format,
+                            const cs_video_options *options, const char *master,
+                            const char *palette, const char *file) {
+  begin(command);
+  add_file(command, "nut", master);
+  add_raw(command, "rgba", CS_VIDEO_PALETTE, CS_VIDEO_PALETTE);
+  add_input(command, palette);
+  add(command, "-filter_complex");
+  add_text(command, "[0:v][1:v]paletteuse=dither=%s",
+           options->quality < 50 ? "none" : "sierra2_4a");
+  add_all(command, options->codec->encoder);
   add_output(command, format, options, file);
 }

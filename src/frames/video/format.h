@@ -28,7 +28,7 @@ typedef struct cs_video_codec {
   const char *alpha_pixels, *deep_alpha_pixels;
   bool is_halved;                    /* the encoder accepts even sides only */
   bool is_rgb;                       /* the encoder accepts RGB; the file has no colour tags */
-  bool is_indexed;                   /* few colours for each frame, for which ffmpeg dithers */
+  bool is_indexed;                   /* few colours for the whole film, for which ffmpeg dithers */
   bool is_deep;                      /* frames have 16 bits unless options request fewer */
   int32_t least_width, least_height; /* pixels */
   const char *quality; /* the option for the quality; NULL: a palette's size, or it has none */
@@ -97,6 +97,8 @@ typedef struct cs_video_extras {
   int32_t width, height; /* of the poster */
 } cs_video_extras;
 
+enum { CS_VIDEO_PALETTE = 16 }; /* pixels a side */
+
 enum { CS_VIDEO_ARGUMENTS = 160, CS_VIDEO_TEXT = 16384 };
 
 /* Arguments of ffmpeg, its name first. */
@@ -129,9 +131,16 @@ void cs_video_command_encode(cs_video_command *command, const cs_video_format *f
                              const cs_video_options *options, const cs_video_frames *frames,
                              const cs_sound_stream *sound, const cs_video_extras *extras,
                              const char *file);
+/* The commands that find the colours of an indexed film in its master file, as a file of
+ * CS_VIDEO_PALETTE x CS_VIDEO_PALETTE pixels, and make the video with them. */
+void cs_video_command_palette(cs_video_command *command, const cs_video_options *options,
+                              const char *master, const char *palette);
+void cs_video_command_index(cs_video_command *command, const cs_video_format *format,
+                            const cs_video_options *options, const char *master,
+                            const char *palette, const char *file);
 /* The command that keeps the pixels of the encoder, the samples and the chapters without loss in a
- * master file, of which videos are made by the other command, with all extras but the chapters. Not
- * for codecs of RGB. */
+ * master file, of which videos are made by the other command, with all extras but the chapters, or
+ * by the two for indexed films. Not for other codecs of RGB. */
 void cs_video_command_master(cs_video_command *command, const cs_video_options *options,
                              const cs_video_frames *frames, const cs_sound_stream *sound,
                              const char *chapters, const char *file);

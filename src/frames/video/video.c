@@ -21,7 +21,7 @@ static size_t frame_size(const cs_video *video, int32_t width, int32_t height) {
              : cs_planes_size(width, height, video->layout == CS_VIDEO_420);
 }
 
-static celspan_status open_file(cs_video *video, cs_file **file, const char **name) {
+static celspan_status open_file(const cs_video *video, cs_file **file, const char **name) {
   CS_TRY(cs_file_create(video->context, NULL, video->path, file));
   return cs_file_temporary(*file, video->context, name);
 }
@@ -51,7 +51,7 @@ static celspan_status prepare(cs_video *video, const cs_video_desc *desc,
   cs_temporary_sweep(video->path, is_same);
   CS_TRY(open_file(video, &video->file, &name));
   CS_TRY(write_extras(video, desc));
-  if (desc->most_bytes == 0) {
+  if (desc->most_bytes == 0 && !desc->options.codec->is_indexed) {
     cs_video_extras extras = video->extras;
     extras.chapters = desc->chapters;
     cs_video_command_encode(command, desc->format, &desc->options, &desc->frames, &desc->sound,
@@ -223,13 +223,30 @@ static celspan_status check_mark(const cs_video *video, const char *name) {
                  video->path, video->format->name);
 }
 
+/* Makes the video of its master with one palette. */
+static celspan_status index_colours(const cs_video *video, const char *master, const char *name) {
+  cs_video_command command;
+  cs_file *file;
+  const char *palette;
+  CS_TRY(open_file(video, &file, &palette));
+  cs_video_command_palette(&command, &video->options, master, palette);
+  celspan_status status = cs_encoder_run(video->context, video->path, command.arguments);
+  if (status == CELSPAN_OK) {
+    cs_video_command_index(&command, video->format, &video->options, master, palette, name);
+    status = cs_encoder_run(video->context, video->path, command.arguments);
+  }
+  cs_file_discard(file, video->context);
+  return status;
+}
+
 static celspan_status complete(cs_video *video) {
   const char *name, *master;
   CS_TRY(cs_encoder_finish(&video->encoder));
   CS_TRY(cs_file_temporary(video->file, video->context, &name));
   if (video->master) {
     CS_TRY(cs_file_temporary(video->master, video->context, &master));
-    CS_TRY(cs_video_limit(video, master, name));
+    CS_TRY(video->options.codec->is_indexed ? index_colours(video, master, name)
+                                            : cs_video_limit(video, master, name));
   }
   CS_TRY(check_mark(video, name));
   return cs_file_adopt(video->file, video->context);

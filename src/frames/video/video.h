@@ -6,6 +6,9 @@
  *   with a limit of bytes:
  *   frames, samples --> ffmpeg --> master --ffmpeg, several times--> .film.mp4.1a2b.part
  *
+ *   with few colours:
+ *   frames --> ffmpeg --> master --ffmpeg--> palette --ffmpeg, with the master--> .film.gif.1a2b.part
+ *
  * INVARIANT: the file appears under its name when cs_video_finish returns OK, not before. After
  * cs_video_finish and cs_video_discard there is no temporary file and no process.
  */
@@ -40,8 +43,8 @@ typedef struct cs_video {
   cs_file *file;              /* owned */
   cs_file *captions, *poster; /* which ffmpeg reads; owned; NULL: none */
   cs_video_extras extras;     /* their names, without the chapters */
-  /* where the file has a limit: */
-  cs_file *master; /* the frames without loss; owned; NULL: there is no limit */
+  /* where the file has a limit or a palette: */
+  cs_file *master; /* the frames without loss; owned; NULL: there is no limit and no palette */
   cs_video_options options;
   uint64_t most_bytes;
   bool has_sound;
