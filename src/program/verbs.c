@@ -373,6 +373,17 @@ static const cs_option CONTACT[] = {
     SCRIPT,
     {0}};
 
+static const cs_option SPRITES[] = {
+    OUTPUT("SHEET", "the picture to make, such as sheet.png; beside it sheet.json"),
+    FRAMES,
+    SIZE,
+    SCALE,
+    {"--padding", "N", &cs_argument_pixels, "clear pixels around each sprite; default: 2"},
+    TABLE("a sheet for each row of a CSV file, whose columns are parameters, or {NAME} in SHEET"),
+    WORKERS,
+    SCRIPT,
+    {0}};
+
 static const cs_option RELIGHT[] = {
     OUTPUT("OUT", "the picture in the light --to; without --to, an .exr that can be shown in "
                   "any light"),
@@ -585,6 +596,12 @@ const cs_verb cs_verbs[] = {
               "page. With --every, SHEET needs a number, as in sheet.####.png, if the "
               "frames do not fit on one page. The last frame is always shown.",
      .options = CONTACT},
+    {"sprites", "SCRIPT -o SHEET", 1, 1, .has_script = true,
+     .summary = "Puts the frames of a film on one sheet, for games.",
+     .notes = "What is clear around a frame is left out, and equal frames are there once. "
+              "sheet.json, in the hash form of TexturePacker, says where each frame is on the "
+              "sheet.",
+     .options = SPRITES},
     {"relight", "IN -o OUT", 1, 1,
      .summary = "Removes the light from a picture, and shows the picture in another light.",
      .notes = "IN is a picture, a drawing or a painting, and --light is the light in which it "

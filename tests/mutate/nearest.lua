@@ -58,6 +58,7 @@ return {
   ["compare.lua"] = { "spec/desk", "spec/programs", "spec/cli" },
   ["facts.lua"] = { "spec/programs", "spec/info", "spec/survey" },
   ["contact.lua"] = { "spec/desk" },
+  ["sprites.lua"] = { "spec/sprites" },
   ["describe.lua"] = { "spec/survey" },
   ["farm.lua"] = { "spec/farm", "spec/openjd" },
   ["openjd.lua"] = { "spec/openjd" },

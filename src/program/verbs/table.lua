@@ -22,7 +22,7 @@ local function words_of(item, threads)
   local words = { request.verb, request[1] }
   local function add(name, value) table.move({ name, value }, 1, 2, #words + 1, words) end
   if not is_check then add("-o", item.output) end
-  if request.verb == "render" or request.verb == "contact" then
+  if request.verb ~= "sound" and not is_check then
     add("--workers", tostring(threads))
   end
   if has_events then add("--progress", "json") end
