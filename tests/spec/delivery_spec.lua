@@ -471,6 +471,16 @@ return ({ shot = shot, cut = cut { shot, { film = shot, name = "b" }, shot } })[
     assert.truthy(code == 2 and err:find("the sound 'a/b' needs a name without /", 1, true), err)
   end)
 
+  it_reads("leaves nothing where its first or second pass has no room", function()
+    for most, options in pairs { [40] = "-o out.mp4 --max-size 100k", [20] = "-o out.gif" } do
+      local code, _, err = bench:inside(("ulimit -f %d; '%s' render film.lua --progress none "
+        .. "%s -- confetti"):format(most, workbench.absolute, options))
+      assert.equal(5, code, err)
+      assert.truthy(err:find(": ffmpeg ", 1, true) or err:find("not made", 1, true), err)
+      for _, name in ipairs(bench:files()) do assert.falsy(name:find "^%.?out", name) end
+    end
+  end)
+
   --- The sizes of all palettes of a GIF, and the number of its frames.
   local function palettes_of(bytes)
     local list, at, frames = {}, 14, 0

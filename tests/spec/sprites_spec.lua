@@ -65,7 +65,8 @@ describe("a sheet of sprites", function()
         local shift = (y - from.y + at.y) * width + at.x
         local inside = y >= from.y and y < from.y + from.h
         rows[y + 1] = not inside and clear or clear:sub(1, 4 * from.x)
-          .. sheet:sub(4 * shift + 1, 4 * (shift + at.w)) .. clear:sub(1, 4 * (64 - from.x - from.w))
+          .. sheet:sub(4 * shift + 1, 4 * (shift + at.w))
+          .. clear:sub(1, 4 * (64 - from.x - from.w))
       end
       assert.is_true(table.concat(rows) == pixels(("f/%04d.png"):format(number)), number)
       assert.equal(number == 12 and 1 or 14, at.h)

@@ -464,8 +464,8 @@ void cs_video_command_repeat(cs_video_command *command, const cs_video_format *f
 
 /* ---------------------------------------------------------------- indexed films */
 
-void cs_video_command_palette(cs_video_command *command, const cs_video_options *options,
-                              const char *master, const char *palette) {
+void cs_video_command_swatches(cs_video_command *command, const cs_video_options *options,
+                               const char *master, const char *palette) {
   begin(command);
   add_file(command, "nut", master);
   add(command, "-vf");
@@ -482,7 +482,7 @@ void cs_video_command_index(cs_video_command *command, const cs_video_format *fo
                             const char *palette, const char *file) {
   begin(command);
   add_file(command, "nut", master);
-  add_raw(command, "rgba", CS_VIDEO_PALETTE, CS_VIDEO_PALETTE);
+  add_raw(command, "rgba", CS_VIDEO_SWATCHES, CS_VIDEO_SWATCHES);
   add_input(command, palette);
   add(command, "-filter_complex");
   add_text(command, "[0:v][1:v]paletteuse=dither=%s",

@@ -97,7 +97,7 @@ typedef struct cs_video_extras {
   int32_t width, height; /* of the poster */
 } cs_video_extras;
 
-enum { CS_VIDEO_PALETTE = 16 }; /* pixels a side */
+enum { CS_VIDEO_SWATCHES = 16 }; /* pixels a side */
 
 enum { CS_VIDEO_ARGUMENTS = 160, CS_VIDEO_TEXT = 16384 };
 
@@ -132,9 +132,9 @@ void cs_video_command_encode(cs_video_command *command, const cs_video_format *f
                              const cs_sound_stream *sound, const cs_video_extras *extras,
                              const char *file);
 /* The commands that find the colours of an indexed film in its master file, as a file of
- * CS_VIDEO_PALETTE x CS_VIDEO_PALETTE pixels, and make the video with them. */
-void cs_video_command_palette(cs_video_command *command, const cs_video_options *options,
-                              const char *master, const char *palette);
+ * CS_VIDEO_SWATCHES x CS_VIDEO_SWATCHES pixels, and make the video with them. */
+void cs_video_command_swatches(cs_video_command *command, const cs_video_options *options,
+                               const char *master, const char *palette);
 void cs_video_command_index(cs_video_command *command, const cs_video_format *format,
                             const cs_video_options *options, const char *master,
                             const char *palette, const char *file);

@@ -229,7 +229,7 @@ static celspan_status index_colours(const cs_video *video, const char *master, c
   cs_file *file;
   const char *palette;
   CS_TRY(open_file(video, &file, &palette));
-  cs_video_command_palette(&command, &video->options, master, palette);
+  cs_video_command_swatches(&command, &video->options, master, palette);
   celspan_status status = cs_encoder_run(video->context, video->path, command.arguments);
   if (status == CELSPAN_OK) {
     cs_video_command_index(&command, video->format, &video->options, master, palette, name);

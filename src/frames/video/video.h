@@ -7,7 +7,7 @@
  *   frames, samples --> ffmpeg --> master --ffmpeg, several times--> .film.mp4.1a2b.part
  *
  *   with few colours:
- *   frames --> ffmpeg --> master --ffmpeg--> palette --ffmpeg, with the master--> .film.gif.1a2b.part
+ *   frames --> ffmpeg --> master --ffmpeg--> palette; both --ffmpeg--> .film.gif.1a2b.part
  *
  * INVARIANT: the file appears under its name when cs_video_finish returns OK, not before. After
  * cs_video_finish and cs_video_discard there is no temporary file and no process.

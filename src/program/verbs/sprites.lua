@@ -1,9 +1,9 @@
 --- celspan sprites SCRIPT -o SHEET: the frames of a film on one sheet for games, without what is
 --- clear around them, and an atlas that says where each is.
 --
---   frame            sheet.png                sheet.json, the "hash" form of TexturePacker
+--   frame            sheet.png                sheet.json, in the hash form of TexturePacker
 --   +--------+       +---------------+        frame             its place on the sheet
---   |   ##   |       |######|###|    |        spriteSourceSize  the place in the frame, and its size
+--   |   ##   |       |######|###|    |        spriteSourceSize  its place in the frame, and size
 --   |  ####  |  -->  |######|###|    |        sourceSize        the size of the frame
 --   +--------+       +---------------+        duration          milliseconds
 --
