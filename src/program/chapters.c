@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/utf8.h"
 #include "program/video_target.h"
 
 enum {
@@ -18,10 +19,7 @@ enum {
 
 /* Copies a name, with a backslash before each character that has a meaning. */
 static void write_name(const char *name, char out[2 * MOST_NAME + 1]) {
-  size_t taken = strnlen(name, MOST_NAME), length = 0;
-  /* A character of UTF-8 stays whole. */
-  while (taken > 0 && name[taken] && ((unsigned char)name[taken] & 0xc0) == 0x80)
-    taken--;
+  size_t taken = cs_utf8_cut(name, MOST_NAME), length = 0;
   for (size_t i = 0; i < taken; i++) {
     if (strchr("=;#\\\n", name[i]))
       out[length++] = '\\';

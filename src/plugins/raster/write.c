@@ -9,7 +9,7 @@ struct cs_picture_writer {
   cs_write_target target;
   cs_picture_output output; /* with copies of the texts */
   char *names[CS_PICTURE_CHANNELS];
-  char *name, *title;
+  char *name, *title, *colour;
   void *self;
 };
 
@@ -34,6 +34,7 @@ static void destroy(cs_picture_writer *writer) {
     free(writer->names[i]);
   free(writer->name);
   free(writer->title);
+  free(writer->colour);
   free(writer);
 }
 
@@ -53,11 +54,13 @@ static bool copy(const char *text, char **out) {
 
 static bool copy_output(cs_picture_writer *writer, const cs_picture_output *output) {
   writer->output = *output;
-  bool is_good = copy(output->name, &writer->name) && copy(output->title, &writer->title);
+  bool is_good = copy(output->name, &writer->name) && copy(output->title, &writer->title) &&
+                 copy(output->colour, &writer->colour);
   for (int i = 0; output->names && i < output->channels && is_good; i++)
     is_good = copy(output->names[i], &writer->names[i]);
   writer->output.name = writer->name;
   writer->output.title = writer->title;
+  writer->output.colour = writer->colour;
   writer->output.names = output->names ? (const char *const *)writer->names : NULL;
   return is_good;
 }
@@ -93,6 +96,8 @@ static celspan_status judge(const cs_picture_writer *writer, bool is_good,
                             cs_picture_failure *failure) {
   if (is_good && !writer->target.has_failed)
     return CELSPAN_OK;
+  if (writer->target.lacks_memory)
+    return cs_raster_fail(failure, CELSPAN_NO_MEMORY, "%s: out of memory", writer->output.name);
   return cs_raster_fail(failure, CELSPAN_OUTPUT, "%s: cannot be written", writer->output.name);
 }
 

@@ -22,7 +22,8 @@ typedef struct cs_write_target {
   void *user;
   uint64_t at; /* the offset of the next bytes */
   uint64_t size;
-  bool has_failed;
+  bool has_failed;   /* `put` */
+  bool lacks_memory; /* set by a format that found none on the way */
 } cs_write_target;
 
 bool cs_write_put(cs_write_target *target, const void *bytes, size_t size);
