@@ -84,10 +84,33 @@ static void push_parts(lua_State *L, const picture *p) {
   }
 }
 
+/* Sets what the header says of colours. */
+static void push_meaning(lua_State *L, const cs_picture_header *header) {
+  cs_put_text(L, "colour", header->info.colour);
+  lua_pushboolean(L, header->names_colour);
+  lua_setfield(L, -2, "named");
+  if (header->space[0])
+    cs_put_text(L, "space", header->space);
+  if (!header->has_primaries)
+    return;
+  const char *name = cs_primaries_name(header->primaries);
+  if (name)
+    cs_put_text(L, "primaries", name);
+  lua_createtable(L, CS_PRIMARIES, 0);
+  for (int i = 0; i < CS_PRIMARIES; i++) {
+    lua_pushnumber(L, (lua_Number)header->primaries[i]);
+    lua_rawseti(L, -2, i + 1);
+  }
+  lua_setfield(L, -2, "chromaticities");
+}
+
 /* picture(path)
- *   -> { format =, width =, height =, channels =, alpha =, colour =, bytes =, parts = }
+ *   -> { format =, width =, height =, channels =, alpha =, colour =, named =, space =,
+ *        chromaticities =, primaries =, bytes =, parts = }
  *
- * alpha is nil, "straight" or "premultiplied". */
+ * alpha is nil, "straight" or "premultiplied". named: whether the file says its colour. space: the
+ * name of one that celspan does not have. chromaticities: eight numbers, which `primaries` names.
+ * The last three are nil if the file does not have them. */
 static int read_facts(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
   picture *p = cs_userdata_push_holder(L, "celspan.program.picture", sizeof *p, close_picture);
@@ -95,14 +118,14 @@ static int read_facts(lua_State *L) {
   cs_picture_header header;
   cs_service_try(L, read_picture(p, path, &header));
   bool is_premultiplied = header.alpha == CS_PICTURE_ALPHA_CODED;
-  lua_createtable(L, 0, 8);
+  lua_createtable(L, 0, 12);
   cs_put_text(L, "format", header.info.format);
   cs_put_integer(L, "width", header.info.width);
   cs_put_integer(L, "height", header.info.height);
   cs_put_integer(L, "channels", header.info.channels);
   if (header.info.has_alpha)
     cs_put_text(L, "alpha", is_premultiplied ? "premultiplied" : "straight");
-  cs_put_text(L, "colour", header.info.colour);
+  push_meaning(L, &header);
   cs_put_integer(L, "bytes", header.file_size);
   push_parts(L, p);
   lua_setfield(L, -2, "parts");

@@ -5,7 +5,11 @@
 #include <string.h>
 
 #include "base/module.h"
-#include "model/colour/transfer.h"
+#include "base/utf8.h"
+#include "model/colour/transfer_names.h"
+#include "model/pictures/configuration.h"
+
+enum { NAME_SIZE = 8192 }; /* bytes; paths may be 4096 long */
 
 static celspan_status load(celspan_context *context, const cs_space_module **out) {
   static const cs_module_desc desc = {
@@ -29,6 +33,16 @@ static const char *file_name(const char *path) {
   return slash ? slash + 1 : path;
 }
 
+/* "SPACE (FILE)". Headers of files are UTF-8, so that it is not cut within a character. */
+static void name_colour(cs_spaces *out, const char *file) {
+  char whole[NAME_SIZE];
+  int size =
+      snprintf(whole, sizeof whole, "%s (%s)", out->module->name(out->conversion), file_name(file));
+  size_t kept = size < 0 ? 0 : cs_utf8_cut(whole, sizeof out->colour - 1);
+  memcpy(out->colour, whole, kept);
+  out->colour[kept] = '\0';
+}
+
 static cs_exit convert(celspan_context *context, const cs_space_request *wanted, cs_spaces *out) {
   cs_picture_failure failure;
   CS_TRY_EXIT(cs_report_failure(context, load(context, &out->module), NULL));
@@ -38,8 +52,7 @@ static cs_exit convert(celspan_context *context, const cs_space_request *wanted,
   if (status != CELSPAN_OK)
     return cs_report_failure(context, cs_fail_memory(context), NULL);
   out->digest = out->module->digest(out->conversion);
-  snprintf(out->colour, sizeof out->colour, "%s (%s)", out->module->name(out->conversion),
-           file_name(wanted->file));
+  name_colour(out, wanted->file);
   return CS_EXIT_OK;
 }
 
@@ -72,8 +85,8 @@ cs_exit cs_spaces_open(celspan_context *context, cs_request *request, cs_spaces 
                            display ? "--display" : "--view");
   if (!space && !display && !view)
     return CS_EXIT_OK;
-  file = getenv("OCIO");
-  if (!file || !*file)
+  file = cs_space_configuration();
+  if (!file)
     return refuse_without_file(request, space);
   const cs_space_request wanted = {file, space, display, view};
   CS_TRY_EXIT(convert(context, &wanted, out));

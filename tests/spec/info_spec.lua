@@ -48,6 +48,7 @@ describe("the verb info", function()
     it_reads_pictures("prints the header of a picture, whatever its name", function()
       local path, bytes = picture "a.png"
       local expected = ("format png\nsize 8x4\nchannels 4\nalpha straight\ndepth 8\ncolour srgb\n"
+        .. "colour_from format\n"
         .. "bytes %d\nsubimages 1\nsubimage 0 size 8x4 channels 4 depth 8\n"):format(bytes)
       assert.same({ 0, expected, "" }, { celspan("info " .. path) })
       assert.same({ 0, expected, "" }, { celspan("info " .. write("a.lua", read(path))) })

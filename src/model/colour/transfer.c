@@ -93,21 +93,3 @@ uint8_t cs_transfer_srgb8(float linear) {
   unsigned code = srgb8_first[(bits >> 16) - ((127 - 13) << 7)];
   return (uint8_t)(code + (linear >= srgb8_step[code + 1]));
 }
-
-/* ---------------------------------------------------------------- names */
-
-static const char *const names[] = {
-    [CELSPAN_TRANSFER_LINEAR] = "linear",
-    [CELSPAN_TRANSFER_SRGB] = "srgb",
-    [CELSPAN_TRANSFER_REC709] = "rec709",
-    [CELSPAN_TRANSFER_CINEON] = "cineon",
-};
-
-bool cs_transfer_parse(const char *name, celspan_transfer *out) {
-  for (int i = CELSPAN_TRANSFER_LINEAR; i <= CELSPAN_TRANSFER_CINEON; i++)
-    if (strcmp(name, names[i]) == 0) {
-      *out = (celspan_transfer)i;
-      return true;
-    }
-  return false;
-}

@@ -5,12 +5,10 @@
  */
 #pragma once
 
-#include "celspan/celspan.h"
+#include "model/colour/transfer_names.h"
 
 float cs_transfer_decode(celspan_transfer transfer, float coded);
 float cs_transfer_encode(celspan_transfer transfer, float linear);
-/* "srgb", "linear", "rec709", "cineon"; false for another name. */
-bool cs_transfer_parse(const char *name, celspan_transfer *out);
 /* An exact and fast conversion of linear light 0..1 to an 8-bit sRGB code: the true curve, rounded
  * to nearest. */
 uint8_t cs_transfer_srgb8(float linear);

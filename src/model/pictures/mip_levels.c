@@ -67,6 +67,12 @@ static float to_light_divided(const cs_mip_levels_decoder *decoder, float coded,
                             decoder->table ? cs_number_clampf(straight, 0, 1) : straight);
 }
 
+static void change_primaries(const double m[9], float rgba[3]) {
+  const double r = (double)rgba[0], g = (double)rgba[1], b = (double)rgba[2];
+  for (int c = 0; c < 3; c++)
+    rgba[c] = clean((float)(m[3 * c] * r + m[3 * c + 1] * g + m[3 * c + 2] * b));
+}
+
 static void decode_pixel(const cs_mip_levels_decoder *decoder, float *rgba) {
   float alpha = cs_number_clampf(clean(rgba[3]), 0, 1);
   /* In linear light a colour with alpha 0 is a glow, and is kept. */
@@ -79,6 +85,8 @@ static void decode_pixel(const cs_mip_levels_decoder *decoder, float *rgba) {
                       : to_light(decoder, rgba[c]) * alpha;
     rgba[c] = clean(light);
   }
+  if (decoder->has_matrix)
+    change_primaries(decoder->matrix, rgba);
   rgba[3] = alpha;
 }
 

@@ -18,9 +18,13 @@
 extern "C" {
 #endif
 
-#define CS_PICTURE_MODULE_VERSION 5u
+#define CS_PICTURE_MODULE_VERSION 6u
 #define CS_PICTURE_SIDE 1048576
 #define CS_PICTURE_CHANNELS 1024
+#define CS_PICTURE_SPACE 256 /* bytes of the name of a space in a file */
+#define CS_PICTURE_OTHER "other"
+/* Before the name of a space in the project of a DPX file, which has no place for it. */
+#define CS_PICTURE_PROJECT "celspan:colour "
 
 typedef struct cs_picture_failure {
   celspan_status status;
@@ -43,7 +47,14 @@ typedef struct cs_picture_header {
   celspan_picture_info info;
   cs_picture_alpha alpha;
   int bits;       /* of the coded values when they are integers of at most 16 bits, else 0 */
-  bool is_linear; /* `space` was given: the pixels are linear light, premultiplied */
+  bool is_linear; /* they were in a space of OpenColorIO, and are linear light, premultiplied */
+  /* What the file says: its primaries, if it has some (model/colour/primaries.h), and the name of
+   * its space, if celspan does not have that; "": it does not say. info.colour is then
+   * CS_PICTURE_OTHER where the codes cannot be read without that space. */
+  bool names_colour; /* info.colour is what the file says, not what files of its kind have */
+  bool has_primaries;
+  float primaries[8];
+  char space[CS_PICTURE_SPACE];
   /* the orientation tag changes the order of rows: it is cheapest to read all at once */
   bool is_turned;
   bool is_whole;      /* the reader decodes everything at once and keeps it */
@@ -78,8 +89,10 @@ typedef struct cs_picture_output {
   celspan_depth depth;      /* never DEFAULT */
   int bits; /* how many bits of each value are used: 10 in a depth of 16 for film; 0: all */
   bool is_straight;
-  const char *colour;   /* "srgb", "linear", "rec709", "cineon", or another space's name */
-  const char *title;    /* NULL: none */
+  const char *colour; /* "srgb", "linear", "rec709", "cineon", or another space's name */
+  const char *title;  /* NULL: none */
+  bool has_primaries; /* of light in this colour, for formats that say them */
+  float primaries[8];
   double frames_second; /* 0: none */
   int32_t frame;
 } cs_picture_output;

@@ -1,13 +1,13 @@
 #include "model/pictures/picture.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/counted.h"
 #include "base/description.h"
 #include "base/tried.h"
 #include "model/colour/transfer.h"
+#include "model/pictures/configuration.h"
 #include "model/pictures/surface.h"
 
 #define SIDE_MOST 1048576
@@ -75,7 +75,7 @@ static celspan_status check(celspan_context *context, const celspan_picture_desc
   if (desc->subimage < 0)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "picture: subimage is %d; it must be 0 or more",
                    desc->subimage);
-  if (desc->colour && !cs_transfer_parse(desc->colour, &transfer) && !getenv("OCIO"))
+  if (desc->colour && !cs_transfer_parse(desc->colour, &transfer) && !cs_space_configuration())
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "picture: colour is \"%s\"; it must be \"srgb\", \"linear\", \"rec709\", "
                    "\"cineon\", or a space of the OpenColorIO configuration that --ocio or the "

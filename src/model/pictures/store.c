@@ -5,6 +5,7 @@
 #include "base/description.h"
 #include "base/module.h"
 #include "base/number.h"
+#include "model/colour/primaries.h"
 #include "model/colour/transfer.h"
 #include "model/pictures/surface.h"
 
@@ -232,6 +233,12 @@ static const float *find_table(cs_picture_store *store, celspan_transfer transfe
   return *table;
 }
 
+/* A file of celspan's own primaries is not converted, to the last bit. */
+static bool has_other_primaries(const cs_picture_header *header) {
+  const char *known = header->has_primaries ? cs_primaries_name(header->primaries) : NULL;
+  return header->has_primaries && (!known || strcmp(known, cs_primaries_known[0].name) != 0);
+}
+
 static bool set_decoder(cs_picture_store *store, const char *colour, cs_picture_entry *entry) {
   const cs_picture_header *header = &entry->header;
   const char *name = colour ? colour : header->info.colour;
@@ -239,6 +246,8 @@ static bool set_decoder(cs_picture_store *store, const char *colour, cs_picture_
   decoder->transfer = CELSPAN_TRANSFER_LINEAR;
   decoder->alpha = header->alpha;
   decoder->is_linear = header->is_linear;
+  decoder->has_matrix = !colour && has_other_primaries(header) &&
+                        cs_primaries_to_bt709(header->primaries, decoder->matrix);
   if (header->is_linear)
     return true;
   if (!cs_transfer_parse(name, &decoder->transfer) || header->bits < 1 || header->bits > 16)
@@ -246,6 +255,25 @@ static bool set_decoder(cs_picture_store *store, const char *colour, cs_picture_
   decoder->codes = ((int32_t)1 << header->bits) - 1;
   decoder->table = find_table(store, decoder->transfer, header->bits);
   return decoder->table;
+}
+
+/* Without `colour` a file must say in numbers that can be used what its colours mean. */
+static celspan_status check_colours(celspan_context *context, const cs_picture *picture,
+                                    const cs_picture_header *header) {
+  double unused[9];
+  if (picture->colour || header->is_linear)
+    return CELSPAN_OK;
+  if (strcmp(header->info.colour, CS_PICTURE_OTHER) == 0)
+    return cs_fail(context, CELSPAN_INPUT,
+                   "%s: its colours are in \"%s\", which celspan does not have: name the space in "
+                   "the script, as colour, or with --ocio or OCIO a configuration that has it",
+                   picture->file, header->space);
+  if (has_other_primaries(header) && !cs_primaries_to_bt709(header->primaries, unused))
+    return cs_fail(context, CELSPAN_INPUT,
+                   "%s: its chromaticities are those of no light: say in the script, as colour, "
+                   "what its colours are, such as \"linear\"",
+                   picture->file);
+  return CELSPAN_OK;
 }
 
 static celspan_status open_file(celspan_context *context, const cs_picture *picture,
@@ -259,6 +287,11 @@ static celspan_status open_file(celspan_context *context, const cs_picture *pict
   if (status != CELSPAN_OK)
     return cs_fail(context, status, "%s%s%s", failure.text,
                    was_tried ? "; also looked for at " : "", was_tried ? picture->tried : "");
+  status = check_colours(context, picture, &entry->header);
+  if (status != CELSPAN_OK) {
+    module->close(entry->reader);
+    return status;
+  }
   entry->picture = cs_picture_ref((cs_picture *)(uintptr_t)picture);
   return CELSPAN_OK;
 }

@@ -1,6 +1,8 @@
 #include "model/scene/walk.h"
 
 #include "base/open.h"
+#include "model/colour/transfer_names.h"
+#include "model/pictures/configuration.h"
 #include "model/pictures/store.h"
 
 /* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
@@ -78,6 +80,16 @@ celspan_status celspan_rostrum_check(celspan_context *context, const celspan_ros
   return cs_walk_rostrum(&walk, rostrum);
 }
 
+/* A picture in a space of OpenColorIO is other light when the configuration is another one. */
+static void hash_configuration(cs_hash *hash, const cs_picture *picture) {
+  celspan_transfer own;
+  const char *file = cs_space_configuration();
+  if (!file || !picture->colour || cs_transfer_parse(picture->colour, &own))
+    return;
+  cs_hash_text(hash, file);
+  cs_open_hash(hash, file);
+}
+
 static void hash_file(cs_hash *hash, const cs_picture *picture) {
   if (!picture)
     return;
@@ -86,6 +98,7 @@ static void hash_file(cs_hash *hash, const cs_picture *picture) {
     return;
   }
   cs_open_hash(hash, picture->file);
+  hash_configuration(hash, picture);
 }
 
 static celspan_status hash_files(const cs_walk *walk, const cs_primitive_data *primitive,

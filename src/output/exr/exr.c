@@ -46,6 +46,14 @@ static bool put_texts(cs_exr *exr) {
   return is_good;
 }
 
+static bool put_primaries(cs_exr *exr) {
+  const float *xy = exr->picture->primaries;
+  bool is_good = !xy || put_attribute(exr, "chromaticities", "chromaticities", 32);
+  for (int i = 0; xy && i < 8; i++)
+    is_good = is_good && put_float(exr, xy[i]);
+  return is_good;
+}
+
 static bool put_channels(cs_exr *exr) {
   const cs_exr_picture *picture = exr->picture;
   size_t size = 1;
@@ -85,7 +93,7 @@ static uint32_t version_of(const cs_exr_picture *picture) {
 
 static bool put_header(cs_exr *exr) {
   return put_number(exr, CS_EXR_MAGIC) && put_number(exr, version_of(exr->picture)) &&
-         put_texts(exr) && put_channels(exr) &&
+         put_texts(exr) && put_primaries(exr) && put_channels(exr) &&
          put_byte(exr, "compression", exr->lines == 1 ? CS_EXR_ROW : CS_EXR_ROWS) &&
          put_box(exr, "dataWindow") && put_box(exr, "displayWindow") &&
          put_byte(exr, "lineOrder", 0) && put_screen(exr) && put(exr, "", 1);

@@ -47,6 +47,7 @@ typedef struct cs_exr_picture {
   size_t channel_count;
   const cs_exr_text *texts;
   size_t text_count;
+  const float *primaries; /* x and y of red, green, blue and white; NULL: none are written */
 } cs_exr_picture;
 
 /* The destination: bytes in any order. false: stop. */

@@ -125,6 +125,8 @@ static celspan_status choose_coding(celspan_context *context, const char *path,
   if (format->channels == 4 && sink->coding.alpha == CELSPAN_ALPHA_PREMULTIPLIED &&
       sink->coding.transfer != CELSPAN_TRANSFER_LINEAR)
     sink->coding.alpha = CS_ALPHA_CODED;
+  if (format->channels == 3 && coding.convert)
+    sink->coding.alpha = CS_ALPHA_BLACK;
   sink->depth = sink->coding.depth;
   /* Ten bits are rounded here, directly from the floats that the curve returns. */
   sink->bits = format->is_film && !asked->depth ? 10 : 0;
@@ -219,6 +221,7 @@ static celspan_status open_file(picture_sink *sink, celspan_context *context) {
                               .title = sink->title,
                               .frames_second = sink->frames_second,
                               .frame = sink->frame};
+  output.has_primaries = cs_pixels_primaries(&sink->coding, output.primaries);
   return cs_picture_file_open(context, &output, &sink->file);
 }
 

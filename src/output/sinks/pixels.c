@@ -74,13 +74,16 @@ celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth def
 }
 
 const char *cs_pixels_colour(const celspan_coding *coding) {
-  static const char *const names[] = {
-      [CELSPAN_TRANSFER_LINEAR] = "linear",
-      [CELSPAN_TRANSFER_SRGB] = "srgb",
-      [CELSPAN_TRANSFER_REC709] = "rec709",
-      [CELSPAN_TRANSFER_CINEON] = "cineon",
-  };
-  return !coding->convert ? names[coding->transfer] : coding->colour ? coding->colour : "converted";
+  if (!coding->convert)
+    return cs_transfer_name(coding->transfer);
+  return coding->colour ? coding->colour : "converted";
+}
+
+bool cs_pixels_primaries(const celspan_coding *coding, float xy[CS_PRIMARIES]) {
+  if (coding->convert)
+    return cs_primaries_of(coding->convert, coding->user, xy);
+  memcpy(xy, cs_primaries_known[0].xy, CS_PRIMARIES * sizeof *xy);
+  return true;
 }
 
 bool cs_pixels_takes_codes(const celspan_coding *coding) {
@@ -137,34 +140,45 @@ static bool is_in_codes(const celspan_coding *coding) {
   return coding->space == CELSPAN_SPACE_SRGB && coding->transfer == CELSPAN_TRANSFER_SRGB;
 }
 
-/* Conversions mix channels and have curves, so that only straight light can be given to them. Light
- * without alpha is converted as if it were opaque. What is clear has no colour that could be
- * multiplied by alpha. */
-static void convert(const celspan_coding *coding, float rgba[4]) {
-  bool is_straight = coding->alpha == CELSPAN_ALPHA_STRAIGHT;
-  float alpha = rgba[3], factor = !is_straight && alpha > 0 ? alpha : 1;
-  cs_space_decode(coding->space, rgba);
-  bool is_clear = alpha == 0 && rgba[0] == 0 && rgba[1] == 0 && rgba[2] == 0;
-  if (is_clear && !is_straight)
-    return;
-  for (int c = 0; c < 3; c++)
-    rgba[c] = alpha > 0 ? rgba[c] / alpha : is_straight ? 0 : rgba[c];
-  coding->convert(coding->user, rgba, 1);
-  for (int c = 0; c < 3; c++)
-    rgba[c] *= factor;
-  rgba[3] = alpha;
+/* Whether the colour is divided by alpha before a conversion: not where it is clear, and has no
+ * colour that could be multiplied by alpha again, nor light over black, which is opaque. */
+static bool is_divided(const celspan_coding *coding, const float rgba[4]) {
+  return coding->alpha != CS_ALPHA_BLACK && rgba[3] > 0;
 }
 
-/* The colour to which the transfer curve is applied. */
-void cs_pixels_encode(const celspan_coding *coding, const float rgba[4], float coded[4]) {
+/* Conversions mix channels and have curves, so that only straight light can be given to them. Light
+ * without alpha is converted as if it were opaque. */
+static void make_straight(const celspan_coding *coding, float rgba[4]) {
+  cs_space_decode(coding->space, rgba);
+  bool is_dark = coding->alpha == CELSPAN_ALPHA_STRAIGHT && rgba[3] <= 0;
+  for (int c = 0; c < 3; c++)
+    rgba[c] = is_dark ? 0 : is_divided(coding, rgba) ? rgba[c] / rgba[3] : rgba[c];
+}
+
+static void finish_converted(const celspan_coding *coding, const float rgba[4], float out[4]) {
+  bool is_multiplied =
+      coding->alpha == CELSPAN_ALPHA_PREMULTIPLIED || coding->alpha == CS_ALPHA_CODED;
+  bool is_clear = rgba[3] == 0 && rgba[0] == 0 && rgba[1] == 0 && rgba[2] == 0;
+  for (int c = 0; c < 3 && is_multiplied; c++)
+    out[c] = is_clear ? 0 : rgba[3] > 0 ? out[c] * rgba[3] : out[c];
+  out[3] = rgba[3];
+}
+
+/* count: at most CHUNK, because conversions are quicker for many colours at once. */
+static void convert(const celspan_coding *coding, const float *rgba, size_t count, float out[][4]) {
+  memcpy(out, rgba, 4 * count * sizeof *rgba);
+  for (size_t i = 0; i < count; i++)
+    make_straight(coding, out[i]);
+  coding->convert(coding->user, out[0], count);
+  for (size_t i = 0; i < count; i++)
+    finish_converted(coding, rgba + 4 * i, out[i]);
+}
+
+static void encode_by_curve(const celspan_coding *coding, const float rgba[4], float coded[4]) {
   bool is_divided_first = coding->alpha == CS_ALPHA_CODED && rgba[3] > 0;
   bool divide = (coding->alpha == CELSPAN_ALPHA_STRAIGHT || is_divided_first) && rgba[3] != 1;
   bool is_coded = is_in_codes(coding);
   memcpy(coded, rgba, 4 * sizeof *coded);
-  if (coding->convert) {
-    convert(coding, coded);
-    return;
-  }
   if (!is_coded)
     cs_space_decode(coding->space, coded);
   for (int c = 0; c < 3; c++) {
@@ -175,10 +189,26 @@ void cs_pixels_encode(const celspan_coding *coding, const float rgba[4], float c
     coded[c] *= rgba[3];
 }
 
+/* count: at most CHUNK. */
+static void encode(const celspan_coding *coding, const float *rgba, size_t count,
+                   float coded[][4]) {
+  if (coding->convert)
+    convert(coding, rgba, count, coded);
+  else
+    for (size_t i = 0; i < count; i++)
+      encode_by_curve(coding, rgba + 4 * i, coded[i]);
+}
+
+void cs_pixels_encode(const celspan_coding *coding, const float rgba[4], float coded[4]) {
+  encode(coding, rgba, 1, (float(*)[4])coded);
+}
+
 /* ---------------------------------------------------------------- runs */
 
 typedef void (*coder)(const celspan_coding *coding, const float *rgba, size_t count,
                       unsigned char *out);
+
+static inline size_t portion_of(size_t count) { return count < CHUNK ? count : CHUNK; }
 
 static void code_8_srgb_straight(const celspan_coding *coding, const float *rgba, size_t count,
                                  unsigned char *out) {
@@ -199,7 +229,7 @@ static void code_8_srgb_premultiplied(const celspan_coding *coding, const float 
   (void)coding;
   for (size_t portion; count > 0; count -= portion, rgba += 4 * portion, out += 4 * portion) {
     float opaque[4 * CHUNK];
-    portion = count < CHUNK ? count : CHUNK;
+    portion = portion_of(count);
     memcpy(opaque, rgba, 4 * portion * sizeof *rgba);
     for (size_t i = 0; i < portion; i++)
       opaque[4 * i + 3] = 1;
@@ -211,24 +241,28 @@ static void code_8_srgb_premultiplied(const celspan_coding *coding, const float 
 
 static void code_8(const celspan_coding *coding, const float *rgba, size_t count,
                    unsigned char *out) {
-  for (; count > 0; count--, rgba += 4, out += 4) {
-    float coded[4];
-    cs_pixels_encode(coding, rgba, coded);
-    for (int c = 0; c < 4; c++)
-      out[c] = (unsigned char)to_integer(coded[c], 255);
+  for (size_t portion; count > 0; count -= portion, rgba += 4 * portion) {
+    float coded[CHUNK][4];
+    portion = portion_of(count);
+    encode(coding, rgba, portion, coded);
+    for (size_t i = 0; i < 4 * portion; i++)
+      *out++ = (unsigned char)to_integer(coded[i / 4][i % 4], 255);
   }
 }
 
 /* is_half: the words are floats; otherwise they are integers. */
 static inline void code_words(const celspan_coding *coding, const float *rgba, size_t count,
                               unsigned char *out, bool is_half) {
-  for (; count > 0; count--, rgba += 4, out += 8) {
-    float coded[4];
-    uint16_t words[4];
-    cs_pixels_encode(coding, rgba, coded);
-    for (int c = 0; c < 4; c++)
-      words[c] = is_half ? to_half(coded[c]) : (uint16_t)to_integer(coded[c], 65535);
-    memcpy(out, words, sizeof words);
+  for (size_t portion; count > 0; count -= portion, rgba += 4 * portion, out += 8 * portion) {
+    float coded[CHUNK][4];
+    uint16_t words[4 * CHUNK];
+    portion = portion_of(count);
+    encode(coding, rgba, portion, coded);
+    for (size_t i = 0; i < 4 * portion; i++) {
+      float value = coded[i / 4][i % 4];
+      words[i] = is_half ? to_half(value) : (uint16_t)to_integer(value, 65535);
+    }
+    memcpy(out, words, 8 * portion);
   }
 }
 
@@ -244,10 +278,11 @@ static void code_half(const celspan_coding *coding, const float *rgba, size_t co
 
 static void code_float(const celspan_coding *coding, const float *rgba, size_t count,
                        unsigned char *out) {
-  for (; count > 0; count--, rgba += 4, out += 16) {
-    float coded[4];
-    cs_pixels_encode(coding, rgba, coded);
-    memcpy(out, coded, sizeof coded);
+  for (size_t portion; count > 0; count -= portion, rgba += 4 * portion, out += 16 * portion) {
+    float coded[CHUNK][4];
+    portion = portion_of(count);
+    encode(coding, rgba, portion, coded);
+    memcpy(out, coded, 16 * portion);
   }
 }
 

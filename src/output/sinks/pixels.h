@@ -15,6 +15,7 @@
 
 #include "base/context.h"
 #include "celspan/celspan.h"
+#include "model/colour/primaries.h"
 
 /* Checks that the numbers of a coding from a caller are values of their enumerations; NULL is
  * valid. Errors: BAD_ARGUMENT. */
@@ -31,12 +32,18 @@ size_t cs_pixels_size(const celspan_coding *coding);
  * light is coded as if it were opaque. */
 #define CS_ALPHA_CODED ((celspan_alpha)(CELSPAN_ALPHA_PREMULTIPLIED + 1))
 
+/* Another such kind, for files without alpha that a conversion codes: the light is that over black,
+ * and is neither divided by alpha nor multiplied by it. */
+#define CS_ALPHA_BLACK ((celspan_alpha)(CELSPAN_ALPHA_PREMULTIPLIED + 2))
+
 /* The transfer of a resolved coding with a conversion. */
 #define CS_TRANSFER_CONVERTED ((celspan_transfer)(CELSPAN_TRANSFER_CINEON + 1))
 
 /* The name of a resolved coding's colours: "srgb", "linear", "rec709", "cineon", or of its
  * space. */
 const char *cs_pixels_colour(const celspan_coding *coding);
+/* The primaries of what is coded (model/colour/primaries.h); false: they are not known. */
+bool cs_pixels_primaries(const celspan_coding *coding, float xy[CS_PRIMARIES]);
 /* The coding with all defaults filled in, for integers and floats. 8_DITHER becomes 8:
  * output/sinks/dither.h does the rest. */
 celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth default_depth);

@@ -86,9 +86,11 @@ static celspan_status begin(cs_picture_writer *writer, const cs_picture_output *
                                    .bits = output->bits,
                                    .is_straight = output->is_straight,
                                    .frame = output->frame,
+                                   .has_primaries = output->has_primaries,
                                    .has_title = output->title != NULL,
                                    .has_names = output->names != NULL,
                                    .frames_second = output->frames_second}};
+  memcpy(message.output.primaries, output->primaries, sizeof message.output.primaries);
   if (!cs_worker_put_texts(writer->worker, texts, 4 + name_count))
     return cs_worker_fail(failure, CELSPAN_OUTPUT, writer->name, "its title is too long");
   return ask(writer, &message, failure);

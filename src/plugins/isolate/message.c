@@ -102,11 +102,15 @@ void cs_message_set_header(cs_message *message, const cs_picture_header *header)
                                         .is_turned = header->is_turned,
                                         .is_whole = header->is_whole,
                                         .is_sequential = header->is_sequential,
+                                        .names_colour = header->names_colour,
+                                        .has_primaries = header->has_primaries,
                                         .file_size = header->file_size,
                                         .file_time = header->file_time,
                                         .file_number = header->file_number};
   memcpy(message->header.format, header->info.format, sizeof message->header.format);
   memcpy(message->header.colour, header->info.colour, sizeof message->header.colour);
+  memcpy(message->header.primaries, header->primaries, sizeof message->header.primaries);
+  memcpy(message->header.space, header->space, sizeof message->header.space);
 }
 
 static bool is_between(int32_t number, int32_t least, int32_t most) {
@@ -128,7 +132,8 @@ bool cs_message_header_of(const cs_message *message, cs_picture_header *out) {
       !is_between(from->height, 1, CS_PICTURE_SIDE) ||
       !is_between(from->channels, 1, CS_PICTURE_CHANNELS) || !is_between(from->bits, 0, 16) ||
       !is_between(from->alpha, CS_PICTURE_ALPHA_STRAIGHT, CS_PICTURE_ALPHA_CODED) ||
-      !is_name(from->format) || !is_name(from->colour))
+      !is_name(from->format) || !is_name(from->colour) ||
+      !memchr(from->space, 0, sizeof from->space))
     return false;
   *out = (cs_picture_header){.info = {.width = from->width,
                                       .height = from->height,
@@ -141,11 +146,15 @@ bool cs_message_header_of(const cs_message *message, cs_picture_header *out) {
                              .is_turned = from->is_turned != 0,
                              .is_whole = from->is_whole != 0,
                              .is_sequential = from->is_sequential != 0,
+                             .names_colour = from->names_colour != 0,
+                             .has_primaries = from->has_primaries != 0,
                              .file_size = from->file_size,
                              .file_time = from->file_time,
                              .file_number = from->file_number};
   memcpy(out->info.format, from->format, sizeof from->format);
   memcpy(out->info.colour, from->colour, sizeof from->colour);
+  memcpy(out->primaries, from->primaries, sizeof from->primaries);
+  memcpy(out->space, from->space, sizeof from->space);
   return true;
 }
 

@@ -89,12 +89,16 @@ typedef struct cs_message_header {
   int32_t has_alpha, is_float, is_linear, is_turned, is_whole, is_sequential;
   int64_t file_size, file_time;
   uint64_t file_number;
-  char format[16], colour[16];
+  int32_t names_colour, has_primaries;
+  float primaries[8];
+  char format[16], colour[16], space[CS_PICTURE_SPACE];
 } cs_message_header;
 
 /* cs_picture_output without its texts. */
 typedef struct cs_message_output {
   int32_t width, height, channels, depth, bits, is_straight, frame, has_title, has_names;
+  int32_t has_primaries;
+  float primaries[8];
   double frames_second;
 } cs_message_output;
 

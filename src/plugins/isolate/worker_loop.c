@@ -261,21 +261,23 @@ static void open_writer(worker_loop *loop, cs_message *message) {
   for (int i = 0; from->has_names && i < from->channels; i++)
     names[i] = i ? names[i - 1] + strlen(names[i - 1]) + 1 : title + strlen(title) + 1;
   cs_picture_failure failure = {CELSPAN_OK, ""};
-  const cs_picture_output output = {.put = put_bytes,
-                                    .user = loop,
-                                    .name = name,
-                                    .format = format,
-                                    .width = from->width,
-                                    .height = from->height,
-                                    .channels = from->channels,
-                                    .names = from->has_names ? names : NULL,
-                                    .depth = (celspan_depth)from->depth,
-                                    .bits = from->bits,
-                                    .is_straight = from->is_straight != 0,
-                                    .colour = colour,
-                                    .title = from->has_title ? title : NULL,
-                                    .frames_second = from->frames_second,
-                                    .frame = from->frame};
+  cs_picture_output output = {.put = put_bytes,
+                              .user = loop,
+                              .name = name,
+                              .format = format,
+                              .width = from->width,
+                              .height = from->height,
+                              .channels = from->channels,
+                              .names = from->has_names ? names : NULL,
+                              .depth = (celspan_depth)from->depth,
+                              .bits = from->bits,
+                              .is_straight = from->is_straight != 0,
+                              .colour = colour,
+                              .title = from->has_title ? title : NULL,
+                              .has_primaries = from->has_primaries != 0,
+                              .frames_second = from->frames_second,
+                              .frame = from->frame};
+  memcpy(output.primaries, from->primaries, sizeof output.primaries);
   celspan_status status = loop->module->write_open(&output, &loop->writer, &failure);
   if (status != CELSPAN_OK)
     loop->writer = NULL;

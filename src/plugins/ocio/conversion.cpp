@@ -1,8 +1,16 @@
 #include "plugins/ocio/conversion.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <deque>
+#include <functional>
 #include <mutex>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace OCIO = OCIO_NAMESPACE;
 
@@ -78,21 +86,68 @@ std::string lower(std::string text) {
   return text;
 }
 
-/* Whether a text names other primaries than those of BT.709. */
-bool names_others(const std::string &text) {
-  static const char *const words[] = {"aces", "ap0", "ap1", "2020", "p3", "xyz", "gamut"};
-  return std::any_of(std::begin(words), std::end(words),
-                     [&](const char *word) { return lower(text).find(word) != std::string::npos; });
+/* The words of a text in lower case: runs of letters and digits. */
+std::vector<std::string> words_of(const std::string &text) {
+  std::vector<std::string> words(1);
+  for (char c : lower(text))
+    if (isalnum(static_cast<unsigned char>(c)))
+      words.back() += c;
+    else if (!words.back().empty())
+      words.emplace_back();
+  return words;
 }
 
-/* scene_linear has the primaries of BT.709 in configurations that know no others. */
+bool has_word(const std::string &text, const std::function<bool(const std::string &)> &is_wanted) {
+  std::vector<std::string> words = words_of(text);
+  return std::any_of(words.begin(), words.end(), is_wanted);
+}
+
+bool names_others(const std::string &word) {
+  static const char *const others[] = {"ap0",    "ap1",   "2020",      "rec2020", "bt2020",
+                                       "p3",     "dcip3", "displayp3", "xyz",     "egamut",
+                                       "sgamut", "awg",   "sgamut3",   "vgamut",  "adobergb"};
+  return word.rfind("aces", 0) == 0 ||
+         std::find(std::begin(others), std::end(others), word) != std::end(others);
+}
+
+bool names_bt709(const std::string &word) {
+  static const char *const own[] = {"709", "rec709", "bt709", "srgb"};
+  return std::find(std::begin(own), std::end(own), word) != std::end(own);
+}
+
+bool is_near(const float *colour, float red, float green, float blue) {
+  const float wanted[3] = {red, green, blue};
+  for (int c = 0; c < 3; c++)
+    if (!(std::abs(colour[c] - wanted[c]) < 1e-3F))
+      return false;
+  return true;
+}
+
+/* Whether the configuration has a space for screens in which red, green and blue of this space are
+ * its own. */
+bool is_of_screens(const OCIO::ConstConfigRcPtr &configuration, const char *space) {
+  for (const char *name : {"sRGB", "sRGB - Texture", "Rec709", "Rec.709"}) {
+    if (!configuration->getColorSpace(name))
+      continue;
+    float colours[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    OCIO::PackedImageDesc image(colours, 3, 1, 3);
+    configuration->getProcessor(space, name)->getDefaultCPUProcessor()->apply(image);
+    return is_near(colours[0], 1, 0, 0) && is_near(colours[1], 0, 1, 0) &&
+           is_near(colours[2], 0, 0, 1);
+  }
+  return false;
+}
+
+/* scene_linear has the primaries of BT.709 in configurations that know no others: it or the
+ * configuration says so, or it has the primaries of sRGB. */
 bool is_plain(const OCIO::ConstConfigRcPtr &configuration,
               const OCIO::ConstColorSpaceRcPtr &space) {
   std::string text = std::string(space->getName()) + ' ' + space->getFamily() + ' ' +
                      space->getDescription() + ' ' + configuration->getDescription();
   for (size_t i = 0; i < space->getNumAliases(); i++)
     text += std::string(" ") + space->getAlias(i);
-  return !names_others(text);
+  return !has_word(text, names_others) &&
+         (has_word(text, names_bt709) || is_of_screens(configuration, space->getName()));
 }
 
 Light find_light(const std::string &file, const OCIO::ConstConfigRcPtr &configuration) {
@@ -116,48 +171,61 @@ OCIO::ConstTransformRcPtr make_matrix(bool decodes) {
   return matrix;
 }
 
-OCIO::TransformRcPtr make_space(const ConversionRequest &request, const std::string &light,
-                                const OCIO::ConstConfigRcPtr &configuration) {
-  if (!configuration->getColorSpace(request.space.c_str()))
+OCIO::ConstColorSpaceRcPtr find_space(const ConversionRequest &request,
+                                      const OCIO::ConstConfigRcPtr &configuration) {
+  auto space = configuration->getColorSpace(request.space.c_str());
+  if (!space)
     refuse(request.file, "has no colour space \"" + request.space + "\"");
+  return space;
+}
+
+OCIO::TransformRcPtr make_space(const ConversionRequest &request, const std::string &light) {
   auto transform = OCIO::ColorSpaceTransform::Create();
   transform->setSrc(request.decodes ? request.space.c_str() : light.c_str());
   transform->setDst(request.decodes ? light.c_str() : request.space.c_str());
   return transform;
 }
 
-std::string list(int count,
-                 const char *(*at)(const OCIO::ConstConfigRcPtr &, const std::string &, int),
-                 const OCIO::ConstConfigRcPtr &configuration, const std::string &display) {
+std::string list(const std::vector<std::string> &names) {
   std::string text;
-  for (int i = 0; i < count; i++)
-    text += std::string(i > 0 ? ", " : "") + "\"" + at(configuration, display, i) + "\"";
+  for (const std::string &name : names)
+    text += (text.empty() ? "\"" : ", \"") + name + "\"";
   return text.empty() ? "none" : text;
 }
 
-/* The given name, or the default; the configuration has a list of them. */
+/* The given name, or the default, as the configuration writes it; OpenColorIO compares names
+ * without regard to case. */
 std::string choose(const ConversionRequest &request, const char *kind, const std::string &given,
-                   const char *usual, const std::string &known) {
+                   const char *usual, const std::vector<std::string> &known) {
   std::string name = given.empty() && usual ? usual : given;
-  if (name.empty() || known.find("\"" + name + "\"") == std::string::npos)
-    refuse(request.file, std::string("has no ") + kind + " \"" + name + "\"; it has " + known);
-  return name;
+  auto found = std::find_if(known.begin(), known.end(),
+                            [&](const std::string &one) { return lower(one) == lower(name); });
+  if (found == known.end())
+    refuse(request.file,
+           std::string("has no ") + kind + " \"" + name + "\"; it has " + list(known));
+  return *found;
+}
+
+std::string choose_display(const ConversionRequest &request,
+                           const OCIO::ConstConfigRcPtr &configuration) {
+  std::vector<std::string> displays;
+  for (int i = 0; i < configuration->getNumDisplays(); i++)
+    displays.emplace_back(configuration->getDisplay(i));
+  return choose(request, "display", request.display, configuration->getDefaultDisplay(), displays);
+}
+
+std::string choose_view(const ConversionRequest &request, const char *display,
+                        const OCIO::ConstConfigRcPtr &configuration) {
+  std::vector<std::string> views;
+  for (int i = 0; i < configuration->getNumViews(display); i++)
+    views.emplace_back(configuration->getView(display, i));
+  return choose(request, "view", request.view, configuration->getDefaultView(display), views);
 }
 
 OCIO::TransformRcPtr make_view(const ConversionRequest &request, const std::string &light,
                                const OCIO::ConstConfigRcPtr &configuration, std::string *name) {
-  auto display_at = [](const OCIO::ConstConfigRcPtr &c, const std::string &, int i) {
-    return c->getDisplay(i);
-  };
-  auto view_at = [](const OCIO::ConstConfigRcPtr &c, const std::string &of, int i) {
-    return c->getView(of.c_str(), i);
-  };
-  std::string display =
-      choose(request, "display", request.display, configuration->getDefaultDisplay(),
-             list(configuration->getNumDisplays(), display_at, configuration, ""));
-  std::string view =
-      choose(request, "view", request.view, configuration->getDefaultView(display.c_str()),
-             list(configuration->getNumViews(display.c_str()), view_at, configuration, display));
+  std::string display = choose_display(request, configuration);
+  std::string view = choose_view(request, display.c_str(), configuration);
   auto transform = OCIO::DisplayViewTransform::Create();
   transform->setSrc(light.c_str());
   transform->setDisplay(display.c_str());
@@ -166,16 +234,18 @@ OCIO::TransformRcPtr make_view(const ConversionRequest &request, const std::stri
   return transform;
 }
 
-/* Lossless: the quicker curves of the library are not exact. */
+/* Lossless: the quicker curves of the library are not exact. A space of data, such as Raw, has the
+ * numbers of the light. */
 Conversion convert(const ConversionRequest &request) {
   auto configuration = open_configuration(request.file);
-  Light light = find_light(request.file, configuration);
+  bool is_data = !request.space.empty() && find_space(request, configuration)->isData();
+  Light light = is_data ? Light{request.space, false} : find_light(request.file, configuration);
   Conversion made;
   made.name = request.space;
   auto group = OCIO::GroupTransform::Create();
   group->appendTransform(request.space.empty()
                              ? make_view(request, light.space, configuration, &made.name)
-                             : make_space(request, light.space, configuration));
+                             : make_space(request, light.space));
   if (light.is_aces && request.decodes)
     group->appendTransform(make_matrix(true)->createEditableCopy());
   else if (light.is_aces)
@@ -185,12 +255,58 @@ Conversion convert(const ConversionRequest &request) {
   return made;
 }
 
+/* ---------------------------------------------------------------- kept conversions */
+
+/* How many conversions are kept: a film reads files in few spaces. */
+const size_t KEPT = 16;
+
+/* What a conversion was made of. A configuration that was changed has another time or size. */
+using Key = std::tuple<std::string, std::string, bool, int64_t, int64_t, int64_t>;
+
+Key key_of(const ConversionRequest &request) {
+  struct stat found = {};
+  bool is_there = stat(request.file.c_str(), &found) == 0;
+  return {request.file,
+          request.space,
+          request.decodes,
+          is_there ? int64_t(found.st_mtim.tv_sec) : 0,
+          is_there ? int64_t(found.st_mtim.tv_nsec) : 0,
+          is_there ? int64_t(found.st_size) : -1};
+}
+
+/* Configurations of ACES have megabytes, and each file of a sequence would read them again. */
+Conversion find_or_convert(const ConversionRequest &request) {
+  static std::mutex lock;
+  static std::deque<std::pair<Key, Conversion>> kept;
+  Key key = key_of(request);
+  std::lock_guard<std::mutex> guard(lock);
+  for (const auto &one : kept)
+    if (one.first == key)
+      return one.second;
+  Conversion made = convert(request);
+  if (kept.size() == KEPT)
+    kept.pop_front();
+  kept.emplace_back(std::move(key), made);
+  return made;
+}
+
 } // namespace
 
 Conversion make_conversion(const ConversionRequest &request) {
   try {
-    return convert(request);
+    return request.space.empty() ? convert(request) : find_or_convert(request);
   } catch (const OCIO::Exception &e) {
     refuse(request.file, first_line(e.what()));
+  }
+}
+
+void apply_conversion(const Conversion &conversion, float *rgba, size_t count) {
+  const ptrdiff_t value = sizeof *rgba, pixel = 4 * value;
+  const size_t most = 1 << 16; /* pixels at a time, a row for the library */
+  for (size_t portion; count > 0; count -= portion, rgba += 4 * portion) {
+    portion = std::min(count, most);
+    OCIO::PackedImageDesc row(rgba, long(portion), 1, OCIO::CHANNEL_ORDERING_RGB,
+                              OCIO::BIT_DEPTH_F32, value, pixel, pixel * ptrdiff_t(portion));
+    conversion.processor->apply(row);
   }
 }

@@ -28,4 +28,8 @@ struct Conversion {
   std::string name; /* of the space, or "VIEW on DISPLAY" */
 };
 
+/* A conversion from or to a space is kept, and made again when the file has changed. */
 Conversion make_conversion(const ConversionRequest &request);
+/* Converts colours of four floats, in place; the fourth stays. Many at once, because the library
+ * enters its whole chain of steps in each call. */
+void apply_conversion(const Conversion &conversion, float *rgba, size_t count);

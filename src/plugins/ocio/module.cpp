@@ -45,9 +45,7 @@ const char *name(const cs_space_conversion *conversion) { return conversion->mad
 const char *digest(const cs_space_conversion *conversion) { return conversion->digest.c_str(); }
 
 void convert(void *conversion, float *rgba, size_t count) {
-  const auto *self = static_cast<const cs_space_conversion *>(conversion);
-  for (; count > 0; count--, rgba += 4)
-    self->made.processor->applyRGB(rgba);
+  apply_conversion(static_cast<const cs_space_conversion *>(conversion)->made, rgba, count);
 }
 
 void close(cs_space_conversion *conversion) { delete conversion; }

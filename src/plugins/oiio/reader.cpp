@@ -24,6 +24,8 @@
 #ifndef CELSPAN_WITHOUT_SPACES
 #include "plugins/ocio/conversion.h"
 #endif
+#include "model/colour/transfer_names.h"
+#include "model/pictures/configuration.h"
 #include "plugins/oiio/shared.h"
 #include "plugins/oiio/sniff.h"
 #include "plugins/oiio/source.h"
@@ -51,10 +53,9 @@ struct cs_picture_reader {
   int stored_width, stored_height; /* the display window as stored, before turning */
   int next_row = 0;                /* of the data window, for sequential formats */
 #ifndef CELSPAN_WITHOUT_SPACES
-  OCIO_NAMESPACE::ConstCPUProcessorRcPtr processor; /* to light */
-#else
-  void *processor = nullptr;
+  Conversion conversion; /* to light */
 #endif
+  bool has_space = false;
   std::vector<float> batch;
   std::vector<unsigned char> stored;
 };
@@ -221,23 +222,63 @@ const char *film_colour(const ImageSpec &spec) {
   return is_log || spec.get_int_attribute("oiio:BitsPerSample") == 10 ? "cineon" : "srgb";
 }
 
-/* What the file says itself: EXR files of celspan name it, and a gamma of 1 in PNG files is light.
- * NULL: nothing. */
-const char *named_colour(const cs_picture_reader &reader) {
-  static const char *const known[] = {"srgb", "linear", "rec709", "cineon"};
-  std::string name = reader.spec.get_string_attribute("celspan:colour").c_str();
-  for (const char *colour : known)
-    if (reader.kind.format == "openexr" && name == colour)
-      return colour;
-  std::string space = reader.spec.get_string_attribute("oiio:ColorSpace").c_str();
-  return reader.kind.format == "png" && (space == "linear" || space == "Linear") ? "linear"
-                                                                                 : nullptr;
+/* The name of its colours that a file of celspan has; "": none. */
+std::string named_colour(const cs_picture_reader &reader) {
+  const std::string &format = reader.kind.format;
+  const std::string before = CS_PICTURE_PROJECT;
+  if (format == "openexr")
+    return reader.spec.get_string_attribute("celspan:colour").c_str();
+  if (format == "png")
+    return reader.spec.get_string_attribute("colour").c_str();
+  std::string project =
+      format == "dpx" ? reader.spec.get_string_attribute("DocumentName").c_str() : "";
+  return project.compare(0, before.size(), before) == 0 ? project.substr(before.size()) : "";
 }
 
-const char *default_colour(const cs_picture_reader &reader) {
-  const char *named = named_colour(reader);
-  if (named)
+bool is_own(const std::string &colour) {
+  celspan_transfer unused;
+  return cs_transfer_parse(colour.c_str(), &unused);
+}
+
+/* A gamma of 1 in PNG files is light. */
+bool is_light_png(const cs_picture_reader &reader) {
+  std::string space = reader.spec.get_string_attribute("oiio:ColorSpace").c_str();
+  return reader.kind.format == "png" && (space == "linear" || space == "Linear");
+}
+
+bool read_primaries(const cs_picture_reader &reader, float *out) {
+  const OIIO::ParamValue *found =
+      reader.spec.find_attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8));
+  if (found && reader.kind.format == "openexr")
+    std::copy_n(static_cast<const float *>(found->data()), 8, out);
+  return found && reader.kind.format == "openexr";
+}
+
+/* Codes in a space that celspan does not have are of no use without it; but light is, if its
+ * primaries are known, and PNG files are looked at as if they were sRGB. */
+bool is_unknown(const cs_picture_reader &reader) {
+  float unused[8];
+  std::string named = named_colour(reader);
+  return !named.empty() && !is_own(named) && reader.kind.format != "png" &&
+         !read_primaries(reader, unused);
+}
+
+/* Whether the file says what its codes are; DPX files of celspan and of others name a curve. */
+bool names_colour(const cs_picture_reader &reader) {
+  std::string transfer = reader.spec.get_string_attribute("dpx:Transfer").c_str();
+  bool has_curve = reader.kind.format == "dpx" && !transfer.empty() && transfer != "User defined" &&
+                   transfer != "Undefined";
+  return is_own(named_colour(reader)) || is_unknown(reader) || is_light_png(reader) || has_curve;
+}
+
+std::string default_colour(const cs_picture_reader &reader) {
+  std::string named = named_colour(reader);
+  if (is_own(named))
     return named;
+  if (is_unknown(reader))
+    return CS_PICTURE_OTHER;
+  if (is_light_png(reader))
+    return "linear";
   if (reader.kind.format == "cineon")
     return "cineon";
   if (reader.kind.format == "dpx")
@@ -272,10 +313,14 @@ void describe(const cs_picture_reader &reader, cs_picture_header *header) {
   header->info.has_alpha = reader.channel[3] >= 0;
   header->info.is_float = spec.format.is_floating_point();
   snprintf(header->info.format, sizeof header->info.format, "%s", reader.kind.format.c_str());
-  snprintf(header->info.colour, sizeof header->info.colour, "%s", default_colour(reader));
+  snprintf(header->info.colour, sizeof header->info.colour, "%s", default_colour(reader).c_str());
+  std::string named = named_colour(reader);
+  snprintf(header->space, sizeof header->space, "%s", is_own(named) ? "" : named.c_str());
+  header->names_colour = names_colour(reader);
+  header->has_primaries = read_primaries(reader, header->primaries);
   header->alpha = is_multiplied(reader) ? CS_PICTURE_ALPHA_CODED : CS_PICTURE_ALPHA_STRAIGHT;
   header->bits = coded_bits(spec);
-  header->is_linear = reader.processor != nullptr;
+  header->is_linear = reader.has_space;
   header->is_turned = reader.orientation != 1;
   header->is_whole = reader.kind.is_whole;
   header->is_sequential = reader.kind.is_sequential;
@@ -285,27 +330,49 @@ void describe(const cs_picture_reader &reader, cs_picture_header *header) {
   header->file_number = uint64_t(status.st_ino);
 }
 
+#ifdef CELSPAN_WITHOUT_SPACES
+void open_space(cs_picture_reader &, const char *, const char *) {
+  throw Failure(CELSPAN_BAD_ARGUMENT, "this celspan was built without OpenColorIO; build it with "
+                                      "-Dspaces=enabled");
+}
+#else
+void open_space(cs_picture_reader &reader, const char *configuration, const char *space) {
+  try {
+    reader.conversion = make_conversion({configuration, space, "", "", true});
+    reader.has_space = true;
+  } catch (const ConversionFailure &e) {
+    throw Failure(CELSPAN_BAD_ARGUMENT, e.what());
+  }
+}
+#endif
+
+/* The space that celspan wrote into a file, "SPACE (FILE)", if the configuration has it. */
+void find_space(cs_picture_reader &reader, const char *configuration) {
+  std::string named = named_colour(reader);
+  size_t end = named.rfind(" (");
+  if (!configuration || end == std::string::npos)
+    return;
+  try {
+    open_space(reader, configuration, named.substr(0, end).c_str());
+  } catch (const Failure &) {
+    return; /* the core says that the space is not known */
+  }
+}
+
 void choose_space(cs_picture_reader &reader, const char *space) {
+  const char *configuration = cs_space_configuration();
+  if (!space && is_unknown(reader))
+    find_space(reader, configuration);
   if (!space)
     return;
-  if (!getenv("OCIO"))
+  if (!configuration)
     throw Failure(
         CELSPAN_BAD_ARGUMENT,
         std::string("colour \"") + space +
             "\" is not known; \"srgb\", \"linear\", "
             "\"rec709\" and \"cineon\" are, and the spaces of an OpenColorIO configuration "
             "that --ocio or the environment variable OCIO names");
-#ifdef CELSPAN_WITHOUT_SPACES
-  static_cast<void>(reader);
-  throw Failure(CELSPAN_BAD_ARGUMENT, "this celspan was built without OpenColorIO; build it with "
-                                      "-Dspaces=enabled");
-#else
-  try {
-    reader.processor = make_conversion({getenv("OCIO"), space, "", "", true}).processor;
-  } catch (const ConversionFailure &e) {
-    throw Failure(CELSPAN_BAD_ARGUMENT, e.what());
-  }
-#endif
+  open_space(reader, configuration, space);
 }
 
 /* Whole rows of the chosen channels as they are stored. Asked for another type, the library would
@@ -455,8 +522,7 @@ void apply_space(const cs_picture_reader &reader, float *rgba, int32_t width, in
       for (int c = 0; c < 3; c++)
         rgba[4 * i + c] /= rgba[4 * i + 3];
 #ifndef CELSPAN_WITHOUT_SPACES
-  for (int64_t i = 0; i < int64_t(width) * height; i++)
-    reader.processor->applyRGB(rgba + 4 * i);
+  apply_conversion(reader.conversion, rgba, size_t(width) * size_t(height));
 #endif
   for (int64_t i = 0; i < int64_t(width) * height; i++)
     for (int c = 0; c < 3; c++)
@@ -498,7 +564,7 @@ void read_rectangle(cs_picture_reader &reader, int32_t x, int32_t y, int32_t wid
     reader.next_row = read.y1;
     scatter(reader, wanted, read, target);
   }
-  if (reader.processor)
+  if (reader.has_space)
     apply_space(reader, rgba, width, height);
 }
 

@@ -152,6 +152,8 @@ ImageSpec make_spec(const cs_picture_output &output) {
     spec.attribute("oiio:UnassociatedAlpha", 1);
   if (format == "openexr")
     spec.attribute("celspan:colour", names.colour);
+  if (format == "openexr" && output.has_primaries)
+    spec.attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), output.primaries);
   if (format == "openexr" || format == "tiff")
     spec.attribute("compression", "zip");
   if (format == "jpeg") {
@@ -162,6 +164,8 @@ ImageSpec make_spec(const cs_picture_output &output) {
     spec.attribute("compression", "webp:100");
   if (format == "dpx")
     spec.attribute("dpx:Transfer", names.film);
+  if (format == "dpx" && !names.space)
+    spec.attribute("DocumentName", std::string(CS_PICTURE_PROJECT) + names.colour);
   return spec;
 }
 

@@ -6,6 +6,8 @@
 
 #include <zlib.h>
 
+#include "model/colour/transfer_names.h"
+
 enum {
   NAME = 256,    /* bytes of a name, with its end */
   TILED = 0x200, /* flags behind the version */
@@ -33,7 +35,7 @@ typedef struct reading {
   int count;
   int packing;
   window data, shown;
-  char colour[16];
+  char colour[CS_PICTURE_SPACE];
   cs_raster *out;
   cs_picture_failure *failure;
   unsigned char *rows, *scratch; /* of a chunk */
@@ -108,6 +110,14 @@ static void take_colour(reading *r, size_t size) {
     memcpy(r->colour, text, size);
 }
 
+static void take_primaries(reading *r, cs_raster *out) {
+  for (int i = 0; i < 8; i++) {
+    uint32_t bits = (uint32_t)number(r);
+    memcpy(&out->primaries[i], &bits, sizeof bits);
+  }
+  out->has_primaries = true;
+}
+
 static celspan_status read_attribute(reading *r, const char *name) {
   char type[NAME];
   take_name(r, type);
@@ -124,6 +134,8 @@ static celspan_status read_attribute(reading *r, const char *name) {
     r->shown = take_window(r);
   else if (strcmp(name, "celspan:colour") == 0)
     take_colour(r, size);
+  else if (strcmp(name, "chromaticities") == 0 && size == sizeof r->out->primaries)
+    take_primaries(r, r->out);
   r->at = from;
   take(r, size);
   return status;
@@ -178,12 +190,14 @@ static celspan_status choose_channels(reading *r) {
   return CELSPAN_OK;
 }
 
+/* Codes in another space are of no use without it; light is, if its primaries are known. */
 static void choose_colour(reading *r) {
-  static const char *const known[] = {"linear", "srgb", "rec709", "cineon"};
-  r->out->colour = known[0];
-  for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-    if (strcmp(r->colour, known[i]) == 0)
-      r->out->colour = known[i];
+  celspan_transfer own = CELSPAN_TRANSFER_LINEAR;
+  bool is_own = cs_transfer_parse(r->colour, &own), is_known = is_own || r->out->has_primaries;
+  r->out->colour = is_known || !r->colour[0] ? cs_transfer_name(own) : CS_PICTURE_OTHER;
+  r->out->names_colour = r->colour[0] && (is_own || !is_known);
+  if (!is_own)
+    memcpy(r->out->space, r->colour, sizeof r->colour);
 }
 
 /* ---------------------------------------------------------------- rows */

@@ -106,6 +106,10 @@ static void describe(const cs_raster *raster, const struct stat *found, cs_pictu
       .file_number = (uint64_t)found->st_ino};
   snprintf(header->info.format, sizeof header->info.format, "%s", raster->format);
   snprintf(header->info.colour, sizeof header->info.colour, "%s", raster->colour);
+  memcpy(header->space, raster->space, sizeof header->space);
+  header->names_colour = raster->names_colour;
+  header->has_primaries = raster->has_primaries;
+  memcpy(header->primaries, raster->primaries, sizeof header->primaries);
 }
 
 static celspan_status open_file(const cs_picture_request *request, cs_raster *out,

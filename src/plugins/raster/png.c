@@ -61,6 +61,7 @@ static void decode(reading *r) {
   png_set_user_limits(r->png, CS_PICTURE_SIDE, CS_PICTURE_SIDE);
   png_read_info(r->png, r->info);
   r->out->colour = colour_of(r);
+  r->out->names_colour = strcmp(r->out->colour, "linear") == 0;
   int passes = choose_form(r);
   r->status = cs_raster_make(r->out, png_get_image_width(r->png, r->info),
                              png_get_image_height(r->png, r->info), r->failure);

@@ -12,8 +12,11 @@
 #define CS_RASTER_PIXELS ((uint64_t)1 << 28) /* at most, of a picture that is read or written */
 
 typedef struct cs_raster {
-  const char *format; /* "png" */
-  const char *colour; /* "srgb", "linear", ...: how it is read by default */
+  const char *format;           /* "png" */
+  const char *colour;           /* "srgb", "linear", ...: how it is read by default */
+  char space[CS_PICTURE_SPACE]; /* as in cs_picture_header, with the primaries */
+  bool names_colour, has_primaries;
+  float primaries[8];
   int32_t width, height;
   int channels;    /* in `pixels`: 1 grey, 2 grey and alpha, 3 colours, 4 colours and alpha */
   int bits;        /* of a value: 8, 16, or 32 for floats */

@@ -34,7 +34,8 @@ static void describe(writing *w, const cs_picture_output *output) {
                                 .channels = w->channels,
                                 .channel_count = count,
                                 .texts = w->texts,
-                                .text_count = output->title ? 2 : 1};
+                                .text_count = output->title ? 2 : 1,
+                                .primaries = output->has_primaries ? output->primaries : NULL};
 }
 
 static bool put(void *user, uint64_t offset, const void *bytes, size_t size) {
@@ -66,11 +67,14 @@ static void *begin(const cs_picture_output *output, cs_write_target *target) {
   return w;
 }
 
+/* Only packing fails without a failure of the target: zlib takes memory for it. */
 static bool put_rows(void *self, int32_t count, const unsigned char *rows) {
   writing *w = self;
   for (int32_t i = 0; i < count && !w->target->has_failed; i++)
-    if (!cs_exr_row(&w->exr, rows + (size_t)i * w->row))
+    if (!cs_exr_row(&w->exr, rows + (size_t)i * w->row)) {
+      w->target->lacks_memory = !w->target->has_failed;
       return false;
+    }
   return true;
 }
 

@@ -112,6 +112,18 @@ end
 
 -- ---------------------------------------------------------------- pictures, spans, planes
 
+--- What the numbers of a picture mean, and whether the file says so or files of its kind.
+local function put_meaning(picture)
+  facts:add("colour", picture.colour)
+  facts:add("colour_from", picture.named and "file" or "format")
+  if picture.space then facts:add("space", picture.space) end
+  local numbers = picture.chromaticities
+  if not numbers then return end
+  facts:add("primaries", picture.primaries or "other")
+  facts:set("chromaticities", numbers)
+  facts:line(("chromaticities" .. (" %.7g"):rep(#numbers)):format(table.unpack(numbers)))
+end
+
 local function put_picture()
   local picture = program.picture(path)
   local depth, subimages = "", 0
@@ -124,7 +136,7 @@ local function put_picture()
   facts:add("channels", picture.channels)
   facts:add("alpha", picture.alpha or "none")
   facts:add("depth", depth)
-  facts:add("colour", picture.colour)
+  put_meaning(picture)
   facts:add("bytes", picture.bytes)
   facts:add("subimages", subimages)
   facts:lists "parts"
