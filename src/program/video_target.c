@@ -7,6 +7,7 @@
 #include "program/poster.h"
 #include "program/soundtrack.h"
 #include "program/spaces.h"
+#include "program/video_colours.h"
 
 enum {
   MOST_SIDE = 16384, /* the limit of H.264, VP9 and WebP */
@@ -111,7 +112,7 @@ static cs_exit refuse_codec(const cs_request *request, const cs_video_format *fo
 static cs_exit refuse_options(const cs_request *request, const cs_video_format *format) {
   const char *output = cs_request_text(request, "-o");
   CS_TRY_EXIT(refuse_codec(request, format));
-  const cs_video_options options = options_of(request, codec_of(request));
+  cs_video_options options = options_of(request, codec_of(request));
   if (cs_sequence_has_number(output))
     return cs_report_usage("%s: a video is one file: leave the frame's number out of its name",
                            output);
@@ -132,7 +133,7 @@ static cs_exit refuse_options(const cs_request *request, const cs_video_format *
     return cs_report_usage(
         "%s: %s holds 8 bits%s: leave --depth 16 out, or write .mov", output, options.codec->name,
         options.codec->deep_pixels ? " where it has alpha (--background takes it away)" : "");
-  return CS_EXIT_OK;
+  return cs_video_colours_set(request, &options);
 }
 
 cs_exit cs_video_target_refuse(const cs_request *request, size_t frame_count) {
@@ -286,6 +287,9 @@ cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request 
   CS_TRY_EXIT(cs_video_target_refuse(request, SIZE_MAX));
   CS_TRY_EXIT(cs_video_target_refuse_frames(script, request, frame));
   cs_video_desc desc = describe(script, request, frame);
+  CS_TRY_EXIT(cs_video_colours_set(request, &desc.options));
+  CS_TRY_EXIT(refuse_size(&desc));
+  CS_TRY_EXIT(refuse_rate(&desc));
   CS_TRY_EXIT(set_captions(&desc, script, played));
   return open_with_poster(out, script, request, &desc, frame, played);
 }

@@ -26,6 +26,10 @@ displays:
     - !<View> {name: raw, colorspace: acescg}
   wall:
     - !<View> {name: film, colorspace: acescg}
+  sRGB wall:
+    - !<View> {name: film, colorspace: coded}
+  cinema (P3-D65):
+    - !<View> {name: film, colorspace: filmic}
 colorspaces:
   - !<ColorSpace>
     name: aces
@@ -44,6 +48,17 @@ colorspaces:
     name: logarithmic
     from_reference: !<LogAffineTransform> {base: 10, log_side_slope: 0.25, log_side_offset: 0.4,
       lin_side_slope: 1, lin_side_offset: 0.01}
+  - !<ColorSpace>
+    name: wide
+    from_reference: !<GroupTransform>
+      children:
+        - !<MatrixTransform> {matrix: $TO_BT709}
+        - !<MatrixTransform> {matrix: [0.822461969, 0.177538031, 0, 0, 0.033194199, 0.966805801, 0,
+            0, 0.017082631, 0.072397431, 0.910519938, 0, 0, 0, 0, 1]}
+        - !<ExponentTransform> {value: 2.2, direction: inverse}
+  - !<ColorSpace>
+    name: numbers
+    isdata: true
   - !<ColorSpace>
     name: filmic
     from_reference: !<GroupTransform>
@@ -149,6 +164,62 @@ describe("a space of a configuration", function()
     assert.are_not.equal(first, bench:read "f.0001.png")
   end)
 
+  it_reads("decides whether a frame that reads a picture in it is made again", function()
+    rendered("ramp.lua", "--depth float --ocio config.ocio --colour logarithmic -o plate.exr")
+    bench:write("plate.lua", [[
+local celspan = require "celspan"
+return celspan.film { size = { 256, 48 }, frames = 1, frame = function()
+  return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 256, 48, texture =
+    celspan.picture { file = "plate.exr", colour = "logarithmic" } } } }
+end }
+]])
+    bench:write("mine.ocio", CONFIGURATION)
+    local function digest(configuration)
+      rendered("plate.lua", "--resume -o p.####.png --ocio " .. configuration)
+      return bench:read "p.0001.png"
+    end
+    local first = digest "mine.ocio"
+    bench:write("mine.ocio", (CONFIGURATION:gsub("log_side_slope: 0.25", "log_side_slope: 0.5")))
+    local edited = digest "mine.ocio"
+    assert.are_not.equal(first, edited)
+    assert.equal(first, digest "config.ocio")
+  end)
+
+  it_writes("of data leaves the numbers of the light, whatever the configuration's light is",
+    function()
+      rendered("ramp.lua", "--depth float --alpha straight -o plain.tif")
+      rendered("ramp.lua", "--depth float --alpha straight --colour numbers --ocio config.ocio "
+        .. "-o data.tif")
+      local code, out = bench:celspan_inside("%s", "compare plain.tif data.tif")
+      assert.equal(0, code, out)
+    end)
+
+  it_writes("shows what is clear over black where the file has no alpha", function()
+    bench:write("half.lua", (RAMP:gsub("bar%(0, .-%)", "bar(0, '#fff0', '#fff')", 1)))
+    for _, depth in ipairs { "", "--depth 8" } do
+      rendered("half.lua", "--ocio config.ocio --colour logarithmic -o clear.dpx " .. depth)
+      rendered("half.lua", "--ocio config.ocio --colour logarithmic --background '#000' "
+        .. "-o black.dpx " .. depth)
+      assert.equal(bench:read("black.dpx"):sub(2049), bench:read("clear.dpx"):sub(2049))
+    end
+  end)
+
+  it_writes("has a name in the file that ends with a whole character", function()
+    local name = "a" .. ("ä"):rep(120) .. ".ocio"
+    bench:write(name, CONFIGURATION)
+    rendered("ramp.lua", ("--ocio '%s' --colour logarithmic -o named.png"):format(name))
+    local text = bench:read("named.png"):match "colour%z%z%z%z%z?(logarithmic %(aä.-)....IDAT"
+    assert.is_truthy(text)
+    assert.is_truthy(utf8.len(text:match "^logarithmic %(a[\195\164]*"))
+  end)
+
+  it_writes("has displays and views that are compared one by one, whatever their case", function()
+    rendered("ramp.lua", "--ocio config.ocio --display WALL --view Film -o other.png")
+    assert.is_truthy(bench:read("other.png"):find("film on wall (config.ocio)", 1, true))
+    refused('config.ocio: has no display "screen", "wall"; it has "screen"',
+      [[--ocio config.ocio --display 'screen", "wall']])
+  end)
+
   it("is named in the job of a farm, wherever the configuration is named", function()
     local farm = "farm ramp.lua -o f.####.png --slurm --colour coded"
     local code, given = bench:celspan_inside("%s", farm .. " --ocio config.ocio")
@@ -190,8 +261,8 @@ return celspan.rostrum { size = { 256, 48 }, celspan.cel { celspan.rect { 0, 0, 
     refused("bare.ocio: does not say which of its spaces is linear light in the primaries of "
       .. "BT.709", "--ocio bare.ocio --colour coded")
     refused('config.ocio: has no colour space "nowhere"', "--ocio config.ocio --colour nowhere")
-    refused('config.ocio: has no display "tv"; it has "screen", "wall"',
-      "--ocio config.ocio --display tv")
+    refused('config.ocio: has no display "tv"; it has "screen", "wall", "sRGB wall", '
+      .. '"cinema (P3-D65)"', "--ocio config.ocio --display tv")
     refused('config.ocio: has no view "raw"; it has "film"',
       "--ocio config.ocio --display wall --view raw")
     refused("--colour and --view both say", "--ocio config.ocio --view film --colour srgb")
@@ -199,6 +270,52 @@ return celspan.rostrum { size = { 256, 48 }, celspan.cel { celspan.rect { 0, 0, 
     refused("--layers are in linear light: leave --display and --view out",
       "--ocio config.ocio --view film --layers cels --format openexr")
     refused("name one with --ocio or OCIO", "--view film")
+  end)
+
+  --- A configuration of one linear space and one for screens, with these lines.
+  local function plain(linear, screen)
+    return ([[ocio_profile_version: 2
+roles: {default: coded, scene_linear: linear}
+displays:
+  screen:
+    - !<View> {name: film, colorspace: coded}
+colorspaces:
+  - !<ColorSpace> {name: linear, description: %q}
+  - !<ColorSpace>
+    name: coded
+    aliases: [%s]
+    from_reference: !<ExponentTransform> {value: 2.2, direction: inverse}
+]]):format(linear, screen)
+  end
+
+  it_writes("takes scene_linear for BT.709 only where something says so", function()
+    local arguments = "--ocio plain.ocio --colour coded -o %s.png"
+    for i, case in ipairs { { "of the mp3 show, in the gamut: sRGB", "none" },
+                            { "Rec.709 light", "none" }, { "light", "sRGB" } } do
+      bench:write("plain.ocio", plain(case[1], case[2]))
+      rendered("ramp.lua", arguments:format("plain" .. i))
+    end
+    for _, case in ipairs { { "", "none" }, { "ACEScg", "sRGB" }, { "P3 sRGB", "sRGB" } } do
+      bench:write("plain.ocio", plain(case[1], case[2]))
+      refused("plain.ocio: does not say which of its spaces is linear light",
+        "--ocio plain.ocio --colour coded")
+    end
+    bench:write("plain.ocio", (plain("light", "sRGB"):gsub("!<ExponentTransform>[^\n]*",
+      "!<MatrixTransform> {matrix: [.9, .1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}")))
+    refused("plain.ocio: does not say which of its spaces is linear light",
+      "--ocio plain.ocio --colour coded")
+  end)
+
+  it_reads("is not known where OCIO is empty", function()
+    bench:write("log.lua", [[
+local celspan = require "celspan"
+return celspan.rostrum { size = { 256, 48 }, celspan.cel { celspan.rect { 0, 0, 256, 48, texture =
+  celspan.picture { file = "log.exr", colour = "logarithmic" } } } }
+]])
+    local code, _, err = bench:inside(("OCIO= '%s' render log.lua -o never.png"):format(
+      workbench.absolute))
+    assert.equal(3, code)
+    assert.is_truthy(err:find('colour is "logarithmic"; it must be "srgb"', 1, true), err)
   end)
 
   it("needs a module, which is missed only where a space is named", function()
@@ -210,5 +327,104 @@ return celspan.rostrum { size = { 256, 48 }, celspan.cel { celspan.rect { 0, 0, 
     assert.equal(4, code, err)
     assert.is_truthy(err:find("celspan-space.so", 1, true), err)
     assert.equal(0, (without "--colour linear -o linear.png"))
+  end)
+end)
+
+describe("a video", function()
+  local it_tells = present.spaces() and present.program("ffmpeg", "ffprobe") and it or pending
+
+  local function tags(arguments)
+    rendered("ramp.lua", "-o out.mp4 --ocio config.ocio " .. arguments)
+    local code, out = bench:inside("ffprobe -v error -select_streams v -show_entries "
+      .. "stream=color_space,color_transfer,color_primaries -of csv=p=0 out.mp4")
+    assert.equal(0, code)
+    return out
+  end
+
+  it_tells("has tags that say what its numbers are", function()
+    assert.equal("bt709,iec61966-2-1,bt709\n", tags "--colour coded")
+    assert.equal("bt709,bt470m,smpte432\n", tags "--colour wide")
+    assert.equal("bt709,bt709,bt709\n", tags "--display wall")
+    assert.equal("bt709,iec61966-2-1,bt709\n", tags "--display 'sRGB wall'")
+    assert.equal("bt709,iec61966-2-1,bt709\n", tags "--colour srgb")
+  end)
+
+  it_writes("is refused where no tags could say so", function()
+    local function refused_video(sentence, file, arguments)
+      local code, _, err = render("ramp.lua", ("-o %s --ocio config.ocio %s"):format(file,
+        arguments))
+      assert.equal(2, code, err)
+      assert.is_truthy(err:find(sentence, 1, true), err)
+      assert.is_nil(bench:read(file))
+    end
+    for _, space in ipairs { "acescg", "logarithmic", "filmic" } do
+      refused_video(('never.mp4: the tags of a video cannot say what the colours of "%s" are')
+        :format(space), "never.mp4", "--colour " .. space)
+    end
+    refused_video('never.apng: such a file has no tags that say what the colours of "wide" are',
+      "never.apng", "--colour wide --frames 1,1")
+    refused_video("the view film on cinema (P3-D65) is for a display of other primaries",
+      "never.mp4", "--display 'cinema (P3-D65)'")
+  end)
+end)
+
+describe("what a file says of its colours", function()
+  --- A film of a whole picture, read as the file says.
+  local function show(file)
+    bench:write("show.lua", ([[
+local celspan = require "celspan"
+return celspan.rostrum { size = { 256, 48 }, celspan.cel { celspan.rect { 0, 0, 256, 48, texture =
+  celspan.picture { file = %q, sampling = "nearest" } } } }
+]]):format(file))
+    return "show.lua"
+  end
+
+  local function facts(file)
+    local code, out, err = bench:celspan_inside("%s", "info " .. file)
+    assert.equal(0, code, err)
+    return out
+  end
+
+  it_reads("is its primaries, in OpenEXR, with another white", function()
+    rendered("ramp.lua", "--depth float -o light.exr")
+    rendered("ramp.lua", "--depth float --ocio config.ocio --colour acescg -o acescg.exr")
+    assert.is_truthy(facts "light.exr":find("colour linear\ncolour_from file\nprimaries BT.709\n"
+      .. "chromaticities 0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329\n", 1, true))
+    assert.is_truthy(facts "acescg.exr":find("colour linear\ncolour_from format\n"
+      .. "space acescg (config.ocio)\nprimaries ACES AP1\nchromaticities 0.713 0.293 0.165 0.83 "
+      .. "0.128 0.044 0.32168 0.33767\n", 1, true))
+    for _, rights in ipairs { "", "--trust" } do
+      rendered(show "acescg.exr", "--depth float -o back.exr " .. rights)
+      local code, out = bench:celspan_inside("%s", "compare light.exr back.exr --fail 1e-4")
+      assert.equal(0, code, out)
+    end
+  end)
+
+  it_reads("is a space that can only be read with its configuration", function()
+    rendered("ramp.lua", "--depth float --background '#000' -o light.exr")
+    for _, file in ipairs { "log.exr", "log.dpx" } do
+      rendered("ramp.lua", "--background '#000' --ocio config.ocio --colour logarithmic "
+        .. (file == "log.exr" and "--depth float -o " or "-o ") .. file)
+      assert.is_truthy(facts(file):find("colour other\ncolour_from file\n"
+        .. "space logarithmic (config.ocio)\n", 1, true))
+      local code, _, err = render(show(file), "-o never.png")
+      assert.equal(4, code)
+      assert.is_truthy(err:find(file .. ': its colours are in "logarithmic (config.ocio)"', 1,
+        true), err)
+      rendered(show(file), "--depth float --ocio config.ocio -o back.exr")
+      local fail = file == "log.exr" and "1e-4" or "0.11" -- the curve is cut off near black
+      local ok, out = bench:celspan_inside("%s", "compare light.exr back.exr --fail " .. fail)
+      assert.equal(0, ok, out)
+    end
+  end)
+
+  it_reads("is refused where it is no light", function()
+    rendered("ramp.lua", "--depth float -o light.exr")
+    local bytes = bench:read "light.exr"
+    local at = select(2, bytes:find("chromaticities\0chromaticities\0\32\0\0\0", 1, true))
+    bench:write("broken.exr", bytes:sub(1, at) .. ("\0"):rep(32) .. bytes:sub(at + 33))
+    local code, _, err = render(show "broken.exr", "-o never.png")
+    assert.equal(4, code)
+    assert.is_truthy(err:find("broken.exr: its chromaticities are those of no light", 1, true), err)
   end)
 end)

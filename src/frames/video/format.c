@@ -7,6 +7,7 @@
 #include <strings.h>
 
 #include "frames/process/child.h"
+#include "output/sinks/pixels.h"
 
 #define FROM_RGB                                                                                   \
   "scale=out_color_matrix=bt709:out_range=tv:flags=area+accurate_rnd+full_chroma_int,"
@@ -157,7 +158,7 @@ celspan_coding cs_video_coding(const cs_video_options *options) {
   if (coding.transfer == CELSPAN_TRANSFER_DEFAULT)
     coding.transfer = CELSPAN_TRANSFER_SRGB;
   if (!has_alpha(options))
-    coding.alpha = CELSPAN_ALPHA_PREMULTIPLIED;
+    coding.alpha = coding.convert ? CS_ALPHA_BLACK : CELSPAN_ALPHA_PREMULTIPLIED;
   return coding;
 }
 
@@ -266,17 +267,18 @@ static int encoder_quality(const cs_video_options *options) {
  * exact, and 2 x 2 pixels that share a colour get their mean, so that flat colours are unchanged.
  * Planes are passed on unchanged. */
 static void add_yuv(cs_video_command *command, const cs_video_options *options, bool is_coded) {
-  /* Players take nearly every film of a colour-managed pipeline for BT.709. */
-  bool is_rec709 = options->coding.convert || options->coding.transfer == CELSPAN_TRANSFER_REC709;
-  const char *transfer = is_rec709 ? "bt709" : "iec61966-2-1";
+  bool is_rec709 = options->coding.transfer == CELSPAN_TRANSFER_REC709;
+  const char *curve = is_rec709 ? "bt709" : "iec61966-2-1";
+  const char *transfer = options->transfer ? options->transfer : curve;
+  const char *primaries = options->primaries ? options->primaries : "bt709";
   bool is_made = is_coded || cs_video_layout_of(options) != CS_VIDEO_RGBA;
   const char *const tags[] = {
       "-color_range", "tv",         "-colorspace", "bt709", "-color_primaries",
-      "bt709",        "-color_trc", transfer,      NULL};
+      primaries,      "-color_trc", transfer,      NULL};
   add(command, "-vf");
   add_text(command,
-           "%sformat=%s,setparams=range=tv:colorspace=bt709:color_primaries=bt709:color_trc=%s",
-           is_made ? "" : FROM_RGB, cs_video_pixels(options), transfer);
+           "%sformat=%s,setparams=range=tv:colorspace=bt709:color_primaries=%s:color_trc=%s",
+           is_made ? "" : FROM_RGB, cs_video_pixels(options), primaries, transfer);
   add_all(command, tags);
 }
 

@@ -81,6 +81,9 @@ typedef struct cs_video_options {
   int32_t quality;             /* 0 to 100; the same quality looks alike with every codec */
   bool has_crf;                /* crf is the value of -crf, whatever the quality is */
   int32_t crf;
+  /* What the tags say of a coding that converts; ffmpeg's names, which live as long as the options.
+   * NULL: those of its curve. */
+  const char *primaries, *transfer;
   int32_t plays; /* how often it is played; 0: for ever */
 } cs_video_options;
 
