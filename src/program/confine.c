@@ -283,11 +283,20 @@ static bool copy_roots(const cs_roots *from, cs_roots *to) {
   return true;
 }
 
+/* The folder of --report may be written, too. */
+static bool add_report(const cs_request *request, cs_roots *write) {
+  char folder[PATH_SIZE];
+  const char *report = cs_request_text(request, "--report");
+  folder_of(report ? report : "", folder);
+  return !report || cs_roots_add(write, folder[0] ? folder : ".");
+}
+
 static cs_exit enter_strict(const cs_request *request, const cs_roots *roots) {
   char folder[PATH_SIZE];
   cs_roots read = {.count = 0}, write = {.count = 0};
   output_folder(request, folder);
   bool is_good = copy_roots(roots, &read) && add_own_folders(request, &read) &&
+                 add_report(request, &write) &&
                  (!folder[0] || (cs_roots_add(&write, folder) && cs_roots_add(&read, folder)));
   const char *refusal = is_good ? NULL : "there are too many folders to read";
   if (!refusal && !cs_client_confine(&read))

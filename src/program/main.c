@@ -20,6 +20,7 @@
 #include "plugins/isolate/zygote.h"
 #include "program/commit.h"
 #include "program/confine.h"
+#include "program/log.h"
 #include "program/lua_verb.h"
 #include "program/progress.h"
 #include "program/spaces.h"
@@ -100,12 +101,25 @@ static cs_exit run(cs_request *request) {
   return outcome;
 }
 
+static cs_exit begin_log(const cs_request *request) {
+  const char *path = cs_request_text(request, "--log");
+  if (path && !cs_log_open(path)) {
+    cs_report_error("%s: the log cannot be written: %s", path, strerror(errno));
+    return CS_EXIT_OUTPUT;
+  }
+  if (path)
+    cs_report_log("celspan %s (%s): %s %s", celspan_version(), CS_COMMIT, request->verb->name,
+                  request->operand_count ? request->operands[0] : "");
+  return CS_EXIT_OK;
+}
+
 static cs_exit parse_and_run(const cs_verb *verb, size_t count, char *const *words) {
   cs_request request;
   cs_progress_style style = CS_PROGRESS_AUTO;
   CS_TRY_EXIT(cs_request_parse(verb, count, words, &request));
   cs_request_read(&request, "--progress", &style);
   cs_progress_choose(style);
+  CS_TRY_EXIT(begin_log(&request));
   return run(&request);
 }
 

@@ -41,6 +41,7 @@ void cs_progress_start(cs_progress *progress, cs_progress_style style, size_t fr
   }
   progress->style = style;
   progress->shown = progress->started;
+  cs_report_log("begins: %zu frame%s", frame_count, frame_count == 1 ? "" : "s");
   if (style == CS_PROGRESS_JSON)
     start_json(frame_count);
   if (style == CS_PROGRESS_OPENJD)
@@ -108,9 +109,9 @@ static void print_line(const cs_progress *progress, int64_t frame, const char *w
   char left[48];
   double fraction = fraction_done(progress);
   format_left(left, sizeof left, progress, fraction, now);
-  cs_report_note("%s %lld: %s (%zu of %zu, %d %%%s%s)", progress->noun, (long long)frame, what,
-                 progress->frames_done, progress->frame_count, percent(fraction),
-                 left[0] ? ", " : "", left);
+  cs_report_progress("%s %lld: %s (%zu of %zu, %d %%%s%s)", progress->noun, (long long)frame, what,
+                     progress->frames_done, progress->frame_count, percent(fraction),
+                     left[0] ? ", " : "", left);
 }
 
 static void count_json(const cs_progress *progress, cs_json *event) {
@@ -143,6 +144,8 @@ static void print_openjd(const cs_progress *progress, int64_t frame, const char 
 void cs_progress_frame(cs_progress *progress, int64_t frame, const char *what, const char *how) {
   double now = cs_clock_seconds();
   progress->frames_done++;
+  cs_report_log("%s %lld: %s: %s (%zu of %zu)", progress->noun, (long long)frame, what, how,
+                progress->frames_done, progress->frame_count);
   progress->copied += strcmp(how, "copied") == 0;
   progress->kept += strcmp(how, "kept") == 0;
   if (progress->style == CS_PROGRESS_JSON)
@@ -183,10 +186,11 @@ static const char *format_count(char *out, size_t size, size_t count, const char
 static void end_words(const cs_progress *progress) {
   char taken[48], copied[64], kept[64];
   format_seconds(taken, sizeof taken, cs_clock_seconds() - progress->started);
-  cs_report_note("%zu %s%s in %s (100 %%)%s%s", progress->frame_count, progress->noun,
-                 progress->frame_count == 1 ? "" : "s", taken,
-                 format_count(copied, sizeof copied, progress->copied, "copied from equal ones"),
-                 format_count(kept, sizeof kept, progress->kept, "kept"));
+  cs_report_progress(
+      "%zu %s%s in %s (100 %%)%s%s", progress->frame_count, progress->noun,
+      progress->frame_count == 1 ? "" : "s", taken,
+      format_count(copied, sizeof copied, progress->copied, "copied from equal ones"),
+      format_count(kept, sizeof kept, progress->kept, "kept"));
 }
 
 void cs_progress_end(cs_progress *progress, cs_progress_failures failed, int outcome) {
@@ -194,6 +198,11 @@ void cs_progress_end(cs_progress *progress, cs_progress_failures failed, int out
     clear_bar();
     cs_report_before_line(NULL);
   }
+  int stopped_by = cs_interrupt_signal();
+  cs_report_log("ends: %zu of %zu finished, %zu failed, in %.3f seconds, exit code %d",
+                progress->frames_done, progress->frame_count, failed.count,
+                cs_clock_seconds() - progress->started,
+                stopped_by ? CS_EXIT_SIGNAL + stopped_by : outcome);
   if (progress->style == CS_PROGRESS_JSON)
     end_json(progress, failed, outcome);
   else if (progress->style != CS_PROGRESS_NONE && progress->frames_done == progress->frame_count)

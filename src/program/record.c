@@ -13,6 +13,7 @@
 #include "frames/process/journal.h"
 #include "output/sinks/file_copy.h"
 #include "output/sinks/temporary.h"
+#include "program/commit.h"
 #include "program/spaces.h"
 #include "program/target.h"
 
@@ -37,6 +38,7 @@ static cs_hash hash_options(const cs_script *script, const cs_request *request,
   const celspan_coding asked = cs_target_coding(request), *coding = &asked;
   cs_hash hash = cs_hash_begin(1);
   cs_hash_text(&hash, celspan_version());
+  cs_hash_text(&hash, CS_COMMIT);
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
     cs_hash_word(&hash, (uint64_t)numbers[i]);
   cs_hash_number(&hash, frame->film_width);

@@ -6,7 +6,6 @@
  * Everything that can be refused is refused before the first frame is made. A frame that fails ends
  * the run, except under --keep-going; the frames before it are complete and stay.
  */
-#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,11 +15,11 @@
 #include "frames/film/shoot.h"
 #include "frames/plane/plane.h"
 #include "frames/video/video.h"
-#include "output/sinks/pixels.h"
 #include "program/change.h"
 #include "program/progress.h"
+#include "program/raw_frame.h"
 #include "program/record.h"
-#include "program/refusals.h"
+#include "program/summary.h"
 #include "program/target.h"
 #include "program/verbs.h"
 #include "program/video_target.h"
@@ -39,6 +38,7 @@ typedef struct render_job {
   cs_sequence frames;
   cs_sequence played; /* the frames of the film whose sound is heard; none: those of `frames` */
   cs_progress progress;
+  cs_summary summary;
   cs_record record; /* of frames that are files */
   cs_whole whole;   /* of a film that is one file */
   bool surveys;     /* frames are built, but not rendered */
@@ -51,78 +51,14 @@ typedef struct render_job {
   cs_exit outcome; /* of the reported failure */
 } render_job;
 
-/* ---------------------------------------------------------------- raw frames */
-
-/* Bytes that are written together: a system call for each row takes long. */
-#define RAW_TOGETHER ((size_t)128 << 10)
-
-/* A sink that writes the rows of a frame to standard output as coded pixels without a header. */
-typedef struct raw_rows {
-  celspan_coding coding; /* without defaults, except that the depth for dithering is set */
-  int32_t x, y;          /* the place of the first pixel in the whole frame */
-  unsigned char *rows;   /* rows that are not written yet */
-  size_t row_size, count, capacity;
-} raw_rows;
-
-static celspan_status begin_raw(void *user, celspan_context *context, int32_t width,
-                                int32_t height) {
-  raw_rows *raw = user;
-  (void)height;
-  raw->row_size = (size_t)width * celspan_coding_pixel_size(&raw->coding);
-  raw->capacity = raw->row_size < RAW_TOGETHER ? RAW_TOGETHER / raw->row_size : 1;
-  raw->rows = cs_mem_resize(context->memory, NULL, 0, raw->capacity * raw->row_size);
-  return raw->rows ? CELSPAN_OK : cs_fail_memory(context);
-}
-
-static celspan_status write_raw(raw_rows *raw, celspan_context *context) {
-  size_t size = raw->count * raw->row_size;
-  raw->count = 0;
-  return fwrite(raw->rows, 1, size, stdout) == size
-             ? CELSPAN_OK
-             : celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: %s",
-                                    strerror(errno));
-}
-
-static celspan_status put_raw_row(void *user, celspan_context *context, int32_t y,
-                                  const celspan_span *spans, size_t span_count) {
-  raw_rows *raw = user;
-  unsigned char *row = raw->rows + raw->count++ * raw->row_size;
-  celspan_spans_code_at(&raw->coding, raw->x, raw->y + y, spans, span_count, row);
-  return raw->count == raw->capacity ? write_raw(raw, context) : CELSPAN_OK;
-}
-
-static celspan_status end_raw(void *user, celspan_context *context, celspan_status outcome) {
-  raw_rows *raw = user;
-  if (outcome == CELSPAN_OK)
-    outcome = write_raw(raw, context);
-  cs_mem_free(context->memory, raw->rows, raw->capacity * raw->row_size);
-  raw->rows = NULL;
-  if (outcome == CELSPAN_OK && fflush(stdout) != 0)
-    return celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: %s", strerror(errno));
-  return outcome;
-}
-
-static celspan_sink raw_sink(raw_rows *raw, const celspan_coding *coding,
-                             const celspan_frame_desc *frame) {
-  bool dithers = coding->depth == CELSPAN_DEPTH_8_DITHER;
-  *raw = (raw_rows){
-      .coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8), .x = frame->crop_x, .y = frame->crop_y};
-  bool takes_codes = !dithers && cs_pixels_takes_codes(&raw->coding);
-  if (dithers)
-    raw->coding.depth = CELSPAN_DEPTH_8_DITHER;
-  return (celspan_sink){sizeof(celspan_sink), raw, begin_raw, put_raw_row, end_raw, takes_codes};
-}
-
 /* ---------------------------------------------------------------- frames */
 
 static celspan_status put_raw(void *user, const celspan_frame_desc *frame, cs_shoot_frame *unused) {
   const render_job *job = user;
   (void)unused;
-  raw_rows raw;
   celspan_coding coding = cs_target_coding(job->request);
   coding.space = frame->space;
-  celspan_sink sink = raw_sink(&raw, &coding, frame);
-  return celspan_frame_render(job->script->context, frame, &sink, NULL);
+  return cs_raw_frame_print(job->script->context, frame, &coding);
 }
 
 static celspan_status put_video(void *user, const celspan_frame_desc *desc, cs_shoot_frame *frame) {
@@ -216,6 +152,7 @@ static celspan_status finished(void *user, const cs_shoot_frame *frame, celspan_
   if (job->has_digests)
     printf("%" PRId64 " %016" PRIx64 "%016" PRIx64 "\n", frame->number, frame->digest[0],
            frame->digest[1]);
+  cs_summary_add(&job->summary, frame);
   cs_progress_frame(&job->progress, frame->number, destination_of(job, frame), ways[frame->way]);
   return CELSPAN_OK;
 }
@@ -257,10 +194,21 @@ static cs_exit sum_up(const render_job *job, cs_exit outcome) {
   return outcome == CS_EXIT_OK ? CS_EXIT_PARTIAL : outcome;
 }
 
+static cs_exit write_summary(const render_job *job, cs_exit outcome) {
+  const cs_summary_run run = {.request = job->request,
+                              .progress = &job->progress,
+                              .failed = {job->failed, job->failed_count},
+                              .outcome = outcome,
+                              .has_video = job->is_video};
+  cs_exit written = cs_summary_write(&job->summary, job->script->context, &run);
+  return outcome == CS_EXIT_OK ? written : outcome;
+}
+
 /* All messages come before the end is reported. */
 static cs_exit report_end(render_job *job, cs_exit outcome) {
   cs_progress_failures failed = {job->failed, job->failed_count};
   outcome = cs_report_flush_output(sum_up(job, outcome));
+  outcome = write_summary(job, outcome);
   cs_progress_end(&job->progress, failed, (int)outcome);
   return outcome;
 }

@@ -9,6 +9,7 @@
 
 #include "base/visible.h"
 #include "frames/process/interrupt.h"
+#include "program/log.h"
 
 enum {
   SENTENCE = 8192,       /* bytes; paths may be 4096 long */
@@ -88,9 +89,7 @@ void cs_report_printed(void *user, const char *text, size_t size) {
   fwrite(text, 1, size, stderr);
 }
 
-static void print_words(bool is_error, const char *text) {
-  char visible[VISIBLE];
-  make_visible(text, visible);
+static void print_words(bool is_error, const char *visible) {
   if (clear_line)
     clear_line();
   fprintf(stderr, "celspan: %s%s\n", is_error ? "error: " : "", visible);
@@ -107,13 +106,22 @@ static void print_event(bool is_error, const int64_t *number, const char *text) 
   cs_report_event(&event);
 }
 
+/* A log that can no longer be written is said once, and not there. */
+static void log_words(bool is_error, const char *visible) {
+  if (!cs_log_add(is_error ? CS_LOG_ERROR : CS_LOG_NOTE, visible))
+    print_words(true, "the log of --log ends here: it cannot be written");
+}
+
 static void print_text(bool is_error, const int64_t *number, char *text) {
+  char visible[VISIBLE];
+  make_visible(text, visible);
   if (is_error)
     snprintf(last, sizeof last, "%s", text);
   if (chosen == CS_REPORT_JSON)
     print_event(is_error, number, text);
   else
-    print_words(is_error, text);
+    print_words(is_error, visible);
+  log_words(is_error, visible);
   if (chosen == CS_REPORT_OPENJD && is_error)
     print_openjd("fail", text);
 }
@@ -137,6 +145,26 @@ void cs_report_note(const char *format, ...) {
   va_start(arguments, format);
   print_line(false, format, arguments);
   va_end(arguments);
+}
+
+void cs_report_progress(const char *format, ...) {
+  char text[SENTENCE], visible[VISIBLE];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  make_visible(text, visible);
+  print_words(false, visible);
+}
+
+void cs_report_log(const char *format, ...) {
+  char text[SENTENCE], visible[VISIBLE];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  make_visible(text, visible);
+  log_words(false, visible);
 }
 
 cs_exit cs_report_usage(const char *format, ...) {

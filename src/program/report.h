@@ -38,6 +38,10 @@ cs_exit cs_report_exit(celspan_status status);
 void cs_report_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* "celspan: ..." */
 void cs_report_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* A line of progress: like a note, but not in the log of --log, which has frames of its own. */
+void cs_report_progress(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* A line that only the log has. */
+void cs_report_log(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* The last error that was reported, cut if it was long; NULL: there was none. */
 const char *cs_report_last(void);
 /* Reports an error and returns CS_EXIT_USAGE. */

@@ -138,6 +138,11 @@
     "--progress", "HOW", &cs_argument_progress,                                                    \
         "auto, bar, lines, none or json on standard error; openjd on standard output"              \
   }
+#define LOG                                                                                        \
+  {                                                                                                \
+    "--log", "FILE", &cs_argument_file,                                                            \
+        "add each message and each frame to this file, with the time and the name of the machine"  \
+  }
 #define JSON                                                                                       \
   { "--json", NULL, NULL, "print the same as a JSON object" }
 /* The arguments of scripts. */
@@ -213,6 +218,9 @@ static const cs_option RENDER[] = {
     FORCE,
     KEEP_GOING,
     TABLE("a film for each row of a CSV file, whose columns are parameters, or {NAME} in OUT"),
+    LOG,
+    {"--report", "FILE", &cs_argument_file,
+     "write at the end, as JSON: the slowest frames, memory, and the versions of what made it"},
     SCRIPT,
     MEMORY,
     {0}};

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/clock.h"
 #include "base/hash_table.h"
 #include "frames/film/frame_pipeline.h"
 #include "frames/plane/plane.h"
@@ -104,6 +105,7 @@ static celspan_status build(void *user, size_t index, void *carried, cs_pipeline
   job *j = user;
   frame_task *task = carried;
   const cs_shoot *shoot = j->shoot;
+  double begun = cs_clock_seconds();
   task->frame.number = shoot->frames->frames[index];
   CS_TRY(shoot->build(shoot->user, task->frame.number, &task->built));
   CS_TRY(name_frame(j, task));
@@ -111,6 +113,7 @@ static celspan_status build(void *user, size_t index, void *carried, cs_pipeline
     task->frame.way = CS_SHOOT_KEPT;
   CS_TRY(find_duplicate(j, task));
   *step = choose_step(j, task);
+  task->frame.seconds = cs_clock_seconds() - begun;
   return CELSPAN_OK;
 }
 
@@ -216,8 +219,10 @@ static celspan_status make(void *user, celspan_context *context, void *carried, 
   desc.progress = cs_frame_pipeline_progress;
   desc.progress_user = turn;
   context->contents = &task->frame.contents;
+  double begun = cs_clock_seconds();
   celspan_status status = make_or_copy(j, context, task, &desc);
   context->contents = NULL;
+  task->frame.seconds += cs_clock_seconds() - begun;
   if (j->shoot->keeps_nothing)
     cs_context_trim(context);
   return name_failure(context, task->frame.number, status);

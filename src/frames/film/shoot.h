@@ -36,6 +36,7 @@ typedef struct cs_shoot_frame {
   cs_hash scene;
   cs_hash inputs; /* of its pictures' files; set only where `keep` is given */
   uint64_t digest[2];
+  double seconds;            /* that building and making it took */
   cs_file_contents contents; /* of its file, where that was made or copied */
 } cs_shoot_frame;
 

@@ -1,0 +1,75 @@
+#include "program/raw_frame.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/context.h"
+#include "output/sinks/pixels.h"
+
+/* Bytes that are written together: a system call for each row takes long. */
+#define RAW_TOGETHER ((size_t)128 << 10)
+
+/* A sink that writes the rows of a frame to standard output as coded pixels without a header. */
+typedef struct raw_rows {
+  celspan_coding coding; /* without defaults, except that the depth for dithering is set */
+  int32_t x, y;          /* the place of the first pixel in the whole frame */
+  unsigned char *rows;   /* rows that are not written yet */
+  size_t row_size, count, capacity;
+} raw_rows;
+
+static celspan_status begin_raw(void *user, celspan_context *context, int32_t width,
+                                int32_t height) {
+  raw_rows *raw = user;
+  (void)height;
+  raw->row_size = (size_t)width * celspan_coding_pixel_size(&raw->coding);
+  raw->capacity = raw->row_size < RAW_TOGETHER ? RAW_TOGETHER / raw->row_size : 1;
+  raw->rows = cs_mem_resize(context->memory, NULL, 0, raw->capacity * raw->row_size);
+  return raw->rows ? CELSPAN_OK : cs_fail_memory(context);
+}
+
+static celspan_status write_raw(raw_rows *raw, celspan_context *context) {
+  size_t size = raw->count * raw->row_size;
+  raw->count = 0;
+  return fwrite(raw->rows, 1, size, stdout) == size
+             ? CELSPAN_OK
+             : celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: %s",
+                                    strerror(errno));
+}
+
+static celspan_status put_raw_row(void *user, celspan_context *context, int32_t y,
+                                  const celspan_span *spans, size_t span_count) {
+  raw_rows *raw = user;
+  unsigned char *row = raw->rows + raw->count++ * raw->row_size;
+  celspan_spans_code_at(&raw->coding, raw->x, raw->y + y, spans, span_count, row);
+  return raw->count == raw->capacity ? write_raw(raw, context) : CELSPAN_OK;
+}
+
+static celspan_status end_raw(void *user, celspan_context *context, celspan_status outcome) {
+  raw_rows *raw = user;
+  if (outcome == CELSPAN_OK)
+    outcome = write_raw(raw, context);
+  cs_mem_free(context->memory, raw->rows, raw->capacity * raw->row_size);
+  raw->rows = NULL;
+  if (outcome == CELSPAN_OK && fflush(stdout) != 0)
+    return celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: %s", strerror(errno));
+  return outcome;
+}
+
+static celspan_sink raw_sink(raw_rows *raw, const celspan_coding *coding,
+                             const celspan_frame_desc *frame) {
+  bool dithers = coding->depth == CELSPAN_DEPTH_8_DITHER;
+  *raw = (raw_rows){
+      .coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8), .x = frame->crop_x, .y = frame->crop_y};
+  bool takes_codes = !dithers && cs_pixels_takes_codes(&raw->coding);
+  if (dithers)
+    raw->coding.depth = CELSPAN_DEPTH_8_DITHER;
+  return (celspan_sink){sizeof(celspan_sink), raw, begin_raw, put_raw_row, end_raw, takes_codes};
+}
+
+celspan_status cs_raw_frame_print(celspan_context *context, const celspan_frame_desc *frame,
+                                  const celspan_coding *coding) {
+  raw_rows raw;
+  celspan_sink sink = raw_sink(&raw, coding, frame);
+  return celspan_frame_render(context, frame, &sink, NULL);
+}
