@@ -411,7 +411,12 @@ int cs_context_workers(celspan_context *context, int64_t wanted, int most) {
 #define CS_TEXT_(x) #x
 #define CS_TEXT(x) CS_TEXT_(x)
 
-const char *celspan_version(void) {
-  return CS_TEXT(CELSPAN_VERSION_MAJOR) "." CS_TEXT(CELSPAN_VERSION_MINOR) "." CS_TEXT(
-      CELSPAN_VERSION_PATCH);
+#define CS_VERSION                                                                                 \
+  CS_TEXT(CELSPAN_VERSION_MAJOR)                                                                   \
+  "." CS_TEXT(CELSPAN_VERSION_MINOR) "." CS_TEXT(CELSPAN_VERSION_PATCH)
+
+const char *celspan_version(void) { return CS_VERSION; }
+
+const char *cs_context_maker(const celspan_context *context) {
+  return context->root->maker ? context->root->maker : "celspan " CS_VERSION;
 }

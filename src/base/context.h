@@ -85,12 +85,17 @@ struct celspan_context {
   cs_mark origin; /* of the values that are made now; its source is kept while the line is 0 */
   const struct cs_picture_module *picture_module; /* root only; NULL: it is loaded on first use */
   const struct cs_colour_module *colour_module;   /* likewise, for colour profiles */
+  const char *maker;     /* root only; borrowed; NULL: see cs_context_maker */
   atomic_int processors; /* root only; see cs_context_workers; 0: not counted yet */
   int forced_way;        /* root only; of tests: a cs_ways_forced (frames/render/ways.h) */
   /* gets the contents of each file when it is completed; NULL: not wanted */
   struct cs_file_contents *contents;
   char error[CS_ERROR_SIZE];
 };
+
+/* The program that makes files, as their headers name it: that of the host, or "celspan" with its
+ * version. */
+const char *cs_context_maker(const celspan_context *context);
 
 cs_memory *cs_memory_ref(cs_memory *memory);
 void cs_memory_unref(cs_memory *memory);

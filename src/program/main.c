@@ -14,6 +14,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
+#include "base/context.h"
 #include "frames/process/interrupt.h"
 #include "lua/bind/suggest.h"
 #include "plugins/isolate/isolate.h"
@@ -84,6 +85,7 @@ static cs_exit run(cs_request *request) {
     cs_report_error("not enough memory to start");
     return CS_EXIT_MEMORY;
   }
+  context->maker = "celspan " CELSPAN_RELEASE " (" CS_COMMIT ")";
   cs_confine_rendering(context, request);
   cs_spaces spaces;
   cs_exit outcome = cs_spaces_open(context, request, &spaces);

@@ -327,6 +327,7 @@ return celspan.rostrum { size = { 30, 15 }, celspan.cel { celspan.rect { 0, 0, 3
 roles:
   default: light
   scene_linear: light
+  lin_rec709: light
 displays:
   screen:
     - !<View> {name: plain, colorspace: light}

@@ -306,6 +306,35 @@ colorspaces:
       "--ocio plain.ocio --colour coded")
   end)
 
+  it_reads("is made of its configuration once for all files of a film", function()
+    local more = {}
+    for i = 1, 1500 do
+      more[i] = ("  - !<ColorSpace>\n    name: more%d\n    from_reference: !<ExponentTransform> "
+        .. "{value: 2.2, direction: inverse}\n"):format(i)
+    end
+    bench:write("large.ocio", CONFIGURATION .. table.concat(more))
+    rendered("ramp.lua", "--depth float --ocio config.ocio --colour logarithmic -o many.1.exr")
+    for i = 2, 12 do bench:write(("many.%d.exr"):format(i), bench:read "many.1.exr") end
+    bench:write("many.lua", [[
+local celspan = require "celspan"
+local count, cels = celspan.parameters { count = { 1, min = 1, max = 12 } }.count, {}
+for i = 1, count do
+  cels[i] = celspan.cel { celspan.rect { i * 8, 0, 8, 8, texture =
+    celspan.picture { file = ("many.%d.exr"):format(i // 1), colour = "logarithmic" } } }
+end
+return celspan.rostrum { size = { 128, 8 }, table.unpack(cels) }
+]])
+    --- Seconds of the processor.
+    local function cost(count)
+      local code, out, err = bench:inside(("'%s' render many.lua --trust --workers 1 --progress "
+        .. "none --ocio large.ocio -o many.png --set count=%d && times"):format(workbench.absolute,
+        count))
+      assert.equal(0, code, err)
+      return tonumber(out:match "([%d.]+)s [%dm.]+s\n$")
+    end
+    assert.is_true(cost(12) < 2 * cost(1))
+  end)
+
   it_reads("is not known where OCIO is empty", function()
     bench:write("log.lua", [[
 local celspan = require "celspan"

@@ -21,7 +21,8 @@ extern "C" {
 #define CS_PICTURE_MODULE_VERSION 6u
 #define CS_PICTURE_SIDE 1048576
 #define CS_PICTURE_CHANNELS 1024
-#define CS_PICTURE_SPACE 256 /* bytes of the name of a space in a file */
+#define CS_PICTURE_SPACE 256   /* bytes of the name of a space in a file */
+#define CS_PICTURE_SOFTWARE 64 /* bytes of the name of the program, with its version */
 #define CS_PICTURE_OTHER "other"
 /* Before the name of a space in the project of a DPX file, which has no place for it. */
 #define CS_PICTURE_PROJECT "celspan:colour "
@@ -91,6 +92,7 @@ typedef struct cs_picture_output {
   bool is_straight;
   const char *colour; /* "srgb", "linear", "rec709", "cineon", or another space's name */
   const char *title;  /* NULL: none */
+  char software[CS_PICTURE_SOFTWARE];
   bool has_primaries; /* of light in this colour, for formats that say them */
   float primaries[8];
   double frames_second; /* 0: none */

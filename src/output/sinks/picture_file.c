@@ -1,5 +1,7 @@
 #include "output/sinks/picture_file.h"
 
+#include <stdio.h>
+
 #include "model/pictures/store.h"
 
 /* If writing the file failed, its own error is more precise than the module's. */
@@ -26,6 +28,7 @@ celspan_status cs_picture_file_open(celspan_context *context, const cs_picture_o
   *out = (cs_picture_file){.context = context, .output = *output};
   out->output.put = put;
   out->output.user = out;
+  snprintf(out->output.software, sizeof out->output.software, "%s", cs_context_maker(context));
   CS_TRY(cs_store_module(context, CELSPAN_OUTPUT, &out->module));
   CS_TRY(cs_file_create(context, NULL, output->name, &out->file));
   celspan_status status = out->module->write_open(&out->output, &out->writer, &failure);

@@ -99,6 +99,7 @@ typedef struct cs_message_output {
   int32_t width, height, channels, depth, bits, is_straight, frame, has_title, has_names;
   int32_t has_primaries;
   float primaries[8];
+  char software[CS_PICTURE_SOFTWARE];
   double frames_second;
 } cs_message_output;
 

@@ -135,7 +135,7 @@ ImageSpec make_spec(const cs_picture_output &output) {
     spec.channelnames.assign(output.names, output.names + output.channels);
     spec.alpha_channel = 3;
   }
-  spec.attribute("Software", std::string("celspan ") + CELSPAN_MODULE_RELEASE);
+  spec.attribute("Software", output.software);
   if (output.title)
     spec.attribute("ImageDescription", output.title);
   describe_rate(spec, output.frames_second);

@@ -8,7 +8,7 @@ typedef struct writing {
   cs_exr exr;
   cs_exr_picture picture;
   cs_exr_channel channels[CS_PICTURE_CHANNELS];
-  cs_exr_text texts[2];
+  cs_exr_text texts[3];
   size_t row; /* bytes */
   cs_write_target *target;
   void *memory;
@@ -28,13 +28,14 @@ static void describe(writing *w, const cs_picture_output *output) {
                                       .stride = count * value};
   cs_exr_sort(w->channels, count);
   w->texts[0] = (cs_exr_text){"celspan:colour", output->colour};
-  w->texts[1] = (cs_exr_text){"comments", output->title};
+  w->texts[1] = (cs_exr_text){"Software", output->software};
+  w->texts[2] = (cs_exr_text){"comments", output->title};
   w->picture = (cs_exr_picture){.width = output->width,
                                 .height = output->height,
                                 .channels = w->channels,
                                 .channel_count = count,
                                 .texts = w->texts,
-                                .text_count = output->title ? 2 : 1,
+                                .text_count = output->title ? 3 : 2,
                                 .primaries = output->has_primaries ? output->primaries : NULL};
 }
 

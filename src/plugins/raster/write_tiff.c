@@ -49,7 +49,7 @@ static void describe(TIFF *tiff, const cs_picture_output *output) {
   TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
   TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE);
   TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 32);
-  TIFFSetField(tiff, TIFFTAG_SOFTWARE, "celspan");
+  TIFFSetField(tiff, TIFFTAG_SOFTWARE, output->software);
   if (output->channels % 2 == 0)
     TIFFSetField(tiff, TIFFTAG_EXTRASAMPLES, 1, &kind);
   if (output->title)
