@@ -93,9 +93,12 @@ static void push_meaning(lua_State *L, const cs_picture_header *header) {
     cs_put_text(L, "space", header->space);
   if (!header->has_primaries)
     return;
+  double unused[9];
+  bool is_light = cs_primaries_to_bt709(header->primaries, unused);
   const char *name = cs_primaries_name(header->primaries);
-  if (name)
-    cs_put_text(L, "primaries", name);
+  cs_put_text(L, "primaries", name ? name : is_light ? "other" : "none");
+  if (!is_light)
+    return;
   lua_createtable(L, CS_PRIMARIES, 0);
   for (int i = 0; i < CS_PRIMARIES; i++) {
     lua_pushnumber(L, (lua_Number)header->primaries[i]);

@@ -1,5 +1,6 @@
 /* The verbs: the operands and options of each, and its help. Texts are wrapped when they are
- * printed; lines that begin with a space are not wrapped. One file, because it is one list. */
+ * printed; lines that begin with a space are not wrapped. One file, because it is one list, from
+ * which the help, the manual page and completions are printed: most of its lines are texts. */
 #include "program/verbs.h"
 
 #include <string.h>

@@ -455,5 +455,8 @@ return celspan.rostrum { size = { 256, 48 }, celspan.cel { celspan.rect { 0, 0, 
     local code, _, err = render(show "broken.exr", "-o never.png")
     assert.equal(4, code)
     assert.is_truthy(err:find("broken.exr: its chromaticities are those of no light", 1, true), err)
+    local _, _, checked = bench:celspan_inside "check show.lua"
+    assert.is_truthy(checked:find("broken.exr: its chromaticities", 1, true), checked)
+    assert.is_truthy(facts "broken.exr":find("\nprimaries none\nbytes", 1, true))
   end)
 end)

@@ -257,9 +257,8 @@ static bool set_decoder(cs_picture_store *store, const char *colour, cs_picture_
   return decoder->table;
 }
 
-/* Without `colour` a file must say in numbers that can be used what its colours mean. */
-static celspan_status check_colours(celspan_context *context, const cs_picture *picture,
-                                    const cs_picture_header *header) {
+celspan_status cs_store_check_colours(celspan_context *context, const cs_picture *picture,
+                                      const cs_picture_header *header) {
   double unused[9];
   if (picture->colour || header->is_linear)
     return CELSPAN_OK;
@@ -287,7 +286,7 @@ static celspan_status open_file(celspan_context *context, const cs_picture *pict
   if (status != CELSPAN_OK)
     return cs_fail(context, status, "%s%s%s", failure.text,
                    was_tried ? "; also looked for at " : "", was_tried ? picture->tried : "");
-  status = check_colours(context, picture, &entry->header);
+  status = cs_store_check_colours(context, picture, &entry->header);
   if (status != CELSPAN_OK) {
     module->close(entry->reader);
     return status;

@@ -99,6 +99,11 @@ CELSPAN_CHECKED celspan_status cs_store_module(celspan_context *context, celspan
                                                const cs_picture_module **out);
 /* The request to the module. The texts belong to the picture. */
 cs_picture_request cs_store_request(const cs_picture *picture);
+/* Without a `colour` of the picture, its file must say in numbers that can be used what its colours
+ * mean. header: of its file. Errors: INPUT. */
+CELSPAN_CHECKED celspan_status cs_store_check_colours(celspan_context *context,
+                                                      const cs_picture *picture,
+                                                      const cs_picture_header *header);
 /* Removes a pin. */
 void cs_store_release(cs_picture_block *block);
 

@@ -243,7 +243,11 @@ static celspan_status read_picture(const cs_inspection *inspection, const cs_pic
     cs_surface_describe(from.surface, &from.header);
   else
     CS_TRY(open_file(inspection->context, picture, &from));
-  celspan_status status = inspection->is_deep ? read_all(inspection, &from) : CELSPAN_OK;
+  celspan_status status = CELSPAN_OK;
+  if (!from.surface)
+    status = cs_store_check_colours(inspection->context, picture, &from.header);
+  if (status == CELSPAN_OK && inspection->is_deep)
+    status = read_all(inspection, &from);
   if (from.reader)
     from.module->close(from.reader);
   return status;

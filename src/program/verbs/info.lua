@@ -117,9 +117,9 @@ local function put_meaning(picture)
   facts:add("colour", picture.colour)
   facts:add("colour_from", picture.named and "file" or "format")
   if picture.space then facts:add("space", picture.space) end
+  if picture.primaries then facts:add("primaries", picture.primaries) end
   local numbers = picture.chromaticities
   if not numbers then return end
-  facts:add("primaries", picture.primaries or "other")
   facts:set("chromaticities", numbers)
   facts:line(("chromaticities" .. (" %.7g"):rep(#numbers)):format(table.unpack(numbers)))
 end
