@@ -57,7 +57,8 @@ static void check_file(frame *made, const char *path, const celspan_coding *codi
     int text_count = 0;
     png_get_text(reader, info, &texts, &text_count);
     CHECK(text_count == (title ? 2 : 1));
-    CHECK_TEXT(texts[0].text, "celspan");
+    CHECK(strncmp(texts[0].text, "celspan ", 8) == 0);
+    CHECK_TEXT(texts[0].text + 8, celspan_version());
     if (title && text_count == 2)
       CHECK_TEXT(texts[1].text, title);
   }
