@@ -68,8 +68,7 @@ static celspan_status put_place(png_sink *sink, celspan_context *context) {
 
 static celspan_status put_start(png_sink *sink, celspan_context *context, int32_t width,
                                 int32_t height) {
-  char software[64];
-  int size = snprintf(software, sizeof software, "Software%c%s", 0, cs_context_maker(context));
+  static const char software[] = "Software\0celspan";
   unsigned char header[CS_PNG_HEADER] = {0};
   cs_png_store_32(header, (uint32_t)width);
   cs_png_store_32(header + 4, (uint32_t)height);
@@ -78,7 +77,7 @@ static celspan_status put_start(png_sink *sink, celspan_context *context, int32_
   CS_TRY(cs_file_write(sink->file, context, cs_png_signature, sizeof cs_png_signature));
   CS_TRY(put_chunk(sink, context, "IHDR", header, sizeof header));
   CS_TRY(put_colour_space(sink, context));
-  CS_TRY(put_chunk(sink, context, "tEXt", software, (size_t)size));
+  CS_TRY(put_chunk(sink, context, "tEXt", software, sizeof software - 1));
   if (sink->title_size > 0)
     CS_TRY(put_chunk(sink, context, "iTXt", sink->title, sink->title_size));
   return put_place(sink, context);
