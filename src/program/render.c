@@ -19,6 +19,7 @@
 #include "program/progress.h"
 #include "program/raw_frame.h"
 #include "program/record.h"
+#include "program/refusals.h"
 #include "program/summary.h"
 #include "program/target.h"
 #include "program/verbs.h"

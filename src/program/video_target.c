@@ -288,8 +288,6 @@ cs_exit cs_video_target_open(cs_video *out, cs_script *script, const cs_request 
   CS_TRY_EXIT(cs_video_target_refuse_frames(script, request, frame));
   cs_video_desc desc = describe(script, request, frame);
   CS_TRY_EXIT(cs_video_colours_set(request, &desc.options));
-  CS_TRY_EXIT(refuse_size(&desc));
-  CS_TRY_EXIT(refuse_rate(&desc));
   CS_TRY_EXIT(set_captions(&desc, script, played));
   return open_with_poster(out, script, request, &desc, frame, played);
 }

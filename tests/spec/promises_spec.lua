@@ -233,7 +233,7 @@ end)
 
 describe("time", function()
   it("is measured only by a clock that cannot be set", function()
-    -- The log of --log tells the time of day.
+    -- The log of --log shows the time of day.
     local objects = "find '%s/src' '%s/celspan.p' -name '*.o' ! -path '*oiio*' "
       .. "! -name '*program_log.c.o'"
     local names = wanted_by(objects:format(BUILD, BUILD))

@@ -178,6 +178,7 @@ end
 
 if request.hash then program.usage("--table renders several films: leave --hash out") end
 if request.report then program.usage("--report is of one film: leave it or --table out") end
+if request.files then program.usage "--table checks several films: leave --files out" end
 if request.json then program.usage("--table checks several films: leave --json out") end
 local rows = program.part("rows.lua", program, request, program.film())
 local first, last = share_of(rows.count)
