@@ -62,24 +62,6 @@ celspan_status cs_document_size(cs_document *document, const char *width, const 
   return CELSPAN_OK;
 }
 
-void cs_document_blend(const char *file, char out[32]) {
-  /* "plus" is OpenRaster's mode, which adds premultiplied colours; the other modes are Krita's. */
-  static const char *const words[][2] = {
-      {"src-over", "normal"},          {"plus", "add"},
-      {"add", "linear-dodge"},         {"dodge", "color-dodge"},
-      {"burn", "color-burn"},          {"diff", "difference"},
-      {"luminize", "luminosity"},      {"soft_light", "soft-light-photoshop"},
-      {"soft_light_svg", "soft-light"}};
-  const char *colon = strchr(file, ':');
-  const char *given = colon ? colon + 1 : file, *word = given;
-  for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-    if (strcmp(words[i][0], given) == 0)
-      word = words[i][1];
-  snprintf(out, 32, "%s", word);
-  for (char *at = out; *at; at++)
-    *at = *at == '_' ? '-' : *at > ' ' && *at < 127 ? *at : '?';
-}
-
 bool cs_document_is_inside(const char *name) {
   for (const char *at = name; at; at = strchr(at, '/') ? strchr(at, '/') + 1 : NULL)
     if (strncmp(at, "..", 2) == 0 && (at[2] == '/' || at[2] == 0))

@@ -77,8 +77,6 @@ CELSPAN_CHECKED celspan_status cs_document_scan(cs_document *document, int64_t c
 /* Records "path: member:line: sentence". */
 celspan_status cs_document_fail(const cs_document *document, celspan_status status,
                                 const char *format, ...) __attribute__((format(printf, 3, 4)));
-/* The word for a blend mode: the file's word without the name of the program. */
-void cs_document_blend(const char *file, char out[32]);
 /* Whether a name is allowed in an archive: relative, and without "..". */
 bool cs_document_is_inside(const char *name);
 

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "model/colour/blend_names.h"
 #include "readers/layered/krita_tiles.h"
 
 static bool is(const char *text, const char *word) { return text && strcmp(text, word) == 0; }
@@ -23,7 +24,7 @@ static celspan_status read_common(cs_document *document, cs_contents_layer *laye
   CS_TRY(cs_document_number(document, "opacity", 0, 255, &opacity));
   layer->opacity = opacity / 255;
   if (blend)
-    cs_document_blend(blend, layer->blend);
+    cs_blend_word_of_openraster(blend, layer->blend);
   if (is(cs_document_text(document, "passthrough"), "1") && layer->is_group)
     strcpy(layer->blend, "pass-through");
   CS_TRY(cs_document_whole(document, "x", &layer->x));

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "celspan/layers.h"
+#include "model/colour/blend_names.h"
 #include "readers/layered/bytes.h"
 #include "readers/layered/document.h"
 #include "readers/layered/png.h"
@@ -177,7 +178,7 @@ static celspan_status read_common(cs_document *document, cs_contents_layer *laye
   const char *blend = cs_document_text(document, "composite-op");
   layer->is_visible = !visibility || strcmp(visibility, "hidden") != 0;
   if (blend)
-    cs_document_blend(blend, layer->blend);
+    cs_blend_word_of_openraster(blend, layer->blend);
   CS_TRY(cs_document_number(document, "opacity", 0, 1, &layer->opacity));
   CS_TRY(cs_document_whole(document, "x", &layer->x));
   return cs_document_whole(document, "y", &layer->y);

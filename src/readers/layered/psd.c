@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "model/colour/blend_names.h"
 #include "readers/layered/profile.h"
 
 typedef struct document {
@@ -266,9 +267,9 @@ static celspan_status add_layer(document *d, cs_cursor *cursor, const cs_psd_rec
   layer->is_clipped = record->is_clipped;
   layer->opacity = record->opacity * (double)record->fill / (255.0 * 255.0);
   layer->is_group = record->role == CS_PSD_GROUP;
-  cs_psd_record_blend(layer->is_group && record->group_blend[0] ? record->group_blend
-                                                                : record->blend,
-                      layer->blend);
+  cs_blend_word_of_photoshop(layer->is_group && record->group_blend[0] ? record->group_blend
+                                                                       : record->blend,
+                             layer->blend);
   bool has_pixels = !layer->is_group && source.channels[CS_PSD_RED].is_there;
   if (has_pixels) {
     cs_rows_source *rows;

@@ -59,8 +59,6 @@ typedef struct cs_psd_record {
 /* Reads the record at the cursor and returns the cursor's status. is_large: a large document, with
  * some lengths of 8 bytes. */
 void cs_psd_record_read(cs_cursor *cursor, bool is_large, cs_psd_record *out);
-/* The word of celspan for a blend key; out does not change for "" and for keys without a word. */
-void cs_psd_record_blend(const char key[5], char out[32]);
 /* Reads the signature, key and length of a tagged block at the cursor; false if there is none. */
 bool cs_psd_record_tag(cs_cursor *cursor, bool is_large, char key[5], uint64_t *size);
 

@@ -210,29 +210,3 @@ void cs_psd_record_read(cs_cursor *cursor, bool is_large, cs_psd_record *out) {
   cs_cursor_skip(cursor, 1);
   read_extra(cursor, is_large, out);
 }
-
-/* ---------------------------------------------------------------- blend modes */
-
-void cs_psd_record_blend(const char key[5], char out[32]) {
-  static const char *const words[][2] = {
-      {"norm", "normal"},       {"pass", "pass-through"},  {"mul ", "multiply"},
-      {"lddg", "linear-dodge"}, {"scrn", "screen"},        {"over", "overlay"},
-      {"dark", "darken"},       {"lite", "lighten"},       {"diss", "dissolve"},
-      {"idiv", "color-burn"},   {"lbrn", "linear-burn"},   {"dkCl", "darker-color"},
-      {"div ", "color-dodge"},  {"lgCl", "lighter-color"}, {"sLit", "soft-light-photoshop"},
-      {"hLit", "hard-light"},   {"vLit", "vivid-light"},   {"lLit", "linear-light"},
-      {"pLit", "pin-light"},    {"hMix", "hard-mix"},      {"diff", "difference"},
-      {"smud", "exclusion"},    {"fsub", "subtract"},      {"fdiv", "divide"},
-      {"hue ", "hue"},          {"sat ", "saturation"},    {"colr", "color"},
-      {"lum ", "luminosity"}};
-  for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-    if (memcmp(words[i][0], key, 4) == 0) {
-      snprintf(out, 32, "%s", words[i][1]);
-      return;
-    }
-  size_t done = 0;
-  for (int i = 0; i < 4; i++)
-    if (key[i] > ' ' && key[i] < 127)
-      out[done++] = key[i];
-  out[done] = 0;
-}
