@@ -15,6 +15,7 @@ typedef struct png_sink {
   size_t allocated;
   const char *path;
   cs_file *file;         /* from begin to end */
+  bool is_part;          /* the file is another's */
   cs_png_strips *strips; /* likewise */
   celspan_coding coding;
   bool is_opaque;
@@ -95,7 +96,8 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
                             .workers = sink->workers};
   CS_TRY(cs_strip_check(context, sink->path, sink->strip, height));
   CS_TRY(cs_png_strips_create(context, &picture, put_image_data, sink, &sink->strips));
-  CS_TRY(cs_file_create(context, NULL, sink->path, &sink->file));
+  if (!sink->is_part)
+    CS_TRY(cs_file_create(context, NULL, sink->path, &sink->file));
   return put_start(sink, context, width, height);
 }
 
@@ -115,7 +117,8 @@ static celspan_status end(void *user, celspan_context *context, celspan_status o
   png_sink *sink = user;
   if (outcome == CELSPAN_OK)
     outcome = finish(sink, context);
-  outcome = cs_file_end(sink->file, context, outcome);
+  if (!sink->is_part)
+    outcome = cs_file_end(sink->file, context, outcome);
   cs_png_strips_destroy(sink->strips, context);
   cs_mem_free(context->memory, sink, sink->allocated);
   return outcome;
@@ -165,5 +168,14 @@ celspan_status cs_sink_png(celspan_context *context, const char *path,
   sink->path = memcpy(sink->title + title_size, path, path_size);
   *out = (celspan_sink){CS_SINK_CALLS, .user = sink,
                         .takes_codes = cs_pixels_takes_codes(&sink->coding)};
+  return CELSPAN_OK;
+}
+
+celspan_status cs_sink_png_part(celspan_context *context, const char *path, cs_file *into,
+                                const celspan_file_desc *file, celspan_sink *out) {
+  CS_TRY(cs_sink_png(context, path, file, out));
+  png_sink *sink = out->user;
+  sink->file = into;
+  sink->is_part = true;
   return CELSPAN_OK;
 }

@@ -7,6 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <zlib.h>
+
 #include "base/error_text.h"
 #include "base/open.h"
 #include "output/sinks/temporary.h"
@@ -21,6 +23,8 @@ struct cs_file {
   int error;
   uint64_t flushed; /* bytes from the start that the system has received */
   size_t buffered;
+  bool is_summed;
+  uint32_t sum; /* CRC-32 */
   char *path, *temporary;
   size_t folder_length; /* the length of the folder in both names, including the last slash */
   unsigned char buffer[BUFFER_BYTES];
@@ -196,6 +200,8 @@ static celspan_status flush(cs_file *file, celspan_context *context) {
 celspan_status cs_file_write(cs_file *file, celspan_context *context, const void *bytes,
                              size_t size) {
   CS_TRY(check_usable(file, context));
+  if (file->is_summed)
+    file->sum = (uint32_t)crc32_z(file->sum, bytes, size);
   if (size > BUFFER_BYTES - file->buffered)
     CS_TRY(flush(file, context));
   if (size >= BUFFER_BYTES) {
@@ -206,6 +212,16 @@ celspan_status cs_file_write(cs_file *file, celspan_context *context, const void
     file->buffered += size;
   }
   return CELSPAN_OK;
+}
+
+void cs_file_sum_begin(cs_file *file) {
+  file->is_summed = true;
+  file->sum = 0;
+}
+
+uint32_t cs_file_sum_end(cs_file *file) {
+  file->is_summed = false;
+  return file->sum;
 }
 
 celspan_status cs_file_write_at(cs_file *file, celspan_context *context, uint64_t offset,

@@ -56,6 +56,10 @@ CELSPAN_CHECKED celspan_status cs_file_write(cs_file *file, celspan_context *con
  * end. */
 CELSPAN_CHECKED celspan_status cs_file_write_at(cs_file *file, celspan_context *context,
                                                 uint64_t offset, const void *bytes, size_t size);
+/* The CRC-32 of the bytes that are appended from a call of the first function to one of the
+ * second. */
+void cs_file_sum_begin(cs_file *file);
+uint32_t cs_file_sum_end(cs_file *file);
 /* Bytes from the start to the end. */
 uint64_t cs_file_size(const cs_file *file);
 /* Passes all bytes so far to the system, so that the temporary file can be read. *name: its name,

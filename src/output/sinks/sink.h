@@ -10,6 +10,7 @@
 
 #include "base/context.h"
 #include "celspan/celspan.h"
+#include "output/sinks/file.h"
 
 /* The calls of a sink, if the functions of the file have these names. */
 #define CS_SINK_CALLS                                                                              \
@@ -18,6 +19,10 @@
 /* PNG, 8 or 16 bit, straight from spans. coding: resolved, integer. */
 CELSPAN_CHECKED celspan_status cs_sink_png(celspan_context *context, const char *path,
                                            const celspan_file_desc *file, celspan_sink *out);
+/* The same at the end of a file that is open, which another caller ends; path: for messages. */
+CELSPAN_CHECKED celspan_status cs_sink_png_part(celspan_context *context, const char *path,
+                                                cs_file *into, const celspan_file_desc *file,
+                                                celspan_sink *out);
 /* Targa, 8 bit, straight from spans. LIMIT beyond 65,535 pixels a side. */
 CELSPAN_CHECKED celspan_status cs_sink_tga(celspan_context *context, const char *path,
                                            const celspan_file_desc *file, celspan_sink *out);

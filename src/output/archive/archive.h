@@ -1,0 +1,39 @@
+/* A zip archive whose members are stored as they are, because pictures are packed already.
+ * Source: APPNOTE.TXT of PKWARE, 4.3.
+ *
+ *   member: head, name, bytes | member | ... | list of all members | end
+ *
+ * A member's bytes are appended to the file; its head, which has their sum and number, is written
+ * again when they are there.
+ *
+ * INVARIANT: a member that was begun is ended before the next one. Archives stay below 4 GiB.
+ */
+#pragma once
+
+#include "output/sinks/file.h"
+
+enum { CS_ARCHIVE_NAME = 40 };
+
+typedef struct cs_archive_member {
+  char name[CS_ARCHIVE_NAME];
+  uint32_t at, sum, size;
+} cs_archive_member;
+
+typedef struct cs_archive {
+  celspan_context *context;
+  cs_file *file; /* borrowed, and empty at the beginning */
+  cs_archive_member *members;
+  size_t count, capacity;
+} cs_archive;
+
+/* name: of at most CS_ARCHIVE_NAME - 1 bytes. Errors: OUTPUT, NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_archive_begin(cs_archive *archive, const char *name);
+/* path: for the message. Errors: OUTPUT; LIMIT for an archive that is too large. */
+CELSPAN_CHECKED celspan_status cs_archive_end(cs_archive *archive, const char *path);
+/* A whole member. */
+CELSPAN_CHECKED celspan_status cs_archive_put(cs_archive *archive, const char *path,
+                                              const char *name, const void *bytes, size_t size);
+/* Writes the list, after the last member. */
+CELSPAN_CHECKED celspan_status cs_archive_complete(cs_archive *archive);
+/* Frees the list, which does not end the file. */
+void cs_archive_finish(cs_archive *archive);
