@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "frames/apart/apart.h"
 #include "frames/tiles/pyramid.h"
 
 bool cs_argument_read(const cs_argument *kind, const char *text, void *field) {
@@ -245,6 +246,7 @@ static bool choose(const cs_argument *kind, const char *text, void *field) {
 CHOICE(depth, "8, 16, half or float", {"8", CELSPAN_DEPTH_8}, {"16", CELSPAN_DEPTH_16},
        {"half", CELSPAN_DEPTH_HALF}, {"float", CELSPAN_DEPTH_FLOAT});
 CHOICE(layers, "cels", {"cels", CS_LAYERS_CELS});
+CHOICE(mattes, "cels or names", {"cels", CS_APART_MATTES_CELS}, {"names", CS_APART_MATTES_NAMES});
 CHOICE(alpha, "straight or premultiplied", {"straight", CELSPAN_ALPHA_STRAIGHT},
        {"premultiplied", CELSPAN_ALPHA_PREMULTIPLIED});
 CHOICE(layout, "dzi or iiif", {"dzi", CS_PYRAMID_DZI}, {"iiif", CS_PYRAMID_IIIF});

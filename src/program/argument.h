@@ -94,7 +94,8 @@ extern const cs_argument cs_argument_rate, cs_argument_millions, cs_argument_sca
 /* The enumeration of the name: celspan_depth, celspan_alpha, cs_pyramid_layout,
  * cs_progress_style, cs_fit, cs_layers; for the model of a track, a number. */
 extern const cs_argument cs_argument_depth, cs_argument_alpha, cs_argument_layout,
-    cs_argument_progress, cs_argument_fit, cs_argument_layers, cs_argument_model;
+    cs_argument_progress, cs_argument_fit, cs_argument_layers, cs_argument_mattes,
+    cs_argument_model;
 extern const cs_argument cs_argument_antialias; /* cs_given_antialias */
 extern const cs_argument cs_argument_tint;      /* float[3]: linear light, opaque */
 extern const cs_argument cs_argument_texts;     /* cs_given_texts: adds a folder */

@@ -16,6 +16,7 @@
 #include "frames/plane/plane.h"
 #include "frames/video/video.h"
 #include "program/change.h"
+#include "program/layers_target.h"
 #include "program/progress.h"
 #include "program/raw_frame.h"
 #include "program/record.h"
@@ -33,7 +34,8 @@ typedef struct render_job {
   const cs_request *request;
   const char *output; /* NULL: digests alone */
   bool has_digests, resumes, keeps_going;
-  bool has_layers, has_noted; /* noted: that the layers do not add up to the frame */
+  cs_apart_contents apart;
+  bool has_noted; /* that the layers do not add up to the frame */
   cs_frame_change change;
   celspan_frame_desc frame;
   cs_sequence frames;
@@ -70,6 +72,18 @@ static celspan_status put_video(void *user, const celspan_frame_desc *desc, cs_s
 static celspan_status put_plane(void *user, const celspan_frame_desc *desc, cs_shoot_frame *frame) {
   const render_job *job = user;
   return cs_plane_film_put(job->plane, desc, frame->is_named ? &frame->scene : NULL);
+}
+
+/* Whether files have more than the frame. */
+static bool is_apart(const render_job *job) {
+  return job->apart.has_layers || job->apart.mattes != CS_APART_MATTES_NONE;
+}
+
+static celspan_status put_layers(void *user, celspan_context *context,
+                                 const celspan_frame_desc *desc, const char *path,
+                                 const celspan_file_desc *file) {
+  const render_job *job = user;
+  return cs_layers_target_write(context, job->apart, desc, path, file);
 }
 
 /* Whether all frames go into one file. */
@@ -119,8 +133,9 @@ static const char *destination_of(const render_job *job, const cs_shoot_frame *f
 /* Says once in a run that layers over each other are not the frame. */
 static void tell_layers(render_job *job, int64_t number, const cs_film_frame *built) {
   char why[CS_APART_WHY];
-  if (!job->has_layers || job->has_noted ||
-      cs_apart_sums(built->exposures, built->count, job->script->film.space, why))
+  if (!job->apart.has_layers || job->has_noted ||
+      cs_apart_sums(built->exposures, built->count, job->apart.format, job->script->film.space,
+                    why))
     return;
   cs_report_note("frame %" PRId64 ": its layers over each other are not the frame: %s", number,
                  why);
@@ -242,7 +257,8 @@ static celspan_status run_shoot(render_job *job) {
                                  : job->is_plane ? put_plane
                                  : is_stream     ? put_raw
                                                  : NULL,
-                          .write = job->has_layers ? cs_apart_write_exr : NULL,
+                          .write = is_apart(job) ? put_layers : NULL,
+                          .hash = is_apart(job) ? cs_apart_hash : NULL,
                           .keep = job->resumes ? keep : NULL,
                           .build = build,
                           .finished = finished,
@@ -415,7 +431,7 @@ static cs_exit run(cs_script *script, const cs_request *request) {
                     .has_digests = cs_request_has(request, "--hash"),
                     .resumes = cs_request_has(request, "--resume"),
                     .keeps_going = cs_request_has(request, "--keep-going"),
-                    .has_layers = cs_request_has(request, "--layers"),
+                    .apart = cs_layers_target_read(request),
                     .change = cs_change_read(request)};
   const cs_film_frame unknown = {0};
   cs_exit outcome = cs_view_frame(request, script->film.width, script->film.height, &job.frame);

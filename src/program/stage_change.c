@@ -104,7 +104,7 @@ static celspan_status alter_part(alteration *a, const celspan_cel *cel, celspan_
   if (status == CELSPAN_OK)
     status = celspan_object_fade(a->context, placed, whole->fade, &faded);
   if (status == CELSPAN_OK)
-    status = cs_cel_with(a->context, cel, faded, out);
+    status = cs_cel_with(a->context, cel, &faded, 1, out);
   celspan_object_unref(faded);
   celspan_object_unref(placed);
   celspan_object_unref(plain);
@@ -120,7 +120,7 @@ static celspan_status alter_cel(void *user, const celspan_rostrum *from, size_t 
   if (a->is_cut && !cs_mark_name(from->mark)[0] && cs_stage_part(from->cels[i]))
     return alter_part(a, from->cels[i], out);
   const char *letters = push_letters(a, from, i);
-  const cs_cel_without without = {strchr(letters, 'l'), strchr(letters, 'f')};
+  const cs_cel_without without = {.lights = strchr(letters, 'l'), .defocus = strchr(letters, 'f')};
   bool is_hidden = strchr(letters, 'h');
   lua_pop(a->L, 1);
   return is_hidden ? CELSPAN_OK : cs_cel_bare(a->context, from->cels[i], without, out);

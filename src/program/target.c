@@ -6,6 +6,7 @@
 #include "frames/plane/plane.h"
 #include "output/sinks/file.h"
 #include "output/sinks/sink.h"
+#include "program/layers_target.h"
 #include "program/spaces.h"
 #include "program/video_target.h"
 
@@ -77,6 +78,9 @@ static cs_exit refuse_plane(const char *path, const cs_request *request) {
 
 cs_exit cs_target_refuse(celspan_context *context, const char *path, const cs_request *request) {
   const char *format = cs_request_text(request, "--format");
+  CS_TRY_EXIT(cs_layers_target_refuse(request));
+  if (cs_layers_target_is_painting(request))
+    return CS_EXIT_OK;
   if (cs_plane_is_wanted(path, format))
     return refuse_plane(path, request);
   const cs_video_format *video = cs_video_format_named(format ? format : cs_file_ending(path));

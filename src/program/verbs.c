@@ -85,7 +85,13 @@
 #define LAYERS                                                                                     \
   {                                                                                                \
     "--layers", "WHAT", &cs_argument_layers,                                                       \
-        "cels: an OpenEXR file also has each cel alone, as channels NAME.R NAME.G NAME.B NAME.A"   \
+        "cels: an OpenEXR or OpenRaster file also has each cel alone; of PNG, a file a cel"        \
+  }
+#define CRYPTOMATTE                                                                                \
+  {                                                                                                \
+    "--cryptomatte", "BY", &cs_argument_mattes,                                                    \
+        "an OpenEXR file also has mattes as Cryptomatte: cels, by their names, or names, of "      \
+        "objects"                                                                                  \
   }
 #define ONION                                                                                      \
   {                                                                                                \
@@ -210,6 +216,7 @@ static const cs_option RENDER[] = {
     BACKGROUND,
     CEL,
     LAYERS,
+    CRYPTOMATTE,
     ONION,
     WORKERS,
     PROGRESS,
@@ -460,6 +467,7 @@ static const cs_option FARM[] = {
     BACKGROUND,
     CEL,
     LAYERS,
+    CRYPTOMATTE,
     ONION,
     FORCE,
     KEEP_GOING,

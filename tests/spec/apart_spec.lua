@@ -210,11 +210,88 @@ describe("--layers cels", function()
     assert.truthy(err:find "2 kept")
   end)
 
+  it_reads("keeps no layers of cels that have other names now", function()
+    local function ways(name)
+      bench:write("film.lua", (SUMS:gsub('"wall"', ("%q"):format(name))))
+      local code, err = run "render film.lua --layers cels --resume --progress lines -o 'x.#.exr'"
+      assert.equal(0, code, err)
+      return err:match "(%d) kept"
+    end
+    assert.is_nil(ways "wall")
+    assert.equal("2", ways "wall")
+    assert.is_nil(ways "brick")
+    assert.equal("brick", names("x.1.exr")[2])
+  end)
+
+  it_reads("has the rate and the number that files without layers have", function()
+    local function timing(file)
+      local text = oiiotool("--info -v " .. file)
+      return text:match "[Ff]ramesPerSecond: ([^\n]*)", text:match "celspan:frame: ([^\n]*)"
+    end
+    local rates = { ["24"] = "24/1", ["30000 / 1001"] = "30000/1001", ["12.5"] = "12500/1000" }
+    for rate, words in pairs(rates) do
+      local script = SUMS:gsub("frames = 2,", "frames = 2, fps = " .. rate .. ",")
+      render(script, "--frames 2 --layers cels -o x.exr")
+      render(script, "--frames 2 -o y.exr")
+      local fps, number = timing "x.exr"
+      assert.same({ timing "y.exr" }, { fps, number })
+      assert.equal(words, fps:match "^%S+")
+      assert.equal("2", number)
+    end
+  end)
+
+  it_reads("says where a picture is that cannot be read, as without layers", function()
+    render(HEAD .. "return still(40, 40, { celspan.cel { box(1, 1, 30, 30, '#f80') } })",
+      "-o whole.png")
+    bench:write("half.png", bench:read("whole.png"):sub(1, -30))
+    bench:write("film.lua", HEAD .. [[return still(40, 40, { celspan.cel {}, celspan.cel {
+      celspan.image { file = "half.png" } }:named "photo" })]])
+    local code, err = run "render film.lua --progress none -o y.exr"
+    local code_apart, err_apart = run "render film.lua --progress none --layers cels -o x.exr"
+    assert.truthy(err:find("cel 2 'photo'", 1, true), err)
+    assert.equal(err, err_apart)
+    assert.equal(code, code_apart)
+  end)
+
+  it_reads("adds up where other exposures have no weight, or all", function()
+    local function exposures(list)
+      return HEAD .. ([[
+        local a = celspan.rostrum { celspan.cel { box(0, 0, 4, 8, "#fff8") }:named "a" }
+        local b = celspan.rostrum { celspan.cel { box(4, 0, 4, 8, "#fff8") }:named "b" }
+        return celspan.film { size = { 8, 8 }, frame = function()
+          return { %s } end }]]):format(list)
+    end
+    assert.equal("", render(exposures "{ a, 1 }, { b, 0 }", "--layers cels -o x.exr " .. EXACT))
+    assert.same({ "a" }, names "x.exr")
+    assert.equal("", render(exposures "{ a, 0 }, { b, 0 }", "--layers cels -o x.exr " .. EXACT))
+    assert.truthy(render(exposures "{ a, 0.5 }, { b, 0 }", "--layers cels -o x.exr")
+      :find "several exposures")
+  end)
+
+  it_reads("does not depend on the number of workers", function()
+    for workers = 1, 3 do
+      render(SUMS, ("--frames 1 --layers cels --workers %d -o w%d.exr"):format(workers, workers))
+    end
+    assert.equal(bench:read "w1.exr", bench:read "w2.exr")
+    assert.equal(bench:read "w1.exr", bench:read "w3.exr")
+  end)
+
+  it("refuses a row of 2^31 bytes, whose size would have a sign", function()
+    bench:write("film.lua", HEAD .. [[local cels = {}
+      for i = 1, 127 do cels[i] = celspan.cel {}:named "n" end
+      return still(1048576, 1, cels)]])
+    local code, err = run "render film.lua --progress none --depth float --layers cels -o x.exr"
+    assert.not_equal(0, code)
+    assert.truthy(err:find("128 layers of 1048576 pixels are more than a row of OpenEXR can have",
+      1, true), err)
+    assert.is_nil(bench:read "x.exr")
+  end)
+
   it("is refused where no layers can be written", function()
     bench:write("film.lua", SUMS)
-    refused("--layers cels -o 'x.#.png'", "--layers: only OpenEXR files have layers")
-    refused("--layers cels -o x.mp4", "--layers: only OpenEXR files have layers")
-    refused("--layers cels --hash", "--layers: only OpenEXR files have layers")
+    refused("--layers cels -o 'x.#.tif'", "--layers: only OpenEXR, PNG and OpenRaster files have")
+    refused("--layers cels -o x.mp4", "--layers: only OpenEXR, PNG and OpenRaster files have")
+    refused("--layers cels --hash", "--layers: only OpenEXR, PNG and OpenRaster files have")
     refused("--layers cels --hash -o 'x.#.exr'", "leave it or --layers out")
     refused("--layers cels --colour srgb -o 'x.#.exr'", "linear light: leave --colour out")
     refused("--layers cels --depth 8 -o 'x.#.exr'", "openexr files hold depth half, float, not 8")

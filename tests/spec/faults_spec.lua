@@ -170,7 +170,8 @@ local formats = {
   { output = "f.##.ppm", has_module = true, options = "--trust" },
   -- by other processes, which fail too
   { output = "f.##.exr", has_module = true, is_apart = true },
-  { output = "f.#.exr", has_module = true, options = "--layers cels" },
+  { output = "f.#.exr", has_module = true, options = "--layers cels --cryptomatte names" },
+  { output = "f.#.ora", options = "--layers cels" },
   { output = "f.wav", sounds = SILENCE },
   { output = "f.mp4", is_video = true }, { output = "f.gif", is_video = true },
   { output = "f.png", joins = "png" }, { output = "f.tga", joins = "tga" },

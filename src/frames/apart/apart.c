@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "model/colour/blend.h"
 #include "model/scene/scene.h"
 
 /* ---------------------------------------------------------------- layers */
@@ -16,7 +17,7 @@ static celspan_status add_layer(cs_apart *apart, size_t place, const celspan_cel
   CS_TRY(CS_RESERVE(apart->context, apart->layers, apart->capacity, apart->count + 1));
   cs_apart_layer *layer = apart->layers + place;
   memmove(layer + 1, layer, (apart->count - place) * sizeof *layer);
-  *layer = (cs_apart_layer){.cel = cel, .key = key};
+  *layer = (cs_apart_layer){.cel = cel, .key = key, .opacity = 1};
   apart->count++;
   return CELSPAN_OK;
 }
@@ -99,24 +100,41 @@ static celspan_status take_exposure(cs_apart *apart, const celspan_exposure *exp
 
 /* ---------------------------------------------------------------- names */
 
+/* Readers would take such a layer for mattes: CryptoCel00, CryptoName02. */
+static bool is_reserved(const char *name) {
+  size_t letters = strncmp(name, "CryptoCel", 9) == 0 ? 9 : 10;
+  return (letters == 9 || strncmp(name, "CryptoName", 10) == 0) &&
+         strspn(name + letters, "0123456789") == 2 && name[letters + 2] == '\0';
+}
+
 static bool is_taken(const cs_apart *apart, const cs_apart_layer *layer) {
+  if (is_reserved(layer->name))
+    return true;
   for (const cs_apart_layer *other = apart->layers; other < apart->layers + apart->count; other++)
     if (other != layer && strcmp(other->name, layer->name) == 0)
       return true;
   return false;
 }
 
+/* number: 0 for the name alone. */
+static void try_name(cs_apart_layer *layer, const char *name, size_t most, size_t number) {
+  char ending[24] = "";
+  int size = number ? snprintf(ending, sizeof ending, "_%zu", number) : 0;
+  cs_safe_name(name, most - (size_t)size, layer->name);
+  strcat(layer->name, ending);
+}
+
+/* Where layers of the same cel name are behind this one, they have the numbers below. */
 static void name_layer(const cs_apart *apart, cs_apart_layer *layer, size_t most) {
   char plain[32];
   const char *name = layer->cel ? cs_mark_name(layer->cel->mark) : "backlight";
+  bool is_first = !name[0] || layer->key == 0;
   snprintf(plain, sizeof plain, "cel_%zu", layer->key + 1);
-  cs_safe_name(name[0] ? name : plain, most, layer->name);
-  for (int number = 2; is_taken(apart, layer); number++) {
-    char ending[16];
-    int size = snprintf(ending, sizeof ending, "_%d", number);
-    cs_safe_name(name[0] ? name : plain, most - (size_t)size, layer->name);
-    strcat(layer->name, ending);
-  }
+  name = name[0] ? name : plain;
+  size_t number = is_first ? 0 : layer->key + 1;
+  for (try_name(layer, name, most, number); is_taken(apart, layer);
+       try_name(layer, name, most, number))
+    number = number ? number + 1 : 2;
 }
 
 /* ---------------------------------------------------------------- all */
@@ -126,7 +144,7 @@ celspan_status cs_apart_make(celspan_context *context, const celspan_exposure *e
   cs_apart apart = {.context = context};
   celspan_status status = CELSPAN_OK;
   for (size_t i = 0; i < count && status == CELSPAN_OK; i++)
-    if (exposures[i].weight > 0)
+    if (cs_apart_shows(&exposures[i]))
       status = take_exposure(&apart, &exposures[i]);
   for (size_t i = 0; i < apart.count && status == CELSPAN_OK; i++)
     name_layer(&apart, &apart.layers[i], CS_APART_NAME - 1 - suffix);
@@ -138,6 +156,8 @@ celspan_status cs_apart_make(celspan_context *context, const celspan_exposure *e
 }
 
 void cs_apart_finish(cs_apart *apart) {
+  if (!apart->context)
+    return;
   cs_memory *memory = apart->context->memory;
   for (cs_apart_layer *layer = apart->layers; layer < apart->layers + apart->count; layer++) {
     for (size_t i = 0; i < layer->count; i++)
@@ -146,4 +166,92 @@ void cs_apart_finish(cs_apart *apart) {
   }
   cs_mem_free(memory, apart->layers, apart->capacity * sizeof *apart->layers);
   *apart = (cs_apart){0};
+}
+
+/* ---------------------------------------------------------------- mixings */
+
+/* *out: the cel without its mode, with `opacity` of its own. */
+static celspan_status change_mixing(celspan_context *context, const celspan_cel *cel,
+                                    double opacity, celspan_cel **out) {
+  celspan_cel *bare;
+  CS_TRY(cs_cel_bare(context, cel, (cs_cel_without){.mixing = true}, &bare));
+  celspan_status status = celspan_cel_fade(context, bare, opacity, out);
+  celspan_cel_unref(bare);
+  return status;
+}
+
+/* opacity: of the layer; more than that of the cel where it is a whole number of steps. */
+static double round_up(double opacity, int steps) {
+  double whole = (double)(int)(opacity * steps);
+  return steps == 0 ? opacity : (whole < opacity * steps ? whole + 1 : whole) / steps;
+}
+
+/* A layer of several exposures is mixed as a whole. */
+static celspan_status take_mixing(celspan_context *context, cs_apart_layer *layer, int steps) {
+  celspan_cel *changed;
+  celspan_rostrum *rostrum, *from = layer->exposures[0].rostrum;
+  if (!layer->cel || layer->count != 1)
+    return CELSPAN_OK;
+  const celspan_cel *cel = from->cels[0];
+  layer->opacity = round_up(cel->opacity, steps);
+  layer->blend = CS_BLEND_MODE(cel->blend);
+  double rest = layer->opacity > 0 ? cel->opacity / layer->opacity : 1;
+  CS_TRY(change_mixing(context, cel, rest < 1 ? rest : 1, &changed));
+  celspan_status status = cs_rostrum_with(context, from, &changed, 1, &rostrum);
+  celspan_cel_unref(changed);
+  if (status != CELSPAN_OK)
+    return status;
+  celspan_rostrum_unref(from);
+  layer->exposures[0].rostrum = rostrum;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_apart_take_mixings(cs_apart *apart, int steps) {
+  for (size_t i = 0; i < apart->count; i++)
+    CS_TRY(take_mixing(apart->context, &apart->layers[i], steps));
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- the hash */
+
+static void hash_object_names(cs_hash *hash, const celspan_object *object) {
+  const cs_primitive_data *data = object->data;
+  cs_hash_text(hash, cs_mark_name(object->mark));
+  size_t count = data->kind == CS_PRIMITIVE_DATA_BOOLEAN ? data->boolean->operand_count : 0;
+  for (size_t i = 0; i < count; i++)
+    hash_object_names(hash, data->boolean->operands[i]);
+}
+
+static void hash_names(cs_hash *hash, const celspan_rostrum *rostrum) {
+  for (size_t i = 0; i < rostrum->cel_count; i++) {
+    const celspan_cel *cel = rostrum->cels[i];
+    cs_hash_text(hash, cs_mark_name(cel->mark));
+    for (size_t k = 0; k < cel->object_count; k++)
+      hash_object_names(hash, cel->objects[k]);
+  }
+}
+
+cs_hash cs_apart_hash(const celspan_exposure *exposures, size_t count) {
+  cs_hash hash = cs_scene_hash(exposures, count);
+  for (size_t i = 0; i < count; i++)
+    hash_names(&hash, exposures[i].rostrum);
+  return cs_hash_end(hash);
+}
+
+/* ---------------------------------------------------------------- progress */
+
+static bool report(void *user, int32_t rows_done, int32_t rows_total) {
+  const cs_apart_progress *progress = user;
+  const celspan_frame_desc *desc = progress->desc;
+  double share = (double)rows_done / rows_total;
+  double rows = rows_total * ((double)progress->done - 1 + share) / (double)progress->count;
+  return desc->progress(desc->progress_user, (int32_t)rows, rows_total);
+}
+
+void cs_apart_report_to(cs_apart_progress *progress, celspan_frame_desc *picture) {
+  progress->done++;
+  if (!progress->desc->progress)
+    return;
+  picture->progress = report;
+  picture->progress_user = progress;
 }

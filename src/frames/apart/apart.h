@@ -15,6 +15,7 @@
 #pragma once
 
 #include "base/context.h"
+#include "base/hash.h"
 #include "celspan/celspan.h"
 
 /* Layers of a frame at most: as many as the picture modules read, with the composite. */
@@ -26,6 +27,8 @@ typedef struct cs_apart_layer {
   size_t count, capacity;
   size_t key;             /* how many layers of the same cel name are behind it in the exposure */
   const celspan_cel *cel; /* the first; NULL: the back light. Borrowed from the frame */
+  double opacity;         /* with which it is put over the layers behind it */
+  celspan_blend blend;    /* likewise */
 } cs_apart_layer;
 
 typedef struct cs_apart {
@@ -34,12 +37,48 @@ typedef struct cs_apart {
   size_t count, capacity;
 } cs_apart;
 
+typedef enum cs_apart_mattes {
+  CS_APART_MATTES_NONE,
+  CS_APART_MATTES_CELS,
+  CS_APART_MATTES_NAMES
+} cs_apart_mattes;
+
+typedef enum cs_apart_format { CS_APART_EXR, CS_APART_PNG, CS_APART_ORA } cs_apart_format;
+
+/* What a file has beside the frame. */
+typedef struct cs_apart_contents {
+  cs_apart_format format;
+  bool has_layers;
+  size_t place;           /* PNG: where the names of layers come into the file's name */
+  cs_apart_mattes mattes; /* Cryptomatte */
+} cs_apart_contents;
+
+/* The progress of a frame that is made of several pictures, one after the other. */
+typedef struct cs_apart_progress {
+  const celspan_frame_desc *desc; /* whose progress function is called */
+  size_t done, count;             /* pictures */
+} cs_apart_progress;
+
+/* Makes a picture report as the next of `count`. progress: borrowed until it is made. */
+void cs_apart_report_to(cs_apart_progress *progress, celspan_frame_desc *picture);
+
+/* Whether anything of an exposure is in the frame. */
+static inline bool cs_apart_shows(const celspan_exposure *exposure) { return exposure->weight > 0; }
+
+/* A hash of exposures as cs_scene_hash, and of all names of cels and objects, which are in files
+ * with layers. */
+cs_hash cs_apart_hash(const celspan_exposure *exposures, size_t count);
+
 /* suffix: the most bytes that will be added to a name, which then has at most 255. Errors:
  * NO_MEMORY; LIMIT for too many layers. */
 CELSPAN_CHECKED celspan_status cs_apart_make(celspan_context *context,
                                              const celspan_exposure *exposures, size_t count,
                                              size_t suffix, cs_apart *out);
 void cs_apart_finish(cs_apart *apart);
+/* Takes the opacities and modes of cels out of what the layers show, for files that have both.
+ * steps: opacities are whole numbers of this part of 1, and what is too much is taken from alpha;
+ * 0: any. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_apart_take_mixings(cs_apart *apart, int steps);
 
 /* ---- safe_name.c */
 
@@ -52,14 +91,31 @@ void cs_safe_name(const char *name, size_t most, char out[CS_APART_NAME]);
 /* Whether the layers over each other are the frame, where edges do not share a pixel. why: else a
  * clause that says what prevents it. film_space: of the frame's rows. */
 enum { CS_APART_WHY = 768 };
-bool cs_apart_sums(const celspan_exposure *exposures, size_t count, celspan_space film_space,
-                   char why[CS_APART_WHY]);
+bool cs_apart_sums(const celspan_exposure *exposures, size_t count, cs_apart_format format,
+                   celspan_space film_space, char why[CS_APART_WHY]);
+
+/* ---- apart_png.c */
+
+/* Writes each layer and the frame into PNG files. Errors: OUTPUT, LIMIT, those of rendering. */
+CELSPAN_CHECKED celspan_status cs_apart_write_png(celspan_context *context,
+                                                  cs_apart_contents contents,
+                                                  const celspan_frame_desc *desc, const char *path,
+                                                  const celspan_file_desc *file);
+
+/* ---- apart_ora.c */
+
+/* Writes an OpenRaster file with the layers. file: its coding has straight alpha and depth DEFAULT,
+ * 8 or 16. Errors: OUTPUT, LIMIT, those of rendering. */
+CELSPAN_CHECKED celspan_status cs_apart_write_ora(celspan_context *context,
+                                                  const celspan_frame_desc *desc, const char *path,
+                                                  const celspan_file_desc *file);
 
 /* ---- apart_exr.c */
 
-/* Writes the frame, and its layers as channels NAME.R NAME.G NAME.B NAME.A, into an OpenEXR file in
- * linear light, row by row. file: its coding has depth DEFAULT, HALF or FLOAT. Errors: OUTPUT,
- * LIMIT, those of rendering. */
+/* Writes the frame, its layers as channels NAME.R NAME.G NAME.B NAME.A, and its mattes into an
+ * OpenEXR file in linear light, row by row. file: its coding has depth DEFAULT, HALF or FLOAT.
+ * Errors: OUTPUT, LIMIT, those of rendering. */
 CELSPAN_CHECKED celspan_status cs_apart_write_exr(celspan_context *context,
+                                                  cs_apart_contents contents,
                                                   const celspan_frame_desc *desc, const char *path,
                                                   const celspan_file_desc *file);

@@ -29,17 +29,22 @@ static bool has_matte(const cs_light *back) {
   return back->texture ? back->matte > 0 : back->flat.a > 0;
 }
 
+/* Whether a file has the mode. */
+static bool has_mode(cs_apart_format format) { return format == CS_APART_ORA; }
+
 /* NULL: the layer of the cel over the layers behind it shows the same as the frame. */
-static const char *reason_of(const celspan_cel *cel, celspan_space space) {
-  return cs_cel_blends(cel, space) ? "has a blend mode"
-         : has_gel(cel)            ? "has a gel, which colours the light from behind"
-         : has_matte(&cel->back)   ? "has a back light with a matte"
-                                   : NULL;
+static const char *reason_of(const celspan_cel *cel, cs_apart_format format, celspan_space space) {
+  bool is_kept = has_mode(format) && cel->blend != CELSPAN_BLEND_NORMAL;
+  return cs_cel_blends(cel, space) && !is_kept ? "has a blend mode"
+         : has_gel(cel)                        ? "has a gel, which colours the light from behind"
+         : has_matte(&cel->back)               ? "has a back light with a matte"
+                                               : NULL;
 }
 
-static bool cels_sum(const celspan_rostrum *rostrum, celspan_space space, char *why) {
+static bool cels_sum(const celspan_rostrum *rostrum, cs_apart_format format, celspan_space space,
+                     char *why) {
   for (size_t i = 0; i < rostrum->cel_count; i++) {
-    const char *reason = reason_of(rostrum->cels[i], space);
+    const char *reason = reason_of(rostrum->cels[i], format, space);
     if (!reason)
       continue;
     cs_mark_text mark = cs_mark_describe(rostrum->cels[i]->mark);
@@ -49,21 +54,57 @@ static bool cels_sum(const celspan_rostrum *rostrum, celspan_space space, char *
   return true;
 }
 
-bool cs_apart_sums(const celspan_exposure *exposures, size_t count, celspan_space film_space,
-                   char why[CS_APART_WHY]) {
-  if (count != 1 || exposures->weight != 1) {
+/* The only exposure that is in the frame, if it is whole; else NULL. */
+static const celspan_exposure *find_whole(const celspan_exposure *exposures, size_t count) {
+  const celspan_exposure *found = NULL;
+  for (size_t i = 0; i < count; i++) {
+    if (!cs_apart_shows(&exposures[i]))
+      continue;
+    if (found || exposures[i].weight != 1)
+      return NULL;
+    found = &exposures[i];
+  }
+  return found;
+}
+
+static bool shows_nothing(const celspan_exposure *exposures, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    if (cs_apart_shows(&exposures[i]))
+      return false;
+  return true;
+}
+
+/* Layers of light are mixed as light, and layers of codes as codes. NULL: as the film mixes. */
+static const char *mixing_of(cs_apart_format format, celspan_space space,
+                             celspan_space film_space) {
+  bool is_light = space != CELSPAN_SPACE_SRGB && film_space != CELSPAN_SPACE_SRGB;
+  bool is_code = space == CELSPAN_SPACE_SRGB && film_space == CELSPAN_SPACE_SRGB;
+  if (format == CS_APART_EXR)
+    return is_light ? NULL : "it mixes codes (space \"srgb\"), and layers are linear light";
+  return is_code ? NULL
+                 : "it mixes light, and programs mix the codes of such layers, as a film does with "
+                   "space = \"srgb\"";
+}
+
+bool cs_apart_sums(const celspan_exposure *exposures, size_t count, cs_apart_format format,
+                   celspan_space film_space, char why[CS_APART_WHY]) {
+  const celspan_exposure *whole = find_whole(exposures, count);
+  if (!whole && shows_nothing(exposures, count))
+    return true;
+  if (!whole) {
     snprintf(why, CS_APART_WHY, "it has several exposures, or one that is not whole");
     return false;
   }
-  const celspan_rostrum *rostrum = exposures->rostrum;
+  const celspan_rostrum *rostrum = whole->rostrum;
   celspan_space space = cs_space_inside(rostrum->space, film_space);
-  if (space == CELSPAN_SPACE_SRGB || film_space == CELSPAN_SPACE_SRGB) {
-    snprintf(why, CS_APART_WHY, "it mixes codes (space \"srgb\"), and layers are linear light");
+  const char *mixing = mixing_of(format, space, film_space);
+  if (mixing) {
+    snprintf(why, CS_APART_WHY, "%s", mixing);
     return false;
   }
   if (rostrum->grade) {
     snprintf(why, CS_APART_WHY, "its rostrum has a grade, which each layer has for itself");
     return false;
   }
-  return cels_sum(rostrum, space, why);
+  return cels_sum(rostrum, format, space, why);
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/open.h"
+#include "output/sinks/file.h"
 
 #define MOST_FRAMES 10000000 /* of one list; 80 MB of numbers */
 #define MOST_NUMBER 1000000000000
@@ -328,6 +329,12 @@ static number_field find_number_field(const char *pattern) {
     at += length ? length : 1;
   }
   return found;
+}
+
+size_t cs_sequence_place(const char *pattern) {
+  number_field at = find_number_field(pattern);
+  size_t ending = strlen(cs_file_ending(pattern));
+  return at.is_found ? at.start : strlen(pattern) - ending;
 }
 
 bool cs_sequence_has_number(const char *pattern) { return find_number_field(pattern).is_found; }

@@ -50,6 +50,9 @@ bool cs_sequence_at_time(const cs_film_info *film, const char *time, int64_t *ou
 
 /* Whether the pattern has a place for a number. */
 bool cs_sequence_has_number(const char *pattern);
+/* Where a part of the name can be added, in the pattern and in each name: before the number, or
+ * before the ending where there is none. */
+size_t cs_sequence_place(const char *pattern);
 /* Whether a name could belong to a frame of the pattern; both are without their folder. */
 bool cs_sequence_matches(const char *pattern, const char *name);
 /* The numbers of the existing files of a pattern, ascending. out: new, perhaps empty. Errors: INPUT

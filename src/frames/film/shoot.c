@@ -77,7 +77,8 @@ static celspan_status name_frame(job *j, frame_task *task) {
   const cs_shoot *shoot = j->shoot;
   cs_shoot_frame *frame = &task->frame;
   frame->is_named = !cs_scene_has_procedure(task->built.exposures, task->built.count);
-  frame->scene = cs_scene_hash(task->built.exposures, task->built.count);
+  frame->scene = shoot->hash ? shoot->hash(task->built.exposures, task->built.count)
+                             : cs_scene_hash(task->built.exposures, task->built.count);
   if (shoot->keep)
     frame->inputs = cs_walk_hash_files(task->built.exposures, task->built.count);
   if (!shoot->pattern || shoot->put)
@@ -170,7 +171,7 @@ static celspan_status make_frame(const job *j, celspan_context *context,
         cs_plane_depth(shoot->file.coding ? shoot->file.coding->depth : CELSPAN_DEPTH_DEFAULT));
   celspan_file_desc file = describe_file(j, frame->number, desc);
   if (shoot->write)
-    return shoot->write(context, desc, frame->path, &file);
+    return shoot->write(shoot->user, context, desc, frame->path, &file);
   return shoot->has_digests ? make_both(context, desc, frame->path, &file, frame->digest)
                             : celspan_frame_write(context, desc, frame->path, &file, NULL);
 }
@@ -258,7 +259,7 @@ static bool tick(void *user, double share) {
 
 /* Files that contain the number of their frame are never equal. */
 static bool has_duplicates(const cs_shoot *shoot) {
-  if (shoot->put || shoot->keeps_nothing || shoot->frames->count < 2)
+  if (shoot->put || shoot->write || shoot->keeps_nothing || shoot->frames->count < 2)
     return false;
   return !shoot->pattern || !cs_sink_file_is_numbered(shoot->pattern, &shoot->file);
 }

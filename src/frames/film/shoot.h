@@ -58,9 +58,12 @@ typedef struct cs_shoot {
    * the frame was not made, and frame->digest where there are digests. Calling thread, in order.
    * NULL: files. */
   celspan_status (*put)(void *user, const celspan_frame_desc *desc, cs_shoot_frame *frame);
-  /* Writes the file of a frame instead of celspan_frame_write. Any thread. NULL: that one. */
-  celspan_status (*write)(celspan_context *context, const celspan_frame_desc *desc,
+  /* Writes the file of a frame instead of celspan_frame_write; such files are not copied. Any
+   * thread. NULL: that one. */
+  celspan_status (*write)(void *user, celspan_context *context, const celspan_frame_desc *desc,
                           const char *path, const celspan_file_desc *file);
+  /* What the frame's file depends on, instead of cs_scene_hash. NULL: that. */
+  cs_hash (*hash)(const celspan_exposure *exposures, size_t count);
   /* Whether the frame exists already. Its number, path and hashes are set; where there are digests,
    * this function sets the frame's. Calling thread. NULL: no frame exists. */
   bool (*keep)(void *user, cs_shoot_frame *frame);

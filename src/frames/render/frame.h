@@ -49,3 +49,15 @@ CELSPAN_CHECKED celspan_status cs_frame_compile(celspan_context *context, const 
 void cs_frame_free_plans(const cs_frame *frame, cs_plan *plans, cs_memory *memory);
 /* cs_context_workers, up to the most threads of a frame. */
 int cs_frame_workers(celspan_context *context, int wanted);
+
+/* ---- render.c */
+
+/* As celspan_frame_render, and the sink is ended or discarded in any case. */
+CELSPAN_CHECKED celspan_status cs_frame_render_own(celspan_context *context,
+                                                   const celspan_frame_desc *desc,
+                                                   celspan_sink *sink,
+                                                   celspan_statistics *statistics);
+
+/* How many threads the description of these rows asks for; 1 where they must be made by the thread
+ * that calls. */
+int cs_rows_workers(const celspan_rows *rows);

@@ -105,9 +105,8 @@ celspan_status celspan_frame_render(celspan_context *context, const celspan_fram
 
 /* ---------------------------------------------------------------- our own sinks */
 
-/* Renders into a sink of output/, and frees it if its `end` was not called. */
-static celspan_status render_own(celspan_context *context, const celspan_frame_desc *desc,
-                                 celspan_sink *sink, celspan_statistics *statistics) {
+celspan_status cs_frame_render_own(celspan_context *context, const celspan_frame_desc *desc,
+                                   celspan_sink *sink, celspan_statistics *statistics) {
   bool ended = false;
   celspan_status status = render(context, desc, sink, statistics, &ended);
   if (!ended)
@@ -153,7 +152,7 @@ celspan_status celspan_frame_pixels(celspan_context *context, const celspan_fram
   CS_TRY(read_coding(context, desc, &coding, &whole, &resolved));
   CS_TRY(cs_sink_memory(context, &resolved, pixels, stride, &sink));
   CS_TRY(cs_dither_sink(context, coding, &resolved, desc->crop_x, desc->crop_y, &sink));
-  return render_own(context, desc, &sink, statistics);
+  return cs_frame_render_own(context, desc, &sink, statistics);
 }
 
 static bool is_backed(const celspan_rostrum *rostrum) {
@@ -206,7 +205,7 @@ celspan_status celspan_frame_write(celspan_context *context, const celspan_frame
   known.place_x += desc->crop_x;
   known.place_y += desc->crop_y;
   CS_TRY(cs_sink_file(context, path, &known, &sink));
-  return render_own(context, desc, &sink, statistics);
+  return cs_frame_render_own(context, desc, &sink, statistics);
 }
 
 celspan_status celspan_frame_digest(celspan_context *context, const celspan_frame_desc *desc,
@@ -218,7 +217,7 @@ celspan_status celspan_frame_digest(celspan_context *context, const celspan_fram
   CS_TRY(cs_check_given(context, "frame", "the digest", digest));
   CS_TRY(cs_sink_digest(context, &resolved, digest, &sink));
   CS_TRY(cs_dither_sink(context, coding, &resolved, desc->crop_x, desc->crop_y, &sink));
-  return render_own(context, desc, &sink, NULL);
+  return cs_frame_render_own(context, desc, &sink, NULL);
 }
 
 /* ---------------------------------------------------------------- the short way */
@@ -280,6 +279,8 @@ celspan_status celspan_rows_create(celspan_context *context, const celspan_frame
   }
   return CS_GIVE(status, rows, celspan_rows_destroy, out);
 }
+
+int cs_rows_workers(const celspan_rows *rows) { return rows->frame.workers; }
 
 celspan_status celspan_rows_get(celspan_rows *rows, int32_t y, const celspan_span **spans,
                                 size_t *span_count) {

@@ -192,12 +192,16 @@ celspan_status cs_cel_bare(celspan_context *context, const celspan_cel *cel, cs_
     fields.defocus_kernel = CELSPAN_DEFOCUS_GAUSSIAN;
     fields.defocus_edge = CELSPAN_BLUR_CLEAR;
   }
+  if (without.mixing) {
+    fields.opacity = 1;
+    fields.blend = CELSPAN_BLEND_NORMAL;
+  }
   return create(context, &fields, cel->objects, cel->object_count, cs_mark_keep(cel->mark), out);
 }
 
-celspan_status cs_cel_with(celspan_context *context, const celspan_cel *cel, celspan_object *object,
-                           celspan_cel **out) {
-  return create(context, cel, &object, 1, cs_mark_keep(cel->mark), out);
+celspan_status cs_cel_with(celspan_context *context, const celspan_cel *cel,
+                           celspan_object *const *objects, size_t count, celspan_cel **out) {
+  return create(context, cel, objects, count, cs_mark_keep(cel->mark), out);
 }
 
 celspan_blend celspan_cel_mode(const celspan_cel *cel) { return cel->blend; }

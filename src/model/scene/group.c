@@ -135,6 +135,16 @@ celspan_status cs_boolean_like(celspan_context *context, const cs_boolean *like,
   return cs_primitive_data_wrap(context, data, CELSPAN_OK, out);
 }
 
+celspan_status cs_boolean_with(celspan_context *context, const celspan_object *object,
+                               celspan_object *const *operands, size_t count,
+                               celspan_object **out) {
+  celspan_object *plain;
+  CS_TRY(cs_boolean_like(context, object->data->boolean, operands, count, &plain));
+  celspan_status status = cs_primitive_data_replace(context, object, plain->data, out);
+  celspan_object_unref(plain);
+  return status;
+}
+
 /* Another mode for an object that has one. */
 static celspan_status change_mode(celspan_context *context, const celspan_object *object,
                                   celspan_blend mode, celspan_object **out) {

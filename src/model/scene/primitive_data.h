@@ -101,6 +101,13 @@ CELSPAN_CHECKED celspan_status cs_boolean_like(celspan_context *context, const c
                                                celspan_object *const *operands, size_t count,
                                                celspan_object **out);
 
+/* *out: a boolean like `object`, in its place and with its fade and mark, of these operands.
+ * Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_boolean_with(celspan_context *context,
+                                               const celspan_object *object,
+                                               celspan_object *const *operands, size_t count,
+                                               celspan_object **out);
+
 /* As celspan_object_blend, but the object shows only where its backdrop is present, in the nearest
  * isolating group, and does not change the alpha of that group (CS_BLEND_WITHIN). */
 CELSPAN_CHECKED celspan_status cs_object_blend_within(celspan_context *context,

@@ -312,12 +312,14 @@ cs_light cs_scene_back(const celspan_rostrum *rostrum, const cs_light *back);
  * Errors: NO_MEMORY. */
 typedef struct cs_cel_without {
   bool lights, defocus;
+  bool mixing; /* opacity and mode */
 } cs_cel_without;
 CELSPAN_CHECKED celspan_status cs_cel_bare(celspan_context *context, const celspan_cel *cel,
                                            cs_cel_without without, celspan_cel **out);
-/* *out: new; like `cel`, name and line included, with this object alone. Errors: NO_MEMORY. */
+/* *out: new; like `cel`, name and line included, with these objects alone. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_cel_with(celspan_context *context, const celspan_cel *cel,
-                                           celspan_object *object, celspan_cel **out);
+                                           celspan_object *const *objects, size_t count,
+                                           celspan_cel **out);
 /* *out: new; like `from`, name and line included, with these cels, which are kept.
  * cs_rostrum_change replaces the back light, too. Neither checks its arguments. For tools that show
  * a part of a frame, or show it before another ground. Errors: NO_MEMORY. */

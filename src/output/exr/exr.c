@@ -1,10 +1,9 @@
 #include "output/exr/exr.h"
 
-#include <string.h>
-
 #include <zlib.h>
 
 #include "base/sort.h"
+#include "output/exr/rate.h"
 
 #define WIDE ((size_t)1 << 20) /* the bytes of a row from which on a chunk has one */
 
@@ -16,9 +15,14 @@ static bool put(cs_exr *exr, const void *bytes, size_t size) {
   return is_good;
 }
 
+static void store_number(unsigned char out[4], uint32_t number) {
+  for (int i = 0; i < 4; i++)
+    out[i] = (unsigned char)(number >> 8 * i);
+}
+
 static bool put_number(cs_exr *exr, uint32_t number) {
-  const unsigned char bytes[4] = {(unsigned char)number, (unsigned char)(number >> 8),
-                                  (unsigned char)(number >> 16), (unsigned char)(number >> 24)};
+  unsigned char bytes[4];
+  store_number(bytes, number);
   return put(exr, bytes, sizeof bytes);
 }
 
@@ -37,12 +41,25 @@ static bool put_attribute(cs_exr *exr, const char *name, const char *type, size_
   return put_name(exr, name) && put_name(exr, type) && put_number(exr, (uint32_t)size);
 }
 
-static bool put_texts(cs_exr *exr) {
-  const cs_exr_picture *picture = exr->picture;
+void cs_exr_time(cs_exr_timing *timing, double frames_second, int32_t frame) {
+  int32_t fraction[2];
+  store_number(timing->frame, (uint32_t)frame);
+  timing->attributes[0] = (cs_exr_attribute){"celspan:frame", "int", timing->frame, 4};
+  timing->count = 1;
+  if (!cs_rate_fraction(frames_second, fraction))
+    return;
+  store_number(timing->rate, (uint32_t)fraction[0]);
+  store_number(timing->rate + 4, (uint32_t)fraction[1]);
+  timing->attributes[timing->count++] =
+      (cs_exr_attribute){"framesPerSecond", "rational", timing->rate, 8};
+}
+
+static bool put_attributes(cs_exr *exr) {
+  const cs_exr_attribute *first = exr->picture->attributes;
   bool is_good = true;
-  for (const cs_exr_text *t = picture->texts; t < picture->texts + picture->text_count; t++)
-    is_good = is_good && put_attribute(exr, t->name, "string", strlen(t->text)) &&
-              put(exr, t->text, strlen(t->text));
+  for (const cs_exr_attribute *a = first; a < first + exr->picture->attribute_count; a++)
+    is_good =
+        is_good && put_attribute(exr, a->name, a->type, a->size) && put(exr, a->bytes, a->size);
   return is_good;
 }
 
@@ -93,7 +110,7 @@ static uint32_t version_of(const cs_exr_picture *picture) {
 
 static bool put_header(cs_exr *exr) {
   return put_number(exr, CS_EXR_MAGIC) && put_number(exr, version_of(exr->picture)) &&
-         put_texts(exr) && put_primaries(exr) && put_channels(exr) &&
+         put_attributes(exr) && put_primaries(exr) && put_channels(exr) &&
          put_byte(exr, "compression", exr->lines == 1 ? CS_EXR_ROW : CS_EXR_ROWS) &&
          put_box(exr, "dataWindow") && put_box(exr, "displayWindow") &&
          put_byte(exr, "lineOrder", 0) && put_screen(exr) && put(exr, "", 1);

@@ -15,6 +15,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #define CS_EXR_MAGIC 20000630u
 
@@ -35,18 +36,31 @@ typedef struct cs_exr_channel {
   size_t offset, stride;
 } cs_exr_channel;
 
-/* An attribute of the type string. */
-typedef struct cs_exr_text {
-  const char *name, *text;
-} cs_exr_text;
+/* An attribute of any type; its bytes are in the order of the file. */
+typedef struct cs_exr_attribute {
+  const char *name, *type;
+  const void *bytes;
+  size_t size;
+} cs_exr_attribute;
+
+static inline cs_exr_attribute cs_exr_text(const char *name, const char *text) {
+  return (cs_exr_attribute){name, "string", text, strlen(text)};
+}
+
+/* The attributes of a frame in a film: its number, and the rate where it is known. */
+typedef struct cs_exr_timing {
+  cs_exr_attribute attributes[2]; /* they point into this structure, which must not be moved */
+  size_t count;
+  unsigned char frame[4], rate[8];
+} cs_exr_timing;
 
 /* Everything is borrowed until the end. */
 typedef struct cs_exr_picture {
   int32_t width, height;
   const cs_exr_channel *channels; /* in the order of their names (cs_exr_sort) */
   size_t channel_count;
-  const cs_exr_text *texts;
-  size_t text_count;
+  const cs_exr_attribute *attributes;
+  size_t attribute_count;
   const float *primaries; /* x and y of red, green, blue and white; NULL: none are written */
 } cs_exr_picture;
 
@@ -68,6 +82,8 @@ typedef struct cs_exr {
   unsigned char *places, *rows, *scratch, *packed;
 } cs_exr;
 
+/* frames_second: 0 where it is not known. */
+void cs_exr_time(cs_exr_timing *timing, double frames_second, int32_t frame);
 /* Puts channels into the order that the format asks for. */
 void cs_exr_sort(cs_exr_channel *channels, size_t count);
 /* The bytes of memory that a writer of this picture needs. */

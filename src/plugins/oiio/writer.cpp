@@ -9,9 +9,9 @@
 #include <cstring>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
+#include "output/exr/rate.h"
 #include "plugins/oiio/shared.h"
 
 using OIIO::ImageOutput;
@@ -113,19 +113,9 @@ ColourNames names_of(const cs_picture_output &output) {
 }
 
 void describe_rate(ImageSpec &spec, double rate) {
-  if (!(rate > 0 && rate < 1e5))
-    return;
-  /* 23.976, 29.97 and 59.94 are n * 1000 / 1001. */
-  double whole = double(int64_t(rate + 0.5)), drop = double(int64_t(rate * 1.001 + 0.5));
-  int fraction[2] = {int(rate * 1000 + 0.5), 1000};
-  if (rate == whole) {
-    fraction[0] = int(whole);
-    fraction[1] = 1;
-  } else if (std::abs(rate * 1.001 - drop) < 0.002) {
-    fraction[0] = int(drop) * 1000;
-    fraction[1] = 1001;
-  }
-  spec.attribute("FramesPerSecond", OIIO::TypeRational, fraction);
+  int32_t fraction[2];
+  if (cs_rate_fraction(rate, fraction))
+    spec.attribute("FramesPerSecond", OIIO::TypeRational, fraction);
 }
 
 ImageSpec make_spec(const cs_picture_output &output) {

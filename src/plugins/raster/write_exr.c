@@ -8,7 +8,8 @@ typedef struct writing {
   cs_exr exr;
   cs_exr_picture picture;
   cs_exr_channel channels[CS_PICTURE_CHANNELS];
-  cs_exr_text texts[3];
+  cs_exr_timing timing;
+  cs_exr_attribute attributes[5];
   size_t row; /* bytes */
   cs_write_target *target;
   void *memory;
@@ -27,15 +28,20 @@ static void describe(writing *w, const cs_picture_output *output) {
                                       .offset = i * value,
                                       .stride = count * value};
   cs_exr_sort(w->channels, count);
-  w->texts[0] = (cs_exr_text){"celspan:colour", output->colour};
-  w->texts[1] = (cs_exr_text){"Software", output->software};
-  w->texts[2] = (cs_exr_text){"comments", output->title};
+  cs_exr_attribute *end = w->attributes;
+  *end++ = cs_exr_text("celspan:colour", output->colour);
+  *end++ = cs_exr_text("Software", output->software);
+  cs_exr_time(&w->timing, output->frames_second, output->frame);
+  for (size_t i = 0; i < w->timing.count; i++)
+    *end++ = w->timing.attributes[i];
+  if (output->title)
+    *end++ = cs_exr_text("comments", output->title);
   w->picture = (cs_exr_picture){.width = output->width,
                                 .height = output->height,
                                 .channels = w->channels,
                                 .channel_count = count,
-                                .texts = w->texts,
-                                .text_count = output->title ? 3 : 2,
+                                .attributes = w->attributes,
+                                .attribute_count = (size_t)(end - w->attributes),
                                 .primaries = output->has_primaries ? output->primaries : NULL};
 }
 
