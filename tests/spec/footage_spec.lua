@@ -2,14 +2,10 @@
 -- refused in one sentence, and numbered files begin anywhere.
 
 local movies = require "tests.support.movies"
-local present = require "tests.support.present"
-local workbench = require "tests.support.workbench"
 
-local it_decodes = present.program("ffmpeg", "ffprobe") and it or pending
-
-local W, H = 64, 36
-local TEST = "-f lavfi -i testsrc2=s=64x36:r=%s:d=%s,noise=alls=40:allf=t "
-local X264 = "-c:v libx264 -pix_fmt %s -g 12 -bf 2 "
+local W, H = movies.W, movies.H
+local TEST, X264 = movies.test, movies.x264
+local it_decodes = movies.are_made and it or pending
 
 local run, make, render = movies.run, movies.make, movies.render
 
@@ -123,56 +119,49 @@ local function add(name, made, form) clips[#clips + 1] = { name, made, form or P
 
 for _, rate in ipairs { "12", "24000/1001", "24", "25", "30", "60" } do
   add(("r%s.mp4"):format(rate:match "^%d+" .. (rate:find "/" and "n" or "")),
-    TEST:format(rate, 1) .. X264:format "yuv420p")
+    TEST(rate, 1) .. X264 "yuv420p")
 end
-add("matroska.mkv", TEST:format(24, 1) .. X264:format "yuv420p")
-add("variable.mp4", TEST:format(30, 2)
-  .. "-vf \"select='not(mod(n,5))+not(mod(n,7))',setpts=PTS\" -vsync vfr " .. X264:format "yuv420p")
-add("ten.mp4", TEST:format(24, 1) .. X264:format "yuv420p10le",
+add("matroska.mkv", TEST(24, 1) .. X264 "yuv420p")
+add("variable.mp4", TEST(30, 2)
+  .. "-vf \"select='not(mod(n,5))+not(mod(n,7))',setpts=PTS\" -vsync vfr " .. X264 "yuv420p")
+add("ten.mp4", TEST(24, 1) .. X264 "yuv420p10le",
   like(P420, { pixels = "yuv420p10le", bits = 10 }))
-add("wide.mp4", TEST:format(24, 1) .. X264:format "yuv422p",
+add("wide.mp4", TEST(24, 1) .. X264 "yuv422p",
   like(P420, { pixels = "yuv422p", down = 1 }))
-add("full.mp4", TEST:format(24, 1) .. X264:format "yuv444p" .. "-color_range pc -colorspace bt709",
+add("full.mp4", TEST(24, 1) .. X264 "yuv444p" .. "-color_range pc -colorspace bt709",
   like(P420, { pixels = "yuvj444p", across = 1, down = 1, full = true, matrix = { .2126, .0722 } }))
-add("broad.mp4", TEST:format(24, 1) .. X264:format "yuv420p" .. "-colorspace bt2020nc",
+add("broad.mp4", TEST(24, 1) .. X264 "yuv420p" .. "-colorspace bt2020nc",
   like(P420, { matrix = { .2627, .0593 } }))
-add("alpha.webm", TEST:format(24, 1) .. "-vf format=yuva420p,colorchannelmixer=aa=0.5 "
+add("alpha.webm", TEST(24, 1) .. "-vf format=yuva420p,colorchannelmixer=aa=0.5 "
   .. "-c:v libvpx-vp9 -pix_fmt yuva420p -b:v 500k",
   like(P420, { pixels = "yuva420p", alpha = true, decoder = "-c:v libvpx-vp9 " }))
-add("alpha.mov", TEST:format(24, 1) .. "-vf format=yuva444p10le,colorchannelmixer=aa=0.5 "
+add("alpha.mov", TEST(24, 1) .. "-vf format=yuva444p10le,colorchannelmixer=aa=0.5 "
   .. "-c:v prores_ks -pix_fmt yuva444p10le",
   { pixels = "yuva444p12le", across = 1, down = 1, bits = 12, alpha = true })
 
 local PLAIN = like(P420, { pixels = "yuv444p", across = 1, down = 1, is_exact = true })
-add("plain.y4m", TEST:format(24, 1) .. "-pix_fmt yuv444p", PLAIN)
-add("plain.avi", TEST:format(24, 1) .. "-c:v ffv1 -pix_fmt yuv444p", PLAIN)
-add("plain.mxf", TEST:format(24, 1) .. "-c:v mpeg2video -pix_fmt yuv422p -q:v 2",
+add("plain.y4m", TEST(24, 1) .. "-pix_fmt yuv444p", PLAIN)
+add("plain.avi", TEST(24, 1) .. "-c:v ffv1 -pix_fmt yuv444p", PLAIN)
+add("plain.mxf", TEST(24, 1) .. "-c:v mpeg2video -pix_fmt yuv422p -q:v 2",
   like(PLAIN, { pixels = "yuv422p", across = 2 }))
-add("plain.ts", TEST:format(25, 1) .. X264:format "yuv420p")
-add("reorder.mkv", TEST:format(24, 1) .. "-c:v libx264 -pix_fmt yuv420p -g 48 -bf 8 -x264-params "
+add("plain.ts", TEST(25, 1) .. X264 "yuv420p")
+add("reorder.mkv", TEST(24, 1) .. "-c:v libx264 -pix_fmt yuv420p -g 48 -bf 8 -x264-params "
   .. "b-pyramid=normal:b-adapt=0")
-add("limited.mkv", TEST:format(24, 1) .. "-c:v ffv1 -pix_fmt gbrp -color_range tv",
+add("limited.mkv", TEST(24, 1) .. "-c:v ffv1 -pix_fmt gbrp -color_range tv",
   { pixels = "gbrp", rgb = true, limited = true, across = 1, down = 1, bits = 8 })
-add("rgb.mkv", TEST:format(24, 1) .. "-c:v ffv1 -pix_fmt gbrp10le",
+add("rgb.mkv", TEST(24, 1) .. "-c:v ffv1 -pix_fmt gbrp10le",
   { pixels = "gbrp10le", rgb = true, across = 1, down = 1, bits = 10 })
-add("pq.mkv", TEST:format(24, 1) .. X264:format "yuv420p10le" .. "-colorspace bt2020nc "
+add("pq.mkv", TEST(24, 1) .. X264 "yuv420p10le" .. "-colorspace bt2020nc "
   .. "-color_trc smpte2084 -color_primaries bt2020",
   like(P420, { pixels = "yuv420p10le", bits = 10, matrix = { .2627, .0593 }, colour = "srgb" }))
 
 describe("footage", function()
   local bench
 
-  before_each(function()
-    bench = workbench.new()
-    bench:write("film.lua", movies.FILM)
-  end)
+  before_each(function() bench = movies.bench() end)
   after_each(function() bench:remove() end)
 
-  local function fails(name, pattern)
-    local code, _, err = bench:celspan_inside("render film.lua -o f.%%04d.png -- %s frame", name)
-    assert.are_not.equal(0, code)
-    assert.matches(pattern, err)
-  end
+  local function fails(name, pattern) movies.fails(bench, 4, "-- " .. name .. " frame", pattern) end
 
   for _, clip in ipairs(clips) do
     it_decodes("shows the pictures of " .. clip[1] .. " at their times", function()
@@ -182,7 +171,7 @@ describe("footage", function()
   end
 
   it_decodes("follows an edit list, and turns a picture upright", function()
-    make(bench, "whole.mp4", TEST:format(24, 2) .. X264:format "yuv420p")
+    make(bench, "whole.mp4", TEST(24, 2) .. X264 "yuv420p")
     make(bench, "edit.mp4", "-ss 0.7 -i whole.mp4 -c copy")
     check(bench, "edit.mp4", P420)
     make(bench, "right.mp4", "-i whole.mp4 -c copy -metadata:s:v rotate=270")
@@ -192,7 +181,7 @@ describe("footage", function()
   end)
 
   it_decodes("shows the same pictures in any order", function()
-    make(bench, "a.mp4", TEST:format(24, 2) .. X264:format "yuv420p")
+    make(bench, "a.mp4", TEST(24, 2) .. X264 "yuv420p")
     local forwards, said = render(bench, "a.mp4", "frame")
     assert.matches("64 36 24%.0000 48 2%.000 false", said)
     local backwards, size = render(bench, "a.mp4", "back"), W * H * 4
@@ -204,13 +193,13 @@ describe("footage", function()
   end)
 
   it_decodes("shows each picture in its frame, though the clock of a file is rounded", function()
-    make(bench, "a.mkv", TEST:format(24, 2) .. X264:format "yuv420p")
+    make(bench, "a.mkv", TEST(24, 2) .. X264 "yuv420p")
     local numbered, timed = render(bench, "a.mkv", "frame"), render(bench, "a.mkv", "at", 24)
     assert(#timed >= 46 * W * H * 4 and numbered:sub(1, #timed) == timed, #timed)
   end)
 
   it_decodes("has a sound, which a film plays", function()
-    make(bench, "a.mkv", TEST:format(24, 1) .. "-f lavfi -i sine=d=1 " .. X264:format "yuv420p"
+    make(bench, "a.mkv", TEST(24, 1) .. "-f lavfi -i sine=d=1 " .. X264 "yuv420p"
       .. "-c:a libvorbis")
     bench:write("heard.lua", [[
       local celspan = require "celspan"
@@ -224,21 +213,21 @@ describe("footage", function()
   end)
 
   it_decodes("makes pixels square", function()
-    make(bench, "square.mp4", TEST:format(24, 1) .. X264:format "yuv420p" .. "-vf setsar=4/3")
+    make(bench, "square.mp4", TEST(24, 1) .. X264 "yuv420p" .. "-vf setsar=4/3")
     local _, said = render(bench, "square.mp4", "frame")
     assert.matches("^85 36 ", said)
   end)
 
   it_decodes("shows the pictures of a movie that ends early or changes its size", function()
-    make(bench, "whole.mkv", TEST:format(24, 2) .. X264:format "yuv420p"
+    make(bench, "whole.mkv", TEST(24, 2) .. X264 "yuv420p"
       .. "-cluster_time_limit 200")
     local whole = bench:read "whole.mkv"
     bench:write("early.mkv", whole:sub(1, #whole // 2))
     local codes, said = render(bench, "early.mkv", "frame")
     local count = tonumber(said:match "^%d+ %d+ [%d.]+ (%d+)")
     assert(count > 5 and count < 48 and #codes == count * W * H * 4, said)
-    make(bench, "one.ts", TEST:format(25, 1) .. X264:format "yuv420p")
-    make(bench, "two.ts", "-f lavfi -i testsrc2=s=128x72:r=25:d=1 " .. X264:format "yuv420p"
+    make(bench, "one.ts", TEST(25, 1) .. X264 "yuv420p")
+    make(bench, "two.ts", "-f lavfi -i testsrc2=s=128x72:r=25:d=1 " .. X264 "yuv420p"
       .. "-output_ts_offset 1")
     bench:write("change.ts", bench:read "one.ts" .. bench:read "two.ts")
     codes, said = render(bench, "change.ts", "frame")
@@ -262,7 +251,7 @@ describe("footage", function()
   end)
 
   it_decodes("is described by info", function()
-    make(bench, "a.webm", TEST:format(24, 1) .. "-c:v libvpx-vp9")
+    make(bench, "a.webm", TEST(24, 1) .. "-c:v libvpx-vp9")
     local code, out = bench:celspan_inside "info a.webm"
     assert.are.equal(0, code)
     assert.matches("^format matroska\ncodec vp9\nsize 64x36\nfps 24\nframes 24\n", out)

@@ -1,5 +1,24 @@
 --- Movies for tests: how ffmpeg makes and reads them, and a film that shows one.
+local assert = require "luassert"
+local present = require "tests.support.present"
+local workbench = require "tests.support.workbench"
+
 local movies = {}
+
+--- The size of the movies of `test`, and the bytes of a frame of theirs in `render`.
+movies.W, movies.H, movies.FRAME = 64, 36, 64 * 36 * 4
+
+--- For arguments of `make`: moving pictures of which none is like its neighbours; and a video of
+--- several parts, whose pictures are stored in another order than they are shown.
+function movies.test(rate, seconds)
+  return ("-f lavfi -i testsrc2=s=64x36:r=%s:d=%s,noise=alls=40:allf=t "):format(rate, seconds)
+end
+function movies.x264(pixels)
+  return ("-c:v libx264 -pix_fmt %s -g 12 -bf 2 -threads 1 "):format(pixels or "yuv420p")
+end
+
+--- Whether there is an ffmpeg, without which a test is pending.
+movies.are_made = present.program("ffmpeg", "ffprobe")
 
 --- A film of all pictures of a clip: by their numbers, "back" from the last one, or "at" its own
 --- times. It prints what the clip says of itself.
@@ -17,6 +36,13 @@ return celspan.film { size = { w, h }, fps = tonumber(fps) or 24, frames = count
     return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, w, h, texture = shown } } }
   end }
 ]]
+
+--- A workbench with the film.
+function movies.bench()
+  local bench = workbench.new()
+  bench:write("film.lua", movies.FILM)
+  return bench
+end
 
 --- Runs a command in the folder of a workbench, which must succeed. Returns its output.
 function movies.run(bench, command)
@@ -55,6 +81,13 @@ function movies.render(bench, name, way, fps, colour)
   local codes = movies.pixels(bench, "f.%04d.png", "rgba", "-f image2")
   os.execute(("rm -f '%s'/f.*.png"):format(bench.folder))
   return codes, err
+end
+
+--- Renders FILM, which fails with an exit code and a message.
+function movies.fails(bench, code, arguments, pattern)
+  local found, _, err = bench:celspan_inside("render film.lua -o f.%%04d.png %s", arguments)
+  assert.equal(code, found, err)
+  assert.matches(pattern, err)
 end
 
 return movies

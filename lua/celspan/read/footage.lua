@@ -14,6 +14,7 @@ local footage = {}
 local RATE = 24 -- pictures a second of numbered files
 local FASTEST = 1000 -- of a speed
 local RANGES = 8 -- of missing files in a message
+local KEPT = 8 -- numbered files that stay open though no frame shows them
 
 local function refuse(text, ...) core.refuse("footage: " .. text:format(...)) end
 
@@ -57,22 +58,48 @@ local function missing_in(numbers)
   return table.concat(ranges, ", ", 1, math.min(#ranges, RANGES + 1)), count
 end
 
---- The numbers of the files of a pattern. no_movie: why no movie has that very name.
-local function find_numbers(pattern, no_movie)
+--- The numbers of the files of a pattern.
+local function find_numbers(pattern)
   local found_at, tried = core.find(pattern)
   local numbers, message = core.frames(found_at)
   if tried and (not numbers or #numbers == 0) then numbers = core.frames(tried) or numbers end
   if not numbers then refuse("%s", message) end
   if #numbers == 0 then
-    refuse("%s: there are no such files%s%s", pattern,
-      tried and "; also looked for at " .. tried or "",
-      no_movie:find "No such file" and "" or "; and " .. no_movie)
+    refuse("%s: there are no such files%s", pattern,
+      tried and "; also looked for at " .. tried or "")
   end
   return numbers
 end
 
-local function open_files(given, no_movie)
-  local numbers = find_numbers(given.file, no_movie)
+--- A function texture(i), and the size. Files are opened when they are seen: the first one at once,
+--- for its size.
+local function open_textures(given, numbers)
+  local textures, kept = setmetatable({}, { __mode = "v" }), {}
+  local function open(i)
+    local found = celspan.picture { file = given.file, frame = numbers[i], colour = given.colour,
+                                    layer = given.layer }
+    return found, core.picture_size(found)
+  end
+  local first, width, height = open(1)
+  return function(i)
+    local found = i == 1 and first or textures[i]
+    if not found then
+      local w, h
+      found, w, h = open(i)
+      if w ~= width or h ~= height then
+        refuse("%s: number %d has %d x %d pixels, and the first one %d x %d: all must have one "
+          .. "size", given.file, numbers[i], w, h, width, height)
+      end
+      textures[i] = found
+      kept[#kept + 1] = found
+      if #kept > KEPT then table.remove(kept, 1) end
+    end
+    return found
+  end, { width, height }
+end
+
+local function open_files(given)
+  local numbers = find_numbers(given.file)
   local missing, count = missing_in(numbers)
   if count > 0 then
     refuse("%s: %s missing: %s", given.file, count == 1 and "a file is" or count .. " files are",
@@ -81,27 +108,11 @@ local function open_files(given, no_movie)
   if given.alpha then
     refuse "field 'alpha' is for movies; the alpha of numbered files is that of their format"
   end
-  local fps, textures = given.fps or RATE, setmetatable({}, { __mode = "v" })
+  local fps = given.fps or RATE
   if fps <= 0 then refuse("field 'fps' must be above 0, got %s", fields.shown(fps)) end
-  local function open(i)
-    return celspan.picture { file = given.file, frame = numbers[i], colour = given.colour,
-                             layer = given.layer }
-  end
-  local width, height = core.picture_size(open(1))
-  local function texture(i)
-    local found = textures[i] or open(i)
-    local w, h = core.picture_size(found)
-    if w ~= width or h ~= height then
-      refuse("%s: number %d has %d x %d pixels, and the first one %d x %d: all must have one size",
-        given.file, numbers[i], w, h, width, height)
-    end
-    textures[i] = found
-    return found
-  end
-  return { size = { width, height }, fps = fps, count = #numbers, finish = #numbers / fps,
-           slack = 1e-6, sound = false,
-           time = function(i) return (i - 1) / fps end,
-           texture = texture }
+  local texture, size = open_textures(given, numbers)
+  return { size = size, fps = fps, count = #numbers, finish = #numbers / fps, slack = 1e-6,
+           sound = false, time = function(i) return (i - 1) / fps end, texture = texture }
 end
 
 --- The upright size, with square pixels: the side that grows is the stored width.
@@ -185,7 +196,8 @@ end
 local function open_source(given)
   local facts, message = footage.describe(core.find(given.file))
   if facts then return open_movie(given, facts) end
-  if given.file:find "#" or given.file:find "%%0?%d*d" then return open_files(given, message) end
+  local is_numbered = given.file:find "#" or given.file:find "%%0?%d*d"
+  if is_numbered and message:find "No such file" then return open_files(given) end
   refuse("%s", message)
 end
 
