@@ -105,6 +105,10 @@ static const char *nearest_form(const char *name) {
   return has_alpha ? is_deep ? "gbrap16le" : "gbrap" : is_deep ? "gbrp16le" : "gbrp";
 }
 
+bool cs_raw_is_foreign(const char *name) {
+  return strncmp(name, "xyz", 3) == 0 || strncmp(name, "bayer", 5) == 0;
+}
+
 void cs_raw_parse(const char *name, cs_raw *out, char wanted[16]) {
   size_t length = (size_t)snprintf(wanted, 16, "%s", name);
   if (length > 2 && length < 16 && strcmp(wanted + length - 2, "be") == 0)
@@ -112,10 +116,9 @@ void cs_raw_parse(const char *name, cs_raw *out, char wanted[16]) {
   if (parse_form(wanted, out))
     return;
   const char *nearest = nearest_form(wanted);
-  bool is_gray = strncmp(wanted, "ya", 2) == 0;
   bool is_rgb = strstr(wanted, "rgb") || strstr(wanted, "bgr") || strstr(wanted, "gbr");
   (void)!parse_form(nearest, out);
-  out->is_made = out->is_rgb && !is_gray && !is_rgb;
+  out->is_made = out->is_rgb && !is_rgb;
   snprintf(wanted, 16, "%s", nearest);
 }
 

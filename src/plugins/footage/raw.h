@@ -29,6 +29,9 @@ typedef struct cs_raw {
 /* The shares of a matrix by ffmpeg's name of it; "unknown" depends on the height. NULL: it is of
  * another kind. */
 const float *cs_raw_matrix(const char *name, int32_t height);
+/* Whether a form of pixels holds other colours than R'G'B' and Y'CbCr, which are not read: X'Y'Z'
+ * of digital cinema, and what a sensor has under its filters. */
+bool cs_raw_is_foreign(const char *name);
 /* Reads ffmpeg's name of a form of pixels. wanted: the form that ffmpeg shall write: the same; or,
  * where its planes are not read here, another one, to which `out` belongs. */
 void cs_raw_parse(const char *name, cs_raw *out, char wanted[16]);

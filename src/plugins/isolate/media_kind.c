@@ -73,15 +73,17 @@ static off_t tag_size(const unsigned char *tag) {
   return size + TAG_HEAD + (tag[5] & 0x10 ? TAG_HEAD : 0);
 }
 
-/* Missing bytes of a shorter file are zeros. false: it cannot be read. */
+/* Missing bytes of a shorter file are zeros. false: it cannot be read; else errno is 0, also if
+ * reading was interrupted. */
 static bool read_head(int descriptor, off_t offset, unsigned char out[HEAD]) {
   memset(out, 0, HEAD);
-  return cs_open_read_at(descriptor, out, HEAD, offset) >= 0;
+  bool is_read = cs_open_read_at(descriptor, out, HEAD, offset) >= 0;
+  errno = is_read ? 0 : errno;
+  return is_read;
 }
 
 const char *cs_media_kind(int descriptor, cs_media_use use) {
   unsigned char bytes[HEAD];
-  errno = 0;
   if (!read_head(descriptor, 0, bytes))
     return NULL;
   if (use != CS_MEDIA_SOUND || !has(bytes, 0, "ID3"))
