@@ -6,14 +6,13 @@
 
 #include "base/clock.h"
 
-enum {
-  AHEAD = 24,  /* pictures that are decoded rather than that another worker starts */
-  RUNNING = 64 /* workers at a time, of all movies */
-};
+enum { AHEAD = 24 /* pictures that are decoded rather than that another worker starts */ };
 
-/* Marks: decoding began here; it cannot be decoded; decoding got stuck on the way to the next place
- * where it can begin. */
-enum { BEGUN = 1, LOST = 2, STUCK = 4 };
+/* Marks: decoding began here; it got stuck on the way to the next place where it can begin; and the
+ * picture did not come of a worker that began at the place before it where this is possible, at the
+ * one before that, or at the beginning. It is lost if it came of none. */
+enum { BEGUN = 1, STUCK = 2, MISSED = 4, MISSED_EARLIER = 8, MISSED_WHOLE = 16 };
+enum { LOST = MISSED | MISSED_EARLIER | MISSED_WHOLE };
 
 /* ---------------------------------------------------------------- the cache */
 
@@ -47,58 +46,16 @@ void cs_decode_release(celspan_context *context, cs_decode_picture *picture) {
     cs_cache_unpin(cache, &picture->cached);
 }
 
-/* ---------------------------------------------------------------- workers */
-
-static struct {
-  pthread_mutex_t lock;
-  cs_decode *list; /* with workers, the latest first */
-  size_t count;
-} all = {.lock = PTHREAD_MUTEX_INITIALIZER};
-
-/* Ends the worker. The caller has locked both locks. */
-static void end_worker(cs_decode *d) {
-  cs_decode **link = &all.list;
-  while (*link && *link != d)
-    link = &(*link)->running;
-  if (*link) {
-    *link = d->running;
-    all.count--;
-  }
-  cs_media_close(&d->media);
-  d->is_running = false;
-}
-
-static void stop(cs_decode *d) {
-  if (!d->is_running)
-    return;
-  pthread_mutex_lock(&all.lock);
-  end_worker(d);
-  pthread_mutex_unlock(&all.lock);
-}
-
-/* Notes that a worker runs. Where there are too many, ends the oldest that nobody waits for. */
-static void note_worker(cs_decode *d) {
-  cs_decode *oldest = NULL;
-  pthread_mutex_lock(&all.lock);
-  for (cs_decode *at = all.list; at && all.count >= RUNNING; at = at->running) {
-    if (pthread_mutex_trylock(&at->lock) != 0)
-      continue;
-    if (oldest)
-      pthread_mutex_unlock(&oldest->lock);
-    oldest = at;
-  }
-  if (oldest) {
-    end_worker(oldest);
-    pthread_mutex_unlock(&oldest->lock);
-  }
-  d->running = all.list;
-  all.list = d;
-  all.count++;
-  d->is_running = true;
-  pthread_mutex_unlock(&all.lock);
-}
-
 /* ---------------------------------------------------------------- what the worker says */
+
+/* Keeps the first line of what is said first, for a message. */
+static void keep_words(cs_decode *d, const char *bytes, size_t size) {
+  for (size_t i = 0; i < size && !d->is_said; i++) {
+    d->is_said = bytes[i] == '\n' || d->said.size == CS_WORDS;
+    if (!d->is_said)
+      cs_words_add(&d->said, bytes + i, 1);
+  }
+}
 
 /* Each message of the socket is what ffmpeg wrote at once. "frame:0 pts:512 pts_time:0.04" is the
  * time of a picture, which may be missing; "t=1" comes after each. All others are words, also parts
@@ -114,8 +71,11 @@ static bool hear(void *user, const char *bytes, size_t size) {
   const char *at = strncmp(line, "frame:", 6) == 0 ? strstr(line, " pts:") : NULL;
   if (!at || d->time_count == CS_DECODE_TIMES) {
     d->has_erred = true;
+    d->is_sound = d->is_sound && !d->has_shown;
+    keep_words(d, bytes, size);
     return false;
   }
+  d->has_shown = true;
   (void)!sscanf(at, " pts:%lld", &time);
   d->times[(d->first_time + d->time_count++) % CS_DECODE_TIMES] = time;
   return true;
@@ -129,6 +89,21 @@ static size_t key_before(const cs_decode *d, size_t place) {
     place--;
   return place;
 }
+
+/* Where the worker must begin that may have the picture: earlier than those that had it not. */
+static size_t start_of(const cs_decode *d, size_t place) {
+  size_t key = key_before(d, place);
+  unsigned marks = d->marks[place];
+  if (!(marks & MISSED) || key == 0)
+    return key;
+  return marks & MISSED_EARLIER ? 0 : key_before(d, key - 1);
+}
+
+/* Whether pictures of the worker look as they do whatever was decoded before, also in parts behind
+ * the one where it has begun. */
+static bool is_passing(const cs_decode *d) { return !d->is_careful || d->is_sound; }
+
+static bool is_lost(const cs_decode *d, size_t place) { return (d->marks[place] & LOST) == LOST; }
 
 static celspan_status open_again(const cs_decode *d, celspan_context *context, cs_kind_file *out) {
   CS_TRY(cs_kind_open(context, d->path, NULL, out));
@@ -158,18 +133,22 @@ static cs_message message_of(const cs_decode *d, size_t place) {
 static celspan_status begin(cs_decode *d, celspan_context *context, size_t place) {
   const cs_message message = message_of(d, place);
   cs_kind_file file;
-  stop(d);
+  cs_decode_stop(d);
   CS_TRY(open_again(d, context, &file));
   d->media = (cs_media)CS_MEDIA("movie", "pictures", d->path);
   d->media.hear = hear;
   d->media.user = d;
   d->time_count = 0;
   d->next = d->begin = place;
+  d->begun++;
+  d->has_shown = false;
+  d->is_sound = true;
+  d->is_said = d->said.size > 0;
   celspan_status status =
       cs_media_start(&d->media, context, CS_WORKER_WATCHES, &message, file.descriptor);
   close(file.descriptor);
   if (status == CELSPAN_OK)
-    note_worker(d);
+    cs_decode_note(d);
   else
     cs_media_close(&d->media);
   return status;
@@ -235,21 +214,54 @@ static celspan_status read_picture(cs_decode *d, celspan_context *context, cs_ca
   return status;
 }
 
+/* Decoding is careful from now on if words were said, and all that is known begins again. Returns
+ * whether this is new. */
+static bool turn_careful(cs_decode *d) {
+  bool is_new = d->has_erred && !d->is_careful;
+  if (is_new)
+    memset(d->marks, 0, d->listing->count);
+  d->is_careful = d->is_careful || is_new;
+  return is_new;
+}
+
+/* Notes that the pictures of some places did not come of the worker. What is true of one that began
+ * early is true of a later one, unless words were said. */
+static void miss(cs_decode *d, size_t first, size_t end) {
+  const bool is_passed = is_passing(d);
+  size_t key = first < end ? key_before(d, first) : 0;
+  size_t earlier = key > 0 ? key_before(d, key - 1) : 0;
+  for (size_t i = first; i < end; i++) {
+    if (d->listing->pictures[i].is_key && i > key) {
+      earlier = key;
+      key = i;
+    }
+    const size_t starts[] = {key, earlier, 0};
+    for (int s = 0; s < 3; s++)
+      if (starts[s] == d->begin || (is_passed && starts[s] > d->begin))
+        d->marks[i] |= (unsigned char)(MISSED << s);
+  }
+}
+
+/* The place behind the part of a picture. */
+static size_t end_of_part(const cs_decode *d, size_t place) {
+  size_t end = place + 1;
+  while (end < d->listing->count && !d->listing->pictures[end].is_key)
+    end++;
+  return end;
+}
+
 /* No more pictures come of the worker. What it says of the movie is no failure: other pictures may
  * be decoded by another one. */
-static celspan_status conclude(cs_decode *d, celspan_context *context) {
+static celspan_status conclude(cs_decode *d, celspan_context *context, size_t wanted) {
   celspan_context own;
   cs_context_branch(&own, context);
   cs_media_shut(&d->media);
   celspan_status status = cs_media_conclude(&d->media, &own);
-  if (status == CELSPAN_OK || status == CELSPAN_INPUT)
-    return CELSPAN_OK;
-  return cs_fail(context, status, "%s", own.error);
-}
-
-/* Whether a picture looks as it does whatever was decoded before. */
-static bool is_kept(const cs_decode *d, size_t place, size_t wanted) {
-  return place == wanted || !d->is_careful || key_before(d, place) == d->begin;
+  if (status != CELSPAN_OK && status != CELSPAN_INPUT)
+    return cs_fail(context, status, "%s", own.error);
+  if (!turn_careful(d))
+    miss(d, d->next, end_of_part(d, wanted));
+  return CELSPAN_OK;
 }
 
 /* Reads the next picture, and puts it into the cache; if its place is `wanted`, pins it there and
@@ -261,18 +273,19 @@ static celspan_status step(cs_decode *d, celspan_context *context, cs_cache *cac
   size_t place;
   CS_TRY(next_time(d, context, &time, is_over));
   if (*is_over)
-    return conclude(d, context);
-  *is_over = d->has_erred && !d->is_careful;
-  d->is_careful = d->is_careful || d->has_erred;
+    return conclude(d, context, wanted);
+  *is_over = turn_careful(d);
   if (*is_over)
     return CELSPAN_OK;
   bool is_known = find_place(d, time, &place);
   CS_TRY(read_picture(d, context, cache, place, &picture, is_over));
   if (*is_over)
-    return conclude(d, context);
-  if (is_known)
+    return conclude(d, context, wanted);
+  if (is_known) {
+    miss(d, d->next, place);
     d->next = place + 1;
-  if (!is_known || !is_kept(d, place, wanted)) {
+  }
+  if (!is_known || (!is_passing(d) && start_of(d, place) != d->begin)) {
     cs_cache_discard(cache, &picture->cached);
     return CELSPAN_OK;
   }
@@ -293,7 +306,7 @@ static celspan_status advance(cs_decode *d, celspan_context *context, cs_cache *
   while (status == CELSPAN_OK && !*out && !is_over && d->next <= place)
     status = step(d, context, cache, place, out, &is_over);
   if (status != CELSPAN_OK || is_over)
-    stop(d);
+    cs_decode_stop(d);
   return status;
 }
 
@@ -302,10 +315,8 @@ static celspan_status advance(cs_decode *d, celspan_context *context, cs_cache *
  * so that no other picture waits for it again. */
 static celspan_status complete(cs_decode *d, celspan_context *context, cs_cache *cache,
                                size_t place) {
-  size_t key = key_before(d, place), end = place + 1;
+  size_t key = key_before(d, place), end = end_of_part(d, place);
   size_t most = cache->budget / 2 / cs_raw_size(&d->planes);
-  while (end < d->listing->count && !d->listing->pictures[end].is_key)
-    end++;
   if (end - key > most || !d->is_running || d->next >= end || d->marks[key] & STUCK)
     return CELSPAN_OK;
   cs_decode_picture *none = NULL;
@@ -325,59 +336,37 @@ static celspan_status complete(cs_decode *d, celspan_context *context, cs_cache 
  * picture before. */
 static celspan_status approach(cs_decode *d, celspan_context *context, size_t place,
                                bool *is_again) {
-  size_t key = key_before(d, place);
+  size_t key = key_before(d, place), start = start_of(d, place);
+  bool is_near = key <= d->next || place - d->next <= AHEAD;
+  bool is_fit = d->begin == start || (is_passing(d) && d->begin < start && is_near);
   *is_again = false;
-  bool is_near = d->is_careful ? d->begin == key : key <= d->next || place - d->next <= AHEAD;
-  if (d->is_running && d->next <= place && is_near)
+  if (d->is_running && d->next <= place && is_fit)
     return CELSPAN_OK;
-  *is_again = d->marks[key] & BEGUN;
-  d->marks[key] |= BEGUN;
-  return begin(d, context, key);
-}
-
-/* The picture did not come: tries from one picture earlier at which decoding can begin, and then
- * from the beginning. */
-static celspan_status retry(cs_decode *d, celspan_context *context, cs_cache *cache, size_t place,
-                            cs_decode_picture **out) {
-  size_t key = key_before(d, place);
-  bool was_whole = d->begin == 0;
-  if (key > 0 && !was_whole) {
-    CS_TRY(begin(d, context, key_before(d, key - 1)));
-    CS_TRY(advance(d, context, cache, place, out));
-    was_whole = d->begin == 0;
-  }
-  if (!*out && !was_whole) {
-    CS_TRY(begin(d, context, 0));
-    CS_TRY(advance(d, context, cache, place, out));
-  }
-  if (!*out)
-    d->marks[place] |= LOST;
-  return CELSPAN_OK;
+  *is_again = d->marks[start] & BEGUN;
+  d->marks[start] |= BEGUN;
+  return begin(d, context, start);
 }
 
 /* The picture that is shown at a place: the last one that can be decoded, or the first one. */
 static bool find_shown(const cs_decode *d, size_t *place) {
   size_t before = *place, after = *place;
-  while (before > 0 && d->marks[before] & LOST)
+  while (before > 0 && is_lost(d, before))
     before--;
-  while (after < d->listing->count && d->marks[after] & LOST)
+  while (after < d->listing->count && is_lost(d, after))
     after++;
-  *place = d->marks[before] & LOST ? after : before;
+  *place = is_lost(d, before) ? after : before;
   return *place < d->listing->count;
 }
 
+/* Each worker that does not have the picture adds a mark to its place, except the one whose words
+ * make decoding careful. */
 static celspan_status fetch(cs_decode *d, celspan_context *context, cs_cache *cache, size_t place,
                             cs_decode_picture **out) {
   bool is_again = false;
-  CS_TRY(approach(d, context, place, &is_again));
-  bool was_careful = d->is_careful;
-  CS_TRY(advance(d, context, cache, place, out));
-  if (!*out && d->is_careful && !was_careful) {
-    CS_TRY(begin(d, context, key_before(d, place)));
+  while (!*out && !is_lost(d, place)) {
+    CS_TRY(approach(d, context, place, &is_again));
     CS_TRY(advance(d, context, cache, place, out));
   }
-  if (!*out)
-    CS_TRY(retry(d, context, cache, place, out));
   if (!*out || !is_again)
     return CELSPAN_OK;
   celspan_status status = complete(d, context, cache, place);
@@ -396,8 +385,9 @@ static celspan_status find(cs_decode *d, celspan_context *context, cs_cache *cac
     if (*out)
       return CELSPAN_OK;
   }
+  cs_words_join(&d->said);
   return cs_fail(context, CELSPAN_INPUT, "the movie %s: none of its pictures can be decoded%s%s",
-                 d->path, d->media.words.size > 0 ? ": " : "", d->media.words.text);
+                 d->path, d->said.size > 0 ? ": " : "", d->said.text);
 }
 
 celspan_status cs_decode_get(cs_decode *d, celspan_context *context, size_t place,
@@ -438,6 +428,11 @@ static celspan_status check_size(const cs_decode *d, celspan_context *context) {
 
 static celspan_status set_planes(cs_decode *d, celspan_context *context) {
   const cs_listing *listing = d->listing;
+  if (cs_raw_is_foreign(listing->pixels))
+    return cs_fail(context, CELSPAN_INPUT,
+                   "the movie %s has pixels of the form %s, whose colours are not read: convert it "
+                   "to R'G'B'",
+                   d->path, listing->pixels);
   bool is_yuva = *d->decoder && strncmp(listing->pixels, "yuv4", 4) == 0;
   char name[40];
   snprintf(name, sizeof name, "%s%s", is_yuva ? "yuva" : "", listing->pixels + (is_yuva ? 3 : 0));
@@ -478,7 +473,7 @@ celspan_status cs_decode_init(cs_decode *d, celspan_context *context, const char
 
 void cs_decode_finish(cs_decode *d, cs_memory *memory) {
   pthread_mutex_lock(&d->lock); /* another movie may be ending its worker */
-  stop(d);
+  cs_decode_stop(d);
   pthread_mutex_unlock(&d->lock);
   pthread_mutex_destroy(&d->lock);
   cs_mem_free(memory, d->path, d->path ? strlen(d->path) + 1 : 0);

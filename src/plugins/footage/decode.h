@@ -17,7 +17,9 @@
  * that ffmpeg cannot decode, even from the beginning of the file, shows the one before it. What
  * ffmpeg makes of damaged pictures depends on its threads and on what it decoded before: once it
  * has said words, decoding is careful: with one thread, and a worker for each part of the movie,
- * from a place where decoding can begin to the next.
+ * from a place where decoding can begin to the next. Words before the first picture are about those
+ * that are shown before it, and need others (an open group of pictures); a worker that says none
+ * later may pass from part to part.
  */
 #pragma once
 
@@ -44,12 +46,15 @@ typedef struct cs_decode {
   cs_media media;
   size_t next;                    /* the place after the last picture that came */
   size_t begin;                   /* where the worker has begun */
-  uint64_t decoded;               /* pictures that came, of all workers */
+  uint64_t decoded, begun;        /* pictures that came, of all workers, and these */
   int64_t times[CS_DECODE_TIMES]; /* of pictures that have not been read; a ring */
   size_t first_time, time_count;
   uint64_t heard; /* messages of the workers */
+  cs_words said;  /* the first line that a worker said */
+  bool is_said;   /* the line is whole */
   bool has_erred; /* a worker said words */
   bool is_careful;
+  bool has_shown, is_sound; /* the worker has shown a picture; it has said no words since then */
 } cs_decode;
 
 /* A picture in the cache. */
@@ -70,3 +75,10 @@ void cs_decode_finish(cs_decode *decode, cs_memory *memory);
 CELSPAN_CHECKED celspan_status cs_decode_get(cs_decode *decode, celspan_context *context,
                                              size_t place, cs_decode_picture **out);
 void cs_decode_release(celspan_context *context, cs_decode_picture *picture);
+
+/* ---- running.c */
+
+/* Ends the worker, if there is one. */
+void cs_decode_stop(cs_decode *decode);
+/* Notes that a worker runs. Where there are too many, ends the oldest that nobody waits for. */
+void cs_decode_note(cs_decode *decode);

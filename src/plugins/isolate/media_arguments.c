@@ -35,10 +35,11 @@ add_value(cs_media_arguments *out, const char *option, const char *format, ...) 
   ADD(out, option, text);
 }
 
-/* The beginning that all command lines share. */
+/* The beginning that all command lines share. Words that are the same as the last ones are said,
+ * too, because what matters of them may be when. */
 static void begin(cs_media_arguments *out, const char *program) {
   *out = (cs_media_arguments){.count = 0};
-  ADD(out, program, "-hide_banner", "-loglevel", "error", "-protocol_whitelist", "file");
+  ADD(out, program, "-hide_banner", "-loglevel", "repeat+error", "-protocol_whitelist", "file");
 }
 
 static void add_input(cs_media_arguments *out, const char *kind, const char *file) {
