@@ -55,7 +55,7 @@ static void put_times(lua_State *L, const cs_listing *listing) {
 static void push_facts(lua_State *L, const cs_movie *movie) {
   const cs_listing *listing = &movie->listing;
   const cs_raw *planes = &movie->decode.planes;
-  lua_createtable(L, 0, 20);
+  lua_createtable(L, 0, 25);
   cs_put_integer(L, "width", listing->width);
   cs_put_integer(L, "height", listing->height);
   cs_put_integer(L, "turns", listing->turns);
@@ -67,8 +67,12 @@ static void push_facts(lua_State *L, const cs_movie *movie) {
   cs_put_text(L, "container", movie->decode.file.kind);
   cs_put_text(L, "codec", listing->codec);
   cs_put_text(L, "pixels", listing->pixels);
-  cs_put_text(L, "matrix", listing->matrix);
+  cs_put_text(L, "primaries", listing->primaries);
   cs_put_text(L, "transfer", listing->transfer);
+  cs_put_text(L, "matrix", listing->matrix);
+  cs_put_text(L, "range", listing->range);
+  cs_put_text(L, "matrix_taken", cs_raw_matrix_taken(planes, listing->matrix, listing->height));
+  cs_put_text(L, "range_taken", planes->is_full ? "full" : "limited");
   cs_put_integer(L, "bytes", movie->decode.file.size);
   put_pair(L, "aspect", listing->aspect);
   put_pair(L, "tick", listing->tick);

@@ -257,6 +257,30 @@ describe("footage", function()
     assert.matches("^format matroska\ncodec vp9\nsize 64x36\nfps 24\nframes 24\n", out)
   end)
 
+  it_decodes("has colours of which info says what they are taken for", function()
+    local function says(made, colour, said, taken)
+      make(bench, "a.mkv", "-f lavfi -i testsrc2=" .. made)
+      local code, out = bench:celspan_inside "info a.mkv"
+      assert.are.equal(0, code)
+      local primaries, transfer, matrix, range = said:match "(%S+) (%S+) (%S+) (%S+)"
+      local matrix_taken, range_taken = taken:match "(%S+) (%S+)"
+      local wanted = ("\ncolour %s\nprimaries %s\ntransfer %s\nmatrix %s\nrange %s\n"
+        .. "primaries_taken bt709\nmatrix_taken %s\nrange_taken %s\n"):format(colour, primaries,
+        transfer, matrix, range, matrix_taken, range_taken)
+      assert(out:find(wanted, 1, true), out)
+    end
+    local ffv1 = ":r=24:d=0.1 -c:v ffv1 -pix_fmt "
+    says("s=64x36" .. ffv1 .. "yuv420p", "srgb", "unknown unknown unknown unknown", "bt601 limited")
+    says("s=64x720" .. ffv1 .. "yuv420p", "srgb", "unknown unknown unknown unknown",
+      "bt709 limited")
+    says("s=64x36" .. ffv1 .. "gbrp", "srgb", "unknown unknown gbr pc", "none full")
+    says("s=64x36" .. ffv1 .. "gray -color_range pc", "srgb", "unknown unknown unknown pc",
+      "none full")
+    says("s=64x36" .. ffv1 .. "yuv420p10le -colorspace bt2020nc -color_trc smpte2084 "
+      .. "-color_primaries bt2020 -color_range tv", "none", "bt2020 smpte2084 bt2020nc tv",
+      "bt2020 limited")
+  end)
+
   it("shows numbered files, which begin anywhere", function()
     bench:write("plates.lua", [[
       local celspan = require "celspan"

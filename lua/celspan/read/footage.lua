@@ -14,6 +14,7 @@ local footage = {}
 local RATE = 24 -- pictures a second of numbered files
 local FASTEST = 1000 -- of a speed
 local RANGES = 8 -- of missing files in a message
+local HIGH = { smpte2084 = "PQ", ["arib-std-b67"] = "HLG" } -- curves of high dynamic range
 local KEPT = 8 -- numbered files that stay open though no frame shows them
 
 local function refuse(text, ...) core.refuse("footage: " .. text:format(...)) end
@@ -125,15 +126,16 @@ local function size_of(facts)
 end
 
 local function check_transfer(given, facts)
-  if not given.colour and (facts.transfer == "smpte2084" or facts.transfer == "arib-std-b67") then
+  if facts.high and not given.colour then
     refuse("%s is of high dynamic range (%s), which is not read: convert it to BT.709, or give "
       .. "'colour' to take its codes as they are", given.file,
-      facts.transfer == "smpte2084" and "PQ" or "HLG")
+      facts.high)
   end
 end
 
 --- What there is to know about a movie: the facts of core.movie with size, fps, tick (seconds),
---- finish (seconds at which the last picture ends) and time(i); or nil and a message.
+--- finish (seconds at which the last picture ends), high (the name of a high dynamic range) and
+--- time(i); or nil and a message.
 function footage.describe(path, tried)
   local facts, message = core.movie(path, tried)
   if not facts then return nil, message end
@@ -141,7 +143,7 @@ function footage.describe(path, tried)
   local function ticks(i) return (("=i8"):unpack(facts.times, i * 8 - 7)) end
   local first, fps = ticks(1), facts.rate and facts.rate[1] / facts.rate[2]
   local last = facts.last > 0 and facts.last * tick or fps and 1 / fps or tick
-  facts.size, facts.tick = size_of(facts), tick
+  facts.size, facts.tick, facts.high = size_of(facts), tick, HIGH[facts.transfer]
   facts.finish = (ticks(facts.count) - first) * tick + last
   facts.fps = fps or facts.count / facts.finish
   -- Where a picture lasts a whole number of ticks, times are exact; elsewhere they are rounded, and

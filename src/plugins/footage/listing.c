@@ -120,6 +120,7 @@ static void read_video(reading *r, const char *line) {
   find_fraction(line, "avg_frame_rate", out->rate);
   find_text(line, "codec_name", out->codec, sizeof out->codec);
   find_text(line, "pix_fmt", out->pixels, sizeof out->pixels);
+  find_text(line, "color_primaries", out->primaries, sizeof out->primaries);
   find_text(line, "color_space", out->matrix, sizeof out->matrix);
   find_text(line, "color_transfer", out->transfer, sizeof out->transfer);
   find_text(line, "chroma_location", out->site, sizeof out->site);

@@ -26,7 +26,7 @@ typedef struct cs_listing {
   cs_memory *memory;
   int32_t width, height, aspect[2], tick[2], rate[2]; /* fractions; rate 0: not given */
   int turns;                                          /* quarters clockwise, to be upright */
-  char codec[32], pixels[32], matrix[32], transfer[32], site[32];
+  char codec[32], pixels[32], primaries[32], matrix[32], transfer[32], site[32];
   char range[8];             /* "tv" or "pc", or another word: not given */
   bool has_alpha, has_sound; /* has_alpha: in packets of its own, as of VP9 */
   cs_listing_picture *pictures;

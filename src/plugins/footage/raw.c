@@ -28,6 +28,13 @@ const float *cs_raw_matrix(const char *name, int32_t height) {
   return NULL;
 }
 
+const char *cs_raw_matrix_taken(const cs_raw *planes, const char *name, int32_t height) {
+  const float *shares = cs_raw_matrix(name, height);
+  if (planes->is_rgb || !planes->has_colour)
+    return "none";
+  return shares == BT601 ? "bt601" : shares == BT709 ? "bt709" : "bt2020";
+}
+
 void cs_raw_set_range(cs_raw *planes, const char *name) {
   if (strcmp(name, "pc") == 0)
     planes->is_full = true;

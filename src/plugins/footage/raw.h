@@ -29,6 +29,8 @@ typedef struct cs_raw {
 /* The shares of a matrix by ffmpeg's name of it; "unknown" depends on the height. NULL: it is of
  * another kind. */
 const float *cs_raw_matrix(const char *name, int32_t height);
+/* The name of the matrix by which these planes become R'G'B': "none" where they are, or are grey. */
+const char *cs_raw_matrix_taken(const cs_raw *planes, const char *name, int32_t height);
 /* Whether a form of pixels holds other colours than R'G'B' and Y'CbCr, which are not read: X'Y'Z'
  * of digital cinema, and what a sensor has under its filters. */
 bool cs_raw_is_foreign(const char *name);

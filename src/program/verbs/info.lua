@@ -249,6 +249,22 @@ end
 
 -- ---------------------------------------------------------------- movies
 
+--- What the file says of its colours, and what celspan takes them for: the primaries are not
+--- converted.
+local function put_colours(movie)
+  local function said(name)
+    local word = movie[name]
+    return word ~= "" and word ~= "unspecified" and word or "unknown"
+  end
+  facts:add("colour", movie.high and "none" or "srgb")
+  for _, name in ipairs { "primaries", "transfer", "matrix", "range" } do
+    facts:add(name, said(name))
+  end
+  facts:add("primaries_taken", "bt709")
+  facts:add("matrix_taken", movie.matrix_taken)
+  facts:add("range_taken", movie.range_taken)
+end
+
 local function put_movie()
   local movie = program.input(require "celspan.footage".describe(path))
   facts:add("format", movie.container)
@@ -260,7 +276,7 @@ local function put_movie()
   facts:add("alpha", movie.alpha and "straight" or "none")
   facts:add("depth", movie.bits)
   facts:add("pixels", movie.pixels)
-  facts:add("colour", movie.matrix)
+  put_colours(movie)
   facts:add("sound", movie.sound and "yes" or "no")
   facts:add("bytes", movie.bytes)
 end
