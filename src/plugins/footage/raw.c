@@ -148,18 +148,6 @@ void cs_raw_upright(const cs_raw *planes, int32_t *width, int32_t *height) {
 
 /* ---------------------------------------------------------------- conversion */
 
-static void put_codes(const float *from, size_t pixel, unsigned char *out) {
-  const float most = pixel == 8 ? 65535 : 255;
-  for (int c = 0; c < 4; c++) {
-    float value = from[c] < 0 ? 0 : from[c] > 1 ? 1 : from[c];
-    uint16_t code = (uint16_t)(value * most + .5f);
-    if (pixel == 8)
-      memcpy(out + 2 * c, &code, sizeof code);
-    else
-      out[c] = (unsigned char)code;
-  }
-}
-
 /* A rectangle of the upright picture, in the picture as it is stored. */
 static celspan_rectangle stored(const cs_raw *planes, const celspan_rectangle *r) {
   const int32_t width = planes->width, height = planes->height;
@@ -184,18 +172,28 @@ static size_t place_of(const cs_raw *planes, const celspan_rectangle *from, int3
   return (size_t)rows[planes->turns] * stride + (size_t)columns[planes->turns] * pixel;
 }
 
+/* Writes a row of a picture that is stored turned: its pixels go apart. */
+static void put_turned(const cs_raw *planes, const celspan_rectangle *from, int32_t y,
+                       const unsigned char *codes, unsigned char *out, size_t stride) {
+  const size_t pixel = cs_raw_pixel(planes);
+  for (int32_t x = 0; x < from->width; x++)
+    memcpy(out + place_of(planes, from, x, y, stride, pixel), codes + (size_t)x * pixel, pixel);
+}
+
 celspan_status cs_raw_convert(const cs_raw *planes, celspan_context *context,
                               const unsigned char *picture, const celspan_rectangle *rectangle,
                               unsigned char *out, size_t stride) {
   const celspan_rectangle from = stored(planes, rectangle);
-  const size_t pixel = cs_raw_pixel(planes), count = 4 * (size_t)from.width;
-  float *row;
-  CS_TRY(CS_MAKE(context, row, count));
+  const size_t count = (size_t)from.width, floats = CS_RAW_ROOM(count) + 2 * count;
+  float *room;
+  CS_TRY(CS_MAKE(context, room, floats));
+  unsigned char *codes = (unsigned char *)(room + CS_RAW_ROOM(count));
   for (int32_t y = 0; y < from.height; y++) {
-    cs_raw_row(planes, picture, from.x, from.y + y, from.width, row);
-    for (int32_t x = 0; x < from.width; x++)
-      put_codes(row + 4 * x, pixel, out + place_of(planes, &from, x, y, stride, pixel));
+    unsigned char *row = planes->turns ? codes : out + (size_t)y * stride;
+    cs_raw_row(planes, picture, from.x, from.y + y, from.width, room, row);
+    if (planes->turns)
+      put_turned(planes, &from, y, codes, out, stride);
   }
-  cs_mem_free(context->memory, row, count * sizeof *row);
+  cs_mem_free(context->memory, room, floats * sizeof *room);
   return CELSPAN_OK;
 }

@@ -56,6 +56,9 @@ CELSPAN_CHECKED celspan_status cs_raw_convert(const cs_raw *planes, celspan_cont
 
 /* ---- raw_row.c */
 
-/* Columns [x, x + count) of row y as stored: R'G'B'A from 0 to 1, four floats a pixel. */
+/* Floats of room for a row. */
+#define CS_RAW_ROOM(count) (5 * ((count) + 8))
+
+/* Columns [x, x + count) of row y as stored: R'G'B'A codes of 8 or 16 bits. */
 void cs_raw_row(const cs_raw *planes, const unsigned char *picture, int32_t x, int32_t y,
-                int32_t count, float *out);
+                int32_t count, float *room, void *out);

@@ -1,75 +1,32 @@
-/* One row of a raw picture as R'G'B'A. */
-#include <math.h>
+/* One row of a raw picture as codes of R'G'B'A. */
+#include "plugins/footage/raw_row.h"
 
-#include "plugins/footage/raw.h"
+#define RUN(name) CS_WIDE_CHOOSE(cs_isa_best(), name)
 
 /* One plane. */
 typedef struct plane {
   const unsigned char *at;
   int32_t width, height;
-  int bits;
+  int bytes; /* of a sample */
 } plane;
 
 static int32_t halved(int32_t size, int32_t by) { return (size + by - 1) / by; }
 
-static size_t bytes_of(const plane *p) {
-  return (size_t)p->width * (size_t)p->height * (p->bits > 8 ? 2 : 1);
-}
-
 /* Plane 0: light, or green; 1 and 2: colour; 3: alpha. */
 static plane plane_of(const cs_raw *planes, const unsigned char *picture, int number) {
-  plane found = {picture, planes->width, planes->height, planes->bits};
-  for (int i = 0; i < number; i++) {
+  plane found = {.at = picture};
+  for (int i = 0; i <= number; i++) {
     bool is_colour = i == 1 || i == 2;
-    if (is_colour && !planes->has_colour)
-      continue;
+    found.at += (size_t)found.width * (size_t)found.height * (size_t)found.bytes;
     found.width = is_colour ? halved(planes->width, planes->across) : planes->width;
     found.height = is_colour ? halved(planes->height, planes->down) : planes->height;
-    found.at += bytes_of(&found);
+    found.bytes = is_colour && !planes->has_colour ? 0 : planes->bits > 8 ? 2 : 1;
   }
-  bool is_colour = number == 1 || number == 2;
-  found.width = is_colour ? halved(planes->width, planes->across) : planes->width;
-  found.height = is_colour ? halved(planes->height, planes->down) : planes->height;
   return found;
 }
 
 static int32_t held(int32_t value, int32_t size) {
   return value < 0 ? 0 : value >= size ? size - 1 : value;
-}
-
-static float sample(const plane *p, int32_t x, int32_t y) {
-  size_t place = (size_t)y * (size_t)p->width + (size_t)x;
-  if (p->bits == 8)
-    return (float)p->at[place];
-  return (float)(p->at[2 * place] | p->at[2 * place + 1] << 8);
-}
-
-/* The two samples around a pixel along an axis, and the share of the second one. */
-typedef struct between {
-  int32_t first, second;
-  float share;
-} between;
-
-static between around(int32_t pixel, int32_t step, float site, int32_t size) {
-  if (step == 1)
-    return (between){pixel, pixel, 0};
-  float place = ((float)pixel - site) / (float)step;
-  int32_t first = (int32_t)floorf(place);
-  return (between){held(first, size), held(first + 1, size), place - (float)first};
-}
-
-static float mixed(float a, float b, float share) { return a + (b - a) * share; }
-
-/* The colour at column x, on the way from row to row. */
-static float colour_at(const cs_raw *planes, const plane *p, int32_t x, const between *down) {
-  between along = around(x, planes->across, planes->site_x, p->width);
-  float upper =
-      mixed(sample(p, along.first, down->first), sample(p, along.second, down->first), along.share);
-  if (down->share == 0)
-    return upper;
-  float lower = mixed(sample(p, along.first, down->second), sample(p, along.second, down->second),
-                      along.share);
-  return mixed(upper, lower, down->share);
 }
 
 /* How codes become numbers: light from 0 to 1, and colour from -.5 to .5. */
@@ -84,55 +41,80 @@ static scale scale_of(const cs_raw *planes) {
   return (scale){16 * unit, 1 / (219 * unit), 128 * unit, 1 / (224 * unit)};
 }
 
-/* Light and two colours in out[0..2] to R'G'B'. */
-static void decode(const cs_raw *planes, float *out) {
+static cs_raw_shares shares_of(const cs_raw *planes) {
   const float red = planes->red, blue = planes->blue, green = 1 - red - blue;
-  float y = out[0], cb = out[1], cr = out[2];
-  out[0] = y + 2 * (1 - red) * cr;
-  out[2] = y + 2 * (1 - blue) * cb;
-  out[1] = y - 2 * (1 - blue) * blue / green * cb - 2 * (1 - red) * red / green * cr;
+  return (cs_raw_shares){.red_cr = 2 * (1 - red),
+                         .blue_cb = 2 * (1 - blue),
+                         .green_cb = 2 * (1 - blue) * blue / green,
+                         .green_cr = 2 * (1 - red) * red / green};
 }
 
-static void put_grey(const plane *light, const scale *by, int32_t x, int32_t y, int32_t count,
-                     float *out) {
-  for (int32_t i = 0; i < count; i++)
-    for (int c = 0; c < 3; c++)
-      out[4 * i + c] = (sample(light, x + i, y) - by->black) * by->light;
+/* Samples [x, x + count) between two rows of a plane, of which those beyond the edges are those of
+ * the edges. */
+static void widen(const plane *p, const int32_t rows[2], float share, int32_t x, int32_t count,
+                  float *out) {
+  const int32_t first = held(x, p->width), last = held(x + count - 1, p->width);
+  const size_t bytes = (size_t)p->bytes, row = (size_t)p->width * bytes,
+               skip = (size_t)first * bytes;
+  RUN(cs_raw_widen)
+  (p->at + (size_t)rows[0] * row + skip, p->at + (size_t)rows[1] * row + skip, share, p->bytes,
+   last - first + 1, out + (first - x));
+  for (int32_t i = x; i < first; i++)
+    out[i - x] = out[first - x];
+  for (int32_t i = last + 1; i < x + count; i++)
+    out[i - x] = out[last - x];
 }
 
-/* Planes are in the order green, blue, red. */
-static void put_rgb(const plane *all, const scale *by, int32_t x, int32_t y, int32_t count,
-                    float *out) {
-  static const int places[] = {1, 2, 0};
-  for (int c = 0; c < 3; c++)
-    for (int32_t i = 0; i < count; i++)
-      out[4 * i + places[c]] = (sample(&all[c], x + i, y) - by->black) * by->light;
+static void put_plane(const plane *p, float black, float by, int32_t x, int32_t y, int32_t count,
+                      float *out) {
+  widen(p, (const int32_t[]){y, y}, 0, x, count, out);
+  RUN(cs_raw_scale)(black, by, count, out);
 }
 
-static void put_colour(const cs_raw *planes, const plane *all, const scale *by, int32_t x,
-                       int32_t y, int32_t count, float *out) {
-  const between down = around(y, planes->down, planes->site_y, all[1].height);
-  for (int32_t i = 0; i < count; i++) {
-    out[4 * i] = (sample(&all[0], x + i, y) - by->black) * by->light;
-    for (int c = 1; c < 3; c++)
-      out[4 * i + c] = (colour_at(planes, &all[c], x + i, &down) - by->middle) * by->colour;
-    decode(planes, out + 4 * i);
+/* The colour of the pixels of a row, from an even one on; room: for a row. */
+static void put_colour(const cs_raw *planes, const plane *p, const scale *by, int32_t x, int32_t y,
+                       int32_t count, float *room, float *out) {
+  const float place = planes->down == 2 ? ((float)y - planes->site_y) / 2 : (float)y;
+  const int32_t upper = (int32_t)floorf(place);
+  const int32_t rows[] = {held(upper, p->height), held(upper + 1, p->height)};
+  const float share = place - (float)upper;
+  const float shares[] = {1 - planes->site_x / 2, .5f - planes->site_x / 2};
+  if (planes->across == 1) {
+    widen(p, rows, share, x, count, out);
+  } else {
+    widen(p, rows, share, x / 2 - 1, count / 2 + 2, room);
+    RUN(cs_raw_spread)(room, shares, count / 2, out);
   }
+  RUN(cs_raw_scale)(by->middle, by->colour, count, out);
 }
 
 void cs_raw_row(const cs_raw *planes, const unsigned char *picture, int32_t x, int32_t y,
-                int32_t count, float *out) {
-  const float unit = 1 / (float)((1 << planes->bits) - 1);
+                int32_t count, float *room, void *out) {
   const scale by = scale_of(planes);
-  plane all[4];
+  const cs_raw_shares shares = shares_of(planes);
+  const int32_t odd = x % 2, begin = x - odd, even = (count + odd + 1) / 2 * 2;
+  const size_t stride = CS_RAW_ROOM((size_t)count) / 5;
+  float *all[] = {room, room + stride, room + 2 * stride, room + 3 * stride};
+  plane p[4];
   for (int i = 0; i < 4; i++)
-    all[i] = plane_of(planes, picture, i);
-  if (planes->is_rgb)
-    put_rgb(all, &by, x, y, count, out);
-  else if (planes->has_colour)
-    put_colour(planes, all, &by, x, y, count, out);
+    p[i] = plane_of(planes, picture, i);
+  if (planes->is_rgb) /* stored in the order green, blue, red */
+    for (int c = 0; c < 3; c++)
+      put_plane(&p[(c + 2) % 3], by.black, by.light, begin, y, even, all[c]);
   else
-    put_grey(&all[0], &by, x, y, count, out);
-  for (int32_t i = 0; i < count; i++)
-    out[4 * i + 3] = planes->has_alpha ? sample(&all[3], x + i, y) * unit : 1;
+    put_plane(&p[0], by.black, by.light, begin, y, even, all[0]);
+  if (!planes->is_rgb && planes->has_colour) {
+    for (int c = 1; c < 3; c++)
+      put_colour(planes, &p[c], &by, begin, y, even, room + 4 * stride, all[c]);
+    RUN(cs_raw_mix)(&shares, even, all[0], all[1], all[2]);
+  }
+  bool is_grey = !planes->is_rgb && !planes->has_colour;
+  if (planes->has_alpha)
+    put_plane(&p[3], 0, 1 / (float)((1 << planes->bits) - 1), begin, y, even, all[3]);
+  else
+    for (int32_t i = 0; i < even; i++)
+      all[3][i] = 1;
+  float *const rows[] = {all[0] + odd, (is_grey ? all[0] : all[1]) + odd,
+                         (is_grey ? all[0] : all[2]) + odd, all[3] + odd};
+  RUN(cs_raw_put)(rows, count, planes->bits > 8, out);
 }
