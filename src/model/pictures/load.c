@@ -305,19 +305,21 @@ static bool are_exact(const cs_srgb8_curve *curve, const unsigned char *codes, c
 }
 
 /* Sets the codes of a row: the first `count` are made, the others are copies of the first. Returns
- * whether they are exact. */
-static bool set_codes(cs_picture_block *block, size_t y, size_t count) {
+ * whether they are exact; is_sure: this is known, and not examined. */
+static bool set_codes(cs_picture_block *block, size_t y, size_t count, bool is_sure) {
   const float *texels = block->texels + 4 * y * CS_PICTURE_BLOCK;
   unsigned char *codes = block->codes[y];
   cs_srgb8_choose(cs_isa_best())(texels, count, codes);
   for (size_t x = count; x < CS_PICTURE_BLOCK; x++)
     memcpy(codes + 4 * x, codes, 4);
-  return are_exact(&block->store->curve, codes, texels, count);
+  return is_sure || are_exact(&block->store->curve, codes, texels, count);
 }
 
-/* Sets the opacity and the codes of a block whose texels are complete. If all texels of a row are
- * equal, as on paper, only the first one is examined. */
-static void describe(const celspan_picture_info *info, cs_picture_block *block) {
+/* Sets the opacity and the codes of a block whose texels are complete. Of a row of equal texels, as
+ * on paper, the first one is examined; opaque ones that were codes of sRGB are exact. */
+static void describe(const cs_picture_entry *entry, cs_picture_block *block) {
+  const celspan_picture_info *info = &entry->header.info;
+  bool is_srgb8 = !entry->part && cs_mip_levels_is_srgb8(&entry->decoder);
   int32_t width = cs_mip_levels_size(info->width, block->level) - block->column * CS_PICTURE_BLOCK;
   int32_t height = cs_mip_levels_size(info->height, block->level) - block->row * CS_PICTURE_BLOCK;
   int bits = 3;
@@ -326,10 +328,11 @@ static void describe(const celspan_picture_info *info, cs_picture_block *block) 
     const float *texels = block->texels + 4 * CS_PICTURE_BLOCK * (size_t)y;
     bool is_plain = memcmp(texels, texels + 4, 4 * sizeof(float) * (CS_PICTURE_BLOCK - 1)) == 0;
     int32_t count = is_plain ? 1 : CS_PICTURE_BLOCK;
-    if (y < height)
-      bits &= common_bits(texels, least(width, count));
+    int row = y < height ? common_bits(texels, least(width, count)) : 3;
+    bool is_sure = is_srgb8 && row == 1 && width >= CS_PICTURE_BLOCK;
+    bits &= row;
     if (block->level == 0)
-      is_exact = set_codes(block, (size_t)y, (size_t)count) && is_exact;
+      is_exact = set_codes(block, (size_t)y, (size_t)count, is_sure) && is_exact;
   }
   block->opacity = bits & 1 ? CS_PICTURE_OPAQUE : bits & 2 ? CS_PICTURE_CLEAR : CS_PICTURE_MIXED;
   if (block->level == 0)
@@ -351,7 +354,7 @@ static void join(const file_pass *pass, cs_picture_block *block, const cs_pictur
 static cs_picture_block *insert_blocks(file_pass *pass, int32_t column, int32_t row) {
   cs_picture_block *wanted = NULL;
   for (size_t i = 0; i < block_count(pass); i++)
-    describe(&pass->entry->header.info, pass->blocks[i]);
+    describe(pass->entry, pass->blocks[i]);
   for (size_t i = 0; i < block_count(pass); i++) {
     cs_picture_block *block = pass->blocks[i];
     bool is_wanted = block->column == column && block->row == row;
@@ -441,7 +444,7 @@ static celspan_status make_from_below(celspan_context *context, cs_picture_entry
     cs_store_discard(block);
     return status;
   }
-  describe(&entry->header.info, block);
+  describe(entry, block);
   *out = cs_store_insert(block, true);
   return CELSPAN_OK;
 }

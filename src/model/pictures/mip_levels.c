@@ -90,9 +90,27 @@ static void decode_pixel(const cs_mip_levels_decoder *decoder, float *rgba) {
   rgba[3] = alpha;
 }
 
+/* The same, for pixels whose numbers are codes, and whose colours are not multiplied. */
+static void decode_codes(const cs_mip_levels_decoder *decoder, float *rgba, size_t count) {
+  const float *table = decoder->table;
+  const double most = decoder->codes;
+  for (size_t i = 0; i < count; i++, rgba += 4) {
+    float alpha = cs_number_clampf(clean(rgba[3]), 0, 1);
+    for (int c = 0; c < 3; c++) {
+      double code = (double)rgba[c] * most + 0.5;
+      rgba[c] = table[code > 0 ? (int32_t)(code < most ? code : most) : 0] * alpha;
+    }
+    rgba[3] = alpha;
+  }
+}
+
 /* In drawings most pixels equal the pixel before them. */
 void cs_mip_levels_decode(const cs_mip_levels_decoder *decoder, float *rgba, size_t count) {
   float coded[4], light[4];
+  if (decoder->table && !decoder->is_linear && decoder->alpha == CS_PICTURE_ALPHA_STRAIGHT) {
+    decode_codes(decoder, rgba, count);
+    return;
+  }
   for (size_t i = 0; i < count; i++, rgba += 4) {
     if (i > 0 && memcmp(rgba, coded, sizeof coded) == 0) {
       memcpy(rgba, light, sizeof light);

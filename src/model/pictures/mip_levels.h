@@ -49,6 +49,12 @@ typedef struct cs_mip_levels_decoder {
   int32_t codes;
 } cs_mip_levels_decoder;
 
+/* Whether opaque pixels are codes of 8-bit sRGB. */
+static inline bool cs_mip_levels_is_srgb8(const cs_mip_levels_decoder *decoder) {
+  return decoder->table && !decoder->is_linear && decoder->codes == 255 &&
+         decoder->transfer == CELSPAN_TRANSFER_SRGB;
+}
+
 /* Coded RGBA to linear light, premultiplied, in place. The result has no NaN and nothing beyond the
  * largest half float, and alpha is in 0..1. */
 void cs_mip_levels_decode(const cs_mip_levels_decoder *decoder, float *rgba, size_t count);
