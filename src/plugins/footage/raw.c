@@ -184,10 +184,10 @@ celspan_status cs_raw_convert(const cs_raw *planes, celspan_context *context,
                               const unsigned char *picture, const celspan_rectangle *rectangle,
                               unsigned char *out, size_t stride) {
   const celspan_rectangle from = stored(planes, rectangle);
-  const size_t count = (size_t)from.width, floats = CS_RAW_ROOM(count) + 2 * count;
+  const size_t row_room = cs_raw_room(from.width), floats = row_room + 2 * (size_t)from.width;
   float *room;
   CS_TRY(CS_MAKE(context, room, floats));
-  unsigned char *codes = (unsigned char *)(room + CS_RAW_ROOM(count));
+  unsigned char *codes = (unsigned char *)(room + row_room);
   for (int32_t y = 0; y < from.height; y++) {
     unsigned char *row = planes->turns ? codes : out + (size_t)y * stride;
     cs_raw_row(planes, picture, from.x, from.y + y, from.width, room, row);

@@ -29,7 +29,8 @@ typedef struct cs_raw {
 /* The shares of a matrix by ffmpeg's name of it; "unknown" depends on the height. NULL: it is of
  * another kind. */
 const float *cs_raw_matrix(const char *name, int32_t height);
-/* The name of the matrix by which these planes become R'G'B': "none" where they are, or are grey. */
+/* The name of the matrix by which these planes become R'G'B': "none" where they are, or are
+ * grey. */
 const char *cs_raw_matrix_taken(const cs_raw *planes, const char *name, int32_t height);
 /* Whether a form of pixels holds other colours than R'G'B' and Y'CbCr, which are not read: X'Y'Z'
  * of digital cinema, and what a sensor has under its filters. */
@@ -56,8 +57,8 @@ CELSPAN_CHECKED celspan_status cs_raw_convert(const cs_raw *planes, celspan_cont
 
 /* ---- raw_row.c */
 
-/* Floats of room for a row. */
-#define CS_RAW_ROOM(count) (5 * ((count) + 8))
+/* Floats of room for `count` columns of a row. */
+size_t cs_raw_room(int32_t count);
 
 /* Columns [x, x + count) of row y as stored: R'G'B'A codes of 8 or 16 bits. */
 void cs_raw_row(const cs_raw *planes, const unsigned char *picture, int32_t x, int32_t y,

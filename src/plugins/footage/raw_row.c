@@ -1,6 +1,8 @@
 /* One row of a raw picture as codes of R'G'B'A. */
 #include "plugins/footage/raw_row.h"
 
+#include "plugins/footage/raw.h"
+
 #define RUN(name) CS_WIDE_CHOOSE(cs_isa_best(), name)
 
 /* One plane. */
@@ -65,54 +67,64 @@ static void widen(const plane *p, const int32_t rows[2], float share, int32_t x,
     out[i - x] = out[last - x];
 }
 
-static void put_plane(const plane *p, float black, float by, int32_t x, int32_t y, int32_t count,
-                      float *out) {
-  widen(p, (const int32_t[]){y, y}, 0, x, count, out);
-  RUN(cs_raw_scale)(black, by, count, out);
+/* Pixels of a row, from an even one on; count: even. */
+typedef struct stretch {
+  int32_t x, y, count;
+} stretch;
+
+static void put_plane(const plane *p, float black, float by, const stretch *at, float *out) {
+  widen(p, (const int32_t[]){at->y, at->y}, 0, at->x, at->count, out);
+  RUN(cs_raw_scale)(black, by, at->count, out);
 }
 
-/* The colour of the pixels of a row, from an even one on; room: for a row. */
-static void put_colour(const cs_raw *planes, const plane *p, const scale *by, int32_t x, int32_t y,
-                       int32_t count, float *room, float *out) {
-  const float place = planes->down == 2 ? ((float)y - planes->site_y) / 2 : (float)y;
+/* room: for a row. */
+static void put_colour(const cs_raw *planes, const plane *p, const scale *by, const stretch *at,
+                       float *room, float *out) {
+  const float place = planes->down == 2 ? ((float)at->y - planes->site_y) / 2 : (float)at->y;
   const int32_t upper = (int32_t)floorf(place);
   const int32_t rows[] = {held(upper, p->height), held(upper + 1, p->height)};
   const float share = place - (float)upper;
   const float shares[] = {1 - planes->site_x / 2, .5f - planes->site_x / 2};
   if (planes->across == 1) {
-    widen(p, rows, share, x, count, out);
+    widen(p, rows, share, at->x, at->count, out);
   } else {
-    widen(p, rows, share, x / 2 - 1, count / 2 + 2, room);
-    RUN(cs_raw_spread)(room, shares, count / 2, out);
+    widen(p, rows, share, at->x / 2 - 1, at->count / 2 + 2, room);
+    RUN(cs_raw_spread)(room, shares, at->count / 2, out);
   }
-  RUN(cs_raw_scale)(by->middle, by->colour, count, out);
+  RUN(cs_raw_scale)(by->middle, by->colour, at->count, out);
 }
+
+/* Floats of room for one of the five rows, which may be longer by a pixel at each end. */
+static size_t room_of(int32_t count) { return (size_t)count + 8; }
+
+size_t cs_raw_room(int32_t count) { return 5 * room_of(count); }
 
 void cs_raw_row(const cs_raw *planes, const unsigned char *picture, int32_t x, int32_t y,
                 int32_t count, float *room, void *out) {
   const scale by = scale_of(planes);
   const cs_raw_shares shares = shares_of(planes);
-  const int32_t odd = x % 2, begin = x - odd, even = (count + odd + 1) / 2 * 2;
-  const size_t stride = CS_RAW_ROOM((size_t)count) / 5;
+  const int32_t odd = x % 2;
+  const stretch at = {x - odd, y, (count + odd + 1) / 2 * 2};
+  const size_t stride = room_of(count);
   float *all[] = {room, room + stride, room + 2 * stride, room + 3 * stride};
   plane p[4];
   for (int i = 0; i < 4; i++)
     p[i] = plane_of(planes, picture, i);
   if (planes->is_rgb) /* stored in the order green, blue, red */
     for (int c = 0; c < 3; c++)
-      put_plane(&p[(c + 2) % 3], by.black, by.light, begin, y, even, all[c]);
+      put_plane(&p[(c + 2) % 3], by.black, by.light, &at, all[c]);
   else
-    put_plane(&p[0], by.black, by.light, begin, y, even, all[0]);
+    put_plane(&p[0], by.black, by.light, &at, all[0]);
   if (!planes->is_rgb && planes->has_colour) {
     for (int c = 1; c < 3; c++)
-      put_colour(planes, &p[c], &by, begin, y, even, room + 4 * stride, all[c]);
-    RUN(cs_raw_mix)(&shares, even, all[0], all[1], all[2]);
+      put_colour(planes, &p[c], &by, &at, room + 4 * stride, all[c]);
+    RUN(cs_raw_mix)(&shares, at.count, all[0], all[1], all[2]);
   }
   bool is_grey = !planes->is_rgb && !planes->has_colour;
   if (planes->has_alpha)
-    put_plane(&p[3], 0, 1 / (float)((1 << planes->bits) - 1), begin, y, even, all[3]);
+    put_plane(&p[3], 0, 1 / (float)((1 << planes->bits) - 1), &at, all[3]);
   else
-    for (int32_t i = 0; i < even; i++)
+    for (int32_t i = 0; i < at.count; i++)
       all[3][i] = 1;
   float *const rows[] = {all[0] + odd, (is_grey ? all[0] : all[1]) + odd,
                          (is_grey ? all[0] : all[2]) + odd, all[3] + odd};

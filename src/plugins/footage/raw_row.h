@@ -1,4 +1,4 @@
-/* Rows of raw pictures: the loops of raw_row_wide.c, which raw_row.c puts together.
+/* Rows of raw pictures: loops over their samples and pixels, which raw_row.c puts together.
  *
  * Mixtures of samples are exact: shares are quarters, and samples have 16 bits at most. So they may
  * be mixed down first, and across then.
@@ -6,7 +6,6 @@
 #pragma once
 
 #include "base/wide.h"
-#include "plugins/footage/raw.h"
 
 /* By how much colours change the light. */
 typedef struct cs_raw_shares {
