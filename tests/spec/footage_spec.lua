@@ -2,10 +2,12 @@
 -- refused in one sentence, and numbered files begin anywhere.
 
 local movies = require "tests.support.movies"
+local present = require "tests.support.present"
 
 local W, H = movies.W, movies.H
 local TEST, X264 = movies.test, movies.x264
 local it_decodes = movies.are_made and it or pending
+local it_converts = present.spaces() and present.pictures() and it or pending
 
 local run, make, render = movies.run, movies.make, movies.render
 
@@ -198,19 +200,23 @@ describe("footage", function()
     assert(#timed >= 46 * W * H * 4 and numbered:sub(1, #timed) == timed, #timed)
   end)
 
-  it_decodes("has a sound, which a film plays", function()
-    make(bench, "a.mkv", TEST(24, 1) .. "-f lavfi -i sine=d=1 " .. X264 "yuv420p"
-      .. "-c:a libvorbis")
-    bench:write("heard.lua", [[
-      local celspan = require "celspan"
-      local clip = celspan.footage { file = "a.mkv" }
-      return celspan.film { size = clip.size, fps = 24, frames = 24, frame = function()
-        return celspan.rostrum {}
-      end, sound = clip.sound and "a.mkv" or nil }]])
-    assert.are.equal(0, (bench:celspan_inside "sound heard.lua -o mix.wav"))
-    local mix = bench:read "mix.wav"
-    assert(#mix > 48000 * 4 and mix:sub(100000, 100999):find "[^%z]", #mix)
-  end)
+  local sounds = { mkv = X264 "yuv420p" .. "-c:a libvorbis", ts = X264 "yuv420p" .. "-c:a aac",
+    mxf = "-r 25 -c:v mpeg2video -pix_fmt yuv422p -c:a pcm_s16le -ar 48000" }
+  for kind, coding in pairs(sounds) do
+    it_decodes("has a sound, which a film plays: " .. kind, function()
+      make(bench, "a." .. kind, TEST(25, 1) .. "-f lavfi -i sine=d=1 " .. coding)
+      bench:write("heard.lua", ([[
+        local celspan = require "celspan"
+        local clip = celspan.footage { file = "a.%s" }
+        return celspan.film { size = clip.size, fps = 24, frames = 24, frame = function()
+          return celspan.rostrum {}
+        end, sound = clip.sound and "a.%s" or nil }]]):format(kind, kind))
+      local code, _, err = bench:celspan_inside "sound heard.lua -o mix.wav"
+      assert.are.equal(0, code, err)
+      local mix = bench:read "mix.wav"
+      assert(#mix > 48000 * 4 and mix:sub(100000, 100999):find "[^%z]", #mix)
+    end)
+  end
 
   it_decodes("makes pixels square", function()
     make(bench, "square.mp4", TEST(24, 1) .. X264 "yuv420p" .. "-vf setsar=4/3")
@@ -257,7 +263,7 @@ describe("footage", function()
     assert.matches("^format matroska\ncodec vp9\nsize 64x36\nfps 24\nframes 24\n", out)
   end)
 
-  it_decodes("has colours of which info says what they are taken for", function()
+  it_decodes("has colours of which info says how they are read", function()
     local function says(made, colour, said, taken)
       make(bench, "a.mkv", "-f lavfi -i testsrc2=" .. made)
       local code, out = bench:celspan_inside "info a.mkv"
@@ -313,6 +319,51 @@ describe("footage", function()
     code, _, err = bench:celspan_inside "render show.lua -o 's.####.png'"
     assert.are_not.equal(0, code)
     assert.matches("footage: p.####.png: 2 files are missing: 1003, 1005", err, 1, true)
+  end)
+
+  it_converts("shows numbered files in a space of a configuration as pictures are", function()
+    bench:write("config.ocio", [[
+ocio_profile_version: 2
+roles: {default: coded, scene_linear: light}
+colorspaces:
+  - !<ColorSpace> {name: light, aliases: [lin_rec709]}
+  - !<ColorSpace>
+    name: coded
+    from_reference: !<ExponentTransform> {value: 3, direction: inverse}
+]])
+    bench:write("plates.lua", [[
+      local celspan = require "celspan"
+      return celspan.film { size = { 8, 8 }, frames = 3, frame = function(f)
+        return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 8, 8,
+          texture = celspan.rgb(f.index / 4, .5, .25) } } }
+      end }]])
+    local shown = [[
+      local celspan = require "celspan"
+      local clip = celspan.footage { file = "p.####.exr", fps = 24, colour = "coded" }
+      return celspan.film { size = clip.size, fps = 24, frames = clip.frames, frame = function(f)
+        local plate = %s
+        return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 8, 8, texture = plate } } }
+      end }]]
+    bench:write("clip.lua", shown:format "clip:frame(f.index + 1)")
+    bench:write("pictures.lua", shown:format
+      "celspan.picture { file = 'p.####.exr', frame = 7 + f.index, colour = 'coded' }")
+    local function renders(arguments)
+      local code, _, err = bench:celspan_inside("render %s --depth float", arguments)
+      assert.equal(0, code, err)
+    end
+    renders "plates.lua -o 'p.####.exr'"
+    for i = 3, 1, -1 do
+      os.rename(("%s/p.%04d.exr"):format(bench.folder, i),
+        ("%s/p.%04d.exr"):format(bench.folder, 6 + i))
+    end
+    renders "clip.lua --ocio config.ocio -o 'c.####.exr'"
+    renders "pictures.lua --ocio config.ocio -o 'd.####.exr'"
+    for i = 1, 3 do
+      local same = bench:celspan_inside("compare c.%04d.exr d.%04d.exr", i, i)
+      local other = bench:celspan_inside("compare c.%04d.exr p.%04d.exr --fail 1e-3", i, 6 + i)
+      assert.are.equal(0, same)
+      assert.are_not.equal(0, other)
+    end
   end)
 
   it("refuses wrong fields", function()

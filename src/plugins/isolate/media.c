@@ -1,6 +1,7 @@
 #include "plugins/isolate/media.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
@@ -16,7 +17,10 @@
 #include "plugins/isolate/media_worker.h"
 #include "plugins/isolate/worker.h"
 
-enum { PAUSE = 50 /* milliseconds between two checks for a signal to stop */ };
+enum {
+  PAUSE = 50,          /* milliseconds between two checks for a signal to stop */
+  PIPE_BYTES = 1 << 20 /* the most that a system gives without being asked by its owner */
+};
 
 /* ---------------------------------------------------------------- failures */
 
@@ -202,6 +206,7 @@ celspan_status cs_media_start(cs_media *m, celspan_context *context, cs_worker_t
   int error = cs_spawn_pipe(ends);
   if (error)
     return fail_pipe(m, context, error);
+  (void)fcntl(ends[0], F_SETPIPE_SZ, PIPE_BYTES); /* the usual size is enough, but slower */
   CS_TRY(start_worker(m, context, task, ends));
   /* If the message cannot be sent, the worker has ended, and the first read finds this. */
   (void)!cs_message_send(m->socket, message, descriptor);

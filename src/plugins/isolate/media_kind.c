@@ -42,9 +42,9 @@ static const struct {
     {{{4, "wide"}, {0, ""}}, "mov", CS_MEDIA_MOVIE},
     {{{0, "\x1a\x45\xdf\xa3"}, {0, ""}}, "matroska", BOTH},
     {{{0, "RIFF"}, {8, "AVI "}}, "avi", BOTH},
-    {{{0, "\x06\x0e\x2b\x34"}, {0, ""}}, "mxf", CS_MEDIA_MOVIE},
+    {{{0, "\x06\x0e\x2b\x34"}, {0, ""}}, "mxf", BOTH},
     {{{0, "YUV4MPEG2 "}, {0, ""}}, "yuv4mpegpipe", CS_MEDIA_MOVIE},
-    {{{0, "G"}, {PACKET, "G"}}, "mpegts", CS_MEDIA_MOVIE},
+    {{{0, "G"}, {PACKET, "G"}}, "mpegts", BOTH},
 };
 
 static bool has(const unsigned char *bytes, size_t offset, const char *mark) {

@@ -10,8 +10,8 @@
  *   old mov          a size, moov, mdat, wide                    mov             movies
  *   mkv, webm        1a 45 df a3                                 matroska        both
  *   avi              RIFF, a size, AVI                           avi             both
- *   mxf              06 0e 2b 34                                 mxf             movies
- *   ts               47 at 0 and at 188                          mpegts          movies
+ *   mxf              06 0e 2b 34                                 mxf             both
+ *   ts               47 at 0 and at 188                          mpegts          both
  *   y4m              YUV4MPEG2                                   yuv4mpegpipe    movies
  *
  * An old mov may only name other files, which hold its sound, so it is refused as a sound.
