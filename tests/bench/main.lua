@@ -14,6 +14,7 @@ local beside = require "tests.bench.parts_beside"
 local compositing = require "tests.bench.parts_compositing"
 local files = require "tests.bench.parts_files"
 local film = require "tests.bench.parts_film"
+local footage = require "tests.bench.parts_footage"
 local frames = require "tests.bench.parts_frames"
 local lottie = require "tests.bench.parts_lottie"
 local planes = require "tests.bench.parts_planes"
@@ -42,6 +43,7 @@ local parts = {
   { "start", "from exec to the first row", film.start },
   { "film_png", "a frame of the demo film to PNG", film.film_png },
   { "demo", "the demo film to PNG", film.demo },
+  { "footage", "a clip under a title, beside ffmpeg's overlay", footage.footage },
   { "film", "films, frame by frame", frames.film },
   { "planes", "plane files beside frames", planes.planes },
   { "lottie", "heavy Lottie animations", lottie.lottie },
