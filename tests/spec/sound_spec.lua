@@ -128,7 +128,6 @@ local REFUSED = {
   ["notes.mid"] = "MThd\0\0\0\6\0\0\0\1\0\96MTrk\0\0\0\4\0\xff\x2f\0",
   ["archive.wav"] = "PK\3\4" .. ("\0"):rep(64),
   ["packed.wav"] = "\x1f\x8b\8\0" .. ("\0"):rep(64),
-  ["stream.ts"] = ("\x47\0\0\x10" .. ("\xff"):rep(184)):rep(8),
   ["page.svg"] = '<svg xmlns="http://www.w3.org/2000/svg"><image href="../secret.wav"/></svg>',
   ["entity.wav"] = '<!DOCTYPE x [<!ENTITY e SYSTEM "file://OUT/secret.wav">]><x>&e;</x>',
 }
@@ -138,6 +137,8 @@ local REFUSED = {
 local good = wav()
 local STRANGE = {
   ["clip.wav"] = "RIFF\0\0\0\0AVI LIST",
+  ["stream.ts"] = ("\x47\0\0\x10" .. ("\xff"):rep(184)):rep(8),
+  ["head.mxf"] = "\x06\x0e\x2b\x34\2\5\1\1\13\1\2\1\1\2\4\0" .. ("\0"):rep(400),
   ["attached.mkv"] = element("\x1a\x45\xdf\xa3", "\x42\x82\x88matroska")
     .. element("\x18\x53\x80\x67", element("\x19\x41\xa4\x69", "\x61\xa7\x80")),
   ["linked.mka"] = element("\x1a\x45\xdf\xa3", "\x42\x82\x88matroska")
