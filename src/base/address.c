@@ -7,6 +7,9 @@
 #include "base/hex.h"
 #include "base/open.h"
 
+#define PREFIX "data:;base64,"
+#define PREFIX_SIZE (sizeof PREFIX - 1)
+
 /* ---------------------------------------------------------------- codes */
 
 int cs_address_unescape(const char *text) {
@@ -34,8 +37,8 @@ static int base64_digit(unsigned char c) {
   return c == '+' || c == '-' ? 62 : c == '/' || c == '_' ? 63 : -1;
 }
 
-/* Source: RFC 4648, 4. Space is skipped, and "=" ends the data. out has room for three quarters of
- * the text. */
+/* Source: RFC 4648, 4. Space is skipped, and "=" ends the data. A digit that is left over has not
+ * the bits of a byte. out has room for three quarters of the text. */
 static bool decode_base64(const char *text, cs_address_data *out) {
   uint32_t bits = 0;
   int count = 0;
@@ -43,8 +46,8 @@ static bool decode_base64(const char *text, cs_address_data *out) {
     unsigned char c = take_byte(&text);
     int digit = base64_digit(c);
     if (c == '=')
-      return true;
-    if (digit < 0 && !strchr(" \t\n\r\f", c))
+      break;
+    if (digit < 0 && (!c || !strchr(" \t\n\r\f", c)))
       return false;
     if (digit < 0)
       continue;
@@ -55,7 +58,22 @@ static bool decode_base64(const char *text, cs_address_data *out) {
       out->bytes[out->size++] = (unsigned char)(bits >> count);
     }
   }
-  return true;
+  return count != 6;
+}
+
+size_t cs_address_encoded_size(size_t size) { return PREFIX_SIZE + (size + 2) / 3 * 4; }
+
+void cs_address_encode(const unsigned char *bytes, size_t size, char *out) {
+  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  memcpy(out, PREFIX, PREFIX_SIZE);
+  out += PREFIX_SIZE;
+  for (size_t at = 0; at < size; at += 3, out += 4) {
+    size_t rest = size - at;
+    uint32_t bits = (uint32_t)bytes[at] << 16 | (rest > 1 ? (uint32_t)bytes[at + 1] << 8 : 0) |
+                    (rest > 2 ? bytes[at + 2] : 0);
+    for (int i = 0; i < 4; i++)
+      out[i] = i > 0 && (size_t)i > rest ? '=' : digits[bits >> (18 - 6 * i) & 63];
+  }
 }
 
 /* ---------------------------------------------------------------- addresses */

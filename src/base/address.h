@@ -20,6 +20,10 @@ bool cs_address_is_data(const char *address);
 CELSPAN_CHECKED celspan_status cs_address_read(celspan_context *context, const char *address,
                                                cs_address_data *out, bool *is_broken);
 void cs_address_finish(cs_address_data *data, celspan_context *context);
+/* Writes an address that contains these bytes, of the size that cs_address_encoded_size returns,
+ * and without an end of text. */
+size_t cs_address_encoded_size(size_t size);
+void cs_address_encode(const unsigned char *bytes, size_t size, char *out);
 /* The byte that an escape such as "%41" means; -1 where text does not begin with one. */
 int cs_address_unescape(const char *text);
 /* Makes a file without a name, in memory, that contains these bytes, for libraries and programs

@@ -194,34 +194,64 @@ describe("sounds", function()
   end)
 
   it("may be inside the file, by an address", function()
-    local inside = { id = "v", p = "data:audio/wav;base64,UklGRg==", e = 1 }
-    local art = read({ song() }, { assets = { inside } })
-    assert.same({ inside.p, {} }, { art.sounds[1][1], art.skipped })
+    for _, word in ipairs { "data", "DATA" } do
+      local inside = { id = "v", p = word .. ":audio/wav;base64,UklGRg==", e = 1 }
+      local art = read({ song() }, { assets = { inside } })
+      assert.same({ inside.p, {} }, { art.sounds[1][1], art.skipped })
+    end
   end)
 
+  --- A dotLottie file whose layers show the sound b.wav of these bytes.
+  local function archive(layers, bytes, version)
+    local is_old = version == "1"
+    local path = write(lotties.archive {
+      { "manifest.json", lotties.json { version = version, animations = { { id = "m" } } } },
+      { (is_old and "animations/" or "a/") .. "m.json", lotties.json(lotties.document(layers,
+        { assets = { { id = "v", p = "b.wav", u = "/audio/" }, { id = "w", p = "w.wav" } } })) },
+      { is_old and "audio/b.wav" or "u/b.wav", bytes }, { "u/w.wav", "RIFF" },
+    }, "lottie")
+    return path
+  end
+  local function in_archive(...) return assert(require "celspan.lottie".read(archive(...))) end
+
   it("may be in the archive, in the folder of either version", function()
-    for version, folders in pairs { ["1"] = { "animations/", "audio/" }, ["2"] = { "a/", "u/" } } do
-      local path = write(lotties.archive {
-        { "manifest.json", lotties.json { version = version, animations = { { id = "m" } } } },
-        { folders[1] .. "m.json", lotties.json(lotties.document({ song() },
-          { assets = { { id = "v", p = "b.wav", u = "/audio/" } } })) },
-        { folders[2] .. "b.wav", "RIFF \0\255,%" },
-      }, "lottie")
-      local art = assert(require "celspan.lottie".read(path))
-      assert.same({ "data:,RIFF%20%00%ff%2c%25", {} }, { art.sounds[1][1], art.skipped })
+    for version = 1, 2 do
+      for bytes, coded in pairs { ["RIFF \0\255,%"] = "UklGRiAA/ywl", ["a\254"] = "Yf4=",
+                                  ["a"] = "YQ==" } do
+        local art = in_archive({ song() }, bytes, tostring(version))
+        assert.same({ "data:;base64," .. coded, {} }, { art.sounds[1][1], art.skipped })
+      end
     end
   end)
 
   it("inside the file are at most 128 MiB, counted for each layer", function()
     local inside, many = { id = "v", p = "data:," .. ("a"):rep(16 << 20) }, {}
     for i = 1, 10 do many[i] = song() end
-    many[11] = song { refId = "w" }
-    local art = read(many, { assets = { inside, { id = "w", p = "a.wav" } } })
-    assert.same(8, #art.sounds) -- with its first letters, the eighth is beyond; a.wav is a file
+    many[11], many[12] = song { refId = "w" }, song { refId = "s" }
+    local art = read(many, { assets = { inside, { id = "w", p = "a.wav" },
+                                        { id = "s", p = "data:,a" } } })
+    -- with its first letters, the eighth is beyond; a.wav is a file, and the last one has room
+    assert.same(9, #art.sounds)
     assert.matches("a%.wav$", art.sounds[8][1])
+    assert.same("data:,a", art.sounds[9][1])
     assert.matches("layers%[7%].*its sound is missing: the sounds inside the file are larger",
       art.skipped[1])
   end)
+
+  it("in the archive count as many bytes as they have, and are not read when there is no room",
+    function()
+      local many = {}
+      for i = 1, 40 do many[i] = song() end -- 80 MiB, and 240 MiB as escapes of addresses
+      local art = in_archive(many, ("\255"):rep(2 << 20))
+      assert.same({ 40, {} }, { #art.sounds, art.skipped })
+      local path = archive({ song(), song { refId = "w" } }, "RIFF")
+      local text = bench:read(path:match "[^/]*$")
+      local place = assert(text:find("u/b.wav", text:find("PK\1\2", 1, true), true))
+      text = text:sub(1, place - 23) .. string.pack("<I4", 200 << 20) .. text:sub(place - 18)
+      art = assert(require "celspan.lottie".read(write(text, "lottie"))) -- it says 200 MiB
+      assert.same(1, #art.sounds)
+      assert.matches("layers%[0%].*larger than 128 MiB", art.skipped[1])
+    end)
 
   it("that are not in the archive or the file are noted", function()
     local art = read({ song() }, { assets = { { id = "v", p = "none.wav" } } })

@@ -592,6 +592,23 @@ describe("a bad file", function()
 end)
 
 describe("the program", function()
+  it("reads an animation once, and again only for values that are set", function()
+    if not present.program "strace" then return pending "there is no strace" end
+    local slots = { tint = { p = still { 1, 0, 0 } } }
+    local item = layer { { ty = "rc", p = { k = { 0, 0 } }, s = { k = { 40, 40 } } },
+                         { ty = "fl", c = { sid = "tint" }, o = { k = 100 } } }
+    bench:write("once.json", lotties.json(document({ item }, { slots = slots })))
+    local function readings(options)
+      local code, _, err = bench:inside(("ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0 strace -f "
+        .. "-o calls -e trace=openat '%s' convert once.json once.png %s"):format(
+        workbench.absolute, options))
+      assert.same(0, code, err)
+      return select(2, bench:read("calls"):gsub("once%.json", ""))
+    end
+    local once = readings ""
+    assert.same(once + 1, readings "--set tint=#00f")
+  end)
+
   it("takes an animation without a script, with its slots as parameters", function()
     local slots = { tint = { p = still { 1, 0, 0 } }, ["bar width"] = { p = still(4) } }
     local item = layer({ { ty = "rc", p = { k = { 0, 0 } }, s = { k = { 40, 40 } } },

@@ -431,6 +431,10 @@ return inner]])
     assert.are.equal(3, code)
     assert.truthy(err:find("film: sound 1: click.wav: it is heard at 0.0004 times its speed", 1,
       true), err)
+    bench:inside "sed -i \"s|click.wav|DATA:;base64,$(base64 -w 0 click.wav)|\" film.lua"
+    code, _, err = run "sound film.lua -o mix.wav"
+    assert.are.equal(3, code)
+    assert.truthy(err:find("film: sound 1: data:...: it is heard at 0.0004 times", 1, true), err)
   end)
 
   it("is refused if films are sounds of films more than 1000 deep", function()
@@ -541,6 +545,15 @@ describe("the loudness of a sound", function()
     bench:write("voice.wav", clicks(0, {}, 8000))
     assert.are.same({ 0, 0, 0 }, printed("print(voice:loudness(0))\nprint(#voice:onsets())\n"
       .. "print(voice.seconds)"))
+  end)
+
+  it_mixes("is that of an address, however it is written", function()
+    bench:write("voice.wav", clicks(0.5, { 0.2 }, 8000))
+    for _, word in ipairs { "data", "Data" } do
+      bench:inside(("(printf '%s:;base64,'; base64 -w 0 voice.wav) >address"):format(word))
+      local body = "voice = assert(sound.read [[%s]])\nprint(voice.seconds)"
+      assert.are.same({ 0.5 }, printed(body:format(bench:read "address")))
+    end
   end)
 
   it_mixes("has the times at which something begins", function()

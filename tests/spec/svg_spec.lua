@@ -1613,8 +1613,10 @@ describe("an image", function()
     local art = read(('<image width="9" height="9" href="data:image/png;base64,%s"/>')
       :format(("QUFB"):rep(5000000)))
     assert.are.equal(1, #art.skipped)
-    art = read '<image width="9" height="9" href="data:image/png;base64,iVBO$$$$"/>'
-    assert.are.equal("image: its data: address is damaged", art.skipped[1].what)
+    for _, data in ipairs { "iVBO$$$$", "iVBO%00", "iVBO%00Rw0K", "iVBOR", "iVBOR=" } do
+      art = read(('<image width="9" height="9" href="data:image/png;base64,%s"/>'):format(data))
+      assert.are.equal("image: its data: address is damaged", art.skipped[1].what, data)
+    end
   end)
 
   it("is never read from outside the drawing's folder", function()

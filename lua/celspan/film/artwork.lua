@@ -103,15 +103,17 @@ end
 --- The animation as a film, and notes about what looks different.
 local function animation(path)
   local lottie = require "celspan.lottie" -- it is large, and few films need it
-  local wanted, by_name = parameters_of(needed(lottie.read(path)))
+  local art = needed(lottie.read(path))
+  local wanted, by_name = parameters_of(art)
   local given, set = parameters.declare(wanted), {}
   for name, one in pairs(by_name) do
     if given[name] ~= one.default then set[one.slot] = given[name] end
   end
-  local art = needed(lottie.read(path, {
-    set = set, fonts = given.font ~= "" and { default = given.font } or nil,
+  local options = {
+    set = next(set) and set, fonts = given.font ~= "" and { default = given.font } or nil,
     theme = wanted.theme and given.theme ~= "" and given.theme or nil,
-  }))
+  }
+  if next(options) then art = needed(lottie.read(path, options)) end
   return art:film():with { title = path:match "[^/]*$" }, art.skipped
 end
 

@@ -90,7 +90,7 @@ local function of_film(sound, depth)
     if inner.speed < SLOWEST or inner.speed > FASTEST then
       error(("film: sound %d: %s: it is heard at %.4g times its speed, in films that are sounds of "
         .. "films; 0.01 to 100 times is possible"):format(sound.number,
-        (inner.path:gsub("^data:.*", "data:...")), inner.speed), 0)
+        core.is_data(inner.path) and "data:..." or inner.path, inner.speed), 0)
     end
     inner.left, inner.right = inner.left * left, inner.right * right
     if is_heard(inner.passages) then list[#list + 1] = inner end

@@ -9,7 +9,7 @@ local pictures = {}
 local frame = '<svg xmlns="http://www.w3.org/2000/svg" width="%.9g" height="%.9g">'
   .. '<image width="%.9g" height="%.9g" preserveAspectRatio="none" href="%s"/></svg>'
 
--- Bytes of all sounds inside the file, as they are written in it or in addresses.
+-- Bytes of all sounds inside the file: those of members, and addresses as they are written.
 local MOST_SOUND = 128 * 1024 * 1024
 local TOO_MUCH = "the sounds inside the file are larger than 128 MiB, counted again for each layer"
 
@@ -44,7 +44,7 @@ end
 local function open(found, asset)
   local w, h = math.max(1, values.number(asset.w, 1)), math.max(1, values.number(asset.h, 1))
   if type(asset.p) ~= "string" or asset.p == "" then return nil, "the picture has no name" end
-  if asset.p:find "^data:" then return embedded(asset.p, w, h) end
+  if core.is_data(asset.p) then return embedded(asset.p, w, h) end
   if not found.archive then return beside(found, asset, w, h) end
   local address, message = source.address(found, "picture", asset.p)
   if not address then return nil, message end
@@ -66,11 +66,27 @@ function pictures.reader(found, assets)
   end
 end
 
+--- The bytes of the sound of an asset inside the file.
+local function bytes_of(found, asset)
+  if core.is_data(asset.p) then return #asset.p end
+  if found.archive then return source.bytes(found, "sound", asset.p) end
+  return 0
+end
+
 --- The path of the sound of an asset, or an address that contains it.
-local function sound_of(found, asset)
-  if asset.p:find "^data:" then return asset.p end
-  if found.archive then return source.address(found, "sound", asset.p) end
+local function sound_of(found, asset, most)
+  if core.is_data(asset.p) then return asset.p end
+  if found.archive then return source.address(found, "sound", asset.p, most) end
   return file_of(found, asset)
+end
+
+--- As pictures.sounds returns it, for assets whose bytes are counted by `take`.
+local function try_sound(found, asset, known, take)
+  local bytes, problem = bytes_of(found, asset)
+  if not bytes then return nil, problem end
+  if not take(bytes) then return nil, TOO_MUCH end
+  known[asset] = known[asset] or { sound_of(found, asset, bytes) }
+  return known[asset][1], known[asset][2]
 end
 
 --- A function that returns the path of the sound of an asset, or an address that contains it; or
@@ -78,16 +94,15 @@ end
 function pictures.sounds(found, assets)
   local known = {}
   local left = MOST_SOUND -- each layer's own: each is decoded alone
+  local function take(bytes)
+    if bytes > left then return false end
+    left = left - bytes
+    return true
+  end
   return function(id)
     local asset = assets[id] and assets[id].item
     if not asset or type(asset.p) ~= "string" then return nil, "its sound is not in the file" end
-    local is_inside = found.archive or asset.p:find "^data:"
-    if not known[asset] and not (is_inside and left < 0) then
-      known[asset] = { sound_of(found, asset) }
-    end
-    local path, message = table.unpack(known[asset] or {}, 1, 2)
-    if is_inside then left = left - #(path or "") end
-    if is_inside and left < 0 then path, message = nil, TOO_MUCH end
+    local path, message = try_sound(found, asset, known, take)
     return path, message and "its sound is missing: " .. message
   end
 end

@@ -13,10 +13,6 @@ local source = {}
 local folders = { animation = { "a/", "animations/" }, picture = { "i/", "images/" },
                   sound = { "u/", "audio/" }, theme = { "t/", "themes/" } }
 
---- Bytes as addresses have them.
-local escapes = {}
-for byte = 0, 255 do escapes[string.char(byte)] = ("%%%02x"):format(byte) end
-
 --- The value of a JSON text; the message begins with the name of what is read.
 local function decode(text, name)
   local value, message = json.decode(text)
@@ -24,15 +20,19 @@ local function decode(text, name)
   return value
 end
 
---- A member of an archive, in the folder of either version.
-local function member(archive, kind, name)
+--- What a function of an archive returns for a member, in the folder of either version.
+local function in_folders(ask, archive, kind, name, most)
   local message
   for _, folder in ipairs(folders[kind]) do
-    local bytes, problem = core.archive(archive, folder .. name, json.most_bytes)
-    if bytes then return bytes end
+    local answer, problem = ask(archive, folder .. name, most)
+    if answer then return answer end
     message = message or problem
   end
   return nil, message
+end
+
+local function member(archive, kind, name)
+  return in_folders(core.archive, archive, kind, name, json.most_bytes)
 end
 
 --- The ids of a list of the manifest.
@@ -94,12 +94,24 @@ end
 ---@param found table
 ---@param kind "picture" | "sound"
 ---@param name string
+---@param most? integer Bytes; default: as of all members
 ---@return string? address
 ---@return string? message
-function source.address(found, kind, name)
-  local bytes, message = member(found.archive, kind, name)
+function source.address(found, kind, name, most)
+  local bytes, message = in_folders(core.archive, found.archive, kind, name,
+    math.min(most or json.most_bytes, json.most_bytes))
   if not bytes then return nil, message end
-  return "data:," .. bytes:gsub("[^%w]", escapes)
+  return core.data(bytes)
+end
+
+--- The bytes that a picture or sound of the archive says to have.
+---@param found table
+---@param kind "picture" | "sound"
+---@param name string
+---@return integer? bytes
+---@return string? message
+function source.bytes(found, kind, name)
+  return in_folders(core.archive_size, found.archive, kind, name)
 end
 
 --- The rules of a theme: a list of { id =, value = }.

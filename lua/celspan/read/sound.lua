@@ -163,8 +163,7 @@ function sound.read(file)
   if type(file) ~= "string" then
     core.refuse("sound: read takes a file name, got " .. type(file))
   end
-  local paths = { file:find "^data:" and file or core.find(file) }
-  local seconds, sums = core.hear(table.unpack(paths))
+  local seconds, sums = core.hear(core.is_data(file) and file or core.find(file))
   if not seconds then return nil, sums end
   local value = setmetatable({ seconds = seconds }, metatable)
   sums_of[value], paths_of[value] = sums, paths

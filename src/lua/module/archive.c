@@ -29,29 +29,53 @@ static int release(lua_State *L) {
   return 0;
 }
 
-static celspan_status load(archive *a, const char *name, size_t most) {
+static celspan_status find(archive *a, const char *name, const cs_zip_member **member) {
   CS_TRY(cs_input_open(a->context, &a->input));
   a->is_open = true;
   CS_TRY(cs_zip_read(a->context, &a->input, &a->zip));
   a->has_zip = true;
-  const cs_zip_member *member = cs_zip_find(&a->zip, name);
-  if (!member)
-    return cs_input_fail(a->context, &a->input, -1, CELSPAN_INPUT, "the archive has no '%s'", name);
-  return cs_zip_load(a->context, &a->input, member, most, &a->bytes, &a->size);
+  *member = cs_zip_find(&a->zip, name);
+  if (*member)
+    return CELSPAN_OK;
+  return cs_input_fail(a->context, &a->input, -1, CELSPAN_INPUT, "the archive has no '%s'", name);
 }
 
-int cs_archive_member(lua_State *L) {
+/* path, name -> archive: finds the member. */
+static celspan_status open(lua_State *L, archive **a, const cs_zip_member **member) {
   const char *path = luaL_checkstring(L, 1), *name = luaL_checkstring(L, 2);
-  lua_Integer most = luaL_checkinteger(L, 3);
   cs_host_admit(L, path);
-  archive *a = cs_userdata_push_holder(L, "celspan.archive", sizeof *a, release);
-  *a = (archive){.context = cs_host_context(L), .input = {.path = path}};
-  celspan_status status = load(a, name, (size_t)most);
-  if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
-  lua_pushlstring(L, (const char *)a->bytes, a->size);
+  *a = cs_userdata_push_holder(L, "celspan.archive", sizeof **a, release);
+  **a = (archive){.context = cs_host_context(L), .input = {.path = path}};
+  return find(*a, name, member);
+}
+
+/* archive, result -> archive, result: the memory does not wait for the collector. */
+static int finish(lua_State *L) {
   lua_pushcfunction(L, release);
   lua_pushvalue(L, -3);
   lua_call(L, 1, 0);
   return 1;
+}
+
+int cs_archive_member(lua_State *L) {
+  archive *a;
+  const cs_zip_member *member;
+  lua_Integer most = luaL_checkinteger(L, 3);
+  celspan_status status = open(L, &a, &member);
+  if (status == CELSPAN_OK)
+    status = cs_zip_load(a->context, &a->input, member, (size_t)most, &a->bytes, &a->size);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
+  lua_pushlstring(L, (const char *)a->bytes, a->size);
+  return finish(L);
+}
+
+int cs_archive_size(lua_State *L) {
+  archive *a;
+  const cs_zip_member *member;
+  celspan_status status = open(L, &a, &member);
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
+  lua_pushinteger(L, (lua_Integer)member->unpacked);
+  return finish(L);
 }

@@ -74,6 +74,12 @@ int cs_folders_frame_name(lua_State *L);
 int cs_painting_read(lua_State *L);
 /* (path, name, most) -> the bytes of a member of a zip archive, at most that many | nil, message */
 int cs_archive_member(lua_State *L);
+/* (path, name) -> the bytes that a member says to have | nil, message */
+int cs_archive_size(lua_State *L);
+/* (text) -> whether it is an address that contains a file, data:... */
+int cs_addresses_is_data(lua_State *L);
+/* (bytes) -> an address that contains them */
+int cs_addresses_make(lua_State *L);
 
 /* ---------------------------------------------------------------- SVG */
 
