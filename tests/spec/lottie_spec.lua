@@ -600,7 +600,7 @@ describe("the program", function()
     bench:write("once.json", lotties.json(document({ item }, { slots = slots })))
     local function readings(options)
       local code, _, err = bench:inside(("ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0 strace -f "
-        .. "-o calls -e trace=openat '%s' convert once.json once.png %s"):format(
+        .. "-o calls -e trace=openat '%s' probe once.json 1 1 %s"):format(
         workbench.absolute, options))
       assert.same(0, code, err)
       return select(2, bench:read("calls"):gsub("once%.json", ""))
