@@ -124,7 +124,7 @@ describe("transforms in styles", function()
       { styled "rotate:1 0 0 45deg", 'rotate "1 0 0 45deg"' },
       { styled "translate:1px 2px 3px", 'translate "1px 2px 3px"' },
       { styled "transform-box:stroke-box", 'transform-box "stroke-box"' },
-      { styled "offset-path:path('M0 0h9')", "offset-path \"path('M0 0h9')\"" },
+      { styled "offset-path:circle(9px)", 'offset-path "circle(9px)"' },
     }
   end)
 end)

@@ -135,6 +135,10 @@ describe("a browser shows the same", function()
   end)
 
   it("as @keyframes", function() agrees("keyframes", moving.styles) end)
+
+  it("on a path of the style, and with lists of stops", function()
+    agrees("paths", moving.paths)
+  end)
 end)
 
 -- ---------------------------------------------------------------- without a browser
@@ -195,8 +199,8 @@ describe("a drawing", function()
     assert.are.same({}, begins "0; 1s; -2s; 00:01; 01:00:02.5; 3min; 200ms")
     assert.are.same({ "animate of unheard" }, notes(box '<animate attributeName="unheard"/>'))
     assert.are.same({ "script" }, notes "<script/>")
-    assert.are.same({ 'offset-path "path(\'M0 0\')"' },
-      notes("<style>@keyframes k{to{offset-path:path('M0 0')}}</style>" .. box ""))
+    assert.are.same({ 'offset-path "ray(0deg)"' },
+      notes("<style>@keyframes k{to{offset-path:ray(0deg)}}</style>" .. box ""))
   end)
 
   it("refuses invalid times", function()
@@ -316,6 +320,58 @@ describe("keyframes", function()
     assert.are.equal(10, at(0.25, "k 1s linear",
       "50%{x:20px;animation-timing-function:step-end}50%{x:30px}"))
     assert.are.equal(5, at(0.25, "k 1s linear", "from{x:0px}to{x:20px}to{x:40px!important}"))
+  end)
+
+  it("may follow lists of stops, which continue beyond their ends", function()
+    local function stops(seconds, list, wanted)
+      assert.are.near(wanted, at(seconds, ("k 1s linear(%s) both"):format(list)), 1e-9, list)
+    end
+    stops(0.45, "0, 0.9 45%, 1", 36)
+    stops(0.5, "0, 1 25%, 0", 40 * 2 / 3)
+    stops(0, "0 20%, 1 100%", -10)
+    stops(0.5, "0, 0.2 50%, 1 50%, 0.4", 40)
+    stops(0.7, "0, .3 60% 80%, 1", 12)
+    stops(0.25, "0, 0.1, 0.2, 1", 3)
+    stops(0.5, "1 50%, 0.2 40%, 0.2", 8) -- places never go back
+  end)
+
+  it("do not move where a list of stops lies", function()
+    for _, bad in ipairs { "", "1", "0 1", "0,,1", "0,1,", "0, 50%", "0 1% 2% 3%, 1", "a,1",
+                           "nan,1", "1e999,0" } do
+      assert.are.equal(0, at(0.5, ("k 1s linear(%s)"):format(bad)), bad)
+    end
+    assert.are.equal(0, at(0.5, "k 1s linear(0,1"))
+  end)
+
+  it("may move an element along a path of its style", function()
+    local function place(style, seconds)
+      local text = '<style>@keyframes k{to{offset-distance:100%%}} rect{%s;animation:k 1s linear}'
+        .. "</style>" .. box ""
+      local x, y = read(text:format(style)):at(seconds):bounds()
+      return { x, y }
+    end
+    local track = "offset-rotate:0deg;offset-path:path('M10 20H50V60')"
+    assert.are.same({ 30, 20 }, place(track, 0.25))
+    assert.are.same({ 50, 40 }, place(track, 0.75))
+    assert.are.same({ 25, 15 }, place(track .. ";offset-anchor:5px 5px", 0.25))
+    assert.are.same({ 35, 20 }, place(track .. ";transform:translate(5px)", 0.25))
+    for _, none in ipairs { "none", "path('')", "path('M')", "path('M5 5')", "path('M5 5H9 Q')",
+                            "path(evenodd, 'M5 5H9')", "path(M5 5H9)", "path('M1e400 5H9')" } do
+      assert.are.same({ 0, 0 }, place("offset-path:" .. none, 0.5), none)
+    end
+    local art = read("<style>rect{offset-path:ray(45deg);offset-distance:5}</style>" .. box "")
+    assert.are.same({ 'offset-path "ray(45deg)"', 'offset-distance "5"' },
+      { art.skipped[1].what, art.skipped[2].what })
+  end)
+
+  it("along paths are refused in time, where many elements have long ones", function()
+    local path = "M0 0" .. ("l1 1"):rep(100000)
+    local text = "<style>rect{offset-path:path('" .. path .. "')}</style>" .. ("<rect/>"):rep(1000)
+    local begun = os.clock()
+    local ok, message = svg.read(bench:write("long.svg", moving.document { text }))
+    assert.is_nil(ok)
+    assert.is_truthy(message:find("the paths that elements lie on are too long together", 1, true))
+    assert.is_true(os.clock() - begun < 10)
   end)
 
   it("have names that begin like other words", function()

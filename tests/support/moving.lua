@@ -3,6 +3,7 @@
 ---
 ---   moving.smil      animate, set, animateTransform and animateMotion, with all their attributes
 ---   moving.styles    @keyframes
+---   moving.paths     the same, with lists of stops and paths of the style
 ---   moving.times     the seconds at which all are compared
 ---   moving.document(scene)      the whole file
 local moving = {}
@@ -248,6 +249,75 @@ moving.styles = {
   styled("animation: k 2s linear infinite; transform-box: content-box; transform-origin: 25% 75%",
     "to{rotate:90deg;scale:1.5}", '<g transform="translate(10 5) rotate(10)"><rect class="m" '
       .. 'x="20" y="20" width="40" height="20" stroke="red" stroke-width="6"/></g>'),
+}
+
+--- An arrow about 0, 0 on a path.
+local ARROWHEAD = '<path class="m" d="M-10 -6L10 0L-10 6Z" fill="#386641"/>'
+local TRACK = [[offset-path:path("M20 80C20 20 80 20 80 80");]]
+local RING = [[offset-path:path("M20 20H80V70H20Z");]]
+local ALONG = "to{offset-distance:100%}"
+
+local function along(style, frames, shape) return styled(style, frames, shape or ARROWHEAD) end
+
+moving.paths = {
+  styled("animation: k 2s linear(0, 0.9, 1)", SLIDE),
+  styled("animation: k 2s linear(0, 0.25 50%, 1)", SLIDE),
+  styled("animation: k 2s linear(0, 1 20% 60%, 0.5, 0.2, 1)", SLIDE),
+  styled("animation: k 2s linear(20% 0, 80% 1)", SLIDE),
+  styled("animation: k 2s linear(0.5 30%, 1 20%, 0 80%) both", SLIDE),
+  styled("animation: k 2s linear(0, 0.5 40%, 0.9 40%, 1)", SLIDE),
+  styled("animation: k 1s linear(0, -0.4 25%, 1.3 75%, 1) infinite alternate", SLIDE),
+  styled("animation: k 2s linear(0 -20%, 1 120%)", SLIDE),
+  styled("animation: k 2s linear(0.3)", SLIDE),
+  styled("animation: k 2s linear; animation-timing-function: linear(0 10% 20% 30%, 1)", SLIDE),
+  styled("animation: k 2s linear(0, 1 50%, 0.6) infinite, l 3s infinite linear(0,1,0)",
+    SLIDE .. "} @keyframes l{to{fill:red}"),
+  styled("animation: k 2s", "from{transform:none;animation-timing-function:linear(0,1 10%,0 60%,"
+    .. "1)} 60%{transform:translateX(40px);animation-timing-function:linear(0 , 0.1, 1)}"),
+  along(TRACK .. "animation: k 2s linear", ALONG),
+  along(TRACK .. "animation: k 2s linear; offset-rotate: reverse", ALONG),
+  along(TRACK .. "animation: k 2s linear; offset-rotate: 30deg", ALONG),
+  along(TRACK .. "animation: k 2s linear; offset-rotate: auto 90deg", ALONG),
+  along(TRACK .. "animation: k 2s linear; offset-distance: 20px", "to{offset-distance:60px}"),
+  along(TRACK .. "animation: k 2s linear both",
+    "from{offset-distance:-30%} to{offset-distance:150%}"),
+  along(RING .. "animation: k 2s linear infinite", "to{offset-distance:100%}"),
+  along(RING .. "animation: k 1s linear both",
+    "from{offset-distance:-30%} to{offset-distance:170%}"),
+  along(RING .. "animation: k 1s linear both", ALONG),
+  along(TRACK .. "offset-distance:30%; animation: k 2s linear", "to{offset-rotate:auto 180deg}"),
+  along(TRACK .. "offset-distance:30%; offset-rotate: 0deg; animation: k 2s linear",
+    "to{offset-rotate:-90deg}"),
+  along(TRACK .. "offset-distance:60%; animation: k 2s linear",
+    [[to{offset-path:path("M20 20C20 80 80 80 80 20")}]]),
+  along(TRACK .. "offset-distance:60%; animation: k 2s linear",
+    [[to{offset-path:path("M20 20H80")}]]),
+  along(TRACK .. "animation: k 2s linear; transform: scale(1.5) rotate(20deg)", ALONG),
+  along(TRACK .. "animation: k 2s linear; transform: translate(5px, 9px)",
+    "to{offset-distance:100%;transform:translate(-20px,0) scale(2)}"),
+  along(TRACK .. "animation: k 2s linear; scale: .8; rotate: 30deg; translate: 9px 5px", ALONG),
+  along(TRACK .. "animation: k 2s linear", ALONG,
+    '<rect class="m" x="-9" y="-6" width="30" height="12" fill="#2a6f97"/>'),
+  along(TRACK .. "animation: k 2s linear; transform-box: fill-box; transform-origin: center", ALONG,
+    '<rect class="m" x="10" y="10" width="30" height="12" fill="#2a6f97"/>'),
+  along(TRACK .. "animation: k 2s linear; transform-box: fill-box", ALONG,
+    '<rect class="m" x="10" y="10" width="30" height="12" fill="#2a6f97"/>'),
+  along(TRACK .. "animation: k 2s linear; transform-origin: 20px 10px; rotate: 30deg", ALONG,
+    '<rect class="m" x="10" y="10" width="30" height="12" fill="#2a6f97"/>'),
+  along(TRACK .. "animation: k 2s linear; offset-anchor: 20px 10px; transform: scale(.7)", ALONG,
+    '<rect class="m" x="10" y="10" width="30" height="12" fill="#2a6f97"/>'),
+  along(TRACK .. "animation: k 2s linear; offset-anchor: center; transform-box: fill-box", ALONG,
+    '<rect class="m" x="10" y="10" width="30" height="12" fill="#2a6f97"/>'),
+  along(TRACK .. "animation: k 2s linear; offset-anchor: auto", ALONG,
+    '<g class="m" transform="scale(1.4)"><rect x="-9" y="-6" width="18" height="12"/></g>'),
+  { "<style>@keyframes k{to{offset-distance:100%}} .m{" .. TRACK .. "animation:k 2s linear}</style>"
+    .. '<g transform="translate(10 -5) rotate(10)">' .. ARROWHEAD .. "</g>" },
+  along([[offset-path:path('M50 50a20 20 0 1 1 1 0 M10 10H60');animation:k 2s linear]], ALONG),
+  along([[offset-path:path("M50 50H60M10 10H60z");animation:k 2s linear]], ALONG),
+  along([[offset-path:path(evenodd, "M50 50H60");animation:k 2s linear]], ALONG),
+  along([[offset-path:path("M10 10H60 X");animation:k 2s linear]], ALONG),
+  along(TRACK .. "offset-distance: 50; animation:k 2s linear", "to{transform:translate(5px,3px)}"),
+  along(TRACK .. "animation: k 2s linear", "50%{offset-path:none} to{offset-distance:100%}"),
 }
 
 moving.times = { 0.13, 0.57, 1.06, 1.63, 2.37 }

@@ -369,6 +369,15 @@ static const char *skip_at_rule(const char *text) {
 
 /* ---------------------------------------------------------------- keyframes */
 
+/* How much is read of declarations: names, and bytes of timing functions, which may be lists. */
+static size_t cost_of(const cs_css_declarations *declarations) {
+  size_t cost = 1 + declarations->count;
+  for (size_t i = 0; i < declarations->count; i++)
+    if (declarations->items[i].name == CS_SVG_ANIMATION_TIMING_FUNCTION)
+      cost += strlen(declarations->items[i].value);
+  return cost;
+}
+
 /* The shares of the time that a selector of @keyframes lists, each a frame with the same
  * declarations: "from, 50%". What is no share is left out. */
 static void add_frames(const char *text, const char *brace, const cs_css_declarations *declarations,
@@ -384,7 +393,7 @@ static void add_frames(const char *text, const char *brace, const cs_css_declara
       at = *text == '%' ? at / 100 : -1;
     if (at >= 0 && at <= 1) {
       out->items[out->count++] = (cs_css_frame){at, *declarations};
-      out->size += 1 + declarations->count;
+      out->size += cost_of(declarations);
     }
     while (text < brace && *text++ != ',')
       ;

@@ -79,7 +79,7 @@ typedef struct cs_css_frame {
 typedef struct cs_css_frames {
   const char *name;
   cs_css_frame *items; /* in the order of the file */
-  size_t count, size;  /* size: frames and their declarations */
+  size_t count, size;  /* size: frames, their declarations, and the bytes of timing functions */
 } cs_css_frames;
 
 typedef struct cs_css_sheet {

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "readers/svg/filter_list.h"
+#include "readers/svg/offset.h"
 #include "readers/svg/paints.h"
 #include "readers/svg/transforms.h"
 
@@ -91,6 +92,20 @@ static bool is_scaling(const char *text) {
   return cs_svg_parse_scale(text, &matrix);
 }
 
+static bool is_way(const char *text) {
+  const char *data;
+  size_t size;
+  return cs_svg_parse_way(text, &data, &size);
+}
+
+static bool is_distance(const char *text) { return has_unit(text) && is_length(text); }
+
+static bool is_heading(const char *text) {
+  bool follows;
+  double degrees;
+  return cs_svg_parse_heading(text, &follows, &degrees);
+}
+
 static bool is_slant(const char *text) {
   text = cs_svg_skip_space(text);
   return cs_svg_take_word(&text, "oblique") && is_angle(text);
@@ -124,7 +139,7 @@ static bool is_path_function(const char *text) {
 
 /* A place or a size in a style: a length of CSS has a unit. */
 static bool is_geometry(cs_svg_name name, const char *text) {
-  return name == CS_SVG_D ? is_path_function(text) : has_unit(text) && is_length(text);
+  return name == CS_SVG_D ? is_path_function(text) : is_distance(text);
 }
 
 /* ---------------------------------------------------------------- the test */
@@ -145,12 +160,15 @@ static form_test *const tests[] = {
     [CS_SVG_FORM_TRANSFORM] = is_transform,  [CS_SVG_FORM_TRANSLATE] = is_translation,
     [CS_SVG_FORM_SCALE] = is_scaling,        [CS_SVG_FORM_SLANT] = is_slant,
     [CS_SVG_FORM_ORDER] = is_order,          [CS_SVG_FORM_VIEW_BOX] = is_view_box,
-    [CS_SVG_FORM_ASPECT] = is_aspect};
+    [CS_SVG_FORM_ASPECT] = is_aspect,        [CS_SVG_FORM_WAY] = is_way,
+    [CS_SVG_FORM_HEADING] = is_heading,      [CS_SVG_FORM_DISTANCE] = is_length};
 
 static bool has_form(cs_svg_form form, const char *text, bool is_style) {
   celspan_matrix matrix;
   if (form == CS_SVG_FORM_ROTATION && is_style)
     return cs_svg_parse_rotate(text, &matrix);
+  if (form == CS_SVG_FORM_DISTANCE && is_style)
+    return is_distance(text);
   if (form == CS_SVG_FORM_FILTERS)
     return cs_svg_is_filter_list(text, is_style);
   return tests[form] ? tests[form](text) : form == CS_SVG_FORM_ANY;

@@ -306,11 +306,11 @@ static void place_letters(const cs_svg_written *written, cs_svg_letters *letters
 /* Moves a letter from its distance along a line and across the line to its place. */
 static void bend(const cs_svg_text_path *path, cs_svg_letter *letter) {
   const double half = 0.5 * letter->advance, middle = letter->x + half;
-  if (!(middle >= 0 && middle <= path->length)) {
+  if (!(middle >= 0 && middle <= path->way.length)) {
     letter->count = 0;
     return;
   }
-  const celspan_point at = cs_svg_text_path_at(path, middle, &letter->turn);
+  const celspan_point at = cs_svg_way_at(&path->way, middle, &letter->turn);
   const celspan_matrix turn =
       celspan_matrix_rotation(letter->turn * (PI / 180), (celspan_point){0, 0});
   const double y = letter->y;

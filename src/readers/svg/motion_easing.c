@@ -35,7 +35,125 @@ static double step(const cs_svg_easing *easing, double share, bool is_before) {
   return jumps > 0 ? done / jumps : 0;
 }
 
+/* ---------------------------------------------------------------- stops */
+
+/* A list of stops while it is read. Those without a place lie evenly between those around them. */
+typedef struct stops {
+  const char *at;
+  double x, y;     /* the last stop */
+  bool has_second; /* it is at another place, too: */
+  double second;
+  size_t run;  /* how many of the stops that come next have no place, */
+  double step; /* and their distance */
+  bool is_begun;
+} stops;
+
+/* A stop as written: a number, and up to two percentages, before or behind it. */
+typedef struct stop {
+  double y, places[2];
+  int count; /* of places */
+} stop;
+
+static bool take_stop(const char **text, stop *out) {
+  bool has_y = false;
+  const char *at = cs_svg_skip_space(*text);
+  out->count = 0;
+  for (; *at && *at != ',' && *at != ')'; at = cs_svg_skip_space(at)) {
+    double value;
+    if (!cs_svg_take_number(&at, &value))
+      return false;
+    bool is_place = *at == '%';
+    if (is_place ? out->count == 2 : has_y)
+      return false;
+    if (is_place) {
+      out->places[out->count++] = value / 100;
+      at++;
+    } else {
+      out->y = value;
+      has_y = true;
+    }
+  }
+  *text = at;
+  return has_y;
+}
+
+/* The distance of the stops from *text on that have no place; *run: how many they are. */
+static double step_of(const char *text, double from, bool is_begun, size_t *run) {
+  stop it;
+  for (*run = 0; take_stop(&text, &it) && it.count == 0; text++) {
+    ++*run;
+    if (*text == ')')
+      break;
+  }
+  bool ends = it.count == 0; /* the last one lies at 1, the first one at 0 */
+  double to = fmax(from, ends ? 1 : it.places[0]);
+  size_t parts = *run + !ends - !is_begun;
+  return parts > 0 ? (to - from) / (double)parts : 0;
+}
+
+/* The next point of the list; false: there is none. */
+static bool next_stop(stops *s) {
+  stop it;
+  const double before = s->x;
+  if (s->has_second) {
+    s->x = fmax(before, s->second);
+    s->has_second = false;
+    return true;
+  }
+  if (s->is_begun && *s->at++ != ',')
+    return false;
+  if (s->run == 0)
+    s->step = step_of(s->at, before, s->is_begun, &s->run);
+  (void)take_stop(&s->at, &it);
+  if (s->run > 0)
+    s->run--;
+  s->x = it.count > 0 ? s->is_begun ? fmax(before, it.places[0]) : it.places[0]
+                      : before + (s->is_begun ? s->step : 0);
+  s->y = it.y;
+  s->has_second = it.count == 2;
+  s->second = it.places[1];
+  s->is_begun = true;
+  return true;
+}
+
+/* Source: CSS Easing Functions Level 2, 2.2.1. Beyond the ends the outer lines continue. */
+static double between_stops(const char *text, double share) {
+  stops s = {.at = text};
+  (void)next_stop(&s);
+  double x = s.x, y = s.y, from_x = x, from_y = y;
+  for (size_t count = 1; next_stop(&s); count++) {
+    if (count > 1 && x > share)
+      break;
+    from_x = x;
+    from_y = y;
+    x = s.x;
+    y = s.y;
+  }
+  return x > from_x && share != x ? from_y + (y - from_y) * ((share - from_x) / (x - from_x)) : y;
+}
+
+static bool take_stops(const char **text, cs_svg_easing *out) {
+  const char *at = *text;
+  size_t count = 0;
+  stop it;
+  do {
+    if (!take_stop(&at, &it))
+      return false;
+    count++;
+  } while (*at++ == ',');
+  if (*--at != ')' || count < 2)
+    return false;
+  out->stops = *text;
+  out->size = (size_t)(at - *text);
+  *text = at + 1;
+  return true;
+}
+
+/* ---------------------------------------------------------------- shares */
+
 double cs_svg_ease(const cs_svg_easing *easing, double share, bool is_before) {
+  if (easing->stops)
+    return between_stops(easing->stops, share);
   if (easing->steps > 0)
     return step(easing, share, is_before);
   if (share <= 0 || share >= 1)
@@ -44,7 +162,8 @@ double cs_svg_ease(const cs_svg_easing *easing, double share, bool is_before) {
 }
 
 bool cs_svg_easings_equal(const cs_svg_easing *a, const cs_svg_easing *b) {
-  bool is_same = a->steps == b->steps && a->jumps == b->jumps;
+  bool is_same = a->steps == b->steps && a->jumps == b->jumps && a->size == b->size &&
+                 (a->size == 0 || memcmp(a->stops, b->stops, a->size) == 0);
   for (int i = 0; i < 4; i++)
     is_same = is_same && a->at[i] == b->at[i];
   return is_same;
@@ -104,26 +223,33 @@ bool cs_svg_take_easing(const char **text, cs_svg_easing *out) {
   static const struct {
     const char *word;
     cs_svg_easing easing;
-  } words[] = {{"linear", {0, 0, {0, 0, 1, 1}}},
-               {"ease", {0, 0, {0.25, 0.1, 0.25, 1}}},
-               {"ease-in", {0, 0, {0.42, 0, 1, 1}}},
-               {"ease-out", {0, 0, {0, 0, 0.58, 1}}},
-               {"ease-in-out", {0, 0, {0.42, 0, 0.58, 1}}},
-               {"step-start", {1, 1, {0}}},
-               {"step-end", {1, 2, {0}}}};
+  } words[] = {{"linear", {.at = {0, 0, 1, 1}}},
+               {"ease", {.at = {0.25, 0.1, 0.25, 1}}},
+               {"ease-in", {.at = {0.42, 0, 1, 1}}},
+               {"ease-out", {.at = {0, 0, 0.58, 1}}},
+               {"ease-in-out", {.at = {0.42, 0, 0.58, 1}}},
+               {"step-start", {.steps = 1, .jumps = 1}},
+               {"step-end", {.steps = 1, .jumps = 2}}};
+  static const struct {
+    const char *word;
+    bool (*take)(const char **text, cs_svg_easing *out);
+  } functions[] = {{"cubic-bezier", take_curve}, {"steps", take_steps}, {"linear", take_stops}};
   const char *at = cs_svg_skip_space(*text);
   cs_svg_easing made = {.steps = 0};
-  for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-    if (cs_svg_take_word(&at, words[i].word) && *at != '(') {
-      *out = words[i].easing;
-      *text = at;
-      return true;
+  size_t i = 0, most = sizeof functions / sizeof *functions;
+  for (const char *word = at; i < most; i++, word = at)
+    if (cs_svg_take_word(&word, functions[i].word) && *word == '(') {
+      at = word + 1;
+      break;
     }
-  bool is_curve = cs_svg_take_word(&at, "cubic-bezier");
-  if ((!is_curve && !cs_svg_take_word(&at, "steps")) || *at != '(')
+  if (i < most && !functions[i].take(&at, &made))
     return false;
-  at++;
-  if (!(is_curve ? take_curve(&at, &made) : take_steps(&at, &made)))
+  for (size_t k = 0; i == most && k < sizeof words / sizeof *words; k++)
+    if (cs_svg_take_word(&at, words[k].word)) {
+      made = words[k].easing;
+      i = 0;
+    }
+  if (i == most)
     return false;
   *out = made;
   *text = at;

@@ -4,9 +4,11 @@
 #include "readers/svg/values.h"
 
 typedef struct cs_svg_easing {
-  int steps;    /* 0: a curve */
-  int jumps;    /* at the beginning: bit 0; at the end: bit 1 */
-  double at[4]; /* x1, y1, x2, y2 of the curve from 0, 0 to 1, 1 */
+  const char *stops; /* of linear(), behind its parenthesis, in the text; NULL: no such list */
+  size_t size;       /* bytes of the stops; each call reads them */
+  int steps;         /* 0: a curve */
+  int jumps;         /* at the beginning: bit 0; at the end: bit 1 */
+  double at[4];      /* x1, y1, x2, y2 of the curve from 0, 0 to 1, 1 */
 } cs_svg_easing;
 
 /* The share at a share of the time. is_before: the time is before its beginning. */

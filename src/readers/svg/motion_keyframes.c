@@ -386,6 +386,7 @@ static celspan_status move_property(animating *a, const animation *it, cs_svg_na
                                     double share, bool is_before, frame *list) {
   const size_t count = list_frames(it, name, list);
   const frame *low = &list[find_frame(list, count, share)], *high = low + 1;
+  CS_TRY(cs_svg_motion_count(a->reading, a->node, low->easing.size));
   double span = high->at - low->at, local = span > 0 ? (share - low->at) / span : 1;
   return give_between(a, name, low, high, cs_svg_ease(&low->easing, local, is_before));
 }

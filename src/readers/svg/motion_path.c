@@ -82,11 +82,11 @@ static celspan_status spot_on_line(cs_svg_reading *reading, const cs_svg_node *n
   const cs_svg_measure measure = {100, 100, 16, 16, 100, 100};
   cs_svg_text_path path;
   celspan_status status = cs_svg_text_path_of(reading, line, &measure, false, &path);
-  *counts = status == CELSPAN_OK && path.length > 0 && cs_number_is_sane(path.length) &&
+  *counts = status == CELSPAN_OK && path.way.length > 0 && cs_number_is_sane(path.way.length) &&
             share_of_line(node, share, &share);
   if (*counts) {
-    out->point = cs_svg_text_path_at(&path, share * path.length, &out->degrees);
-    end->point = cs_svg_text_path_at(&path, path.length, &end->degrees);
+    out->point = cs_svg_way_at(&path.way, share * path.way.length, &out->degrees);
+    end->point = cs_svg_way_at(&path.way, path.way.length, &end->degrees);
   }
   cs_svg_text_path_finish(&path, reading->context->memory);
   return status;

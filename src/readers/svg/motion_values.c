@@ -7,6 +7,7 @@
 
 #include "base/number.h"
 #include "readers/svg/colours.h"
+#include "readers/svg/offset.h"
 #include "readers/svg/transforms.h"
 
 const char cs_svg_colour_frame[] = "colour";
@@ -144,6 +145,34 @@ static bool read_data(reader *r, const char *text) {
   return read_path(r, inside);
 }
 
+static void put_text(reader *r, const char *text) {
+  for (; *text; text++)
+    put(r, *text);
+}
+
+/* path("...") as a whole. */
+static bool read_way(reader *r, const char *text) {
+  const char *data;
+  size_t size;
+  if (!cs_svg_parse_way(text, &data, &size) || size == 0)
+    return false;
+  put_text(r, "path(\"");
+  bool is_read = read_data(r, text);
+  put_text(r, "\")");
+  return is_read;
+}
+
+/* The direction of a path and an angle, also where one of them is left out. */
+static bool read_heading(reader *r, const char *text) {
+  bool follows;
+  double degrees;
+  if (!cs_svg_parse_heading(text, &follows, &degrees))
+    return false;
+  put_text(r, follows ? "auto " : "");
+  put_number(r, degrees, "deg");
+  return true;
+}
+
 /* ---------------------------------------------------------------- colours and transforms */
 
 static bool read_colour(reader *r, const char *text) {
@@ -241,6 +270,10 @@ static bool read_value(reader *r, cs_svg_name name, const char *text) {
     return read_colour(r, text);
   if (form == CS_SVG_FORM_TRANSFORM)
     return read_transform(r, text);
+  if (form == CS_SVG_FORM_WAY)
+    return read_way(r, text);
+  if (form == CS_SVG_FORM_HEADING)
+    return read_heading(r, text);
   return name == CS_SVG_D ? read_data(r, text) : read_any(r, text);
 }
 

@@ -133,6 +133,10 @@ typedef enum cs_svg_name {
   CS_SVG_MIX_BLEND_MODE,
   CS_SVG_MODE,
   CS_SVG_OFFSET,
+  CS_SVG_OFFSET_ANCHOR,
+  CS_SVG_OFFSET_DISTANCE,
+  CS_SVG_OFFSET_PATH,
+  CS_SVG_OFFSET_ROTATE,
   CS_SVG_OPACITY,
   CS_SVG_OPERATOR,
   CS_SVG_ORIENT,
@@ -234,7 +238,10 @@ typedef enum cs_svg_form {
   CS_SVG_FORM_ORDER, /* of fill, stroke and markers */
   CS_SVG_FORM_VIEW_BOX,
   CS_SVG_FORM_ASPECT,
-  CS_SVG_FORM_FILTERS
+  CS_SVG_FORM_FILTERS,
+  CS_SVG_FORM_WAY,
+  CS_SVG_FORM_DISTANCE, /* a length, in a style with a unit */
+  CS_SVG_FORM_HEADING
 } cs_svg_form;
 
 typedef struct cs_svg_name_facts {

@@ -6,6 +6,7 @@
 
 #include "base/number.h"
 #include "model/colour/transfer.h"
+#include "model/geometry/matrix.h"
 #include "readers/svg/shapes.h"
 #include "readers/svg/transforms.h"
 
@@ -103,7 +104,24 @@ celspan_matrix cs_svg_about_origin(celspan_matrix matrix, const char *text,
 }
 
 static bool has_transform(const cs_svg_style *style) {
-  return style->transform || style->scale || style->rotate || style->translate;
+  return style->transform || style->scale || style->rotate || style->translate ||
+         style->offset.is_there;
+}
+
+/* Onto the path of the element, about its origin. Source: Motion Path Module Level 1, 4. */
+static celspan_matrix offset_of(const cs_svg_style *style, const cs_svg_measure *measure,
+                                const celspan_box *box) {
+  const celspan_point none = {0, 0};
+  celspan_point at = style->offset.at; /* in user units, also about the element's own box */
+  at.x -= box ? box->x : 0;
+  at.y -= box ? box->y : 0;
+  const char *anchor = style->offset.anchor;
+  celspan_point origin =
+      style->transform_origin ? origin_of(style->transform_origin, measure) : none;
+  celspan_point held = anchor ? origin_of(anchor, measure) : origin;
+  celspan_matrix matrix = celspan_matrix_translation(origin.x - held.x, origin.y - held.y);
+  matrix = celspan_matrix_then(matrix, cs_matrix_turn(style->offset.degrees, none));
+  return celspan_matrix_then(matrix, celspan_matrix_translation(at.x - origin.x, at.y - origin.y));
 }
 
 /* Source: CSS Transforms Module Level 2, 7: the functions are applied first. */
@@ -112,6 +130,8 @@ celspan_matrix cs_svg_transform_of(const cs_svg_style *style, const cs_svg_measu
   celspan_matrix matrix = celspan_matrix_identity(), step;
   if (style->transform && cs_svg_parse_transform(style->transform, measure, &step))
     matrix = step;
+  if (style->offset.is_there)
+    matrix = celspan_matrix_then(matrix, offset_of(style, measure, box));
   if (style->scale && cs_svg_parse_scale(style->scale, &step))
     matrix = celspan_matrix_then(matrix, step);
   if (style->rotate && cs_svg_parse_rotate(style->rotate, &step))

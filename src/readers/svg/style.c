@@ -231,6 +231,7 @@ static void inherit(const cs_svg_style *parent, cs_svg_style *out) {
   out->flood_colour = initial.flood_colour;
   out->is_about_box = false;
   out->transform = out->translate = out->rotate = out->scale = out->transform_origin = NULL;
+  out->offset = initial.offset;
 }
 
 static void read_cap_and_join(const char *cap, const char *join, cs_svg_style *out) {
@@ -405,5 +406,7 @@ celspan_status cs_svg_style_resolve(celspan_context *context, cs_svg_document *d
   cs_svg_text_style_read(node, from.values, out->font_size, parent->font_size, &out->text);
   read_own(&from, parent, out);
   out->motion = node->motion;
-  return CELSPAN_OK;
+  const cs_svg_measure measure = {.font_size = out->font_size, .root_font_size = out->font_size};
+  return cs_svg_offset_read(context, &document->arena, node->line, from.values, &measure, tests,
+                            &out->offset);
 }

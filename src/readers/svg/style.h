@@ -3,6 +3,7 @@
 #pragma once
 
 #include "readers/svg/document.h"
+#include "readers/svg/offset.h"
 #include "readers/svg/paints.h"
 #include "readers/svg/values.h"
 
@@ -79,6 +80,7 @@ typedef struct cs_svg_style {
   const char *transform, *translate, *rotate, *scale;
   const char *transform_origin; /* NULL: none */
   bool is_about_box;            /* their shares and their origin are of the element's own box */
+  cs_svg_offset offset;         /* applied after the functions, and before the properties */
   const celspan_matrix *motion; /* applied after all of them; NULL: none */
 } cs_svg_style;
 

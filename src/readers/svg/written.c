@@ -4,18 +4,12 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "base/elementary.h"
 #include "base/number.h"
-#include "model/stroke/curve.h"
 #include "readers/svg/shapes.h"
 #include "readers/svg/shown.h"
 #include "readers/text/layout.h"
 
 /* ---------------------------------------------------------------- the lines of texts */
-
-#define DEGREES (180 / 3.14159265358979323846)
-
-/* ---------------------------------------------------------------- the line */
 
 /* The line in the units of the element that refers to it. */
 static celspan_status read_line(cs_svg_reading *reading, const cs_svg_node *path,
@@ -28,25 +22,11 @@ static celspan_status read_line(cs_svg_reading *reading, const cs_svg_node *path
       is_placed ? cs_svg_transform_of(&style, measure, NULL) : celspan_matrix_identity();
   celspan_status status = cs_svg_line_init(reading->context, path, measure, &line);
   if (status == CELSPAN_OK && cs_svg_outline_map(&line.outline, &matrix)) {
-    out->outline = line.outline;
+    out->way.outline = line.outline;
     cs_outline_init(&line.outline);
   }
   cs_svg_line_finish(&line, reading->context);
   return status;
-}
-
-static celspan_status measure_line(celspan_context *context, cs_svg_text_path *path) {
-  size_t count = path->outline.piece_count;
-  if (count == 0)
-    return CELSPAN_OK;
-  CS_TRY(CS_MAKE(context, path->lengths, count));
-  for (size_t i = 0; i < count; i++) {
-    cs_bezier piece;
-    cs_curve_load_line(&path->outline, i, 0, 1, &piece);
-    path->lengths[i] = path->length;
-    path->length += cs_curve_length(&piece, 0, 1);
-  }
-  return CELSPAN_OK;
 }
 
 /* Percentages refer to the length of the line. Numbers are units; the path may say how many units
@@ -59,10 +39,10 @@ static celspan_status read_start(cs_svg_reading *reading, const cs_svg_node *nod
   double declared; /* its length */
   CS_TRY(cs_svg_number_of(reading->context, path, CS_SVG_PATH_LENGTH, CS_SVG_AXIS_BOTH, &measure,
                           &declared));
-  measure.width = declared > 0 ? declared : out->length;
+  measure.width = declared > 0 ? declared : out->way.length;
   CS_TRY(cs_svg_length_of(reading->context, node, CS_SVG_START_OFFSET, CS_SVG_AXIS_X, &measure,
                           none, &out->start));
-  out->start *= out->length / measure.width;
+  out->start *= out->way.length / measure.width;
   return CELSPAN_OK;
 }
 
@@ -70,11 +50,11 @@ celspan_status cs_svg_text_path_of(cs_svg_reading *reading, const cs_svg_node *p
                                    const cs_svg_measure *measure, bool is_placed,
                                    cs_svg_text_path *out) {
   *out = (cs_svg_text_path){.begin = 0};
-  cs_outline_init(&out->outline);
+  cs_outline_init(&out->way.outline);
   if (!path || !cs_svg_is_shape(path))
     return CELSPAN_OK;
   CS_TRY(read_line(reading, path, measure, is_placed, out));
-  return measure_line(reading->context, out);
+  return cs_svg_way_measure(reading->context, &out->way);
 }
 
 celspan_status cs_svg_text_path_make(cs_svg_reading *reading, const cs_svg_node *node,
@@ -83,48 +63,14 @@ celspan_status cs_svg_text_path_make(cs_svg_reading *reading, const cs_svg_node 
   *is_there = false;
   const cs_svg_node *path = cs_svg_linked(reading, node);
   CS_TRY(cs_svg_text_path_of(reading, path, &place->measure, true, out));
-  *is_there = out->length > 0 && cs_number_is_sane(out->length);
+  *is_there = out->way.length > 0 && cs_number_is_sane(out->way.length);
   if (*is_there)
     CS_TRY(read_start(reading, node, path, place, out));
   return CELSPAN_OK;
 }
 
 void cs_svg_text_path_finish(cs_svg_text_path *path, cs_memory *memory) {
-  cs_mem_free(memory, path->lengths, path->outline.piece_count * sizeof *path->lengths);
-  cs_outline_finish(&path->outline, memory);
-}
-
-/* ---------------------------------------------------------------- places on it */
-
-/* The last piece that begins at or before the distance. */
-static size_t piece_at(const cs_svg_text_path *path, double distance) {
-  size_t low = 0, high = path->outline.piece_count;
-  while (high - low > 1) {
-    size_t middle = low + (high - low) / 2;
-    if (path->lengths[middle] <= distance)
-      low = middle;
-    else
-      high = middle;
-  }
-  return low;
-}
-
-double cs_svg_direction(double x, double y) { return cs_elementary_atan2(y, x) * DEGREES; }
-
-celspan_point cs_svg_text_path_at(const cs_svg_text_path *path, double distance, double *degrees) {
-  size_t piece = piece_at(path, distance);
-  size_t next = piece + 1;
-  double end = next < path->outline.piece_count ? path->lengths[next] : path->length;
-  double whole = end - path->lengths[piece];
-  cs_bezier line;
-  celspan_point point, velocity;
-  cs_curve_load_line(&path->outline, piece, 0, 1, &line);
-  double t = whole > 0 ? cs_curve_parameter(&line, whole, distance - path->lengths[piece]) : 0;
-  cs_curve_line_at(&line, t, &point, &velocity);
-  if (velocity.x == 0 && velocity.y == 0)
-    velocity = cs_curve_departure(&line);
-  *degrees = cs_svg_direction(velocity.x, velocity.y);
-  return point;
+  cs_svg_way_finish(&path->way, memory);
 }
 
 /* ---------------------------------------------------------------- characters */
@@ -357,7 +303,7 @@ static void enter_paths(cs_svg_written *w) {
     const cs_svg_text_path *path = &w->paths[i];
     cs_svg_character *first = &w->characters[path->begin], *behind = &w->characters[path->end];
     double degrees;
-    const celspan_point end = cs_svg_text_path_at(path, path->length, &degrees);
+    const celspan_point end = cs_svg_way_at(&path->way, path->way.length, &degrees);
     for (size_t k = path->begin; k < path->end; k++) {
       w->characters[k].x += path->start;
       w->characters[k].y = NAN;

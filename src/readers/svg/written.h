@@ -10,8 +10,8 @@
  */
 #pragma once
 
-#include "model/geometry/outline.h"
 #include "readers/svg/reading.h"
+#include "readers/svg/ways.h"
 
 /* Lines that texts run along: textPath.
  *
@@ -22,11 +22,9 @@
  * Source: SVG 2, 11.8.3.
  */
 typedef struct cs_svg_text_path {
-  size_t begin, end;  /* characters of the text */
-  cs_outline outline; /* in the text's user units */
-  double *lengths;    /* for each piece: the length of all pieces before it */
-  double length;      /* of all */
-  double start;       /* the distance at which the first letter begins */
+  size_t begin, end; /* characters of the text */
+  cs_svg_way way;    /* in the text's user units */
+  double start;      /* the distance at which the first letter begins */
 } cs_svg_text_path;
 
 /* The line that a textPath element at `place` refers to. *is_there: false if there is no line, or
@@ -43,12 +41,6 @@ CELSPAN_CHECKED celspan_status cs_svg_text_path_of(cs_svg_reading *reading, cons
                                                    const cs_svg_measure *measure, bool is_placed,
                                                    cs_svg_text_path *out);
 void cs_svg_text_path_finish(cs_svg_text_path *path, cs_memory *memory);
-
-/* The angle of a vector in degrees. */
-double cs_svg_direction(double x, double y);
-/* The point at a distance 0 .. length from the beginning of the line, and the direction of the line
- * there in degrees. */
-celspan_point cs_svg_text_path_at(const cs_svg_text_path *path, double distance, double *degrees);
 
 #define CS_SVG_TEXT_LENGTHS 64 /* the most lengths of one text */
 #define CS_SVG_TEXT_PATHS 64   /* the most paths of one text */
