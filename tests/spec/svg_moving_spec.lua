@@ -203,6 +203,24 @@ describe("a drawing", function()
       notes("<style>@keyframes k{to{offset-path:ray(0deg)}}</style>" .. box ""))
   end)
 
+  it("opens its file once: other times do not need it", function()
+    local slide = '<animate attributeName="x" values="0;40" dur="1s"/>'
+    local paused = "<style>@keyframes k{to{x:40px}} rect{x:0;animation:k 1s linear -0.5s paused}"
+      .. "</style>" .. box ""
+    bench:write("inner.svg", moving.document { box(slide) })
+    for i, text in ipairs { box(slide), paused,
+                            '<image href="inner.svg" width="100" height="100"/>' } do
+      local path = bench:write("gone.svg", moving.document { text })
+      local art = svg.load(path)
+      assert(os.remove(path))
+      assert.are.near(20, x_at(art, 0.5), 1e-9, i)
+    end
+    local path = bench:write("gone.svg", moving.document { box "" })
+    local still = svg.load(path)
+    assert(os.remove(path))
+    assert.are.same({ still.object:bounds() }, { still:at(3):bounds() })
+  end)
+
   it("refuses invalid times", function()
     local art = read(box "")
     for _, value in ipairs { -1, 0 / 0, math.huge, 1e13, "1", {} } do

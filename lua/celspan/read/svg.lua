@@ -30,14 +30,13 @@ local svg = {}
 ---@field skipped celspan.svg.skipped[] The parts that were not drawn
 ---@field seconds? number How long it moves: up to the end of the last animation that ends, or the longest period where all repeat for ever
 local Art = {}
-Art.__index = fields.reads("a drawing", Art, { seconds = true, __again = true })
+Art.__index = fields.reads("a drawing", Art, { seconds = true, __has_changes = true })
 Art.__name = "celspan.svg"
 
 --- Drawings by the key of the core's cached drawing, as long as references to them exist.
 local known = setmetatable({}, { __mode = "v" })
 
---- again: a function that reads the file at a time of its animations.
-local function wrap(drawing, again)
+local function wrap(drawing, has_changes)
   local key = drawing:key()
   if known[key] then return known[key] end
   local width, height = drawing:size()
@@ -45,8 +44,8 @@ local function wrap(drawing, again)
   setmetatable(parts, { __index = fields.reads("the drawing's list of parts", {}) })
   known[key] = setmetatable({ object = drawing:object(), width = width, height = height,
                               parts = parts, skipped = drawing:skipped(),
-                              seconds = drawing:seconds(), __drawing = drawing, __again = again },
-                            Art)
+                              seconds = drawing:seconds(), __drawing = drawing,
+                              __has_changes = has_changes }, Art)
   return known[key]
 end
 
@@ -60,10 +59,10 @@ function Art:at(seconds)
   if seconds < 0 or seconds > 1e12 then
     core.refuse(("svg: at takes seconds from 0 to 1e12, got %s"):format(seconds))
   end
-  if not self.__again then
+  if self.__has_changes then
     core.refuse "svg: a drawing with changes has no times; take `at` of the drawing that was read"
   end
-  local drawing, message = self.__again(seconds)
+  local drawing, message = self.__drawing:at(seconds)
   return drawing and drawing:object() or core.refuse("svg: " .. message)
 end
 
@@ -96,7 +95,7 @@ function Art:with(changes)
       core.refuse(("svg: part '%s' must have a function, got %s"):format(name, fields.kind(change)))
     end
   end
-  return wrap(self.__drawing:with(changes))
+  return wrap(self.__drawing:with(changes), true)
 end
 
 ---@class celspan.svg.element
@@ -229,11 +228,7 @@ function svg.read(path, options)
   if not fonts then core.refuse(refused) end
   local space = options.space or "srgb"
   local drawing, message = core.read_svg(found_at, fonts, space)
-  if drawing then
-    return wrap(drawing, function(seconds)
-      return core.read_svg(found_at, fonts, space, seconds)
-    end)
-  end
+  if drawing then return wrap(drawing) end
   return nil, tried and ("%s; also looked for at %s"):format(message, tried) or message
 end
 

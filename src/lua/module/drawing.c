@@ -1,10 +1,10 @@
 /* Drawings read from SVG: the functions behind lua/celspan/read/svg.lua.
  *
- *   core.read_svg(path, fonts, space, seconds) -> drawing | nil, message
+ *   core.read_svg(path, fonts, space) -> drawing | nil, message
  *   core.parse_svg(text, name) -> drawing | nil, message
  *   fonts: nil, or a list of { family, file, where it was looked for in vain }
- *   seconds: nil, or the time of its animations
- *   drawing:object(), :seconds(), :size(), :parts(), :skipped(), :key(), :with(functions by name)
+ *   drawing:object(), :seconds(), :size(), :parts(), :skipped(), :key(), :with(functions by name),
+ *   :at(seconds) -> drawing | nil, message
  *
  * INVARIANT: functions of the script run protected, so that memory of the core is released when
  * they raise errors.
@@ -88,6 +88,18 @@ static int seconds(lua_State *L) {
   else
     lua_pushnil(L);
   return 1;
+}
+
+/* drawing, seconds -> drawing | nil, message */
+static int at(lua_State *L) {
+  celspan_svg *svg = self(L);
+  double time = luaL_checknumber(L, 2);
+  celspan_context *context = cs_host_context(L);
+  drawing *made = push_drawing(L);
+  cs_named_begin(L, context);
+  celspan_status status = cs_svg_at(context, svg, time, &made->svg);
+  cs_named_end(context);
+  return status == CELSPAN_OK ? 1 : cs_host_fail(L, status);
 }
 
 static int parts(lua_State *L) {
@@ -273,8 +285,8 @@ static const celspan_svg_font *read_fonts(lua_State *L, size_t *count) {
 static int read(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
   cs_svg_options options = {.fonts = NULL};
-  lua_settop(L, 4);
-  options.seconds = luaL_optnumber(L, 4, -1);
+  lua_settop(L, 3);
+  options.seconds = -1;
   if (!lua_isnil(L, 3))
     options.space =
         (celspan_space)(CELSPAN_SPACE_LINEAR + luaL_checkoption(L, 3, NULL, cs_space_words));
@@ -302,9 +314,10 @@ static int parse(lua_State *L) {
 }
 
 void cs_drawing_open(lua_State *L) {
-  static const luaL_Reg methods[] = {{"key", key},           {"object", object},   {"parts", parts},
-                                     {"size", size},         {"skipped", skipped}, {"with", with},
-                                     {"elements", elements}, {"seconds", seconds}, {NULL, NULL}};
+  static const luaL_Reg methods[] = {
+      {"key", key},         {"object", object}, {"parts", parts},       {"size", size},
+      {"skipped", skipped}, {"with", with},     {"elements", elements}, {"seconds", seconds},
+      {"at", at},           {NULL, NULL}};
   /* Even if it exists already: without memory it may be incomplete. */
   luaL_newmetatable(L, METATABLE);
   lua_pushcfunction(L, release);

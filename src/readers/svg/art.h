@@ -12,6 +12,7 @@
 #pragma once
 
 #include "base/arena.h"
+#include "base/hash.h"
 #include "celspan/svg.h"
 #include "readers/svg/recipe.h"
 
@@ -53,6 +54,16 @@ typedef struct cs_svg_note {
   const char *what;
 } cs_svg_note;
 
+/* What a drawing that may move was read from, for its other times: the file is opened once. */
+typedef struct cs_svg_file {
+  const char *name, *bytes;
+  size_t size;
+  const celspan_svg_font *fonts;
+  size_t font_count;
+  uint64_t device, number; /* the identity of the file */
+  cs_hash key;             /* of the file as it was, and of how it is read */
+} cs_svg_file;
+
 struct celspan_svg {
   atomic_size_t references;
   cs_memory *memory;
@@ -62,6 +73,7 @@ struct celspan_svg {
   cs_svg_item *root;
   double width, height;
   double seconds;         /* how long it moves; 0: it does not */
+  cs_svg_file *file;      /* in the arena; NULL: at all times it is the same, or has changes */
   celspan_space space;    /* of the object and of the parts */
   celspan_object *object; /* never NULL */
   cs_svg_part *parts;

@@ -158,6 +158,53 @@ static celspan_status build(cs_svg_reading *reading, const char *name, celspan_s
   return CS_GIVE(status, art, celspan_svg_unref, out);
 }
 
+/* Whether another time may show another drawing: also by a drawing that is an image of it. */
+static bool may_move(const cs_svg_reading *reading) {
+  return reading->document->animation_count > 0 || reading->document->has_motion ||
+         reading->drawings > 0;
+}
+
+static celspan_status copy_fonts(celspan_context *context, const cs_svg_source *source,
+                                 celspan_svg *art) {
+  celspan_svg_font *fonts =
+      cs_arena_take(context, &art->arena, (source->font_count + 1) * sizeof *fonts);
+  if (!fonts)
+    return CELSPAN_NO_MEMORY;
+  for (size_t i = 0; i < source->font_count; i++) {
+    CS_TRY(cs_svg_text_copy(context, art, source->fonts[i].family, &fonts[i].family));
+    CS_TRY(cs_svg_text_copy(context, art, source->fonts[i].file, &fonts[i].file));
+  }
+  art->file->fonts = fonts;
+  art->file->font_count = source->font_count;
+  return CELSPAN_OK;
+}
+
+/* Keeps what the drawing at other times is made from. */
+static celspan_status keep_file(const cs_svg_reading *reading, const char *bytes, size_t size,
+                                celspan_svg *art) {
+  celspan_context *context = reading->context;
+  const cs_svg_source *source = reading->source;
+  cs_svg_file *file = cs_arena_take(context, &art->arena, sizeof *file);
+  char *copy = cs_arena_take(context, &art->arena, size + 1);
+  if (!file || !copy)
+    return CELSPAN_NO_MEMORY;
+  *file = (cs_svg_file){.bytes = memcpy(copy, bytes, size),
+                        .size = size,
+                        .device = source->device,
+                        .number = source->number};
+  art->file = file;
+  CS_TRY(cs_svg_text_copy(context, art, source->name, &file->name));
+  return copy_fonts(context, source, art);
+}
+
+/* A drawing of a file, without its animations, is the one that is asked for other times. */
+static celspan_status finish_reading(const cs_svg_reading *reading, const char *bytes, size_t size,
+                                     celspan_svg *art) {
+  const cs_svg_source *source = reading->source;
+  bool is_asked = source->file && !source->outer && reading->seconds < 0;
+  return is_asked && may_move(reading) ? keep_file(reading, bytes, size, art) : CELSPAN_OK;
+}
+
 /* reading: the limits, and how to read; its document and notes belong to this drawing until the
  * drawing has been read. */
 static celspan_status read_bytes(cs_svg_reading *reading, const char *bytes, size_t size,
@@ -170,8 +217,15 @@ static celspan_status read_bytes(cs_svg_reading *reading, const char *bytes, siz
                    size, FILE_BYTES);
   reading->document = &document;
   celspan_status status = cs_svg_document_read(context, name, bytes, size, &document);
+  celspan_svg *art = NULL;
   if (status == CELSPAN_OK)
-    status = build(reading, name, out);
+    status = build(reading, name, &art);
+  if (status == CELSPAN_OK)
+    status = finish_reading(reading, bytes, size, art);
+  if (status == CELSPAN_OK)
+    *out = art;
+  else
+    celspan_svg_unref(art);
   cs_svg_kept_images_finish(&reading->images, context);
   cs_mem_free(context->memory, reading->skipped,
               reading->skipped_capacity * sizeof *reading->skipped);
@@ -289,6 +343,46 @@ static celspan_status read_or_find(celspan_context *context, const char *file, i
                                 .number = (uint64_t)about.st_ino};
   cs_svg_reading reading = begin_reading(context, &source, options);
   CS_TRY(read_open(&reading, descriptor, (size_t)about.st_size, out));
+  if ((*out)->file)
+    (*out)->file->key = key;
+  if (!reading.has_other_files)
+    keep(store, key, *out);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- other times */
+
+static cs_hash key_at(const cs_svg_file *file, double seconds) {
+  cs_hash hash = cs_hash_begin(0x647274u);
+  cs_hash_word(&hash, file->key.a);
+  cs_hash_word(&hash, file->key.b);
+  cs_hash_number(&hash, seconds);
+  return cs_hash_end(hash);
+}
+
+celspan_status cs_svg_at(celspan_context *context, celspan_svg *art, double seconds,
+                         celspan_svg **out) {
+  const cs_svg_file *file = art->file;
+  cs_service *service;
+  if (!file) {
+    *out = celspan_svg_ref(art);
+    return CELSPAN_OK;
+  }
+  CS_TRY(cs_context_service(context, &store_kind, &service));
+  drawing_store *store = (drawing_store *)service;
+  const cs_hash key = key_at(file, seconds);
+  *out = find_stored(store, key);
+  if (*out)
+    return CELSPAN_OK;
+  const cs_svg_source source = {.name = file->name,
+                                .file = file->name,
+                                .fonts = file->fonts,
+                                .font_count = file->font_count,
+                                .device = file->device,
+                                .number = file->number};
+  const cs_svg_options options = {.space = art->space, .seconds = seconds};
+  cs_svg_reading reading = begin_reading(context, &source, &options);
+  CS_TRY(read_bytes(&reading, file->bytes, file->size, out));
   if (!reading.has_other_files)
     keep(store, key, *out);
   return CELSPAN_OK;

@@ -16,6 +16,11 @@ typedef struct cs_svg_options {
 CELSPAN_CHECKED celspan_status cs_svg_read_file(celspan_context *context, const char *file,
                                                 const cs_svg_options *options, celspan_svg **out);
 
+/* The drawing at a time, seconds from 0 on, without opening its file again; itself if it does not
+ * move. art: not a changed copy. *out: a new reference. Errors: as for reading. */
+CELSPAN_CHECKED celspan_status cs_svg_at(celspan_context *context, celspan_svg *art, double seconds,
+                                         celspan_svg **out);
+
 /* ---- build.c */
 
 /* Fills in the size and the items of *art. Errors: INPUT and LIMIT with the line, NO_MEMORY. */
