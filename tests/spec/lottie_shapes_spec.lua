@@ -284,4 +284,18 @@ describe("too much", function()
       art.skipped[1])
     assert.is_true(os.clock() - start < 20) -- 2.5 here; without a limit it grows as the square
   end)
+
+  it("of dashes on a long line that is offset, is left out at once", function()
+    local none = { { 0, 0 }, { 0, 0 } }
+    local line = { ty = "sh",
+                   ks = { k = { c = false, v = { { 0, 50 }, { 1e7, 50 } }, i = none, o = none } } }
+    local art = read { layer { line, { ty = "op", a = still(10), lj = 1 },
+      { ty = "st", c = { k = { 1, 0, 0 } }, o = { k = 100 }, w = { k = 4 },
+        d = { { n = "d", v = { k = 10.5 } } } } } }
+    local start = os.clock()
+    assert.same(NONE, at(art, 0, 50, 50))
+    assert.matches("it cannot be drawn at frame 0: .*a line with 476191 dashes cannot be offset",
+      art.skipped[1])
+    assert.is_true(os.clock() - start < 1)
+  end)
 end)

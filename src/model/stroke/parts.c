@@ -26,8 +26,9 @@ static celspan_status check_dashes(divider *d) {
   double count = d->whole / dashes->pattern * (0.5 * (double)dashes->place_count);
   if (!(count <= CS_STROKE_DASHES))
     return cs_fail(d->context, CELSPAN_LIMIT,
-                   "the line has about %.0f dashes; at most %d are allowed", count,
-                   CS_STROKE_DASHES);
+                   "the line has about %.0f dashes; at most %d are allowed: make the dashes "
+                   "longer, or the line shorter",
+                   count, CS_STROKE_DASHES);
   return CELSPAN_OK;
 }
 
