@@ -287,9 +287,9 @@ describe("too much", function()
 
   it("of dashes on a long line that is offset, is left out at once", function()
     local none = { { 0, 0 }, { 0, 0 } }
-    local way = { ty = "sh",
+    local ground = { ty = "sh",
                    ks = { k = { c = false, v = { { 0, 50 }, { 1e7, 50 } }, i = none, o = none } } }
-    local art = read { layer { way, { ty = "op", a = still(10), lj = 1 },
+    local art = read { layer { ground, { ty = "op", a = still(10), lj = 1 },
       { ty = "st", c = { k = { 1, 0, 0 } }, o = { k = 100 }, w = { k = 4 },
         d = { { n = "d", v = { k = 10.5 } } } } } }
     local start = os.clock()
