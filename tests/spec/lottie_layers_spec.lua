@@ -1,5 +1,6 @@
 -- Lottie animations: how layers depend on each other, by mattes, masks, parents and compositions;
 -- their sounds, and their slots.
+local celspan = require "celspan"
 local lotties = require "tests.support.lotties"
 local raised = require "tests.support.raised"
 local workbench = require "tests.support.workbench"
@@ -144,6 +145,38 @@ describe("what is left out", function()
       assert.matches(("^assets%%[%d%%]: the picture 'p%d' is missing"):format(i - 1, i),
         art.skipped[i])
     end
+  end)
+end)
+
+describe("a composition that is shown twice", function()
+  --- The alpha of the pixel that is half covered, where layers show the same composition.
+  local function edge(...)
+    local inner = layer({ box(20.5, 20) }, { ks = placed(40.25, 40) }) -- from 30 to 50.5
+    local list = {}
+    for i, fields in ipairs { ... } do
+      list[i] = { ty = 0, refId = "c", ip = 0, op = 100, st = 0, w = 100, h = 100 }
+      for name, value in pairs(fields) do list[i][name] = value end
+    end
+    local art = read(list, { assets = { { id = "c", layers = { inner } } } })
+    local film = celspan.film { size = { 100, 100 }, frames = 1, space = "srgb", frame = function()
+      return celspan.rostrum { celspan.cel { art:at(0) } }
+    end }
+    local codes = assert(celspan.pixels(film)):bytes { depth = 8, alpha = "straight" }
+    local place = 4 * (100 * 40 + 50)
+    assert.same({ 255, 0, 0 }, { codes:byte(place + 1, place + 3) })
+    return codes:byte(place + 4)
+  end
+
+  it("in the same place has both edges, as in players", function()
+    assert.same(128, edge {})
+    assert.same(191, edge({}, {}))
+    assert.same(223, edge({}, {}, {}))
+  end)
+
+  it("at other places, times or frames is not averaged", function()
+    assert.same(128, edge({}, { ks = placed(-0.5, 0) }))
+    assert.same(128, edge({}, { op = 0 }))
+    assert.same(128, edge({}, { hd = true }))
   end)
 end)
 

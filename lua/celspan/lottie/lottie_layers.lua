@@ -136,6 +136,7 @@ local function compile(layer, by_index)
   layer.get = paint.memo(all, function(t)
     local share = math.min(100, opacity(t)) / 100
     local object = share > 0 and get(t) or nil
+    layer.content = item.ty == 0 and object
     if object and mask then object = mask(t, object) end
     if object and change then object = change(t, object) end
     return object and place(object, map(t), share)
@@ -219,6 +220,41 @@ local function pair(opened, by_index)
   end
 end
 
+--- Whether two layers show the same composition, at the same time, in the same place.
+local function coincide(one, other, t)
+  if one.content ~= other.content then return false end
+  local a, b = one.map(t), other.map(t)
+  for i = 1, #a do
+    if a[i] ~= b[i] then return false end
+  end
+  return true
+end
+
+--- The mean of each pixel, so that what lies behind shines through the edges.
+local function average(layer)
+  local item = layer.item
+  local margin = math.max(1, values.number(item.w, 0), values.number(item.h, 0)) / 64
+  return paint.keep(function(object)
+    return celspan.group { object:blur(margin, { kernel = "pixel" }), space = "srgb" }
+  end)
+end
+
+--- Compositions that are shown twice in the same place have both edges, as in all players; without
+--- this the one in front hides the other. shown: layers, whose objects are replaced.
+local function add_edges(shown, objects, t)
+  local known = {}
+  for i, layer in ipairs(shown) do
+    local other = layer.content and known[layer.content]
+    if other and coincide(layer, shown[other], t) then
+      for _, n in ipairs { other, i } do
+        shown[n].average = shown[n].average or average(shown[n])
+        objects[n] = shown[n].average(shown[n].show(t))
+      end
+    end
+    if layer.content then known[layer.content] = i end
+  end
+end
+
 --- A list of layers as a function of the frame.
 local function composition(scope, list)
   local opened, by_index = open(scope, list)
@@ -237,11 +273,12 @@ local function composition(scope, list)
     return celspan.group(objects)
   end)
   return function(t)
-    local objects = {}
+    local objects, shown = {}, {}
     for i = #opened, 1, -1 do
-      local layer = opened[i]
-      if layer.is_drawn then objects[#objects + 1] = layer.show(t) end
+      local object = opened[i].is_drawn and opened[i].show(t)
+      if object then objects[#objects + 1], shown[#shown + 1] = object, opened[i] end
     end
+    add_edges(shown, objects, t)
     return #objects > 0 and join(objects) or nil
   end
 end
