@@ -56,6 +56,7 @@ local function changed(bytes)
   return text
 end
 
+--- The animation, if the bytes are one.
 function target.try_bytes(bytes)
   write(changed(bytes))
   local art, message = lottie.read(path)
@@ -71,6 +72,7 @@ function target.try_bytes(bytes)
   assert(art:film().frames >= 1, "a film without frames")
   assert(#art.skipped <= 1001, "too many lines")
   for _, line in ipairs(art.skipped) do assert(#line < 2000 and utf8.len(line), "a bad line") end
+  return art
 end
 
 return target

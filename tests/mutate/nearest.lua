@@ -152,7 +152,7 @@ return {
   ["lua/celspan/draw/warp.lua"] = { "spec/warp", "property/warp" },
   ["lua/celspan/lottie/lottie.lua"] = { "spec/lottie" },
   ["lua/celspan/lottie/lottie_changes.lua"] = { "spec/lottie_shapes" },
-  ["lua/celspan/lottie/lottie_check.lua"] = { "spec/lottie", "spec/lottie_layers" },
+  ["lua/celspan/lottie/lottie_check.lua"] = { "spec/lottie_bad", "spec/lottie_layers" },
   ["lua/celspan/lottie/lottie_contour.lua"] = { "spec/lottie" },
   ["lua/celspan/lottie/lottie_effects.lua"] = { "spec/lottie" },
   ["lua/celspan/lottie/lottie_forms.lua"] = { "spec/lottie", "spec/lottie_shapes" },

@@ -267,6 +267,23 @@ describe("an offset", function()
         { film = { 80, 80 } })), 1e-6)
     end
   end)
+
+  it("of dashes far from the origin is no larger than one beside it", function()
+    local function grown(x)
+      local line = celspan.stroke { d = ("M%d -10V10H%dV-10Z"):format(x + 15, x - 15), width = 2,
+                                    cap = "round", join = "miter", dash = { 4, 2 } }
+      local start = os.clock()
+      local left, _, width = celspan.offset(line, 3):outline { width = 2 }:bounds()
+      assert.is_true(os.clock() - start < 1)
+      return left - x, width
+    end
+    local left, width = grown(0)
+    for _, x in ipairs { 1e7, 1e11 } do
+      local far_left, far_width = grown(x)
+      assert.near(left, far_left, 2e-12 * x)
+      assert.near(width, far_width, 4e-12 * x)
+    end
+  end)
 end)
 
 describe("a repeater", function()

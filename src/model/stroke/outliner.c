@@ -333,11 +333,16 @@ celspan_status cs_stroke_outline(celspan_context *context, const cs_stroke *stro
 
 /* ---------------------------------------------------------------- without a frame */
 
-/* A view in which an outline is right within 2^-27 of the stroke's size, wherever it is seen. */
+/* A view in which an outline is right within 2^-27 of the stroke's size, wherever it is seen. Far
+ * from the origin the curves themselves are rounded to more than that: asking for less than their
+ * rounding would divide them for ever. */
 static cs_stroke_view fine_view(const celspan_box *box) {
+  double far_x = fmax(fabs(box->x), fabs(box->x + box->width));
+  double far_y = fmax(fabs(box->y), fabs(box->y + box->height));
+  double size = fmax(box->width, box->height);
   return (cs_stroke_view){.matrix = celspan_matrix_identity(),
                           .frame = {box->x, box->x + box->width, box->y, box->y + box->height},
-                          .tolerance = 0x1p-27 * fmax(box->width, box->height),
+                          .tolerance = fmax(0x1p-27 * size, 0x1p-41 * fmax(far_x, far_y)),
                           .top = box->y,
                           .bottom = box->y + box->height,
                           .left = box->x,

@@ -23,8 +23,9 @@
 /* Appends the outline, in the stroke's own units. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_stroke_outline(celspan_context *context, const cs_stroke *stroke,
                                                  const cs_stroke_view *view, cs_outline *outline);
-/* The same for callers that need the shape itself: correct within 2^-27 of the stroke's size. Here
- * dashes take memory, so that LIMIT is also for more of them than CS_STROKE_SHAPED. */
+/* The same for callers that need the shape itself: correct within 2^-27 of the stroke's size, and
+ * 2^-41 of its distance from the origin. Here dashes take memory, so that LIMIT is also for more of
+ * them than CS_STROKE_SHAPED. */
 #define CS_STROKE_SHAPED 100000
 CELSPAN_CHECKED celspan_status cs_stroke_outline_finely(celspan_context *context,
                                                         const cs_stroke *stroke,
