@@ -163,7 +163,8 @@ function sound.read(file)
   if type(file) ~= "string" then
     core.refuse("sound: read takes a file name, got " .. type(file))
   end
-  local seconds, sums = core.hear(core.is_data(file) and file or core.find(file))
+  local paths = { core.is_data(file) and file or core.find(file) }
+  local seconds, sums = core.hear(table.unpack(paths))
   if not seconds then return nil, sums end
   local value = setmetatable({ seconds = seconds }, metatable)
   sums_of[value], paths_of[value] = sums, paths
