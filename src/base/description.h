@@ -42,6 +42,8 @@ typedef struct cs_description {
   EACH(celspan_scanline_desc)                                                                      \
   EACH(celspan_grade_desc)                                                                         \
   EACH(celspan_group_desc)                                                                         \
+  EACH(celspan_matte_desc)                                                                         \
+  EACH(celspan_key_desc)                                                                           \
   EACH(celspan_blur_desc)                                                                          \
   EACH(celspan_shadow_desc)                                                                        \
   EACH(celspan_glow_desc)                                                                          \

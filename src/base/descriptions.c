@@ -43,6 +43,8 @@ DESCRIBE(celspan_scanline_desc, spans, )
 DESCRIBE(celspan_grade_desc, struct_size, .contrast = 1, .saturation = 1, .gamma = 1,
          .lut_space = CELSPAN_SPACE_SRGB, .slope = {1, 1, 1}, .power = {1, 1, 1})
 DESCRIBE(celspan_group_desc, object_count, .opacity = 1)
+DESCRIBE(celspan_matte_desc, struct_size, )
+DESCRIBE(celspan_key_desc, struct_size, .tolerance = 0.2, .softness = 0.1, .spill = 1, .to = 1)
 DESCRIBE(celspan_blur_desc, radius, )
 DESCRIBE(celspan_shadow_desc, struct_size, .opacity = 1)
 DESCRIBE(celspan_glow_desc, struct_size, .gain = 1)

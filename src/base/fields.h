@@ -108,6 +108,17 @@ static const cs_description_field celspan_group_desc_fields[] = {
     FIELD(celspan_group_desc, blend),        FIELD(celspan_group_desc, isolate),
     FIELD(celspan_group_desc, space),        FIELD(celspan_group_desc, grade),
 };
+static const cs_description_field celspan_matte_desc_fields[] = {
+    FIELD(celspan_matte_desc, struct_size), FIELD(celspan_matte_desc, from),
+    FIELD(celspan_matte_desc, invert),      FIELD(celspan_matte_desc, grow),
+    FIELD(celspan_matte_desc, feather),
+};
+static const cs_description_field celspan_key_desc_fields[] = {
+    FIELD(celspan_key_desc, struct_size), FIELD(celspan_key_desc, by),
+    FIELD(celspan_key_desc, colour),      FIELD(celspan_key_desc, tolerance),
+    FIELD(celspan_key_desc, softness),    FIELD(celspan_key_desc, spill),
+    FIELD(celspan_key_desc, from),        FIELD(celspan_key_desc, to),
+};
 static const cs_description_field celspan_blur_desc_fields[] = {
     FIELD(celspan_blur_desc, struct_size),
     FIELD(celspan_blur_desc, radius),

@@ -524,9 +524,34 @@ function maker:develop(fields, has_space)
   if self.has_grades then fields[#fields + 1] = grade or nil end
 end
 
+--- A shape of one opaque colour, which grows and shrinks exactly.
+function maker:solid()
+  local own = self.keys
+  return ("celspan.circle{ centre = {%s, %s}, radius = %s, texture = \"#fff\" }"):format(
+    text_of(own:between(0, 40)), text_of(own:between(0, 30)), text_of(own:between(2, 20)))
+end
+
+--- The object, keyed by a colour or by brightness, or under a matte that is grown or choked.
+function maker:keyed(object)
+  local own = self.keys
+  local function number(low, high) return text_of(own:between(low, high)) end
+  local kind = own:whole(1, 3)
+  if kind == 1 then
+    return ("celspan.key{ %s, colour = %q, tolerance = %s, softness = %s, spill = %s }"):format(
+      object, own:pick { "#0b0", "#24c", "#c08030" }, number(0, 0.4), number(0.1, 0.5),
+      number(0, 1))
+  end
+  if kind == 2 then
+    return ("celspan.key{ %s, luma = true, from = %s, to = %s }"):format(object, number(0, 0.3),
+      number(0.6, 1))
+  end
+  return ("celspan.matte(%s, %s, { grow = %s })"):format(object, self:solid(), number(-6, 6))
+end
+
 --- The object in a group, with a mode or with a matte.
 function maker:compose(object, depth)
   local fields = { object }
+  if self.keys:once(6) then return self:keyed(object) end
   self:develop(fields, true)
   if #fields > 1 then return ("celspan.group{ %s }"):format(table.concat(fields, ", ")) end
   local kind = self.modes:whole(1, 4)
@@ -702,7 +727,7 @@ local function start(seed, options)
     has_pictures = options.has_pictures ~= false, has_text = options.has_text, level = 0,
     lights = 1, brightest = 1, modes = prng.new(~seed),
     fillings = prng.new(seed ~ 0x7061747465726e), outlines = prng.new(seed ~ 0x6f75746c696e65),
-    changes = prng.new(seed ~ 0x6368616e6765),
+    changes = prng.new(seed ~ 0x6368616e6765), keys = prng.new(seed ~ 0x6b657973),
     has_modes = options.has_modes ~= false and seed % 2 == 0,
     has_spaces = options.has_modes ~= false and seed % 4 == 0,
     has_grades = options.has_grades ~= false, has_patterns = options.has_patterns ~= false,

@@ -135,6 +135,11 @@ typedef struct cs_group {
   uint32_t innermost; /* GROUND: the innermost of these grounds, whose number names them all */
 } cs_group;
 
+/* Whether a group has a key, which changes what is let through. */
+static inline bool cs_group_keys(const cs_group *group) {
+  return group->grade && group->grade->keying.is_given;
+}
+
 /* A back light, met on the way from the camera before every layer below `below`. */
 typedef struct cs_back_light {
   uint32_t below;

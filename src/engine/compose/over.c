@@ -11,6 +11,8 @@ static cs_over_pair finish_group(cs_over *over, const cs_group *group, cs_over_o
     over->keep = around->keep * keep;
   } else if (group->kind == CS_GROUP_MATTE) {
     weight *= over->is_bound ? 0 : cs_over_strength(group, around->head);
+  } else if (cs_group_keys(group) && over->is_bound) {
+    weight = 0;
   }
   return (cs_over_pair){weight * inner.e, (1 - weight) + weight * inner.t};
 }

@@ -102,11 +102,20 @@ static inline cs_v4 cs_over_grade(const cs_group *group, cs_over_pair pair, floa
   return cs_v4_load(light);
 }
 
+/* The share of a keyed group that stays, without spill. */
+static inline cs_over_pair cs_over_key(const cs_group *group, cs_over_pair pair) {
+  float stays = cs_keying_light(&group->grade->keying, (celspan_space)group->space,
+                                cs_over_alpha(pair.t, 1), &pair.e);
+  return (cs_over_pair){stays * pair.e, (1 - stays) + stays * pair.t};
+}
+
 /* Finishes a group as a whole: it is graded, converted to the space around it, then lit. keep: the
  * share of a frame's transparency that the mattes of its back lights leave. */
 static inline cs_over_pair cs_over_develop(const cs_group *group, cs_over_pair pair, float keep) {
   keep = group->is_frame ? keep : 1;
-  if (group->grade)
+  if (cs_group_keys(group))
+    pair = cs_over_key(group, pair);
+  else if (group->grade)
     pair.e = cs_over_grade(group, pair, keep);
   if (group->converts != CELSPAN_SPACE_AROUND)
     pair.e = cs_space_leave((celspan_space)group->converts, pair.e, pair.t, keep);

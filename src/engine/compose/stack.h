@@ -99,7 +99,7 @@ bool cs_stack_layer_is_grey(const cs_stack *stack, const cs_layer *layer);
  * behind the group. CS_STACK_NONE: there is none. */
 static inline uint32_t cs_stack_veil(const cs_stack *stack, uint32_t group) {
   while (group != CS_STACK_NONE && stack->groups[group].fade == 1 &&
-         stack->groups[group].kind == CS_GROUP_PLAIN)
+         stack->groups[group].kind == CS_GROUP_PLAIN && !cs_group_keys(&stack->groups[group]))
     group = stack->groups[group].parent;
   return group;
 }

@@ -122,6 +122,13 @@ CS_WIDE_DECLARE(void, cs_over_row_matte,
 CS_WIDE_DECLARE(void, cs_over_row_to_rgba,
                 (const cs_over_row_state *state, int32_t count, float keep, float (*rgba)[4]));
 
+/* ---- over_key_wide.c */
+
+/* The key of a group, as cs_over_develop. space: of the group. */
+CS_WIDE_DECLARE(void, cs_over_row_key,
+                (cs_over_row_state * state, int32_t count, const cs_keying *key,
+                 celspan_space space));
+
 /* ---- over_blend_wide.c */
 
 /* Fades a source and blends it over its backdrop, as cs_over_blend does. The result replaces the

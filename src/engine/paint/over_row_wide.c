@@ -98,11 +98,19 @@ static inline void leave_space(cs_over_row_state *state, int32_t count, celspan_
     cs_wide_store(state->e[i], (cs_wide)((cs_wide_int)cs_wide_load(state->e[i]) & colours));
 }
 
+static inline void grade_all(cs_over_row_state *state, int32_t count, const cs_group *group,
+                             float keep) {
+  for (int32_t i = 0; i < count; i++)
+    cs_v4_store(state->e[i], cs_over_grade(group, pair_at(state, i), keep));
+}
+
 void CS_WIDE(cs_over_row_develop)(cs_over_row_state *state, int32_t count, const cs_group *group,
                                   float keep) {
   keep = group->is_frame ? keep : 1;
-  for (int32_t i = 0; group->grade && i < count; i++)
-    cs_v4_store(state->e[i], cs_over_grade(group, pair_at(state, i), keep));
+  if (cs_group_keys(group))
+    CS_WIDE(cs_over_row_key)(state, count, &group->grade->keying, (celspan_space)group->space);
+  else if (group->grade)
+    grade_all(state, count, group, keep);
   if (group->converts != CELSPAN_SPACE_AROUND)
     leave_space(state, count, (celspan_space)group->converts, keep);
   for (int32_t i = 0; group->has_front && i < count; i++) {

@@ -876,6 +876,59 @@ CELSPAN_API CELSPAN_CHECKED celspan_status
 celspan_object_create_matte(celspan_context *context, celspan_object *art, celspan_object *by,
                             celspan_matte_from from, bool invert, celspan_object **out);
 
+#define CELSPAN_BLUR_MOST 1e6 /* units: the greatest radius of an effect */
+
+typedef struct celspan_matte_desc {
+  size_t struct_size;
+  celspan_matte_from from;
+  bool invert; /* after the rest */
+  double grow; /* units, within 1e6 and its negative: the matte reaches farther by this, or (below
+                     0) ends sooner */
+  double feather; /* the radius of a Gaussian blur of the matte, which comes after that; 0..1e6 */
+} celspan_matte_desc;
+
+CELSPAN_DESCRIPTION(celspan_matte_desc)
+#define CELSPAN_MATTE_DESC (celspan_matte_desc_initial())
+
+/* The same by a matte that is grown and blurred first. Shapes of opaque colours grow exactly, with
+ * round corners, and each shape of a union by itself; anything else, and light, as the alpha of an
+ * outline does (celspan_object_outline). Errors: NO_MEMORY, LIMIT; BAD_ARGUMENT, also where a shape
+ * that grows reaches the horizon of its perspective. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_matte(celspan_context *context,
+                                                                celspan_object *art,
+                                                                celspan_object *by,
+                                                                const celspan_matte_desc *desc,
+                                                                celspan_object **out);
+
+/* By what a key tells the art from the screen behind it, in sRGB codes of the art's colour. */
+typedef enum celspan_key_by {
+  /* the distance of (Cb, Cr), of Rec. 709, from that of a colour: clear up to `tolerance`, whole
+     from there on by `softness` */
+  CELSPAN_KEY_CHROMA = 0,
+  CELSPAN_KEY_LUMA /* Y, of Rec. 709: clear at `from`, whole at `to`, which may be less */
+} celspan_key_by;
+
+typedef struct celspan_key_desc {
+  size_t struct_size;
+  celspan_key_by by;
+  celspan_texture *colour; /* CHROMA: of the screen, one opaque colour that is not grey; borrowed;
+                                 NULL: #0b0 */
+  double tolerance, softness; /* CHROMA: 0 or more; 0.2 and 0.1; a softness below 1/1024 is that */
+  double spill;    /* CHROMA: the part of the screen's light in the art that is taken off,
+                                 0..1; 1 */
+  double from, to; /* LUMA; 0 and 1; 1/1024 apart at least */
+} celspan_key_desc;
+
+CELSPAN_DESCRIPTION(celspan_key_desc)
+#define CELSPAN_KEY_DESC (celspan_key_desc_initial())
+
+/* The paint of `art`, which is composited by itself, clear where it is the screen. The shape of the
+ * object is that of `art`. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_key(celspan_context *context,
+                                                              celspan_object *art,
+                                                              const celspan_key_desc *desc,
+                                                              celspan_object **out);
+
 typedef enum celspan_defocus_kernel {
   CELSPAN_DEFOCUS_GAUSSIAN = 0,
   CELSPAN_DEFOCUS_BOX,
@@ -890,8 +943,6 @@ typedef enum celspan_blur_edge {
   CELSPAN_BLUR_CLEAR = 0, /* the art itself, of which an object has none */
   CELSPAN_BLUR_EXTEND     /* what lies on the edge, continued; an object ends at its bounds */
 } celspan_blur_edge;
-
-#define CELSPAN_BLUR_MOST 1e6 /* units: the greatest radius of an effect */
 
 typedef struct celspan_blur_desc {
   size_t struct_size;

@@ -1,4 +1,4 @@
-/* celspan.group and celspan.matte: objects that are composited by themselves. */
+/* celspan.group, celspan.key and celspan.matte: objects that are composited by themselves. */
 #include "lua/bind/caller.h"
 #include "lua/bind/construct.h"
 #include "lua/bind/fields.h"
@@ -56,29 +56,84 @@ const cs_noun cs_noun_group = {.name = "group",
                                .fields = group_rows,
                                .create = create_group};
 
+/* ---------------------------------------------------------------- keys */
+
+typedef struct key_fields {
+  celspan_key_desc desc;
+  bool is_luma;
+} key_fields;
+
+/* By luma there is neither a screen nor its spill. */
+static void check_luma(const cs_form *form) {
+  static const char *const of_colour[] = {"tolerance", "softness", "spill"};
+  for (size_t i = 0; i < sizeof of_colour / sizeof *of_colour; i++)
+    if (cs_form_has(form, of_colour[i]))
+      cs_form_fail(form, "field '%s' goes with 'colour'; with luma = true, give 'from' and 'to'",
+                   of_colour[i]);
+}
+
+static void create_key(const cs_form *form, cs_userdata *value) {
+  key_fields fields = {.desc = CELSPAN_KEY_DESC};
+  int count = cs_form_length(form);
+  celspan_object **art = cs_shape_items(form, count), *key = NULL;
+  if (count != 1)
+    cs_form_fail(form, "it takes one object, got %d; make a group of several", count);
+  cs_fields_read(form, &fields);
+  if (fields.is_luma)
+    check_luma(form);
+  fields.desc.by = fields.is_luma ? CELSPAN_KEY_LUMA : CELSPAN_KEY_CHROMA;
+  cs_form_try(form, celspan_object_key(cs_host_context(form->L), art[0], &fields.desc, &key));
+  value->handle = key;
+}
+
+#define KEY key_fields
+static const cs_field key_rows[] = {
+    {"colour", CS_SURFACE(KEY, desc.colour), .about = "Of the screen; not grey",
+     .fallback = "\"#0b0\""},
+    {"tolerance", CS_NUMBER(KEY, desc.tolerance), CS_FROM(0),
+     .about = "Clear where Cb and Cr are as near as this to the colour's", .fallback = "0.2"},
+    {"softness", CS_NUMBER(KEY, desc.softness), CS_FROM(0),
+     .about = "How much farther away it is whole", .fallback = "0.1"},
+    {"spill", CS_NUMBER(KEY, desc.spill), .most = 1,
+     .about = "The part of the screen's light in the art that is taken off", .fallback = "1"},
+    {"luma", CS_FLAG(KEY, is_luma), .about = "By brightness, not by hue", .fallback = "false"},
+    {"from", CS_NUMBER(KEY, desc.from), .about = "The code of luma at which it is clear",
+     .fallback = "0"},
+    {"to", CS_NUMBER(KEY, desc.to), .about = "And at which it is whole", .fallback = "1"},
+    {0}};
+static const char *const of_luma[] = {"from", "to", NULL};
+const cs_noun cs_noun_key = {.name = "key",
+                             .about = "An object, clear where it has the colour of a screen.",
+                             .kind = &cs_kind_object,
+                             CS_ITEMS("object", "celspan.shape"),
+                             .fields = key_rows,
+                             .either = {"colour", "luma"},
+                             .second = of_luma,
+                             .create = create_key};
+
 /* ---------------------------------------------------------------- mattes */
 
-typedef struct matte_fields {
-  celspan_matte_from from;
-  bool invert;
-} matte_fields;
-
 static void create_matte(const cs_form *form, cs_userdata *value) {
-  matte_fields fields = {0};
+  celspan_matte_desc desc = CELSPAN_MATTE_DESC;
   celspan_object **both = cs_shape_items(form, 2), *matte = NULL;
-  cs_fields_read(form, &fields);
-  cs_form_try(form, celspan_object_create_matte(cs_host_context(form->L), both[0], both[1],
-                                                fields.from, fields.invert, &matte));
+  cs_fields_read(form, &desc);
+  cs_form_try(form,
+              celspan_object_matte(cs_host_context(form->L), both[0], both[1], &desc, &matte));
   value->handle = matte;
 }
 
+#define MATTE celspan_matte_desc
 static const char *const sources[] = {"alpha", "luma", NULL};
-static const cs_field matte_rows[] = {{"from", CS_CHOICE(matte_fields, from, sources),
-                                       .preset = "alpha", .about = "What of the matte counts"},
-                                      {"invert", CS_FLAG(matte_fields, invert),
-                                       .about = "The art is present where the matte is not",
-                                       .fallback = "false"},
-                                      {0}};
+static const cs_field matte_rows[] = {
+    {"from", CS_CHOICE(MATTE, from, sources), .preset = "alpha",
+     .about = "What of the matte counts"},
+    {"invert", CS_FLAG(MATTE, invert), .about = "The art is present where the matte is not",
+     .fallback = "false"},
+    {"grow", CS_NUMBER(MATTE, grow), .least = -CELSPAN_BLUR_MOST, .most = CELSPAN_BLUR_MOST,
+     .preset = "0", .about = "Units that the matte grows by; below 0 it is choked"},
+    {"feather", CS_NUMBER(MATTE, feather), .most = CELSPAN_BLUR_MOST, .preset = "0",
+     .about = "The radius of its blur"},
+    {0}};
 const cs_noun cs_noun_matte = {.name = "matte",
                                .about = "How a matte is used.",
                                .table = "celspan.matte.options",
@@ -99,7 +154,9 @@ int cs_nouns_matte(lua_State *L) {
   lua_settop(L, 3);
   check_objects(L);
   if (!lua_isnil(L, 3) && !lua_istable(L, 3))
-    return cs_caller_error(L, "matte: argument 3 must be a table {from =, invert =}, got %s",
+    return cs_caller_error(L,
+                           "matte: argument 3 must be a table {from =, invert =, grow =, "
+                           "feather =}, got %s",
                            cs_userdata_type(L, 3));
   lua_createtable(L, 2, 2);
   for (int i = 1; i <= 2; i++) {

@@ -12,6 +12,7 @@
 #pragma once
 
 #include "model/colour/cube.h"
+#include "model/colour/keying.h"
 #include "model/colour/space.h"
 
 #define CS_GRADE_POINTS 1024    /* of a curve, at most */
@@ -44,6 +45,7 @@ typedef struct cs_grade {
   int steps;                /* of codes; 0: none */
   celspan_space cube_space; /* of the numbers in the table */
   cs_cube *cube;            /* NULL: none. A reference */
+  cs_keying keying;         /* where it is given, there are no steps, and the alpha changes, too */
 } cs_grade;
 
 /* desc: checked before. Fills everything except the cube. Errors: NO_MEMORY; *out must be finished

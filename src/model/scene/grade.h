@@ -1,4 +1,5 @@
-/* A grade as a value of the scene: counted, checked, with a hash of its steps. */
+/* A grade as a value of the scene: counted, checked, with a hash of its steps. Only the group of a
+ * key has a grade with a key (key.c). */
 #pragma once
 
 #include "base/hash.h"
@@ -11,6 +12,8 @@ struct celspan_grade {
   cs_grade steps;
   /* The description, for the oracle. It points to the curves of the steps, and names no files. */
   celspan_grade_desc desc;
+  celspan_key_desc key; /* of a key, likewise; it names no colour */
+  float screen[3];      /* the colour of a key, as light */
 };
 
 /* The values of a grade for the compiler and the oracle; NULL: there is none. */

@@ -118,7 +118,7 @@ static celspan_status make_rim(const grower *g, const cs_primitive_data *data,
   const celspan_matrix facing = cs_matrix_facing(matrix);
   celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
   cs_outline outline;
-  desc.width = 2 * g->how->width;
+  desc.width = 2 * fabs(g->how->width);
   desc.join = g->how->join;
   cs_outline_init(&outline);
   celspan_status status = find_outline(g, &facing, data, &outline);
@@ -305,8 +305,9 @@ celspan_status cs_grow_object(celspan_context *context, celspan_object *object, 
                               celspan_object **out) {
   const grower g = {context, grow};
   const celspan_matrix identity = celspan_matrix_identity();
+  const wanted want = {.grown = grow->width > 0, .shrunk = grow->width <= 0};
   sizes made = {NULL, NULL};
-  CS_TRY(grow_any(&g, object, &identity, (wanted){.grown = true}, &made));
-  *out = made.grown;
+  CS_TRY(grow_any(&g, object, &identity, want, &made));
+  *out = want.grown ? made.grown : made.shrunk;
   return CELSPAN_OK;
 }

@@ -146,6 +146,39 @@ static void round_codes(int steps, double c[3]) {
   }
 }
 
+/* ---------------------------------------------------------------- keys */
+
+typedef struct chroma {
+  double cb, cr;
+} chroma;
+
+static chroma chroma_of(const double c[3]) {
+  return (chroma){(c[2] - luma_of(c)) / (2 * (1 - 0.0722)),
+                  (c[0] - luma_of(c)) / (2 * (1 - 0.2126))};
+}
+
+static double length_of(chroma c) { return sqrt(c.cb * c.cb + c.cr * c.cr); }
+
+/* 0 at `from`, 1 after `width`, which may be negative and is 1/1024 at least. */
+static double ramp(double from, double width, double at) {
+  double least = copysign(1.0 / 1024, width);
+  return cs_number_clamp((at - from) / (fabs(width) < fabs(least) ? least : width), 0, 1);
+}
+
+/* How much of the screen there is in a chroma: it is clear of it 60 degrees from its hue. */
+static double spill_of(chroma own, chroma screen) {
+  double size = length_of(screen), root = 1.7320508075688772;
+  double along = (own.cb * screen.cb + own.cr * screen.cr) / size;
+  double across = (own.cr * screen.cb - own.cb * screen.cr) / size;
+  return fmax(0, along - fabs(across) / root) / size;
+}
+
+static void clean(const double screen[3], double share, double c[3]) {
+  double most = fmax(1, fmax(c[0], fmax(c[1], c[2])));
+  for (int i = 0; i < 3 && share > 0; i++)
+    c[i] = cs_number_clamp((c[i] - share * screen[i]) / (1 - fmin(share, 0.9)), 0, most);
+}
+
 /* ---------------------------------------------------------------- grades */
 
 static void grade_colour(const celspan_grade *grade, celspan_space space, double c[3]) {
@@ -173,8 +206,28 @@ static void grade_colour(const celspan_grade *grade, celspan_space space, double
   }
 }
 
+/* The share of the colour that a key leaves there; the colour loses its spill. */
+static double key_colour(const celspan_grade *grade, celspan_space space, double c[3]) {
+  const celspan_key_desc *key = &grade->key;
+  double stays = 1;
+  convert(space, CELSPAN_SPACE_SRGB, c);
+  if (key->by == CELSPAN_KEY_LUMA) {
+    stays = ramp(key->from, key->to - key->from, luma_of(c));
+  } else {
+    double screen[3] = {(double)grade->screen[0], (double)grade->screen[1],
+                        (double)grade->screen[2]};
+    convert(CELSPAN_SPACE_LINEAR, CELSPAN_SPACE_SRGB, screen);
+    const chroma of_screen = chroma_of(screen), own = chroma_of(c);
+    stays = ramp(key->tolerance, key->softness,
+                 length_of((chroma){own.cb - of_screen.cb, own.cr - of_screen.cr}));
+    clean(screen, key->spill * spill_of(own, of_screen), c);
+  }
+  convert(CELSPAN_SPACE_SRGB, space, c);
+  return stays;
+}
+
 void cs_oracle_grade(const celspan_grade *grade, celspan_space space, cs_oracle_sight *sight) {
-  double alpha = cs_oracle_alpha(sight), c[3];
+  double alpha = cs_oracle_alpha(sight), c[3], stays = 1;
   double *light = sight->light;
   if (alpha <= 0)
     alpha = fmin(fmax(fabs(light[0]), fmax(fabs(light[1]), fabs(light[2]))), 1);
@@ -182,7 +235,12 @@ void cs_oracle_grade(const celspan_grade *grade, celspan_space space, cs_oracle_
     return;
   for (int i = 0; i < 3; i++)
     c[i] = light[i] / alpha;
-  grade_colour(grade, space, c);
+  if (grade->steps.keying.is_given)
+    stays = key_colour(grade, space, c);
+  else
+    grade_colour(grade, space, c);
   for (int i = 0; i < 3; i++)
     light[i] = c[i] * alpha;
+  if (grade->steps.keying.is_given)
+    *sight = cs_oracle_fade(sight, stays);
 }
