@@ -858,6 +858,23 @@ function celspan.clip(art, shape) end
 ---@return celspan.group
 function celspan.group(fields) end
 
+---@class celspan.key.fields
+---@field [integer] celspan.shape
+---@field colour? celspan.surface Of the screen; not grey; default "#0b0"
+---@field tolerance? number Clear where Cb and Cr are as near as this to the colour's; 0 or more; default 0.2
+---@field softness? number How much farther away it is whole; 0 or more; default 0.1
+---@field spill? number The part of the screen's light in the art that is taken off; 0 to 1; default 1
+---@field luma? boolean By brightness, not by hue; default false
+---@field from? number The code of luma at which it is clear; default 0
+---@field to? number And at which it is whole; default 1
+
+---@class celspan.key: celspan.object, celspan.key.fields
+
+--- An object, clear where it has the colour of a screen.
+---@param fields celspan.key.fields
+---@return celspan.key
+function celspan.key(fields) end
+
 --- How an object is blurred.
 ---@class celspan.blur.options
 ---@field radius number As of defocus, in the object's units; 0 to 1000000
@@ -892,6 +909,8 @@ function celspan.group(fields) end
 ---@class celspan.matte.options
 ---@field from? "alpha"|"luma" What of the matte counts; default "alpha"
 ---@field invert? boolean The art is present where the matte is not; default false
+---@field grow? number Units that the matte grows by; below 0 it is choked; -1000000 to 1000000; default 0
+---@field feather? number The radius of its blur; 0 to 1000000; default 0
 
 --- An object that is faded by a matte.
 ---@class celspan.matte: celspan.boolean, celspan.matte.options

@@ -226,6 +226,17 @@ celspan_blend celspan_object_mode(const celspan_object *object);
 typedef enum celspan_matte_from { CELSPAN_MATTE_ALPHA = 0, CELSPAN_MATTE_LUMA } celspan_matte_from;
 celspan_status celspan_object_create_matte(celspan_context *context, celspan_object *art,
   celspan_object *by, celspan_matte_from from, bool invert, celspan_object **out);
+typedef struct celspan_matte_desc { size_t struct_size; celspan_matte_from from; bool invert;
+  double grow; double feather; } celspan_matte_desc;
+void celspan_matte_desc_default(celspan_matte_desc *out, size_t struct_size);
+celspan_status celspan_object_matte(celspan_context *context, celspan_object *art, celspan_object
+  *by, const celspan_matte_desc *desc, celspan_object **out);
+typedef enum celspan_key_by { CELSPAN_KEY_CHROMA = 0, CELSPAN_KEY_LUMA } celspan_key_by;
+typedef struct celspan_key_desc { size_t struct_size; celspan_key_by by; celspan_texture *colour;
+  double tolerance, softness; double spill; double from, to; } celspan_key_desc;
+void celspan_key_desc_default(celspan_key_desc *out, size_t struct_size);
+celspan_status celspan_object_key(celspan_context *context, celspan_object *art, const
+  celspan_key_desc *desc, celspan_object **out);
 typedef enum celspan_defocus_kernel { CELSPAN_DEFOCUS_GAUSSIAN = 0, CELSPAN_DEFOCUS_BOX,
   CELSPAN_DEFOCUS_DISC, CELSPAN_DEFOCUS_PIXEL } celspan_defocus_kernel;
 typedef enum celspan_blur_edge { CELSPAN_BLUR_CLEAR = 0, CELSPAN_BLUR_EXTEND } celspan_blur_edge;

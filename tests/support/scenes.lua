@@ -551,7 +551,6 @@ end
 --- The object in a group, with a mode or with a matte.
 function maker:compose(object, depth)
   local fields = { object }
-  if self.keys:once(6) then return self:keyed(object) end
   self:develop(fields, true)
   if #fields > 1 then return ("celspan.group{ %s }"):format(table.concat(fields, ", ")) end
   local kind = self.modes:whole(1, 4)
@@ -605,7 +604,8 @@ end
 function maker:object(depth)
   local object = self:outlined(self:plain_object(depth))
   if not self.has_modes or not self.modes:once(4) then return object end
-  return self:dress(self:compose(object, depth))
+  local composed = self:compose(object, depth)
+  return self:dress(self.keys:once(6) and self:keyed(composed) or composed)
 end
 
 function maker:plain_object(depth)

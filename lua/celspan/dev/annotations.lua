@@ -532,6 +532,8 @@ function celspan.clip(art, shape) end
 
 ---@noun group: celspan.object
 
+---@noun key: celspan.object
+
 ---@noun blur.options
 
 ---@noun shadow.options

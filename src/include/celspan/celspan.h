@@ -891,8 +891,8 @@ CELSPAN_DESCRIPTION(celspan_matte_desc)
 #define CELSPAN_MATTE_DESC (celspan_matte_desc_initial())
 
 /* The same by a matte that is grown and blurred first. Shapes of opaque colours grow exactly, with
- * round corners, and each shape of a union by itself; anything else, and light, as the alpha of an
- * outline does (celspan_object_outline). Errors: NO_MEMORY, LIMIT; BAD_ARGUMENT, also where a shape
+ * round corners, and each shape of a union by itself. Anything else, and light, grows as the alpha of
+ * an outline does (celspan_object_outline), where it is at least half there. Errors: NO_MEMORY, LIMIT; BAD_ARGUMENT, also where a shape
  * that grows reaches the horizon of its perspective. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_matte(celspan_context *context,
                                                                 celspan_object *art,

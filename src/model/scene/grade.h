@@ -21,6 +21,11 @@ static inline const cs_grade *cs_grade_steps(const celspan_grade *grade) {
   return grade ? &grade->steps : NULL;
 }
 
+/* Whether it is the grade of a key, which changes where the graded is present. */
+static inline bool cs_grade_keys(const celspan_grade *grade) {
+  return grade && grade->steps.keying.is_given;
+}
+
 /* grade: NULL adds nothing to the hash, so that values without a grade have the same hashes as
  * before. */
 static inline void cs_grade_hash(cs_hash *hash, const celspan_grade *grade) {

@@ -16,7 +16,8 @@ bool cs_grow_is_vector(const celspan_object *object) {
   const cs_primitive_data *data = cs_pattern_shape(object->data);
   if (data->kind == CS_PRIMITIVE_DATA_OUTLINE)
     return data->texture->kind != CS_TEXTURE_PICTURE;
-  if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN || data->boolean->op == CS_OPERATOR_MATTE)
+  if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN || data->boolean->op == CS_OPERATOR_MATTE ||
+      cs_grade_keys(data->boolean->grade))
     return false;
   for (size_t i = 0; i < data->boolean->operand_count; i++)
     if (!cs_grow_is_vector(data->boolean->operands[i]))

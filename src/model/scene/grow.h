@@ -26,7 +26,7 @@ typedef struct cs_grow {
 } cs_grow;
 
 /* Whether the shape of an object alone decides where it is present: it contains no pictures,
- * mattes, compositions (effects that blur are compositions) or procedures. */
+ * mattes, keys, compositions (effects that blur are compositions) or procedures. */
 bool cs_grow_is_vector(const celspan_object *object);
 
 /* *out: a new object that is present where the grown or shrunk shape is, whatever its paint. Errors:

@@ -1,10 +1,11 @@
 /* Mattes: booleans of two operands, of which only the first is painted. They isolate.
  *
  *     shapes of opaque colours   grow as their outlines do (grow.h)
- *     anything else              is a white silhouette first, which has an outline of its alpha:
+ *     anything else              is a white silhouette first. Where it is at least half there it
+ *                                counts as whole, by a key, and that has an outline of its alpha:
  *
- *         grown    silhouette with an outline as wide
- *         choked   the place around it, inside out: [ 1 - (1 - silhouette, grown) ]
+ *         grown    the silhouette, and the outline of its whole part
+ *         choked   the silhouette without the outline of the whole part of what it is not
  *
  *     feather                    is a blur of that
  */
@@ -15,6 +16,10 @@
 #include "model/scene/check.h"
 #include "model/scene/grow.h"
 #include "model/scene/primitive_data.h"
+
+/* Half of white, as a code of sRGB; and how far around it a silhouette is hard only by parts. */
+#define HALF 0.735356
+#define SOFT 0.02
 
 celspan_status celspan_object_create_matte(celspan_context *context, celspan_object *art,
                                            celspan_object *by, celspan_matte_from from, bool invert,
@@ -34,20 +39,14 @@ celspan_status celspan_object_create_matte(celspan_context *context, celspan_obj
 
 /* ---------------------------------------------------------------- by alpha */
 
-static celspan_status make_white(celspan_context *context, celspan_texture **out) {
-  const celspan_paint paint = celspan_paint_rgb(1, 1, 1, 1);
-  return celspan_texture_create_paint(context, &paint, out);
-}
-
-/* White within `box`, and beyond it by `grow`, as far as the matte is there. */
+/* White within a rectangle, as far as the matte is there. */
 static celspan_status make_silhouette(celspan_context *context, celspan_object *by,
-                                      const celspan_box *box, double grow, celspan_matte_from from,
+                                      const celspan_rect_desc *place, celspan_matte_from from,
                                       bool inverts, celspan_object **out) {
-  celspan_rect_desc desc = {
-      sizeof desc, box->x - grow, box->y - grow, box->width + 2 * grow, box->height + 2 * grow,
-      0,           NULL};
+  const celspan_paint paint = celspan_paint_rgb(1, 1, 1, 1);
+  celspan_rect_desc desc = *place;
   celspan_object *ground = NULL;
-  CS_TRY(make_white(context, &desc.texture));
+  CS_TRY(celspan_texture_create_paint(context, &paint, &desc.texture));
   celspan_status status = celspan_object_create_rect(context, &desc, &ground);
   celspan_texture_unref(desc.texture);
   if (status == CELSPAN_OK)
@@ -56,40 +55,81 @@ static celspan_status make_silhouette(celspan_context *context, celspan_object *
   return status;
 }
 
-/* The silhouette of what a matte is, or is not, and an outline around it. */
-static celspan_status outline_silhouette(celspan_context *context, celspan_object *by,
-                                         const celspan_box *box, double grow,
-                                         const celspan_matte_desc *desc, bool inverts,
-                                         celspan_object **out) {
-  celspan_outline_desc fields = CELSPAN_OUTLINE_DESC;
-  celspan_object *silhouette = NULL;
-  CS_TRY(make_white(context, &fields.texture));
-  fields.width = fabs(desc->grow);
-  celspan_status status = make_silhouette(context, by, box, grow, desc->from, inverts, &silhouette);
+/* Puts one object over another, in light. */
+static celspan_status stack(celspan_context *context, celspan_object *rear, celspan_object *front,
+                            celspan_object **out) {
+  celspan_object *const both[] = {rear, front};
+  celspan_group_desc desc = CELSPAN_GROUP_DESC;
+  desc.objects = both;
+  desc.object_count = 2;
+  desc.space = CELSPAN_SPACE_LINEAR;
+  return celspan_object_create_group(context, &desc, out);
+}
+
+/* A silhouette before black, keyed by its luma: whole where it was at least half there. */
+static celspan_status harden(celspan_context *context, celspan_object *silhouette,
+                             const celspan_rect_desc *place, celspan_object **out) {
+  celspan_key_desc key = CELSPAN_KEY_DESC;
+  celspan_object *ground, *grey = NULL;
+  key.by = CELSPAN_KEY_LUMA;
+  key.from = HALF - SOFT;
+  key.to = HALF + SOFT;
+  CS_TRY(celspan_object_create_rect(context, place, &ground));
+  celspan_status status = stack(context, ground, silhouette, &grey);
   if (status == CELSPAN_OK)
-    status = celspan_object_outline(context, silhouette, &fields, out);
-  celspan_object_unref(silhouette);
-  celspan_texture_unref(fields.texture);
+    status = celspan_object_key(context, grey, &key, out);
+  celspan_object_unref(ground);
+  celspan_object_unref(grey);
   return status;
 }
 
+/* The whole part of what a matte is, or is not, with an outline. */
+static celspan_status spread(celspan_context *context, celspan_object *by,
+                             const celspan_rect_desc *place, const celspan_matte_desc *desc,
+                             celspan_object **out) {
+  celspan_outline_desc fields = CELSPAN_OUTLINE_DESC;
+  celspan_object *silhouette, *hard = NULL;
+  fields.width = fabs(desc->grow);
+  CS_TRY(make_silhouette(context, by, place, desc->from, desc->grow < 0, &silhouette));
+  celspan_status status = harden(context, silhouette, place, &hard);
+  if (status == CELSPAN_OK)
+    status = celspan_object_outline(context, hard, &fields, out);
+  celspan_object_unref(silhouette);
+  celspan_object_unref(hard);
+  return status;
+}
+
+/* What a matte is not must reach farther than its bounds by the width, and by that of a blur. */
 static celspan_status grow_alpha(celspan_context *context, celspan_object *by,
-                                 const celspan_matte_desc *desc, celspan_object **out) {
-  const double width = fabs(desc->grow);
+                                 const celspan_box *box, const celspan_matte_desc *desc,
+                                 celspan_object **out) {
+  const double far = desc->grow < 0 ? -2 * desc->grow : 0;
+  const celspan_rect_desc place = {sizeof place, box->x, box->y, box->width, box->height, 0, NULL};
+  const celspan_rect_desc around = {
+      sizeof around, box->x - far, box->y - far, box->width + 2 * far, box->height + 2 * far, 0,
+      NULL};
+  celspan_object *own, *wide = NULL;
+  CS_TRY(make_silhouette(context, by, &place, desc->from, false, &own));
+  celspan_status status = spread(context, by, &around, desc, &wide);
+  if (status == CELSPAN_OK && desc->grow < 0)
+    status = celspan_object_create_matte(context, own, wide, CELSPAN_MATTE_ALPHA, true, out);
+  else if (status == CELSPAN_OK)
+    status = stack(context, wide, own, out);
+  celspan_object_unref(own);
+  celspan_object_unref(wide);
+  return status;
+}
+
+/* Nothing that is empty grows. */
+static celspan_status grow_any(celspan_context *context, celspan_object *by,
+                               const celspan_matte_desc *desc, celspan_object **out) {
   celspan_box box = {0};
-  celspan_object *around;
   bool is_there;
   CS_TRY(cs_bounds_object(context, by, &is_there, &box));
-  if (!is_there || !(box.width > 0 && box.height > 0)) {
-    *out = celspan_object_ref(by);
-    return CELSPAN_OK;
-  }
-  if (desc->grow > 0)
-    return outline_silhouette(context, by, &box, 0, desc, false, out);
-  CS_TRY(outline_silhouette(context, by, &box, 2 * width, desc, true, &around));
-  celspan_status status = make_silhouette(context, around, &box, 0, CELSPAN_MATTE_ALPHA, true, out);
-  celspan_object_unref(around);
-  return status;
+  if (is_there && box.width > 0 && box.height > 0)
+    return grow_alpha(context, by, &box, desc, out);
+  *out = celspan_object_ref(by);
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- grown and blurred */
@@ -106,7 +146,7 @@ static celspan_status grow(celspan_context *context, celspan_object **by,
   const bool is_shape = desc->from == CELSPAN_MATTE_ALPHA && is_solid(*by);
   celspan_object *grown;
   CS_TRY(is_shape ? cs_grow_object(context, *by, &how, &grown)
-                  : grow_alpha(context, *by, desc, &grown));
+                  : grow_any(context, *by, desc, &grown));
   celspan_object_unref(*by);
   *by = grown;
   desc->from = CELSPAN_MATTE_ALPHA;

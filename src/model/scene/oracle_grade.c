@@ -235,12 +235,12 @@ void cs_oracle_grade(const celspan_grade *grade, celspan_space space, cs_oracle_
     return;
   for (int i = 0; i < 3; i++)
     c[i] = light[i] / alpha;
-  if (grade->steps.keying.is_given)
+  if (cs_grade_keys(grade))
     stays = key_colour(grade, space, c);
   else
     grade_colour(grade, space, c);
   for (int i = 0; i < 3; i++)
     light[i] = c[i] * alpha;
-  if (grade->steps.keying.is_given)
+  if (cs_grade_keys(grade))
     *sight = cs_oracle_fade(sight, stays);
 }
