@@ -53,6 +53,20 @@ describe("two objects are composited", function()
     images.near({ 0.25, 0.25, 0.75, 1 }, image, 0, 0)
   end)
 
+  it("and nodes of other compositors lead to what is written here", function()
+    for node, advice in pairs { erode = "grow = %-1", keymix = "celspan.matte%(a, mask%)",
+        premult = 'alpha = "straight"', over = "celspan.composite", chromakey = "celspan.key" } do
+      assert.error_matches(function() return celspan[node] end,
+        ("celspan has no '%s'; write .*%s"):format(node, advice))
+    end
+    local a, mask = square(1, 1, 1), square(1, 1, 1, 0.5)
+    for _, node in ipairs { "keymix", "hold-out", "matte" } do
+      local _, message = pcall(celspan.composite, a, a, node)
+      local value = load("local celspan, a, b, mask = ... return " .. message:match "write (.*)$")
+      assert.equal("number", math.type(seen(value(celspan, a, a, mask)):get(0, 0)) and "number")
+    end
+  end)
+
   it("and other operators are refused with what to write", function()
     local a = square(1, 1, 1)
     assert.error_matches(function() celspan.composite(a, a, "stencil") end,

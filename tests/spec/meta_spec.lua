@@ -64,7 +64,7 @@ local samples = {
   nurbs = { points = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } } },
   image = { file = "x.png", w = 1, h = 1 },
   scanline = { bounds = { 0, 0, 1, 1 }, spans = function() end },
-  group = { dot, isolate = true },
+  group = { dot, isolate = true }, key = { dot, spill = 0.5 },
   union = { dot }, intersection = { dot }, difference = { dot }, xor = { dot },
   stroke = { d = "M0 0H9" }, cel = { dot }, rostrum = { cel },
   film = { frame = function() return celspan.rostrum {} end },

@@ -30,6 +30,8 @@ local operators = {
 local theirs = {
   under = 'celspan.composite(b, a, "over")', mask = 'celspan.composite(b, a, "in")',
   stencil = 'celspan.composite(b, a, "out")', copy = "a",
+  matte = 'celspan.composite(a, b, "over")', keymix = "celspan.group { b, celspan.matte(a, mask) }",
+  ["hold-out"] = 'celspan.composite(a, b, "out")', holdout = 'celspan.composite(a, b, "out")',
   plus = 'a:blend "add"', minus = 'b:blend "subtract"', from = 'a:blend "subtract"',
   max = 'a:blend "lighten"', min = 'a:blend "darken"', multiply = 'a:blend "multiply"',
   screen = 'a:blend "screen"', difference = 'a:blend "difference"', divide = 'b:blend "divide"',

@@ -3,8 +3,8 @@
 -- An entry that has the whole phrase, as a part of its title or as a keyword, comes before one that
 -- has all of the words somewhere. Entries that have only some of them, in the title or in keywords,
 -- are listed where there are no others. Within each of the three a word counts 3 in the title, 2 in
--- a keyword and 1 in the text, and of two entries that are equal the one with the shorter title
--- comes first. The phrase is searched for as it is, and with each synonym in it replaced, which
+-- a keyword and 1 in the text, and of two entries that are equal the one whose title is the phrase to
+-- the letter comes first ("keys" before "key"), then the one with the shorter title. The phrase is searched for as it is, and with each synonym in it replaced, which
 -- counts a tenth less. Words are compared by their stems. A word that no entry has is read as the
 -- one with the nearest spelling.
 local nearest, synonyms = ...
@@ -12,6 +12,7 @@ local nearest, synonyms = ...
 -- weights that are greater than any number of words in a query
 local PHRASE, ALL, ANY = 30000, 20000, 10000
 local TITLE, KEYWORD, TEXT = 3, 2, 1
+local EXACT = 0.5
 local SYNONYM = 0.9
 
 local is_small = {} -- words that have no meaning for a search
@@ -63,6 +64,7 @@ local function indexed(entry)
   local stems = stems_of(entry.title)
   add(stems, TITLE)
   one.title, one.length = line_of(stems), #stems
+  one.said = line_of(words_of(entry.title))
   return one
 end
 
@@ -100,14 +102,17 @@ local function query_of(text, known, names)
   return list
 end
 
---- The query itself, and the query with one of its phrases replaced: { stems =, weight = } each.
-local function alternatives(query)
-  local line, list = line_of(query), { { stems = query, weight = 1 } }
+--- The query itself, and the query with one of its phrases replaced: { stems =, said =, weight = }
+--- each.
+local function alternatives(query, text)
+  local line = line_of(query)
+  local list = { { stems = query, said = line_of(words_of(text)), weight = 1 } }
   for _, row in ipairs(synonyms) do
     local from, to = line:find(line_of(stems_of(row[1])), 1, true)
     for i = 2, from and #row or 0 do
       local replaced = line:sub(1, from) .. row[i] .. line:sub(to)
-      list[#list + 1] = { stems = stems_of(replaced), weight = SYNONYM }
+      list[#list + 1] = { stems = stems_of(replaced), said = line_of(words_of(replaced)),
+                          weight = SYNONYM }
     end
   end
   return list
@@ -124,7 +129,8 @@ local function has_phrase(one, line)
 end
 
 --- The points of an entry; 0: it contains nothing of the query.
-local function points_of(one, stems)
+local function points_of(one, query)
+  local stems = query.stems
   local sum, found, best = 0, 0, 0
   for _, word in ipairs(stems) do
     local points = one.places[word] or 0
@@ -132,7 +138,9 @@ local function points_of(one, stems)
     if points > 0 then found = found + 1 end
   end
   if found == 0 then return 0 end
-  if has_phrase(one, line_of(stems)) then return PHRASE + sum end
+  if has_phrase(one, line_of(stems)) then
+    return PHRASE + sum + (one.said == query.said and EXACT or 0)
+  end
   if found == #stems then return ALL + sum end
   return best > TEXT and ANY + sum or 0
 end
@@ -141,7 +149,7 @@ end
 local function best_of(one, queries)
   local best = 0
   for _, query in ipairs(queries) do
-    best = math.max(best, query.weight * points_of(one, query.stems))
+    best = math.max(best, query.weight * points_of(one, query))
   end
   return best
 end
@@ -150,7 +158,7 @@ end
 return function(entries, text, most)
   local index, found = {}, {}
   for i, entry in ipairs(entries) do index[i] = indexed(entry) end
-  local queries = alternatives(query_of(text, vocabulary(index)))
+  local queries = alternatives(query_of(text, vocabulary(index)), text)
   for i, one in ipairs(index) do
     one.points, one.order = best_of(one, queries), i
     if one.points > 0 then found[#found + 1] = one end
