@@ -24,16 +24,17 @@ die() {
 command -v ffmpeg >/dev/null || die "install the package ffmpeg"
 "$celspan" render "$script" -o "$folder/take.png" --progress none || die "celspan failed"
 
-# Prints the milliseconds of a frame.
+# The milliseconds of a frame.
 rows() {
   "$celspan" spans "$script" --stats --pixels 8 --workers 1 --allow "$folder" \
-    -- "$1" "$folder/take.png" | sed -n 's/.* seconds \([0-9.]*\).*/\1/p' | awk '{ print 1000 * $1 }'
+    -- "$1" "$folder/take.png" | awk '{ print 1000 * $NF }'
 }
 filtered() {
   local begin=${EPOCHREALTIME/./}
   ffmpeg -v error -threads 1 -filter_threads 1 -i "$folder/take.png" \
     -vf "format=yuva444p,loop=loop=$count:size=1$1" -frames:v "$count" -f null - || return 1
-  awk -v took=$((${EPOCHREALTIME/./} - begin)) -v count="$count" 'BEGIN { print took / count / 1e3 }'
+  awk -v took=$((${EPOCHREALTIME/./} - begin)) -v count="$count" \
+    'BEGIN { print took / count / 1e3 }'
 }
 
 declare -A best
@@ -50,7 +51,8 @@ done
 
 awk -v take="${best[take]}" -v key="${best[key]}" -v plain="${best[plain]}" \
   -v chromakey="${best[chromakey]}" 'BEGIN {
-  printf "celspan %.1f ms (%.1f without)   ffmpeg %.1f ms (%.1f without)\n", key, take, chromakey, plain
+  printf "celspan %.1f ms (%.1f without)   ffmpeg %.1f ms (%.1f without)\n", key, take, chromakey,
+    plain
   printf "the key: celspan %.1f ms, ffmpeg %.1f ms; %.2f times ffmpeg (at most 1)\n", key - take,
     chromakey - plain, (key - take) / (chromakey - plain)
 }'

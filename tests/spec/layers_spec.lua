@@ -1377,6 +1377,31 @@ describe("Photoshop documents of the material", function()
     end
   end)
 
+  it("of layers with modes look as Photoshop merged them, over white", function()
+    for _, mode in ipairs { "color-burn", "color", "hard-light", "hard-mix", "hue", "lighter-color",
+      "linear-burn", "linear-light", "luminosity", "multiply", "saturation", "screen" } do
+      local path = ("%s/psd/blend-modes/%s.psd"):format(material, mode)
+      local tree, reference, list = assert(layers.read(path)), merged.read(path), { isolate = true }
+      local w, h, near = reference.width, reference.height, 0
+      for i, layer in ipairs(tree) do
+        assert.equal(mode, layer.blend)
+        list[i] = layer.object:blend(mode):fade(layer.opacity)
+      end
+      local film = celspan.film { size = { w, h }, space = "srgb", frame = function()
+        return celspan.rostrum { back = "#fff", celspan.cel { celspan.group(list) } }
+      end }
+      local bytes = celspan.pixels(film):bytes()
+      for k = 0, w * h - 1 do
+        local most = 0
+        for c = 1, 3 do
+          most = math.max(most, math.abs(bytes:byte(4 * k + c) - reference[c][k]))
+        end
+        near = near + (most <= 2 and 1 or 0)
+      end
+      assert.is_true(near >= 0.99 * w * h, ("%s: %.4f are near"):format(mode, near / w / h))
+    end
+  end)
+
   it("have layers that cover each other like those of a film", function()
     local path = material .. "/psd/2layers.psd"
     local tree, reference = assert(layers.read(path)), merged.read(path)

@@ -65,7 +65,7 @@ static double channel(celspan_blend mode, double b, double s) {
   case CELSPAN_BLEND_PIN_LIGHT:
     return b > 2 * s ? 2 * s : b < 2 * s - 1 ? 2 * s - 1 : b;
   case CELSPAN_BLEND_HARD_MIX:
-    return b + s > 1 - 1e-6;
+    return b > 0 && b + s > 1 - 1e-6;
   case CELSPAN_BLEND_SUBTRACT:
     return unit(b - s);
   case CELSPAN_BLEND_DIVIDE:

@@ -746,9 +746,9 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_extend_boolean(
  * SOFT_LIGHT_PHOTOSHOP brightens dark backdrops by the square root, too, LINEAR_BURN is b + s - 1,
  * LINEAR_LIGHT b + 2 s - 1, SUBTRACT b - s and DIVIDE b / s; VIVID_LIGHT is COLOR_BURN by 2 s or,
  * from s = 1/2 on, COLOR_DODGE by 2 s - 1, PIN_LIGHT is DARKEN and LIGHTEN by the same; HARD_MIX is
- * 1 where b + s is 1 or more, and 0 elsewhere; DARKER_COLOR and LIGHTER_COLOR are the one of both
- * colours that has less or more luminosity, and b where that is equal. Colours are clamped to 0..1
- * inside a mode, and what it gives too. */
+ * 1 where b + s is 1 or more and b above 0, and 0 elsewhere; DARKER_COLOR and LIGHTER_COLOR are the
+ * one of both colours that has less or more luminosity, and b where that is equal. Colours are
+ * clamped to 0..1 inside a mode, and what it gives too. */
 typedef enum celspan_blend {
   CELSPAN_BLEND_NORMAL = 0,
   CELSPAN_BLEND_MULTIPLY,
@@ -891,16 +891,16 @@ CELSPAN_DESCRIPTION(celspan_matte_desc)
 #define CELSPAN_MATTE_DESC (celspan_matte_desc_initial())
 
 /* The same by a matte that is grown and blurred first. Shapes of opaque colours grow exactly, with
- * round corners, and each shape of a union by itself. Anything else, and light, grows as the alpha of
- * an outline does (celspan_object_outline), where it is at least half there. Errors: NO_MEMORY, LIMIT; BAD_ARGUMENT, also where a shape
- * that grows reaches the horizon of its perspective. */
+ * round corners, and each shape of a union by itself. Anything else, and light, grows as the alpha
+ * of an outline does (celspan_object_outline), where it is at least half there. Errors: NO_MEMORY,
+ * LIMIT; BAD_ARGUMENT, also where a shape reaches the horizon of its perspective. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_matte(celspan_context *context,
                                                                 celspan_object *art,
                                                                 celspan_object *by,
                                                                 const celspan_matte_desc *desc,
                                                                 celspan_object **out);
 
-/* By what a key tells the art from the screen behind it, in sRGB codes of the art's colour. */
+/* What a key compares, in sRGB codes of the colour of the art. */
 typedef enum celspan_key_by {
   /* the distance of (Cb, Cr), of Rec. 709, from that of a colour: clear up to `tolerance`, whole
      from there on by `softness` */

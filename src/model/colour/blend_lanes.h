@@ -115,7 +115,8 @@ static inline cs_wide cs_blend_lanes_painted(celspan_blend mode, cs_wide b, cs_w
   case CELSPAN_BLEND_PIN_LIGHT:
     return cs_wide_max(cs_wide_min(b, 2 * s), 2 * s - 1);
   case CELSPAN_BLEND_HARD_MIX:
-    return cs_wide_choose(b + s >= 1 - CS_BLEND_EQUAL, cs_wide_all(1), cs_wide_all(0));
+    return cs_wide_choose((b > CS_BLEND_EQUAL) & (b + s >= 1 - CS_BLEND_EQUAL), cs_wide_all(1),
+                          cs_wide_all(0));
   case CELSPAN_BLEND_SUBTRACT:
     return cs_wide_max(b - s, cs_wide_all(0));
   case CELSPAN_BLEND_DIVIDE:

@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-#include "model/colour/keying_lanes.h"
-
 /* Cb and Cr. */
 static void chroma_of(const double codes[3], double chroma[2]) {
   const double luma = 0.2126 * codes[0] + 0.7152 * codes[1] + 0.0722 * codes[2];
@@ -28,12 +26,12 @@ cs_keying cs_keying_of_chroma(const double codes[3], double tolerance, double so
   }
   for (int c = 0; c < 3; c++)
     key.screen[c] = (float)codes[c];
-  key.gain = (float)(1 / fmax(softness, CS_KEYING_SOFTNESS));
+  key.gain = (float)(1 / fmax(softness, CS_KEYING_NARROWEST));
   return key;
 }
 
 cs_keying cs_keying_of_luma(double from, double to) {
-  const double width = copysign(fmax(fabs(to - from), CS_KEYING_SOFTNESS), to - from);
+  const double width = copysign(fmax(fabs(to - from), CS_KEYING_NARROWEST), to - from);
   return (cs_keying){
       .is_given = true, .is_luma = true, .from = (float)from, .gain = (float)(1 / width)};
 }

@@ -11,28 +11,19 @@
  *
  * Spill: a chroma of which x lies along the screen's and z across it, as shares of its length,
  * contains the share q = x - |z| / tan 60 degrees of the screen K, if that is above 0. It is taken
- * off, and the rest takes its place: (c - q K) / (1 - q), within 0 and 1, or the brightest channel of
- * c. So an edge half covered by the art gets the colour of the art.
+ * off, and the rest takes its place: (c - q K) / (1 - q), within 0 and 1, or the brightest channel
+ * of c. So an edge half covered by the art gets the colour of the art.
  *
  * Invariant: the result is finite, and the same bits for one colour as for many (keying_lanes.h).
  */
 #pragma once
 
 #include "base/vector.h"
+#include "model/colour/keying_lanes.h"
 #include "model/colour/space.h"
 
 /* The least softness: a fifth of an 8-bit code, over which no rounding can be seen. */
-#define CS_KEYING_SOFTNESS 0x1p-10
-
-typedef struct cs_keying {
-  bool is_given, is_luma;
-  float chroma[2]; /* of the screen: Cb, Cr */
-  float along[2];  /* these, divided by the square of their length */
-  float screen[4]; /* its codes; lane 3 is 0 */
-  float spill;     /* the part of the spill that is taken off, 0..1; not by luma */
-  float from;      /* the distance or the Y up to which a colour is clear */
-  float gain;      /* above that, how fast it is there; below 0 it is the other way round */
-} cs_keying;
+#define CS_KEYING_NARROWEST 0x1p-10
 
 /* codes: of the screen. tolerance, softness: not below 0. */
 cs_keying cs_keying_of_chroma(const double codes[3], double tolerance, double softness,

@@ -1,13 +1,22 @@
-/* The formulas of keys (keying.h), for as many colours at once as a register has. Lane 3 of a colour
- * is 0; what is said of whole colours is in all their lanes. */
+/* The formulas of keys (keying.h), for as many colours at once as a register has. Lane 3 of a
+ * colour is 0; what is said of whole colours is in all their lanes. */
 #pragma once
 
 #include "base/wide.h"
-#include "model/colour/keying.h"
 
 #define CS_KEYING_ACROSS 0.57735027f /* 1 / tan 60 degrees */
 #define CS_KEYING_MOST 0.9f          /* of a colour counts as spill when the rest takes its place */
 #define CS_KEYING_BRIGHTEST 1e12f
+
+typedef struct cs_keying {
+  bool is_given, is_luma;
+  float chroma[2]; /* of the screen: Cb, Cr */
+  float along[2];  /* these, divided by the square of their length */
+  float screen[4]; /* its codes; lane 3 is 0 */
+  float spill;     /* the part of the spill that is taken off, 0..1; not by luma */
+  float from;      /* the distance or the Y up to which a colour is clear */
+  float gain;      /* above that, how fast it is there; below 0 it is the other way round */
+} cs_keying;
 
 static inline cs_wide cs_keying_lanes_most(cs_wide c) {
   return cs_wide_max(cs_wide_max(CS_WIDE_SPREAD(c, 0), CS_WIDE_SPREAD(c, 1)), CS_WIDE_SPREAD(c, 2));
@@ -19,7 +28,7 @@ static inline cs_wide cs_keying_lanes_there(cs_wide e, cs_wide alpha) {
   return cs_wide_choose(alpha > 0, alpha, cs_wide_min(most, cs_wide_all(1)));
 }
 
-/* The colour by itself, within CS_KEYING_BRIGHTEST and its negative, so that all numbers are finite. */
+/* The colour by itself, clamped to CS_KEYING_BRIGHTEST and its negative, so that it is finite. */
 static inline cs_wide cs_keying_lanes_straight(cs_wide e, cs_wide there) {
   const cs_wide most = cs_wide_all(CS_KEYING_BRIGHTEST);
   return cs_wide_choose(there > 0, cs_wide_min(cs_wide_max(e / there, -most), most),
@@ -49,7 +58,7 @@ static inline cs_wide cs_keying_lanes_stays(const cs_keying *key, cs_wide codes)
   return cs_wide_unit((cs_wide_sqrt(cb * cb + cr * cr) - key->from) * key->gain);
 }
 
-/* The share of the screen that is in the colours, as far as it is to be taken off. */
+/* The share of the screen in the colours, as far as it must be taken off. */
 static inline cs_wide cs_keying_lanes_spill(const cs_keying *key, cs_wide codes) {
   const cs_wide luma = cs_keying_lanes_luma(codes);
   const cs_wide cb = cs_keying_lanes_cb(codes, luma), cr = cs_keying_lanes_cr(codes, luma);

@@ -1,4 +1,5 @@
-/* Groups, and objects with a mode of their own: unions that are composited by themselves.
+/* Groups, objects with a mode of their own, and mattes: unions, and a matte, that are composited by
+ * themselves.
  *
  *     group{ a, b }                 a union
  *     group{ a, b, isolate = true } a union that isolates
@@ -6,6 +7,7 @@
  *                                   the space around it
  *     group{ a, b, grade = g }      a union that is graded; it isolates
  *     a:blend(m)                    a union of one object, with a mode; it isolates
+ *     matte(art, by)                two operands, of which only the first is painted; it isolates
  */
 #include "base/description.h"
 #include "model/colour/blend.h"
@@ -217,4 +219,22 @@ celspan_status cs_object_graded(celspan_context *context, celspan_object *object
   celspan_status status = celspan_object_create_group(context, &desc, out);
   celspan_grade_unref(desc.grade);
   return status;
+}
+
+/* ---------------------------------------------------------------- mattes */
+
+celspan_status celspan_object_create_matte(celspan_context *context, celspan_object *art,
+                                           celspan_object *by, celspan_matte_from from, bool invert,
+                                           celspan_object **out) {
+  CS_TRY(cs_check_given(context, "matte", "the art", art));
+  CS_TRY(cs_check_given(context, "matte", "the object that it is matted by", by));
+  CS_TRY(cs_check_choice(context, "matte", "from", (unsigned)from, CELSPAN_MATTE_LUMA + 1));
+  celspan_object *const both[] = {art, by};
+  const cs_boolean look = {.op = CS_OPERATOR_MATTE,
+                           .isolates = true,
+                           .is_luma = from == CELSPAN_MATTE_LUMA,
+                           .inverts = invert};
+  cs_primitive_data *data;
+  CS_TRY(cs_primitive_data_of_operands(context, "matte", &look, both, 2, &data));
+  return cs_primitive_data_wrap(context, data, CELSPAN_OK, out);
 }

@@ -1,5 +1,5 @@
-/* Shapes grown by a width: all points in a shape or within that distance of it; or shrunk by it: all
- * points of a shape that are not within that distance of its outline. Paints do not count.
+/* Shapes grown by a width: all points in a shape or within that distance of it; or shrunk by it:
+ * all points of a shape that are not within that distance of its outline. Paints do not count.
  *
  *     a primitive     the shape and a stroke along its outline        .-----------.
  *     a union         the union of what its operands grow to          |  .-----.  |
@@ -29,8 +29,9 @@ typedef struct cs_grow {
  * mattes, keys, compositions (effects that blur are compositions) or procedures. */
 bool cs_grow_is_vector(const celspan_object *object);
 
-/* *out: a new object that is present where the grown or shrunk shape is, whatever its paint. Errors:
- * NO_MEMORY, LIMIT; BAD_ARGUMENT where an outline reaches the horizon of its perspective. */
+/* *out: a new object that is present where the grown or shrunk shape is, whatever its paint.
+ * Errors: NO_MEMORY, LIMIT; BAD_ARGUMENT where an outline reaches the horizon of its
+ * perspective. */
 CELSPAN_CHECKED celspan_status cs_grow_object(celspan_context *context, celspan_object *object,
                                               const cs_grow *grow, celspan_object **out);
 

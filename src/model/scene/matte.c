@@ -1,4 +1,4 @@
-/* Mattes: booleans of two operands, of which only the first is painted. They isolate.
+/* Mattes that are grown and blurred first.
  *
  *     shapes of opaque colours   grow as their outlines do (grow.h)
  *     anything else              is a white silhouette first. Where it is at least half there it
@@ -17,25 +17,9 @@
 #include "model/scene/grow.h"
 #include "model/scene/primitive_data.h"
 
-/* Half of white, as a code of sRGB; and how far around it a silhouette is hard only by parts. */
+/* Half of white, as a code of sRGB; and how far around it a silhouette is whole by parts. */
 #define HALF 0.735356
-#define SOFT 0.02
-
-celspan_status celspan_object_create_matte(celspan_context *context, celspan_object *art,
-                                           celspan_object *by, celspan_matte_from from, bool invert,
-                                           celspan_object **out) {
-  CS_TRY(cs_check_given(context, "matte", "the art", art));
-  CS_TRY(cs_check_given(context, "matte", "the object that it is matted by", by));
-  CS_TRY(cs_check_choice(context, "matte", "from", (unsigned)from, CELSPAN_MATTE_LUMA + 1));
-  celspan_object *const both[] = {art, by};
-  const cs_boolean look = {.op = CS_OPERATOR_MATTE,
-                           .isolates = true,
-                           .is_luma = from == CELSPAN_MATTE_LUMA,
-                           .inverts = invert};
-  cs_primitive_data *data;
-  CS_TRY(cs_primitive_data_of_operands(context, "matte", &look, both, 2, &data));
-  return cs_primitive_data_wrap(context, data, CELSPAN_OK, out);
-}
+#define AROUND 0.02
 
 /* ---------------------------------------------------------------- by alpha */
 
@@ -72,8 +56,8 @@ static celspan_status harden(celspan_context *context, celspan_object *silhouett
   celspan_key_desc key = CELSPAN_KEY_DESC;
   celspan_object *ground, *grey = NULL;
   key.by = CELSPAN_KEY_LUMA;
-  key.from = HALF - SOFT;
-  key.to = HALF + SOFT;
+  key.from = HALF - AROUND;
+  key.to = HALF + AROUND;
   CS_TRY(celspan_object_create_rect(context, place, &ground));
   celspan_status status = stack(context, ground, silhouette, &grey);
   if (status == CELSPAN_OK)

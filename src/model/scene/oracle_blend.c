@@ -54,7 +54,7 @@ static double unit(double x) { return fmax(0, fmin(x, 1)); }
 static double linear_burn(double b, double s) { return fmax(0, b + s - 1); }
 static double linear_light(double b, double s) { return unit(b + 2 * s - 1); }
 static double subtract(double b, double s) { return fmax(0, b - s); }
-static double hard_mix(double b, double s) { return b + s < 1 - EQUAL ? 0 : 1; }
+static double hard_mix(double b, double s) { return b <= EQUAL || b + s < 1 - EQUAL ? 0 : 1; }
 
 static double vivid_light(double b, double s) {
   return s < 0.5 ? color_burn(b, 2 * s) : color_dodge(b, 2 * s - 1);

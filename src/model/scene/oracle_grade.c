@@ -160,7 +160,7 @@ static chroma chroma_of(const double c[3]) {
 static double length_of(chroma c) { return sqrt(c.cb * c.cb + c.cr * c.cr); }
 
 /* 0 at `from`, 1 after `width`, which may be negative and is 1/1024 at least. */
-static double ramp(double from, double width, double at) {
+static double share_of(double from, double width, double at) {
   double least = copysign(1.0 / 1024, width);
   return cs_number_clamp((at - from) / (fabs(width) < fabs(least) ? least : width), 0, 1);
 }
@@ -212,14 +212,14 @@ static double key_colour(const celspan_grade *grade, celspan_space space, double
   double stays = 1;
   convert(space, CELSPAN_SPACE_SRGB, c);
   if (key->by == CELSPAN_KEY_LUMA) {
-    stays = ramp(key->from, key->to - key->from, luma_of(c));
+    stays = share_of(key->from, key->to - key->from, luma_of(c));
   } else {
     double screen[3] = {(double)grade->screen[0], (double)grade->screen[1],
                         (double)grade->screen[2]};
     convert(CELSPAN_SPACE_LINEAR, CELSPAN_SPACE_SRGB, screen);
     const chroma of_screen = chroma_of(screen), own = chroma_of(c);
-    stays = ramp(key->tolerance, key->softness,
-                 length_of((chroma){own.cb - of_screen.cb, own.cr - of_screen.cr}));
+    stays = share_of(key->tolerance, key->softness,
+                     length_of((chroma){own.cb - of_screen.cb, own.cr - of_screen.cr}));
     clean(screen, key->spill * spill_of(own, of_screen), c);
   }
   convert(CELSPAN_SPACE_SRGB, space, c);

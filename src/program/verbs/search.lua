@@ -3,10 +3,11 @@
 -- An entry that has the whole phrase, as a part of its title or as a keyword, comes before one that
 -- has all of the words somewhere. Entries that have only some of them, in the title or in keywords,
 -- are listed where there are no others. Within each of the three a word counts 3 in the title, 2 in
--- a keyword and 1 in the text, and of two entries that are equal the one whose title is the phrase to
--- the letter comes first ("keys" before "key"), then the one with the shorter title. The phrase is searched for as it is, and with each synonym in it replaced, which
--- counts a tenth less. Words are compared by their stems. A word that no entry has is read as the
--- one with the nearest spelling.
+-- a keyword and 1 in the text, and of two entries that are equal the one whose title is the phrase
+-- to the letter comes first ("keys" before "key"), then the one with the shorter title. The phrase
+-- is searched for as it is, and with each synonym in it replaced, which counts a tenth less. Words
+-- are compared by their stems. A word that no entry has is read as the one with the nearest
+-- spelling.
 local nearest, synonyms = ...
 
 -- weights that are greater than any number of words in a query
