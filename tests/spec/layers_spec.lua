@@ -1382,7 +1382,7 @@ describe("Photoshop documents of the material", function()
       "linear-burn", "linear-light", "luminosity", "multiply", "saturation", "screen" } do
       local path = ("%s/psd/blend-modes/%s.psd"):format(material, mode)
       local tree, reference, list = assert(layers.read(path)), merged.read(path), { isolate = true }
-      local w, h, near = reference.width, reference.height, 0
+      local w, h, alike = reference.width, reference.height, 0
       for i, layer in ipairs(tree) do
         assert.equal(mode, layer.blend)
         list[i] = layer.object:blend(mode):fade(layer.opacity)
@@ -1396,9 +1396,9 @@ describe("Photoshop documents of the material", function()
         for c = 1, 3 do
           most = math.max(most, math.abs(bytes:byte(4 * k + c) - reference[c][k]))
         end
-        near = near + (most <= 2 and 1 or 0)
+        alike = alike + (most <= 2 and 1 or 0)
       end
-      assert.is_true(near >= 0.99 * w * h, ("%s: %.4f are near"):format(mode, near / w / h))
+      assert.is_true(alike >= 0.99 * w * h, ("%s: %.4f are near"):format(mode, alike / w / h))
     end
   end)
 
