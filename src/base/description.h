@@ -30,6 +30,7 @@ typedef struct cs_description {
   EACH(celspan_context_desc)                                                                       \
   EACH(celspan_picture_desc)                                                                       \
   EACH(celspan_pattern_desc)                                                                       \
+  EACH(celspan_noise_desc)                                                                         \
   EACH(celspan_surface_desc)                                                                       \
   EACH(celspan_rect_desc)                                                                          \
   EACH(celspan_triangle_desc)                                                                      \

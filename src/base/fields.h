@@ -19,6 +19,13 @@ static const cs_description_field celspan_picture_desc_fields[] = {
     FIELD(celspan_picture_desc, surface),     FIELD(celspan_picture_desc, has_source),
     FIELD(celspan_picture_desc, source),      FIELD(celspan_picture_desc, smooth),
 };
+static const cs_description_field celspan_noise_desc_fields[] = {
+    FIELD(celspan_noise_desc, struct_size), FIELD(celspan_noise_desc, kind),
+    FIELD(celspan_noise_desc, octaves),     FIELD(celspan_noise_desc, size),
+    FIELD(celspan_noise_desc, gain),        FIELD(celspan_noise_desc, at),
+    FIELD(celspan_noise_desc, stops),       FIELD(celspan_noise_desc, stop_count),
+    FIELD(celspan_noise_desc, seed),
+};
 static const cs_description_field celspan_pattern_desc_fields[] = {
     FIELD(celspan_pattern_desc, struct_size), FIELD(celspan_pattern_desc, art),
     FIELD(celspan_pattern_desc, box),         FIELD(celspan_pattern_desc, has_matrix),

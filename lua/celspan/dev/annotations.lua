@@ -255,7 +255,7 @@ function celspan.gel(r, g, b, alpha) end
 ---@return celspan.paint
 function celspan.mix(p, q, u) end
 
---- A gradient or a picture, in the units of its primitive; it moves with the primitive.
+--- A gradient, noise or a picture, in the units of its primitive; it moves with the primitive.
 ---@class celspan.texture: celspan.nameable
 local texture = {}
 
@@ -271,6 +271,8 @@ function texture:with(changes) end
 ---@noun radial: celspan.texture
 
 ---@noun conic: celspan.texture
+
+---@noun noise: celspan.texture
 
 ---@noun picture: celspan.texture
 

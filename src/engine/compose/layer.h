@@ -21,7 +21,7 @@
 
 typedef enum cs_layer_kind {
   CS_LAYER_FLAT,
-  CS_LAYER_SHADED,   /* triangle, linear, radial or conic: varies along a row, as a formula */
+  CS_LAYER_SHADED,   /* a gradient or noise: varies along a row, as a formula */
   CS_LAYER_PICTURE,  /* varies from pixel to pixel */
   CS_LAYER_SCANLINE, /* its paints are those of the procedure spans of the row */
   CS_LAYER_DEFOCUSED /* a defocused cel */
@@ -61,7 +61,8 @@ typedef struct cs_layer_rule {
  * TRIANGLE: premultiplied s, t and beta over own units.
  * LINEAR: where a point lies along the stops, over frame pixels; RADIAL: the two legs of its
  * distance from the centre, as shares of the radius. Both must be divided by the w of the point
- * unless is_affine. CONIC: the ways from the centre along the direction of 0 and across it. */
+ * unless is_affine. CONIC: the ways from the centre along the direction of 0 and across it. NOISE: the
+ * coordinates in cells. */
 typedef struct cs_shade {
   const celspan_texture *texture; /* borrowed from the scene */
   celspan_matrix inverse;         /* frame pixels to own units */

@@ -105,10 +105,15 @@ void cs_gradient_table_colours(const cs_gradient_table *table, const cs_batch *b
     fold_several(table, batch, rgba);
     return;
   }
-  for (int32_t k = 0; k < batch->count; k++) {
-    double at = cs_shade_at(table->shade, cs_batch_centre(batch, k), batch->y);
-    size_t section = cs_gradient_table_section_at(table->shade, at);
-    cs_v4_store(rgba[k], cs_gradient_table_mix(&table->sections[section], at));
+  for (int32_t first = 0, k = 0; k < batch->count; first = k) {
+    double x[CS_SHADE_PLACES], at[CS_SHADE_PLACES];
+    for (; k < batch->count && k - first < CS_SHADE_PLACES; k++)
+      x[k - first] = cs_batch_centre(batch, k);
+    cs_shade_find(table->shade, x, k - first, batch->y, at);
+    for (int32_t i = 0; i < k - first; i++) {
+      size_t section = cs_gradient_table_section_at(table->shade, at[i]);
+      cs_v4_store(rgba[first + i], cs_gradient_table_mix(&table->sections[section], at[i]));
+    }
   }
 }
 
@@ -118,7 +123,7 @@ void cs_gradient_table_colours(const cs_gradient_table *table, const cs_batch *b
  * stops. *first: the layer of the first gradient. */
 static size_t count_varying(const cs_stack *stack, const cs_program *program, uint32_t *first) {
   size_t count = 0;
-  bool has_group = false;
+  bool has_group = false, has_noise = false;
   if (cs_program_curves(stack, program))
     return 0;
   for (uint32_t i = 0; i < program->length; i++) {
@@ -131,10 +136,11 @@ static size_t count_varying(const cs_stack *stack, const cs_program *program, ui
     if (!texture || texture->kind == CS_TEXTURE_TRIANGLE ||
         texture->variation->stop_count >= CS_OVER_ROW_BATCH)
       return 0;
+    has_noise |= texture->kind == CS_TEXTURE_NOISE;
     if (count++ == 0)
       *first = program->items[i].layer;
   }
-  return count > 1 && has_group ? 0 : count;
+  return count > 1 && (has_group || has_noise) ? 0 : count;
 }
 
 /* ---------------------------------------------------------------- one gradient */

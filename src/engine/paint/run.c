@@ -196,12 +196,14 @@ static CELSPAN_CHECKED celspan_status defocused_run(cs_painter *painter, const c
 
 /* ---------------------------------------------------------------- programs without hidden items */
 
-/* Whether the program shows pixel by pixel, as pictures do. */
+/* Whether the program shows pixel by pixel, as pictures and noise do. */
 static celspan_status needs_array(cs_painter *painter, const cs_program *program, bool *out) {
   *out = is_blended(painter->stack, program);
   for (uint32_t i = 0; i < program->length && !*out; i++) {
     const cs_layer *layer = &painter->stack->layers[program->items[i].layer];
     const cs_image_view *view;
+    *out = layer->kind == CS_LAYER_SHADED &&
+           painter->stack->shades[layer->index].texture->kind == CS_TEXTURE_NOISE;
     if (layer->kind != CS_LAYER_PICTURE)
       continue;
     CS_TRY(cs_painter_image(painter, layer->index, &view));

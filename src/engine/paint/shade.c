@@ -2,9 +2,10 @@
 
 #include "base/elementary.h"
 #include "base/number.h"
+#include "engine/paint/noise.h"
 #include "model/geometry/matrix.h"
 
-#define PLACES 64 /* found at a time */
+#define PLACES CS_SHADE_PLACES
 #define TURN 6.283185307179586
 
 static cs_shade_lanes lanes_of(const cs_paint *paint) {
@@ -149,6 +150,13 @@ double cs_shade_conic_at(const cs_shade *shade, double x, double y) {
   return turns < 0 ? turns + 1 : turns;
 }
 
+/* The coordinates in cells. */
+static void prepare_noise(cs_shade *shade) {
+  double share = 1 / shade->texture->variation->noise.size;
+  set_plane(shade, 0, share, 0, 0);
+  set_plane(shade, 1, 0, share, 0);
+}
+
 void cs_shade_prepare(cs_shade *shade) {
   shade->is_affine = cs_matrix_is_affine(&shade->inverse) && shade->inverse.m[8] > 0;
   if (shade->texture->kind == CS_TEXTURE_TRIANGLE)
@@ -157,6 +165,8 @@ void cs_shade_prepare(cs_shade *shade) {
     prepare_linear(shade);
   else if (shade->texture->kind == CS_TEXTURE_CONIC)
     prepare_conic(shade);
+  else if (shade->texture->kind == CS_TEXTURE_NOISE)
+    prepare_noise(shade);
   else
     prepare_radial(shade);
 }
@@ -180,6 +190,19 @@ cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y) {
   return stretch_paint(&found, at);
 }
 
+double cs_shade_noise_at(const cs_shade *shade, double x, double y) {
+  double at;
+  cs_noise_at(shade, &x, 1, y, &at);
+  return at;
+}
+
+void cs_shade_find(const cs_shade *shade, const double *x, int32_t count, double y, double *at) {
+  if (shade->texture->kind == CS_TEXTURE_NOISE)
+    cs_noise_at(shade, x, count, y, at);
+  else
+    CS_WIDE_CHOOSE(cs_isa_best(), cs_shade_places)(shade, x, count, y, at);
+}
+
 /* The colours of a stretch at up to PLACES places in it. */
 static void fill_paints(const stretch *part, const double *at, int32_t count, float (*s)[4],
                         float (*t)[4]) {
@@ -198,7 +221,7 @@ static void stop_paints(const cs_shade *shade, const double *x, int32_t count, d
                         float (*s)[4], float (*t)[4]) {
   const cs_paint clear = CS_PAINT_CLEAR;
   double at[PLACES];
-  CS_WIDE_CHOOSE(cs_isa_best(), cs_shade_places)(shade, x, count, y, at);
+  cs_shade_find(shade, x, count, y, at);
   for (int32_t k = 0, end; k < count; k = end) {
     stretch part = {.from = INFINITY, .paint = lanes_of(&clear)}; /* behind the horizon */
     if (at[k] == at[k])

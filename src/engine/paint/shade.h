@@ -1,4 +1,5 @@
-/* Textures given by a formula: the three-paint triangle, linear, radial and conic gradients.
+/* Textures given by a formula: the three-paint triangle, linear, radial and conic gradients,
+ * and noise.
  *
  *     TRIANGLE: a plane through the       LINEAR: one plane, 0 at      RADIAL: two planes, the legs
  *     values at the corners, a channel    one end and 1 at the other   of the distance from the
@@ -19,7 +20,9 @@
  * A conic gradient is the angle about its centre, in turns. On a row it is an arc tangent, which
  * bends where the row is nearest to the centre, and jumps where the row crosses the direction of 0.
  *
- * Invariant: between the places that cs_shade_breaks finds the paint is a smooth function of x on a
+ * Noise lies along its stops, too, but is found pixel by pixel: noise.h.
+ *
+ * Invariant: except for noise, between the places that cs_shade_breaks finds the paint is a smooth function of x on a
  * row, so it may be cut into lines by comparing a few points.
  */
 #pragma once
@@ -53,14 +56,22 @@ static inline double cs_shade_at_known(const cs_shade *shade, double x, double y
  * 0. */
 double cs_shade_conic_at(const cs_shade *shade, double x, double y);
 
+/* The same for a texture of noise, whose planes are its coordinates in cells: noise.h. */
+double cs_shade_noise_at(const cs_shade *shade, double x, double y);
+
 static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
   if (shade->texture->kind == CS_TEXTURE_CONIC)
     return cs_shade_conic_at(shade, x, y);
+  if (shade->texture->kind == CS_TEXTURE_NOISE)
+    return cs_shade_noise_at(shade, x, y);
   return cs_shade_at_known(shade, x, y, shade->texture->kind == CS_TEXTURE_RADIAL,
                            shade->is_affine);
 }
 
-/* The same for the places of a row; also the share of the way from the stop `from` to the next stop
+/* The same for up to CS_SHADE_PLACES places of a row. */
+#define CS_SHADE_PLACES 64
+void cs_shade_find(const cs_shade *shade, const double *x, int32_t count, double y, double *at);
+/* The same for all but noise; also the share of the way from the stop `from` to the next stop
  * at which each place lies. In vector code: shade_wide.c. */
 CS_WIDE_DECLARE(void, cs_shade_places,
                 (const cs_shade *shade, const double *x, int32_t count, double y, double *at));

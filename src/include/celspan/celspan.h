@@ -352,6 +352,34 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_focal(
 CELSPAN_API CELSPAN_CHECKED celspan_status
 celspan_texture_create_conic(celspan_context *context, celspan_point centre, double angle,
                              const celspan_stop *stops, size_t stop_count, celspan_texture **out);
+typedef enum celspan_noise_kind {
+  CELSPAN_NOISE_PERLIN = 0, /* smooth hills and hollows: (1 + n) / 2 */
+  CELSPAN_NOISE_VALUE,      /* a random value at each corner of a cell: (1 + n) / 2 */
+  CELSPAN_NOISE_FRACTAL,    /* octaves of Perlin's noise: (1 + their sum) / 2 */
+  CELSPAN_NOISE_TURBULENCE, /* the sum of the absolute values of these octaves */
+  CELSPAN_NOISE_CELLS       /* the distance to the nearest of random points, in cells */
+} celspan_noise_kind;
+
+typedef struct celspan_noise_desc {
+  size_t struct_size;
+  celspan_noise_kind kind;
+  int octaves; /* 1 to 16, of FRACTAL and TURBULENCE: each has half the size of the one before */
+  double size; /* the side of a cell of the first octave, above 0 */
+  double gain; /* 0 to 1: of an octave, as a share of the one before */
+  double at;   /* the third dimension, in cells */
+  const celspan_stop *stops; /* as of gradients; copied */
+  size_t stop_count;         /* 0: from black to white */
+  int seed;
+} celspan_noise_desc;
+
+CELSPAN_DESCRIPTION(celspan_noise_desc)
+#define CELSPAN_NOISE_DESC (celspan_noise_desc_initial())
+
+/* Noise, held to 0..1, as the place along stops. The same bits on every machine. Octaves whose cells
+ * are smaller than four pixels of the film fade out, and those below two are left out; the probe sees
+ * all. out: new      Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_noise(
+    celspan_context *context, const celspan_noise_desc *desc, celspan_texture **out);
 /* How a linear or radial gradient continues before 0 and after 1. */
 typedef enum celspan_spread {
   CELSPAN_SPREAD_HOLD = 0, /* the first and the last colour */
@@ -365,7 +393,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_with_spread(celspan_c
                                                                        celspan_texture *texture,
                                                                        celspan_spread spread,
                                                                        celspan_texture **out);
-/* The gradient or picture moved by a matrix, while what it is on stays. A singular matrix makes it
+/* The gradient, noise or picture moved by a matrix, while what it is on stays. A singular matrix makes it
  * clear. out: new      Errors: NO_MEMORY, BAD_ARGUMENT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_with_matrix(celspan_context *context,
                                                                        celspan_texture *texture,

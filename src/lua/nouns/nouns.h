@@ -7,7 +7,7 @@
 
 #include "lua/bind/userdata.h"
 
-extern const cs_noun cs_noun_gradient, cs_noun_linear, cs_noun_radial, cs_noun_conic,
+extern const cs_noun cs_noun_gradient, cs_noun_linear, cs_noun_radial, cs_noun_conic, cs_noun_noise,
     cs_noun_picture, cs_noun_pattern, cs_noun_rect, cs_noun_triangle, cs_noun_circle,
     cs_noun_ellipse, cs_noun_polygon, cs_noun_nurbs, cs_noun_path, cs_noun_image, cs_noun_stroke,
     cs_noun_stroke_style, cs_noun_text, cs_noun_glyph, cs_noun_scanline, cs_noun_union,

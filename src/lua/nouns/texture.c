@@ -1,4 +1,4 @@
-/* Textures: gradients, pictures and patterns. */
+/* Textures: gradients, noise, pictures and patterns. */
 #include "lua/nouns/texture.h"
 
 #include <limits.h>
@@ -137,6 +137,70 @@ static const cs_field conic_fields[] = {{"centre", CS_POINT(gradient, from), .is
                                          .about = "Nine numbers: moves the gradient alone"},
                                         {0}};
 
+/* ---------------------------------------------------------------- noise */
+
+#define OCTAVES_MOST 16
+#define COLOURS_MOST 64
+
+typedef struct noise {
+  celspan_noise_desc desc;
+  bool has_octaves, has_gain, has_matrix;
+  celspan_matrix matrix;
+} noise;
+
+/* The colours as stops at even distances: scratch memory, left on the stack. */
+static void read_colours(const cs_form *form, celspan_noise_desc *out) {
+  lua_State *L = form->L;
+  int type = cs_form_get(form, "colours");
+  if (type == LUA_TNIL)
+    return;
+  size_t count = type == LUA_TTABLE ? (size_t)lua_rawlen(L, -1) : 0;
+  if (count < 2 || count > COLOURS_MOST)
+    cs_form_fail(form, "field 'colours' must be a list of 2 to %d colours", COLOURS_MOST);
+  int list = lua_gettop(L);
+  celspan_stop *stops = cs_form_scratch(L, count, sizeof *stops);
+  for (size_t i = 0; i < count; i++)
+    stops[i] = (celspan_stop){(double)i / (double)(count - 1),
+                              cs_form_tuple_paint(form, list, (int)i + 1, "colours", 0)};
+  out->stops = stops;
+  out->stop_count = count;
+}
+
+static void create_noise(const cs_form *form, cs_userdata *value) {
+  noise n = {.desc = CELSPAN_NOISE_DESC};
+  cs_fields_read(form, &n);
+  bool is_one = n.desc.kind != CELSPAN_NOISE_FRACTAL && n.desc.kind != CELSPAN_NOISE_TURBULENCE;
+  if (is_one && (n.has_octaves || n.has_gain))
+    cs_form_fail(form, "field '%s' needs the kind \"fractal\" or \"turbulence\"",
+                 n.has_octaves ? "octaves" : "gain");
+  read_colours(form, &n.desc);
+  celspan_texture *texture = NULL;
+  cs_form_try(form, celspan_texture_create_noise(cs_host_context(form->L), &n.desc, &texture));
+  set_extent(form, &(gradient){.has_matrix = n.has_matrix, .matrix = n.matrix}, texture, value);
+}
+
+static const char *const noises[] = {"perlin", "value", "fractal", "turbulence", "cells", NULL};
+static const cs_field noise_fields[] = {
+    {"kind", CS_CHOICE(noise, desc.kind, noises), .preset = "perlin",
+     .about = "One octave of hills, of values or of cells; or the sum of several"},
+    {"size", CS_NUMBER(noise, desc.size), CS_ABOVE_0, .preset = "100",
+     .about = "The side of a cell of the first octave"},
+    {"octaves", CS_WHOLE(noise, desc.octaves), CS_HAS(noise, has_octaves), .least = 1,
+     .most = OCTAVES_MOST, .about = "Of fractal and turbulence: each has half the size of the last",
+     .fallback = "4"},
+    {"gain", CS_NUMBER(noise, desc.gain), CS_HAS(noise, has_gain), .most = 1,
+     .about = "Of fractal and turbulence: an octave's height, as a share of that before",
+     .fallback = "0.5"},
+    {"seed", CS_WHOLE(noise, desc.seed), .least = -INT_MAX, .most = INT_MAX, .preset = "0",
+     .about = "Another number is another noise"},
+    {"at", CS_NUMBER(noise, desc.at), .preset = "0",
+     .about = "The third dimension, in cells: change it to let the noise move"},
+    {"colours", CS_OWN("celspan.colour[]"), .about = "Two or more, from 0 to 1 at even distances",
+     .fallback = "{ \"#000\", \"#fff\" }"},
+    {"matrix", CS_NUMBERS(noise, matrix), CS_HAS(noise, has_matrix),
+     .about = "Nine numbers: moves the noise alone"},
+    {0}};
+
 /* ---------------------------------------------------------------- pictures */
 
 const char *const cs_texture_pixels_fields[] = {"size", "format", "alpha", NULL};
@@ -268,6 +332,11 @@ const cs_noun cs_noun_conic = {.name = "conic",
                                STOPS,
                                .fields = conic_fields,
                                .create = create_conic};
+const cs_noun cs_noun_noise = {.name = "noise",
+                               .about = "Random hills, clouds or cells that go on for ever.",
+                               .kind = &cs_kind_texture,
+                               .fields = noise_fields,
+                               .create = create_noise};
 const cs_noun cs_noun_picture = {
     .name = "picture",
     .about = "A picture as a texture: a file, read when it is first visible, or pixels in memory.",

@@ -224,13 +224,14 @@ static double fold(celspan_spread spread, double at) {
   return is_turned ? 1 - rest : rest;
 }
 
-/* A gradient at a point of its own units, computed from the texture that was given, not from the
+/* A gradient or noise at a point of its own units, computed from the texture that was given, not from the
  * unrolled texture. */
 static cs_oracle_paint shade_gradient(const celspan_texture *given, celspan_point point,
                                       celspan_space space) {
   double at = given->kind == CS_TEXTURE_LINEAR   ? linear_parameter(given, point)
               : given->kind == CS_TEXTURE_RADIAL ? radial_parameter(given, point)
-                                                 : conic_parameter(given, point);
+              : given->kind == CS_TEXTURE_CONIC  ? conic_parameter(given, point)
+                                                 : cs_oracle_noise(&given->variation->noise, point);
   return shade_stops(given, fold(given->variation->spread, at), space);
 }
 
@@ -263,6 +264,7 @@ celspan_status cs_oracle_texture(celspan_context *context, const celspan_texture
   case CS_TEXTURE_LINEAR:
   case CS_TEXTURE_RADIAL:
   case CS_TEXTURE_CONIC:
+  case CS_TEXTURE_NOISE:
     *out = shade_gradient(texture, point, space);
     return CELSPAN_OK;
   case CS_TEXTURE_PICTURE:

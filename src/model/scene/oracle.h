@@ -25,6 +25,8 @@ CELSPAN_CHECKED celspan_status cs_oracle_texture(celspan_context *context,
                                                  const celspan_texture *texture,
                                                  const celspan_box *bounds, celspan_point point,
                                                  celspan_space space, cs_oracle_paint *out);
+/* Noise at a point of its own units, with all its octaves, 0 to 1. */
+double cs_oracle_noise(const cs_noise *noise, celspan_point point);
 /* The paint of a primitive at a point of its own units that is inside it. Procedures are called for
  * their row, and *is_there says whether one of its spans covers the point. For other primitives it
  * is true. Errors: INPUT, LIMIT, NO_MEMORY, CALLBACK. */

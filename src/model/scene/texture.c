@@ -67,6 +67,15 @@ static void hash_pattern(cs_hash *hash, const cs_texture_variation *variation) {
   cs_value_hash_box(hash, &variation->box);
 }
 
+static void hash_noise(cs_hash *hash, const cs_noise *noise) {
+  cs_hash_word(hash, noise->kind);
+  cs_hash_number(hash, noise->size);
+  cs_hash_word(hash, (uint64_t)noise->octaves);
+  cs_hash_number(hash, noise->gain);
+  cs_hash_word(hash, (uint64_t)noise->seed);
+  cs_hash_number(hash, noise->at);
+}
+
 static cs_hash hash_texture(const celspan_texture *texture) {
   const cs_texture_variation *variation = texture->variation;
   cs_hash hash = cs_hash_begin(CS_VALUE_TEXTURE);
@@ -90,6 +99,8 @@ static cs_hash hash_texture(const celspan_texture *texture) {
     hash_picture(&hash, texture);
   if (texture->kind == CS_TEXTURE_PATTERN)
     hash_pattern(&hash, variation);
+  if (texture->kind == CS_TEXTURE_NOISE)
+    hash_noise(&hash, &variation->noise);
   return cs_hash_end(hash);
 }
 
@@ -186,11 +197,10 @@ static celspan_status check_stops(celspan_context *context, const char *noun,
   return CELSPAN_OK;
 }
 
-/* is_degenerate: there is no length over which the stops could be spread; every point then lies
- * after the last stop. */
-static celspan_status create_stops(celspan_context *context, cs_texture_kind kind,
-                                   const celspan_stop *stops, size_t count, bool is_degenerate,
-                                   celspan_texture **out) {
+celspan_status cs_texture_create_stops(celspan_context *context, const char *noun,
+                                       cs_texture_kind kind, const celspan_stop *stops,
+                                       size_t count, bool is_degenerate, celspan_texture **out) {
+  CS_TRY(check_stops(context, noun, stops, count));
   if (is_degenerate || count == 1)
     return create_flat_straight(context, &stops[count - 1].paint, out);
   celspan_texture *texture = NULL;
@@ -213,10 +223,9 @@ celspan_status celspan_texture_create_linear(celspan_context *context, celspan_p
                                              size_t stop_count, celspan_texture **out) {
   CS_TRY(cs_check_point(context, "linear", "from", 0, from));
   CS_TRY(cs_check_point(context, "linear", "to", 0, to));
-  CS_TRY(check_stops(context, "linear", stops, stop_count));
   celspan_texture *texture = NULL;
-  CS_TRY(create_stops(context, CS_TEXTURE_LINEAR, stops, stop_count,
-                      !(distance_squared(from, to) > 0), &texture));
+  CS_TRY(cs_texture_create_stops(context, "linear", CS_TEXTURE_LINEAR, stops, stop_count,
+                                 !(distance_squared(from, to) > 0), &texture));
   if (texture->kind == CS_TEXTURE_LINEAR) {
     cs_texture_own(texture)->points[0] = from;
     cs_texture_own(texture)->points[1] = to;
@@ -245,9 +254,9 @@ celspan_status celspan_texture_create_focal(celspan_context *context, celspan_po
   CS_TRY(cs_check_point(context, "radial", "centre", 0, centre));
   CS_TRY(cs_check_size(context, "radial", "radius", radius));
   CS_TRY(cs_check_point(context, "radial", "focus", 0, focus));
-  CS_TRY(check_stops(context, "radial", stops, stop_count));
   celspan_texture *texture = NULL;
-  CS_TRY(create_stops(context, CS_TEXTURE_RADIAL, stops, stop_count, !(radius > 0), &texture));
+  CS_TRY(cs_texture_create_stops(context, "radial", CS_TEXTURE_RADIAL, stops, stop_count,
+                                 !(radius > 0), &texture));
   if (texture->kind == CS_TEXTURE_RADIAL) {
     cs_texture_variation *variation = cs_texture_own(texture);
     variation->points[0] = centre;
@@ -262,9 +271,9 @@ celspan_status celspan_texture_create_conic(celspan_context *context, celspan_po
                                             size_t stop_count, celspan_texture **out) {
   CS_TRY(cs_check_point(context, "conic", "centre", 0, centre));
   CS_TRY(cs_check_number(context, "conic", "angle", angle));
-  CS_TRY(check_stops(context, "conic", stops, stop_count));
   celspan_texture *texture = NULL;
-  CS_TRY(create_stops(context, CS_TEXTURE_CONIC, stops, stop_count, false, &texture));
+  CS_TRY(cs_texture_create_stops(context, "conic", CS_TEXTURE_CONIC, stops, stop_count, false,
+                                 &texture));
   if (texture->kind == CS_TEXTURE_CONIC) {
     cs_texture_variation *variation = cs_texture_own(texture);
     double sine, cosine;
@@ -372,6 +381,7 @@ static celspan_status copy_stops(celspan_context *context, const cs_texture_vari
 static celspan_status fill_light(celspan_context *context, const cs_texture_variation *from,
                                  cs_texture_variation *to) {
   to->radius = from->radius;
+  to->noise = from->noise;
   to->spread = from->spread;
   to->has_matrix = from->has_matrix;
   to->matrix = from->matrix;

@@ -15,6 +15,7 @@
 #include "base/mark.h"
 #include "model/colour/paint.h"
 #include "model/pictures/picture.h"
+#include "model/scene/noise.h"
 
 typedef enum cs_texture_kind {
   CS_TEXTURE_FLAT,
@@ -22,6 +23,7 @@ typedef enum cs_texture_kind {
   CS_TEXTURE_LINEAR,
   CS_TEXTURE_RADIAL,
   CS_TEXTURE_CONIC,
+  CS_TEXTURE_NOISE,
   CS_TEXTURE_PICTURE,
   CS_TEXTURE_PATTERN
 } cs_texture_kind;
@@ -44,8 +46,9 @@ typedef struct cs_texture_variation {
                               direction of 0, of length 1 */
   double radius;           /* RADIAL */
   cs_paint corners[3];     /* TRIANGLE */
-  cs_stop *stops;          /* LINEAR, RADIAL, CONIC */
+  cs_stop *stops;          /* LINEAR, RADIAL, CONIC, NOISE */
   size_t stop_count;
+  cs_noise noise;                 /* NOISE */
   celspan_spread spread;          /* LINEAR, RADIAL; HOLD in textures of primitives and lights */
   bool has_matrix;                /* not singular: */
   celspan_matrix matrix, inverse; /* from the texture's units to the primitive's */
@@ -77,6 +80,13 @@ struct celspan_texture {
  * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_texture_create_kind(celspan_context *context,
                                                       cs_texture_kind kind, celspan_texture **out);
+/* A texture with stops, checked; the caller fills what its kind needs and hashes it. is_degenerate:
+ * there is no length over which the stops could be spread, so every point lies after the last one,
+ * and the texture is FLAT, as with one stop. *out: new. Errors: NO_MEMORY, BAD_ARGUMENT. */
+CELSPAN_CHECKED celspan_status cs_texture_create_stops(celspan_context *context, const char *noun,
+                                                       cs_texture_kind kind,
+                                                       const celspan_stop *stops, size_t count,
+                                                       bool is_degenerate, celspan_texture **out);
 /* *out: `texture` with one more reference, or new opaque black if it is NULL. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_texture_or_black(celspan_context *context,
                                                    celspan_texture *texture, celspan_texture **out);

@@ -351,10 +351,12 @@ static celspan_status make_axis(program_maker *m, const cs_layer *layer, uint32_
     return cs_record_image(context, &stack->images[layer->index], m->record, out);
   if (layer->kind == CS_LAYER_DEFOCUSED)
     return cs_record_defocused(context, m->source->defocus[layer->index], m->record, out);
-  if (stack->shades[layer->index].texture->kind == CS_TEXTURE_CONIC)
+  cs_texture_kind kind = stack->shades[layer->index].texture->kind;
+  if (kind == CS_TEXTURE_CONIC || kind == CS_TEXTURE_NOISE)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "plane: a conic gradient is in view; a plane keeps linear, radial and triangle "
-                   "gradients");
+                   "plane: %s is in view; a plane keeps linear, radial and triangle "
+                   "gradients",
+                   kind == CS_TEXTURE_NOISE ? "noise" : "a conic gradient");
   *out = axis_of(&stack->shades[layer->index]);
   return CELSPAN_OK;
 }

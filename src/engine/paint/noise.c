@@ -1,0 +1,130 @@
+#include "engine/paint/noise.h"
+
+#include "base/number.h"
+
+#include <math.h>
+
+/* Pixels: an octave with cells of the first size is left out, one of the second is whole. */
+#define NONE 2
+#define WHOLE 4
+/* The means of an octave's part of the sum: of the absolute value of Perlin's noise, over the plane
+ * and all `at`, and of the distance to the nearest point. Measured with 4e8 points each. */
+#define ABSOLUTE_MEAN 0.2f
+#define CELLS_MEAN 0.5f
+
+typedef struct row {
+  double u[CS_NOISE_PLACES], v[CS_NOISE_PLACES]; /* cells of the first octave */
+  double side[CS_NOISE_PLACES];                  /* of such a cell on the film, pixels */
+  float strength[CS_NOISE_PLACES];               /* of the current octave */
+  float values[CS_NOISE_PLACES], sum[CS_NOISE_PLACES];
+  cs_noise_places places;
+} row;
+
+/* The side of a cell in pixels, by the greatest stretch from pixels to cells. */
+static double side_of(double ux, double uy, double vx, double vy) {
+  double xx = ux * ux + vx * vx, yy = uy * uy + vy * vy, xy = ux * uy + vx * vy;
+  return 1 / sqrt(0.5 * (xx + yy + sqrt((xx - yy) * (xx - yy) + 4 * xy * xy)));
+}
+
+static void place_affine(const cs_shade *shade, const double *x, int32_t count, double y,
+                         row *out) {
+  const double *p = shade->plane[0], *q = shade->plane[1];
+  double side = side_of(p[0], p[1], q[0], q[1]);
+  for (int32_t k = 0; k < count; k++) {
+    out->u[k] = p[0] * x[k] + (p[1] * y + p[2]);
+    out->v[k] = q[0] * x[k] + (q[1] * y + q[2]);
+    out->side[k] = side;
+  }
+}
+
+static void place_tilted(const cs_shade *shade, const double *x, int32_t count, double y,
+                         row *out) {
+  const double *p = shade->plane[0], *q = shade->plane[1], *m = shade->inverse.m + 6;
+  for (int32_t k = 0; k < count; k++) {
+    double w = m[0] * x[k] + (m[1] * y + m[2]);
+    double u = (p[0] * x[k] + (p[1] * y + p[2])) / w, v = (q[0] * x[k] + (q[1] * y + q[2])) / w;
+    out->u[k] = w > 0 ? u : 0;
+    out->v[k] = w > 0 ? v : 0;
+    out->side[k] =
+        w > 0 ? w * side_of(p[0] - u * m[0], p[1] - u * m[1], q[0] - v * m[0], q[1] - v * m[1]) : 0;
+  }
+}
+
+/* Fills the places after the last one with it, up to a whole register. */
+static int32_t fill_up(int32_t count, row *r) {
+  int32_t end = count;
+  for (; end % CS_NOISE_LANES != 0; end++) {
+    r->u[end] = r->u[count - 1];
+    r->v[end] = r->v[count - 1];
+    r->side[end] = r->side[count - 1];
+  }
+  return end;
+}
+
+/* Sets the strengths of an octave; false where it is too fine at all places. */
+static bool set_strength(double scale, int32_t count, row *r) {
+  float most = 0;
+  for (int32_t k = 0; k < count; k++) {
+    double share = (r->side[k] / scale - NONE) / (WHOLE - NONE);
+    r->strength[k] = (float)cs_number_most(cs_number_least(share, 1), 0);
+    most = r->strength[k] > most ? r->strength[k] : most;
+  }
+  return most > 0;
+}
+
+/* The values of one octave. */
+static void find_values(const cs_noise *noise, const cs_noise_octave *octave, int32_t count,
+                        row *r) {
+  cs_isa isa = cs_isa_best();
+  cs_noise_places *to = &r->places;
+  double at[CS_NOISE_LANES] = {noise->at};
+  int32_t cells[CS_NOISE_LANES];
+  float places[CS_NOISE_LANES];
+  double scale = octave->scale;
+  CS_WIDE_CHOOSE(isa, cs_noise_split)(at, CS_NOISE_LANES, scale, 0, cells, places);
+  to->z = cells[0];
+  to->w = places[0];
+  to->seed = octave->seed;
+  CS_WIDE_CHOOSE(isa, cs_noise_split)(r->u, count, scale, octave->shift_x, to->x, to->u);
+  CS_WIDE_CHOOSE(isa, cs_noise_split)(r->v, count, scale, octave->shift_y, to->y, to->v);
+  CS_WIDE_CHOOSE(isa, cs_noise_values)(noise->kind, to, count, r->values);
+}
+
+/* What an octave adds that is not seen. */
+static float mean_of(celspan_noise_kind kind) {
+  return kind == CELSPAN_NOISE_TURBULENCE ? ABSOLUTE_MEAN
+         : kind == CELSPAN_NOISE_CELLS    ? CELLS_MEAN
+                                          : 0;
+}
+
+static void add_octave(const cs_noise *noise, int index, float gain, int32_t count, row *r) {
+  const cs_noise_octave octave = cs_noise_octave_of(noise, index);
+  float mean = mean_of(noise->kind);
+  bool is_seen = set_strength(octave.scale, count, r);
+  if (is_seen)
+    find_values(noise, &octave, count, r);
+  for (int32_t k = 0; k < count; k++) {
+    float value = is_seen ? r->values[k] : mean;
+    value = noise->kind == CELSPAN_NOISE_TURBULENCE ? fabsf(value) : value;
+    r->sum[k] += gain * (mean + r->strength[k] * (value - mean));
+  }
+}
+
+void cs_noise_at(const cs_shade *shade, const double *x, int32_t count, double y, double *at) {
+  const cs_noise *noise = &shade->texture->variation->noise;
+  bool is_sum = noise->kind == CELSPAN_NOISE_TURBULENCE || noise->kind == CELSPAN_NOISE_CELLS;
+  double gain = 1;
+  row r;
+  if (shade->is_affine)
+    place_affine(shade, x, count, y, &r);
+  else
+    place_tilted(shade, x, count, y, &r);
+  int32_t filled = fill_up(count, &r);
+  memset(r.sum, 0, sizeof r.sum);
+  for (int i = 0; i < noise->octaves; i++, gain *= noise->gain)
+    add_octave(noise, i, (float)gain, filled, &r);
+  for (int32_t k = 0; k < count; k++) {
+    double sum = is_sum ? (double)r.sum[k] : 0.5 + 0.5 * (double)r.sum[k];
+    at[k] = r.side[k] > 0 ? cs_number_clamp(sum, 0, 1) : NAN;
+  }
+}
