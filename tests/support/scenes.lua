@@ -113,7 +113,34 @@ function maker:repeating()
     focus, extent, stops)
 end
 
+--- Noise whose finest octave is larger than pixels, so that the oracle sees the same. It has its
+--- own series of random numbers.
+function maker:noise()
+  local own = self.noises
+  local kind = own:pick { "perlin", "value", "fractal", "turbulence", "cells" }
+  local fields = ("kind = %q, size = %s, seed = %d, "):format(kind, text_of(own:between(120, 400)),
+    own:whole(-99, 99))
+  if kind == "fractal" or kind == "turbulence" then
+    fields = ("%soctaves = %d, gain = %s, "):format(fields, own:whole(1, 2),
+      text_of(own:between(0, 1)))
+  end
+  if own:once(2) then fields = ("%sat = %s, "):format(fields, text_of(own:between(-3, 3))) end
+  if own:once(3) then
+    local turn = own:between(0, 6.28)
+    local c, s = text_of(math.cos(turn)), text_of(math.sin(turn))
+    fields = ("%smatrix = { %s, -(%s), 9, %s, %s, %s, 0, 0, 1 }, "):format(fields, c, s, s, c,
+      text_of(own:between(-99, 99)))
+  end
+  local colours = {}
+  for i = 1, own:whole(2, 4) do colours[i] = ("celspan.paint{ pigment = {%s, %s, %s}, "
+    .. "medium = {%s, %s, %s}, beta = %s }"):format(text_of(own:between(0, 1)),
+    text_of(own:between(0, 1)), text_of(own:between(0, 1)), text_of(own:between(0, 1)),
+    text_of(own:between(0, 1)), text_of(own:between(0, 1)), text_of(own:between(0, 1))) end
+  return ("celspan.noise{ %scolours = { %s } }"):format(fields, table.concat(colours, ", "))
+end
+
 function maker:texture()
+  if not self.is_flat and self.noises:once(12) then return self:noise() end
   local kind = self.is_flat and 8 or self.random:whole(1, 8)
   if kind == 1 then
     return ("celspan.gradient{ {%s, %s, %s}, {%s, %s, %s}, {%s, %s, %s} }"):format(
@@ -727,7 +754,7 @@ local function start(seed, options)
     has_pictures = options.has_pictures ~= false, has_text = options.has_text, level = 0,
     lights = 1, brightest = 1, modes = prng.new(~seed),
     fillings = prng.new(seed ~ 0x7061747465726e), outlines = prng.new(seed ~ 0x6f75746c696e65),
-    changes = prng.new(seed ~ 0x6368616e6765), keys = prng.new(seed ~ 0x6b657973),
+    changes = prng.new(seed ~ 0x6368616e6765), noises = prng.new(seed ~ 0x6e6f697365),
     has_modes = options.has_modes ~= false and seed % 2 == 0,
     has_spaces = options.has_modes ~= false and seed % 4 == 0,
     has_grades = options.has_grades ~= false, has_patterns = options.has_patterns ~= false,

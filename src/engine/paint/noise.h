@@ -1,6 +1,7 @@
 /* Noise along a row: its value at the middles of pixels, octave by octave (model/scene/noise.h).
  *
- * An octave is as strong as its cells are large on the film, so that none is finer than the pixels:
+ * An octave is as strong as its cells are large on the film, so that none is finer than the pixels; of turbulence
+ * somewhat less:
  *
  *     1 |          .-------      strength
  *       |        .

@@ -12,7 +12,9 @@ void CS_WIDE(cs_noise_split)(const double *restrict at, int32_t count, double sc
 #pragma omp simd
   for (int32_t k = 0; k < count; k++) {
     double x = at[k] * scale + shift;
-    x = x < -CS_NOISE_FARTHEST ? -CS_NOISE_FARTHEST : x > CS_NOISE_FARTHEST ? CS_NOISE_FARTHEST : x;
+    x = !(x > -CS_NOISE_FARTHEST) ? -CS_NOISE_FARTHEST
+        : x > CS_NOISE_FARTHEST   ? CS_NOISE_FARTHEST
+                                  : x;
     double sum = x + ROUNDING;
     float rest = (float)(x - (sum - ROUNDING));
     int64_t bits;
