@@ -262,7 +262,7 @@ function celspan.gel(r, g, b, alpha) end
 ---@return celspan.paint
 function celspan.mix(p, q, u) end
 
---- A gradient or a picture, in the units of its primitive; it moves with the primitive.
+--- A gradient, noise or a picture, in the units of its primitive; it moves with the primitive.
 ---@class celspan.texture: celspan.nameable
 local texture = {}
 
@@ -323,6 +323,27 @@ function celspan.radial(fields) end
 ---@param fields celspan.conic.fields
 ---@return celspan.conic
 function celspan.conic(fields) end
+
+---@class celspan.noise.fields
+---@field kind? "perlin"|"value"|"fractal"|"turbulence"|"cells" One octave of hills, of values or of cells; or the sum of several; default "perlin"
+---@field size? number The side of a cell of the first octave; more than 0; default 100
+---@field octaves? integer Of fractal and turbulence: each has half the size of the last; 1 to 16; default 4
+---@field gain? number Of fractal and turbulence: an octave's height, as a share of that before; 0 to 1; default 0.5
+---@field seed? integer Another number is another noise; -2.147484e9 to 2.147484e9; default 0
+---@field at? number The third dimension, in cells: change it to let the noise move; default 0
+---@field colours? celspan.colour[] Two or more, from 0 to 1 at even distances; default { "#000", "#fff" }
+---@field matrix? number[] Nine numbers: moves the noise alone
+
+---@class celspan.noise: celspan.texture, celspan.noise.fields
+---@field kind "perlin"|"value"|"fractal"|"turbulence"|"cells"
+---@field size number
+---@field seed integer
+---@field at number
+
+--- Random hills, clouds or cells that go on for ever.
+---@param fields celspan.noise.fields
+---@return celspan.noise
+function celspan.noise(fields) end
 
 ---@class celspan.picture.fields
 ---@field box? number[] {x, y, w, h}; default the bounding rectangle of the primitive

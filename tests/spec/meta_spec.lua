@@ -56,7 +56,7 @@ local samples = {
   paint = {}, linear = { from = { 0, 0 }, to = { 1, 1 }, { 0, "#fff" } },
   gradient = { { 0, 0, "#fff" }, { 1, 0, "#fff" }, { 0, 1, "#fff" } },
   radial = { centre = { 0, 0 }, radius = 1, { 0, "#fff" } },
-  conic = { centre = { 0, 0 }, { 0, "#fff" } }, picture = { file = "x.png" },
+  conic = { centre = { 0, 0 }, { 0, "#fff" } }, noise = {}, picture = { file = "x.png" },
   pattern = { art = dot, box = { 0, 0, 1, 1 } },
   rect = { 0, 0, 1, 1 }, triangle = { { 0, 0 }, { 1, 0 }, { 0, 1 } },
   circle = { centre = { 0, 0 }, radius = 1 }, ellipse = { centre = { 0, 0 }, radii = { 1, 2 } },
