@@ -24,7 +24,7 @@ static const cs_description_field celspan_noise_desc_fields[] = {
     FIELD(celspan_noise_desc, octaves),     FIELD(celspan_noise_desc, size),
     FIELD(celspan_noise_desc, gain),        FIELD(celspan_noise_desc, at),
     FIELD(celspan_noise_desc, stops),       FIELD(celspan_noise_desc, stop_count),
-    FIELD(celspan_noise_desc, seed),
+    FIELD(celspan_noise_desc, seed),        FIELD(celspan_noise_desc, fades),
 };
 static const cs_description_field celspan_pattern_desc_fields[] = {
     FIELD(celspan_pattern_desc, struct_size), FIELD(celspan_pattern_desc, art),

@@ -77,8 +77,8 @@ celspan_status celspan_texture_create_conic(celspan_context *context, celspan_po
 typedef enum celspan_noise_kind { CELSPAN_NOISE_PERLIN = 0, CELSPAN_NOISE_VALUE,
   CELSPAN_NOISE_FRACTAL, CELSPAN_NOISE_TURBULENCE, CELSPAN_NOISE_CELLS } celspan_noise_kind;
 typedef struct celspan_noise_desc { size_t struct_size; celspan_noise_kind kind; int octaves;
-  double size; double gain; double at; const celspan_stop *stops; size_t stop_count; int seed; }
-  celspan_noise_desc;
+  double size; double gain; double at; const celspan_stop *stops; size_t stop_count; int seed; bool
+  fades; } celspan_noise_desc;
 void celspan_noise_desc_default(celspan_noise_desc *out, size_t struct_size);
 celspan_status celspan_texture_create_noise( celspan_context *context, const celspan_noise_desc
   *desc, celspan_texture **out);

@@ -1,4 +1,4 @@
-/* Noise beside closed forms: its mean, its variance and its spectrum; what of it is finer than
+/* Noise beside closed forms: its mean, its variance and its spectrum; how much is finer than
  * pixels; and the same bits by all sets of instructions.
  */
 #include <math.h>
@@ -23,7 +23,7 @@ static celspan_context *context;
 
 /* ---------------------------------------------------------------- rows of noise */
 
-/* A noise whose cells have a side of so many pixels. The shade owns its texture. */
+/* The shade owns its texture. Its units are pixels. */
 static cs_shade shade_of(celspan_noise_desc desc) {
   celspan_texture *texture = NULL;
   CHECK(celspan_texture_create_noise(context, &desc, &texture) == CELSPAN_OK);
@@ -153,7 +153,7 @@ static void check_spectrum(celspan_noise_kind kind) {
 
 /* ---------------------------------------------------------------- zooming */
 
-/* The noise of a pixel, read at eighths of pixels: what of its energy pixels cannot show, while its
+/* The noise of a pixel, read at eighths of pixels: the share of energy that pixels cannot show, while its
  * cells shrink from 100 pixels to 1. */
 static void check_zoom(celspan_noise_kind kind) {
   for (double side = 100; side >= 1; side /= 1.19) {

@@ -558,6 +558,8 @@ function celspan.matte(art, by, options) end
 
 ---@noun defocus
 
+---@noun grain
+
 ---@noun grade
 
 ---@noun cel: celspan.placed

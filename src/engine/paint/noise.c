@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* What of an octave may be seen. */
+/* How much is shown of an octave. */
 typedef struct view {
   double none, whole; /* pixels: octaves with cells of the first size are left out, those of the
                          second are whole */
@@ -72,11 +72,13 @@ static int32_t fill_up(int32_t count, row *r) {
   return end;
 }
 
-/* Sets the strengths of an octave; false where it is too fine at all places. */
+/* Sets the strengths of an octave, which are 1 where there is no view; false where it is too fine at all places. */
 static bool set_strength(const view *seen, double scale, int32_t count, row *r) {
   float most = 0;
   for (int32_t k = 0; k < count; k++) {
-    double share = (r->side[k] / scale - seen->none) / (seen->whole - seen->none);
+    double share = 1;
+    if (seen)
+      share = (r->side[k] / scale - seen->none) / (seen->whole - seen->none);
     r->strength[k] = (float)cs_number_most(cs_number_least(share, 1), 0);
     most = r->strength[k] > most ? r->strength[k] : most;
   }
@@ -106,7 +108,7 @@ static void add_octave(const cs_noise *noise, int index, float gain, int32_t cou
   const view seen = view_of(noise->kind);
   double place = noise->at * octave.scale;
   float off = (float)fabs(2 * (place - floor(place)) - 1), mean = seen.mean + seen.more * (1 - off);
-  bool is_seen = set_strength(&seen, octave.scale, count, r);
+  bool is_seen = set_strength(noise->fades ? &seen : NULL, octave.scale, count, r);
   if (is_seen)
     find_values(noise, &octave, count, r);
   for (int32_t k = 0; k < count; k++) {

@@ -1,7 +1,7 @@
 /* Noise along a row: its value at the middles of pixels, octave by octave (model/scene/noise.h).
  *
- * An octave is as strong as its cells are large on the film, so that none is finer than the pixels; of turbulence
- * somewhat less:
+ * An octave is as strong as its cells are large on the film, so that none is finer than the pixels.
+ * Of cells and turbulence, which have folds, the limits are higher:
  *
  *     1 |          .-------      strength
  *       |        .

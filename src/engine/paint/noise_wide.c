@@ -1,8 +1,8 @@
 /* The values of noise, a register of places at a time: see noise.h. */
 #include "engine/paint/noise.h"
 
-/* Added to a number and taken away, it leaves the nearest whole number, which is in the lower bits of
- * the sum. */
+/* Added to a number and taken away, it leaves the nearest whole number, which is in the lower bits
+ * of the sum. */
 #define ROUNDING 0x1.8p52
 
 typedef uint32_t words __attribute__((vector_size(4 * CS_WIDE_LANES)));

@@ -370,14 +370,16 @@ typedef struct celspan_noise_desc {
   const celspan_stop *stops; /* as of gradients; copied */
   size_t stop_count;         /* 0: from black to white */
   int seed;
+  bool fades; /* true by default; false: octaves finer than pixels stay, as for grain */
 } celspan_noise_desc;
 
 CELSPAN_DESCRIPTION(celspan_noise_desc)
 #define CELSPAN_NOISE_DESC (celspan_noise_desc_initial())
 
-/* Noise, held to 0..1, as the place along stops. The same bits on every machine. Octaves whose cells
- * are smaller than 4 pixels of the film fade out (of turbulence 10), and those of 2 (5) are replaced
- * by their mean; the probe sees all. out: new      Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+/* Noise, clamped to 0..1, as the place along stops. The same bits on every machine. Octaves whose
+ * cells are smaller than 4 pixels of the film (CELLS 6, TURBULENCE 10) fade out, and are replaced by
+ * their mean below half of that; the probe sees all. out: new      Errors: NO_MEMORY, BAD_ARGUMENT,
+ * LIMIT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_noise(
     celspan_context *context, const celspan_noise_desc *desc, celspan_texture **out);
 /* How a linear or radial gradient continues before 0 and after 1. */

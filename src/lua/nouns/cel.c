@@ -2,6 +2,7 @@
 #include "lua/bind/fields.h"
 #include "lua/bind/host.h"
 #include "lua/nouns/grade.h"
+#include "lua/nouns/grain.h"
 #include "lua/nouns/light.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/shape.h"
@@ -40,6 +41,12 @@ static void create(const cs_form *form, cs_userdata *value) {
   int count = cs_form_length(form);
   desc.objects = cs_shape_items(form, count);
   desc.object_count = (size_t)count;
+  celspan_object *grainy = NULL;
+  if (cs_grain_push_object(form)) {
+    grainy = ((const cs_userdata *)lua_touserdata(L, -1))->handle; /* the stack keeps it alive */
+    desc.objects = &grainy;
+    desc.object_count = 1;
+  }
   desc.has_front =
       cs_light_read(form, "front", &desc.front, &desc.front_is_colour, &desc.front_texture);
   cs_light_read(form, "back", &desc.back, &desc.back_is_colour, &desc.back_texture);
@@ -63,6 +70,7 @@ static const cs_field fields[] = {
     {"blend", CS_CHOICE(DESC, blend, cs_blend_words), .written = "celspan.mode",
      .about = "How it is combined with its backdrop", .fallback = "normal"},
     CS_GRADE_FIELD,
+    CS_GRAIN_FIELD,
     {"opacity", CS_NUMBER(DESC, opacity), .preset = "1", .about = "Limited to 0..1"},
     {0}};
 const cs_noun cs_noun_cel = {.name = "cel",

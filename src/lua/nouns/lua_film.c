@@ -1,4 +1,5 @@
 #include "lua/nouns/lua_film.h"
+#include "lua/nouns/grain.h"
 
 #include <lauxlib.h>
 #include <math.h>
@@ -98,6 +99,7 @@ static void check_film(const cs_form *form, cs_userdata *value) {
   lua_setiuservalue(L, film, MARKS);
   check_poster(form, &read);
   check_captions(form);
+  cs_grain_check(form);
   if (cs_form_get(form, "frame") != LUA_TFUNCTION)
     cs_form_fail(form, "field 'frame' must be a function(f) that returns a rostrum, got %s",
                  cs_userdata_type(L, -1));
@@ -141,6 +143,7 @@ static const cs_field fields[] = {
      .about = "The number of the first frame"},
     {"title", CS_TEXT(film_form, title)},
     CS_OWN_SPACE(film_form, space, "linear"),
+    CS_GRAIN_FIELD,
     {"sound", CS_OWN("string|celspan.film.sound|celspan.film.sound[]"),
      .about = "A file, a sound, or a list of sounds, which are mixed"},
     {"sound_offset", CS_NUMBER(film_form, sound_offset), .least = -MOST_FRAMES, .most = MOST_FRAMES,
@@ -378,7 +381,7 @@ static const char *push_result_name(lua_State *L, int function) {
   return lua_tostring(L, -1);
 }
 
-/* frame function, f -> exposures */
+/* frame function, f, film -> exposures */
 static int call_frame(lua_State *L) {
   const char *name = push_result_name(L, 1);
   lua_pushvalue(L, 1);
@@ -388,6 +391,7 @@ static int call_frame(lua_State *L) {
   celspan_frame_desc desc;
   cs_options_exposures(L, result, name, &desc);
   lua_settop(L, result);
+  cs_grain_add(L, 3, 2);
   return 1;
 }
 
@@ -405,8 +409,10 @@ static int protected_frame(lua_State *L, int film, int64_t number) {
   lua_getfield(L, -1, "frame");
   lua_remove(L, -2);
   push_frame(L, &info, number);
+  lua_pushvalue(L, film);
+  cs_grain_begin(L, number);
   cs_host_begin(L, CS_HOST_FRAME, number);
-  int outcome = cs_lua_error_settle(L, lua_pcall(L, 2, 1, handler), 1);
+  int outcome = cs_lua_error_settle(L, lua_pcall(L, 3, 1, handler), 1);
   cs_host_end(L);
   lua_remove(L, handler);
   return outcome;

@@ -195,6 +195,8 @@ static const cs_field noise_fields[] = {
      .about = "Another number is another noise"},
     {"at", CS_NUMBER(noise, desc.at), .preset = "0",
      .about = "The third dimension, in cells: change it to let the noise move"},
+    {"fade", CS_FLAG(noise, desc.fades), .preset = "true",
+     .about = "Whether octaves finer than pixels fade out"},
     {"colours", CS_OWN("celspan.colour[]"), .about = "Two or more, from 0 to 1 at even distances",
      .fallback = "{ \"#000\", \"#fff\" }"},
     {"matrix", CS_NUMBERS(noise, matrix), CS_HAS(noise, has_matrix),
@@ -333,7 +335,7 @@ const cs_noun cs_noun_conic = {.name = "conic",
                                .fields = conic_fields,
                                .create = create_conic};
 const cs_noun cs_noun_noise = {.name = "noise",
-                               .about = "Random hills, clouds or cells that go on for ever.",
+                               .about = "Random hills, clouds or cells, without end.",
                                .kind = &cs_kind_texture,
                                .fields = noise_fields,
                                .create = create_noise};

@@ -2,21 +2,22 @@
  *
  * The plane is cut into cells, once for each octave; an octave's cells have half the side of those
  * of the octave before. `at` is a third coordinate. Every corner of a cell (PERLIN, VALUE), or
- * every cell (CELLS), has a word of 32 bits, mixed from its three whole coordinates and the octave's
- * seed:
+ * every cell (CELLS), has a word of 32 bits, mixed from its three whole coordinates and the
+ * octave's seed:
  *
  *     word = lowbias32(x 0x9e3779b1 ^ y 0x85ebca77 ^ z 0xc2b2ae3d ^ seed)
  *
- * PERLIN    bit 31: the gradient leans along y, else along x; bits 30, 29, 28: the signs of its x, y
- *           and z. It has the length of sqrt 2 in the plane, in eight directions, so that values lie
- *           in -1..1 for a whole `at`; and 1 along z.
+ * PERLIN    bit 31: the gradient leans along y, else along x; bits 30, 29, 28: the signs of its x,
+ *           y and z. In the plane it has the length of sqrt 2, in eight directions, so that values
+ *           lie in -1..1 for a whole `at`; along z it has the length of 1.
  * VALUE     the word as a number from -1 to 1.
- * CELLS     a point in the cell: x and y are its upper and lower 16 bits, z the upper 16 bits of the
- *           word times 0x9e3779b1.
+ * CELLS     a point in the cell: x and y are its upper and lower 16 bits, z the upper 16 bits of
+ *           the word times 0x9e3779b1.
  * Between corners values are mixed by t^3 (6 t^2 - 15 t + 10).
  */
 #pragma once
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "celspan/celspan.h"
@@ -27,8 +28,7 @@
 #define CS_NOISE_X UINT32_C(0x9e3779b1)
 #define CS_NOISE_Y UINT32_C(0x85ebca77)
 #define CS_NOISE_Z UINT32_C(0xc2b2ae3d)
-/* Parts of a Perlin gradient in the plane: sqrt 2 times the cosine and the sine of an eighth of half
- * a turn. */
+/* Parts of a Perlin gradient in the plane: sqrt 2 times the cosine and the sine of 22.5 degrees. */
 #define CS_NOISE_LONG 1.3065629648763766
 #define CS_NOISE_SHORT 0.541196100146197
 
@@ -38,7 +38,8 @@ typedef struct cs_noise {
   int octaves; /* 1 for kinds that have one */
   double gain;
   int seed;
-  double at; /* cells of the first octave */
+  double at;  /* cells of the first octave */
+  bool fades; /* octaves finer than pixels do */
 } cs_noise;
 
 /* One octave of a noise: its cells are those of the first octave times `scale`, then moved. */

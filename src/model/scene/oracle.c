@@ -224,8 +224,8 @@ static double fold(celspan_spread spread, double at) {
   return is_turned ? 1 - rest : rest;
 }
 
-/* A gradient or noise at a point of its own units, computed from the texture that was given, not from the
- * unrolled texture. */
+/* A gradient or noise at a point of its own units, computed from the texture that was given, not
+ * from the unrolled texture. */
 static cs_oracle_paint shade_gradient(const celspan_texture *given, celspan_point point,
                                       celspan_space space) {
   double at = given->kind == CS_TEXTURE_LINEAR   ? linear_parameter(given, point)

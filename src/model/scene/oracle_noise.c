@@ -36,7 +36,7 @@ static double corner_value(celspan_noise_kind kind, uint32_t word, double dx, do
                            double dz) {
   if (kind == CELSPAN_NOISE_VALUE)
     return (word >= 0x80000000 ? (double)word - 0x1p32 : (double)word) / 0x1p31;
-  /* cos and sin of an eighth of half a turn, by the theorem of half angles, times sqrt 2 */
+  /* sqrt 2 times the cosine and the sine of half of 45 degrees */
   double longer = sqrt(1 + sqrt(0.5)), shorter = sqrt(1 - sqrt(0.5));
   bool is_steep = word >> 31;
   double along = is_steep ? shorter : longer, across = is_steep ? longer : shorter;

@@ -74,6 +74,7 @@ static void hash_noise(cs_hash *hash, const cs_noise *noise) {
   cs_hash_number(hash, noise->gain);
   cs_hash_word(hash, (uint64_t)noise->seed);
   cs_hash_number(hash, noise->at);
+  cs_hash_word(hash, noise->fades);
 }
 
 static cs_hash hash_texture(const celspan_texture *texture) {

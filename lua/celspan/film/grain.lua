@@ -1,0 +1,63 @@
+--- Grain of films and cels: noise in front of the art, added to its codes where it is.
+--
+-- The noise is a sum of three octaves, n, whose deviation is DEVIATION. The mode linear-light adds
+-- 2 s - 1 to a code, so a source s = 1/2 + amount n / (2 DEVIATION) has the deviation of `amount`.
+local celspan = require "celspan"
+local core = require "celspan.core"
+
+local grain = {}
+
+local GAIN = 0.7
+local DEVIATION = (0.0930 * (1 + GAIN ^ 2 + GAIN ^ 4)) ^ 0.5 -- of an octave 0.0930, squared
+
+--- The seed of a frame: a whole number of 31 bits.
+local function seed_of(options, frame)
+  return ((options.seed or 0) + 0x9e3779b1 * frame) % 0x7fffffff
+end
+
+--- The light of a code.
+local function decode(code)
+  return code <= 0.04045 and code / 12.92 or ((code + 0.055) / 1.055) ^ 2.4
+end
+
+local function grey(code)
+  local light = decode(code)
+  return celspan.rgb(light, light, light)
+end
+
+local function over(box, art, options, frame)
+  local most = (options.amount or 0.05) / (2 * DEVIATION)
+  local noise = celspan.noise { kind = "fractal", size = options.size or 1.5, octaves = 3,
+    gain = GAIN, fade = false, seed = seed_of(options, frame),
+    colours = { grey(0.5 - most), grey(0.5 + most) } }
+  local sheet = celspan.rect { box[1], box[2], box[3], box[4], texture = noise }
+  return celspan.group { art, core.blend_within(sheet, "linear-light"), isolate = true,
+    space = "srgb" }
+end
+
+--- The objects of a cel as one object with grain.
+function grain.of_objects(list, options, frame)
+  local art = celspan.group(list)
+  local x, y, w, h = art:bounds()
+  if not x then return art end
+  return over({ x - 1, y - 1, w + 2, h + 2 }, art, options, frame or 0)
+end
+
+local function of_rostrum(rostrum, film, frame)
+  local size, space = rostrum.size or film.size, rostrum.space or film.space or "linear"
+  local art = rostrum:with { size = size, space = space }
+  return celspan.rostrum { space = space, antialias = rostrum.antialias,
+    celspan.cel { front = "#fff", over({ 0, 0, size[1], size[2] }, art, film.grain, frame) } }
+end
+
+--- The exposures of a frame with the grain of its film.
+function grain.of_film(exposures, film, frame)
+  if type(exposures) ~= "table" then return of_rostrum(exposures, film, frame) end
+  local list = {}
+  for i, exposure in ipairs(exposures) do
+    list[i] = { of_rostrum(exposure[1], film, frame), exposure[2] }
+  end
+  return list
+end
+
+return grain

@@ -1,0 +1,18 @@
+/* The field `grain` of films and cels, which lua/celspan/film/grain.lua makes. */
+#pragma once
+
+#include "lua/bind/form.h"
+
+#define CS_GRAIN_FIELD                                                                             \
+  { "grain", CS_OWN("celspan.grain"), .about = "Grey grain, another one in each frame" }
+
+/* Raises where the field is no grain. */
+void cs_grain_check(const cs_form *form);
+/* Pushes the objects of a cel's form as one object with its grain; false: it has none, and nothing
+ * is pushed. */
+bool cs_grain_push_object(const cs_form *form);
+/* Replaces the exposures on top of the stack by those with the grain of the film, if it has one.
+ * frame: the `f` of the frame. film, frame: absolute indices. */
+void cs_grain_add(lua_State *L, int film, int frame);
+/* The number of the frame that is being built, for the grain of its cels. */
+void cs_grain_begin(lua_State *L, int64_t number);
