@@ -331,6 +331,7 @@ function celspan.conic(fields) end
 ---@field gain? number Of fractal and turbulence: an octave's height, as a share of that before; 0 to 1; default 0.5
 ---@field seed? integer Another number is another noise; -2.147484e9 to 2.147484e9; default 0
 ---@field at? number The third dimension, in cells: change it to let the noise move; default 0
+---@field fade? boolean Whether octaves finer than pixels fade out; default "true"
 ---@field colours? celspan.colour[] Two or more, from 0 to 1 at even distances; default { "#000", "#fff" }
 ---@field matrix? number[] Nine numbers: moves the noise alone
 
@@ -339,8 +340,9 @@ function celspan.conic(fields) end
 ---@field size number
 ---@field seed integer
 ---@field at number
+---@field fade boolean
 
---- Random hills, clouds or cells that go on for ever.
+--- Random hills, clouds or cells, without end.
 ---@param fields celspan.noise.fields
 ---@return celspan.noise
 function celspan.noise(fields) end
@@ -949,6 +951,12 @@ function celspan.matte(art, by, options) end
 ---@field kernel? "gaussian"|"box"|"disc"|"pixel" Default "gaussian"
 ---@field edge? "clear"|"extend" Beyond the frame: the art, or what lies on its edge; default "clear"
 
+--- Grain of a film or a cel.
+---@class celspan.grain
+---@field amount? number The standard deviation of codes, which are 0 to 1; 0 to 0.3; default 0.05
+---@field size? number Of the largest grains, in film units; more than 0; default 1.5
+---@field seed? integer Another number is another grain; -2.147484e9 to 2.147484e9; default 0
+
 --- Steps that change colours, in this order.
 ---@class celspan.grade
 ---@field exposure? number Stops: times 2 to the power of this; -64 to 64; default 0
@@ -976,6 +984,7 @@ function celspan.matte(art, by, options) end
 ---@field defocus? number|celspan.defocus A radius, or with a kernel
 ---@field blend? celspan.mode How it is combined with its backdrop; default normal
 ---@field grade? celspan.grade How its colours are changed
+---@field grain? celspan.grain Grey grain, another one in each frame
 ---@field opacity? number Limited to 0..1; default 1
 
 ---@class celspan.cel: celspan.placed, celspan.cel.fields
@@ -1084,6 +1093,7 @@ function frame:random(label, m, n) end
 ---@field first? integer The number of the first frame; -1e9 to 1e9; default 1
 ---@field title? string
 ---@field space? "linear"|"srgb" The numbers that are mixed in it: linear light, or sRGB codes; default linear
+---@field grain? celspan.grain Grey grain, another one in each frame
 ---@field sound? string|celspan.film.sound|celspan.film.sound[] A file, a sound, or a list of sounds, which are mixed
 ---@field sound_offset? number Seconds by which all sounds begin later; a negative value cuts the beginning; -1e9 to 1e9; default 0
 ---@field marks? table<string, integer> Names of frames, { title = 1 }, for --frames

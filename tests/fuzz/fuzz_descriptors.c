@@ -172,6 +172,23 @@ static celspan_status make_gradient(program *p, celspan_texture **out) {
   }
 }
 
+static celspan_status make_noise(program *p, celspan_texture **out) {
+  celspan_stop stops[POINTS];
+  celspan_noise_desc desc = {.struct_size = sizeof desc};
+  desc.stop_count = count(p, POINTS, sizeof *stops);
+  for (size_t i = 0; i < POINTS && i < desc.stop_count; i++)
+    stops[i] = (celspan_stop){(double)i / POINTS + (double)share(p) / POINTS, paint(p)};
+  desc.stops = stops;
+  desc.kind = (celspan_noise_kind)word(p, CELSPAN_NOISE_CELLS + 1);
+  desc.octaves = (int)take(p, 18);
+  desc.size = number(p);
+  desc.gain = (double)share(p);
+  desc.at = number(p);
+  desc.seed = cs_number_to_int32(number(p));
+  desc.fades = take(p, 2);
+  return celspan_texture_create_noise(p->context, &desc, out);
+}
+
 static celspan_status change_texture(program *p, celspan_texture **out) {
   celspan_texture *texture = ANY(p, textures);
   celspan_matrix m = matrix(p);
@@ -191,7 +208,7 @@ static void make_texture(program *p) {
   const celspan_paint paints[3] = {paint(p), paint(p), paint(p)};
   const celspan_point points[3] = {point(p), point(p), point(p)};
   celspan_picture_desc desc;
-  switch (take(p, 5)) {
+  switch (take(p, 6)) {
   case 0:
     status = celspan_texture_create_paint(p->context, paints, &made);
     break;
@@ -204,6 +221,9 @@ static void make_texture(program *p) {
   case 3:
     desc = picture(p);
     status = celspan_texture_create_picture(p->context, &desc, &made);
+    break;
+  case 4:
+    status = make_noise(p, &made);
     break;
   default:
     status = change_texture(p, &made);

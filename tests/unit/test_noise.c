@@ -153,8 +153,8 @@ static void check_spectrum(celspan_noise_kind kind) {
 
 /* ---------------------------------------------------------------- zooming */
 
-/* The noise of a pixel, read at eighths of pixels: the share of energy that pixels cannot show, while its
- * cells shrink from 100 pixels to 1. */
+/* The noise of a pixel, read at eighths of pixels: the share of energy that pixels cannot show,
+ * while its cells shrink from 100 pixels to 1. */
 static void check_zoom(celspan_noise_kind kind) {
   for (double side = 100; side >= 1; side /= 1.19) {
     double energies[HALF] = {0}, row[LENGTH];

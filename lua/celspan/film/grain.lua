@@ -8,6 +8,8 @@ local core = require "celspan.core"
 local grain = {}
 
 local GAIN = 0.7
+-- Turned, so that pixels lie everywhere in cells, not always at the same place of them.
+local COS, SIN = 0.8253356149, 0.5646424734
 local DEVIATION = (0.0930 * (1 + GAIN ^ 2 + GAIN ^ 4)) ^ 0.5 -- of an octave 0.0930, squared
 
 --- The seed of a frame: a whole number of 31 bits.
@@ -28,7 +30,7 @@ end
 local function over(box, art, options, frame)
   local most = (options.amount or 0.05) / (2 * DEVIATION)
   local noise = celspan.noise { kind = "fractal", size = options.size or 1.5, octaves = 3,
-    gain = GAIN, fade = false, seed = seed_of(options, frame),
+    gain = GAIN, fade = false, matrix = { COS, -SIN, 0, SIN, COS, 0, 0, 0, 1 }, seed = seed_of(options, frame),
     colours = { grey(0.5 - most), grey(0.5 + most) } }
   local sheet = celspan.rect { box[1], box[2], box[3], box[4], texture = noise }
   return celspan.group { art, core.blend_within(sheet, "linear-light"), isolate = true,

@@ -61,8 +61,8 @@ typedef struct cs_layer_rule {
  * TRIANGLE: premultiplied s, t and beta over own units.
  * LINEAR: where a point lies along the stops, over frame pixels; RADIAL: the two legs of its
  * distance from the centre, as shares of the radius. Both must be divided by the w of the point
- * unless is_affine. CONIC: the ways from the centre along the direction of 0 and across it. NOISE: the
- * coordinates in cells. */
+ * unless is_affine. CONIC: the ways from the centre along the direction of 0 and across it. NOISE:
+ * the coordinates in cells. */
 typedef struct cs_shade {
   const celspan_texture *texture; /* borrowed from the scene */
   celspan_matrix inverse;         /* frame pixels to own units */

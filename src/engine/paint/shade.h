@@ -22,8 +22,8 @@
  *
  * Noise lies along its stops, too, but is found pixel by pixel: noise.h.
  *
- * Invariant: except for noise, between the places that cs_shade_breaks finds the paint is a smooth function of x on a
- * row, so it may be cut into lines by comparing a few points.
+ * Invariant: except for noise, between the places that cs_shade_breaks finds the paint is a smooth
+ * function of x on a row, so it may be cut into lines by comparing a few points.
  */
 #pragma once
 

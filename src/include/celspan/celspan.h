@@ -377,9 +377,9 @@ CELSPAN_DESCRIPTION(celspan_noise_desc)
 #define CELSPAN_NOISE_DESC (celspan_noise_desc_initial())
 
 /* Noise, clamped to 0..1, as the place along stops. The same bits on every machine. Octaves whose
- * cells are smaller than 4 pixels of the film (CELLS 6, TURBULENCE 10) fade out, and are replaced by
- * their mean below half of that; the probe sees all. out: new      Errors: NO_MEMORY, BAD_ARGUMENT,
- * LIMIT. */
+ * cells are smaller than 4 pixels of the film (CELLS 6, TURBULENCE 10) fade out, and are replaced
+ * by their mean below half of that; the probe sees all. out: new      Errors: NO_MEMORY,
+ * BAD_ARGUMENT, LIMIT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_create_noise(
     celspan_context *context, const celspan_noise_desc *desc, celspan_texture **out);
 /* How a linear or radial gradient continues before 0 and after 1. */
@@ -395,8 +395,8 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_with_spread(celspan_c
                                                                        celspan_texture *texture,
                                                                        celspan_spread spread,
                                                                        celspan_texture **out);
-/* The gradient, noise or picture moved by a matrix, while what it is on stays. A singular matrix makes it
- * clear. out: new      Errors: NO_MEMORY, BAD_ARGUMENT. */
+/* The gradient, noise or picture moved by a matrix, while what it is on stays. A singular matrix
+ * makes it clear. out: new      Errors: NO_MEMORY, BAD_ARGUMENT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_texture_with_matrix(celspan_context *context,
                                                                        celspan_texture *texture,
                                                                        const celspan_matrix *matrix,

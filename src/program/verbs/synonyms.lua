@@ -46,6 +46,8 @@ return {
   { "posterize", "grades" }, { "posterise", "grades" },
   { "colour wheel", "grades" }, { "color wheel", "grades" }, { "adjustment layer", "grades" },
   { "ocio", "colour profiles" }, { "icc", "colour profiles" }, { "film grain", "old film" },
+  { "fractal noise", "noise" }, { "perlin noise", "noise" }, { "worley noise", "noise" },
+  { "voronoi", "noise" }, { "marble", "noise" }, { "fog", "noise" },
   { "noise", "grain" }, { "turbulence", "noise" }, { "bluescreen", "blue screen" },
   { "track matte", "mattes" }, { "normal map", "relight" }, { "toon", "cel shading" },
   { "alpha channel", "transparent" },
