@@ -30,8 +30,7 @@ DESCRIBE(celspan_context_desc, struct_size, .picture_bytes = (size_t)512 << 20,
          .defocus_bytes = (size_t)256 << 20)
 DESCRIBE(celspan_picture_desc, struct_size, )
 DESCRIBE(celspan_pattern_desc, box, )
-DESCRIBE(celspan_noise_desc, kind, .octaves = 4, .size = 100, .gain = 0.5,
-         .fades = true)
+DESCRIBE(celspan_noise_desc, kind, .octaves = 4, .size = 100, .gain = 0.5, .fades = true)
 DESCRIBE(celspan_surface_desc, format, )
 DESCRIBE(celspan_rect_desc, height, )
 DESCRIBE(celspan_triangle_desc, points, )

@@ -1,5 +1,5 @@
--- Noise as a texture: frames beside the probe, its fields, and grain of films and cels. Closed forms
--- are in tests/unit/test_noise.c.
+-- Noise as a texture: frames beside the probe, its fields, and grain of films and cels. Closed
+-- forms are in tests/unit/test_noise.c.
 local celspan = require "celspan"
 local images = require "tests.support.images"
 
@@ -64,7 +64,8 @@ describe("noise", function()
 
   it("moves with its primitive and by its matrix", function()
     local noise = celspan.noise { kind = "cells", size = 30 }
-    local moved = celspan.noise { kind = "cells", size = 30, matrix = { 1, 0, 12, 0, 1, 5, 0, 0, 1 } }
+    local moved = celspan.noise { kind = "cells", size = 30,
+      matrix = { 1, 0, 12, 0, 1, 5, 0, 0, 1 } }
     assert_alike(1e-5, pixels({ rect(60, 40, moved) }, 60, 40),
       pixels({ celspan.rect { -12, -5, 60, 40, texture = noise }:translate(12, 5) }, 60, 40))
   end)
@@ -189,7 +190,8 @@ describe("grain", function()
   it("of no amount leaves the picture as it is", function()
     local function shown(grain)
       return select(3, measure(celspan.film { size = { 60, 40 }, grain = grain, frame = function()
-        return celspan.rostrum { back = "#345", front = "#fed", camera = { rotate = 0.2, centre = { 20, 10 }, width = 50 },
+        return celspan.rostrum { back = "#345", front = "#fed",
+          camera = { rotate = 0.2, centre = { 20, 10 }, width = 50 },
           celspan.cel { rect(30, 20, "#c84"), defocus = 3 } }
       end }, 1))
     end
@@ -200,7 +202,8 @@ describe("grain", function()
 
   it("is in all exposures of a frame", function()
     local film = grey({ amount = 0.05 }, { frame = function()
-      return { { celspan.rostrum { back = "#808080" }, 0.5 }, { celspan.rostrum { back = "#808080" }, 0.5 } }
+      local half = { celspan.rostrum { back = "#808080" }, 0.5 }
+      return { half, half }
     end })
     close(0.05, select(2, measure(film, 1))[1], 0.004)
   end)

@@ -140,7 +140,7 @@ function maker:noise()
 end
 
 function maker:texture()
-  if not self.is_flat and self.noises:once(12) then return self:noise() end
+  if not self.is_flat and self.has_pictures and self.noises:once(12) then return self:noise() end
   local kind = self.is_flat and 8 or self.random:whole(1, 8)
   if kind == 1 then
     return ("celspan.gradient{ {%s, %s, %s}, {%s, %s, %s}, {%s, %s, %s} }"):format(
@@ -764,7 +764,7 @@ end
 
 --- Half of all scenes have only straight edges; a quarter are upright, with scan-line primitives.
 -- options: is_flat (no gradients or pictures), is_single (one exposure), has_rows = false (no
--- scan-lines), has_pictures = false, has_text (every second primitive is text), is_plain (no
+-- scan-lines), has_pictures = false (nor noise), has_text (every second primitive is text), is_plain (no
 -- lights with a shape, no compositions inside others), has_modes = false, has_grades = false,
 -- has_patterns = false. Half of the scenes have modes, groups, mattes and outlines; half of these
 -- have spaces and grades, too. The outermost space is that of light.

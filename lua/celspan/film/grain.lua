@@ -30,7 +30,8 @@ end
 local function over(box, art, options, frame)
   local most = (options.amount or 0.05) / (2 * DEVIATION)
   local noise = celspan.noise { kind = "fractal", size = options.size or 1.5, octaves = 3,
-    gain = GAIN, fade = false, matrix = { COS, -SIN, 0, SIN, COS, 0, 0, 0, 1 }, seed = seed_of(options, frame),
+    gain = GAIN, fade = false, seed = seed_of(options, frame),
+    matrix = { COS, -SIN, 0, SIN, COS, 0, 0, 0, 1 },
     colours = { grey(0.5 - most), grey(0.5 + most) } }
   local sheet = celspan.rect { box[1], box[2], box[3], box[4], texture = noise }
   return celspan.group { art, core.blend_within(sheet, "linear-light"), isolate = true,

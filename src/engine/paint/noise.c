@@ -72,7 +72,8 @@ static int32_t fill_up(int32_t count, row *r) {
   return end;
 }
 
-/* Sets the strengths of an octave, which are 1 where there is no view; false where it is too fine at all places. */
+/* Sets the strengths of an octave, which are 1 where there is no view; false where it is too fine
+ * at all places. */
 static bool set_strength(const view *seen, double scale, int32_t count, row *r) {
   float most = 0;
   for (int32_t k = 0; k < count; k++) {
