@@ -91,7 +91,7 @@ return {
   footage = { "unit/footage", "spec/footage", "spec/footage_bad" },
   sound = { "spec/mix", "spec/sound", "spec/video" },
   sandbox = { "spec/source", "sandbox/sandbox", "spec/container" },
-  svg = { "unit/fuzz-colour", "unit/fuzz-svg", "spec/svg_moving", "spec/svg_filter",
+  svg = { "spec/svg_turbulence", "unit/fuzz-colour", "unit/fuzz-svg", "spec/svg_moving", "spec/svg_filter",
           "spec/svg_features", "spec/svg_same", "spec/svg" },
   text = { "unit/text", "spec/text", "golden/golden" },
   trace = { "unit/stretches", "property/trace", "spec/trace" },

@@ -532,7 +532,6 @@ end)
 describe("what a filter cannot do", function()
   it("is named at its line, and the element is drawn as it is", function()
     for primitive, what in pairs {
-      ["<feTurbulence/>"] = "feTurbulence",
       ["<feBlend/><feMorphology radius='2'/>"] = "feMorphology of several colours",
       ['<feOffset in="BackgroundImage"/>'] = "feOffset with such an input",
       ['<feComposite operator="arithmetic" k1="1"/>'] = "feComposite with such a k1",

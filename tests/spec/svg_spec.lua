@@ -963,14 +963,14 @@ end)
 describe("an unsupported part", function()
   it("is reported with its line, and the rest is drawn", function()
     local art = read [[
-<filter id="f"><feTurbulence/></filter><pattern id="p"/>
+<filter id="f"><feOffset in="BackgroundImage"/></filter><pattern id="p"/>
 <rect width="50" height="100" filter="url(#f)"/>
 <rect x="50" width="50" height="100" fill="url(#p) red"/>
 <text>hello</text>
 <foreignObject/>]]
     local told = {}
     for i, entry in ipairs(art.skipped) do told[i] = entry.line .. " " .. entry.what end
-    assert.are.same({ "1 filter of rect: feTurbulence",
+    assert.are.same({ "1 filter of rect: feOffset with such an input",
       "4 text in no family, for which no font is given",
                       "5 foreignObject" }, told)
     assert.are.equal("000000 255", at(art.object, 25, 50))

@@ -6,6 +6,7 @@
 #include "base/number.h"
 #include "model/colour/blend.h"
 #include "readers/svg/filter_colours.h"
+#include "readers/svg/filter_turbulence.h"
 #include "readers/svg/image.h"
 #include "readers/svg/regions.h"
 #include "readers/svg/shapes.h"
@@ -307,6 +308,29 @@ static celspan_status read_image(filter *f) {
                : cs_svg_image_in_box(f->reading, f->node, &f->step.box, &f->step.object);
 }
 
+/* ---------------------------------------------------------------- turbulence */
+
+static celspan_status read_turbulence(filter *f) {
+  const char *type = cs_svg_node_value(f->node, CS_SVG_TYPE);
+  const char *seam = cs_svg_node_value(f->node, CS_SVG_STITCH_TILES);
+  double octaves = cs_svg_filter_number(f->node, CS_SVG_NUM_OCTAVES, 1);
+  double values[2] = {0, 0};
+  f->step.kind = CS_SVG_STEP_IMAGE;
+  CS_TRY(read_box(f));
+  if (cs_svg_filter_numbers(f->node, CS_SVG_BASE_FREQUENCY, values, 2) == 1)
+    values[1] = values[0];
+  const cs_svg_turbulence turbulence = {
+      .matrix = f->recipe->matrix,
+      .box = common(&f->step.box, &f->recipe->region),
+      .frequency = {fmax(0, values[0]), fmax(0, values[1])},
+      .octaves = cs_number_to_int32(octaves),
+      .seed = cs_number_to_int32(cs_svg_filter_number(f->node, CS_SVG_SEED, 0)),
+      .is_fractal = type && cs_svg_is_word(type, "fractalNoise"),
+      .is_stitched = seam && cs_svg_is_word(seam, "stitch"),
+      .is_coded = f->style.filters_codes};
+  return cs_svg_turbulence_make(f->reading, f->node, &turbulence, &f->step.object);
+}
+
 /* ---------------------------------------------------------------- primitives */
 
 typedef celspan_status step_reader(filter *f);
@@ -327,7 +351,8 @@ static step_reader *reader_of(cs_svg_element element) {
                  {CS_SVG_ELEMENT_FE_MERGE, read_merge},
                  {CS_SVG_ELEMENT_FE_MORPHOLOGY, read_morphology},
                  {CS_SVG_ELEMENT_FE_OFFSET, read_offset},
-                 {CS_SVG_ELEMENT_FE_TILE, read_tile}};
+                 {CS_SVG_ELEMENT_FE_TILE, read_tile},
+                 {CS_SVG_ELEMENT_FE_TURBULENCE, read_turbulence}};
   for (size_t i = 0; i < sizeof readers / sizeof *readers; i++)
     if (readers[i].element == element)
       return readers[i].read;

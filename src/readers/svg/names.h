@@ -23,7 +23,8 @@
       ELEMENT(FE_FUNC_R, "feFuncR"), ELEMENT(FE_GAUSSIAN_BLUR, "feGaussianBlur"),                  \
       ELEMENT(FE_IMAGE, "feImage"), ELEMENT(FE_MERGE, "feMerge"),                                  \
       ELEMENT(FE_MERGE_NODE, "feMergeNode"), ELEMENT(FE_MORPHOLOGY, "feMorphology"),               \
-      ELEMENT(FE_OFFSET, "feOffset"), ELEMENT(FE_TILE, "feTile"), ELEMENT(FILTER, "filter"),       \
+      ELEMENT(FE_OFFSET, "feOffset"), ELEMENT(FE_TILE, "feTile"),                                  \
+      ELEMENT(FE_TURBULENCE, "feTurbulence"), ELEMENT(FILTER, "filter"),                           \
       ELEMENT(FOREIGN_OBJECT, "foreignObject"), ELEMENT(G, "g"), ELEMENT(IMAGE, "image"),          \
       ELEMENT(LINE, "line"), ELEMENT(LINEAR_GRADIENT, "linearGradient"),                           \
       ELEMENT(MARKER, "marker"), ELEMENT(MASK, "mask"), ELEMENT(METADATA, "metadata"),             \
@@ -60,6 +61,7 @@ typedef enum cs_svg_name {
   CS_SVG_ANIMATION_PLAY_STATE,
   CS_SVG_ANIMATION_TIMING_FUNCTION,
   CS_SVG_ATTRIBUTE_NAME,
+  CS_SVG_BASE_FREQUENCY,
   CS_SVG_BASELINE_SHIFT,
   CS_SVG_BEGIN,
   CS_SVG_BY,
@@ -132,6 +134,7 @@ typedef enum cs_svg_name {
   CS_SVG_MIN,
   CS_SVG_MIX_BLEND_MODE,
   CS_SVG_MODE,
+  CS_SVG_NUM_OCTAVES,
   CS_SVG_OFFSET,
   CS_SVG_OFFSET_ANCHOR,
   CS_SVG_OFFSET_DISTANCE,
@@ -164,12 +167,14 @@ typedef enum cs_svg_name {
   CS_SVG_RX,
   CS_SVG_RY,
   CS_SVG_SCALE,
+  CS_SVG_SEED,
   CS_SVG_SIDE,
   CS_SVG_SLOPE,
   CS_SVG_SPACE,
   CS_SVG_SPREAD_METHOD,
   CS_SVG_START_OFFSET,
   CS_SVG_STD_DEVIATION,
+  CS_SVG_STITCH_TILES,
   CS_SVG_STOP_COLOR,
   CS_SVG_STOP_OPACITY,
   CS_SVG_STROKE,
