@@ -16,8 +16,8 @@ local bench, count = workbench.new(), 0
 
 --- The text of a drawing on a white ground, with a filter that begins with this turbulence.
 local function drawing(attributes, filter, element)
-  return ('%s<rect width="120" height="100" fill="#fff"/><filter id="f" %s><feTurbulence %s/></filter>'
-    .. "%s</svg>"):format(HEAD, filter or CODES, attributes, element or RECT)
+  return ('%s<rect width="120" height="100" fill="#fff"/><filter id="f" %s>'
+    .. "<feTurbulence %s/></filter>%s</svg>"):format(HEAD, filter or CODES, attributes, element or RECT)
 end
 
 local function codes_of(objects)
@@ -81,7 +81,8 @@ local function expected(given, x, y)
     local sum = 0
     for octave = 0, given.octaves - 1 do
       local scale = 2 ^ octave
-      local value = noise_of(lattice, gradients[channel], x * given.fx * scale, y * given.fy * scale)
+      local value = noise_of(lattice, gradients[channel], x * given.fx * scale,
+        y * given.fy * scale)
       sum = sum + (given.is_fractal and value or math.abs(value)) / scale
     end
     codes[channel] = 255 * math.max(0, math.min(given.is_fractal and (sum + 1) / 2 or sum, 1))

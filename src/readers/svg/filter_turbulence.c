@@ -9,7 +9,7 @@
 #include "readers/svg/image.h"
 #include "readers/svg/objects.h"
 
-#define CELLS 256
+#define TABLE 256
 #define FAR 4096       /* is added to coordinates, so that they are positive */
 #define SIDE_MOST 8192 /* texels; larger boxes have coarser texels */
 /* Further octaves are lost in the rounding of numbers. */
@@ -17,8 +17,8 @@
 
 typedef struct noise {
   const cs_svg_turbulence *given;
-  int lattice[2 * CELLS + 2];
-  double gradient[4][2 * CELLS + 2][2];
+  int lattice[2 * TABLE + 2];
+  double gradient[4][2 * TABLE + 2][2];
   double frequency[2]; /* adjusted where it is stitched */
   double step[2];      /* user units a texel */
 } noise;
@@ -45,11 +45,11 @@ static int32_t first_random(int seed) {
 }
 
 static void fill_gradients(noise *n, int channel, int32_t *random) {
-  for (int i = 0; i < CELLS; i++) {
+  for (int i = 0; i < TABLE; i++) {
     double *g = n->gradient[channel][i];
     for (int j = 0; j < 2; j++) {
       *random = next_random(*random);
-      g[j] = (double)(*random % (2 * CELLS) - CELLS) / CELLS;
+      g[j] = (double)(*random % (2 * TABLE) - TABLE) / TABLE;
     }
     double length = sqrt(g[0] * g[0] + g[1] * g[1]);
     for (int j = 0; j < 2; j++)
@@ -61,19 +61,19 @@ static void fill_tables(noise *n) {
   int32_t random = first_random(n->given->seed);
   for (int channel = 0; channel < 4; channel++)
     fill_gradients(n, channel, &random);
-  for (int i = 0; i < CELLS; i++)
+  for (int i = 0; i < TABLE; i++)
     n->lattice[i] = i;
-  for (int i = CELLS - 1; i > 0; i--) {
+  for (int i = TABLE - 1; i > 0; i--) {
     random = next_random(random);
-    int j = random % CELLS, kept = n->lattice[i];
+    int j = random % TABLE, kept = n->lattice[i];
     n->lattice[i] = n->lattice[j];
     n->lattice[j] = kept;
   }
-  for (int i = 0; i < CELLS + 2; i++) {
-    n->lattice[CELLS + i] = n->lattice[i];
+  for (int i = 0; i < TABLE + 2; i++) {
+    n->lattice[TABLE + i] = n->lattice[i];
     for (int channel = 0; channel < 4; channel++)
       for (int j = 0; j < 2; j++)
-        n->gradient[channel][CELLS + i][j] = n->gradient[channel][i][j];
+        n->gradient[channel][TABLE + i][j] = n->gradient[channel][i][j];
   }
 }
 
@@ -91,8 +91,8 @@ static ends ends_of(double at, const stitch *seam, int axis) {
     low -= low >= seam->wrap[axis] ? seam->size[axis] : 0;
     high -= high >= seam->wrap[axis] ? seam->size[axis] : 0;
   }
-  low -= floor(low / CELLS) * CELLS;
-  high -= floor(high / CELLS) * CELLS;
+  low -= floor(low / TABLE) * TABLE;
+  high -= floor(high / TABLE) * TABLE;
   return (ends){(int)low, (int)high, way, way - 1, way * way * (3 - 2 * way)};
 }
 
