@@ -16,8 +16,9 @@ local bench, count = workbench.new(), 0
 
 --- The text of a drawing on a white ground, with a filter that begins with this turbulence.
 local function drawing(attributes, filter, element)
-  return ('%s<rect width="120" height="100" fill="#fff"/><filter id="f" %s>'
-    .. "<feTurbulence %s/></filter>%s</svg>"):format(HEAD, filter or CODES, attributes, element or RECT)
+  local text = '%s<rect width="120" height="100" fill="#fff"/><filter id="f" %s>'
+    .. "<feTurbulence %s/></filter>%s</svg>"
+  return text:format(HEAD, filter or CODES, attributes, element or RECT)
 end
 
 local function codes_of(objects)

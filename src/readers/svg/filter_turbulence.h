@@ -1,4 +1,4 @@
-/* feTurbulence: Perlin's noise of four channels, as a picture of one texel a unit of the drawing. */
+/* feTurbulence: Perlin's noise of four channels, as a picture of a texel a unit of the drawing. */
 #pragma once
 
 #include "readers/svg/reading.h"
