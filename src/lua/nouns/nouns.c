@@ -3,14 +3,35 @@
 #include "lua/bind/put.h"
 #include "lua/nouns/options.h"
 
-const cs_noun *const cs_nouns_made[] = {
-    &cs_noun_paint,        &cs_noun_gradient,   &cs_noun_linear,   &cs_noun_radial,
-    &cs_noun_conic,        &cs_noun_noise,      &cs_noun_picture,  &cs_noun_pattern,
-    &cs_noun_rect,         &cs_noun_triangle,   &cs_noun_circle,   &cs_noun_ellipse,
-    &cs_noun_polygon,      &cs_noun_nurbs,      &cs_noun_path,     &cs_noun_stroke,
-    &cs_noun_image,        &cs_noun_text,       &cs_noun_scanline, &cs_noun_union,
-    &cs_noun_intersection, &cs_noun_difference, &cs_noun_xor,      &cs_noun_group,
-    &cs_noun_cel,          &cs_noun_rostrum,    &cs_noun_film,     NULL};
+const cs_noun *const cs_nouns_made[] = {&cs_noun_paint,
+                                        &cs_noun_gradient,
+                                        &cs_noun_linear,
+                                        &cs_noun_radial,
+                                        &cs_noun_conic,
+                                        &cs_noun_noise,
+                                        &cs_noun_picture,
+                                        &cs_noun_pattern,
+                                        &cs_noun_rect,
+                                        &cs_noun_triangle,
+                                        &cs_noun_circle,
+                                        &cs_noun_ellipse,
+                                        &cs_noun_polygon,
+                                        &cs_noun_nurbs,
+                                        &cs_noun_path,
+                                        &cs_noun_stroke,
+                                        &cs_noun_image,
+                                        &cs_noun_text,
+                                        &cs_noun_scanline,
+                                        &cs_noun_union,
+                                        &cs_noun_intersection,
+                                        &cs_noun_difference,
+                                        &cs_noun_xor,
+                                        &cs_noun_group,
+                                        &cs_noun_key,
+                                        &cs_noun_cel,
+                                        &cs_noun_rostrum,
+                                        &cs_noun_film,
+                                        NULL};
 
 const cs_noun *const cs_nouns_tables[] = {
     &cs_noun_stroke_style, &cs_noun_glyph, &cs_noun_matte,      &cs_noun_blur,
