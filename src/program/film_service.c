@@ -183,8 +183,8 @@ static celspan_status read_captions(cs_script *script) {
   const cs_film_info *info = &script->film;
   if (!info->has_captions)
     return CELSPAN_OK;
-  celspan_status status =
-      cs_subtitles_push(script->L, CS_SCRIPT_FILM, 0, (double)info->count / info->frames_second);
+  celspan_status status = cs_subtitles_push(script->L, CS_SCRIPT_FILM, "srt", 0,
+                                            (double)info->count / info->frames_second);
   if (status == CELSPAN_OK)
     lua_pop(script->L, 1);
   return status;

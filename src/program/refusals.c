@@ -1,10 +1,7 @@
 #include "program/refusals.h"
 
-#include <string.h>
-#include <strings.h>
-
 #include "frames/plane/plane.h"
-#include "output/sinks/file.h"
+#include "program/layers_target.h"
 #include "program/progress.h"
 #include "program/target.h"
 #include "program/video_target.h"
@@ -89,24 +86,6 @@ static cs_exit refuse_division(const cs_request *request, const char *output) {
   return CS_EXIT_OK;
 }
 
-/* Refuses layers where the output can have none. */
-static cs_exit refuse_layers(const cs_request *request, const char *output) {
-  const char *colour = cs_request_text(request, "--colour");
-  if (!cs_request_has(request, "--layers"))
-    return CS_EXIT_OK;
-  const char *format = cs_request_text(request, "--format");
-  const char *ending = format ? format : output ? cs_file_ending(output) : "";
-  if (strcasecmp(ending, "exr") != 0 && strcasecmp(ending, "openexr") != 0)
-    return cs_report_usage("--layers: only OpenEXR files have layers: give -o shot.####.exr");
-  if (cs_request_has(request, "--hash"))
-    return cs_report_usage("--hash is of one picture: leave it or --layers out");
-  bool is_light = !colour || strcmp(colour, "linear") == 0;
-  if (is_light && !cs_request_has(request, "--display") && !cs_request_has(request, "--view"))
-    return CS_EXIT_OK;
-  return cs_report_usage("--layers are in linear light: leave %s out",
-                         is_light ? "--display and --view" : "--colour");
-}
-
 cs_exit cs_refusals_early(celspan_context *context, const cs_request *request) {
   const char *output = cs_request_text(request, "-o");
   if (!output && !cs_request_has(request, "--hash"))
@@ -114,7 +93,7 @@ cs_exit cs_refusals_early(celspan_context *context, const cs_request *request) {
   CS_TRY_EXIT(refuse_resume(request, output));
   CS_TRY_EXIT(refuse_dither(request));
   CS_TRY_EXIT(refuse_division(request, output));
-  CS_TRY_EXIT(refuse_layers(request, output));
+  CS_TRY_EXIT(cs_layers_target_refuse(request));
   if (output && cs_target_is_stream(output))
     return refuse_stream(request);
   return cs_refusals_of_output(context, request, 0);

@@ -13,6 +13,7 @@
 #include "frames/apart/cryptomatte.h"
 #include "frames/apart/sources.h"
 #include "frames/render/frame.h"
+#include "model/colour/primaries.h"
 #include "model/scene/inspect.h"
 #include "output/exr/exr.h"
 #include "output/sinks/file.h"
@@ -175,13 +176,14 @@ static celspan_status write_picture(writing *w, const cs_exr_picture *picture) {
   return write_rows(w);
 }
 
-/* Room for all attributes: three texts, timing, and those of mattes. */
-enum { ATTRIBUTES = 5 + CS_CRYPTOMATTE_ATTRIBUTES };
+/* Room for all attributes: four texts, timing, and those of mattes. */
+enum { ATTRIBUTES = 6 + CS_CRYPTOMATTE_ATTRIBUTES };
 
 static size_t list_attributes(const writing *w, const char *title, const cs_exr_timing *timing,
                               cs_exr_attribute out[ATTRIBUTES]) {
   cs_exr_attribute *end = out;
   *end++ = cs_exr_text("celspan:colour", "linear");
+  *end++ = cs_exr_text("Software", cs_context_maker(w->context));
   if (w->contents.has_layers)
     *end++ = cs_exr_text(LIST, w->list);
   for (size_t i = 0; i < timing->count; i++)
@@ -204,6 +206,7 @@ static celspan_status write_file(writing *w, const char *path, const celspan_fil
                                   .channels = w->channels,
                                   .channel_count = w->channel_count,
                                   .attributes = attributes,
+                                  .primaries = cs_primaries_known[0].xy,
                                   .attribute_count =
                                       list_attributes(w, file->title, &timing, attributes)};
   cs_exr_sort(w->channels, w->channel_count);
