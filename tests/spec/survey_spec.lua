@@ -64,6 +64,17 @@ describe("what is seen of a film", function()
     warns "is covered by nearer cels in all of its frames, 100 % of it at least"
   end)
 
+  it_sets_type("is measured for fifty texts of a frame, however many it has", function()
+    film(2, '(function() local all = {} for i = 1, 300 do all[i] = text("Dim " .. i, '
+      .. '5 + i // 18 * 18, 5 + i % 18 * 10, "#303050", 8) end '
+      .. 'return cel(table.unpack(all)) end)()')
+    local dim = 0
+    for _, one in ipairs(warnings()) do
+      if one.message:find("has a contrast of", 1, true) then dim = dim + 1 end
+    end
+    assert.is_true(dim > 0 and dim <= 50, dim)
+  end)
+
   it_sets_type("is reported by check where one text lies over another", function()
     film(48, 'cel(text("Read me", 20, 40, "#fff")), cel(text("Another", 24, 44, "#f80"))')
     local one = warns 'the text "Read me" (film.lua:3) has the text "Another" over it'

@@ -20,7 +20,7 @@ local MOST = 1000            -- texts that are kept
 local CONTRAST, COVERED = 3, 0.9
 local SMALL = 1 / 72          -- of the frame's height: 15 of 1080 pixels
 local CROSSED = 0.05         -- the share of letters that those of another text may cover
-local PAIRED = 50            -- texts of a frame that are compared with each other
+local LOOKED = 50            -- texts of a frame, from the farthest, that are measured and compared
 local CLEAR, RATIO = 0.6, 3  -- the least fade of such texts, and the greatest ratio of their sizes
 local EM, PIXELS = 24, 1 << 14 -- the size of letters, and of pictures, for measuring
 
@@ -211,8 +211,8 @@ end
 --- Compares the texts of a frame, from the farthest: { text =, shown = } each. A text with the same
 --- words in front of it is the shadow of this one.
 local function add_pairs(met, look)
-  for i = 1, math.min(#met, PAIRED) do
-    for k = i + 1, math.min(#met, PAIRED) do
+  for i = 1, math.min(#met, LOOKED) do
+    for k = i + 1, math.min(#met, LOOKED) do
       local far, near = met[i], met[k]
       if are_rivals(far.text, near.text) then add_pair(far, near, look) end
       far.shown.is_copied = far.shown.is_copied or far.text.outline == near.text.outline
@@ -269,7 +269,9 @@ function texts:add(number, parts, look)
     shown.pixels = math.max(shown.pixels, text.pixels)
     shown.share = math.max(shown.share, texts.share_of(text.box))
     add_sides(shown, text.box)
-    if is_measured(shown, number - shown.first + 1) then measure(shown, text, look) end
+    if #met < LOOKED and is_measured(shown, number - shown.first + 1) then
+      measure(shown, text, look)
+    end
     now[#now + 1], met[#met + 1] = shown, { text = text, shown = shown }
   end
   add_pairs(met, look)
