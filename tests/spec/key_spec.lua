@@ -273,3 +273,28 @@ describe("a matte", function()
     assert.matches("grow =, feather =", raised(celspan.matte, art, art, 3))
   end)
 end)
+
+describe("what lies behind a key", function()
+  it("is seen through it where many shapes hide each other", function()
+    local shapes = {}
+    for i = 1, 30 do
+      shapes[i] = celspan.circle { centre = { 40 * i - 60, 270 + 150 * math.sin(i) },
+        radius = 120 + 5 * i,
+        texture = ("#%02x%02x%02x"):format(i * 37 % 256, i * 91 % 256, i * 53 % 256) }
+    end
+    local actor = celspan.circle { centre = { 480, 270 }, radius = 60, texture = "#c33" }
+    local keyed = celspan.key { celspan.group { rect(0, 0, 960, 540, "#0b0"), actor },
+      colour = "#0b0", tolerance = 0.2, softness = 0.2 }
+    local rostrum = celspan.rostrum { celspan.cel(shapes), celspan.cel { keyed } }
+    local size = { 960, 540 }
+    local image = assert(celspan.pixels(rostrum, { size = size, film = size, antialias = "none" }))
+    for y = 5, 535, 10 do
+      for x = 5, 955, 10 do
+        local r, g, b = image:get(x, y)
+        local wanted = { celspan.probe(rostrum, x + 0.5, y + 0.5, { film = size }) }
+        local off = math.abs(r - wanted[1]) + math.abs(g - wanted[2]) + math.abs(b - wanted[3])
+        assert.is_true(off < 1e-3, ("%d, %d: %g"):format(x, y, off))
+      end
+    end
+  end)
+end)

@@ -62,7 +62,8 @@ static void fill(celspan_context *context, hidden *h) {
   }
   for (size_t i = 0; i < stack->group_count; i++) {
     const cs_group *group = &stack->groups[i];
-    bool hides = group->kind == CS_GROUP_PLAIN || group->kind == CS_GROUP_GROUND;
+    bool hides =
+        (group->kind == CS_GROUP_PLAIN || group->kind == CS_GROUP_GROUND) && !cs_group_keys(group);
     h->groups[i] = (cs_cull_group){group->parent, group->first, hides ? (double)group->fade : 0};
   }
   for (size_t i = 0; i < stack->tree_count; i++)
