@@ -121,7 +121,7 @@ local function code_of(box, alpha)
     :format(box[1], box[2], box[3], box[4], alpha)
 end
 
---- Cels of rectangles: the code, and the stack by the names of cels.
+--- Cels of rectangles, some with light through them: the code, and the stack by the names of cels.
 local function chance_cels(random)
   local names, stack, cels = { "a", "b", "c", "d", "e e", "\u{e4}" }, {}, {}
   for i = 1, random:whole(1, 9) do
@@ -130,7 +130,8 @@ local function chance_cels(random)
     local box, alpha = chance_box(random), random:once(2) and 1 or random:between(0, 1)
     stack[#stack + 1] = { box[1], box[2], box[3], box[4], alpha = alpha * opacity,
                           name = name or "cel_" .. i }
-    cels[i] = ("celspan.cel { opacity = %.17g, %s }%s"):format(opacity, code_of(box, alpha),
+    local back = random:once(3) and 'back = "#345", ' or ""
+    cels[i] = ("celspan.cel { %sopacity = %.17g, %s }%s"):format(back, opacity, code_of(box, alpha),
       name and (":named %q"):format(name) or "")
   end
   return table.concat(cels, ",\n  "), stack

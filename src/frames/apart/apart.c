@@ -120,7 +120,7 @@ static bool is_taken(const cs_apart *apart, const cs_apart_layer *layer) {
 static void try_name(cs_apart_layer *layer, const char *name, size_t most, size_t number) {
   char ending[24] = "";
   int size = number ? snprintf(ending, sizeof ending, "_%zu", number) : 0;
-  cs_safe_name(name, most - (size_t)size, layer->name);
+  cs_safe_name(name, most > (size_t)size ? most - (size_t)size : 0, layer->name);
   strcat(layer->name, ending);
 }
 

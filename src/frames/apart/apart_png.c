@@ -6,7 +6,8 @@
 #include "frames/apart/apart.h"
 #include "frames/render/frame.h"
 
-enum { NAME_MOST = 255, MORE = 24 }; /* bytes of a file's name, and of its temporary name more */
+/* Bytes of a file's name, of its temporary name more, and of the number behind an equal name. */
+enum { NAME_MOST = 255, MORE = 24, NUMBER = 24 };
 
 /* The path with a layer's name, which is new. */
 static celspan_status name_file(const cs_apart *apart, const char *path, size_t place,
@@ -69,7 +70,7 @@ celspan_status cs_apart_write_png(celspan_context *context, cs_apart_contents co
   size_t used = strlen(slash ? slash + 1 : path) + MORE;
   writing w = {.progress = {.desc = desc}, .place = contents.place, .path = path, .file = file};
   CS_TRY(cs_frame_check(context, desc));
-  if (used >= NAME_MOST)
+  if (used + NUMBER > NAME_MOST)
     return cs_fail(context, CELSPAN_LIMIT, "%s: the name has no place for those of layers", path);
   CS_TRY(cs_apart_make(context, desc->exposures, desc->exposure_count, used, &w.apart));
   celspan_status status = write_all(&w);

@@ -158,17 +158,35 @@ typedef struct place {
   size_t first;      /* the first step of this exposure */
 } place;
 
+/* The cel without the light through it, which would make all alphas whole. */
+static celspan_status unlit(celspan_context *context, const celspan_cel *cel, celspan_cel **out) {
+  return cs_cel_bare(context, cel, (cs_cel_without){.lights = true}, out);
+}
+
+/* The cels from the place on. *made: how many there are, also after an error. */
+static celspan_status list_rest(const place *p, celspan_cel **cels, size_t *made) {
+  const celspan_rostrum *from = p->exposure->rostrum;
+  celspan_context *context = p->mattes->context;
+  celspan_cel *first;
+  *made = 0;
+  CS_TRY(cel_without(context, from->cels[p->cel], p->piece, &first));
+  celspan_status status = unlit(context, first, &cels[0]);
+  celspan_cel_unref(first);
+  CS_TRY(status);
+  for (*made = 1; *made < from->cel_count - p->cel; ++*made)
+    CS_TRY(unlit(context, from->cels[p->cel + *made], &cels[*made]));
+  return CELSPAN_OK;
+}
+
 /* cels: with room for those from the place on. */
 static celspan_status show_rest(const place *p, celspan_cel **cels, celspan_rostrum **out) {
   const celspan_light none = {0, 0, 0, 0};
-  const celspan_rostrum *from = p->exposure->rostrum;
-  celspan_context *context = p->mattes->context;
-  CS_TRY(cel_without(context, from->cels[p->cel], p->piece, &cels[0]));
-  for (size_t i = p->cel + 1; i < from->cel_count; i++)
-    cels[i - p->cel] = from->cels[i];
-  celspan_status status =
-      cs_rostrum_change(context, from, cels, from->cel_count - p->cel, none, out);
-  celspan_cel_unref(cels[0]);
+  size_t made;
+  celspan_status status = list_rest(p, cels, &made);
+  if (status == CELSPAN_OK)
+    status = cs_rostrum_change(p->mattes->context, p->exposure->rostrum, cels, made, none, out);
+  for (size_t i = 0; i < made; i++)
+    celspan_cel_unref(cels[i]);
   return status;
 }
 
