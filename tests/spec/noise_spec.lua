@@ -187,6 +187,17 @@ describe("grain", function()
     end
   end)
 
+  it("of a cel is that of its frame, whatever else the frame asks for", function()
+    local other = grey()
+    local film = celspan.film { size = { 60, 40 }, frames = 2, frame = function()
+      other:at(1)
+      return celspan.rostrum { celspan.cel { grain = { amount = 0.1 }, rect(60, 40, "#888") } }
+    end }
+    local first, second = select(3, measure(film, 1)), select(3, measure(film, 2))
+    assert.are_not.equal(first, second)
+    assert.equal(first, (select(3, measure(film, 1))))
+  end)
+
   it("of no amount leaves the picture as it is", function()
     local function shown(grain)
       return select(3, measure(celspan.film { size = { 60, 40 }, grain = grain, frame = function()

@@ -19,7 +19,7 @@ void CS_WIDE(cs_noise_split)(const double *restrict at, int32_t count, double sc
     float rest = (float)(x - (sum - ROUNDING));
     int64_t bits;
     memcpy(&bits, &sum, sizeof bits);
-    cells[k] = (int32_t)(uint32_t)bits - (rest < 0);
+    cells[k] = (int32_t)((uint32_t)bits - (rest < 0));
     places[k] = rest < 0 ? rest + 1 : rest;
   }
 }

@@ -78,7 +78,11 @@ void cs_grain_add(lua_State *L, int film, int frame) {
   lua_settop(L, exposures);
 }
 
-void cs_grain_begin(lua_State *L, int64_t number) {
+int64_t cs_grain_begin(lua_State *L, int64_t number) {
+  lua_getfield(L, LUA_REGISTRYINDEX, FRAME);
+  int64_t before = lua_tointeger(L, -1);
+  lua_pop(L, 1);
   lua_pushinteger(L, number);
   lua_setfield(L, LUA_REGISTRYINDEX, FRAME);
+  return before;
 }

@@ -410,10 +410,11 @@ static int protected_frame(lua_State *L, int film, int64_t number) {
   lua_remove(L, -2);
   push_frame(L, &info, number);
   lua_pushvalue(L, film);
-  cs_grain_begin(L, number);
+  int64_t before = cs_grain_begin(L, number);
   cs_host_begin(L, CS_HOST_FRAME, number);
   int outcome = cs_lua_error_settle(L, lua_pcall(L, 3, 1, handler), 1);
   cs_host_end(L);
+  cs_grain_begin(L, before);
   lua_remove(L, handler);
   return outcome;
 }

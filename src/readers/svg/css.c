@@ -382,6 +382,7 @@ static size_t cost_of(const cs_css_declarations *declarations) {
  * declarations: "from, 50%". What is no share is left out. */
 static void add_frames(const char *text, const char *brace, const cs_css_declarations *declarations,
                        cs_css_frames *out) {
+  const size_t cost = cost_of(declarations);
   while (text < brace) {
     double at = -1;
     text = cs_svg_skip_space(text);
@@ -393,7 +394,7 @@ static void add_frames(const char *text, const char *brace, const cs_css_declara
       at = *text == '%' ? at / 100 : -1;
     if (at >= 0 && at <= 1) {
       out->items[out->count++] = (cs_css_frame){at, *declarations};
-      out->size += cost_of(declarations);
+      out->size += cost;
     }
     while (text < brace && *text++ != ',')
       ;

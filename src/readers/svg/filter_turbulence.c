@@ -10,8 +10,9 @@
 #include "readers/svg/objects.h"
 
 #define TABLE 256
-#define FAR 4096       /* is added to coordinates, so that they are positive */
-#define SIDE_MOST 8192 /* texels; larger boxes have coarser texels */
+#define FAR 4096                        /* is added to coordinates, so that they are positive */
+#define SIDE_MOST 8192                  /* texels; larger boxes have coarser texels */
+#define TEXELS_MOST ((double)(1 << 24)) /* times octaves: a second of work */
 /* Further octaves are lost in the rounding of numbers. */
 #define OCTAVES_MOST 24
 
@@ -154,9 +155,11 @@ static celspan_box around(noise *n, int32_t size[2]) {
   const double *m = n->given->matrix.m;
   const double from[2] = {box->x, box->y}, length[2] = {box->width, box->height};
   double begin[2];
+  const int32_t octaves = n->given->octaves < OCTAVES_MOST ? n->given->octaves : OCTAVES_MOST;
+  const double most = sqrt(TEXELS_MOST / (octaves > 1 ? octaves : 1));
   for (int axis = 0; axis < 2; axis++) {
     double scale = sqrt(m[axis] * m[axis] + m[3 + axis] * m[3 + axis]);
-    scale = fmin(scale, (SIDE_MOST - 2) / length[axis]);
+    scale = fmin(scale, fmin(SIDE_MOST - 2, most) / length[axis]);
     double move = m[2 + 3 * axis];
     begin[axis] = floor(from[axis] * scale + move) - move;
     size[axis] = cs_number_to_int32(ceil((from[axis] + length[axis]) * scale - begin[axis]));
