@@ -140,6 +140,6 @@ cs_exit cs_video_colours_set(const cs_request *request, cs_video_options *option
   if (!cs_request_has(request, "--colour"))
     return set_view(request, name, options);
   bool has_tags = find_tags(spaces, options);
-  bool is_shown = !options->codec->is_rgb || strcmp(options->primaries, "bt709") == 0;
-  return has_tags && is_shown ? CS_EXIT_OK : refuse(request, name, options->codec);
+  bool is_shown = has_tags && (!options->codec->is_rgb || strcmp(options->primaries, "bt709") == 0);
+  return is_shown ? CS_EXIT_OK : refuse(request, name, options->codec);
 }

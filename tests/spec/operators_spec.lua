@@ -535,9 +535,9 @@ describe("operators", function()
       ["repeater: copy 40 would be moved or scaled by more than 1e12"] = function()
         celspan.repeater(dot, { count = 50, scale = 2 })
       end,
-      ["offset: a line with 142858 dashes cannot be offset, bent, morphed or given an outline; "
-        .. "at most 100000 are possible there: make the dashes longer, or the line "
-        .. "shorter"] = function()
+      ["offset: a line with 142858 dashes cannot be offset, bent, morphed, given an "
+        .. "outline or grown as a matte; at most 100000 are possible there: make the dashes "
+        .. "longer, or the line shorter"] = function()
         celspan.offset(celspan.stroke { d = "M0 50H3e6", width = 2, dash = { 10.5 } }, 2)
       end,
       ["star: field 'points' must be a whole number from 2 to 10000, got 1"] = function()

@@ -267,7 +267,7 @@ return celspan.rostrum { size = { 256, 48 }, celspan.cel { celspan.rect { 0, 0, 
       "--ocio config.ocio --display wall --view raw")
     refused("--colour and --view both say", "--ocio config.ocio --view film --colour srgb")
     refused("none is named by --ocio or OCIO", "--colour coded")
-    refused("--layers are in linear light: leave --display and --view out",
+    refused("--layers: such files are in linear light: leave --display and --view out",
       "--ocio config.ocio --view film --layers cels --format openexr")
     refused("name one with --ocio or OCIO", "--view film")
   end)
@@ -295,7 +295,8 @@ colorspaces:
       bench:write("plain.ocio", plain(case[1], case[2]))
       rendered("ramp.lua", arguments:format("plain" .. i))
     end
-    for _, case in ipairs { { "", "none" }, { "ACEScg", "sRGB" }, { "P3 sRGB", "sRGB" } } do
+    for _, case in ipairs { { "", "none" }, { "ACEScg", "sRGB" }, { "P3 sRGB", "sRGB" },
+                            { "Linear ARRI Wide Gamut 3 for sRGB", "none" } } do
       bench:write("plain.ocio", plain(case[1], case[2]))
       refused("plain.ocio: does not say which of its spaces is linear light",
         "--ocio plain.ocio --colour coded")
@@ -389,6 +390,8 @@ describe("a video", function()
     for _, space in ipairs { "acescg", "logarithmic", "filmic" } do
       refused_video(('never.mp4: the tags of a video cannot say what the colours of "%s" are')
         :format(space), "never.mp4", "--colour " .. space)
+      refused_video(('never.apng: such a file has no tags that say what the colours of "%s" are')
+        :format(space), "never.apng", "--colour " .. space .. " --frames 1,1")
     end
     refused_video('never.apng: such a file has no tags that say what the colours of "wide" are',
       "never.apng", "--colour wide --frames 1,1")

@@ -123,6 +123,9 @@ enum { PROBES = 9 };
 
 static bool is_linear(float out[PROBES][4]) {
   double most = 0, error = 0;
+  for (int i = 0; i < PROBES; i++) /* fmax leaves out what is not a number */
+    if (!isfinite(out[i][0]) || !isfinite(out[i][1]) || !isfinite(out[i][2]))
+      return false;
   for (int c = 0; c < 3; c++) {
     double sum = 0;
     for (int i = 1; i <= 3; i++) {
@@ -134,7 +137,7 @@ static bool is_linear(float out[PROBES][4]) {
     error = fmax(error, fabs(sum - (double)out[4][c]));
     error = fmax(error, fabs(4 * sum - (double)out[8][c]) / 4);
   }
-  return isfinite(most) && error <= LINEAR * most;
+  return error <= LINEAR * most;
 }
 
 /* If the matrix from light is that of known primaries, these. */

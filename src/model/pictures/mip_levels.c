@@ -107,7 +107,8 @@ static void decode_codes(const cs_mip_levels_decoder *decoder, float *rgba, size
 /* In drawings most pixels equal the pixel before them. */
 void cs_mip_levels_decode(const cs_mip_levels_decoder *decoder, float *rgba, size_t count) {
   float coded[4], light[4];
-  if (decoder->table && !decoder->is_linear && decoder->alpha == CS_PICTURE_ALPHA_STRAIGHT) {
+  if (decoder->table && !decoder->is_linear && !decoder->has_matrix &&
+      decoder->alpha == CS_PICTURE_ALPHA_STRAIGHT) {
     decode_codes(decoder, rgba, count);
     return;
   }

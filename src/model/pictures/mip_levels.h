@@ -51,7 +51,7 @@ typedef struct cs_mip_levels_decoder {
 
 /* Whether opaque pixels are codes of 8-bit sRGB. */
 static inline bool cs_mip_levels_is_srgb8(const cs_mip_levels_decoder *decoder) {
-  return decoder->table && !decoder->is_linear && decoder->codes == 255 &&
+  return decoder->table && !decoder->is_linear && !decoder->has_matrix && decoder->codes == 255 &&
          decoder->transfer == CELSPAN_TRANSFER_SRGB;
 }
 

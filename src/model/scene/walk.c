@@ -80,11 +80,12 @@ celspan_status celspan_rostrum_check(celspan_context *context, const celspan_ros
   return cs_walk_rostrum(&walk, rostrum);
 }
 
-/* A picture in a space of OpenColorIO is other light when the configuration is another one. */
+/* A picture in a space of OpenColorIO, which its file may name, is other light when the
+ * configuration is another one. */
 static void hash_configuration(cs_hash *hash, const cs_picture *picture) {
   celspan_transfer own;
   const char *file = cs_space_configuration();
-  if (!file || !picture->colour || cs_transfer_parse(picture->colour, &own))
+  if (!file || (picture->colour && cs_transfer_parse(picture->colour, &own)))
     return;
   cs_hash_text(hash, file);
   cs_open_hash(hash, file);

@@ -354,8 +354,9 @@ celspan_status cs_stroke_outline_finely(celspan_context *context, const cs_strok
   const cs_stroke_view view = fine_view(&stroke->around);
   if (stroke->dashes.place_count > 0 && stroke->part_count > CS_STROKE_SHAPED)
     return cs_fail(context, CELSPAN_LIMIT,
-                   "a line with %zu dashes cannot be offset, bent, morphed or given an outline; at "
-                   "most %d are possible there: make the dashes longer, or the line shorter",
+                   "a line with %zu dashes cannot be offset, bent, morphed, given an outline or "
+                   "grown as a matte; at most %d are possible there: make the dashes longer, or "
+                   "the line shorter",
                    stroke->part_count, CS_STROKE_SHAPED);
   return cs_stroke_outline(context, stroke, &view, outline);
 }

@@ -106,8 +106,19 @@ bool names_others(const std::string &word) {
   static const char *const others[] = {"ap0",    "ap1",   "2020",      "rec2020", "bt2020",
                                        "p3",     "dcip3", "displayp3", "xyz",     "egamut",
                                        "sgamut", "awg",   "sgamut3",   "vgamut",  "adobergb"};
-  return word.rfind("aces", 0) == 0 ||
+  return word.rfind("aces", 0) == 0 || word.find("widegamut") != std::string::npos ||
          std::find(std::begin(others), std::end(others), word) != std::end(others);
+}
+
+/* Names of primaries that are two words. */
+bool has_other_gamut(const std::string &text) {
+  std::string line = " ";
+  for (const std::string &word : words_of(text))
+    line += word + ' ';
+  for (const char *name : {" wide gamut ", " adobe rgb ", " s gamut", " v gamut ", " e gamut "})
+    if (line.find(name) != std::string::npos)
+      return true;
+  return false;
 }
 
 bool names_bt709(const std::string &word) {
@@ -123,9 +134,10 @@ bool is_near(const float *colour, float red, float green, float blue) {
   return true;
 }
 
-/* Whether the configuration has a space for screens in which red, green and blue of this space are
- * its own. */
-bool is_of_screens(const OCIO::ConstConfigRcPtr &configuration, const char *space) {
+enum class Screens { None, Alike, Others };
+
+/* Whether red, green and blue of this space are those of the configuration's space for screens. */
+Screens compare_screens(const OCIO::ConstConfigRcPtr &configuration, const char *space) {
   for (const char *name : {"sRGB", "sRGB - Texture", "Rec709", "Rec.709"}) {
     if (!configuration->getColorSpace(name))
       continue;
@@ -133,21 +145,25 @@ bool is_of_screens(const OCIO::ConstConfigRcPtr &configuration, const char *spac
     OCIO::PackedImageDesc image(colours, 3, 1, 3);
     configuration->getProcessor(space, name)->getDefaultCPUProcessor()->apply(image);
     return is_near(colours[0], 1, 0, 0) && is_near(colours[1], 0, 1, 0) &&
-           is_near(colours[2], 0, 0, 1);
+                   is_near(colours[2], 0, 0, 1)
+               ? Screens::Alike
+               : Screens::Others;
   }
-  return false;
+  return Screens::None;
 }
 
-/* scene_linear has the primaries of BT.709 in configurations that know no others: it or the
- * configuration says so, or it has the primaries of sRGB. */
+/* scene_linear has the primaries of BT.709 if it and the configuration name no others, and it has
+ * those of screens or, where no space for screens is known, one of them says so. */
 bool is_plain(const OCIO::ConstConfigRcPtr &configuration,
               const OCIO::ConstColorSpaceRcPtr &space) {
   std::string text = std::string(space->getName()) + ' ' + space->getFamily() + ' ' +
                      space->getDescription() + ' ' + configuration->getDescription();
   for (size_t i = 0; i < space->getNumAliases(); i++)
     text += std::string(" ") + space->getAlias(i);
-  return !has_word(text, names_others) &&
-         (has_word(text, names_bt709) || is_of_screens(configuration, space->getName()));
+  Screens screens = compare_screens(configuration, space->getName());
+  bool has_others = has_word(text, names_others) || has_other_gamut(text);
+  bool says_so = screens == Screens::None && has_word(text, names_bt709);
+  return !has_others && (screens == Screens::Alike || says_so);
 }
 
 Light find_light(const std::string &file, const OCIO::ConstConfigRcPtr &configuration) {
