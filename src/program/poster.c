@@ -78,12 +78,9 @@ static celspan_status write_file(cs_script *script, const cs_request *request, c
                                  const celspan_frame_desc *desc) {
   celspan_coding coding = coding_of(request);
   celspan_file_desc file = CELSPAN_FILE_DESC;
-  celspan_sink sink = CELSPAN_SINK;
-  coding.space = desc->space;
   file.format = "png";
   file.coding = &coding;
-  CS_TRY(celspan_file_sink_create(script->context, path, &file, &sink));
-  return celspan_frame_render(script->context, desc, &sink, NULL);
+  return celspan_frame_write(script->context, desc, path, &file, NULL);
 }
 
 cs_exit cs_poster_write(cs_script *script, const cs_request *request, const cs_video_format *format,

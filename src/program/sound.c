@@ -110,6 +110,8 @@ static cs_exit write_stems(cs_script *script, const cs_request *request, const c
   char path[PATH_MAX];
   celspan_status status = cs_soundtrack_read(script, &track);
   CS_TRY_EXIT(cs_report_failure(script->context, status, NULL));
+  for (size_t i = 0; i < track.count; i++)
+    CS_TRY_EXIT(name_stem(cs_request_text(request, "-o"), track.sounds[i].stem, path));
   for (size_t i = 0; i < track.count; i++) {
     if (is_known(&track, i))
       continue;

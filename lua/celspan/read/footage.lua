@@ -194,12 +194,22 @@ local function place_before(source, seconds)
   return place
 end
 
+--- What is said of a movie that is not there, or of any in a host that reads none.
+local ABSENT = { "No such file", "Not a directory", "by the program celspan alone" }
+
+local function is_absent(message)
+  for _, words in ipairs(ABSENT) do
+    if message:find(words, 1, true) then return true end
+  end
+  return false
+end
+
 --- A movie may have a name such as take#3.mp4, too.
 local function open_source(given)
   local facts, message = footage.describe(core.find(given.file))
   if facts then return open_movie(given, facts) end
   local is_numbered = given.file:find "#" or given.file:find "%%0?%d*d"
-  if is_numbered and message:find "No such file" then return open_files(given) end
+  if is_numbered and is_absent(message) then return open_files(given) end
   refuse("%s", message)
 end
 

@@ -226,16 +226,19 @@ static celspan_status check_mark(const cs_video *video, const char *name) {
 /* Makes the video of its master with one palette. */
 static celspan_status index_colours(const cs_video *video, const char *master, const char *name) {
   cs_video_command command;
-  cs_file *file;
+  cs_file *file = NULL;
   const char *palette;
-  CS_TRY(open_file(video, &file, &palette));
-  cs_video_command_swatches(&command, &video->options, master, palette);
-  celspan_status status = cs_encoder_run(video->context, video->path, command.arguments);
+  celspan_status status = open_file(video, &file, &palette);
+  if (status == CELSPAN_OK) {
+    cs_video_command_swatches(&command, &video->options, master, palette);
+    status = cs_encoder_run(video->context, video->path, command.arguments);
+  }
   if (status == CELSPAN_OK) {
     cs_video_command_index(&command, video->format, &video->options, master, palette, name);
     status = cs_encoder_run(video->context, video->path, command.arguments);
   }
-  cs_file_discard(file, video->context);
+  if (file)
+    cs_file_discard(file, video->context);
   return status;
 }
 
