@@ -25,6 +25,7 @@
   CALL(int, openat64, -1, (int folder, const char *path, int flags, mode_t mode),                  \
        (folder, path, flags, mode))                                                                \
   CALL(FILE *, fopen64, NULL, (const char *path, const char *mode), (path, mode))                  \
+  CALL(FILE *, popen, NULL, (const char *command, const char *type), (command, type))              \
   CALL(DIR *, opendir, NULL, (const char *path), (path))                                           \
   CALL(struct dirent *, readdir64, NULL, (DIR * folder), (folder))                                 \
   CALL(char *, realpath, NULL, (const char *path, char *out), (path, out))                         \

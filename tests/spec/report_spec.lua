@@ -105,7 +105,7 @@ describe("the report of a run", function()
 
   it("finds a slow frame", function()
     bench:write("slow.lua", (FILM:gsub("if f.number == BAD.-end",
-      "if f.number == 5 then for _ = 1, 3e6 do end end")))
+      "if f.number == 5 then for _ = 1, 5e7 do end end")))
     assert.equal(0, (render "slow.lua -o s.##.png --report s.json"))
     assert.equal(5, report_of "s.json".slowest[1].frame)
   end)

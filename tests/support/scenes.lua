@@ -632,7 +632,8 @@ function maker:object(depth)
   local object = self:outlined(self:plain_object(depth))
   if not self.has_modes or not self.modes:once(4) then return object end
   local composed = self:compose(object, depth)
-  return self:dress(self.keys:once(6) and self:keyed(composed) or composed)
+  local is_keyed = not self.is_plain and self.keys:once(6)
+  return self:dress(is_keyed and self:keyed(composed) or composed)
 end
 
 function maker:plain_object(depth)
