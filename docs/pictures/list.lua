@@ -114,7 +114,7 @@ for _, recipe in ipairs {
   { "speed_ramp", strip = "9,30,62" }, { "mixed_sound", 66 },
   { "dancing_city", 112, before = "sounds" },
   { "over_footage", 30, "360x202", before = "plates" },
-  { "light_rays", 30, "360x202" }, { "glitch_title", strip = "9,30" }, { "logo_reveal", 84 },
+  { "light_rays", 30, "320x180" }, { "glitch_title", strip = "9,30" }, { "logo_reveal", 84 },
   { "film_leader", 32, "360x202" }, { "every_shape", 20 }, { "scarf_walk", 40 },
   { "harvest_charts", 72 }, { "deep_title", 20, "360x202" }, { "cel_shading", 18 },
 } do
