@@ -170,33 +170,16 @@ void cs_apart_finish(cs_apart *apart) {
 
 /* ---------------------------------------------------------------- mixings */
 
-/* *out: the cel without its mode, with `opacity` of its own. */
-static celspan_status change_mixing(celspan_context *context, const celspan_cel *cel,
-                                    double opacity, celspan_cel **out) {
-  celspan_cel *bare;
-  CS_TRY(cs_cel_bare(context, cel, (cs_cel_without){.mixing = true}, &bare));
-  celspan_status status = celspan_cel_fade(context, bare, opacity, out);
-  celspan_cel_unref(bare);
-  return status;
-}
-
-/* opacity: of the layer; more than that of the cel where it is a whole number of steps. */
-static double round_up(double opacity, int steps) {
-  double whole = (double)(int)(opacity * steps);
-  return steps == 0 ? opacity : (whole < opacity * steps ? whole + 1 : whole) / steps;
-}
-
 /* A layer of several exposures is mixed as a whole. */
-static celspan_status take_mixing(celspan_context *context, cs_apart_layer *layer, int steps) {
+static celspan_status take_mixing(celspan_context *context, cs_apart_layer *layer) {
   celspan_cel *changed;
   celspan_rostrum *rostrum, *from = layer->exposures[0].rostrum;
   if (!layer->cel || layer->count != 1)
     return CELSPAN_OK;
   const celspan_cel *cel = from->cels[0];
-  layer->opacity = round_up(cel->opacity, steps);
+  layer->opacity = cel->opacity;
   layer->blend = CS_BLEND_MODE(cel->blend);
-  double rest = layer->opacity > 0 ? cel->opacity / layer->opacity : 1;
-  CS_TRY(change_mixing(context, cel, rest < 1 ? rest : 1, &changed));
+  CS_TRY(cs_cel_bare(context, cel, (cs_cel_without){.mixing = true}, &changed));
   celspan_status status = cs_rostrum_with(context, from, &changed, 1, &rostrum);
   celspan_cel_unref(changed);
   if (status != CELSPAN_OK)
@@ -206,9 +189,9 @@ static celspan_status take_mixing(celspan_context *context, cs_apart_layer *laye
   return CELSPAN_OK;
 }
 
-celspan_status cs_apart_take_mixings(cs_apart *apart, int steps) {
+celspan_status cs_apart_take_mixings(cs_apart *apart) {
   for (size_t i = 0; i < apart->count; i++)
-    CS_TRY(take_mixing(apart->context, &apart->layers[i], steps));
+    CS_TRY(take_mixing(apart->context, &apart->layers[i]));
   return CELSPAN_OK;
 }
 

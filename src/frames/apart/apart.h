@@ -76,9 +76,8 @@ CELSPAN_CHECKED celspan_status cs_apart_make(celspan_context *context,
                                              size_t suffix, cs_apart *out);
 void cs_apart_finish(cs_apart *apart);
 /* Takes the opacities and modes of cels out of what the layers show, for files that have both.
- * steps: opacities are whole numbers of this part of 1, and what is too much is taken from alpha;
- * 0: any. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_apart_take_mixings(cs_apart *apart, int steps);
+ * Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_apart_take_mixings(cs_apart *apart);
 
 /* ---- safe_name.c */
 

@@ -23,12 +23,6 @@ enum { CHANNELS = 4, SUFFIX = 2 }; /* ".R" */
 
 #define LIST "celspan:layers"
 
-#define PORTION ((size_t)8 << 20) /* bytes of rows that are made together */
-
-/* Gradient spans are this close to their colours. So the frame and its layers, where gradients
- * begin at different columns, agree. */
-#define TOLERANCE 0x1p-20
-
 typedef struct writing {
   celspan_context *context;
   cs_apart_contents contents;
@@ -90,7 +84,7 @@ static void list_layers(writing *w) {
 
 static celspan_status take_memory(writing *w) {
   celspan_context *context = w->context;
-  size_t fitting = PORTION / row_size(w);
+  size_t fitting = CS_SOURCES_PORTION / row_size(w);
   w->lines = fitting < 1 ? 1 : fitting < CS_EXR_LINES ? (int32_t)fitting : CS_EXR_LINES;
   w->list_size = w->count * CS_APART_NAME;
   w->channel_count = w->count * CHANNELS + (has_mattes(w) ? CS_CRYPTOMATTE_VALUES : 0);
@@ -254,7 +248,7 @@ celspan_status cs_apart_write_exr(celspan_context *context, cs_apart_contents co
   w.width = desc->crop_width > 0 ? desc->crop_width : desc->width;
   w.height = desc->crop_height > 0 ? desc->crop_height : desc->height;
   w.frame.has_tolerance = true;
-  w.frame.tolerance = TOLERANCE;
+  w.frame.tolerance = CS_SOURCES_TOLERANCE;
   cs_account_kind before = cs_account_begin_rendering(context->memory);
   celspan_status status = write_all(&w, path, file);
   finish(&w);

@@ -158,7 +158,7 @@ celspan_status cs_apart_write_ora(celspan_context *context, const celspan_frame_
   w.file.title = NULL;
   CS_TRY(cs_frame_check(context, desc));
   CS_TRY(cs_apart_make(context, desc->exposures, desc->exposure_count, 0, &w.apart));
-  celspan_status status = cs_apart_take_mixings(&w.apart, 0);
+  celspan_status status = cs_apart_take_mixings(&w.apart);
   w.progress = (cs_apart_progress){.desc = desc, .count = w.apart.count + 2};
   if (status == CELSPAN_OK)
     status = write_file(&w);

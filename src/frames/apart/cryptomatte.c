@@ -10,11 +10,6 @@
 /* Weights below this are differences between roundings of equal alphas. */
 #define LEAST 0x1p-16f
 
-#define PORTION ((size_t)8 << 20) /* bytes of alphas that are made together */
-
-/* Gradient spans are this close to their colours, in all steps. */
-#define TOLERANCE 0x1p-20
-
 /* ---------------------------------------------------------------- ids */
 
 static uint32_t rotate(uint32_t word, int bits) { return word << bits | word >> (32 - bits); }
@@ -112,7 +107,7 @@ static celspan_status open_steps(celspan_context *context, const celspan_frame_d
   const cs_mattes *mattes = &crypto->mattes;
   celspan_frame_desc frame = *desc;
   frame.has_tolerance = true;
-  frame.tolerance = TOLERANCE;
+  frame.tolerance = CS_SOURCES_TOLERANCE;
   frame.exposure_count = 1;
   celspan_coding coding = cs_pixels_resolve(&floats, CELSPAN_DEPTH_FLOAT);
   CS_TRY(cs_sources_begin(context, &coding, crypto->width, mattes->step_count, &crypto->sources));
@@ -123,10 +118,10 @@ static celspan_status open_steps(celspan_context *context, const celspan_frame_d
   return CELSPAN_OK;
 }
 
-/* As many rows as fit into PORTION, at least one. */
+/* As many rows as fit into CS_SOURCES_PORTION, at least one. */
 static int32_t choose_lines(const cs_cryptomatte *crypto, int32_t most) {
   size_t row = crypto->sources.count * crypto->sources.row;
-  size_t fitting = row ? PORTION / row : (size_t)most;
+  size_t fitting = row ? CS_SOURCES_PORTION / row : (size_t)most;
   return fitting < 1 ? 1 : fitting < (size_t)most ? (int32_t)fitting : most;
 }
 

@@ -12,6 +12,12 @@
 #include "base/context.h"
 #include "celspan/celspan.h"
 
+#define CS_SOURCES_PORTION ((size_t)8 << 20) /* bytes of rows that are made together */
+
+/* Gradient spans are this close to their colours. So frames in which gradients begin at different
+ * columns agree: a frame and its layers, and the steps of its mattes. */
+#define CS_SOURCES_TOLERANCE 0x1p-20
+
 typedef struct cs_frame_source {
   celspan_context context;
   celspan_rows *rows;

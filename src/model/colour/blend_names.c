@@ -94,7 +94,3 @@ void cs_blend_openraster(celspan_blend blend, char out[CS_BLEND_WORD]) {
   for (char *at = out; is_krita && *at; at++)
     *at = *at == '-' ? '_' : *at;
 }
-
-const char *cs_blend_photoshop(celspan_blend blend) {
-  return file_of(photoshop, COUNT(photoshop), cs_blend_words[blend]);
-}

@@ -17,5 +17,3 @@ void cs_blend_word_of_photoshop(const char key[5], char out[CS_BLEND_WORD]);
 
 /* The mode for OpenRaster: svg: where its specification has it, else as Krita calls it. */
 void cs_blend_openraster(celspan_blend blend, char out[CS_BLEND_WORD]);
-/* The key for Photoshop; NULL: it has no such mode. */
-const char *cs_blend_photoshop(celspan_blend blend);

@@ -1,3 +1,4 @@
+/* One file, because rules, selectors and declarations are read by one parser. */
 #include "readers/svg/css.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* One file, because all primitives take the results of others by one list. */
 #include "readers/svg/filters.h"
 
 #include <math.h>
