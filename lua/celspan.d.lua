@@ -540,7 +540,13 @@ function object:warp(options) end
 ---@return celspan.object
 function object:boil(options) end
 
---- Out of focus. The radius is in its units and follows its transforms.
+--- Shows at each point p what lies at p + scale (code - 0.5), by the codes of another object at p.
+---@param options celspan.displace.options
+---@return celspan.object
+function object:displace(options) end
+
+--- Out of focus, or blurred along a line, rays or arcs. The radius is in its units and follows its
+--- transforms.
 ---@param radius number
 ---@param options? celspan.blur.options
 ---@return celspan.object
@@ -903,6 +909,17 @@ function celspan.key(fields) end
 ---@field radius number As of defocus, in the object's units; 0 to 1000000
 ---@field kernel? "gaussian"|"box"|"disc"|"pixel" Default "gaussian"
 ---@field edge? "clear"|"extend" Beyond its bounds: nothing, or what lies on their edge; default "clear"
+---@field angle? number Along a line: degrees, clockwise from the right
+---@field zoom? celspan.point Along rays from this point; radius: per cent of the distance, at most 90
+---@field spin? celspan.point Along arcs about this point; radius: degrees, at most 180
+
+--- How an object is displaced.
+---@class celspan.displace.options
+---@field by celspan.shape The object whose colours say how far, in the object's units
+---@field x? "r"|"g"|"b"|"a" The channel that moves along x; default "r"
+---@field y? "r"|"g"|"b"|"a" The channel that moves along y; default "g"
+---@field scale? number Units between the points that black and white show; -1000000 to 1000000; default 20
+---@field space? "linear"|"srgb" Of the channels: codes, or light; default "srgb"
 
 --- What shadow an object has.
 ---@class celspan.shadow.options

@@ -127,10 +127,15 @@ static const cs_description_field celspan_key_desc_fields[] = {
     FIELD(celspan_key_desc, from),        FIELD(celspan_key_desc, to),
 };
 static const cs_description_field celspan_blur_desc_fields[] = {
-    FIELD(celspan_blur_desc, struct_size),
-    FIELD(celspan_blur_desc, radius),
-    FIELD(celspan_blur_desc, kernel),
-    FIELD(celspan_blur_desc, edge),
+    FIELD(celspan_blur_desc, struct_size), FIELD(celspan_blur_desc, radius),
+    FIELD(celspan_blur_desc, kernel),      FIELD(celspan_blur_desc, edge),
+    FIELD(celspan_blur_desc, along),       FIELD(celspan_blur_desc, angle),
+    FIELD(celspan_blur_desc, centre),
+};
+static const cs_description_field celspan_displace_desc_fields[] = {
+    FIELD(celspan_displace_desc, struct_size), FIELD(celspan_displace_desc, by),
+    FIELD(celspan_displace_desc, x),           FIELD(celspan_displace_desc, y),
+    FIELD(celspan_displace_desc, scale),       FIELD(celspan_displace_desc, space),
 };
 static const cs_description_field celspan_shadow_desc_fields[] = {
     FIELD(celspan_shadow_desc, struct_size), FIELD(celspan_shadow_desc, offset),

@@ -248,11 +248,21 @@ celspan_status celspan_object_key(celspan_context *context, celspan_object *art,
 typedef enum celspan_defocus_kernel { CELSPAN_DEFOCUS_GAUSSIAN = 0, CELSPAN_DEFOCUS_BOX,
   CELSPAN_DEFOCUS_DISC, CELSPAN_DEFOCUS_PIXEL } celspan_defocus_kernel;
 typedef enum celspan_blur_edge { CELSPAN_BLUR_CLEAR = 0, CELSPAN_BLUR_EXTEND } celspan_blur_edge;
+typedef enum celspan_blur_along { CELSPAN_BLUR_AROUND = 0, CELSPAN_BLUR_LINE, CELSPAN_BLUR_ZOOM,
+  CELSPAN_BLUR_SPIN } celspan_blur_along;
 typedef struct celspan_blur_desc { size_t struct_size; double radius; celspan_defocus_kernel
-  kernel; celspan_blur_edge edge; } celspan_blur_desc;
+  kernel; celspan_blur_edge edge; celspan_blur_along along; double angle; celspan_point centre; }
+  celspan_blur_desc;
 void celspan_blur_desc_default(celspan_blur_desc *out, size_t struct_size);
 celspan_status celspan_object_blur(celspan_context *context, celspan_object *object, const
   celspan_blur_desc *desc, celspan_object **out);
+typedef enum celspan_channel { CELSPAN_CHANNEL_RED = 0, CELSPAN_CHANNEL_GREEN,
+  CELSPAN_CHANNEL_BLUE, CELSPAN_CHANNEL_ALPHA } celspan_channel;
+typedef struct celspan_displace_desc { size_t struct_size; celspan_object *by; celspan_channel x,
+  y; double scale; celspan_space space; } celspan_displace_desc;
+void celspan_displace_desc_default(celspan_displace_desc *out, size_t struct_size);
+celspan_status celspan_object_displace(celspan_context *context, celspan_object *object, const
+  celspan_displace_desc *desc, celspan_object **out);
 typedef struct celspan_shadow_desc { size_t struct_size; celspan_point offset; double blur;
   celspan_texture *colour; double opacity; bool is_inside; bool is_alone; } celspan_shadow_desc;
 void celspan_shadow_desc_default(celspan_shadow_desc *out, size_t struct_size);

@@ -54,6 +54,16 @@ local function light()
       front = { texture = ball, gain = 1.4, on = "cel" } } }
 end
 
+--- Objects that show other points: what displaces, and a medium, need grids of their own.
+local function shifted()
+  local disc = celspan.circle { centre = { 9, 9 }, radius = 7, texture = ramp }
+  local by = celspan.circle { centre = { 12, 9 }, radius = 8, texture = ball }
+  return celspan.rostrum { back = "#345", celspan.cel {
+    disc:displace { by = by, scale = 9 }, disc:blur(4, { angle = 30 }),
+    by:blur(30, { spin = { 4, 4 } }):displace { by = disc, scale = -6, space = "linear" },
+    disc:blur(50, { zoom = { 12, 9 }, edge = "extend" }):blend "screen" } }
+end
+
 local function pixels(format, size, count)
   local bytes = {}
   for i = 1, count do bytes[i] = string.char((i * 37 + i // 7) % 256) end
@@ -182,6 +192,7 @@ local makers = {
   { name = "strokes", make = strokes, sinks = { "span" } },
   { name = "gaussian", make = function() return defocus "gaussian" end, sinks = { "png" } },
   { name = "disc", make = function() return defocus "disc" end, sinks = {} },
+  { name = "shifted", make = shifted, sinks = {} },
   { name = "kernels", make = kernels, sinks = { "sink" } },
   { name = "viewports", make = viewports, sinks = { "rows" } },
   { name = "dense", make = dense, sinks = { "tga" } },

@@ -25,7 +25,7 @@ local function text(random, traits)
 end
 
 return function(seed, has_modules)
-  local script, traits = scenes.script(seed)
+  local script, traits = scenes.script(seed, { has_shifts = true })
   local inner = scenes.load(script)
   return celspan.film { size = { traits.width, traits.height }, frame = function(f)
     local random = prng.new(seed)

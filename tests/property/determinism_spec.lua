@@ -13,7 +13,7 @@ local COUNT, ONLY = 50, cases.only
 --- Calls test(exposures, options, random, case) with random scenes.
 local function each_scene(test)
   for _, case in cases.of(COUNT) do
-    local script, traits = scenes.script(case)
+    local script, traits = scenes.script(case, { has_shifts = true })
     if ONLY then print(script) end
     local film = scenes.load(script)
     local options = { size = traits.size, film = { traits.width, traits.height }, workers = 1 }
@@ -63,7 +63,7 @@ describe("two runs", function()
     it("of one scene, built twice, are equal to the bit under " .. antialias, function()
       each_scene(function(exposures, options, _, case)
         options.antialias = antialias
-        local again = scenes.load((scenes.script(case))):at(1)
+        local again = scenes.load((scenes.script(case, { has_shifts = true }))):at(1)
         assert(text(exposures, options) == text(again, options), "CASE=" .. case)
       end)
     end)

@@ -628,8 +628,27 @@ function maker:outlined(object)
     self.outlines:pick { "round", "miter", "bevel" }, text_of(self.outlines:between(0.3, 1)))
 end
 
+--- The object, displaced, or blurred in a direction.
+function maker:shifted(object)
+  local own = self.shifts
+  object = ("celspan.group{ %s }"):format(object)
+  local function number(low, high) return text_of(own:between(low, high)) end
+  local at = ("{%s, %s}"):format(number(0, 40), number(0, 30))
+  local kind = own:whole(1, 5)
+  if kind == 1 then return ("%s:blur(%s, { angle = %s })"):format(object, number(0, 9),
+    number(-200, 200)) end
+  if kind == 2 then return ("%s:blur(%s, { zoom = %s })"):format(object, number(0, 60), at) end
+  if kind == 3 then return ("%s:blur(%s, { spin = %s })"):format(object, number(0, 90), at) end
+  local by = ("celspan.circle { centre = %s, radius = %s, texture = celspan.linear { "
+    .. "from = {0, 0}, to = {40, 30}, { 0, \"#f0%d\" }, { 1, \"#2c8\" } } }"):format(at,
+    number(3, 40), own:whole(0, 9))
+  return ("%s:displace{ by = %s, scale = %s, x = %q }"):format(object, by, number(-30, 30),
+    own:pick { "r", "g", "b", "a" })
+end
+
 function maker:object(depth)
   local object = self:outlined(self:plain_object(depth))
+  if self.has_shifts and self.shifts:once(8) then object = self:shifted(object) end
   if not self.has_modes or not self.modes:once(4) then return object end
   local composed = self:compose(object, depth)
   local is_keyed = not self.is_plain and self.keys:once(6)
@@ -756,7 +775,8 @@ local function start(seed, options)
     lights = 1, brightest = 1, modes = prng.new(~seed),
     fillings = prng.new(seed ~ 0x7061747465726e), outlines = prng.new(seed ~ 0x6f75746c696e65),
     changes = prng.new(seed ~ 0x6368616e6765), keys = prng.new(seed ~ 0x6b657973),
-    noises = prng.new(seed ~ 0x6e6f697365),
+    noises = prng.new(seed ~ 0x6e6f697365), shifts = prng.new(seed ~ 0x736869667473),
+    has_shifts = options.has_shifts,
     has_modes = options.has_modes ~= false and seed % 2 == 0,
     has_spaces = options.has_modes ~= false and seed % 4 == 0,
     has_grades = options.has_grades ~= false, has_patterns = options.has_patterns ~= false,
@@ -768,8 +788,10 @@ end
 -- options: is_flat (no gradients or pictures), is_single (one exposure), has_rows = false (no
 -- scan-lines), has_pictures = false (no noise), has_text (every second primitive is text),
 -- is_plain (no lights with a shape, no compositions inside others), has_modes = false,
--- has_grades = false, has_patterns = false. Half of the scenes have modes, groups, mattes and
--- outlines; half of these have spaces and grades, too. The outermost space is that of light.
+-- has_grades = false, has_patterns = false; has_shifts (objects that are displaced, or blurred in a
+-- direction, of which the oracle sees no means over pixels). Half of the scenes have modes, groups,
+-- mattes and outlines; half of these have spaces and grades, too. The outermost space is that of
+-- light.
 function scenes.script(seed, options)
   local self = start(seed, options or {})
   local exposures = self:exposures()

@@ -432,7 +432,13 @@ function object:warp(options) end
 ---@return celspan.object
 function object:boil(options) end
 
---- Out of focus. The radius is in its units and follows its transforms.
+--- Shows at each point p what lies at p + scale (code - 0.5), by the codes of another object at p.
+---@param options celspan.displace.options
+---@return celspan.object
+function object:displace(options) end
+
+--- Out of focus, or blurred along a line, rays or arcs. The radius is in its units and follows its
+--- transforms.
 ---@param radius number
 ---@param options? celspan.blur.options
 ---@return celspan.object
@@ -537,6 +543,8 @@ function celspan.clip(art, shape) end
 ---@noun key: celspan.object
 
 ---@noun blur.options
+
+---@noun displace.options
 
 ---@noun shadow.options
 

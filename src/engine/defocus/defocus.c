@@ -39,6 +39,7 @@ typedef struct filling {
   celspan_context *context;
   node_plane planes[2];
   cs_regrid_rows own; /* where the cel has a grid of its own */
+  cs_shifted_rows shifted;
   int32_t groups;
 } filling;
 
@@ -50,7 +51,7 @@ static celspan_status init_plane(filling *f, int k) {
   node_plane *p = &f->planes[k];
   int32_t columns = f->grid->columns;
   cs_row_init(&p->row);
-  if (defocus->way != CS_DEFOCUS_OWN)
+  if (!defocus->own)
     CS_TRY(cs_row_maker_init(&p->maker, f->context, &defocus->plans[k]));
   p->nodes = cs_mem_array(memory, (size_t)columns, sizeof *p->nodes);
   p->even = cs_mem_array(memory, (size_t)f->groups, sizeof *p->even);
@@ -68,7 +69,7 @@ static void finish_plane(filling *f, int k) {
   cs_row_finish(&p->row, memory);
   cs_mem_free(memory, p->nodes, (size_t)f->grid->columns * sizeof *p->nodes);
   cs_mem_free(memory, p->even, (size_t)f->groups * sizeof *p->even);
-  if (f->defocus->way != CS_DEFOCUS_OWN)
+  if (!f->defocus->own)
     cs_row_maker_finish(&p->maker);
 }
 
@@ -123,6 +124,8 @@ static void agree(const filling *f, node_plane *a, node_plane *b) {
 
 static celspan_status make_plane(filling *f, int k, int32_t y) {
   node_plane *p = &f->planes[k];
+  if (f->defocus->way == CS_DEFOCUS_SHIFTED)
+    return cs_shifted_row(&f->shifted, k, y, p->nodes, p->even);
   return f->defocus->way == CS_DEFOCUS_OWN ? cs_regrid_row(&f->own, k, y, p->nodes, p->even)
          : p->lines                        ? cs_defocus_lines_row(p->lines, y, p->nodes, p->even)
                                            : filter_row(f, p, y);
@@ -172,6 +175,8 @@ static celspan_status fill_rows(filling *f, int32_t first, int32_t end, cs_defoc
                           : cs_defocus_band_room(f->grid, f->context, band));
   if (defocus->way == CS_DEFOCUS_OWN)
     CS_TRY(cs_regrid_begin(&defocus->regrid, f->grid, f->context, &f->own));
+  if (defocus->way == CS_DEFOCUS_SHIFTED)
+    CS_TRY(cs_shifted_begin(&defocus->shifted, f->grid, f->context, &f->shifted));
   for (int k = 0; k < f->grid->planes; k++)
     CS_TRY(init_plane(f, k));
   for (int32_t y = first; y < end; y++) {
@@ -199,6 +204,8 @@ static CELSPAN_CHECKED celspan_status fill_band(const cs_defocus *defocus, celsp
     finish_plane(&f, k);
   if (f.own.map)
     cs_regrid_finish(&f.own);
+  if (f.shifted.map)
+    cs_shifted_end(&f.shifted);
   return status;
 }
 
@@ -297,6 +304,7 @@ static celspan_status init_way(celspan_context *context, cs_defocus *defocus, bo
     return cs_defocus_slices_init(context, s, &defocus->slices);
   case CS_DEFOCUS_KERNEL:
   case CS_DEFOCUS_OWN:
+  case CS_DEFOCUS_SHIFTED:
     break;
   }
   return CELSPAN_OK;
@@ -351,6 +359,17 @@ void cs_defocus_use_own(cs_defocus *defocus, cs_defocus *own, const double scale
   defocus->way = CS_DEFOCUS_OWN;
   defocus->grid.planes = own->grid.planes;
   defocus->regrid = (cs_regrid){&own->grid, {{scale[0], offset[0]}, {scale[1], offset[1]}}};
+}
+
+void cs_defocus_use_shift(cs_defocus *defocus, const cs_shifted *shifted, cs_defocus *own,
+                          cs_defocus *by) {
+  defocus->own = own;
+  defocus->by = by;
+  defocus->way = CS_DEFOCUS_SHIFTED;
+  defocus->grid.planes = own->grid.planes;
+  defocus->shifted = *shifted;
+  defocus->shifted.from = &own->grid;
+  defocus->shifted.by = by ? &by->grid : NULL;
 }
 
 static celspan_status mix(const cs_defocused *grid, celspan_context *context,
@@ -413,6 +432,7 @@ celspan_status cs_defocus_kernel(celspan_context *context, const cs_defocus *def
   switch (defocus->way) {
   case CS_DEFOCUS_EDGES:
   case CS_DEFOCUS_OWN:
+  case CS_DEFOCUS_SHIFTED:
     return CELSPAN_OK;
   case CS_DEFOCUS_SUMS:
   case CS_DEFOCUS_SLICES:
@@ -429,6 +449,7 @@ void cs_defocus_free(cs_defocus *defocus, cs_memory *memory) {
   cs_defocus_edges_finish(&defocus->edges, memory);
   cs_defocus_sums_finish(&defocus->sums, memory);
   cs_defocus_slices_finish(&defocus->slices, memory);
+  cs_shifted_finish(&defocus->shifted, memory);
   cs_mem_free(memory, defocus, sizeof *defocus);
 }
 

@@ -12,6 +12,7 @@
  *       --one of four ways--> bands of nodes
  *
  *   or: the same on the cel's own grid (own_grid.h) --mixed (regrid.h)--> bands of nodes
+ *   or: means over pixels on a grid of its own --read along a shift (shifted.h)--> bands of nodes
  *
  * Between the nodes the blurred cel is linear (engine/sample/defocused.h reads it). The pitch grows
  * with the radius, from one pixel up, so the work falls as the radius grows.
@@ -25,6 +26,7 @@
 #include "engine/defocus/bands.h"
 #include "engine/defocus/edges.h"
 #include "engine/defocus/regrid.h"
+#include "engine/defocus/shifted.h"
 #include "engine/defocus/slices.h"
 #include "engine/defocus/sums.h"
 #include "engine/row/row.h"
@@ -34,7 +36,8 @@ typedef enum cs_defocus_way {
   CS_DEFOCUS_EDGES,
   CS_DEFOCUS_SUMS,
   CS_DEFOCUS_SLICES,
-  CS_DEFOCUS_OWN /* the nodes are mixed from those of the cel's own grid */
+  CS_DEFOCUS_OWN,    /* the nodes are mixed from those of the cel's own grid */
+  CS_DEFOCUS_SHIFTED /* the nodes are read from it along a shift */
 } cs_defocus_way;
 
 /* Samples in the radius of a Gaussian, at least. */
@@ -55,7 +58,9 @@ struct cs_defocus {
   bool is_own;      /* the grid of a cel's own, whose bands are nodes */
   cs_defocus *own;  /* the cel's own grid, where it has one, and how the nodes are mixed from it; */
   cs_regrid regrid; /* then there are no plans here */
-  cs_plan plans[2]; /* one a plane; made by engine/defocus/layer.c */
+  cs_shifted shifted;
+  cs_defocus *by;           /* the grid of what displaces the cel; NULL: nothing */
+  cs_plan plans[2];         /* one a plane; made by engine/defocus/layer.c */
   celspan_object *extended; /* the objects of the plans, continued beyond the frame; NULL: the cel's
                                own objects */
   cs_hash key;
@@ -82,6 +87,10 @@ CELSPAN_CHECKED celspan_status cs_defocus_create_own(celspan_context *context, c
  * of the frame's grid and belongs to it. scale, offset: from pixels of the frame, by axis. */
 void cs_defocus_use_own(cs_defocus *defocus, cs_defocus *own, const double scale[2],
                         const double offset[2]);
+/* From now on the nodes of a frame's grid are read along a shift, which belongs to it, as do the
+ * grids that are read. by: NULL where there is nothing there. */
+void cs_defocus_use_shift(cs_defocus *defocus, const cs_shifted *shifted, cs_defocus *own,
+                          cs_defocus *by);
 /* From now on every pixel between these places of the frame is a node of a grid that is mixed
  * so. */
 void cs_defocus_use_pixels(cs_defocus *defocus, const int32_t first[2], const int32_t end[2]);
@@ -93,7 +102,8 @@ CELSPAN_CHECKED celspan_status cs_defocus_kernel(celspan_context *context,
                                                  const cs_defocus *defocus, cs_kernel **out);
 /* Frees everything except the plans and the cel's own grid. */
 void cs_defocus_free(cs_defocus *defocus, cs_memory *memory);
-/* The plan of S, from which all nodes are made. */
-static inline const cs_plan *cs_defocus_plan(const cs_defocus *defocus) {
-  return defocus->own ? &defocus->own->plans[0] : &defocus->plans[0];
+/* Whether the nodes are made from a plan that stays on its thread. */
+static inline bool cs_defocus_stays_on_thread(const cs_defocus *defocus) {
+  const cs_defocus *own = defocus->own ? defocus->own : defocus;
+  return own->plans[0].stays_on_thread || (defocus->by && defocus->by->plans[0].stays_on_thread);
 }

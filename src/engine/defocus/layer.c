@@ -1,6 +1,7 @@
 #include "engine/defocus/layer.h"
 
 #include "base/number.h"
+#include "engine/defocus/shifted_place.h"
 #include "model/scene/extend.h"
 #include "model/scene/texture.h"
 #include "model/scene/value.h"
@@ -287,6 +288,57 @@ static celspan_status make(celspan_context *context, const cs_defocus_cel *place
   return CELSPAN_OK;
 }
 
+/* ---------------------------------------------------------------- shifted cels */
+
+/* The grid of means over a rectangle of pixels of a cel in the same place. */
+static celspan_status make_means(celspan_context *context, const cs_defocus_cel *place,
+                                 const celspan_cel *cel, const cs_defocus_compiler *compiler,
+                                 const cs_shifted_part *part, cs_defocus **out) {
+  cs_own_grid grid = {.blur = {.kind = CELSPAN_DEFOCUS_PIXEL}, .samples = CS_DEFOCUS_SAMPLES};
+  cs_defocus_cel alone = *place;
+  alone.cel = cel;
+  alone.matrix = celspan_matrix_then(place->matrix,
+                                     celspan_matrix_translation(-part->first[0], -part->first[1]));
+  alone.width = grid.size[0] = part->end[0] - part->first[0];
+  alone.height = grid.size[1] = part->end[1] - part->first[1];
+  return make_own(context, &alone, cel_varies(cel), &grid, compiler, out);
+}
+
+static cs_hash shifted_key(const cs_defocus_cel *place, const cs_shifted_place *where,
+                           const cs_blur *blur) {
+  cs_hash hash = find_key(place, blur, CS_DEFOCUS_SAMPLES);
+  cs_hash_hash(&hash, place->cel->shift->hash);
+  for (int k = 0; k < 2; k++) {
+    cs_hash_word(&hash, (uint64_t)where->shown.first[k]);
+    cs_hash_word(&hash, (uint64_t)where->shown.end[k]);
+  }
+  return cs_hash_end(hash);
+}
+
+/* A layer whose nodes are read along the shift of its cel. */
+static celspan_status make_shifted(celspan_context *context, const cs_defocus_cel *place,
+                                   const cs_shifted_place *where, const cs_blur *blur,
+                                   const cs_defocus_compiler *compiler, cs_defocus *defocus) {
+  cs_shift *shift = place->cel->shift;
+  cs_defocus *own, *by = NULL;
+  celspan_status status = CELSPAN_OK;
+  defocus->key = shifted_key(place, where, blur);
+  CS_TRY(make_means(context, place, place->cel, compiler, &where->read, &own));
+  if (cs_shifted_part_has_pixels(&where->by))
+    status = make_means(context, place, shift->by, compiler, &where->by, &by);
+  cs_defocus_use_shift(defocus, &where->map, own, by);
+  return status == CELSPAN_OK ? cs_shifted_init(context, shift, &defocus->shifted) : status;
+}
+
+static celspan_status create_shifted(celspan_context *context, const cs_defocus_cel *place,
+                                     const cs_blur *blur, const cs_defocus_compiler *compiler,
+                                     bool *is_seen, cs_boundary_frame *visible,
+                                     cs_defocus *defocus) {
+  cs_shifted_place where;
+  CS_TRY(cs_shifted_place_find(context, place, is_seen, visible, &where));
+  return *is_seen ? make_shifted(context, place, &where, blur, compiler, defocus) : CELSPAN_OK;
+}
+
 /* ---------------------------------------------------------------- life */
 
 static celspan_status add_box(celspan_context *context, const cs_boundary_frame *visible,
@@ -321,8 +373,10 @@ static celspan_status create(celspan_context *context, const cs_defocus_cel *pla
   *out = NULL;
   CS_TRY(cs_defocus_create(context, &blur, place->width, place->height, &defocus));
   celspan_status status = CELSPAN_OK;
-  bool is_seen = find_box(place, &blur, &defocus->grid, &visible);
-  if (is_seen)
+  bool is_seen;
+  if (place->cel->shift)
+    status = create_shifted(context, place, &blur, compiler, &is_seen, &visible, defocus);
+  else if ((is_seen = find_box(place, &blur, &defocus->grid, &visible)))
     status = make(context, place, &blur, compiler, &visible, &defocus);
   if (is_seen && status == CELSPAN_OK)
     status = add_box(context, &visible, box);
@@ -365,5 +419,7 @@ void cs_defocus_layer_unref(cs_defocus *defocus, cs_memory *memory) {
   celspan_object_unref(defocus->extended);
   if (defocus->own)
     cs_defocus_layer_unref(defocus->own, memory);
+  if (defocus->by)
+    cs_defocus_layer_unref(defocus->by, memory);
   cs_defocus_free(defocus, memory);
 }

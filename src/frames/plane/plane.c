@@ -16,6 +16,7 @@
 #include "base/counted.h"
 #include "base/description.h"
 #include "base/open.h"
+#include "engine/defocus/defocus.h"
 #include "frames/plane/plane.h"
 #include "frames/plane/plane_data.h"
 #include "frames/render/compile.h"
@@ -118,6 +119,11 @@ static celspan_status check_plan(celspan_context *context, const cs_plan *plan) 
   if (plan->stack.procedure_count > 0)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "plane: a scan-line procedure is in view; it cannot be drawn without a size");
+  for (size_t k = 0; k < plan->defocus_count; k++)
+    if (plan->defocus[k]->way == CS_DEFOCUS_SHIFTED)
+      return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                     "plane: an object is in view that is displaced, or blurred in a direction; it "
+                     "is made of pixels, which a plane has not");
   return CELSPAN_OK;
 }
 

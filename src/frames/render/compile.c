@@ -346,7 +346,7 @@ static bool stays_on_thread(const cs_plan *plan) {
       return true;
   }
   for (size_t k = 0; k < plan->defocus_count; k++)
-    if (cs_defocus_plan(plan->defocus[k])->stays_on_thread)
+    if (cs_defocus_stays_on_thread(plan->defocus[k]))
       return true;
   return false;
 }

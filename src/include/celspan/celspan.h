@@ -974,11 +974,23 @@ typedef enum celspan_blur_edge {
   CELSPAN_BLUR_EXTEND     /* what lies on the edge, continued; an object ends at its bounds */
 } celspan_blur_edge;
 
+/* Where a blur takes the points that it shows at a point: around it, or evenly along a line, a ray
+ * or an arc through it, as far to either side. */
+typedef enum celspan_blur_along {
+  CELSPAN_BLUR_AROUND = 0,
+  CELSPAN_BLUR_LINE, /* radius: units */
+  CELSPAN_BLUR_ZOOM, /* radius: per cent of the distance from the centre, 0..90 */
+  CELSPAN_BLUR_SPIN  /* radius: degrees, 0..180 */
+} celspan_blur_along;
+
 typedef struct celspan_blur_desc {
   size_t struct_size;
-  double radius; /* as that of a cel's defocus, but in the object's units, 0..1e6 */
-  celspan_defocus_kernel kernel;
+  double radius; /* AROUND: as that of a cel's defocus, but in the object's units, 0..1e6 */
+  celspan_defocus_kernel kernel; /* AROUND */
   celspan_blur_edge edge;
+  celspan_blur_along along;
+  double angle;         /* LINE: degrees, clockwise from the right */
+  celspan_point centre; /* ZOOM, SPIN: in the object's units */
 } celspan_blur_desc;
 
 CELSPAN_DESCRIPTION(celspan_blur_desc)
@@ -990,6 +1002,31 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_blur(celspan_context *
                                                                celspan_object *object,
                                                                const celspan_blur_desc *desc,
                                                                celspan_object **out);
+
+typedef enum celspan_channel {
+  CELSPAN_CHANNEL_RED = 0,
+  CELSPAN_CHANNEL_GREEN,
+  CELSPAN_CHANNEL_BLUE,
+  CELSPAN_CHANNEL_ALPHA
+} celspan_channel;
+
+typedef struct celspan_displace_desc {
+  size_t struct_size;
+  celspan_object *by;   /* borrowed, in the units of the object, which it may be */
+  celspan_channel x, y; /* of `by`, without its alpha; RED and GREEN */
+  double scale;         /* units, -1e6..1e6; 20 */
+  celspan_space space;  /* of the channels: LINEAR, or SRGB, their codes */
+} celspan_displace_desc;
+
+CELSPAN_DESCRIPTION(celspan_displace_desc)
+#define CELSPAN_DISPLACE_DESC (celspan_displace_desc_initial())
+
+/* The object, which shows at each point p what lies at p + scale (channel - 0.5); channels are
+ * clamped to 0..1, and nothing moves where `by` is clear. Its shape is the rectangle that it can
+ * reach. A mode stays outermost. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status
+celspan_object_displace(celspan_context *context, celspan_object *object,
+                        const celspan_displace_desc *desc, celspan_object **out);
 
 typedef struct celspan_shadow_desc {
   size_t struct_size;

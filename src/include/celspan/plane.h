@@ -30,9 +30,10 @@ CELSPAN_DESCRIPTION(celspan_plane_desc)
 
 /* rostrum: borrowed; its antialiasing does not count      desc: borrowed      out: new
  * Errors: those of rendering; BAD_ARGUMENT for a depth that is not allowed, and for what a plane
- * cannot keep: scan-line procedures, objects blurred in perspective or very little, pictures with a
- * medium of their own or composited in sRGB, and, where several gradients or pictures lie over each
- * other, grades, modes other than multiply and screen, and glass inside a group that is faded. */
+ * cannot keep: scan-line procedures, objects that are displaced, or blurred in a direction, in
+ * perspective or very little, pictures with a medium of their own or composited in sRGB, and, where
+ * several gradients or pictures lie over each other, grades, modes other than multiply and screen,
+ * and glass inside a group that is faded. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_plane_create(celspan_context *context,
                                                                 const celspan_rostrum *rostrum,
                                                                 const celspan_plane_desc *desc,

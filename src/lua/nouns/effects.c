@@ -1,4 +1,5 @@
-/* object:blur, object:shadow, object:glow and object:outline; cels have all of them except blur.
+/* object:blur, object:displace, object:shadow, object:glow and object:outline; cels have the last
+ * three.
  * The result is a value with the object as its list and the options as its fields. */
 #include "lua/bind/caller.h"
 #include "lua/bind/construct.h"
@@ -6,6 +7,7 @@
 #include "lua/bind/host.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/shape.h"
+#include "model/colour/space.h"
 
 const char *const cs_nouns_kernels[] = {"gaussian", "box", "disc", "pixel", NULL};
 const char *const cs_nouns_edges[] = {"clear", "extend", NULL};
@@ -20,12 +22,36 @@ const char *const cs_nouns_edges[] = {"clear", "extend", NULL};
     cs_form_try(form, celspan_object_##effect(cs_host_context(form->L), object[0], &desc, &made)); \
     value->handle = made;                                                                          \
   }
-CREATE(blur, CELSPAN_BLUR_DESC)
 CREATE(shadow, CELSPAN_SHADOW_DESC)
 CREATE(glow, CELSPAN_GLOW_DESC)
 CREATE(outline, CELSPAN_OUTLINE_DESC)
 
 #define RADIUS .least = 0, .most = CELSPAN_BLUR_MOST
+
+/* A blur along a line, a ray or an arc, if one of these fields is given. */
+static celspan_blur_along find_along(const cs_form *form) {
+  static const char *const names[] = {"angle", "zoom", "spin"};
+  celspan_blur_along along = CELSPAN_BLUR_AROUND;
+  for (int i = 0; i < 3; i++) {
+    if (!cs_form_has(form, names[i]))
+      continue;
+    if (along != CELSPAN_BLUR_AROUND)
+      cs_form_fail(form, "give only one of 'angle', 'zoom' and 'spin'");
+    along = (celspan_blur_along)(CELSPAN_BLUR_LINE + i);
+  }
+  if (along != CELSPAN_BLUR_AROUND && cs_form_has(form, "kernel"))
+    cs_form_fail(form, "'kernel' does not go with 'angle', 'zoom' or 'spin', which are even");
+  return along;
+}
+
+static void create_blur(const cs_form *form, cs_userdata *value) {
+  celspan_blur_desc desc = CELSPAN_BLUR_DESC;
+  celspan_object **object = cs_shape_items(form, 1), *made = NULL;
+  cs_fields_read(form, &desc);
+  desc.along = find_along(form);
+  cs_form_try(form, celspan_object_blur(cs_host_context(form->L), object[0], &desc, &made));
+  value->handle = made;
+}
 
 static const cs_field blur_rows[] = {
     {"radius", CS_NUMBER(celspan_blur_desc, radius), RADIUS, .is_required = true,
@@ -33,6 +59,12 @@ static const cs_field blur_rows[] = {
     {"kernel", CS_CHOICE(celspan_blur_desc, kernel, cs_nouns_kernels), .preset = "gaussian"},
     {"edge", CS_CHOICE(celspan_blur_desc, edge, cs_nouns_edges), .preset = "clear",
      .about = "Beyond its bounds: nothing, or what lies on their edge"},
+    {"angle", CS_NUMBER(celspan_blur_desc, angle),
+     .about = "Along a line: degrees, clockwise from the right"},
+    {"zoom", CS_POINT(celspan_blur_desc, centre),
+     .about = "Along rays from this point; radius: per cent of the distance, at most 90"},
+    {"spin", CS_POINT(celspan_blur_desc, centre),
+     .about = "Along arcs about this point; radius: degrees, at most 180"},
     {0}};
 const cs_noun cs_noun_blur = {.name = "blur",
                               .about = "How an object is blurred.",
@@ -40,6 +72,47 @@ const cs_noun cs_noun_blur = {.name = "blur",
                               CS_FROM_OBJECT,
                               .fields = blur_rows,
                               .create = create_blur};
+
+typedef struct displace_fields {
+  celspan_displace_desc desc;
+  int space; /* of cs_space_words */
+} displace_fields;
+
+static void create_displace(const cs_form *form, cs_userdata *value) {
+  displace_fields fields = {CELSPAN_DISPLACE_DESC, CELSPAN_SPACE_SRGB - CELSPAN_SPACE_LINEAR};
+  celspan_object **object = cs_shape_items(form, 1), *made = NULL;
+  cs_fields_read(form, &fields);
+  fields.desc.space = (celspan_space)(CELSPAN_SPACE_LINEAR + fields.space);
+  cs_form_get(form, "by");
+  cs_userdata *by = cs_shape_at(form->L, -1);
+  if (!by)
+    cs_form_fail(form, "field 'by' must be an object, got %s", cs_userdata_type(form->L, -1));
+  fields.desc.by = by->handle; /* the table or the stack keeps it alive */
+  cs_form_try(form,
+              celspan_object_displace(cs_host_context(form->L), object[0], &fields.desc, &made));
+  value->handle = made;
+}
+
+static const char *const channels[] = {"r", "g", "b", "a", NULL};
+static const cs_field displace_rows[] = {
+    {"by", CS_OWN("celspan.shape"), .is_required = true,
+     .about = "The object whose colours say how far, in the object's units"},
+    {"x", CS_CHOICE(displace_fields, desc.x, channels), .preset = "r",
+     .about = "The channel that moves along x"},
+    {"y", CS_CHOICE(displace_fields, desc.y, channels), .preset = "g",
+     .about = "The channel that moves along y"},
+    {"scale", CS_NUMBER(displace_fields, desc.scale), .least = -CELSPAN_BLUR_MOST,
+     .most = CELSPAN_BLUR_MOST, .preset = "20",
+     .about = "Units between the points that black and white show"},
+    {"space", CS_CHOICE(displace_fields, space, cs_space_words), .preset = "srgb",
+     .about = "Of the channels: codes, or light"},
+    {0}};
+const cs_noun cs_noun_displace = {.name = "displace",
+                                  .about = "How an object is displaced.",
+                                  .table = "celspan.displace.options",
+                                  CS_FROM_OBJECT,
+                                  .fields = displace_rows,
+                                  .create = create_displace};
 
 static const cs_field shadow_rows[] = {
     {"offset", CS_POINT(celspan_shadow_desc, offset), .about = "How far the shadow is moved",
@@ -150,6 +223,14 @@ static int apply(lua_State *L, const cs_noun *noun) {
   check_object(L, noun);
   push_options(L, noun, 2, 1);
   cs_construct_value(L, noun, 3);
+  return 1;
+}
+
+int cs_nouns_displace(lua_State *L) {
+  lua_settop(L, 2);
+  check_object(L, &cs_noun_displace);
+  push_options(L, &cs_noun_displace, 2, 1);
+  cs_construct_value(L, &cs_noun_displace, 3);
   return 1;
 }
 

@@ -17,6 +17,8 @@
 #include "base/description.h"
 #include "model/scene/bounds.h"
 #include "model/scene/check.h"
+#include "model/scene/displace.h"
+#include "model/scene/effect.h"
 #include "model/scene/extend.h"
 #include "model/scene/grow.h"
 #include "model/scene/primitive_data.h"
@@ -49,24 +51,6 @@ static celspan_status fade(celspan_context *context, celspan_object **object, do
   return replace(object, status, made);
 }
 
-static celspan_status give_mode(celspan_context *context, celspan_object **object,
-                                celspan_blend mode) {
-  celspan_object *made = NULL;
-  celspan_status status = celspan_object_blend(context, *object, mode, &made);
-  return replace(object, status, made);
-}
-
-/* Gives *object the mode of another object, which may be limited to the backdrop. */
-static celspan_status give_mode_of(celspan_context *context, celspan_object **object,
-                                   const celspan_object *like) {
-  const celspan_blend mode = celspan_object_mode(like);
-  celspan_object *made = NULL;
-  if (cs_object_mode(like) == mode)
-    return give_mode(context, object, mode);
-  celspan_status status = cs_object_blend_within(context, *object, mode, &made);
-  return replace(object, status, made);
-}
-
 /* Makes *object present where `by` is present, or where it is not. */
 static celspan_status mask(celspan_context *context, celspan_object **object, celspan_object *by,
                            bool inverts) {
@@ -76,67 +60,25 @@ static celspan_status mask(celspan_context *context, celspan_object **object, ce
   return replace(object, status, made);
 }
 
-/* Gives the mode, the name and the line of an object to the result of an effect, which was made of
- * the object without its mode. Does nothing if the effect has failed. */
-static celspan_status finish(celspan_context *context, const celspan_object *object,
-                             celspan_status status, celspan_object *made, celspan_object **out) {
-  if (status == CELSPAN_OK)
-    status = give_mode_of(context, &made, object);
-  if (status != CELSPAN_OK) {
-    celspan_object_unref(made);
-    return status;
-  }
-  if (made != object) { /* both are equal if there was nothing to blur */
-    cs_mark_drop(made->mark);
-    made->mark = cs_mark_keep(object->mark);
-  }
-  *out = made;
-  return CELSPAN_OK;
-}
-
 /* ---------------------------------------------------------------- blur */
 
-/* frame: of the composition, in the object's units. */
 static celspan_status make_cel(celspan_context *context, celspan_object *object,
-                               const celspan_blur_desc *desc, const celspan_box *frame,
-                               celspan_cel **out) {
+                               const celspan_blur_desc *desc, celspan_cel **out) {
   celspan_cel_desc fields = CELSPAN_CEL_DESC;
-  celspan_cel *still;
   fields.objects = &object;
   fields.object_count = 1;
   fields.defocus_radius = desc->radius;
   fields.defocus_kernel = desc->kernel;
-  CS_TRY(celspan_cel_create(context, &fields, &still));
-  const celspan_matrix matrix = celspan_matrix_translation(-frame->x, -frame->y);
-  celspan_status status = celspan_cel_transform(context, still, &matrix, out);
-  celspan_cel_unref(still);
-  return status;
-}
-
-static celspan_status make_rostrum(celspan_context *context, celspan_cel *cel,
-                                   const celspan_box *frame, double brightness,
-                                   celspan_rostrum **out) {
-  celspan_rostrum_desc fields = CELSPAN_ROSTRUM_DESC;
-  fields.cels = &cel;
-  fields.cel_count = 1;
-  fields.has_size = true;
-  fields.width = frame->width;
-  fields.height = frame->height;
-  fields.brightness = brightness;
-  return celspan_rostrum_create(context, &fields, out);
+  return celspan_cel_create(context, &fields, out);
 }
 
 static celspan_status compose(celspan_context *context, celspan_object *object,
                               const celspan_blur_desc *desc, const celspan_box *frame,
                               double brightness, celspan_object **out) {
   celspan_cel *cel;
-  celspan_rostrum *rostrum = NULL;
-  CS_TRY(make_cel(context, object, desc, frame, &cel));
-  celspan_status status = make_rostrum(context, cel, frame, brightness, &rostrum);
+  CS_TRY(make_cel(context, object, desc, &cel));
+  celspan_status status = cs_effect_compose(context, cel, frame, brightness, out);
   celspan_cel_unref(cel);
-  if (status == CELSPAN_OK)
-    status = celspan_object_create_rostrum(context, rostrum, out);
-  celspan_rostrum_unref(rostrum);
   return status;
 }
 
@@ -168,31 +110,15 @@ static celspan_status blur(celspan_context *context, celspan_object *object,
     *out = celspan_object_ref(object);
     return CELSPAN_OK;
   }
-  celspan_object *made = NULL, *extended = NULL;
+  celspan_object *extended = NULL;
   const celspan_matrix identity = celspan_matrix_identity();
   celspan_status status = CELSPAN_OK;
   if (extends)
     status = cs_extend(context, &object, 1, &identity, &box, extent, &extended);
   if (status == CELSPAN_OK)
-    status = compose(context, extends ? extended : object, desc, &frame, brightness, &made);
+    status = compose(context, extends ? extended : object, desc, &frame, brightness, out);
   celspan_object_unref(extended);
-  if (status == CELSPAN_OK)
-    status = move(context, &made, frame.x, frame.y);
-  return CS_GIVE(status, made, celspan_object_unref, out);
-}
-
-/* The result of an effect on an object without a mode. */
-typedef celspan_status (*effect_maker)(celspan_context *context, celspan_object *object,
-                                       const void *desc, celspan_object **made);
-
-/* Makes the effect of an object. The mode of the object becomes the mode of the result. */
-static celspan_status make(celspan_context *context, celspan_object *object, effect_maker add,
-                           const void *desc, celspan_object **out) {
-  celspan_object *plain, *made = NULL;
-  CS_TRY(celspan_object_blend(context, object, CELSPAN_BLEND_NORMAL, &plain));
-  celspan_status status = add(context, plain, desc, &made);
-  celspan_object_unref(plain);
-  return finish(context, object, status, made, out);
+  return status;
 }
 
 static celspan_status add_blur(celspan_context *context, celspan_object *object, const void *desc,
@@ -209,11 +135,14 @@ celspan_status celspan_object_blur(celspan_context *context, celspan_object *obj
                                    const celspan_blur_desc *desc, celspan_object **out) {
   CS_READ(context, "blur", celspan_blur_desc, desc);
   CS_TRY(cs_check_given(context, "blur", "the object", object));
+  CS_TRY(cs_check_choice(context, "blur", "along", (unsigned)desc->along, CELSPAN_BLUR_SPIN + 1));
+  if (desc->along != CELSPAN_BLUR_AROUND)
+    return cs_displace_blur(context, object, desc, out);
   CS_TRY(check_blur(context, "blur", "radius", desc->radius));
   CS_TRY(cs_check_choice(context, "blur", "kernel", (unsigned)desc->kernel,
                          CELSPAN_DEFOCUS_PIXEL + 1));
   CS_TRY(cs_check_choice(context, "blur", "edge", (unsigned)desc->edge, CELSPAN_BLUR_EXTEND + 1));
-  return make(context, object, add_blur, desc, out);
+  return cs_effect_make(context, object, add_blur, desc, out);
 }
 
 /* ---------------------------------------------------------------- silhouettes */
@@ -307,7 +236,7 @@ celspan_status celspan_object_shadow(celspan_context *context, celspan_object *o
                                      const celspan_shadow_desc *desc, celspan_object **out) {
   CS_READ(context, "shadow", celspan_shadow_desc, desc);
   CS_TRY(check_shadow(context, object, desc));
-  return make(context, object, add_shadow, desc, out);
+  return cs_effect_make(context, object, add_shadow, desc, out);
 }
 
 /* ---------------------------------------------------------------- glows */
@@ -324,7 +253,7 @@ static celspan_status add_glow(celspan_context *context, celspan_object *object,
   const celspan_glow_desc *desc = user;
   const silhouette look = {.colour = desc->colour, .radius = desc->radius, .gain = desc->gain};
   CS_TRY(make_silhouette(context, object, &look, glow));
-  CS_TRY(give_mode(context, glow, CELSPAN_BLEND_ADD));
+  CS_TRY(cs_effect_give_mode(context, glow, CELSPAN_BLEND_ADD));
   return join(context, glow, object, false);
 }
 
@@ -332,7 +261,7 @@ celspan_status celspan_object_glow(celspan_context *context, celspan_object *obj
                                    const celspan_glow_desc *desc, celspan_object **out) {
   CS_READ(context, "glow", celspan_glow_desc, desc);
   CS_TRY(check_glow(context, object, desc));
-  return make(context, object, add_glow, desc, out);
+  return cs_effect_make(context, object, add_glow, desc, out);
 }
 
 /* ---------------------------------------------------------------- outlines */
@@ -436,5 +365,5 @@ celspan_status celspan_object_outline(celspan_context *context, celspan_object *
                                       const celspan_outline_desc *desc, celspan_object **out) {
   CS_READ(context, "outline", celspan_outline_desc, desc);
   CS_TRY(check_outline(context, object, desc));
-  return make(context, object, add_outline, desc, out);
+  return cs_effect_make(context, object, add_outline, desc, out);
 }

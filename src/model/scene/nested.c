@@ -15,6 +15,7 @@
 
 #include "model/scene/check.h"
 #include "model/scene/primitive_data.h"
+#include "model/scene/shift.h"
 
 static celspan_status check(celspan_context *context, const celspan_rostrum *rostrum) {
   celspan_matrix matrix;
@@ -33,6 +34,8 @@ static celspan_status measure(celspan_context *context, cs_primitive_data *data)
   for (size_t i = 0; i < data->rostrum->cel_count; i++) {
     const celspan_cel *cel = data->rostrum->cels[i];
     CS_TRY(cs_primitive_data_measure(context, "rostrum", cel->objects, cel->object_count, data));
+    if (cel->shift && cel->shift->by)
+      CS_TRY(cs_primitive_data_measure(context, "rostrum", cel->shift->by->objects, 1, data));
   }
   memset(data->blends, 0, sizeof data->blends); /* it isolates */
   data->has_modes = false;

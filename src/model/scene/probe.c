@@ -14,16 +14,19 @@
  * The paint of a cel is that of its objects over each other; a boolean object is present where its
  * operands say so (inside.h). Where an object is a rostrum, its own film is evaluated in the same
  * way, and what arrives at its camera is its paint. A light with a shape is its texture at the
- * point. Where a cel or an object has a mode, all that is behind it is seen by itself first.
+ * point. A displaced cel is evaluated at the point that it shows there; blurs are left out. Where a
+ * cel or an object has a mode, all that is behind it is seen by itself first.
  */
 #include <math.h>
 
 #include "base/description.h"
 #include "base/number.h"
+#include "model/geometry/matrix.h"
 #include "model/scene/check.h"
 #include "model/scene/inside.h"
 #include "model/scene/oracle.h"
 #include "model/scene/pattern.h"
+#include "model/scene/shift.h"
 
 /* The point that is evaluated, and the film that it belongs to: the film of the call, or the film
  * of a rostrum that is an object. */
@@ -305,6 +308,36 @@ static celspan_status see_back(const probe_call *probe, const celspan_rostrum *r
   return CELSPAN_OK;
 }
 
+/* One channel of a sight without its alpha, in a space. */
+static double channel_of(const probe_call *probe, const cs_oracle_sight *seen,
+                         celspan_channel channel, celspan_space space) {
+  double alpha = cs_oracle_alpha(seen);
+  if (channel == CELSPAN_CHANNEL_ALPHA || !(alpha > 0))
+    return alpha;
+  double light = seen->light[channel];
+  if (space != probe->space)
+    light = cs_oracle_convert(space, light, alpha);
+  return cs_number_clamp(light / alpha, 0, 1);
+}
+
+/* A displaced cel shows another point. matrix: from its units to film units. */
+static celspan_status displace(const probe_call *probe, const cs_shift *shift,
+                               const celspan_matrix *matrix, probe_call *out) {
+  cs_oracle_sight by;
+  celspan_point own;
+  *out = *probe;
+  CS_TRY(see_list(probe, shift->by->objects, 1, matrix, &white, &by));
+  const bool is_clear = !(cs_oracle_alpha(&by) > 0);
+  if ((is_clear && !shift->moves_clear) || !cs_inside_own_point(matrix, probe->point, &own))
+    return CELSPAN_OK;
+  own.x += shift->scale * (channel_of(probe, &by, shift->channels[0], shift->space) - 0.5);
+  own.y += shift->scale * (channel_of(probe, &by, shift->channels[1], shift->space) - 0.5);
+  celspan_matrix facing = cs_matrix_facing(matrix);
+  cs_hpoint p = cs_matrix_apply(&facing, (cs_hpoint){own.x, own.y, 1});
+  out->point = (celspan_point){p.x / p.w, p.y / p.w};
+  return CELSPAN_OK;
+}
+
 static celspan_status see_cel(place *at, size_t index, cs_oracle_sight *seen) {
   const probe_call *probe = at->probe;
   const celspan_cel *cel = at->rostrum->cels[index];
@@ -315,6 +348,11 @@ static celspan_status see_cel(place *at, size_t index, cs_oracle_sight *seen) {
   CS_TRY(cs_scene_cel_matrix(probe->context, at->rostrum, index, probe->film_width,
                              probe->film_height, &objects.matrix));
   CS_TRY(sample_light(probe, at->rostrum, index, &front, &objects.front));
+  probe_call moved;
+  if (cel->shift && cel->shift->by) {
+    CS_TRY(displace(probe, cel->shift, &objects.matrix, &moved));
+    objects.probe = &moved;
+  }
   if (cs_cel_blends(cel, probe->space) && cel->blend == CELSPAN_BLEND_NORMAL) {
     objects.around = &around;
     at->left = 0;

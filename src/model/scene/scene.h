@@ -231,7 +231,9 @@ struct celspan_cel {
   celspan_blur_edge defocus_edge;
   double opacity;
   celspan_blend blend;
-  celspan_grade *grade;          /* NULL: none. A reference */
+  celspan_grade *grade; /* NULL: none. A reference */
+  /* only where it is defocused by pixels (shift.h). NULL: none. A reference */
+  struct cs_shift *shift;
   bool blends_inside[CS_SPACES]; /* in that space, any of its objects acts on its backdrop */
   /* a mode is in the cel, except inside a rostrum, or is its own; or it has a grade */
   bool has_modes;
@@ -320,6 +322,10 @@ CELSPAN_CHECKED celspan_status cs_cel_bare(celspan_context *context, const celsp
 CELSPAN_CHECKED celspan_status cs_cel_with(celspan_context *context, const celspan_cel *cel,
                                            celspan_object *const *objects, size_t count,
                                            celspan_cel **out);
+/* *out: new, unlit and without a transform; shows its object along a shift (shift.h). Errors:
+ * NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_cel_shifted(celspan_context *context, celspan_object *object,
+                                              struct cs_shift *shift, celspan_cel **out);
 /* *out: new; like `from`, name and line included, with these cels, which are kept.
  * cs_rostrum_change replaces the back light, too. Neither checks its arguments. For tools that show
  * a part of a frame, or show it before another ground. Errors: NO_MEMORY. */

@@ -15,7 +15,8 @@ typedef enum cs_value_kind {
   CS_VALUE_OBJECT,
   CS_VALUE_CEL,
   CS_VALUE_ROSTRUM,
-  CS_VALUE_GRADE
+  CS_VALUE_GRADE,
+  CS_VALUE_SHIFT
 } cs_value_kind;
 
 /* Copies a value, whose first field is its reference count. The count is not copied, because other

@@ -4,6 +4,7 @@
 #include "model/colour/transfer_names.h"
 #include "model/pictures/configuration.h"
 #include "model/pictures/store.h"
+#include "model/scene/shift.h"
 
 /* Recursion ends: nesting is at most CS_SCENE_DEPTH. */
 static celspan_status visit(cs_walk *walk, celspan_object *const *objects, size_t count) {
@@ -29,6 +30,8 @@ celspan_status cs_walk_lights(cs_walk *walk, const cs_light *front, const cs_lig
 celspan_status cs_walk_cel(cs_walk *walk, const celspan_cel *cel) {
   walk->cels++;
   CS_TRY(cs_walk_lights(walk, &cel->front, &cel->back));
+  if (cel->shift && cel->shift->by)
+    CS_TRY(visit(walk, cel->shift->by->objects, 1));
   return visit(walk, cel->objects, cel->object_count);
 }
 

@@ -64,7 +64,9 @@ return {
   { "nested composition", "composition inside another" },
   { "precomposition", "composition inside another" },
 
-  { "displacement", "warp" },
+  { "displacement", "displace", "warp" }, { "idistort", "displace" },
+  { "heat haze", "displace" }, { "directional blur", "blur" }, { "zoom blur", "blur" },
+  { "spin blur", "blur" }, { "zdefocus", "defocus" }, { "godrays", "rays of light", "blur" },
 
   -- shapes, words and particles
   { "font", "text" }, { "typeface", "text" }, { "variable font", "text" },
