@@ -178,6 +178,24 @@ static celspan_status read_blur(filter *f) {
   return take_input(f, f->node, CS_SVG_IN);
 }
 
+static celspan_channel channel_of(const filter *f, cs_svg_name name) {
+  static const char *const words[] = {"R", "G", "B"};
+  const char *word = cs_svg_node_value(f->node, name);
+  for (int i = 0; word && i < 3; i++)
+    if (cs_svg_is_word(word, words[i]))
+      return (celspan_channel)(CELSPAN_CHANNEL_RED + i);
+  return CELSPAN_CHANNEL_ALPHA;
+}
+
+static celspan_status read_displacement(filter *f) {
+  const double scale = cs_svg_filter_number(f->node, CS_SVG_SCALE, 0);
+  f->step.kind = CS_SVG_STEP_DISPLACE;
+  f->step.channels[0] = channel_of(f, CS_SVG_X_CHANNEL_SELECTOR);
+  f->step.channels[1] = channel_of(f, CS_SVG_Y_CHANNEL_SELECTOR);
+  f->step.scale = scaled(f, scale, scale).x;
+  return take_both(f);
+}
+
 /* The greatest and the least of the surrounding pixels are shapes if all pixels have one colour. */
 static celspan_status read_morphology(filter *f) {
   const char *word = cs_svg_node_value(f->node, CS_SVG_OPERATOR);
@@ -345,6 +363,7 @@ static step_reader *reader_of(cs_svg_element element) {
                  {CS_SVG_ELEMENT_FE_COLOR_MATRIX, read_matrix},
                  {CS_SVG_ELEMENT_FE_COMPONENT_TRANSFER, read_transfer},
                  {CS_SVG_ELEMENT_FE_COMPOSITE, read_composite},
+                 {CS_SVG_ELEMENT_FE_DISPLACEMENT_MAP, read_displacement},
                  {CS_SVG_ELEMENT_FE_DROP_SHADOW, read_shadow},
                  {CS_SVG_ELEMENT_FE_FLOOD, read_flood},
                  {CS_SVG_ELEMENT_FE_GAUSSIAN_BLUR, read_blur},

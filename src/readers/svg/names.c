@@ -189,9 +189,11 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"x", GEOMETRY, FORM(LENGTHS), NULL, NULL},
     {"x1", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
     {"x2", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
+    {"xChannelSelector", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"y", GEOMETRY, FORM(LENGTHS), NULL, NULL},
     {"y1", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
     {"y2", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
+    {"yChannelSelector", ATTRIBUTE, FORM(ANY), NULL, NULL},
 };
 
 #undef ATTRIBUTE

@@ -18,15 +18,15 @@
       ELEMENT(ELLIPSE, "ellipse"), ELEMENT(FE_BLEND, "feBlend"),                                   \
       ELEMENT(FE_COLOR_MATRIX, "feColorMatrix"),                                                   \
       ELEMENT(FE_COMPONENT_TRANSFER, "feComponentTransfer"), ELEMENT(FE_COMPOSITE, "feComposite"), \
-      ELEMENT(FE_DROP_SHADOW, "feDropShadow"), ELEMENT(FE_FLOOD, "feFlood"),                       \
-      ELEMENT(FE_FUNC_A, "feFuncA"), ELEMENT(FE_FUNC_B, "feFuncB"), ELEMENT(FE_FUNC_G, "feFuncG"), \
-      ELEMENT(FE_FUNC_R, "feFuncR"), ELEMENT(FE_GAUSSIAN_BLUR, "feGaussianBlur"),                  \
-      ELEMENT(FE_IMAGE, "feImage"), ELEMENT(FE_MERGE, "feMerge"),                                  \
-      ELEMENT(FE_MERGE_NODE, "feMergeNode"), ELEMENT(FE_MORPHOLOGY, "feMorphology"),               \
-      ELEMENT(FE_OFFSET, "feOffset"), ELEMENT(FE_TILE, "feTile"),                                  \
-      ELEMENT(FE_TURBULENCE, "feTurbulence"), ELEMENT(FILTER, "filter"),                           \
-      ELEMENT(FOREIGN_OBJECT, "foreignObject"), ELEMENT(G, "g"), ELEMENT(IMAGE, "image"),          \
-      ELEMENT(LINE, "line"), ELEMENT(LINEAR_GRADIENT, "linearGradient"),                           \
+      ELEMENT(FE_DISPLACEMENT_MAP, "feDisplacementMap"), ELEMENT(FE_DROP_SHADOW, "feDropShadow"),  \
+      ELEMENT(FE_FLOOD, "feFlood"), ELEMENT(FE_FUNC_A, "feFuncA"), ELEMENT(FE_FUNC_B, "feFuncB"),  \
+      ELEMENT(FE_FUNC_G, "feFuncG"), ELEMENT(FE_FUNC_R, "feFuncR"),                                \
+      ELEMENT(FE_GAUSSIAN_BLUR, "feGaussianBlur"), ELEMENT(FE_IMAGE, "feImage"),                   \
+      ELEMENT(FE_MERGE, "feMerge"), ELEMENT(FE_MERGE_NODE, "feMergeNode"),                         \
+      ELEMENT(FE_MORPHOLOGY, "feMorphology"), ELEMENT(FE_OFFSET, "feOffset"),                      \
+      ELEMENT(FE_TILE, "feTile"), ELEMENT(FE_TURBULENCE, "feTurbulence"),                          \
+      ELEMENT(FILTER, "filter"), ELEMENT(FOREIGN_OBJECT, "foreignObject"), ELEMENT(G, "g"),        \
+      ELEMENT(IMAGE, "image"), ELEMENT(LINE, "line"), ELEMENT(LINEAR_GRADIENT, "linearGradient"),  \
       ELEMENT(MARKER, "marker"), ELEMENT(MASK, "mask"), ELEMENT(METADATA, "metadata"),             \
       ELEMENT(MPATH, "mpath"), ELEMENT(PATH, "path"), ELEMENT(PATTERN, "pattern"),                 \
       ELEMENT(POLYGON, "polygon"), ELEMENT(POLYLINE, "polyline"),                                  \
@@ -207,9 +207,11 @@ typedef enum cs_svg_name {
   CS_SVG_X,
   CS_SVG_X1,
   CS_SVG_X2,
+  CS_SVG_X_CHANNEL_SELECTOR,
   CS_SVG_Y,
   CS_SVG_Y1,
   CS_SVG_Y2,
+  CS_SVG_Y_CHANNEL_SELECTOR,
   CS_SVG_NAME_COUNT
 } cs_svg_name;
 

@@ -4,6 +4,7 @@
 
 #include "base/context.h"
 #include "model/scene/bounds.h"
+#include "model/scene/displace.h"
 #include "model/scene/primitive_data.h"
 #include "model/scene/value.h"
 #include "readers/svg/objects.h"
@@ -297,6 +298,25 @@ static celspan_status make_shadow(const applying *a, celspan_object **out) {
   return status;
 }
 
+/* The channels are in the step's space, and clear is black. */
+static celspan_status make_displaced(const applying *a, celspan_object **out) {
+  const cs_svg_step *step = a->step;
+  celspan_displace_desc desc = CELSPAN_DISPLACE_DESC;
+  celspan_object *object = input(a, 0), *nothing = NULL;
+  if (!object || fabs(step->scale) > CELSPAN_BLUR_MOST)
+    return CELSPAN_OK;
+  if (!input(a, 1))
+    CS_TRY(celspan_object_create_boolean(a->context, CELSPAN_OPERATOR_UNION, NULL, 0, &nothing));
+  desc.by = nothing ? nothing : input(a, 1);
+  desc.x = step->channels[0];
+  desc.y = step->channels[1];
+  desc.scale = step->scale;
+  desc.space = step->space;
+  celspan_status status = cs_displace_object(a->context, object, &desc, true, out);
+  celspan_object_unref(nothing);
+  return status;
+}
+
 static celspan_status make_tile(const applying *a, celspan_object **out) {
   celspan_pattern_desc desc = CELSPAN_PATTERN_DESC;
   celspan_texture *texture;
@@ -405,23 +425,16 @@ static celspan_status make_image(const applying *a, celspan_object **out) {
 /* *out: NULL before the call; after it the result, and after a failure the result so far. */
 typedef celspan_status step_maker(const applying *a, celspan_object **out);
 
-static step_maker *const makers[] = {[CS_SVG_STEP_MERGE] = make_merge,
-                                     [CS_SVG_STEP_BLEND] = make_blend,
-                                     [CS_SVG_STEP_IN] = make_in,
-                                     [CS_SVG_STEP_OUT] = make_out,
-                                     [CS_SVG_STEP_ATOP] = make_atop,
-                                     [CS_SVG_STEP_XOR] = make_xor,
-                                     [CS_SVG_STEP_SUM] = make_sum,
-                                     [CS_SVG_STEP_COLOUR] = make_colour,
-                                     [CS_SVG_STEP_LUMA] = make_luma,
-                                     [CS_SVG_STEP_OFFSET] = make_offset,
-                                     [CS_SVG_STEP_BLUR] = make_blur,
-                                     [CS_SVG_STEP_SHADOW] = make_shadow,
-                                     [CS_SVG_STEP_FLOOD] = make_flood,
-                                     [CS_SVG_STEP_TILE] = make_tile,
-                                     [CS_SVG_STEP_IMAGE] = make_image,
-                                     [CS_SVG_STEP_GROW] = make_morphology,
-                                     [CS_SVG_STEP_SHRINK] = make_morphology};
+static step_maker *const makers[] = {
+    [CS_SVG_STEP_MERGE] = make_merge,     [CS_SVG_STEP_BLEND] = make_blend,
+    [CS_SVG_STEP_IN] = make_in,           [CS_SVG_STEP_OUT] = make_out,
+    [CS_SVG_STEP_ATOP] = make_atop,       [CS_SVG_STEP_XOR] = make_xor,
+    [CS_SVG_STEP_SUM] = make_sum,         [CS_SVG_STEP_COLOUR] = make_colour,
+    [CS_SVG_STEP_LUMA] = make_luma,       [CS_SVG_STEP_OFFSET] = make_offset,
+    [CS_SVG_STEP_BLUR] = make_blur,       [CS_SVG_STEP_DISPLACE] = make_displaced,
+    [CS_SVG_STEP_SHADOW] = make_shadow,   [CS_SVG_STEP_FLOOD] = make_flood,
+    [CS_SVG_STEP_TILE] = make_tile,       [CS_SVG_STEP_IMAGE] = make_image,
+    [CS_SVG_STEP_GROW] = make_morphology, [CS_SVG_STEP_SHRINK] = make_morphology};
 
 /* The element in the form in which the steps use it, and its silhouette. */
 static celspan_status make_sources(applying *a, celspan_object *object) {

@@ -34,9 +34,10 @@ typedef enum cs_svg_step_kind {
   CS_SVG_STEP_LUMA,   /* black, as opaque as the input is light */
   CS_SVG_STEP_OFFSET,
   CS_SVG_STEP_BLUR,
-  CS_SVG_STEP_GROW,   /* the paint at each point whose rectangle contains some of the input */
-  CS_SVG_STEP_SHRINK, /* the paint at each point whose rectangle is full of the input */
-  CS_SVG_STEP_SHADOW, /* the input over its silhouette, blurred and moved */
+  CS_SVG_STEP_DISPLACE, /* the first input, displaced by the second one */
+  CS_SVG_STEP_GROW,     /* the paint at each point whose rectangle contains some of the input */
+  CS_SVG_STEP_SHRINK,   /* the paint at each point whose rectangle is full of the input */
+  CS_SVG_STEP_SHADOW,   /* the input over its silhouette, blurred and moved */
   CS_SVG_STEP_FLOOD,
   CS_SVG_STEP_TILE, /* a part of the input, repeated */
   CS_SVG_STEP_IMAGE
@@ -50,14 +51,16 @@ typedef struct cs_svg_step {
   celspan_blend blend; /* BLEND */
   /* SUM: the weights of the inputs, of white and of the product: 0..CS_SVG_SUM_MOST */
   double weights[4];
-  int flood;              /* SUM: the input that is a flood, if there is a product */
-  celspan_grade *grade;   /* COLOUR; SUM: of the factor that is not the flood; owned; NULL: none */
-  double opacity;         /* COLOUR */
-  celspan_point offset;   /* OFFSET, SHADOW */
-  celspan_point radius;   /* BLUR, SHADOW, GROW, SHRINK: along x and y */
-  celspan_paint paint;    /* FLOOD, SHADOW, GROW, SHRINK */
-  celspan_box tile;       /* TILE */
-  celspan_object *object; /* IMAGE; owned; NULL: nothing */
+  int flood;            /* SUM: the input that is a flood, if there is a product */
+  celspan_grade *grade; /* COLOUR; SUM: of the factor that is not the flood; owned; NULL: none */
+  double opacity;       /* COLOUR */
+  celspan_point offset; /* OFFSET, SHADOW */
+  celspan_point radius; /* BLUR, SHADOW, GROW, SHRINK: along x and y */
+  celspan_paint paint;  /* FLOOD, SHADOW, GROW, SHRINK */
+  celspan_box tile;     /* TILE */
+  celspan_channel channels[2]; /* DISPLACE: along x and y */
+  double scale;                /* DISPLACE */
+  celspan_object *object;      /* IMAGE; owned; NULL: nothing */
 } cs_svg_step;
 
 #define CS_SVG_SUM_MOST 4
