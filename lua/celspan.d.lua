@@ -552,6 +552,11 @@ function object:displace(options) end
 ---@return celspan.object
 function object:blur(radius, options) end
 
+--- With more contrast between its points and those around them; its shape does not change.
+---@param options? celspan.sharpen.options
+---@return celspan.object
+function object:sharpen(options) end
+
 --- The whole shape in one texture, which is in the units around it, with its fade and its name.
 ---@param texture celspan.texture|celspan.paint|string
 ---@return celspan.object
@@ -920,6 +925,11 @@ function celspan.key(fields) end
 ---@field y? "r"|"g"|"b"|"a" The channel that moves along y; default "g"
 ---@field scale? number Units between the points that black and white show; -1000000 to 1000000; default 20
 ---@field space? "linear"|"srgb" Of the channels: codes, or light; default "srgb"
+
+--- How an object is sharpened.
+---@class celspan.sharpen.options
+---@field radius? number Of the blur that it is compared with; 0 to 1000; default 2
+---@field amount? number How often the difference is added; 0 to 100; default 1
 
 --- What shadow an object has.
 ---@class celspan.shadow.options

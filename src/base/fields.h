@@ -137,6 +137,11 @@ static const cs_description_field celspan_displace_desc_fields[] = {
     FIELD(celspan_displace_desc, x),           FIELD(celspan_displace_desc, y),
     FIELD(celspan_displace_desc, scale),       FIELD(celspan_displace_desc, space),
 };
+static const cs_description_field celspan_sharpen_desc_fields[] = {
+    FIELD(celspan_sharpen_desc, struct_size),
+    FIELD(celspan_sharpen_desc, radius),
+    FIELD(celspan_sharpen_desc, amount),
+};
 static const cs_description_field celspan_shadow_desc_fields[] = {
     FIELD(celspan_shadow_desc, struct_size), FIELD(celspan_shadow_desc, offset),
     FIELD(celspan_shadow_desc, blur),        FIELD(celspan_shadow_desc, colour),

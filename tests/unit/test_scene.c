@@ -734,7 +734,8 @@ static celspan_status try_outlines(celspan_context *context, celspan_object *sha
 
 /* Every effect of an object with a mode. */
 static celspan_status try_effects(celspan_context *context, celspan_object *object) {
-  celspan_object *source, *blurred = NULL, *shadow = NULL, *glow = NULL;
+  celspan_object *source, *blurred = NULL, *shadow = NULL, *glow = NULL, *sharp = NULL;
+  celspan_sharpen_desc finer = CELSPAN_SHARPEN_DESC;
   celspan_blur_desc blur = CELSPAN_BLUR_DESC;
   celspan_shadow_desc inside = CELSPAN_SHADOW_DESC;
   celspan_glow_desc light = CELSPAN_GLOW_DESC;
@@ -742,6 +743,10 @@ static celspan_status try_effects(celspan_context *context, celspan_object *obje
   inside.is_inside = true;
   CS_TRY(celspan_object_blend(context, object, CELSPAN_BLEND_SCREEN, &source));
   celspan_status status = celspan_object_blur(context, source, &blur, &blurred);
+  if (status == CELSPAN_OK)
+    status = celspan_object_sharpen(context, source, &finer, &sharp);
+  CHECK(status != CELSPAN_OK || celspan_object_mode(sharp) == CELSPAN_BLEND_SCREEN);
+  celspan_object_unref(sharp);
   if (status == CELSPAN_OK)
     status = celspan_object_shadow(context, source, &inside, &shadow);
   if (status == CELSPAN_OK)

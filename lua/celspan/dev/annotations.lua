@@ -444,6 +444,11 @@ function object:displace(options) end
 ---@return celspan.object
 function object:blur(radius, options) end
 
+--- With more contrast between its points and those around them; its shape does not change.
+---@param options? celspan.sharpen.options
+---@return celspan.object
+function object:sharpen(options) end
+
 --- The whole shape in one texture, which is in the units around it, with its fade and its name.
 ---@param texture celspan.texture|celspan.paint|string
 ---@return celspan.object
@@ -544,7 +549,7 @@ function celspan.clip(art, shape) end
 
 ---@noun blur.options
 
----@noun displace.options
+---@noun sharpen.options
 
 ---@noun shadow.options
 

@@ -239,6 +239,8 @@ double cs_defocus_extent(const cs_blur *blur, int axis) {
 }
 
 static double choose_pitch(const cs_blur *blur, int axis) {
+  if (blur->kind == CELSPAN_DEFOCUS_PIXEL)
+    return fmax(1, blur->steps[axis]);
   double fine = blur->kind == CELSPAN_DEFOCUS_GAUSSIAN ? FINE_GAUSSIAN
                 : blur->kind == CELSPAN_DEFOCUS_DISC   ? FINE_DISC
                                                        : FINE_BOX;
@@ -302,6 +304,7 @@ static celspan_status init_way(celspan_context *context, cs_defocus *defocus, bo
     return cs_defocus_sums_init(context, s->radius_x, s->radius_y, samples, &defocus->sums);
   case CS_DEFOCUS_SLICES:
     return cs_defocus_slices_init(context, s, &defocus->slices);
+  case CS_DEFOCUS_NEIGHBOURS:
   case CS_DEFOCUS_KERNEL:
   case CS_DEFOCUS_OWN:
   case CS_DEFOCUS_SHIFTED:
@@ -392,8 +395,10 @@ void cs_defocus_use_pixels(cs_defocus *defocus, const int32_t first[2], const in
 /* Returns how many pixels of the plans a node is wide. *x, *y: how many pixels the plans have
  * beyond the nodes on each side. */
 static int32_t find_extent(const cs_defocus *defocus, int32_t *x, int32_t *y) {
-  *x = defocus->edges.extent_x + defocus->sums.extent_x + defocus->slices.extent_x;
-  *y = defocus->edges.extent_y + defocus->sums.extent_y + defocus->slices.extent_y;
+  *x = defocus->edges.extent_x + defocus->sums.extent_x + defocus->slices.extent_x +
+       defocus->neighbours.extent[0];
+  *y = defocus->edges.extent_y + defocus->sums.extent_y + defocus->slices.extent_y +
+       defocus->neighbours.extent[1];
   return defocus->way == CS_DEFOCUS_SUMS     ? defocus->sums.factor
          : defocus->way == CS_DEFOCUS_SLICES ? defocus->slices.factor
                                              : 1;
@@ -420,7 +425,8 @@ static celspan_status sample_kernel(celspan_context *context, const cs_defocus *
   int32_t extent_x, extent_y, factor = find_extent(defocus, &extent_x, &extent_y);
   double blur = defocus->blur.blur * factor;
   double x = fmax(1, blur / defocus->grid.pitch_x), y = fmax(1, blur / defocus->grid.pitch_y);
-  const cs_blur square = {CELSPAN_DEFOCUS_BOX, 0.5 * x, 0.5 * y, {{0.5 * x, 0}, {0, 0.5 * y}}, 1};
+  const cs_blur square = {CELSPAN_DEFOCUS_BOX,          0.5 * x, 0.5 * y,
+                          {{0.5 * x, 0}, {0, 0.5 * y}}, 1,       {0, 0}};
   if (defocus->is_fine || (defocus->way == CS_DEFOCUS_SLICES && blur == 0))
     return CELSPAN_OK;
   return cs_kernel_create_defocus(context, &square, out);
@@ -431,12 +437,14 @@ celspan_status cs_defocus_kernel(celspan_context *context, const cs_defocus *def
   *out = NULL;
   switch (defocus->way) {
   case CS_DEFOCUS_EDGES:
+  case CS_DEFOCUS_NEIGHBOURS:
   case CS_DEFOCUS_OWN:
   case CS_DEFOCUS_SHIFTED:
     return CELSPAN_OK;
   case CS_DEFOCUS_SUMS:
-  case CS_DEFOCUS_SLICES:
-    return sample_kernel(context, defocus, out);
+  case CS_DEFOCUS_SLICES: /* what is sharpened is the mean over each pixel */
+    return defocus->blur.kind == CELSPAN_DEFOCUS_PIXEL ? CELSPAN_OK
+                                                       : sample_kernel(context, defocus, out);
   case CS_DEFOCUS_KERNEL: /* a pixel's own mean needs no kernel */
     return defocus->blur.kind == CELSPAN_DEFOCUS_PIXEL
                ? CELSPAN_OK
@@ -449,17 +457,19 @@ void cs_defocus_free(cs_defocus *defocus, cs_memory *memory) {
   cs_defocus_edges_finish(&defocus->edges, memory);
   cs_defocus_sums_finish(&defocus->sums, memory);
   cs_defocus_slices_finish(&defocus->slices, memory);
-  cs_shifted_finish(&defocus->shifted, memory);
+  cs_defocus_neighbours_finish(&defocus->neighbours);
   cs_mem_free(memory, defocus, sizeof *defocus);
 }
 
 /* ---------------------------------------------------------------- a band */
 
-static celspan_status sum_rows(const cs_defocus *defocus, cs_row_maker *maker, int32_t first,
-                               int32_t end, float (*nodes)[4]) {
+static celspan_status sum_rows(const cs_defocus *defocus, cs_row_maker *maker, int plane,
+                               int32_t first, int32_t end, float (*nodes)[4]) {
   int32_t columns = defocus->grid.columns;
+  if (defocus->way == CS_DEFOCUS_NEIGHBOURS)
+    return cs_defocus_neighbours_fill(&defocus->neighbours, maker, columns, first, end, nodes);
   return defocus->way == CS_DEFOCUS_SUMS
-             ? cs_defocus_sums_fill(&defocus->sums, maker, columns, first, end, nodes)
+             ? cs_defocus_sums_fill(&defocus->sums, maker, plane, columns, first, end, nodes)
              : cs_defocus_slices_fill(&defocus->slices, maker, columns, first, end, nodes);
 }
 
@@ -476,7 +486,7 @@ static celspan_status sum_plane(const cs_defocus *defocus, celspan_context *cont
   celspan_status status = cs_row_maker_init(&maker, context, &defocus->plans[plane]);
   int32_t columns = defocus->grid.columns, step = rows_together(defocus);
   for (int32_t y = first; y < end && status == CELSPAN_OK; y += step)
-    status = sum_rows(defocus, &maker, y, end - y < step ? end : y + step,
+    status = sum_rows(defocus, &maker, plane, y, end - y < step ? end : y + step,
                       nodes + (size_t)(y - first) * (size_t)columns);
   cs_row_maker_finish(&maker);
   return status;
@@ -498,7 +508,8 @@ static celspan_status make_band(const void *layer, celspan_context *context, int
   const cs_defocused *grid = &defocus->grid;
   int32_t first = number * grid->band_rows;
   int32_t end = grid->rows - first < grid->band_rows ? grid->rows : first + grid->band_rows;
-  bool is_summed = defocus->way == CS_DEFOCUS_SUMS || defocus->way == CS_DEFOCUS_SLICES;
+  bool is_summed = defocus->way == CS_DEFOCUS_SUMS || defocus->way == CS_DEFOCUS_SLICES ||
+                   defocus->way == CS_DEFOCUS_NEIGHBOURS;
   return is_summed ? sum_planes(defocus, context, first, end, band)
                    : fill_band(defocus, context, first, end, band);
 }

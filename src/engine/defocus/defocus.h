@@ -9,7 +9,7 @@
  *      o   |   o       o       o   /
  *
  *   cel --two plans: lit from the front (S), lit from behind (T)--> rows of spans on the grid
- *       --one of four ways--> bands of nodes
+ *       --one of five ways--> bands of nodes
  *
  *   or: the same on the cel's own grid (own_grid.h) --mixed (regrid.h)--> bands of nodes
  *   or: means over pixels on a grid of its own --read along a shift (shifted.h)--> bands of nodes
@@ -19,12 +19,14 @@
  *
  * Flat art is blurred by its boundaries: through a kernel (kernel/), or under a wide Gaussian line
  * by line (lines.h). Where pictures and gradients vary between the boundaries, samples on a finer
- * grid are summed: sums.h for a Gaussian, slices.h for even kernels.
+ * grid are summed: sums.h for a Gaussian, slices.h for even kernels. A cel that has a rule of its
+ * own (model/scene/nearby.h) is sharpened by sums.h, and changed by neighbours.h.
  */
 #pragma once
 
 #include "engine/defocus/bands.h"
 #include "engine/defocus/edges.h"
+#include "engine/defocus/neighbours.h"
 #include "engine/defocus/regrid.h"
 #include "engine/defocus/shifted.h"
 #include "engine/defocus/slices.h"
@@ -36,8 +38,8 @@ typedef enum cs_defocus_way {
   CS_DEFOCUS_EDGES,
   CS_DEFOCUS_SUMS,
   CS_DEFOCUS_SLICES,
-  CS_DEFOCUS_OWN,    /* the nodes are mixed from those of the cel's own grid */
-  CS_DEFOCUS_SHIFTED /* the nodes are read from it along a shift */
+  CS_DEFOCUS_NEIGHBOURS,
+  CS_DEFOCUS_OWN /* the nodes are mixed from those of the cel's own grid */
 } cs_defocus_way;
 
 /* Samples in the radius of a Gaussian, at least. */
@@ -54,6 +56,7 @@ struct cs_defocus {
   cs_defocus_edges edges;
   cs_defocus_sums sums;
   cs_defocus_slices slices;
+  cs_defocus_neighbours neighbours;
   bool is_fine;     /* there are enough samples for each to be the mean over its area */
   bool is_own;      /* the grid of a cel's own, whose bands are nodes */
   cs_defocus *own;  /* the cel's own grid, where it has one, and how the nodes are mixed from it; */

@@ -3,6 +3,7 @@
 #include "base/number.h"
 #include "engine/defocus/shifted_place.h"
 #include "model/scene/extend.h"
+#include "model/scene/nearby.h"
 #include "model/scene/texture.h"
 #include "model/scene/value.h"
 
@@ -13,7 +14,8 @@
  * pixels or more is smooth at the scale of pixels, and its value at their centres is shown. */
 #define SHARP 0.5
 #define SMOOTH 2.0
-#define EXTENT 4 /* radii: farther than any kernel reaches, including its grid */
+#define SHARP_MOST 500 /* pixels: the greatest radius of what is sharpened */
+#define EXTENT 4       /* radii: farther than any kernel reaches, including its grid */
 
 /* ---------------------------------------------------------------- the kernel */
 
@@ -30,6 +32,13 @@ static celspan_matrix touching(const celspan_matrix *map, celspan_point at) {
                            (m[3] - p.y / w * m[6]) / w, (m[4] - p.y / w * m[7]) / w, 0, 0, 0, 1}};
 }
 
+/* The radius of a cel's own rule, and the distance of its samples, in the cel's units. */
+static void find_rule(const cs_nearby *nearby, double *radius, double *step) {
+  bool is_even = nearby && (nearby->kind == CS_NEARBY_WEIGHTS || nearby->kind == CS_NEARBY_LIGHT);
+  *radius = nearby ? nearby->radius : 0;
+  *step = is_even ? 1 : 0;
+}
+
 /* The cel's kernel in pixels of the frame; in perspective, in the middle of its film. */
 static cs_blur find_blur(const cs_defocus_cel *place) {
   const celspan_point middle = {place->film_width / 2, place->film_height / 2};
@@ -38,11 +47,15 @@ static cs_blur find_blur(const cs_defocus_cel *place) {
   celspan_matrix map = touching(&whole, middle);
   const double *m = map.m;
   bool is_pixel = place->cel->defocus_kernel == CELSPAN_DEFOCUS_PIXEL;
-  double radius = is_pixel ? 0 : place->cel->defocus_radius;
-  cs_blur blur = {.kind = place->cel->defocus_kernel,
-                  .radius_x = radius * sqrt(m[0] * m[0] + m[1] * m[1]),
-                  .radius_y = radius * sqrt(m[3] * m[3] + m[4] * m[4]),
-                  .edges = {{radius * m[0], radius * m[3]}, {radius * m[1], radius * m[4]}}};
+  double radius = place->cel->defocus_radius, step = 0;
+  if (is_pixel)
+    find_rule(place->cel->nearby, &radius, &step);
+  cs_blur blur = {
+      .kind = place->cel->defocus_kernel,
+      .radius_x = radius * sqrt(m[0] * m[0] + m[1] * m[1]),
+      .radius_y = radius * sqrt(m[3] * m[3] + m[4] * m[4]),
+      .edges = {{radius * m[0], radius * m[3]}, {radius * m[1], radius * m[4]}},
+      .steps = {step * sqrt(m[0] * m[0] + m[1] * m[1]), step * sqrt(m[3] * m[3] + m[4] * m[4])}};
   double least = fmin(blur.radius_x, blur.radius_y);
   if (place->is_antialiased && !is_pixel)
     blur.blur = cs_number_clamp((SMOOTH - least) / (SMOOTH - SHARP), 0, 1);
@@ -155,7 +168,7 @@ static celspan_status compile_planes(celspan_context *context, const cs_defocus_
   defocus->extended = place->extended ? celspan_object_ref(place->extended) : NULL;
   CS_TRY(compile_plane(context, place, compiler, 0, defocus));
   defocus->grid.planes = 1;
-  if (stack_is_grey(&defocus->plans[0].stack))
+  if (defocus->way == CS_DEFOCUS_NEIGHBOURS || stack_is_grey(&defocus->plans[0].stack))
     return CELSPAN_OK;
   CS_TRY(compile_plane(context, place, compiler, 1, defocus));
   defocus->grid.planes = 2;
@@ -183,6 +196,8 @@ static cs_hash find_key(const cs_defocus_cel *place, const cs_blur *blur, double
   cs_hash_number(&hash, blur->blur);
   cs_hash_number(&hash, samples);
   cs_hash_word(&hash, place->space);
+  if (cel->nearby)
+    cs_hash_hash(&hash, cel->nearby->hash);
   return cs_hash_end(hash);
 }
 
@@ -258,6 +273,32 @@ static void use_pixels(const cs_boundary_frame *visible, cs_defocus *defocus) {
   cs_defocus_use_pixels(defocus, first, end);
 }
 
+static celspan_status use_sharpness(celspan_context *context, const cs_nearby *nearby,
+                                    cs_defocus *defocus) {
+  const cs_blur *blur = &defocus->blur;
+  defocus->way = CS_DEFOCUS_SUMS;
+  CS_TRY(cs_defocus_sums_init(context, fmin(blur->radius_x, SHARP_MOST),
+                              fmin(blur->radius_y, SHARP_MOST), 0, &defocus->sums));
+  defocus->sums.sharpens = true;
+  defocus->sums.amount = (float)nearby->amount;
+  return CELSPAN_OK;
+}
+
+/* Finds the way of a cel that is changed by a rule of its own. */
+static celspan_status use_nearby(celspan_context *context, const cs_defocus_cel *place,
+                                 cs_defocus *defocus) {
+  cs_nearby *nearby = place->cel->nearby;
+  const celspan_box *box = &nearby->box;
+  const celspan_point middle = {box->x + box->width / 2, box->y + box->height / 2};
+  if (nearby->kind == CS_NEARBY_SHARPEN)
+    return use_sharpness(context, nearby, defocus);
+  const celspan_matrix matrix = touching(&place->matrix, middle);
+  defocus->way = CS_DEFOCUS_NEIGHBOURS;
+  cs_defocus_neighbours_init(&defocus->neighbours, nearby);
+  const celspan_matrix to_samples = celspan_matrix_then(matrix, cs_defocus_matrix(defocus));
+  return cs_defocus_neighbours_place(context, &defocus->neighbours, &to_samples, place->space);
+}
+
 /* A layer whose nodes are made for the frame. *defocus: is replaced where there is one already. */
 static celspan_status make_for_frame(celspan_context *context, const cs_defocus_cel *place,
                                      bool varies, const cs_defocus_compiler *compiler,
@@ -268,7 +309,8 @@ static celspan_status make_for_frame(celspan_context *context, const cs_defocus_
     *defocus = before;
     return CELSPAN_OK;
   }
-  CS_TRY(cs_defocus_find_way(context, *defocus, varies));
+  CS_TRY(place->cel->nearby ? use_nearby(context, place, *defocus)
+                            : cs_defocus_find_way(context, *defocus, varies));
   return compile_new(context, place, compiler, *defocus);
 }
 

@@ -65,7 +65,7 @@ void cs_defocus_samples_spread(const cs_defocus_samples *samples, int32_t k, cs_
 static void sum_tile(cs_defocus_samples *samples, const cs_defocus_tiles *tiles, int32_t x,
                      int32_t count, float (*nodes)[4]) {
   cs_v4 colour;
-  bool is_plain = are_plain(samples, &colour);
+  bool is_plain = !tiles->has_function && are_plain(samples, &colour);
   for (int32_t k = 0; k < samples->count && !is_plain; k++)
     tiles->take_row(tiles->user, k);
   for (int32_t y = 0; y < tiles->rows; y++) {

@@ -34,6 +34,7 @@ typedef struct cs_defocus_tiles {
   int32_t columns, rows; /* of nodes */
   int32_t width;         /* of a tile, in nodes, at most */
   int32_t factor, extent;
+  bool has_function; /* a plain tile has nodes of another colour, which must be made, too */
   void (*take_row)(void *user, int32_t k); /* row k of the samples under the tile */
   /* Row y of the tile's nodes, `count` of them, when all rows of samples have been taken. */
   void (*sum_nodes)(void *user, int32_t y, int32_t count, float (*nodes)[4]);

@@ -100,9 +100,11 @@ void cs_defocus_sums_finish(cs_defocus_sums *sums, cs_memory *memory) {
 typedef struct summing {
   const cs_defocus_sums *sums;
   cs_isa isa;
+  float amount;
   cs_defocus_samples samples; /* the samples under all nodes */
   cs_v4 *row;                 /* samples of one row under the tile, */
   cs_v4 *placed;              /* and by their place within a node's width */
+  cs_v4 *middle;              /* the samples at the nodes, to sharpen them: TILE a row, or NULL */
   cs_v4 *across;              /* summed along the rows: TILE nodes a row */
   float (*out)[4];            /* TILE nodes */
 } summing;
@@ -121,15 +123,30 @@ static void sum_across(void *user, int32_t k) {
   summing *s = user;
   const cs_defocus_sums *sums = s->sums;
   cs_v4 colour, *out = s->across + (size_t)k * TILE;
+  cs_v4 *middle = s->middle ? s->middle + (size_t)k * TILE : NULL;
   if (cs_defocus_samples_are_one(&s->samples, k, &colour)) {
     for (int32_t x = 0; x < TILE; x++)
       out[x] = colour;
+    for (int32_t x = 0; middle && x < TILE; x++)
+      middle[x] = colour;
     return;
   }
   place_samples(s, k);
+  if (middle)
+    memcpy(middle, s->row + sums->extent_x,
+           (size_t)(s->samples.high - s->samples.low - 2 * sums->extent_x) * sizeof *middle);
   CS_WIDE_CHOOSE(s->isa, cs_defocus_sums_about)
   (sums->across, sums->extent_x, (const float *)s->placed,
    4 * place_of(sums, sums->extent_x + sums->factor / 2), TILE, (float *)out);
+}
+
+/* A sample, sharpened by the Gaussian around it. */
+static cs_v4 sharpened(cs_v4 sample, cs_v4 soft, float amount) {
+  if (!(amount > 0) || !(soft[3] > 0))
+    return sample;
+  cs_v4 sharp = sample + amount * (sample - sample[3] / soft[3] * soft);
+  sharp[3] = sample[3];
+  return cs_v4_max(sharp, cs_v4_all(0));
 }
 
 static void sum_down(void *user, int32_t y, int32_t count, float (*nodes)[4]) {
@@ -139,15 +156,19 @@ static void sum_down(void *user, int32_t y, int32_t count, float (*nodes)[4]) {
   CS_WIDE_CHOOSE(s->isa, cs_defocus_sums_about)
   (sums->down, sums->extent_y, (const float *)(s->across + first * TILE), 4 * TILE * middle, TILE,
    s->out[0]);
+  const cs_v4 *samples = s->middle ? s->middle + (size_t)(y + sums->extent_y) * TILE : NULL;
+  for (int32_t x = 0; samples && x < count; x++)
+    cs_v4_store(s->out[x], sharpened(samples[x], cs_v4_load(s->out[x]), s->amount));
   memcpy(nodes, s->out, (size_t)count * sizeof *nodes);
 }
 
-celspan_status cs_defocus_sums_fill(const cs_defocus_sums *sums, cs_row_maker *maker,
+celspan_status cs_defocus_sums_fill(const cs_defocus_sums *sums, cs_row_maker *maker, int plane,
                                     int32_t columns, int32_t first, int32_t end,
                                     float (*nodes)[4]) {
   celspan_context *context = maker->context;
   cs_memory *memory = context->memory;
-  summing s = {.sums = sums, .isa = maker->painter.isa};
+  /* what the cel lets through does not change */
+  summing s = {.sums = sums, .isa = maker->painter.isa, .amount = plane == 0 ? sums->amount : 0};
   const cs_defocus_tiles tiles = {.columns = columns,
                                   .rows = end - first,
                                   .width = TILE,
@@ -164,7 +185,10 @@ celspan_status cs_defocus_sums_fill(const cs_defocus_sums *sums, cs_row_maker *m
   s.placed = cs_mem_array(memory, placed, sizeof *s.placed);
   s.across = cs_mem_array(memory, across, sizeof *s.across);
   s.out = cs_mem_array(memory, TILE, sizeof *s.out);
-  if (status == CELSPAN_OK && (!s.row || !s.placed || !s.across || !s.out))
+  if (sums->sharpens)
+    s.middle = cs_mem_array(memory, across, sizeof *s.middle);
+  bool is_whole = s.row && s.placed && s.across && s.out && (s.middle || !sums->sharpens);
+  if (status == CELSPAN_OK && !is_whole)
     status = cs_fail_memory(context);
   if (status == CELSPAN_OK)
     status = cs_defocus_samples_make(&s.samples, maker, first * sums->factor);
@@ -175,5 +199,6 @@ celspan_status cs_defocus_sums_fill(const cs_defocus_sums *sums, cs_row_maker *m
   cs_mem_free(memory, s.placed, placed * sizeof *s.placed);
   cs_mem_free(memory, s.across, across * sizeof *s.across);
   cs_mem_free(memory, s.out, TILE * sizeof *s.out);
+  cs_mem_free(memory, s.middle, across * sizeof *s.middle);
   return status;
 }

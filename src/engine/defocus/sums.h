@@ -11,6 +11,9 @@
  * A row's samples are kept by their place within a node's width (as in slices.h), so that the
  * samples that neighbouring nodes need are neighbours too, and are read many at a time. Stretches
  * in which all rows are one colour are not summed.
+ *
+ * To sharpen, a node is its own sample plus a multiple of its difference from the Gaussian, which
+ * is weighted by alpha: what lies around the cel does not count.
  */
 #pragma once
 
@@ -24,6 +27,8 @@ typedef struct cs_defocus_pair {
 } cs_defocus_pair;
 
 typedef struct cs_defocus_sums {
+  bool sharpens;              /* the nodes are sharpened samples; the factor is 1 */
+  float amount;               /* of that: how often the difference is added to what is shown */
   int32_t factor;             /* samples in a node's width */
   int32_t extent_x, extent_y; /* samples beyond the node's own on each side */
   float *weights[2];          /* by distance: extent_x + 1 and extent_y + 1 of them */
@@ -38,10 +43,10 @@ CELSPAN_CHECKED celspan_status cs_defocus_sums_init(celspan_context *context, do
                                                     double radius_y, double samples,
                                                     cs_defocus_sums *out);
 void cs_defocus_sums_finish(cs_defocus_sums *sums, cs_memory *memory);
-/* Fills the rows [first, end) of `columns` nodes each. maker: of the samples. Errors: those of its
- * rows. */
+/* Fills the rows [first, end) of `columns` nodes each. maker: of the samples of a plane. Errors:
+ * those of its rows. */
 CELSPAN_CHECKED celspan_status cs_defocus_sums_fill(const cs_defocus_sums *sums,
-                                                    cs_row_maker *maker, int32_t columns,
+                                                    cs_row_maker *maker, int plane, int32_t columns,
                                                     int32_t first, int32_t end, float (*nodes)[4]);
 
 /* ---- sums_wide.c */

@@ -23,6 +23,7 @@ typedef struct cs_blur {
   double radius_x, radius_y; /* GAUSSIAN: two sigmas, and it extends twice as far; DISC */
   double edges[2][2];        /* BOX: half of two sides, as vectors */
   double blur;               /* width of the square that is also averaged over; 0: none */
+  double steps[2];           /* PIXEL: from sample to sample, where that is above 1 */
 } cs_blur;
 
 /* BOX: whether its sides lie along the axes. */

@@ -232,8 +232,8 @@ struct celspan_cel {
   double opacity;
   celspan_blend blend;
   celspan_grade *grade; /* NULL: none. A reference */
-  /* only where it is defocused by pixels (shift.h). NULL: none. A reference */
-  struct cs_shift *shift;
+  /* nearby.h; only where it is defocused by pixels. NULL: none. A reference */
+  struct cs_nearby *nearby;
   bool blends_inside[CS_SPACES]; /* in that space, any of its objects acts on its backdrop */
   /* a mode is in the cel, except inside a rostrum, or is its own; or it has a grade */
   bool has_modes;

@@ -203,7 +203,8 @@ celspan_status cs_record_defocused(celspan_context *context, const cs_defocus *d
     return cs_fail(
         context, CELSPAN_BAD_ARGUMENT,
         "plane: a blurred object is in view that is in perspective, is coloured glass, or "
-        "is blurred too little to be kept without a size");
+        "is blurred too little to be kept without a size, or one that is sharpened or filtered "
+        "by its pixels");
   *out = (planefile_axis){.kind = PLANEFILE_PICTURE,
                           .wrap = PLANEFILE_WRAP_CLAMP,
                           .filter = PLANEFILE_FILTER_CUBIC,

@@ -1,0 +1,21 @@
+/* What all effects need: the composition that holds an object as a cel, and modes, which stay
+ * outermost.
+ */
+#pragma once
+
+#include "model/scene/scene.h"
+
+/* The result of an effect on an object without a mode. desc: of the effect. */
+typedef celspan_status (*cs_effects_maker)(celspan_context *context, celspan_object *object,
+                                           const void *desc, celspan_object **made);
+
+/* Makes the effect of an object. The mode of the object becomes the mode of the result, which gets
+ * the object's name and line. Errors: NO_MEMORY, and those of `add`. */
+CELSPAN_CHECKED celspan_status cs_effects_make(celspan_context *context, celspan_object *object,
+                                               cs_effects_maker add, const void *desc,
+                                               celspan_object **out);
+/* A cel as an object: a composition of it that ends at `frame`, in the cel's units, where the
+ * object lies, too. brightness: the factor of its light. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_effects_compose(celspan_context *context, celspan_cel *cel,
+                                                  const celspan_box *frame, double brightness,
+                                                  celspan_object **out);
