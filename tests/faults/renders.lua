@@ -128,6 +128,12 @@ local function defocus(kernel)
       celspan.rect { 10, 2, 8, 13, texture = "#ffffffbb" } } }
 end
 
+local function neighbours()
+  local art = assert(require("celspan.svg").read(root .. "/tests/faults/neighbours.svg"))
+  return celspan.rostrum { back = "#fff", celspan.cel { art.object,
+    celspan.circle { centre = { 16, 10 }, radius = 5, texture = ramp }:sharpen { radius = 3 } } }
+end
+
 local function kernels()
   local tent = { kernel = function(x) visit() return math.max(0, 1 - math.abs(x)) end, radius = 1 }
   local inner = shapes()
@@ -191,6 +197,7 @@ local makers = {
   { name = "painting", make = painting, is_cold = true, sinks = {} },
   { name = "strokes", make = strokes, sinks = { "span" } },
   { name = "gaussian", make = function() return defocus "gaussian" end, sinks = { "png" } },
+  { name = "neighbours", make = neighbours, is_cold = true, sinks = {}, has_type = true },
   { name = "disc", make = function() return defocus "disc" end, sinks = {} },
   { name = "shifted", make = shifted, sinks = {} },
   { name = "kernels", make = kernels, sinks = { "sink" } },

@@ -165,6 +165,25 @@ static bool is_share(const function *f, double *share) {
   return is_straight;
 }
 
+/* ---------------------------------------------------------------- functions of alpha */
+
+/* Gives the step a function of alpha. ground: the colour where there is nothing. */
+static celspan_status give_alpha(const cs_svg_reading *reading, const function *f,
+                                 const double ground[3], cs_svg_step *step) {
+  celspan_context *context = reading->context;
+  cs_nearby fields = {.kind = CS_NEARBY_ALPHA, .count = CS_NEARBY_TABLE};
+  float *values;
+  CS_TRY(CS_MAKE(context, values, CS_NEARBY_TABLE));
+  for (size_t i = 0; i < CS_NEARBY_TABLE; i++)
+    values[i] = (float)cs_number_clamp(value_at(f, (double)i / (CS_NEARBY_TABLE - 1)), 0, 1);
+  for (int c = 0; c < 3; c++)
+    fields.ground[c] = cs_number_clamp(ground[c], 0, 1);
+  fields.numbers = values;
+  celspan_status status = cs_nearby_create(context, &fields, &step->nearby);
+  cs_mem_free(context->memory, values, CS_NEARBY_TABLE * sizeof *values);
+  return status;
+}
+
 /* Whether some values could not be read: there are more than VALUES, or they are no numbers. */
 static bool has_other_values(const cs_svg_node *node, const function *f) {
   const char *text = cs_svg_node_value(node, CS_SVG_TABLE_VALUES);
@@ -172,11 +191,13 @@ static bool has_other_values(const cs_svg_node *node, const function *f) {
 }
 
 /* The functions of the channels that have elements. */
-static void read_functions(const cs_svg_node *node, curve curves[3], celspan_grade_desc *desc,
-                           cs_svg_step *step, const char **reason) {
+static celspan_status read_functions(const cs_svg_reading *reading, const cs_svg_node *node,
+                                     curve curves[3], celspan_grade_desc *desc, cs_svg_step *step,
+                                     const char **reason) {
   static const cs_svg_element channels[] = {CS_SVG_ELEMENT_FE_FUNC_R, CS_SVG_ELEMENT_FE_FUNC_G,
                                             CS_SVG_ELEMENT_FE_FUNC_B, CS_SVG_ELEMENT_FE_FUNC_A};
-  function f;
+  function f, alpha = {.kind = FUNCTION_IDENTITY};
+  double ground[3] = {0, 0, 0};
   for (const cs_svg_node *child = node->first; child; child = child->next)
     for (int channel = 0; channel < 4; channel++) {
       if (child->element != channels[channel])
@@ -184,11 +205,19 @@ static void read_functions(const cs_svg_node *node, curve curves[3], celspan_gra
       read_function(child, &f);
       if (has_other_values(child, &f))
         *reason = "with such tableValues";
-      else if (channel == 3 && !is_share(&f, &step->opacity))
-        *reason = "with such a feFuncA";
-      else if (channel < 3 && f.kind != FUNCTION_IDENTITY)
-        give_curve(curve_of(&f, &curves[channel]), channel, desc);
+      else if (channel == 3)
+        alpha = f;
+      else {
+        desc->curve_count[channel] = 0;
+        ground[channel] = value_at(&f, 0);
+        if (f.kind != FUNCTION_IDENTITY)
+          give_curve(curve_of(&f, &curves[channel]), channel, desc);
+      }
     }
+  if (is_share(&alpha, &step->opacity))
+    return CELSPAN_OK;
+  step->opacity = 1;
+  return give_alpha(reading, &alpha, ground, step);
 }
 
 celspan_status cs_svg_transfer_read(cs_svg_reading *reading, const cs_svg_node *node,
@@ -197,9 +226,9 @@ celspan_status cs_svg_transfer_read(cs_svg_reading *reading, const cs_svg_node *
   curve *curves;
   step->kind = CS_SVG_STEP_COLOUR;
   CS_TRY(CS_MAKE(reading->context, curves, 3));
-  read_functions(node, curves, &desc, step, reason);
-  celspan_status status =
-      *reason ? CELSPAN_OK : celspan_grade_create(reading->context, &desc, &step->grade);
+  celspan_status status = read_functions(reading, node, curves, &desc, step, reason);
+  if (status == CELSPAN_OK && !*reason)
+    status = celspan_grade_create(reading->context, &desc, &step->grade);
   cs_mem_free(reading->context->memory, curves, 3 * sizeof *curves);
   return status;
 }
@@ -207,24 +236,28 @@ celspan_status cs_svg_transfer_read(cs_svg_reading *reading, const cs_svg_node *
 /* ---------------------------------------------------------------- feColorMatrix */
 
 /* 20 numbers, row by row; a matrix of another size has no effect. */
-static void read_matrix(const cs_svg_node *node, celspan_grade_desc *desc, cs_svg_step *step,
-                        const char **reason) {
+static celspan_status read_matrix(const cs_svg_reading *reading, const cs_svg_node *node,
+                                  celspan_grade_desc *desc, cs_svg_step *step,
+                                  const char **reason) {
   double values[20];
   if (cs_svg_filter_numbers(node, CS_SVG_VALUES, values, 20) != 20)
-    return;
+    return CELSPAN_OK;
   const double *alpha = &values[15];
-  bool is_share = alpha[0] == 0 && alpha[1] == 0 && alpha[2] == 0 && alpha[4] == 0 &&
-                  alpha[3] >= 0 && alpha[3] <= 1;
-  if (!is_share)
-    *reason = "with such a row for alpha";
+  const function line = {.kind = FUNCTION_LINEAR, .slope = alpha[3], .intercept = alpha[4]};
+  const double ground[3] = {values[4], values[9], values[14]};
+  if (alpha[0] != 0 || alpha[1] != 0 || alpha[2] != 0)
+    *reason = "with alpha that depends on colours";
   desc->has_matrix = true;
-  step->opacity = is_share ? alpha[3] : 1;
   for (int row = 0; row < 3; row++) {
     if (values[5 * row + 3] != 0)
       *reason = "with colours that depend on alpha";
     for (int column = 0; column < 4; column++)
       desc->matrix[row][column] = values[5 * row + (column < 3 ? column : 4)];
   }
+  if (*reason || is_share(&line, &step->opacity))
+    return CELSPAN_OK;
+  step->opacity = 1;
+  return give_alpha(reading, &line, ground, step);
 }
 
 /* ---------------------------------------------------------------- products */
@@ -290,6 +323,6 @@ celspan_status cs_svg_colour_matrix_read(cs_svg_reading *reading, const cs_svg_n
   else if (is_type(node, "hueRotate"))
     cs_svg_hue_set(&desc, cs_svg_filter_number(node, CS_SVG_VALUES, 0));
   else
-    read_matrix(node, &desc, step, reason);
+    CS_TRY(read_matrix(reading, node, &desc, step, reason));
   return *reason ? CELSPAN_OK : cs_svg_clamped_grade(reading, &desc, &step->grade);
 }

@@ -1,10 +1,11 @@
 /* Filters of colours, feColorMatrix and feComponentTransfer, as grades.
  *
  *     colour, not premultiplied --> matrix or curves --> clamped to 0..1
- *     alpha ----------------------> times a share
+ *     alpha ----------------------> times a share, or a function of its own
  *
- * A grade does not change how much light passes, so alpha may only be multiplied by 0..1; other
- * functions of alpha, and colours that depend on alpha, are not read.
+ * A grade does not change how much light passes. Where alpha is not just multiplied by 0..1, a rule
+ * (model/scene/nearby.h) changes each pixel. Alpha that depends on colours, and colours that depend
+ * on alpha, are not read.
  */
 #pragma once
 

@@ -6,7 +6,7 @@
 
 #include "base/number.h"
 #include "model/colour/blend.h"
-#include "readers/svg/filter_colours.h"
+#include "readers/svg/filter_nearby.h"
 #include "readers/svg/filter_turbulence.h"
 #include "readers/svg/image.h"
 #include "readers/svg/regions.h"
@@ -291,6 +291,25 @@ static celspan_status read_transfer(filter *f) {
   return cs_svg_transfer_read(f->reading, f->node, &f->step, &f->reason);
 }
 
+/* Reads the box before the others do, as rules need it. */
+static celspan_status take_boxed(filter *f) {
+  CS_TRY(take_input(f, f->node, CS_SVG_IN));
+  CS_TRY(read_box(f));
+  f->step.box = common(&f->step.box, &f->recipe->region);
+  return CELSPAN_OK;
+}
+
+static celspan_status read_weights(filter *f) {
+  CS_TRY(take_boxed(f));
+  return cs_svg_weights_read(f->reading, f->node, &f->step, &f->reason);
+}
+
+static celspan_status read_lighting(filter *f) {
+  const cs_svg_filter_units units = {f->is_in_shares, &f->box};
+  CS_TRY(take_boxed(f));
+  return cs_svg_lighting_read(f->reading, f->node, &f->style, &units, &f->step, &f->reason);
+}
+
 /* The box of the input is repeated. */
 static celspan_status read_tile(filter *f) {
   f->step.kind = CS_SVG_STEP_TILE;
@@ -363,7 +382,8 @@ static step_reader *reader_of(cs_svg_element element) {
                  {CS_SVG_ELEMENT_FE_COLOR_MATRIX, read_matrix},
                  {CS_SVG_ELEMENT_FE_COMPONENT_TRANSFER, read_transfer},
                  {CS_SVG_ELEMENT_FE_COMPOSITE, read_composite},
-                 {CS_SVG_ELEMENT_FE_DISPLACEMENT_MAP, read_displacement},
+                 {CS_SVG_ELEMENT_FE_CONVOLVE_MATRIX, read_weights},
+                 {CS_SVG_ELEMENT_FE_DIFFUSE_LIGHTING, read_lighting},
                  {CS_SVG_ELEMENT_FE_DROP_SHADOW, read_shadow},
                  {CS_SVG_ELEMENT_FE_FLOOD, read_flood},
                  {CS_SVG_ELEMENT_FE_GAUSSIAN_BLUR, read_blur},
@@ -371,6 +391,7 @@ static step_reader *reader_of(cs_svg_element element) {
                  {CS_SVG_ELEMENT_FE_MERGE, read_merge},
                  {CS_SVG_ELEMENT_FE_MORPHOLOGY, read_morphology},
                  {CS_SVG_ELEMENT_FE_OFFSET, read_offset},
+                 {CS_SVG_ELEMENT_FE_SPECULAR_LIGHTING, read_lighting},
                  {CS_SVG_ELEMENT_FE_TILE, read_tile},
                  {CS_SVG_ELEMENT_FE_TURBULENCE, read_turbulence}};
   for (size_t i = 0; i < sizeof readers / sizeof *readers; i++)

@@ -18,12 +18,16 @@
       ELEMENT(ELLIPSE, "ellipse"), ELEMENT(FE_BLEND, "feBlend"),                                   \
       ELEMENT(FE_COLOR_MATRIX, "feColorMatrix"),                                                   \
       ELEMENT(FE_COMPONENT_TRANSFER, "feComponentTransfer"), ELEMENT(FE_COMPOSITE, "feComposite"), \
-      ELEMENT(FE_DISPLACEMENT_MAP, "feDisplacementMap"), ELEMENT(FE_DROP_SHADOW, "feDropShadow"),  \
+      ELEMENT(FE_CONVOLVE_MATRIX, "feConvolveMatrix"),                                             \
+      ELEMENT(FE_DIFFUSE_LIGHTING, "feDiffuseLighting"),                                           \
+      ELEMENT(FE_DISTANT_LIGHT, "feDistantLight"), ELEMENT(FE_DROP_SHADOW, "feDropShadow"),        \
       ELEMENT(FE_FLOOD, "feFlood"), ELEMENT(FE_FUNC_A, "feFuncA"), ELEMENT(FE_FUNC_B, "feFuncB"),  \
       ELEMENT(FE_FUNC_G, "feFuncG"), ELEMENT(FE_FUNC_R, "feFuncR"),                                \
       ELEMENT(FE_GAUSSIAN_BLUR, "feGaussianBlur"), ELEMENT(FE_IMAGE, "feImage"),                   \
       ELEMENT(FE_MERGE, "feMerge"), ELEMENT(FE_MERGE_NODE, "feMergeNode"),                         \
       ELEMENT(FE_MORPHOLOGY, "feMorphology"), ELEMENT(FE_OFFSET, "feOffset"),                      \
+      ELEMENT(FE_POINT_LIGHT, "fePointLight"),                                                     \
+      ELEMENT(FE_SPECULAR_LIGHTING, "feSpecularLighting"), ELEMENT(FE_SPOT_LIGHT, "feSpotLight"),  \
       ELEMENT(FE_TILE, "feTile"), ELEMENT(FE_TURBULENCE, "feTurbulence"),                          \
       ELEMENT(FILTER, "filter"), ELEMENT(FOREIGN_OBJECT, "foreignObject"), ELEMENT(G, "g"),        \
       ELEMENT(IMAGE, "image"), ELEMENT(LINE, "line"), ELEMENT(LINEAR_GRADIENT, "linearGradient"),  \
@@ -61,9 +65,11 @@ typedef enum cs_svg_name {
   CS_SVG_ANIMATION_PLAY_STATE,
   CS_SVG_ANIMATION_TIMING_FUNCTION,
   CS_SVG_ATTRIBUTE_NAME,
+  CS_SVG_AZIMUTH,
   CS_SVG_BASE_FREQUENCY,
   CS_SVG_BASELINE_SHIFT,
   CS_SVG_BEGIN,
+  CS_SVG_BIAS,
   CS_SVG_BY,
   CS_SVG_CALC_MODE,
   CS_SVG_CLASS,
@@ -75,13 +81,16 @@ typedef enum cs_svg_name {
   CS_SVG_CX,
   CS_SVG_CY,
   CS_SVG_D,
+  CS_SVG_DIFFUSE_CONSTANT,
   CS_SVG_DIRECTION,
   CS_SVG_DISPLAY,
+  CS_SVG_DIVISOR,
   CS_SVG_DOMINANT_BASELINE,
   CS_SVG_DUR,
   CS_SVG_DX,
   CS_SVG_DY,
   CS_SVG_EDGE_MODE,
+  CS_SVG_ELEVATION,
   CS_SVG_END,
   CS_SVG_EXPONENT,
   CS_SVG_FILL,
@@ -112,12 +121,16 @@ typedef enum cs_svg_name {
   CS_SVG_K2,
   CS_SVG_K3,
   CS_SVG_K4,
+  CS_SVG_KERNEL_MATRIX,
+  CS_SVG_KERNEL_UNIT_LENGTH,
   CS_SVG_KEY_POINTS,
   CS_SVG_KEY_SPLINES,
   CS_SVG_KEY_TIMES,
   CS_SVG_LABEL,
   CS_SVG_LENGTH_ADJUST,
   CS_SVG_LETTER_SPACING,
+  CS_SVG_LIGHTING_COLOR,
+  CS_SVG_LIMITING_CONE_ANGLE,
   CS_SVG_MARKER,
   CS_SVG_MARKER_END,
   CS_SVG_MARKER_MID,
@@ -142,6 +155,7 @@ typedef enum cs_svg_name {
   CS_SVG_OFFSET_ROTATE,
   CS_SVG_OPACITY,
   CS_SVG_OPERATOR,
+  CS_SVG_ORDER,
   CS_SVG_ORIENT,
   CS_SVG_OVERFLOW,
   CS_SVG_PAINT_ORDER,
@@ -151,6 +165,10 @@ typedef enum cs_svg_name {
   CS_SVG_PATTERN_TRANSFORM,
   CS_SVG_PATTERN_UNITS,
   CS_SVG_POINTS,
+  CS_SVG_POINTS_AT_X,
+  CS_SVG_POINTS_AT_Y,
+  CS_SVG_POINTS_AT_Z,
+  CS_SVG_PRESERVE_ALPHA,
   CS_SVG_PRESERVE_ASPECT_RATIO,
   CS_SVG_PRIMITIVE_UNITS,
   CS_SVG_R,
@@ -171,6 +189,8 @@ typedef enum cs_svg_name {
   CS_SVG_SIDE,
   CS_SVG_SLOPE,
   CS_SVG_SPACE,
+  CS_SVG_SPECULAR_CONSTANT,
+  CS_SVG_SPECULAR_EXPONENT,
   CS_SVG_SPREAD_METHOD,
   CS_SVG_START_OFFSET,
   CS_SVG_STD_DEVIATION,
@@ -186,8 +206,11 @@ typedef enum cs_svg_name {
   CS_SVG_STROKE_OPACITY,
   CS_SVG_STROKE_WIDTH,
   CS_SVG_STYLE,
+  CS_SVG_SURFACE_SCALE,
   CS_SVG_SYSTEM_LANGUAGE,
   CS_SVG_TABLE_VALUES,
+  CS_SVG_TARGET_X,
+  CS_SVG_TARGET_Y,
   CS_SVG_TEXT_ANCHOR,
   CS_SVG_TEXT_DECORATION,
   CS_SVG_TEXT_LENGTH,
@@ -211,7 +234,7 @@ typedef enum cs_svg_name {
   CS_SVG_Y,
   CS_SVG_Y1,
   CS_SVG_Y2,
-  CS_SVG_Y_CHANNEL_SELECTOR,
+  CS_SVG_Z,
   CS_SVG_NAME_COUNT
 } cs_svg_name;
 

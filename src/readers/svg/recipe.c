@@ -25,6 +25,7 @@ celspan_status cs_svg_recipe_create(celspan_context *context, cs_svg_recipe **ou
 static void finish_step(const cs_svg_step *step) {
   celspan_grade_unref(step->grade);
   celspan_object_unref(step->object);
+  cs_nearby_unref(step->nearby);
 }
 
 celspan_status cs_svg_recipe_append(celspan_context *context, cs_svg_recipe *recipe,
@@ -240,8 +241,18 @@ static celspan_status make_sum(const applying *a, celspan_object **out) {
 
 /* ---------------------------------------------------------------- steps of one input */
 
+/* Changes an object, or nothing, by the step's rule. */
+static celspan_status change(const applying *a, celspan_object **object) {
+  celspan_object *made = NULL;
+  celspan_status status =
+      cs_nearby_apply(a->context, *object, a->step->nearby, &a->step->box, &made);
+  CS_TRY(cs_svg_object_replace(status, made, object));
+  return convert(a, a->step->space, object);
+}
+
 static celspan_status make_colour(const applying *a, celspan_object **out) {
-  return grade(a, input(a, 0), out);
+  CS_TRY(grade(a, input(a, 0), out));
+  return a->step->nearby ? change(a, out) : CELSPAN_OK;
 }
 
 static celspan_status make_luma(const applying *a, celspan_object **out) {
@@ -298,26 +309,8 @@ static celspan_status make_shadow(const applying *a, celspan_object **out) {
   return status;
 }
 
-/* The channels are in the step's space, and clear is black. */
-static celspan_status make_displaced(const applying *a, celspan_object **out) {
-  const cs_svg_step *step = a->step;
-  celspan_displace_desc desc = CELSPAN_DISPLACE_DESC;
-  celspan_object *object = input(a, 0), *nothing = NULL;
-  if (!object || fabs(step->scale) > CELSPAN_BLUR_MOST)
-    return CELSPAN_OK;
-  if (!input(a, 1))
-    CS_TRY(celspan_object_create_boolean(a->context, CELSPAN_OPERATOR_UNION, NULL, 0, &nothing));
-  desc.by = nothing ? nothing : input(a, 1);
-  desc.x = step->channels[0];
-  desc.y = step->channels[1];
-  desc.scale = step->scale;
-  desc.space = step->space;
-  celspan_status status = cs_displace_object(a->context, object, &desc, true, out);
-  celspan_object_unref(nothing);
-  return status;
-}
-
-static celspan_status make_tile(const applying *a, celspan_object **out) {
+/* The tile of the input in all of a box. */
+static celspan_status repeat(const applying *a, const celspan_box *box, celspan_object **out) {
   celspan_pattern_desc desc = CELSPAN_PATTERN_DESC;
   celspan_texture *texture;
   desc.art = input(a, 0);
@@ -325,9 +318,25 @@ static celspan_status make_tile(const applying *a, celspan_object **out) {
   if (!desc.art || !(desc.box.width > 0) || !(desc.box.height > 0))
     return CELSPAN_OK;
   CS_TRY(celspan_texture_create_pattern(a->context, &desc, &texture));
-  celspan_status status = cs_svg_object_fill(a->context, &a->step->box, texture, out);
+  celspan_status status = cs_svg_object_fill(a->context, box, texture, out);
   celspan_texture_unref(texture);
   return status;
+}
+
+static celspan_status make_tile(const applying *a, celspan_object **out) {
+  return repeat(a, &a->step->box, out);
+}
+
+static celspan_status make_nearby(const applying *a, celspan_object **out) {
+  const cs_svg_step *step = a->step;
+  const celspan_box *box = &step->box;
+  const double x = step->nearby->size[0], y = step->nearby->size[1];
+  const celspan_box around = {box->x - x, box->y - y, box->width + 2 * x, box->height + 2 * y};
+  if (step->tile.width > 0)
+    CS_TRY(repeat(a, &around, out));
+  else
+    *out = kept(input(a, 0));
+  return change(a, out);
 }
 
 /* ---------------------------------------------------------------- morphology */
@@ -431,9 +440,9 @@ static step_maker *const makers[] = {
     [CS_SVG_STEP_ATOP] = make_atop,       [CS_SVG_STEP_XOR] = make_xor,
     [CS_SVG_STEP_SUM] = make_sum,         [CS_SVG_STEP_COLOUR] = make_colour,
     [CS_SVG_STEP_LUMA] = make_luma,       [CS_SVG_STEP_OFFSET] = make_offset,
-    [CS_SVG_STEP_BLUR] = make_blur,       [CS_SVG_STEP_DISPLACE] = make_displaced,
-    [CS_SVG_STEP_SHADOW] = make_shadow,   [CS_SVG_STEP_FLOOD] = make_flood,
-    [CS_SVG_STEP_TILE] = make_tile,       [CS_SVG_STEP_IMAGE] = make_image,
+    [CS_SVG_STEP_BLUR] = make_blur,       [CS_SVG_STEP_SHADOW] = make_shadow,
+    [CS_SVG_STEP_FLOOD] = make_flood,     [CS_SVG_STEP_TILE] = make_tile,
+    [CS_SVG_STEP_NEARBY] = make_nearby,   [CS_SVG_STEP_IMAGE] = make_image,
     [CS_SVG_STEP_GROW] = make_morphology, [CS_SVG_STEP_SHRINK] = make_morphology};
 
 /* The element in the form in which the steps use it, and its silhouette. */

@@ -16,7 +16,7 @@
 
 #include <stdatomic.h>
 
-#include "base/context.h"
+#include "model/scene/nearby.h"
 
 #define CS_SVG_SOURCES 2 /* the element, and its silhouette in black */
 /* How often the result of a recipe may contain the sources. */
@@ -39,7 +39,8 @@ typedef enum cs_svg_step_kind {
   CS_SVG_STEP_SHRINK,   /* the paint at each point whose rectangle is full of the input */
   CS_SVG_STEP_SHADOW,   /* the input over its silhouette, blurred and moved */
   CS_SVG_STEP_FLOOD,
-  CS_SVG_STEP_TILE, /* a part of the input, repeated */
+  CS_SVG_STEP_TILE,   /* a part of the input, repeated */
+  CS_SVG_STEP_NEARBY, /* the input changed by a rule */
   CS_SVG_STEP_IMAGE
 } cs_svg_step_kind;
 
@@ -51,16 +52,15 @@ typedef struct cs_svg_step {
   celspan_blend blend; /* BLEND */
   /* SUM: the weights of the inputs, of white and of the product: 0..CS_SVG_SUM_MOST */
   double weights[4];
-  int flood;            /* SUM: the input that is a flood, if there is a product */
-  celspan_grade *grade; /* COLOUR; SUM: of the factor that is not the flood; owned; NULL: none */
-  double opacity;       /* COLOUR */
-  celspan_point offset; /* OFFSET, SHADOW */
-  celspan_point radius; /* BLUR, SHADOW, GROW, SHRINK: along x and y */
-  celspan_paint paint;  /* FLOOD, SHADOW, GROW, SHRINK */
-  celspan_box tile;     /* TILE */
-  celspan_channel channels[2]; /* DISPLACE: along x and y */
-  double scale;                /* DISPLACE */
-  celspan_object *object;      /* IMAGE; owned; NULL: nothing */
+  int flood;              /* SUM: the input that is a flood, if there is a product */
+  celspan_grade *grade;   /* COLOUR; SUM: of the factor that is not the flood; owned; NULL: none */
+  double opacity;         /* COLOUR */
+  celspan_point offset;   /* OFFSET, SHADOW */
+  celspan_point radius;   /* BLUR, SHADOW, GROW, SHRINK: along x and y */
+  celspan_paint paint;    /* FLOOD, SHADOW, GROW, SHRINK */
+  celspan_box tile;       /* TILE; NEARBY: what is repeated first, if it has a size */
+  cs_nearby *nearby;      /* NEARBY; COLOUR: afterwards; owned; NULL: none */
+  celspan_object *object; /* IMAGE; owned; NULL: nothing */
 } cs_svg_step;
 
 #define CS_SVG_SUM_MOST 4

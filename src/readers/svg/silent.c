@@ -77,7 +77,6 @@ static const silent_name silent_names[] = {
     {"inlist", NULL},
     {"kerning", "auto"},
     {"lang", NULL},
-    {"lighting-color", NULL},
     {"line-height", NULL},
     {"line-spacing", NULL},
     {"list-style", NULL},

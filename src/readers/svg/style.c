@@ -200,7 +200,7 @@ static void read_font_size(const char *text, double inherited, double *out) {
 /* ---------------------------------------------------------------- the style */
 
 cs_svg_style cs_svg_style_initial(void) {
-  const cs_svg_colour black = {{0, 0, 0}, 1};
+  const cs_svg_colour black = {{0, 0, 0}, 1}, white = {{1, 1, 1}, 1};
   return (cs_svg_style){
       .colour = black,
       .fill = {.kind = CS_SVG_PAINT_COLOUR, .colour = black},
@@ -214,7 +214,8 @@ cs_svg_style cs_svg_style_initial(void) {
       .is_displayed = true,
       .opacity = 1,
       .stop_colour = black,
-      .flood_colour = black};
+      .flood_colour = black,
+      .light_colour = white};
 }
 
 static void inherit(const cs_svg_style *parent, cs_svg_style *out) {
@@ -229,6 +230,7 @@ static void inherit(const cs_svg_style *parent, cs_svg_style *out) {
   out->shows_overflow = out->uses_alpha = out->keeps_width = false;
   out->stop_colour = initial.stop_colour;
   out->flood_colour = initial.flood_colour;
+  out->light_colour = initial.light_colour;
   out->is_about_box = false;
   out->transform = out->translate = out->rotate = out->scale = out->transform_origin = NULL;
   out->offset = initial.offset;
@@ -368,6 +370,8 @@ static void read_own(const cs_svg_cascade *from, const cs_svg_style *parent, cs_
                   &out->stop_colour);
   read_own_colour(values[CS_SVG_FLOOD_COLOR], values[CS_SVG_FLOOD_OPACITY], &parent->flood_colour,
                   out, &out->flood_colour);
+  read_own_colour(values[CS_SVG_LIGHTING_COLOR], NULL, &parent->light_colour, out,
+                  &out->light_colour);
   out->transform =
       is_inherited(values[CS_SVG_TRANSFORM]) ? parent->transform : values[CS_SVG_TRANSFORM];
   out->translate = values[CS_SVG_TRANSLATE];
