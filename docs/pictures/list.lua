@@ -94,6 +94,7 @@ local list = {
 -- shades; or, if what matters is the movement, with the frames of a strip.
 for _, recipe in ipairs {
   { "cast_shadow", 12 }, { "drop_shadow", 10, "360x202" }, { "neon_glow", 24, "360x202" },
+  { "bloom", 10, "240x135" }, { "light_wrap", 10, "240x135" },
   { "soft_vignette", 1, "360x202" }, { "stained_glass", 20, "360x202" },
   { "time_lapse", strip = "28,52,82" }, { "letter_mask", 20 }, { "clock_wipe", strip = "8,20,32" },
   { "iris_out", strip = "10,22,31" }, { "endless_zoom", strip = "1,17,33" }, { "split_screen", 8 },
@@ -103,7 +104,7 @@ for _, recipe in ipairs {
   { "falling_letters", 24 }, { "typewriter", 72 }, { "srt_subtitles", 96 }, { "handwriting", 52 },
   { "bar_race", 57 }, { "pie_chart", 44 }, { "line_chart", 50 }, { "rolling_counter", 30 },
   { "island_map", 40 }, { "value_map", 60 }, { "many_scripts", 60 },
-  { "paper_texture", 1, "360x202" }, { "boiling_line", strip = "1,4,7" },
+  { "paper_texture", 1, "320x180" }, { "boiling_line", strip = "1,4,7" },
   { "hatching", 1, "360x202" }, { "halftone_dots", 1, "360x202" }, { "snowfall", 30, "360x202" },
   { "clouds", 30, "320x180" }, { "water_reflection", 10 },
   { "squash_stretch", strip = "16,20,25" }, { "magnifying_lens", 40 },

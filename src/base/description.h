@@ -46,6 +46,7 @@ typedef struct cs_description {
   EACH(celspan_matte_desc)                                                                         \
   EACH(celspan_key_desc)                                                                           \
   EACH(celspan_blur_desc)                                                                          \
+  EACH(celspan_displace_desc)                                                                      \
   EACH(celspan_sharpen_desc)                                                                       \
   EACH(celspan_shadow_desc)                                                                        \
   EACH(celspan_glow_desc)                                                                          \

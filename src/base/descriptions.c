@@ -47,6 +47,8 @@ DESCRIBE(celspan_group_desc, object_count, .opacity = 1)
 DESCRIBE(celspan_matte_desc, struct_size, )
 DESCRIBE(celspan_key_desc, struct_size, .tolerance = 0.2, .softness = 0.1, .spill = 1, .to = 1)
 DESCRIBE(celspan_blur_desc, radius, )
+DESCRIBE(celspan_displace_desc, struct_size, .y = CELSPAN_CHANNEL_GREEN, .scale = 20,
+         .space = CELSPAN_SPACE_SRGB)
 DESCRIBE(celspan_sharpen_desc, struct_size, .radius = 2, .amount = 1)
 DESCRIBE(celspan_shadow_desc, struct_size, .opacity = 1)
 DESCRIBE(celspan_glow_desc, struct_size, .gain = 1)

@@ -256,6 +256,13 @@ typedef struct celspan_blur_desc { size_t struct_size; double radius; celspan_de
 void celspan_blur_desc_default(celspan_blur_desc *out, size_t struct_size);
 celspan_status celspan_object_blur(celspan_context *context, celspan_object *object, const
   celspan_blur_desc *desc, celspan_object **out);
+typedef enum celspan_channel { CELSPAN_CHANNEL_RED = 0, CELSPAN_CHANNEL_GREEN,
+  CELSPAN_CHANNEL_BLUE, CELSPAN_CHANNEL_ALPHA } celspan_channel;
+typedef struct celspan_displace_desc { size_t struct_size; celspan_object *by; celspan_channel x,
+  y; double scale; celspan_space space; } celspan_displace_desc;
+void celspan_displace_desc_default(celspan_displace_desc *out, size_t struct_size);
+celspan_status celspan_object_displace(celspan_context *context, celspan_object *object, const
+  celspan_displace_desc *desc, celspan_object **out);
 typedef struct celspan_sharpen_desc { size_t struct_size; double radius; double amount; }
   celspan_sharpen_desc;
 void celspan_sharpen_desc_default(celspan_sharpen_desc *out, size_t struct_size);

@@ -549,6 +549,8 @@ function celspan.clip(art, shape) end
 
 ---@noun blur.options
 
+---@noun displace.options
+
 ---@noun sharpen.options
 
 ---@noun shadow.options

@@ -457,6 +457,7 @@ void cs_defocus_free(cs_defocus *defocus, cs_memory *memory) {
   cs_defocus_edges_finish(&defocus->edges, memory);
   cs_defocus_sums_finish(&defocus->sums, memory);
   cs_defocus_slices_finish(&defocus->slices, memory);
+  cs_shifted_finish(&defocus->shifted, memory);
   cs_defocus_neighbours_finish(&defocus->neighbours);
   cs_mem_free(memory, defocus, sizeof *defocus);
 }

@@ -39,7 +39,8 @@ typedef enum cs_defocus_way {
   CS_DEFOCUS_SUMS,
   CS_DEFOCUS_SLICES,
   CS_DEFOCUS_NEIGHBOURS,
-  CS_DEFOCUS_OWN /* the nodes are mixed from those of the cel's own grid */
+  CS_DEFOCUS_OWN,    /* the nodes are mixed from those of the cel's own grid */
+  CS_DEFOCUS_SHIFTED /* the nodes are read from it along a shift */
 } cs_defocus_way;
 
 /* Samples in the radius of a Gaussian, at least. */

@@ -1003,6 +1003,31 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_blur(celspan_context *
                                                                const celspan_blur_desc *desc,
                                                                celspan_object **out);
 
+typedef enum celspan_channel {
+  CELSPAN_CHANNEL_RED = 0,
+  CELSPAN_CHANNEL_GREEN,
+  CELSPAN_CHANNEL_BLUE,
+  CELSPAN_CHANNEL_ALPHA
+} celspan_channel;
+
+typedef struct celspan_displace_desc {
+  size_t struct_size;
+  celspan_object *by;   /* borrowed, in the units of the object, which it may be */
+  celspan_channel x, y; /* of `by`, without its alpha; RED and GREEN */
+  double scale;         /* units, -1e6..1e6; 20 */
+  celspan_space space;  /* of the channels: LINEAR, or SRGB, their codes */
+} celspan_displace_desc;
+
+CELSPAN_DESCRIPTION(celspan_displace_desc)
+#define CELSPAN_DISPLACE_DESC (celspan_displace_desc_initial())
+
+/* The object, which shows at each point p what lies at p + scale (channel - 0.5); channels are
+ * clamped to 0..1, and nothing moves where `by` is clear. Its shape is the rectangle that it can
+ * reach. A mode stays outermost. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+CELSPAN_API CELSPAN_CHECKED celspan_status
+celspan_object_displace(celspan_context *context, celspan_object *object,
+                        const celspan_displace_desc *desc, celspan_object **out);
+
 #define CELSPAN_SHARPEN_RADIUS_MOST 1000
 #define CELSPAN_SHARPEN_MOST 100
 

@@ -1,4 +1,5 @@
-/* object:blur, object:sharpen, object:shadow, object:glow and object:outline; cels have the last
+/* object:blur, object:displace, object:sharpen, object:shadow, object:glow and object:outline; cels
+ * have the last three.
  * three.
  * The result is a value with the object as its list and the options as its fields. */
 #include "lua/bind/caller.h"
@@ -22,7 +23,6 @@ const char *const cs_nouns_edges[] = {"clear", "extend", NULL};
     cs_form_try(form, celspan_object_##effect(cs_host_context(form->L), object[0], &desc, &made)); \
     value->handle = made;                                                                          \
   }
-CREATE(blur, CELSPAN_BLUR_DESC)
 CREATE(sharpen, CELSPAN_SHARPEN_DESC)
 CREATE(shadow, CELSPAN_SHADOW_DESC)
 CREATE(glow, CELSPAN_GLOW_DESC)
@@ -74,6 +74,47 @@ const cs_noun cs_noun_blur = {.name = "blur",
                               CS_FROM_OBJECT,
                               .fields = blur_rows,
                               .create = create_blur};
+
+typedef struct displace_fields {
+  celspan_displace_desc desc;
+  int space; /* of cs_space_words */
+} displace_fields;
+
+static void create_displace(const cs_form *form, cs_userdata *value) {
+  displace_fields fields = {CELSPAN_DISPLACE_DESC, CELSPAN_SPACE_SRGB - CELSPAN_SPACE_LINEAR};
+  celspan_object **object = cs_shape_items(form, 1), *made = NULL;
+  cs_fields_read(form, &fields);
+  fields.desc.space = (celspan_space)(CELSPAN_SPACE_LINEAR + fields.space);
+  cs_form_get(form, "by");
+  cs_userdata *by = cs_shape_at(form->L, -1);
+  if (!by)
+    cs_form_fail(form, "field 'by' must be an object, got %s", cs_userdata_type(form->L, -1));
+  fields.desc.by = by->handle; /* the table or the stack keeps it alive */
+  cs_form_try(form,
+              celspan_object_displace(cs_host_context(form->L), object[0], &fields.desc, &made));
+  value->handle = made;
+}
+
+static const char *const channels[] = {"r", "g", "b", "a", NULL};
+static const cs_field displace_rows[] = {
+    {"by", CS_OWN("celspan.shape"), .is_required = true,
+     .about = "The object whose colours say how far, in the object's units"},
+    {"x", CS_CHOICE(displace_fields, desc.x, channels), .preset = "r",
+     .about = "The channel that moves along x"},
+    {"y", CS_CHOICE(displace_fields, desc.y, channels), .preset = "g",
+     .about = "The channel that moves along y"},
+    {"scale", CS_NUMBER(displace_fields, desc.scale), .least = -CELSPAN_BLUR_MOST,
+     .most = CELSPAN_BLUR_MOST, .preset = "20",
+     .about = "Units between the points that black and white show"},
+    {"space", CS_CHOICE(displace_fields, space, cs_space_words), .preset = "srgb",
+     .about = "Of the channels: codes, or light"},
+    {0}};
+const cs_noun cs_noun_displace = {.name = "displace",
+                                  .about = "How an object is displaced.",
+                                  .table = "celspan.displace.options",
+                                  CS_FROM_OBJECT,
+                                  .fields = displace_rows,
+                                  .create = create_displace};
 
 static const cs_field sharpen_rows[] = {
     {"radius", CS_NUMBER(celspan_sharpen_desc, radius), .least = 0,
@@ -204,6 +245,8 @@ static int apply(lua_State *L, const cs_noun *noun) {
   lua_settop(L, 2);
   return cs_userdata_test(L, 1, &cs_kind_cel) ? change_cel(L, noun) : change_object(L, noun);
 }
+
+int cs_nouns_displace(lua_State *L) { return change_object(L, &cs_noun_displace); }
 
 int cs_nouns_sharpen(lua_State *L) { return change_object(L, &cs_noun_sharpen); }
 

@@ -33,12 +33,32 @@ const cs_noun *const cs_nouns_made[] = {&cs_noun_paint,
                                         &cs_noun_film,
                                         NULL};
 
-const cs_noun *const cs_nouns_tables[] = {
-    &cs_noun_stroke_style, &cs_noun_glyph,  &cs_noun_matte,   &cs_noun_blur,       &cs_noun_sharpen,
-    &cs_noun_shadow,       &cs_noun_glow,   &cs_noun_outline, &cs_noun_light,      &cs_noun_defocus,
-    &cs_noun_grain,        &cs_noun_grade,  &cs_noun_camera,  &cs_noun_filter,     &cs_noun_frame,
-    &cs_noun_sound,        &cs_noun_render, &cs_noun_pixels,  &cs_noun_bytes,      &cs_noun_write,
-    &cs_noun_spans,        &cs_noun_probe,  &cs_noun_plane,   &cs_noun_plane_view, NULL};
+const cs_noun *const cs_nouns_tables[] = {&cs_noun_stroke_style,
+                                          &cs_noun_glyph,
+                                          &cs_noun_matte,
+                                          &cs_noun_blur,
+                                          &cs_noun_displace,
+                                          &cs_noun_sharpen,
+                                          &cs_noun_shadow,
+                                          &cs_noun_glow,
+                                          &cs_noun_outline,
+                                          &cs_noun_light,
+                                          &cs_noun_defocus,
+                                          &cs_noun_grain,
+                                          &cs_noun_grade,
+                                          &cs_noun_camera,
+                                          &cs_noun_filter,
+                                          &cs_noun_frame,
+                                          &cs_noun_sound,
+                                          &cs_noun_render,
+                                          &cs_noun_pixels,
+                                          &cs_noun_bytes,
+                                          &cs_noun_write,
+                                          &cs_noun_spans,
+                                          &cs_noun_probe,
+                                          &cs_noun_plane,
+                                          &cs_noun_plane_view,
+                                          NULL};
 
 /* ---------------------------------------------------------------- descriptions */
 

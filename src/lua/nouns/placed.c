@@ -239,5 +239,7 @@ static int contains(lua_State *L) {
   }
 const luaL_Reg cs_placed_methods[] = {METHODS};
 const luaL_Reg cs_placed_object_methods[] = {
-    {"blur", cs_nouns_blur},     {"sharpen", cs_nouns_sharpen}, {"stroke", cs_stroke_method},
-    {"paint", cs_derived_paint}, {"metrics", cs_text_metrics},  METHODS};
+    {"blur", cs_nouns_blur},         {"displace", cs_nouns_displace},
+    {"sharpen", cs_nouns_sharpen},   {"stroke", cs_stroke_method},
+    {"paint", cs_derived_paint},     {"metrics", cs_text_metrics},
+    METHODS};

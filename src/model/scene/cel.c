@@ -45,6 +45,8 @@ static void hash_placement(cs_hash *hash, const celspan_cel *cel) {
   if (cel->blend != CELSPAN_BLEND_NORMAL)
     cs_hash_word(hash, cel->blend);
   cs_grade_hash(hash, cel->grade);
+  if (cel->shift)
+    cs_hash_hash(hash, cel->shift->hash);
   if (cel->nearby)
     cs_hash_hash(hash, cel->nearby->hash);
 }
@@ -104,6 +106,7 @@ static celspan_status create(celspan_context *context, const celspan_cel *fields
   cel->front = cs_light_ref(&fields->front);
   cel->back = cs_light_ref(&fields->back);
   cel->grade = celspan_grade_ref(fields->grade);
+  cel->shift = cs_shift_ref(fields->shift);
   cel->nearby = cs_nearby_ref(fields->nearby);
   cel->object_count = object_count;
   find_modes(cel);
@@ -196,6 +199,7 @@ celspan_status cs_cel_bare(celspan_context *context, const celspan_cel *cel, cs_
     fields.defocus_radius = 0;
     fields.defocus_kernel = CELSPAN_DEFOCUS_GAUSSIAN;
     fields.defocus_edge = CELSPAN_BLUR_CLEAR;
+    fields.shift = NULL;
     fields.nearby = NULL;
   }
   if (without.mixing) {
@@ -210,13 +214,14 @@ celspan_status cs_cel_with(celspan_context *context, const celspan_cel *cel,
   return create(context, cel, objects, count, cs_mark_keep(cel->mark), out);
 }
 
-celspan_status cs_cel_nearby(celspan_context *context, celspan_object *const *objects, size_t count,
-                             cs_nearby *nearby, celspan_cel **out) {
+celspan_status cs_cel_of_pixels(celspan_context *context, celspan_object *const *objects,
+                                size_t count, cs_cel_reading reading, celspan_cel **out) {
   const celspan_cel fields = {.matrix = celspan_matrix_identity(),
                               .defocus_radius = 1,
                               .defocus_kernel = CELSPAN_DEFOCUS_PIXEL,
                               .opacity = 1,
-                              .nearby = nearby};
+                              .shift = reading.shift,
+                              .nearby = reading.nearby};
   return create(context, &fields, objects, count, cs_mark_now(context), out);
 }
 
@@ -232,6 +237,7 @@ static void destroy(celspan_cel *cel) {
   cs_light_unref(&cel->front);
   cs_light_unref(&cel->back);
   celspan_grade_unref(cel->grade);
+  cs_shift_unref(cel->shift);
   cs_nearby_unref(cel->nearby);
   cs_mark_drop(cel->mark);
   cs_counted_free(memory, cel, sizeof *cel);

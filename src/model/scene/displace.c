@@ -21,7 +21,7 @@
 static celspan_status compose(celspan_context *context, celspan_object *object, cs_shift *shift,
                               const celspan_box *frame, celspan_object **out) {
   celspan_cel *cel;
-  CS_TRY(cs_cel_shifted(context, object, shift, &cel));
+  CS_TRY(cs_cel_of_pixels(context, &object, 1, (cs_cel_reading){.shift = shift}, &cel));
   celspan_status status = cs_effect_compose(context, cel, frame, 1, out);
   celspan_cel_unref(cel);
   return status;

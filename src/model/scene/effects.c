@@ -12,8 +12,6 @@
  * A silhouette is the object's bounds in one colour, with the object as their matte: as soft as the
  * object is. A mode stays outermost: it is removed from the object, and given to the result.
  */
-#include "model/scene/effects.h"
-
 #include <math.h>
 
 #include "base/description.h"
@@ -74,43 +72,12 @@ static celspan_status make_cel(celspan_context *context, celspan_object *object,
   return celspan_cel_create(context, &fields, out);
 }
 
-static celspan_status make_rostrum(celspan_context *context, celspan_cel *cel,
-                                   const celspan_box *frame, double brightness,
-                                   celspan_rostrum **out) {
-  celspan_rostrum_desc fields = CELSPAN_ROSTRUM_DESC;
-  fields.cels = &cel;
-  fields.cel_count = 1;
-  fields.has_size = true;
-  fields.width = frame->width;
-  fields.height = frame->height;
-  fields.brightness = brightness;
-  return celspan_rostrum_create(context, &fields, out);
-}
-
-celspan_status cs_effects_compose(celspan_context *context, celspan_cel *cel,
-                                  const celspan_box *frame, double brightness,
-                                  celspan_object **out) {
-  const celspan_matrix matrix = celspan_matrix_translation(-frame->x, -frame->y);
-  celspan_cel *moved;
-  celspan_rostrum *rostrum = NULL;
-  celspan_object *made = NULL;
-  CS_TRY(celspan_cel_transform(context, cel, &matrix, &moved));
-  celspan_status status = make_rostrum(context, moved, frame, brightness, &rostrum);
-  celspan_cel_unref(moved);
-  if (status == CELSPAN_OK)
-    status = celspan_object_create_rostrum(context, rostrum, &made);
-  celspan_rostrum_unref(rostrum);
-  if (status == CELSPAN_OK)
-    status = move(context, &made, frame->x, frame->y);
-  return CS_GIVE(status, made, celspan_object_unref, out);
-}
-
 static celspan_status compose(celspan_context *context, celspan_object *object,
                               const celspan_blur_desc *desc, const celspan_box *frame,
                               double brightness, celspan_object **out) {
   celspan_cel *cel;
   CS_TRY(make_cel(context, object, desc, &cel));
-  celspan_status status = cs_effects_compose(context, cel, frame, brightness, out);
+  celspan_status status = cs_effect_compose(context, cel, frame, brightness, out);
   celspan_cel_unref(cel);
   return status;
 }
@@ -154,15 +121,6 @@ static celspan_status blur(celspan_context *context, celspan_object *object,
   return status;
 }
 
-celspan_status cs_effects_make(celspan_context *context, celspan_object *object,
-                               cs_effects_maker add, const void *desc, celspan_object **out) {
-  celspan_object *plain, *made = NULL;
-  CS_TRY(celspan_object_blend(context, object, CELSPAN_BLEND_NORMAL, &plain));
-  celspan_status status = add(context, plain, desc, &made);
-  celspan_object_unref(plain);
-  return finish(context, object, status, made, out);
-}
-
 static celspan_status add_blur(celspan_context *context, celspan_object *object, const void *desc,
                                celspan_object **out) {
   return blur(context, object, desc, 1, out);
@@ -184,7 +142,7 @@ celspan_status celspan_object_blur(celspan_context *context, celspan_object *obj
   CS_TRY(cs_check_choice(context, "blur", "kernel", (unsigned)desc->kernel,
                          CELSPAN_DEFOCUS_PIXEL + 1));
   CS_TRY(cs_check_choice(context, "blur", "edge", (unsigned)desc->edge, CELSPAN_BLUR_EXTEND + 1));
-  return cs_effects_make(context, object, add_blur, desc, out);
+  return cs_effect_make(context, object, add_blur, desc, out);
 }
 
 /* ---------------------------------------------------------------- silhouettes */
@@ -278,7 +236,7 @@ celspan_status celspan_object_shadow(celspan_context *context, celspan_object *o
                                      const celspan_shadow_desc *desc, celspan_object **out) {
   CS_READ(context, "shadow", celspan_shadow_desc, desc);
   CS_TRY(check_shadow(context, object, desc));
-  return cs_effects_make(context, object, add_shadow, desc, out);
+  return cs_effect_make(context, object, add_shadow, desc, out);
 }
 
 /* ---------------------------------------------------------------- glows */
@@ -303,7 +261,7 @@ celspan_status celspan_object_glow(celspan_context *context, celspan_object *obj
                                    const celspan_glow_desc *desc, celspan_object **out) {
   CS_READ(context, "glow", celspan_glow_desc, desc);
   CS_TRY(check_glow(context, object, desc));
-  return cs_effects_make(context, object, add_glow, desc, out);
+  return cs_effect_make(context, object, add_glow, desc, out);
 }
 
 /* ---------------------------------------------------------------- outlines */
@@ -407,5 +365,5 @@ celspan_status celspan_object_outline(celspan_context *context, celspan_object *
                                       const celspan_outline_desc *desc, celspan_object **out) {
   CS_READ(context, "outline", celspan_outline_desc, desc);
   CS_TRY(check_outline(context, object, desc));
-  return cs_effects_make(context, object, add_outline, desc, out);
+  return cs_effect_make(context, object, add_outline, desc, out);
 }

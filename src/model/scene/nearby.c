@@ -5,7 +5,7 @@
 #include "base/description.h"
 #include "model/scene/bounds.h"
 #include "model/scene/check.h"
-#include "model/scene/effects.h"
+#include "model/scene/effect.h"
 #include "model/scene/value.h"
 
 /* ---------------------------------------------------------------- values */
@@ -97,10 +97,10 @@ celspan_status cs_nearby_apply(celspan_context *context, celspan_object *object,
   celspan_object *objects[2] = {NULL, object};
   celspan_cel *cel = NULL;
   CS_TRY(make_clear(context, frame, &objects[0]));
-  celspan_status status = cs_cel_nearby(context, objects, object ? 2 : 1, nearby, &cel);
+  celspan_status status = cs_cel_of_pixels(context, objects, object ? 2 : 1, (cs_cel_reading){.nearby = nearby}, &cel);
   celspan_object_unref(objects[0]);
   if (status == CELSPAN_OK)
-    status = cs_effects_compose(context, cel, frame, 1, out);
+    status = cs_effect_compose(context, cel, frame, 1, out);
   celspan_cel_unref(cel);
   return status;
 }
@@ -141,7 +141,7 @@ celspan_status celspan_object_sharpen(celspan_context *context, celspan_object *
       cs_check_range(context, "sharpen", "radius", desc->radius, 0, CELSPAN_SHARPEN_RADIUS_MOST));
   CS_TRY(cs_check_range(context, "sharpen", "amount", desc->amount, 0, CELSPAN_SHARPEN_MOST));
   if (desc->radius > 0 && desc->amount > 0)
-    return cs_effects_make(context, object, add_sharpness, desc, out);
+    return cs_effect_make(context, object, add_sharpness, desc, out);
   *out = celspan_object_ref(object);
   return CELSPAN_OK;
 }

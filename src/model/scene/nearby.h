@@ -73,8 +73,3 @@ void cs_nearby_unref(cs_nearby *nearby);
 CELSPAN_CHECKED celspan_status cs_nearby_apply(celspan_context *context, celspan_object *object,
                                                cs_nearby *nearby, const celspan_box *frame,
                                                celspan_object **out);
-/* *out: new, unlit and without a transform; its objects changed by the rule. Errors: NO_MEMORY.
- * (cel.c) */
-CELSPAN_CHECKED celspan_status cs_cel_nearby(celspan_context *context,
-                                             celspan_object *const *objects, size_t count,
-                                             cs_nearby *nearby, celspan_cel **out);

@@ -232,8 +232,9 @@ struct celspan_cel {
   double opacity;
   celspan_blend blend;
   celspan_grade *grade; /* NULL: none. A reference */
-  /* nearby.h; only where it is defocused by pixels. NULL: none. A reference */
-  struct cs_nearby *nearby;
+  /* Only where it is defocused by pixels, one of the two at most. NULL: none. References. */
+  struct cs_shift *shift;   /* shift.h */
+  struct cs_nearby *nearby; /* nearby.h */
   bool blends_inside[CS_SPACES]; /* in that space, any of its objects acts on its backdrop */
   /* a mode is in the cel, except inside a rostrum, or is its own; or it has a grade */
   bool has_modes;
@@ -318,14 +319,19 @@ typedef struct cs_cel_without {
 } cs_cel_without;
 CELSPAN_CHECKED celspan_status cs_cel_bare(celspan_context *context, const celspan_cel *cel,
                                            cs_cel_without without, celspan_cel **out);
+/* *out: new, unlit and without a transform; shows its objects, averaged over pixels, in one of these
+ * ways. Errors: NO_MEMORY. */
+typedef struct cs_cel_reading {
+  struct cs_shift *shift;   /* shift.h, or NULL */
+  struct cs_nearby *nearby; /* nearby.h, or NULL */
+} cs_cel_reading;
+CELSPAN_CHECKED celspan_status cs_cel_of_pixels(celspan_context *context,
+                                                celspan_object *const *objects, size_t count,
+                                                cs_cel_reading reading, celspan_cel **out);
 /* *out: new; like `cel`, name and line included, with these objects alone. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_cel_with(celspan_context *context, const celspan_cel *cel,
                                            celspan_object *const *objects, size_t count,
                                            celspan_cel **out);
-/* *out: new, unlit and without a transform; shows its object along a shift (shift.h). Errors:
- * NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_cel_shifted(celspan_context *context, celspan_object *object,
-                                              struct cs_shift *shift, celspan_cel **out);
 /* *out: new; like `from`, name and line included, with these cels, which are kept.
  * cs_rostrum_change replaces the back light, too. Neither checks its arguments. For tools that show
  * a part of a frame, or show it before another ground. Errors: NO_MEMORY. */

@@ -16,6 +16,7 @@ typedef enum cs_value_kind {
   CS_VALUE_CEL,
   CS_VALUE_ROSTRUM,
   CS_VALUE_GRADE,
+  CS_VALUE_SHIFT,
   CS_VALUE_NEARBY
 } cs_value_kind;
 

@@ -384,6 +384,7 @@ static step_reader *reader_of(cs_svg_element element) {
                  {CS_SVG_ELEMENT_FE_COMPOSITE, read_composite},
                  {CS_SVG_ELEMENT_FE_CONVOLVE_MATRIX, read_weights},
                  {CS_SVG_ELEMENT_FE_DIFFUSE_LIGHTING, read_lighting},
+                 {CS_SVG_ELEMENT_FE_DISPLACEMENT_MAP, read_displacement},
                  {CS_SVG_ELEMENT_FE_DROP_SHADOW, read_shadow},
                  {CS_SVG_ELEMENT_FE_FLOOD, read_flood},
                  {CS_SVG_ELEMENT_FE_GAUSSIAN_BLUR, read_blur},

@@ -212,6 +212,7 @@ static const cs_svg_name_facts names[CS_SVG_NAME_COUNT] = {
     {"y", GEOMETRY, FORM(LENGTHS), NULL, NULL},
     {"y1", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
     {"y2", ATTRIBUTE, FORM(LENGTH), NULL, NULL},
+    {"yChannelSelector", ATTRIBUTE, FORM(ANY), NULL, NULL},
     {"z", ATTRIBUTE, FORM(ANY), NULL, NULL},
 };
 

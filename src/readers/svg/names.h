@@ -20,6 +20,7 @@
       ELEMENT(FE_COMPONENT_TRANSFER, "feComponentTransfer"), ELEMENT(FE_COMPOSITE, "feComposite"), \
       ELEMENT(FE_CONVOLVE_MATRIX, "feConvolveMatrix"),                                             \
       ELEMENT(FE_DIFFUSE_LIGHTING, "feDiffuseLighting"),                                           \
+      ELEMENT(FE_DISPLACEMENT_MAP, "feDisplacementMap"),                                           \
       ELEMENT(FE_DISTANT_LIGHT, "feDistantLight"), ELEMENT(FE_DROP_SHADOW, "feDropShadow"),        \
       ELEMENT(FE_FLOOD, "feFlood"), ELEMENT(FE_FUNC_A, "feFuncA"), ELEMENT(FE_FUNC_B, "feFuncB"),  \
       ELEMENT(FE_FUNC_G, "feFuncG"), ELEMENT(FE_FUNC_R, "feFuncR"),                                \
@@ -234,6 +235,7 @@ typedef enum cs_svg_name {
   CS_SVG_Y,
   CS_SVG_Y1,
   CS_SVG_Y2,
+  CS_SVG_Y_CHANNEL_SELECTOR,
   CS_SVG_Z,
   CS_SVG_NAME_COUNT
 } cs_svg_name;

@@ -309,6 +309,25 @@ static celspan_status make_shadow(const applying *a, celspan_object **out) {
   return status;
 }
 
+/* The channels are in the step's space, and clear is black. */
+static celspan_status make_displaced(const applying *a, celspan_object **out) {
+  const cs_svg_step *step = a->step;
+  celspan_displace_desc desc = CELSPAN_DISPLACE_DESC;
+  celspan_object *object = input(a, 0), *nothing = NULL;
+  if (!object || fabs(step->scale) > CELSPAN_BLUR_MOST)
+    return CELSPAN_OK;
+  if (!input(a, 1))
+    CS_TRY(celspan_object_create_boolean(a->context, CELSPAN_OPERATOR_UNION, NULL, 0, &nothing));
+  desc.by = nothing ? nothing : input(a, 1);
+  desc.x = step->channels[0];
+  desc.y = step->channels[1];
+  desc.scale = step->scale;
+  desc.space = step->space;
+  celspan_status status = cs_displace_object(a->context, object, &desc, true, out);
+  celspan_object_unref(nothing);
+  return status;
+}
+
 /* The tile of the input in all of a box. */
 static celspan_status repeat(const applying *a, const celspan_box *box, celspan_object **out) {
   celspan_pattern_desc desc = CELSPAN_PATTERN_DESC;
@@ -440,9 +459,10 @@ static step_maker *const makers[] = {
     [CS_SVG_STEP_ATOP] = make_atop,       [CS_SVG_STEP_XOR] = make_xor,
     [CS_SVG_STEP_SUM] = make_sum,         [CS_SVG_STEP_COLOUR] = make_colour,
     [CS_SVG_STEP_LUMA] = make_luma,       [CS_SVG_STEP_OFFSET] = make_offset,
-    [CS_SVG_STEP_BLUR] = make_blur,       [CS_SVG_STEP_SHADOW] = make_shadow,
-    [CS_SVG_STEP_FLOOD] = make_flood,     [CS_SVG_STEP_TILE] = make_tile,
-    [CS_SVG_STEP_NEARBY] = make_nearby,   [CS_SVG_STEP_IMAGE] = make_image,
+    [CS_SVG_STEP_BLUR] = make_blur,       [CS_SVG_STEP_DISPLACE] = make_displaced,
+    [CS_SVG_STEP_SHADOW] = make_shadow,   [CS_SVG_STEP_FLOOD] = make_flood,
+    [CS_SVG_STEP_TILE] = make_tile,       [CS_SVG_STEP_NEARBY] = make_nearby,
+    [CS_SVG_STEP_IMAGE] = make_image,
     [CS_SVG_STEP_GROW] = make_morphology, [CS_SVG_STEP_SHRINK] = make_morphology};
 
 /* The element in the form in which the steps use it, and its silhouette. */

@@ -52,13 +52,15 @@ typedef struct cs_svg_step {
   celspan_blend blend; /* BLEND */
   /* SUM: the weights of the inputs, of white and of the product: 0..CS_SVG_SUM_MOST */
   double weights[4];
-  int flood;              /* SUM: the input that is a flood, if there is a product */
-  celspan_grade *grade;   /* COLOUR; SUM: of the factor that is not the flood; owned; NULL: none */
-  double opacity;         /* COLOUR */
-  celspan_point offset;   /* OFFSET, SHADOW */
-  celspan_point radius;   /* BLUR, SHADOW, GROW, SHRINK: along x and y */
-  celspan_paint paint;    /* FLOOD, SHADOW, GROW, SHRINK */
-  celspan_box tile;       /* TILE; NEARBY: what is repeated first, if it has a size */
+  int flood;            /* SUM: the input that is a flood, if there is a product */
+  celspan_grade *grade; /* COLOUR; SUM: of the factor that is not the flood; owned; NULL: none */
+  double opacity;       /* COLOUR */
+  celspan_point offset; /* OFFSET, SHADOW */
+  celspan_point radius; /* BLUR, SHADOW, GROW, SHRINK: along x and y */
+  celspan_paint paint;  /* FLOOD, SHADOW, GROW, SHRINK */
+  celspan_box tile;     /* TILE; NEARBY: what is repeated first, if it has a size */
+  celspan_channel channels[2]; /* DISPLACE: along x and y */
+  double scale;                /* DISPLACE */
   cs_nearby *nearby;      /* NEARBY; COLOUR: afterwards; owned; NULL: none */
   celspan_object *object; /* IMAGE; owned; NULL: nothing */
 } cs_svg_step;
