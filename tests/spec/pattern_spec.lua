@@ -67,6 +67,25 @@ describe("a pattern", function()
     assert.are.equal(0, different)
   end)
 
+  it("is repeated as far as operators let its shape grow", function()
+    local magenta = celspan.rgb(1, 0, 1)
+    local pattern = celspan.pattern { art = rect(0, 0, 1, 1, magenta), box = { 0, 0, 1, 1 } }
+    for name, change in pairs {
+      offset = function(shape) return celspan.offset(shape, 12) end,
+      ["offset, placed"] = function(shape)
+        return celspan.offset(shape:scale(2):rotate(30):translate(-5, -40), 8)
+      end,
+      twist = function(shape) return celspan.twist(shape:scale(2, 0.5), 95) end,
+      zigzag = function(shape) return celspan.zigzag(shape, { size = 9, ridges = 2 }) end,
+    } do
+      local function drawn(texture)
+        return pixels({ change(rect(25, 20, 10, 9, texture)) }, 60, 50)
+      end
+      local good, message = pcall(assert_alike, 1e-6, drawn(magenta), drawn(pattern))
+      assert.is_true(good, name .. ": " .. tostring(message))
+    end
+  end)
+
   it("of boxes smaller than pixels is the mean of the art", function()
     local half = celspan.union { rect(0, 0, 0.01, 0.02, "#fff") }
     local pattern = celspan.pattern { art = half, box = { 0, 0, 0.02, 0.02 } }

@@ -16,6 +16,7 @@
 #include "model/geometry/matrix.h"
 #include "model/operators/lines.h"
 #include "model/scene/check.h"
+#include "model/scene/pattern.h"
 #include "model/scene/primitive_data.h"
 #include "model/scene/texture.h"
 #include "model/stroke/outliner.h"
@@ -285,6 +286,8 @@ static celspan_status grow_boolean(const growing *g, const cs_boolean *boolean,
     else
       status = grow(g, boolean->operands[i], matrix, &operands[i]);
   }
+  if (status == CELSPAN_OK && boolean->is_filled)
+    status = cs_pattern_refill(context, operands[1], &operands[0]);
   if (status == CELSPAN_OK)
     status = cs_boolean_like(context, boolean, operands, count, out);
   cs_primitive_data_list_free(context->memory, operands, count);

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/number.h"
+#include "model/scene/pattern.h"
 #include "model/scene/primitive_data.h"
 #include "model/scene/texture.h"
 
@@ -147,6 +148,8 @@ static celspan_status change_boolean(cs_operation *operation, const cs_boolean *
     else
       status = operate(operation, boolean->operands[made], place, &operands[made]);
   }
+  if (status == CELSPAN_OK && boolean->is_filled)
+    status = cs_pattern_refill(context, operands[1], &operands[0]);
   if (status == CELSPAN_OK)
     status = cs_boolean_like(context, boolean, operands, count, out);
   cs_primitive_data_list_free(context->memory, operands, count);

@@ -4,6 +4,7 @@
 
 #include "base/description.h"
 #include "model/geometry/matrix.h"
+#include "model/scene/bounds.h"
 #include "model/scene/check.h"
 #include "model/scene/primitive_data.h"
 #include "model/scene/texture.h"
@@ -96,25 +97,33 @@ celspan_status celspan_texture_create_pattern(celspan_context *context,
 
 /* ---------------------------------------------------------------- primitives */
 
-static celspan_status fill_plane(celspan_context *context, const cs_primitive_data *shape,
+static celspan_status fill_plane(celspan_context *context, const cs_repeat *repeat,
+                                 celspan_rostrum *tile, const celspan_box *bounds,
                                  cs_primitive_data *plane) {
-  const cs_texture_variation *variation = shape->texture->variation;
   CS_TRY(CS_MAKE(context, plane->repeat, 1));
-  *plane->repeat = (cs_repeat){variation->box, variation->matrix, variation->inverse};
-  CS_TRY(cs_primitive_data_fill_rostrum(context, plane, variation->tile, &shape->bounds));
+  *plane->repeat = *repeat;
+  CS_TRY(cs_primitive_data_fill_rostrum(context, plane, tile, bounds));
   plane->depth--; /* it is on the same level as the clip */
   return CELSPAN_OK;
 }
 
-static celspan_status make_plane(celspan_context *context, const cs_primitive_data *shape,
+static celspan_status make_plane(celspan_context *context, const cs_repeat *repeat,
+                                 celspan_rostrum *tile, const celspan_box *bounds,
                                  celspan_object **out) {
   cs_primitive_data *plane;
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_ROSTRUM, NULL, &plane));
-  celspan_status status = fill_plane(context, shape, plane);
+  celspan_status status = fill_plane(context, repeat, tile, bounds, plane);
   if (status == CELSPAN_OK)
     status = cs_primitive_data_object(context, plane, out);
   cs_primitive_data_unref(plane);
   return status;
+}
+
+static celspan_status plane_of(celspan_context *context, const cs_primitive_data *shape,
+                               celspan_object **out) {
+  const cs_texture_variation *variation = shape->texture->variation;
+  const cs_repeat repeat = {variation->box, variation->matrix, variation->inverse};
+  return make_plane(context, &repeat, variation->tile, &shape->bounds, out);
 }
 
 /* Removes the pattern from the data, which become the shape. */
@@ -134,7 +143,7 @@ static celspan_status fill(celspan_context *context, cs_primitive_data **data) {
   const cs_boolean look = {.op = CELSPAN_OPERATOR_CLIP, .is_filled = true};
   celspan_object *both[2] = {NULL, NULL};
   cs_primitive_data *clip = NULL;
-  celspan_status status = (*data)->is_empty ? CELSPAN_OK : make_plane(context, *data, &both[0]);
+  celspan_status status = (*data)->is_empty ? CELSPAN_OK : plane_of(context, *data, &both[0]);
   if (status == CELSPAN_OK)
     status = make_shape(context, *data, &both[1]);
   if (status == CELSPAN_OK && both[0])
@@ -158,6 +167,38 @@ celspan_status cs_pattern_wrap(celspan_context *context, cs_primitive_data *data
 const cs_primitive_data *cs_pattern_shape(const cs_primitive_data *data) {
   bool is_filled = data->kind == CS_PRIMITIVE_DATA_BOOLEAN && data->boolean->is_filled;
   return is_filled ? data->boolean->operands[1]->data : data;
+}
+
+/* The bounds of an object in the units inside a plane. */
+static celspan_status find_inside(celspan_context *context, celspan_object *shape,
+                                  const celspan_object *plane, bool *is_there, celspan_box *out) {
+  celspan_matrix inverse;
+  celspan_object *inside;
+  *is_there = false;
+  if (!celspan_matrix_inverse(*plane->matrix, &inverse))
+    return CELSPAN_OK;
+  CS_TRY(celspan_object_transform(context, shape, &inverse, &inside));
+  celspan_status status = cs_bounds_object(context, inside, is_there, out);
+  celspan_object_unref(inside);
+  return status;
+}
+
+celspan_status cs_pattern_refill(celspan_context *context, celspan_object *shape,
+                                 celspan_object **plane) {
+  celspan_box bounds;
+  bool is_there;
+  celspan_object *wide, *made = NULL;
+  CS_TRY(find_inside(context, shape, *plane, &is_there, &bounds));
+  if (!is_there)
+    return CELSPAN_OK;
+  const cs_primitive_data *data = (*plane)->data;
+  CS_TRY(make_plane(context, data->repeat, data->rostrum, &bounds, &wide));
+  celspan_status status = cs_primitive_data_replace(context, *plane, wide->data, &made);
+  celspan_object_unref(wide);
+  CS_TRY(status);
+  celspan_object_unref(*plane);
+  *plane = made;
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- points */

@@ -19,6 +19,10 @@
  * the clip then. Errors: `status`, NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_pattern_wrap(celspan_context *context, cs_primitive_data *data,
                                                celspan_status status, celspan_object **out);
+/* Repeats the plane of a pattern over the bounds of a shape that has changed, in the same units.
+ * *plane is replaced. Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_pattern_refill(celspan_context *context, celspan_object *shape,
+                                                 celspan_object **plane);
 /* The data of the outline: where `data` are filled with a pattern, the data of the filled shape;
  * otherwise `data`. */
 const cs_primitive_data *cs_pattern_shape(const cs_primitive_data *data);
