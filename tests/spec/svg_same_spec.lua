@@ -490,6 +490,16 @@ describe("lengths and transforms", function()
       assert.is_true(bytes(art.object)
         == bytes(read(('<rect width="%d" height="9"/>'):format(px)).object), width)
     end
+    for written, px in pairs { ["2rem"] = 32, ["1.5em"] = 60, ["20vw"] = 20, ["30vmax"] = 30 } do
+      local art = read(('<g font-size="40"><rect width="9" height="9" style="offset-path:path(\''
+        .. "M0 0H90\');offset-distance:%s\"/></g>"):format(written))
+      local moved = ('<rect x="%d" width="9" height="9"/>'):format(px)
+      assert.is_true(bytes(art.object) == bytes(read(moved).object), written)
+      local text = '<g font-size="40"><text y="50" style="%s">ab</text></g>'
+      for _, name in ipairs { "font-size:", "letter-spacing:" } do
+        same { { text:format(name .. written), text:format(name .. px .. "px") } }
+      end
+    end
     local function moved(transform)
       return ('<rect width="20" height="10" transform="%s"/>'):format(transform)
     end

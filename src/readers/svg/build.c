@@ -433,20 +433,26 @@ static celspan_status draw(cs_svg_reading *reading, const cs_svg_node *node, boo
 
 /* ---------------------------------------------------------------- the whole */
 
-/* The size of the outermost element; percentages and missing values refer to its view box. */
+/* The size of the outermost element, and the page; percentages and missing values refer to its view
+ * box. */
 static celspan_status read_size(builder *b, const cs_svg_node *node, const cs_svg_view_box *box) {
   const cs_svg_length whole = {100, CS_SVG_UNIT_PERCENT};
+  const double medium = cs_svg_style_initial().font_size;
   cs_svg_measure measure = {.width = box->is_given ? box->width : DEFAULT_WIDTH,
-                            .height = box->is_given ? box->height : DEFAULT_HEIGHT};
+                            .height = box->is_given ? box->height : DEFAULT_HEIGHT,
+                            .font_size = medium,
+                            .root_font_size = medium};
   measure.page_width = measure.width;
   measure.page_height = measure.height;
-  measure.font_size = measure.root_font_size = cs_svg_style_initial().font_size;
   CS_TRY(cs_svg_length_of(b->reading->context, node, CS_SVG_WIDTH, CS_SVG_AXIS_X, &measure, whole,
                           &b->art->width));
   CS_TRY(cs_svg_length_of(b->reading->context, node, CS_SVG_HEIGHT, CS_SVG_AXIS_Y, &measure, whole,
                           &b->art->height));
   b->art->width = fmax(0, b->art->width);
   b->art->height = fmax(0, b->art->height);
+  measure.width = measure.page_width = b->art->width;
+  measure.height = measure.page_height = b->art->height;
+  b->reading->document->page = measure;
   return CELSPAN_OK;
 }
 
@@ -454,13 +460,9 @@ static celspan_status read_size(builder *b, const cs_svg_node *node, const cs_sv
 static celspan_status enter_root(builder *b, const cs_svg_node *node, cs_svg_place *place) {
   const celspan_svg *art = b->art;
   *place = (cs_svg_place){.style = cs_svg_style_initial(), .matrix = celspan_matrix_identity()};
-  place->measure = (cs_svg_measure){.width = art->width,
-                                    .height = art->height,
-                                    .page_width = art->width,
-                                    .page_height = art->height,
-                                    .font_size = place->style.font_size,
-                                    .root_font_size = place->style.font_size};
+  place->measure = b->reading->document->page;
   CS_TRY(cs_svg_enter(b->reading, node, place));
+  b->reading->document->page.root_font_size = place->style.font_size;
   place->measure.root_font_size = place->style.font_size;
   cs_svg_viewport_enter(node, &(celspan_box){0, 0, art->width, art->height}, place);
   b->root_matrix = place->matrix;

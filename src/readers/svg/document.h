@@ -49,6 +49,7 @@ typedef struct cs_svg_document {
   size_t animation_count; /* elements that animate */
   cs_svg_unread unread;
   cs_svg_variables variables; /* made while styles are read */
+  cs_svg_measure page; /* of the outermost element; zero until its size has been read (build.c) */
 } cs_svg_document;
 
 /* name: of the file, for messages. *out must be finished even after a failure. Errors: INPUT with

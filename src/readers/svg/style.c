@@ -31,14 +31,12 @@ static void read_slant(const char *text, bool *is_italic) {
     *is_italic = cs_svg_is_word(text, "italic") || strncmp(text, "oblique", 7) == 0;
 }
 
-/* Percentages and all other relative lengths refer to the em here. */
-static void read_spacing(const char *text, double em, double *out) {
-  const cs_svg_measure measure = {em, em, em, em, em, em};
+static void read_spacing(const char *text, const cs_svg_measure *em, double *out) {
   cs_svg_length length;
   if (!text)
     return;
   double resolved =
-      cs_svg_parse_length(text, &length) ? cs_svg_resolve(length, CS_SVG_AXIS_X, &measure) : 0;
+      cs_svg_parse_length(text, &length) ? cs_svg_resolve(length, CS_SVG_AXIS_X, em) : 0;
   *out = cs_number_is_sane(resolved) ? resolved : 0;
 }
 
@@ -83,9 +81,8 @@ static void read_baselines(const char *const *values, cs_svg_text_style *out) {
 
 /* The shifts of nested elements add up. Source of the shares: CSS Inline Layout Module Level 3,
  * 4.2.3. */
-static void read_shift(const cs_svg_node *node, const char *text, double em, double parent_em,
-                       double *out) {
-  const cs_svg_measure measure = {em, em, em, em, em, em};
+static void read_shift(const cs_svg_node *node, const char *text, const cs_svg_measure *em,
+                       double parent_em, double *out) {
   cs_svg_length length;
   if (node->element != CS_SVG_ELEMENT_TSPAN && node->element != CS_SVG_ELEMENT_TEXT_PATH &&
       node->element != CS_SVG_ELEMENT_A)
@@ -95,11 +92,11 @@ static void read_shift(const cs_svg_node *node, const char *text, double em, dou
   else if (text && cs_svg_is_word(text, "sub"))
     *out -= parent_em / 5;
   else if (text && cs_svg_parse_length(text, &length))
-    *out += cs_svg_resolve(length, CS_SVG_AXIS_X, &measure);
+    *out += cs_svg_resolve(length, CS_SVG_AXIS_X, em);
 }
 
-void cs_svg_text_style_read(const cs_svg_node *node, const char *const *values, double em,
-                            double parent_em, cs_svg_text_style *out) {
+void cs_svg_text_style_read(const cs_svg_node *node, const char *const *values,
+                            const cs_svg_measure *em, double parent_em, cs_svg_text_style *out) {
   const char *family = values[CS_SVG_FONT_FAMILY], *direction = values[CS_SVG_DIRECTION];
   const char *space = cs_svg_node_value(node, CS_SVG_SPACE);
   if (family)
@@ -188,13 +185,20 @@ static bool font_size_word(const char *text, double inherited, double *out) {
   return false;
 }
 
-static void read_font_size(const char *text, double inherited, double *out) {
+/* Sizes by which percentages are shares of the em. */
+static cs_svg_measure em_of(const cs_svg_document *document, double em) {
+  cs_svg_measure measure = document->page;
+  measure.width = measure.height = measure.font_size = em;
+  return measure;
+}
+
+static void read_font_size(const cs_svg_document *document, const char *text, double inherited,
+                           double *out) {
   cs_svg_length length;
   if (!text || font_size_word(text, inherited, out) || !cs_svg_parse_length(text, &length))
     return;
-  const cs_svg_measure measure = {
-      .width = inherited, .height = inherited, .font_size = inherited, .root_font_size = inherited};
-  *out = cs_svg_resolve(length, CS_SVG_AXIS_X, &measure);
+  const cs_svg_measure em = em_of(document, inherited);
+  *out = cs_svg_resolve(length, CS_SVG_AXIS_X, &em);
 }
 
 /* ---------------------------------------------------------------- the style */
@@ -287,7 +291,6 @@ static void read_painting(const cs_svg_cascade *from, const cs_svg_style *parent
   read_rule(values[CS_SVG_FILL_RULE], &out->fill_rule);
   read_rule(values[CS_SVG_CLIP_RULE], &out->clip_rule);
   read_line(values, out);
-  read_font_size(values[CS_SVG_FONT_SIZE], parent->font_size, &out->font_size);
   static const cs_svg_name markers[] = {CS_SVG_MARKER_START, CS_SVG_MARKER_MID, CS_SVG_MARKER_END};
   for (int i = 0; i < 3; i++) {
     const char *value = values[markers[i]] ? values[markers[i]] : values[CS_SVG_MARKER];
@@ -405,12 +408,13 @@ celspan_status cs_svg_style_resolve(celspan_context *context, cs_svg_document *d
   CS_TRY(cs_svg_cascade_collect(context, document, node, parent->variables, tests, &from));
   CS_TRY(check_numbers(context, &from, node));
   inherit(parent, out);
+  read_font_size(document, from.values[CS_SVG_FONT_SIZE], parent->font_size, &out->font_size);
   out->variables = from.variables;
   read_painting(&from, parent, out);
-  cs_svg_text_style_read(node, from.values, out->font_size, parent->font_size, &out->text);
+  const cs_svg_measure em = em_of(document, out->font_size);
+  cs_svg_text_style_read(node, from.values, &em, parent->font_size, &out->text);
   read_own(&from, parent, out);
   out->motion = node->motion;
-  const cs_svg_measure measure = {.font_size = out->font_size, .root_font_size = out->font_size};
-  return cs_svg_offset_read(context, &document->arena, node->line, from.values, &measure, tests,
+  return cs_svg_offset_read(context, &document->arena, node->line, from.values, &em, tests,
                             &out->offset);
 }

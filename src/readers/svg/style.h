@@ -39,10 +39,11 @@ typedef struct cs_svg_text_style {
   bool is_preserved; /* all spaces of a text are kept */
 } cs_svg_text_style;
 
-/* Reads the properties of texts from `values`, the winning values by name. em, parent_em: the font
- * size of the element and of its parent, in user units. *out contains the inherited style. */
-void cs_svg_text_style_read(const cs_svg_node *node, const char *const *values, double em,
-                            double parent_em, cs_svg_text_style *out);
+/* Reads the properties of texts from `values`, the winning values by name. em: of the element;
+ * percentages are shares of its font size. parent_em: the font size of its parent, in user units.
+ * *out contains the inherited style. */
+void cs_svg_text_style_read(const cs_svg_node *node, const char *const *values,
+                            const cs_svg_measure *em, double parent_em, cs_svg_text_style *out);
 
 typedef struct cs_svg_style {
   /* inherited */
