@@ -124,6 +124,10 @@ describe("feTurbulence", function()
     end
     read(drawing('baseFrequency="0.1" numOctaves="24"', 'x="-9e5" width="1e6" height="100"'))
     read(drawing('baseFrequency="0.1"', 'primitiveUnits="objectBoundingBox"'))
+    for _, scale in ipairs { 1e-9, 1e-13, 1e-200 } do
+      read(drawing('baseFrequency="0.1"', "", ('<g transform="translate(9 9) scale(%g)">%s</g>')
+        :format(scale, RECT)))
+    end
   end)
 
   local cases = {

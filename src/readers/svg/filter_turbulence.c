@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "base/number.h"
 #include "readers/svg/image.h"
@@ -16,18 +17,19 @@
 /* Further octaves are lost in the rounding of numbers. */
 #define OCTAVES_MOST 24
 
+/* Where an octave of a stitched noise begins again. */
+typedef struct stitch {
+  double size[2], wrap[2];
+} stitch;
+
 typedef struct noise {
   const cs_svg_turbulence *given;
   int lattice[2 * TABLE + 2];
   double gradient[4][2 * TABLE + 2][2];
   double frequency[2]; /* adjusted where it is stitched */
+  stitch seam;         /* of its first octave */
   double step[2];      /* user units a texel */
 } noise;
-
-/* Where an octave of a stitched noise begins again. */
-typedef struct stitch {
-  double size[2], wrap[2];
-} stitch;
 
 /* ---------------------------------------------------------------- tables */
 
@@ -97,17 +99,27 @@ static ends ends_of(double at, const stitch *seam, int axis) {
   return (ends){(int)low, (int)high, way, way - 1, way * way * (3 - 2 * way)};
 }
 
-static double noise_at(const noise *n, int channel, double x, double y, const stitch *seam) {
+/* The value of a channel between four corners, whose gradients have these indices. */
+static double between(const double (*gradient)[2], const int corners[4], const ends *h,
+                      const ends *v) {
+  const double *g[4];
+  for (int i = 0; i < 4; i++)
+    g[i] = gradient[corners[i]];
+  double above = g[0][0] * h->from_low + g[0][1] * v->from_low;
+  double below = g[2][0] * h->from_low + g[2][1] * v->from_high;
+  above += h->share * (g[1][0] * h->from_high + g[1][1] * v->from_low - above);
+  below += h->share * (g[3][0] * h->from_high + g[3][1] * v->from_high - below);
+  return above + v->share * (below - above);
+}
+
+/* One octave of all channels at a point of its own units. */
+static void noise_at(const noise *n, double x, double y, const stitch *seam, double out[4]) {
   const ends h = ends_of(x, seam, 0), v = ends_of(y, seam, 1);
-  const double(*g)[2] = n->gradient[channel];
   int left = n->lattice[h.low], right = n->lattice[h.high];
-  const double *corners[4] = {g[n->lattice[left + v.low]], g[n->lattice[right + v.low]],
-                              g[n->lattice[left + v.high]], g[n->lattice[right + v.high]]};
-  double above = corners[0][0] * h.from_low + corners[0][1] * v.from_low;
-  double below = corners[2][0] * h.from_low + corners[2][1] * v.from_high;
-  above += h.share * (corners[1][0] * h.from_high + corners[1][1] * v.from_low - above);
-  below += h.share * (corners[3][0] * h.from_high + corners[3][1] * v.from_high - below);
-  return above + v.share * (below - above);
+  const int corners[4] = {n->lattice[left + v.low], n->lattice[right + v.low],
+                          n->lattice[left + v.high], n->lattice[right + v.high]};
+  for (int channel = 0; channel < 4; channel++)
+    out[channel] = between(n->gradient[channel], corners, &h, &v);
 }
 
 /* The seam of the first octave. */
@@ -122,20 +134,29 @@ static stitch first_seam(const noise *n) {
   return seam;
 }
 
-/* The value of a channel at a point of user units, 0 to 1. */
-static double value_at(const noise *n, int channel, double x, double y) {
-  stitch seam = first_seam(n);
-  double sum = 0, ratio = 1;
-  for (int i = 0; i < n->given->octaves && i < OCTAVES_MOST; i++, ratio *= 2) {
-    double value = noise_at(n, channel, x * n->frequency[0] * ratio, y * n->frequency[1] * ratio,
-                            n->given->is_stitched ? &seam : NULL);
-    sum += (n->given->is_fractal ? value : fabs(value)) / ratio;
-    for (int axis = 0; axis < 2; axis++) {
-      seam.size[axis] *= 2;
-      seam.wrap[axis] = 2 * seam.wrap[axis] - FAR;
-    }
+static void move_seam(stitch *seam) {
+  for (int axis = 0; axis < 2; axis++) {
+    seam->size[axis] *= 2;
+    seam->wrap[axis] = 2 * seam->wrap[axis] - FAR;
   }
-  return cs_number_clamp(n->given->is_fractal ? (sum + 1) / 2 : sum, 0, 1);
+}
+
+/* The values of the channels at a point of user units, 0 to 1. */
+static void values_at(const noise *n, double x, double y, double out[4]) {
+  const bool is_fractal = n->given->is_fractal, is_stitched = n->given->is_stitched;
+  stitch seam = n->seam;
+  double ratio = 1, octave[4];
+  memset(out, 0, 4 * sizeof *out);
+  for (int i = 0; i < n->given->octaves && i < OCTAVES_MOST; i++, ratio *= 2) {
+    noise_at(n, x * n->frequency[0] * ratio, y * n->frequency[1] * ratio,
+             is_stitched ? &seam : NULL, octave);
+    for (int c = 0; c < 4; c++)
+      out[c] += (is_fractal ? octave[c] : fabs(octave[c])) / ratio;
+    if (is_stitched)
+      move_seam(&seam);
+  }
+  for (int c = 0; c < 4; c++)
+    out[c] = cs_number_clamp(is_fractal ? (out[c] + 1) / 2 : out[c], 0, 1);
 }
 
 /* A frequency of a stitched noise: the box has a whole number of its waves. */
@@ -170,16 +191,24 @@ static celspan_box around(noise *n, int32_t size[2]) {
                        size[1] * n->step[1]};
 }
 
+/* Whether texels have places that are numbers; in a drawing that is smaller than 1e-12 they lie too
+ * far away. */
+static bool is_near(const celspan_box *box) {
+  return cs_number_is_sane(box->x) && cs_number_is_sane(box->y) && cs_number_is_sane(box->width) &&
+         cs_number_is_sane(box->height);
+}
+
 /* A texel has the noise of its lower right corner, as in Chromium: coordinates began with 1 there.
  * Other programs take the upper left one. */
 static void fill_texels(const noise *n, const celspan_box *box, const int32_t size[2],
                         uint16_t *out) {
   for (int32_t row = 0; row < size[1]; row++)
-    for (int32_t column = 0; column < size[0]; column++)
-      for (int channel = 0; channel < 4; channel++) {
-        double x = box->x + (column + 1) * n->step[0], y = box->y + (row + 1) * n->step[1];
-        *out++ = (uint16_t)(value_at(n, channel, x, y) * 65535 + 0.5);
-      }
+    for (int32_t column = 0; column < size[0]; column++) {
+      double values[4];
+      values_at(n, box->x + (column + 1) * n->step[0], box->y + (row + 1) * n->step[1], values);
+      for (int channel = 0; channel < 4; channel++)
+        *out++ = (uint16_t)(values[channel] * 65535 + 0.5);
+    }
 }
 
 static celspan_status show(cs_svg_reading *reading, const noise *n, const celspan_box *box,
@@ -201,6 +230,8 @@ static celspan_status draw(cs_svg_reading *reading, const cs_svg_node *node, noi
   celspan_surface_desc desc = CELSPAN_SURFACE_DESC;
   int32_t size[2];
   const celspan_box box = around(n, size);
+  if (!is_near(&box))
+    return CELSPAN_OK;
   size_t count = 4 * (size_t)size[0] * (size_t)size[1];
   celspan_surface *surface = NULL;
   uint16_t *texels;
@@ -232,6 +263,7 @@ celspan_status cs_svg_turbulence_make(cs_svg_reading *reading, const cs_svg_node
   if (given->is_stitched) {
     n->frequency[0] = stitched(given->frequency[0], given->box.width);
     n->frequency[1] = stitched(given->frequency[1], given->box.height);
+    n->seam = first_seam(n);
   }
   fill_tables(n);
   celspan_status status = draw(reading, node, n, out);

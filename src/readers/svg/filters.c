@@ -6,7 +6,8 @@
 
 #include "base/number.h"
 #include "model/colour/blend.h"
-#include "readers/svg/filter_nearby.h"
+#include "model/geometry/matrix.h"
+#include "readers/svg/filter_colours.h"
 #include "readers/svg/filter_turbulence.h"
 #include "readers/svg/image.h"
 #include "readers/svg/regions.h"
@@ -496,7 +497,7 @@ static celspan_status make_recipe(filter *f, const cs_svg_filter_call *call) {
   cs_svg_recipe *recipe = f->recipe;
   recipe->space = f->reading->is_coded ? CELSPAN_SPACE_AROUND : f->reading->space;
   recipe->matrix = f->place->matrix;
-  if (!celspan_matrix_inverse(recipe->matrix, &recipe->back))
+  if (!celspan_matrix_inverse(recipe->matrix, &recipe->back) || !cs_matrix_is_sane(&recipe->back))
     return CELSPAN_OK;
   celspan_status status = f->owner ? make_steps(f) : make_function(f, call);
   if (status == CELSPAN_OK && f->reason)

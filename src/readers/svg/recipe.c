@@ -491,14 +491,17 @@ static celspan_status make_steps(applying *a, celspan_object *object) {
   return CELSPAN_OK;
 }
 
+/* A filter without steps shows nothing. */
 static celspan_status apply_one(celspan_context *context, const cs_svg_recipe *recipe,
                                 celspan_object **object) {
   applying a = {.context = context, .recipe = recipe};
   const size_t count = CS_SVG_SOURCES + recipe->step_count;
   celspan_object *made = NULL;
+  if (recipe->step_count == 0)
+    return cs_svg_object_replace(CELSPAN_OK, NULL, object);
   CS_TRY(CS_MAKE(context, a.results, count));
   celspan_status status = make_steps(&a, *object);
-  if (status == CELSPAN_OK && recipe->step_count > 0)
+  if (status == CELSPAN_OK)
     made = kept(a.results[count - 1]);
   if (made)
     status = cs_svg_object_move(context, &recipe->matrix, &made);
