@@ -2,9 +2,14 @@
  * fail. */
 #include "celspan/celspan.h"
 #include "celspan/svg.h"
+#include "readers/svg/art.h"
 #include "readers/svg/colours.h"
+#include "readers/svg/read.h"
 #include "tests/support/check.h"
 #include "tests/support/memory.h"
+
+#include <stdlib.h>
+#include <unistd.h>
 
 static const char drawing[] =
     "<svg xmlns='http://www.w3.org/2000/svg' width='40' height='30'>\n"
@@ -127,6 +132,33 @@ static void a_colour_may_lack_its_end(void) {
 
 /* Everything with memory of its own: clip paths, masks, markers, gradients, texts, images. */
 /* Styles in every form, and what is noted of them. */
+/* Hosts that cannot ask for other times do not pay for a copy of the file. */
+static void a_file_is_kept_where_it_is_asked_for(celspan_context *context) {
+  static const char text[] =
+      "<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'><rect width='9' height='9'>"
+      "<animate attributeName='x' to='5' dur='1s'/></rect></svg>";
+  char path[] = "/tmp/celspan-test-XXXXXX";
+  celspan_svg_desc desc = CELSPAN_SVG_DESC;
+  celspan_svg *without = NULL, *with = NULL, *later = NULL;
+  int file = mkstemp(path);
+  CHECK(file >= 0 && write(file, text, sizeof text - 1) == (ssize_t)sizeof text - 1);
+  desc.file = path;
+  desc.seconds = -1;
+  const cs_svg_options options = {.seconds = -1, .keeps_file = true};
+  if (CHECK(celspan_svg_read(context, &desc, &without) == CELSPAN_OK &&
+            cs_svg_read_file(context, path, &options, &with) == CELSPAN_OK)) {
+    CHECK(!without->file && with->file);
+    CHECK(cs_svg_at(context, without, 0.5, &later) == CELSPAN_OK && later == without);
+    celspan_svg_unref(later);
+    CHECK(cs_svg_at(context, with, 0.5, &later) == CELSPAN_OK && later != with);
+    celspan_svg_unref(later);
+  }
+  celspan_svg_unref(without);
+  celspan_svg_unref(with);
+  close(file);
+  unlink(path);
+}
+
 static const char styled_drawing[] =
     "<svg xmlns='http://www.w3.org/2000/svg' width='40' height='30'>\n"
     "<style>:root{--a:red;--b:var(--a)} rect{width:9px;height:9px;fill:var(--b);unheard:1}\n"
@@ -221,6 +253,7 @@ int main(void) {
   a_drawing_answers(context);
   parts_are_changed(context);
   faults_are_reported(context);
+  a_file_is_kept_where_it_is_asked_for(context);
   celspan_context_destroy(context);
   a_colour_may_lack_its_end();
   for (int is_for_good = 0; is_for_good < 2; is_for_good++) {

@@ -284,7 +284,7 @@ static const celspan_svg_font *read_fonts(lua_State *L, size_t *count) {
 
 static int read(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
-  cs_svg_options options = {.fonts = NULL};
+  cs_svg_options options = {.keeps_file = true};
   lua_settop(L, 3);
   options.seconds = -1;
   if (!lua_isnil(L, 3))

@@ -197,12 +197,10 @@ static celspan_status keep_file(const cs_svg_reading *reading, const char *bytes
   return copy_fonts(context, source, art);
 }
 
-/* A drawing of a file, without its animations, is the one that is asked for other times. */
 static celspan_status finish_reading(const cs_svg_reading *reading, const char *bytes, size_t size,
                                      celspan_svg *art) {
-  const cs_svg_source *source = reading->source;
-  bool is_asked = source->file && !source->outer && reading->seconds < 0;
-  return is_asked && may_move(reading) ? keep_file(reading, bytes, size, art) : CELSPAN_OK;
+  bool is_kept = reading->keeps_file && !reading->source->outer && may_move(reading);
+  return is_kept ? keep_file(reading, bytes, size, art) : CELSPAN_OK;
 }
 
 /* reading: the limits, and how to read; its document and notes belong to this drawing until the
@@ -258,6 +256,7 @@ static cs_svg_reading begin_reading(celspan_context *context, const cs_svg_sourc
                           .box_of = cs_svg_box_of,
                           .space = options->space,
                           .seconds = options->seconds,
+                          .keeps_file = options->keeps_file,
                           .tests = CS_SVG_SELECTOR_TESTS};
 }
 
@@ -313,6 +312,7 @@ static cs_hash key_of(const char *file, const struct stat *about, const cs_svg_o
   hash_about(&hash, about);
   cs_hash_word(&hash, options->space);
   cs_hash_number(&hash, options->seconds);
+  cs_hash_word(&hash, options->keeps_file);
   for (size_t i = 0; i < options->font_count; i++)
     hash_font(&hash, &options->fonts[i]);
   return cs_hash_end(hash);
@@ -422,7 +422,10 @@ celspan_status celspan_svg_read(celspan_context *context, const celspan_svg_desc
   if (!cs_number_is_sane(desc->seconds))
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "svg: seconds is %g; it must be a finite number within 1e12", desc->seconds);
-  const cs_svg_options options = {desc->fonts, desc->font_count, desc->space, desc->seconds};
+  const cs_svg_options options = {.fonts = desc->fonts,
+                                  .font_count = desc->font_count,
+                                  .space = desc->space,
+                                  .seconds = desc->seconds};
   if (desc->file)
     return cs_svg_read_file(context, desc->file, &options, out);
   CS_TRY(check_fonts(context, &options));

@@ -9,15 +9,17 @@ typedef struct cs_svg_options {
   const celspan_svg_font *fonts;
   size_t font_count;
   celspan_space space;
-  double seconds; /* see celspan_svg_desc */
+  double seconds;  /* see celspan_svg_desc */
+  bool keeps_file; /* of a drawing that may move, for cs_svg_at */
 } cs_svg_options;
 
 /* See celspan_svg_read. */
 CELSPAN_CHECKED celspan_status cs_svg_read_file(celspan_context *context, const char *file,
                                                 const cs_svg_options *options, celspan_svg **out);
 
-/* The drawing at a time, seconds from 0 on, without opening its file again; itself if it does not
- * move. art: not a changed copy. *out: a new reference. Errors: as for reading. */
+/* The drawing of a file at a time, seconds from 0 on, without opening its file again; itself if it
+ * does not move, or if its file was not kept. art: not a changed copy. *out: a new reference.
+ * Errors: as for reading. */
 CELSPAN_CHECKED celspan_status cs_svg_at(celspan_context *context, celspan_svg *art, double seconds,
                                          celspan_svg **out);
 

@@ -71,6 +71,7 @@ typedef struct cs_svg_reading {
   bool is_coded;
   celspan_space space;  /* of the drawing and of its parts */
   double seconds;       /* the time of its animations; below 0: none of them is run */
+  bool keeps_file;      /* a drawing that may move keeps a copy of it (read.h) */
   uint64_t tests;       /* how many tests of selectors are left */
   uint32_t drawn;       /* elements so far */
   uint32_t depth;       /* how many elements that are being built contain each other */
