@@ -55,7 +55,8 @@ describe("two objects are composited", function()
 
   it("and nodes of other compositors lead to what is written here", function()
     for node, advice in pairs { erode = "grow = %-1", keymix = "celspan.matte%(a, mask%)",
-        premult = 'alpha = "straight"', over = "celspan.composite", chromakey = "celspan.key" } do
+        multiply = 'a:blend "multiply"', premult = 'alpha = "straight"',
+        over = "celspan.composite", chromakey = "celspan.key" } do
       assert.error_matches(function() return celspan[node] end,
         ("celspan has no '%s'; write .*%s"):format(node, advice))
     end
@@ -71,6 +72,8 @@ describe("two objects are composited", function()
     local a = square(1, 1, 1)
     assert.error_matches(function() celspan.composite(a, a, "stencil") end,
       'got "stencil"; write celspan.composite%(b, a, "out"%)')
+    assert.error_matches(function() celspan.composite(a, a, "dilate") end,
+      'got "dilate"; write celspan.matte%(art, by, { grow = 1 }%)')
     assert.error_matches(function() celspan.composite(a, a) end, '"in".*got nil')
     assert.error_matches(function() celspan.composite(a, 3, "in") end, "argument 2 must be")
     assert.error_matches(function() celspan.composite(nil, a, "in") end, "argument 1 must be")

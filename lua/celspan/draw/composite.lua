@@ -25,9 +25,18 @@ local operators = {
   xor = function(a, b) return sum(without(b, a), without(a, b)) end,
 }
 
---- What nodes of other compositors are called here. The modes of a source over a backdrop take the
---- source from the backdrop and divide the backdrop by it.
+--- What to write for nodes of other compositors, and for their ways to merge. The modes of a source
+--- over a backdrop take the source from the backdrop and divide the backdrop by it.
 local theirs = {
+  erode = "celspan.matte(art, by, { grow = -1 })", choke = "celspan.matte(art, by, { grow = -1 })",
+  dilate = "celspan.matte(art, by, { grow = 1 })",
+  feather = "celspan.matte(art, by, { feather = 4 })",
+  keyer = "celspan.key { art, luma = true, from = 0, to = 1 }",
+  chromakey = 'celspan.key { art, colour = "#0b0" }',
+  keylight = 'celspan.key { art, colour = "#0b0" }',
+  premult = 'celspan.picture { file = name, alpha = "straight" }',
+  unpremult = 'celspan.picture { file = name, alpha = "premultiplied" }',
+  over = 'celspan.composite(a, b, "over")', atop = 'celspan.composite(a, b, "atop")',
   under = 'celspan.composite(b, a, "over")', mask = 'celspan.composite(b, a, "in")',
   stencil = 'celspan.composite(b, a, "out")', copy = "a",
   matte = 'celspan.composite(a, b, "over")', keymix = "celspan.group { b, celspan.matte(a, mask) }",
@@ -37,6 +46,9 @@ local theirs = {
   screen = 'a:blend "screen"', difference = 'a:blend "difference"', divide = 'b:blend "divide"',
   exclusion = 'a:blend "exclusion"',
 }
+
+--- What to write for the name of a node, or nil.
+function composite.instead(name) return theirs[name] end
 
 local function refuse(operator)
   local advice = theirs[operator or false]

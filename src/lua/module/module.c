@@ -224,29 +224,13 @@ static size_t list_names(lua_State *L, const char **names) {
   return count;
 }
 
-/* Nodes of compositors, and what is written for them here. */
-static const char *const theirs[][2] = {
-    {"erode", "celspan.matte(art, by, { grow = -1 })"},
-    {"dilate", "celspan.matte(art, by, { grow = 1 })"},
-    {"choke", "celspan.matte(art, by, { grow = -1 })"},
-    {"feather", "celspan.matte(art, by, { feather = 4 })"},
-    {"keymix", "celspan.group { b, celspan.matte(a, mask) }"},
-    {"keyer", "celspan.key { art, luma = true, from = 0, to = 1 }"},
-    {"chromakey", "celspan.key { art, colour = \"#0b0\" }"},
-    {"keylight", "celspan.key { art, colour = \"#0b0\" }"},
-    {"over", "celspan.composite(a, b, \"over\")"},
-    {"under", "celspan.composite(b, a, \"over\")"},
-    {"atop", "celspan.composite(a, b, \"atop\")"},
-    {"stencil", "celspan.composite(b, a, \"out\")"},
-    {"holdout", "celspan.composite(a, b, \"out\")"},
-    {"premult", "celspan.picture { file = name, alpha = \"straight\" }"},
-    {"unpremult", "celspan.picture { file = name, alpha = \"premultiplied\" }"}};
-
-static const char *find_theirs(const char *name) {
-  for (size_t i = 0; i < sizeof theirs / sizeof *theirs; i++)
-    if (strcmp(name, theirs[i][0]) == 0)
-      return theirs[i][1];
-  return NULL;
+/* Pushes what is written here for a node of other compositors, or nil. */
+static const char *push_theirs(lua_State *L, const char *name) {
+  cs_require_module(L, "celspan.composite");
+  lua_getfield(L, -1, "instead");
+  lua_pushstring(L, name);
+  lua_call(L, 1, 1);
+  return lua_tostring(L, -1);
 }
 
 /* celspan.circl: a script has read a name that is not in the module's table. */
@@ -259,7 +243,7 @@ static int read_missing(lua_State *L) {
   if (cs_embedded_has(name))
     return cs_caller_error(L, "celspan has no '%s'; it is a module: require \"celspan.%s\"", name,
                            name);
-  const char *instead = find_theirs(name);
+  const char *instead = push_theirs(L, name);
   if (instead)
     return cs_caller_error(L, "celspan has no '%s'; write %s", name, instead);
   size_t count = list_names(L, names);
