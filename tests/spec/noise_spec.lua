@@ -123,7 +123,7 @@ describe("noise", function()
       ["noise: field 'gain' needs the kind"] = { kind = "cells", gain = 0.5 },
       ["octaves"] = { kind = "fractal", octaves = 17 },
       ["noise: field 'colours' must be a list of 2 to 64 colours"] = { colours = { "#fff" } },
-      ["colours"] = { colours = { "#fff", "nothing" } },
+      ["noise: colour 2 must be a paint"] = { colours = { "#fff", "nothing" } },
       ["kind"] = { kind = "clouds" },
       ["'at'"] = { at = math.huge },
       ["seed"] = { seed = 0.5 },

@@ -228,7 +228,8 @@ celspan_paint cs_form_tuple_paint(const cs_form *form, int index, int i, const c
   celspan_paint paint;
   lua_rawgeti(L, index, i);
   if (!read_paint(L, -1, &paint)) {
-    subject = lua_pushfstring(L, "%s %d: its value %d", what, item, i);
+    subject = item ? lua_pushfstring(L, "%s %d: its value %d", what, item, i)
+                   : lua_pushfstring(L, "%s %d", what, i);
     lua_insert(L, -2);
     fail_colour(form, subject, "a paint or a colour like \"#rrggbb\"");
   }

@@ -46,7 +46,8 @@ celspan_point *cs_form_points(const cs_form *form, int index, size_t count, cons
 double *cs_form_array(const cs_form *form, const char *name, size_t *count);
 
 /* Numbers and paints in tuples such as {at, paint}: value number `i` of the table at index. what,
- * item: the name of the tuple, for the message "stop 2". */
+ * item: the name of the tuple, for the message "stop 2"; of a list of paints, item is 0 and what
+ * the name of each. */
 double cs_form_tuple_number(const cs_form *form, int index, int i, const char *what, int item);
 celspan_paint cs_form_tuple_paint(const cs_form *form, int index, int i, const char *what,
                                   int item);

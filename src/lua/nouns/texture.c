@@ -161,7 +161,7 @@ static void read_colours(const cs_form *form, celspan_noise_desc *out) {
   celspan_stop *stops = cs_form_scratch(L, count, sizeof *stops);
   for (size_t i = 0; i < count; i++)
     stops[i] = (celspan_stop){(double)i / (double)(count - 1),
-                              cs_form_tuple_paint(form, list, (int)i + 1, "colours", 0)};
+                              cs_form_tuple_paint(form, list, (int)i + 1, "colour", 0)};
   out->stops = stops;
   out->stop_count = count;
 }

@@ -90,14 +90,15 @@ static celspan_status make_key(celspan_context *context, const celspan_key_desc 
 celspan_status celspan_object_key(celspan_context *context, celspan_object *art,
                                   const celspan_key_desc *desc, celspan_object **out) {
   CS_READ(context, "key", celspan_key_desc, desc);
-  celspan_group_desc group = CELSPAN_GROUP_DESC;
+  cs_boolean look = {.op = CELSPAN_OPERATOR_UNION, .isolates = true};
+  cs_primitive_data *data;
+  celspan_grade *grade;
   float screen[3];
   CS_TRY(find_screen(context, desc->colour, screen));
   CS_TRY(check(context, art, desc, screen));
-  CS_TRY(make_key(context, desc, screen, &group.grade));
-  group.objects = &art;
-  group.object_count = 1;
-  celspan_status status = celspan_object_create_group(context, &group, out);
-  celspan_grade_unref(group.grade);
-  return status;
+  CS_TRY(make_key(context, desc, screen, &grade));
+  look.grade = grade;
+  celspan_status status = cs_primitive_data_of_operands(context, "key", &look, &art, 1, &data);
+  celspan_grade_unref(grade);
+  return status == CELSPAN_OK ? cs_primitive_data_wrap(context, data, status, out) : status;
 }
