@@ -164,6 +164,11 @@ describe("the beats of a sound", function()
     end
   end)
 
+  it("are not looked for in sounds of more than three hours", function()
+    local long = setmetatable({}, { __len = function() return 96 * (100 * 3600 * 3 + 1) end })
+    assert.is_nil(dofile "lua/celspan/read/spectrum.lua".beats(long))
+  end)
+
   it("are missing in silence, in a tone and in a single blow", function()
     for _, sample in ipairs { function() return 0 end,
         function(t) return 0.5 * math.sin(2 * math.pi * 440 * t) end,

@@ -128,8 +128,7 @@ end
 local function check_transfer(given, facts)
   if facts.high and not given.colour then
     refuse("%s is of high dynamic range (%s), which is not read: convert it to BT.709, or give "
-      .. "'colour' to take its codes as they are", given.file,
-      facts.high)
+      .. "'colour' to take its codes as they are", given.file, facts.high)
   end
 end
 

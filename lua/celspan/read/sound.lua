@@ -152,7 +152,10 @@ end
 ---@return number tempo Beats per minute
 function Sound:beats()
   check(self, "beats")
-  return spectrum.beats(levels(self))
+  local beats, tempo = spectrum.beats(levels(self))
+  if beats then return beats, tempo end
+  core.refuse(("sound: the beats of at most %d hours are found, and this one has %.1f")
+    :format(spectrum.LONGEST, self.seconds / 3600))
 end
 
 --- Reads a sound: WAV, FLAC, MP3, Ogg, Opus or M4A.

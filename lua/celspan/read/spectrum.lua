@@ -18,6 +18,8 @@ local USUAL, OCTAVE = 50, 1 -- steps between beats, and by how many octaves they
 local TIGHT = 100 -- how much a beat at another distance costs
 local LEAST = 0.5 -- of the usual size of onsets: before the first beat and after the last
 
+spectrum.LONGEST = 3 -- hours of a sound whose beats are found: some seconds of work
+
 -- The power of each byte, 1 at full scale.
 local POWER = { [0] = 0 }
 for byte = 1, QUIET * QUARTER do
@@ -127,16 +129,19 @@ end
 --- The steps of the best row, first to last, without beats at the ends where nothing begins.
 local function best_row(onsets, period)
   local worth, before = rows_of(onsets, period)
-  local last, row = #onsets, {}
+  local last, backwards, row = #onsets, {}, {}
   for i = math.max(1, #onsets - 2 * period), #onsets do
     if worth[i] > worth[last] then last = i end
   end
+  while last and onset_at(onsets, last) < LEAST do last = before[last] end
   while last do
-    table.insert(row, 1, last)
+    backwards[#backwards + 1] = last
     last = before[last]
   end
-  while #row > 0 and onset_at(onsets, row[#row]) < LEAST do row[#row] = nil end
-  while #row > 0 and onset_at(onsets, row[1]) < LEAST do table.remove(row, 1) end
+  while #backwards > 0 and onset_at(onsets, backwards[#backwards]) < LEAST do
+    backwards[#backwards] = nil
+  end
+  for i = #backwards, 1, -1 do row[#row + 1] = backwards[i] end
   return row
 end
 
@@ -149,8 +154,10 @@ local function tempo_of(row)
   return 60 * RATE / distances[(#distances + 1) // 2]
 end
 
---- The beats in seconds, and how many there are in a minute; none, and 0, where nothing returns.
+--- The beats in seconds, and how many there are in a minute; none, and 0, where nothing returns;
+--- nil for a sound that is too long.
 function spectrum.beats(levels)
+  if #levels // BANDS > spectrum.LONGEST * 3600 * RATE then return nil end
   local onsets = onsets_of(levels)
   local period = onsets and period_of(onsets)
   local row = period and best_row(onsets, period) or {}
