@@ -25,12 +25,18 @@ end
 
 --- Draws the middle of an animation, small.
 local function draw(art)
+  if art.size[1] < 1 or art.size[2] < 1 then return end -- no scale
   local object = art:at((art.first + art.last) / 2):scale(16 / art.size[1], 16 / art.size[2])
   local film = celspan.film { size = { 16, 16 }, frames = 1, frame = function()
     return celspan.rostrum { celspan.cel { object } }
   end }
-  local good, message = pcall(celspan.pixels, film)
-  assert.is_true(good or #tostring(message) < 1000)
+  celspan.pixels(film)
+end
+
+--- Whether a message is a sentence for users, and not that of a mistake in the reader.
+local function is_sentence(message)
+  return #message < 1000 and not message:find "attempt to" and not message:find "celspan/lottie/"
+    and not message:find "bad argument"
 end
 
 describe("damaged animations are read and drawn, or refused with a sentence:", function()
@@ -40,7 +46,10 @@ describe("damaged animations are read and drawn, or refused with a sentence:", f
         local start = os.clock()
         local good, art = pcall(target.try_bytes, bytes_of(name, case))
         assert.is_true(good, ("case %d: %s"):format(case, tostring(art)))
-        if art then draw(art) end
+        local drawn, message = true, nil
+        if art then drawn, message = pcall(draw, art) end
+        assert.is_true(drawn or is_sentence(tostring(message)),
+          ("case %d: %s"):format(case, tostring(message)))
         assert.is_true(os.clock() - start < SECONDS, ("case %d is slow"):format(case))
       end
     end)

@@ -10,13 +10,8 @@
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
-enum {
-  LENGTH = 512,
-  HALF = LENGTH / 2,
-  STEPS = 2000,
-  MEAN = 2
-}; /* MEAN: frequencies that count
-                                                                        as the mean of a row */
+/* MEAN: frequencies that count as the mean of a row. */
+enum { LENGTH = 512, HALF = LENGTH / 2, STEPS = 2000, MEAN = 2 };
 #define TURN 6.283185307179586
 
 static celspan_context *context;
@@ -250,6 +245,20 @@ static void check_alone(void) {
   drop(&shade);
 }
 
+/* Behind the horizon there is no noise, and before it there is. */
+static void check_behind(void) {
+  const celspan_noise_desc desc = CELSPAN_NOISE_DESC;
+  cs_shade shade = shade_of(desc);
+  double row[LENGTH];
+  shade.inverse =
+      celspan_matrix_then(shade.inverse, (celspan_matrix){{1, 0, 0, 0, 1, 0, -0.01, 0, 1}});
+  cs_shade_prepare(&shade);
+  read_row(&shade, 9.5, 1, row);
+  for (int k = 0; k < LENGTH; k++)
+    CHECK(k < 100 ? row[k] >= 0 && row[k] <= 1 : isnan(row[k]));
+  drop(&shade);
+}
+
 /* ---------------------------------------------------------------- what is refused */
 
 static void check_refused(void) {
@@ -310,6 +319,7 @@ int main(void) {
     for (int k = 0; k < 300; k++)
       check_bits((cs_isa)isa, &random);
   check_alone();
+  check_behind();
   check_refused();
   check_extremes();
   celspan_context_destroy(context);

@@ -57,7 +57,8 @@ static void place_tilted(const cs_shade *shade, const double *x, int32_t count, 
     out->u[k] = w > 0 ? u : 0;
     out->v[k] = w > 0 ? v : 0;
     out->side[k] =
-        w > 0 ? w * side_of(p[0] - u * m[0], p[1] - u * m[1], q[0] - v * m[0], q[1] - v * m[1]) : 0;
+        w > 0 ? w * side_of(p[0] - u * m[0], p[1] - u * m[1], q[0] - v * m[0], q[1] - v * m[1])
+              : -1;
   }
 }
 

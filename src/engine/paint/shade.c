@@ -379,7 +379,7 @@ size_t cs_shade_breaks(const cs_shade *shade, cs_run run, double *out) {
     break_conic(&list, shade, run.y);
   else if (shade->eccentricity > 0)
     break_focal(&list, shade, run.y);
-  else
+  else if (shade->texture->kind != CS_TEXTURE_NOISE)
     break_radial(&list, shade->texture, &map);
   return list.count;
 }
