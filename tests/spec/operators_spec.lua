@@ -244,6 +244,11 @@ describe("an offset", function()
     is_disc(celspan.offset(circle(40), 13), 53)
     is_disc(celspan.offset(circle(40), -13), 27)
     assert.is_false(celspan.offset(circle(40), -41):contains(100, 100))
+    for _, by in ipairs { -40.01, -44, -60, -100, -160 } do
+      local image = assert(celspan.pixels(celspan.rostrum {
+        celspan.cel { celspan.offset(circle(40), by) } }, { size = { 200, 200 } }))
+      assert.is_nil(image:bytes():find "[^%z]")
+    end
     local ring = celspan.offset(circle(40):stroke { width = 4 }, 10)
     for _, case in ipairs { { 47.99, false }, { 48.01, true }, { 51.99, true },
                             { 52.01, false } } do

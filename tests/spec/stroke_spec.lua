@@ -182,6 +182,17 @@ describe("strokes that abut", function()
     assert.are.equal(1, least({ celspan.stroke { points = wave, degree = 2 } }, 10, 20, 54, 44))
   end)
 
+  it("leave no gap around a centre of curvature, whatever the scale", function()
+    local arc = celspan.stroke { d = "M0-10A10 10 0 0 1 10 0V30", width = 34 }
+    for width = 20.5, 42, 1.5 do
+      local disc = celspan.circle { centre = { 0, 0 }, radius = 10 }:stroke { width = width }
+      for _, scale in ipairs { 1, 1.7, 20, 400 } do
+        assert.equal(1, least({ disc:scale(scale):translate(32.3, 31.8) }, 31, 31, 33, 33))
+      end
+    end
+    assert.equal(1, least({ arc:scale(3):translate(32, 32) }, 20, 32, 31, 44))
+  end)
+
   --- Whether a stroke covers a pixel and a tenth of one around it, according to 100 x 100 points.
   local function holds(stroke, x, y)
     for i = 0, 99 do

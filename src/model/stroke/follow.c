@@ -209,6 +209,21 @@ static void find_speeds(const fan *f, double speeds[2]) {
   speeds[1] += length * f->motions[4].drift;
 }
 
+static celspan_point pivot_of(const fan *f, int i) {
+  return cs_spoke_add(f->spokes[i].centre, f->motions[i].pivot, f->spokes[i].direction);
+}
+
+/* Whether all pivots are one point, as those of a circle: their motion is only rounding, and
+ * following it would cut the curve into thousands of pieces between which light leaks. */
+static bool is_round(const cs_side *side, const fan *f) {
+  const celspan_point first = pivot_of(f, 0);
+  double allowed = SMALL * cs_side_allowance(side, &first, 1, 0);
+  for (int i = 1; i < SPOKES; i++)
+    if (cs_stroke_view_error(side->view, pivot_of(f, i), first) > allowed)
+      return false;
+  return true;
+}
+
 /* Where pivots reverse, as at the sharpest point of a bend, their path has a cusp, at which it must
  * be cut: a cubic would go round it in the wrong order. If a cusp is so near to an end that it
  * makes no difference, pivots do not move there. */
@@ -225,13 +240,13 @@ static bool has_cusp(double speeds[2]) {
 static bool fits_pivots(const cs_side *side, const fan *f, const double speeds[2],
                         celspan_point p[4]) {
   const cs_spoke *s = f->spokes;
-  p[0] = cs_spoke_add(s[0].centre, f->motions[0].pivot, s[0].direction);
-  p[3] = cs_spoke_add(s[4].centre, f->motions[4].pivot, s[4].direction);
+  p[0] = pivot_of(f, 0);
+  p[3] = pivot_of(f, 4);
   p[1] = cs_spoke_add(p[0], speeds[0] / 3, s[0].direction);
   p[2] = cs_spoke_add(p[3], -speeds[1] / 3, s[4].direction);
   double allowed = cs_side_allowance(side, p, 4, 0);
   for (int i = 1; i < SPOKES - 1; i++) {
-    celspan_point ought = cs_spoke_add(s[i].centre, f->motions[i].pivot, s[i].direction);
+    celspan_point ought = pivot_of(f, i);
     if (cs_stroke_view_error(side->view, cs_side_on_cubic(p, 0.25 * i), ought) > allowed)
       return false;
   }
@@ -294,7 +309,10 @@ static celspan_status draw_forwards(cs_side *side, const fan *f, bool *is_done) 
 static celspan_status draw_backwards(cs_side *side, const fan *f, double *at, bool *is_done) {
   double speeds[2];
   celspan_point tips[4], pivots[4];
-  find_speeds(f, speeds);
+  if (is_round(side, f))
+    speeds[0] = speeds[1] = 0;
+  else
+    find_speeds(f, speeds);
   if (has_cusp(speeds))
     *at = f->begin + speeds[0] / (speeds[0] - speeds[1]) * (f->end - f->begin);
   else if (fits_tips(side, f->spokes, -1, tips) && fits_pivots(side, f, speeds, pivots))
