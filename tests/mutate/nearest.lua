@@ -141,6 +141,8 @@ return {
   ["lua/celspan/base/sets.lua"] = { "spec/habits", "spec/puppet" },
   ["lua/celspan/puppet/steps.lua"] = { "spec/puppet" },
   ["lua/celspan/film/cut.lua"] = { "spec/cut", "spec/mix" },
+  ["lua/celspan/film/carried.lua"] = { "spec/cut", "spec/mix" },
+  ["lua/celspan/film/edges.lua"] = { "spec/cut" },
   ["lua/celspan/read/footage.lua"] = { "spec/footage", "spec/footage_bad" },
   ["lua/celspan/read/sound.lua"] = { "spec/mix", "spec/spectrum" },
   ["lua/celspan/read/spectrum.lua"] = { "spec/spectrum" },

@@ -8,30 +8,18 @@
 --
 --   shot 1   |==================|               start 0, count 20
 --   shot 2                 |=======...          start 20 - n: n frames of a transition
---
--- One file, because a transition is little more than its two halves, and needs the cut around it.
-local captions = require "celspan.captions"
+local carried = require "celspan.carried"
 local celspan = require "celspan"
 local core = require "celspan.core"
 local ease = require "celspan.ease"
+local edges = require "celspan.edges"
 local fields = require "celspan.fields"
 local keys = require "celspan.keys"
 local ordered = require "celspan.ordered"
 local shots_of = require "celspan.shots"
-local subtitles = require "celspan.subtitles"
 
 local cut = {}
-
-local SMALL = 1e-9 -- a share of a frame: 3 frames at 0.1 of the speed are 30 frames, not 31
-local MOST_PIECES = 10000 -- the most pieces of a sound that is retimed
-
--- ---------------------------------------------------------------- films
-
-local film_metatable = getmetatable(celspan.film { frame = function() end })
 local rostrum_metatable = getmetatable(celspan.rostrum {})
-
-local function is_film(value) return getmetatable(value) == film_metatable and
-  fields.kind(value) == "a film" end
 
 --- The weight of an exposure, checked in the same way as by the film.
 local function weight_of(i, exposure)
@@ -99,18 +87,6 @@ local function shared(first, first_share, second, second_share)
   return list
 end
 
---- The exposures of the visible parts of two shots; one shot may be nil. The light of the parts
---- adds up, so one exposure is enough, but shots with different antialiasing need one exposure
---- each.
-local function together(a, b, seen_of_a, seen_of_b)
-  local function show(shot, art)
-    return { celspan.rostrum { antialias = shot.antialias, celspan.cel { art } }, 1 }
-  end
-  if not (a and b) then return { show(a or b, seen_of_a or seen_of_b) } end
-  if a.antialias ~= b.antialias then return { show(a, seen_of_a), show(b, seen_of_b) } end
-  return { show(a, celspan.group { seen_of_a, seen_of_b:blend "add", isolate = true }) }
-end
-
 --- One shot gradually becomes the other.
 ---@param seconds number
 ---@param curve? celspan.ease
@@ -158,37 +134,6 @@ local function settings_of(noun, settings, known, ranges)
   end
 end
 
---- White with this alpha: the share of a shot that is visible at a place.
-local function seen(share) return celspan.rgb("#fff", share) end
-
---- A shot that is visible where a texture is opaque. The texture covers the whole frame, so both
---- shots have the same edges and add up to one.
-local function softly(shot, size, shade)
-  return celspan.matte(shot, celspan.rect { 0, 0, size[1], size[2], texture = shade })
-end
-
---- The area of the plane on one side of a line: where x cos + y sin is at most `place`, or at least
---- `place` if the sign is -1. reach: longer than the frame's diagonal.
-local function half_plane(cos, sin, place, sign, reach)
-  local x, y = cos * place, sin * place
-  local dx, dy, far = -sin * reach, cos * reach, sign * reach
-  return celspan.polygon { { x + dx, y + dy }, { x - dx, y - dy },
-    { x - dx - cos * far, y - dy - sin * far }, { x + dx - cos * far, y + dy - sin * far } }
-end
-
---- The places `low` and `high` between which the edge of a wipe lies. Up to `low` only shot b is
---- visible, and from `high` on only shot a.
-local function wipe_edge(cos, sin, softness, u, size)
-  local least, most = math.huge, -math.huge
-  for _, corner in ipairs { { 0, 0 }, { size[1], 0 }, { 0, size[2] }, size } do
-    local place = corner[1] * cos + corner[2] * sin
-    least, most = math.min(least, place), math.max(most, place)
-  end
-  local soft = softness * (most - least)
-  local high = least + u * (most - least + soft)
-  return high - soft, high
-end
-
 --- An edge moves over the first shot; the second shot is behind the edge. angle: the direction of
 --- the edge in degrees, 0 from left to right, clockwise; softness: the width of the edge, as a
 --- share of its way.
@@ -200,41 +145,13 @@ function cut.wipe(settings)
     { softness = { 0, 1 } })
   local angle, softness = math.rad((settings.angle or 0) % 360), settings.softness or 0
   local cos, sin = math.cos(angle), math.sin(angle)
-  local function side(shot, u, size, is_second)
-    local low, high = wipe_edge(cos, sin, softness, u, size)
-    if high <= low then
-      local reach = 4 * (size[1] + size[2])
-      return celspan.clip(shot, half_plane(cos, sin, low, is_second and 1 or -1, reach))
-    end
-    return softly(shot, size, celspan.linear {
-      from = { cos * low, sin * low }, to = { cos * high, sin * high },
-      { 0, seen(is_second and 1 or 0) }, { 1, seen(is_second and 0 or 1) } })
-  end
   return function(seconds, curve)
     return transition("wipe", seconds, curve, function(a, b, u, size)
-      return together(a, b, a and side(a, u, size, false), b and side(b, u, size, true))
+      local low, high = edges.wipe(cos, sin, softness, u, size)
+      return edges.together(a, b, a and edges.beside(a, cos, sin, low, high, size, false),
+        b and edges.beside(b, cos, sin, low, high, size, true))
     end)
   end
-end
-
---- The radii of the edge of an iris, in the form of wipe_edge.
-local function iris_edge(centre, softness, u, size)
-  local most = 0
-  for _, corner in ipairs { { 0, 0 }, { size[1], 0 }, { 0, size[2] }, size } do
-    local dx, dy = corner[1] - centre[1], corner[2] - centre[2]
-    most = math.max(most, math.sqrt(dx * dx + dy * dy))
-  end
-  local soft = softness * most
-  local high = u * (most + soft)
-  return high - soft, high
-end
-
---- How much of one of the shots is visible around a soft circle.
-local function iris_shade(centre, low, high, is_second)
-  local inner = math.min(1, high / (high - low))
-  local function shade(share) return seen(is_second and share or 1 - share) end
-  return celspan.radial { centre = centre, radius = high, { 0, shade(inner) },
-    { math.max(0, low) / high, shade(inner) }, { 1, shade(0) } }
 end
 
 --- The second shot is seen in a circle that grows. centre: default the middle of the film;
@@ -250,18 +167,12 @@ function cut.iris(settings)
   end
   local given = settings.centre and { settings.centre[1], settings.centre[2] }
   local softness = settings.softness or 0
-  local function side(shot, u, size, is_second)
-    local centre = given or { size[1] / 2, size[2] / 2 }
-    local low, high = iris_edge(centre, softness, u, size)
-    local disc = celspan.circle { centre = centre, radius = high }
-    if softness > 0 then
-      return softly(shot, size, iris_shade(centre, low, high, is_second))
-    end
-    return is_second and celspan.clip(shot, disc) or celspan.difference { shot, disc }
-  end
   return function(seconds, curve)
     return transition("iris", seconds, curve, function(a, b, u, size)
-      return together(a, b, a and side(a, u, size, false), b and side(b, u, size, true))
+      local centre = given or { size[1] / 2, size[2] / 2 }
+      local low, high = edges.iris(centre, softness, u, size)
+      return edges.together(a, b, a and edges.around(a, centre, low, high, size, false),
+        b and edges.around(b, centre, low, high, size, true))
     end)
   end
 end
@@ -285,7 +196,7 @@ function cut.push(settings)
   end
   return function(seconds, curve)
     return transition("push", seconds, curve, function(a, b, u, size)
-      return together(a, b, moved(a, -u, size), moved(b, 1 - u, size))
+      return edges.together(a, b, moved(a, -u, size), moved(b, 1 - u, size))
     end)
   end
 end
@@ -348,16 +259,16 @@ local function check_frame(i, part, name, film)
 end
 
 local function read_shot(i, part, like)
-  if is_film(part) then part = { film = part } end
+  if carried.is_film(part) then part = { film = part } end
   if type(part) ~= "table" then
     complain(i, "must be a film, { film = ... } or a transition, got %s", fields.kind(part))
   end
-  if is_film(part[1]) then
+  if carried.is_film(part[1]) then
     complain(i, "its film is the field 'film': { film = ..., from = ... }")
   end
   fields.check(("cut: part %d"):format(i), part, part_fields)
   local film = part.film
-  if not is_film(film) then
+  if not carried.is_film(film) then
     complain(i, "field 'film' must be a film, got %s", fields.kind(film))
   end
   check_frame(i, part, "from", film)
@@ -384,7 +295,7 @@ local function read_shot(i, part, like)
     complain(i, "its space is %q, and that of the first film %q: film:with { space = %q }", own,
       wanted, wanted)
   end
-  local count = math.max(1, math.ceil((to - from + 1) / speed - SMALL))
+  local count = math.max(1, math.ceil((to - from + 1) / speed - carried.SMALL))
   return { place = i, film = film, from = from, to = to, speed = speed, name = part.name,
            count = count, before = 0, after = 0 }
 end
@@ -401,6 +312,15 @@ local function overlap(place, between, a, b, fps)
     end
   end
   return count
+end
+
+local function check_names(shots)
+  local names = {}
+  for _, shot in ipairs(shots) do
+    local known = shot.name and names[shot.name]
+    if known then complain(shot.place, "has the name of part %d, %q", known, shot.name) end
+    names[shot.name or false] = shot.place
+  end
 end
 
 --- The shots with their starts, and the segments of the film in their order: { from =, a = shot,
@@ -438,113 +358,16 @@ local function lay_out(parts)
     add_segment { from = shot.start + shot.before, a = shot,
                   count = shot.count - shot.before - shot.after }
   end
+  check_names(shots)
   table.sort(segments, function(one, other) return one.from < other.from end)
   return shots, segments, start
-end
-
--- ---------------------------------------------------------------- sounds, captions, marks
-
---- The sound of a film as a list.
-local function list_of(sound)
-  if sound == nil then return {} end
-  if type(sound) == "string" or type(sound) == "table" and
-    (type(sound[1]) == "string" or is_film(sound[1])) then
-    return { sound }
-  end
-  return sound
-end
-
---- The piece of a film that a shot shows, as a sound. It fades in and out with the pictures.
-local function piece_of(shot)
-  local film, fps = shot.film, shot.film.fps
-  return { film, at = shot.start / fps, from = (shot.from - film.first) / fps,
-           to = (shot.to - film.first + 1) / fps, speed = shot.speed, name = shot.name,
-           fade = { shot.before / fps, shot.after / fps } }
-end
-
---- The sounds of the shots and the sounds of the cut.
-local function sounds_of(shots, own)
-  local sounds = {}
-  for _, shot in ipairs(shots) do
-    if #list_of(shot.film.sound) > 0 then sounds[#sounds + 1] = piece_of(shot) end
-  end
-  if type(own) ~= "nil" and type(own) ~= "string" and type(own) ~= "table" then return own end
-  local list = list_of(own)
-  for i = 1, #list do sounds[#sounds + 1] = list[i] end
-  return #sounds > 0 and sounds or nil
-end
-
---- Adds the captions of a piece. known: the captions of films that were read before.
-local function add_captions(list, piece, known)
-  local film = piece[1]
-  known[film] = known[film] or subtitles.list(film)
-  for _, one in ipairs(known[film]) do
-    local from, to = math.max(one.from, piece.from), math.min(one.to, piece.to)
-    if from < to then
-      list[#list + 1] = { from = piece.at + (from - piece.from) / piece.speed,
-                          to = piece.at + (to - piece.from) / piece.speed, text = one.text }
-    end
-  end
-end
-
---- The captions of pieces of films, and those of the cut. If no piece has any, the film itself
---- reads the file of the cut.
-local function captions_of(pieces, own)
-  local list, known = {}, {}
-  for _, piece in ipairs(pieces) do add_captions(list, piece, known) end
-  if own == nil then return #list > 0 and list or nil end
-  if #list == 0 or type(own) ~= "table" and type(own) ~= "string" then return own end
-  if type(own) == "string" then
-    local read, message = captions.read(own)
-    own = read or core.refuse("cut: captions: " .. message)
-  end
-  return table.move(own, 1, #own, #list + 1, list)
-end
-
---- The first frame of a mark, and its last one, if it has one.
-local function range_of(mark)
-  if type(mark) == "table" then return mark[1], mark[2] end
-  return mark
-end
-
---- Adds the marks of a shot, if its part of the film shows their frames.
-local function add_marks(shot, marks)
-  local function place_of(frame)
-    return shot.start + math.ceil((frame - shot.from) / shot.speed - SMALL) + 1
-  end
-  for name, mark in pairs(shot.film.marks or {}) do
-    local frame, last = range_of(mark)
-    local place, known = place_of(frame), range_of(marks[name])
-    if frame >= shot.from and frame <= shot.to and place <= shot.start + shot.count
-      and not (known and known <= place) then
-      marks[name] = last and { place, math.max(place,
-        math.min(place_of(last + 1) - 1, shot.start + shot.count)) } or place
-    end
-  end
-end
-
---- The marks of the shots, then the names of the parts, then the marks of the cut.
-local function marks_of(shots, own)
-  local marks, names = {}, {}
-  for _, shot in ipairs(shots) do add_marks(shot, marks) end
-  for _, shot in ipairs(shots) do
-    if shot.name and names[shot.name] then
-      complain(shot.place, "has the name of part %d, %q", names[shot.name], shot.name)
-    end
-    if shot.name then
-      marks[shot.name], names[shot.name] = { shot.start + 1, shot.start + shot.count }, shot.place
-    end
-  end
-  if own ~= nil and type(own) ~= "table" then return own end
-  for name, frame in pairs(own or {}) do marks[name] = frame end
-  return next(marks) ~= nil and marks or nil
 end
 
 -- ---------------------------------------------------------------- films of films
 
 --- The frame of a shot at an index of the cut. A failure names the shot after its frame.
 local function frame_at(shot, index)
-  local place = math.floor((index - shot.start) * shot.speed + SMALL)
+  local place = math.floor((index - shot.start) * shot.speed + carried.SMALL)
   local good, result = pcall(shot.film.at, shot.film, math.min(shot.from + place, shot.to))
   if good then return shots_of.marked(result, shot) end
   local name = shot.name and shot.name:gsub("%%", "%%%%")
@@ -595,63 +418,18 @@ local function new(_, parts)
   for i = 1, rawlen(parts) do given[#given + 1] = parts[i] or nil end
   local shots, segments, count = lay_out(given)
   local size, over, pieces = shots[1].film.size, parts.over, {}
-  for i, shot in ipairs(shots) do pieces[i] = piece_of(shot) end
+  for i, shot in ipairs(shots) do pieces[i] = carried.piece_of(shot) end
   local show = frames_of(segments, size)
   return shots_of.keep(celspan.film {
     size = size, fps = shots[1].film.fps, frames = count, title = parts.title,
-    space = shots[1].film.space, sound = sounds_of(shots, parts.sound),
-    marks = marks_of(shots, parts.marks), captions = captions_of(pieces, parts.captions),
+    space = shots[1].film.space, sound = carried.sounds_of(shots, parts.sound),
+    marks = carried.marks_of(shots, parts.marks),
+    captions = carried.captions_of(pieces, parts.captions),
     frame = over and function(f) return lay_over(show(f), over(f), f, size) end or show,
   }, shots, segments)
 end
 
 -- ---------------------------------------------------------------- other times
-
---- Adds the piece between the keys `key` and `after`, if the film runs forwards at an even speed
---- between them. It begins at `at`.
-local function add_piece(list, film, key, after, at)
-  local seconds, frames = after.time - key.time, after.value - key.value
-  local speed = seconds > 0 and frames / film.fps / seconds or 0
-  if after.ease or speed < 0.01 or speed > 100 then return end
-  list[#list + 1] = { film, at = at, from = (key.value - film.first) / film.fps,
-                      to = (after.value - film.first) / film.fps, speed = speed }
-end
-
---- The pieces of a film with new times that are heard and have captions: where the film is held,
---- reversed or eased, there are none.
-local function pieces_of(film, track, duration)
-  if #list_of(film.sound) == 0 and film.captions == nil then return {} end
-  local list, first, last = {}, track.keys[1].time, track.keys[#track.keys].time
-  local turns = track.loop and last > first and math.ceil((duration - first) / (last - first)) or 1
-  if turns * #track.keys > MOST_PIECES then
-    core.refuse(("cut: retime: the sound or the captions have more than %d pieces, which is the "
-      .. "limit: give the film none, film:with{ sound = {}, captions = {} }"):format(MOST_PIECES))
-  end
-  for turn = 0, turns - 1 do
-    for i = 1, track.loop == "mirror" and turn % 2 == 1 and 0 or #track.keys - 1 do
-      local key = track.keys[i]
-      add_piece(list, film, key, track.keys[i + 1], key.time + turn * (last - first))
-    end
-  end
-  return list
-end
-
---- The marks of a film, at the times when their frames are first reached.
-local function retimed_marks(film, count, number_at)
-  local marks = {}
-  for name, mark in pairs(film.marks or {}) do
-    local before, frame = number_at(0), range_of(mark)
-    for index = 0, count - 1 do
-      local number = number_at(index)
-      if math.min(before, number) <= frame and frame <= math.max(before, number) then
-        marks[name] = index + 1
-        break
-      end
-      before = number
-    end
-  end
-  return next(marks) ~= nil and marks or nil
-end
 
 local function check_keys(film, track)
   local last = film.first + film.frames
@@ -672,7 +450,9 @@ end
 ---@param duration? number Seconds; default: the time of the last key
 ---@return celspan.film
 function cut.retime(film, list, duration)
-  if not is_film(film) then core.refuse("cut: retime takes a film, got " .. fields.kind(film)) end
+  if not carried.is_film(film) then
+    core.refuse("cut: retime takes a film, got " .. fields.kind(film))
+  end
   local is_track = type(list) == "table" and type(rawget(list, "keys")) == "table"
   local track = is_track and list or keys(list)
   check_keys(film, track)
@@ -685,15 +465,16 @@ function cut.retime(film, list, duration)
   end
   local last = film.first + film.frames - 1
   local function number_at(index)
-    local number = math.floor(track:at(index / film.fps) + SMALL)
+    local number = math.floor(track:at(index / film.fps) + carried.SMALL)
     return math.max(film.first, math.min(last, number))
   end
   local count = math.max(1, math.floor(duration * film.fps + 0.5))
-  local pieces = pieces_of(film, track, duration)
+  local pieces = carried.pieces_of(film, track, duration)
   return celspan.film {
     size = film.size, fps = film.fps, frames = count, title = film.title, space = film.space,
-    sound = #list_of(film.sound) > 0 and pieces or nil, captions = captions_of(pieces),
-    marks = retimed_marks(film, count, number_at),
+    sound = #carried.list_of(film.sound) > 0 and pieces or nil,
+    captions = carried.captions_of(pieces),
+    marks = carried.retimed_marks(film, count, number_at),
     frame = function(f) return film:at(number_at(f.index)) end,
   }
 end
