@@ -5,7 +5,8 @@
  *
  * The exposures say nothing of the size and the space of the film: program.still makes a film of
  * them for celspan's own functions, celspan.probe and celspan.pixels. What is asked of a frame's
- * scene alone is asked of the one that was built last.
+ * scene alone is asked of the one that was built last. One file, because all functions ask these
+ * two states.
  */
 #include "celspan/lua.h"
 #include "frames/process/interrupt.h"

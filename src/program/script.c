@@ -135,18 +135,32 @@ cs_exit cs_script_give_settings(celspan_context *context, const cs_request *requ
 
 /* ---------------------------------------------------------------- sounds */
 
+/* What is measured of a sound; all zero: nothing. */
+typedef struct heard {
+  cs_loudness loudness;
+  cs_spectrum spectrum;
+} heard;
+
 static int release(lua_State *L) {
-  cs_loudness *loudness = lua_touserdata(L, 1);
-  if (loudness->sums)
-    cs_loudness_finish(loudness, cs_host_context(L));
+  heard *held = lua_touserdata(L, 1);
+  if (held->loudness.sums)
+    cs_loudness_finish(&held->loudness, cs_host_context(L));
+  if (held->spectrum.steps)
+    cs_spectrum_finish(&held->spectrum, cs_host_context(L));
   return 0;
+}
+
+/* The paths at 1 and 2, and room that is released in any case, pushed. */
+static heard *begin_hearing(lua_State *L, const char **path, const char **tried) {
+  *path = luaL_checkstring(L, 1);
+  *tried = luaL_optstring(L, 2, NULL);
+  return cs_userdata_push_holder(L, "celspan.program.heard", sizeof(heard), release);
 }
 
 /* (path, tried | nil) -> seconds, sums | nil, message */
 static int hear(lua_State *L) {
-  const char *path = luaL_checkstring(L, 1), *tried = luaL_optstring(L, 2, NULL);
-  cs_loudness *loudness =
-      cs_userdata_push_holder(L, "celspan.program.loudness", sizeof *loudness, release);
+  const char *path, *tried;
+  cs_loudness *loudness = &begin_hearing(L, &path, &tried)->loudness;
   celspan_status status = cs_loudness_measure(cs_host_context(L), path, tried, loudness);
   if (status != CELSPAN_OK)
     return cs_host_fail(L, status);
@@ -155,18 +169,10 @@ static int hear(lua_State *L) {
   return 2;
 }
 
-static int release_spectrum(lua_State *L) {
-  cs_spectrum *spectrum = lua_touserdata(L, 1);
-  if (spectrum->steps)
-    cs_spectrum_finish(spectrum, cs_host_context(L));
-  return 0;
-}
-
 /* (path, tried | nil) -> levels | nil, message */
 static int hear_spectrum(lua_State *L) {
-  const char *path = luaL_checkstring(L, 1), *tried = luaL_optstring(L, 2, NULL);
-  cs_spectrum *spectrum =
-      cs_userdata_push_holder(L, "celspan.program.spectrum", sizeof *spectrum, release_spectrum);
+  const char *path, *tried;
+  cs_spectrum *spectrum = &begin_hearing(L, &path, &tried)->spectrum;
   celspan_status status = cs_spectrum_measure(cs_host_context(L), path, tried, spectrum);
   if (status != CELSPAN_OK)
     return cs_host_fail(L, status);

@@ -56,16 +56,8 @@ describe("--layers cels", function()
   before_each(function() bench = workbench.new() end)
   after_each(function() bench:remove() end)
 
-  local function run(arguments)
-    local code, out, err = bench:celspan_inside("%s", arguments)
-    return code, err, out
-  end
-  local function render(script, arguments)
-    bench:write("film.lua", script)
-    local code, err = run("render film.lua --progress none " .. arguments)
-    assert.equal(0, code, err)
-    return err
-  end
+  local function run(arguments) return bench:ran(arguments) end
+  local function render(script, arguments) return bench:rendered(script, arguments) end
   local function refused(arguments, words)
     local code, err = run("render film.lua --progress none " .. arguments)
     assert.equal(2, code, err)

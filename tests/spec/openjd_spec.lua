@@ -1,5 +1,6 @@
 -- celspan farm --openjd: the template is compared with the specification, and run with its
 -- parameters filled in.
+local configuration = require "tests.support.configuration"
 local farm = require "tests.support.farm"
 local json = require "celspan.json"
 local openjd = require "tests.support.openjd"
@@ -251,22 +252,8 @@ describe("the template of Open Job Description", function()
   it_converts("names the configuration of colours, and its folder", function()
     bench:shell("mkdir -p " .. bench.folder .. "/show/luts " .. bench.folder .. "/scene")
     bench:write("show/luts/half.cube", "LUT_3D_SIZE 2\n" .. ("0 0 0\n"):rep(7) .. "0.5 0.5 0.5\n")
-    bench:write("show/config.ocio", [[ocio_profile_version: 2
-search_path: luts
-roles:
-  default: light
-  scene_linear: light
-displays:
-  screen:
-    - !<View> {name: half, colorspace: half}
-colorspaces:
-  - !<ColorSpace>
-    name: light
-    aliases: [lin_rec709]
-  - !<ColorSpace>
-    name: half
-    from_reference: !<FileTransform> {src: half.cube}
-]])
+    bench:write("show/config.ocio", configuration("search_path: luts",
+      "    from_reference: !<FileTransform> {src: half.cube}"))
     bench:write("scene/film.lua", farm.FILM)
     local options = "scene/film.lua --colour half --frames 3 "
     local job, values = checked(options .. "-o o/#.png --ocio show/config.ocio")

@@ -1,4 +1,5 @@
 -- celspan check --files: one film that reads a file of each kind, all of which are named.
+local configuration = require "tests.support.configuration"
 local present = require "tests.support.present"
 local truetype = require "tests.support.truetype"
 local workbench = require "tests.support.workbench"
@@ -32,24 +33,10 @@ local shot = film { { deep, at = 0 }, { "shot.wav", at = 0 } }
 return require "celspan.cut" { shot, shot }:with { captions = "talk.srt" }
 ]]
 
-local CONFIGURATION = [[ocio_profile_version: 2
-%s
-roles:
-  default: light
-  scene_linear: light
-displays:
-  screen:
-    - !<View> {name: half, colorspace: half}
-colorspaces:
-  - !<ColorSpace>
-    name: light
-    aliases: [lin_rec709]
-  - !<ColorSpace>
-    name: half
+local CONVERSIONS = [[
     to_reference: !<FileTransform> {src: half.cube}
     from_reference: !<FileTransform>
-      src: "named here.cube" # and not there
-]]
+      src: "named here.cube" # and not there]]
 
 local DRAWING = [[<svg xmlns="http://www.w3.org/2000/svg" width="60" height="40">
 <text x="5" y="20" font-family="Block" font-size="8">AB</text></svg>]]
@@ -143,7 +130,7 @@ describe("check --files", function()
   it_reads("names a file of each kind", function()
     make_media()
     for _, path in ipairs { 'search_path: "luts:more"', "search_path:\n  - luts\n  - more" } do
-      bench:write("config.ocio", CONFIGURATION:format(path))
+      bench:write("config.ocio", configuration(path, CONVERSIONS))
       assert.equal(ALL, listed "--ocio config.ocio --set-from values.json")
     end
     local code, out, err = bench:inside(("OCIO=config.ocio '%s' check film.lua --files")

@@ -63,6 +63,21 @@ function workbench:celspan_inside(arguments, ...)
   return self:inside(("'%s' "):format(workbench.absolute) .. arguments:format(...))
 end
 
+--- Renders film.lua, which is written first, without its progress; that must succeed. Returns what
+--- was said.
+function workbench:rendered(script, arguments)
+  self:write("film.lua", script)
+  local code, _, err = self:celspan_inside("render film.lua --progress none %s", arguments)
+  assert(code == 0, err)
+  return err
+end
+
+--- The same for arguments of any verb: returns the code, what was said and what was printed.
+function workbench:ran(arguments)
+  local code, out, err = self:celspan_inside("%s", arguments)
+  return code, err, out
+end
+
 workbench.binary = BINARY
 --- The program and the folder of the build, from any folder.
 workbench.absolute = absolute(BINARY)

@@ -5,7 +5,8 @@
 --         inotify: saved-'  '--> the renderers are ended, others begin with the new script
 --
 -- Nothing of the script runs in this process. Pages ask for /state.json?since=N, which is answered
--- when there is something newer than state N.
+-- when there is something newer than state N. One file, because all answers read or change the one
+-- state.
 local program, request = ...
 
 local ease = require "celspan.ease"
