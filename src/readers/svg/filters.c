@@ -8,6 +8,7 @@
 #include "model/colour/blend.h"
 #include "model/geometry/matrix.h"
 #include "readers/svg/filter_colours.h"
+#include "readers/svg/filter_nearby.h"
 #include "readers/svg/filter_turbulence.h"
 #include "readers/svg/image.h"
 #include "readers/svg/regions.h"
