@@ -72,6 +72,14 @@ static void print_statistics(const celspan_statistics *s, cs_cache_counts kept, 
   printf(is_json ? "\"seconds\": %.6f}\n" : "seconds %.6f\n", seconds);
 }
 
+/* A line that says in words what was kept and what was made. */
+static void print_work(const celspan_statistics *s, cs_cache_counts kept) {
+  printf("cels: %" PRIu64 " drawn from kept maps, %" PRIu64 " from new maps, %" PRIu64
+         " swept; rows of blurs: %" PRIu64 " made, %" PRIu64 " found again, %.1f MiB kept\n",
+         s->maps - s->maps_made, s->maps_made, s->swept, kept.made, kept.found,
+         (double)kept.bytes / 1048576);
+}
+
 static celspan_status measure(celspan_context *context, const cs_request *request,
                               const celspan_frame_desc *frame) {
   celspan_coding coding = {.struct_size = sizeof coding};
@@ -81,10 +89,14 @@ static celspan_status measure(celspan_context *context, const cs_request *reques
   celspan_status status = cs_request_read(request, "--pixels", &coding.depth)
                               ? celspan_frame_pixels(context, frame, &coding, NULL, 0, &statistics)
                               : celspan_frame_render(context, frame, &nowhere, &statistics);
-  if (status == CELSPAN_OK)
-    print_statistics(&statistics, cs_defocus_bands_count(context), cs_clock_seconds() - started,
-                     cs_request_has(request, "--json"));
-  return status;
+  if (status != CELSPAN_OK)
+    return status;
+  cs_cache_counts kept = cs_defocus_bands_count(context);
+  bool is_json = cs_request_has(request, "--json");
+  print_statistics(&statistics, kept, cs_clock_seconds() - started, is_json);
+  if (!is_json)
+    print_work(&statistics, kept);
+  return CELSPAN_OK;
 }
 
 static celspan_status print_spans(celspan_context *context, const celspan_frame_desc *frame) {

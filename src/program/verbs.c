@@ -264,11 +264,12 @@ static const cs_option SPANS[] = {
     {"--rows", "A-B", &cs_argument_rows, "rows A to B, inclusive; default: all"},
     ANTIALIAS,
     WORKERS,
-    {"--stats", NULL, NULL, "make all rows, but print only one line of statistics"},
+    {"--stats", NULL, NULL,
+     "make all rows, but print only statistics: a line of numbers, and one of words"},
     {"--pixels", "DEPTH", &cs_argument_depth,
      "with --stats: also convert each row to pixels of this depth, in a buffer "
      "that is reused"},
-    {"--json", NULL, NULL, "with --stats: print the same as a JSON object"},
+    {"--json", NULL, NULL, "with --stats: print the numbers as a JSON object"},
     SCRIPT,
     MEMORY,
     {0}};

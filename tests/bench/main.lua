@@ -14,6 +14,7 @@ local beside = require "tests.bench.parts_beside"
 local compositing = require "tests.bench.parts_compositing"
 local files = require "tests.bench.parts_files"
 local film = require "tests.bench.parts_film"
+local everyday = require "tests.bench.parts_films"
 local footage = require "tests.bench.parts_footage"
 local frames = require "tests.bench.parts_frames"
 local lottie = require "tests.bench.parts_lottie"
@@ -45,6 +46,7 @@ local parts = {
   { "demo", "the demo film to PNG", film.demo },
   { "footage", "a clip under a title, beside ffmpeg's overlay", footage.footage },
   { "film", "films, frame by frame", frames.film },
+  { "films", "films as people make them, raw and to video", everyday.films },
   { "planes", "plane files beside frames", planes.planes },
   { "lottie", "heavy Lottie animations", lottie.lottie },
   { "beside", "one film, made by what people would pick instead", beside.beside },

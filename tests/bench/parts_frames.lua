@@ -61,7 +61,7 @@ end
 local size = "1280x720"
 
 --- The cost of a process, shared among its frames.
-local function per_frame(count)
+function parts.per_frame(count)
   return function(lines)
     local line = lines[1]
     for _, key in ipairs { "wall", "best_wall", "processor", "best_processor" } do
@@ -75,7 +75,7 @@ end
 --- An entry for a command that writes raw pixels, which go nowhere.
 local function raw(runner, scene, count, renderer, command)
   return { part = "raw", scene = scene, side = 1280, output = "raw", renderer = renderer,
-           workers = 1, take = per_frame(count),
+           workers = 1, take = parts.per_frame(count),
            command = Command(runner:program "launch", "all", "sh", "-c",
              "exec " .. command .. " >/dev/null") }
 end

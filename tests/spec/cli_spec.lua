@@ -705,7 +705,8 @@ complete_words celspan render film.lua -- -
     local STATISTICS = "^rows (%d+) spans (%d+) single (%d+) gradient (%d+) array (%d+) "
       .. "pixels_in_arrays (%d+) maps (%d+) maps_made (%d+) swept (%d+) colour_evaluations (%d+) "
       .. "allocations (%d+) peak_bytes (%d+) bands_made (%d+) bands_found (%d+) "
-      .. "bands_bytes (%d+) seconds (%d+%.%d+)\n$"
+      .. "bands_bytes (%d+) seconds (%d+%.%d+)\ncels: (%d+) drawn from kept maps, (%d+) from new "
+      .. "maps, (%d+) swept; rows of blurs: (%d+) made, (%d+) found again, (%d+%.%d) MiB kept\n$"
 
     it("counts spans by kind", function()
       local code, out, err = celspan("spans " .. plain .. " --stats")
@@ -725,6 +726,8 @@ complete_words celspan render film.lua -- -
       local _, sharp = celspan("spans " .. plain .. " --stats")
       local made, _, bytes = select(13, soft:match(STATISTICS))
       assert.is_true(tonumber(made) >= 2 and tonumber(bytes) > 64 * 16, soft)
+      local kept, new, swept, made_again = select(17, soft:match(STATISTICS))
+      assert.same({ "0", "0", "1", made }, { kept, new, swept, made_again }, soft)
       assert.truthy(sharp:find("bands_made 0 bands_found 0 bands_bytes 0 ", 1, true), sharp)
     end)
 

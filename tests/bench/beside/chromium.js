@@ -1,10 +1,10 @@
-// The film by screenshots of headless Chromium: node chromium.js DRAWING FOLDER
+// A film by screenshots of headless Chromium: node chromium.js DRAWING FOLDER [PAGE]
 "use strict";
 const { spawn } = require("child_process");
 const fs = require("fs");
 const path = require("path");
 const { pathToFileURL } = require("url");
-const [drawing, folder] = process.argv.slice(2);
+const [drawing, folder, page = path.join(__dirname, "chromium.html")] = process.argv.slice(2);
 
 const browser = spawn("chromium", ["--headless=new", "--no-sandbox", "--disable-gpu",
   "--no-first-run", "--allow-file-access-from-files", "--remote-debugging-pipe",
@@ -39,7 +39,7 @@ async function main() {
   await call("Emulation.setDeviceMetricsOverride",
     { width: 1280, height: 720, deviceScaleFactor: 1, mobile: false });
   await call("Page.enable");
-  await call("Page.navigate", { url: pathToFileURL(path.join(__dirname, "chromium.html")).href });
+  await call("Page.navigate", { url: pathToFileURL(page).href });
   await isLoaded;
   await run(`ready(${JSON.stringify(pathToFileURL(drawing).href)})`);
   for (let frame = 0; frame < 150; frame++) {
