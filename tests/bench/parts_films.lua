@@ -63,8 +63,8 @@ local function write_substitute(folder)
   assert(os.execute(Command("chmod", "+x", folder .. "/ffmpeg")))
 end
 
---- A shell command that renders to raw pixels or to a video for the substitute. `under` comes before
---- the program, as valgrind does.
+--- A shell command that renders to raw pixels or to a video for the substitute. `under` comes
+--- before the program, as valgrind does.
 local function shell(program, film, count, workers, output, place, under)
   under = under or ""
   local head = "export CELSPAN_PATH='scripts/?.lua'; "

@@ -1,9 +1,10 @@
-/* engine/paint/gradient_table.c and engine/paint/gradient_run.c: programs of gradients have the
- * colours that folding their paints gives, and their runs are right within 1/1023 with fewer
- * colours than columns.
+/* engine/paint/gradient_table.c, gradient_run.c, lines.c and few.c: programs of gradients have the
+ * colours that folding their paints gives, and their runs are right within 1/1023; those of one
+ * gradient with fewer colours than columns.
  */
 #include "engine/paint/run.h"
 
+#include "engine/paint/colours.h"
 #include "engine/paint/over_row.h"
 #include "engine/paint/shade.h"
 #include "tests/support/check.h"
@@ -108,6 +109,21 @@ static bool is_near(cs_v4 a, const float *b, float tolerance) {
   return near;
 }
 
+/* Every pixel of a span row is near the expected colour. Returns how many pixels lie in arrays. */
+static int32_t compare_row(const cs_row *row, const float (*wanted)[4]) {
+  int32_t x = 0, wrong = 0, arrays = 0;
+  for (size_t i = 0; i < row->count; i++)
+    for (CHECK(row->spans[i].x0 == x); x < row->spans[i].x1; x++) {
+      float colour[4];
+      celspan_span_colour(&row->spans[i], x, colour);
+      wrong += !is_near(cs_v4_load(colour), wanted[x], 1.0f / 1023);
+      arrays += row->spans[i].kind == CELSPAN_SPAN_ARRAY;
+    }
+  CHECK(x == WIDTH);
+  CHECK(wrong == 0);
+  return arrays;
+}
+
 /* Every column lies in a span that is close to the expected colour there. */
 static void check_run(cs_painter *painter, const cs_gradient_table *table, double y,
                       const float (*wanted)[4]) {
@@ -116,15 +132,7 @@ static void check_run(cs_painter *painter, const cs_gradient_table *table, doubl
   uint64_t before = painter->evaluations;
   CHECK(cs_gradient_run(painter, table, (cs_run){0, WIDTH, y}, &row) == CELSPAN_OK);
   CHECK(painter->evaluations - before < WIDTH / 2);
-  int32_t x = 0, wrong = 0;
-  for (size_t i = 0; i < row.count; i++)
-    for (CHECK(row.spans[i].x0 == x); x < row.spans[i].x1; x++) {
-      float colour[4];
-      celspan_span_colour(&row.spans[i], x, colour);
-      wrong += !is_near(cs_v4_load(colour), wanted[x], 1.0f / 1023);
-    }
-  CHECK(x == WIDTH);
-  CHECK(wrong == 0);
+  compare_row(&row, wanted);
   cs_row_finish(&row, painter->context->memory);
 }
 
@@ -149,6 +157,29 @@ static void check_program(cs_painter *painter, const cs_program *program, double
     check_run(painter, table, y, (const float(*)[4])wanted);
 }
 
+static int32_t pixels_in_arrays;
+
+/* A program of several gradients: a few pixels have the bits that a whole row has, and its run is
+ * right within 1/1023. */
+static void check_several(cs_painter *painter, const cs_program *program, double y) {
+  static float wanted[CS_OVER_ROW_BATCH][4], few[3][4];
+  int32_t wrong = 0;
+  cs_row row;
+  fold(painter, program, y, wanted);
+  CHECK(cs_few_fits(&stack, program));
+  for (int32_t x = 0; x + 3 <= WIDTH; x += 3) {
+    CHECK(cs_painter_program_colours(painter, program, (cs_run){x, x + 3, y}, few) == CELSPAN_OK);
+    for (int32_t k = 0; k < 3; k++)
+      wrong += memcmp(few[k], wanted[x + k], 3 * sizeof(float)) != 0 ||
+               fabsf(few[k][3] - wanted[x + k][3]) > 2e-7f;
+  }
+  CHECK(wrong == 0);
+  cs_row_init(&row);
+  CHECK(cs_lines_run(painter, program, (cs_run){0, WIDTH, y}, &row) == CELSPAN_OK);
+  pixels_in_arrays += compare_row(&row, (const float(*)[4])wanted);
+  cs_row_finish(&row, painter->context->memory);
+}
+
 /* All programs of six layers with one gradient or more, in rows near and far from the centre. */
 static void test_programs(celspan_context *context, bool is_grouped, double perspective) {
   cs_composer composer;
@@ -164,9 +195,10 @@ static void test_programs(celspan_context *context, bool is_grouped, double pers
                                     &painter.gradients) == CELSPAN_OK);
     cs_program program = make_program(items, varying);
     const cs_gradient_table *table;
-    bool is_one = (varying & (varying - 1)) == 0;
-    if (is_grouped && !is_one) {
+    if ((varying & (varying - 1)) != 0) {
       CHECK(cs_gradient_table_find(painter.gradients, &program, &table) == CELSPAN_OK && !table);
+      for (double y = 0.5; y < 120; y += 17)
+        check_several(&painter, &program, y);
       continue;
     }
     for (double y = 0.5; y < 120; y += 17)
@@ -251,6 +283,7 @@ int main(void) {
   test_programs(context, true, 0);
   test_programs(context, false, 0.002);
   test_programs(context, false, -0.012); /* with a horizon */
+  CHECK(pixels_in_arrays > 0);
   test_forgotten(context);
   celspan_texture_unref(linear);
   celspan_texture_unref(radial);

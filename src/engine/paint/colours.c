@@ -247,6 +247,28 @@ celspan_status cs_painter_shown_colours(cs_painter *painter, const cs_program *p
   return CELSPAN_OK;
 }
 
+/* Pixels coded while they are in the cache. */
+static celspan_status run_codes(cs_painter *painter, const cs_program *program, cs_run run,
+                                cs_row *row) {
+  unsigned char *codes;
+  CS_TRY(cs_row_codes(painter->context, row, run.x0, run.x1, &codes));
+  for (int32_t x = run.x0; x < run.x1; x += CS_OVER_ROW_BATCH) {
+    int32_t count = run.x1 - x < CS_OVER_ROW_BATCH ? run.x1 - x : CS_OVER_ROW_BATCH;
+    cs_batch batch = {NULL, x, count, run.y};
+    CS_TRY(cs_painter_batch_codes(painter, program, &batch, codes + 4 * (size_t)(x - run.x0)));
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_painter_pixels(cs_painter *painter, const cs_program *program, cs_run run,
+                                 cs_row *row) {
+  float *colours;
+  if (row->takes_codes && painter->stack->space != CELSPAN_SPACE_SRGB)
+    return run_codes(painter, program, run, row);
+  CS_TRY(cs_row_array(painter->context, row, run.x0, run.x1, &colours));
+  return cs_painter_shown_colours(painter, program, run, (float(*)[4])colours);
+}
+
 /* Finds the visible items from run.x0 on: in as many strides of the run as show the same items, or
  * in one stride where this is not known. *end: the column after these strides. */
 static celspan_status find_shown(cs_painter *painter, const cs_program *program, int32_t stride,

@@ -8,6 +8,7 @@
 
 #include "engine/paint/over_row.h"
 #include "engine/paint/painter.h"
+#include "engine/span/row.h"
 #include "engine/span/run.h"
 
 /* Premultiplied RGBA at the middles of a run's pixels: of a cell, and of a program by itself.
@@ -24,6 +25,9 @@ CELSPAN_CHECKED celspan_status cs_painter_program_colours(cs_painter *painter,
 CELSPAN_CHECKED celspan_status cs_painter_shown_colours(cs_painter *painter,
                                                         const cs_program *program, cs_run run,
                                                         float (*rgba)[4]);
+/* Appends them to a row: an array, or codes if it takes them. */
+CELSPAN_CHECKED celspan_status cs_painter_pixels(cs_painter *painter, const cs_program *program,
+                                                 cs_run run, cs_row *row);
 
 CELSPAN_CHECKED celspan_status cs_painter_batch_colours(cs_painter *painter,
                                                         const cs_program *program,
@@ -43,8 +47,8 @@ bool cs_painter_are_bare(const cs_painter *painter, const cs_program *program);
 
 #define CS_FEW_PIXELS 4
 
-/* Whether all layers of a program are flat or defocused, at least one of them defocused, and no
- * defocused layer hides another one that has not been made yet. */
+/* Whether all layers of a program are flat, defocused or formulas, at least one of them defocused or
+ * two of them formulas, and no defocused layer hides another one that has not been made yet. */
 bool cs_few_fits(const cs_stack *stack, const cs_program *program);
 /* Premultiplied RGBA of such a program at the middles of a run's pixels, at most CS_FEW_PIXELS.
  * Errors: NO_MEMORY, and those of making defocused cels. */

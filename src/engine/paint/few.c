@@ -9,20 +9,27 @@
  */
 #include "engine/paint/colours.h"
 
+#include "engine/paint/shade.h"
+
 bool cs_few_fits(const cs_stack *stack, const cs_program *program) {
   uint32_t defocused = 0, made = 0; /* made: layers that would be made even where they are hidden */
-  if (stack->defocused_count == 0)
+  uint32_t formulas = 0;
+  if (stack->defocused_count + stack->shade_count == 0)
     return false;
   for (uint32_t i = 0; i < program->length; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
-    if (layer->kind != CS_LAYER_FLAT && layer->kind != CS_LAYER_DEFOCUSED)
+    bool is_formula = layer->kind == CS_LAYER_SHADED && layer->role == CS_LAYER_PAINT;
+    if (layer->kind != CS_LAYER_FLAT && layer->kind != CS_LAYER_DEFOCUSED && !is_formula)
       return false;
+    formulas += is_formula;
     if (layer->kind == CS_LAYER_DEFOCUSED) {
       defocused++;
       made += !stack->defocused[layer->index]->mix;
     }
   }
-  return defocused == 1 || (defocused > 0 && made == 0);
+  if (defocused == 0)
+    return formulas > 1; /* one alone is read from a table */
+  return defocused == 1 || made == 0;
 }
 
 static celspan_status move_views(cs_painter *painter, const cs_program *program, double y) {
@@ -34,6 +41,13 @@ static celspan_status move_views(cs_painter *painter, const cs_program *program,
                                &painter->defocused[layer->index], y));
   }
   return CELSPAN_OK;
+}
+
+static void add_formula(const cs_painter *painter, const cs_layer *layer, int32_t x, double y,
+                        cs_over *over) {
+  cs_shade_lanes paint = cs_shade_paint(&painter->stack->shades[layer->index], x + 0.5, y);
+  cs_over_pair lit = cs_over_lit(layer->front, layer->fade, paint.s, paint.t);
+  cs_over_add(over, lit.e, lit.t);
 }
 
 static void add_defocused(const cs_painter *painter, const cs_layer *layer, int32_t x,
@@ -56,7 +70,7 @@ static bool is_clear(const cs_painter *painter, const cs_layer *layer, int32_t x
   return x < visible.first || x >= visible.end;
 }
 
-static cs_v4 colour_at(const cs_painter *painter, const cs_program *program, int32_t x) {
+static cs_v4 colour_at(const cs_painter *painter, const cs_program *program, int32_t x, double y) {
   cs_over over;
   cs_over_begin(&over, painter->stack, painter->outers);
   for (uint32_t i = 0; i < program->length; i++) {
@@ -67,6 +81,8 @@ static cs_v4 colour_at(const cs_painter *painter, const cs_program *program, int
     cs_over_move(&over, number, layer->group);
     if (layer->kind == CS_LAYER_FLAT)
       cs_over_add(&over, layer->s, layer->t);
+    else if (layer->kind == CS_LAYER_SHADED)
+      add_formula(painter, layer, x, y, &over);
     else
       add_defocused(painter, layer, x, &over);
   }
@@ -78,6 +94,6 @@ celspan_status cs_few_colours(cs_painter *painter, const cs_program *program, cs
   painter->evaluations += (uint64_t)(run.x1 - run.x0);
   CS_TRY(move_views(painter, program, run.y));
   for (int32_t x = run.x0; x < run.x1; x++)
-    cs_v4_store(rgba[x - run.x0], colour_at(painter, program, x));
+    cs_v4_store(rgba[x - run.x0], colour_at(painter, program, x, run.y));
   return CELSPAN_OK;
 }

@@ -190,7 +190,7 @@ static celspan_status run_focal(arc *a) {
 }
 
 bool cs_gradient_run_fits(const cs_gradient_table *table) {
-  return table && table->layer_count == 0 && table->shade->is_affine &&
+  return table && table->shade->is_affine &&
          (table->shade->texture->kind == CS_TEXTURE_LINEAR ||
           table->shade->texture->kind == CS_TEXTURE_RADIAL);
 }

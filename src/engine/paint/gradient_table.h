@@ -1,5 +1,4 @@
-/* Programs in which nothing but linear and radial gradients varies, folded beforehand as far as
- * possible.
+/* Programs in which nothing but one gradient varies, folded beforehand.
  *
  *     stops         at 0         at 0.4          at 1          along the gradient
  *                    |             |              |
@@ -7,10 +6,9 @@
  *           constant |  a line from colour to     | constant
  *                    |  colour    |               |
  *
- * Of one gradient: everything that is done to its paint (light, fades, the layers in front and
- * behind) is affine, so the colour of the program is a mix of its colours at two stops. A pixel
- * costs a search among the stops and a mix. Of several, in no faded group: the flat layers between
- * them are folded, and a pixel is folded from the rear through one layer a gradient.
+ * Everything that is done to its paint (light, fades, the layers in front and behind) is affine, so
+ * the colour of the program is a mix of its colours at two stops. A pixel costs a search among the
+ * stops and a mix. Several gradients are folded layer by layer: colours.h.
  *
  * Invariant: a pixel's colour depends on the program and the place alone. One store a painter; its
  * tables are right as long as the stack lives.
@@ -33,29 +31,11 @@ typedef struct cs_gradient_table_section {
                          first stop and after the last */
 } cs_gradient_table_section;
 
-/* The paint of one of several gradients, lit and faded, from one stop to the next. */
-typedef struct cs_gradient_table_tint {
-  cs_v4 s, step_s, t, step_t;
-  double at, scale;
-} cs_gradient_table_tint;
-
-typedef struct cs_gradient_table_layer {
-  cs_v4 e, t; /* light and transmission of the flat layers between it and the gradient in front */
-  const cs_shade *shade;
-  /* one for each section; the same for this layer in every program */
-  const cs_gradient_table_tint *tints;
-} cs_gradient_table_layer;
-
 typedef struct cs_gradient_table {
-  cs_v4 e, t;            /* of several gradients: the layers behind all of them */
-  const cs_shade *shade; /* of the only gradient or the first one */
-  /* Of a table of one gradient: before each stop, after the last, and behind the horizon. */
+  const cs_shade *shade;
+  /* before each stop, after the last, and behind the horizon */
   const cs_gradient_table_section *sections;
-  const cs_gradient_table_layer *layers; /* of a table of several gradients, front to back */
-  size_t layer_count;                    /* 0: of one */
-  cs_set_hash name;                      /* of the program's layers */
-  float keep;                            /* the share of transparency that the mattes of back lights
-                                            leave */
+  cs_set_hash name; /* of the program's layers */
 } cs_gradient_table;
 
 typedef struct cs_gradient_tables cs_gradient_tables;

@@ -6,9 +6,10 @@
  *       |           /:           :`-._          a run is cut where a formula bends or a texel
  *       |         /  :           :    `-._      begins (ends.h); between two cuts it becomes one
  *       |  _____/    :           :        |     span if it is straight enough, else it is halved
- *       |  |    :    :           :        |     (halving.h)
- *       +--+----+----+-----------+--------+---> column
- *          x0  cut  cut         cut       x1
+ *       |  |    :    :           :        |     (halving.h); if halving would give short pieces,
+ *       +--+----+----+-----------+--------+---> it is painted pixel by pixel, together with
+ *          x0  cut  cut         cut       x1    neighbours of which this is true
+ *                                         column
  */
 #include "engine/paint/run.h"
 
@@ -180,6 +181,8 @@ static CELSPAN_CHECKED celspan_status find_ends(cs_painter *painter, const cs_pr
 
 /* ---------------------------------------------------------------- lines */
 
+#define SHORT 32 /* columns: halving costs more than to paint the pixels of shorter pieces */
+
 /* A curve of colour along a run of a program. */
 typedef struct colour_curve {
   cs_halving_curve curve;
@@ -187,6 +190,7 @@ typedef struct colour_curve {
   const cs_program *program;
   const cs_gradient_table *table; /* of the program, or NULL */
   double y;
+  int32_t short_from, short_end; /* columns before the next line whose pieces would be short */
 } colour_curve;
 
 /* Many colours cost little more than one, since a batch is folded layer by layer. So the columns of
@@ -201,7 +205,7 @@ static celspan_status find_colours(const colour_curve *c, const int32_t *columns
   return CELSPAN_OK;
 }
 
-/* inner: the colours at the quarters. */
+/* Whether a line is near the curve. inner: the colours at the quarters. */
 static bool is_straight(const cs_halving_curve *curve, const cs_halving_point *first,
                         const cs_halving_point *last, const float (*inner)[4]) {
   cs_run run = cs_halving_run(first, last);
@@ -277,26 +281,54 @@ static void pick_columns(line_shape shape, cs_run run, int32_t *columns) {
                                         : cs_halving_quarter(run, shape == STRAIGHT ? 4 * k : k);
 }
 
-/* Whether a line is straight, judged by its colours at the columns of pick_columns. */
-static bool is_line(const cs_halving_curve *curve, const cs_halving_point *first,
-                    const cs_halving_point *last, const float (*rgba)[4]) {
-  cs_run run = cs_halving_run(first, last);
-  float inner[3][4];
+/* The colours of a line at its quarters, of those at the columns of pick_columns. */
+static void pick_quarters(cs_run run, const float (*rgba)[4], float (*inner)[4]) {
   for (int k = 1; k <= 3; k++)
     memcpy(inner[k - 1], rgba[run.x1 - run.x0 < CURVED ? cs_halving_quarter(run, k) - run.x0 : k],
            sizeof inner[0]);
-  return is_straight(curve, first, last, (const float(*)[4])inner);
+}
+
+/* Whether a curve would be halved into short pieces. With each halving a curve comes four times as
+ * near to its line. */
+static bool has_short_pieces(const cs_halving_curve *curve, const cs_halving_point *first,
+                             const cs_halving_point *last, const float (*inner)[4]) {
+  cs_run run = cs_halving_run(first, last);
+  int32_t columns = run.x1 - run.x0;
+  cs_halving_curve coarse = *curve;
+  while (columns >= SHORT && !is_straight(&coarse, first, last, inner)) {
+    coarse.tolerance *= 4;
+    columns /= 2;
+  }
+  return columns < SHORT;
+}
+
+/* The pixels of the curves that wait because their pieces are short. */
+static celspan_status put_short(colour_curve *c) {
+  cs_run run = {c->short_from, c->short_end, c->y};
+  c->short_from = c->short_end;
+  return run.x1 > run.x0 ? cs_painter_pixels(c->painter, c->program, run, c->curve.row)
+                         : CELSPAN_OK;
 }
 
 static celspan_status put_line(colour_curve *c, line_shape shape, cs_run run,
                                const float (*rgba)[4]) {
   cs_halving_point first = {run.x0, 0, cs_v4_load(rgba[0])};
   cs_halving_point last = {run.x1 - 1, 0, cs_v4_load(rgba[count_colours(shape, run) - 1])};
+  float inner[3][4];
   if (shape == STEPPED)
     return cs_row_single(c->curve.context, c->curve.row, run.x0, run.x1, first.colour);
-  if (shape == CURVED && !is_line(&c->curve, &first, &last, rgba))
-    return cs_halving_split(&c->curve, &first, &last);
-  return cs_halving_put(&c->curve, &first, &last);
+  if (shape == CURVED)
+    pick_quarters(run, rgba, inner);
+  const float(*quarters)[4] = (const float(*)[4])inner;
+  bool is_curved = shape == CURVED && !is_straight(&c->curve, &first, &last, quarters);
+  if (is_curved && has_short_pieces(&c->curve, &first, &last, quarters)) {
+    c->short_end = run.x1;
+    return CELSPAN_OK;
+  }
+  CS_TRY(put_short(c));
+  c->short_from = c->short_end = run.x1;
+  return is_curved ? cs_halving_split(&c->curve, &first, &last)
+                   : cs_halving_put(&c->curve, &first, &last);
 }
 
 /* The columns of the lines from `line` on, as many lines as fit into a batch. Returns the line
@@ -328,7 +360,7 @@ static celspan_status put_lines(colour_curve *c, const cut_list *ends) {
       colours += count_colours(shape, run);
     }
   }
-  return CELSPAN_OK;
+  return put_short(c);
 }
 
 /* ---------------------------------------------------------------- runs */
@@ -340,7 +372,9 @@ celspan_status cs_lines_run(cs_painter *painter, const cs_program *program, cs_r
                               .row = row},
                     .painter = painter,
                     .program = program,
-                    .y = run.y};
+                    .y = run.y,
+                    .short_from = run.x0,
+                    .short_end = run.x0};
   cut_list ends;
   CS_TRY(cs_gradient_table_find(painter->gradients, program, &c.table));
   if (cs_gradient_run_fits(c.table))

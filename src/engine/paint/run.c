@@ -230,26 +230,6 @@ static celspan_status run_copy(cs_painter *painter, const cs_program *shown, cs_
   return cs_sampler_codes(painter->blocks, &painter->images[layer->index].sampler, run, codes);
 }
 
-/* Pixels coded while they are in the cache. */
-static celspan_status run_codes(cs_painter *painter, const cs_program *shown, cs_run run,
-                                cs_row *row) {
-  unsigned char *codes;
-  CS_TRY(cs_row_codes(painter->context, row, run.x0, run.x1, &codes));
-  for (int32_t x = run.x0; x < run.x1; x += CS_OVER_ROW_BATCH) {
-    int32_t count = run.x1 - x < CS_OVER_ROW_BATCH ? run.x1 - x : CS_OVER_ROW_BATCH;
-    cs_batch batch = {NULL, x, count, run.y};
-    CS_TRY(cs_painter_batch_codes(painter, shown, &batch, codes + 4 * (size_t)(x - run.x0)));
-  }
-  return CELSPAN_OK;
-}
-
-static celspan_status run_array(cs_painter *painter, const cs_program *shown, cs_run run,
-                                cs_row *row) {
-  float *colours;
-  CS_TRY(cs_row_array(painter->context, row, run.x0, run.x1, &colours));
-  return cs_painter_shown_colours(painter, shown, run, (float(*)[4])colours);
-}
-
 /* A program of the visible items alone. ends_opaque: nothing shines through it. */
 static celspan_status run_shown(cs_painter *painter, const cs_program *shown, bool ends_opaque,
                                 cs_run run, cs_row *row) {
@@ -262,9 +242,7 @@ static celspan_status run_shown(cs_painter *painter, const cs_program *shown, bo
   CS_TRY(needs_array(painter, shown, &is_array));
   if (!is_array)
     return cs_lines_run(painter, shown, run, row);
-  return row->takes_codes && painter->stack->space != CELSPAN_SPACE_SRGB
-             ? run_codes(painter, shown, run, row)
-             : run_array(painter, shown, run, row);
+  return cs_painter_pixels(painter, shown, run, row);
 }
 
 /* ---------------------------------------------------------------- columns that show the same */

@@ -226,8 +226,8 @@ static void stop_paints(const cs_shade *shade, const double *x, int32_t count, d
     stretch part = {.from = INFINITY, .paint = lanes_of(&clear)}; /* behind the horizon */
     if (at[k] == at[k])
       part = stretch_at(shade->texture, at[k]);
-    for (end = k + 1; end < count && at[end] >= part.from && at[end] < part.to; end++) {
-    }
+    end = k + 1;
+    end += CS_WIDE_CHOOSE(cs_isa_best(), cs_shade_reach)(at + end, count - end, part.from, part.to);
     fill_paints(&part, at + k, end - k, s + k, t + k);
   }
 }

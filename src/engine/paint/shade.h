@@ -72,11 +72,13 @@ static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
 #define CS_SHADE_PLACES 64
 void cs_shade_find(const cs_shade *shade, const double *x, int32_t count, double y, double *at);
 /* The same for all but noise; also the share of the way from the stop `from` to the next stop
- * at which each place lies. In vector code: shade_wide.c. */
+ * at which each place lies; and how many places from the first one on lie in [from, to). In vector
+ * code: shade_wide.c. */
 CS_WIDE_DECLARE(void, cs_shade_places,
                 (const cs_shade *shade, const double *x, int32_t count, double y, double *at));
 CS_WIDE_DECLARE(void, cs_shade_shares,
                 (const double *at, int32_t count, double from, double length, float *shares));
+CS_WIDE_DECLARE(int32_t, cs_shade_reach, (const double *at, int32_t count, double from, double to));
 
 /* A paint in the form in which it is folded; lane 3 has no meaning. */
 typedef struct cs_shade_lanes {

@@ -29,3 +29,18 @@ void CS_WIDE(cs_shade_shares)(const double *restrict at, int32_t count, double f
   for (int32_t k = 0; k < count; k++)
     shares[k] = (float)((at[k] - from) / length);
 }
+
+int32_t CS_WIDE(cs_shade_reach)(const double *at, int32_t count, double from, double to) {
+  enum { TOGETHER = 8 };
+  int32_t k = 0, inside = TOGETHER;
+  for (; k + TOGETHER <= count && inside == TOGETHER; k += TOGETHER) {
+    inside = 0;
+#pragma omp simd reduction(+ : inside)
+    for (int32_t i = 0; i < TOGETHER; i++)
+      inside += (at[k + i] >= from) & (at[k + i] < to);
+  }
+  k -= inside == TOGETHER ? 0 : TOGETHER;
+  while (k < count && at[k] >= from && at[k] < to)
+    k++;
+  return k;
+}
