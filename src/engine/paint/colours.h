@@ -47,8 +47,8 @@ bool cs_painter_are_bare(const cs_painter *painter, const cs_program *program);
 
 #define CS_FEW_PIXELS 4
 
-/* Whether all layers of a program are flat, defocused or formulas, at least one of them defocused or
- * two of them formulas, and no defocused layer hides another one that has not been made yet. */
+/* Whether all layers of a program are flat, defocused or formulas, at least one of them defocused
+ * or two of them formulas, and no defocused layer hides another one that has not been made yet. */
 bool cs_few_fits(const cs_stack *stack, const cs_program *program);
 /* Premultiplied RGBA of such a program at the middles of a run's pixels, at most CS_FEW_PIXELS.
  * Errors: NO_MEMORY, and those of making defocused cels. */

@@ -51,8 +51,8 @@ void cs_gradient_table_colours(const cs_gradient_table *table, const cs_batch *b
 
 /* ---------------------------------------------------------------- which programs */
 
-/* The layer of the only gradient of a program, with stops; CS_STACK_NONE where other layers vary, or
- * there are too many stops. */
+/* The layer of the only gradient of a program, with stops; CS_STACK_NONE where other layers vary,
+ * or there are too many stops. */
 static uint32_t find_varying(const cs_stack *stack, const cs_program *program) {
   uint32_t found = CS_STACK_NONE;
   if (cs_program_curves(stack, program))

@@ -227,7 +227,8 @@ static void stop_paints(const cs_shade *shade, const double *x, int32_t count, d
     if (at[k] == at[k])
       part = stretch_at(shade->texture, at[k]);
     end = k + 1;
-    end += CS_WIDE_CHOOSE(cs_isa_best(), cs_shade_reach)(at + end, count - end, part.from, part.to);
+    end +=
+        CS_WIDE_CHOOSE(cs_isa_best(), cs_shade_extent)(at + end, count - end, part.from, part.to);
     fill_paints(&part, at + k, end - k, s + k, t + k);
   }
 }

@@ -78,7 +78,8 @@ CS_WIDE_DECLARE(void, cs_shade_places,
                 (const cs_shade *shade, const double *x, int32_t count, double y, double *at));
 CS_WIDE_DECLARE(void, cs_shade_shares,
                 (const double *at, int32_t count, double from, double length, float *shares));
-CS_WIDE_DECLARE(int32_t, cs_shade_reach, (const double *at, int32_t count, double from, double to));
+CS_WIDE_DECLARE(int32_t, cs_shade_extent,
+                (const double *at, int32_t count, double from, double to));
 
 /* A paint in the form in which it is folded; lane 3 has no meaning. */
 typedef struct cs_shade_lanes {

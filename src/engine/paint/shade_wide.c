@@ -30,7 +30,7 @@ void CS_WIDE(cs_shade_shares)(const double *restrict at, int32_t count, double f
     shares[k] = (float)((at[k] - from) / length);
 }
 
-int32_t CS_WIDE(cs_shade_reach)(const double *at, int32_t count, double from, double to) {
+int32_t CS_WIDE(cs_shade_extent)(const double *at, int32_t count, double from, double to) {
   enum { TOGETHER = 8 };
   int32_t k = 0, inside = TOGETHER;
   for (; k + TOGETHER <= count && inside == TOGETHER; k += TOGETHER) {
