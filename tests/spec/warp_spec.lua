@@ -1,6 +1,8 @@
 -- Objects that are bent: outlines as curves, pictures as meshes without seams.
 local celspan = require "celspan"
+local motion = require "celspan.motion"
 local raised = require "tests.support.raised"
+local workbench = require "tests.support.workbench"
 
 local sin = math.sin
 
@@ -316,6 +318,56 @@ describe("a boil", function()
       local x, y, w, h = square:boil { amount = 2, frame = frame }:bounds()
       assert.is_true(x >= 10 and y >= 10 and x + w <= 54 and y + h <= 54)
     end
+  end)
+
+  --- The same movement in Lua, by motion.noise.
+  local function map_of(options)
+    local grain, step = options.grain, options.frame // options.every
+    local across = motion.noise(options.seed .. " across")
+    local down = motion.noise(options.seed .. " down")
+    local function at(i, j)
+      return options.amount * across(i, j, step), options.amount * down(i, j, step)
+    end
+    local function eased(t) return t * t * t * (t * (6 * t - 15) + 10) end
+    return function(x, y)
+      local i, j = x // grain, y // grain
+      local u, v = eased(x / grain - i), eased(y / grain - j)
+      local ax, ay = at(i, j)
+      local bx, by = at(i + 1, j)
+      local cx, cy = at(i, j + 1)
+      local dx, dy = at(i + 1, j + 1)
+      local top, left = ax + (bx - ax) * u, ay + (by - ay) * u
+      return x + top + (cx + (dx - cx) * u - top) * v, y + left + (cy + (dy - cy) * u - left) * v
+    end
+  end
+
+  it("moves points as noise at whole numbers does, to the last bit", function()
+    for i, frame in ipairs { 0, -7, 3.9, 2 ^ 54, 1e300 } do
+      local options = { amount = 1 / 3 * i, frame = frame, every = 1 + 0.3 * i, grain = 1.4 * i,
+                        seed = i == 1 and "0" or "s" .. i }
+      for _, place in ipairs { -1e6 / 3, -20, 0.1, 3e6 } do
+        local figure = celspan.path { d = "M0 0C9 3 20 30 40 11L7 50Z", texture = "#000" }
+          :translate(place, -place / 7)
+        local mapped = figure:warp { map = map_of(options) }
+        assert.same({ mapped:bounds() }, { figure:boil(options):bounds() })
+      end
+    end
+  end)
+
+  it("counts its points as steps", function()
+    local bench = workbench.new()
+    local script = bench:write("boiled.lua", [[
+      local celspan = require "celspan"
+      local line = celspan.path { d = "M0 0" .. ("C9 3 20 30 40 11S3 9 0 0"):rep(100),
+        texture = "#000" }
+      return celspan.film { size = { 32, 32 }, frames = 1, frame = function()
+        return celspan.rostrum { celspan.cel { line:boil { amount = 1, frame = 3 } } }
+      end }]])
+    local code, _, err = bench:celspan("check %s --limit steps=100000", script)
+    assert.equal(6, code)
+    assert.truthy(err:find("100000 steps", 1, true), err)
+    assert.equal(0, (bench:celspan("check %s", script)))
+    bench:remove()
   end)
 
   it("keeps together what touches", function()

@@ -9,10 +9,10 @@
 -- as curves, pictures and gradients as a mesh.
 local celspan = require "celspan"
 local affine = require "celspan.affine"
+local chance = require "celspan.chance"
 local core = require "celspan.core"
 local curves = require "celspan.curves"
 local fields = require "celspan.fields"
-local motion = require "celspan.motion"
 
 local warp = {}
 
@@ -400,40 +400,16 @@ local function check_boil(options)
   return amount, every, grain
 end
 
---- How the points of a grid are moved: a function at(i, j) that returns two numbers.
-local function grid(seed, step, amount)
-  local across = motion.noise(("%s across"):format(seed))
-  local down = motion.noise(("%s down"):format(seed))
-  local xs, ys = {}, {}
-  return function(i, j)
-    local name = i * 0x40000000 + j
-    local x = xs[name]
-    if not x then
-      x = amount * across(i, j, step)
-      xs[name], ys[name] = x, amount * down(i, j, step)
-    end
-    return x, ys[name]
-  end
-end
-
-local function eased(t) return t * t * t * (t * (6 * t - 15) + 10) end
-
 --- object:boil(options): the lines wobble, as if each drawing were traced again. The movement of a
 --- point depends on its place, so shapes that touch still touch.
 function warp.boil(object, options)
   local amount, every, grain = check_boil(options)
   if amount == 0 then return object end
-  local at = grid(options.seed or 0, options.frame // every, amount)
-  return warp.apply(object, { within = options.within, pieces = options.pieces, map = function(x, y)
-    local i, j = x // grain, y // grain
-    local u, v = eased(x / grain - i), eased(y / grain - j)
-    local ax, ay = at(i, j)
-    local bx, by = at(i + 1, j)
-    local cx, cy = at(i, j + 1)
-    local dx, dy = at(i + 1, j + 1)
-    local top, left = ax + (bx - ax) * u, ay + (by - ay) * u
-    return x + top + (cx + (dx - cx) * u - top) * v, y + left + (cy + (dy - cy) * u - left) * v
-  end })
+  if not object:bounds() then return object end
+  local seed = options.seed or 0
+  return core.boil(object, chance.seed(("%s across"):format(seed)),
+    chance.seed(("%s down"):format(seed)), options.frame // every, amount, grain,
+    options.within or 0, options.pieces)
 end
 
 return fields.seal("warp", warp)

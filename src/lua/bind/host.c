@@ -196,6 +196,12 @@ void cs_host_push_asked(lua_State *L) {
   cs_host_remember_asked(L);
 }
 
+void cs_host_charge(lua_State *L, uint64_t steps) {
+  const cs_host *host = cs_host_get(L);
+  if (host->rules && host->rules->charge)
+    host->rules->charge(host->rules->user, L, steps);
+}
+
 bool cs_host_admits(lua_State *L, const char *path) {
   const cs_host_rules *rules = cs_host_get(L)->rules;
   bool is_admitted = !rules || !rules->admits || rules->admits(rules->user, path);

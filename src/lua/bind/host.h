@@ -39,6 +39,9 @@ typedef struct cs_host_rules {
   /* The sentence of the limit that ended a call; NULL: no limit ended it. The outcome of lua_pcall
    * and the message (NULL: not a text) are those of the call. */
   const char *(*limit)(void *user, int outcome, const char *message);
+  /* Counts work of C functions as steps. Raises an error when a limit is exceeded. NULL: work is
+   * not counted. */
+  void (*charge)(void *user, lua_State *L, uint64_t steps);
   /* Raises the message that there was no memory, or the message about the exceeded limit, in a way
    * that no script can catch. */
   void (*starve)(void *user, lua_State *L, const char *sentence);
@@ -84,6 +87,8 @@ celspan_status cs_host_blame(lua_State *L, const char *message);
 /* Before and after a call into the script; without rules nothing happens. */
 void cs_host_begin(lua_State *L, cs_host_call call, int64_t number);
 void cs_host_end(lua_State *L);
+/* Counts work of C functions as steps of the script. Raises. */
+void cs_host_charge(lua_State *L, uint64_t steps);
 /* Whether the script may read at this path. */
 bool cs_host_admits(lua_State *L, const char *path);
 /* Raises an error unless the script may read at this path. It is called before the file is examined

@@ -1,9 +1,11 @@
 /* Objects that are made of another one by a method and keep no fields: object:paint(texture), a
- * rectangle with the texture inside the shape, and object:warp{...}, the object bent by a map. */
+ * rectangle with the texture inside the shape; object:warp{...}, the object bent by a map; and
+ * object:boil{...}, the same by a random one. */
 #include <math.h>
 
 #include "base/context.h"
 #include "base/number.h"
+#include "base/splitmix.h"
 #include "lua/bind/bare.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/form.h"
@@ -122,22 +124,114 @@ static celspan_status map_point(void *user, celspan_context *context, celspan_po
   return CELSPAN_OK;
 }
 
-int cs_derived_warp(lua_State *L) {
+/* Bends the object at index 1 as desc says. Errors of the map: m->outcome. */
+static int bend(lua_State *L, celspan_warp_desc *desc, const mapping *m) {
   const cs_userdata *object = cs_userdata_self(L, &cs_kind_object, "warp");
-  mapping m = {.L = L, .function = 2, .outcome = LUA_OK};
-  celspan_warp_desc desc = CELSPAN_WARP_DESC;
   celspan_object *bent = NULL;
-  desc.map = map_point;
-  desc.user = &m;
-  desc.within = luaL_checknumber(L, 3);
-  desc.pieces = (size_t)fmin(fmax(luaL_optnumber(L, 4, (double)desc.pieces), 0), 1e9);
-  lua_settop(L, 2);
   luaL_checkstack(L, 20, "warp");
   cs_userdata *value = cs_bare_push(L, &noun_warped);
-  celspan_status status = celspan_object_warp(cs_host_context(L), object->handle, &desc, &bent);
-  if (m.outcome != LUA_OK)
+  celspan_status status = celspan_object_warp(cs_host_context(L), object->handle, desc, &bent);
+  if (m->outcome != LUA_OK)
     return lua_error(L);
   cs_host_try(L, "warp", status);
   value->handle = bent;
+  return 1;
+}
+
+/* A description with the numbers `within` and `pieces` at these places. */
+static celspan_warp_desc read_desc(lua_State *L, int within, celspan_warp_map map, void *user) {
+  celspan_warp_desc desc = CELSPAN_WARP_DESC;
+  desc.map = map;
+  desc.user = user;
+  desc.within = luaL_checknumber(L, within);
+  desc.pieces = (size_t)fmin(fmax(luaL_optnumber(L, within + 1, (double)desc.pieces), 0), 1e9);
+  return desc;
+}
+
+int cs_derived_warp(lua_State *L) {
+  mapping m = {.L = L, .function = 2, .outcome = LUA_OK};
+  celspan_warp_desc desc = read_desc(L, 3, map_point, &m);
+  lua_settop(L, 2);
+  return bend(L, &desc, &m);
+}
+
+/* ---------------------------------------------------------------- boil */
+
+enum {
+  STEPS_A_POINT = 16, /* of the sandbox */
+  POINTS_A_CHARGE = 4096
+};
+
+/* A grid whose points are moved at random, and between them smoothly: motion.noise of Lua at whole
+ * numbers, to the bit. */
+typedef struct boiling {
+  mapping mapping;       /* whose outcome is that of counting steps */
+  uint64_t across, down; /* seeds */
+  uint64_t step;
+  double amount, grain; /* units */
+  uint64_t points;
+} boiling;
+
+/* The whole number of a coordinate. Beyond 2^53 it has no fraction. */
+static uint64_t whole_of(double at) {
+  if (!isfinite(at))
+    at = 0;
+  return (uint64_t)(int64_t)(fabs(at) >= 0x1p53 ? fmod(at, 0x1p53) : at);
+}
+
+/* -1..1 for a point of the grid. */
+static double grid_value(uint64_t seed, double x, double y, uint64_t step) {
+  uint64_t state = seed ^ whole_of(x) * UINT64_C(0x2545f4914f6cdd1d) ^
+                   whole_of(y) * UINT64_C(0x27d4eb2f165667c5) ^ step;
+  return (double)(cs_splitmix_next(&state) >> 11) * 0x1p-52 - 1;
+}
+
+/* Where a coordinate is moved to, inside the cell (i, j), of which (u, v) is the share before the
+ * place. The order of the sums decides the last bit. */
+static double moved(const boiling *b, uint64_t seed, double at, double i, double j, double u,
+                    double v) {
+  double first = b->amount * grid_value(seed, i, j, b->step),
+         second = b->amount * grid_value(seed, i + 1, j, b->step),
+         third = b->amount * grid_value(seed, i, j + 1, b->step),
+         fourth = b->amount * grid_value(seed, i + 1, j + 1, b->step);
+  double near = first + (second - first) * u;
+  return at + near + (third + (fourth - third) * u - near) * v;
+}
+
+static double eased(double t) { return t * t * t * (t * (6 * t - 15) + 10); }
+
+static int charge_points(lua_State *L) {
+  cs_host_charge(L, (uint64_t)STEPS_A_POINT * POINTS_A_CHARGE);
+  return 0;
+}
+
+static celspan_status boil_point(void *user, celspan_context *context, celspan_point from,
+                                 celspan_point *to) {
+  boiling *b = user;
+  double i = floor(from.x / b->grain), j = floor(from.y / b->grain);
+  double u = eased(from.x / b->grain - i), v = eased(from.y / b->grain - j);
+  to->x = moved(b, b->across, from.x, i, j, u, v);
+  to->y = moved(b, b->down, from.y, i, j, u, v);
+  if (++b->points % POINTS_A_CHARGE > 0)
+    return CELSPAN_OK;
+  lua_State *L = b->mapping.L;
+  lua_pushcfunction(L, charge_points);
+  b->mapping.outcome = cs_lua_error_settle(L, lua_pcall(L, 0, 0, 0), 0);
+  return b->mapping.outcome == LUA_OK
+             ? CELSPAN_OK
+             : celspan_context_fail(context, CELSPAN_CALLBACK, "boil: a limit was reached");
+}
+
+int cs_derived_boil(lua_State *L) {
+  boiling b = {.mapping = {.L = L, .outcome = LUA_OK},
+               .across = (uint64_t)luaL_checkinteger(L, 2),
+               .down = (uint64_t)luaL_checkinteger(L, 3),
+               .step = whole_of(luaL_checknumber(L, 4)),
+               .amount = luaL_checknumber(L, 5),
+               .grain = luaL_checknumber(L, 6)};
+  celspan_warp_desc desc = read_desc(L, 7, boil_point, &b);
+  lua_settop(L, 1);
+  bend(L, &desc, &b.mapping);
+  cs_host_charge(L, STEPS_A_POINT * (b.points % POINTS_A_CHARGE));
   return 1;
 }

@@ -40,6 +40,8 @@ int cs_derived_paint(lua_State *L);
 /* The function behind object:warp{...}: (object, function of x and y, tolerance, most pieces) ->
  * object. A tolerance or a number of 0 is the default. */
 int cs_derived_warp(lua_State *L);
+/* (object, seed across, seed down, step, amount, grain, within, pieces) */
+int cs_derived_boil(lua_State *L);
 int cs_operators_trim(lua_State *L);
 int cs_operators_round_corners(lua_State *L);
 int cs_operators_zigzag(lua_State *L);

@@ -113,6 +113,11 @@ static const char *limit(void *user, int outcome, const char *message) {
   return cs_guard_limit(&((cs_sandbox *)user)->guard, outcome, message);
 }
 
+static void charge(void *user, lua_State *L, uint64_t steps) {
+  (void)user;
+  cs_guard_charge(L, steps);
+}
+
 static void starve(void *user, lua_State *L, const char *sentence) {
   (void)user;
   cs_guard_starve(L, sentence);
@@ -129,6 +134,7 @@ static void attach(cs_sandbox *sandbox, lua_State *L, bool is_trusted) {
                                    .allow = is_trusted ? NULL : allow,
                                    .may_write = is_trusted ? NULL : may_write,
                                    .limit = limit,
+                                   .charge = charge,
                                    .starve = starve,
                                    .close = close};
   cs_host_get(L)->rules = &sandbox->rules;
