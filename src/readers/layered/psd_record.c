@@ -49,7 +49,7 @@ static void read_unicode_name(cs_cursor *cursor, uint64_t size, cs_psd_record *o
   if (size < 4 || count > (size - 4) / 2)
     return;
   out->name_size = 0;
-  for (uint32_t i = 0; i < count && out->name_size + 4 < sizeof out->name; i++) {
+  for (uint32_t i = 0; i < count; i++) {
     uint32_t code = cs_cursor_16(cursor);
     if (code >= 0xD800 && code < 0xDC00 && i + 1 < count) {
       code = 0x10000 + ((code & 0x3FF) << 10) + (cs_cursor_16(cursor) & 0x3FF);
@@ -57,6 +57,8 @@ static void read_unicode_name(cs_cursor *cursor, uint64_t size, cs_psd_record *o
     }
     static const unsigned char lead[] = {0, 0, 0xC0, 0xE0, 0xF0};
     int bytes = code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
+    if (out->name_size + (size_t)bytes >= sizeof out->name)
+      return;
     for (int k = bytes - 1; k > 0; k--, code >>= 6)
       out->name[out->name_size + (size_t)k] = (char)(0x80 | (code & 0x3F));
     out->name[out->name_size] = (char)(lead[bytes] | code);
