@@ -23,6 +23,8 @@ static const char *const standard[] = {
     "multiply",   "screen",     "overlay",    "darken", "lighten",    "color-dodge", "color-burn",
     "hard-light", "soft-light", "difference", "color",  "luminosity", "hue",         "saturation"};
 
+/* The first of a key is the word that is read. "add" and "soft-light" have none of their own, and
+ * get that of the mode that is most like them. */
 static const name photoshop[] = {
     {"norm", "normal"},       {"pass", "pass-through"},  {"mul ", "multiply"},
     {"lddg", "linear-dodge"}, {"scrn", "screen"},        {"over", "overlay"},
@@ -33,7 +35,7 @@ static const name photoshop[] = {
     {"pLit", "pin-light"},    {"hMix", "hard-mix"},      {"diff", "difference"},
     {"smud", "exclusion"},    {"fsub", "subtract"},      {"fdiv", "divide"},
     {"hue ", "hue"},          {"sat ", "saturation"},    {"colr", "color"},
-    {"lum ", "luminosity"}};
+    {"lum ", "luminosity"},   {"lddg", "add"},           {"sLit", "soft-light"}};
 
 #define COUNT(list) (sizeof(list) / sizeof *(list))
 
@@ -93,4 +95,13 @@ void cs_blend_openraster(celspan_blend blend, char out[CS_BLEND_WORD]) {
   snprintf(out, CS_BLEND_WORD, "%s:%s", is_krita ? "krita" : "svg", file ? file : word);
   for (char *at = out; is_krita && *at; at++)
     *at = *at == '-' ? '_' : *at;
+}
+
+const char *cs_blend_photoshop(celspan_blend blend) {
+  return file_of(photoshop, COUNT(photoshop), cs_blend_words[blend]);
+}
+
+bool cs_blend_is_photoshop(celspan_blend blend) {
+  return strcmp(word_of(photoshop, COUNT(photoshop), cs_blend_photoshop(blend)),
+                cs_blend_words[blend]) == 0;
 }

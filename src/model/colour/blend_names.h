@@ -5,6 +5,8 @@
  */
 #pragma once
 
+#include <stdbool.h>
+
 #include "celspan/celspan.h"
 
 enum { CS_BLEND_WORD = 32 };
@@ -17,3 +19,6 @@ void cs_blend_word_of_photoshop(const char key[5], char out[CS_BLEND_WORD]);
 
 /* The mode for OpenRaster: svg: where its specification has it, else as Krita calls it. */
 void cs_blend_openraster(celspan_blend blend, char out[CS_BLEND_WORD]);
+/* The key for Photoshop, of the mode or of the one that is most like it; which one it is. */
+const char *cs_blend_photoshop(celspan_blend blend);
+bool cs_blend_is_photoshop(celspan_blend blend);
