@@ -9,8 +9,11 @@
 static const struct {
   const char *ending;
   cs_apart_format format;
-} formats[] = {
-    {"exr", CS_APART_EXR}, {"openexr", CS_APART_EXR}, {"png", CS_APART_PNG}, {"ora", CS_APART_ORA}};
+} formats[] = {{"exr", CS_APART_EXR},
+               {"openexr", CS_APART_EXR},
+               {"png", CS_APART_PNG},
+               {"ora", CS_APART_ORA},
+               {"psd", CS_APART_PSD}};
 
 /* false: files of this kind have no layers. */
 static bool find_format(const cs_request *request, cs_apart_format *out) {
@@ -55,6 +58,10 @@ static cs_exit refuse_colour(const cs_request *request, const char *option,
                          cs_request_has(request, "--colour") ? "--colour" : "--display and --view");
 }
 
+static bool is_painting(cs_apart_format format) {
+  return format == CS_APART_ORA || format == CS_APART_PSD;
+}
+
 /* What the writers of paintings cannot do, which others do. */
 static cs_exit refuse_painting(const cs_request *request) {
   static const char *const options[] = {"--dither", "--strip"};
@@ -74,7 +81,7 @@ static cs_exit refuse_painting(const cs_request *request) {
 
 /* What a file of a format cannot be made with. */
 static cs_exit refuse_format(const cs_request *request, cs_apart_format format) {
-  if (format == CS_APART_ORA)
+  if (is_painting(format))
     return refuse_painting(request);
   return format == CS_APART_PNG && cs_request_has(request, "--strip")
              ? cs_report_usage("--strip: the layers of strips are not joined: leave it out")
@@ -83,8 +90,8 @@ static cs_exit refuse_format(const cs_request *request, cs_apart_format format) 
 
 static cs_exit refuse_endings(const char *option) {
   return strcmp(option, "--layers") == 0
-             ? cs_report_usage("--layers: only OpenEXR, PNG and OpenRaster files have layers: give "
-                               "-o shot.####.exr, .png or .ora")
+             ? cs_report_usage("--layers: only OpenEXR, PNG, OpenRaster and Photoshop files have "
+                               "layers: give -o shot.####.exr, .png, .ora or .psd")
              : cs_report_usage("--cryptomatte: only OpenEXR files have mattes: give -o "
                                "shot.####.exr");
 }
@@ -106,7 +113,7 @@ cs_exit cs_layers_target_refuse(const cs_request *request) {
 bool cs_layers_target_is_painting(const cs_request *request) {
   cs_apart_format format = CS_APART_EXR;
   return cs_request_has(request, "--layers") && find_format(request, &format) &&
-         format == CS_APART_ORA;
+         is_painting(format);
 }
 
 celspan_status cs_layers_target_write(celspan_context *context, cs_apart_contents contents,
@@ -117,6 +124,8 @@ celspan_status cs_layers_target_write(celspan_context *context, cs_apart_content
     return cs_apart_write_png(context, contents, desc, path, file);
   case CS_APART_ORA:
     return cs_apart_write_ora(context, desc, path, file);
+  case CS_APART_PSD:
+    return cs_apart_write_psd(context, desc, path, file);
   case CS_APART_EXR:
     break;
   }

@@ -85,7 +85,8 @@
 #define LAYERS                                                                                     \
   {                                                                                                \
     "--layers", "WHAT", &cs_argument_layers,                                                       \
-        "cels: an OpenEXR or OpenRaster file also has each cel alone; of PNG, a file a cel"        \
+        "cels: an OpenEXR, OpenRaster or Photoshop file also has each cel alone; of PNG, a file "  \
+        "a cel"                                                                                    \
   }
 #define CRYPTOMATTE                                                                                \
   {                                                                                                \

@@ -50,6 +50,7 @@ return {
     "spec/video" },
   raster = { "spec/raster" },
   archive = { "spec/layered" },
+  photoshop = { "spec/layered" },
   exr = { "spec/raster", "spec/apart" },
   apart = { "spec/apart", "spec/cryptomatte", "spec/layered" },
   ["program.c"] = { "spec/install", "spec/container" },

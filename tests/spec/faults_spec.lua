@@ -172,6 +172,7 @@ local formats = {
   { output = "f.##.exr", has_module = true, is_apart = true },
   { output = "f.#.exr", has_module = true, options = "--layers cels --cryptomatte names" },
   { output = "f.#.ora", options = "--layers cels" },
+  { output = "f.#.psd", options = "--layers cels" },
   { output = "f.wav", sounds = SILENCE },
   { output = "f.mp4", is_video = true }, { output = "f.gif", is_video = true },
   { output = "f.png", joins = "png" }, { output = "f.tga", joins = "tga" },

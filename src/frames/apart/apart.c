@@ -170,16 +170,33 @@ void cs_apart_finish(cs_apart *apart) {
 
 /* ---------------------------------------------------------------- mixings */
 
+/* *out: the cel without its mode, with `opacity` of its own. */
+static celspan_status change_mixing(celspan_context *context, const celspan_cel *cel,
+                                    double opacity, celspan_cel **out) {
+  celspan_cel *bare;
+  CS_TRY(cs_cel_bare(context, cel, (cs_cel_without){.mixing = true}, &bare));
+  celspan_status status = celspan_cel_fade(context, bare, opacity, out);
+  celspan_cel_unref(bare);
+  return status;
+}
+
+/* The least whole number of steps that is not less than the opacity, except for rounding. */
+static double round_up(double opacity, int steps) {
+  double whole = (double)(int)(opacity * steps);
+  return steps == 0 ? opacity : (whole < opacity * steps - 1e-9 ? whole + 1 : whole) / steps;
+}
+
 /* A layer of several exposures is mixed as a whole. */
-static celspan_status take_mixing(celspan_context *context, cs_apart_layer *layer) {
+static celspan_status take_mixing(celspan_context *context, cs_apart_layer *layer, int steps) {
   celspan_cel *changed;
   celspan_rostrum *rostrum, *from = layer->exposures[0].rostrum;
   if (!layer->cel || layer->count != 1)
     return CELSPAN_OK;
   const celspan_cel *cel = from->cels[0];
-  layer->opacity = cel->opacity;
+  layer->opacity = round_up(cel->opacity, steps);
   layer->blend = CS_BLEND_MODE(cel->blend);
-  CS_TRY(cs_cel_bare(context, cel, (cs_cel_without){.mixing = true}, &changed));
+  double rest = layer->opacity > 0 ? cel->opacity / layer->opacity : 1;
+  CS_TRY(change_mixing(context, cel, rest < 1 ? rest : 1, &changed));
   celspan_status status = cs_rostrum_with(context, from, &changed, 1, &rostrum);
   celspan_cel_unref(changed);
   if (status != CELSPAN_OK)
@@ -189,10 +206,15 @@ static celspan_status take_mixing(celspan_context *context, cs_apart_layer *laye
   return CELSPAN_OK;
 }
 
-celspan_status cs_apart_take_mixings(cs_apart *apart) {
+celspan_status cs_apart_take_mixings(cs_apart *apart, int steps) {
   for (size_t i = 0; i < apart->count; i++)
-    CS_TRY(take_mixing(apart->context, &apart->layers[i]));
+    CS_TRY(take_mixing(apart->context, &apart->layers[i], steps));
   return CELSPAN_OK;
+}
+
+const char *cs_apart_title(const cs_apart_layer *layer) {
+  const char *name = layer->cel ? cs_mark_name(layer->cel->mark) : "";
+  return name[0] ? name : layer->name;
 }
 
 /* ---------------------------------------------------------------- the hash */

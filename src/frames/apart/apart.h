@@ -43,7 +43,12 @@ typedef enum cs_apart_mattes {
   CS_APART_MATTES_NAMES
 } cs_apart_mattes;
 
-typedef enum cs_apart_format { CS_APART_EXR, CS_APART_PNG, CS_APART_ORA } cs_apart_format;
+typedef enum cs_apart_format {
+  CS_APART_EXR,
+  CS_APART_PNG,
+  CS_APART_ORA,
+  CS_APART_PSD
+} cs_apart_format;
 
 /* What a file has beside the frame. */
 typedef struct cs_apart_contents {
@@ -76,8 +81,12 @@ CELSPAN_CHECKED celspan_status cs_apart_make(celspan_context *context,
                                              size_t suffix, cs_apart *out);
 void cs_apart_finish(cs_apart *apart);
 /* Takes the opacities and modes of cels out of what the layers show, for files that have both.
- * Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_apart_take_mixings(cs_apart *apart);
+ * steps: opacities are whole numbers of this part of 1, and what is too much is taken from alpha;
+ * 0: any. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_apart_take_mixings(cs_apart *apart, int steps);
+/* What a painting program calls the layer: the unchanged name of its cel, if it has one.
+ * Borrowed from the layer. */
+const char *cs_apart_title(const cs_apart_layer *layer);
 
 /* ---- safe_name.c */
 
@@ -106,6 +115,14 @@ CELSPAN_CHECKED celspan_status cs_apart_write_png(celspan_context *context,
 /* Writes an OpenRaster file with the layers. file: its coding has straight alpha and depth DEFAULT,
  * 8 or 16. Errors: OUTPUT, LIMIT, those of rendering. */
 CELSPAN_CHECKED celspan_status cs_apart_write_ora(celspan_context *context,
+                                                  const celspan_frame_desc *desc, const char *path,
+                                                  const celspan_file_desc *file);
+
+/* ---- apart_psd.c */
+
+/* Writes a Photoshop document with the layers. file: as above. Errors: OUTPUT; LIMIT, for example
+ * of a frame that is too large, before it is rendered; those of rendering. */
+CELSPAN_CHECKED celspan_status cs_apart_write_psd(celspan_context *context,
                                                   const celspan_frame_desc *desc, const char *path,
                                                   const celspan_file_desc *file);
 

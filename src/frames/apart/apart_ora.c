@@ -10,7 +10,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/mark.h"
 #include "frames/apart/apart.h"
 #include "frames/render/frame.h"
 #include "model/colour/blend_names.h"
@@ -106,8 +105,7 @@ static char *describe(char *out, const cs_apart *apart, size_t index) {
   const cs_apart_layer *layer = &apart->layers[index];
   char mode[CS_BLEND_WORD];
   cs_blend_openraster(layer->blend, mode);
-  const char *name = layer->cel ? cs_mark_name(layer->cel->mark) : "";
-  out = quote(stpcpy(out, "  <layer name=\""), name[0] ? name : layer->name);
+  out = quote(stpcpy(out, "  <layer name=\""), cs_apart_title(layer));
   return out + sprintf(out,
                        "\" src=\"data/%zu.png\" x=\"0\" y=\"0\" opacity=\"%.9g\" "
                        "visibility=\"visible\" composite-op=\"%s\"/>\n",
@@ -158,7 +156,7 @@ celspan_status cs_apart_write_ora(celspan_context *context, const celspan_frame_
   w.file.title = NULL;
   CS_TRY(cs_frame_check(context, desc));
   CS_TRY(cs_apart_make(context, desc->exposures, desc->exposure_count, 0, &w.apart));
-  celspan_status status = cs_apart_take_mixings(&w.apart);
+  celspan_status status = cs_apart_take_mixings(&w.apart, 0);
   w.progress = (cs_apart_progress){.desc = desc, .count = w.apart.count + 2};
   if (status == CELSPAN_OK)
     status = write_file(&w);

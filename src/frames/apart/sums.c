@@ -3,6 +3,8 @@
 #include <stdio.h>
 
 #include "frames/apart/apart.h"
+#include "model/colour/blend.h"
+#include "model/colour/blend_names.h"
 #include "model/scene/texture.h"
 #include "model/scene/walk.h"
 
@@ -30,12 +32,14 @@ static bool has_matte(const cs_light *back) {
 }
 
 /* Whether a file has the mode. */
-static bool has_mode(cs_apart_format format) { return format == CS_APART_ORA; }
+static bool has_mode(cs_apart_format format, celspan_blend blend) {
+  return format == CS_APART_ORA || (format == CS_APART_PSD && cs_blend_is_photoshop(blend));
+}
 
 /* NULL: the layer of the cel over the layers behind it shows the same as the frame. */
 static const char *reason_of(const celspan_cel *cel, cs_apart_format format, celspan_space space) {
-  bool is_kept = has_mode(format) && cel->blend != CELSPAN_BLEND_NORMAL;
-  return cs_cel_blends(cel, space) && !is_kept ? "has a blend mode"
+  bool is_kept = cel->blend != CELSPAN_BLEND_NORMAL && has_mode(format, CS_BLEND_MODE(cel->blend));
+  return cs_cel_blends(cel, space) && !is_kept ? "has a blend mode that such files do not have"
          : has_gel(cel)                        ? "has a gel, which colours the light from behind"
          : has_matte(&cel->back)               ? "has a back light with a matte"
                                                : NULL;
