@@ -133,9 +133,10 @@ static const char *destination_of(const render_job *job, const cs_shoot_frame *f
 /* Says once in a run that layers over each other are not the frame. */
 static void tell_layers(render_job *job, int64_t number, const cs_film_frame *built) {
   char why[CS_APART_WHY];
+  const celspan_coding coding = cs_target_coding(job->request);
   if (!job->apart.has_layers || job->has_noted ||
-      cs_apart_sums(built->exposures, built->count, job->apart.format, job->script->film.space,
-                    why))
+      cs_apart_sums(built->exposures, built->count, job->apart.format, &coding,
+                    job->script->film.space, why))
     return;
   cs_report_note("frame %" PRId64 ": its layers over each other are not the frame: %s", number,
                  why);

@@ -300,6 +300,13 @@ NORMAL 255 (0, 0, 300, 200) cel_6
       assert.truthy(render(light, "--frames 1 --layers cels -o " .. file)
         :find "are not the frame: it mixes light, and programs mix the codes")
     end
+    local png = "--frames 1 --layers cels -o x.png --colour "
+    assert.equal("", render(light, png .. "linear"))
+    assert.equal("", render(film(), png .. "srgb"))
+    assert.truthy(render(film(), png .. "linear"):find("it mixes codes", 1, true))
+    for _, script in ipairs { light, film() } do
+      assert.truthy(render(script, png .. "rec709"):find("converts each layer by itself", 1, true))
+    end
     local blended = film "celspan.cel { box(1, 1, 5, 5, '#fff'), blend = 'screen' },"
     assert.truthy(render(blended, "--frames 1 --layers cels -o x.png"):find "has a blend mode")
     assert.equal("", render(blended, "--frames 1 --layers cels -o x.ora"))

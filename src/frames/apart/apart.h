@@ -97,10 +97,11 @@ void cs_safe_name(const char *name, size_t most, char out[CS_APART_NAME]);
 /* ---- sums.c */
 
 /* Whether the layers over each other are the frame, where edges do not share a pixel. why: else a
- * clause that says what prevents it. film_space: of the frame's rows. */
+ * clause that says what prevents it. coding: of the files. film_space: of the frame's
+ * rows. */
 enum { CS_APART_WHY = 768 };
 bool cs_apart_sums(const celspan_exposure *exposures, size_t count, cs_apart_format format,
-                   celspan_space film_space, char why[CS_APART_WHY]);
+                   const celspan_coding *coding, celspan_space film_space, char why[CS_APART_WHY]);
 
 /* ---- apart_png.c */
 

@@ -7,6 +7,7 @@
 #include "model/colour/blend_names.h"
 #include "model/scene/texture.h"
 #include "model/scene/walk.h"
+#include "output/sinks/pixels.h"
 
 static bool is_gel(const celspan_texture *texture) {
   return texture && !cs_texture_is_grey(texture);
@@ -78,12 +79,18 @@ static bool shows_nothing(const celspan_exposure *exposures, size_t count) {
   return true;
 }
 
-/* Layers of light are mixed as light, and layers of codes as codes. NULL: as the film mixes. */
-static const char *mixing_of(cs_apart_format format, celspan_space space,
-                             celspan_space film_space) {
+/* Layers of light are mixed as light, and layers of codes as codes. coding: of the pixels. NULL: as
+ * the film mixes. */
+static const char *mixing_of(cs_apart_format format, const celspan_coding *coding,
+                             celspan_space space, celspan_space film_space) {
+  celspan_coding whole = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
   bool is_light = space != CELSPAN_SPACE_SRGB && film_space != CELSPAN_SPACE_SRGB;
   bool is_code = space == CELSPAN_SPACE_SRGB && film_space == CELSPAN_SPACE_SRGB;
-  if (format == CS_APART_EXR)
+  bool is_linear = format == CS_APART_EXR || whole.transfer == CELSPAN_TRANSFER_LINEAR;
+  if (!is_linear && whole.transfer != CELSPAN_TRANSFER_SRGB)
+    return "--colour or --display converts each layer by itself, and films mix light or the codes "
+           "of sRGB";
+  if (is_linear)
     return is_light ? NULL : "it mixes codes (space \"srgb\"), and layers are linear light";
   return is_code ? NULL
                  : "it mixes light, and programs mix the codes of such layers, as a film does with "
@@ -91,7 +98,7 @@ static const char *mixing_of(cs_apart_format format, celspan_space space,
 }
 
 bool cs_apart_sums(const celspan_exposure *exposures, size_t count, cs_apart_format format,
-                   celspan_space film_space, char why[CS_APART_WHY]) {
+                   const celspan_coding *coding, celspan_space film_space, char why[CS_APART_WHY]) {
   const celspan_exposure *whole = find_whole(exposures, count);
   if (!whole && shows_nothing(exposures, count))
     return true;
@@ -101,7 +108,7 @@ bool cs_apart_sums(const celspan_exposure *exposures, size_t count, cs_apart_for
   }
   const celspan_rostrum *rostrum = whole->rostrum;
   celspan_space space = cs_space_inside(rostrum->space, film_space);
-  const char *mixing = mixing_of(format, space, film_space);
+  const char *mixing = mixing_of(format, coding, space, film_space);
   if (mixing) {
     snprintf(why, CS_APART_WHY, "%s", mixing);
     return false;
