@@ -12,6 +12,7 @@ class Celspan < Formula
   depends_on "expat"
   depends_on "fribidi"
   depends_on "harfbuzz"
+  depends_on "libavif"
   depends_on "libmicrohttpd"
   depends_on "libunibreak"
   depends_on :linux

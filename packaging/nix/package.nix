@@ -11,6 +11,7 @@ pkgs.stdenv.mkDerivation {
     fribidi
     harfbuzz
     lcms2
+    libavif
     libmicrohttpd
     libunibreak
     lua5_4

@@ -48,7 +48,7 @@ static cs_exit refuse_resume(const cs_request *request, const char *output) {
 cs_exit cs_refusals_of_output(celspan_context *context, const cs_request *request,
                               size_t frame_count) {
   if (cs_video_target_is_wanted(request, frame_count))
-    return cs_request_has(request, "--strict")
+    return cs_request_has(request, "--strict") && cs_video_target_runs_ffmpeg(request)
                ? cs_report_usage("--strict starts no programs, and ffmpeg makes videos: render "
                                  "frames, and make the video of them")
                : cs_video_target_refuse(request, frame_count);

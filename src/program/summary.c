@@ -43,6 +43,8 @@ static void put_versions(cs_json *json, bool has_video) {
   cs_json_text(json, "commit", CS_COMMIT);
   if (CELSPAN_OPENIMAGEIO[0])
     cs_json_text(json, "openimageio", CELSPAN_OPENIMAGEIO);
+  if (CELSPAN_LIBAVIF[0])
+    cs_json_text(json, "libavif", CELSPAN_LIBAVIF);
   if (has_video)
     ask_ffmpeg(ffmpeg, sizeof ffmpeg);
   if (ffmpeg[0])

@@ -120,10 +120,10 @@
       {"--max-size", "BYTES", &cs_argument_millions,                                               \
        "of a video: the highest quality that fits into so many bytes, such as 8M"},                \
       {"--crf", "N", &cs_argument_crf,                                                             \
-       "the constant rate factor of h264, h265, av1 or vp9, instead of --quality"},                \
+       "the constant rate factor of h264, h265, av1, vp9 or avif, instead of --quality"},          \
       LOUDNESS, {                                                                                  \
     "--loop", "N", &cs_argument_plays,                                                             \
-        "how often a .gif, .webp or .apng is played; default: 0, for ever"                         \
+        "how often a .gif, .webp, .apng or .avif is played; default: 0, for ever"                  \
   }
 #define FORCE                                                                                      \
   {                                                                                                \
@@ -197,7 +197,7 @@ static const cs_option NONE[] = {{0}};
 
 static const cs_option RENDER[] = {
     OUTPUT("OUT", "shot.####.png, shot.%04d.exr, one.png for a single frame, - for raw frames; "
-                  "film.mp4, .mov, .webm, .mkv, .gif, .webp or .apng: a video, made by ffmpeg"),
+                  "film.mp4, .mov, .webm, .mkv, .gif, .webp, .apng or .avif: a video"),
     FRAMES,
     SIZE,
     FIT,

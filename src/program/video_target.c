@@ -59,13 +59,22 @@ bool cs_video_target_is_wanted(const cs_request *request, size_t frame_count) {
   const cs_video_format *format = format_of(request);
   if (!format || !format->is_picture)
     return format != NULL;
-  return frame_count != 1 && !cs_sequence_has_number(cs_request_text(request, "-o"));
+  bool is_still = frame_count == 1 && !format->codecs[0]->is_module; /* that has options, too */
+  return !is_still && !cs_sequence_has_number(cs_request_text(request, "-o"));
+}
+
+static bool is_limited(const cs_video_codec *codec) {
+  return codec->most_crf > 0 && !codec->is_module;
+}
+
+bool cs_video_target_runs_ffmpeg(const cs_request *request) {
+  return !format_of(request)->codecs[0]->is_module;
 }
 
 /* Whether a codec of the format has a quality that --max-size can choose. */
 static bool contains_limited(const cs_video_format *format) {
   for (size_t i = 0; i < CS_VIDEO_CODECS && format->codecs[i]; i++)
-    if (format->codecs[i]->most_crf > 0)
+    if (is_limited(format->codecs[i]))
       return true;
   return false;
 }
@@ -76,7 +85,7 @@ static cs_exit refuse_limit(const cs_request *request, const cs_video_codec *cod
   for (size_t i = 0; i < sizeof options / sizeof *options; i++)
     if (cs_request_has(request, options[i]))
       return cs_report_usage("--max-size chooses the quality: leave %s out", options[i]);
-  if (codec->most_crf > 0)
+  if (is_limited(codec))
     return CS_EXIT_OK;
   return cs_report_usage("%s: --max-size is for h264, h265, av1 and vp9, whose quality can be "
                          "chosen finely enough: leave it out, or %s",
@@ -148,9 +157,14 @@ static cs_exit refuse_size(const cs_video_desc *video) {
   const cs_video_codec *codec = video->options.codec;
   int32_t width = video->frames.width, height = video->frames.height;
   int32_t even_width = width > 1 ? width & ~1 : 2, even_height = height > 1 ? height & ~1 : 2;
-  if (width > MOST_SIDE || height > MOST_SIDE)
-    return cs_report_usage("%s: %d x %d pixels: a video has at most %d a side", output, (int)width,
-                           (int)height, MOST_SIDE);
+  int32_t side = codec->is_module ? CS_AVIF_SIDE : MOST_SIDE;
+  if (width > side || height > side)
+    return cs_report_usage("%s: %d x %d pixels: %s has at most %d a side", output, (int)width,
+                           (int)height, codec->is_module ? "AVIF" : "a video", (int)side);
+  if (codec->is_module && (int64_t)width * height > CS_AVIF_PIXELS)
+    return cs_report_usage("%s: %d x %d pixels: AVIF has at most %lld together, because programs "
+                           "refuse to read more",
+                           output, (int)width, (int)height, (long long)CS_AVIF_PIXELS);
   if (width < codec->least_width || height < codec->least_height)
     return cs_report_usage("%s: %d x %d pixels: %s needs at least %d x %d: give a larger --size, "
                            "or another --codec",

@@ -13,6 +13,8 @@ extern const char *const cs_video_target_options[];
 
 /* Whether OUT is a video; frame_count 0: not known yet. */
 bool cs_video_target_is_wanted(const cs_request *request, size_t frame_count);
+/* Whether ffmpeg makes such a video. */
+bool cs_video_target_runs_ffmpeg(const cs_request *request);
 /* Refuses options that videos do not have. OK, or reported. frame_count 0: not known yet, and the
  * name of a single picture is not refused. */
 cs_exit cs_video_target_refuse(const cs_request *request, size_t frame_count);

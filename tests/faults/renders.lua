@@ -211,7 +211,7 @@ local makers = {
   { name = "gaussian by two", make = function() return defocus "gaussian" end, workers = 2,
     sinks = { "png16" } },
   { name = "encoders", make = shapes, has_modules = true,
-    sinks = { "exr", "tiff", "jpg", "dpx", "webp", "bmp", "ppm", "hdr" } },
+    sinks = { "exr", "tiff", "jpg", "dpx", "webp", "avif", "bmp", "ppm", "hdr" } },
 }
 
 for _, one in ipairs(makers) do

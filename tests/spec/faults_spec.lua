@@ -167,6 +167,7 @@ local formats = {
   { output = "f.##.tiff", has_module = true, options = "--trust" },
   { output = "f.##.jpg", has_module = true, options = "--trust" },
   { output = "f.##.dpx", has_module = true, options = "--trust" },
+  { output = "f.##.avif", has_module = true, options = "--trust" },
   { output = "f.##.ppm", has_module = true, options = "--trust" },
   -- by other processes, which fail too
   { output = "f.##.exr", has_module = true, is_apart = true },
@@ -175,6 +176,7 @@ local formats = {
   { output = "f.#.psd", options = "--layers cels" },
   { output = "f.wav", sounds = SILENCE },
   { output = "f.mp4", is_video = true }, { output = "f.gif", is_video = true },
+  { output = "f.avif", is_video = true, has_module = true, is_apart = true },
   { output = "f.png", joins = "png" }, { output = "f.tga", joins = "tga" },
   { output = "f.span", joins = "span" },
 }

@@ -87,6 +87,7 @@ describe("the report of a run", function()
     local _, version = bench:celspan_inside "--version"
     assert.equal(version, ("celspan %s (%s)\n"):format(found.celspan, found.commit))
     if present.pictures() then assert.is_truthy(found.openimageio:find "^%d+%.%d+") end
+    if present.avif() then assert.is_truthy(found.libavif:find "^%d+%.%d+") end
     assert.same({ 6, 4, 2, 0, 0, 0 }, { found.frames, found.made, found.copied, found.kept,
       found.failures, found.exit })
     assert.same({ "film.lua", "r.##.png" }, { found.script, found.output })

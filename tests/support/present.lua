@@ -45,6 +45,12 @@ end
 --- Whether there is a module for the spaces of an OpenColorIO configuration.
 function present.spaces() return not contains "built without OpenColorIO" end
 
+--- Whether AVIF can be written: a picture module was built with libavif.
+function present.avif()
+  return present.pictures() and not ends_well(("grep -qsaE 'built without libavif' "
+    .. "'%s/src/plugins/oiio/celspan-picture.so'"):format(os.getenv "CELSPAN_BUILD" or "build"))
+end
+
 --- Whether celspan watch can show a page: it was built with libmicrohttpd.
 function present.web() return not contains "built without libmicrohttpd" end
 

@@ -19,7 +19,7 @@ static void paint(int x, int y, float rgba[4]) {
 }
 
 static const char *const all[] = {"s.exr", "s.tif", "s.tga", "s.dpx",  "s.jpg", "s.bmp",
-                                  "s.hdr", "s.ppm", "s.gif", "s.webp", "s.jp2"};
+                                  "s.hdr", "s.ppm", "s.gif", "s.webp", "s.jp2", "s.avif"};
 #define ALL (sizeof all / sizeof *all)
 
 /* The status of beginning a frame of that size; no file may be left. */
@@ -47,6 +47,9 @@ static void test_limits(void) {
   CHECK(begin("l.tga", 10, 65535) == CELSPAN_OK);
   CHECK(begin("l.gif", 65536, 1) == CELSPAN_LIMIT);
   CHECK(begin("l.webp", 16384, 1) == CELSPAN_LIMIT);
+  CHECK(begin("l.avif", 65537, 1) == CELSPAN_LIMIT);
+  CHECK(begin("l.avif", 65536, 1) == CELSPAN_OK);
+  CHECK(begin("l.avif", 16384, 16385) == CELSPAN_LIMIT);
   CHECK(begin("l.dpx", 100000, 100000) == CELSPAN_LIMIT);
   CHECK(begin("l.bmp", 100000, 100000) == CELSPAN_LIMIT);
   CHECK(begin("l.exr", 1048576, 1048576) == CELSPAN_OK);
@@ -77,6 +80,8 @@ static void test_codings(void) {
   CHECK(strstr(celspan_context_error(context), "half, float"));
   CHECK(create("a.exr", NULL, 0, CELSPAN_ALPHA_STRAIGHT) == CELSPAN_BAD_ARGUMENT);
   CHECK(create("a.jpg", NULL, CELSPAN_DEPTH_16, 0) == CELSPAN_BAD_ARGUMENT);
+  CHECK(create("a.avif", NULL, CELSPAN_DEPTH_FLOAT, 0) == CELSPAN_BAD_ARGUMENT);
+  CHECK(create("a.avif", NULL, CELSPAN_DEPTH_16, CELSPAN_ALPHA_PREMULTIPLIED) == CELSPAN_OK);
   CHECK(create("a.tif", NULL, CELSPAN_DEPTH_FLOAT, CELSPAN_ALPHA_STRAIGHT) == CELSPAN_OK);
 }
 

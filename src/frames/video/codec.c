@@ -10,6 +10,7 @@
  *   prores422hq prores_ks      4:2:2, 10 bits                    none     -q:v 12
  *   dnxhr       dnxhd (HQX)    4:2:2, 10 bits                    none     a fixed rate
  *   ffv1        ffv1           RGB, 8 or 16 bits                 as deep  without loss
+ *   avif        of the module      4:4:4, 8 or 12 bits               as deep  -crf 24
  *   gif, webp, apng: the only codecs of the formats of these names
  *
  * INVARIANT: a file has one of the codecs that its format lists; the first of them is the default.
@@ -126,3 +127,14 @@ const cs_video_codec cs_codec_apng = {.name = "apng",
                                       .deep_pixels = "rgb48be",
                                       .alpha_pixels = "rgba",
                                       .deep_alpha_pixels = "rgba64be"};
+/* The quality is that of AV1. */
+const cs_video_codec cs_codec_avif = {.name = "avif",
+                                      .is_module = true,
+                                      .pixels = "rgba",
+                                      .deep_pixels = "rgba64le",
+                                      .alpha_pixels = "rgba",
+                                      .deep_alpha_pixels = "rgba64le",
+                                      .quality = "-crf",
+                                      .best = 11,
+                                      .worst = 63,
+                                      .most_crf = 63};

@@ -91,6 +91,12 @@ static const cs_video_format FORMATS[] = {
      .most_frames_second = 1000,
      .plays = "-plays",
      .mark = {0, "\x89PNG"}},
+    {.name = "avif",
+     .codecs = {&cs_codec_avif},
+     .is_picture = true,
+     .most_frames_second = 1000,
+     .plays = "", /* set by the module */
+     .mark = {4, "ftyp"}},
 };
 
 const cs_video_format *cs_video_format_named(const char *name) {
@@ -255,8 +261,7 @@ static void add_frames(cs_video_command *command, const cs_video_options *option
 
 /* ---------------------------------------------------------------- pictures */
 
-/* The value of the encoder's quality option. */
-static int encoder_quality(const cs_video_options *options) {
+int cs_video_quality(const cs_video_options *options) {
   const cs_video_codec *codec = options->codec;
   if (options->has_crf)
     return (int)options->crf;
@@ -296,7 +301,7 @@ static void add_pictures(cs_video_command *command, const cs_video_options *opti
   add_all(command, codec->encoder);
   if (codec->quality) {
     add(command, codec->quality);
-    add_text(command, "%d", encoder_quality(options));
+    add_text(command, "%d", cs_video_quality(options));
   }
   if (codec->is_rgb)
     add_pixels(command, cs_video_pixels(options));
@@ -472,7 +477,7 @@ void cs_video_command_swatches(cs_video_command *command, const cs_video_options
   add_file(command, "nut", master);
   add(command, "-vf");
   add_text(command, "palettegen=stats_mode=full:max_colors=%d:reserve_transparent=%d",
-           encoder_quality(options), has_alpha(options));
+           cs_video_quality(options), has_alpha(options));
   add_pixels(command, "rgba");
   add_format(command, "rawvideo");
   add_text(command, "file:%s", palette);

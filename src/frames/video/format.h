@@ -9,7 +9,7 @@
  *   mkv     h264, h265, av1 (all three 4:4:4), vp9, ffv1     FLAC
  *   mov     prores, prores422, prores422hq, dnxhr, h264, h265  PCM
  *   webm    vp9, av1                                         Opus
- *   gif, webp, apng: of their own                            none
+ *   gif, webp, apng, avif: of their own                      none
  *
  * INVARIANT: a film with a background is opaque, and its file has no alpha. In all other films,
  * alpha is kept if the format has it. No shell reads the arguments. ffmpeg opens no file to read
@@ -29,6 +29,7 @@ typedef struct cs_video_codec {
   bool is_halved;                    /* the encoder accepts even sides only */
   bool is_rgb;                       /* the encoder accepts RGB; the file has no colour tags */
   bool is_indexed;                   /* few colours for the whole film, for which ffmpeg dithers */
+  bool is_module;                    /* the picture module codes, and not ffmpeg: frames are RGBA */
   bool is_deep;                      /* frames have 16 bits unless options request fewer */
   int32_t least_width, least_height; /* pixels */
   const char *quality; /* the option for the quality; NULL: a palette's size, or it has none */
@@ -122,6 +123,8 @@ const cs_video_codec *cs_video_codec_named(const cs_video_format *format, const 
 void cs_video_codec_list(const cs_video_format *format, char *out, size_t size);
 /* The pixels of the encoder under the options; NULL: not available. */
 const char *cs_video_pixels(const cs_video_options *options);
+/* The value of the encoder's quality option. */
+int cs_video_quality(const cs_video_options *options);
 /* Planes where the encoder accepts 8 bits without alpha. */
 cs_video_layout cs_video_layout_of(const cs_video_options *options);
 /* The coding of the frames for the encoder; over black where there is no alpha. */
@@ -155,4 +158,5 @@ void cs_video_command_repeat(cs_video_command *command, const cs_video_format *f
 
 extern const cs_video_codec cs_codec_h264, cs_codec_h264_444, cs_codec_h265, cs_codec_h265_444,
     cs_codec_av1, cs_codec_av1_444, cs_codec_vp9, cs_codec_prores, cs_codec_prores422,
-    cs_codec_prores422hq, cs_codec_dnxhr, cs_codec_ffv1, cs_codec_gif, cs_codec_webp, cs_codec_apng;
+    cs_codec_prores422hq, cs_codec_dnxhr, cs_codec_ffv1, cs_codec_gif, cs_codec_webp, cs_codec_apng,
+    cs_codec_avif;

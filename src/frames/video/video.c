@@ -75,6 +75,64 @@ static void discard_files(cs_video *video) {
   cs_file_discard(video->file, video->context);
 }
 
+static bool is_of_module(const cs_video *video) { return video->options.codec->is_module; }
+
+/* The numbers of ITU-T H.273 for the tags of ffmpeg that program/video_colours.c gives; 0: none. */
+static int32_t tag_number(const char *tag) {
+  static const struct {
+    const char *name;
+    int32_t number;
+  } tags[] = {{"bt709", 1}, {"4", 4}, {"bt2020", 9}, {"smpte432", 12}, {"iec61966-2-1", 13}};
+  for (size_t i = 0; tag && i < sizeof tags / sizeof *tags; i++)
+    if (strcmp(tag, tags[i].name) == 0)
+      return tags[i].number;
+  return 0;
+}
+
+static celspan_status open_picture(cs_video *video, const cs_video_desc *desc) {
+  const cs_video_options *options = &desc->options;
+  const celspan_coding coding = cs_pixels_resolve(&video->coding, CELSPAN_DEPTH_8);
+  const cs_picture_output output = {.name = video->path,
+                                    .format = desc->format->name,
+                                    .width = desc->frames.width,
+                                    .height = desc->frames.height,
+                                    .channels = 4,
+                                    .depth = coding.depth,
+                                    .is_straight = coding.alpha == CELSPAN_ALPHA_STRAIGHT,
+                                    .colour = cs_pixels_colour(&coding),
+                                    .frames_second = desc->frames.frames_second,
+                                    .avif = {.crf = cs_video_quality(options),
+                                             .plays = options->plays,
+                                             .is_opaque = options->is_opaque,
+                                             .primaries = tag_number(options->primaries),
+                                             .transfer = tag_number(options->transfer)}};
+  video->pixels = cs_mem_array(video->context->memory, (size_t)desc->frames.height, video->stride);
+  if (!video->pixels)
+    return cs_fail_memory(video->context);
+  return cs_picture_file_open(video->context, &output, &video->picture);
+}
+
+static void close_picture(cs_video *video) {
+  cs_picture_file_discard(&video->picture, video->context);
+  cs_mem_free(video->context->memory, video->pixels, video->stride * (size_t)video->extras.height);
+  video->pixels = NULL;
+}
+
+static celspan_status put_picture(cs_video *video) {
+  return cs_picture_file_rows(&video->picture, video->context, 0, video->extras.height,
+                              video->pixels);
+}
+
+static celspan_status open_module(cs_video *out, const cs_video_desc *desc) {
+  cs_sound_stream none = desc->sound;
+  cs_temporary_sweep(out->path, is_same);
+  celspan_status status = open_picture(out, desc);
+  if (status != CELSPAN_OK)
+    close_picture(out);
+  cs_sound_stream_close(&none);
+  return status;
+}
+
 celspan_status cs_video_open(cs_video *out, celspan_context *context, const cs_video_desc *desc) {
   cs_video_command command;
   *out = (cs_video){.context = context,
@@ -89,6 +147,8 @@ celspan_status cs_video_open(cs_video *out, celspan_context *context, const cs_v
                     .has_digests = desc->has_digests,
                     .keeps_nothing = desc->keeps_nothing};
   out->stride = (size_t)desc->frames.width * cs_pixels_size(&out->coding);
+  if (is_of_module(out))
+    return open_module(out, desc);
   cs_sound_stream samples = desc->sound;
   celspan_status status = prepare(out, desc, &command);
   if (status == CELSPAN_OK)
@@ -174,11 +234,19 @@ static celspan_status make_one(const cs_video *video, const celspan_frame_desc *
   return celspan_frame_render(video->context, desc, &sink, NULL);
 }
 
+static celspan_status make_into(cs_video *video, const celspan_frame_desc *desc,
+                                unsigned char *pixels) {
+  return video->has_digests ? make_both(video, desc, pixels) : make_one(video, desc, pixels);
+}
+
 static celspan_status make(cs_video *video, const celspan_frame_desc *desc) {
   int place;
+  if (is_of_module(video)) {
+    CS_TRY(make_into(video, desc, video->pixels));
+    return put_picture(video);
+  }
   CS_TRY(cs_encoder_take(&video->encoder, &place));
-  unsigned char *pixels = cs_encoder_pixels(&video->encoder, place);
-  CS_TRY(video->has_digests ? make_both(video, desc, pixels) : make_one(video, desc, pixels));
+  CS_TRY(make_into(video, desc, cs_encoder_pixels(&video->encoder, place)));
   cs_encoder_give(&video->encoder, place);
   return CELSPAN_OK;
 }
@@ -187,7 +255,7 @@ celspan_status cs_video_put(cs_video *video, const celspan_frame_desc *desc,
                             cs_shoot_frame *frame) {
   if (is_repeated(video, frame)) {
     frame->way = CS_SHOOT_COPIED;
-    CS_TRY(cs_encoder_repeat(&video->encoder));
+    CS_TRY(is_of_module(video) ? put_picture(video) : cs_encoder_repeat(&video->encoder));
   } else {
     CS_TRY(make(video, desc));
   }
@@ -256,6 +324,11 @@ static celspan_status complete(cs_video *video) {
 }
 
 celspan_status cs_video_finish(cs_video *video) {
+  if (is_of_module(video)) {
+    celspan_status outcome = cs_picture_file_close(&video->picture, video->context);
+    close_picture(video);
+    return outcome;
+  }
   celspan_status status = complete(video);
   if (status != CELSPAN_OK) {
     cs_video_discard(video);
@@ -266,6 +339,10 @@ celspan_status cs_video_finish(cs_video *video) {
 }
 
 void cs_video_discard(cs_video *video) {
+  if (is_of_module(video)) {
+    close_picture(video);
+    return;
+  }
   cs_encoder_discard(&video->encoder);
   discard_files(video);
 }

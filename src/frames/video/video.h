@@ -9,6 +9,8 @@
  *   with few colours:
  *   frames --> ffmpeg --> master --ffmpeg--> palette; both --ffmpeg--> .film.gif.1a2b.part
  *
+ *   AVIF: frames --> picture_file.h --> film.avif
+ *
  * INVARIANT: the file appears under its name when cs_video_finish returns OK, not before. After
  * cs_video_finish and cs_video_discard there is no temporary file and no process.
  */
@@ -18,6 +20,7 @@
 #include "frames/video/encoder.h"
 #include "frames/video/format.h"
 #include "output/sinks/file.h"
+#include "output/sinks/picture_file.h"
 
 typedef struct cs_video_desc {
   const char *path;
@@ -49,6 +52,9 @@ typedef struct cs_video {
   uint64_t most_bytes;
   bool has_sound;
   cs_encoder encoder;
+  /* where the picture module codes, instead of the encoder and the files: */
+  cs_picture_file picture;
+  unsigned char *pixels; /* of the last frame; owned */
   bool has_digests, keeps_nothing;
   bool has_last; /* the previous frame can be compared with the next one */
   cs_hash last;

@@ -31,30 +31,33 @@ typedef struct file_format {
   unsigned depths;     /* a bit for each depth that the format supports */
   bool is_film;        /* ten bits and Cineon by default */
   bool is_multiplied;  /* alpha is always premultiplied */
+  bool is_tagged;      /* colours are said by numbers that only srgb, rec709 and linear have */
 } file_format;
 
 static const file_format formats[] = {
     {" exr openexr ", "openexr", 1048576, 0, 4, CELSPAN_DEPTH_HALF,
-     HAS(CELSPAN_DEPTH_HALF) | HAS(CELSPAN_DEPTH_FLOAT), false, true},
+     HAS(CELSPAN_DEPTH_HALF) | HAS(CELSPAN_DEPTH_FLOAT), false, true, false},
     {" tif tiff ", "tiff", 1048576, 0, 4, CELSPAN_DEPTH_8,
-     HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16) | HAS(CELSPAN_DEPTH_FLOAT), false, false},
+     HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16) | HAS(CELSPAN_DEPTH_FLOAT), false, false, false},
     /* The writer of this format keeps the whole picture in memory. */
     {" dpx ", "dpx", 1048576, (int64_t)1 << 28, 3, CELSPAN_DEPTH_16,
-     HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16), true, true},
-    {" jpg jpeg ", "jpeg", 65500, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true},
+     HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16), true, true, false},
+    {" jpg jpeg ", "jpeg", 65500, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true, false},
     /* Sizes in the file are 32 bits. */
     {" bmp ", "bmp", 1048576, (int64_t)1 << 30, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false,
-     true},
-    {" hdr rgbe ", "hdr", 1048576, 0, 3, CELSPAN_DEPTH_FLOAT, HAS(CELSPAN_DEPTH_FLOAT), false,
-     true},
+     true, false},
+    {" hdr rgbe ", "hdr", 1048576, 0, 3, CELSPAN_DEPTH_FLOAT, HAS(CELSPAN_DEPTH_FLOAT), false, true,
+     false},
     /* In files of sixteen bits, values would be shifted by a byte. */
-    {" ppm pnm ", "pnm", 1048576, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true},
+    {" ppm pnm ", "pnm", 1048576, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true, false},
     /* The writer of this format divides by alpha with a curve of its own, so it gets no alpha. */
-    {" webp ", "webp", 16383, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true},
-    {" gif ", "gif", 65535, (int64_t)1 << 28, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false,
-     true},
+    {" webp ", "webp", 16383, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true, false},
+    {" gif ", "gif", 65535, (int64_t)1 << 28, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true,
+     false},
     {" jp2 j2k jpeg2000 ", "jpeg2000", 65535, (int64_t)1 << 28, 3, CELSPAN_DEPTH_8,
-     HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16), false, true},
+     HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16), false, true, false},
+    {" avif ", "avif", CS_AVIF_SIDE, CS_AVIF_PIXELS, 4, CELSPAN_DEPTH_8,
+     HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16), false, false, true},
 };
 
 typedef struct picture_sink {
@@ -116,6 +119,10 @@ static celspan_status choose_coding(celspan_context *context, const char *path,
   if (format->channels == 4 && format->is_multiplied && asked->alpha == CELSPAN_ALPHA_STRAIGHT)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "%s: %s files hold premultiplied alpha, not straight", path, format->name);
+  if (format->is_tagged && (asked->convert || asked->transfer == CELSPAN_TRANSFER_CINEON))
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "%s: %s files hold colours as srgb, rec709 or linear, not as %s", path,
+                   format->name, asked->convert ? cs_pixels_colour(asked) : "cineon");
   celspan_coding coding = *asked;
   if (format->is_film && coding.transfer == CELSPAN_TRANSFER_DEFAULT && !coding.convert)
     coding.transfer = CELSPAN_TRANSFER_CINEON;
@@ -220,7 +227,8 @@ static celspan_status open_file(picture_sink *sink, celspan_context *context) {
                               .colour = cs_pixels_colour(&sink->coding),
                               .title = sink->title,
                               .frames_second = sink->frames_second,
-                              .frame = sink->frame};
+                              .frame = sink->frame,
+                              .avif = {.crf = CS_AVIF_CRF}};
   output.has_primaries = cs_pixels_primaries(&sink->coding, output.primaries);
   return cs_picture_file_open(context, &output, &sink->file);
 }
