@@ -60,7 +60,7 @@ static void report_peak(const char *output, double peak, bool is_float) {
 
 /* stem: the only one that is heard; NULL: all. */
 static cs_exit write_file(cs_script *script, const cs_request *request, const cs_sequence *frames,
-                          const char *stem, const char *output, bool is_float) {
+                          const cs_stem *stem, const char *output, bool is_float) {
   cs_sound_stream samples;
   int64_t moments;
   double peak = 0;
@@ -108,6 +108,7 @@ static cs_exit write_stems(cs_script *script, const cs_request *request, const c
                            bool is_float) {
   cs_heard track;
   char path[PATH_MAX];
+  double gain = -1;
   celspan_status status = cs_soundtrack_read(script, &track);
   CS_TRY_EXIT(cs_report_failure(script->context, status, NULL));
   for (size_t i = 0; i < track.count; i++)
@@ -116,7 +117,8 @@ static cs_exit write_stems(cs_script *script, const cs_request *request, const c
     if (is_known(&track, i))
       continue;
     CS_TRY_EXIT(name_stem(cs_request_text(request, "-o"), track.sounds[i].stem, path));
-    CS_TRY_EXIT(write_file(script, request, frames, track.sounds[i].stem, path, is_float));
+    const cs_stem stem = {track.sounds[i].stem, &gain};
+    CS_TRY_EXIT(write_file(script, request, frames, &stem, path, is_float));
   }
   return CS_EXIT_OK;
 }

@@ -88,27 +88,34 @@ static celspan_status find_gain(cs_script *script, const char *film, double lufs
   return CELSPAN_OK;
 }
 
-/* Mixes the sound, which is heard to its end first where its loudness is given. */
+/* Mixes the sound, and hears it to its end, where its loudness is given. *gain: 0 without. */
+static celspan_status hear_gain(cs_script *script, const cs_request *request,
+                                const cs_sequence *frames, double *gain) {
+  cs_sound_stream whole;
+  int64_t unused;
+  double lufs;
+  *gain = 0;
+  if (!cs_request_read(request, "--loudness", &lufs))
+    return CELSPAN_OK;
+  CS_TRY(cs_soundtrack_mix(script, frames->frames[0], (int64_t)frames->count, &whole, &unused));
+  return find_gain(script, request->operands[0], lufs, &whole, gain);
+}
+
 static celspan_status open_mix(cs_script *script, const cs_request *request,
-                               const cs_sequence *frames, const char *stem, cs_sound_stream *out,
+                               const cs_sequence *frames, const cs_stem *stem, cs_sound_stream *out,
                                int64_t *moments) {
   int64_t first = frames->frames[0], count = (int64_t)frames->count;
-  double lufs, gain = 0;
-  bool has_loudness = cs_request_read(request, "--loudness", &lufs);
+  double own = -1, *gain = stem ? stem->gain : &own;
   *moments = moments_of((double)count / script->film.frames_second);
-  if (has_loudness || !stem)
-    CS_TRY(cs_soundtrack_mix(script, first, count, out, moments));
-  if (has_loudness)
-    CS_TRY(find_gain(script, request->operands[0], lufs, out, &gain));
-  if (stem)
-    CS_TRY(mix_stem(script, first, *moments, stem, out));
-  else if (has_loudness)
-    CS_TRY(cs_soundtrack_mix(script, first, count, out, moments));
-  return gain == 0 ? CELSPAN_OK : cs_amplify(script->context, out, gain);
+  if (*gain < 0)
+    CS_TRY(hear_gain(script, request, frames, gain));
+  CS_TRY(stem ? mix_stem(script, first, *moments, stem->name, out)
+              : cs_soundtrack_mix(script, first, count, out, moments));
+  return *gain == 0 ? CELSPAN_OK : cs_amplify(script->context, out, *gain);
 }
 
 cs_exit cs_soundtrack_open(cs_script *script, const cs_request *request, const cs_sequence *frames,
-                           const char *stem, cs_sound_stream *out, int64_t *moments) {
+                           const cs_stem *stem, cs_sound_stream *out, int64_t *moments) {
   if (!cs_sequence_is_run(frames))
     return cs_report_usage("--frames %s: the film has a sound, which goes with one run of frames "
                            "such as 10-20",

@@ -8,6 +8,12 @@
 #include "lua/module/heard.h"
 #include "program/script.h"
 
+/* One of several files: the sounds of a name. */
+typedef struct cs_stem {
+  const char *name;
+  double *gain; /* for --loudness, the same for all: below 0 until it is found for the first one */
+} cs_stem;
+
 /* Adds to a hash everything on which the sound depends: the sounds, and the sizes and times of
  * their files. Errors: those of celspan_lua_sounds. */
 CELSPAN_CHECKED celspan_status cs_soundtrack_hash(cs_script *script, cs_hash *hash);
@@ -24,4 +30,4 @@ CELSPAN_CHECKED celspan_status cs_soundtrack_mix(cs_script *script, int64_t firs
 /* Mixes the sound of a run of frames, as loud as --loudness says of all stems together. stem: the
  * only one that is heard; NULL: all. *moments: the number of moments. OK, or reported. */
 cs_exit cs_soundtrack_open(cs_script *script, const cs_request *request, const cs_sequence *frames,
-                           const char *stem, cs_sound_stream *out, int64_t *moments);
+                           const cs_stem *stem, cs_sound_stream *out, int64_t *moments);

@@ -3,13 +3,17 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include "base/clock.h"
 #include "base/context.h"
+#include "frames/process/child.h"
 #include "frames/process/interrupt.h"
 #include "output/sinks/file.h"
 #include "program/commit.h"
 #include "program/log.h"
+
+#define ANSWER_SECONDS 5.0 /* for ffmpeg to say its version */
 
 void cs_summary_add(cs_summary *summary, const cs_shoot_frame *frame) {
   size_t at = summary->count;
@@ -25,16 +29,16 @@ void cs_summary_add(cs_summary *summary, const cs_shoot_frame *frame) {
   summary->count = kept + 1;
 }
 
-/* The version that ffmpeg prints; "": there is none. */
-static void ask_ffmpeg(char *out, size_t size) {
-  char line[256] = "";
-  FILE *answer = popen("exec ffmpeg -version", "re");
-  if (answer && !fgets(line, sizeof line, answer))
-    line[0] = '\0';
-  if (answer)
-    pclose(answer);
-  snprintf(out, size, "%s", "");
-  sscanf(line, "ffmpeg version %79s", out);
+/* The version that ffmpeg prints; "": there is none, or it does not answer in time. */
+static void ask_ffmpeg(char out[80]) {
+  static const char *const question[] = {"sh", "-c", "ffmpeg -version | head -n 1 >&2", NULL};
+  cs_child child;
+  out[0] = '\0';
+  if (cs_child_start(&child, question, false) != 0)
+    return;
+  close(child.input);
+  cs_child_end(&child, ANSWER_SECONDS);
+  sscanf(child.words.text, "ffmpeg version %79s", out);
 }
 
 static void put_versions(cs_json *json, bool has_video) {
@@ -46,7 +50,7 @@ static void put_versions(cs_json *json, bool has_video) {
   if (CELSPAN_LIBAVIF[0])
     cs_json_text(json, "libavif", CELSPAN_LIBAVIF);
   if (has_video)
-    ask_ffmpeg(ffmpeg, sizeof ffmpeg);
+    ask_ffmpeg(ffmpeg);
   if (ffmpeg[0])
     cs_json_text(json, "ffmpeg", ffmpeg);
 }

@@ -73,6 +73,10 @@ describe("the log of a run", function()
     assert.equal(5, code)
     assert.is_truthy(err:find("missing/run.log: the log cannot be written: No such file", 1, true))
     assert.is_nil(bench:read "no.01.png")
+    assert(os.execute(("mkfifo '%s/nobody.log'"):format(bench.folder)))
+    code, _, err = render "film.lua -o no.##.png --log nobody.log"
+    assert.equal(5, code)
+    assert.is_truthy(err:find("nobody.log: the log cannot be written", 1, true), err)
     code, _, err = render "film.lua -o full.##.png --log /dev/full"
     assert.equal(0, code)
     assert.equal(1, select(2, err:gsub("the log of %-%-log ends here", "")))
@@ -109,6 +113,21 @@ describe("the report of a run", function()
       "if f.number == 5 then for _ = 1, 5e7 do end end")))
     assert.equal(0, (render "slow.lua -o s.##.png --report s.json"))
     assert.equal(5, report_of "s.json".slowest[1].frame)
+  end)
+
+  it("does not wait for an ffmpeg that does not say its version", function()
+    if not present.program "ffmpeg" then return pending "there is no ffmpeg" end
+    local _, where = bench:shell "command -v ffmpeg"
+    assert(os.execute(("mkdir -p '%s/bin'"):format(bench.folder)))
+    bench:write("bin/ffmpeg", ("#!/bin/sh\n[ \"$1\" != -version ] || sleep 99\nexec %s \"$@\"\n")
+      :format(where:match "%S+"))
+    local code, _, err = bench:inside(("chmod +x bin/ffmpeg && PATH=\"$PWD/bin:$PATH\" timeout 60 "
+      .. "'%s' render film.lua -o v.gif --progress none --report v.json"):format(
+      workbench.absolute))
+    assert.equal(0, code, err)
+    assert.is_nil(report_of "v.json".ffmpeg)
+    assert.equal(0, (render "film.lua -o v.gif --report v.json"))
+    assert.is_truthy(report_of "v.json".ffmpeg:find "^%S+$")
   end)
 
   it("is refused for tables, and where it cannot be written the run has failed", function()

@@ -85,14 +85,20 @@ describe("a sheet of sprites", function()
     local found = atlas "a.json"
     assert.same({ w = 128, h = 80 }, found.frames["a.0009.png"].sourceSize)
     assert.is_nil(found.frames["a.0010.png"])
+    assert.equal("2", found.meta.scale)
+    run "sprites walk.lua -o a.png --frames 9,12 --scale 0.5"
+    assert.equal("0.5", atlas "a.json".meta.scale)
+    run "sprites walk.lua -o a.png --frames 9,12 --size 128x80"
+    assert.equal("1", atlas "a.json".meta.scale)
     bench:write("rows.csv", "size\n64\n32\n")
     run "sprites walk.lua -o 'b{size}.png' --table rows.csv"
     assert.equal(32, atlas "b32.json".frames["b32.0008.png"].sourceSize.w)
   end)
 
   it("is refused where it would be too large, or lose its alpha", function()
-    local function refused(code, arguments, words)
-      local got, _, err = bench:celspan_inside("sprites walk.lua " .. arguments)
+    local function refused(code, arguments, words, limit)
+      local got, _, err = bench:inside(("%s'%s' sprites walk.lua %s%s"):format(limit or "",
+        workbench.absolute, arguments, limit and limit ~= "" and ")" or ""))
       assert.equal(code, got, err)
       assert.truthy(err:find(words, 1, true), err)
       assert.is_nil(bench:read "out.png" or bench:read "out.json")
@@ -108,8 +114,9 @@ return celspan.film { size = { 20000, 2 }, frame = function()
     refused(6, "-o out.png", "out.png: the sheet would have 20004 x 6 pixels, and at most 16384")
     bench:write("walk.lua", [[
 local celspan = require "celspan"
-return celspan.film { size = { 8000, 8000 }, frames = 2, frame = function(f)
-  return celspan.rostrum { back = f.number == 1 and "#fff" or "#000" } end }]])
-    refused(6, "-o out.png", "up to frame 2 the sprites have more than 67108864 pixels")
+return celspan.film { size = { 2048, 2048 }, frames = 17, frame = function(f)
+  return celspan.rostrum { back = ("#0000%02x"):format(f.number) } end }]])
+    local spare = present.sanitizer() and "" or "(ulimit -v 900000; "
+    refused(6, "-o out.png", "up to frame 17 the sprites have more than 67108864 pixels", spare)
   end)
 end)

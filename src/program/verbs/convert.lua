@@ -9,6 +9,7 @@ local program, request = ...
 
 local ONLY_VIDEO = { "quality", "codec", "max_size", "crf", "loop", "loudness", "fps", "sound",
                      "background", "progress" }
+local NAME_MOST = 255 -- bytes of a file's name
 local RIGHTS = { ["--trust"] = true, ["--limit"] = true }
 local OWN = { ["--fps"] = true, ["--sound"] = true, ["--frame"] = true }
 
@@ -30,7 +31,7 @@ end
 --- code.
 local function mix(script, output)
   local folder, base = output:match "^(.-)([^/]*)$"
-  local name = folder .. "." .. base .. ".sound.wav"
+  local name = folder .. "." .. base:sub(1, NAME_MOST - #"..sound.wav") .. ".sound.wav"
   local words = { "sound", script, "-o", name, "--progress", "none" }
   for _, option in ipairs(request.given) do
     if RIGHTS[option.name] then

@@ -62,17 +62,18 @@ local function read_frames(film, numbers, size)
     local bytes = image:bytes()
     local box = box_of(bytes, size[1], size[2])
     local art = cut_out(bytes, size[1], box)
-    local key = box[3] .. " " .. art
-    if not known[key] then
-      known[key] = { w = box[3], h = box[4], bytes = art, place = #sprites + 1 }
-      sprites[#sprites + 1] = known[key]
+    local alike = known[box[3]] or {} -- by their pixels, of which there is no second copy
+    if not alike[art] then
+      alike[art] = { w = box[3], h = box[4], bytes = art, place = #sprites + 1 }
+      sprites[#sprites + 1] = alike[art]
       pixels = pixels + box[3] * box[4]
     end
+    known[box[3]] = alike
     if pixels > PIXELS_MOST then
       program.fail("limit", "up to frame %d the sprites have more than %d pixels, which is the "
         .. "limit: give fewer --frames, or a smaller --scale or --size", number, PIXELS_MOST)
     end
-    frames[i] = { sprite = known[key], box = box, number = number }
+    frames[i] = { sprite = alike[art], box = box, number = number }
   end
   return sprites, frames
 end
@@ -136,7 +137,7 @@ local function atlas_of(film, frames, size, sheet, output)
       duration = duration_of(film, i) }
   end
   return { frames = listed, meta = { app = "celspan", version = celspan._VERSION:match "%S+$",
-    image = output:match "[^/]*$", format = "RGBA8888", scale = "1",
+    image = output:match "[^/]*$", format = "RGBA8888", scale = ("%g"):format(request.scale or 1),
     size = { w = sheet[1], h = sheet[2] } } }
 end
 

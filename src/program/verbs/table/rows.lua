@@ -49,11 +49,15 @@ end
 
 -- ---------------------------------------------------------------- a row
 
+--- Whether {name} in OUT is the place for the names of sounds, and not for a column.
+local function is_for_stems(name) return request.stems and name == "name" end
+
 --- The output of a row: each {name} in OUT is replaced by the text in that column. For `check`, the
 --- line of the row.
 local function output_of(row, line, columns)
   if is_check then return "line " .. line end
   local output = request.output:gsub("{([%w_]+)}", function(name)
+    if is_for_stems(name) then return nil end
     local text = row[columns[name]]
     if text == "" or text:find "/" or text:find("..", 1, true) or text:find "%c" then
       program.usage("--table %s: line %d: column '%s' is '%s': in the name of a file it must not "
@@ -87,13 +91,14 @@ local function check_header(header, is_parameter)
   local columns = try(csv.columns, header)
   if is_check then return columns end
   for _, name in ipairs(header) do
-    if not is_parameter[name] and not request.output:find("{" .. name .. "}", 1, true) then
+    local has_place = request.output:find("{" .. name .. "}", 1, true) and not is_for_stems(name)
+    if not is_parameter[name] and not has_place then
       program.usage("--table %s: column '%s' is neither a parameter of the script nor {%s} in OUT",
         request.table, name, name)
     end
   end
   for name in request.output:gmatch "{([%w_]+)}" do
-    if not columns[name] then
+    if not columns[name] and not is_for_stems(name) then
       program.usage("--table %s: there is no column '%s' for {%s} in OUT; there are %s",
         request.table, name, name, table.concat(header, ", "))
     end
