@@ -90,7 +90,7 @@ return {
   watch = { "spec/watch" },
   tiles = { "unit/tiles", "spec/tiles" },
   avif = { "spec/avif", "unit/picture_sink" },
-  video = { "spec/video", "spec/sound", "spec/avif" },
+  video = { "spec/video", "spec/sound", "spec/avif", "spec/played" },
   footage = { "unit/footage", "spec/footage", "spec/footage_bad" },
   sound = { "spec/mix", "spec/sound", "spec/video" },
   sandbox = { "spec/source", "sandbox/sandbox", "spec/container" },

@@ -84,7 +84,9 @@ describe("a delivery", function()
     { "mkv", "av1", "av1", "yuv444p" }, { "mkv", "vp9", "vp9", "yuv420p" },
     { "mov", "prores", "prores", "yuva444p12le" }, { "mov", "prores422", "prores", "yuv422p10le" },
     { "mov", "prores422hq", "prores", "yuv422p10le" }, { "mov", "dnxhr", "dnxhd", "yuv422p10le" },
-    { "mov", "h264", "h264", "yuv420p" }, { "webm", "av1", "av1", "yuv420p" },
+    { "mov", "h264", "h264", "yuv420p" }, { "mov", "h265", "hevc", "yuv420p" },
+    { "mkv", "h264", "h264", "yuv444p" }, { "webm", "vp9", "vp9", "yuv420p" },
+    { "webm", "av1", "av1", "yuv420p" },
   }
   for _, case in ipairs(CODECS) do
     local ending, codec, name, layout = table.unpack(case)
@@ -182,6 +184,31 @@ describe("a delivery", function()
     assert.equal(5, code, err)
     assert.truthy(err:find "none.mp4: has %d+ bytes at the lowest quality, and may have 1", err)
     assert.is_nil(bench:read "none.mp4")
+  end)
+
+  --- Clouds with grain, of which a whole step of the factor changes the size by a fifth and more.
+  local NOISE = [[
+local celspan = require "celspan"
+return celspan.film { size = { %d, %d }, fps = 24, frames = %d, grain = { amount = .02 },
+  frame = function(f)
+    local sky = celspan.noise { kind = "fractal", size = %d, octaves = 5, at = f.index / 12,
+      colours = { "#123", "#fc8" } }
+    return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, %d, %d, texture = sky } } }
+  end }
+]]
+  local function filled(film, codec, most)
+    bench:write("film.lua", film)
+    render("-o out.mp4 --codec %s --max-size %d", codec, most)
+    local bytes = #bench:read "out.mp4"
+    assert.is_true(bytes <= most and bytes >= 0.85 * most, codec .. bytes)
+  end
+  it_reads("fills --max-size with noise, too", function()
+    for _, case in ipairs { { "h264", 12000 }, { "h264", 20000 }, { "h265", 12000 } } do
+      filled(NOISE:format(320, 180, 12, 40, 320, 180), case[1], case[2])
+    end
+  end)
+  it_reads("fills 2 MB with noise of 1080 lines #full", function()
+    filled(NOISE:format(1920, 1080, 96, 240, 1920, 1080), "h264", 2e6)
   end)
 
   --- Puts a program called ffmpeg first in PATH, which adds a line to the file `calls` and runs
@@ -466,6 +493,18 @@ return ({ shot = shot, cut = cut { shot, { film = shot, name = "b" }, shot } })[
       assert.equal(2, code)
       assert.truthy(err:find(words, 1, true), err)
     end
+    local _, _, told = bench:celspan_inside("sound film.lua -o 's/{name}.wav' --stems "
+      .. "--loudness -1 -- shot")
+    assert.equal(1, select(2, told:gsub("louder than full scale, and cut", "")), told)
+    bench:write("rows.csv", "kind\nshot\ncut\n")
+    bench:write("both.lua", 'local kind = require "celspan".parameters { kind = "shot" }.kind\n'
+      .. bench:read "film.lua":gsub("%[%.%.%.%]", "[kind]"))
+    os.execute(("rm -r '%s/s'"):format(bench.folder))
+    local good, _, fault = bench:celspan_inside("sound both.lua --table rows.csv --stems "
+      .. "-o 's/{kind}.{name}.wav'")
+    assert.equal(0, good, fault)
+    assert.same({ "cut.b.wav", "cut.music.wav", "cut.rest.wav", "cut.voice.wav", "shot.music.wav",
+      "shot.rest.wav", "shot.voice.wav" }, bench:files "s")
     bench:write("film.lua", (FILM:gsub("fps = 24", "%0, sound = { 'tone.wav', name = 'a/b' }")))
     local code, _, err = bench:celspan_inside "sound film.lua --stems -o '{name}.wav'"
     assert.truthy(code == 2 and err:find("the sound 'a/b' needs a name without /", 1, true), err)
@@ -579,6 +618,8 @@ return ({ shot = shot, cut = cut { shot, { film = shot, name = "b" }, shot } })[
     assert.truthy(told:find('"frames": 12', 1, true), told)
     code, _, err = bench:celspan_inside "render 'f/f.####.png' --set fps=6 -o slow.gif"
     assert.equal(0, code, err)
+    local long = ("n"):rep(246) .. ".mkv" -- the sound's own name is longer
+    convert(("'f/f.####.png' %s --codec ffv1 --fps 12 --sound film.lua"):format(long))
   end)
 
   it_reads("takes the sound of a script that is trusted, and leaves no sound behind", function()

@@ -45,10 +45,11 @@ static const char *const APNG[] = {"-c:v", "apng", "-pred", "mixed", NULL};
 
 /* For H.264, quality 75 is the constant rate factor 18, at which most people see no difference. The
  * values of the other encoders give about the same error at 75 and below. */
-#define H264_QUALITY .encoder = H264, .quality = "-crf", .best = 8, .worst = 48, .most_crf = 51
+#define H264_QUALITY                                                                               \
+  .encoder = H264, .quality = "-crf", .best = 8, .worst = 48, .most_crf = 51, .has_fine_crf = true
 #define H265_QUALITY                                                                               \
-  .encoder = H265, .quality = "-crf", .best = 9, .worst = 49, .most_crf = 51, .least_width = 16,   \
-  .least_height = 16
+  .encoder = H265, .quality = "-crf", .best = 9, .worst = 49, .most_crf = 51,                      \
+  .has_fine_crf = true, .least_width = 16, .least_height = 16
 #define AV1_QUALITY .encoder = AV1, .quality = "-crf", .best = 11, .worst = 63, .most_crf = 63
 
 const cs_video_codec cs_codec_h264 = {.name = "h264", HALVED, H264_QUALITY};

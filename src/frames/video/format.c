@@ -301,7 +301,7 @@ static void add_pictures(cs_video_command *command, const cs_video_options *opti
   add_all(command, codec->encoder);
   if (codec->quality) {
     add(command, codec->quality);
-    add_text(command, "%d", cs_video_quality(options));
+    add_text(command, "%g", cs_video_quality(options) - options->crf_less);
   }
   if (codec->is_rgb)
     add_pixels(command, cs_video_pixels(options));

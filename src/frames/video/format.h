@@ -35,6 +35,7 @@ typedef struct cs_video_codec {
   const char *quality; /* the option for the quality; NULL: a palette's size, or it has none */
   double best, worst;  /* its values at quality 100 and 0 */
   int32_t most_crf;    /* the greatest value of -crf; 0: the encoder has no such option */
+  bool has_fine_crf;   /* which may have a fraction */
 } cs_video_codec;
 
 enum { CS_VIDEO_CODECS = 6 }; /* of a format, at most */
@@ -82,6 +83,7 @@ typedef struct cs_video_options {
   int32_t quality;             /* 0 to 100; the same quality looks alike with every codec */
   bool has_crf;                /* crf is the value of -crf, whatever the quality is */
   int32_t crf;
+  double crf_less; /* below 1: taken away from it, where the encoder has such factors */
   /* What the tags say of a coding that converts; ffmpeg's names, which live as long as the options.
    * NULL: those of its curve. */
   const char *primaries, *transfer;
