@@ -432,6 +432,38 @@ return celspan.rostrum { size = { 256, 48 }, celspan.cel { celspan.rect { 0, 0, 
     end
   end)
 
+  --- A PNG with a text in it, as ImageMagick writes with -set.
+  local function with_text(bytes, keyword, text)
+    local body, crc = "tEXt" .. keyword .. "\0" .. text, 0xffffffff
+    for i = 1, #body do
+      crc = crc ~ body:byte(i)
+      for _ = 1, 8 do crc = crc >> 1 ~ (crc & 1) * 0xedb88320 end
+    end
+    return bytes:sub(1, 33) .. (">I4"):pack(#body - 4) .. body
+      .. (">I4"):pack(crc ~ 0xffffffff) .. bytes:sub(34)
+  end
+
+  it_reads("is named by a PNG of celspan alone, with both modules", function()
+    rendered("ramp.lua", "--background '#000' --ocio config.ocio --colour wide -o wide.png")
+    rendered("ramp.lua", "--background '#000' -o plain.png")
+    local raster = workbench.build .. "/src/plugins/raster/celspan-raster.so"
+    for _, module in ipairs { "", "CELSPAN_PICTURE_MODULE=" .. raster .. " " } do
+      local function said(file)
+        local code, out, err = bench:inside(("%s'%s' info %s"):format(module, workbench.absolute,
+          file))
+        assert.equal(0, code, err)
+        return out
+      end
+      assert.is_truthy(said "wide.png":find("colour srgb\ncolour_from format\n"
+        .. "space wide (config.ocio)\n", 1, true), said "wide.png")
+      for _, name in ipairs { "rec709", "linear", "srgb" } do
+        bench:write("other.png", with_text(bench:read "plain.png", "colour", name))
+        local same = said("plain.png"):gsub("bytes %d+", "")
+        assert.equal(same, (said("other.png"):gsub("bytes %d+", "")))
+      end
+    end
+  end)
+
   it_reads("is a space that can only be read with its configuration", function()
     rendered("ramp.lua", "--depth float --background '#000' -o light.exr")
     for _, file in ipairs { "log.exr", "log.dpx" } do

@@ -222,6 +222,17 @@ const char *film_colour(const ImageSpec &spec) {
   return is_log || spec.get_int_attribute("oiio:BitsPerSample") == 10 ? "cineon" : "srgb";
 }
 
+bool is_own(const std::string &colour) {
+  celspan_transfer unused;
+  return cs_transfer_parse(colour.c_str(), &unused);
+}
+
+/* celspan writes this text for spaces alone; other programs may mean other things by such names. */
+std::string named_in_png(const ImageSpec &spec) {
+  std::string text = spec.get_string_attribute("colour").c_str();
+  return is_own(text) ? "" : text;
+}
+
 /* The name of its colours that a file of celspan has; "": none. */
 std::string named_colour(const cs_picture_reader &reader) {
   const std::string &format = reader.kind.format;
@@ -229,15 +240,10 @@ std::string named_colour(const cs_picture_reader &reader) {
   if (format == "openexr")
     return reader.spec.get_string_attribute("celspan:colour").c_str();
   if (format == "png")
-    return reader.spec.get_string_attribute("colour").c_str();
+    return named_in_png(reader.spec);
   std::string project =
       format == "dpx" ? reader.spec.get_string_attribute("DocumentName").c_str() : "";
   return project.compare(0, before.size(), before) == 0 ? project.substr(before.size()) : "";
-}
-
-bool is_own(const std::string &colour) {
-  celspan_transfer unused;
-  return cs_transfer_parse(colour.c_str(), &unused);
 }
 
 /* A gamma of 1 in PNG files is light. */

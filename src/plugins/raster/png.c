@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/colour/transfer_names.h"
 #include "plugins/raster/raster.h"
 
 enum { GAMMA_LINEAR = 100000 }; /* in units of 1/100000 */
@@ -54,6 +55,18 @@ static const char *colour_of(const reading *r) {
   return has_gamma && gamma == GAMMA_LINEAR ? "linear" : "srgb";
 }
 
+/* The space that celspan names in a text (output/png/png_sink.c), and none of its own names: other
+ * programs may mean other things by them. */
+static void read_space(const reading *r) {
+  png_textp texts = NULL;
+  celspan_transfer own;
+  int count = png_get_text(r->png, r->info, &texts, NULL);
+  for (int i = 0; i < count; i++)
+    if (strcmp(texts[i].key, "colour") == 0 && texts[i].text &&
+        !cs_transfer_parse(texts[i].text, &own))
+      snprintf(r->out->space, sizeof r->out->space, "%s", texts[i].text);
+}
+
 static void decode(reading *r) {
   if (setjmp(png_jmpbuf(r->png)))
     return;
@@ -62,6 +75,7 @@ static void decode(reading *r) {
   png_read_info(r->png, r->info);
   r->out->colour = colour_of(r);
   r->out->names_colour = strcmp(r->out->colour, "linear") == 0;
+  read_space(r);
   int passes = choose_form(r);
   r->status = cs_raster_make(r->out, png_get_image_width(r->png, r->info),
                              png_get_image_height(r->png, r->info), r->failure);
