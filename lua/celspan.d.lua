@@ -182,6 +182,12 @@ function celspan.merge(objects, options) end
 ---@return celspan.object
 function celspan.composite(a, b, operator) end
 
+--- An object of which the alpha decides by chance whether a pixel of the film is opaque or clear.
+---@param object celspan.shape
+---@param seed? integer Another one chooses other pixels (0)
+---@return celspan.object
+function celspan.dissolve(object, seed) end
+
 --- A star, or without `inner` a regular polygon.
 ---@param options { centre?: celspan.point, points?: integer, outer: number, inner?: number, rotate?: number, outer_round?: number, inner_round?: number, texture?: celspan.surface }
 ---@return celspan.object
@@ -325,7 +331,7 @@ function celspan.radial(fields) end
 function celspan.conic(fields) end
 
 ---@class celspan.noise.fields
----@field kind? "perlin"|"value"|"fractal"|"turbulence"|"cells" One octave of hills, of values or of cells; or the sum of several; default "perlin"
+---@field kind? "perlin"|"value"|"fractal"|"turbulence"|"cells"|"white" One octave of hills, of values, of cells or of squares; or the sum of several; default "perlin"
 ---@field size? number The side of a cell of the first octave; more than 0; default 100
 ---@field octaves? integer Of fractal and turbulence: each has half the size of the last; 1 to 16; default 4
 ---@field gain? number Of fractal and turbulence: an octave's height, as a share of that before; 0 to 1; default 0.5
@@ -336,7 +342,7 @@ function celspan.conic(fields) end
 ---@field matrix? number[] Nine numbers: moves the noise alone
 
 ---@class celspan.noise: celspan.texture, celspan.noise.fields
----@field kind "perlin"|"value"|"fractal"|"turbulence"|"cells"
+---@field kind "perlin"|"value"|"fractal"|"turbulence"|"cells"|"white"
 ---@field size number
 ---@field seed integer
 ---@field at number
@@ -957,7 +963,7 @@ function celspan.key(fields) end
 
 --- How a matte is used.
 ---@class celspan.matte.options
----@field from? "alpha"|"luma" What of the matte counts; default "alpha"
+---@field from? "alpha"|"luma"|"dissolve" What of the matte counts; default "alpha"
 ---@field invert? boolean The art is present where the matte is not; default false
 ---@field grow? number Units that the matte grows by; below 0 it is choked; -1000000 to 1000000; default 0
 ---@field feather? number The radius of its blur; 0 to 1000000; default 0

@@ -75,7 +75,8 @@ celspan_status celspan_texture_create_focal( celspan_context *context, celspan_p
 celspan_status celspan_texture_create_conic(celspan_context *context, celspan_point centre, double
   angle, const celspan_stop *stops, size_t stop_count, celspan_texture **out);
 typedef enum celspan_noise_kind { CELSPAN_NOISE_PERLIN = 0, CELSPAN_NOISE_VALUE,
-  CELSPAN_NOISE_FRACTAL, CELSPAN_NOISE_TURBULENCE, CELSPAN_NOISE_CELLS } celspan_noise_kind;
+  CELSPAN_NOISE_FRACTAL, CELSPAN_NOISE_TURBULENCE, CELSPAN_NOISE_CELLS, CELSPAN_NOISE_WHITE }
+  celspan_noise_kind;
 typedef struct celspan_noise_desc { size_t struct_size; celspan_noise_kind kind; int octaves;
   double size; double gain; double at; const celspan_stop *stops; size_t stop_count; int seed; bool
   fades; } celspan_noise_desc;
@@ -231,7 +232,8 @@ celspan_status celspan_object_create_group( celspan_context *context, const cels
 celspan_status celspan_object_blend(celspan_context *context, celspan_object *object, celspan_blend
   mode, celspan_object **out);
 celspan_blend celspan_object_mode(const celspan_object *object);
-typedef enum celspan_matte_from { CELSPAN_MATTE_ALPHA = 0, CELSPAN_MATTE_LUMA } celspan_matte_from;
+typedef enum celspan_matte_from { CELSPAN_MATTE_ALPHA = 0, CELSPAN_MATTE_LUMA,
+  CELSPAN_MATTE_DISSOLVE } celspan_matte_from;
 celspan_status celspan_object_create_matte(celspan_context *context, celspan_object *art,
   celspan_object *by, celspan_matte_from from, bool invert, celspan_object **out);
 typedef struct celspan_matte_desc { size_t struct_size; celspan_matte_from from; bool invert;

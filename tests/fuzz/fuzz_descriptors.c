@@ -179,7 +179,7 @@ static celspan_status make_noise(program *p, celspan_texture **out) {
   for (size_t i = 0; i < POINTS && i < desc.stop_count; i++)
     stops[i] = (celspan_stop){(double)i / POINTS + (double)share(p) / POINTS, paint(p)};
   desc.stops = stops;
-  desc.kind = (celspan_noise_kind)word(p, CELSPAN_NOISE_CELLS + 1);
+  desc.kind = (celspan_noise_kind)word(p, CELSPAN_NOISE_WHITE + 1);
   desc.octaves = (int)take(p, 18);
   desc.size = number(p);
   desc.gain = (double)share(p);

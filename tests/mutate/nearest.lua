@@ -190,6 +190,7 @@ return {
   ["lua/celspan/draw/labels.lua"] = { "spec/chart" },
   ["lua/celspan/draw/ticks.lua"] = { "spec/chart" },
   ["lua/celspan/draw/colour.lua"] = { "spec/layout" },
+  ["lua/celspan/draw/dissolve.lua"] = { "spec/composite" },
   ["lua/celspan/draw/echo.lua"] = { "spec/layout" },
   ["lua/celspan/film/grain.lua"] = { "spec/noise" },
   ["lua/celspan/draw/merge.lua"] = { "spec/operators" },

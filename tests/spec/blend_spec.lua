@@ -297,7 +297,7 @@ describe("a matte", function()
     assert.error_matches(function() celspan.matte(art) end,
       "matte: argument 2, what it is matted by, must be an object, got nil")
     assert.error_matches(function() celspan.matte(art, art, { from = "red" }) end,
-      "matte: field 'from' must be \"alpha\" or \"luma\", got \"red\"")
+      "matte: field 'from' must be \"alpha\", \"luma\" or \"dissolve\", got \"red\"")
     assert.error_matches(function() celspan.matte(art, art, { inverted = true }) end,
       "matte: unknown field 'inverted'; did you mean 'invert'")
   end)

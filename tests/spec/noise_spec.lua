@@ -5,7 +5,7 @@ local images = require "tests.support.images"
 
 local pixels, assert_alike = images.of, images.alike
 
-local KINDS = { "perlin", "value", "fractal", "turbulence", "cells" }
+local KINDS = { "perlin", "value", "fractal", "turbulence", "cells", "white" }
 
 local function rect(w, h, texture) return celspan.rect { 0, 0, w, h, texture = texture } end
 

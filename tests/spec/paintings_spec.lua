@@ -642,13 +642,60 @@ describe("a Krita document", function()
     local words = { normal = "normal", multiply = "multiply", dodge = "color-dodge",
       burn = "color-burn", hard_light = "hard-light", soft_light = "soft-light-photoshop",
       soft_light_svg = "soft-light", diff = "difference", luminize = "luminosity",
-      add = "linear-dodge", linear_dodge = "linear-dodge", hard_mix = "hard-mix",
-      dissolve = "dissolve" }
+      add = "linear-dodge", linear_dodge = "linear-dodge", dissolve = "dissolve",
+      hard_mix_photoshop = "hard-mix", ["linear light"] = "linear-light",
+      ["darker color"] = "darker-color", ["lighter color"] = "lighter-color",
+      ["hard mix"] = "hard-mix-krita", grain_merge = "grain-merge" }
     for word, name in pairs(words) do
       local tree = read(paintings.krita { w = 12, h = 10, layers = { layer_of { blend = word } } })
       assert.are.equal(name, tree[1].blend)
-      assert.are.equal(word == "dissolve" and 1 or 0, #tree.skipped)
+      local is_shown = name ~= "hard-mix-krita" and name ~= "grain-merge"
+      assert.are.equal(is_shown and 0 or 1, #tree.skipped)
     end
+  end)
+
+  it_reads_archives("dissolves layers, groups and clipped layers, with their opacity", function()
+    local function solid(fields)
+      local layer = { name = "ink", x = 0, y = 0, w = 12, h = 10, opacity = 0.6,
+        pixel = function() return 250, 120, 0, 255 end }
+      for name, value in pairs(fields) do layer[name] = value end
+      return layer
+    end
+    local function pixels_of(object)
+      return celspan.pixels(celspan.rostrum { celspan.cel { object } },
+        { size = { 12, 10 } }):bytes()
+    end
+    local under = celspan.rect { 0, 0, 12, 10, texture = celspan.rgb(1, 1, 1) }
+    local ink = solid { opacity = 1 }
+    local whole = read(paintings.krita { w = 12, h = 10, layers = { ink } }).object
+    local expected = pixels_of(celspan.dissolve(whole:fade(153 / 255)))
+    assert.is_true(#expected:gsub("%z", "") > 100)
+    for _, file in ipairs {
+      paintings.krita { w = 12, h = 10, layers = { solid { blend = "dissolve" } } },
+      paintings.openraster { w = 12, h = 10, layers = { solid { blend = "krita:dissolve" } } },
+      paintings.psd { w = 12, h = 10, layers = { solid { blend = "diss" } } },
+      paintings.krita { w = 12, h = 10, layers = { { name = "g", blend = "dissolve", opacity = 0.6,
+        layers = { ink } } } } } do
+      local tree = read(file)
+      assert.same({}, told(tree))
+      assert.equal("dissolve", tree[1].blend)
+      assert.equal(expected, pixels_of(tree.object))
+      assert.equal(expected, assert(seen(tree)):bytes())
+      assert.equal(pixels_of(celspan.group { under, celspan.dissolve(whole:fade(153 / 255)) }),
+        pixels_of(celspan.group { under, tree.object }))
+    end
+    local clipped = read(paintings.psd { w = 12, h = 10, layers = { ink, solid { blend = "diss",
+      clipping = 1, pixel = function() return 0, 0, 255, 255 end } } })
+    local blue = 0
+    for x = 0, 11 do
+      for y = 0, 9 do
+        local r, _, b, a = celspan.pixels(celspan.rostrum { celspan.cel { clipped.object } },
+          { size = { 12, 10 } }):get(x, y)
+        assert.is_true(a == 1 and (b == 1 and r == 0 or b == 0 and r > 0.9))
+        blue = blue + b
+      end
+    end
+    assert.is_true(blue > 50 and blue < 95)
   end)
 
   it_reads_archives("may have layers without a tile, and tiles in any order", function()

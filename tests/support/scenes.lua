@@ -558,11 +558,12 @@ function maker:solid()
     text_of(own:between(0, 40)), text_of(own:between(0, 30)), text_of(own:between(2, 20)))
 end
 
---- The object, keyed by a colour or by brightness, or under a matte that is grown or choked.
+--- The object, keyed by a colour or by brightness, or under a matte that is grown or choked, or
+--- before a circle that dissolves.
 function maker:keyed(object)
   local own = self.keys
   local function number(low, high) return text_of(own:between(low, high)) end
-  local kind = own:whole(1, 3)
+  local kind = own:whole(1, 4)
   if kind == 1 then
     return ("celspan.key{ %s, colour = %q, tolerance = %s, softness = %s, spill = %s }"):format(
       object, own:pick { "#0b0", "#24c", "#c08030" }, number(0, 0.4), number(0.1, 0.5),
@@ -571,6 +572,10 @@ function maker:keyed(object)
   if kind == 2 then
     return ("celspan.key{ %s, luma = true, from = %s, to = %s }"):format(object, number(0, 0.3),
       number(0.6, 1))
+  end
+  if kind == 3 then
+    return ("celspan.union{ celspan.dissolve(%s:fade(%s)), %s }"):format(self:solid(),
+      number(0.1, 0.9), object)
   end
   return ("celspan.matte(%s, %s, { grow = %s })"):format(object, self:solid(), number(-6, 6))
 end

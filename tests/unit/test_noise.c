@@ -146,6 +146,34 @@ static void check_spectrum(celspan_noise_kind kind) {
   }
 }
 
+/* White noise: all values are as frequent, neighbours know nothing of each other, and a cell has
+ * one value. */
+static void check_white(void) {
+  enum { BINS = 10, ROWS = 200, SIDE = 4, COUNT = LENGTH / SIDE };
+  double row[LENGTH], before[LENGTH] = {0}, along = 0, down = 0;
+  int bins[BINS] = {0};
+  celspan_noise_desc desc = CELSPAN_NOISE_DESC;
+  desc.kind = CELSPAN_NOISE_WHITE;
+  desc.size = SIDE;
+  desc.fades = false;
+  cs_shade shade = shade_of(desc);
+  for (int i = 0; i < ROWS; i++, memcpy(before, row, sizeof row)) {
+    read_row(&shade, SIDE * i + 0.5, 1, row);
+    for (int k = 0; k < COUNT; k++) {
+      const double *cell = row + SIDE * k;
+      bins[(int)(cell[0] * (BINS - 1e-9))]++;
+      CHECK(cell[1] == cell[0] && cell[SIDE - 1] == cell[0]);
+      along += k > 0 ? (cell[0] - 0.5) * (cell[-1] - 0.5) : 0;
+      down += i > 0 ? (cell[0] - 0.5) * (before[SIDE * k] - 0.5) : 0;
+    }
+  }
+  drop(&shade);
+  for (int i = 0; i < BINS; i++)
+    CHECK_NEAR((double)bins[i] / ROWS / COUNT, 1.0 / BINS, 4 * sqrt(0.09 / ROWS / COUNT));
+  CHECK_NEAR(along * 12 / ROWS / COUNT, 0, 4 / sqrt(ROWS * COUNT));
+  CHECK_NEAR(down * 12 / ROWS / COUNT, 0, 4 / sqrt(ROWS * COUNT));
+}
+
 /* ---------------------------------------------------------------- zooming */
 
 /* The noise of a pixel, read at eighths of pixels: the share of energy that pixels cannot show,
@@ -215,7 +243,7 @@ static void check_bits(cs_isa isa, test_random *random) {
     places[i].seed = (uint32_t)places[0].x[1];
   }
   CHECK(memcmp(&places[0], &places[1], sizeof places[0]) == 0);
-  for (int kind = CELSPAN_NOISE_PERLIN; kind <= (int)CELSPAN_NOISE_CELLS; kind++) {
+  for (int kind = CELSPAN_NOISE_PERLIN; kind <= (int)CELSPAN_NOISE_WHITE; kind++) {
     for (int i = 0; i < 2; i++)
       CS_WIDE_CHOOSE(i == 0 ? CS_ISA_ANY : isa, cs_noise_values)
     ((celspan_noise_kind)kind, &places[0], COUNT, values[i]);
@@ -281,7 +309,7 @@ static void check_refused(void) {
   desc.octaves = 0;
   CHECK(celspan_texture_create_noise(context, &desc, &texture) == CELSPAN_BAD_ARGUMENT);
   desc.octaves = 1;
-  desc.kind = (celspan_noise_kind)5;
+  desc.kind = (celspan_noise_kind)6;
   CHECK(celspan_texture_create_noise(context, &desc, &texture) == CELSPAN_BAD_ARGUMENT);
 }
 
@@ -289,7 +317,7 @@ static void check_refused(void) {
 static void check_extremes(void) {
   const double sizes[] = {1e-300, 1e-9, 1, 1e9, 1e12};
   for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
-    for (int kind = CELSPAN_NOISE_PERLIN; kind <= (int)CELSPAN_NOISE_CELLS; kind++) {
+    for (int kind = CELSPAN_NOISE_PERLIN; kind <= (int)CELSPAN_NOISE_WHITE; kind++) {
       double row[LENGTH];
       celspan_noise_desc desc = CELSPAN_NOISE_DESC;
       desc.kind = (celspan_noise_kind)kind;
@@ -309,12 +337,14 @@ int main(void) {
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
   check_spectrum(CELSPAN_NOISE_PERLIN);
   check_spectrum(CELSPAN_NOISE_VALUE);
-  for (int kind = CELSPAN_NOISE_PERLIN; kind <= (int)CELSPAN_NOISE_CELLS; kind++) {
-    check_zoom((celspan_noise_kind)kind);
+  for (int kind = CELSPAN_NOISE_PERLIN; kind <= (int)CELSPAN_NOISE_WHITE; kind++) {
+    if (kind != CELSPAN_NOISE_WHITE) /* squares have edges */
+      check_zoom((celspan_noise_kind)kind);
     check_far((celspan_noise_kind)kind, 0);
     check_far((celspan_noise_kind)kind, 0.5);
     check_far((celspan_noise_kind)kind, -7.2);
   }
+  check_white();
   for (int isa = CS_ISA_ANY; isa <= (int)cs_isa_best(); isa++)
     for (int k = 0; k < 300; k++)
       check_bits((cs_isa)isa, &random);

@@ -190,6 +190,12 @@ function celspan.merge(objects, options) end
 ---@return celspan.object
 function celspan.composite(a, b, operator) end
 
+--- An object of which the alpha decides by chance whether a pixel of the film is opaque or clear.
+---@param object celspan.shape
+---@param seed? integer Another one chooses other pixels (0)
+---@return celspan.object
+function celspan.dissolve(object, seed) end
+
 --- A star, or without `inner` a regular polygon.
 ---@param options { centre?: celspan.point, points?: integer, outer: number, inner?: number, rotate?: number, outer_round?: number, inner_round?: number, texture?: celspan.surface }
 ---@return celspan.object

@@ -9,6 +9,7 @@
 -- visible. `skipped` lists everything that looks different in the program that made the painting.
 local celspan = require "celspan"
 local core = require "celspan.core"
+local dissolve = require "celspan.dissolve"
 local fields = require "celspan.fields"
 local oca = require "celspan.oca"
 local sets = require "celspan.sets"
@@ -52,9 +53,10 @@ end
 
 local function mode_of(entry) return shown[entry.blend] and entry.blend or "normal" end
 
---- The object of a layer with its opacity, before its blend mode.
-local function faded(entry, object)
-  return entry.opacity < 1 and object:fade(entry.opacity) or object
+--- The object of a layer with an opacity, before its blend mode; a layer that dissolves has none.
+local function faded(entry, object, opacity)
+  object = opacity < 1 and object:fade(opacity) or object
+  return entry.blend == "dissolve" and dissolve.by_chance(object) or object
 end
 
 --- The object of a layer with the layers clipped to it, before its opacity and blend mode.
@@ -63,7 +65,7 @@ local function whole(entry, clipped)
   if #clipped > 0 then
     local list = { object }
     for i, other in ipairs(clipped) do
-      list[i + 1] = core.blend_within(faded(other, other.object), mode_of(other))
+      list[i + 1] = core.blend_within(faded(other, other.object, other.opacity), mode_of(other))
     end
     list.isolate, list.space = true, sources[entry].space
     object = celspan.group(list)
@@ -72,7 +74,7 @@ local function whole(entry, clipped)
 end
 
 local function painted(entry, clipped)
-  local object, mode = faded(entry, whole(entry, clipped)), mode_of(entry)
+  local object, mode = faded(entry, whole(entry, clipped), entry.opacity), mode_of(entry)
   if sources[entry].within then return core.blend_within(object, mode) end
   return mode == "normal" and object or object:blend(mode)
 end
@@ -147,7 +149,8 @@ end
 local function note_blends(list, path, skipped)
   for _, entry in ipairs(list) do
     local here, blend, what = path .. entry.name, entry.blend, nil
-    if not shown[blend] and not (entry.children and blend == "pass-through") then
+    local is_known = shown[blend] or blend == "dissolve"
+    if not is_known and not (entry.children and blend == "pass-through") then
       what = ('blend mode "%s": it is shown as normal'):format(blend)
     elseif blend == "pass-through" and blends(entry.children)
       and (entry.opacity < 1 or sources[entry].mask) then
@@ -489,9 +492,11 @@ local known = { only = "table", front = "any", back = "any", viewport = "table",
 
 --- The cel of an entry with the layers clipped to it.
 local function cel_of(entry, clipped, options)
-  return celspan.cel { whole(entry, clipped), front = options.front, back = options.back,
+  local object, opacity = whole(entry, clipped), entry.opacity * (options.opacity or 1)
+  if entry.blend == "dissolve" then object, opacity = faded(entry, object, opacity), 1 end
+  return celspan.cel { object, front = options.front, back = options.back,
     viewport = options.viewport, defocus = options.defocus, blend = mode_of(entry),
-    opacity = entry.opacity * (options.opacity or 1) }:named(sources[entry].name)
+    opacity = opacity }:named(sources[entry].name)
 end
 
 --- Whether each layer of a group may become a separate cel, because the group is not composited as

@@ -114,12 +114,13 @@ typedef struct cs_group {
   float fade;
   bool has_light; /* a front light with a shape */
   bool varies;    /* it has such a light, or a group around it has one */
-  bool curves;    /* it is a head (but not of a matte of alpha), graded, converted to another space,
-                     or inside such a group: the colours of the frame are no affine function of its
-                     paints */
+  bool curves;    /* it is a head (but not of a matte of alpha), a matte that dissolves, graded,
+                     converted to another space, or inside such a group: the colours of the frame
+                     are no affine function of its paints */
   bool is_source; /* it is a head, or inside one */
   bool inverts;   /* MATTE: 1 less its strength */
   bool is_luma;   /* MATTE: its strength is luma, else alpha */
+  bool dissolves; /* MATTE: the rest is opaque or clear */
   /* it lies directly in the frame, or is the whole frame: its back lights lie behind everything
    * else in it */
   bool is_frame;

@@ -10,7 +10,11 @@ static cs_over_pair finish_group(cs_over *over, const cs_group *group, cs_over_o
     inner = cs_over_blend((celspan_blend)group->blend, around->head, inner, &keep);
     over->keep = around->keep * keep;
   } else if (group->kind == CS_GROUP_MATTE) {
-    weight *= over->is_bound ? 0 : cs_over_strength(group, around->head);
+    const float strength = over->is_bound ? 0 : cs_over_strength(group, around->head);
+    if (group->dissolves)
+      inner = cs_over_dissolve(strength, inner);
+    else
+      weight *= strength;
   } else if (cs_group_keys(group) && over->is_bound) {
     weight = 0;
   }

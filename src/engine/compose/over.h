@@ -133,6 +133,14 @@ static inline float cs_over_strength(const cs_group *group, cs_over_pair head) {
   return group->inverts ? 1 - m : m;
 }
 
+/* The art of a matte that dissolves: opaque with its own colour, or clear. */
+static inline cs_over_pair cs_over_dissolve(float strength, cs_over_pair art) {
+  float alpha = cs_over_alpha(art.t, 1);
+  if (!(strength > 1 - alpha))
+    return cs_over_pair_clear;
+  return (cs_over_pair){art.e * (1 / alpha), cs_v4_all(0)};
+}
+
 /* A group that has been entered and not yet left. */
 typedef struct cs_over_outer {
   cs_over_pair outer; /* of the group around it, kept while this group is folded */

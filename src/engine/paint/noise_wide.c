@@ -52,11 +52,16 @@ static inline cs_wide blend(cs_wide a, cs_wide b, cs_wide share) { return a + sh
 
 /* ---------------------------------------------------------------- corners */
 
+/* A word as a number from -1 to 1. */
+static inline cs_wide number_of(words h) {
+  return __builtin_convertvector((cs_wide_int)h, cs_wide) * 0x1p-31f;
+}
+
 /* The value at a corner of which the point is (x, y, z) away. */
 static inline cs_wide corner(celspan_noise_kind kind, words h, cs_wide x, cs_wide y, float z) {
   h = mix(h);
   if (kind == CELSPAN_NOISE_VALUE)
-    return __builtin_convertvector((cs_wide_int)h, cs_wide) * 0x1p-31f;
+    return number_of(h);
   cs_wide_int is_steep = (cs_wide_int)h < 0;
   cs_wide along = cs_wide_choose(is_steep, cs_wide_all((float)CS_NOISE_SHORT),
                                  cs_wide_all((float)CS_NOISE_LONG));
@@ -127,10 +132,22 @@ static inline void find_nearest(const cs_noise_places *in, int32_t count, float 
   }
 }
 
+/* ---------------------------------------------------------------- one value for each cell */
+
+static inline void read_cells(const cs_noise_places *in, int32_t count, float *out) {
+  const uint32_t z = (uint32_t)in->z * CS_NOISE_Z ^ in->seed;
+  for (int32_t k = 0; k < count; k += CS_WIDE_LANES) {
+    words x = load_words(in->x + k) * CS_NOISE_X, y = load_words(in->y + k) * CS_NOISE_Y;
+    cs_wide_store(out + k, number_of(mix(x ^ y ^ z)));
+  }
+}
+
 void CS_WIDE(cs_noise_values)(celspan_noise_kind kind, const cs_noise_places *in, int32_t count,
                               float *out) {
   if (kind == CELSPAN_NOISE_CELLS)
     find_nearest(in, count, out);
+  else if (kind == CELSPAN_NOISE_WHITE)
+    read_cells(in, count, out);
   else if (kind == CELSPAN_NOISE_VALUE)
     mix_corners(CELSPAN_NOISE_VALUE, in, count, out);
   else

@@ -128,8 +128,9 @@ void CS_WIDE(cs_over_row_matte)(const cs_over_row_state *head, int32_t count, co
   for (int32_t i = 0; i < count; i++) {
     float m = cs_over_strength(group, head ? faded(fade, pair_at(head, i)) : cs_over_pair_clear);
     cs_over_pair pair = pair_at(art, i);
-    cs_v4_store(art->e[i], m * pair.e);
-    cs_v4_store(art->t[i], (1 - m) + m * pair.t);
+    pair = group->dissolves ? cs_over_dissolve(m, pair) : faded(m, pair);
+    cs_v4_store(art->e[i], pair.e);
+    cs_v4_store(art->t[i], pair.t);
   }
 }
 

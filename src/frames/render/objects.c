@@ -36,7 +36,7 @@ static cs_objects_outside outside_of(const cs_compiler *c) {
 static bool curves_by_itself(const cs_group *group, const cs_group *around) {
   if (group->kind == CS_GROUP_HEAD)
     return around->kind != CS_GROUP_MATTE || around->is_luma;
-  return group->grade || group->converts != CELSPAN_SPACE_AROUND;
+  return group->grade || group->converts != CELSPAN_SPACE_AROUND || group->dissolves;
 }
 
 /* Begins a group inside the group of the compiler; the fields that are still missing are set
@@ -565,7 +565,8 @@ static celspan_status add_matte(cs_compiler *c, const celspan_object *object,
     CS_TRY(enter(c, (cs_group){.kind = CS_GROUP_MATTE,
                                .fade = (float)object->fade,
                                .is_luma = boolean->is_luma,
-                               .inverts = boolean->inverts}));
+                               .inverts = boolean->inverts,
+                               .dissolves = boolean->dissolves}));
   CS_TRY(add_boolean(c, object->data, matrix));
   c->group = outer.group;
   c->fades_out = outer.fades_out;

@@ -357,7 +357,8 @@ typedef enum celspan_noise_kind {
   CELSPAN_NOISE_VALUE,      /* a random value at each corner of a cell: (1 + n) / 2 */
   CELSPAN_NOISE_FRACTAL,    /* octaves of Perlin's noise: (1 + their sum) / 2 */
   CELSPAN_NOISE_TURBULENCE, /* the sum of the absolute values of these octaves */
-  CELSPAN_NOISE_CELLS       /* the distance to the nearest of random points, in cells */
+  CELSPAN_NOISE_CELLS,      /* the distance to the nearest of random points, in cells */
+  CELSPAN_NOISE_WHITE       /* a random value in each cell, the same in all of it */
 } celspan_noise_kind;
 
 typedef struct celspan_noise_desc {
@@ -896,8 +897,10 @@ CELSPAN_API celspan_blend celspan_object_mode(const celspan_object *object);
 /* What of the matte counts. */
 typedef enum celspan_matte_from {
   CELSPAN_MATTE_ALPHA = 0, /* 1 - the mean of what it lets through */
-  CELSPAN_MATTE_LUMA       /* 0.2126 r + 0.7152 g + 0.0722 b of its premultiplied colour under white
+  CELSPAN_MATTE_LUMA,      /* 0.2126 r + 0.7152 g + 0.0722 b of its premultiplied colour under white
                               light, clamped to 0..1 */
+  CELSPAN_MATTE_DISSOLVE   /* the same; but where it is more than 1 less the alpha of the art, the
+                              art is opaque, and elsewhere it is clear. Not with `grow` */
 } celspan_matte_from;
 
 /* The paint of `art` mixed with clear by what `by` is at each point. `by` is not drawn. The shape

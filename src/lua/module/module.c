@@ -195,7 +195,8 @@ static const struct {
                       {"repeater", "celspan.repeater", "copies"},
                       {"star", "celspan.star", "outline"},
                       {"merge", "celspan.merge", "merged"},
-                      {"composite", "celspan.composite", "of"}};
+                      {"composite", "celspan.composite", "of"},
+                      {"dissolve", "celspan.dissolve", "by_chance"}};
 
 #define WRITTEN_IN_LUA (sizeof written_in_lua / sizeof *written_in_lua)
 

@@ -123,7 +123,7 @@ static void create_matte(const cs_form *form, cs_userdata *value) {
 }
 
 #define MATTE celspan_matte_desc
-static const char *const sources[] = {"alpha", "luma", NULL};
+static const char *const sources[] = {"alpha", "luma", "dissolve", NULL};
 static const cs_field matte_rows[] = {
     {"from", CS_CHOICE(MATTE, from, sources), .preset = "alpha",
      .about = "What of the matte counts"},

@@ -189,6 +189,8 @@ static int refuse_mode(lua_State *L) {
   const char *word = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "";
   const char *nearest = cs_suggest_name(word, cs_blend_words, (size_t)mode_at(L, 2));
   const char *hint = nearest ? lua_pushfstring(L, "; did you mean \"%s\"?", nearest) : "";
+  if (strcmp(word, "dissolve") == 0)
+    hint = "; write celspan.dissolve(object), of an object that is faded already";
   return cs_caller_error(L, "blend: the mode must be one of %s, got %s%s", push_modes(L),
                          cs_userdata_shown(L, 2), hint);
 }

@@ -179,10 +179,11 @@ static void create_noise(const cs_form *form, cs_userdata *value) {
   set_extent(form, &(gradient){.has_matrix = n.has_matrix, .matrix = n.matrix}, texture, value);
 }
 
-static const char *const noises[] = {"perlin", "value", "fractal", "turbulence", "cells", NULL};
+static const char *const noises[] = {"perlin", "value", "fractal", "turbulence",
+                                     "cells",  "white", NULL};
 static const cs_field noise_fields[] = {
     {"kind", CS_CHOICE(noise, desc.kind, noises), .preset = "perlin",
-     .about = "One octave of hills, of values or of cells; or the sum of several"},
+     .about = "One octave of hills, of values, of cells or of squares; or the sum of several"},
     {"size", CS_NUMBER(noise, desc.size), CS_ABOVE_0, .preset = "100",
      .about = "The side of a cell of the first octave"},
     {"octaves", CS_WHOLE(noise, desc.octaves), CS_HAS(noise, has_octaves), .least = 1,

@@ -10,13 +10,16 @@ typedef struct name {
 } name;
 
 /* Other modes have celspan's word. The first of a word is the one that is written. "plus" is
- * OpenRaster's mode, which adds premultiplied colours; Krita's do not. */
+ * OpenRaster's mode, which adds premultiplied colours; Krita's do not. Its own "hard mix" dodges or
+ * burns. */
 static const name openraster[] = {
-    {"src-over", "normal"},          {"plus", "add"},
-    {"add", "linear-dodge"},         {"soft_light", "soft-light-photoshop"},
-    {"dodge", "color-dodge"},        {"burn", "color-burn"},
-    {"diff", "difference"},          {"luminize", "luminosity"},
-    {"soft_light_svg", "soft-light"}};
+    {"src-over", "normal"},           {"plus", "add"},
+    {"add", "linear-dodge"},          {"soft_light", "soft-light-photoshop"},
+    {"dodge", "color-dodge"},         {"burn", "color-burn"},
+    {"diff", "difference"},           {"luminize", "luminosity"},
+    {"soft_light_svg", "soft-light"}, {"hard_mix_photoshop", "hard-mix"},
+    {"hard mix", "hard-mix-krita"},   {"linear light", "linear-light"},
+    {"darker color", "darker-color"}, {"lighter color", "lighter-color"}};
 
 /* The modes of the specification that have celspan's word. */
 static const char *const standard[] = {

@@ -123,6 +123,7 @@ static cs_boolean traits_of(const cs_boolean *from) {
                       .isolates = from->isolates,
                       .is_luma = from->is_luma,
                       .inverts = from->inverts,
+                      .dissolves = from->dissolves,
                       .is_filled = from->is_filled};
 }
 
@@ -228,12 +229,13 @@ celspan_status celspan_object_create_matte(celspan_context *context, celspan_obj
                                            celspan_object **out) {
   CS_TRY(cs_check_given(context, "matte", "the art", art));
   CS_TRY(cs_check_given(context, "matte", "the object that it is matted by", by));
-  CS_TRY(cs_check_choice(context, "matte", "from", (unsigned)from, CELSPAN_MATTE_LUMA + 1));
+  CS_TRY(cs_check_choice(context, "matte", "from", (unsigned)from, CELSPAN_MATTE_DISSOLVE + 1));
   celspan_object *const both[] = {art, by};
   const cs_boolean look = {.op = CS_OPERATOR_MATTE,
                            .isolates = true,
-                           .is_luma = from == CELSPAN_MATTE_LUMA,
-                           .inverts = invert};
+                           .is_luma = from != CELSPAN_MATTE_ALPHA,
+                           .inverts = invert,
+                           .dissolves = from == CELSPAN_MATTE_DISSOLVE};
   cs_primitive_data *data;
   CS_TRY(cs_primitive_data_of_operands(context, "matte", &look, both, 2, &data));
   return cs_primitive_data_wrap(context, data, CELSPAN_OK, out);

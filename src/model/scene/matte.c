@@ -151,9 +151,13 @@ static celspan_status feather(celspan_context *context, celspan_object **by,
 static celspan_status check(celspan_context *context, celspan_object *by,
                             const celspan_matte_desc *desc) {
   CS_TRY(cs_check_given(context, "matte", "the object that it is matted by", by));
-  CS_TRY(cs_check_choice(context, "matte", "from", (unsigned)desc->from, CELSPAN_MATTE_LUMA + 1));
+  CS_TRY(
+      cs_check_choice(context, "matte", "from", (unsigned)desc->from, CELSPAN_MATTE_DISSOLVE + 1));
   CS_TRY(
       cs_check_range(context, "matte", "grow", desc->grow, -CELSPAN_BLUR_MOST, CELSPAN_BLUR_MOST));
+  if (desc->grow != 0 && desc->from == CELSPAN_MATTE_DISSOLVE)
+    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
+                   "matte: grow is not possible with from = dissolve; grow the art instead");
   return cs_check_range(context, "matte", "feather", desc->feather, 0, CELSPAN_BLUR_MOST);
 }
 

@@ -2,7 +2,7 @@
  *
  * The plane is cut into cells, once for each octave; an octave's cells have half the side of those
  * of the octave before. `at` is a third coordinate. Every corner of a cell (PERLIN, VALUE), or
- * every cell (CELLS), has a word of 32 bits, mixed from its three whole coordinates and the
+ * every cell (CELLS, WHITE), has a word of 32 bits, mixed from its three whole coordinates and the
  * octave's seed:
  *
  *     word = lowbias32(x 0x9e3779b1 ^ y 0x85ebca77 ^ z 0xc2b2ae3d ^ seed)
@@ -13,6 +13,7 @@
  * VALUE     the word as a number from -1 to 1.
  * CELLS     a point in the cell: x and y are its upper and lower 16 bits, z the upper 16 bits of
  *           the word times 0x9e3779b1.
+ * WHITE     the word as a number from -1 to 1, the same in all of a cell. Cells are not moved.
  * Between corners values are mixed by t^3 (6 t^2 - 15 t + 10).
  */
 #pragma once

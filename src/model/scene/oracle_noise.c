@@ -31,11 +31,16 @@ static double signed_by(uint32_t word, int bit, double value) {
   return word >> bit & 1 ? -value : value;
 }
 
+/* From -1 to 1. */
+static double number_of(uint32_t word) {
+  return (word >= 0x80000000 ? (double)word - 0x1p32 : (double)word) / 0x1p31;
+}
+
 /* dx, dy, dz: from the corner to the point. */
 static double corner_value(celspan_noise_kind kind, uint32_t word, double dx, double dy,
                            double dz) {
   if (kind == CELSPAN_NOISE_VALUE)
-    return (word >= 0x80000000 ? (double)word - 0x1p32 : (double)word) / 0x1p31;
+    return number_of(word);
   /* sqrt 2 times the cosine and the sine of half of 45 degrees */
   double longer = sqrt(1 + sqrt(0.5)), shorter = sqrt(1 - sqrt(0.5));
   bool is_steep = word >> 31;
@@ -69,6 +74,12 @@ static double nearest_point(const place *at) {
   return least;
 }
 
+static double octave_value(celspan_noise_kind kind, const place *at) {
+  if (kind == CELSPAN_NOISE_WHITE)
+    return number_of(word_at(floor(at->x), floor(at->y), floor(at->z), at->seed));
+  return kind == CELSPAN_NOISE_CELLS ? nearest_point(at) : mixed_corners(kind, at);
+}
+
 double cs_oracle_noise(const cs_noise *noise, celspan_point point) {
   double sum = 0, gain = 1;
   for (int i = 0; i < noise->octaves; i++, gain *= noise->gain) {
@@ -76,8 +87,7 @@ double cs_oracle_noise(const cs_noise *noise, celspan_point point) {
     const place at = {point.x / noise->size * octave.scale + octave.shift_x,
                       point.y / noise->size * octave.scale + octave.shift_y,
                       noise->at * octave.scale, octave.seed};
-    double value =
-        noise->kind == CELSPAN_NOISE_CELLS ? nearest_point(&at) : mixed_corners(noise->kind, &at);
+    double value = octave_value(noise->kind, &at);
     sum += gain * (noise->kind == CELSPAN_NOISE_TURBULENCE ? fabs(value) : value);
   }
   bool is_sum = noise->kind == CELSPAN_NOISE_TURBULENCE || noise->kind == CELSPAN_NOISE_CELLS;

@@ -208,8 +208,9 @@ static cs_hash hash_boolean(cs_boolean *boolean) {
   cs_hash_word(&hash, boolean->operand_count);
   if (boolean->blend != CELSPAN_BLEND_NORMAL || boolean->isolates || boolean->mixes)
     cs_hash_word(&hash, (uint64_t)(boolean->mixes ? boolean->space : 0) << 16 |
-                            (uint64_t)boolean->blend << 3 | (uint64_t)boolean->isolates << 2 |
-                            (uint64_t)boolean->is_luma << 1 | boolean->inverts);
+                            (uint64_t)boolean->dissolves << 15 | (uint64_t)boolean->blend << 3 |
+                            (uint64_t)boolean->isolates << 2 | (uint64_t)boolean->is_luma << 1 |
+                            boolean->inverts);
   cs_grade_hash(&hash, boolean->grade);
   return cs_hash_end(hash);
 }

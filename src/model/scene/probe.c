@@ -143,6 +143,17 @@ static celspan_status see_rostrum(const probe_call *probe, const celspan_rostrum
   return see((place){.probe = probe, .rostrum = rostrum, .left = 2 * rostrum->cel_count + 1}, out);
 }
 
+/* The sight by itself where the strength and its alpha are more than 1, else nothing. */
+static cs_oracle_sight dissolve(double strength, const cs_oracle_sight *sight) {
+  double alpha = cs_oracle_alpha(sight);
+  cs_oracle_sight whole = {.keep = 1};
+  if (strength + alpha <= 1)
+    return cs_oracle_nothing;
+  for (int c = 0; c < 3; c++)
+    whole.light[c] = sight->light[c] / alpha;
+  return whole;
+}
+
 /* The strength of a matte comes from the second operand, which is not drawn. */
 static celspan_status see_matte(const probe_call *probe, const cs_boolean *boolean,
                                 const celspan_matrix *matrix, const light_sample *front,
@@ -152,7 +163,8 @@ static celspan_status see_matte(const probe_call *probe, const cs_boolean *boole
   CS_TRY(see_list(probe, boolean->operands + 1, 1, matrix, &white, &by));
   double luma = 0.2126 * by.light[0] + 0.7152 * by.light[1] + 0.0722 * by.light[2];
   double m = cs_number_clamp(boolean->is_luma ? luma : cs_oracle_alpha(&by), 0, 1);
-  *out = cs_oracle_fade(out, boolean->inverts ? 1 - m : m);
+  m = boolean->inverts ? 1 - m : m;
+  *out = boolean->dissolves ? dissolve(m, out) : cs_oracle_fade(out, m);
   return CELSPAN_OK;
 }
 

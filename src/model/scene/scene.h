@@ -105,6 +105,7 @@ typedef struct cs_boolean {
   bool isolates;             /* modes inside do not act on the backdrop of this object */
   bool is_luma;              /* MATTE: the strength is luma, not alpha */
   bool inverts;              /* MATTE: the strength is 1 minus the usual one */
+  bool dissolves;            /* MATTE: what the strength and the alpha decide is all or nothing */
   bool is_filled;            /* CLIP: the plane of a pattern, and the primitive that it fills */
   cs_core core;              /* of an outline; not in the hash, because it changes no pixel */
   cs_operands view;          /* keeps the operands */

@@ -10,7 +10,7 @@ static bool has_octaves(celspan_noise_kind kind) {
 }
 
 static celspan_status check(celspan_context *context, const celspan_noise_desc *desc) {
-  CS_TRY(cs_check_choice(context, NOUN, "kind", (unsigned)desc->kind, CELSPAN_NOISE_CELLS + 1));
+  CS_TRY(cs_check_choice(context, NOUN, "kind", (unsigned)desc->kind, CELSPAN_NOISE_WHITE + 1));
   CS_TRY(cs_check_positive(context, NOUN, "size", desc->size));
   CS_TRY(cs_check_range(context, NOUN, "octaves", desc->octaves, 1, CS_NOISE_OCTAVES));
   CS_TRY(cs_check_range(context, NOUN, "gain", desc->gain, 0, 1));

@@ -115,7 +115,7 @@ static planefile_cell all_of(float factor) { return cell_of(cs_v4_all(factor), f
 static bool is_hard_group(const cs_group *group) {
   bool is_blend = group->blend == CELSPAN_BLEND_MULTIPLY || group->blend == CELSPAN_BLEND_SCREEN;
   bool is_converted = group->converts != CELSPAN_SPACE_AROUND;
-  return group->grade || group->converts == CELSPAN_SPACE_SRGB ||
+  return group->grade || group->converts == CELSPAN_SPACE_SRGB || group->dissolves ||
          (group->kind == CS_GROUP_GROUND && !is_blend) ||
          (is_converted && (group->has_light || group->kind != CS_GROUP_PLAIN));
 }
