@@ -69,6 +69,11 @@ local expected = {
   ["river"] = "water_reflection", ["caption pill"] = "srt_subtitles", ["bell"] = "mixed_sound",
   ["sound maker"] = "mixed_sound", ["lantern"] = "neon_glow", ["dashed line"] = "lua stroke",
   ["sway"] = 'docs/guide-puppet.md, "What follows"', ["cloud"] = "lua object:blur",
+  ["lattice"] = "lua object:warp", ["feet that do not slide"] = 'docs/guide-puppet.md, "A walk"',
+  ["paint fill that closes gaps"] = "lua trace", ["dither"] = "lua dissolve",
+  ["HDR out"] = 'docs/formats.md, "Formats"', ["stereo"] = "mixed_sound",
+  ["dissolve"] = "lua dissolve",
+  ["shape booleans"] = 'docs/guide.md, "Booleans"',
   ["parralax"] = 'docs/guide.md, "Parallax"', ["xsheet"] = 'docs/guide.md, "Exposure sheets"',
 }
 

@@ -573,7 +573,7 @@ function maker:keyed(object)
     return ("celspan.key{ %s, luma = true, from = %s, to = %s }"):format(object, number(0, 0.3),
       number(0.6, 1))
   end
-  if kind == 3 then
+  if kind == 3 and self.has_pictures and not self.is_flat then
     return ("celspan.union{ celspan.dissolve(%s:fade(%s)), %s }"):format(self:solid(),
       number(0.1, 0.9), object)
   end
@@ -791,12 +791,10 @@ end
 
 --- Half of all scenes have only straight edges; a quarter are upright, with scan-line primitives.
 -- options: is_flat (no gradients or pictures), is_single (one exposure), has_rows = false (no
--- scan-lines), has_pictures = false (no noise), has_text (every second primitive is text),
--- is_plain (no lights with a shape, no compositions inside others), has_modes = false,
--- has_grades = false, has_patterns = false; has_shifts (objects that are displaced, or blurred in a
--- direction, of which the oracle sees no means over pixels). Half of the scenes have modes, groups,
--- mattes and outlines; half of these have spaces and grades, too. The outermost space is that of
--- light.
+-- scan-lines), has_pictures = false (no noise, and nothing dissolves), has_text (every second
+-- primitive is text), is_plain (no lights with a shape, no compositions inside others),
+-- has_modes = false, has_grades = false, has_patterns = false. Half of the scenes have modes,
+-- groups, mattes and outlines; half of these have spaces and grades, too. The outermost space is that of light.
 function scenes.script(seed, options)
   local self = start(seed, options or {})
   local exposures = self:exposures()
