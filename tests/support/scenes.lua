@@ -794,7 +794,8 @@ end
 -- scan-lines), has_pictures = false (no noise, and nothing dissolves), has_text (every second
 -- primitive is text), is_plain (no lights with a shape, no compositions inside others),
 -- has_modes = false, has_grades = false, has_patterns = false. Half of the scenes have modes,
--- groups, mattes and outlines; half of these have spaces and grades, too. The outermost space is that of light.
+-- groups, mattes and outlines; half of these have spaces and grades, too. The outermost space is
+-- that of light.
 function scenes.script(seed, options)
   local self = start(seed, options or {})
   local exposures = self:exposures()
