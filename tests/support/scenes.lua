@@ -793,9 +793,10 @@ end
 -- options: is_flat (no gradients or pictures), is_single (one exposure), has_rows = false (no
 -- scan-lines), has_pictures = false (no noise, and nothing dissolves), has_text (every second
 -- primitive is text), is_plain (no lights with a shape, no compositions inside others),
--- has_modes = false, has_grades = false, has_patterns = false. Half of the scenes have modes,
--- groups, mattes and outlines; half of these have spaces and grades, too. The outermost space is
--- that of light.
+-- has_modes = false, has_grades = false, has_patterns = false; has_shifts (objects that are
+-- displaced, or blurred in a direction, of which the oracle sees no means over pixels). Half of the
+-- scenes have modes, groups, mattes and outlines; half of these have spaces and grades, too. The
+-- outermost space is that of light.
 function scenes.script(seed, options)
   local self = start(seed, options or {})
   local exposures = self:exposures()

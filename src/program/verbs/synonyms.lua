@@ -66,7 +66,10 @@ return {
   { "nested composition", "composition inside another" },
   { "precomposition", "composition inside another" },
 
-  { "displacement", "warp" }, { "lattice", "warp" },
+  { "displacement", "displace", "warp" }, { "idistort", "displace" },
+  { "heat haze", "displace" }, { "directional blur", "blur" }, { "zoom blur", "blur" },
+  { "spin blur", "blur" }, { "zdefocus", "defocus" }, { "godrays", "rays of light", "blur" },
+  { "lattice", "warp" },
 
   -- shapes, words and particles
   { "font", "text" }, { "typeface", "text" }, { "variable font", "text" },
