@@ -984,11 +984,12 @@ function celspan.matte(art, by, options) end
 ---@field kernel? "gaussian"|"box"|"disc"|"pixel" Default "gaussian"
 ---@field edge? "clear"|"extend" Beyond the frame: the art, or what lies on its edge; default "clear"
 
---- Grain of a film or a cel.
+--- Grain of a film, a rostrum or a cel.
 ---@class celspan.grain
 ---@field amount? number The standard deviation of codes, which are 0 to 1; 0 to 0.3; default 0.05
 ---@field size? number Of the largest grains, in film units; more than 0; default 1.5
 ---@field seed? integer Another number is another grain; -2.147484e9 to 2.147484e9; default 0
+---@field frame? integer Another one has other grain; -2.147484e9 to 2.147484e9; default the one that is being built
 
 --- Steps that change colours, in this order.
 ---@class celspan.grade
@@ -1044,6 +1045,7 @@ function celspan.cel(fields) end
 ---@field antialias? celspan.antialias Default "area"
 ---@field size? number[] {w, h}; film units: the size of its own film; required for use as an object
 ---@field grade? celspan.grade How its colours are changed
+---@field grain? celspan.grain Grey grain, another one in each frame
 ---@field space? "linear"|"srgb" The numbers that are mixed in it: linear light, or sRGB codes; default that of the film, or of what it is an object of
 
 ---@class celspan.rostrum: celspan.placed, celspan.rostrum.fields

@@ -206,6 +206,7 @@ static const cs_description_field celspan_rostrum_desc_fields[] = {
     FIELD(celspan_rostrum_desc, back_is_colour),
     FIELD(celspan_rostrum_desc, space),
     FIELD(celspan_rostrum_desc, grade),
+    FIELD(celspan_rostrum_desc, grain),
 };
 static const cs_description_field celspan_inspect_desc_fields[] = {
     FIELD(celspan_inspect_desc, struct_size), FIELD(celspan_inspect_desc, is_deep),

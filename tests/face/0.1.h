@@ -345,8 +345,8 @@ typedef struct celspan_rostrum_desc { size_t struct_size; celspan_cel *const *ce
   has_camera_centre, has_camera_width; celspan_point camera_centre; double camera_width; double
   camera_rotation; celspan_antialias_mode antialias; const celspan_filter_desc *filter;
   celspan_light_texture front_texture, back_texture; bool has_size; double width, height; bool
-  front_is_colour, back_is_colour; celspan_space space; celspan_grade *grade; }
-  celspan_rostrum_desc;
+  front_is_colour, back_is_colour; celspan_space space; celspan_grade *grade; celspan_texture
+  *grain; } celspan_rostrum_desc;
 void celspan_rostrum_desc_default(celspan_rostrum_desc *out, size_t struct_size);
 celspan_status celspan_rostrum_create(celspan_context *context, const celspan_rostrum_desc *desc,
   celspan_rostrum **out);

@@ -145,9 +145,20 @@ describe("--layers cels", function()
       assert.equal(1, select(2, err:gsub("over each other", "")))
       if what:sub(1, 1) ~= "{" then assert.is_false(sums "x.1.exr", what) end
     end
-    local err = render(cels "celspan.rostrum { grade = { saturation = 0.5 }, under, over { red } }",
-      "--frames 1 --layers cels -o x.exr")
-    assert.truthy(err:find("its rostrum has a grade", 1, true), err)
+    for field, words in pairs { ["grade = { saturation = 0.5 }"] = "a grade",
+      ["grain = {}"] = "grain" } do
+      local err = render(cels(("celspan.rostrum { %s, under, over { red } }"):format(field)),
+        "--frames 1 --layers cels -o x.exr")
+      assert.truthy(err:find("its rostrum has " .. words, 1, true), err)
+    end
+  end)
+
+  it_reads("has the cels of a film with grain, each with that grain", function()
+    local grainy = SUMS:gsub("frames = 2", "frames = 2, grain = { amount = 0.1 }")
+    render(grainy, "--frames 1 --depth float --layers cels --cryptomatte cels -o x.exr")
+    assert.same(NAMES, names "x.exr")
+    render(grainy, "--frames 1 --depth float --cel wall -o cel.exr")
+    oiiotool(("--fail 1e-6 %s --ch R,G,B,A cel.exr --diff"):format(layer("x.exr", "wall")))
   end)
 
   it_reads("makes names safe, equal names different, and long names fit", function()

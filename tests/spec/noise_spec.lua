@@ -219,10 +219,66 @@ describe("grain", function()
     close(0.05, select(2, measure(film, 1))[1], 0.004)
   end)
 
+  --- A film whose rostrum has named cels, lights, a camera and a mode.
+  local function named(fields, options)
+    local all = { size = { 60, 40 }, frames = 2, frame = function()
+      local parts = { back = "#345", front = "#fed",
+        camera = { rotate = 20, centre = { 20, 10 }, width = 50 },
+        celspan.cel { rect(30, 20, "#c84") }:named "ground",
+        celspan.cel { rect(20, 60, "#48c"), blend = "multiply" }:named "shade" }
+      for name, value in pairs(options or {}) do parts[name] = value end
+      return celspan.rostrum(parts)
+    end }
+    for name, value in pairs(fields or {}) do all[name] = value end
+    return celspan.film(all)
+  end
+
+  it("of a film leaves cels their names and places, and the camera does not move it", function()
+    local film = named { grain = { amount = 0.1 } }
+    local shown, names = film:at(2), {}
+    for i, cel in ipairs(shown) do names[i] = cel.name end
+    assert.same({ "ground", "shade" }, names)
+    assert.same({ amount = 0.1, frame = 2 }, shown.grain)
+    local still = celspan.film { size = { 60, 40 }, grain = { amount = 0.1 }, frame = function()
+      return celspan.rostrum { back = "#345", camera = { width = 7, rotate = 30 } }
+    end }
+    local moved = still:with { frame = function() return celspan.rostrum { back = "#345" } end }
+    assert.equal(select(3, measure(still, 1)), (select(3, measure(moved, 1))))
+  end)
+
+  it("of a rostrum is that of a film, also where the rostrum is an object", function()
+    local of_film = select(3, measure(named { grain = { amount = 0.1 } }, 2))
+    assert.equal(of_film, (select(3, measure(named({}, { grain = { amount = 0.1 } }), 2))))
+    assert.equal(of_film, (select(3, measure(named({ grain = { seed = 9 } },
+      { grain = { amount = 0.1, frame = 2 } }), 1))), "its own is first")
+    local nested = celspan.film { size = { 60, 40 }, frame = function()
+      local inner = named({}, { grain = { amount = 0.1, frame = 2 } }):at(1)
+      return celspan.rostrum { celspan.cel { inner:with { size = { 60, 40 } } } }
+    end }
+    local far = 0
+    for i, byte in ipairs { (select(3, measure(nested, 1))):byte(1, -1) } do
+      far = math.max(far, math.abs(byte - of_film:byte(i)))
+    end
+    assert.is_true(far <= 1, far)
+  end)
+
+  it("is seen by probe", function()
+    for _, space in ipairs { "linear", "srgb" } do
+      local film = named { grain = { amount = 0.2, size = 8 }, space = space }
+      local image = assert(celspan.pixels(film, { antialias = "none" }))
+      for y = 1, 38, 3 do
+        for x = 1, 58, 3 do
+          images.near({ celspan.probe(film, x + 0.5, y + 0.5) }, image, x, y, 1e-4)
+        end
+      end
+    end
+  end)
+
   it("refuses what is wrong", function()
     for expected, grain in pairs { ["amount"] = { amount = 0.5 }, ["size"] = { size = 0 },
-      ["must be {amount =, size =, seed =}, got number"] = 3, ["strength"] = { strength = 1 } } do
-      for _, make in ipairs { celspan.cel, function(fields) return grey(fields.grain) end } do
+      ["must be {amount =, size =, seed =, frame =}, got number"] = 3,
+      ["strength"] = { strength = 1 }, ["frame"] = { frame = 1.5 } } do
+      for _, make in ipairs { celspan.cel, celspan.rostrum, function(fields) return grey(fields.grain) end } do
         local done, message = pcall(make, { grain = grain })
         assert.is_false(done)
         assert.is_truthy(message:find(expected, 1, true), message)

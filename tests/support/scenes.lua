@@ -746,6 +746,11 @@ function maker:rostrum(size)
       self:point_text(), self:number(15, 70), rotate)
   end
   self:develop(fields, size or self.is_exposed)
+  if self.has_spaces and self.has_grades and self.has_pictures and not self.is_flat and
+    self.noises:once(6) then
+    fields[#fields + 1] = ("grain = { amount = %s, size = %s }"):format(
+      text_of(self.noises:between(0, 0.3)), text_of(self.noises:between(1, 12)))
+  end
   self.lights = self.lights * self.brightest
   return ("celspan.rostrum{ %s }"):format(table.concat(fields, ", "))
 end

@@ -410,7 +410,7 @@ static bool same_hash(const celspan_rostrum *a, const celspan_rostrum *b) {
 }
 
 /* A scene in which `change` 0 is the scene itself and every other number changes one property. */
-#define CHANGES 26
+#define CHANGES 27
 static celspan_rostrum *scene(studio *s, int change) {
   celspan_paint paint = celspan_paint_rgb(change == 1 ? 0.5f : 0.25f, 0, 0, 1);
   celspan_stop stops[2] = {{0, red}, {change == 2 ? 0.75 : 1, celspan_paint_clear()}};
@@ -438,7 +438,7 @@ static celspan_rostrum *scene(studio *s, int change) {
   cel.defocus_radius = change == 16 ? 2 : 1;
   cel.defocus_kernel = change == 17 ? CELSPAN_DEFOCUS_DISC : CELSPAN_DEFOCUS_GAUSSIAN;
   cel.opacity = change == 18 ? 0.5 : 1;
-  cel.front_texture.texture = change >= 25 ? linear : NULL;
+  cel.front_texture.texture = change == 25 || change == 26 ? linear : NULL;
   cel.front_texture.matte = change == 26 ? 0.5 : 1;
   celspan_cel *cels[] = {studio_cel(s, cel, &both, 1), studio_cel(s, CELSPAN_CEL_DESC, NULL, 0)};
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
@@ -448,6 +448,7 @@ static celspan_rostrum *scene(studio *s, int change) {
   desc.camera_width = 7;
   desc.camera_rotation = change == 22 ? 1 : 0;
   desc.antialias = change == 23 ? CELSPAN_ANTIALIAS_NONE : CELSPAN_ANTIALIAS_AREA;
+  desc.grain = change == 27 ? linear : NULL;
   return studio_rostrum(s, desc, cels, change == 24 ? 1 : 2);
 }
 

@@ -1,4 +1,4 @@
---- Grain of films and cels: noise in front of the art, added to its codes where it is.
+--- Grain of films, rostrums and cels: noise in front of the art, added to its codes where it is.
 --
 -- The noise is a sum of three octaves, n, whose deviation is DEVIATION. The mode linear-light adds
 -- 2 s - 1 to a code, so a source s = 1/2 + amount n / (2 DEVIATION) has the deviation of `amount`.
@@ -14,7 +14,7 @@ local DEVIATION = (0.0930 * (1 + GAIN ^ 2 + GAIN ^ 4)) ^ 0.5 -- of an octave 0.0
 
 --- The seed of a frame: a whole number of 31 bits.
 local function seed_of(options, frame)
-  return ((options.seed or 0) + 0x9e3779b1 * frame) % 0x7fffffff
+  return ((options.seed or 0) + 0x9e3779b1 * (options.frame or frame or 0)) % 0x7fffffff
 end
 
 --- The light of a code.
@@ -27,30 +27,31 @@ local function grey(code)
   return celspan.rgb(light, light, light)
 end
 
-local function over(box, art, options, frame)
+--- The noise of a frame, in film units.
+function grain.texture(options, frame)
   local most = (options.amount or 0.05) / (2 * DEVIATION)
-  local noise = celspan.noise { kind = "fractal", size = options.size or 1.5, octaves = 3,
+  return celspan.noise { kind = "fractal", size = options.size or 1.5, octaves = 3,
     gain = GAIN, fade = false, seed = seed_of(options, frame),
     matrix = { COS, -SIN, 0, SIN, COS, 0, 0, 0, 1 },
     colours = { grey(0.5 - most), grey(0.5 + most) } }
-  local sheet = celspan.rect { box[1], box[2], box[3], box[4], texture = noise }
+end
+
+--- The objects of a cel as one object with grain.
+function grain.of_objects(options, frame, list)
+  local art = celspan.group(list)
+  local x, y, w, h = art:bounds()
+  if not x then return art end
+  local sheet = celspan.rect { x - 1, y - 1, w + 2, h + 2, texture = grain.texture(options, frame) }
   return celspan.group { art, core.blend_within(sheet, "linear-light"), isolate = true,
     space = "srgb" }
 end
 
---- The objects of a cel as one object with grain.
-function grain.of_objects(list, options, frame)
-  local art = celspan.group(list)
-  local x, y, w, h = art:bounds()
-  if not x then return art end
-  return over({ x - 1, y - 1, w + 2, h + 2 }, art, options, frame or 0)
-end
-
+--- A rostrum with the grain of its film, unless it has its own.
 local function of_rostrum(rostrum, film, frame)
-  local size, space = rostrum.size or film.size, rostrum.space or film.space or "linear"
-  local art = rostrum:with { size = size, space = space }
-  return celspan.rostrum { space = space, antialias = rostrum.antialias,
-    celspan.cel { front = "#fff", over({ 0, 0, size[1], size[2] }, art, film.grain, frame) } }
+  if rostrum.grain then return rostrum end
+  local own = { frame = frame }
+  for name, value in pairs(film.grain) do own[name] = value end
+  return rostrum:with { grain = own, space = rostrum.space or film.space or "linear" }
 end
 
 --- The exposures of a frame with the grain of its film.

@@ -113,8 +113,9 @@ bool cs_apart_sums(const celspan_exposure *exposures, size_t count, cs_apart_for
     snprintf(why, CS_APART_WHY, "%s", mixing);
     return false;
   }
-  if (rostrum->grade) {
-    snprintf(why, CS_APART_WHY, "its rostrum has a grade, which each layer has for itself");
+  if (rostrum->grade || rostrum->grain) {
+    snprintf(why, CS_APART_WHY, "its rostrum has %s, which each layer has for itself",
+             rostrum->grade ? "a grade" : "grain");
     return false;
   }
   return cels_sum(rostrum, format, space, why);

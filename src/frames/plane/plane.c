@@ -127,6 +127,17 @@ static celspan_status check_plan(celspan_context *context, const cs_plan *plan) 
   return CELSPAN_OK;
 }
 
+/* Pushes what is drawn for an exposure, which plans borrow from. */
+static celspan_status show(celspan_context *context, const celspan_exposure *exposure,
+                           const cs_view *view, cs_plane_frame *out) {
+  CS_TRY(CS_RESERVE(context, out->shown, out->shown_capacity, out->shown_count + 1));
+  CS_TRY(cs_rostrum_shown(context, exposure->rostrum, view->film_width, view->film_height,
+                          cs_space_inside(view->film_space, view->space),
+                          &out->shown[out->shown_count]));
+  out->shown_count++;
+  return CELSPAN_OK;
+}
+
 /* A plan with defocused cels is kept: their nodes are read when the plane is written. */
 static celspan_status record(celspan_context *context, const celspan_exposure *exposure,
                              const cs_view *view, const planefile_rounding *rounding,
@@ -134,7 +145,8 @@ static celspan_status record(celspan_context *context, const celspan_exposure *e
   const cs_antialias antialias = {.mode = CELSPAN_ANTIALIAS_AREA};
   cs_plan plan = {0};
   CS_TRY(CS_RESERVE(context, out->plans, out->plan_capacity, out->plan_count + 1));
-  CS_TRY(cs_compile(context, exposure->rostrum, view, &antialias, 1, &plan));
+  CS_TRY(show(context, exposure, view, out));
+  CS_TRY(cs_compile(context, out->shown[out->shown_count - 1], view, &antialias, 1, &plan));
   celspan_status status = check_plan(context, &plan);
   if (status == CELSPAN_OK)
     status = cs_record_put_plan(context, &plan, (float)exposure->weight, rounding, &out->record);
@@ -200,6 +212,9 @@ void cs_plane_frame_finish(cs_plane_frame *frame, cs_memory *memory) {
   for (size_t i = 0; i < frame->plan_count; i++)
     cs_compile_free(&frame->plans[i], memory);
   cs_mem_free(memory, frame->plans, frame->plan_capacity * sizeof *frame->plans);
+  for (size_t i = 0; i < frame->shown_count; i++)
+    celspan_rostrum_unref(frame->shown[i]);
+  cs_mem_free(memory, frame->shown, frame->shown_capacity * sizeof *frame->shown);
   *frame = (cs_plane_frame){0};
 }
 

@@ -35,6 +35,8 @@ typedef struct cs_plane_frame {
   cs_recording record;
   cs_plan *plans;
   size_t plan_count, plan_capacity;
+  celspan_rostrum **shown; /* what they were made of: references */
+  size_t shown_count, shown_capacity;
 } cs_plane_frame;
 /* The visible part of a frame. out: must be finished, also after an error. Errors: those of
  * celspan_plane_create. */

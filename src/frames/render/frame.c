@@ -151,6 +151,19 @@ static void set_view(cs_frame *frame, const celspan_frame_desc *desc) {
                           .space = cs_space_inside(desc->space, CELSPAN_SPACE_LINEAR)};
 }
 
+/* The exposures of a weight above 0. */
+static celspan_status set_rostrums(celspan_context *context, const celspan_frame_desc *desc,
+                                   cs_frame *frame) {
+  const cs_view *view = &frame->view;
+  for (size_t i = 0; i < desc->exposure_count; i++)
+    if (desc->exposures[i].weight != 0) {
+      CS_TRY(cs_rostrum_shown(context, desc->exposures[i].rostrum, view->film_width,
+                              view->film_height, view->space, &frame->rostrums[frame->count]));
+      frame->weights[frame->count++] = (float)desc->exposures[i].weight;
+    }
+  return CELSPAN_OK;
+}
+
 static celspan_status set_exposures(celspan_context *context, const celspan_frame_desc *desc,
                                     cs_frame *frame) {
   size_t count = frame->capacity = desc->exposure_count;
@@ -160,11 +173,7 @@ static celspan_status set_exposures(celspan_context *context, const celspan_fram
   frame->rostrums = cs_mem_array(context->memory, count, sizeof *frame->rostrums);
   if (count > 0 && (!frame->plans || !frame->maps || !frame->weights || !frame->rostrums))
     return cs_fail_memory(context);
-  for (size_t i = 0; i < count; i++)
-    if (desc->exposures[i].weight != 0) {
-      frame->weights[frame->count] = (float)desc->exposures[i].weight;
-      frame->rostrums[frame->count++] = desc->exposures[i].rostrum;
-    }
+  CS_TRY(set_rostrums(context, desc, frame));
   frame->repeats = desc->repeats;
   frame->has_antialias = desc->has_antialias;
   return desc->has_antialias ? cs_antialias_make(context, "frame: antialias", desc->antialias,
@@ -212,6 +221,8 @@ void cs_frame_free(cs_frame *frame, cs_memory *memory) {
   cs_frame_free_plans(frame, frame->plans, memory);
   for (size_t i = 0; frame->maps && i < frame->count; i++)
     cs_drawings_finish(&frame->maps[i], memory);
+  for (size_t i = 0; i < frame->count; i++)
+    celspan_rostrum_unref(frame->rostrums[i]);
   cs_mem_free(memory, frame->maps, frame->capacity * sizeof *frame->maps);
   cs_antialias_free(&frame->antialias, memory);
   cs_mem_free(memory, frame->plans, frame->capacity * sizeof *frame->plans);

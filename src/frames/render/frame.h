@@ -18,7 +18,7 @@ typedef struct cs_frame {
                      exposure is drawn from maps */
   cs_map_frame *maps; /* one for each exposure; empty where the exposure has a plan */
   float *weights;
-  const celspan_rostrum **rostrums;
+  celspan_rostrum **rostrums; /* as cs_rostrum_shown: references */
   size_t count, capacity;
   cs_view view;       /* of the rows asked for, with all their columns */
   bool repeats;       /* see celspan_frame_desc */

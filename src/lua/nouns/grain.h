@@ -1,4 +1,4 @@
-/* The field `grain` of films and cels, which lua/celspan/film/grain.lua makes. */
+/* The field `grain` of films, rostrums and cels, which lua/celspan/film/grain.lua makes. */
 #pragma once
 
 #include "lua/bind/form.h"
@@ -11,6 +11,8 @@ void cs_grain_check(const cs_form *form);
 /* Pushes the objects of a cel's form as one object with its grain; false: it has none, and nothing
  * is pushed. */
 bool cs_grain_push_object(const cs_form *form);
+/* Pushes the texture of a rostrum's grain, which is borrowed from it; NULL: it has none. */
+celspan_texture *cs_grain_push_texture(const cs_form *form);
 /* Replaces the exposures on top of the stack by those with the grain of the film, if it has one.
  * frame: the `f` of the frame. film, frame: absolute indices. */
 void cs_grain_add(lua_State *L, int film, int frame);

@@ -2,6 +2,7 @@
 #include "lua/bind/fields.h"
 #include "lua/bind/host.h"
 #include "lua/nouns/grade.h"
+#include "lua/nouns/grain.h"
 #include "lua/nouns/light.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/options.h"
@@ -71,6 +72,7 @@ static celspan_rostrum *create_rostrum(const cs_form *form) {
   desc->height = read.size[1];
   read_camera(form, desc);
   cs_options_antialias(form, &desc->antialias, &desc->filter);
+  desc->grain = cs_grain_push_texture(form);
   desc->grade = cs_grade_of(form);
   celspan_rostrum *rostrum = NULL;
   celspan_status status = celspan_rostrum_create(cs_host_context(form->L), desc, &rostrum);
@@ -104,6 +106,7 @@ static const cs_field fields[] = {
     {"size", CS_SIZE(rostrum_form, size), CS_HAS(rostrum_form, desc.has_size),
      .about = "Film units: the size of its own film; required for use as an object"},
     CS_GRADE_FIELD,
+    CS_GRAIN_FIELD,
     CS_OWN_SPACE(rostrum_form, space, "that of the film, or of what it is an object of"),
     {0}};
 const cs_noun cs_noun_rostrum = {.name = "rostrum",

@@ -50,9 +50,8 @@ celspan_status cs_primitive_data_fill_rostrum(celspan_context *context, cs_primi
   return measure(context, data);
 }
 
-celspan_status celspan_object_create_rostrum(celspan_context *context, celspan_rostrum *rostrum,
-                                             celspan_object **out) {
-  CS_TRY(check(context, rostrum));
+static celspan_status create(celspan_context *context, celspan_rostrum *rostrum,
+                             celspan_object **out) {
   const celspan_box frame = {0, 0, rostrum->width, rostrum->height};
   cs_primitive_data *data;
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_ROSTRUM, NULL, &data));
@@ -60,4 +59,15 @@ celspan_status celspan_object_create_rostrum(celspan_context *context, celspan_r
   CS_TRY(cs_primitive_data_wrap(context, data, status, out));
   (*out)->mark = cs_mark_keep(rostrum->mark); /* this replaces a mark that has no name */
   return CELSPAN_OK;
+}
+
+celspan_status celspan_object_create_rostrum(celspan_context *context, celspan_rostrum *rostrum,
+                                             celspan_object **out) {
+  celspan_rostrum *shown;
+  CS_TRY(check(context, rostrum));
+  CS_TRY(cs_rostrum_shown(context, rostrum, rostrum->width, rostrum->height, CELSPAN_SPACE_LINEAR,
+                          &shown));
+  celspan_status status = create(context, shown, out);
+  celspan_rostrum_unref(shown);
+  return status;
 }

@@ -404,14 +404,26 @@ static celspan_status see(place at, cs_oracle_sight *seen) {
   return CELSPAN_OK;
 }
 
-/* Adds the light of an exposure. probe: of the film. */
+/* What is seen of the rostrum of an exposure. probe: of the film. */
+static celspan_status see_whole(const probe_call *probe, celspan_rostrum *rostrum,
+                                cs_oracle_sight *seen) {
+  probe_call inner = *probe;
+  inner.space = cs_space_inside(rostrum->space, probe->space);
+  CS_TRY(see_rostrum(&inner, rostrum, seen));
+  light_whole(probe, inner.space, rostrum->grade, &white, seen);
+  return CELSPAN_OK;
+}
+
+/* Adds the light of an exposure. */
 static celspan_status add_exposure(const probe_call *probe, const celspan_exposure *exposure,
                                    double rgba[4]) {
   cs_oracle_sight seen;
-  probe_call inner = *probe;
-  inner.space = cs_space_inside(exposure->rostrum->space, probe->space);
-  CS_TRY(see_rostrum(&inner, exposure->rostrum, &seen));
-  light_whole(probe, inner.space, exposure->rostrum->grade, &white, &seen);
+  celspan_rostrum *shown;
+  CS_TRY(cs_rostrum_shown(probe->context, exposure->rostrum, probe->film_width, probe->film_height,
+                          probe->space, &shown));
+  celspan_status status = see_whole(probe, shown, &seen);
+  celspan_rostrum_unref(shown);
+  CS_TRY(status);
   double alpha = cs_oracle_alpha(&seen);
   for (int c = 0; c < 3; c++)
     rgba[c] +=

@@ -129,10 +129,10 @@ static cs_light light_of(float x) {
 celspan_status cs_lit_alone_make(celspan_context *context, const celspan_rostrum *rostrum,
                                  size_t index, bool is_back, cs_lit_alone *out) {
   size_t count = rostrum->cel_count - index;
-  if (cs_rostrum_has_modes(rostrum) || rostrum->grade)
+  if (cs_rostrum_has_modes(rostrum) || rostrum->grade || rostrum->grain)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "rostrum: it or a cel has a blend mode or a grade, so its lights do not add up "
-                   "and cannot be taken apart");
+                   "rostrum: it or a cel has a blend mode, a grade or grain, so its lights do not "
+                   "add up and cannot be taken apart");
   cs_lit_alone alone = {.count = count};
   cs_value_copy(&alone.rostrum, rostrum, sizeof *rostrum);
   alone.cels = cs_mem_array(context->memory, count, sizeof *alone.cels);

@@ -274,7 +274,8 @@ struct celspan_rostrum {
   double camera_rotation;
   cs_antialias antialias;
   celspan_space space;
-  celspan_grade *grade; /* of the whole; NULL: none. A reference */
+  celspan_grade *grade;   /* of the whole; NULL: none. A reference */
+  celspan_texture *grain; /* over all of it; NULL: none. A reference */
 };
 
 /* Whether any cel of a rostrum acts on its backdrop, in a space. */
@@ -350,6 +351,13 @@ CELSPAN_CHECKED celspan_status cs_rostrum_by_camera(celspan_context *context,
                                                     const celspan_rostrum *from,
                                                     const celspan_rostrum *by,
                                                     celspan_rostrum **out);
+/* *out: new; what is drawn instead of a rostrum that is the frame of a film, or an object of that
+ * size. Without grain it is the rostrum itself. With grain it has one cel, in which the rostrum is
+ * an object under a sheet of grain; everything that asks for cels, their names and lights asks the
+ * rostrum. space: of the film. Errors: those of celspan_object_create_rostrum. */
+CELSPAN_CHECKED celspan_status cs_rostrum_shown(celspan_context *context, celspan_rostrum *rostrum,
+                                                double width, double height, celspan_space space,
+                                                celspan_rostrum **out);
 /* A hash of the contents of exposures, independent of the frame's size. Exposures with equal hashes
  * show the same, provided that they contain no procedure and the files of their pictures do not
  * change. */
