@@ -321,8 +321,7 @@ describe("footage", function()
     assert.matches("footage: p.####.png: 2 files are missing: 1003, 1005", err, 1, true)
   end)
 
-  it_converts("shows numbered files in a space of a configuration as pictures are", function()
-    bench:write("config.ocio", [[
+  local CONFIGURATION = [[
 ocio_profile_version: 2
 roles: {default: coded, scene_linear: light}
 colorspaces:
@@ -330,40 +329,62 @@ colorspaces:
   - !<ColorSpace>
     name: coded
     from_reference: !<ExponentTransform> {value: 3, direction: inverse}
-]])
+]]
+
+  --- Renders a clip and the same pictures one by one, both in the space "coded", and the clip as
+  --- its file is. How many of the three frames are alike: with the pictures, and with the file.
+  local function alike_in_space(clip, picture, plain)
+    local shown = [[
+      local celspan = require "celspan"
+      local clip = celspan.footage { file = "%s", %s }
+      return celspan.film { size = { 8, 8 }, fps = 24, frames = 3, frame = function(f)
+        return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 8, 8, texture = %s } } }
+      end }]]
+    local with, without = 0, 0
+    for name, fields in pairs { c = { 'colour = "coded"', "clip:frame(f.index + 1)" },
+      d = { "", picture }, e = { plain, "clip:frame(f.index + 1)" } } do
+      bench:write(name .. ".lua", shown:format(clip, fields[1], fields[2]))
+      local code, _, err = bench:celspan_inside(
+        "render %s.lua --depth float --ocio config.ocio -o '%s.####.exr'", name, name)
+      assert.equal(0, code, err)
+    end
+    for i = 1, 3 do
+      local same = bench:celspan_inside("compare c.%04d.exr d.%04d.exr", i, i)
+      local other = bench:celspan_inside("compare c.%04d.exr e.%04d.exr --fail 1e-3", i, i)
+      with, without = with + (same == 0 and 1 or 0), without + (other == 0 and 1 or 0)
+    end
+    return with, without
+  end
+
+  it_converts("shows numbered files in a space of a configuration as pictures are", function()
+    bench:write("config.ocio", CONFIGURATION)
     bench:write("plates.lua", [[
       local celspan = require "celspan"
       return celspan.film { size = { 8, 8 }, frames = 3, frame = function(f)
         return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 8, 8,
-          texture = celspan.rgb(f.index / 4, .5, .25) } } }
+          texture = celspan.rgb((f.index + 1) / 4, .5, .25) } } }
       end }]])
-    local shown = [[
-      local celspan = require "celspan"
-      local clip = celspan.footage { file = "p.####.exr", fps = 24, colour = "coded" }
-      return celspan.film { size = clip.size, fps = 24, frames = clip.frames, frame = function(f)
-        local plate = %s
-        return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 8, 8, texture = plate } } }
-      end }]]
-    bench:write("clip.lua", shown:format "clip:frame(f.index + 1)")
-    bench:write("pictures.lua", shown:format
-      "celspan.picture { file = 'p.####.exr', frame = 7 + f.index, colour = 'coded' }")
-    local function renders(arguments)
-      local code, _, err = bench:celspan_inside("render %s --depth float", arguments)
+    for ending, depth in pairs { exr = "float", dpx = "16" } do
+      local code, _, err = bench:celspan_inside("render plates.lua --depth %s -o 'q.####.%s'",
+        depth, ending)
       assert.equal(0, code, err)
+      for i = 3, 1, -1 do
+        os.rename(("%s/q.%04d.%s"):format(bench.folder, i, ending),
+          ("%s/q.%04d.%s"):format(bench.folder, 6 + i, ending))
+      end
+      local file = "q.####." .. ending
+      local with, without = alike_in_space(file, ("celspan.picture { file = %q, frame = 7 + "
+        .. "f.index, colour = 'coded' }"):format(file), "")
+      assert.same({ 3, 0 }, { with, without }, ending)
     end
-    renders "plates.lua -o 'p.####.exr'"
-    for i = 3, 1, -1 do
-      os.rename(("%s/p.%04d.exr"):format(bench.folder, i),
-        ("%s/p.%04d.exr"):format(bench.folder, 6 + i))
-    end
-    renders "clip.lua --ocio config.ocio -o 'c.####.exr'"
-    renders "pictures.lua --ocio config.ocio -o 'd.####.exr'"
-    for i = 1, 3 do
-      local same = bench:celspan_inside("compare c.%04d.exr d.%04d.exr", i, i)
-      local other = bench:celspan_inside("compare c.%04d.exr p.%04d.exr --fail 1e-3", i, 6 + i)
-      assert.are.equal(0, same)
-      assert.are_not.equal(0, other)
-    end
+  end)
+
+  it_decodes("refuses a movie in a space of a configuration, and says what to do", function()
+    make(bench, "m.mov", TEST(24, 1) .. X264 "yuv420p")
+    bench:write("m.lua", 'require "celspan".footage { file = "m.mov", colour = "coded" }')
+    local code, _, err = bench:celspan_inside "check m.lua"
+    assert.are_not.equal(0, code)
+    assert.matches('m.mov: colour "coded" is for numbered pictures', err, 1, true)
   end)
 
   it("refuses wrong fields", function()

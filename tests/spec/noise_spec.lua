@@ -239,11 +239,11 @@ describe("grain", function()
     for i, cel in ipairs(shown) do names[i] = cel.name end
     assert.same({ "ground", "shade" }, names)
     assert.same({ amount = 0.1, frame = 2 }, shown.grain)
-    local still = celspan.film { size = { 60, 40 }, grain = { amount = 0.1 }, frame = function()
+    local fixed = celspan.film { size = { 60, 40 }, grain = { amount = 0.1 }, frame = function()
       return celspan.rostrum { back = "#345", camera = { width = 7, rotate = 30 } }
     end }
-    local moved = still:with { frame = function() return celspan.rostrum { back = "#345" } end }
-    assert.equal(select(3, measure(still, 1)), (select(3, measure(moved, 1))))
+    local moved = fixed:with { frame = function() return celspan.rostrum { back = "#345" } end }
+    assert.equal(select(3, measure(fixed, 1)), (select(3, measure(moved, 1))))
   end)
 
   it("of a rostrum is that of a film, also where the rostrum is an object", function()
@@ -278,7 +278,8 @@ describe("grain", function()
     for expected, grain in pairs { ["amount"] = { amount = 0.5 }, ["size"] = { size = 0 },
       ["must be {amount =, size =, seed =, frame =}, got number"] = 3,
       ["strength"] = { strength = 1 }, ["frame"] = { frame = 1.5 } } do
-      for _, make in ipairs { celspan.cel, celspan.rostrum, function(fields) return grey(fields.grain) end } do
+      for _, make in ipairs { celspan.cel, celspan.rostrum,
+        function(fields) return grey(fields.grain) end } do
         local done, message = pcall(make, { grain = grain })
         assert.is_false(done)
         assert.is_truthy(message:find(expected, 1, true), message)

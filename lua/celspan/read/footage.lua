@@ -125,7 +125,15 @@ local function size_of(facts)
   return { width, height }
 end
 
+--- What the codes of a movie may mean. Spaces of a configuration are for files of pictures.
+local OWN = { srgb = true, linear = true, rec709 = true, cineon = true }
+
 local function check_transfer(given, facts)
+  if given.colour and not OWN[given.colour] then
+    refuse("%s: colour %q is for numbered pictures; a movie takes \"srgb\", \"linear\", \"rec709\" "
+      .. "or \"cineon\": make pictures of it, ffmpeg -i MOVIE plate.%%04d.png", given.file,
+      given.colour)
+  end
   if facts.high and not given.colour then
     refuse("%s is of high dynamic range (%s), which is not read: convert it to BT.709, or give "
       .. "'colour' to take its codes as they are", given.file, facts.high)

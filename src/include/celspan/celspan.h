@@ -1291,8 +1291,8 @@ typedef struct celspan_rostrum_desc {
   bool front_is_colour, back_is_colour; /* as in celspan_cel_desc */
   celspan_space space;
   celspan_grade *grade; /* of the whole; kept; NULL: none */
-  /* Over all of it, on the frame of the film, after the grade: what is there gets the codes of this
-     texture, times 2, less 1, added to its sRGB codes (LINEAR_LIGHT); alpha stays. Inside another
+  /* Over all of it, on the frame of the film, after the grade: the codes of this texture, times 2,
+     less 1, are added to the sRGB codes of the picture (LINEAR_LIGHT); alpha stays. Inside another
      composition a rostrum with grain has LINEAR for AROUND. Kept; NULL: none */
   celspan_texture *grain;
 } celspan_rostrum_desc;

@@ -19,7 +19,6 @@
 
 static celspan_status check(celspan_context *context, const celspan_rostrum *rostrum) {
   celspan_matrix matrix;
-  CS_TRY(cs_check_given(context, "rostrum", "the rostrum", rostrum));
   if (!rostrum->has_size)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "rostrum: size is missing; a rostrum that is used as an object needs one");
@@ -50,8 +49,9 @@ celspan_status cs_primitive_data_fill_rostrum(celspan_context *context, cs_primi
   return measure(context, data);
 }
 
-static celspan_status create(celspan_context *context, celspan_rostrum *rostrum,
-                             celspan_object **out) {
+celspan_status cs_nested_create(celspan_context *context, celspan_rostrum *rostrum,
+                                celspan_object **out) {
+  CS_TRY(check(context, rostrum));
   const celspan_box frame = {0, 0, rostrum->width, rostrum->height};
   cs_primitive_data *data;
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_ROSTRUM, NULL, &data));
@@ -59,15 +59,4 @@ static celspan_status create(celspan_context *context, celspan_rostrum *rostrum,
   CS_TRY(cs_primitive_data_wrap(context, data, status, out));
   (*out)->mark = cs_mark_keep(rostrum->mark); /* this replaces a mark that has no name */
   return CELSPAN_OK;
-}
-
-celspan_status celspan_object_create_rostrum(celspan_context *context, celspan_rostrum *rostrum,
-                                             celspan_object **out) {
-  celspan_rostrum *shown;
-  CS_TRY(check(context, rostrum));
-  CS_TRY(cs_rostrum_shown(context, rostrum, rostrum->width, rostrum->height, CELSPAN_SPACE_LINEAR,
-                          &shown));
-  celspan_status status = create(context, shown, out);
-  celspan_rostrum_unref(shown);
-  return status;
 }

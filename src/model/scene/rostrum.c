@@ -5,7 +5,6 @@
 #include "base/number.h"
 #include "model/geometry/matrix.h"
 #include "model/scene/check.h"
-#include "model/scene/primitive_data.h"
 #include "model/scene/value.h"
 
 /* ---------------------------------------------------------------- making */
@@ -233,102 +232,10 @@ static void destroy(celspan_rostrum *rostrum) {
 
 CS_COUNTED(celspan_rostrum)
 
+void cs_rostrum_rehash(celspan_rostrum *rostrum) { rostrum->hash = hash_rostrum(rostrum); }
+
 void celspan_rostrum_hash(const celspan_rostrum *rostrum, uint64_t out[2]) {
   cs_value_hash_give(rostrum->hash, out);
-}
-
-/* ---------------------------------------------------------------- grain */
-
-/* The rostrum without its grain, as an object of a size, in a space. */
-static celspan_status make_art(celspan_context *context, const celspan_rostrum *from,
-                               const celspan_box *frame, celspan_space space,
-                               celspan_object **out) {
-  celspan_rostrum *bare;
-  CS_TRY(cs_rostrum_with(context, from, from->cels, from->cel_count, &bare));
-  celspan_texture_unref(bare->grain);
-  bare->grain = NULL;
-  bare->space = space;
-  bare->has_size = true;
-  bare->width = frame->width;
-  bare->height = frame->height;
-  bare->hash = hash_rostrum(bare);
-  celspan_status status = celspan_object_create_rostrum(context, bare, out);
-  celspan_rostrum_unref(bare);
-  return status;
-}
-
-/* A sheet of grain over the frame, which is where its backdrop is. */
-static celspan_status make_sheet(celspan_context *context, const celspan_rostrum *from,
-                                 const celspan_box *frame, celspan_object **out) {
-  const celspan_rect_desc desc = {sizeof desc,   frame->x, frame->y,   frame->width,
-                                  frame->height, 0,        from->grain};
-  celspan_object *rect;
-  CS_TRY(celspan_object_create_rect(context, &desc, &rect));
-  celspan_status status = cs_object_blend_within(context, rect, CELSPAN_BLEND_LINEAR_LIGHT, out);
-  celspan_object_unref(rect);
-  return status;
-}
-
-/* Both, in the codes of which one is added to the other. */
-static celspan_status make_grainy(celspan_context *context, const celspan_rostrum *from,
-                                  const celspan_box *frame, celspan_space space,
-                                  celspan_object **out) {
-  celspan_object *parts[2] = {NULL, NULL};
-  celspan_group_desc desc = CELSPAN_GROUP_DESC;
-  celspan_status status = make_art(context, from, frame, space, &parts[0]);
-  if (status == CELSPAN_OK)
-    status = make_sheet(context, from, frame, &parts[1]);
-  desc.objects = parts;
-  desc.object_count = 2;
-  desc.isolate = CELSPAN_ISOLATION_ON;
-  desc.space = CELSPAN_SPACE_SRGB;
-  if (status == CELSPAN_OK)
-    status = celspan_object_create_group(context, &desc, out);
-  celspan_object_unref(parts[0]);
-  celspan_object_unref(parts[1]);
-  return status;
-}
-
-/* A rostrum of a size, in a space, with one cel, of this object under white light. */
-static celspan_status make_whole(celspan_context *context, celspan_object *object,
-                                 const celspan_box *frame, celspan_space space,
-                                 celspan_rostrum **out) {
-  celspan_cel_desc one = CELSPAN_CEL_DESC;
-  celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
-  celspan_cel *cel;
-  one.objects = &object;
-  one.object_count = 1;
-  CS_TRY(celspan_cel_create(context, &one, &cel));
-  desc.cels = &cel;
-  desc.cel_count = 1;
-  desc.space = space;
-  desc.has_size = true;
-  desc.width = frame->width;
-  desc.height = frame->height;
-  celspan_status status = celspan_rostrum_create(context, &desc, out);
-  celspan_cel_unref(cel);
-  return status;
-}
-
-celspan_status cs_rostrum_shown(celspan_context *context, celspan_rostrum *rostrum, double width,
-                                double height, celspan_space space, celspan_rostrum **out) {
-  const celspan_box frame = {0, 0, width, height};
-  celspan_object *grainy;
-  if (!rostrum->grain) {
-    *out = celspan_rostrum_ref(rostrum);
-    return CELSPAN_OK;
-  }
-  space = cs_space_inside(rostrum->space, space);
-  CS_TRY(make_grainy(context, rostrum, &frame, space, &grainy));
-  celspan_rostrum *shown;
-  celspan_status status = make_whole(context, grainy, &frame, space, &shown);
-  celspan_object_unref(grainy);
-  CS_TRY(status);
-  status = cs_antialias_copy(context, &rostrum->antialias, &shown->antialias);
-  cs_mark_drop(shown->mark);
-  shown->mark = cs_mark_keep(rostrum->mark);
-  shown->hash = hash_rostrum(shown);
-  return CS_GIVE(status, shown, celspan_rostrum_unref, out);
 }
 
 /* ---------------------------------------------------------------- camera and lights */

@@ -276,7 +276,8 @@ Conversion convert(const ConversionRequest &request) {
 /* How many conversions are kept: a film reads files in few spaces. */
 const size_t KEPT = 16;
 
-/* What a conversion was made of. A configuration that was changed has another time or size. */
+/* What a conversion was made of. A configuration that was changed has another time or size. Tables
+ * that it names do not count: OpenColorIO keeps those that it has read, too. */
 using Key = std::tuple<std::string, std::string, bool, int64_t, int64_t, int64_t>;
 
 Key key_of(const ConversionRequest &request) {
