@@ -17,6 +17,8 @@ local CURVED_EDGE = 0.03 -- the polyline of the sweep is within 0.02 of the curv
 -- Where edges of two frames coincide, each may decide in its own way, and the colour is that of
 -- neither side. Of 20,000 scenes one has such pixels.
 local MOST_TOGETHER = 2 -- scenes
+-- 940: an outline around a key spreads alpha, which the oracle does not see; the scene has none.
+local KEPT = { 940 }
 
 local offsets = {}
 for angle = 0, 7 do
@@ -86,10 +88,10 @@ local function compare(exposures, traits, case)
 end
 
 --- Tries all cases with these options: failures as text, points tried, points excused by whether
---- edges are curved.
-local function try(count, options)
+--- edges are curved. kept: cases that are always tried.
+local function try(count, options, kept)
   local failures, tried, excused, together = {}, 0, { [true] = 0, [false] = 0 }, 0
-  for _, case in cases.of(count) do
+  for _, case in cases.of(count, kept) do
     local script, traits = scenes.script(case, options)
     if ONLY then print(script) end
     local failure, points, near, there = compare(scenes.load(script):at(1), traits, case)
@@ -109,7 +111,7 @@ local function are_all(count) return not ONLY and cases.count(count) >= count en
 
 describe("the oracle", function()
   it("agrees with the spans of random scenes at pixel centres", function()
-    local failures, tried, excused = try(COUNT)
+    local failures, tried, excused = try(COUNT, {}, KEPT)
     assert.are.equal("", failures)
     if not are_all(COUNT) then return end
     -- A curve 60 pixels long passes within 0.03 of about 4 centres; most miss by far less.

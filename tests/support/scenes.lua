@@ -617,9 +617,9 @@ function maker:nested()
   return text
 end
 
---- Objects that cannot be outlined to the bit: those whose alpha is spread, which `probe` does not
---- support, and those that may reach the horizon.
-local without_outline = { "image", "picture", "matte", "rostrum", "scanline", ":quad",
+--- Objects that cannot be outlined to the bit: those whose alpha is spread, as cs_grow_is_vector
+--- decides, which `probe` does not see, and those that may reach the horizon.
+local without_outline = { "image", "picture", "matte", "key", "rostrum", "scanline", ":quad",
                           ":transform" }
 
 --- The object, sometimes with an outline if it contains only vector art.
