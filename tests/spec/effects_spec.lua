@@ -343,21 +343,37 @@ describe("an outline", function()
     assert_alike(2e-3, pixels({ wide:blur(5) }, 60, 60), pixels({ only }, 60, 60))
   end)
 
-  it("spreads the alpha of pictures, compositions and mattes", function()
-    local ramp = rect(10, 10, 40, 40, celspan.linear { from = { 30, 0 }, to = { 30.01, 0 },
-      { 0, "#fff" }, { 1, "#fff0" } })
-    local cut = celspan.matte(rect(10, 10, 40, 40, "#f00"), ramp)
-    local image = pixels({ cut:outline { width = 8, texture = "#00f" } }, 60, 60)
-    local function blue(x) return (select(3, image:get(x, 30))) end
-    assert.same({ 0, 0 }, { blue(1), blue(39) })
-    for x = 31, 35 do assert.is_true(blue(x) > 0.999, "pixel " .. x) end
-    assert.is_true(blue(37) > 0 and blue(37) < 1)
+  -- Of a square, what lies left of 30: by a matte and by a key.
+  local half = celspan.linear { from = { 30, 0 }, to = { 30.01, 0 }, { 0, "#fff" }, { 1, "#fff0" } }
+  local dark = celspan.linear { from = { 30, 0 }, to = { 30.01, 0 }, { 0, "#f00" }, { 1, "#000" } }
+  local cuts = { celspan.matte(rect(10, 10, 40, 40, "#f00"), rect(10, 10, 40, 40, half)),
+    celspan.key { rect(10, 10, 40, 40, dark), luma = true, from = 0.1, to = 0.2 } }
+
+  it("spreads the alpha of pictures, compositions, mattes and keys", function()
+    local image
+    for _, cut in ipairs(cuts) do
+      image = pixels({ cut:outline { width = 8, texture = "#00f" } }, 60, 60)
+      local function blue(x) return (select(3, image:get(x, 30))) end
+      assert.same({ 0, 0 }, { blue(1), blue(39) })
+      for x = 31, 35 do assert.is_true(blue(x) > 0.999, "pixel " .. x) end
+      assert.is_true(blue(37) > 0 and blue(37) < 1)
+    end
     local nested = celspan.rostrum { size = { 20, 20 }, celspan.cel {
       celspan.circle { centre = { 10, 10 }, radius = 6, texture = "#fff" } } }
     image = pixels({ nested:translate(20, 20):outline { width = 4, texture = "#00f" } }, 60, 60)
     local _, _, _, side = image:get(30, 38)
     local _, _, _, corner = image:get(22, 22)
     assert.same({ 1, 0 }, { side, corner })
+  end)
+
+  it("that is spread is seen by probe where the object is, 32 times as strong", function()
+    for _, cut in ipairs(cuts) do
+      local faint = celspan.rostrum { celspan.cel { cut:fade(1 / 64):outline(alone) } }
+      for x, alpha in pairs { [8] = 0, [20] = 0.5, [33] = 0 } do
+        local _, _, _, a = celspan.probe(faint, x, 30, { film = { 60, 60 } })
+        assert.is_true(math.abs(a - alpha) < 1e-9, ("at %g: %g"):format(x, a))
+      end
+    end
   end)
 
   it("of a cel is that of all its objects", function()

@@ -1103,7 +1103,7 @@ CELSPAN_DESCRIPTION(celspan_outline_desc)
 #define CELSPAN_OUTLINE_DESC (celspan_outline_desc_initial())
 
 /* The object with its shape, grown by a width, behind it: exactly, or, where there are pictures,
- * mattes, compositions or procedures in it, with its alpha spread by the width. A mode stays
+ * mattes, keys, compositions or procedures in it, with its alpha spread by the width. A mode stays
  * outermost. Errors: NO_MEMORY, LIMIT; BAD_ARGUMENT, also where a shape reaches the horizon of its
  * perspective. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_outline(celspan_context *context,
