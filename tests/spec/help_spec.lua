@@ -64,7 +64,7 @@ local expected = {
   ["text on a path"] = "text_on_path", ["shadwo"] = "cast_shadow",
   ["countdown"] = "film_leader", ["timecode burn-in"] = "film_leader",
   ["logo reveal"] = "logo_reveal", ["echo"] = "lua echo", ["auto layout"] = "every_shape",
-  ["chromatic aberration"] = "glitch_title", ["extruded"] = "deep_title",
+  ["chromatic aberration"] = "colour_fringes", ["extruded"] = "deep_title",
   ["cel shading"] = "cel_shading", ["chart"] = "lua chart",
   ["river"] = "water_reflection", ["caption pill"] = "srt_subtitles", ["bell"] = "mixed_sound",
   ["sound maker"] = "mixed_sound", ["lantern"] = "neon_glow", ["dashed line"] = "lua stroke",
