@@ -633,17 +633,19 @@ function maker:outlined(object)
     self.outlines:pick { "round", "miter", "bevel" }, text_of(self.outlines:between(0.3, 1)))
 end
 
---- The object, displaced, or blurred in a direction.
+--- The object, displaced, blurred in a direction, or sharpened.
 function maker:shifted(object)
   local own = self.shifts
   object = ("celspan.group{ %s }"):format(object)
   local function number(low, high) return text_of(own:between(low, high)) end
   local at = ("{%s, %s}"):format(number(0, 40), number(0, 30))
-  local kind = own:whole(1, 5)
+  local kind = own:whole(1, 6)
   if kind == 1 then return ("%s:blur(%s, { angle = %s })"):format(object, number(0, 9),
     number(-200, 200)) end
   if kind == 2 then return ("%s:blur(%s, { zoom = %s })"):format(object, number(0, 60), at) end
   if kind == 3 then return ("%s:blur(%s, { spin = %s })"):format(object, number(0, 90), at) end
+  if kind == 4 then return ("%s:sharpen{ radius = %s, amount = %s }"):format(object,
+    number(0, 9), number(0, 1.5)) end
   local by = ("celspan.circle { centre = %s, radius = %s, texture = celspan.linear { "
     .. "from = {0, 0}, to = {40, 30}, { 0, \"#f0%d\" }, { 1, \"#2c8\" } } }"):format(at,
     number(3, 40), own:whole(0, 9))
@@ -799,9 +801,9 @@ end
 -- scan-lines), has_pictures = false (no noise, and nothing dissolves), has_text (every second
 -- primitive is text), is_plain (no lights with a shape, no compositions inside others),
 -- has_modes = false, has_grades = false, has_patterns = false; has_shifts (objects that are
--- displaced, or blurred in a direction, of which the oracle sees no means over pixels). Half of the
--- scenes have modes, groups, mattes and outlines; half of these have spaces and grades, too. The
--- outermost space is that of light.
+-- displaced, blurred in a direction or sharpened, of which the oracle sees no means over pixels).
+-- Half of the scenes have modes, groups, mattes and outlines; half of these have spaces and grades,
+-- too. The outermost space is that of light.
 function scenes.script(seed, options)
   local self = start(seed, options or {})
   local exposures = self:exposures()
