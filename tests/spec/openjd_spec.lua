@@ -192,6 +192,23 @@ describe("the template of Open Job Description", function()
     outside:remove()
   end)
 
+  local it_draws = present.art() and it or pending
+  it_draws("finds files that drawings show", function()
+    local outside = workbench.new()
+    outside:write("inner.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="6" height="4"/>')
+    outside:write("outer.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="6" height="4">'
+      .. '<image href="inner.svg"/></svg>')
+    bench:write("draw.lua", ([[
+      local celspan, svg = require "celspan", require "celspan.svg"
+      return celspan.film { size = { 60, 40 }, frames = 2, frame = function()
+        return celspan.rostrum { celspan.cel { svg.load("%s/outer.svg").object } }
+      end }]]):format(outside.folder))
+    local _, values = checked "draw.lua -o o/#.png --trust"
+    assert.same({ outside.folder .. "/inner.svg", outside.folder .. "/outer.svg" },
+      { values.File1, values.File2, values.File3 })
+    outside:remove()
+  end)
+
   it("leaves room for files before it offers what the script declares", function()
     local outside = workbench.new()
     local script = { 'local celspan, csv = require "celspan", require "celspan.csv"',

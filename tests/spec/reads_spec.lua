@@ -21,6 +21,7 @@ local function frame(f)
     celspan.cel { celspan.rect { 0, 0, 20, 20, texture = plates:frame(1 + f.index) } },
     celspan.cel { celspan.rect { 20, 0, 20, 20, texture = graded } },
     celspan.cel { draw.object, grade = { lut = "look.cube" } },
+    celspan.cel { draw:at(f.time), opacity = 0.5 },
     celspan.cel { anim:at(f.time) },
     celspan.cel { celspan.text { "AB", font = "own.ttf", size = 8, at = { 2, 30 } } },
   }
@@ -39,7 +40,13 @@ local CONVERSIONS = [[
       src: "named here.cube" # and not there]]
 
 local DRAWING = [[<svg xmlns="http://www.w3.org/2000/svg" width="60" height="40">
-<text x="5" y="20" font-family="Block" font-size="8">AB</text></svg>]]
+<filter id="f"><feImage href="in%20it/filter.png"/></filter>
+<text x="5" y="20" font-family="Block" font-size="8">AB</text>
+<rect width="9" height="9" filter="url(#f)"/><image href="shown.png"/><image href="none.png"/>
+<image href="inner.svg"/><defs><image href="unused.png"/></defs></svg>]]
+
+local INNER = [[<svg xmlns="http://www.w3.org/2000/svg" width="6" height="4">
+<image href="inmost.png"><set attributeName="href" to="late.png" begin="0.1s"/></image></svg>]]
 
 local ANIMATION = [[{"v": "5.7.0", "fr": 24, "ip": 0, "op": 24, "w": 60, "h": 40,
 "fonts": {"list": [{"fName": "Block", "fFamily": "Block", "fStyle": "Regular"}]},
@@ -61,12 +68,13 @@ local bench
 
 before_each(function()
   bench = workbench.new()
-  assert.equal(0, (bench:inside "mkdir parts art luts more"))
+  assert.equal(0, (bench:inside "mkdir -p parts 'art/in it' luts more"))
   bench:write("film.lua", SCRIPT)
   bench:write("parts/hand.lua", "return {}")
   bench:write("data.csv", "a\n1\n")
   bench:write("values.json", '{"radius": 6}')
   bench:write("art/draw.svg", DRAWING)
+  bench:write("art/inner.svg", INNER)
   bench:write("art/anim.json", ANIMATION)
   for _, name in ipairs { "talk.srt", "read.srt" } do bench:write(name, CAPTION) end
   for _, name in ipairs { "look.cube", "luts/half.cube", "more/named here.cube" } do
@@ -83,7 +91,9 @@ local function make_media()
   assert.equal(0, (bench:inside("ffmpeg -v error -f lavfi -i testsrc=size=64x48:rate=12 "
     .. "-pix_fmt yuv420p -t 0.5 clip.mp4 && ffmpeg -v error -i clip.mp4 -frames:v 3 plate.%04d.png "
     .. "&& ffmpeg -v error -f lavfi -i sine=440 -t 0.25 deep.wav && cp deep.wav shot.wav "
-    .. "&& cp plate.0001.png still.png && cp still.png art/two.png")))
+    .. "&& cp plate.0001.png still.png && cp still.png art/two.png "
+    .. "&& for i in 'in it/filter' shown inmost late unused; "
+    .. "do cp still.png \"art/$i.png\"; done")))
 end
 
 --- The kinds and the names of the files that celspan lists.
@@ -109,11 +119,16 @@ data read.srt
 data talk.srt
 data values.json
 drawing art/draw.svg
+drawing art/inner.svg
 font lottie.ttf
 font own.ttf
 font svg.ttf
 module parts/hand.lua
 movie clip.mp4
+picture art/in it/filter.png
+picture art/inmost.png
+picture art/late.png
+picture art/shown.png
 picture art/two.png
 picture plate.0001.png
 picture plate.0002.png

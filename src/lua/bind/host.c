@@ -217,6 +217,8 @@ void cs_host_admit(lua_State *L, const char *path) {
   remember(L, path, true);
 }
 
+void cs_host_remember(lua_State *L, const char *path) { remember(L, path, true); }
+
 bool cs_host_confines(lua_State *L) {
   const cs_host_rules *rules = cs_host_get(L)->rules;
   return rules && rules->admits;

@@ -94,6 +94,8 @@ bool cs_host_admits(lua_State *L, const char *path);
 /* Raises an error unless the script may read at this path. It is called before the file is examined
  * in any way, even for its existence. */
 void cs_host_admit(lua_State *L, const char *path);
+/* Notes a file that was read because another file names it. Raises without memory. */
+void cs_host_remember(lua_State *L, const char *path);
 /* Whether a sandbox restricts the files that scripts read and write, and the functions that they
  * call. */
 bool cs_host_confines(lua_State *L);

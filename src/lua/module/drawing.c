@@ -25,6 +25,7 @@
 #include "lua/bind/userdata.h"
 #include "lua/nouns/shape.h"
 #include "model/colour/space.h"
+#include "readers/svg/art.h"
 #include "readers/svg/read.h"
 
 #define METATABLE "celspan.drawing"
@@ -49,6 +50,15 @@ static drawing *push_drawing(lua_State *L) {
   made->svg = NULL;
   luaL_setmetatable(L, METATABLE);
   return made;
+}
+
+/* The drawing as the result of a call; or nil, and the message of the failure. */
+static int answer(lua_State *L, const drawing *made, celspan_status status) {
+  if (status != CELSPAN_OK)
+    return cs_host_fail(L, status);
+  for (const cs_svg_named *one = made->svg->named; one; one = one->next)
+    cs_host_remember(L, one->path);
+  return 1;
 }
 
 static celspan_svg *self(lua_State *L) {
@@ -99,7 +109,7 @@ static int at(lua_State *L) {
   cs_named_begin(L, context);
   celspan_status status = cs_svg_at(context, svg, time, &made->svg);
   cs_named_end(context);
-  return status == CELSPAN_OK ? 1 : cs_host_fail(L, status);
+  return answer(L, made, status);
 }
 
 static int parts(lua_State *L) {
@@ -296,7 +306,7 @@ static int read(lua_State *L) {
   cs_named_begin(L, context);
   celspan_status status = cs_svg_read_file(context, path, &options, &made->svg);
   cs_named_end(context);
-  return status == CELSPAN_OK ? 1 : cs_host_fail(L, status);
+  return answer(L, made, status);
 }
 
 /* A drawing that is a text, in "srgb" and without fonts. */

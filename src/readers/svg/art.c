@@ -76,6 +76,19 @@ celspan_status cs_svg_text_copy(celspan_context *context, celspan_svg *art, cons
   return CELSPAN_OK;
 }
 
+/* Many images in a row show one file. */
+celspan_status cs_svg_name_file(celspan_context *context, celspan_svg *art, const char *path) {
+  if (art->named && strcmp(art->named->path, path) == 0)
+    return CELSPAN_OK;
+  cs_svg_named *named = cs_arena_take(context, &art->arena, sizeof *named);
+  if (!named)
+    return CELSPAN_NO_MEMORY;
+  named->next = art->named;
+  CS_TRY(cs_svg_text_copy(context, art, path, &named->path));
+  art->named = named;
+  return CELSPAN_OK;
+}
+
 /* ---------------------------------------------------------------- composing */
 
 /* The union of the objects of the items inside; NULL for none. If there is only one object and it

@@ -54,6 +54,12 @@ typedef struct cs_svg_note {
   const char *what;
 } cs_svg_note;
 
+/* A file that the drawing names and that was there: a picture, or a drawing in it. */
+typedef struct cs_svg_named {
+  const struct cs_svg_named *next;
+  const char *path;
+} cs_svg_named;
+
 /* What a drawing that may move was read from, for its other times: the file is opened once. */
 typedef struct cs_svg_file {
   const char *name, *bytes;
@@ -80,6 +86,7 @@ struct celspan_svg {
   size_t part_count;
   cs_svg_note *skipped;
   size_t skipped_count;
+  const cs_svg_named *named; /* the last one first; a changed copy has none of its own */
 };
 
 /* A drawing without items. *out: new. Errors: NO_MEMORY. */
@@ -91,6 +98,9 @@ CELSPAN_CHECKED celspan_status cs_svg_item_append(celspan_context *context, cels
                                                   cs_svg_item *parent, cs_svg_item **out);
 CELSPAN_CHECKED celspan_status cs_svg_text_copy(celspan_context *context, celspan_svg *art,
                                                 const char *text, const char **out);
+/* Adds a file that the drawing names. The path is copied. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_svg_name_file(celspan_context *context, celspan_svg *art,
+                                                const char *path);
 /* Releases the contents of a list of items. */
 void cs_svg_item_drop(cs_svg_item *item);
 /* Makes the object of an item from its contents, which must be complete. Errors: NO_MEMORY,

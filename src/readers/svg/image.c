@@ -65,6 +65,12 @@ static celspan_status copy_notes(const image *of, const celspan_svg *art) {
   return CELSPAN_OK;
 }
 
+static celspan_status copy_names(const image *of, const celspan_svg *art) {
+  for (const cs_svg_named *one = art->named; one; one = one->next)
+    CS_TRY(cs_svg_name_file(of->reading->context, of->reading->art, one->path));
+  return CELSPAN_OK;
+}
+
 /* The part of the drawing that lies inside its size. */
 static celspan_status show_art(image *of, const celspan_svg *art) {
   const celspan_matrix identity = celspan_matrix_identity();
@@ -74,6 +80,7 @@ static celspan_status show_art(image *of, const celspan_svg *art) {
   of->width = size.x;
   of->height = size.y;
   CS_TRY(copy_notes(of, art));
+  CS_TRY(copy_names(of, art));
   if (!(size.x > 0) || !(size.y > 0))
     return CELSPAN_OK;
   CS_TRY(cs_svg_rectangle(of->reading->context, &box, &identity, &both[1]));
@@ -168,6 +175,8 @@ static celspan_status show_linked(image *of, const char *href) {
   reading->has_failed = status == CELSPAN_INPUT;
   if (status != CELSPAN_OK)
     return status;
+  if (!reason)
+    CS_TRY(cs_svg_name_file(reading->context, reading->art, file.path));
   if (!reason && cs_svg_image_is_drawing(file.head, file.head_size))
     return show_drawing_file(of, &file);
   celspan_picture_desc picture = {.struct_size = sizeof picture, .file = file.path};

@@ -146,6 +146,7 @@ static celspan_status build(cs_svg_reading *reading, const char *name, celspan_s
   celspan_svg *art;
   CS_TRY(cs_svg_art_create(reading->context, &art));
   art->space = reading->space;
+  reading->art = art;
   const cs_mark before = reading->context->origin; /* the parts of the drawing have others */
   celspan_status status = cs_svg_move(reading, &art->seconds);
   if (status == CELSPAN_OK)

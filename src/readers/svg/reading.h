@@ -54,6 +54,7 @@ typedef struct cs_svg_reading {
   celspan_context *context;
   cs_svg_document *document;
   const cs_svg_source *source; /* where the document is from */
+  celspan_svg *art;            /* the drawing that is made */
   /* Reads a drawing that is an image of this one, and counts against the same limits. *out: new.
    * Errors: INPUT, LIMIT, NO_MEMORY. */
   celspan_status (*read_inner)(struct cs_svg_reading *outer, const cs_svg_source *source,
