@@ -30,7 +30,7 @@ typedef struct cs_verb {
   bool asks_files;     /* it needs to know which files its script has read */
   bool asks_warnings;  /* it wants warnings about probable mistakes of the author */
   bool runs_again;     /* other processes run its script, too, or it is run again after changes */
-  bool plans_rows;     /* with --table it plans the rows, which other verbs make */
+  bool plans_rows;     /* it plans runs of another verb, which make the rows and write the log */
   const char *summary; /* one line */
   const char *notes;   /* more help, whole lines, or NULL */
   const cs_option *options; /* the last one has no name */

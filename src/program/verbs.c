@@ -473,6 +473,8 @@ static const cs_option FARM[] = {
     ONION,
     FORCE,
     KEEP_GOING,
+    {"--log", "FILE", &cs_argument_file,
+     "a log of each task, as for render: run.log is run.3.log for task 3"},
     TABLE("a film for each row of a CSV file, as for render: tasks are rows"),
     SCRIPT,
     MEMORY,

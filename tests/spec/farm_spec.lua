@@ -128,6 +128,18 @@ describe("the script for Slurm", function()
     end
   end)
 
+  it("gives each task a log of its own", function()
+    slurm "-o out/####.png --chunk 4 --log run"
+    for i = 1, 2 do
+      local code, _, err = run_task(i)
+      assert.equal(0, code, err)
+    end
+    for i = 1, 2 do assert.is_truthy(bench:read("run." .. i):find(": ends: ", 1, true)) end
+    slurm "-o one.png --frames 3 --size 60x700 --strips 2 --log run.log"
+    assert.equal(0, (run_task(2)))
+    assert.is_truthy(bench:read("run.2.log"):find(": ends: ", 1, true))
+  end)
+
   it("submits itself to the queue", function()
     slurm "-o out/#.png --logs 'my logs'"
     bench:write("sbatch",
@@ -305,6 +317,23 @@ describe("the commands of a job", function()
     same("whole.tga", "one.tga")
   end)
 
+  it("give each task a log of its own", function()
+    assert.equal(0, (bench:inside "mkdir logs"))
+    for way, count in pairs { ["-o o/#.png --chunk 3"] = 3, ["-o s.png --strips 2 --frames 3"
+      .. " --size 60x700"] = 2 } do
+      bench:write("lines.sh", done("farm film.lua --commands --log logs/a\\ b.log " .. way))
+      assert.equal(0, #bench:files "logs")
+      assert.equal(0, (shell "sh lines.sh"))
+      for i = 1, count do
+        local text = bench:read(("logs/a b.%d.log"):format(i))
+        assert.equal(1, select(2, text:gsub(": begins: ", "")))
+        assert.is_truthy(text:find(": frame %d+: "), text)
+      end
+      assert.equal(count, #bench:files "logs")
+      assert.equal(0, (bench:inside "rm logs/*"))
+    end
+  end)
+
   it("have quotes around words that zsh replaces", function()
     local lines = done "farm film.lua -o o/#.png --commands -- =ls a=b"
     assert.truthy(lines:find(" -- '=ls' a=b\n", 1, true), lines)
@@ -449,6 +478,9 @@ describe("celspan farm", function()
       "farm film.lua -o o.png --frames 3 --size 60x700 --strips 4 --slurm")
     refused("at most 1000 strips", "farm film.lua -o o.png --frames 3 --strips 1001 --slurm")
     refused("unknown option '--resume'", "farm film.lua -o o/#.png --slurm --resume")
+    for _, name in ipairs { "none/run.log", "''", "/", "film.lua/run.log" } do
+      refused("--log", "farm film.lua -o o/#.png --slurm --log " .. name)
+    end
     bench:write("bad.lua", "error 'bad'")
     assert.equal(3, (celspan "farm bad.lua -o o/#.png --slurm"))
     assert.equal(4, (celspan "farm none.lua -o o/#.png --slurm"))
@@ -459,7 +491,7 @@ describe("celspan farm", function()
       ["-o o.#.png --quality 50"] = "--quality is only for videos",
       ["-o o.#.png --fps 12"] = "--fps is only for videos",
       ["-o o.#.png --loudness -14"] = "--loudness is only for videos",
-      ["-o o.#.tif --layers cels"] = "OpenRaster files have layers",
+      ["-o o.#.tif --layers cels"] = "Photoshop files have layers",
       ["-o o.#.exr --layers cels --colour rec709"] = "such files are in linear light",
       ["-o o.#.png --dither --depth 16"] = "--dither makes 8 bits",
       ["-o o.plane"] = "a film of planes is made in one run",

@@ -167,6 +167,17 @@ describe("the template of Open Job Description", function()
     return job, defaults_of(job)
   end
 
+  it("has a log of each task", function()
+    assert.equal(true, os.execute("mkdir " .. word(bench.folder) .. "/logs"))
+    local job, values = checked "film.lua -o o/#.png --chunk 3 --log logs/run.log"
+    assert.equal(bench.folder .. "/logs", values.Log)
+    openjd.run(job, bench)
+    assert.same({ "run.3,4,5.log", "run.6,7,8.log", "run.9.log" }, bench:files "logs")
+    checked "film.lua -o o.png --frames 3 --strips 1 --log run.log"
+    refused("become too long", ("farm film.lua --openjd -o o/#.png --log %s.log")
+      :format(("n"):rep(250)))
+  end)
+
   it("finds files for strips and tables, and those of videos", function()
     local outside = workbench.new()
     outside:write("a.csv", "1")

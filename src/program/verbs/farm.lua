@@ -13,6 +13,7 @@
 --   job.options   of render, in their order: {name =, value =}; value nil: a flag
 --   job.arguments of the script
 --   job.name, job.logs, job.workers, job.memory (MiB), job.minutes    nil: not given
+--   job.log       of --log: the start and the ending of the name of each task's log; nil: none
 --   job.table     of --table; job.has_values: whether it or --set-from sets parameters
 --   job.version   of celspan
 local program, request = ...
@@ -78,6 +79,12 @@ local function words_of(job)
   return table.concat(words, " ")
 end
 
+--- The log of a task as words of render, with a space before them. number: a text for the shell.
+local function log_words(job, number)
+  local log = job.log
+  return log and (" --log %s%s%s"):format(quoted(log.start), number, quoted(log.ending)) or ""
+end
+
 local function directives_of(job)
   local lines = {}
   local function add(format, ...) lines[#lines + 1] = "#SBATCH --" .. format:format(...) end
@@ -134,7 +141,7 @@ local CHUNK_RUN = [[
 
 run() {
   "$celspan" render @SCRIPT@ -o @OUTPUT@ \
-    --task "$SLURM_ARRAY_TASK_ID/$tasks" --resume --workers @WORKERS@@WORDS@
+    --task "$SLURM_ARRAY_TASK_ID/$tasks" --resume --workers @WORKERS@@LOG@@WORDS@
 }
 ]]
 
@@ -149,7 +156,7 @@ run() {
     "$celspan" join "${parts[@]}" -o @OUTPUT@
   else
     "$celspan" render @SCRIPT@ -o "$strips/$SLURM_ARRAY_TASK_ID.@ENDING@" \
-      --strip "$SLURM_ARRAY_TASK_ID/$tasks" --resume --workers @WORKERS@@WORDS@
+      --strip "$SLURM_ARRAY_TASK_ID/$tasks" --resume --workers @WORKERS@@LOG@@WORDS@
   fi
 }
 ]]
@@ -182,6 +189,7 @@ local function slurm(job)
     SCRIPT = quoted(job.script), OUTPUT = quoted(job.output), FOLDER = quoted(job.folder),
     STRIPS = quoted(absolute(job.output, job.folder) .. ".strips"),
     ENDING = quoted(ending_of(job.output)), WORDS = words_of(job),
+    LOG = log_words(job, '"$SLURM_ARRAY_TASK_ID"'),
     MEMORY = job.memory and MEMORY:format(job.memory) or "",
     WORKERS = job.workers or '"${SLURM_CPUS_ON_NODE:-1}"',
   }
@@ -195,14 +203,14 @@ end
 local function commands(job)
   local lines, head = {}, ("cd -- %s && ${CELSPAN:-celspan} "):format(quoted(job.folder))
   local words, parts = words_of(job), {}
-  if (job.folder .. job.script .. job.output .. words):find "%c" then
+  if (job.folder .. job.script .. job.output .. words .. log_words(job, "")):find "%c" then
     return nil, "--commands: a command is a line, and a name or an argument has control characters"
   end
   local workers = job.workers and " --workers " .. job.workers or ""
   for i = 1, job.tasks do
     parts[i] = job.strips and quoted(strip_pattern(job.output, i)) or quoted(job.output)
-    lines[i] = ("%srender %s -o %s --%s %d/%d --resume%s%s"):format(head, quoted(job.script),
-      parts[i], job.strips and "strip" or "task", i, job.tasks, workers, words)
+    lines[i] = ("%srender %s -o %s --%s %d/%d --resume%s%s%s"):format(head, quoted(job.script),
+      parts[i], job.strips and "strip" or "task", i, job.tasks, workers, log_words(job, i), words)
   end
   if job.strips then
     lines[#lines + 1] = ("%sjoin %s -o %s"):format(head, table.concat(parts, " "),
@@ -216,7 +224,22 @@ end
 local own = { ["-o"] = true, ["--slurm"] = true, ["--openjd"] = true,
   ["--commands"] = true, ["--chunk"] = true,
   ["--strips"] = true, ["--job-name"] = true, ["--job-memory"] = true, ["--job-time"] = true,
-  ["--logs"] = true, ["--workers"] = true } -- these are not passed to the tasks
+  ["--logs"] = true, ["--log"] = true, ["--workers"] = true } -- these are not passed to the tasks
+
+--- A log is added to, and its folder is not made: a task without it would fail.
+local function refuse_log()
+  local folder, name = absolute(request.log, program.working_folder()):match "^(.*/)([^/]*)$"
+  if name == "" or not program.entries(folder) then
+    program.usage("--log %s: give the name of a file in a folder that exists: each task adds its "
+      .. "number to the name", request.log)
+  end
+end
+
+--- run.log as the start "run." and the ending ".log", between which is the number of a task.
+local function log_of(path)
+  local start, ending = path:match "^(.*[^/])(%.[^./]*)$"
+  return { start = (start or path) .. ".", ending = ending or "" }
+end
 
 local function refuse()
   local output = request.output
@@ -237,6 +260,7 @@ local function refuse()
   if output == "-" or not request.table and program.is_video(output) then
     program.usage "a farm makes files of frames: give -o shot.####.png (and make a video of them)"
   end
+  if request.log then refuse_log() end
   if #output > program.path_most then program.usage("%.80s...: the name is too long", output) end
 end
 
@@ -288,7 +312,7 @@ local job = { strips = request.strips, script = request[1], folder = program.wor
   name = request.job_name, logs = request.logs, workers = math.tointeger(request.workers),
   memory = math.tointeger(request.job_memory), minutes = math.tointeger(request.job_time),
   arguments = request.arguments, options = {}, version = program.version, table = request.table,
-  has_values = request.table or request.set_from }
+  log = request.log and log_of(request.log), has_values = request.table or request.set_from }
 for _, option in ipairs(request.given) do
   if not own[option.name] then table.insert(job.options, option) end
   if #job.options > OPTIONS_MOST then

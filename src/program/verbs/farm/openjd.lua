@@ -4,6 +4,7 @@
 -- job to job is a parameter too: the frames, the size of a task, what the script declares.
 --
 --   Celspan Script Folder Output    the program; the script and its folder; where frames go
+--   Log                             the folder of the logs of --log
 --   Frames Chunk                    which frames, and how many a task makes
 --   Table Ocio OcioFolder           of --table and --ocio, and the folder with its tables
 --   Set_NAME                        of the script's parameter NAME
@@ -15,6 +16,7 @@ local program, film, job, names = ...
 local json = require "celspan.json"
 
 local MOST_PARAMETERS, MOST_TEXT, MOST_NAME = 50, 1024, 128 -- 1.1, 2.5, 1.1.1
+local MOST_FILE = 255 -- bytes of the name of a file
 local MOST_ABOUT, MOST_LABEL, MOST_IDENTIFIER = 2048, 64, 64 -- 7.2, 2.6, 7.1
 
 local counts_frames = not job.strips and not job.rows -- else it counts strips, or parts of rows
@@ -315,6 +317,23 @@ local function strip_pattern(output, number)
   return names.strip_pattern(output, number, parameters:argument(names.ending_of(job.output)))
 end
 
+--- The log of a task, whose name has the number of the task, or its frames.
+local function task_log()
+  local folder, start = split(absolute(job.log.start))
+  local most = #tostring(job.tasks)
+  if counts_frames then
+    local last = math.max(job.numbers[1], job.numbers[#job.numbers])
+    most = math.min(#ranges_of(job.numbers), job.chunk * (#tostring(last) + 1))
+  end
+  if #start + most + #job.log.ending > MOST_FILE then
+    parameters.fault = "--log: names of tasks have their frames, as 1-10, and become too long"
+  end
+  local place = parameters:add_path("Log", folder == "" and "/" or folder, "DIRECTORY", "OUT")
+  local number = counts_frames and "Frames" or job.strips and "Strip" or "Task"
+  return ("%s/%s{{Task.Param.%s}}%s"):format(place, parameters:argument(start), number,
+    parameters:argument(job.log.ending))
+end
+
 --- output: in the form for the arguments of a task.
 local function render_step(script, output)
   local task, words = task_of()
@@ -323,6 +342,7 @@ local function render_step(script, output)
   local function add(...) table.move({ ... }, 1, select("#", ...), #arguments + 1, arguments) end
   add(table.unpack(words))
   add("--resume", "--progress", "openjd")
+  if job.log then add("--log", task_log()) end
   if job.workers then add("--workers", tostring(job.workers)) end
   if job.rows then
     add("--table", parameters:add_path("Table", absolute(job.table), "FILE", "IN"))
