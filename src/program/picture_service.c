@@ -91,6 +91,8 @@ static void push_meaning(lua_State *L, const cs_picture_header *header) {
   lua_setfield(L, -2, "named");
   if (header->space[0])
     cs_put_text(L, "space", header->space);
+  if (header->profile[0])
+    cs_put_text(L, "profile", header->profile);
   if (!header->has_primaries)
     return;
   double unused[9];

@@ -1,6 +1,7 @@
 -- celspan info: what it prints about films, pictures and other files.
 
 local PLAIN = require "tests.support.plain_film"
+local profile = require "tests.support.profile"
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
@@ -56,6 +57,26 @@ describe("the verb info", function()
       assert.truthy(out:find("format openexr\nsize 8x4\nchannels 4\nalpha "
         .. "premultiplied\ndepth half\n"
         .. "colour linear\n", 1, true), out)
+    end)
+
+    it_reads_pictures("names the profile of a picture, and says what is taken instead", function()
+      local function named(kind, bytes)
+        local path = picture("a." .. kind)
+        write("a." .. kind, profile[kind == "png" and "png" or "jpeg"](read(path), bytes))
+        local _, out = celspan("info " .. path)
+        return out:match "colour srgb\ncolour_from format\nprofile (.-)\nprimaries_taken bt709\n"
+      end
+      local wide = "P3 \u{e9}\u{20ac}\u{1f3a8}\u{ffff}"
+      for _, kind in ipairs { "png", "jpg" } do
+        assert.equal("sRGB (flat)", named(kind, profile.of(profile.plain "sRGB (flat)", 2)))
+        assert.equal(wide, named(kind, profile.of(profile.wide(wide), 4)))
+        assert.equal("a?b", named(kind, profile.of(profile.plain "a\nb", 2)))
+        assert.equal(("n"):rep(255), named(kind, profile.of(profile.plain(("n"):rep(400)), 2)))
+      end
+      local whole = profile.of(profile.wide "cut off", 4)
+      for _, size in ipairs { 1, 130, 140, 150, #whole - 4 } do
+        assert.equal("without a name", named("jpg", whole:sub(1, size)))
+      end
     end)
 
     it_reads_pictures("recognises pictures that are text", function()

@@ -1,5 +1,6 @@
 -- The picture module for where OpenImageIO is missing, beside the one over OpenImageIO: what both
 -- read and write is the same, and damaged files are refused.
+local profile = require "tests.support.profile"
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
 
@@ -83,6 +84,16 @@ describe("the picture module without OpenImageIO", function()
       local code, _, err = bench:inside(("oiiotool %s -o %s"):format(command, name))
       assert.equal(0, code, err)
       assert.is_true(pixels("", name) == pixels(WITH, name), name)
+    end
+  end)
+
+  it("names profiles", function()
+    local bytes = profile.of(profile.wide "wide \u{e9}", 4)
+    for kind, add in pairs { png = profile.png, jpg = profile.jpeg } do
+      good(WITH, "render film.lua -o a.%s %s", kind, ALPHA)
+      bench:write("b." .. kind, add(bench:read("a." .. kind), bytes))
+      local said = good(WITH, "info b.%s", kind)
+      assert.truthy(said:find("\nprofile wide \u{e9}\nprimaries_taken bt709\n", 1, true), said)
     end
   end)
 

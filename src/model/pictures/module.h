@@ -56,6 +56,7 @@ typedef struct cs_picture_header {
   bool has_primaries;
   float primaries[8];
   char space[CS_PICTURE_SPACE];
+  char profile[CS_PICTURE_SPACE]; /* the name of its ICC profile, which is not applied; "": none */
   /* the orientation tag changes the order of rows: it is cheapest to read all at once */
   bool is_turned;
   bool is_whole;      /* the reader decodes everything at once and keeps it */

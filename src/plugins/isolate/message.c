@@ -111,6 +111,7 @@ void cs_message_set_header(cs_message *message, const cs_picture_header *header)
   memcpy(message->header.colour, header->info.colour, sizeof message->header.colour);
   memcpy(message->header.primaries, header->primaries, sizeof message->header.primaries);
   memcpy(message->header.space, header->space, sizeof message->header.space);
+  memcpy(message->header.profile, header->profile, sizeof message->header.profile);
 }
 
 static bool is_between(int32_t number, int32_t least, int32_t most) {
@@ -133,7 +134,8 @@ bool cs_message_header_of(const cs_message *message, cs_picture_header *out) {
       !is_between(from->channels, 1, CS_PICTURE_CHANNELS) || !is_between(from->bits, 0, 16) ||
       !is_between(from->alpha, CS_PICTURE_ALPHA_STRAIGHT, CS_PICTURE_ALPHA_CODED) ||
       !is_name(from->format) || !is_name(from->colour) ||
-      !memchr(from->space, 0, sizeof from->space))
+      !memchr(from->space, 0, sizeof from->space) ||
+      !memchr(from->profile, 0, sizeof from->profile))
     return false;
   *out = (cs_picture_header){.info = {.width = from->width,
                                       .height = from->height,
@@ -155,6 +157,7 @@ bool cs_message_header_of(const cs_message *message, cs_picture_header *out) {
   memcpy(out->info.colour, from->colour, sizeof from->colour);
   memcpy(out->primaries, from->primaries, sizeof from->primaries);
   memcpy(out->space, from->space, sizeof from->space);
+  memcpy(out->profile, from->profile, sizeof from->profile);
   return true;
 }
 

@@ -91,7 +91,7 @@ typedef struct cs_message_header {
   uint64_t file_number;
   int32_t names_colour, has_primaries;
   float primaries[8];
-  char format[16], colour[16], space[CS_PICTURE_SPACE];
+  char format[16], colour[16], space[CS_PICTURE_SPACE], profile[CS_PICTURE_SPACE];
 } cs_message_header;
 
 /* cs_picture_output without its texts. */

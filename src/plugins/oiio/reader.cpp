@@ -26,6 +26,7 @@
 #endif
 #include "model/colour/transfer_names.h"
 #include "model/pictures/configuration.h"
+#include "model/pictures/profile_name.h"
 #include "plugins/oiio/shared.h"
 #include "plugins/oiio/sniff.h"
 #include "plugins/oiio/source.h"
@@ -310,6 +311,12 @@ int coded_bits(const ImageSpec &spec) {
   return bits > 8 && bits < 16 ? bits : 16;
 }
 
+void read_profile(const ImageSpec &spec, char *out) {
+  const OIIO::ParamValue *found = spec.find_attribute("ICCProfile");
+  if (found)
+    cs_profile_name_read(found->data(), found->type().size(), out);
+}
+
 void describe(const cs_picture_reader &reader, cs_picture_header *header) {
   const ImageSpec &spec = reader.spec;
   *header = {};
@@ -323,6 +330,7 @@ void describe(const cs_picture_reader &reader, cs_picture_header *header) {
   std::string named = named_colour(reader);
   snprintf(header->space, sizeof header->space, "%s", is_own(named) ? "" : named.c_str());
   header->names_colour = names_colour(reader);
+  read_profile(spec, header->profile);
   header->has_primaries = read_primaries(reader, header->primaries);
   header->alpha = is_multiplied(reader) ? CS_PICTURE_ALPHA_CODED : CS_PICTURE_ALPHA_STRAIGHT;
   header->bits = coded_bits(spec);

@@ -1,15 +1,17 @@
 /* JPEG, by libjpeg. Source: ISO/IEC 10918-1; Exif 2.3, 4.6 for the orientation. */
 #include <setjmp.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <jpeglib.h>
 
 #include <jerror.h>
 
+#include "model/pictures/profile_name.h"
 #include "plugins/raster/raster.h"
 
-enum { APP1 = JPEG_APP0 + 1, MARKER_MOST = 0xffff, ORIENTATION = 0x0112 };
+enum { APP1 = JPEG_APP0 + 1, APP2 = JPEG_APP0 + 2, MARKER_MOST = 0xffff, ORIENTATION = 0x0112 };
 
 typedef struct reading {
   struct jpeg_error_mgr manager; /* first: libjpeg knows only this part */
@@ -101,16 +103,26 @@ static void choose_form(reading *r) {
   r->out->colour = "srgb";
 }
 
+static void read_profile(reading *r) {
+  JOCTET *bytes = NULL;
+  unsigned size = 0;
+  if (jpeg_read_icc_profile(&r->jpeg, &bytes, &size))
+    cs_profile_name_read(bytes, size, r->out->profile);
+  free(bytes);
+}
+
 static void decode(reading *r, const cs_raster_file *file) {
   if (setjmp(r->back))
     return;
   jpeg_create_decompress(&r->jpeg);
   jpeg_mem_src(&r->jpeg, file->bytes, (unsigned long)file->size);
   jpeg_save_markers(&r->jpeg, APP1, MARKER_MOST);
+  jpeg_save_markers(&r->jpeg, APP2, MARKER_MOST);
   jpeg_read_header(&r->jpeg, TRUE);
   for (jpeg_saved_marker_ptr marker = r->jpeg.marker_list; marker; marker = marker->next)
     if (r->out->orientation == 1)
       r->out->orientation = orientation_in(marker);
+  read_profile(r);
   choose_form(r);
   r->status = cs_raster_make(r->out, r->jpeg.image_width, r->jpeg.image_height, r->failure);
   if (r->status != CELSPAN_OK)

@@ -107,6 +107,7 @@ static void describe(const cs_raster *raster, const struct stat *found, cs_pictu
   snprintf(header->info.format, sizeof header->info.format, "%s", raster->format);
   snprintf(header->info.colour, sizeof header->info.colour, "%s", raster->colour);
   memcpy(header->space, raster->space, sizeof header->space);
+  memcpy(header->profile, raster->profile, sizeof header->profile);
   header->names_colour = raster->names_colour;
   header->has_primaries = raster->has_primaries;
   memcpy(header->primaries, raster->primaries, sizeof header->primaries);

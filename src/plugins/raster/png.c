@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "model/colour/transfer_names.h"
+#include "model/pictures/profile_name.h"
 #include "plugins/raster/raster.h"
 
 enum { GAMMA_LINEAR = 100000 }; /* in units of 1/100000 */
@@ -67,6 +68,15 @@ static void read_space(const reading *r) {
       snprintf(r->out->space, sizeof r->out->space, "%s", texts[i].text);
 }
 
+static void read_profile(const reading *r) {
+  png_charp name;
+  png_bytep bytes;
+  png_uint_32 size = 0;
+  int method;
+  if (png_get_iCCP(r->png, r->info, &name, &method, &bytes, &size))
+    cs_profile_name_read(bytes, size, r->out->profile);
+}
+
 static void decode(reading *r) {
   if (setjmp(png_jmpbuf(r->png)))
     return;
@@ -76,6 +86,7 @@ static void decode(reading *r) {
   r->out->colour = colour_of(r);
   r->out->names_colour = strcmp(r->out->colour, "linear") == 0;
   read_space(r);
+  read_profile(r);
   int passes = choose_form(r);
   r->status = cs_raster_make(r->out, png_get_image_width(r->png, r->info),
                              png_get_image_height(r->png, r->info), r->failure);

@@ -12,9 +12,10 @@
 #define CS_RASTER_PIXELS ((uint64_t)1 << 28) /* at most, of a picture that is read or written */
 
 typedef struct cs_raster {
-  const char *format;           /* "png" */
-  const char *colour;           /* "srgb", "linear", ...: how it is read by default */
-  char space[CS_PICTURE_SPACE]; /* as in cs_picture_header, with the primaries */
+  const char *format;             /* "png" */
+  const char *colour;             /* "srgb", "linear", ...: how it is read by default */
+  char space[CS_PICTURE_SPACE];   /* as in cs_picture_header, with the primaries */
+  char profile[CS_PICTURE_SPACE]; /* as in cs_picture_header */
   bool names_colour, has_primaries;
   float primaries[8];
   int32_t width, height;

@@ -6,6 +6,7 @@
 
 #include <tiffio.h>
 
+#include "model/pictures/profile_name.h"
 #include "plugins/raster/raster.h"
 
 typedef struct reading {
@@ -139,12 +140,20 @@ static celspan_status read_shown(const reading *r) {
              : fail_pixels(r);
 }
 
+static void read_profile(const reading *r) {
+  uint32_t size = 0;
+  void *bytes = NULL;
+  if (TIFFGetField(r->tiff, TIFFTAG_ICCPROFILE, &size, &bytes) && bytes)
+    cs_profile_name_read(bytes, size, r->out->profile);
+}
+
 static celspan_status read_opened(reading *r) {
   uint32_t width = 0, height = 0;
   if (r->file->subimage && !TIFFSetDirectory(r->tiff, (tdir_t)r->file->subimage))
     return cs_raster_fail(r->failure, CELSPAN_INPUT, "has no subimage %d", r->file->subimage);
   TIFFGetField(r->tiff, TIFFTAG_IMAGEWIDTH, &width);
   TIFFGetField(r->tiff, TIFFTAG_IMAGELENGTH, &height);
+  read_profile(r);
   bool is_plain = choose_form(r);
   celspan_status status = cs_raster_make(r->out, width, height, r->failure);
   if (status != CELSPAN_OK)

@@ -117,6 +117,10 @@ local function put_meaning(picture)
   facts:add("colour", picture.colour)
   facts:add("colour_from", picture.named and "file" or "format")
   if picture.space then facts:add("space", picture.space) end
+  if picture.profile then
+    facts:add("profile", picture.profile)
+    facts:add("primaries_taken", "bt709")
+  end
   if picture.primaries then facts:add("primaries", picture.primaries) end
   local numbers = picture.chromaticities
   if not numbers then return end
