@@ -1,6 +1,5 @@
 /* object:blur, object:displace, object:sharpen, object:shadow, object:glow and object:outline; cels
  * have the last three.
- * three.
  * The result is a value with the object as its list and the options as its fields. */
 #include "lua/bind/caller.h"
 #include "lua/bind/construct.h"

@@ -12,9 +12,9 @@ extern const cs_noun cs_noun_gradient, cs_noun_linear, cs_noun_radial, cs_noun_c
     cs_noun_ellipse, cs_noun_polygon, cs_noun_nurbs, cs_noun_path, cs_noun_image, cs_noun_stroke,
     cs_noun_stroke_style, cs_noun_text, cs_noun_glyph, cs_noun_scanline, cs_noun_union,
     cs_noun_intersection, cs_noun_difference, cs_noun_xor, cs_noun_group, cs_noun_key,
-    cs_noun_matte, cs_noun_blur, cs_noun_displace, cs_noun_sharpen, cs_noun_shadow, cs_noun_glow, cs_noun_outline,
-    cs_noun_light, cs_noun_defocus, cs_noun_grain, cs_noun_grade, cs_noun_cel, cs_noun_camera,
-    cs_noun_frame, cs_noun_sound;
+    cs_noun_matte, cs_noun_blur, cs_noun_displace, cs_noun_sharpen, cs_noun_shadow, cs_noun_glow,
+    cs_noun_outline, cs_noun_light, cs_noun_defocus, cs_noun_grain, cs_noun_grade, cs_noun_cel,
+    cs_noun_camera, cs_noun_frame, cs_noun_sound;
 
 /* The first list has the nouns with a constructor, such as celspan.circle. The other has tables: of
  * values without a constructor, of options, and in fields of other nouns. Both are ended by
@@ -56,8 +56,8 @@ int cs_anatomy_of(lua_State *L);
 int cs_anatomy_rebuild(lua_State *L);
 int cs_anatomy_move(lua_State *L);
 
-/* object:blur(radius, options), object:displace{ ... } and object:sharpen(options); shadow, glow and
- * outline with options, also of cels. */
+/* object:blur(radius, options), object:displace{ ... } and object:sharpen(options); shadow, glow
+ * and outline with options, also of cels. */
 int cs_nouns_blur(lua_State *L);
 int cs_nouns_displace(lua_State *L);
 int cs_nouns_sharpen(lua_State *L);

@@ -240,8 +240,10 @@ static int contains(lua_State *L) {
     NULL, NULL                                                                                     \
   }
 const luaL_Reg cs_placed_methods[] = {METHODS};
-const luaL_Reg cs_placed_object_methods[] = {
-    {"blur", cs_nouns_blur},         {"displace", cs_nouns_displace},
-    {"sharpen", cs_nouns_sharpen},   {"stroke", cs_stroke_method},
-    {"paint", cs_derived_paint},     {"metrics", cs_text_metrics},
-    METHODS};
+const luaL_Reg cs_placed_object_methods[] = {{"blur", cs_nouns_blur},
+                                             {"displace", cs_nouns_displace},
+                                             {"sharpen", cs_nouns_sharpen},
+                                             {"stroke", cs_stroke_method},
+                                             {"paint", cs_derived_paint},
+                                             {"metrics", cs_text_metrics},
+                                             METHODS};

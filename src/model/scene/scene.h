@@ -234,8 +234,8 @@ struct celspan_cel {
   celspan_blend blend;
   celspan_grade *grade; /* NULL: none. A reference */
   /* Only where it is defocused by pixels, one of the two at most. NULL: none. References. */
-  struct cs_shift *shift;   /* shift.h */
-  struct cs_nearby *nearby; /* nearby.h */
+  struct cs_shift *shift;        /* shift.h */
+  struct cs_nearby *nearby;      /* nearby.h */
   bool blends_inside[CS_SPACES]; /* in that space, any of its objects acts on its backdrop */
   /* a mode is in the cel, except inside a rostrum, or is its own; or it has a grade */
   bool has_modes;
@@ -321,8 +321,8 @@ typedef struct cs_cel_without {
 } cs_cel_without;
 CELSPAN_CHECKED celspan_status cs_cel_bare(celspan_context *context, const celspan_cel *cel,
                                            cs_cel_without without, celspan_cel **out);
-/* *out: new, unlit and without a transform; shows its objects, averaged over pixels, in one of these
- * ways. Errors: NO_MEMORY. */
+/* *out: new, unlit and without a transform; shows its objects, averaged over pixels, in one of
+ * these ways. Errors: NO_MEMORY. */
 typedef struct cs_cel_reading {
   struct cs_shift *shift;   /* shift.h, or NULL */
   struct cs_nearby *nearby; /* nearby.h, or NULL */

@@ -37,6 +37,8 @@ celspan_status cs_walk_cel(cs_walk *walk, const celspan_cel *cel) {
 
 celspan_status cs_walk_rostrum(cs_walk *walk, const celspan_rostrum *rostrum) {
   CS_TRY(cs_walk_lights(walk, &rostrum->front, &rostrum->back));
+  if (rostrum->grain)
+    CS_TRY(walk->call(walk, NULL, rostrum->grain));
   for (size_t i = 0; i < rostrum->cel_count; i++)
     CS_TRY(cs_walk_cel(walk, rostrum->cels[i]));
   return CELSPAN_OK;

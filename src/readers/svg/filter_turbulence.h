@@ -15,9 +15,8 @@ typedef struct cs_svg_turbulence {
   bool is_coded;    /* its numbers are codes, else light */
 } cs_svg_turbulence;
 
-/* *out: new, the box filled with the noise; NULL for a box of no size, or of
- * none that could be seen. Errors: NO_MEMORY; LIMIT for
- * pictures of too many bytes. */
+/* *out: new, the box filled with the noise; NULL for a box of no size, or of none that could be
+ * seen. Errors: NO_MEMORY; LIMIT for pictures of too many bytes. */
 CELSPAN_CHECKED celspan_status cs_svg_turbulence_make(cs_svg_reading *reading,
                                                       const cs_svg_node *node,
                                                       const cs_svg_turbulence *given,

@@ -5,6 +5,7 @@
 #include "base/context.h"
 #include "model/scene/bounds.h"
 #include "model/scene/displace.h"
+#include "model/scene/nearby_object.h"
 #include "model/scene/primitive_data.h"
 #include "model/scene/value.h"
 #include "readers/svg/objects.h"
@@ -245,7 +246,7 @@ static celspan_status make_sum(const applying *a, celspan_object **out) {
 static celspan_status change(const applying *a, celspan_object **object) {
   celspan_object *made = NULL;
   celspan_status status =
-      cs_nearby_apply(a->context, *object, a->step->nearby, &a->step->box, &made);
+      cs_nearby_object_create(a->context, *object, a->step->nearby, &a->step->box, &made);
   CS_TRY(cs_svg_object_replace(status, made, object));
   return convert(a, a->step->space, object);
 }
@@ -453,17 +454,25 @@ static celspan_status make_image(const applying *a, celspan_object **out) {
 /* *out: NULL before the call; after it the result, and after a failure the result so far. */
 typedef celspan_status step_maker(const applying *a, celspan_object **out);
 
-static step_maker *const makers[] = {
-    [CS_SVG_STEP_MERGE] = make_merge,     [CS_SVG_STEP_BLEND] = make_blend,
-    [CS_SVG_STEP_IN] = make_in,           [CS_SVG_STEP_OUT] = make_out,
-    [CS_SVG_STEP_ATOP] = make_atop,       [CS_SVG_STEP_XOR] = make_xor,
-    [CS_SVG_STEP_SUM] = make_sum,         [CS_SVG_STEP_COLOUR] = make_colour,
-    [CS_SVG_STEP_LUMA] = make_luma,       [CS_SVG_STEP_OFFSET] = make_offset,
-    [CS_SVG_STEP_BLUR] = make_blur,       [CS_SVG_STEP_DISPLACE] = make_displaced,
-    [CS_SVG_STEP_SHADOW] = make_shadow,   [CS_SVG_STEP_FLOOD] = make_flood,
-    [CS_SVG_STEP_TILE] = make_tile,       [CS_SVG_STEP_NEARBY] = make_nearby,
-    [CS_SVG_STEP_IMAGE] = make_image,
-    [CS_SVG_STEP_GROW] = make_morphology, [CS_SVG_STEP_SHRINK] = make_morphology};
+static step_maker *const makers[] = {[CS_SVG_STEP_MERGE] = make_merge,
+                                     [CS_SVG_STEP_BLEND] = make_blend,
+                                     [CS_SVG_STEP_IN] = make_in,
+                                     [CS_SVG_STEP_OUT] = make_out,
+                                     [CS_SVG_STEP_ATOP] = make_atop,
+                                     [CS_SVG_STEP_XOR] = make_xor,
+                                     [CS_SVG_STEP_SUM] = make_sum,
+                                     [CS_SVG_STEP_COLOUR] = make_colour,
+                                     [CS_SVG_STEP_LUMA] = make_luma,
+                                     [CS_SVG_STEP_OFFSET] = make_offset,
+                                     [CS_SVG_STEP_BLUR] = make_blur,
+                                     [CS_SVG_STEP_DISPLACE] = make_displaced,
+                                     [CS_SVG_STEP_SHADOW] = make_shadow,
+                                     [CS_SVG_STEP_FLOOD] = make_flood,
+                                     [CS_SVG_STEP_TILE] = make_tile,
+                                     [CS_SVG_STEP_NEARBY] = make_nearby,
+                                     [CS_SVG_STEP_IMAGE] = make_image,
+                                     [CS_SVG_STEP_GROW] = make_morphology,
+                                     [CS_SVG_STEP_SHRINK] = make_morphology};
 
 /* The element in the form in which the steps use it, and its silhouette. */
 static celspan_status make_sources(applying *a, celspan_object *object) {

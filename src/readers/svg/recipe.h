@@ -61,8 +61,8 @@ typedef struct cs_svg_step {
   celspan_box tile;     /* TILE; NEARBY: what is repeated first, if it has a size */
   celspan_channel channels[2]; /* DISPLACE: along x and y */
   double scale;                /* DISPLACE */
-  cs_nearby *nearby;      /* NEARBY; COLOUR: afterwards; owned; NULL: none */
-  celspan_object *object; /* IMAGE; owned; NULL: nothing */
+  cs_nearby *nearby;           /* NEARBY; COLOUR: afterwards; owned; NULL: none */
+  celspan_object *object;      /* IMAGE; owned; NULL: nothing */
 } cs_svg_step;
 
 #define CS_SVG_SUM_MOST 4
