@@ -181,6 +181,23 @@ describe("a displaced object", function()
     assert.is_true(({ seen(again):get(40, 36) })[4] > 0.5)
   end)
 
+  it("reads the last row of a grid of one band and a row", function()
+    local tall = celspan.rect { 40, 60, 100, 61, texture = "#d8a060" }
+    local moved = tall:displace { by = celspan.rect { 40, 60, 100, 61, texture = "#808080" },
+      scale = 400 }
+    local image = seen(moved, { size = { 200, 400 } })
+    assert.is_true(select(4, image:get(90, 90)) > 0.9)
+  end)
+
+  it("is as large as its matrix says, also where the last number is not 1", function()
+    local square = celspan.rect { 5, 5, 20, 20, texture = "#fff" }
+    local by = celspan.rect { 0, 0, 90, 70, texture = "#fff" }
+    local moved = square:displace { by = by, x = "r", y = "a", scale = 20 }
+    local doubled = moved:transform { 2, 0, 0, 0, 2, 0, 0, 0, 2 }
+    local image = seen(moved)
+    compare(seen(doubled), function(x, y) return { image:get(x - 0.5, y - 0.5) } end, 1e-6)
+  end)
+
   it("has bounds that it can reach", function()
     local box = { art():displace { by = waves(), scale = 20 }:bounds() }
     assert.are_same({ -2, -4, 100, 80 }, box)

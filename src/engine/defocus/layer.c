@@ -194,6 +194,8 @@ static cs_hash find_key(const cs_defocus_cel *place, const cs_blur *blur, double
   for (int k = 0; k < 4; k++)
     cs_hash_number(&hash, blur->edges[k / 2][k % 2]);
   cs_hash_number(&hash, blur->blur);
+  cs_hash_number(&hash, blur->steps[0]);
+  cs_hash_number(&hash, blur->steps[1]);
   cs_hash_number(&hash, samples);
   cs_hash_word(&hash, place->space);
   if (cel->nearby)

@@ -62,12 +62,14 @@ static size_t count_taps(const cs_shifted *map) {
   return (size_t)cs_number_clamp(ceil(length), 1, TAPS);
 }
 
+static bool is_affine(const double m[9]) { return m[6] == 0 && m[7] == 0 && m[8] == 1; }
+
 celspan_status cs_shifted_init(celspan_context *context, cs_shift *shift, cs_shifted *map) {
   map->shift = cs_shift_ref(shift);
   map->tap_count = shift->kind == CS_SHIFT_DISPLACED ? 1 : count_taps(map);
   CS_TRY(CS_MAKE(context, map->taps, map->tap_count));
   const double *units = map->to_units.m, *nodes = map->to_nodes.m;
-  map->is_affine = units[6] == 0 && units[7] == 0 && nodes[6] == 0 && nodes[7] == 0;
+  map->is_affine = is_affine(units) && is_affine(nodes);
   for (size_t k = 0; k < map->tap_count; k++)
     map->taps[k] = tap_at(map, (2 * (double)k + 1) / (double)map->tap_count - 1);
   return CELSPAN_OK;
@@ -102,8 +104,9 @@ static celspan_status acquire(celspan_context *context, cs_shifted_source *sourc
                               double high) {
   const cs_defocused *grid = source->grid;
   int32_t last = grid->rows - 1;
-  int32_t first = (int32_t)cs_number_clamp(floor(low), 0, last) / grid->band_rows;
-  int32_t end = (int32_t)cs_number_clamp(floor(high) + 1, 0, last) / grid->band_rows;
+  /* read_at mixes two rows everywhere, at the borders, too */
+  int32_t first = (int32_t)cs_number_clamp(floor(low), 0, last - 1) / grid->band_rows;
+  int32_t end = (int32_t)cs_number_clamp(floor(high) + 1, 1, last) / grid->band_rows;
   for (int32_t k = first; k <= end; k++)
     if (!source->bands[k])
       CS_TRY(grid->acquire(grid, context, k, &source->bands[k]));
@@ -139,8 +142,8 @@ static inline cs_v4 read_at(const cs_shifted_source *source, int plane, double x
 celspan_status cs_shifted_refuse(celspan_context *context, double width, double height) {
   return cs_fail(context, CELSPAN_LIMIT,
                  "displace, blur: %.0f x %.0f pixels would be read for the frame, and %d are the "
-                 "most; a smaller scale, radius or frame needs fewer",
-                 width, height, MOST);
+                 "most, %d a side; a smaller scale, radius, object or frame needs fewer",
+                 width, height, MOST, CS_SHIFTED_SIDE);
 }
 
 celspan_status cs_shifted_begin(const cs_shifted *map, const cs_defocused *to,
@@ -264,7 +267,8 @@ static celspan_status displace(cs_shifted_rows *rows, int plane, int32_t y, floa
 /* Whether a tap is the same step from every pixel. */
 static bool is_step(const celspan_matrix *tap) {
   const double *m = tap->m;
-  return fabs(m[0] - 1) < 1e-9 && fabs(m[1]) < 1e-9 && fabs(m[3]) < 1e-9 && fabs(m[4] - 1) < 1e-9;
+  return is_affine(m) && fabs(m[0] - 1) < 1e-9 && fabs(m[1]) < 1e-9 && fabs(m[3]) < 1e-9 &&
+         fabs(m[4] - 1) < 1e-9;
 }
 
 /* Adds a tap whose step is the same for all columns: they read neighbouring nodes of two rows. */

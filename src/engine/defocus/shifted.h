@@ -49,6 +49,8 @@ typedef struct cs_shifted_rows {
   float *channels;     /* scratch: of each column, two channels, and the alpha */
 } cs_shifted_rows;
 
+#define CS_SHIFTED_SIDE (1 << 24) /* pixels of a side that are read, at most */
+
 /* LIMIT: this many pixels would be read. */
 CELSPAN_CHECKED celspan_status cs_shifted_refuse(celspan_context *context, double width,
                                                  double height);

@@ -5,8 +5,6 @@
 #include "base/number.h"
 #include "model/scene/bounds.h"
 
-#define MOST (1 << 24) /* pixels of a side that are read */
-
 /* ---------------------------------------------------------------- rectangles */
 
 /* The whole pixels that two rectangles share. */
@@ -56,7 +54,8 @@ static cs_boundary_frame find_reads(const cs_defocus_cel *place, const celspan_m
 static celspan_status check_sides(celspan_context *context, const cs_shifted_part *part) {
   double width = (double)part->end[0] - part->first[0],
          height = (double)part->end[1] - part->first[1];
-  return fmax(width, height) <= MOST ? CELSPAN_OK : cs_shifted_refuse(context, width, height);
+  return fmax(width, height) <= CS_SHIFTED_SIDE ? CELSPAN_OK
+                                                : cs_shifted_refuse(context, width, height);
 }
 
 /* frame: with a pixel more on each side. */
