@@ -216,7 +216,8 @@ static cs_exit write_summary(const render_job *job, cs_exit outcome) {
                               .progress = &job->progress,
                               .failed = {job->failed, job->failed_count},
                               .outcome = outcome,
-                              .has_video = job->is_video};
+                              .has_video =
+                                  job->is_video && cs_video_target_runs_ffmpeg(job->request)};
   cs_exit written = cs_summary_write(&job->summary, job->script->context, &run);
   return outcome == CS_EXIT_OK ? written : outcome;
 }

@@ -136,6 +136,10 @@ static cs_exit refuse_options(const cs_request *request, const cs_video_format *
   if (options.coding.transfer == CELSPAN_TRANSFER_LINEAR ||
       options.coding.transfer == CELSPAN_TRANSFER_CINEON)
     return cs_report_usage("%s: a video is coded as srgb or rec709: leave --colour out", output);
+  if (options.codec->is_module && options.coding.alpha == CELSPAN_ALPHA_PREMULTIPLIED)
+    return cs_report_usage("%s: films in AVIF hold straight alpha: leave --alpha out, or render "
+                           "shot.####.avif",
+                           output);
   if (options.coding.depth == CELSPAN_DEPTH_HALF || options.coding.depth == CELSPAN_DEPTH_FLOAT)
     return cs_report_usage("%s: a video takes --depth 8 or 16", output);
   if (!cs_video_pixels(&options))

@@ -175,6 +175,11 @@ NORMAL 255 (0, 0, 300, 200) cel_6
     render(with_back "{ 0, 0, 0, 0 }", "--frames 1 --layers cels -o x.psd")
     bench:inside "/usr/bin/convert -define psd:alpha-unblend=off 'x.psd[0]' -alpha off merged.png"
     check_alike("merged.png", "white.png")
+    -- Light without a matte is brighter than its alpha says: over white nothing gets darker.
+    render(with_back "{ 0.5, 0.5, 0.5, 0 }", "--frames 1 --layers cels -o x.psd")
+    local _, out = bench:inside("/usr/bin/convert -define psd:alpha-unblend=off 'x.psd[0]' -alpha "
+      .. "off white.png -fx 'u<v-0.005?1:0' -format '%[fx:maxima]' info:")
+    assert.equal("0", out)
   end)
 
   it("keeps names of any kind in Photoshop documents", function()

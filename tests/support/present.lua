@@ -45,10 +45,15 @@ end
 --- Whether there is a module for the spaces of an OpenColorIO configuration.
 function present.spaces() return not contains "built without OpenColorIO" end
 
---- Whether AVIF can be written: a picture module was built with libavif.
+--- Whether AVIF can be written: the picture module that is used was built with libavif.
 function present.avif()
-  return present.pictures() and not ends_well(("grep -qsaE 'built without libavif' "
-    .. "'%s/src/plugins/oiio/celspan-picture.so'"):format(os.getenv "CELSPAN_BUILD" or "build"))
+  for _, name in ipairs { "oiio/celspan-picture.so", "raster/celspan-raster.so" } do
+    local path = (os.getenv "CELSPAN_BUILD" or "build") .. "/src/plugins/" .. name
+    if present.program(path) then
+      return not ends_well(("grep -qsaE 'built without libavif' '%s'"):format(path))
+    end
+  end
+  return false
 end
 
 --- Whether celspan watch can show a page: it was built with libmicrohttpd.

@@ -52,7 +52,18 @@ static celspan_status write_file(writing *w) {
   return status;
 }
 
+static celspan_status check_count(const writing *w) {
+  return w->apart.count <= CS_PHOTOSHOP_LAYERS
+             ? CELSPAN_OK
+             : cs_fail(
+                   w->document.context, CELSPAN_LIMIT,
+                   "%s: the frame has %zu layers, and a Photoshop document at most %d: write an "
+                   "OpenEXR file",
+                   w->document.path, w->apart.count, CS_PHOTOSHOP_LAYERS);
+}
+
 static celspan_status write_layers(writing *w) {
+  CS_TRY(check_count(w));
   CS_TRY(cs_apart_take_mixings(&w->apart, CS_PHOTOSHOP_OPACITY));
   w->progress = (cs_apart_progress){.desc = w->desc, .count = w->apart.count + 1};
   return write_file(w);

@@ -10,8 +10,8 @@
  *   prores422hq prores_ks      4:2:2, 10 bits                    none     -q:v 12
  *   dnxhr       dnxhd (HQX)    4:2:2, 10 bits                    none     a fixed rate
  *   ffv1        ffv1           RGB, 8 or 16 bits                 as deep  without loss
- *   avif        of the module      4:4:4, 8 or 12 bits               as deep  -crf 24
- *   gif, webp, apng: the only codecs of the formats of these names
+ *   avif        the module's   4:4:4, 8 or 12 bits               as deep  -crf 24
+ *   gif, webp, apng, avif: the only codecs of the formats of these names
  *
  * INVARIANT: a file has one of the codecs that its format lists; the first of them is the default.
  */

@@ -22,8 +22,13 @@
 #include "celspan/celspan.h"
 #include "output/sinks/file.h"
 
-/* The most pixels a side, the channels of a layer, and the steps of opacities. */
-enum { CS_PHOTOSHOP_SIDE = 30000, CS_PHOTOSHOP_CHANNELS = 4, CS_PHOTOSHOP_OPACITY = 255 };
+/* The most pixels a side, the most layers, the channels of one, and the steps of opacities. */
+enum {
+  CS_PHOTOSHOP_SIDE = 30000,
+  CS_PHOTOSHOP_LAYERS = INT16_MAX,
+  CS_PHOTOSHOP_CHANNELS = 4,
+  CS_PHOTOSHOP_OPACITY = 255
+};
 
 typedef struct cs_photoshop_layer {
   const char *name; /* UTF-8 of at most 255 bytes; borrowed */

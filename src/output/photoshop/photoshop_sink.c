@@ -35,11 +35,17 @@ static void take_plane(const photoshop_sink *sink, int channel) {
   }
 }
 
-/* Premultiplied codes over white: each is greater by what its alpha leaves free. */
+/* A premultiplied code over white is greater by what its alpha leaves free. Light without a matte
+ * has more colour than alpha. */
+static int over_white(int code, int alpha, int most) {
+  int sum = code + most - alpha;
+  return sum < most ? sum : most;
+}
+
 static void lay_over_white8(unsigned char *row, size_t width) {
   for (size_t x = 0; x < width; x++, row += 4)
     for (int c = 0; c < 3; c++)
-      row[c] = (unsigned char)(row[c] + 255 - row[3]);
+      row[c] = (unsigned char)over_white(row[c], row[3], UINT8_MAX);
 }
 
 static void lay_over_white16(unsigned char *row, size_t width) {
@@ -47,7 +53,7 @@ static void lay_over_white16(unsigned char *row, size_t width) {
   for (size_t x = 0; x < width; x++, row += sizeof pixel) {
     memcpy(pixel, row, sizeof pixel);
     for (int c = 0; c < 3; c++)
-      pixel[c] = (uint16_t)(pixel[c] + 65535 - pixel[3]);
+      pixel[c] = (uint16_t)over_white(pixel[c], pixel[3], UINT16_MAX);
     memcpy(row, pixel, sizeof pixel);
   }
 }
@@ -65,8 +71,10 @@ static void make_row(const photoshop_sink *sink, const celspan_span *spans, size
 
 static celspan_status check_size(const photoshop_sink *sink, celspan_context *context) {
   const cs_photoshop *document = sink->document;
+  const cs_file *merged = document->merged.waiting; /* none yet while it is written */
   uint64_t size = cs_file_size(document->file) + cs_file_size(sink->rows.waiting) +
-                  sink->rows.size_count * sizeof *sink->rows.sizes;
+                  sink->rows.size_count * sizeof *sink->rows.sizes +
+                  (merged ? cs_file_size(merged) : 0);
   return size < INT32_MAX ? CELSPAN_OK
                           : cs_fail(context, CELSPAN_LIMIT,
                                     "%s: the file has 2 GiB or more, which is the limit of this "

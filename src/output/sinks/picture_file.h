@@ -11,9 +11,9 @@
 #include "model/pictures/module.h"
 #include "output/sinks/file.h"
 
-/* AVIF has 16 bits for a side, and readers refuse more pixels, as they would need too much memory.
- * The factor is that of quality 75 in videos. */
-#define CS_AVIF_SIDE 65536
+/* A film in AVIF has 16 bits for a side, and readers refuse more pixels, as they would need too
+ * much memory. The factor is that of quality 75 in videos. */
+#define CS_AVIF_SIDE 65535
 #define CS_AVIF_PIXELS ((int64_t)1 << 28)
 #define CS_AVIF_CRF 24
 

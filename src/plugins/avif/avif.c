@@ -248,7 +248,8 @@ static celspan_status set_plays(const cs_avif *avif, cs_picture_failure *failure
   return CELSPAN_OK;
 }
 
-/* Alpha is kept without loss, as libavif does by default: edges need few bytes and show errors. */
+/* Alpha is kept without loss, as libavif before 1.0 does by default: edges need few bytes and show
+ * errors. */
 static celspan_status set_encoder(const cs_avif *avif, cs_picture_failure *failure) {
   char crf[12];
   const cs_picture_avif *wanted = &avif->output.avif;
@@ -259,6 +260,9 @@ static celspan_status set_encoder(const cs_avif *avif, cs_picture_failure *failu
   encoder->timescale = (uint64_t)avif->time[0];
   encoder->minQuantizer = 0;
   encoder->maxQuantizer = AVIF_QUANTIZER_WORST_QUALITY;
+#if AVIF_VERSION >= 1000000
+  encoder->qualityAlpha = AVIF_QUALITY_LOSSLESS;
+#endif
   snprintf(crf, sizeof crf, "%d", (int)wanted->crf);
   avifEncoderSetCodecSpecificOption(encoder, "color:end-usage", "q");
   avifEncoderSetCodecSpecificOption(encoder, "color:cq-level", crf);

@@ -92,7 +92,10 @@ local function check_header(header, is_parameter)
   if is_check then return columns end
   for _, name in ipairs(header) do
     local has_place = request.output:find("{" .. name .. "}", 1, true) and not is_for_stems(name)
-    if not is_parameter[name] and not has_place then
+    if not is_parameter[name] and is_for_stems(name) then
+      program.usage("--table %s: {name} in OUT is the name of a sound with --stems: call the "
+        .. "column 'name' otherwise", request.table)
+    elseif not is_parameter[name] and not has_place then
       program.usage("--table %s: column '%s' is neither a parameter of the script nor {%s} in OUT",
         request.table, name, name)
     end
