@@ -150,6 +150,8 @@ describe("parameters", function()
         "'tint' has the default 'red', which is not a colour, such as \"#f80\" or \"#ff8800\"",
       ["speed = { 1, most = 4 }"] = "'speed' is a number, which has no field 'most'",
       ["['a-b'] = 1"] = "'a-b' is not a name: letters, digits and _, not beginning with a digit",
+      ["[setmetatable({}, { __tostring = print })] = 1"] =
+        "table is not a name: letters, digits and _, not beginning with a digit",
       ["a = {}"] = "'a' must be a string, a number, a boolean, a list of strings, or a table with "
         .. "a default as [1], a point, colour, ease or file",
       ["at = { 1, point = true }"] = "'at' has the default a table, which is not a point, such as "

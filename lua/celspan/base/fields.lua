@@ -51,6 +51,9 @@ function fields.shown(value)
   return type(value) == "number" and ("%.14g"):format(value) or fields.kind(value)
 end
 
+--- What a message writes for a key: a string as it is, the kind of others.
+function fields.key(value) return type(value) == "string" and value or fields.shown(value) end
+
 --- The fault of the option `space`; nil: it is correct or missing.
 function fields.space(noun, space)
   if space ~= nil and space ~= "linear" and space ~= "srgb" then

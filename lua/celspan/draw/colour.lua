@@ -144,7 +144,7 @@ Palette.__index = fields.reads("a palette", methods)
 local function check_names(name, colours, names)
   for key, value in next, colours do
     if type(key) ~= "string" then
-      refuse("palette '%s' must have its colours by name, got the key %s", name, tostring(key))
+      refuse("palette '%s' must have its colours by name, got the key %s", name, fields.key(key))
     end
     read(("palette '%s': '%s'"):format(name, key), value)
   end
@@ -181,7 +181,7 @@ local function set_of(palette, name)
   local set = type(name) == "string" and palette.sets[name]
   if set then return set end
   local hint = type(name) == "string" and core.nearest(name, palette.names)
-  refuse("there is no palette '%s'%s", tostring(name),
+  refuse("there is no palette '%s'%s", fields.key(name),
     hint and ("; did you mean '%s'?"):format(hint)
       or "; there are " .. table.concat(palette.names, ", "))
 end

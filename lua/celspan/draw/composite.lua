@@ -25,9 +25,9 @@ local operators = {
   xor = function(a, b) return sum(without(b, a), without(a, b)) end,
 }
 
---- What to write for nodes of other compositors, and for their ways to merge. The modes of a source
---- over a backdrop take the source from the backdrop and divide the backdrop by it.
-local theirs = {
+--- What to write for nodes of other compositors. The modes of a source over a backdrop take the
+--- source from the backdrop and divide the backdrop by it.
+local nodes = {
   erode = "celspan.matte(art, by, { grow = -1 })", choke = "celspan.matte(art, by, { grow = -1 })",
   dilate = "celspan.matte(art, by, { grow = 1 })",
   feather = "celspan.matte(art, by, { feather = 4 })",
@@ -37,21 +37,26 @@ local theirs = {
   premult = 'celspan.picture { file = name, alpha = "straight" }',
   unpremult = 'celspan.picture { file = name, alpha = "premultiplied" }',
   over = 'celspan.composite(a, b, "over")', atop = 'celspan.composite(a, b, "atop")',
-  under = 'celspan.composite(b, a, "over")', mask = 'celspan.composite(b, a, "in")',
-  stencil = 'celspan.composite(b, a, "out")', copy = "a",
-  matte = 'celspan.composite(a, b, "over")', keymix = "celspan.group { b, celspan.matte(a, mask) }",
-  ["hold-out"] = 'celspan.composite(a, b, "out")', holdout = 'celspan.composite(a, b, "out")',
-  plus = 'a:blend "add"', minus = 'b:blend "subtract"', from = 'a:blend "subtract"',
-  max = 'a:blend "lighten"', min = 'a:blend "darken"', multiply = 'a:blend "multiply"',
-  screen = 'a:blend "screen"', difference = 'a:blend "difference"', divide = 'b:blend "divide"',
+  under = 'celspan.composite(b, a, "over")', stencil = 'celspan.composite(b, a, "out")',
+  keymix = "celspan.group { b, celspan.matte(a, mask) }",
+  holdout = 'celspan.composite(a, b, "out")',
+  plus = 'a:blend "add"', minus = 'b:blend "subtract"', max = 'a:blend "lighten"',
+  min = 'a:blend "darken"', multiply = 'a:blend "multiply"', screen = 'a:blend "screen"',
+  difference = 'a:blend "difference"', divide = 'b:blend "divide"',
   exclusion = 'a:blend "exclusion"',
 }
 
+--- The same for ways to merge whose names are words of their own elsewhere.
+local ways = {
+  mask = 'celspan.composite(b, a, "in")', copy = "a", matte = 'celspan.composite(a, b, "over")',
+  ["hold-out"] = 'celspan.composite(a, b, "out")', from = 'a:blend "subtract"',
+}
+
 --- What to write for the name of a node, or nil.
-function composite.instead(name) return theirs[name] end
+function composite.instead(name) return nodes[name] end
 
 local function refuse(operator)
-  local advice = theirs[operator or false]
+  local advice = ways[operator or false] or nodes[operator or false]
   local got = type(operator) == "string" and ("%q"):format(operator) or fields.kind(operator)
   core.refuse(("composite: the operator must be \"over\", \"in\", \"out\", \"atop\" or \"xor\", "
     .. "got %s%s"):format(got, advice and "; write " .. advice or ""))

@@ -136,7 +136,7 @@ local function check_names(name, kind, given)
   for field in pairs(given) do
     if not (known[kind][field] or common[field])
       and not (kind == "choice" and math.type(field) == "integer") then
-      refuse(name, "is a %s, which has no field '%s'", kind, tostring(field))
+      refuse(name, "is a %s, which has no field '%s'", kind, fields.key(field))
     end
   end
 end
@@ -154,7 +154,7 @@ end
 local function declare_one(name, given)
   if type(name) ~= "string" or not name:find "^[%a_][%w_]*$" then
     error(("parameters: %s is not a name: letters, digits and _, not beginning with a digit")
-      :format(type(name) == "string" and "'" .. name .. "'" or tostring(name)), 0)
+      :format(type(name) == "string" and "'" .. name .. "'" or fields.key(name)), 0)
   end
   if type(given) ~= "table" then given = { given } end
   local kind, default = kind_of_table(name, given)

@@ -88,7 +88,7 @@ function Art:with(changes)
       and (rawget(self.parts, name) ~= nil or numbers and numbers[name])
     if not is_known then
       local hint = type(name) == "string" and core.nearest(name, names)
-      core.refuse(("svg: the drawing has no part '%s'%s"):format(tostring(name),
+      core.refuse(("svg: the drawing has no part '%s'%s"):format(fields.key(name),
         hint and ("; did you mean '%s'?"):format(hint) or ""))
     end
     if type(change) ~= "function" then
@@ -204,7 +204,7 @@ local function check_options(options)
   end
   for name in next, options do
     if name ~= "fonts" and name ~= "space" then
-      return ("svg: read has no option '%s'; it has fonts and space"):format(tostring(name))
+      return ("svg: read has no option '%s'; it has fonts and space"):format(fields.key(name))
     end
   end
   local wrong = fields.space("svg", options.space)

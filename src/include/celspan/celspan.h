@@ -1044,9 +1044,9 @@ CELSPAN_DESCRIPTION(celspan_sharpen_desc)
 #define CELSPAN_SHARPEN_DESC (celspan_sharpen_desc_initial())
 
 /* The object plus `amount` times its difference from itself out of focus, not below 0. Its alpha
- * does not change, and what lies around it does not count. Its shape is the rectangle of its bounds
- * and two radii, at least 2 units, on each side. A mode stays outermost. Errors: NO_MEMORY,
- * BAD_ARGUMENT, LIMIT. */
+ * does not change, and what lies around it does not count. A radius of more than 500 pixels of the
+ * frame acts like one of 500. Its shape is the rectangle of its bounds and two radii, at least 2
+ * units, on each side. A mode stays outermost. Errors: NO_MEMORY, BAD_ARGUMENT, LIMIT. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_object_sharpen(celspan_context *context,
                                                                   celspan_object *object,
                                                                   const celspan_sharpen_desc *desc,

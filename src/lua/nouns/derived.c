@@ -124,16 +124,16 @@ static celspan_status map_point(void *user, celspan_context *context, celspan_po
   return CELSPAN_OK;
 }
 
-/* Bends the object at index 1 as desc says. Errors of the map: m->outcome. */
-static int bend(lua_State *L, celspan_warp_desc *desc, const mapping *m) {
-  const cs_userdata *object = cs_userdata_self(L, &cs_kind_object, "warp");
+/* Bends the object at index 1 as desc says, for a method. Errors of the map: m->outcome. */
+static int bend(lua_State *L, const char *method, celspan_warp_desc *desc, const mapping *m) {
+  const cs_userdata *object = cs_userdata_self(L, &cs_kind_object, method);
   celspan_object *bent = NULL;
-  luaL_checkstack(L, 20, "warp");
+  luaL_checkstack(L, 20, method);
   cs_userdata *value = cs_bare_push(L, &noun_warped);
   celspan_status status = celspan_object_warp(cs_host_context(L), object->handle, desc, &bent);
   if (m->outcome != LUA_OK)
     return lua_error(L);
-  cs_host_try(L, "warp", status);
+  cs_host_try(L, method, status);
   value->handle = bent;
   return 1;
 }
@@ -152,7 +152,7 @@ int cs_derived_warp(lua_State *L) {
   mapping m = {.L = L, .function = 2, .outcome = LUA_OK};
   celspan_warp_desc desc = read_desc(L, 3, map_point, &m);
   lua_settop(L, 2);
-  return bend(L, &desc, &m);
+  return bend(L, "warp", &desc, &m);
 }
 
 /* ---------------------------------------------------------------- boil */
@@ -231,7 +231,7 @@ int cs_derived_boil(lua_State *L) {
                .grain = luaL_checknumber(L, 6)};
   celspan_warp_desc desc = read_desc(L, 7, boil_point, &b);
   lua_settop(L, 1);
-  bend(L, &desc, &b.mapping);
+  bend(L, "boil", &desc, &b.mapping);
   cs_host_charge(L, STEPS_A_POINT * (b.points % POINTS_A_CHARGE));
   return 1;
 }
