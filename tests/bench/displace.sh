@@ -29,7 +29,7 @@ command -v ffmpeg >/dev/null || die "install the package ffmpeg"
 # The milliseconds of a frame.
 rows() {
   "$celspan" spans "$script" --stats --pixels 8 --workers 1 --allow "$folder" \
-    -- "$1" "$folder/take.png" "$folder/map.png" | awk '{ print 1000 * $NF }'
+    -- "$1" "$folder/take.png" "$folder/map.png" | awk 'NR == 1 { print 1000 * $NF }'
 }
 filtered() {
   local begin=${EPOCHREALTIME/./}

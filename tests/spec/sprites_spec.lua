@@ -116,7 +116,8 @@ return celspan.film { size = { 20000, 2 }, frame = function()
 local celspan = require "celspan"
 return celspan.film { size = { 2048, 2048 }, frames = 17, frame = function(f)
   return celspan.rostrum { back = ("#0000%02x"):format(f.number) } end }]])
-    local spare = present.sanitizer() and "" or "(ulimit -v 900000; "
+    local spare = present.sanitizer() and ""
+      or "(ulimit -v 900000; MALLOC_ARENA_MAX=1 taskset -c 0 "
     refused(6, "-o out.png", "up to frame 17 the sprites have more than 67108864 pixels", spare)
   end)
 end)
