@@ -554,6 +554,7 @@ end
 --- A shape of one opaque colour, which grows and shrinks exactly.
 function maker:solid()
   local own = self.keys
+  self.traits.is_curved = true
   return ("celspan.circle{ centre = {%s, %s}, radius = %s, texture = \"#fff\" }"):format(
     text_of(own:between(0, 40)), text_of(own:between(0, 30)), text_of(own:between(2, 20)))
 end
@@ -628,9 +629,11 @@ function maker:outlined(object)
   for _, word in ipairs(without_outline) do
     if object:find(word, 1, true) then return object end
   end
-  return ("%s:outline{ width = %s, texture = %q, join = %q, opacity = %s }"):format(object,
-    text_of(self.outlines:between(0, 6)), "#e8c070",
-    self.outlines:pick { "round", "miter", "bevel" }, text_of(self.outlines:between(0.3, 1)))
+  local width, join = text_of(self.outlines:between(0, 6)),
+    self.outlines:pick { "round", "miter", "bevel" }
+  if join == "round" then self.traits.is_curved = true end -- its corners are arcs
+  return ("%s:outline{ width = %s, texture = %q, join = %q, opacity = %s }"):format(object, width,
+    "#e8c070", join, text_of(self.outlines:between(0.3, 1)))
 end
 
 --- The object, displaced, blurred in a direction, or sharpened.
