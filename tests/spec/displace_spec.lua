@@ -269,6 +269,18 @@ describe("an object that is blurred along", function()
     assert.are_same({ 10, 10, 60, 40 }, { plain:blur(12, { angle = 0, edge = "extend" }):bounds() })
   end)
 
+  it("rays is drawn up to the horizon of a perspective", function()
+    for _, way in ipairs { { 61, 28, -0.054, -0.03, -33, 93, 50 },
+      { 82, 54, -0.039, -0.022, -20, 96, 18 }, { 93, 66, -0.039, -0.008, -28, 86, 16 } } do
+      local high, radius, a, b, down, x, y = table.unpack(way)
+      local rays = celspan.rect { 0, 0, 20, high, texture = "#fff" }
+        :blur(radius, { zoom = { x, y } })
+      local seen_rays = seen(rays:transform { 1, 0, 0, 0, 1, down, a, b, 2 - 21 * a },
+        { size = { 36, 36 } })
+      assert.is_true(select(4, seen_rays:get(4, 2)) <= 1)
+    end
+  end)
+
   it("any way has the bounds of what can be seen", function()
     local square = celspan.rect { 10, 10, 20, 20 }
     local function bounds(...)

@@ -299,17 +299,36 @@ static celspan_status add_step(cs_shifted_rows *rows, const celspan_matrix *tap,
   return CELSPAN_OK;
 }
 
-/* Adds any other tap. Along a row its places lie on a line. */
+typedef struct tap_rows {
+  double low, high;
+} tap_rows;
+
+/* The least and the greatest y that a tap reads in a row. Without perspective its places lie on a
+ * line; else some may be near the horizon, beyond all others. */
+static tap_rows rows_of_tap(const celspan_matrix *tap, double first, int32_t count, double y) {
+  tap_rows found = {INFINITY, -INFINITY};
+  int32_t step = is_affine(tap->m) && count > 1 ? count - 1 : 1;
+  for (int32_t i = 0; i < count; i += step) {
+    celspan_point p = place_of(tap, first + i, y);
+    found.low = fmin(found.low, p.y);
+    found.high = fmax(found.high, p.y);
+  }
+  return found;
+}
+
+/* Adds any other tap. */
 static celspan_status add_tap(cs_shifted_rows *rows, const celspan_matrix *tap, int plane,
                               int32_t y, float (*sums)[4]) {
   const cs_shifted *map = rows->map;
-  const double first = map->columns.first + 0.5, last = map->columns.end - 0.5;
+  const double first = map->columns.first + 0.5;
   int32_t count = map->columns.end - map->columns.first;
-  celspan_point a = place_of(tap, first, y + 0.5), b = place_of(tap, last, y + 0.5);
-  CS_TRY(acquire(rows->context, &rows->from, fmin(a.y, b.y), fmax(a.y, b.y)));
+  const tap_rows seen = rows_of_tap(tap, first, count, y + 0.5);
+  CS_TRY(acquire(rows->context, &rows->from, seen.low, seen.high));
   for (int32_t i = 0; i < count; i++) {
     celspan_point p = place_of(tap, first + i, y + 0.5);
-    cs_v4_store(sums[i], cs_v4_load(sums[i]) + read_at(&rows->from, plane, p.x, p.y));
+    /* between the ends of a line, rounding may exceed both */
+    double down = cs_number_clamp(p.y, seen.low, seen.high);
+    cs_v4_store(sums[i], cs_v4_load(sums[i]) + read_at(&rows->from, plane, p.x, down));
   }
   return CELSPAN_OK;
 }
