@@ -133,7 +133,7 @@ describe("a blend mode", function()
     local rostrum = celspan.rostrum { celspan.cel { rect(0, 0, 1, 1, "#fff"):blend("screen") } }
     local stack, message = require "celspan.relight".stack(rostrum, { size = { 4, 4 } })
     assert.is_nil(stack)
-    assert.matches("a cel has a blend mode or a grade, so its lights do not add up", message)
+    assert.matches("a cel has a blend mode, a grade or grain, so its lights do not add up", message)
   end)
 
   it("of a thousand shapes over each other takes bounded memory and gives the right colour",

@@ -524,10 +524,10 @@ describe("the cels of a tree", function()
       { name = "m", w = 2, h = 2, x = 0, y = 0, pixel = flat(1, 2, 3), blend = "svg:multiply" },
       { name = "p", w = 2, h = 2, x = 0, y = 0, pixel = flat(1, 2, 3), blend = "svg:plus" },
       { name = "s", w = 2, h = 2, x = 0, y = 0, pixel = flat(1, 2, 3),
-        blend = "krita:dissolve" } } }
+        blend = "krita:hard mix" } } }
     local told = {}
     for i, one in ipairs(tree.skipped) do told[i] = one.layer .. ": " .. one.what end
-    assert.are.same({ 'g/s: blend mode "dissolve": it is shown as normal' }, told)
+    assert.are.same({ 'g/s: blend mode "hard-mix-krita": it is shown as normal' }, told)
   end)
 
   it("of Photoshop report effects that Photoshop computes", function()
