@@ -59,11 +59,17 @@ describe("Table 1", function()
   end
 
   it("divides a gradient over a gradient where their product bends", function()
-    local veil = gradient(0, 64, celspan.rgb(1, 0, 0, 0), celspan.rgb(1, 0, 0, 1))
-    local spans = row(sharp(bar(0, 64, gradient(0, 64, "#000000", "#ffffff")), bar(0, 64, veil)),
-      64)
+    local veil = gradient(0, 2048, celspan.rgb(1, 0, 0, 0), celspan.rgb(1, 0, 0, 1))
+    local spans = row(sharp(bar(0, 2048, gradient(0, 2048, "#000000", "#ffffff")),
+      bar(0, 2048, veil)), 2048)
     assert.is_true(#spans > 1)
-    for _, span in ipairs(spans) do assert.are_not.equal("array", span.kind) end
+    for _, span in ipairs(spans) do assert.equal("gradient", span.kind) end
+  end)
+
+  it("has pixels where the pieces of such a product would be short", function()
+    local veil = gradient(0, 64, celspan.rgb(1, 0, 0, 0), celspan.rgb(1, 0, 0, 1))
+    local back = bar(0, 64, gradient(0, 64, "#000000", "#ffffff"))
+    assert.equal("array", kinds(row(sharp(back, bar(0, 64, veil)), 64)))
   end)
 end)
 
