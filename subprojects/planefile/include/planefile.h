@@ -42,8 +42,10 @@ typedef void *(*planefile_resize)(void *user, void *block, size_t old_size, size
 
 #define PLANEFILE_SIDE (1 << 26)   /* of the frame, in units, across and down */
 #define PLANEFILE_FAR (1 << 28)    /* no coordinate is larger, in either direction */
+#define PLANEFILE_GRAIN 15         /* of a file, at most; see planefile_grain */
 #define PLANEFILE_WEIGHT (1 << 28) /* of a point of a plain piece */
 #define PLANEFILE_WHITE 65535      /* of a colour, and what is opaque */
+#define PLANEFILE_SHADE 17         /* colours of programs, beside cells that are codes */
 #define PLANEFILE_BRIGHT (1 << 24) /* no channel is larger, in either direction */
 
 /* From the upper left corner of the frame, downwards. */
@@ -71,6 +73,11 @@ typedef struct planefile_border {
   int32_t top, foot;
   uint32_t left, right; /* cells, which differ */
 } planefile_border;
+
+/* All coordinates are multiples of 2^x units across and of 2^y units down. */
+typedef struct planefile_grain {
+  uint8_t x, y;
+} planefile_grain;
 
 /* Linear light, premultiplied; the last channel is alpha. */
 typedef struct planefile_cell {
@@ -204,8 +211,10 @@ typedef struct planefile_writer_desc {
   void *user;
   planefile_resize resize; /* NULL: the C library's */
   void *resize_user;
-  double frames_second; /* of a film; 0: a single plane */
-  bool is_coded;        /* flat cells are rounded to 8-bit codes (planefile_round) */
+  double frames_second;  /* of a film; 0: a single plane */
+  bool is_coded;         /* flat cells are rounded to 8-bit codes (planefile_round), and
+                           the colours of programs to multiples of SHADE */
+  planefile_grain grain; /* of what is written; each at most GRAIN */
 } planefile_writer_desc;
 
 /* Writes a plane; desc and plane: borrowed. The bytes are a function of the plane alone. Curves of

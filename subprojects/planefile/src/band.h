@@ -14,10 +14,10 @@
  *
  * A band of a film may be made from a base, which is the band at the same heights of another frame:
  *
- *   patches of the base's axes | chains: new as above, or one of the base's, moved, with its
- *   borders or with others | changes
+ *   what changes of the base's axes and cells | chains: new as above, or one of the base's, moved,
+ *   with its borders or with others | changes
  *
- * The cells of the base are there from the beginning.
+ * The cells of the base are there from the beginning, and the models are as its code has left them.
  *
  * INVARIANT: encoder and decoder make their candidates by the same functions.
  */
@@ -31,6 +31,8 @@
 enum { PF_FRESH, PF_OLDER, PF_CANDIDATES, PF_SYMBOLS = 8, PF_SYMBOL_BITS = 3 };
 /* Forms of pieces: the degree, and this where they are rational. */
 enum { PF_RATIONAL = 4 };
+/* The moves of chains: the latest ones that differ, and a symbol for another one. */
+enum { PF_MOVE_BITS = 3, PF_MOVE_SYMBOLS = 1 << PF_MOVE_BITS, PF_MOVES = PF_MOVE_SYMBOLS - 1 };
 
 typedef struct pf_models {
   pf_number start[2], pieces, moves[2][3][3], weight; /* moves: axis, degree, point */
@@ -40,11 +42,18 @@ typedef struct pf_models {
   pf_number channels[2][4], slope; /* channels: of cells that are not guessed, and that are */
   pf_number older, height, size, first, next;
   uint16_t guesses[4];
-  uint16_t forms[8][8];                           /* after each */
-  uint16_t cells[14][PF_SYMBOLS];                 /* pf_context */
-  uint16_t origin[4], is_moved[2], is_patched[2]; /* of bands that are made from a base */
-  pf_number which, shift[2];
+  uint16_t forms[8][8];           /* after each */
+  uint16_t cells[14][PF_SYMBOLS]; /* pf_context */
+  /* of bands that are made from a base */
+  uint16_t origin[4], moved[PF_MOVE_SYMBOLS], is_patched[2], fates[4];
+  pf_number which, shift[2], bent[2], changed[4]; /* changed: channels of its cells */
 } pf_models;
+
+/* All that the code of a band has learned. */
+typedef struct pf_learned {
+  pf_models models;
+  pf_program_models programs;
+} pf_learned;
 
 /* A move from a point to the next one: x, y. */
 typedef struct pf_way {
@@ -127,22 +136,48 @@ typedef struct pf_band {
 /* ---------------------------------------------------------------- bases */
 
 /* Where a chain of a band with a base comes from. */
-enum { PF_NEW, PF_MOVED, PF_KEPT /* moved, with its borders */, PF_ORIGIN_BITS = 2 };
+enum {
+  PF_NEW,
+  PF_MOVED,
+  PF_KEPT, /* moved, with its borders */
+  PF_BENT, /* as many pieces of the same forms */
+  PF_ORIGIN_BITS = 2
+};
 
 typedef struct pf_move {
   int32_t x, y;
 } pf_move;
 
+/* The moves that chains had, the latest one first; all are 0, 0 at first. */
+typedef struct pf_moves {
+  pf_move latest[PF_MOVES];
+} pf_moves;
+
+/* Puts the one with a number, or, with PF_MOVES, another one first. */
+static inline void pf_moves_use(pf_moves *moves, uint32_t number, pf_move move) {
+  for (uint32_t i = number < PF_MOVES ? number : PF_MOVES - 1; i > 0; i--)
+    moves->latest[i] = moves->latest[i - 1];
+  moves->latest[0] = move;
+}
+
+/* What becomes of a cell of the base: nothing; other colours, or steps of other colours; or it is
+ * another one. */
+typedef enum pf_fate { PF_SAME, PF_RECOLOURED, PF_REPLACED, PF_FATE_BITS = 2 } pf_fate;
+
 /* A band that others are made from. */
 typedef struct pf_base {
   pf_memory memory;
   const planefile_band *band;
-  size_t code;     /* bytes */
-  uint32_t *first; /* of each chain: its first border; and the end */
+  size_t code;         /* bytes */
+  pf_learned *learned; /* by the code */
+  uint32_t *first;     /* of each chain: its first border; and the end */
 } pf_base;
 
-/* band: borrowed. out: must be freed whatever happens. False: no memory. */
-bool pf_base_make(const pf_memory *memory, const planefile_band *band, size_t code, pf_base *out);
+/* An empty base, whose `learned` can be filled by pf_band_decode. Like one that was completed, it
+ * must be freed whatever happens. False: no memory. */
+bool pf_base_begin(const pf_memory *memory, pf_base *out);
+/* band: what was decoded, borrowed. False: no memory. */
+bool pf_base_complete(const planefile_band *band, size_t code, pf_base *base);
 void pf_base_free(pf_base *base);
 /* The cells of a chain at its first border. */
 static inline pf_sides pf_base_sides(const pf_base *base, uint32_t chain) {
@@ -196,6 +231,8 @@ typedef struct pf_payload {
   const pf_codes *codes;  /* NULL: cells are not codes */
   uint32_t picture_count; /* of the file */
   const pf_base *base;    /* NULL: it has none */
+  planefile_grain grain;
+  pf_learned *learned; /* where what it teaches goes; NULL: nowhere */
 } pf_payload;
 /* Decodes a band. out: empty; must be freed whatever happens. reason: set where the status is not
  * OK. */
@@ -212,6 +249,7 @@ typedef struct pf_part {
   bool is_whole;         /* pieces of which nothing can be seen are kept, for other frames */
   const pf_base *base;   /* NULL: none */
   const pf_codes *codes; /* NULL: cells are not codes; otherwise all flat ones are rounded */
+  planefile_grain grain;
 } pf_part;
 /* The payload is in the encoder's bytes. */
 planefile_status pf_band_encode(const pf_memory *memory, const pf_part *part, pf_encoder *out);

@@ -40,7 +40,7 @@ enum {
   PF_PICTURE_BYTES = 20, /* of a picture, before its code */
   PF_RATE_BYTES = 8,
   PF_FRAME_BYTES = 8,
-  PF_VERSION = 1,
+  PF_VERSION = 2,
   PF_OPAQUE = 1,       /* flags of the header: alpha is 1 everywhere; */
   PF_VARIES = 2,       /* cells may have programs; */
   PF_FILM = 4,         /* it is a film, and the other flags are those of each frame; */

@@ -2,6 +2,12 @@
 
 enum { TRIED = 32 }; /* chains of one print, at most */
 
+/* Two cells, and how many borders are between them and others. */
+struct pf_pair {
+  uint32_t theirs, ours, count;
+  bool is_same; /* in all but where axes lie */
+};
+
 struct pf_known {
   pf_print print;
   uint32_t number; /* of a cell or a chain of the base */
@@ -162,15 +168,7 @@ static void match_cell(pf_match *m, const pf_known *known, const pf_print *print
   }
 }
 
-/* Cell 0 comes first, and of the base's equal ones it gets cell 0. */
-static void match_cells(pf_match *m, const pf_known *known, key *k) {
-  for (uint32_t i = 0; i < m->plane->cell_count && !k->failed; i++) {
-    pf_print print = print_cell(k, m->plane, i);
-    match_cell(m, known, &print, i);
-  }
-}
-
-static bool find_cells(pf_match *m, key *k) {
+static bool find_same(pf_match *m, key *k) {
   const planefile_band *band = m->base->band;
   pf_known *known = pf_make(&m->memory, sizeof *known, band->cell_count);
   if (!known)
@@ -178,25 +176,218 @@ static bool find_cells(pf_match *m, key *k) {
   for (uint32_t i = 0; i < band->cell_count && !k->failed; i++)
     known[i] = (pf_known){print_cell(k, band, i), i};
   sort_known(known, band->cell_count);
-  match_cells(m, known, k);
+  for (uint32_t i = 0; i < m->plane->cell_count && !k->failed; i++) {
+    pf_print print = print_cell(k, m->plane, i);
+    if (m->cells[i] == PF_NONE)
+      match_cell(m, known, &print, i);
+  }
   pf_free(&m->memory, known, sizeof *known, band->cell_count);
   return !k->failed;
 }
 
+/* ---------------------------------------------------------------- cells beside chains */
+
+/* Whether an axis can become another one by a patch. */
+static bool can_become(const planefile_axis *from, const planefile_axis *to) {
+  return from->kind == to->kind && from->wrap == to->wrap && from->filter == to->filter &&
+         from->picture == to->picture && from->focus == to->focus &&
+         memcmp(from->p, to->p, 2 * sizeof *to->p) == 0 &&
+         memcmp(from->q, to->q, 2 * sizeof *to->q) == 0 &&
+         memcmp(from->w, to->w, 2 * sizeof *to->w) == 0 &&
+         pf_axis_is_affine(from) == pf_axis_is_affine(to);
+}
+
+/* Whether steps differ in colours alone. */
+static bool are_alike(const pf_match *m, const planefile_step *a, const planefile_step *b) {
+  if (a->kind != b->kind || a->how != b->how || a->kind != PLANEFILE_RAMP)
+    return a->kind == b->kind && a->how == b->how;
+  bool is_good = a->stop_count == b->stop_count && can_be_axis(m, a->axis, b->axis) &&
+                 can_become(&m->base->band->axes[a->axis], &m->plane->axes[b->axis]);
+  for (uint32_t i = 0; is_good && i < a->stop_count; i++)
+    is_good = m->base->band->stops[a->stop + i].at == m->plane->stops[b->stop + i].at;
+  return is_good;
+}
+
+/* Whether the program of one cell becomes that of another one when its colours change. */
+static bool can_recolour(const pf_match *m, uint32_t theirs, uint32_t ours) {
+  planefile_program a = program_of(m->base->band, theirs), b = program_of(m->plane, ours);
+  bool is_good = a.step_count == b.step_count;
+  for (uint32_t i = 0; is_good && i < a.step_count; i++)
+    is_good = are_alike(m, &m->base->band->steps[a.step + i], &m->plane->steps[b.step + i]);
+  return is_good;
+}
+
+static bool is_same_colour(const planefile_cell *a, const planefile_cell *b) {
+  return memcmp(a, b, sizeof *a) == 0;
+}
+
+/* Whether steps that are alike have the same colours. */
+static bool are_same(const pf_match *m, const planefile_step *a, const planefile_step *b) {
+  bool is_same = a->kind == PLANEFILE_RAMP || is_same_colour(&a->colour, &b->colour);
+  for (uint32_t i = 0; a->kind == PLANEFILE_RAMP && is_same && i < a->stop_count; i++)
+    is_same = is_same_colour(&m->base->band->stops[a->stop + i].colour,
+                             &m->plane->stops[b->stop + i].colour);
+  return is_same;
+}
+
+/* Of cells, one of which can be the other one with other colours. */
+static bool have_same_colours(const pf_match *m, uint32_t theirs, uint32_t ours) {
+  planefile_program a = program_of(m->base->band, theirs), b = program_of(m->plane, ours);
+  bool is_same = is_same_colour(&m->base->band->cells[theirs], &m->plane->cells[ours]);
+  for (uint32_t i = 0; is_same && i < a.step_count; i++)
+    is_same = are_same(m, &m->base->band->steps[a.step + i], &m->plane->steps[b.step + i]);
+  return is_same;
+}
+
+pf_fate pf_match_fate(const pf_match *m, uint32_t theirs) {
+  uint32_t ours = m->plane_cells[theirs];
+  if (ours == PF_NONE)
+    return PF_SAME;
+  if (!can_recolour(m, theirs, ours))
+    return PF_REPLACED;
+  return have_same_colours(m, theirs, ours) ? PF_SAME : PF_RECOLOURED;
+}
+
+bool pf_match_note(pf_match *m, uint32_t theirs, uint32_t ours) {
+  pf_pair *pairs =
+      pf_grow(&m->memory, m->pairs, sizeof *pairs, &m->pair_capacity, m->pair_count + 1);
+  if (!pairs)
+    return false;
+  m->pairs = pairs;
+  pairs[m->pair_count++] = (pf_pair){theirs, ours, 1, false};
+  return true;
+}
+
+static int order_of(uint32_t a, uint32_t b) { return (a > b) - (a < b); }
+
+static int compare_pairs(const void *first, const void *second) {
+  const pf_pair *a = first, *b = second;
+  int by_theirs = order_of(a->theirs, b->theirs);
+  return by_theirs ? by_theirs : order_of(a->ours, b->ours);
+}
+
+/* Those that are the same come first, then those that are noted most. */
+static int compare_worth(const void *first, const void *second) {
+  const pf_pair *a = first, *b = second;
+  if (a->is_same != b->is_same)
+    return a->is_same ? -1 : 1;
+  return a->count != b->count ? order_of(b->count, a->count) : compare_pairs(a, b);
+}
+
+/* Leaves each pair once. */
+static void join_pairs(pf_match *m) {
+  size_t count = 0;
+  for (size_t i = 0; i < m->pair_count; i++)
+    if (count > 0 && compare_pairs(&m->pairs[count - 1], &m->pairs[i]) == 0)
+      m->pairs[count - 1].count++;
+    else
+      m->pairs[count++] = m->pairs[i];
+  m->pair_count = count;
+}
+
+/* Pairs cells, and their axes where one becomes the other by that. */
+static void pair_noted(pf_match *m, const pf_pair *pair) {
+  if (m->plane_cells[pair->theirs] != PF_NONE || m->cells[pair->ours] != PF_NONE)
+    return;
+  if (can_recolour(m, pair->theirs, pair->ours))
+    pair_cells(m, pair->theirs, pair->ours);
+  m->cells[pair->ours] = pair->theirs;
+  m->plane_cells[pair->theirs] = pair->ours;
+}
+
+bool pf_match_cells(pf_match *m) {
+  key k = {.memory = &m->memory};
+  m->cells[0] = m->plane_cells[0] = 0;
+  if (m->pair_count > 0)
+    qsort(m->pairs, m->pair_count, sizeof *m->pairs, compare_pairs);
+  join_pairs(m);
+  for (size_t i = 0; i < m->pair_count; i++) {
+    pf_pair *pair = &m->pairs[i];
+    pair->is_same =
+        can_recolour(m, pair->theirs, pair->ours) && have_same_colours(m, pair->theirs, pair->ours);
+  }
+  if (m->pair_count > 0)
+    qsort(m->pairs, m->pair_count, sizeof *m->pairs, compare_worth);
+  for (size_t i = 0; i < m->pair_count; i++)
+    pair_noted(m, &m->pairs[i]);
+  bool is_done = find_same(m, &k);
+  pf_free(&m->memory, k.bytes, 1, k.capacity);
+  return is_done;
+}
+
 /* ---------------------------------------------------------------- chains */
+
+/* The forms of the pieces of a chain, with their weights. */
+static pf_print print_forms(key *k, const planefile_band *band, uint32_t piece, uint32_t end) {
+  for (uint32_t i = piece; i < end; i++) {
+    const planefile_piece *of = &band->pieces[i];
+    add_number(k, of->degree | (of->is_rational ? PF_RATIONAL : 0));
+    for (uint32_t at = of->point; of->is_rational && at <= of->point + of->degree; at++)
+      add_number(k, band->points[at].w);
+  }
+  return take_print(k);
+}
 
 static bool find_chains(pf_match *m, key *k) {
   const planefile_band *band = m->base->band;
   m->chains = pf_make(&m->memory, sizeof *m->chains, band->chain_count);
-  for (uint32_t i = 0; m->chains && i < band->chain_count && !k->failed; i++) {
-    const planefile_chain *chain = &band->chains[i];
-    pf_print print = print_chain(k, band, chain->piece, chain->piece + chain->piece_count);
-    m->chains[i] = (pf_known){print, i};
+  m->forms = pf_make(&m->memory, sizeof *m->forms, band->chain_count);
+  for (uint32_t i = 0; m->chains && m->forms && i < band->chain_count && !k->failed; i++) {
+    uint32_t piece = band->chains[i].piece, end = piece + band->chains[i].piece_count;
+    m->chains[i] = (pf_known){print_chain(k, band, piece, end), i};
+    m->forms[i] = (pf_known){print_forms(k, band, piece, end), i};
   }
-  if (!m->chains || k->failed)
+  if (!m->chains || !m->forms || k->failed)
     return false;
   sort_known(m->chains, band->chain_count);
+  sort_known(m->forms, band->chain_count);
   return true;
+}
+
+/* About the bits of a number. */
+static uint32_t bits_of(int64_t number) {
+  return 2 + pf_class_of((uint32_t)(number < 0 ? -number : number));
+}
+
+/* About the bits of the moves of some pieces, as they are, or from those of a chain of the base. */
+static uint32_t price(const pf_match *m, uint32_t piece, uint32_t end, planefile_grain grain,
+                      const planefile_chain *from) {
+  const planefile_band *plane = m->plane, *base = m->base->band;
+  uint32_t bits = 0;
+  for (uint32_t i = piece; i < end; i++) {
+    const planefile_point *to = &plane->points[plane->pieces[i].point], *old = NULL;
+    if (from)
+      old = &base->points[base->pieces[from->piece + i - piece].point];
+    for (int k = 0; k < plane->pieces[i].degree; k++) {
+      int64_t x = (int64_t)to[k + 1].x - to[k].x - (old ? (int64_t)old[k + 1].x - old[k].x : 0);
+      int64_t y = (int64_t)to[k + 1].y - to[k].y - (old ? (int64_t)old[k + 1].y - old[k].y : 0);
+      bits += bits_of(x / (1 << grain.x)) + bits_of(y / (1 << grain.y));
+    }
+  }
+  return bits;
+}
+
+bool pf_match_bent(const pf_match *m, uint32_t piece, uint32_t end, planefile_grain grain,
+                   const pf_link *latest, pf_link *out) {
+  enum { TRIED_FORMS = 256, WORTH = 16 }; /* bits */
+  key k = {.memory = &m->memory};
+  pf_print print = print_forms(&k, m->plane, piece, end);
+  pf_free(&m->memory, k.bytes, 1, k.capacity);
+  uint32_t count = m->base->band->chain_count, at = find_known(m->forms, count, &print);
+  uint32_t least = price(m, piece, end, grain, NULL);
+  least = least > WORTH ? least - WORTH : 0;
+  for (uint32_t i = at; i < count && i - at < TRIED_FORMS && !k.failed; i++) {
+    if (compare_prints(&m->forms[i].print, &print) != 0)
+      break;
+    uint32_t number = m->forms[i].number;
+    uint32_t bits = price(m, piece, end, grain, &m->base->band->chains[number]) +
+                    bits_of((int64_t)number - latest->chain);
+    if (bits >= least)
+      continue;
+    least = bits;
+    *out = (pf_link){PF_BENT, number, {0, 0}};
+  }
+  return !k.failed;
 }
 
 static pf_move find_move(const pf_match *m, uint32_t chain, const planefile_point *to) {
@@ -255,8 +446,8 @@ bool pf_match_make(const pf_memory *memory, const planefile_band *plane, const p
   out->plane_cells = make_empty(memory, base->band->cell_count);
   out->plane_axes = make_empty(memory, base->band->axis_count);
   key k = {.memory = &out->memory};
-  bool is_made = out->cells && out->axes && out->plane_cells && out->plane_axes &&
-                 find_cells(out, &k) && find_chains(out, &k);
+  bool is_made =
+      out->cells && out->axes && out->plane_cells && out->plane_axes && find_chains(out, &k);
   pf_free(memory, k.bytes, 1, k.capacity);
   return is_made;
 }
@@ -270,4 +461,6 @@ void pf_match_free(pf_match *m) {
   pf_free(&m->memory, m->plane_cells, sizeof *m->plane_cells, band->cell_count);
   pf_free(&m->memory, m->plane_axes, sizeof *m->plane_axes, band->axis_count);
   pf_free(&m->memory, m->chains, sizeof *m->chains, band->chain_count);
+  pf_free(&m->memory, m->forms, sizeof *m->forms, band->chain_count);
+  pf_free(&m->memory, m->pairs, sizeof *m->pairs, m->pair_capacity);
 }

@@ -1,7 +1,8 @@
 /* What a frame of a film has in common with a band of another one.
  *
- *   cells    the same colour; or the same program, with axes that have only been moved
  *   chains   the same pieces, moved
+ *   cells    those beside such chains; or the same colour, or the same program, with axes that have
+ *            only been moved
  *
  * INVARIANT: a cell of the base stands for one cell of the plane, and an axis for one axis.
  */
@@ -14,6 +15,7 @@
 #define PF_NONE UINT32_MAX
 
 typedef struct pf_known pf_known;
+typedef struct pf_pair pf_pair;
 
 typedef struct pf_match {
   pf_memory memory;
@@ -24,9 +26,13 @@ typedef struct pf_match {
   uint32_t *plane_cells; /* of each of the base: that of the plane, or NONE */
   uint32_t *plane_axes;
   pf_known *chains; /* of the base, by their prints */
+  pf_known *forms;  /* of the base, by the prints of their forms */
+  pf_pair *pairs;   /* what borders say of cells */
+  size_t pair_count, pair_capacity;
 } pf_match;
 
-/* plane, base: borrowed. out: must be freed whatever happens. False: no memory. */
+/* Finds what chains can be found by. plane, base: borrowed. out: must be freed whatever happens.
+ * False: no memory. */
 bool pf_match_make(const pf_memory *memory, const planefile_band *plane, const pf_base *base,
                    pf_match *out);
 void pf_match_free(pf_match *match);
@@ -42,5 +48,19 @@ typedef struct pf_link {
  * else one after it. False: no memory. */
 bool pf_match_chain(const pf_match *match, uint32_t piece, uint32_t end, const pf_link *latest,
                     pf_link *out);
+
+/* Finds a chain whose pieces have the forms of [piece, end), with the most similar moves, if that
+ * is worth it. *out: changed only then. False: no memory. */
+bool pf_match_bent(const pf_match *match, uint32_t piece, uint32_t end, planefile_grain grain,
+                   const pf_link *latest, pf_link *out);
+
+/* Notes that two cells, of the base and of the plane, are beside one chain. False: no memory. */
+bool pf_match_note(pf_match *match, uint32_t theirs, uint32_t ours);
+
+/* Finds the cells, after all notes. False: no memory. */
+bool pf_match_cells(pf_match *match);
+
+/* What becomes of a cell of the base. */
+pf_fate pf_match_fate(const pf_match *match, uint32_t theirs);
 
 #endif

@@ -38,6 +38,7 @@ typedef struct packer {
   int32_t top, foot;
   pf_match match; /* with the base, if there is one */
   pf_link latest; /* of the latest chain that has one */
+  pf_moves moves; /* that were coded */
   planefile_border *borders;
   shown *chains;
   change *changes;
@@ -46,7 +47,7 @@ typedef struct packer {
   uint32_t piece_count, cell_count;
   uint32_t fresh[2 * PF_GROUP], fresh_count; /* cells that are new in the current group */
   uint32_t form;
-  pf_way way;            /* the latest move of the chain */
+  pf_way way;            /* the latest move of the chain, in grains */
   planefile_cell colour; /* of the latest cell */
   pf_models models;
   pf_program_coding *programs; /* NULL: nothing varies */
@@ -118,6 +119,23 @@ static void trim(const packer *p, shown *c) {
   c->end_at = *last;
 }
 
+/* Goes on to the first piece that is needed; returns where the ones before it end, or NULL. */
+static const planefile_point *pass_hidden(const packer *p, const shown *c, uint32_t *piece,
+                                          uint32_t *border) {
+  const planefile_point *end = NULL;
+  for (; !c->is_whole && !is_needed(p, c, *piece, border); ++*piece)
+    end = last_of(p, *piece);
+  return end;
+}
+
+/* How many pieces a chain has, of which some stand for several ones that are hidden. */
+static uint32_t count_pieces(const packer *p, const shown *c) {
+  uint32_t count = 0, border = 0;
+  for (uint32_t i = c->piece; i < c->end; count++)
+    i += pass_hidden(p, c, &i, &border) == NULL;
+  return count;
+}
+
 /* Finds what a chain has in common with one of the base, to which all of its pieces count. */
 static bool link_chain(packer *p, shown *c) {
   c->is_whole = true;
@@ -126,13 +144,14 @@ static bool link_chain(packer *p, shown *c) {
     return true;
   if (!pf_match_chain(&p->match, c->piece, c->end, &p->latest, &c->link))
     return false;
-  if (c->link.origin == PF_NEW) {
-    c->is_whole = false;
-    trim(p, c);
-  } else {
+  if (c->link.origin != PF_NEW) {
     p->latest = c->link;
+    return true;
   }
-  return true;
+  c->is_whole = false;
+  trim(p, c);
+  return count_pieces(p, c) < c->end - c->piece ||
+         pf_match_bent(&p->match, c->piece, c->end, p->part->grain, &p->latest, &c->link);
 }
 
 /* Clips the borders to the band and finds its chains. */
@@ -161,6 +180,36 @@ static bool find_chains(packer *p, const planefile_border *borders, size_t count
       return false;
   qsort(p->chains, p->chain_count, sizeof *p->chains, compare_chains);
   return true;
+}
+
+static bool is_moved(const pf_link *link) {
+  return link->origin == PF_MOVED || link->origin == PF_KEPT;
+}
+
+/* Notes which cells are where those of a chain of the base are. */
+static bool note_cells(packer *p, const shown *c) {
+  const pf_base *base = p->part->base;
+  const planefile_band heights = {.top = p->top, .foot = p->foot};
+  planefile_border moved;
+  bool is_done = true;
+  for (uint32_t i = base->first[c->link.chain], k = 0; i < base->first[c->link.chain + 1]; i++) {
+    if (!pf_move_border(&base->band->borders[i], c->link.move.y, &heights, &moved))
+      continue;
+    while (k < c->count && c->borders[k].foot <= moved.top)
+      k++;
+    for (; k < c->count && c->borders[k].top < moved.foot; k++)
+      is_done = is_done && pf_match_note(&p->match, moved.left, c->borders[k].left) &&
+                pf_match_note(&p->match, moved.right, c->borders[k].right);
+    k -= k > 0 && c->borders[k - 1].foot > moved.foot;
+  }
+  return is_done;
+}
+
+static bool match_cells(packer *p) {
+  for (size_t i = 0; i < p->chain_count; i++)
+    if (is_moved(&p->chains[i].link) && !note_cells(p, &p->chains[i]))
+      return false;
+  return pf_match_cells(&p->match);
 }
 
 /* Whether a chain's borders are those of the base, moved. */
@@ -296,6 +345,20 @@ static bool put_origin(packer *p, const group *g, uint32_t cell, planefile_cell 
   return best > 0;
 }
 
+/* The channels of a cell, or their codes, by how much they differ from those of another one. */
+static void put_channels(packer *p, pf_number numbers[4], const planefile_cell *origin,
+                         const planefile_cell *cell) {
+  int32_t from[4], to[4];
+  memcpy(from, origin->colour, sizeof from);
+  memcpy(to, cell->colour, sizeof to);
+  if (p->part->codes) {
+    pf_codes_of(p->part->codes, origin, from);
+    pf_codes_of(p->part->codes, cell, to);
+  }
+  for (int c = 0; c < 4; c++)
+    pf_put_signed(p->out, &numbers[c], (int64_t)to[c] - from[c]);
+}
+
 static void put_content(packer *p, const group *g, uint32_t cell) {
   const planefile_cell *of = &p->plane->cells[cell];
   planefile_cell origin;
@@ -307,15 +370,7 @@ static void put_content(packer *p, const group *g, uint32_t cell) {
     }
   }
   bool guessed = put_origin(p, g, cell, &origin);
-  int32_t from[4], to[4];
-  memcpy(from, origin.colour, sizeof from);
-  memcpy(to, of->colour, sizeof to);
-  if (p->part->codes) {
-    pf_codes_of(p->part->codes, &origin, from);
-    pf_codes_of(p->part->codes, of, to);
-  }
-  for (int c = 0; c < 4; c++)
-    pf_put_signed(p->out, &p->models.channels[guessed][c], (int64_t)to[c] - from[c]);
+  put_channels(p, p->models.channels[guessed], &origin, of);
   p->colour = *of;
 }
 
@@ -370,8 +425,16 @@ static void put_smooth(packer *p, const pf_way *way) {
   pf_put_signed(p->out, &p->models.aside, way->by[!axis] - pf_go_on(&p->way, axis, along));
 }
 
+/* Differences of places, in grains: across, and down. */
+static int64_t across(const packer *p, int32_t to, int32_t from) {
+  return ((int64_t)to - from) / (INT32_C(1) << p->part->grain.x);
+}
+static int64_t down(const packer *p, int32_t to, int32_t from) {
+  return ((int64_t)to - from) / (INT32_C(1) << p->part->grain.y);
+}
+
 static void put_move(packer *p, int degree, int point, planefile_point from, planefile_point to) {
-  const pf_way way = {{(int64_t)to.x - from.x, (int64_t)to.y - from.y}};
+  const pf_way way = {{across(p, to.x, from.x), down(p, to.y, from.y)}};
   bool may_be = point == 0 && pf_leads_on(&p->way), is = may_be && is_smooth(p, &way);
   if (may_be)
     pf_put_symbol(p->out, p->models.is_smooth, 1, is);
@@ -403,23 +466,20 @@ static void put_piece(packer *p, uint32_t piece, bool is_known) {
   }
 }
 
-/* The pieces of a chain, or, with put false, how many there are. is_known: where it ends is. */
-static uint32_t walk_pieces(packer *p, const shown *c, bool put, bool is_known) {
-  uint32_t count = 0, border = 0;
+/* is_known: where the chain ends is. */
+static void put_pieces(packer *p, const shown *c, bool is_known) {
+  uint32_t border = 0;
   p->way = (pf_way){{0, 0}};
-  for (uint32_t i = c->piece; i < c->end; count++) {
-    const planefile_point *from = first_of(p, i), *to = NULL;
-    for (; !c->is_whole && !is_needed(p, c, i, &border); i++)
-      to = last_of(p, i);
-    if (put && to) {
+  for (uint32_t i = c->piece; i < c->end;) {
+    const planefile_point *from = first_of(p, i), *to = pass_hidden(p, c, &i, &border);
+    if (to) {
       put_form(p, 1);
       put_move(p, 1, 0, *from, *to);
-    } else if (put) {
+    } else {
       put_piece(p, i, is_known && i + 1 == c->end);
+      i++;
     }
-    i += to == NULL;
   }
-  return count;
 }
 
 /* The cells at the top of a chain. own: what it had in the base. */
@@ -446,38 +506,85 @@ static uint32_t find_joint(const packer *p, size_t index, bool is_foot) {
   return 0;
 }
 
+/* What a cell of the base is in the plane. */
+static uint32_t plane_cell(const packer *p, uint32_t cell) { return p->match.plane_cells[cell]; }
+
+/* Where a chain begins and, if another one ends there, where it ends; between them is what is put
+ * there by the caller. */
+static void put_start(packer *p, size_t index, const planefile_point *from) {
+  const shown *c = &p->chains[index];
+  uint32_t top = find_joint(p, index, false);
+  pf_put_number(p->out, &p->models.from_top, top);
+  if (top > 0)
+    return;
+  pf_put_signed(p->out, &p->models.start[0], across(p, c->start.x, from->x));
+  pf_put_signed(p->out, &p->models.start[1], down(p, c->start.y, from->y));
+}
+
 static void put_new_chain(packer *p, size_t index, const planefile_point *from) {
   const shown *c = &p->chains[index];
-  uint32_t pieces = walk_pieces(p, c, false, false);
-  uint32_t top = find_joint(p, index, false), foot = find_joint(p, index, true);
-  pf_put_number(p->out, &p->models.from_top, top);
-  if (top == 0) {
-    pf_put_signed(p->out, &p->models.start[0], (int64_t)c->start.x - from->x);
-    pf_put_signed(p->out, &p->models.start[1], (int64_t)c->start.y - from->y);
-  }
+  uint32_t pieces = count_pieces(p, c), foot = find_joint(p, index, true);
+  put_start(p, index, from);
   pf_put_number(p->out, &p->models.pieces, pieces - 1);
   pf_put_number(p->out, &p->models.to_foot, foot);
   put_top(p, index, (pf_sides){0, 0});
-  walk_pieces(p, c, true, foot > 0);
+  put_pieces(p, c, foot > 0);
   p->piece_count += pieces;
 }
 
-/* What a cell of the base is in the plane. */
-static uint32_t plane_cell(const packer *p, uint32_t cell) { return p->match.plane_cells[cell]; }
+/* The moves of a piece, by how much they differ from those of one of the base. */
+static void put_bent_piece(packer *p, uint32_t piece, uint32_t old, bool is_known) {
+  const planefile_band *base = p->part->base->band;
+  const planefile_point *to = &p->plane->points[p->plane->pieces[piece].point];
+  const planefile_point *from = &base->points[base->pieces[old].point];
+  for (int i = 0; i + is_known < p->plane->pieces[piece].degree; i++) {
+    pf_put_signed(p->out, &p->models.bent[0],
+                  across(p, to[i + 1].x, to[i].x) - across(p, from[i + 1].x, from[i].x));
+    pf_put_signed(p->out, &p->models.bent[1],
+                  down(p, to[i + 1].y, to[i].y) - down(p, from[i + 1].y, from[i].y));
+  }
+}
+
+static void put_which(packer *p, const pf_link *link) {
+  pf_put_signed(p->out, &p->models.which, (int64_t)link->chain - p->latest.chain);
+  p->latest = *link;
+  p->latest.chain++;
+}
+
+static void put_bent_chain(packer *p, size_t index, const planefile_point *from) {
+  const shown *c = &p->chains[index];
+  uint32_t first = p->part->base->band->chains[c->link.chain].piece;
+  uint32_t foot = find_joint(p, index, true);
+  pf_sides own = pf_base_sides(p->part->base, c->link.chain);
+  put_which(p, &c->link);
+  put_start(p, index, from);
+  pf_put_number(p->out, &p->models.to_foot, foot);
+  put_top(p, index, (pf_sides){plane_cell(p, own.left), plane_cell(p, own.right)});
+  for (uint32_t i = c->piece; i < c->end; i++)
+    put_bent_piece(p, i, first + i - c->piece, foot > 0 && i + 1 == c->end);
+  p->piece_count += c->end - c->piece;
+}
+
+static bool is_same_move(pf_move a, pf_move b) { return a.x == b.x && a.y == b.y; }
+
+static void put_shift(packer *p, pf_move move) {
+  const pf_move *latest = p->moves.latest;
+  uint32_t number = 0;
+  while (number < PF_MOVES && !is_same_move(latest[number], move))
+    number++;
+  pf_put_symbol(p->out, p->models.moved, PF_MOVE_BITS, number);
+  if (number == PF_MOVES) {
+    pf_put_signed(p->out, &p->models.shift[0], across(p, move.x, latest->x));
+    pf_put_signed(p->out, &p->models.shift[1], down(p, move.y, latest->y));
+  }
+  pf_moves_use(&p->moves, number, move);
+}
 
 static void put_old_chain(packer *p, size_t index) {
   const shown *c = &p->chains[index];
   const pf_link *link = &c->link;
-  pf_move from = p->latest.move;
-  bool is_moved = link->move.x != from.x || link->move.y != from.y;
-  pf_put_signed(p->out, &p->models.which, (int64_t)link->chain - p->latest.chain);
-  pf_put_symbol(p->out, p->models.is_moved, 1, is_moved);
-  if (is_moved) {
-    pf_put_signed(p->out, &p->models.shift[0], (int64_t)link->move.x - from.x);
-    pf_put_signed(p->out, &p->models.shift[1], (int64_t)link->move.y - from.y);
-  }
-  p->latest = *link;
-  p->latest.chain++;
+  put_which(p, link);
+  put_shift(p, link->move);
   p->piece_count += c->end - c->piece;
   if (link->origin == PF_KEPT)
     return;
@@ -494,6 +601,8 @@ static void put_chains(packer *p) {
       pf_put_symbol(p->out, p->models.origin, PF_ORIGIN_BITS, origin);
     if (origin == PF_NEW)
       put_new_chain(p, i, &from);
+    else if (origin == PF_BENT)
+      put_bent_chain(p, i, &from);
     else
       put_old_chain(p, i);
     from = p->chains[i].start;
@@ -547,7 +656,7 @@ static void put_changes(packer *p) {
     size_t size = group_size(p, i);
     if (size == 2)
       order_pair(p, changes);
-    pf_put_number(p->out, &p->models.height, (uint32_t)(changes->height - height));
+    pf_put_number(p->out, &p->models.height, (uint32_t)down(p, changes->height, height));
     pf_put_number(p->out, &p->models.size, (uint32_t)size - 1);
     put_group(p, changes, (uint32_t)size, first, &latest);
     height = changes->height;
@@ -606,7 +715,7 @@ static bool make_programs(packer *p) {
   p->programs = pf_make(p->memory, sizeof *p->programs, 1);
   if (!p->programs)
     return false;
-  pf_models_begin(&p->programs->models, sizeof p->programs->models);
+  p->programs->shade = p->part->codes ? PLANEFILE_SHADE : 1;
   p->programs->axes = pf_make(p->memory, sizeof *p->programs->axes, p->plane->axis_count);
   return p->programs->axes != NULL;
 }
@@ -646,6 +755,22 @@ static void put_patches(packer *p) {
   }
 }
 
+/* What a cell of the base becomes. */
+static void put_fate(packer *p, uint32_t theirs) {
+  const planefile_band *band = p->part->base->band;
+  const group none = {0};
+  pf_fate fate = pf_match_fate(&p->match, theirs);
+  uint32_t ours = plane_cell(p, theirs);
+  pf_put_symbol(p->out, p->models.fates, PF_FATE_BITS, fate);
+  if (fate == PF_REPLACED)
+    put_content(p, &none, ours);
+  else if (fate == PF_RECOLOURED && flat_cell(p, ours))
+    put_channels(p, p->models.changed, &band->cells[theirs], &p->plane->cells[ours]);
+  else if (fate == PF_RECOLOURED)
+    pf_put_recoloured(p->out, p->programs, band, band->programs[theirs], p->plane,
+                      p->plane->programs[ours]);
+}
+
 static void put_beginning(packer *p) {
   if (!p->part->base) {
     const group none = {0};
@@ -655,6 +780,20 @@ static void put_beginning(packer *p) {
   }
   take_base(p);
   put_patches(p);
+  for (uint32_t i = 0; i < p->part->base->band->cell_count; i++)
+    put_fate(p, i);
+}
+
+static void begin_models(packer *p) {
+  const pf_learned *learned = p->part->base ? p->part->base->learned : NULL;
+  if (learned)
+    p->models = learned->models;
+  else
+    pf_models_begin(&p->models, sizeof p->models);
+  if (p->programs && learned)
+    p->programs->models = learned->programs;
+  else if (p->programs)
+    pf_models_begin(&p->programs->models, sizeof p->programs->models);
 }
 
 static bool make_room(packer *p) {
@@ -665,14 +804,15 @@ static bool make_room(packer *p) {
 }
 
 static bool pack(packer *p) {
-  if (!make_room(p) || !find_chains(p, p->part->borders, p->part->count))
+  if (!make_room(p) || !find_chains(p, p->part->borders, p->part->count) ||
+      (p->part->base && !match_cells(p)))
     return false;
   for (size_t i = 0; i < p->chain_count; i++)
     if (!find_changes(p, i))
       return false;
   if (p->change_count > 0)
     qsort(p->changes, p->change_count, sizeof *p->changes, compare_changes);
-  pf_models_begin(&p->models, sizeof p->models);
+  begin_models(p);
   put_beginning(p);
   put_chains(p);
   put_changes(p);

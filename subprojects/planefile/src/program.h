@@ -19,11 +19,13 @@ typedef struct pf_program_models {
   uint16_t varies[2], kinds[4], hows[16], axis_kinds[4], is_wide[2], wraps[4], filters[4];
   uint16_t axis_bytes[8][256], stop_bytes[8][256]; /* trees */
   pf_number steps, axes, stops, pictures, flat[4], stop[4], factor[4];
+  pf_number recoloured[3][4]; /* of programs of a base: flat layers, stops, factors */
 } pf_program_models;
 
 /* What the code of the programs of a band depends on. */
 typedef struct pf_program_coding {
   pf_program_models models;
+  int32_t shade;         /* of which colours are multiples */
   planefile_cell colour; /* of the latest stop */
   uint32_t *axes;        /* encoding: of each axis of the plane its number plus 1; 0: none yet */
   uint32_t step_count, axis_count, stop_count; /* so far */
@@ -48,6 +50,15 @@ const char *pf_get_program(pf_decoder *decoder, pf_program_coding *coding,
 /* The last numbers of an axis: those that change when it is moved. False: it is not allowed. */
 void pf_put_patch(pf_encoder *encoder, pf_program_coding *coding, const planefile_axis *axis);
 bool pf_get_patch(pf_decoder *decoder, pf_program_coding *coding, planefile_axis *axis);
+
+/* The colours of the steps and stops of a program, by how much they differ from those of another
+ * one of the same form, `of` in `from`; decoding changes its own. */
+void pf_put_recoloured(pf_encoder *encoder, pf_program_coding *coding, const planefile_band *from,
+                       planefile_program of, const planefile_band *plane,
+                       planefile_program program);
+/* Returns why it is refused, or NULL. */
+const char *pf_get_recoloured(pf_decoder *decoder, pf_program_coding *coding,
+                              const pf_program_room *room, planefile_program program);
 
 /* Whether a program is as planefile.h says; and whether nothing shines through it anywhere. */
 bool pf_program_is_good(const planefile_band *band, planefile_program program);

@@ -30,17 +30,20 @@ static void get_plane(pf_decoder *decoder, pf_program_models *models, double pla
 }
 
 /* A colour by its differences from another one. */
-static void put_colour(pf_encoder *encoder, pf_number models[4], const planefile_cell *from,
-                       const planefile_cell *colour) {
-  for (int c = 0; c < 4; c++)
-    pf_put_signed(encoder, &models[c], (int64_t)colour->colour[c] - from->colour[c]);
+static void put_colour(pf_encoder *encoder, const pf_program_coding *coding, pf_number models[4],
+                       const planefile_cell *from, const planefile_cell *colour) {
+  for (int c = 0; c < 4; c++) {
+    int64_t way = (int64_t)colour->colour[c] - from->colour[c];
+    pf_put_signed(encoder, &models[c], way / coding->shade);
+  }
 }
 
-static bool get_colour(pf_decoder *decoder, pf_number models[4], const planefile_cell *from,
-                       planefile_cell *out) {
+static bool get_colour(pf_decoder *decoder, const pf_program_coding *coding, pf_number models[4],
+                       const planefile_cell *from, planefile_cell *out) {
   bool is_good = true;
   for (int c = 0; c < 4; c++) {
-    int64_t channel = from->colour[c] + pf_get_signed(decoder, &models[c]);
+    int64_t way = pf_get_signed(decoder, &models[c]) * coding->shade;
+    int64_t channel = from->colour[c] + way;
     is_good = is_good && channel >= -PLANEFILE_BRIGHT && channel <= PLANEFILE_BRIGHT;
     out->colour[c] = is_good ? (int32_t)channel : 0;
   }
@@ -132,7 +135,7 @@ static void put_ramp(pf_encoder *encoder, pf_program_coding *coding, const plane
   for (uint32_t i = 0; i < step->stop_count; i++) {
     const planefile_stop *stop = &plane->stops[step->stop + i];
     put_double(encoder, models->stop_bytes, stop->at);
-    put_colour(encoder, models->stop, &coding->colour, &stop->colour);
+    put_colour(encoder, coding, models->stop, &coding->colour, &stop->colour);
     coding->colour = stop->colour;
   }
   coding->stop_count += step->stop_count;
@@ -148,7 +151,7 @@ static const char *get_stops(pf_decoder *decoder, pf_program_coding *coding,
   for (uint32_t i = 0; i <= more; i++) {
     planefile_stop *stop = &room->stops[coding->stop_count++];
     stop->at = get_double(decoder, coding->models.stop_bytes);
-    if (!get_colour(decoder, coding->models.stop, &coding->colour, &stop->colour))
+    if (!get_colour(decoder, coding, coding->models.stop, &coding->colour, &stop->colour))
       return "a stop is too bright";
     if (!isfinite(stop->at) || (i > 0 && stop->at < stop[-1].at))
       return "its stops are not in order";
@@ -187,7 +190,7 @@ static void put_step(pf_encoder *encoder, pf_program_coding *coding, const plane
   if (step->kind == PLANEFILE_LEAVE)
     pf_put_symbol(encoder, models->hows, 4, step->how);
   if (step->kind == PLANEFILE_FLAT || step->kind == PLANEFILE_LEAVE)
-    put_colour(encoder, step->kind == PLANEFILE_FLAT ? models->flat : models->factor, &from,
+    put_colour(encoder, coding, step->kind == PLANEFILE_FLAT ? models->flat : models->factor, &from,
                &step->colour);
 }
 
@@ -203,7 +206,7 @@ static const char *get_step(pf_decoder *decoder, pf_program_coding *coding,
     return NULL;
   if (kind == PLANEFILE_LEAVE)
     out->how = (uint8_t)pf_get_symbol(decoder, models->hows, 4);
-  return get_colour(decoder, kind == PLANEFILE_FLAT ? models->flat : models->factor, &from,
+  return get_colour(decoder, coding, kind == PLANEFILE_FLAT ? models->flat : models->factor, &from,
                     &out->colour)
              ? NULL
              : "a layer is too bright";
@@ -215,6 +218,19 @@ void pf_put_program(pf_encoder *encoder, pf_program_coding *coding, const planef
   for (uint32_t i = 0; i < program.step_count; i++)
     put_step(encoder, coding, plane, &plane->steps[program.step + i]);
   coding->step_count += program.step_count;
+}
+
+/* Why what was decoded is refused, or NULL. */
+static const char *check_program(const pf_program_coding *coding, const pf_program_room *room,
+                                 planefile_program program) {
+  const planefile_band band = {.steps = room->steps,
+                               .axes = room->axes,
+                               .stops = room->stops,
+                               .step_count = coding->step_count,
+                               .axis_count = coding->axis_count,
+                               .stop_count = coding->stop_count,
+                               .picture_count = room->picture_count};
+  return pf_program_is_good(&band, program) ? NULL : "a program is not allowed";
 }
 
 const char *pf_get_program(pf_decoder *decoder, pf_program_coding *coding,
@@ -229,14 +245,50 @@ const char *pf_get_program(pf_decoder *decoder, pf_program_coding *coding,
     if (decoder->is_beyond)
       return "its code ends too early";
   }
-  const planefile_band band = {.steps = room->steps,
-                               .axes = room->axes,
-                               .stops = room->stops,
-                               .step_count = coding->step_count,
-                               .axis_count = coding->axis_count,
-                               .stop_count = coding->stop_count,
-                               .picture_count = room->picture_count};
-  return reason || pf_program_is_good(&band, *out) ? reason : "a program is not allowed";
+  return reason ? reason : check_program(coding, room, *out);
+}
+
+/* ---------------------------------------------------------------- other colours */
+
+/* The models of the colours of steps of a kind. */
+static pf_number *recoloured_as(pf_program_models *models, uint8_t kind) {
+  return models->recoloured[kind == PLANEFILE_FLAT ? 0 : kind == PLANEFILE_RAMP ? 1 : 2];
+}
+
+void pf_put_recoloured(pf_encoder *encoder, pf_program_coding *coding, const planefile_band *from,
+                       planefile_program of, const planefile_band *plane,
+                       planefile_program program) {
+  for (uint32_t i = 0; i < program.step_count; i++) {
+    const planefile_step *old = &from->steps[of.step + i];
+    const planefile_step *step = &plane->steps[program.step + i];
+    pf_number *numbers = recoloured_as(&coding->models, step->kind);
+    for (uint32_t k = 0; step->kind == PLANEFILE_RAMP && k < step->stop_count; k++)
+      put_colour(encoder, coding, numbers, &from->stops[old->stop + k].colour,
+                 &plane->stops[step->stop + k].colour);
+    if (step->kind == PLANEFILE_FLAT || step->kind == PLANEFILE_LEAVE)
+      put_colour(encoder, coding, numbers, &old->colour, &step->colour);
+  }
+}
+
+static bool get_recoloured_step(pf_decoder *decoder, pf_program_coding *coding,
+                                const pf_program_room *room, planefile_step *step) {
+  pf_number *numbers = recoloured_as(&coding->models, step->kind);
+  bool is_good = true;
+  for (uint32_t k = 0; step->kind == PLANEFILE_RAMP && is_good && k < step->stop_count; k++) {
+    planefile_cell *colour = &room->stops[step->stop + k].colour;
+    is_good = get_colour(decoder, coding, numbers, colour, colour);
+  }
+  if (step->kind == PLANEFILE_FLAT || step->kind == PLANEFILE_LEAVE)
+    is_good = get_colour(decoder, coding, numbers, &step->colour, &step->colour);
+  return is_good;
+}
+
+const char *pf_get_recoloured(pf_decoder *decoder, pf_program_coding *coding,
+                              const pf_program_room *room, planefile_program program) {
+  for (uint32_t i = 0; i < program.step_count; i++)
+    if (!get_recoloured_step(decoder, coding, room, &room->steps[program.step + i]))
+      return "a layer is too bright";
+  return check_program(coding, room, program);
 }
 
 /* ---------------------------------------------------------------- good programs */

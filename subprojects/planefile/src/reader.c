@@ -20,6 +20,7 @@ typedef struct reader {
   uint64_t left; /* bytes that the records that are still to be read may have */
   bool is_film;
   pf_codes codes;
+  planefile_grain grain;
   bool is_pictured;     /* the latest index has a list of pictures */
   uint64_t *offsets;    /* of the bands, and after them where the last one ends */
   uint64_t *bases;      /* of the bands of the base; NULL: there is none */
@@ -103,10 +104,11 @@ static planefile_status load_header(reader *r) {
   info->is_coded = flags & PF_CODED;
   r->is_film = flags == PF_FILM;
   r->is_pictured = flags & PF_PICTURED;
+  r->grain = (planefile_grain){header[32], header[33]};
   info->width = pf_load_double(header + 16);
   info->height = pf_load_double(header + 24);
   if (!(info->width > 0 && info->height > 0 && isfinite(info->width) && isfinite(info->height)) ||
-      (!r->is_film && !are_flags(flags)) || pf_load_32(header + 32) != 0)
+      (!r->is_film && !are_flags(flags)) || (pf_load_32(header + 32) & ~UINT32_C(0x0f0f)) != 0)
     return refuse(r, 12, "the header has a value that is not allowed");
   return PLANEFILE_OK;
 }
@@ -322,12 +324,17 @@ static bool has_base(planefile_plane *plane, const planefile_band *band) {
 }
 
 static planefile_status decode_band(reader *r, uint32_t index, uint64_t offset, size_t size,
-                                    const pf_base *base, pf_band *out) {
+                                    const pf_base *base, pf_learned *learned, pf_band *out) {
   const char *reason;
   const planefile_info *info = &r->plane->info;
-  const pf_payload payload = {
-      r->bytes + PF_HEAD_BYTES, size, info->varies, info->is_coded ? &r->codes : NULL,
-      info->picture_count,      base};
+  const pf_payload payload = {.bytes = r->bytes + PF_HEAD_BYTES,
+                              .size = size,
+                              .varies = info->varies,
+                              .codes = info->is_coded ? &r->codes : NULL,
+                              .picture_count = info->picture_count,
+                              .base = base,
+                              .grain = r->grain,
+                              .learned = learned};
   int32_t top = r->plane->bands[index].band.top, foot = r->plane->bands[index].band.foot;
   planefile_status status = pf_band_decode(&r->plane->memory, &payload, out, &reason);
   if (status != PLANEFILE_OK)
@@ -343,11 +350,13 @@ static planefile_status load_changed(reader *r, uint32_t index, pf_band *from, p
   size_t size;
   uint64_t offset = r->offsets[index];
   TRY(load_record(r, PF_BAND, index, r->bases[index], 0, &size));
-  TRY(decode_band(r, index, r->bases[index], size, NULL, from));
-  if (!pf_base_make(&r->plane->memory, &from->band, size, base))
+  if (!pf_base_begin(&r->plane->memory, base))
+    return fail_memory(r, offset);
+  TRY(decode_band(r, index, r->bases[index], size, NULL, base->learned, from));
+  if (!pf_base_complete(&from->band, size, base))
     return fail_memory(r, offset);
   TRY(load_record(r, PF_CHANGED, index, offset, 0, &size));
-  return decode_band(r, index, offset, size, base, &r->plane->bands[index]);
+  return decode_band(r, index, offset, size, base, NULL, &r->plane->bands[index]);
 }
 
 static planefile_status load_kind(reader *r, uint32_t index, unsigned char *kind) {
@@ -365,7 +374,7 @@ static planefile_status load_either(reader *r, uint32_t index) {
   TRY(load_kind(r, index, &kind));
   if (kind != PF_CHANGED) {
     TRY(load_record(r, PF_BAND, index, offsets[0], r->is_film ? 0 : offsets[1], &size));
-    return decode_band(r, index, offsets[0], size, NULL, &r->plane->bands[index]);
+    return decode_band(r, index, offsets[0], size, NULL, NULL, &r->plane->bands[index]);
   }
   planefile_status status = load_changed(r, index, &from, &base);
   pf_base_free(&base);

@@ -39,11 +39,12 @@ typedef struct unpacker {
   uint32_t chain_count, piece_count, cell_count, border_count; /* that there must be in the end */
   uint32_t change_count;
   uint32_t form;       /* of the latest piece */
-  pf_way way;          /* the latest move of the chain */
+  pf_way way;          /* the latest move of the chain, in grains */
+  int64_t unit[2];     /* of a grain, across and down */
   planefile_cell flat; /* the latest one that does not vary */
   planefile_point start;
   uint32_t next;      /* the chain of the base after the latest one that was taken */
-  pf_move move;       /* of the latest one */
+  pf_moves moves;     /* of those that were taken */
   const char *reason; /* NULL: nothing is wrong */
 } unpacker;
 
@@ -68,24 +69,31 @@ void pf_band_free(const pf_memory *memory, pf_band *band) {
 
 /* ---------------------------------------------------------------- bases */
 
-bool pf_base_make(const pf_memory *memory, const planefile_band *band, size_t code, pf_base *out) {
+bool pf_base_begin(const pf_memory *memory, pf_base *out) {
+  *out = (pf_base){.memory = *memory, .learned = pf_make(memory, sizeof *out->learned, 1)};
+  return out->learned != NULL;
+}
+
+bool pf_base_complete(const planefile_band *band, size_t code, pf_base *base) {
   size_t chains = band->chain_count;
-  *out = (pf_base){.memory = *memory, .band = band, .code = code};
-  out->first = pf_make(memory, sizeof *out->first, chains + 1);
-  if (!out->first)
+  base->band = band;
+  base->code = code;
+  base->first = pf_make(&base->memory, sizeof *base->first, chains + 1);
+  if (!base->first)
     return false;
   for (uint32_t i = 0; i < band->border_count; i++)
-    out->first[band->borders[i].chain + 1]++;
+    base->first[band->borders[i].chain + 1]++;
   for (size_t i = 0; i < chains; i++)
-    out->first[i + 1] += out->first[i];
+    base->first[i + 1] += base->first[i];
   return true;
 }
 
 void pf_base_free(pf_base *base) {
-  if (!base->band)
-    return;
-  pf_free(&base->memory, base->first, sizeof *base->first, (size_t)base->band->chain_count + 1);
-  base->band = NULL;
+  if (base->band)
+    pf_free(&base->memory, base->first, sizeof *base->first, (size_t)base->band->chain_count + 1);
+  if (base->learned)
+    pf_free(&base->memory, base->learned, sizeof *base->learned, 1);
+  *base = (pf_base){0};
 }
 
 /* ---------------------------------------------------------------- room */
@@ -134,7 +142,7 @@ static bool make_varied_room(unpacker *u) {
   out->band.stops = room->stops = pf_make(u->memory, sizeof *room->stops, room->stop_count);
   u->coding = pf_make(u->memory, sizeof *u->coding, 1);
   if (u->coding)
-    pf_models_begin(&u->coding->models, sizeof u->coding->models);
+    u->coding->shade = u->codes ? PLANEFILE_SHADE : 1;
   return u->programs && room->steps && room->axes && room->stops && u->coding;
 }
 
@@ -273,9 +281,9 @@ static bool get_sides(unpacker *u, const pf_near *near, unsigned context, pf_sid
 
 /* ---------------------------------------------------------------- curves */
 
-/* Moves a coordinate, if it stays near enough. */
-static bool move_by(unpacker *u, int64_t move, int32_t *at) {
-  int64_t to = *at + move;
+/* Moves a coordinate by some grains, if it stays near enough. */
+static bool move_by(unpacker *u, int axis, int64_t move, int32_t *at) {
+  int64_t to = *at + move * u->unit[axis];
   if (to < -PLANEFILE_FAR || to > PLANEFILE_FAR)
     return refuse(u, "a point is too far away");
   *at = (int32_t)to;
@@ -283,8 +291,8 @@ static bool move_by(unpacker *u, int64_t move, int32_t *at) {
 }
 
 static bool get_point(unpacker *u, pf_number models[2], int32_t *x, int32_t *y) {
-  return move_by(u, pf_get_signed(&u->decoder, &models[0]), x) &&
-         move_by(u, pf_get_signed(&u->decoder, &models[1]), y);
+  return move_by(u, 0, pf_get_signed(&u->decoder, &models[0]), x) &&
+         move_by(u, 1, pf_get_signed(&u->decoder, &models[1]), y);
 }
 
 /* The move of a smooth joint. */
@@ -305,7 +313,7 @@ static bool get_move_of(unpacker *u, int degree, int point, planefile_point *at)
       way.by[axis] = pf_get_signed(&u->decoder, &u->models.moves[axis][degree - 1][point]) *
                      pf_direction(u->way.by[axis]);
   u->way = way;
-  return move_by(u, way.by[0], &at->x) && move_by(u, way.by[1], &at->y);
+  return move_by(u, 0, way.by[0], &at->x) && move_by(u, 1, way.by[1], &at->y);
 }
 
 static bool get_weight(unpacker *u, uint32_t *out) {
@@ -391,24 +399,31 @@ static bool get_start(unpacker *u, uint32_t index, planefile_point *at) {
   return back > 0 || get_point(u, u->models.start, &at->x, &at->y);
 }
 
-static bool get_new_chain(unpacker *u, uint32_t index) {
+/* Begins a chain of some pieces: what comes before them. *end: where it ends, or NULL. own: the
+ * cells that it had in the base. */
+static bool begin_chain(unpacker *u, uint32_t index, uint32_t pieces, pf_sides own,
+                        const planefile_point **end) {
   planefile_band *band = &u->out->band;
-  planefile_point at = u->start;
-  uint32_t left = u->piece_count - band->piece_count;
-  u->way = (pf_way){{0, 0}};
-  if (!get_start(u, index, &at))
-    return false;
-  uint32_t pieces = pf_get_number(&u->decoder, &u->models.pieces);
-  if (pieces >= left)
+  if (pieces > u->piece_count - band->piece_count)
     return refuse(u, "it has more than it claims");
   uint32_t back = pf_get_number(&u->decoder, &u->models.to_foot);
   if (back > index)
     return refuse(u, "there is no such chain");
-  const planefile_point *end = back > 0 ? end_of(u, index - back) : NULL;
-  u->chains[band->chain_count++] = (planefile_chain){band->piece_count, pieces + 1};
-  u->start = at;
-  if (!get_top(u, index, (pf_sides){0, 0}))
+  *end = back > 0 ? end_of(u, index - back) : NULL;
+  u->chains[band->chain_count++] = (planefile_chain){band->piece_count, pieces};
+  return get_top(u, index, own);
+}
+
+static bool get_new_chain(unpacker *u, uint32_t index) {
+  planefile_point at = u->start;
+  const planefile_point *end;
+  u->way = (pf_way){{0, 0}};
+  if (!get_start(u, index, &at))
     return false;
+  u->start = at;
+  uint32_t pieces = pf_get_number(&u->decoder, &u->models.pieces);
+  if (pieces >= u->piece_count || !begin_chain(u, index, pieces + 1, (pf_sides){0, 0}, &end))
+    return refuse(u, "it has more than it claims");
   for (uint32_t i = 0; i <= pieces; i++)
     if (u->decoder.is_beyond || !get_piece(u, &at, i == pieces ? end : NULL))
       return refuse(u, "its code does not end where it should");
@@ -417,8 +432,63 @@ static bool get_new_chain(unpacker *u, uint32_t index) {
 
 /* ---------------------------------------------------------------- chains of the base */
 
+/* The number of the next one in the base. */
+static bool get_which(unpacker *u, uint32_t *out) {
+  int64_t chain = (int64_t)u->next + pf_get_signed(&u->decoder, &u->models.which);
+  if (chain < 0 || chain >= u->base->band->chain_count)
+    return refuse(u, "there is no such chain");
+  *out = (uint32_t)chain;
+  u->next = *out + 1;
+  return true;
+}
+
+/* A piece like one of the base, with other moves, as of get_piece. */
+static bool get_bent_piece(unpacker *u, const planefile_piece *of, planefile_point *at,
+                           const planefile_point *end) {
+  planefile_band *band = &u->out->band;
+  const planefile_point *from = &u->base->band->points[of->point];
+  planefile_piece piece = *of;
+  int32_t top = at->y;
+  piece.point = band->point_count;
+  u->pieces[band->piece_count++] = piece;
+  at->w = from->w;
+  u->points[band->point_count++] = *at;
+  for (int i = 0; i < piece.degree; i++) {
+    int64_t x = ((int64_t)from[i + 1].x - from[i].x) / u->unit[0];
+    int64_t y = ((int64_t)from[i + 1].y - from[i].y) / u->unit[1];
+    bool is_known = end && i + 1 == piece.degree;
+    if (is_known)
+      *at = *end;
+    else if (!move_by(u, 0, x + pf_get_signed(&u->decoder, &u->models.bent[0]), &at->x) ||
+             !move_by(u, 1, y + pf_get_signed(&u->decoder, &u->models.bent[1]), &at->y))
+      return false;
+    at->w = from[i + 1].w;
+    u->points[band->point_count++] = *at;
+  }
+  return at->y >= top || refuse(u, "a piece ends above its beginning");
+}
+
+static bool get_bent_chain(unpacker *u, uint32_t index) {
+  planefile_point at = u->start;
+  const planefile_point *end;
+  uint32_t chain;
+  if (!get_which(u, &chain) || !get_start(u, index, &at))
+    return false;
+  const planefile_chain *of = &u->base->band->chains[chain];
+  u->start = at;
+  if (!begin_chain(u, index, of->piece_count, pf_base_sides(u->base, chain), &end))
+    return false;
+  for (uint32_t i = 0; i < of->piece_count; i++)
+    if (u->decoder.is_beyond || !get_bent_piece(u, &u->base->band->pieces[of->piece + i], &at,
+                                                i + 1 == of->piece_count ? end : NULL))
+      return refuse(u, "its code does not end where it should");
+  return true;
+}
+
 static bool move_point(unpacker *u, planefile_point point) {
-  bool is_near = move_by(u, u->move.x, &point.x) && move_by(u, u->move.y, &point.y);
+  const pf_move *by = u->moves.latest;
+  bool is_near =
+      move_by(u, 0, by->x / u->unit[0], &point.x) && move_by(u, 1, by->y / u->unit[1], &point.y);
   u->points[u->out->band.point_count++] = point;
   return is_near;
 }
@@ -445,8 +515,11 @@ static bool move_chain(unpacker *u, uint32_t chain) {
 }
 
 static bool get_move(unpacker *u) {
-  return !pf_get_symbol(&u->decoder, u->models.is_moved, 1) ||
-         get_point(u, u->models.shift, &u->move.x, &u->move.y);
+  uint32_t number = pf_get_symbol(&u->decoder, u->models.moved, PF_MOVE_BITS);
+  pf_move move = u->moves.latest[number < PF_MOVES ? number : 0];
+  bool is_good = number < PF_MOVES || get_point(u, u->models.shift, &move.x, &move.y);
+  pf_moves_use(&u->moves, number, move);
+  return is_good;
 }
 
 /* All borders that a chain of the base has, moved; they do not change. */
@@ -455,7 +528,7 @@ static bool keep_borders(unpacker *u, uint32_t index, uint32_t chain) {
   planefile_border moved;
   u->states[index] = (state){{0, 0}, INT32_MAX, 0};
   for (uint32_t i = u->base->first[chain]; i < u->base->first[chain + 1]; i++) {
-    if (!pf_move_border(&u->base->band->borders[i], u->move.y, band, &moved))
+    if (!pf_move_border(&u->base->band->borders[i], u->moves.latest->y, band, &moved))
       continue;
     moved.chain = index;
     if (band->border_count == u->border_count)
@@ -466,27 +539,23 @@ static bool keep_borders(unpacker *u, uint32_t index, uint32_t chain) {
 }
 
 static bool get_old_chain(unpacker *u, uint32_t index, bool is_kept) {
-  int64_t chain = (int64_t)u->next + pf_get_signed(&u->decoder, &u->models.which);
-  if (chain < 0 || chain >= u->base->band->chain_count)
-    return refuse(u, "there is no such chain");
-  u->next = (uint32_t)chain + 1;
-  if (!get_move(u) || !move_chain(u, (uint32_t)chain))
+  uint32_t chain;
+  if (!get_which(u, &chain) || !get_move(u) || !move_chain(u, chain))
     return false;
-  return is_kept ? keep_borders(u, index, (uint32_t)chain)
-                 : get_top(u, index, pf_base_sides(u->base, (uint32_t)chain));
+  return is_kept ? keep_borders(u, index, chain) : get_top(u, index, pf_base_sides(u->base, chain));
 }
 
 static bool get_chain(unpacker *u, uint32_t index) {
   uint32_t origin = PF_NEW;
   if (u->base)
     origin = pf_get_symbol(&u->decoder, u->models.origin, PF_ORIGIN_BITS);
-  if (origin > PF_KEPT)
-    return refuse(u, "there is no such chain");
   if (u->decoder.is_beyond)
     return refuse(u, "its code does not end where it should");
   if (origin == PF_KEPT)
     return get_old_chain(u, index, true);
-  return (origin == PF_NEW ? get_new_chain(u, index) : get_old_chain(u, index, false)) &&
+  return (origin == PF_NEW    ? get_new_chain(u, index)
+          : origin == PF_BENT ? get_bent_chain(u, index)
+                              : get_old_chain(u, index, false)) &&
          (u->states[index].since < foot_of(u, index) || refuse(u, "a chain is not in it"));
 }
 
@@ -529,7 +598,7 @@ static bool get_changes(unpacker *u) {
   pf_sides latest = {0, 0};
   while (left > 0) {
     group g = {0};
-    height += pf_get_number(&u->decoder, &u->models.height);
+    height += pf_get_number(&u->decoder, &u->models.height) * u->unit[1];
     g.size = pf_get_number(&u->decoder, &u->models.size) + 1;
     if (g.size == 0 || g.size > left || g.size > PF_GROUP)
       return refuse(u, "a group is too large");
@@ -670,12 +739,58 @@ static bool get_patches(unpacker *u) {
   return true;
 }
 
+/* A cell of the base becomes what it is here. */
+static bool get_fate(unpacker *u, uint32_t cell) {
+  const group none = {0};
+  uint32_t fate = pf_get_symbol(&u->decoder, u->models.fates, PF_FATE_BITS);
+  bool varies = u->coding && u->programs[cell].step_count > 0;
+  if (fate == PF_SAME)
+    return true;
+  if (fate == PF_RECOLOURED && !varies)
+    return get_channels(u, u->models.changed, &u->cells[cell]);
+  if (fate == PF_RECOLOURED) {
+    const char *reason = pf_get_recoloured(&u->decoder, u->coding, &u->room, u->programs[cell]);
+    return !reason || refuse(u, reason);
+  }
+  if (fate != PF_REPLACED)
+    return refuse(u, "a cell has no such fate");
+  u->cells[cell] = (planefile_cell){{0}};
+  if (varies)
+    u->programs[cell] = (planefile_program){0, 0};
+  return get_content(u, &none, cell);
+}
+
+static bool get_fates(unpacker *u) {
+  for (uint32_t i = 0; i < u->base->band->cell_count; i++)
+    if (u->decoder.is_beyond || !get_fate(u, i))
+      return refuse(u, "its code does not end where it should");
+  return true;
+}
+
 /* The cells from which it begins. */
 static bool get_beginning(unpacker *u) {
   const group none = {0};
   uint32_t cell;
-  return u->base ? take_base(u) && get_patches(u)
+  return u->base ? take_base(u) && get_patches(u) && get_fates(u)
                  : add_cell(u, &cell) && get_content(u, &none, cell);
+}
+
+static void begin_models(unpacker *u) {
+  const pf_learned *learned = u->base ? u->base->learned : NULL;
+  if (learned)
+    u->models = learned->models;
+  else
+    pf_models_begin(&u->models, sizeof u->models);
+  if (u->coding && learned)
+    u->coding->models = learned->programs;
+  else if (u->coding)
+    pf_models_begin(&u->coding->models, sizeof u->coding->models);
+}
+
+static void teach(const unpacker *u, pf_learned *out) {
+  out->models = u->models;
+  if (u->coding)
+    out->programs = u->coding->models;
 }
 
 /* False without a reason: no memory. */
@@ -684,6 +799,8 @@ static bool unpack(unpacker *u, const pf_payload *payload) {
   size_t head = pf_band_head(varies);
   u->base = payload->base;
   u->codes = payload->codes;
+  u->unit[0] = INT64_C(1) << payload->grain.x;
+  u->unit[1] = INT64_C(1) << payload->grain.y;
   u->out->band.picture_count = u->room.picture_count = payload->picture_count;
   if (payload->size < head)
     return refuse(u, "it is too short");
@@ -692,7 +809,7 @@ static bool unpack(unpacker *u, const pf_payload *payload) {
       (varies && !load_varied_counts(u, payload->bytes, paid)) || !make_room(u) ||
       (varies && !make_varied_room(u)))
     return false;
-  pf_models_begin(&u->models, sizeof u->models);
+  begin_models(u);
   pf_decoder_begin(&u->decoder, payload->bytes + head, code);
   return get_beginning(u) && get_chains(u) && get_changes(u) && check_end(u) && sort_borders(u);
 }
@@ -706,6 +823,8 @@ planefile_status pf_band_decode(const pf_memory *memory, const pf_payload *paylo
   u->memory = memory;
   u->out = out;
   bool is_good = unpack(u, payload);
+  if (is_good && payload->learned)
+    teach(u, payload->learned);
   if (u->reason)
     *reason = u->reason;
   planefile_status status = is_good     ? PLANEFILE_OK

@@ -17,9 +17,10 @@ end
 
 local function new_models() return setmetatable({}, {__index = function() return 2048 end}) end
 
-local function new_coder(bytes)
-  local coder = {range = 0xffffffff, code = (">I4"):unpack(bytes), at = 5}
-  local models = {}
+-- models: what the code of a base has learned, or nil.
+local function new_coder(bytes, models)
+  models = models or {}
+  local coder = {range = 0xffffffff, code = (">I4"):unpack(bytes), at = 5, models = models}
   local function widen()
     while coder.range < 1 << 24 do
       coder.code = coder.code << 8 & 0xffffffff | (bytes:byte(coder.at) or error("too short"))
@@ -75,19 +76,27 @@ end
 
 ---------------------------------------------------------------------- a band
 
-local function new_band(payload, flags)
+local function new_band(payload, flags, grain, base)
   local varies = flags & 2 > 0
   local band = {cells = {}, chains = {}, borders = {}, form = 0, varies = varies, axes = {},
-    is_coded = flags & 8 > 0, cell_number = 0, flat = {0, 0, 0, 0}, stop = {0, 0, 0, 0}}
+    is_coded = flags & 8 > 0, cell_number = 0, flat = {0, 0, 0, 0}, stop = {0, 0, 0, 0},
+    shade = flags & 8 > 0 and 17 or 1, grain = grain}
   band.top, band.foot, band.chain_count, band.piece_count, band.cell_count, band.change_count,
     band.border_count = ("<I4I4I4I4I4I4I4"):unpack(payload)
-  band.coder = new_coder(payload:sub(varies and 41 or 29))
+  band.coder = new_coder(payload:sub(varies and 41 or 29), base and base.coder.models)
   return band
 end
 
 local function get_channels(band, name, from)
   local channels = {}
   for c = 1, 4 do channels[c] = from[c] + band.coder.signed(name .. c) end
+  return channels
+end
+
+-- A colour of a program.
+local function get_shades(band, name, from)
+  local channels = {}
+  for c = 1, 4 do channels[c] = from[c] + band.shade * band.coder.signed(name .. c) end
   return channels
 end
 
@@ -121,7 +130,7 @@ local function get_ramp(band, step)
   step.axis = band.axes[#band.axes + (back == 0 and 0 or 1 - back)]
   for i = 1, band.coder.number("stops") + 1 do
     local at = get_double(band, "stop")
-    band.stop = get_channels(band, "stop ", band.stop)
+    band.stop = get_shades(band, "stop ", band.stop)
     step[i] = {at = at, colour = band.stop}
   end
 end
@@ -129,12 +138,12 @@ end
 local function get_step(band)
   local step = {kind = band.coder.symbol("kind", 2)}
   if step.kind == 0 then
-    step.colour = get_channels(band, "flat ", {0, 0, 0, 0})
+    step.colour = get_shades(band, "flat ", {0, 0, 0, 0})
   elseif step.kind == 1 then
     get_ramp(band, step)
   elseif step.kind == 3 then
     step.how = band.coder.symbol("how", 4)
-    step.factors = get_channels(band, "factor ", {65535, 65535, 65535, 65535})
+    step.factors = get_shades(band, "factor ", {65535, 65535, 65535, 65535})
   end
   return step
 end
@@ -259,7 +268,7 @@ local function get_piece(band, x, y, way, foot)
       x, y = foot[1], foot[2]
     else
       way = get_way(coder, way, degree .. i, i == 1)
-      x, y = x + way[1], y + way[2]
+      x, y = x + way[1] * band.grain.x, y + way[2] * band.grain.y
     end
     piece[i + 1] = {x, y, weight()}
   end
@@ -286,20 +295,32 @@ local function get_top(band, chain, before, own)
   chain.slope = band.coder.signed("slope")
 end
 
-local function get_new_chain(band, chain, start, before)
-  local coder = band.coder
-  local top = coder.number("top of")
+-- Moves a place by some grains.
+local function move(band, at, name)
+  at.x = at.x + band.grain.x * band.coder.signed(name .. " x")
+  at.y = at.y + band.grain.y * band.coder.signed(name .. " y")
+end
+
+local function get_start(band, start)
+  local top = band.coder.number("top of")
   if top > 0 then
     local first = band.chains[#band.chains + 1 - top][1][1]
     start.x, start.y = first[1], first[2]
   else
-    start.x, start.y = start.x + coder.signed("start x"), start.y + coder.signed("start y")
+    move(band, start, "start")
   end
-  local pieces, foot, last = coder.number("pieces") + 1, coder.number("foot of"), nil
-  if foot > 0 then
-    local other = band.chains[#band.chains + 1 - foot]
-    last = other[#other][#other[#other]]
-  end
+end
+
+-- Where the chain ends, if another one ends there.
+local function get_foot(band)
+  local foot = band.coder.number("foot of")
+  local other = foot > 0 and band.chains[#band.chains + 1 - foot]
+  return other and other[#other][#other[#other]] or nil
+end
+
+local function get_new_chain(band, chain, start, before)
+  get_start(band, start)
+  local pieces, last = band.coder.number("pieces") + 1, get_foot(band)
   get_top(band, chain, before, {0, 0})
   local x, y, way = start.x, start.y, {0, 0}
   for i = 1, pieces do
@@ -307,27 +328,64 @@ local function get_new_chain(band, chain, start, before)
   end
 end
 
+local function get_which(band)
+  local number = band.next_old + band.coder.signed("which")
+  band.next_old = number + 1
+  return band.base.chains[number + 1]
+end
+
+-- The cells that a chain of the base had.
+local function sides_of(old) return old.borders[1] and old.borders[1].sides or {0, 0} end
+
+local function get_move(band)
+  local symbol = band.coder.symbol("moved", 3)
+  local by = table.remove(band.moves, symbol < 7 and symbol + 1 or 7)
+  if symbol == 7 then
+    by = {x = band.latest_move.x, y = band.latest_move.y}
+    move(band, by, "shift")
+  end
+  table.insert(band.moves, 1, by)
+  band.latest_move = by
+  return by
+end
+
+-- A chain of pieces like those of one of the base, with other moves.
+local function get_bent_chain(band, chain, start, before)
+  local old = get_which(band)
+  get_start(band, start)
+  local last = get_foot(band)
+  get_top(band, chain, before, sides_of(old))
+  local at = {x = start.x, y = start.y}
+  for i, piece in ipairs(old) do
+    chain[i] = {{at.x, at.y, piece[1][3]}}
+    for k = 2, #piece do
+      if last and i == #old and k == #piece then
+        at = {x = last[1], y = last[2]}
+      else
+        at.x, at.y = at.x + piece[k][1] - piece[k - 1][1], at.y + piece[k][2] - piece[k - 1][2]
+        move(band, at, "bent")
+      end
+      chain[i][k] = {at.x, at.y, piece[k][3]}
+    end
+  end
+end
+
 -- A chain of the base, moved; is_kept: with its borders.
 local function get_old_chain(band, chain, start, before, is_kept)
-  local coder, move = band.coder, band.move
-  local number = band.next_old + coder.signed("which")
-  local old = band.base.chains[number + 1]
-  band.next_old = number + 1
-  if coder.symbol("is moved", 1) == 1 then
-    move.x, move.y = move.x + coder.signed("shift x"), move.y + coder.signed("shift y")
-  end
+  local old = get_which(band)
+  local by = get_move(band)
   for i, piece in ipairs(old) do
     chain[i] = {}
-    for k, p in ipairs(piece) do chain[i][k] = {p[1] + move.x, p[2] + move.y, p[3]} end
+    for k, p in ipairs(piece) do chain[i][k] = {p[1] + by.x, p[2] + by.y, p[3]} end
   end
   start.x, start.y = chain[1][1][1], chain[1][1][2]
   if not is_kept then
-    return get_top(band, chain, before, old.borders[1] and old.borders[1].sides or {0, 0})
+    return get_top(band, chain, before, sides_of(old))
   end
   for _, border in ipairs(old.borders) do
     chain.sides = border.sides
-    chain.since = math.max(border.top + move.y, band.top)
-    local foot = math.min(border.foot + move.y, band.foot)
+    chain.since = math.max(border.top + by.y, band.top)
+    local foot = math.min(border.foot + by.y, band.foot)
     if chain.since < foot then add_border(band, chain, foot) end
   end
   chain.sides = {0, 0}
@@ -338,6 +396,8 @@ local function get_chain(band, start, before)
   local origin = band.base and band.coder.symbol("origin", 2) or 0
   if origin == 0 then
     get_new_chain(band, chain, start, before)
+  elseif origin == 3 then
+    get_bent_chain(band, chain, start, before)
   else
     get_old_chain(band, chain, start, before, origin == 2)
   end
@@ -367,11 +427,37 @@ local function get_group(band, height, first, latest, done)
   return done + size, first, latest
 end
 
--- A band begins with the cells of its base, whose axes may have been moved.
+-- A program of the base gets other colours.
+local function recolour(band, program)
+  for _, step in ipairs(program) do
+    if step.kind == 0 then step.colour = get_shades(band, "recoloured flat ", step.colour) end
+    for _, stop in ipairs(step) do
+      stop.colour = get_shades(band, "recoloured stop ", stop.colour)
+    end
+    if step.kind == 3 then step.factors = get_shades(band, "recoloured factor ", step.factors) end
+  end
+end
+
+-- What becomes of a cell of the base.
+local function get_fate(band, number, cell)
+  local fate = band.coder.symbol("fate", 2)
+  if fate == 1 and cell.program then
+    recolour(band, cell.program)
+  elseif fate == 1 then
+    local from = band.is_coded and codes_of(cell) or cell
+    local channels = get_channels(band, "changed channel ", from)
+    band.cells[number] = band.is_coded and cell_of(channels) or channels
+  elseif fate == 2 then
+    get_content(band, number - 1)
+  end
+end
+
+-- A band begins with the cells of its base, which may have changed.
 local function begin_with(band, base)
   band.base, band.cells, band.axes = base, base.cells, base.axes
   band.cell_number = #band.cells
-  band.next_old, band.move = 0, {x = 0, y = 0}
+  band.next_old, band.moves, band.latest_move = 0, {}, {x = 0, y = 0}
+  for i = 1, 7 do band.moves[i] = {x = 0, y = 0} end
   for _, axis in ipairs(band.axes) do
     if band.coder.symbol("is patched", 1) == 1 then
       local is_wide = not (axis.w[1] == 0 and axis.w[2] == 0 and axis.w[3] == 1)
@@ -380,11 +466,12 @@ local function begin_with(band, base)
       if is_wide then axis.w[3] = get_double(band, "axis") end
     end
   end
+  for i = 1, #band.cells do get_fate(band, i, band.cells[i]) end
 end
 
 -- base: the band that it is made from, which is used up, or nil.
-local function read_band(payload, flags, base)
-  local band, start, before = new_band(payload, flags), {x = 0, y = 0}, {}
+local function read_band(payload, flags, grain, base)
+  local band, start, before = new_band(payload, flags, grain, base), {x = 0, y = 0}, {}
   if base then
     begin_with(band, base)
   else
@@ -394,7 +481,7 @@ local function read_band(payload, flags, base)
   for _ = 1, band.chain_count do get_chain(band, start, before) end
   local height, first, latest, done = band.top, 0, {0, 0}, 0
   while done < band.change_count do
-    height = height + band.coder.number("height")
+    height = height + band.grain.y * band.coder.number("height")
     done, first, latest = get_group(band, height, first, latest, done)
   end
   for _, chain in ipairs(band.chains) do add_border(band, chain, chain.foot) end
@@ -852,11 +939,12 @@ end
 -- bands: all that the index names, in order.
 local function read_bands(bytes, frame, host)
   local offsets, entries, flags, base_entries = read_index(bytes, frame)
-  local bands = {}
+  local bands, across, down = {}, bytes:byte(33, 34)
+  local grain = {x = 1 << across, y = 1 << down}
   for at = 1, #entries, 12 do
     local payload, kind = payload_at(bytes, (("<I8"):unpack(entries, at + 4)))
     local base = kind == "D" and payload_at(bytes, (("<I8"):unpack(base_entries, at + 4))) or nil
-    bands[#bands + 1] = read_band(payload, flags, base and read_band(base, flags))
+    bands[#bands + 1] = read_band(payload, flags, grain, base and read_band(base, flags, grain))
   end
   find_pictures(bytes, bands, offsets, host)
   return bands, flags & 1 > 0

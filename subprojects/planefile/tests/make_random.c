@@ -41,13 +41,17 @@ static void put_drawn(const char *folder, int number, memory_file *file, uint32_
   planefile_plane_destroy(plane);
 }
 
+static const planefile_grain coarse = {5, 6}; /* where cells are codes */
+
 /* The drawing of a number; each third one is made from the one before. */
-static drawing make(int number) {
+static drawing make(int number, bool is_coded) {
   int from = number % 3 == 2 ? number - 1 : number;
   random_state random = {(uint64_t)number};
   drawing d = random_drawing((uint64_t)from, 4 + (uint32_t)(from % 12), from % 2 ? VARIED : FLAT);
   if (from < number)
     alter_drawing(&d, &random, from % 3 == 0);
+  if (is_coded)
+    coarsen_drawing(&d, coarse);
   return d;
 }
 
@@ -59,10 +63,12 @@ static memory_file make_film(int from, int end, bool is_coded) {
                                 .user = &file,
                                 .frames_second = 12,
                                 .is_coded = is_coded};
+  if (is_coded)
+    desc.grain = coarse;
   planefile_writer *writer = NULL;
   CHECK(planefile_writer_create(&desc, &writer) == PLANEFILE_OK);
   for (int i = from; i < end; i++) {
-    drawing d = make(i);
+    drawing d = make(i, is_coded);
     CHECK(planefile_writer_frame(writer, &d.plane) == PLANEFILE_OK);
     drawing_free(&d);
   }
@@ -73,7 +79,7 @@ static memory_file make_film(int from, int end, bool is_coded) {
 
 /* One in five inputs is a film. */
 static void put_input(const char *folder, int number) {
-  drawing d = make(number);
+  drawing d = make(number, number % 2);
   memory_file file = number % 5 == 4 ? make_film(number - 3, number, number % 2)
                                      : write_coded(&d.plane, number % 8 == 1);
   put_file(folder, number, "", number % 4, file.bytes, file.size);
@@ -83,7 +89,7 @@ static void put_input(const char *folder, int number) {
 
 static void put_plane(const char *folder, int number, uint32_t columns, uint32_t rows,
                       bool is_coded) {
-  drawing d = make(number);
+  drawing d = make(number, is_coded);
   memory_file file = write_coded(&d.plane, is_coded);
   put_file(folder, number, ".plane", -1, file.bytes, file.size);
   put_drawn(folder, number, &file, columns, rows);

@@ -412,22 +412,75 @@ static inline void move_chain(drawing *d, uint32_t chain, int32_t dx, int32_t dy
   d->plane.border_count = kept;
 }
 
-/* What the next frame of a film may be: some shapes have moved, some axes, some colours differ. */
+/* Moves the inner points of a chain across. */
+static inline void bend_chain(drawing *d, random_state *random, uint32_t chain) {
+  const planefile_chain *of = &d->chains[chain];
+  for (uint32_t i = of->piece; i < of->piece + of->piece_count; i++)
+    for (uint32_t k = 1; k < d->pieces[i].degree; k++)
+      d->points[d->pieces[i].point + k].x += random_between(random, -999, 999);
+}
+
+static inline void recolour_program(drawing *d, random_state *random, planefile_program program) {
+  for (uint32_t i = program.step; i < program.step + program.step_count; i++) {
+    planefile_step *step = &d->steps[i];
+    if (step->kind == PLANEFILE_FLAT)
+      step->colour = random_colour(random, step->colour.colour[3] == PLANEFILE_WHITE);
+    for (uint32_t k = 0; step->kind == PLANEFILE_RAMP && k < step->stop_count; k++)
+      d->stops[step->stop + k].colour = random_colour(random, false);
+  }
+}
+
+/* A cell other than cell 0 gets other colours, or becomes what another one is. */
+static inline void alter_cell(drawing *d, random_state *random, uint32_t cell, bool is_opaque) {
+  uint32_t other = random_below(random, d->plane.cell_count);
+  if (random_below(random, 4) == 0) {
+    d->programs[cell] = d->programs[other];
+    d->cells[cell] = d->cells[other];
+  } else if (d->programs[cell].step_count > 0) {
+    recolour_program(d, random, d->programs[cell]);
+  } else {
+    d->cells[cell] = random_colour(random, is_opaque);
+  }
+}
+
+/* Puts all places on a grain; borders that are lower than one are left out. */
+static inline void coarsen_drawing(drawing *d, planefile_grain grain) {
+  int32_t x = -(INT32_C(1) << grain.x), y = -(INT32_C(1) << grain.y);
+  uint32_t kept = 0;
+  for (uint32_t i = 0; i < d->plane.point_count; i++) {
+    d->points[i].x &= x;
+    d->points[i].y &= y;
+  }
+  for (uint32_t i = 0; i < d->plane.border_count; i++) {
+    planefile_border b = d->borders[i];
+    b.top &= y;
+    b.foot &= y;
+    if (b.top < b.foot)
+      d->borders[kept++] = b;
+  }
+  d->plane.border_count = kept;
+}
+
+/* What the next frame of a film may be: some shapes have moved or bent, some axes have moved, some
+ * cells differ. */
 static inline void alter_drawing(drawing *d, random_state *random, bool is_opaque) {
   for (uint32_t i = 0; i + 1 < d->plane.chain_count; i += 2) {
     int32_t dx = random_between(random, -(1 << 20), 1 << 20);
     int32_t dy = random_between(random, -(1 << 20), 1 << 20);
-    if (random_below(random, 3))
-      continue;
-    move_chain(d, i, dx, dy);
-    move_chain(d, i + 1, dx, dy);
+    uint32_t what = random_below(random, 4);
+    if (what == 0) {
+      move_chain(d, i, dx, dy);
+      move_chain(d, i + 1, dx, dy);
+    } else if (what == 1) {
+      bend_chain(d, random, i);
+    }
   }
   for (uint32_t i = 0; i < d->plane.axis_count; i++)
     if (random_below(random, 2))
       d->axes[i].p[2] += 0.125;
-  uint32_t cell = random_below(random, d->plane.cell_count);
-  if (!d->programs[cell].step_count && cell > 0)
-    d->cells[cell] = random_colour(random, is_opaque);
+  for (uint32_t i = 1; i < d->plane.cell_count; i += 3)
+    if (random_below(random, 4) == 0)
+      alter_cell(d, random, i, is_opaque);
 }
 
 /* ---------------------------------------------------------------- writing and reading them */

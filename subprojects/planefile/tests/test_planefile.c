@@ -638,11 +638,17 @@ static void test_ends(void) {
   drawing d = random_drawing(4, 6, FLAT);
   memory_file file = write_plane(&d.plane);
   CHECK(planefile_is(file.bytes, PLANEFILE_MAGIC_BYTES) && !planefile_is(file.bytes, 7));
-  pf_store_32(file.bytes + 8, 2);
+  pf_store_32(file.bytes + 8, 1);
   pf_store_32(file.bytes + 36, pf_crc32c(0, file.bytes, 36));
-  CHECK(is_refused(&file, "the plane file has another version: 2"));
+  CHECK(is_refused(&file, "the plane file has another version: 1"));
   mend_sums(&file);
   CHECK(!is_refused(&file, NULL));
+  for (uint32_t i = 0; i < 4; i++) { /* the grain */
+    file.bytes[32 + i] = i < 2 ? PLANEFILE_GRAIN + 1 : 1;
+    mend_sums(&file);
+    CHECK(is_refused(&file, "the header has a value that is not allowed"));
+    file.bytes[32 + i] = 0;
+  }
   pf_store_double(file.bytes + 16, -1);
   mend_sums(&file);
   CHECK(is_refused(&file, "the header has a value that is not allowed"));
@@ -889,6 +895,7 @@ static memory_file write_changing(uint64_t seed, drawing drawings[FRAMES]) {
   memory_file file = {0};
   planefile_writer_desc desc = {
       .width = 4, .height = 3, .write = memory_write, .user = &file, .frames_second = 12.5};
+  desc.grain = (planefile_grain){seed % 4 == 1 ? 8 : 0, seed % 4 == 1 ? 9 : 0};
   planefile_writer *writer;
   random_state random = {seed};
   CHECK(planefile_writer_create(&desc, &writer) == PLANEFILE_OK);
@@ -897,6 +904,7 @@ static memory_file write_changing(uint64_t seed, drawing drawings[FRAMES]) {
     random.state = seed + i / 4; /* the steps of four frames begin alike */
     for (uint32_t k = 0; k < i; k++)
       alter_drawing(&drawings[i], &random, seed % 3 == 0);
+    coarsen_drawing(&drawings[i], desc.grain);
     CHECK(planefile_writer_frame(writer, &drawings[i].plane) == PLANEFILE_OK);
   }
   CHECK(planefile_writer_end(writer) == PLANEFILE_OK);
@@ -942,6 +950,24 @@ static void check_film_fault(memory_file *film, uint32_t frame, planefile_status
   CHECK(planefile_read_frame(&source, frame, 0, PLANEFILE_SIDE, &plane, &fault) == status);
   if (!CHECK(strstr(fault.reason, reason) != NULL))
     fprintf(stderr, "  %s\n", fault.reason);
+}
+
+/* Places beside the grain, and grains that no file has. */
+static void test_grains(void) {
+  const planefile_grain grains[] = {{1, 0}, {0, 1}, {PLANEFILE_GRAIN + 1, 0}, {0, 255}};
+  for (size_t i = 0; i < sizeof grains / sizeof *grains; i++) {
+    memory_file file = {0};
+    drawing d = random_drawing(4, 6, FLAT);
+    planefile_writer_desc desc = {
+        .width = 4, .height = 3, .write = memory_write, .user = &file, .grain = grains[i]};
+    CHECK(planefile_write(&desc, &d.plane) == PLANEFILE_BAD_ARGUMENT);
+    if (i < 2) {
+      coarsen_drawing(&d, grains[i]);
+      CHECK(planefile_write(&desc, &d.plane) == PLANEFILE_OK);
+    }
+    drawing_free(&d);
+    free(file.bytes);
+  }
 }
 
 static void test_bad_films(void) {
@@ -1027,7 +1053,14 @@ static planefile_status write_frames(const planefile_writer_desc *desc,
 static planefile_status write_and_draw(const planefile_band from[2], double frames_second,
                                        int *left) {
   memory_file file = {0};
-  planefile_writer_desc desc = {4, 3, memory_write, &file, failing, left, frames_second, true};
+  planefile_writer_desc desc = {.width = 4,
+                                .height = 3,
+                                .write = memory_write,
+                                .user = &file,
+                                .resize = failing,
+                                .resize_user = left,
+                                .frames_second = frames_second,
+                                .is_coded = true};
   planefile_plane *plane = NULL;
   planefile_status status = write_frames(&desc, from, frames_second > 0 ? 3 : 1);
   planefile_source source = memory_source(&file);
@@ -1116,6 +1149,7 @@ int main(void) {
   check_no_memory(24, VARIED);
   test_films();
   test_changing_films();
+  test_grains();
   test_bad_films();
   test_no_output();
   return check_done();
