@@ -283,6 +283,35 @@ end }
     assert.is_true(#bench:read "held.plane" < 3 * #bench:read "one.plane" + 40 * 8 + 200)
   end)
 
+  it("takes few bytes where light changes and shapes remain", function()
+    bench:write("dusk.lua", [[
+local celspan = require "celspan"
+local sky = celspan.linear { from = { 0, 0 }, to = { 0, 90 }, { 0, "#204060" }, { 1, "#f0d0a0" } }
+return celspan.film { size = { 160, 90 }, frames = 9, frame = function(f)
+  local light = 1 - f.progress / 2
+  local balls = {}
+  for i = 1, 40 do
+    balls[i] = celspan.circle { centre = { 4 * i, 45 + i % 7 }, radius = 9, texture = sky }
+  end
+  return celspan.rostrum { back = "#fff",
+    celspan.cel { celspan.union(balls), front = { light, light, light } } }
+end }
+]])
+    local size = {}
+    for _, frames in ipairs { "1-1", "1-9" } do
+      done("render dusk.lua --depth 8 -o a.plane --frames " .. frames)
+      size[#size + 1] = #bench:read "a.plane"
+    end
+    assert.is_true(size[2] - size[1] < 8 * 250, size[2] - size[1])
+  end)
+
+  it("takes at most 300 KiB for two seconds of the demo film", function()
+    local code, _, err = bench:celspan(
+      "render scripts/demo.lua --frames 1-48 --depth 8 -o %s/a.plane", bench.folder)
+    assert.equal(0, code, err)
+    assert.is_true(#bench:read "a.plane" <= 307200)
+  end)
+
   it("is made whole, in one run", function()
     for _, option in ipairs { "--keep-going", "--task 1/2" } do
       refused(2, "shot.####.plane", "render film.lua -o a.plane " .. option)

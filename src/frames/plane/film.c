@@ -1,4 +1,6 @@
 /* Frames as plane files, one each or all of a film in one. */
+#include <math.h>
+
 #include "celspan/plane.h"
 #include "frames/plane/plane.h"
 #include "frames/plane/plane_data.h"
@@ -10,6 +12,7 @@ struct cs_plane_film {
   cs_file *file;
   planefile_writer *writer;
   celspan_plane_desc desc;
+  planefile_grain grain;
   bool has_last;
   cs_hash last;          /* of the scene of the latest frame */
   celspan_status status; /* the result of writing bytes */
@@ -28,6 +31,15 @@ static celspan_status report(const cs_plane_film *film, planefile_status status)
   return status == PLANEFILE_WRITE_FAILED ? film->status : cs_plane_report(film->context, status);
 }
 
+/* The largest grain of which a unit of the film, or a 1920th or 1080th of it, is 100. A border that
+ * is off by half a grain changes pixels of that size by a code and a half, at most. */
+static uint8_t find_grain(double side) {
+  uint8_t grain = 0;
+  while (grain < PLANEFILE_GRAIN && (100 << (grain + 1)) * side <= PLANEFILE_SIDE)
+    grain++;
+  return grain;
+}
+
 static celspan_status open_writer(cs_plane_film *film, double frames_second) {
   const planefile_writer_desc desc = {.width = film->desc.width,
                                       .height = film->desc.height,
@@ -36,7 +48,8 @@ static celspan_status open_writer(cs_plane_film *film, double frames_second) {
                                       .resize = cs_plane_resize,
                                       .resize_user = film->context->memory,
                                       .frames_second = frames_second,
-                                      .is_coded = film->desc.depth == 8};
+                                      .is_coded = film->desc.depth == 8,
+                                      .grain = film->grain};
   return report(film, planefile_writer_create(&desc, &film->writer));
 }
 
@@ -50,6 +63,9 @@ celspan_status cs_plane_film_create(celspan_context *context, const char *path,
   film->desc.width = desc->width;
   film->desc.height = desc->height;
   film->desc.depth = desc->depth;
+  if (desc->depth == 8 && desc->frames_second > 0)
+    film->grain = (planefile_grain){find_grain(fmax(desc->width, 1920)),
+                                    find_grain(fmax(desc->height, 1080))};
   celspan_status status = cs_file_create(context, NULL, path, &film->file);
   if (status == CELSPAN_OK)
     status = open_writer(film, desc->frames_second);
@@ -86,8 +102,8 @@ celspan_status cs_plane_film_commit(cs_plane_film *film) {
 static celspan_status put_scene(cs_plane_film *film, const celspan_frame_desc *frame) {
   cs_plane_frame made;
   film->desc.space = frame->space;
-  celspan_status status =
-      cs_plane_record(film->context, frame->exposures, frame->exposure_count, &film->desc, &made);
+  celspan_status status = cs_plane_record(film->context, frame->exposures, frame->exposure_count,
+                                          &film->desc, film->grain, &made);
   if (status == CELSPAN_OK) {
     planefile_band band = cs_record_plane(&made.record);
     planefile_status written = planefile_writer_frame(film->writer, &band);

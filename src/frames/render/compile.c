@@ -325,7 +325,7 @@ static void begin(cs_compiler *c, cs_boundary_builder *boundaries, celspan_conte
                      .compile_alone = compile_alone,
                      .free_alone = cs_defocus_layer_free_plan};
   cs_boundary_init(&plan->boundaries);
-  plan->boundaries.keeps_curves = view->unit > 0;
+  plan->boundaries.keeps_curves = view->unit.x > 0;
   cs_boundary_builder_init(boundaries, context, &plan->boundaries, &c->frame);
 }
 

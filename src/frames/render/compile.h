@@ -35,10 +35,10 @@ typedef struct cs_view {
   float span_error;         /* see engine/compose/stack.h */
   celspan_space space;      /* of the rows */
   celspan_space film_space; /* for a rostrum without one; AROUND: the space of the rows */
-  /* For planes: a unit of the plane in pixels. Curves are kept (model/geometry/boundary.h), and
-   * objects lie at multiples of the unit, so that their curves are the same wherever the objects
-   * have been moved. 0: curves are not kept, and objects lie anywhere. */
-  double unit;
+  /* For planes: what places are multiples of, in pixels, across and down. Curves are kept
+   * (model/geometry/boundary.h), and objects lie at multiples of it, so that their curves are the
+   * same wherever the objects have been moved. 0: curves are not kept, and objects lie anywhere. */
+  celspan_point unit;
   const size_t *cel_numbers; /* of the rostrum's cels, for messages; NULL: from 1 */
   size_t pieces, points;     /* about how many the outlines of a drawing have; 0: not known */
 } cs_view;

@@ -64,7 +64,7 @@ struct cs_compiler {
   cs_mark mark;                    /* of the cel; borrowed */
   cs_v4 front;
   celspan_space space; /* of the object being compiled */
-  double unit;         /* of planes: see cs_view */
+  celspan_point unit;  /* of planes: see cs_view */
   uint32_t group;      /* the group being filled, or CS_STACK_NONE */
   cs_compiler_isolation isolation;
   bool records;     /* an operand is being compiled: it leaves one result on the tree's stack */

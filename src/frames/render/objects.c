@@ -13,13 +13,13 @@
 
 #define PARTS 16 /* a union of more operands is compiled as a union of this many unions */
 
-/* Moves to the nearest multiple of the unit; objects in perspective keep their place. */
+/* Moves to the nearest multiples of the units; objects in perspective keep their place. */
 static void snap(const cs_compiler *c, celspan_matrix *matrix) {
   double *m = matrix->m;
-  if (c->unit == 0 || m[6] != 0 || m[7] != 0 || m[8] != 1)
+  if (c->unit.x == 0 || m[6] != 0 || m[7] != 0 || m[8] != 1)
     return;
-  m[2] = floor(m[2] / c->unit + 0.5) * c->unit;
-  m[5] = floor(m[5] / c->unit + 0.5) * c->unit;
+  m[2] = floor(m[2] / c->unit.x + 0.5) * c->unit.x;
+  m[5] = floor(m[5] / c->unit.y + 0.5) * c->unit.y;
 }
 
 static celspan_status add_object(cs_compiler *c, const celspan_object *object,

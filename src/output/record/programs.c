@@ -1,6 +1,7 @@
 /* One file, because every step of a program is added to the same state. */
 #include "output/record/programs.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "base/number.h"
@@ -361,16 +362,54 @@ static celspan_status make_axis(program_maker *m, const cs_layer *layer, uint32_
   return CELSPAN_OK;
 }
 
-static celspan_status find_axis(program_maker *m, const cs_layer *layer, uint32_t *out) {
+static cs_hash hash_axis(const planefile_axis *axis) {
+  cs_hash hash = cs_hash_begin(0x61786973u);
+  cs_hash_word(&hash, axis->kind | (uint64_t)axis->wrap << 8 | (uint64_t)axis->filter << 16 |
+                          (uint64_t)axis->picture << 32);
+  for (int i = 0; i < 3; i++) {
+    cs_hash_number(&hash, axis->p[i]);
+    cs_hash_number(&hash, axis->q[i]);
+    cs_hash_number(&hash, axis->w[i]);
+  }
+  cs_hash_number(&hash, axis->focus);
+  return cs_hash_end(hash);
+}
+
+/* A number that 24 bits hold. */
+static double shorten(double number) { return fabs(number) < FLT_MAX ? (float)number : number; }
+
+/* Rounds the numbers of an axis, which changes no colour by a tenth of an 8-bit code. */
+static void round_axis(planefile_axis *axis) {
+  for (int i = 0; i < 3; i++) {
+    axis->p[i] = shorten(axis->p[i]);
+    axis->q[i] = shorten(axis->q[i]);
+    axis->w[i] = shorten(axis->w[i]);
+  }
+  axis->focus = shorten(axis->focus);
+}
+
+/* *out: the number of an axis in the record, plus 1. Two layers may have the same one. */
+static celspan_status add_axis(program_maker *m, const planefile_axis *axis, uint32_t *out) {
   cs_recording *record = m->record;
+  celspan_context *context = m->source->context;
+  cs_hash key = hash_axis(axis);
+  size_t number = record->axis_count;
+  if (!cs_hash_table_find(m->source->known, key, &number)) {
+    CS_TRY(CS_APPEND(context, record->axes, record->axis_count, record->axis_capacity, *axis));
+    CS_TRY(cs_hash_table_add(m->source->known, context, key, number));
+  }
+  *out = (uint32_t)number + 1;
+  return CELSPAN_OK;
+}
+
+static celspan_status find_axis(program_maker *m, const cs_layer *layer, uint32_t *out) {
   planefile_axis axis;
   uint32_t *known;
   CS_TRY(make_axis(m, layer, &known, &axis));
-  if (*known == 0) {
-    CS_TRY(CS_APPEND(m->source->context, record->axes, record->axis_count, record->axis_capacity,
-                     axis));
-    *known = (uint32_t)record->axis_count;
-  }
+  if (*known == 0 && m->source->is_coded && axis.kind != PLANEFILE_PICTURE)
+    round_axis(&axis);
+  if (*known == 0)
+    CS_TRY(add_axis(m, &axis, known));
   *out = *known - 1;
   return CELSPAN_OK;
 }
@@ -686,4 +725,27 @@ celspan_status cs_record_program(const cs_record_source *source, const cs_progra
                              : make_weighted(source, program, record));
   *out = (planefile_program){first, (uint32_t)record->step_count - first};
   return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- what they are */
+
+static void hash_colour(cs_hash *hash, const planefile_cell *colour) {
+  for (int c = 0; c < 4; c++)
+    cs_hash_word(hash, (uint64_t)colour->colour[c]);
+}
+
+cs_hash cs_record_program_hash(const cs_recording *record, const planefile_program *program) {
+  cs_hash hash = cs_hash_begin(0x70726f67u);
+  for (uint32_t i = program->step; i < program->step + program->step_count; i++) {
+    const planefile_step *step = &record->steps[i];
+    bool is_ramp = step->kind == PLANEFILE_RAMP;
+    cs_hash_word(&hash, step->kind | (uint64_t)step->how << 8 | (uint64_t)step->stop_count << 32);
+    cs_hash_word(&hash, is_ramp ? step->axis : 0);
+    hash_colour(&hash, &step->colour);
+    for (uint32_t k = step->stop; is_ramp && k < step->stop + step->stop_count; k++) {
+      cs_hash_number(&hash, record->stops[k].at);
+      hash_colour(&hash, &record->stops[k].colour);
+    }
+  }
+  return cs_hash_end(hash);
 }

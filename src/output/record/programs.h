@@ -13,6 +13,7 @@
  */
 #pragma once
 
+#include "base/hash_table.h"
 #include "engine/compose/cell.h"
 #include "output/record/recording.h"
 
@@ -22,9 +23,11 @@ typedef struct cs_record_source {
   const cs_stack *stack;
   struct cs_defocus *const *defocus; /* of the defocused layers */
   float weight;                      /* of everything that is made */
+  bool is_coded;                     /* what is shown becomes 8-bit codes */
   /* for each shade, then each image, then each defocused layer: the number of its axis in the
    * record plus 1; 0: it has no axis yet */
   uint32_t *axes;
+  cs_hash_table *known; /* the numbers of axes in the record, by what they are */
 } cs_record_source;
 
 /* Appends the program's steps, and the values that they need, to a record. Errors: NO_MEMORY;
@@ -32,3 +35,6 @@ typedef struct cs_record_source {
 CELSPAN_CHECKED celspan_status cs_record_program(const cs_record_source *source,
                                                  const cs_program *program, cs_recording *record,
                                                  planefile_program *out);
+
+/* Of what a program of a record shows. */
+cs_hash cs_record_program_hash(const cs_recording *record, const planefile_program *program);

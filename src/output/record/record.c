@@ -19,7 +19,8 @@ typedef struct recorder {
   cs_recording *out;
   cs_events events;
   uint32_t *chain_of;  /* by chain of the plan: the chain of the record plus 1; 0: none yet */
-  cs_hash_table cells; /* found by their colours or layers */
+  cs_hash_table cells; /* found by their colours, their layers or what these show */
+  cs_hash_table axes;
   cs_record_source source;
   const planefile_rounding *rounding; /* NULL: colours are not rounded */
 } recorder;
@@ -104,6 +105,23 @@ static celspan_status find_cell(recorder *r, cs_v4 colour, uint32_t *out) {
   return add_cell(r, key, cell, (planefile_program){0, 0}, out);
 }
 
+/* Adds a cell with the latest program of the record under a key, or finds one that shows the same,
+ * and forgets the program. */
+static celspan_status add_varied(recorder *r, cs_hash key, const planefile_program *made,
+                                 uint32_t *out) {
+  cs_recording *record = r->out;
+  cs_hash content = cs_record_program_hash(record, made);
+  if (!is_known(r, content, out)) {
+    CS_TRY(add_cell(r, content, (planefile_cell){{0}}, *made, out));
+    return cs_hash_table_add(&r->cells, r->context, key, *out);
+  }
+  record->step_count = made->step;
+  for (uint32_t i = made->step; i < made->step + made->step_count; i++)
+    if (record->steps[i].kind == PLANEFILE_RAMP && record->steps[i].stop < record->stop_count)
+      record->stop_count = record->steps[i].stop;
+  return cs_hash_table_add(&r->cells, r->context, key, *out);
+}
+
 /* The number of the cell of a program. */
 static celspan_status find_varied(recorder *r, const cs_program *program, uint32_t *out) {
   planefile_program made;
@@ -114,7 +132,7 @@ static celspan_status find_varied(recorder *r, const cs_program *program, uint32
   if (is_known(r, key, out))
     return CELSPAN_OK;
   CS_TRY(cs_record_program(&r->source, program, r->out, &made));
-  return add_cell(r, key, (planefile_cell){{0}}, made, out);
+  return add_varied(r, key, &made, out);
 }
 
 /* The number of a cell; a cs_events_visitor. */
@@ -129,28 +147,30 @@ static celspan_status find_shown(void *user, cs_composer *composer, const cs_cel
 
 /* ---------------------------------------------------------------- curves */
 
-static int32_t to_units(double pixels) {
-  double units = floor(pixels * UNITS + 0.5);
+/* The nearest multiple of 2^grain units. */
+static int32_t to_units(double pixels, uint8_t grain) {
+  double unit = 1 << grain, units = floor(pixels * UNITS / unit + 0.5) * unit;
   return (int32_t)cs_number_clamp(units, -PLANEFILE_FAR, PLANEFILE_FAR);
 }
 
-static planefile_point point_at(double x, double y) {
-  return (planefile_point){to_units(x), to_units(y), PLANEFILE_WEIGHT};
+static planefile_point point_at(const recorder *r, double x, double y) {
+  planefile_grain grain = r->out->grain;
+  return (planefile_point){to_units(x, grain.x), to_units(y, grain.y), PLANEFILE_WEIGHT};
 }
 
 /* The control points of a piece, from its coefficients in powers; its end points are known. */
-static void from_powers(const cs_hpoint *c, int degree, planefile_point *out) {
+static void from_powers(const recorder *r, const cs_hpoint *c, int degree, planefile_point *out) {
   for (int i = 1; i < degree; i++) {
     double second = degree == 3 && i == 2 ? 1.0 / 3 : 0, first = (double)i / degree;
-    out[i] = point_at(c[0].x + first * c[1].x + second * c[2].x,
+    out[i] = point_at(r, c[0].x + first * c[1].x + second * c[2].x,
                       c[0].y + first * c[1].y + second * c[2].y);
   }
 }
 
-static void from_rational(const cs_hpoint *p, int degree, planefile_point *out) {
+static void from_rational(const recorder *r, const cs_hpoint *p, int degree, planefile_point *out) {
   for (int i = 0; i <= degree; i++) {
     if (i > 0 && i < degree)
-      out[i] = point_at(p[i].x / p[i].w, p[i].y / p[i].w);
+      out[i] = point_at(r, p[i].x / p[i].w, p[i].y / p[i].w);
     out[i].w = (uint32_t)floor(p[i].w / p[0].w * PLANEFILE_WEIGHT + 0.5);
   }
 }
@@ -163,12 +183,12 @@ static void add_piece(recorder *r, const cs_boundary_piece *piece) {
   planefile_point *to = &out->points[out->point_count];
   out->pieces[out->piece_count++] =
       (planefile_piece){(uint32_t)out->point_count, piece->degree, !is_line && !piece->is_power};
-  to[0] = point_at(piece->x0, piece->y0);
-  to[piece->degree] = point_at(piece->x1, piece->y1);
+  to[0] = point_at(r, piece->x0, piece->y0);
+  to[piece->degree] = point_at(r, piece->x1, piece->y1);
   if (!is_line && piece->is_power)
-    from_powers(points, piece->degree, to);
+    from_powers(r, points, piece->degree, to);
   else if (!is_line)
-    from_rational(points, piece->degree, to);
+    from_rational(r, points, piece->degree, to);
   out->point_count += piece->degree + (size_t)1;
 }
 
@@ -202,9 +222,9 @@ static celspan_status add_chain(recorder *r, const cs_boundary_chain *chain, uin
   return CELSPAN_OK;
 }
 
-static planefile_point course_point(const cs_course_point *at) {
+static planefile_point course_point(const recorder *r, const cs_course_point *at) {
   const double unit = 1.0 / CS_COURSE_UNIT;
-  return point_at(at->x * unit, at->y * unit);
+  return point_at(r, at->x * unit, at->y * unit);
 }
 
 /* Adds a chain of lines that follows a course. */
@@ -219,8 +239,8 @@ static celspan_status add_lines(recorder *r, uint32_t course, uint32_t *out) {
   for (uint32_t k = 0; k + 1 < of->count; k++) {
     record->pieces[record->piece_count++] =
         (planefile_piece){(uint32_t)record->point_count, 1, false};
-    record->points[record->point_count++] = course_point(&points[k]);
-    record->points[record->point_count++] = course_point(&points[k + 1]);
+    record->points[record->point_count++] = course_point(r, &points[k]);
+    record->points[record->point_count++] = course_point(r, &points[k + 1]);
   }
   return CELSPAN_OK;
 }
@@ -239,7 +259,9 @@ static void find_limits(const cs_recording *record, uint32_t number, int32_t *le
 }
 
 /* A height of the sweep, converted to units of a plane. */
-static int32_t height_of(int32_t y) { return to_units(y * (1.0 / CS_COURSE_UNIT)); }
+static int32_t height_of(const recorder *r, int32_t y) {
+  return to_units(y * (1.0 / CS_COURSE_UNIT), r->out->grain.y);
+}
 
 static celspan_status find_chain(recorder *r, uint32_t course, uint32_t *out) {
   const cs_boundary_chain *chain = &r->plan->boundaries.chains[course];
@@ -259,8 +281,8 @@ static celspan_status add_border(recorder *r, const cs_events_part *part) {
   int32_t least, most;
   CS_TRY(find_chain(r, part->course, &border.chain));
   find_limits(record, border.chain, &least, &most);
-  border.top = (int32_t)cs_number_clamp(height_of(part->top), least, most);
-  border.foot = (int32_t)cs_number_clamp(height_of(part->foot), least, most);
+  border.top = (int32_t)cs_number_clamp(height_of(r, part->top), least, most);
+  border.foot = (int32_t)cs_number_clamp(height_of(r, part->foot), least, most);
   return border.top >= border.foot ? CELSPAN_OK
                                    : CS_APPEND(r->context, record->borders, record->border_count,
                                                record->border_capacity, border);
@@ -321,6 +343,8 @@ celspan_status cs_record_put_plan(celspan_context *context, const cs_plan *plan,
   size_t chains = plan->boundaries.chain_count + 1, axes = axis_count(plan);
   r.source.context = context;
   r.source.weight = weight;
+  r.source.is_coded = rounding;
+  r.source.known = &r.axes;
   r.source.stack = &plan->stack;
   r.source.defocus = plan->defocus;
   celspan_status status = record(&r);
@@ -329,6 +353,7 @@ celspan_status cs_record_put_plan(celspan_context *context, const cs_plan *plan,
   if (r.chain_of)
     cs_mem_free(memory, r.chain_of, chains * sizeof *r.chain_of);
   cs_events_finish(&r.events, memory);
+  cs_hash_table_finish(&r.axes, context);
   cs_hash_table_finish(&r.cells, context);
   return status;
 }

@@ -4,7 +4,8 @@
  *     programs.h   what cells show that vary
  * pictures.h the pictures of these
  *
- * Invariant: every cell has a program, which is empty where the cell is flat.
+ * Invariant: every cell has a program, which is empty where the cell is flat; no two axes and no
+ * two programs of a plan are the same.
  */
 #pragma once
 
@@ -16,9 +17,15 @@
 #define CS_RECORD_SIDE 16381 /* pixels of the plan's width and height */
 #define CS_RECORD_UNIT ((double)CS_RECORD_SIDE / PLANEFILE_SIDE) /* a unit of a plane, in pixels */
 
+/* What places are multiples of, in pixels of the plan. */
+static inline celspan_point cs_record_unit(planefile_grain grain) {
+  return (celspan_point){CS_RECORD_UNIT * (1 << grain.x), CS_RECORD_UNIT * (1 << grain.y)};
+}
+
 typedef struct cs_record_picture cs_record_picture; /* the source of its pixels: pictures.c */
 
 typedef struct cs_recording {
+  planefile_grain grain; /* of all places */
   planefile_point *points;
   planefile_piece *pieces;
   planefile_chain *chains;
