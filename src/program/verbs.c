@@ -571,11 +571,12 @@ const cs_verb cs_verbs[] = {
      .summary = "Converts a picture, painting, drawing, span or plane file to another format or "
                 "size; numbered pictures or a movie to a video.",
      .options = CONVERT},
-    {"plane", "FILE -o PAGE", 1, 1, .summary = "Makes a page that shows a plane file at any size.",
+    {"plane", "[FILE] -o PAGE", 0, 1, .summary = "Makes a page that shows a plane file at any size.",
      .notes = "The plane and its decoder, as WebAssembly, are in the page, which needs nothing "
               "else. It moves and zooms with mouse, touch and keyboard, and draws the visible part "
               "at the size at which it is shown. The page of a film has all of its frames: the "
-              "space bar plays it, and comma and full stop show the frame before and the next one.",
+              "space bar plays it, and comma and full stop show the frame before and the next one. "
+              "Without FILE, -o celspan-film.js writes the element <celspan-film> for other pages.",
      .options = PLANE},
     {"compare", "A B", 2, 2,
      .summary = "Compares two pictures or films: the exit code is 0 if they show the same, "

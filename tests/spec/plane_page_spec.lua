@@ -20,10 +20,10 @@ end }
 local DECODER = [[
   async function decoder_of(path) {
     const html = require("fs").readFileSync(path, "utf8");
-    const part = id => Buffer.from(
-      new RegExp(`<script id="${id}"[^>]*>([^<]*)<`).exec(html)[1], "base64");
-    const { instance: { exports } } = await WebAssembly.instantiate(part("module"));
-    const plane = part("plane"), address = exports.reserve(plane.length);
+    const part = pattern => Buffer.from(pattern.exec(html)[1], "base64");
+    const module = require("zlib").gunzipSync(part(/const DECODER = "([^"]*)"/));
+    const { instance: { exports } } = await WebAssembly.instantiate(module);
+    const plane = part(/<script id="plane"[^>]*>([^<]*)</), address = exports.reserve(plane.length);
     new Uint8Array(exports.memory.buffer, address).set(plane);
     const bytes = (address, count) =>
       Buffer.from(new Uint8Array(exports.memory.buffer, address, count));
@@ -122,14 +122,16 @@ describe("the page of a plane", function()
     assert.is_true(drawn:find("\10\200\90\255", 1, true) ~= nil)
   end)
 
-  it_decodes("has a decoder of at most 40 KB, and loads nothing", function()
+  it("has a player of at most 45 KB, packed, and loads nothing", function()
     celspan "render film.lua -o a.plane"
     celspan 'plane a.plane -o a.html --title "a <b> & \\"c\\""'
+    celspan "plane -o celspan-film.js"
     local page = bench:read "a.html"
-    local module = page:match '<script id="module" type="text/plain">([^<]*)<'
-    assert.is_true(#module * 3 / 4 < 40 * 1000, #module)
+    assert.is_true(page:find(bench:read "celspan-film.js", 1, true) ~= nil)
+    assert.is_true(tonumber(done "gzip -9c celspan-film.js | wc -c") <= 45 * 1000)
     assert.matches("<title>a &lt;b&gt; &amp; &quot;c&quot;</title>", page, 1, true)
     assert.is_nil(page:match "https?:")
+    assert.is_nil(page:match "@%u+@")
   end)
 
   it_shows("shows the plane, sharp at a depth of ten thousand #plain", function()
@@ -137,29 +139,37 @@ describe("the page of a plane", function()
     celspan "plane a.plane -o a.html"
     local said = see(([=[
       await page.load("file://%s/a.html");
-      const pixel = (x, y) => `[...document.querySelector("canvas")?.getContext("2d")
+      const root = "film.shadowRoot", fault = `${root}.getElementById("fault").textContent`;
+      const pixel = (x, y) => `[...${root}.querySelector("canvas")?.getContext("2d")
         .getImageData(${x}, ${y}, 1, 1).data ?? []]`;
       const at = (x, y) => page.get(pixel(x, y));
       const is_at = (x, y, colour) => page.until(`${pixel(x, y)}.join() === "${colour}"`);
       await is_at(600, 400, "242,100,25,255");
-      const whole = { corner: await at(100, 100), text: await page.get("here('where').textContent"),
-                      fault: await page.get("here('fault').textContent") };
+      await page.until("where.textContent");
+      const whole = { corner: await at(100, 100), text: await page.get("where.textContent"),
+                      fault: await page.get(fault), address: await page.get("location.hash") };
       await page.get("location.hash = '78.005,45,0.016'");
-      await page.until("here('where').textContent.endsWith('10,000')");
+      await page.until("/10,\\d\\d\\d$/.test(where.textContent)");
       await is_at(230, 400, "242,100,25,255");
       await is_at(640, 400, "255,255,255,255");
       const deep = { left: await at(230, 400), middle: await at(640, 400),
                      right: await at(1050, 400),
-                     text: await page.get("here('where').textContent") };
+                     text: await page.get("where.textContent"), width: await page.get("film.view.width") };
       await page.press("0");
       await is_at(640, 50, "32,64,96,255");
+      await page.until("film.view.factor < 1.000001");
+      await page.press("+");
+      await page.until("/^#80,45,10[67]/.test(location.hash)");
+      await page.load();
+      await page.until("where.textContent.endsWith('1.5')");
       return { whole, deep };]=]):format(bench.folder))
     assert.same({ 32, 64, 96, 255 }, said.whole.corner)
-    assert.equal("", said.whole.fault)
+    assert.same({ "", "" }, { said.whole.fault, said.whole.address })
     assert.matches("^80, 45 ", said.whole.text)
     assert.same({ { 242, 100, 25, 255 }, { 255, 255, 255, 255 }, { 242, 100, 25, 255 } },
       { said.deep.left, said.deep.middle, said.deep.right })
-    assert.matches("^78%.005, 45 .*10,000$", said.deep.text)
+    assert.matches("^78%.005, 45 ", said.deep.text)
+    assert.is_true(math.abs(said.deep.width - 0.016) < 1e-6, said.deep.width)
   end)
 
   it_shows("plays a film, and shows any frame of it #plain", function()
@@ -169,28 +179,27 @@ describe("the page of a plane", function()
     celspan "plane a.plane -o a.html"
     local said = see(([=[
       await page.load("file://%s/a.html");
-      await page.until("typeof viewer !== 'undefined' && viewer && !here('film').hidden");
-      const at = x => page.get(`[...document.querySelector("canvas").getContext("2d")
+      const part = id => `film.shadowRoot.getElementById("${id}")`;
+      const at = x => page.get(`[...${part("view")}.getContext("2d")
         .getImageData(${x}, 400, 1, 1).data]`);
-      const text = () => page.get("here('number').textContent");
-      await page.until("pyramid");
-      await page.pause(0.3);
+      const text = () => page.get(`${part("number")}.textContent`);
+      await page.until("where.textContent");
       const first = [await text(), await at(160), await at(640)];
       for (let i = 0; i < 3; i++) await page.press(".");
       await page.pause(0.3);
       const fourth = [await text(), await at(160), await at(640)];
       await page.press(" ");
-      await page.until("shown === 7");
+      await page.until("film.currentTime === 7 / 8");
       await page.press(",");
       await page.pause(0.5);
-      const stopped = await page.get("started === null");
-      await page.get("here('frame').value = 12; here('frame').oninput()");
-      const is_free = await page.get(`here('frame').dispatchEvent(new KeyboardEvent("keydown",
+      const stopped = await page.get("film.paused");
+      await page.get(`${part("frame")}.value = 12; ${part("frame")}.oninput()`);
+      const is_free = await page.get(`${part("frame")}.dispatchEvent(new KeyboardEvent("keydown",
         { key: "ArrowRight", bubbles: true, cancelable: true }))`); // the slider's own key
       const last = await text();
       await page.press(".");
       return { first, fourth, stopped, last, is_free, again: await text(),
-               fault: await page.get("here('fault').textContent") };]=]):format(bench.folder))
+               fault: await page.get(`${part("fault")}.textContent`) };]=]):format(bench.folder))
     local orange, blue = { 242, 100, 25, 255 }, { 32, 64, 96, 255 }
     assert.same({ "1 / 12", orange, blue }, said.first)
     assert.same({ "4 / 12", blue, orange }, said.fourth)
@@ -202,6 +211,8 @@ describe("the page of a plane", function()
     for _, one in ipairs {
       { 2, "-o is missing: give -o page.html", "plane a.plane" },
       { 2, "give it a name that ends in .html", "plane a.plane -o a.plane" },
+      { 2, "give it a name that ends in .html", "plane a.plane -o a.js" },
+      { 2, "which plane?", "plane -o a.html" },
       { 4, "this is not a plane file", "plane film.lua -o a.html" },
       { 4, "No such file", "plane none.plane -o a.html" },
     } do

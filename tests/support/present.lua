@@ -60,7 +60,7 @@ end
 function present.web() return not contains "built without libmicrohttpd" end
 
 --- Whether celspan plane can make pages: it was built with clang and lld.
-function present.pages() return contains "AGFzbQEAAAA" end -- the beginning of a module, in base64
+function present.pages() return contains "H4sIAAAAAAAC" end -- the beginning of a packed module
 
 --- Whether all of these programs are installed; a path is a program too.
 function present.program(...)

@@ -6,6 +6,8 @@
 //
 // A page whose picture changes has `paint` instead of tiles: paint(pencil, x, y, scale) draws the
 // frame, of which (0, 0) lies at (x, y) of the canvas, at `scale` pixels of the canvas for each of its own.
+// A viewer that is a part of a page has `keys`, the element in which keys are heard instead of the
+// whole page; `turns(event)`, whether a turn of the wheel is its own; and `signal`, which ends it.
 //
 // Three kinds of pixels are used:
 //
@@ -235,6 +237,7 @@ function show_tiles(canvas, pyramid, hooks) {
 
   function frame(now) {
     is_asked = false;
+    if (hooks.signal?.aborted) return;
     measure();
     const was_settled = is_settled();
     if (!was_settled) step(now, Math.min(50, now - drawn_at));
@@ -286,17 +289,25 @@ function show_tiles(canvas, pyramid, hooks) {
   }
 
   const everything = at_once => go(pyramid.width / 2, pyramid.height / 2, whole() * width, at_once);
-  const tell = () => ({ x: view.x, y: view.y, width: view.scale * width, scale: view.scale });
+  // whole: the width of a view of everything.
+  const tell = () => ({ x: view.x, y: view.y, width: view.scale * width, scale: view.scale,
+                        whole: whole() * width });
 
-  // Measures the window; the point in its centre stays there.
+  const is_everything = () => Math.abs(goal.scale / whole() - 1) < 1e-6
+    && goal.x === pyramid.width / 2 && goal.y === pyramid.height / 2;
+
+  // Measures the window; the point in its centre stays there, or everything is shown as before.
   function measure() {
-    const box = canvas.getBoundingClientRect();
+    const box = canvas.getBoundingClientRect(), was_everything = is_everything();
     ratio = devicePixelRatio || 1;
     width = Math.max(1, box.width);
     height = Math.max(1, box.height);
     const across = Math.round(width * ratio), down = Math.round(height * ratio);
     if (canvas.width !== across) canvas.width = across;
     if (canvas.height !== down) canvas.height = down;
+    if (!was_everything || is_everything()) return;
+    goal = held({ ...goal, scale: whole() });
+    view = { ...goal };
   }
 
   // ------------------------------------------------------------ mouse and touch
@@ -356,6 +367,7 @@ function show_tiles(canvas, pyramid, hooks) {
   canvas.addEventListener("pointercancel", let_go);
 
   canvas.addEventListener("wheel", event => {
+    if (hooks.turns && !hooks.turns(event)) return;
     event.preventDefault();
     const at = place(event), unit = [1, 16, height][event.deltaMode];
     const strength = event.ctrlKey ? 5 : 1; // ctrl: two fingers on a touch pad
@@ -381,7 +393,7 @@ function show_tiles(canvas, pyramid, hooks) {
   };
 
   // Whatever has the focus, except a slider: buttons use none of these keys.
-  addEventListener("keydown", event => {
+  (hooks.keys ?? window).addEventListener("keydown", event => {
     if (event.ctrlKey || event.altKey || event.metaKey || !KEYS[event.key]) return;
     if (event.target?.tagName === "INPUT") return;
     event.preventDefault();
@@ -393,6 +405,7 @@ function show_tiles(canvas, pyramid, hooks) {
   measure();
   everything(true);
   new ResizeObserver(() => { goal = held(goal); ask(); }).observe(canvas);
-  addEventListener("resize", ask); // the ratio changes with the browser's zoom
+  // The ratio changes with the browser's zoom.
+  addEventListener("resize", ask, { signal: hooks.signal });
   return { go, zoom, everything, tell, ask };
 }

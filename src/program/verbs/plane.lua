@@ -1,5 +1,6 @@
---- celspan plane FILE -o PAGE: a page that shows a plane at any size. The plane and its decoder, as
---- WebAssembly, are in the page.
+--- celspan plane FILE -o PAGE: a page that shows a plane at any size, by the element celspan-film. The
+--- plane and the element, with its decoder as WebAssembly, are in the page. Without a FILE, the script
+--- of the element alone.
 local program, request = ...
 
 local DIGITS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"
@@ -44,21 +45,27 @@ local function bytes_of(path)
   return bytes or program.fail("input", "%s", message or path)
 end
 
-local path = request[1]
-if not request.output then program.usage "-o is missing: give -o page.html" end
-if not request.output:lower():find "%.html?$" then
-  program.usage("%s: a page is an HTML file: give it a name that ends in .html", request.output)
+local page = request.output
+if not page then program.usage "-o is missing: give -o page.html" end
+local path, is_script = request[1], program.has_ending(page, ".js")
+if path and not program.has_ending(page, ".html", ".htm") then
+  program.usage("%s: a page is an HTML file: give it a name that ends in .html", page)
+elseif not path and not is_script then
+  program.usage("%s: which plane? Without a FILE, only the player is written, to a name that ends "
+    .. "in .js", page)
 end
-if program.text "plane.module" == "none" then
+local module = program.text "plane.module"
+if module == "none" then
   program.fail("input", "this celspan was built without clang and lld, which make the decoder of "
     .. "pages: install them, for example the Debian packages clang and lld, and build it again")
 end
-program.refuse_self(path, request.output)
-local facts = program.plane(path) -- fails if the file is not a plane
--- The decoder that can also draw pictures is larger.
-local module = program.text(facts.pictures > 0 and "pictures.module" or "plane.module")
-local fields = {
+local function filled(name, fields) return (program.text(name):gsub("@(%u+)@", fields)) end
+local player = filled("celspan-film.js", { VERSION = require "celspan"._VERSION:match "%S+$",
+                                           VIEWER = program.text "viewer.js", MODULE = module })
+if not path then return program.save(page, player) end
+program.refuse_self(path, page)
+program.plane(path) -- fails if the file is not a plane
+program.save(page, filled("plane.html", {
   TITLE = program.markup(request.title or path:match "[^/]*$"),
-  VIEWER = program.text "viewer.js", MODULE = module, PLANE = base64(bytes_of(path)),
-}
-program.save(request.output, (program.text "plane.html":gsub("@(%u+)@", fields)))
+  PLAYER = player, PLANE = base64(bytes_of(path)),
+}))

@@ -1,8 +1,8 @@
 #!/bin/sh
-# The decoder as WebAssembly, in base64: build.sh OUT SOURCE... It is made to be small. CLANG and
-# WASM_LD: the programs; without them OUT is the word none. WASM_OPT: wasm-opt, which makes it
-# smaller still: it may take sums of addresses as places of loads, because nothing is in the first
-# 1024 bytes, the far end of the stack.
+# The decoder as WebAssembly, packed by gzip and in base64: build.sh OUT SOURCE... It is made to be
+# small. CLANG and WASM_LD: the programs; without them OUT is the word none. WASM_OPT: wasm-opt, which
+# makes it smaller still: it may take sums of addresses as places of loads, because nothing is in the
+# first 1024 bytes, the far end of the stack.
 set -eu
 out=$1
 shift
@@ -29,4 +29,4 @@ done
   "$WASM_OPT" -Oz --low-memory-unused --enable-simd --enable-bulk-memory --enable-sign-ext \
     --enable-nontrapping-float-to-int --enable-mutable-globals \
     "$folder/plane.wasm" -o "$folder/plane.wasm"
-base64 -w 0 "$folder/plane.wasm" >"$out"
+gzip -9n <"$folder/plane.wasm" | base64 -w 0 >"$out"
