@@ -60,8 +60,10 @@ if module == "none" then
     .. "pages: install them, for example the Debian packages clang and lld, and build it again")
 end
 local function filled(name, fields) return (program.text(name):gsub("@(%u+)@", fields)) end
-local player = filled("celspan-film.js", { VERSION = require "celspan"._VERSION:match "%S+$",
-                                           VIEWER = program.text "viewer.js", MODULE = module })
+local player = filled("celspan-film.js", {
+  VERSION = require "celspan"._VERSION:match "%S+$", VIEWER = program.text "viewer.js",
+  DECODER = filled("decoder.js", { MODULE = module }),
+})
 if not path then return program.save(page, player) end
 program.refuse_self(path, page)
 program.plane(path) -- fails if the file is not a plane

@@ -2,8 +2,7 @@
 //
 //   <celspan-film src="moon.plane" controls></celspan-film>
 //
-// It is an ES module without exports, and a classic script. No tag of a script may stand in it, because
-// pages contain it.
+// It is an ES module without exports and a classic script; pages contain it, so no tag of a script may.
 //
 // The decoder, as WebAssembly, is in this file. It is compiled once for all films of a page, and each
 // film has an instance with a memory of its own, so that a damaged file harms no other. The viewer
@@ -17,88 +16,7 @@
 (() => {
 "use strict";
 @VIEWER@
-const DECODER = "@MODULE@"; // packed by gzip, in base64
-const TOP = 24, LOWEST = 8, TILE = 256; // levels of the pyramid, and pixels of a tile
-
-const bytes_of = digits => Uint8Array.from(atob(digits), letter => letter.charCodeAt(0));
-
-// ------------------------------------------------------------ the decoder
-
-let compiled = null; // the module, soon
-
-async function compile() {
-  try {
-    const unpacked = new Blob([bytes_of(DECODER)]).stream()
-      .pipeThrough(new DecompressionStream("gzip"));
-    return await WebAssembly.compile(await new Response(unpacked).arrayBuffer());
-  } catch (fault) {
-    throw new Error(`The picture cannot be shown, because this page or browser does not allow `
-      + `WebAssembly: ${fault.message}`);
-  }
-}
-
-// A plane file in a memory of its own.
-class Plane {
-  static async open(bytes) {
-    compiled ??= compile();
-    const plane = new Plane();
-    plane.calls = (await WebAssembly.instantiate(await compiled)).exports;
-    const address = plane.calls.reserve(bytes.length);
-    if (!address) throw new Error("There is not enough memory for this picture.");
-    new Uint8Array(plane.calls.memory.buffer, address, bytes.length).set(bytes);
-    plane.choose(0);
-    [plane.width, plane.height] = [plane.calls.width(), plane.calls.height()];
-    [plane.frames, plane.rate] = [plane.calls.frames(), plane.calls.rate()];
-    return plane;
-  }
-
-  // Reads a frame, which is drawn from then on.
-  choose(frame) {
-    if (frame === this.frame) return;
-    this.frame = null;
-    const reason = this.calls.open(frame);
-    if (reason) throw new Error(`This picture is damaged: ${this.text_at(reason)}.`);
-    this.frame = frame;
-  }
-
-  // The text at an address, up to its zero.
-  text_at(address) {
-    const bytes = new Uint8Array(this.calls.memory.buffer, address);
-    return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
-  }
-
-  // The crop at (x, y) of the frame at a size. The pixels are valid until the next call.
-  draw(across, down, x, y, columns, rows) {
-    const address = this.calls.draw(across, down, x, y, columns, rows);
-    if (!address) throw new Error("There is not enough memory to draw this picture.");
-    const { buffer } = this.calls.memory;
-    return new ImageData(new Uint8ClampedArray(buffer, address, 4 * columns * rows), columns, rows);
-  }
-
-  // As much of the frame as the canvas shows: see `paint` of the viewer.
-  paint(pencil, pyramid, x, y, scale) {
-    const across = Math.max(1, Math.round(pyramid.width * scale));
-    const down = Math.max(1, Math.round(pyramid.height * scale));
-    const left = Math.max(0, -x), upper = Math.max(0, -y);
-    const columns = Math.min(across, pencil.canvas.width - x) - left;
-    const rows = Math.min(down, pencil.canvas.height - y) - upper;
-    pencil.clearRect(0, 0, pencil.canvas.width, pencil.canvas.height);
-    if (columns > 0 && rows > 0)
-      pencil.putImageData(this.draw(across, down, left, upper, columns, rows), x + left, y + upper);
-  }
-
-  tile(pyramid, level, column, row) {
-    const factor = 2 ** (TOP - level), x = column * TILE, y = row * TILE;
-    const across = Math.ceil(pyramid.width / factor), down = Math.ceil(pyramid.height / factor);
-    const tile = document.createElement("canvas");
-    tile.width = Math.min(TILE, across - x);
-    tile.height = Math.min(TILE, down - y);
-    const pixels = this.draw(across, down, x, y, tile.width, tile.height);
-    tile.getContext("2d").putImageData(pixels, 0, 0);
-    return tile;
-  }
-}
-
+@DECODER@
 // Tasks that are done one after the other, between two frames of the page: sooner than timers.
 const due = [], messages = globalThis.document && new MessageChannel();
 function soon(task) {
@@ -114,11 +32,13 @@ async function fetch_bytes(film, src, signal) {
     if (!part) throw new Error(`${src}: the page has no such element.`);
     return bytes_of(part.textContent);
   }
-  const answer = await fetch(src, { signal }).catch(fault => {
+  try {
+    const answer = await fetch(src, { signal });
+    if (!answer.ok) throw new Error(`${answer.status} ${answer.statusText}`);
+    return new Uint8Array(await answer.arrayBuffer());
+  } catch (fault) {
     throw new Error(`${src}: this file cannot be loaded: ${fault.message}.`);
-  });
-  if (!answer.ok) throw new Error(`${src}: this file cannot be loaded: ${answer.status}.`);
-  return new Uint8Array(await answer.arrayBuffer());
+  }
 }
 
 // ------------------------------------------------------------ the look
@@ -193,11 +113,12 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
   #viewer = null;
   #pyramid = null;
   #is_drawn = false;  // whether there is a picture
+  #coming = 0;        // tiles
   #shown = 0;         // the frame, from 0
   #told = null;       // the frame of the latest event
   #told_view = "";
   #is_paused = true;
-  #started = 0;       // when frame 0 was shown, while it plays
+  #started = null;    // when frame 0 was shown, once it plays
   #tick = 0;          // the call in which it plays on
   #wish = {};         // what was asked for before the file was there: { time, view }
   #is_seen = true;    // not scrolled away
@@ -247,7 +168,7 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
     this.pause();
     this.#life?.abort();
     this.#life = this.#plane = this.#viewer = this.#told = null;
-    [this.#is_drawn, this.#shown, this.#wish] = [false, 0, {}];
+    [this.#is_drawn, this.#coming, this.#shown, this.#wish] = [false, 0, 0, {}];
   }
 
   async #load() {
@@ -318,8 +239,10 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
   }
 
   #load_tile(signal, level, column, row, done) {
+    this.#coming++;
     soon(() => this.#draw(signal, () => {
-      done(this.#plane.tile(this.#pyramid, level, column, row));
+      done(this.#plane.tile(this.#pyramid, level, column, row)); // which may want more
+      return --this.#coming === 0;
     }));
   }
 
@@ -327,14 +250,15 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
     this.#draw(this.#life.signal, () => {
       this.#plane.choose(this.#shown);
       this.#plane.paint(pencil, this.#pyramid, x, y, scale);
+      return true;
     });
   }
 
+  // step: returns whether the window is filled.
   #draw(signal, step) {
     if (signal.aborted) return;
     try {
-      step();
-      this.#is_drawn = true;
+      if (step()) this.#is_drawn = true;
     } catch (fault) { this.#fail(fault); }
   }
 
@@ -388,13 +312,14 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
     this.#part("play").setAttribute("aria-label", this.#is_paused ? "Play" : "Pause");
     if (this.#is_paused) return;
     if (this.#shown === this.#plane.frames - 1) this.#choose(0);
-    this.#started = performance.now() - this.#shown * 1000 / this.#plane.rate;
+    this.#started = null;
     this.#tick = requestAnimationFrame(now => this.#play_on(now));
   }
 
   #play_on(now) {
     const { frames, rate } = this.#plane;
-    const frame = Math.max(0, Math.floor((now - this.#started) / 1000 * rate + 1e-6));
+    this.#started ??= now - this.#shown * 1000 / rate;
+    const frame = Math.floor((now - this.#started) / 1000 * rate + 1e-6);
     if (frame >= frames && !this.loop) {
       this.#choose(frames - 1);
       this.pause();

@@ -1,0 +1,80 @@
+// The decoder of plane files, as WebAssembly: a part of celspan-film.js.
+const DECODER = "@MODULE@"; // packed by gzip, in base64
+const TOP = 24, LOWEST = 8, TILE = 256; // levels of the pyramid, and pixels of a tile
+
+const bytes_of = digits => Uint8Array.from(atob(digits), letter => letter.charCodeAt(0));
+
+let compiled = null; // the module, soon
+
+async function compile() {
+  try {
+    const unpacked = new Blob([bytes_of(DECODER)]).stream()
+      .pipeThrough(new DecompressionStream("gzip"));
+    return await WebAssembly.compile(await new Response(unpacked).arrayBuffer());
+  } catch (fault) {
+    throw new Error(`The picture cannot be shown, because this page or browser does not allow `
+      + `WebAssembly: ${fault.message}`);
+  }
+}
+
+// A plane file in a memory of its own.
+class Plane {
+  static async open(bytes) {
+    compiled ??= compile();
+    const plane = new Plane();
+    plane.calls = (await WebAssembly.instantiate(await compiled)).exports;
+    const address = plane.calls.reserve(bytes.length);
+    if (!address) throw new Error("There is not enough memory for this picture.");
+    new Uint8Array(plane.calls.memory.buffer, address, bytes.length).set(bytes);
+    plane.choose(0);
+    [plane.width, plane.height] = [plane.calls.width(), plane.calls.height()];
+    [plane.frames, plane.rate] = [plane.calls.frames(), plane.calls.rate()];
+    return plane;
+  }
+
+  // Reads a frame, which is drawn from then on.
+  choose(frame) {
+    if (frame === this.frame) return;
+    this.frame = null;
+    const reason = this.calls.open(frame);
+    if (reason) throw new Error(`This picture is damaged: ${this.text_at(reason)}.`);
+    this.frame = frame;
+  }
+
+  // The text at an address, up to its zero.
+  text_at(address) {
+    const bytes = new Uint8Array(this.calls.memory.buffer, address);
+    return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
+  }
+
+  // The crop at (x, y) of the frame at a size. The pixels are valid until the next call.
+  draw(across, down, x, y, columns, rows) {
+    const address = this.calls.draw(across, down, x, y, columns, rows);
+    if (!address) throw new Error("There is not enough memory to draw this picture.");
+    const { buffer } = this.calls.memory;
+    return new ImageData(new Uint8ClampedArray(buffer, address, 4 * columns * rows), columns, rows);
+  }
+
+  // As much of the frame as the canvas shows: see `paint` of the viewer.
+  paint(pencil, pyramid, x, y, scale) {
+    const across = Math.max(1, Math.round(pyramid.width * scale));
+    const down = Math.max(1, Math.round(pyramid.height * scale));
+    const left = Math.max(0, -x), upper = Math.max(0, -y);
+    const columns = Math.min(across, pencil.canvas.width - x) - left;
+    const rows = Math.min(down, pencil.canvas.height - y) - upper;
+    pencil.clearRect(0, 0, pencil.canvas.width, pencil.canvas.height);
+    if (columns > 0 && rows > 0)
+      pencil.putImageData(this.draw(across, down, left, upper, columns, rows), x + left, y + upper);
+  }
+
+  tile(pyramid, level, column, row) {
+    const factor = 2 ** (TOP - level), x = column * TILE, y = row * TILE;
+    const across = Math.ceil(pyramid.width / factor), down = Math.ceil(pyramid.height / factor);
+    const tile = document.createElement("canvas");
+    tile.width = Math.min(TILE, across - x);
+    tile.height = Math.min(TILE, down - y);
+    const pixels = this.draw(across, down, x, y, tile.width, tile.height);
+    tile.getContext("2d").putImageData(pixels, 0, 0);
+    return tile;
+  }
+}

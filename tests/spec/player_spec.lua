@@ -1,0 +1,394 @@
+-- The element <celspan-film>, which celspan plane -o celspan-film.js writes, in the pages of a server.
+local browsing = require "tests.support.browsing"
+local json = require "celspan.json"
+local present = require "tests.support.present"
+local workbench = require "tests.support.workbench"
+
+if not present.pages() then return pending "celspan was built without clang and lld" end
+if not present.program("node", "chromium") then return pending "there is no node or chromium" end
+
+local AXE = "out/npm/node_modules/axe-core/axe.min.js"
+
+local STILL = [[
+local celspan = require "celspan"
+return celspan.film { size = { 160, 90 }, frames = 1, frame = function()
+  return celspan.rostrum { back = "#204060", celspan.cel {
+    celspan.circle { centre = { 80, 45 }, radius = 30, texture = "#f26419" } } }
+end }
+]]
+local MOVING = [[
+local celspan = require "celspan"
+return celspan.film { size = { 160, 90 }, fps = 25, frames = 50, frame = function(f)
+  return celspan.rostrum { back = "#204060", celspan.cel {
+    celspan.circle { centre = { 3 * f.number, 45 }, radius = 30.3,
+      texture = celspan.linear { from = { 3 * f.number, 15 }, to = { 80, 90 },
+        { 0, "#f26419" }, { 1, "#102040" } } } } }
+end }
+]]
+
+-- What the steps use: a server of the files in the folder, with a policy; and the page of an element.
+local HELP = [[
+  const fs = require("fs"), http = require("http"), folder = "%s";
+  const POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; "
+    + "img-src 'self'; style-src 'self'";
+  const KINDS = { html: "text/html", js: "text/javascript", png: "image/png" };
+  const pages = {};
+  let policy = POLICY, delay = 0;
+  const server = http.createServer((request, answer) => {
+    const name = request.url.slice(1).replace(/[?].*/, "");
+    const type = KINDS[name.split(".").at(-1)] ?? "application/octet-stream";
+    if (!pages[name] && !fs.existsSync(`${folder}/${name}`)) return answer.writeHead(404).end();
+    const send = () => {
+      answer.writeHead(200, { "content-type": type, "content-security-policy": policy });
+      answer.end(pages[name] ?? fs.readFileSync(`${folder}/${name}`));
+    };
+    setTimeout(send, name.endsWith(".plane") ? delay : 0);
+  });
+  await new Promise(done => server.listen(0, "127.0.0.1", done));
+  const at = name => `http://127.0.0.1:${server.address().port}/${name}`;
+  const MODULE = '<script type="module" src="celspan-film.js"></script>';
+  const CLASSIC = '<script src="celspan-film.js"></script>';
+  // Shows elements. Their events are noted before the script of the elements runs.
+  async function show(elements, script = MODULE) {
+    pages["x.html"] = "<!doctype html><html lang=en><title>x</title><main><h1>Films</h1>" + elements
+      + "</main><script src='listen.js'></script>" + script;
+    pages["listen.js"] = `const films = [...document.querySelectorAll("celspan-film")];
+      const events = films.map(() => []), film = films[0];
+      for (const name of ["loadeddata", "play", "pause", "timeupdate", "ended", "error"])
+        films.forEach((one, i) => one.addEventListener(name, event =>
+          events[i].push(event.message ? name + ": " + event.message : name)));
+      const part = (id, one = film) => one.shadowRoot.getElementById(id);
+      const pixel = (x, y, one = film) =>
+        part("view", one).getContext("2d").getImageData(x, y, 1, 1).data.join();`;
+    await page.load(at("x.html"), /^http:/);
+  }
+  const steps = async () => {
+]]
+
+local bench
+
+setup(function()
+  bench = workbench.new()
+  bench:write("still.lua", STILL)
+  bench:write("film.lua", MOVING)
+  for _, command in ipairs { "render still.lua -o still.plane", "render film.lua -o film.plane",
+    "render still.lua -o still.png --size 320x180", "plane -o celspan-film.js" } do
+    local code, _, err = bench:celspan_inside(command)
+    assert(code == 0, err)
+  end
+end)
+teardown(function() bench:remove() end)
+
+--- What the steps return, which have the names of HELP.
+local function see(steps)
+  return browsing.see("about:blank", HELP:gsub("%%s", bench.folder, 1) .. steps .. [[
+  };
+  try { return await steps(); } finally { server.close(); server.closeAllConnections(); }]])
+end
+
+describe("the element of planes #plain", function()
+  it("shows a plane under a strict policy, as a module and as a classic script", function()
+    local said = see [=[
+      const found = [];
+      for (const script of [MODULE, CLASSIC]) {
+        await show(`<celspan-film src="still.plane" width="320" aria-label="A disc"></celspan-film>`,
+          script);
+        await page.until("events[0].length");
+        found.push(await page.get(`[events[0].join(), pixel(160, 90), pixel(2, 2),
+          film.getBoundingClientRect().height, film.role ?? film.getAttribute("role"),
+          part("view").getAttribute("aria-label"), film.duration, film.paused]`));
+      }
+      return found;]=]
+    local one = { "loadeddata", "242,100,25,255", "32,64,96,255", 180, "group", "A disc", 0, true }
+    assert.same({ one, one }, said)
+  end)
+
+  it("shows what is inside it until then, without a script, and where it fails", function()
+    local said = see [=[
+      const inside = `<img src="still.png" alt="A disc">`;
+      const seen = `[film.querySelector("img")?.checkVisibility(), part("poster").checkVisibility()]`;
+      const found = [];
+      delay = 500;
+      await show(`<celspan-film src="still.plane" width="320">${inside}</celspan-film>`);
+      found.push(await page.get(seen));
+      await page.until("events[0].length");
+      found.push(await page.get(seen));
+      await show(`<celspan-film src="still.plane" poster="still.png"></celspan-film>`);
+      found.push(await page.get(seen));
+      await page.until("events[0].length");
+      found.push(await page.get(seen));
+      await show(`<celspan-film src="none.plane" width="320">${inside}</celspan-film>`);
+      await page.until("events[0].length");
+      found.push(await page.get(seen));
+      await show(`<celspan-film src="still.plane">${inside}</celspan-film>`, "");
+      found.push(await page.get(`[film.firstChild.checkVisibility(), film.firstChild.width]`));
+      return found;]=]
+    assert.same({ { true, false }, { false, false }, { json.null, true }, { json.null, false },
+                  { true, false }, { true, 320 } }, said)
+  end)
+
+  it("shows the frames that celspan draws, to the bit", function()
+    local code, _, err = bench:inside(("for i in $(seq 50); do '%s' convert film.plane $i.png "
+      .. "--frame $i --size 160x90 || exit; done"):format(workbench.absolute))
+    assert.equal(0, code, err)
+    local said = see [=[
+      await show(`<celspan-film src="film.plane" width="160"></celspan-film>`);
+      await page.until("events[0].length");
+      return page.get(`(async () => {
+        const digest = async pencil => {
+          const { data } = pencil.getImageData(0, 0, 160, 90);
+          const bytes = new Uint8Array(await crypto.subtle.digest("SHA-256", data));
+          return [...bytes].map(byte => byte.toString(16).padStart(2, "0")).join("");
+        };
+        const pencil = new OffscreenCanvas(160, 90).getContext("2d"), wrong = [], all = new Set();
+        for (let i = 0; i < 50; i++) {
+          film.currentTime = i / 25;
+          if (i) await new Promise(done => film.addEventListener("timeupdate", done, { once: true }));
+          const answer = await fetch(i + 1 + ".png");
+          pencil.drawImage(await createImageBitmap(await answer.blob()), 0, 0);
+          const drawn = await digest(part("view").getContext("2d"));
+          if (drawn !== await digest(pencil)) wrong.push(i);
+          all.add(drawn);
+        }
+        return { wrong, different: all.size };
+      })()`);]=]
+    assert.same({ wrong = {}, different = 50 }, said)
+  end)
+
+  it("plays, pauses, seeks and ends, with an event for each", function()
+    local said = see [=[
+      await show(`<celspan-film src="film.plane" width="160" controls></celspan-film>`);
+      await page.get("film.currentTime = 1.6, film.play(), 0"); // before there is a film
+      await page.until("events[0].includes('ended')");
+      const first = await page.get("[[...events[0]], film.currentTime, film.paused, film.duration]");
+      await page.get("events[0].length = 0, film.play(), 0"); // again from the start
+      await page.until("film.currentTime > 0.2 && film.currentTime < 1");
+      await page.get("film.currentTime = 1.6, 0");
+      const sought = await page.get("film.currentTime");
+      await page.get("film.pause(), 0");
+      const paused = await page.get("film.currentTime");
+      await page.pause(0.2);
+      const still = await page.get("film.currentTime") === paused;
+      await page.get("film.loop = true, film.play(), 0");
+      await page.until("film.currentTime < 1");
+      const loops = await page.get("!film.paused && !events[0].includes('ended')");
+      const wrong = await page.get(`(() => { try { film.currentTime = "soon"; }
+        catch (fault) { return String(fault); } })()`);
+      await page.get("film.currentTime = -5, film.pause(), 0");
+      const low = await page.get("film.currentTime");
+      await page.get("film.currentTime = 99, 0");
+      return { first, sought, still, loops, wrong, low, high: await page.get("film.currentTime") };]=]
+    local events = table.concat(said.first[1], " ")
+    for _, some in ipairs { "^play loadeddata", " timeupdate", " pause ended" } do
+      assert.matches(some, events)
+    end
+    assert.same({ 1.96, true, 2 }, { table.unpack(said.first, 2) })
+    assert.is_true(said.sought >= 1.6 and said.sought < 1.7, said.sought)
+    assert.same({ true, true }, { said.still, said.loops })
+    assert.equal("TypeError: currentTime: soon is not a time", said.wrong)
+    assert.same({ 0, 1.96 }, { said.low, said.high })
+  end)
+
+  it("plays by itself, but not where less motion is wanted", function()
+    local said = see [=[
+      const found = [];
+      for (const value of ["no-preference", "reduce"]) {
+        await page.call("Emulation.setEmulatedMedia",
+          { features: [{ name: "prefers-reduced-motion", value }] });
+        await show(`<celspan-film src="film.plane" width="160" autoplay loop muted></celspan-film>`);
+        await page.until("events[0].includes('loadeddata')");
+        await page.pause(0.3);
+        found.push(await page.get("film.paused"));
+      }
+      await page.get("film.play(), 0"); // who asks gets it
+      found.push(await page.get("film.paused"));
+      return found;]=]
+    assert.same({ false, true, false }, said)
+  end)
+
+  it("hears the keys of the one that has the focus, and its buttons", function()
+    local said = see [=[
+      await show(`<celspan-film src="film.plane" width="320" controls></celspan-film>
+        <celspan-film src="film.plane" width="320" controls></celspan-film>`);
+      await page.until("events.every(list => list.length)");
+      const times = () => page.get("films.map(one => Math.round(one.currentTime * 25))");
+      const found = [];
+      await page.press(".");
+      found.push(await times()); // neither
+      await page.get("films[1].focus(), 0");
+      for (const key of "...,") await page.press(key);
+      found.push(await times());
+      await page.press(" ");
+      await page.until("!films[1].paused && films[0].paused");
+      await page.press(" ");
+      await page.until("films[1].paused");
+      await page.press("+");
+      await page.until("films[1].view.factor > 1.49");
+      found.push(await page.get("films[0].view.factor"));
+      await page.get(`part("play", films[0]).focus(), 0`);
+      await page.press(" "); // presses the button
+      await page.until("!films[0].paused");
+      found.push(await page.get(`[part("play", films[0]).ariaLabel, part("play", films[1]).ariaLabel,
+        part("frame", films[1]).getAttribute("aria-valuetext").replace(/^[0-9]+/, "N")]`));
+      return found;]=]
+    assert.same({ { 0, 0 }, { 0, 2 }, 1, { "Pause", "Play", "N of 50" } }, said)
+  end)
+
+  it("zooms a still by wheel, pinch and zoom(), and leaves the page its wheel over a film", function()
+    local said = see [=[
+      await show(`<celspan-film src="still.plane" width="320"></celspan-film>
+        <celspan-film src="film.plane" width="320"></celspan-film><p id="long"></p>`);
+      await page.get("document.getElementById('long').style.height = '3000px', 0");
+      await page.until("events.every(list => list.length)");
+      const middle = i => page.get(`(box => [box.x + box.width / 2, box.y + box.height / 2])(
+        films[${i}].getBoundingClientRect())`);
+      const [x, y] = await middle(0), other = await middle(1), found = [];
+      await page.mouse("mouseWheel", x, y, { deltaX: 0, deltaY: -300 });
+      await page.until("Math.abs(film.view.factor - 2) < 1e-3");
+      found.push(await page.get("scrollY"));
+      await page.call("Input.synthesizePinchGesture", { x, y, scaleFactor: 2, gestureSourceType: "touch" });
+      await page.until("film.view.factor > 3");
+      await page.get("film.zoom(81, 45.5, 1e5), 0");
+      await page.until("film.view.factor > 99999");
+      await page.until("pixel(160, 90) === '242,100,25,255'");
+      found.push(await page.get("[film.view.x, film.view.y].map(v => v.toFixed(3)).join()"));
+      await page.mouse("mouseWheel", ...other, { deltaX: 0, deltaY: 300 });
+      await page.until("scrollY > 0");
+      found.push(await page.get("films[1].view.factor"));
+      await page.get("scrollTo(0, 0), films[1].focus({ preventScroll: true }), 0");
+      await page.mouse("mouseWheel", ...other, { deltaX: 0, deltaY: -300 });
+      await page.until("films[1].view.factor > 1.9");
+      found.push(await page.get(`(() => { try { film.zoom(1, 2, 0); }
+        catch (fault) { return String(fault); } })()`));
+      return found;]=]
+    assert.same({ 0, "81.000,45.500", 1, "TypeError: zoom: 1, 2, 0 is not a place and a factor above 0" },
+      said)
+  end)
+
+  it("stands eight times on a page, with one decoder", function()
+    local said = see [=[
+      await page.call("Page.addScriptToEvaluateOnNewDocument", { source: `
+        const compile = WebAssembly.compile;
+        let compiled = 0;
+        WebAssembly.compile = bytes => { compiled++; return compile.call(WebAssembly, bytes); };` });
+      await show(`<celspan-film src="film.plane" width="200" autoplay loop></celspan-film>`.repeat(8));
+      await page.until("events.every(list => list.filter(name => name === 'timeupdate').length > 9)");
+      await page.get("films.forEach(one => one.pause()), films[3].currentTime = 1, 0");
+      return page.get("[compiled, films.filter(one => one.currentTime === 1).length > 0]");]=]
+    assert.same({ 1, true }, said)
+  end)
+
+  it("is not drawn where it cannot be seen, but its time goes on", function()
+    local said = see [=[
+      await show(`<p id="long"></p><celspan-film src="film.plane" width="200" autoplay></celspan-film>`);
+      await page.get("document.getElementById('long').style.height = '3000px', 0");
+      await page.until("film.currentTime > 0.3");
+      await page.get("events[0].length = 0");
+      await page.until("events[0].includes('ended')");
+      await page.get("film.scrollIntoView(), 0");
+      await page.until("events[0].includes('timeupdate')");
+      return page.get("events[0]");]=]
+    assert.same({ "pause", "ended", "timeupdate" }, said)
+  end)
+
+  it("goes on where it is moved, ends where it is removed, and begins again by src", function()
+    local said = see [=[
+      await show(`<celspan-film src="film.plane" width="160" autoplay loop></celspan-film>`);
+      await page.until("film.currentTime > 0.4");
+      const found = [];
+      await page.get("document.body.append(film), 0");
+      await page.pause(0.1);
+      found.push(await page.get("[film.paused, film.currentTime > 0.3]"));
+      await page.get("events[0].length = 0, film.remove(), 0");
+      await page.pause(0.1);
+      found.push(await page.get("[film.paused, events[0].at(-1), film.view]"));
+      await page.get("events[0].length = 0, film.src = 'still.plane', document.body.append(film), 0");
+      await page.until("events[0].includes('loadeddata')");
+      found.push(await page.get("[film.duration, pixel(80, 45)]"));
+      await show("<celspan-film></celspan-film>", "");
+      await page.get(`film.src = "still.plane", film.loop = true, 0`); // before there are elements
+      await page.get(`document.head.append(Object.assign(document.createElement("script"),
+        { src: "celspan-film.js" })), 0`);
+      await page.until("events[0].length");
+      found.push(await page.get("[film.getAttribute('src'), film.hasAttribute('loop'), events[0][0]]"));
+      return found;]=]
+    assert.same({ { false, true }, { true, "pause", json.null }, { 0, "242,100,25,255" },
+                  { "still.plane", true, "loadeddata" } }, said)
+  end)
+
+  it("says what is wrong with a file, in an alert and an event, for each player", function()
+    local film = bench:read "film.plane"
+    local half = #film // 2
+    bench:write("damaged.plane", film:sub(1, half) .. string.char(film:byte(half + 1) ~ 1)
+      .. film:sub(half + 2))
+    bench:write("short.plane", film:sub(1, half))
+    local said = see [=[
+      const names = ["damaged", "damaged", "short", "none", "celspan-film.js?"];
+      await show(names.map(name => `<celspan-film src="${name}.plane" width="160" autoplay>
+        </celspan-film>`).join("") + `<celspan-film src="#nothing"></celspan-film>
+        <celspan-film></celspan-film>`);
+      await page.until("events.slice(0, 6).every(list => list.some(name => name.startsWith('error')))");
+      return page.get(`films.map((one, i) => ({ last: events[i].at(-1) ?? "",
+        alert: part("fault", one).textContent, role: part("fault", one).role, paused: one.paused,
+        seen: part("fault", one).checkVisibility() }))`);]=]
+    for i, wanted in ipairs { "This picture is damaged: ", "This picture is damaged: ",
+      "This picture is damaged: ", "none.plane: this file cannot be loaded: 404 Not Found.",
+      "This picture is damaged: ", "#nothing: the page has no such element." } do
+      assert.matches(wanted, said[i].alert, 1, true)
+      assert.same({ last = "error: " .. said[i].alert, alert = said[i].alert, role = "alert",
+                    paused = true, seen = true }, said[i])
+    end
+    assert.same({ "", "", false }, { said[7].last, said[7].alert, said[7].seen })
+  end)
+
+  it("says so where the policy of the page forbids WebAssembly", function()
+    local said = see [=[
+      policy = POLICY.replace(" 'wasm-unsafe-eval'", "");
+      await show(`<celspan-film src="still.plane"></celspan-film>`.repeat(2));
+      await page.until("events.every(list => list.length)");
+      return page.get(`films.map((one, i) => [part("fault", one).textContent, events[i].join()])`);]=]
+    for _, one in ipairs(said) do
+      assert.matches("does not allow WebAssembly", one[1], 1, true)
+      assert.equal("error: " .. one[1], one[2])
+    end
+  end)
+
+  it("can be imported where there is no page", function()
+    local code, out, err = bench:inside "cp celspan-film.js x.mjs && node x.mjs && node celspan-film.js"
+    assert.same({ 0, "", "" }, { code, out, err })
+  end)
+end)
+
+describe("pages with planes #plain", function()
+  if not io.open(AXE) then return pending "axe-core was not fetched" end
+
+  it("have no fault that axe-core finds", function()
+    for name in pairs { still = 1, film = 1 } do
+      local code, _, err = bench:celspan_inside("plane %s.plane -o %s.html", name, name)
+      assert.equal(0, code, err)
+    end
+    local said = see([=[
+      const axe = require("fs").readFileSync("]=] .. AXE .. [=[", "utf8");
+      const found = [];
+      async function look(where) {
+        await page.get(axe + "; 0");
+        const one = await page.get(`axe.run().then(all => ({ passed: all.passes.length,
+          bad: all.violations.map(({ id, nodes }) => id + ": " + nodes[0].failureSummary) }))`);
+        found.push(...one.bad.map(bad => where + ": " + bad));
+        if (one.passed < 10) found.push(where + ": only " + one.passed + " rules passed");
+      }
+      policy = "default-src 'unsafe-inline' 'unsafe-eval' data: 'self'";
+      for (const name of ["still", "film"]) {
+        await page.load(`file://${folder}/${name}.html`);
+        await page.until("where.textContent");
+        await look(name);
+      }
+      await show(`<celspan-film src="film.plane" controls aria-label="A disc"></celspan-film>
+        <celspan-film src="still.plane" controls><img src="still.png" alt="A disc"></celspan-film>
+        <celspan-film src="none.plane" poster="still.png"></celspan-film>`);
+      await page.until("events.every(list => list.length)");
+      await look("elements");
+      return found;]=])
+    assert.same({}, said)
+  end)
+end)
