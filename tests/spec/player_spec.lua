@@ -26,33 +26,19 @@ return celspan.film { size = { 160, 90 }, fps = 25, frames = 50, frame = functio
 end }
 ]]
 
--- What the steps use: a server of the files in the folder, with a policy; and the page of an element.
+-- What the steps use: the files in the folder, with a policy; and the page of an element.
 local HELP = [[
-  const fs = require("fs"), http = require("http"), folder = "%s";
   const POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; "
     + "img-src 'self'; style-src 'self'";
-  const KINDS = { html: "text/html", js: "text/javascript", png: "image/png" };
-  const pages = {};
-  let policy = POLICY, delay = 0;
-  const server = http.createServer((request, answer) => {
-    const name = request.url.slice(1).replace(/[?].*/, "");
-    const type = KINDS[name.split(".").at(-1)] ?? "application/octet-stream";
-    if (!pages[name] && !fs.existsSync(`${folder}/${name}`)) return answer.writeHead(404).end();
-    const send = () => {
-      answer.writeHead(200, { "content-type": type, "content-security-policy": policy });
-      answer.end(pages[name] ?? fs.readFileSync(`${folder}/${name}`));
-    };
-    setTimeout(send, name.endsWith(".plane") ? delay : 0);
-  });
-  await new Promise(done => server.listen(0, "127.0.0.1", done));
-  const at = name => `http://127.0.0.1:${server.address().port}/${name}`;
+  const folder = "%s", site = await require("./site.js")(folder);
+  site.policy = POLICY;
   const MODULE = '<script type="module" src="celspan-film.js"></script>';
   const CLASSIC = '<script src="celspan-film.js"></script>';
   // Shows elements. Their events are noted before the script of the elements runs.
   async function show(elements, script = MODULE) {
-    pages["x.html"] = "<!doctype html><html lang=en><title>x</title><main><h1>Films</h1>" + elements
+    site.pages["x.html"] = "<!doctype html><html lang=en><title>x</title><main><h1>Films</h1>" + elements
       + "</main><script src='listen.js'></script>" + script;
-    pages["listen.js"] = `const films = [...document.querySelectorAll("celspan-film")];
+    site.pages["listen.js"] = `const films = [...document.querySelectorAll("celspan-film")];
       const events = films.map(() => []), film = films[0];
       for (const name of ["loadeddata", "play", "pause", "timeupdate", "ended", "error"])
         films.forEach((one, i) => one.addEventListener(name, event =>
@@ -60,7 +46,7 @@ local HELP = [[
       const part = (id, one = film) => one.shadowRoot.getElementById(id);
       const pixel = (x, y, one = film) =>
         part("view", one).getContext("2d").getImageData(x, y, 1, 1).data.join();`;
-    await page.load(at("x.html"), /^http:/);
+    await page.load(site.at("x.html"), /^http:/);
   }
   const steps = async () => {
 ]]
@@ -83,7 +69,7 @@ teardown(function() bench:remove() end)
 local function see(steps)
   return browsing.see("about:blank", HELP:gsub("%%s", bench.folder, 1) .. steps .. [[
   };
-  try { return await steps(); } finally { server.close(); server.closeAllConnections(); }]])
+  try { return await steps(); } finally { site.close(); }]])
 end
 
 describe("the element of planes #plain", function()
@@ -108,7 +94,7 @@ describe("the element of planes #plain", function()
       const inside = `<img src="still.png" alt="A disc">`;
       const seen = `[film.querySelector("img")?.checkVisibility(), part("poster").checkVisibility()]`;
       const found = [];
-      delay = 500;
+      site.delay = 500;
       await show(`<celspan-film src="still.plane" width="320">${inside}</celspan-film>`);
       found.push(await page.get(seen));
       await page.until("events[0].length");
@@ -343,7 +329,7 @@ describe("the element of planes #plain", function()
 
   it("says so where the policy of the page forbids WebAssembly", function()
     local said = see [=[
-      policy = POLICY.replace(" 'wasm-unsafe-eval'", "");
+      site.policy = POLICY.replace(" 'wasm-unsafe-eval'", "");
       await show(`<celspan-film src="still.plane"></celspan-film>`.repeat(2));
       await page.until("events.every(list => list.length)");
       return page.get(`films.map((one, i) => [part("fault", one).textContent, events[i].join()])`);]=]
@@ -377,7 +363,7 @@ describe("pages with planes #plain", function()
         found.push(...one.bad.map(bad => where + ": " + bad));
         if (one.passed < 10) found.push(where + ": only " + one.passed + " rules passed");
       }
-      policy = "default-src 'unsafe-inline' 'unsafe-eval' data: 'self'";
+      site.policy = "default-src 'unsafe-inline' 'unsafe-eval' data: 'self'";
       for (const name of ["still", "film"]) {
         await page.load(`file://${folder}/${name}.html`);
         await page.until("where.textContent");
