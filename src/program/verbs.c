@@ -571,7 +571,8 @@ const cs_verb cs_verbs[] = {
      .summary = "Converts a picture, painting, drawing, span or plane file to another format or "
                 "size; numbered pictures or a movie to a video.",
      .options = CONVERT},
-    {"plane", "[FILE] -o PAGE", 0, 1, .summary = "Makes a page that shows a plane file at any size.",
+    {"plane", "[FILE] -o PAGE", 0, 1,
+     .summary = "Makes a page that shows a plane file at any size.",
      .notes = "The plane and its decoder, as WebAssembly, are in the page, which needs nothing "
               "else. It moves and zooms with mouse, touch and keyboard, and draws the visible part "
               "at the size at which it is shown. The page of a film has all of its frames: the "

@@ -154,7 +154,8 @@ describe("the page of a plane", function()
       await is_at(640, 400, "255,255,255,255");
       const deep = { left: await at(230, 400), middle: await at(640, 400),
                      right: await at(1050, 400),
-                     text: await page.get("where.textContent"), width: await page.get("film.view.width") };
+                     text: await page.get("where.textContent"),
+                     width: await page.get("film.view.width") };
       await page.press("0");
       await is_at(640, 50, "32,64,96,255");
       await page.until("film.view.factor < 1.000001");

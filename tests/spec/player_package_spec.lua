@@ -20,7 +20,7 @@ local function done(command, ...)
   return out
 end
 
--- The project is the folder: the files of docs/player.md, and the package, installed from its archive.
+-- The project is the folder: the files of docs/player.md, and the package from its archive.
 setup(function()
   bench = workbench.new()
   local root = io.popen("pwd"):read "l"

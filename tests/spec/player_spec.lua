@@ -1,4 +1,4 @@
--- The element <celspan-film>, which celspan plane -o celspan-film.js writes, in the pages of a server.
+-- The element <celspan-film>, which celspan plane -o celspan-film.js writes, in pages of a server.
 local browsing = require "tests.support.browsing"
 local json = require "celspan.json"
 local present = require "tests.support.present"
@@ -36,8 +36,8 @@ local HELP = [[
   const CLASSIC = '<script src="celspan-film.js"></script>';
   // Shows elements. Their events are noted before the script of the elements runs.
   async function show(elements, script = MODULE) {
-    site.pages["x.html"] = "<!doctype html><html lang=en><title>x</title><main><h1>Films</h1>" + elements
-      + "</main><script src='listen.js'></script>" + script;
+    site.pages["x.html"] = "<!doctype html><html lang=en><title>x</title><main><h1>Films</h1>"
+      + elements + "</main><script src='listen.js'></script>" + script;
     site.pages["listen.js"] = `const films = [...document.querySelectorAll("celspan-film")];
       const events = films.map(() => []), film = films[0];
       for (const name of ["loadeddata", "play", "pause", "timeupdate", "ended", "error"])
@@ -77,8 +77,8 @@ describe("the element of planes #plain", function()
     local said = see [=[
       const found = [];
       for (const script of [MODULE, CLASSIC]) {
-        await show(`<celspan-film src="still.plane" width="320" aria-label="A disc"></celspan-film>`,
-          script);
+        await show(`<celspan-film src="still.plane" width="320" aria-label="A disc">
+          </celspan-film>`, script);
         await page.until("events[0].length");
         found.push(await page.get(`[events[0].join(), pixel(160, 90), pixel(2, 2),
           film.getBoundingClientRect().height, film.role ?? film.getAttribute("role"),
@@ -89,10 +89,11 @@ describe("the element of planes #plain", function()
     assert.same({ one, one }, said)
   end)
 
-  it("shows what is inside it until then, without a script, and where it fails", function()
+  it("shows its contents until then, without a script, and where it fails", function()
     local said = see [=[
       const inside = `<img src="still.png" alt="A disc">`;
-      const seen = `[film.querySelector("img")?.checkVisibility(), part("poster").checkVisibility()]`;
+      const seen = `[film.querySelector("img")?.checkVisibility(),
+        part("poster").checkVisibility()]`;
       const found = [];
       site.delay = 500;
       await show(`<celspan-film src="still.plane" width="320">${inside}</celspan-film>`);
@@ -129,7 +130,8 @@ describe("the element of planes #plain", function()
         const pencil = new OffscreenCanvas(160, 90).getContext("2d"), wrong = [], all = new Set();
         for (let i = 0; i < 50; i++) {
           film.currentTime = i / 25;
-          if (i) await new Promise(done => film.addEventListener("timeupdate", done, { once: true }));
+          const drawn_on = done => film.addEventListener("timeupdate", done, { once: true });
+          if (i) await new Promise(drawn_on);
           const answer = await fetch(i + 1 + ".png");
           pencil.drawImage(await createImageBitmap(await answer.blob()), 0, 0);
           const drawn = await digest(part("view").getContext("2d"));
@@ -146,7 +148,8 @@ describe("the element of planes #plain", function()
       await show(`<celspan-film src="film.plane" width="160" controls></celspan-film>`);
       await page.get("film.currentTime = 1.6, film.play(), 0"); // before there is a film
       await page.until("events[0].includes('ended')");
-      const first = await page.get("[[...events[0]], film.currentTime, film.paused, film.duration]");
+      const first = await page.get(
+        "[[...events[0]], film.currentTime, film.paused, film.duration]");
       await page.get("events[0].length = 0, film.play(), 0"); // again from the start
       await page.until("film.currentTime > 0.2 && film.currentTime < 1");
       await page.get("film.currentTime = 1.6, 0");
@@ -163,7 +166,8 @@ describe("the element of planes #plain", function()
       await page.get("film.currentTime = -5, film.pause(), 0");
       const low = await page.get("film.currentTime");
       await page.get("film.currentTime = 99, 0");
-      return { first, sought, still, loops, wrong, low, high: await page.get("film.currentTime") };]=]
+      const high = await page.get("film.currentTime");
+      return { first, sought, still, loops, wrong, low, high };]=]
     local events = table.concat(said.first[1], " ")
     for _, some in ipairs { "^play loadeddata", " timeupdate", " pause ended" } do
       assert.matches(some, events)
@@ -181,7 +185,8 @@ describe("the element of planes #plain", function()
       for (const value of ["no-preference", "reduce"]) {
         await page.call("Emulation.setEmulatedMedia",
           { features: [{ name: "prefers-reduced-motion", value }] });
-        await show(`<celspan-film src="film.plane" width="160" autoplay loop muted></celspan-film>`);
+        await show(`<celspan-film src="film.plane" width="160" autoplay loop muted>
+          </celspan-film>`);
         await page.until("events[0].includes('loadeddata')");
         await page.pause(0.3);
         found.push(await page.get("film.paused"));
@@ -214,13 +219,13 @@ describe("the element of planes #plain", function()
       await page.get(`part("play", films[0]).focus(), 0`);
       await page.press(" "); // presses the button
       await page.until("!films[0].paused");
-      found.push(await page.get(`[part("play", films[0]).ariaLabel, part("play", films[1]).ariaLabel,
+      found.push(await page.get(`[...films.map(one => part("play", one).ariaLabel),
         part("frame", films[1]).getAttribute("aria-valuetext").replace(/^[0-9]+/, "N")]`));
       return found;]=]
     assert.same({ { 0, 0 }, { 0, 2 }, 1, { "Pause", "Play", "N of 50" } }, said)
   end)
 
-  it("zooms a still by wheel, pinch and zoom(), and leaves the page its wheel over a film", function()
+  it("zooms a still by wheel, pinch and zoom(); over a film the wheel moves the page", function()
     local said = see [=[
       await show(`<celspan-film src="still.plane" width="320"></celspan-film>
         <celspan-film src="film.plane" width="320"></celspan-film><p id="long"></p>`);
@@ -232,7 +237,8 @@ describe("the element of planes #plain", function()
       await page.mouse("mouseWheel", x, y, { deltaX: 0, deltaY: -300 });
       await page.until("Math.abs(film.view.factor - 2) < 1e-3");
       found.push(await page.get("scrollY"));
-      await page.call("Input.synthesizePinchGesture", { x, y, scaleFactor: 2, gestureSourceType: "touch" });
+      await page.call("Input.synthesizePinchGesture",
+        { x, y, scaleFactor: 2, gestureSourceType: "touch" });
       await page.until("film.view.factor > 3");
       await page.get("film.zoom(81, 45.5, 1e5), 0");
       await page.until("film.view.factor > 99999");
@@ -247,26 +253,29 @@ describe("the element of planes #plain", function()
       found.push(await page.get(`(() => { try { film.zoom(1, 2, 0); }
         catch (fault) { return String(fault); } })()`));
       return found;]=]
-    assert.same({ 0, "81.000,45.500", 1, "TypeError: zoom: 1, 2, 0 is not a place and a factor above 0" },
-      said)
+    assert.same({ 0, "81.000,45.500", 1,
+                  "TypeError: zoom: 1, 2, 0 is not a place and a factor above 0" }, said)
   end)
 
-  it("stands eight times on a page, with one decoder", function()
+  it("is shown eight times on a page, with one decoder", function()
     local said = see [=[
       await page.call("Page.addScriptToEvaluateOnNewDocument", { source: `
         const compile = WebAssembly.compile;
         let compiled = 0;
-        WebAssembly.compile = bytes => { compiled++; return compile.call(WebAssembly, bytes); };` });
-      await show(`<celspan-film src="film.plane" width="200" autoplay loop></celspan-film>`.repeat(8));
-      await page.until("events.every(list => list.filter(name => name === 'timeupdate').length > 9)");
+        WebAssembly.compile = bytes => (compiled++, compile.call(WebAssembly, bytes));` });
+      await show(`<celspan-film src="film.plane" width="200" autoplay loop></celspan-film>`
+        .repeat(8));
+      await page.until(
+        "events.every(list => list.filter(name => name === 'timeupdate').length > 9)");
       await page.get("films.forEach(one => one.pause()), films[3].currentTime = 1, 0");
       return page.get("[compiled, films.filter(one => one.currentTime === 1).length > 0]");]=]
     assert.same({ 1, true }, said)
   end)
 
-  it("is not drawn where it cannot be seen, but its time goes on", function()
+  it("is not drawn where it cannot be seen, but its time continues", function()
     local said = see [=[
-      await show(`<p id="long"></p><celspan-film src="film.plane" width="200" autoplay></celspan-film>`);
+      await show(`<p id="long"></p>
+        <celspan-film src="film.plane" width="200" autoplay></celspan-film>`);
       await page.get("document.getElementById('long').style.height = '3000px', 0");
       await page.until("film.currentTime > 0.3");
       await page.get("events[0].length = 0");
@@ -277,7 +286,7 @@ describe("the element of planes #plain", function()
     assert.same({ "pause", "ended", "timeupdate" }, said)
   end)
 
-  it("goes on where it is moved, ends where it is removed, and begins again by src", function()
+  it("continues where it is moved, ends where it is removed, and begins again by src", function()
     local said = see [=[
       await show(`<celspan-film src="film.plane" width="160" autoplay loop></celspan-film>`);
       await page.until("film.currentTime > 0.4");
@@ -288,7 +297,8 @@ describe("the element of planes #plain", function()
       await page.get("events[0].length = 0, film.remove(), 0");
       await page.pause(0.1);
       found.push(await page.get("[film.paused, events[0].at(-1), film.view]"));
-      await page.get("events[0].length = 0, film.src = 'still.plane', document.body.append(film), 0");
+      await page.get("events[0].length = 0, film.src = 'still.plane', 0");
+      await page.get("document.body.append(film), 0");
       await page.until("events[0].includes('loadeddata')");
       found.push(await page.get("[film.duration, pixel(80, 45)]"));
       await show("<celspan-film></celspan-film>", "");
@@ -296,7 +306,8 @@ describe("the element of planes #plain", function()
       await page.get(`document.head.append(Object.assign(document.createElement("script"),
         { src: "celspan-film.js" })), 0`);
       await page.until("events[0].length");
-      found.push(await page.get("[film.getAttribute('src'), film.hasAttribute('loop'), events[0][0]]"));
+      found.push(await page.get(
+        "[film.getAttribute('src'), film.hasAttribute('loop'), events[0][0]]"));
       return found;]=]
     assert.same({ { false, true }, { true, "pause", json.null }, { 0, "242,100,25,255" },
                   { "still.plane", true, "loadeddata" } }, said)
@@ -313,7 +324,8 @@ describe("the element of planes #plain", function()
       await show(names.map(name => `<celspan-film src="${name}.plane" width="160" autoplay>
         </celspan-film>`).join("") + `<celspan-film src="#nothing"></celspan-film>
         <celspan-film></celspan-film>`);
-      await page.until("events.slice(0, 6).every(list => list.some(name => name.startsWith('error')))");
+      await page.until(
+        "events.slice(0, 6).every(list => list.some(name => name.startsWith('error')))");
       return page.get(`films.map((one, i) => ({ last: events[i].at(-1) ?? "",
         alert: part("fault", one).textContent, role: part("fault", one).role, paused: one.paused,
         seen: part("fault", one).checkVisibility() }))`);]=]
@@ -332,7 +344,8 @@ describe("the element of planes #plain", function()
       site.policy = POLICY.replace(" 'wasm-unsafe-eval'", "");
       await show(`<celspan-film src="still.plane"></celspan-film>`.repeat(2));
       await page.until("events.every(list => list.length)");
-      return page.get(`films.map((one, i) => [part("fault", one).textContent, events[i].join()])`);]=]
+      return page.get(
+        `films.map((one, i) => [part("fault", one).textContent, events[i].join()])`);]=]
     for _, one in ipairs(said) do
       assert.matches("does not allow WebAssembly", one[1], 1, true)
       assert.equal("error: " .. one[1], one[2])
@@ -340,7 +353,8 @@ describe("the element of planes #plain", function()
   end)
 
   it("can be imported where there is no page", function()
-    local code, out, err = bench:inside "cp celspan-film.js x.mjs && node x.mjs && node celspan-film.js"
+    local code, out, err =
+      bench:inside "cp celspan-film.js x.mjs && node x.mjs && node celspan-film.js"
     assert.same({ 0, "", "" }, { code, out, err })
   end)
 end)

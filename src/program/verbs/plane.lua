@@ -1,6 +1,6 @@
---- celspan plane FILE -o PAGE: a page that shows a plane at any size, by the element celspan-film. The
---- plane and the element, with its decoder as WebAssembly, are in the page. Without a FILE, the script
---- of the element alone.
+--- celspan plane FILE -o PAGE: a page that shows a plane at any size, by the element celspan-film.
+--- The plane and the element, with its decoder as WebAssembly, are in the page. Without a FILE, the
+--- script of the element alone.
 local program, request = ...
 
 local DIGITS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"

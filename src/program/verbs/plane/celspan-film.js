@@ -2,17 +2,16 @@
 //
 //   <celspan-film src="moon.plane" controls></celspan-film>
 //
-// It is an ES module without exports and a classic script; pages contain it, so no tag of a script may.
-//
-// The decoder, as WebAssembly, is in this file. It is compiled once for all films of a page, and each
-// film has an instance with a memory of its own, so that a damaged file harms no other. The viewer
+// It is an ES module without exports, and a classic script. Pages contain it, so no tag of a script
+// may be in it. The decoder, as WebAssembly, is compiled once for all films of a page, and each film
+// has an instance with a memory of its own, so that a damaged file harms no other. The viewer
 // (show_tiles) draws a still in tiles, from a pyramid whose deepest level has 2^24 pixels across or
 // down, and a frame of a film as a whole. Nothing here needs more than the policy
 //
 //   script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; img-src 'self'
 //
-// INVARIANT  `#life` belongs to the file that is shown or loaded; when it is aborted, nothing that was
-// begun for that file has an effect any more.
+// INVARIANT  `#life` belongs to the file that is shown or loaded; when it is aborted, nothing that
+// was begun for that file has an effect any more.
 (() => {
 "use strict";
 @VIEWER@
@@ -72,7 +71,7 @@ const STYLE = `
 const look = globalThis.document && new CSSStyleSheet();
 look?.replaceSync(STYLE);
 
-// An element with attributes and children; without a text that is parsed, which a policy may refuse.
+// An element with attributes and children, without text that is parsed: a policy may refuse that.
 function make(tag, attributes, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
@@ -82,7 +81,7 @@ function make(tag, attributes, ...children) {
 const button = (id, name, key, sign) =>
   make("button", { id, type: "button", "aria-label": name, title: `${name} (${key})` }, sign);
 
-// What is in the shadow of an element: a box for what is shown, and what stands there until then.
+// The shadow of an element: a box for the picture, and what is seen until there is one.
 function make_parts() {
   const box = make("div", { id: "box" },
     make("canvas", { id: "view", part: "view", tabindex: 0, role: "application",
@@ -93,8 +92,8 @@ function make_parts() {
         make("span", { id: "number" })),
       make("div", { id: "zoom" }, button("in", "Zoom in", "+", "+"),
         button("out", "Zoom out", "-", "\u2212"), button("all", "Show everything", "0", "\u2922"))),
-    make("p", { id: "keys" }, "Arrow keys move, plus and minus zoom, 0 shows everything. Of a film, "
-      + "the space bar plays, comma and full stop show the frame before and the next one."));
+    make("p", { id: "keys" }, "Arrow keys move, plus and minus zoom, 0 shows everything. Of a "
+      + "film, the space bar plays, comma and full stop show the frame before and the next one."));
   box.hidden = true;
   return [box, make("img", { id: "poster", part: "poster", alt: "" }), make("slot", { id: "slot" }),
           make("p", { id: "fault", part: "error", role: "alert" })];
@@ -140,7 +139,7 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
     if (!this.#life) this.#load();
   }
 
-  // An element that only moves to another place of the page goes on.
+  // An element that only moves to another place of the page continues.
   disconnectedCallback() {
     queueMicrotask(() => { if (!this.isConnected) this.#close(); });
   }
@@ -211,8 +210,8 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
   }
 
   #label() {
-    const src = this.getAttribute("src") ?? "";
-    return this.getAttribute("aria-label") || this.title || src.replace(/[?#].*|.*\//g, "") || "Film";
+    const name = this.src.replace(/[?#].*|.*\//g, "");
+    return this.getAttribute("aria-label") || this.title || name || "Film";
   }
 
   // ---- what is shown
@@ -367,6 +366,8 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
 
   // ---- properties
 
+  get #unit() { return this.#plane.width / this.#pyramid.width; } // of the film, in a pixel
+
   get paused() { return this.#is_paused; }
   get duration() {
     if (!this.#plane) return NaN;
@@ -391,7 +392,7 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
   // how much larger that is than when everything is shown. null: nothing is shown yet.
   get view() {
     if (!this.#viewer) return null;
-    const unit = this.#plane.width / this.#pyramid.width, { x, y, width, whole } = this.#viewer.tell();
+    const { x, y, width, whole } = this.#viewer.tell(), unit = this.#unit;
     return { x: x * unit, y: y * unit, width: width * unit, factor: whole / width };
   }
 
@@ -399,7 +400,7 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
     if (![x, y, factor].every(Number.isFinite) || factor <= 0)
       throw new TypeError(`zoom: ${x}, ${y}, ${factor} is not a place and a factor above 0`);
     if (!this.#viewer) return void (this.#wish.view = [x, y, factor]);
-    const unit = this.#plane.width / this.#pyramid.width, { whole } = this.#viewer.tell();
+    const { whole } = this.#viewer.tell(), unit = this.#unit;
     this.#viewer.go(x / unit, y / unit, whole / factor, behavior === "instant");
   }
 }
@@ -418,7 +419,7 @@ for (const name of ["src", "poster"])
 reflect("width", film => Math.max(0, parseInt(film.getAttribute("width")) || 0),
   (film, width) => film.setAttribute("width", width));
 
-// Not where pages are made ahead, by a server without elements; and once, if two scripts contain it.
+// Not on a server, which makes pages ahead and has no elements; once, if two scripts contain it.
 if (globalThis.customElements && !customElements.get("celspan-film"))
   customElements.define("celspan-film", CelspanFilm);
 })();
