@@ -48,17 +48,20 @@ const STYLE = `
   :host([hidden]) { display: none; }
   [hidden] { display: none !important; }
   #box, #view { position: absolute; inset: 0; }
+  #box { container-type: inline-size; }
   #view { width: 100%; height: 100%; cursor: grab; }
   #view:active { cursor: grabbing; }
   #view:focus { outline: none; }
   #view:focus-visible { outline: 3px solid rgba(232, 140, 90, .9); outline-offset: -3px; }
-  img, ::slotted(img) { display: block; width: 100%; height: auto; }
+  img, ::slotted(img) { display: block; max-width: 100%; height: auto; }
+  :host([width]) img, :host([width]) ::slotted(img) { width: 100%; }
   #bar { position: absolute; left: 8px; right: 8px; bottom: 8px; display: flex; align-items: center;
          font-variant-numeric: tabular-nums; pointer-events: none; }
   #bar > * { display: flex; align-items: center; gap: 4px; padding: 2px 4px; border-radius: 4px;
              background: rgba(20, 16, 30, .72); pointer-events: auto; }
   #film { flex: 1; min-width: 0; margin-right: 8px; }
   #zoom { margin-left: auto; }
+  @container (max-width: 280px) { #film:not([hidden]) + #zoom { display: none; } }
   #number { padding: 0 6px; white-space: nowrap; }
   input { flex: 1; min-width: 0; margin: 0; accent-color: #e88c5a; }
   button { font: inherit; font-size: 18px; line-height: 32px; width: 32px; height: 32px; padding: 0;
