@@ -89,6 +89,19 @@ describe("the element of planes #plain", function()
     assert.same({ one, one }, said)
   end)
 
+  it("still shows everything where its size changes, or what was asked for at first", function()
+    local said = see [=[
+      await show(`<celspan-film src="still.plane" width="320"></celspan-film>
+        <celspan-film width="320"></celspan-film>`);
+      await page.get("films[1].src = 'still.plane', films[1].zoom(60, 45, 4), 0");
+      await page.until("events.every(list => list.length)");
+      await page.get("film.width = 160, 0");
+      await page.until("part('view').width === 160");
+      const [one, other] = await page.get("films.map(one => one.view)");
+      return [one.factor, one.width, await page.get("pixel(80, 16)"), other]; ]=]
+    assert.same({ 1, 160, "242,100,25,255", { x = 60, y = 45, width = 40, factor = 4 } }, said)
+  end)
+
   it("shows its contents until then, without a script, and where it fails", function()
     local said = see [=[
       const inside = `<img src="still.png" alt="A disc">`;
@@ -216,13 +229,17 @@ describe("the element of planes #plain", function()
       await page.press("+");
       await page.until("films[1].view.factor > 1.49");
       found.push(await page.get("films[0].view.factor"));
+      await page.get(`part("in", films[0]).focus(), 0`);
+      await page.press(" "); // presses the button, and does not play
+      await page.until("films[0].view.factor > 1.99");
+      found.push(await page.get("films[0].paused"));
       await page.get(`part("play", films[0]).focus(), 0`);
-      await page.press(" "); // presses the button
+      await page.press(" ");
       await page.until("!films[0].paused");
       found.push(await page.get(`[...films.map(one => part("play", one).ariaLabel),
         part("frame", films[1]).getAttribute("aria-valuetext").replace(/^[0-9]+/, "N")]`));
       return found;]=]
-    assert.same({ { 0, 0 }, { 0, 2 }, 1, { "Pause", "Play", "N of 50" } }, said)
+    assert.same({ { 0, 0 }, { 0, 2 }, 1, true, { "Pause", "Play", "N of 50" } }, said)
   end)
 
   it("zooms a still by wheel, pinch and zoom(); over a film the wheel moves the page", function()
@@ -319,24 +336,26 @@ describe("the element of planes #plain", function()
     bench:write("damaged.plane", film:sub(1, half) .. string.char(film:byte(half + 1) ~ 1)
       .. film:sub(half + 2))
     bench:write("short.plane", film:sub(1, half))
+    bench:write("empty.plane", "")
     local said = see [=[
-      const names = ["damaged", "damaged", "short", "none", "celspan-film.js?"];
+      const names = ["damaged", "damaged", "short", "empty", "none", "celspan-film.js?"];
       await show(names.map(name => `<celspan-film src="${name}.plane" width="160" autoplay>
         </celspan-film>`).join("") + `<celspan-film src="#nothing"></celspan-film>
         <celspan-film></celspan-film>`);
       await page.until(
-        "events.slice(0, 6).every(list => list.some(name => name.startsWith('error')))");
+        "events.slice(0, 7).every(list => list.some(name => name.startsWith('error')))");
       return page.get(`films.map((one, i) => ({ last: events[i].at(-1) ?? "",
         alert: part("fault", one).textContent, role: part("fault", one).role, paused: one.paused,
         seen: part("fault", one).checkVisibility() }))`);]=]
     for i, wanted in ipairs { "This picture is damaged: ", "This picture is damaged: ",
-      "This picture is damaged: ", "none.plane: this file cannot be loaded: 404 Not Found.",
+      "This picture is damaged: ", "This picture is damaged: the file is too short",
+      "none.plane: this file cannot be loaded: 404 Not Found.",
       "This picture is damaged: ", "#nothing: the page has no such element." } do
       assert.matches(wanted, said[i].alert, 1, true)
       assert.same({ last = "error: " .. said[i].alert, alert = said[i].alert, role = "alert",
                     paused = true, seen = true }, said[i])
     end
-    assert.same({ "", "", false }, { said[7].last, said[7].alert, said[7].seen })
+    assert.same({ "", "", false }, { said[8].last, said[8].alert, said[8].seen })
   end)
 
   it("says so where the policy of the page forbids WebAssembly", function()

@@ -17,7 +17,7 @@ module.exports = async folder => {
     const name = request.url.slice(1).replace(/[?].*/, ""), ending = name.split(".").at(-1);
     const body = site.pages[name]
       ?? (fs.existsSync(`${folder}/${name}`) && fs.readFileSync(`${folder}/${name}`));
-    if (!body) return answer.writeHead(404).end();
+    if (body === false) return answer.writeHead(404).end();
     answer.setHeader("content-type", KINDS[ending] ?? "application/octet-stream");
     answer.setHeader("content-encoding", "gzip");
     if (site.policy) answer.setHeader("content-security-policy", site.policy);

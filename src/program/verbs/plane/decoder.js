@@ -23,7 +23,7 @@ class Plane {
     compiled ??= compile();
     const plane = new Plane();
     plane.calls = (await WebAssembly.instantiate(await compiled)).exports;
-    const address = plane.calls.reserve(bytes.length);
+    const address = plane.calls.reserve(bytes.length || 1); // an empty file is no plane
     if (!address) throw new Error("There is not enough memory for this picture.");
     new Uint8Array(plane.calls.memory.buffer, address, bytes.length).set(bytes);
     plane.choose(0);
