@@ -402,7 +402,8 @@ end
 local function frames_of(segments, size)
   return function(f)
     local segment = segment_at(segments, f.index)
-    if not segment.between then return frame_at(segment.a, f.index) end
+    local lone = segment.between and shots_of.lone(segment.a, segment.b)
+    if lone or not segment.between then return frame_at(lone or segment.a, f.index) end
     local u = (f.index - segment.from + 0.5) / segment.count
     return join(segment.between, segment.a and frame_at(segment.a, f.index),
       segment.b and frame_at(segment.b, f.index), u, 1 / segment.count, size)

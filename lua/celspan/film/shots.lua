@@ -8,6 +8,7 @@ local shots = {}
 local MOST = 100 -- films that are kept
 local films = {} -- the last one made last: { frames =, shots =, into = }
 local is_marking = false
+local lone -- the shot that is seen alone in its transitions; nil: none is
 local rostrum_metatable = getmetatable(celspan.rostrum {})
 
 --- Keeps the shots of a film. Returns the film.
@@ -44,15 +45,32 @@ function shots.marked(result, shot)
   return list
 end
 
+--- The film with this number of frames that was cut last; nil: no such film was cut.
+local function film_of(frames)
+  for i = #films, 1, -1 do
+    if films[i].frames == math.tointeger(frames) then return films[i] end
+  end
+end
+
+--- Has a shot be seen alone in its transitions from now on. place: the frames of the film and the
+--- number of the shot, such as "84 2"; "": no shot is.
+function shots.isolate(place)
+  local frames, i = place:match "^(%d+) (%d+)$"
+  local film = frames and film_of(frames)
+  lone = film and film.shots[math.tointeger(i)]
+  return ""
+end
+
+--- The one of two shots of a transition that is seen alone; nil: both are seen.
+function shots.lone(a, b)
+  if lone and (lone == a or lone == b) then return lone end
+end
+
 --- The shots of the film with this number of frames that was cut last, as JSON: name, the frames
 --- `from` and `to`, the number of frames `before` and `after` that it shares in transitions, and
 --- `into`, the kind of the transition before it; "": no such film was cut.
 function shots.text(frames)
-  local one
-  for _, known in ipairs(films) do
-    if known.frames == math.tointeger(frames) then one = known end
-  end
-  local list = {}
+  local one, list = film_of(frames), {}
   for i, shot in ipairs(one and one.shots or {}) do
     list[i] = { { "name", shot.label }, { "from", shot.start + 1 },
                 { "to", shot.start + shot.count }, { "before", shot.before },

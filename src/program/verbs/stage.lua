@@ -176,13 +176,26 @@ function answers.made(ask)
   put { good = true, runs = runs }
 end
 
+--- The objects and cels at a point, from front to back: in a transition first those of the shot that
+--- is seen more. And a message, if they are not all.
+local function hits_of(x, y)
+  local hits, places = {}, {}
+  local message = film:hits(x, y, function(hit)
+    hits[#hits + 1], places[hit] = hit, #hits
+  end, parts ~= nil)
+  table.sort(hits, function(a, b)
+    if a.share ~= b.share then return a.share > b.share end
+    return places[a] < places[b]
+  end)
+  return hits, message
+end
+
 function answers.at(ask)
   film:keep_callers(true)
   local is_built = build(ask)
   film:keep_callers(false)
   if not is_built then return end
-  local hits = {}
-  local message = film:hits(ask.x, ask.y, function(hit) hits[#hits + 1] = hit end)
+  local hits, message = hits_of(ask.x, ask.y)
   if message then return refuse(message) end
   put { good = true, hits = hits }
 end
@@ -198,7 +211,7 @@ local function tree_of()
     if label and (exposures[label] or exposure) < exposure then return false end
     if label then exposures[label] = exposure end
     tree[#tree + 1] = { depth = depth, kind = kind, name = name, file = source,
-                        line = source and line, label = label }
+                        line = source and line, label = label, shot = shot ~= "" and shot or nil }
     return true
   end)
   return tree
@@ -266,11 +279,13 @@ local function add_rows(rows, from, to)
   return sheet ~= nil
 end
 
---- Adds the rows of a shot, which are named by it: "evening / nell / mouth". A shot with something
---- over it is itself in a cel without a name.
-local function add_shot(rows, labels, shot, last)
-  local begin = #rows + 1
-  if not add_rows(rows, shot.from, math.min(shot.to, last)) then return false end
+--- Adds the rows of the shot `place`, which are named by it: "evening / nell / mouth". In its
+--- transitions the cels of other shots are left out. A shot with something over it is itself in a
+--- cel without a name.
+local function add_shot(rows, place, last)
+  local begin, shot, labels = #rows + 1, parts[place], new_labels()
+  film:ask("celspan.shots", "isolate", ("%d %d"):format(film.frames, place))
+  local is_added = add_rows(rows, shot.from, math.min(shot.to, last))
   for i = begin, #rows do
     local row = rows[i]
     local name = row.name:gsub("^cel 1/", "")
@@ -278,19 +293,21 @@ local function add_shot(rows, labels, shot, last)
     row.shot, row.name = shot.name, shot.name .. " / " .. name:gsub("/", " / ")
     if shot.to < last then table.insert(row.cells.list, { shot.to + 1, "" }) end
   end
-  return true
+  film:ask("celspan.shots", "isolate", "")
+  return is_added
 end
 
 --- A row for each layer, the nearest first; in a cut those of a shot together. cel: the label of
 --- the cel that the layer is.
 function answers.rows()
-  local rows, labels, last = {}, new_labels(), math.min(film.frames, SHEET_MOST)
-  for _, shot in ipairs(parts or {}) do
-    if shot.from <= last and not add_shot(rows, labels, shot, last) then return end
+  local rows, last = {}, math.min(film.frames, SHEET_MOST)
+  for place, shot in ipairs(parts or {}) do
+    if shot.from <= last and not add_shot(rows, place, last) then return end
   end
-  if not parts and not add_rows(rows, 1, last) then return end
-  for _, row in ipairs(parts and {} or rows) do
-    row.cel = label_of(labels, row.name, row.cells)
+  if not parts then
+    local labels = new_labels()
+    if not add_rows(rows, 1, last) then return end
+    for _, row in ipairs(rows) do row.cel = label_of(labels, row.name, row.cells) end
   end
   put({ good = true }, program.json { rows = { list = rows }, frames = last })
 end
