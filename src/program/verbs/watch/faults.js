@@ -80,7 +80,7 @@ let listed = ""; // the faults in the list: the focus stays in a list that has n
 
 export function showFaults() {
   const groups = groupFaults(), kinds = JSON.stringify([state.errors, state.editor]);
-  label("check", groups.length ? `Faults ${groups.length}` : "Faults");
+  label("check", `Faults ${groups.length}`);
   here("check").classList.toggle("bad", groups.length > 0);
   here("checked").textContent = checkedText(groups.length);
   if (kinds === listed) return;

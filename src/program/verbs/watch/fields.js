@@ -59,7 +59,7 @@ function typedNumber(input, give) {
 
 /** The curve of an ease, from the lower left to the upper right. */
 function curveOf(select) {
-  const canvas = element("canvas", { className: "curve", width: 176, height: 96, role: "img" });
+  const canvas = element("canvas", { className: "curve", width: 302, height: 96, role: "img" });
   const draw = async () => {
     const name = select.value;
     const values = await read(`/curve.json?name=${encodeURIComponent(name)}`);
@@ -92,7 +92,9 @@ export function fieldOf(one, parameter) {
   const input = control({ ...parameter, value: one.given.get(name) ?? parameter.value });
   const give = () => giveValue(one, stateOf(one).parameters.find(known => known.name === name)
     || parameter, valueOf(input)); // later news may have replaced the list
-  const line = element("label", {}, element("span", { textContent: name }), input);
+  const title = element("span", { textContent: name });
+  if (format === "point") title.append(element("small", { textContent: "  x, y" }));
+  const line = element("label", {}, title, input);
   input.name = name;
   box.classList.add(input.type === "range" ? "range" : input.type === "text" ? "text" : "row");
   box.append(line);

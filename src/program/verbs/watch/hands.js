@@ -30,9 +30,14 @@ function goToTyped() {
   if (here("go").returnValue === "go" && !Number.isNaN(number)) jump(number);
 }
 
-/** Leaves a menu, otherwise the outline of what a line made. */
-function leave() {
-  if (!closeMenus()) outline(null);
+let isPointed = false; // whether the focus came by a pointer, and not by keys
+
+/** Leaves a field, otherwise a menu, otherwise the outline of what a line made. */
+function leave({ target }) {
+  const field = target.closest("select, textarea, input:not([type=range], [type=checkbox])");
+  if (field?.closest("main")) field.blur();
+  else if (field?.closest(".menu")) field.closest(".menu").firstElementChild.focus();
+  else if (!closeMenus()) outline(null);
 }
 
 const keys = {
@@ -67,17 +72,15 @@ const keys = {
 
 /** Whether a key belongs to what has the focus. After a click on a button, the space key plays. */
 function isTaken({ target, key, ctrlKey, metaKey, altKey }) {
-  return ctrlKey || metaKey || altKey || document.querySelector("dialog[open]")
-    || target.matches("select, textarea, input:not([type=range], [type=checkbox])")
+  if (ctrlKey || metaKey || altKey || document.querySelector("dialog[open]")) return true;
+  return key !== "Escape" && target.matches("select, textarea, input:not([type=range], [type=checkbox])")
     || target.matches("[type=range]") && /^(Arrow|Page|Home|End)/.test(key)
-    || target.matches(":is(button, input):focus-visible") && (key === "Enter" || key === " ");
+    || !isPointed && target.matches("button, input") && key === " ";
 }
 
 function hearKey(event) {
   const act = keys[event.key];
-  if (event.key === "Escape" && event.target.matches("main :is(input, select, textarea)")) {
-    return event.target.blur();
-  }
+  if (event.key === "Tab") isPointed = false;
   if (!act || isTaken(event)) return;
   event.preventDefault();
   act(event);
@@ -188,6 +191,7 @@ function hearPictures() {
 /** Hears everything that hands do. */
 export function hearHands() {
   document.addEventListener("keydown", hearKey);
+  document.addEventListener("pointerdown", () => { isPointed = true; }, true);
   here("speed").addEventListener("change", event => setSpeed(Number(event.target.value)));
   here("ground").addEventListener("change", event => setGround(event.target.value));
   here("load-values").addEventListener("change", loadValues);

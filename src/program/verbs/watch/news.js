@@ -11,7 +11,7 @@ import { loadSheet } from "/rows.js";
 import {
   beside, clamp, here, lanes, loop, main, span, state, stateOf, timecode, view,
 } from "/state.js";
-import { drawTimeline, placeHead } from "/timeline.js";
+import { drawTimeline, placeHead, shotsAt } from "/timeline.js";
 import { sendGiven, showForm } from "/values.js";
 import { measureDesk } from "/view.js";
 
@@ -23,6 +23,7 @@ export function showNumbers() {
   here("timecode").textContent = timecode(view.number);
   here("scrub").value = view.number;
   here("scrub").setAttribute("aria-valuetext", `${timecode(view.number)}, frame ${view.number}`);
+  here("shot").textContent = shotsAt(view.number - 1).map(shot => shot.name).join(" / ");
   here("zoom").textContent = `${percent < 10 ? percent.toFixed(1) : Math.round(percent)} %`;
   here("facts").textContent = `${state.film.size.join(" × ")}, ${state.film.fps} fps`
     + (whole ? "" : `, loop ${loop.from} to ${loop.to}`);

@@ -9,7 +9,7 @@ import { isOpen } from "/panels.js";
 import { look, nameOf } from "/pictures.js";
 import { cels, queryCels, switchesOf } from "/rows.js";
 import { element, here, icon, main, play, refill, state, view } from "/state.js";
-import { shotsOf } from "/timeline.js";
+import { shotsAt } from "/timeline.js";
 
 const ROWS_MOST = 2000; // of the server's answer
 const tree = { list: [], address: "" };
@@ -45,8 +45,7 @@ function setReading(isOn) {
 /** The rows with what they are called, their paths, "shot/cel/name", and whether they have parts.
  * cel: the label by which a cel is shown in another way. */
 function pathsOf(list) {
-  const at = view.number - 1, names = [], seen = new Map();
-  const shots = shotsOf().filter(shot => shot.at <= at && at < shot.at + shot.count);
+  const shots = shotsAt(view.number - 1), names = [], seen = new Map();
   const shot = shots.length === 1 ? [shots[0].name] : []; // in a transition there are two
   return list.map((one, i) => {
     const cel = one.label, label = one.name || cel?.replace(/^.*\//, "") || one.kind;

@@ -5,7 +5,9 @@ import { showFault } from "/faults.js";
 import { showNumbers } from "/news.js";
 import { abandon, failed, fetchPicture, kept, look, paint, wish } from "/pictures.js";
 import * as sound from "/sound.js";
-import { clamp, here, icon, isReady, lanes, loop, play, setPressed, state, view } from "/state.js";
+import {
+  clamp, element, here, icon, isReady, lanes, loop, play, setPressed, state, view,
+} from "/state.js";
 import { drawRuler, followHead } from "/timeline.js";
 
 // pictures that are requested ahead while playing, and at the same time
@@ -53,8 +55,9 @@ function stop() {
 }
 
 function showPlaying(isOn) {
-  here("play").replaceChildren(icon(isOn ? "pause" : "play"));
-  here("play").setAttribute("aria-label", isOn ? "Pause" : "Play");
+  const name = isOn ? "Pause" : "Play";
+  here("play").replaceChildren(icon(name.toLowerCase()), element("span", { textContent: name }));
+  here("play").setAttribute("aria-label", name);
 }
 
 export function toggle() {
@@ -181,6 +184,7 @@ export function takeSound() {
 export function swapMute() {
   const isMuted = here("mute").getAttribute("aria-pressed") !== "true";
   setPressed("mute", isMuted);
+  here("mute").firstChild.replaceWith(icon(isMuted ? "muted" : "sound"));
   sound.mute(isMuted);
   if (!isMuted && play.direction > 0) start(1);
 }

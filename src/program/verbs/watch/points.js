@@ -1,5 +1,5 @@
 // Handles on the picture for parameters that are points.
-import { desk, element, here, main, play, ratio, state, view } from "/state.js";
+import { clamp, desk, element, here, main, play, ratio, state, view } from "/state.js";
 import { giveValue } from "/values.js";
 
 const handles = new Map(); // by the names of the parameters
@@ -7,19 +7,23 @@ const handles = new Map(); // by the names of the parameters
 const pointsOf = () => state.film ? state.parameters.filter(one => one.format === "point") : [];
 const placeOf = one => one.value.split(",").map(Number);
 
-/** Gives a point, in film units, rounded to a hundredth. */
-function givePoint(name, x, y) {
+/** The grid of points: whole units of the film, or tenths and hundredths where a unit is large. */
+const gridOf = () => [1, 10].find(share => view.scale / ratio() < 10 * share) ?? 100;
+
+/** Gives a point, in film units, of which a unit has `share` parts. */
+function givePoint(name, place, share = gridOf()) {
   const one = state.parameters.find(known => known.name === name);
   if (!one) return;
-  const text = [x, y].map(side => Number(side.toFixed(2))).join();
+  const text = place.map(side => Math.round(side * share) / share).join();
   giveValue(main, one, text);
   const field = here("form").elements.namedItem(name);
   if (field) field.value = text;
 }
 
-/** A handle: it is dragged, and the arrow keys move it by a unit, with shift by ten. */
+/** A handle: it is dragged within the film, with shift beside the grid, and the arrow keys move it
+ * by a unit, with shift by ten. */
 function makeHandle(name) {
-  const one = element("button", { className: "handle", title: name, ariaLabel: `Point ${name}`,
+  const one = element("button", { className: "handle", ariaLabel: `Point ${name}`,
                                   dataset: { point: name } });
   one.addEventListener("pointerdown", event => {
     event.stopPropagation();
@@ -29,8 +33,9 @@ function makeHandle(name) {
     if (!one.hasPointerCapture(event.pointerId)) return;
     event.stopPropagation();
     const box = desk.getBoundingClientRect(), r = ratio();
-    givePoint(name, ((event.clientX - box.left) * r - view.x) / view.scale,
-              ((event.clientY - box.top) * r - view.y) / view.scale);
+    const place = [(event.clientX - box.left) * r - view.x, (event.clientY - box.top) * r - view.y];
+    const inside = place.map((side, i) => clamp(side / view.scale, 0, state.film.size[i]));
+    givePoint(name, inside, event.shiftKey ? 100 : gridOf());
   });
   one.addEventListener("keydown", event => moveHandle(event, name));
   desk.append(one);
@@ -45,7 +50,7 @@ function moveHandle(event, name) {
   event.preventDefault();
   event.stopPropagation();
   const [x, y] = placeOf(one), step = event.shiftKey ? 10 : 1;
-  givePoint(name, x + way[0] * step, y + way[1] * step);
+  givePoint(name, [x + way[0] * step, y + way[1] * step]);
 }
 
 /** Puts the handles where the view has their points now. */

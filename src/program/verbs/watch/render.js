@@ -81,7 +81,7 @@ export function showRender() {
   Object.assign(here("render-progress"), { hidden: !isRunning, max: count, value: done });
   here("render-cancel").hidden = !isRunning && !isAsking;
   here("render-start").disabled = isRunning;
-  label("render-start", isAsking ? "Replace it" : "Render");
+  label("render-start", isAsking ? "Replace it" : "Start");
   label("render", isRunning ? `${Math.floor(100 * done / count)} %` : "Render");
 }
 

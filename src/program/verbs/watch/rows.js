@@ -17,6 +17,7 @@ import { brushOf, busy, coloursOf, heard, setBusy, shotsOf, unit, xOf } from "/t
 const ROW = 22, STRIP = 32;  // CSS pixels
 export const SHEET_MOST = 10000;    // frames of a sheet, as the server has them
 const ROWS_MOST = 2000;      // rows that are shown
+const NARROW = 5;            // CSS pixels below which boxes are not told apart
 const ONION_MOST = 3;        // frames before and after
 const sheet = { rows: [], shown: [], builds: "" };
 const unfolded = new Map();  // whether the rows of a shot are shown, by its name
@@ -38,9 +39,23 @@ export async function loadSheet() {
   showSheet();
 }
 
+/** Rows in the order of the outliner: those of a cel's parts after it, and not before. */
+function partsLast(rows) {
+  const list = [];
+  let parts = [];
+  rows.forEach((row, i) => {
+    if (row.cel) list.push(row, ...parts.map(part => ({ ...part, isPart: true })));
+    else parts.push(row);
+    if (!row.cel && row.shot === rows[i + 1]?.shot) return;
+    if (!row.cel) list.push(...parts);
+    parts = [];
+  });
+  return list;
+}
+
 /** The rows of a film; those of the second are below its name, with its frames at their times. */
 function rowsOf(one, { rows, frames }) {
-  if (one === main) return rows.map(row => ({ ...row, end: frames + 1 }));
+  if (one === main) return partsLast(rows).map(row => ({ ...row, end: frames + 1 }));
   const rate = state.film.fps / state.second.film.fps, at = frame => (frame - 1) * rate + 1;
   return rows.map(({ name, cells, moved }) => ({ name, end: at(frames + 1),
     shot: state.has_two ? state.second.script : "Other values",
@@ -73,16 +88,17 @@ function unfoldedRows() {
   return [...list, ...heard.lips].slice(0, ROWS_MOST);
 }
 
-/** The name of a row: that of a shot unfolds. */
-function rowName({ name, shot, heading, cel }) {
-  const before = !heading && name.startsWith(`${shot} / `) ? `${shot} / ` : "";
-  const words = element("span", {}, element("i", { textContent: before }),
-                        name.slice(before.length));
+/** The name of a row: that of a shot unfolds, and is not repeated below. */
+function rowName({ name, shot, heading, cel, isPart }) {
+  const textContent = !heading && name.startsWith(`${shot} / `) ? name.slice(shot.length + 3) : name;
+  const words = element("span", { textContent });
   const isOn = unfolded.get(name);
   const fold = heading && element("button", { className: "fold", ariaExpanded: String(isOn),
     onclick: () => { unfolded.set(name, !isOn); showSheet(); } }, icon("fold"), words);
-  return element("li", { title: name, className: heading ? "heading" : "", dataset: { row: name } },
-                 fold || words, ...cel ? switchesOf(cel) : []);
+  const row = element("li", { title: name, dataset: { row: name } }, fold || words,
+                      ...cel ? switchesOf(cel) : []);
+  row.style.setProperty("--depth", heading ? 0 : Boolean(shot) + Boolean(isPart));
+  return row;
 }
 
 const stripHeight = () => here("costs").hidden ? 0 : STRIP;
@@ -102,7 +118,13 @@ export function showSheet() {
 //   a row's buttons --> letters of the cel --> cels.query: pictures; cels.skins: their onion skin
 //
 // The letters of /frame/N; s: all others are hidden; o: the onion skin is made of this one.
-const SWITCHES = { s: "Solo", h: "Hide", l: "Light off", f: "Focus off", o: "Onion" };
+const SWITCHES = {
+  s: ["Solo", "solo", "Shows this cel alone"],
+  h: ["Hide", "hide", "Hides this cel"],
+  l: ["Light off", "light", "Takes its lights away: white light is on it"],
+  f: ["Focus off", "blur", "Takes its defocus away: it is sharp"],
+  o: ["Onion", "onion", "Shows its frames before and after behind it"],
+};
 const letters = new Map(); // by the names of the cels
 
 // Parts of the address that say how cels are shown; skins: of what the onion skin is made, "": of
@@ -114,10 +136,10 @@ const isAny = letter => [...letters.keys()].some(name => has(name, letter));
 
 /** The buttons that change how one cel is shown. */
 export function switchesOf(name) {
-  return Object.entries(SWITCHES).map(([letter, what]) => element("button",
-    { className: "switch", title: what, ariaLabel: `${what}: ${name}`,
-      ariaPressed: String(has(name, letter)), onclick: () => swapLetter(name, letter) },
-    icon(what.split(" ")[0].toLowerCase())));
+  return Object.entries(SWITCHES).map(([letter, [what, picture, title]]) => element("button",
+    { className: "hlf".includes(letter) ? "switch without" : "switch", title,
+      ariaLabel: `${what}: ${name}`, ariaPressed: String(has(name, letter)),
+      onclick: () => swapLetter(name, letter) }, icon(picture)));
 }
 
 function swapLetter(name, letter) {
@@ -152,18 +174,21 @@ export function nextOnion() {
 
 // ---------------------------------------------------------------- drawing
 
-/** A row of the sheet: a box for each drawing as long as it is held, a dot where it only moves. */
+/** A row of the sheet: a box for each drawing as long as it is held, a dot where it only moves.
+ * Boxes that are too narrow to be told apart are a band. */
 function drawRow(brush, row, y, colours) {
   const one = unit(), end = row.end ?? state.film.frames + 1;
   row.cells.forEach(([from, name], i) => {
     const until = i + 1 < row.cells.length ? row.cells[i + 1][0] : end;
-    const x = xOf(from - 1), wide = (until - from) * one;
+    const x = xOf(from - 1), wide = (until - from) * one, isBand = wide < NARROW;
     if (!name || x > brush.canvas.width || x + wide < 0) return;
-    brush.fillStyle = i % 2 ? colours.odd : colours.even;
-    brush.fillRect(x, y + 3, Math.max(1, wide - (wide > 3 ? 1 : 0)), ROW - 6);
+    brush.fillStyle = isBand || i % 2 ? colours.odd : colours.even;
+    brush.fillRect(x, y + 3, isBand ? wide + 0.5 : wide - 1, ROW - 6);
     brush.fillStyle = colours.text;
     if (wide > 8 + 7 * name.length) brush.fillText(name, Math.max(x, 0) + 4, y + 15);
   });
+  const count = row.cells.filter(([, name]) => name).length, x = xOf(row.cells[0]?.[0] - 1);
+  if (one < NARROW && count * one > 150) brush.fillText(`${count} drawings`, Math.max(x, 0) + 4, y + 15);
   brush.fillStyle = colours.accent;
   for (const frame of row.moved || []) {
     brush.fillRect(xOf(frame - 0.5) - 1, y + ROW - 5, Math.min(2, Math.max(1, one)), 2);
@@ -171,8 +196,12 @@ function drawRow(brush, row, y, colours) {
 }
 
 function drawHeading(brush, { shot }, y, colours) {
+  if (!shot) return;
+  const x = xOf(shot.at), wide = Math.max(1, shot.count * unit() - 1);
   brush.fillStyle = colours.line;
-  if (shot) brush.fillRect(xOf(shot.at), y + 4, Math.max(1, shot.count * unit() - 1), ROW - 8);
+  brush.fillRect(x, y + 3, wide, ROW - 6);
+  brush.fillStyle = colours.text;
+  if (wide > 12 + 7 * shot.name.length) brush.fillText(shot.name, Math.max(x, 0) + 6, y + 15);
 }
 
 /** Draws the rows that are seen. */

@@ -72,9 +72,8 @@ function drawTicks(brush, colours) {
   const isHalved = stride % 2 === 0 && stride * unit() > 5 * labelLeast() / 4;
   for (let k = first; k < span.to; k += isHalved ? stride / 2 : stride) {
     const x = xOf(k), hasNumber = (k - first) % stride === 0;
-    brush.fillStyle = colours.line;
-    brush.fillRect(x, hasNumber ? 8 : 15, 1, RULER);
     brush.fillStyle = colours.quiet;
+    brush.fillRect(x, hasNumber ? 8 : 17, 1, RULER);
     if (hasNumber) brush.fillText(timecode(k + 1), x + 4, 17);
   }
 }
@@ -123,6 +122,8 @@ function blocksOf() {
 
 /** The shots of the film, each with the frames that it has alone or in transitions, from 0. */
 export const shotsOf = () => blocksOf().shots;
+/** The shots that a frame shows, counted from 0: in a transition there are two. */
+export const shotsAt = at => shotsOf().filter(shot => shot.at <= at && at < shot.at + shot.count);
 
 /** An element of the timeline as wide as its frames, and not much wider than the window. */
 function block(name, { at, count }, properties, ...children) {
@@ -143,8 +144,8 @@ function shotBlocks(shot) {
   one.style.paddingLeft = `${clamp(xOf(at + before) - Math.max(xOf(at), -EDGE), 0, width) + 6}px`;
   one.style.paddingRight = `${clamp(after * unit(), 0, width) + 2}px`;
   if (!before) return [one];
-  return [one, block("i", { at, count: before }, { className: "join", dataset: { transition: into },
-                                                  title: `${into}, ${before} frames` })];
+  return [one, block("i", { at, count: before }, { className: "join", textContent: into,
+                                                  dataset: { transition: into } })];
 }
 
 function markBlock(mark) {
@@ -195,7 +196,7 @@ function drawWave() {
   here("wave").hidden = here("wave-head").hidden = !state.film.sound;
   const brush = brushOf(here("wave"), WAVE), count = Math.min(state.film.frames, SHEET_MOST);
   brush.fillStyle = coloursOf().wave;
-  if (busy.has("wave")) brush.fillText("being read …", 6, WAVE / 2 + 4);
+  if (busy.has("wave") && !heard.columns.length) brush.fillText("being read …", 6, WAVE / 2 + 4);
   const each = count / Math.max(1, heard.columns.length);
   heard.columns.forEach((height, i) => {
     const half = Math.max(0.5, height / 255 * (WAVE / 2 - 2));
@@ -216,9 +217,10 @@ export function setBusy(what, isOn) {
 
 export function placeHead() {
   if (!state.film) return;
-  const x = xOf(view.number - 0.5);
-  here("head").style.left = `${x - 1}px`;
-  here("head").hidden = x < 0 || x > width;
+  const { style } = here("timeline"), x = xOf(view.number - 1);
+  style.setProperty("--at", x);
+  style.setProperty("--unit", unit());
+  here("timeline").classList.toggle("away", x < 0 || x > width);
 }
 
 export function drawTimeline() {
