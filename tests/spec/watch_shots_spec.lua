@@ -104,3 +104,52 @@ describe("a shutter", function()
     assert.equal(2, #json.decode(said))
   end)
 end)
+
+describe("the page of celspan watch #plain", function()
+  if not present.program "chromium" then return pending "there is no chromium" end
+
+  it("names the shots of what it lists, and asks again in another frame", function()
+    local said = watching.see(watch "cut.dissolve(0.5)", [=[
+      await page.until(`${stage("frame")} === "1"`);
+      const spot = async (x, y) => page.get(`(() => { const box = document.querySelector("#stage")
+        .getBoundingClientRect(); return [box.left + box.width * ${x} / 64,
+                                          box.top + box.height * ${y} / 36]; })()`);
+      const go = async (frame, list) => {
+        await page.press("g");
+        await page.get(`document.querySelector("#number").value = "${frame}"`);
+        await page.press("Enter");
+        await page.until(`${stage("frame")} === "${frame}"`);
+      };
+      const items = id => page.get(`[...document.querySelectorAll("#${id} li")]
+        .map(one => one.textContent.replace(/ shot.lua.*/, ""))`);
+      const place = () => text("place");
+      await go(23);
+      await page.press("q");
+      await page.until(`document.querySelectorAll("[data-object]").length === 4`);
+      const tree = await page.get(`[...document.querySelectorAll("#object-list li")]
+        .map(one => one.dataset.object ?? "= " + one.textContent)`);
+      await page.mouse("mouseMoved", ...await spot(20, 18));
+      await page.until(`document.querySelector("#under").textContent === "night / lamp"`);
+      const rim = await spot(26, 18);
+      await page.press("p");
+      await page.click(...rim);
+      await page.until(`document.querySelectorAll("#hits li").length > 4`);
+      const both = await items("hits"), first = await place();
+      const mixed = await page.get(`document.querySelector("#hex").value`);
+      await go(34);
+      await page.until(`document.querySelector("#hits").textContent.startsWith("night")
+        && !document.querySelector("#hits").textContent.includes("day")`);
+      const last = await place(), plain = await page.get(`document.querySelector("#hex").value`);
+      await page.press("Home");
+      await page.until(`document.querySelectorAll("#hits li").length === 3`);
+      return { tree, both, first, mixed, last, plain, day: await items("hits"),
+               none: await page.get(`document.querySelector("#inspector").ariaBusy`) };]=])
+    assert.same({ "= day", "day/bird", "day/sky", "= night", "night/lamp", "night/sky" }, said.tree)
+    assert.same({ "night", "object without a name", "lamp (cel)", "object without a name",
+                  "sky (cel)", "day", "object without a name", "sky (cel)" }, said.both)
+    assert.same({ "day", "object without a name", "sky (cel)" }, said.day)
+    assert.truthy(said.first:find ", frame 23$" and said.last:find ", frame 34$", said.last)
+    assert.equal("#ffdd00", said.plain)
+    assert.not_equal(said.plain, said.mixed)
+  end)
+end)

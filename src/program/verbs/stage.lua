@@ -204,14 +204,15 @@ end
 --- name, the nearest first. A cel that is in several exposures, as those of a shutter, is there
 --- once.
 local function tree_of()
-  local tree, exposures = {}, {}
-  film:tree(TREE_MOST, parts ~= nil, function(depth, kind, name, source, line, shot, label,
+  local tree, exposures, shot = {}, {}, nil
+  film:tree(TREE_MOST, parts ~= nil, function(depth, kind, name, source, line, own, label,
                                               exposure)
-    if label and shot ~= "" then label = shot .. "/" .. label end
+    if depth == 0 then shot = own ~= "" and own or nil end
+    if label and shot then label = shot .. "/" .. label end
     if label and (exposures[label] or exposure) < exposure then return false end
     if label then exposures[label] = exposure end
     tree[#tree + 1] = { depth = depth, kind = kind, name = name, file = source,
-                        line = source and line, label = label, shot = shot ~= "" and shot or nil }
+                        line = source and line, label = label, shot = shot }
     return true
   end)
   return tree

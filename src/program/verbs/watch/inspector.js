@@ -1,18 +1,26 @@
 // The inspector: the colour, the place and the objects at a point.
 import { post, read } from "/fetch.js";
+import { isOpen } from "/panels.js";
 import { nameOf } from "/pictures.js";
-import { element, here, state, stateOf, view } from "/state.js";
+import { clamp, element, here, isReady, play, state, stateOf, view } from "/state.js";
 
-let asked = ""; // the point whose objects are wanted
+let chosen = null; // the point that was clicked, in film units: { one, x, y }
+let asked = "";    // the point and the frame whose objects are wanted
 
 const hex = code => code.toString(16).padStart(2, "0");
 
-function showColour(one, x, y) {
-  const [r, g, b, a] = one.pen.getImageData(x, y, 1, 1).data;
+/** Shows the colour that is painted at a point of the film; none where nothing is painted. */
+function showColour({ painted, pen, canvas }, [w, h], x, y) {
+  const column = Math.floor(x / w * painted.size[0]) - painted.crop[0];
+  const row = Math.floor(y / h * painted.size[1]) - painted.crop[1];
+  const isSeen = clamp(column, 0, canvas.width - 1) === column
+    && clamp(row, 0, canvas.height - 1) === row;
+  here("colour").hidden = !isSeen;
+  if (!isSeen) return;
+  const [r, g, b, a] = pen.getImageData(column, row, 1, 1).data;
   here("swatch").style.backgroundColor = `rgb(${r} ${g} ${b} / ${a / 255})`;
   here("hex").value = `#${[r, g, b].map(hex).join("")}`;
   here("codes").textContent = `${r}, ${g}, ${b}   alpha ${(a / 255).toFixed(3)}`;
-  here("colour").hidden = false;
 }
 
 /** The place in a file of an object or an error: a button if there is an editor that opens it. */
@@ -41,7 +49,7 @@ export function pointOf(one, clientX, clientY) {
   const isIn = column >= 0 && row >= 0 && column < canvas.width && row < canvas.height;
   if (!painted || !isIn) return null;
   const [w, h] = stateOf(one).film.size;
-  return { column, row, x: (painted.crop[0] + column + 0.5) / painted.size[0] * w,
+  return { x: (painted.crop[0] + column + 0.5) / painted.size[0] * w,
            y: (painted.crop[1] + row + 0.5) / painted.size[1] * h };
 }
 
@@ -67,17 +75,38 @@ function hitItem(hit) {
                  ...looksOf(hit).flatMap(one => [" ", one]));
 }
 
+/** The items of a list, those of each shot of a cut below its name. */
+export function belowShots(list, itemOf) {
+  let last;
+  return list.flatMap(one => {
+    const isNew = one.shot !== last;
+    last = one.shot;
+    const head = { className: "heading", textContent: last ?? "over the shots" };
+    return [...isNew ? [element("li", head)] : [], itemOf(one)];
+  });
+}
+
 /** Shows the colour and the objects at a point of the window, in CSS pixels. */
-export async function inspect(one, clientX, clientY) {
+export function inspect(one, clientX, clientY) {
   const point = pointOf(one, clientX, clientY);
   if (!point) return;
-  const wanted = asked = `${one.side} ${view.number} ${point.x} ${point.y}`;
-  here("place").textContent = `x ${point.x.toFixed(2)}, y ${point.y.toFixed(2)}`;
-  showColour(one, point.column, point.row);
+  chosen = { one, ...point };
+  showPoint(one);
+}
+
+/** Shows what is at the point that was clicked, in the frame that a lane shows now. */
+export async function showPoint(one) {
+  if (chosen?.one !== one || !isOpen("inspector") || play.direction !== 0 || !isReady(one)) return;
+  const { x, y } = chosen, { film, build } = stateOf(one), frame = nameOf(one, view.number);
+  const wanted = [one.side, build, frame, x, y].join(" ");
+  showColour(one, film.size, x, y);
+  if (wanted === asked) return;
+  asked = wanted;
+  here("place").textContent = `x ${x.toFixed(2)}, y ${y.toFixed(2)}, frame ${frame}`;
   here("inspector").setAttribute("aria-busy", "true");
-  const hits = await hitsAt(one, point, () => wanted === asked);
+  const hits = await hitsAt(one, chosen, () => wanted === asked);
   if (wanted !== asked) return;
   here("inspector").setAttribute("aria-busy", "false");
   here("hint").textContent = hits.length ? "" : "Nothing is there.";
-  here("hits").replaceChildren(...hits.map(hitItem));
+  here("hits").replaceChildren(...belowShots(hits, hitItem));
 }

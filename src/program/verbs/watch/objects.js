@@ -3,13 +3,12 @@
 //   /objects.json?frame=N --> tree --> a row for each
 //   the pointer over a row outlines what its line made; over the picture, it names the object there
 import { newest, pause, post, read } from "/fetch.js";
-import { hitsAt, pointOf } from "/inspector.js";
+import { belowShots, hitsAt, pointOf } from "/inspector.js";
 import { outline, outlined } from "/over.js";
 import { isOpen } from "/panels.js";
 import { look, nameOf } from "/pictures.js";
 import { cels, queryCels, switchesOf } from "/rows.js";
 import { element, here, icon, main, play, refill, state, view } from "/state.js";
-import { shotsAt } from "/timeline.js";
 
 const ROWS_MOST = 2000; // of the server's answer
 const tree = { list: [], address: "" };
@@ -45,13 +44,12 @@ function setReading(isOn) {
 /** The rows with what they are called, their paths, "shot/cel/name", and whether they have parts.
  * cel: the label by which a cel is shown in another way. */
 function pathsOf(list) {
-  const shots = shotsAt(view.number - 1), names = [], seen = new Map();
-  const shot = shots.length === 1 ? [shots[0].name] : []; // in a transition there are two
+  const names = [], seen = new Map();
   return list.map((one, i) => {
     const cel = one.label, label = one.name || cel?.replace(/^.*\//, "") || one.kind;
     names.length = one.depth;
     names.push(label);
-    const plain = [...shot, ...names].join("/"), count = seen.get(plain) || 0;
+    const plain = [...one.shot ? [one.shot] : [], ...names].join("/"), count = seen.get(plain) || 0;
     seen.set(plain, count + 1);
     return { ...one, cel, label, path: count ? `${plain} ${count + 1}` : plain,
              isParent: (list[i + 1]?.depth ?? 0) > one.depth };
@@ -90,7 +88,7 @@ function objectRow(one) {
 
 export function showObjects() {
   if (here("objects").hidden) return;
-  refill(here("object-list"), shownRows().map(objectRow));
+  refill(here("object-list"), belowShots(shownRows(), objectRow));
   setReading(here("objects").ariaBusy === "true");
 }
 
@@ -102,8 +100,9 @@ const nameAt = newest(async ({ one, event }, isNewest) => {
   const point = pointOf(one, event.clientX, event.clientY);
   await pause(0.06); // until the pointer rests
   if (!isNewest()) return;
-  const hit = point ? (await hitsAt(one, point, isNewest)).find(known => known.name) : null;
-  if (isPointing) nameUnder(hit);
+  const hits = point ? await hitsAt(one, point, isNewest) : [];
+  const isMixed = new Set(hits.map(hit => hit.shot)).size > 1;
+  if (isPointing) nameUnder(hits.find(known => known.name), isMixed);
 });
 
 /** Names and outlines the object at the pointer, while the objects or the inspector are seen. */
@@ -114,14 +113,15 @@ export function pointAt(one, event) {
   nameAt({ one, event });
 }
 
-function nameUnder(hit) {
+/** Names and outlines an object; isMixed: in a transition, where its shot is named, too. */
+function nameUnder(hit, isMixed) {
   here("under").hidden = !hit;
-  here("under").textContent = hit ? hit.name : "";
+  here("under").textContent = hit ? (isMixed && hit.shot ? `${hit.shot} / ` : "") + hit.name : "";
   if (hit?.file) outline(hit);
   else if (outlined.place && !outlined.place.count) outline(null);
 }
 
 export function leavePoint() {
   isPointing = false;
-  nameUnder(null);
+  nameUnder(null, false);
 }

@@ -9,10 +9,10 @@ import { drawRuler } from "/timeline.js";
 export const outlined = { place: null, runs: [], count: 0 };
 const OUTLINE = [255, 150, 30, 255];
 
-/** Marks in `out` the pixels at the border of what a picture covers. */
+/** Marks in `out` the pixels at the border of what a picture covers, however clear it is. */
 function drawBorder(picture, out) {
   const [, , w, h] = picture.crop, bytes = picture.bytes;
-  const isIn = (x, y) => x >= 0 && y >= 0 && x < w && y < h && bytes[4 * (y * w + x) + 3] > 127;
+  const isIn = (x, y) => x >= 0 && y >= 0 && x < w && y < h && bytes[4 * (y * w + x) + 3] > 0;
   for (let y = 0; y < h; y++) {
     for (let x = 0; x < w; x++) {
       const own = isIn(x, y);

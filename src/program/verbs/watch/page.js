@@ -7,6 +7,7 @@
 import { swapCosting } from "/costing.js";
 import { makeFields, setGround, setTheme } from "/guides.js";
 import { hearHands } from "/hands.js";
+import { showPoint } from "/inspector.js";
 import { listen } from "/news.js";
 import { leavePoint, loadObjects, showObjects } from "/objects.js";
 import { onPanel } from "/panels.js";
@@ -26,7 +27,8 @@ onPanel("costs", swapCosting);
 onPanel("objects", isOn => { if (isOn) { showObjects(); loadObjects(); } else leavePoint(); });
 onPanel("inspector", isOn => {
   for (const one of [main, beside]) one.box.classList.toggle("inspecting", isOn);
-  if (!isOn) leavePoint();
+  if (isOn) for (const one of [main, beside]) showPoint(one);
+  else leavePoint();
 });
 beginRender();
 hearHands();

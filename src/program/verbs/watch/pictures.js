@@ -9,6 +9,7 @@ import { loadCosts } from "/costing.js";
 import { showFault } from "/faults.js";
 import { fetch, pause, post } from "/fetch.js";
 import { GUIDES } from "/guides.js";
+import { showPoint } from "/inspector.js";
 import { showNumbers } from "/news.js";
 import { loadObjects } from "/objects.js";
 import { layOver, overlays } from "/over.js";
@@ -243,6 +244,7 @@ async function takeBest(picture) {
   paint(picture);
   one.refused = null;
   showFault(one);
+  showPoint(one);
   if (one === main) await addTo(picture);
 }
 
