@@ -12,7 +12,7 @@ import { drawSheet, nextOnion, setSheet } from "/rows.js";
 import { beside, frameOf, here, looks, loop, main, play, ratio, state, view } from "/state.js";
 import { hideThumb, showThumb } from "/thumb.js";
 import { frameAt, goToMark, scrubTo, setSpan, turnTimeline } from "/timeline.js";
-import { loadValues, resetValues, saveValues } from "/values.js";
+import { loadValues, resetValues, saveValues, undoValue } from "/values.js";
 import { fit, move, natural, zoom, zoomMiddle } from "/view.js";
 
 const STRIDE = 80;           // device pixels that a key moves the picture
@@ -30,11 +30,12 @@ function goToTyped() {
   if (here("go").returnValue === "go" && !Number.isNaN(number)) jump(number);
 }
 
+const FIELDS = "select, textarea, input:not([type=range], [type=checkbox])"; // that take keys
 let isPointed = false; // whether the focus came by a pointer, and not by keys
 
 /** Leaves a field, otherwise a menu, otherwise the outline of what a line made. */
 function leave({ target }) {
-  const field = target.closest("select, textarea, input:not([type=range], [type=checkbox])");
+  const field = target.closest(FIELDS);
   if (field?.closest("main")) field.blur();
   else if (field?.closest(".menu")) field.closest(".menu").firstElementChild.focus();
   else if (!closeMenus()) outline(null);
@@ -73,7 +74,7 @@ const keys = {
 /** Whether a key belongs to what has the focus. After a click on a button, the space key plays. */
 function isTaken({ target, key, ctrlKey, metaKey, altKey }) {
   if (ctrlKey || metaKey || altKey || document.querySelector("dialog[open]")) return true;
-  return key !== "Escape" && target.matches("select, textarea, input:not([type=range], [type=checkbox])")
+  return key !== "Escape" && target.matches(FIELDS)
     || target.matches("[type=range]") && /^(Arrow|Page|Home|End)/.test(key)
     || !isPointed && target.matches("button, input") && key === " ";
 }
@@ -81,6 +82,8 @@ function isTaken({ target, key, ctrlKey, metaKey, altKey }) {
 function hearKey(event) {
   const act = keys[event.key];
   if (event.key === "Tab") isPointed = false;
+  const isUndo = event.key === "z" && (event.ctrlKey || event.metaKey);
+  if (isUndo && !event.target.matches("textarea, input[type=text]")) undoValue();
   if (!act || isTaken(event)) return;
   event.preventDefault();
   act(event);
@@ -192,8 +195,12 @@ function hearPictures() {
 export function hearHands() {
   document.addEventListener("keydown", hearKey);
   document.addEventListener("pointerdown", () => { isPointed = true; }, true);
-  here("speed").addEventListener("change", event => setSpeed(Number(event.target.value)));
-  here("ground").addEventListener("change", event => setGround(event.target.value));
+  const choose = (id, act) => here(id).addEventListener("change", ({ target }) => {
+    act(target.value);
+    if (isPointed) target.blur();
+  });
+  choose("speed", value => setSpeed(Number(value)));
+  choose("ground", setGround);
   here("load-values").addEventListener("change", loadValues);
   here("go").addEventListener("close", goToTyped);
   hearButtons();

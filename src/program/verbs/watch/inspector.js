@@ -2,7 +2,9 @@
 import { post, read } from "/fetch.js";
 import { isOpen } from "/panels.js";
 import { nameOf } from "/pictures.js";
-import { clamp, element, here, isReady, play, state, stateOf, view } from "/state.js";
+import { setSpot } from "/points.js";
+import { element, here, main, state, stateOf, view } from "/state.js";
+import { gridOf } from "/view.js";
 
 let chosen = null; // the point that was clicked, in film units: { one, x, y }
 let asked = "";    // the point and the frame whose objects are wanted
@@ -20,7 +22,8 @@ function showColour({ painted, pen, canvas }, [w, h], x, y) {
   const [r, g, b, a] = pen.getImageData(column, row, 1, 1).data;
   here("swatch").style.backgroundColor = `rgb(${r} ${g} ${b} / ${a / 255})`;
   here("hex").value = `#${[r, g, b].map(hex).join("")}`;
-  here("codes").textContent = `${r}, ${g}, ${b}   alpha ${(a / 255).toFixed(3)}`;
+  here("codes").textContent = `red ${r}, green ${g}, blue ${b}, alpha ${Number((a / 255).toFixed(3))}`;
+  here("colour").hidden = false;
 }
 
 /** The place in a file of an object or an error: a button if there is an editor that opens it. */
@@ -90,19 +93,11 @@ export function belowShots(list, itemOf) {
 export function inspect(one, clientX, clientY) {
   const point = pointOf(one, clientX, clientY);
   if (!point) return;
-  chosen = { one, ...point };
-  showPoint(one);
-}
-
-/** Shows what is at the point that was clicked, in the frame that a lane shows now. */
-export async function showPoint(one) {
-  if (chosen?.one !== one || !isOpen("inspector") || play.direction !== 0 || !isReady(one)) return;
-  const { x, y } = chosen, { film, build } = stateOf(one), frame = nameOf(one, view.number);
-  const wanted = [one.side, build, frame, x, y].join(" ");
-  showColour(one, film.size, x, y);
-  if (wanted === asked) return;
-  asked = wanted;
-  here("place").textContent = `x ${x.toFixed(2)}, y ${y.toFixed(2)}, frame ${frame}`;
+  const wanted = asked = `${one.side} ${view.number} ${point.x} ${point.y}`;
+  const digits = Math.log10(gridOf());
+  here("place").textContent = `x ${point.x.toFixed(digits)}, y ${point.y.toFixed(digits)}`;
+  setSpot(one === main ? point : null);
+  showColour(one, point.column, point.row);
   here("inspector").setAttribute("aria-busy", "true");
   const hits = await hitsAt(one, chosen, () => wanted === asked);
   if (wanted !== asked) return;

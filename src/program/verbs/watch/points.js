@@ -1,14 +1,13 @@
 // Handles on the picture for parameters that are points.
 import { clamp, desk, element, here, main, play, ratio, state, view } from "/state.js";
 import { giveValue } from "/values.js";
+import { gridOf } from "/view.js";
 
 const handles = new Map(); // by the names of the parameters
 
 const pointsOf = () => state.film ? state.parameters.filter(one => one.format === "point") : [];
+let spot = null; // the point that was inspected, in film units; null: none
 const placeOf = one => one.value.split(",").map(Number);
-
-/** The grid of points: whole units of the film, or tenths and hundredths where a unit is large. */
-const gridOf = () => [1, 10].find(share => view.scale / ratio() < 10 * share) ?? 100;
 
 /** Gives a point, in film units, of which a unit has `share` parts. */
 function givePoint(name, place, share = gridOf()) {
@@ -53,7 +52,20 @@ function moveHandle(event, name) {
   givePoint(name, [x + way[0] * step, y + way[1] * step]);
 }
 
-/** Puts the handles where the view has their points now. */
+/** Marks the point that is inspected; null: none is. */
+export function setSpot(point) {
+  spot = point;
+  placePoints();
+}
+
+/** Puts an element of the window at a point of the film. */
+function putAt(one, x, y) {
+  const r = ratio();
+  Object.assign(one.style, { left: `${(view.x + x * view.scale) / r}px`,
+                             top: `${(view.y + y * view.scale) / r}px` });
+}
+
+/** Puts the handles where the view has their points now, and the mark of the inspector. */
 export function placePoints() {
   const points = pointsOf(), names = new Set(points.map(one => one.name));
   for (const [name, handle] of handles) {
@@ -63,10 +75,11 @@ export function placePoints() {
   }
   for (const one of points) {
     if (!handles.has(one.name)) handles.set(one.name, makeHandle(one.name));
-    const [x, y] = placeOf(one), handle = handles.get(one.name), r = ratio();
-    Object.assign(handle.style, { left: `${(view.x + x * view.scale) / r}px`,
-                                  top: `${(view.y + y * view.scale) / r}px` });
+    const handle = handles.get(one.name);
+    putAt(handle, ...placeOf(one));
     handle.hidden = play.direction !== 0;
   }
+  here("spot").hidden = !spot;
+  if (spot) putAt(here("spot"), spot.x, spot.y);
 }
 

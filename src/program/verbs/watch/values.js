@@ -54,7 +54,27 @@ export function sendGiven() {
   }
 }
 
+const before = []; // values before changes: { one, name, value, time }
+
+/** Keeps the value before a change; a drag is one. */
+function keepBefore(one, { name, value }) {
+  const last = before.at(-1), time = performance.now();
+  if (last?.one === one && last.name === name && time - last.time < 1000) last.time = time;
+  else before.push({ one, name, value, time });
+}
+
+/** Gives the value before the last change again. */
+export function undoValue() {
+  const { one, name, value } = before.pop() ?? {};
+  const parameter = one && stateOf(one)?.parameters.find(known => known.name === name);
+  if (!parameter) return;
+  one.isRefilled = true;
+  giveValue(one, parameter, value);
+  before.pop();
+}
+
 export function giveValue(one, parameter, value) {
+  keepBefore(one, parameter);
   one.given.set(parameter.name, value);
   parameter.value = value;
   showCommand();

@@ -62,6 +62,9 @@ export function zoomMiddle(factor) {
   zoom(factor, w / 2, h / 2);
 }
 
+/** The parts of a unit of the film that are told apart: tenths and hundredths where it is large. */
+export const gridOf = () => [1, 10].find(share => view.scale / ratio() < 10 * share) ?? 100;
+
 /** One unit of the film as one pixel of the screen. */
 export function natural() { zoomMiddle(1 / view.scale); }
 
