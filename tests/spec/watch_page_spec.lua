@@ -303,4 +303,96 @@ describe("the page of celspan watch under hands #plain", function()
         .map(one => one.dataset.row)`);]=])
     assert.same({ "dot", "__proto__", "cel 1", "other.lua", "late" }, said)
   end)
+
+  it("plays by the space key after clicks, and leaves the form of a render by Escape", function()
+    local said = see [=[
+      const plays = async () => {
+        await page.press(" ");
+        const label = await of("#play", "one.ariaLabel");
+        await page.press("Home");
+        return [label, await of("#view", "one.ariaExpanded")].join();
+      };
+      const seen = [];
+      await click("#view"); await page.press("Escape");
+      seen.push(await plays());
+      await click("[data-mark=far]");
+      seen.push(await plays());
+      await click("#first");
+      seen.push(await plays());
+      await click("#render");
+      await set("#render-form [name=format]", "one.focus()");
+      const form = [];
+      for (let i = 0; i < 2; i++) {
+        await page.press("Escape");
+        form.push(await page.get(`[document.activeElement.id,
+          document.querySelector("#render-form").hidden].join()`));
+      }
+      await set("#view", "one.focus()");
+      await page.press("Tab");
+      const tabbed = await plays();
+      return { seen, form, tabbed };]=]
+    assert.same({ "Pause,false", "Pause,false", "Pause,false" }, said.seen)
+    assert.same({ "render,false", "render,true" }, said.form)
+    assert.equal("Play,false", said.tabbed)
+  end)
+
+  it("drags a point within the film on a grid, and gives values before by ctrl-z", function()
+    local said = see [=[
+      const place = (x, y) => of("#stage", `(box => [box.x + box.width * ${x} / 64,
+        box.y + box.height * ${y} / 36])(one.getBoundingClientRect())`);
+      const value = () => of("#form [name=at]", "one.value");
+      const drag = async (x, y, modifiers = 0) => {
+        const from = await of("[data-point=at]", `(box => [box.x + box.width / 2,
+          box.y + box.height / 2])(one.getBoundingClientRect())`);
+        const press = { button: "left", buttons: 1, clickCount: 1, modifiers };
+        await page.mouse("mousePressed", ...from, press);
+        await page.mouse("mouseMoved", ...await place(x, y), press);
+        await page.mouse("mouseReleased", ...await place(x, y), { button: "left" });
+        return value();
+      };
+      const inside = await drag(30.2, 9.8), free = await drag(31.37, 9.8, 8);
+      const beyond = await drag(64.4, 40);
+      await page.pause(1.1);
+      await set("[data-point=at]", "one.focus()");
+      await page.press("ArrowLeft");
+      const moved = await value();
+      await page.press("z", 2);
+      await page.until(`document.querySelector("#form [name=at]").value === "${beyond}"`);
+      await page.press("z", 2);
+      await page.until(`document.querySelector("#form [name=at]").value === "20,18"`);
+      return { inside, free, beyond, moved };]=]
+    assert.equal("64,36", said.beyond)
+    assert.truthy(said.inside:find "^30%.2,9%.8$", said.inside)
+    assert.truthy(said.free:find "^31%.3%d,9%.%d+$", said.free)
+    assert.equal("63,36", said.moved)
+  end)
+
+  it("marks the point that is inspected, and has one playhead over all rows", function()
+    local said = see [=[
+      await page.press("s"); await page.press("p");
+      await page.until(`document.querySelectorAll("[data-row]").length === 3`);
+      const at = await of("#stage", `(box => [box.x + box.width / 4, box.y + box.height / 4])(
+        one.getBoundingClientRect())`);
+      const middle = `(box => [box.x + box.width / 2, box.y + box.height / 2])(
+        one.getBoundingClientRect())`;
+      await page.click(...at);
+      await page.until(`!document.querySelector("#spot").hidden`);
+      const spot = await of("#spot", middle);
+      await page.press("]");
+      await page.until(`${stage("frame")} === "40"`);
+      const heads = await all(".head", "one.getBoundingClientRect().x");
+      const ruler = await of("#ruler", `(box => box.x + box.width * 39 / 400)(
+        one.getBoundingClientRect())`);
+      const play = await of("#play", "one.getBoundingClientRect().x");
+      await page.press("End");
+      await page.until(`${stage("frame")} === "400"`);
+      const moved = await of("#play", "one.getBoundingClientRect().x") - play;
+      await page.press("p");
+      return { off: Math.hypot(spot[0] - at[0], spot[1] - at[1]), count: heads.length, moved,
+               far: Math.max(...heads.map(one => Math.abs(one - ruler))),
+               gone: await of("#spot", "one.hidden") };]=]
+    assert.is_true(said.off < 2, said.off)
+    assert.is_true(said.far < 2, said.far)
+    assert.same({ 2, 0, true }, { said.count, said.moved, said.gone })
+  end)
 end)

@@ -237,7 +237,7 @@ describe("the page of celspan watch as a studio #plain", function()
     assert.same({ "bell 40" }, said.marks)
     assert.same({ "37 1:12", "40 1:15", "37 1:12" }, said.seen)
     assert.same({ "false", "true" }, said.opened)
-    assert.same({ "evening", "night", "night / disc", "night / sun", "night / ground" }, said.rows)
+    assert.same({ "evening", "night", "night / sun", "night / disc", "night / ground" }, said.rows)
   end)
 
   it("has objects, values with handles, and a form that renders", function()

@@ -241,24 +241,30 @@ function answers.sheet()
   put({ good = true }, text)
 end
 
---- The labels of the cels of frames, as keys, which are found as they are needed.
+--- The labels of the cels of frames, as keys, and those of the cels in which parts are, by the
+--- names of these. They are found as they are needed.
 local function new_labels()
   return setmetatable({}, { __index = function(frames, number)
-    local labels = {}
-    if marked(film.try, film, number) then
-      for _, one in ipairs(tree_of()) do labels[one.label or ""] = true end
+    local labels, owners, cel = {}, {}, nil
+    for _, one in ipairs(marked(film.try, film, number) and tree_of() or {}) do
+      if one.label or one.depth == 0 then cel = one.label end
+      if one.label then labels[cel] = true end
+      if one.name and not one.label then owners[one.name] = owners[one.name] or cel end
     end
-    frames[number] = labels
-    return labels
+    frames[number] = { labels = labels, owners = owners }
+    return frames[number]
   end })
 end
 
---- The label of the cel in whose first drawing a layer of the sheet is; nil: the layer is no cel.
+--- The label of the cel in whose first drawing a layer of the sheet is, or else nil and the label
+--- of the cel that it is a part of; nil: it is neither.
 local function label_of(labels, name, cells, shot)
   for _, cell in ipairs(cells.list) do
     if cell[2] ~= "" then
       local known, longer = labels[film.first + cell[1] - 1], shot and shot.name .. "/" .. name
-      return longer and known[longer] and longer or known[name] and name or nil
+      if known.labels[longer or ""] then return longer end
+      if known.labels[name] then return name end
+      return nil, known.owners[name:match "[^/]*$"]
     end
   end
 end
@@ -290,7 +296,7 @@ local function add_shot(rows, place, last)
   for i = begin, #rows do
     local row = rows[i]
     local name = row.name:gsub("^cel 1/", "")
-    row.cel = label_of(labels, name, row.cells, shot)
+    row.cel, row.of = label_of(labels, name, row.cells, shot)
     row.shot, row.name = shot.name, shot.name .. " / " .. name:gsub("/", " / ")
     if shot.to < last then table.insert(row.cells.list, { shot.to + 1, "" }) end
   end
@@ -299,7 +305,7 @@ local function add_shot(rows, place, last)
 end
 
 --- A row for each layer, the nearest first; in a cut those of a shot together. cel: the label of
---- the cel that the layer is.
+--- the cel that the layer is; of: that of the cel that it is a part of.
 function answers.rows()
   local rows, last = {}, math.min(film.frames, SHEET_MOST)
   for place, shot in ipairs(parts or {}) do
@@ -308,7 +314,7 @@ function answers.rows()
   if not parts then
     local labels = new_labels()
     if not add_rows(rows, 1, last) then return end
-    for _, row in ipairs(rows) do row.cel = label_of(labels, row.name, row.cells) end
+    for _, row in ipairs(rows) do row.cel, row.of = label_of(labels, row.name, row.cells) end
   end
   put({ good = true }, program.json { rows = { list = rows }, frames = last })
 end

@@ -17,7 +17,7 @@ import { brushOf, busy, coloursOf, heard, setBusy, shotsOf, unit, xOf } from "/t
 const ROW = 22, STRIP = 32;  // CSS pixels
 export const SHEET_MOST = 10000;    // frames of a sheet, as the server has them
 const ROWS_MOST = 2000;      // rows that are shown
-const NARROW = 5;            // CSS pixels below which boxes are not told apart
+const NARROW = 12;           // CSS pixels below which boxes are not told apart
 const ONION_MOST = 3;        // frames before and after
 const sheet = { rows: [], shown: [], builds: "" };
 const unfolded = new Map();  // whether the rows of a shot are shown, by its name
@@ -39,18 +39,11 @@ export async function loadSheet() {
   showSheet();
 }
 
-/** Rows in the order of the outliner: those of a cel's parts after it, and not before. */
+/** Rows in the order of the outliner: those of a cel's parts after it. */
 function partsLast(rows) {
-  const list = [];
-  let parts = [];
-  rows.forEach((row, i) => {
-    if (row.cel) list.push(row, ...parts.map(part => ({ ...part, isPart: true })));
-    else parts.push(row);
-    if (!row.cel && row.shot === rows[i + 1]?.shot) return;
-    if (!row.cel) list.push(...parts);
-    parts = [];
-  });
-  return list;
+  const known = new Set(rows.map(row => row.cel).filter(Boolean)), parts = new Map();
+  for (const row of rows) if (known.has(row.of)) parts.set(row.of, [...parts.get(row.of) ?? [], row]);
+  return rows.filter(row => !known.has(row.of)).flatMap(row => [row, ...parts.get(row.cel) ?? []]);
 }
 
 /** The rows of a film; those of the second are below its name, with its frames at their times. */
@@ -89,7 +82,7 @@ function unfoldedRows() {
 }
 
 /** The name of a row: that of a shot unfolds, and is not repeated below. */
-function rowName({ name, shot, heading, cel, isPart }) {
+function rowName({ name, shot, heading, cel, of }) {
   const textContent = !heading && name.startsWith(`${shot} / `) ? name.slice(shot.length + 3) : name;
   const words = element("span", { textContent });
   const isOn = unfolded.get(name);
@@ -97,7 +90,7 @@ function rowName({ name, shot, heading, cel, isPart }) {
     onclick: () => { unfolded.set(name, !isOn); showSheet(); } }, icon("fold"), words);
   const row = element("li", { title: name, dataset: { row: name } }, fold || words,
                       ...cel ? switchesOf(cel) : []);
-  row.style.setProperty("--depth", heading ? 0 : Boolean(shot) + Boolean(isPart));
+  row.style.setProperty("--depth", heading ? 0 : Boolean(shot) + Boolean(of));
   return row;
 }
 
@@ -178,21 +171,30 @@ export function nextOnion() {
  * Boxes that are too narrow to be told apart are a band. */
 function drawRow(brush, row, y, colours) {
   const one = unit(), end = row.end ?? state.film.frames + 1;
+  let band = null;
   row.cells.forEach(([from, name], i) => {
     const until = i + 1 < row.cells.length ? row.cells[i + 1][0] : end;
-    const x = xOf(from - 1), wide = (until - from) * one, isBand = wide < NARROW;
+    const x = xOf(from - 1), wide = (until - from) * one, isNarrow = wide < NARROW;
+    if (!name || !isNarrow) band = drawWords(brush, band, y, colours);
     if (!name || x > brush.canvas.width || x + wide < 0) return;
-    brush.fillStyle = isBand || i % 2 ? colours.odd : colours.even;
-    brush.fillRect(x, y + 3, isBand ? wide + 0.5 : wide - 1, ROW - 6);
-    brush.fillStyle = colours.text;
-    if (wide > 8 + 7 * name.length) brush.fillText(name, Math.max(x, 0) + 4, y + 15);
+    brush.fillStyle = isNarrow || i % 2 ? colours.odd : colours.even;
+    brush.fillRect(x, y + 3, isNarrow ? wide + 0.5 : wide - 1, ROW - 6);
+    if (isNarrow) band = { x: band?.x ?? x, end: x + wide, count: (band?.count ?? 0) + 1 };
+    else drawWords(brush, { x, end: x + wide, name }, y, colours);
   });
-  const count = row.cells.filter(([, name]) => name).length, x = xOf(row.cells[0]?.[0] - 1);
-  if (one < NARROW && count * one > 150) brush.fillText(`${count} drawings`, Math.max(x, 0) + 4, y + 15);
+  drawWords(brush, band, y, colours);
   brush.fillStyle = colours.accent;
   for (const frame of row.moved || []) {
     brush.fillRect(xOf(frame - 0.5) - 1, y + ROW - 5, Math.min(2, Math.max(1, one)), 2);
   }
+}
+
+/** Writes into a box, or a band of several, what it is, if there is room. Returns null. */
+function drawWords(brush, box, y, colours) {
+  const words = box?.name ?? `${box?.count} drawings`, x = Math.max(box?.x, 0);
+  brush.fillStyle = colours.text;
+  if (box?.end - x > 8 + 7 * words.length) brush.fillText(words, x + 5, y + 15);
+  return null;
 }
 
 function drawHeading(brush, { shot }, y, colours) {
@@ -200,8 +202,7 @@ function drawHeading(brush, { shot }, y, colours) {
   const x = xOf(shot.at), wide = Math.max(1, shot.count * unit() - 1);
   brush.fillStyle = colours.line;
   brush.fillRect(x, y + 3, wide, ROW - 6);
-  brush.fillStyle = colours.text;
-  if (wide > 12 + 7 * shot.name.length) brush.fillText(shot.name, Math.max(x, 0) + 6, y + 15);
+  drawWords(brush, { x, end: x + wide, name: shot.name }, y, colours);
 }
 
 /** Draws the rows that are seen. */
