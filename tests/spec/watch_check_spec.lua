@@ -88,7 +88,7 @@ describe("what is wrong with a film that is watched", function()
       "shot.lua:7,frame 13,frame 14,frame 15,frame 16,frame 17,frame 18,"
       .. "and 6 more up to 24", "frame 3,frame 4,frame 5" }, said.items)
     assert.equal("Faults 5", said.button)
-    assert.equal("Faults", said.after)
+    assert.equal("Faults 0", said.after)
     assert.equal("", said.list)
   end)
 end)
