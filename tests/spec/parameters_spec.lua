@@ -157,7 +157,8 @@ describe("parameters", function()
       ["at = { 1, point = true }"] = "'at' has the default a table, which is not a point, such as "
         .. '"120,80"',
       ["at = { 1, 2, 3, point = true }"] = "'at' is a point, which has no field '3'",
-      ["at = { 1, 2, point = 1 }"] = "'at' has a field 'point' that is not true",
+      ["at = { 1, 2, point = 1 }"] = "'at' has a field 'point' that is not true: write { 1, 2, "
+        .. "point = true }",
       ["how = { ease = 'outBak' }"] = "'how' has the default 'outBak', which is not the name of a "
         .. 'curve, such as "outBack"',
       ["side = { 'a', 'b', group = 1 }"] = "'side' has a field 'group' that is not a string",

@@ -116,7 +116,10 @@ local function kind_of_table(name, given)
   if given.colour ~= nil then return "colour", given.colour end
   if given.ease ~= nil then return "ease", given.ease end
   if given.point ~= nil then
-    if given.point ~= true then refuse(name, "has a field 'point' that is not true") end
+    if given.point ~= true then
+      refuse(name, "has a field 'point' that is not true: write { %s, point = true }",
+        (text_of(read_point(given.point) or read_point(given) or { 120, 80 }):gsub(",", ", ")))
+    end
     return "point", { given[1], given[2] }
   end
   if given.file ~= nil then return "file", given.file end
