@@ -103,7 +103,7 @@ describe("a render from the page", function()
       await until("done");
       return { first, done, again, replaced, all };]=])
     assert.equal(200, said.first)
-    assert.same({ state = "done", file = "out.png" }, said.done)
+    assert.same({ state = "done", file = "out.png", number = 1 }, said.done)
     assert.same({ 409, 200, 200 }, { said.again, said.replaced, said.all })
     watching.bench:celspan_inside "render shot.lua -o same.png --frames 5 --size 32x18"
     assert.equal(watching.bench:read "same.png", watching.bench:read "out.png")
@@ -279,9 +279,10 @@ describe("the page of celspan watch as a studio #plain", function()
     assert.is_true(said.isStale)
     assert.equal("celspan render shot.lua --strict --set sun=21,18 -o shot.mp4 -- 'a b'",
       said.command)
-    assert.same({ "shot.png", "idle" }, { said.file, said.state })
-    assert.equal("celspan render shot.lua --strict --set sun=21,18 --frames 1 -o shot.png -- 'a b'",
+    assert.same({ "shot.0001.png", "idle" }, { said.file, said.state })
+    assert.equal("celspan render shot.lua --strict --set sun=21,18 --frames 1 -o shot.0001.png "
+      .. "-- 'a b'",
       said.line)
-    assert.truthy(watching.bench:read "shot.png")
+    assert.truthy(watching.bench:read "shot.0001.png")
   end)
 end)

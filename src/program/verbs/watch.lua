@@ -448,7 +448,7 @@ posts["/render"] = function(id, given)
   elseif status ~= 200 then
     return refuse(id, status, sentence)
   end
-  give_json(id, {})
+  give_json(id, { number = renders.number })
 end
 
 --- Outlines in the page what this line made, { file =, line = }.

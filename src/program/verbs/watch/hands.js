@@ -8,7 +8,7 @@ import { outline, setSpans } from "/over.js";
 import { closeMenus, hearMenus, isOpen, swapPanel } from "/panels.js";
 import { look, setMatte } from "/pictures.js";
 import { jump, setLoop, setSpeed, start, step, swapMute, toggle } from "/playing.js";
-import { drawSheet, nextOnion, setSheet } from "/rows.js";
+import { drawSheet, nextOnion, resetCels, setSheet } from "/rows.js";
 import { beside, frameOf, here, looks, loop, main, play, ratio, state, view } from "/state.js";
 import { hideThumb, showThumb } from "/thumb.js";
 import { frameAt, goToMark, scrubTo, setSpan, turnTimeline } from "/timeline.js";
@@ -156,6 +156,7 @@ function hearButtons() {
   }
   here("save-values").addEventListener("click", saveValues);
   here("reset-values").addEventListener("click", resetValues);
+  here("altered-reset").addEventListener("click", resetCels);
 }
 
 function hearTimeline() {

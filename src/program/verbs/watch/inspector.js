@@ -22,8 +22,8 @@ function showColour({ painted, pen, canvas }, [w, h], x, y) {
   const [r, g, b, a] = pen.getImageData(column, row, 1, 1).data;
   here("swatch").style.backgroundColor = `rgb(${r} ${g} ${b} / ${a / 255})`;
   here("hex").value = `#${[r, g, b].map(hex).join("")}`;
-  here("codes").textContent = `red ${r}, green ${g}, blue ${b}, alpha ${Number((a / 255).toFixed(3))}`;
-  here("colour").hidden = false;
+  here("codes").textContent =
+    `red ${r}, green ${g}, blue ${b}, alpha ${Number((a / 255).toFixed(3))}`;
 }
 
 /** The place in a file of an object or an error: a button if there is an editor that opens it. */
@@ -93,11 +93,20 @@ export function belowShots(list, itemOf) {
 export function inspect(one, clientX, clientY) {
   const point = pointOf(one, clientX, clientY);
   if (!point) return;
-  const wanted = asked = `${one.side} ${view.number} ${point.x} ${point.y}`;
-  const digits = Math.log10(gridOf());
-  here("place").textContent = `x ${point.x.toFixed(digits)}, y ${point.y.toFixed(digits)}`;
-  setSpot(one === main ? point : null);
-  showColour(one, point.column, point.row);
+  chosen = { one, ...point };
+  showPoint(one);
+}
+
+/** Shows what is at the point that was clicked, in the frame that a lane shows now. */
+export async function showPoint(one) {
+  if (chosen?.one !== one || !isOpen("inspector") || play.direction !== 0 || !isReady(one)) return;
+  const { x, y } = chosen, { film, build } = stateOf(one), frame = nameOf(one, view.number);
+  const wanted = [one.side, build, frame, x, y].join(" "), digits = Math.log10(gridOf());
+  showColour(one, film.size, x, y);
+  setSpot(one === main ? chosen : null);
+  if (wanted === asked) return;
+  asked = wanted;
+  here("place").textContent = `x ${x.toFixed(digits)}, y ${y.toFixed(digits)}, frame ${frame}`;
   here("inspector").setAttribute("aria-busy", "true");
   const hits = await hitsAt(one, chosen, () => wanted === asked);
   if (wanted !== asked) return;

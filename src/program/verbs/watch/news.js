@@ -6,7 +6,7 @@ import { outline, outlined } from "/over.js";
 import { forget, look } from "/pictures.js";
 import { start, takeSound } from "/playing.js";
 import { placePoints } from "/points.js";
-import { showRender } from "/render.js";
+import { showRender, showRenderCommand } from "/render.js";
 import { loadSheet } from "/rows.js";
 import {
   beside, clamp, here, lanes, loop, main, span, state, stateOf, timecode, view,
@@ -29,6 +29,7 @@ export function showNumbers() {
     + (whole ? "" : `, loop ${loop.from} to ${loop.to}`);
   placeHead();
   placePoints();
+  showRenderCommand();
 }
 
 function showState() {

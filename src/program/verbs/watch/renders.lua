@@ -29,10 +29,10 @@ local endings = { mp4 = "mp4", webm = "webm", mov = "mov", gif = "gif", webp = "
 local stills = { png = true, exr = true }
 
 --- folder: of the files, with a / at its end; "" for the working folder. tell(): called when pages
---- need news.
+--- need news. number: of the renders that have begun, which tells the last one from those before.
 function renders.new(film, folder, tell)
   return setmetatable({ film = film, folder = folder, tell = tell, said = { state = "idle" },
-                        reported = 0 }, renders)
+                        number = 0, reported = 0 }, renders)
 end
 
 -- ---------------------------------------------------------------- what is wanted
@@ -169,6 +169,7 @@ function renders:begin(given)
   local process, message = program.renderer(self:words(wanted))
   if not process then return 500, message end
   self.process, self.wanted, self.text, self.tail, self.message = process, wanted, "", "", nil
+  self.number = self.number + 1
   self:say { state = "running", file = wanted.file }
   return 200
 end
@@ -176,7 +177,7 @@ end
 --- Stores the state for the pages. Progress is reported a few times a second, everything else at
 --- once.
 function renders:say(said, is_progress)
-  self.said, self.is_behind = said, true
+  self.said, self.is_behind, said.number = said, true, self.number
   if not is_progress then self.reported = 0 end
   self:report()
 end

@@ -121,8 +121,8 @@ const SWITCHES = {
 const letters = new Map(); // by the names of the cels
 
 // Parts of the address that say how cels are shown; skins: of what the onion skin is made, "": of
-// all but grounds.
-export const cels = { query: "", skins: "" };
+// all but grounds. words: in what way, "": as they are.
+export const cels = { query: "", skins: "", words: "" };
 
 const has = (name, letter) => (letters.get(name) || "").includes(letter);
 const isAny = letter => [...letters.keys()].some(name => has(name, letter));
@@ -155,6 +155,29 @@ export function queryCels() {
   const part = (name, value) => `&${name}=${encodeURIComponent(JSON.stringify(value))}`;
   cels.query = all.length ? part("cels", Object.fromEntries(all)) : "";
   cels.skins = skins.length ? part("skins", skins) : "";
+  sayCels(all.filter(([, own]) => own.includes("h")).length, all.length);
+}
+
+/** Says how many cels are hidden, and how many are changed in all: a render has all as they are. */
+function sayCels(hidden, changed) {
+  const say = (count, what) => count === 1 ? `1 cel is ${what}` : `${count} cels are ${what}`;
+  const parts = [...hidden ? [say(hidden, "hidden")] : [],
+                 ...changed > hidden ? [say(changed - hidden, "without lights or focus")] : []];
+  cels.words = parts.join(", ");
+  here("altered").hidden = here("render-note").hidden = !cels.words;
+  here("altered-words").textContent = `${cels.words}.`;
+  here("render-note").textContent = `${cels.words} here; the render has all as they are.`;
+  here("outliner").classList.toggle("altered", Boolean(cels.words));
+  here("view").classList.toggle("altered", Boolean(cels.words));
+}
+
+/** Shows all cels as they are. */
+export function resetCels() {
+  for (const [name, own] of letters) letters.set(name, own.replace(/[^o]/g, ""));
+  queryCels();
+  showSheet();
+  showObjects();
+  look();
 }
 
 /** The onion skin of one more frame before and after, or none. */

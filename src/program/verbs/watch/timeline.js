@@ -122,6 +122,8 @@ function blocksOf() {
 
 /** The shots of the film, each with the frames that it has alone or in transitions, from 0. */
 export const shotsOf = () => blocksOf().shots;
+/** The marks, each with the frames until the next one; those of shots are not among them. */
+export const marksOf = () => blocksOf().marks;
 /** The shots that a frame shows, counted from 0: in a transition there are two. */
 export const shotsAt = at => shotsOf().filter(shot => shot.at <= at && at < shot.at + shot.count);
 
