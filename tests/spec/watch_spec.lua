@@ -512,9 +512,8 @@ describe("the page of celspan watch #plain", function()
       await page.until(`${stage("frame")} === "30"`);
       const painted = await page.get(`[8, 30].map(y => document.querySelector("#rows")
         .getContext("2d").getImageData(4, y * devicePixelRatio, 1, 1).data[3])`);
-      return { painted, head: await page.get(`(document.querySelector("#head").getBoundingClientRect().x
-        - document.querySelector("#rows").getBoundingClientRect().x)
-        / document.querySelector("#rows").clientWidth * 48`),
+      const left = id => page.get(`document.querySelector("${id}").getBoundingClientRect().x`);
+      return { painted, head: (await left("#head") - await left("#rows")) / box[2] * 48,
                names: await page.get(`[...document.querySelectorAll("#names li")]
                  .map(one => one.title).join("\\n")`) };]=])
     assert.same({ 255, 255 }, said.painted)

@@ -42,7 +42,9 @@ export async function loadSheet() {
 /** Rows in the order of the outliner: those of a cel's parts after it. */
 function partsLast(rows) {
   const known = new Set(rows.map(row => row.cel).filter(Boolean)), parts = new Map();
-  for (const row of rows) if (known.has(row.of)) parts.set(row.of, [...parts.get(row.of) ?? [], row]);
+  for (const row of rows.filter(one => known.has(one.of))) {
+    parts.set(row.of, [...parts.get(row.of) ?? [], row]);
+  }
   return rows.filter(row => !known.has(row.of)).flatMap(row => [row, ...parts.get(row.cel) ?? []]);
 }
 
@@ -83,8 +85,8 @@ function unfoldedRows() {
 
 /** The name of a row: that of a shot unfolds, and is not repeated below. */
 function rowName({ name, shot, heading, cel, of }) {
-  const textContent = !heading && name.startsWith(`${shot} / `) ? name.slice(shot.length + 3) : name;
-  const words = element("span", { textContent });
+  const isBelow = !heading && name.startsWith(`${shot} / `);
+  const words = element("span", { textContent: isBelow ? name.slice(shot.length + 3) : name });
   const isOn = unfolded.get(name);
   const fold = heading && element("button", { className: "fold", ariaExpanded: String(isOn),
     onclick: () => { unfolded.set(name, !isOn); showSheet(); } }, icon("fold"), words);
