@@ -43,6 +43,7 @@ describe("what is wrong with a film that is watched", function()
         if (state.shown && !state.checking) return state;
       }]=])
     assert.equal(24, said.checked)
+    assert.same({ "shot.lua", 5 }, { said.errors[1].file, said.errors[1].line })
     local found, wanted = {}, {}
     for i, one in ipairs(said.errors) do found[i] = one.message:gsub("frame %d+: ", "") end
     local _, out = watching.bench:celspan_inside "check shot.lua --json 2>/dev/null"
@@ -84,7 +85,7 @@ describe("what is wrong with a film that is watched", function()
       await page.until(`document.querySelector("#checked").textContent
         === "24 frames checked: no faults"`);
       return { items, button, after: await text("check"), list: await text("fault-list") };]=])
-    assert.same({ "", "shot.lua:4", "shot.lua:10,frame 7",
+    assert.same({ "shot.lua:5", "shot.lua:4", "shot.lua:10,frame 7",
       "shot.lua:7,frame 13,frame 14,frame 15,frame 16,frame 17,frame 18,"
       .. "and 6 more up to 24", "frame 3,frame 4,frame 5" }, said.items)
     assert.equal("Faults 5", said.button)

@@ -55,7 +55,8 @@ function groupFaults() {
 /** One of those as an item of the list, with ways to its frames and its line. */
 function faultItem({ text, frames, fault }) {
   const item = element("li", { textContent: text }), ways = element("p", {});
-  if (fault.file && state.editor) ways.append(placeButton(fault));
+  const isSaid = text.includes(`${fault.file}:${fault.line}`);
+  if (fault.file && (state.editor || !isSaid)) ways.append(placeButton(fault));
   const sorted = frames.sort((a, b) => a - b);
   ways.append(...sorted.slice(0, FAULT_FRAMES).map(name => {
     const onclick = () => jump(name - state.film.first + 1);

@@ -8,6 +8,7 @@ import { outline, setSpans } from "/over.js";
 import { closeMenus, hearMenus, isOpen, swapPanel } from "/panels.js";
 import { look, setMatte } from "/pictures.js";
 import { jump, setLoop, setSpeed, start, step, swapMute, toggle } from "/playing.js";
+import { swapHandles } from "/points.js";
 import { drawSheet, nextOnion, resetCels, setSheet } from "/rows.js";
 import { beside, frameOf, here, looks, loop, main, play, ratio, state, view } from "/state.js";
 import { hideThumb, showThumb } from "/thumb.js";
@@ -156,6 +157,7 @@ function hearButtons() {
   }
   here("save-values").addEventListener("click", saveValues);
   here("reset-values").addEventListener("click", resetValues);
+  here("handles").addEventListener("click", swapHandles);
   here("altered-reset").addEventListener("click", resetCels);
 }
 

@@ -58,9 +58,23 @@ function places.excerpt(path, line)
   return lines
 end
 
+--- The line of the film's script that names the sound of a message, which has no place; nothing: none
+--- does.
+local function place_of_sound(message, film)
+  local sound = message:match "^film: sound %d+: the sound (.-) cannot "
+  local text, number = sound and texts.read(film.script, LINES_MOST), 0
+  for line in (text and text .. "\n" or ""):gmatch "([^\n]*)\n" do
+    number = number + 1
+    for _, quote in ipairs { '"', "'" } do
+      if line:find(quote .. sound .. quote, 1, true) then return film.script, number end
+    end
+  end
+end
+
 --- An error of a film, in the form that /errors.json has.
 function places:describe(message, frame, film)
   local name, named = program.place_of(message)
+  if not name then name, named = place_of_sound(message, film) end
   local path, line = self:note(name, named, film)
   frame = frame or math.tointeger(message:match "frame (%-?%d+): ")
   local callers = self:of_text(message:match " %(called from ([^()]*)%)" or "", film)

@@ -1,5 +1,7 @@
 // Handles on the picture for parameters that are points.
-import { clamp, desk, element, here, main, play, ratio, state, view } from "/state.js";
+import {
+  clamp, desk, element, here, looks, main, play, ratio, setPressed, state, view,
+} from "/state.js";
 import { giveValue } from "/values.js";
 import { gridOf } from "/view.js";
 
@@ -52,6 +54,13 @@ function moveHandle(event, name) {
   givePoint(name, [x + way[0] * step, y + way[1] * step]);
 }
 
+/** Shows the handles, or hides them. */
+export function swapHandles() {
+  looks.hasHandles = !looks.hasHandles;
+  setPressed("handles", looks.hasHandles);
+  placePoints();
+}
+
 /** Marks the point that is inspected; null: none is. */
 export function setSpot(point) {
   spot = point;
@@ -77,7 +86,7 @@ export function placePoints() {
     if (!handles.has(one.name)) handles.set(one.name, makeHandle(one.name));
     const handle = handles.get(one.name);
     putAt(handle, ...placeOf(one));
-    handle.hidden = play.direction !== 0;
+    handle.hidden = play.direction !== 0 || !looks.hasHandles;
   }
   here("spot").hidden = !spot;
   if (spot) putAt(here("spot"), spot.x, spot.y);

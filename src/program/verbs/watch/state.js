@@ -20,9 +20,9 @@ export const play = { direction: 0, speed: 1, start: 0, isHeard: false, passed: 
                       shown: -1, painted: [] };
 // How pictures are looked at. mixing: "", "wipe" or "differ"; held: the frame that others are
 // compared with, 0: the frame before the last save; older: the picture at this place before it;
-// onion: the number of frames before and after.
+// onion: the number of frames before and after. hasHandles: whether points have some.
 export const looks = { isMatte: false, hasSpans: false, mixing: "", held: 0, older: null,
-                       onion: 0 };
+                       onion: 0, hasHandles: true };
 // The part of the film that the timeline shows, in frames from 0.
 export const span = { from: 0, to: 1 };
 

@@ -198,7 +198,8 @@ function drawWave() {
   here("wave").hidden = here("wave-head").hidden = !state.film.sound;
   const brush = brushOf(here("wave"), WAVE), count = Math.min(state.film.frames, SHEET_MOST);
   brush.fillStyle = coloursOf().wave;
-  if (busy.has("wave") && !heard.columns.length) brush.fillText("being read …", 6, WAVE / 2 + 4);
+  const words = busy.has("wave") ? "being read …" : "It cannot be read: see the faults.";
+  if (!heard.columns.length) brush.fillText(words, 6, WAVE / 2 + 4);
   const each = count / Math.max(1, heard.columns.length);
   heard.columns.forEach((height, i) => {
     const half = Math.max(0.5, height / 255 * (WAVE / 2 - 2));

@@ -1,0 +1,148 @@
+-- celspan watch: values of parameters, those that cannot be, and what is said of the script's own.
+local present = require "tests.support.present"
+local watching = require "tests.support.watching"
+
+if not present.web() then return pending "celspan was built without libmicrohttpd" end
+if not present.program "node" then return pending "there is no node" end
+
+local FILM = [[
+local celspan = require "celspan"
+local p = celspan.parameters {
+  lamp = { 20, 18, point = true, about = "its \"place\"", group = "Night" }, size = { 6, min = 1 },
+  tint = { colour = "#fd0" }, how = { ease = "inQuad" }, mood = { "calm", "wild" },
+  word = "a\nb", is_lit = true, art = { file = "a.png" } }
+return celspan.film { size = { 64, 36 }, frames = 9, frame = function()
+  return celspan.rostrum { celspan.cel { celspan.circle { centre = p.lamp, radius = p.size,
+    texture = p.tint } } } end }
+]]
+
+before_each(function() watching.begin { ["shot.lua"] = FILM } end)
+after_each(watching.finish)
+
+--- Steps that give values, and read what the state says of the parameters.
+local GIVE = [=[
+  const headers = { Origin: `http://127.0.0.1:${web.port}` };
+  const give = async given => JSON.parse((await web.get("/parameters",
+    { method: "POST", headers, body: JSON.stringify(given) })).body);
+  const all = async key => Object.fromEntries(JSON.parse((await web.get("/state.json")).body)
+    .parameters.map(one => [one.name, one[key]]));
+  await web.get("/frame/1.png");
+]=]
+
+describe("values of parameters", function()
+  it("are refused one by one, and are given in their own form", function()
+    local said = watching.speak(watching.watch "--set size=3 shot.lua", GIVE .. [=[
+      const good = await give({ lamp: " 30, 9", size: "4" });
+      const bad = await give({ lamp: "left", size: "0", tint: "rust", how: "outBak", mood: "sad",
+                               is_lit: "perhaps", art: "", word: "any" });
+      const shot = (await web.get("/frame/1.png")).status;
+      return { good, bad, shot, value: await all("value"), start: await all("start") };]=])
+    assert.same({ lamp = "30,9", size = "4" }, said.good.values)
+    assert.same({}, said.good.refused)
+    assert.same({ lamp = "30,9", size = "4", word = "any" }, said.bad.values)
+    assert.equal('lamp is \'left\'; it must be a point, such as "120,80"', said.bad.refused.lamp)
+    assert.equal("size is '0'; it must be a number of 1 or more", said.bad.refused.size)
+    for _, name in ipairs { "tint", "how", "mood", "is_lit", "art" } do
+      assert.truthy(said.bad.refused[name]:find("^" .. name .. " is '"), name)
+    end
+    assert.is_nil(said.bad.refused.word)
+    assert.equal(200, said.shot)
+    assert.same({ "30,9", "4", "#fd0" }, { said.value.lamp, said.value.size, said.value.tint })
+    assert.same({ "20,18", "3" }, { said.start.lamp, said.start.size })
+  end)
+
+  it("have lines as the script declares them", function()
+    local said = watching.speak(watching.watch(), GIVE .. [=[
+      await give({ lamp: "30.5,9", mood: "wild", is_lit: "false", size: "2.50" });
+      return await all("source");]=])
+    assert.same({ lamp = [[lamp = { 30.5, 9, point = true, about = "its \"place\"", group = "Night" }]],
+      size = "size = { 2.5, min = 1 }", tint = 'tint = { colour = "#fd0" }',
+      how = 'how = { ease = "inQuad" }', mood = 'mood = { "wild", "calm" }',
+      word = [[word = "a\nb"]], is_lit = "is_lit = false", art = 'art = { file = "a.png" }' }, said)
+    local lines = {}
+    for _, line in pairs(said) do lines[#lines + 1] = line end
+    local call = FILM:match "celspan.parameters (%b{})"
+    watching.bench:write("again.lua", (FILM:gsub("celspan.parameters %b{}", function()
+      return "celspan.parameters { " .. table.concat(lines, ", ") .. " }"
+    end)))
+    assert.truthy(call)
+    local code = watching.bench:celspan_inside "render again.lua -o b.png --frames 1"
+    assert.equal(0, code)
+    watching.bench:celspan_inside
+      "render shot.lua -o a.png --frames 1 --set lamp=30.5,9 --set size=2.5"
+    assert.equal(watching.bench:read "a.png", watching.bench:read "b.png")
+  end)
+end)
+
+describe("the form of values #plain", function()
+  if not present.program "chromium" then return pending "there is no chromium" end
+
+  it("marks what is not as in the script, gives it back, and refuses at the field", function()
+    local address = watching.watch "--set size=3 shot.lua"
+    local said = watching.see(address, [=[
+      await page.until(`${stage("frame")} === "1"`);
+      await page.press("v");
+      const field = name => `document.querySelector("#form").elements.namedItem("${name}")`;
+      const type = (name, value) => page.get(`(() => { const one = ${field(name)};
+        one.value = "${value}"; one.dispatchEvent(new Event("change")); })()`);
+      const backs = () => page.get(`[...document.querySelectorAll("#form .back:not([hidden])")]
+        .map(one => one.textContent)`);
+      const wrong = name => `${field(name)}.closest(".field").querySelector(".wrong").textContent`;
+      const value = id => page.get(`document.querySelector("#${id}").value`);
+      const hash = () => page.get("location.hash");
+      const first = await backs(), started = await hash();
+      await type("lamp", "30, 9");
+      await page.until(`${field("lamp")}.value === "30,9"`);
+      await page.until(`document.querySelector("#source").value.startsWith("lamp = { 30, 9")`);
+      const changed = await backs(), source = await value("source"), given = await hash();
+      await type("lamp", "left");
+      await page.until(`${wrong("lamp")}`);
+      const fault = await page.get(wrong("lamp"));
+      const isMarked = await page.get(`${field("lamp")}.hasAttribute("aria-invalid")`);
+      await page.until(`!document.querySelector("#stage").hasAttribute("data-stale")`);
+      const error = await page.get(`document.querySelector("#error").hidden`);
+      await page.until(`!document.querySelector("#command").value.includes("left")`);
+      const command = await value("command");
+      await page.load(server());
+      await page.until(`${stage("frame")} === "1"`);
+      const again = await hash();
+      await page.press("v");
+      await page.until(`document.querySelectorAll("#form .back:not([hidden])").length === 2`);
+      for (const left of [1, 0]) {
+        await page.get(`document.querySelector("#form .back:not([hidden])").click()`);
+        await page.until(`document.querySelectorAll("#form .back:not([hidden])").length === ${left}`);
+      }
+      await page.until(`document.querySelector("#sources").hidden`);
+      return { first, started, changed, source, given, fault, isMarked, error, command, again,
+               last: await hash(), lamp: await page.get(`${field("lamp")}.value`) };
+      function server() { return "]=] .. address .. [=["; }]=])
+    assert.same({ "back to 6" }, said.first)
+    assert.equal("", said.started)
+    assert.same({ "back to 20,18", "back to 6" }, said.changed)
+    assert.equal('lamp = { 30, 9, point = true, about = "its \\"place\\"", group = "Night" },\n'
+      .. "size = { 3, min = 1 },", said.source)
+    assert.same({ "#lamp=30%2C9", "#lamp=30%2C9" }, { said.given, said.again })
+    assert.equal('lamp is \'left\'; it must be a point, such as "120,80"', said.fault)
+    assert.is_true(said.isMarked and said.error)
+    assert.truthy(said.command:find("--set lamp=30,9", 1, true), said.command)
+    assert.same({ "#size=6", "20,18" }, { said.last, said.lamp })
+  end)
+
+  it("has handles that can be hidden, and that leave clicks to the inspector", function()
+    local said = watching.see(watching.watch(), [=[
+      await page.until(`${stage("frame")} === "1"`);
+      const handle = `document.querySelector("[data-point=lamp]")`;
+      const isHidden = () => page.get(`${handle}.hidden`);
+      const first = await isHidden();
+      await page.get(`document.querySelector("#handles").click()`);
+      const off = await isHidden();
+      await page.get(`document.querySelector("#handles").click()`);
+      const on = await isHidden();
+      await page.press("p");
+      await page.click(...await page.get(`(box => [box.left + box.width / 2,
+        box.top + box.height / 2])(${handle}.getBoundingClientRect())`));
+      await page.until(`document.querySelector("#hits").textContent.includes("shot.lua:7")`);
+      return { first, off, on };]=])
+    assert.same({ first = false, off = true, on = false }, said)
+  end)
+end)
