@@ -15,7 +15,7 @@ typedef struct search {
   celspan_point point;
   size_t count;     /* of the items found */
   double share;     /* of the exposures of what is searched */
-  const char *shot; /* of a cut, in which the search is; "": none. NULL: the film is no cut */
+  const char *part; /* the shot of a cut in which the search is; "": none. NULL: it is no cut */
 } search;
 
 static celspan_status probe_cel(const search *s, celspan_cel *cel, bool *is_there) {
@@ -81,7 +81,7 @@ static void add_hit(search *s, cs_mark mark, double opacity, const cs_light *lig
   lua_pushvalue(s->L, 4);
   lua_createtable(s->L, 0, 10);
   cs_put_text(s->L, "kind", light ? "cel" : "object");
-  cs_put_text(s->L, "shot", s->shot && s->shot[0] ? s->shot : NULL);
+  cs_put_text(s->L, "shot", s->part && s->part[0] ? s->part : NULL);
   cs_put_number(s->L, "share", s->share);
   cs_put_text(s->L, "name", cs_mark_name(mark));
   cs_put_text(s->L, "file", origin.line > 0 ? origin.source : NULL);
@@ -127,9 +127,9 @@ static celspan_status search_objects(search *s, celspan_object *const *objects, 
 
 static celspan_status search_rostrum(search *s, const celspan_rostrum *rostrum, extent film,
                                      const celspan_matrix *matrix) {
-  const char *outer = s->shot;
+  const char *outer = s->part;
   if (outer && !outer[0])
-    s->shot = cs_mark_name(rostrum->mark);
+    s->part = cs_mark_name(rostrum->mark);
   for (size_t i = rostrum->cel_count; i-- > 0;) {
     const celspan_cel *cel = rostrum->cels[i];
     celspan_matrix placed;
@@ -141,14 +141,14 @@ static celspan_status search_rostrum(search *s, const celspan_rostrum *rostrum, 
     if (s->count > before)
       add_hit(s, cel->mark, cel->opacity, &light);
   }
-  s->shot = outer;
+  s->part = outer;
   return CELSPAN_OK;
 }
 
 /* Whether two exposures show the same at two moments: of a cut the same shot. */
 static bool is_same(const search *s, const celspan_exposure *a, const celspan_exposure *b) {
   const char *name = cs_mark_name(a->rostrum->mark);
-  return a == b || !s->shot || (name[0] && strcmp(name, cs_mark_name(b->rostrum->mark)) == 0);
+  return a == b || !s->part || (name[0] && strcmp(name, cs_mark_name(b->rostrum->mark)) == 0);
 }
 
 /* Searches an exposure, if none before it shows the same. */
@@ -168,16 +168,16 @@ static celspan_status search_exposure(search *s, size_t i) {
 
 /* film:hits(x, y, add, is_cut) -> nil | message: calls add({ kind =, name =, shot =, share =, file
  * =, line =, callers =, opacity =, light = }) for each object and cel that covers the point in the
- * frame that was built last, from front to back; of a cut for one shot after the other. Each follows
- * its own parts. shot: its shot; nil: none. share: of its shot in the frame. file and line: nil if
- * they are not known. light: that shines on a cel, its red, green and blue, or "texture". x, y: film
- * units. */
+ * frame that was built last, from front to back; of a cut for one shot after the other. Each
+ * follows its own parts. shot: its shot; nil: none. share: of its shot in the frame. file and line:
+ * nil if they are not known. light: that shines on a cel, its red, green and blue, or "texture". x,
+ * y: film units. */
 int cs_stage_hits(lua_State *L, cs_script *script) {
   search s = {.L = L,
               .context = script->context,
               .script = script,
               .point = {luaL_checknumber(L, 2), luaL_checknumber(L, 3)},
-              .shot = lua_toboolean(L, 5) ? "" : NULL};
+              .part = lua_toboolean(L, 5) ? "" : NULL};
   luaL_checkstack(L, 8, "too many objects");
   celspan_status status = CELSPAN_OK;
   for (size_t i = 0; i < script->frame.count && status == CELSPAN_OK; i++)

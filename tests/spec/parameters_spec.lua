@@ -154,6 +154,10 @@ describe("parameters", function()
         "table is not a name: letters, digits and _, not beginning with a digit",
       ["a = {}"] = "'a' must be a string, a number, a boolean, a list of strings, or a table with "
         .. "a default as [1], a point, colour, ease or file",
+      ["at = { point = { 430, 110 } }"] = "'at' has a field 'point' that is not true: write { 430, "
+        .. "110, point = true }",
+      ["at = { point = 1 }"] = "'at' has a field 'point' that is not true: write { 120, 80, "
+        .. "point = true }",
       ["at = { 1, point = true }"] = "'at' has the default a table, which is not a point, such as "
         .. '"120,80"',
       ["at = { 1, 2, 3, point = true }"] = "'at' is a point, which has no field '3'",

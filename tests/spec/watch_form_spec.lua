@@ -1,4 +1,4 @@
--- celspan watch: what its form of a render proposes, and what it says of renders and of hidden cels.
+-- celspan watch: the proposals of its form of a render, and words about renders and hidden cels.
 local present = require "tests.support.present"
 local watching = require "tests.support.watching"
 
@@ -33,7 +33,8 @@ local HELP = [=[
   const click = id => page.get(`document.querySelector("${id}").click()`);
   const state = wanted => page.until(
     `document.querySelector("#render-state").dataset.state === "${wanted}"`);
-  const wish = async () => [await value("format"), await value("range"), await value("file")].join(" ");
+  const wish = async () =>
+    [await value("format"), await value("range"), await value("file")].join(" ");
 ]=]
 
 before_each(function() watching.begin { ["shot.lua"] = FILM } end)

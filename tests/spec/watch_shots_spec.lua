@@ -30,7 +30,7 @@ local function watch(between)
   return watching.watch()
 end
 
---- The steps that say, of a server, what is at points in frames, and the rows of the sheet.
+--- The steps that list, of a server, the objects at points in frames, and the rows of the sheet.
 local STEPS = [=[
   const get = async path => JSON.parse((await web.get(path)).body);
   const at = async (x, y, frame) => (await get(`/at/${x},${y}.json?frame=${frame}`))

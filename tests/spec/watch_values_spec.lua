@@ -55,7 +55,8 @@ describe("values of parameters", function()
     local said = watching.speak(watching.watch(), GIVE .. [=[
       await give({ lamp: "30.5,9", mood: "wild", is_lit: "false", size: "2.50" });
       return await all("source");]=])
-    assert.same({ lamp = [[lamp = { 30.5, 9, point = true, about = "its \"place\"", group = "Night" }]],
+    local lamp = [[{ 30.5, 9, point = true, about = "its \"place\"", group = "Night" }]]
+    assert.same({ lamp = "lamp = " .. lamp,
       size = "size = { 2.5, min = 1 }", tint = 'tint = { colour = "#fd0" }',
       how = 'how = { ease = "inQuad" }', mood = 'mood = { "wild", "calm" }',
       word = [[word = "a\nb"]], is_lit = "is_lit = false", art = 'art = { file = "a.png" }' }, said)
@@ -110,7 +111,8 @@ describe("the form of values #plain", function()
       await page.until(`document.querySelectorAll("#form .back:not([hidden])").length === 2`);
       for (const left of [1, 0]) {
         await page.get(`document.querySelector("#form .back:not([hidden])").click()`);
-        await page.until(`document.querySelectorAll("#form .back:not([hidden])").length === ${left}`);
+        await page.until(`document.querySelectorAll("#form .back:not([hidden])")
+          .length === ${left}`);
       }
       await page.until(`document.querySelector("#sources").hidden`);
       return { first, started, changed, source, given, fault, isMarked, error, command, again,

@@ -319,6 +319,60 @@ function parameters.schema(title)
   }) .. "\n"
 end
 
+--- A parameter of its name and its member of `properties` in the schema, as it was declared.
+local function declared_of(name, given)
+  local kind = given.enum and "choice" or given.type == "string" and "text" or given.type
+  for other, format in pairs(formats) do
+    if given.format == format then kind = other end
+  end
+  return { name = name, kind = kind, min = given.minimum, max = given.maximum,
+           about = given.description, group = given.group, choices = given.enum }
+end
+
+--- A text for a parameter of a schema as the program shows it, such as "200,90" for "200, 90"; nil
+--- and a sentence: it cannot be its value.
+function parameters.taken(name, given, text)
+  local value, fault = read(declared_of(name, given), text, true)
+  if value == nil then return nil, fault end
+  return type(value) == "table" and text_of(value) or text
+end
+
+--- A value in Lua.
+local function literal(value)
+  if type(value) ~= "string" then
+    return type(value) == "number" and ("%.14g"):format(value) or tostring(value)
+  end
+  return (("%q"):format(value):gsub("\\\n", "\\n"))
+end
+
+--- The default of a declaration, as the parts of a table.
+local function parts_of(one, value)
+  if one.kind == "point" then return { literal(value[1]), literal(value[2]), "point = true" } end
+  if formats[one.kind] then return { one.kind .. " = " .. literal(value) } end
+  local parts = { literal(value) }
+  for _, choice in ipairs(one.choices or {}) do
+    if choice ~= value then parts[#parts + 1] = literal(choice) end
+  end
+  return parts
+end
+
+--- How a script declares a parameter of a schema with a text as its default, such as "sun = { 120,
+--- 80, point = true }"; nil: it cannot be its value.
+function parameters.line(name, given, text)
+  local one = declared_of(name, given)
+  local value = read(one, text, true)
+  if value == nil then return nil end
+  local parts = parts_of(one, value)
+  local is_plain = #parts == 1 and not formats[one.kind]
+  for _, field in ipairs { "min", "max", "about", "group" } do
+    if one[field] ~= nil then
+      is_plain, parts[#parts + 1] = false, field .. " = " .. literal(one[field])
+    end
+  end
+  local all = table.concat(parts, ", ")
+  return ("%s = %s"):format(name, is_plain and all or "{ " .. all .. " }")
+end
+
 --- A value on one line, in a form that a terminal may show: control characters are written as
 --- numbers.
 local function in_line(value)

@@ -176,8 +176,8 @@ function answers.made(ask)
   put { good = true, runs = runs }
 end
 
---- The objects and cels at a point, from front to back: in a transition first those of the shot that
---- is seen more. And a message, if they are not all.
+--- The objects and cels at a point, from front to back; in a transition those of the shot that is
+--- seen more come first. And a message, if they are not all.
 local function hits_of(x, y)
   local hits, places = {}, {}
   local message = film:hits(x, y, function(hit)

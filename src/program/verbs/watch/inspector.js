@@ -97,7 +97,7 @@ export function inspect(one, clientX, clientY) {
   showPoint(one);
 }
 
-/** Shows what is at the point that was clicked, in the frame that a lane shows now. */
+/** Shows the colour and the objects at the point that was clicked, in the frame of a lane now. */
 export async function showPoint(one) {
   if (chosen?.one !== one || !isOpen("inspector") || play.direction !== 0 || !isReady(one)) return;
   const { x, y } = chosen, { film, build } = stateOf(one), frame = nameOf(one, view.number);

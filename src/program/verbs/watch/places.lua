@@ -58,8 +58,7 @@ function places.excerpt(path, line)
   return lines
 end
 
---- The line of the film's script that names the sound of a message, which has no place; nothing: none
---- does.
+--- The place in the film's script where the sound of a message is named; nothing: it is not.
 local function place_of_sound(message, film)
   local sound = message:match "^film: sound %d+: the sound (.-) cannot "
   local text, number = sound and texts.read(film.script, LINES_MOST), 0

@@ -29,7 +29,7 @@ local endings = { mp4 = "mp4", webm = "webm", mov = "mov", gif = "gif", webp = "
 local stills = { png = true, exr = true }
 
 --- folder: of the files, with a / at its end; "" for the working folder. tell(): called when pages
---- need news. number: of the renders that have begun, which tells the last one from those before.
+--- need news. number: of the renders that have begun.
 function renders.new(film, folder, tell)
   return setmetatable({ film = film, folder = folder, tell = tell, said = { state = "idle" },
                         number = 0, reported = 0 }, renders)

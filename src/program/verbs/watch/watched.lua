@@ -72,8 +72,16 @@ function film:build()
   }
 end
 
---- Gives values to parameters, { name = "text" }, and forgets all earlier ones.
-function film:give_values(values)
+--- Gives values to parameters, { name = "text" }, and forgets all earlier ones. A parameter keeps
+--- its earlier value if it cannot have the new one. Returns the values that are given now, and
+--- sentences about those that cannot be, both by name.
+function film:give_values(given)
+  local values, refused = {}, {}
+  for _, one in ipairs(self.parameters or {}) do
+    local name = one.name
+    if given[name] then values[name], refused[name] = parameters.taken(name, one, given[name]) end
+    if refused[name] then values[name] = self.pool.values[name] end
+  end
   self.pool.values = values
   self:build()
 end
@@ -156,7 +164,8 @@ local function text_of(value)
   return table.concat(value.list or value, ",")
 end
 
---- The parameters with their values, or with their defaults.
+--- The parameters with their values: those of the page, otherwise `start`, those of the command
+--- line or the defaults. source: how the script declares a parameter with this value.
 function film:describe_parameters()
   local values, list = self:values(), {}
   for i, one in ipairs(self.parameters or {}) do
