@@ -1,6 +1,6 @@
 #!/bin/sh
 # The pictures of the page of celspan watch, docs/pictures/watch*.png: the film of watch.lua in
-# Debian's chromium. From the top of the tree:
+# Debian's chromium, with at most 200 colours. From the top of the tree:
 #
 #   docs/pictures/watch.sh FOLDER [PROGRAM]        FOLDER keeps the parts
 set -eu
@@ -21,3 +21,5 @@ CELSPAN_BROWSER_SECONDS=300 SHOTS="$(cd "$1" && pwd)" \
 for name in values render; do
   "$celspan" convert "$1/watch_$name.png" docs/pictures/watch_$name.png --size 800x500
 done
+pngquant --force --ext .png 200 docs/pictures/watch.png docs/pictures/watch_values.png \
+  docs/pictures/watch_render.png

@@ -68,6 +68,7 @@ function curveOf(select) {
     canvas.ariaLabel = `The curve ${name}`;
   };
   select.addEventListener("input", draw);
+  canvas.redraw = draw;
   draw();
   return canvas;
 }

@@ -36,6 +36,7 @@ export function makeFields() {
 export function setTheme(theme) {
   document.documentElement.dataset.theme = theme;
   drawTimeline();
+  for (const curve of document.querySelectorAll(".curve")) curve.redraw();
 }
 
 export function swapTheme() {
