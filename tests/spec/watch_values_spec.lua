@@ -99,7 +99,7 @@ describe("the form of values #plain", function()
       await type("lamp", "left");
       await page.until(`${wrong("lamp")}`);
       const fault = await page.get(wrong("lamp"));
-      const isMarked = await page.get(`${field("lamp")}.hasAttribute("aria-invalid")`);
+      const isMarked = await page.get(`${field("lamp")}.ariaInvalid === "true"`);
       await page.until(`!document.querySelector("#stage").hasAttribute("data-stale")`);
       const error = await page.get(`document.querySelector("#error").hidden`);
       await page.until(`!document.querySelector("#command").value.includes("left")`);

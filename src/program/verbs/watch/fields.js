@@ -87,6 +87,18 @@ function drawCurve(canvas, values) {
   brush.stroke();
 }
 
+/** Marks a field: the value that the script has instead, or false; why its text is no value. */
+export function markField(input, own, fault) {
+  const box = input.closest(".field"), back = box.querySelector(".back");
+  const wrong = box.querySelector(".wrong");
+  box.classList.toggle("changed", own !== false);
+  back.hidden = own === false;
+  back.textContent = `back to ${own}`;
+  wrong.hidden = !fault;
+  wrong.textContent = fault ?? "";
+  input.setAttribute("aria-invalid", Boolean(fault));
+}
+
 /** A field of the form: its name, what it is changed with, and what the script says about it. */
 export function fieldOf(one, parameter) {
   const { name, format, description } = parameter, box = element("div", { className: "field" });
