@@ -14,7 +14,7 @@ local function shot(colour, name, size)
   return celspan.film { size = { 64, 36 }, fps = 24, frames = 24, frame = function(f)
     return celspan.rostrum {
       celspan.cel { celspan.rect { 0, 0, 64, 36, texture = colour } }:named "sky",
-      celspan.cel { celspan.circle { centre = { 20, 18 }, radius = size, texture = "#fd0" } }
+      celspan.cel { celspan.circle { centre = { 20, 18 }, radius = size, texture = "#fd06" } }
         :named(name) }
   end }
 end
@@ -128,6 +128,14 @@ describe("the page of celspan watch #plain", function()
       await page.until(`document.querySelectorAll("[data-object]").length === 4`);
       const tree = await page.get(`[...document.querySelectorAll("#object-list li")]
         .map(one => one.dataset.object ?? "= " + one.textContent)`);
+      const row = await page.get(`(() => { const box = document
+        .querySelector("[data-object='night/lamp']").getBoundingClientRect();
+        return [box.left + 9, box.top + 9]; })()`);
+      await page.mouse("mouseMoved", ...row);
+      await page.until(`!document.querySelector("#overlay").hidden
+        && document.querySelector("#overlay").getContext("2d").getImageData(0, 0,
+          document.querySelector("#overlay").width, document.querySelector("#overlay").height)
+          .data.some(one => one > 0)`);
       await page.mouse("mouseMoved", ...await spot(20, 18));
       await page.until(`document.querySelector("#under").textContent === "night / lamp"`);
       const rim = await spot(26, 18);

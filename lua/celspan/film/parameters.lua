@@ -210,17 +210,20 @@ local function find(settings, declared, source, name)
       or #names > 0 and "; there are " .. table.concat(names, ", ") or "")
 end
 
---- is_text: the value is a text that must be converted; otherwise it already has its type.
+--- The value of a parameter; nil and a sentence: it cannot be that. is_text: the value is a text
+--- that must be converted; otherwise it already has its type.
+local function read(one, value, is_text)
+  local kind, made = kinds[one.kind], nil
+  if is_text or type(value) == kind.type then made = kind.read(one, value) end
+  if made ~= nil then return made end
+  return nil, ("%s is %s; it must be %s"):format(one.name, shown(value),
+    kind.allowed and kind.allowed(one) or "a text")
+end
+
 local function set(settings, declared, values, source, name, value, is_text)
-  local one = find(settings, declared, source, name)
-  local kind = kinds[one.kind]
-  local read
-  if is_text or type(value) == kind.type then read = kind.read(one, value) end
-  if read == nil then
-    refuse_setting(settings, "%s%s is %s; it must be %s", source, name, shown(value),
-      kind.allowed and kind.allowed(one) or "a text")
-  end
-  values[name] = read
+  local made, fault = read(find(settings, declared, source, name), value, is_text)
+  if made == nil then refuse_setting(settings, "%s%s", source, fault) end
+  values[name] = made
 end
 
 --- Sets the values of a JSON object.

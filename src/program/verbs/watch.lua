@@ -319,7 +319,7 @@ local function give_text(id, name)
   local text = program.text(name)
   if not name:find "%.html$" then
     text = ("\n" .. text):gsub("\n%s*/%*.-%*/", "\n"):gsub("\n%s*//[^\n]*", "")
-      :gsub("\n%s+", "\n")
+      :gsub(" +// [^\n]*", ""):gsub("\n%s+", "\n")
   end
   answer(id, 200, kinds[name:match "%w+$"], text)
 end
@@ -409,7 +409,7 @@ end
 local posts = {}
 
 --- Sets the values of parameters, { name = "text" }, and forgets all values that the page has given
---- before.
+--- before. Those that cannot be are refused, each by itself.
 posts["/parameters"] = function(id, given, film)
   local known = {}
   for _, one in ipairs(film.parameters or {}) do known[one.name] = true end
@@ -418,8 +418,8 @@ posts["/parameters"] = function(id, given, film)
       return refuse(id, 400, ("the film has no parameter '%s' with such a value"):format(name))
     end
   end
-  film:give_values(given)
-  give_json(id, { build = film.build_number })
+  local values, refused = film:give_values(given)
+  give_json(id, { build = film.build_number, values = values, refused = refused })
 end
 
 --- The picture that was requested with this `wish` is not wanted any more, { wish = }.

@@ -2,7 +2,7 @@
 import { read } from "/fetch.js";
 import { element, stateOf } from "/state.js";
 import { coloursOf } from "/timeline.js";
-import { giveValue } from "/values.js";
+import { giveBack, giveValue } from "/values.js";
 
 const WAYS = ["in", "out", "inOut", "outIn"];
 const EASES = ["linear", "hold", "spring", ...["Quad", "Cubic", "Quart", "Quint", "Sine", "Expo",
@@ -103,8 +103,9 @@ export function markField(input, own, fault) {
 export function fieldOf(one, parameter) {
   const { name, format, description } = parameter, box = element("div", { className: "field" });
   const input = control({ ...parameter, value: one.given.get(name) ?? parameter.value });
-  const give = () => giveValue(one, stateOf(one).parameters.find(known => known.name === name)
-    || parameter, valueOf(input)); // later news may have replaced the list
+  // later news may have replaced the list
+  const now = () => stateOf(one).parameters.find(known => known.name === name) || parameter;
+  const give = () => giveValue(one, now(), valueOf(input));
   const title = element("span", { textContent: name });
   if (format === "point") title.append(element("small", { textContent: "  x, y" }));
   const line = element("label", {}, title, input);
@@ -124,6 +125,10 @@ export function fieldOf(one, parameter) {
     for (const event of ["focus", "pointerenter"]) input.addEventListener(event, list);
   }
   input.addEventListener(input.type === "text" ? "change" : "input", give);
+  box.append(element("small", { className: "wrong", role: "alert", hidden: true }),
+             element("button", { className: "back", type: "button", hidden: true,
+                                 title: "The value in the script",
+                                 onclick: () => giveBack(one, now()) }));
   return box;
 }
 

@@ -3,7 +3,7 @@ import { post, read } from "/fetch.js";
 import { isOpen } from "/panels.js";
 import { nameOf } from "/pictures.js";
 import { setSpot } from "/points.js";
-import { element, here, main, state, stateOf, view } from "/state.js";
+import { clamp, element, here, isReady, main, play, state, stateOf, view } from "/state.js";
 import { gridOf } from "/view.js";
 
 let chosen = null; // the point that was clicked, in film units: { one, x, y }
@@ -22,8 +22,8 @@ function showColour({ painted, pen, canvas }, [w, h], x, y) {
   const [r, g, b, a] = pen.getImageData(column, row, 1, 1).data;
   here("swatch").style.backgroundColor = `rgb(${r} ${g} ${b} / ${a / 255})`;
   here("hex").value = `#${[r, g, b].map(hex).join("")}`;
-  here("codes").textContent =
-    `red ${r}, green ${g}, blue ${b}, alpha ${Number((a / 255).toFixed(3))}`;
+  const alpha = Number((a / 255).toFixed(3));
+  here("codes").textContent = `red ${r}, green ${g}, blue ${b}, alpha ${alpha}`;
 }
 
 /** The place in a file of an object or an error: a button if there is an editor that opens it. */
@@ -101,12 +101,13 @@ export function inspect(one, clientX, clientY) {
 export async function showPoint(one) {
   if (chosen?.one !== one || !isOpen("inspector") || play.direction !== 0 || !isReady(one)) return;
   const { x, y } = chosen, { film, build } = stateOf(one), frame = nameOf(one, view.number);
-  const wanted = [one.side, build, frame, x, y].join(" "), digits = Math.log10(gridOf());
+  const wanted = [one.side, build, frame, x, y].join(" ");
   showColour(one, film.size, x, y);
   setSpot(one === main ? chosen : null);
   if (wanted === asked) return;
   asked = wanted;
-  here("place").textContent = `x ${x.toFixed(digits)}, y ${y.toFixed(digits)}, frame ${frame}`;
+  const [left, top] = [x, y].map(side => side.toFixed(Math.log10(gridOf())));
+  here("place").textContent = `x ${left}, y ${top}, frame ${frame}`;
   here("inspector").setAttribute("aria-busy", "true");
   const hits = await hitsAt(one, chosen, () => wanted === asked);
   if (wanted !== asked) return;

@@ -28,7 +28,7 @@ onPanel("costs", swapCosting);
 onPanel("objects", isOn => { if (isOn) { showObjects(); loadObjects(); } else leavePoint(); });
 onPanel("inspector", isOn => {
   for (const one of [main, beside]) one.box.classList.toggle("inspecting", isOn);
-  if (isOn) return;
+  if (isOn) return [main, beside].forEach(showPoint);
   leavePoint();
   setSpot(null);
 });

@@ -1,7 +1,7 @@
 // Values of the film's parameters: the form, the address of the page and the command line.
 import { nameLanes } from "/beside.js";
 import { post } from "/fetch.js";
-import { fieldOf } from "/fields.js";
+import { fieldOf, markField } from "/fields.js";
 import { markStale } from "/pictures.js";
 import { placePoints } from "/points.js";
 import {
@@ -37,20 +37,42 @@ async function sendValues(one) {
     one.isChanged = false;
     writeAddress();
     const path = one === main ? "/parameters" : "/parameters?side=2";
-    const answer = await post(path, Object.fromEntries(one.given)).catch(() => null);
-    if (answer?.ok) one.wantedBuild = (await answer.json()).build;
+    const sent = Object.fromEntries(one.given);
+    const answer = await post(path, sent).catch(() => null);
+    if (answer?.ok) takeAnswer(one, sent, await answer.json());
   }
   one.isSending = false;
   markStale(one);
   showForm(one);
 }
 
-/** Sends the values of the address as soon as a film can take them. */
+/** Takes the answer to values: those that are given now, in another form perhaps, and sentences
+ * about those that cannot be. */
+function takeAnswer(one, sent, { build, values, refused }) {
+  one.wantedBuild = build;
+  Object.assign(one.wrong, refused);
+  if (one.isChanged || !stateOf(one)) return;
+  const names = stateOf(one).parameters.map(known => known.name);
+  one.given = new URLSearchParams(names.filter(name => Object.hasOwn(values, name))
+    .map(name => [name, values[name]]));
+  writeAddress();
+  for (const [name, value] of one.given) {
+    const field = part(one, "form").elements.namedItem(name);
+    if (field?.value === sent[name] && !one.wrong[name]) field.value = value;
+  }
+}
+
+/** Sends the values of the address as soon as a film can take them; without any, the address gets
+ * those that the server has. */
 export function sendGiven() {
   for (const one of lanes()) {
     if (one.isGiven || !isReady(one)) continue;
     one.isGiven = true;
-    if (one.given.size) sendValues(one);
+    if (one.given.size) { sendValues(one); continue; }
+    const { parameters } = stateOf(one);
+    one.given = new URLSearchParams(parameters.filter(known => known.value !== known.start)
+      .map(known => [known.name, known.value]));
+    writeAddress();
   }
 }
 
@@ -77,10 +99,19 @@ export function giveValue(one, parameter, value) {
   keepBefore(one, parameter);
   one.given.set(parameter.name, value);
   parameter.value = value;
+  delete one.wrong[parameter.name];
   showCommand();
+  markFields(one);
   nameLanes();
   placePoints();
   sendValues(one);
+}
+
+/** Gives a parameter the value of the script again. */
+export function giveBack(one, { name, start, default: own }) {
+  if (start === textOf(own)) one.given.delete(name);
+  else one.given.set(name, textOf(own));
+  takeValues(one, one.given);
 }
 
 /** A value as the command line has it: a point is "120,80". */
@@ -89,12 +120,15 @@ const textOf = value => Array.isArray(value) ? value.join() : String(value);
 const quoted = text => /^[\w.,:/-][\w.,:=/#-]*$/.test(text) ? text
   : `'${text.replaceAll("'", "'\\''")}'`;
 
+/** Whether a parameter has not the value of the script. */
+const isChanged = known => known.value !== textOf(known.default);
+
 /** The command that renders a film to a file with these values, the options and the arguments of
  * this run, and more words. */
 export function renderOf(one, file, more = []) {
   const { parameters, script, options, arguments: last } = stateOf(one);
-  const changed = parameters.filter(known => known.value !== textOf(known.default));
-  const sets = changed.flatMap(known => ["--set", `${known.name}=${known.value}`]);
+  const sets = parameters.filter(isChanged)
+    .flatMap(known => ["--set", `${known.name}=${known.value}`]);
   const words = [script, ...options, ...sets, ...more, "-o", file, ...last.length ? ["--"] : [],
                  ...last];
   return `celspan render ${words.map(quoted).join(" ")}`;
@@ -109,19 +143,45 @@ function showCommand() {
   here("command").value = [renderOf(main, stemOf() + ending), ...others].join("\n");
 }
 
+/** Shows the lines of the script that would have the values of the page. */
+function showSource() {
+  const lines = state.parameters.filter(isChanged).map(known => known.source).filter(Boolean);
+  here("source").value = lines.map(line => `${line},`).join("\n");
+  here("sources").hidden = lines.length === 0;
+}
+
+/** Marks the fields whose values are not those of the script, or cannot be. */
+function markFields(one) {
+  for (const known of stateOf(one).parameters) {
+    const field = part(one, "form").elements.namedItem(known.name);
+    const own = isChanged(known) && textOf(known.default);
+    if (field) markField(field, own, one.wrong[known.name]);
+  }
+}
+
 /** Makes the form of a film again if it has other parameters than before, or after all its values
  * have been given again, when the server has them. */
 export function showForm(one) {
   if (!stateOf(one)) return; // it is no longer shown
   const { parameters, build } = stateOf(one);
   const isRefilled = one.isRefilled && !one.isSending && build >= one.wantedBuild;
-  const kinds = JSON.stringify(parameters.map(known => ({ ...known, value: null })));
+  const kinds = JSON.stringify(parameters.map(known => ({ ...known, value: 0, source: 0 })));
   here("tune").hidden = lanes().every(any => stateOf(any).parameters.length === 0);
   showCommand();
-  if (kinds === one.formOf && !isRefilled) return;
+  showSource();
+  if (kinds !== one.formOf || isRefilled) fillForm(one, parameters);
   if (isRefilled) one.isRefilled = false;
   one.formOf = kinds;
-  part(one, "form").replaceChildren(...groupsOf(one, parameters));
+  markFields(one);
+}
+
+/** Makes the fields; the focus stays in the one of the same name. */
+function fillForm(one, parameters) {
+  const form = part(one, "form"), fieldIn = box => box?.querySelector("[name]");
+  const { name } = fieldIn(document.activeElement?.closest(".field")) ?? {};
+  const isIn = form.contains(document.activeElement);
+  form.replaceChildren(...groupsOf(one, parameters));
+  if (isIn) form.elements.namedItem(name)?.focus();
 }
 
 /** The fields in their order; those of a group together, where its first one is. */
@@ -149,6 +209,7 @@ export function resetValues() {
 /** Gives these values, as pairs of a name and a text, and no others. */
 function takeValues(one, values) {
   one.given = new URLSearchParams(values);
+  one.wrong = {};
   one.isRefilled = true;
   sendValues(one);
 }

@@ -4,6 +4,7 @@
 --                                            \--nobody asks for pictures--> its frames are checked
 local program, request = ...
 local json = require "celspan.json"
+local parameters = require "celspan.parameters"
 local renderers = program.part("renderers.lua", program, request)
 
 local QUIET = 0.5          -- seconds without requests before frames are checked
@@ -84,6 +85,7 @@ function film:give_values(given)
   end
   self.pool.values = values
   self:build()
+  return values, refused
 end
 
 --- Ends the film's processes. The film can be built again.
@@ -145,8 +147,8 @@ end
 
 -- ---------------------------------------------------------------- what is known
 
---- The values of parameters, by name: those of the page, otherwise those of the command line.
-function film:values()
+--- The values of parameters that the command line has, by name.
+local function values_at_start()
   local values = {}
   local stored = request.set_from and json.read(request.set_from)
   for name, value in pairs(type(stored) == "table" and stored or {}) do values[name] = value end
@@ -154,7 +156,6 @@ function film:values()
     local name, value = (option.name == "--set" and option.value or ""):match "^(.-)=(.*)$"
     if name then values[name] = value end
   end
-  for name, value in pairs(self.pool.values) do values[name] = value end
   return values
 end
 
@@ -167,13 +168,16 @@ end
 --- The parameters with their values: those of the page, otherwise `start`, those of the command
 --- line or the defaults. source: how the script declares a parameter with this value.
 function film:describe_parameters()
-  local values, list = self:values(), {}
+  local values, list = values_at_start(), {}
   for i, one in ipairs(self.parameters or {}) do
-    local value = values[one.name]
-    if value == nil then value = one.default end
+    local start = values[one.name]
+    if start == nil then start = one.default end
+    start = text_of(start)
+    local value = self.pool.values[one.name] or start
     list[i] = { name = one.name, type = one.type, format = one.format, default = one.default,
                 minimum = one.minimum, maximum = one.maximum, description = one.description,
-                group = one.group, enum = one.enum, value = text_of(value) }
+                group = one.group, enum = one.enum, value = value, start = start,
+                source = parameters.line(one.name, one, value) }
   end
   return { list = list }
 end
