@@ -302,6 +302,17 @@ planefile_info planefile_plane_info(const planefile_plane *plane);
 /* A band, from the top; where it has not been read it has heights and nothing else. */
 const planefile_band *planefile_plane_band(const planefile_plane *plane, uint32_t index);
 
+/* ---- gradients
+ *
+ * A cell whose program has ramps along one axis alone is a gradient, whatever else is in it. */
+
+/* That axis, linear or radial; NULL: the cell is flat, or varies in another way. */
+const planefile_axis *planefile_only_axis(const planefile_band *band, uint32_t cell);
+/* The colours of such a cell of the plane at places of the axis: in the middles of `count` equal
+ * parts of from..to. False: no memory. */
+bool planefile_along(const planefile_plane *plane, const planefile_band *band, uint32_t cell,
+                     double from, double to, uint32_t count, planefile_cell *out);
+
 /* ---------------------------------------------------------------- drawing */
 
 #define PLANEFILE_PIXELS_MOST 2147483647 /* of a view's side */

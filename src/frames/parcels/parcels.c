@@ -1,0 +1,221 @@
+/* Arcs become parcels.
+ *
+ *     above   |  1  |2| 1 |        at a height where arcs end, those with fill 1 on a side, in order:
+ *           --a-----b-c---d--      each two neighbours, a b and c d, are joined by a line, which may
+ *     below      2     1           have no length. So each end has a partner, and loops close.
+ */
+#include "frames/parcels/parcels.h"
+
+#include <math.h>
+
+#include "base/sort.h"
+#include "frames/parcels/making.h"
+
+/* ---------------------------------------------------------------- arcs of a plane */
+
+typedef struct gathering {
+  celspan_context *context;
+  const celspan_plane *plane;
+  cs_fill_table table;
+  uint32_t *fills; /* of the cells of a band */
+  size_t capacity;
+} gathering;
+
+static celspan_status gather_band(gathering *g, const planefile_band *band, cs_parcels *out) {
+  CS_TRY(CS_RESERVE(g->context, g->fills, g->capacity, band->cell_count));
+  for (uint32_t i = 0; i < band->cell_count; i++)
+    CS_TRY(cs_fill_find(g->context, g->plane, band, i, &g->table, out, &g->fills[i]));
+  for (uint32_t i = 0; i < band->border_count; i++) {
+    const planefile_border *border = &band->borders[i];
+    uint32_t left = g->fills[border->left], right = g->fills[border->right];
+    if (left != right)
+      CS_TRY(cs_arc_put(g->context, band, border, left, right, out));
+  }
+  return CELSPAN_OK;
+}
+
+/* The first fill is clear; that of cell 0 is left and right of all borders, within the frame. */
+static celspan_status gather(gathering *g, cs_parcels *out) {
+  const planefile_plane *plane = g->plane->plane;
+  const planefile_info info = planefile_plane_info(plane);
+  uint32_t around = 0;
+  out->width = info.width;
+  out->height = info.height;
+  CS_TRY(CS_APPEND(g->context, out->fills, out->fill_count, out->fill_capacity, (cs_fill){0}));
+  for (uint32_t i = 0; i < info.band_count; i++)
+    CS_TRY(gather_band(g, planefile_plane_band(plane, i), out));
+  CS_TRY(cs_fill_find(g->context, g->plane, planefile_plane_band(plane, 0), 0, &g->table, out,
+                      &around));
+  if (around == 0)
+    return CELSPAN_OK;
+  CS_TRY(cs_arc_put_side(g->context, 0, 0, around, out));
+  return cs_arc_put_side(g->context, 1, around, 0, out);
+}
+
+/* ---------------------------------------------------------------- ends */
+
+/* An end of an arc, for the fill on one of its sides. */
+typedef struct arc_end {
+  double x;
+  uint32_t set;
+  int32_t height;
+  uint32_t id; /* 4 times the arc, plus 2 for the right side, plus 1 for the foot */
+} arc_end;
+
+static inline bool is_before(const arc_end *a, const arc_end *b) {
+  if (a->set != b->set)
+    return a->set < b->set;
+  if (a->height != b->height)
+    return a->height < b->height;
+  return a->x != b->x ? a->x < b->x : a->id < b->id;
+}
+CS_SORT_DEFINE(sort_ends, arc_end, is_before)
+
+static celspan_point point_of(const cs_parcels *parcels, uint32_t arc, bool is_foot) {
+  const cs_parcel_arc *a = &parcels->arcs[arc];
+  return is_foot ? parcels->curves[a->curve + a->curve_count - 1].points[3]
+                 : parcels->curves[a->curve].points[0];
+}
+
+celspan_point cs_parcel_begin(const cs_parcels *parcels, cs_parcel_walk walk) {
+  return point_of(parcels, walk.arc, walk.is_up);
+}
+
+celspan_point cs_parcel_end(const cs_parcels *parcels, cs_parcel_walk walk) {
+  return point_of(parcels, walk.arc, !walk.is_up);
+}
+
+/* Returns how many there are. */
+static size_t list_ends(const cs_parcels *parcels, const uint32_t *sets, arc_end *out) {
+  size_t count = 0;
+  for (uint32_t i = 0; i < parcels->arc_count; i++) {
+    const cs_parcel_arc *arc = &parcels->arcs[i];
+    const uint32_t sides[2] = {sets[arc->left], sets[arc->right]};
+    for (uint32_t side = 0; side < 2 && sides[0] != sides[1]; side++)
+      for (uint32_t foot = 0; foot < 2 && sides[side] > 0; foot++)
+        out[count++] = (arc_end){.x = point_of(parcels, i, foot).x,
+                                 .set = sides[side],
+                                 .height = foot ? arc->foot : arc->top,
+                                 .id = 4 * i + 2 * side + foot};
+  }
+  return count;
+}
+
+/* ---------------------------------------------------------------- loops */
+
+typedef struct tracing {
+  celspan_context *context;
+  cs_parcels *parcels;
+  arc_end *ends;
+  uint32_t *partners; /* by id; of an end that has been walked itself */
+  size_t count;
+} tracing;
+
+/* Each two neighbours of a set at one height are partners. */
+static celspan_status join_ends(const tracing *t) {
+  for (size_t i = 0; i < t->count; i += 2) {
+    const arc_end *a = &t->ends[i], *b = a + 1;
+    if (i + 1 == t->count || a->set != b->set || a->height != b->height)
+      return cs_fail(t->context, CELSPAN_INTERNAL, "parcels: borders do not meet");
+    t->partners[a->id] = b->id;
+    t->partners[b->id] = a->id;
+  }
+  return CELSPAN_OK;
+}
+
+/* Walks from an end until it comes back to it. */
+static celspan_status walk_loop(const tracing *t, uint32_t first) {
+  cs_parcels *p = t->parcels;
+  cs_parcel_loop loop = {p->walk_count, 0};
+  for (uint32_t from = first;;) {
+    uint32_t to = from ^ 1, next = t->partners[to];
+    CS_TRY(CS_APPEND(t->context, p->walks, p->walk_count, p->walk_capacity,
+                     (cs_parcel_walk){from / 4, from & 1}));
+    t->partners[from] = from;
+    t->partners[to] = to;
+    if (next == first)
+      break;
+    from = next;
+  }
+  loop.walk_count = p->walk_count - loop.walk;
+  return CS_APPEND(t->context, p->loops, p->loop_count, p->loop_capacity, loop);
+}
+
+/* An arc with the set on its right begins at its top, another one at its foot. */
+static celspan_status walk_all(const tracing *t, uint32_t set_count, size_t *first) {
+  uint32_t set = 0;
+  for (size_t i = 0; i < t->count; i++) {
+    uint32_t id = t->ends[i].id;
+    for (; set < t->ends[i].set; set++)
+      first[set] = t->parcels->loop_count;
+    bool is_begin = (id & 2) ? !(id & 1) : id & 1;
+    if (is_begin && t->partners[id] != id)
+      CS_TRY(walk_loop(t, id));
+  }
+  for (; set <= set_count; set++)
+    first[set] = t->parcels->loop_count;
+  return CELSPAN_OK;
+}
+
+celspan_status cs_parcels_trace(celspan_context *context, cs_parcels *parcels, const uint32_t *sets,
+                                uint32_t set_count, size_t *first) {
+  const size_t most = 4 * parcels->arc_count + 1;
+  tracing t = {context, parcels, NULL, NULL, 0};
+  celspan_status status = CS_MAKE(context, t.ends, most);
+  if (status == CELSPAN_OK)
+    status = CS_MAKE(context, t.partners, most);
+  if (status == CELSPAN_OK) {
+    t.count = list_ends(parcels, sets, t.ends);
+    sort_ends(t.ends, t.count);
+    status = join_ends(&t);
+  }
+  if (status == CELSPAN_OK)
+    status = walk_all(&t, set_count, first);
+  cs_mem_free(context->memory, t.ends, most * sizeof *t.ends);
+  cs_mem_free(context->memory, t.partners, most * sizeof *t.partners);
+  return status;
+}
+
+/* ---------------------------------------------------------------- parcels */
+
+/* Each fill but the first one is a set. */
+static celspan_status trace_fills(celspan_context *context, cs_parcels *p) {
+  const size_t count = p->fill_count;
+  uint32_t *sets;
+  size_t *first;
+  CS_TRY(CS_MAKE(context, sets, count));
+  celspan_status status = CS_MAKE(context, first, count + 1);
+  for (uint32_t i = 0; i < count; i++)
+    sets[i] = i;
+  if (status == CELSPAN_OK)
+    status = cs_parcels_trace(context, p, sets, (uint32_t)count, first);
+  for (size_t i = 1; i < count && status == CELSPAN_OK; i++) {
+    p->fills[i].loop = first[i - 1];
+    p->fills[i].loop_count = first[i] - first[i - 1];
+  }
+  cs_mem_free(context->memory, sets, count * sizeof *sets);
+  cs_mem_free(context->memory, first, (count + 1) * sizeof *first);
+  return status;
+}
+
+celspan_status cs_parcels_make(celspan_context *context, const celspan_plane *plane,
+                               cs_parcels *out) {
+  gathering g = {.context = context, .plane = plane};
+  *out = (cs_parcels){0};
+  celspan_status status = gather(&g, out);
+  cs_hash_table_finish(&g.table.known, context);
+  cs_mem_free(context->memory, g.fills, g.capacity * sizeof *g.fills);
+  CS_TRY(status);
+  CS_TRY(cs_parcels_refuse_sums(context, out));
+  return trace_fills(context, out);
+}
+
+void cs_parcels_finish(cs_parcels *p, cs_memory *memory) {
+  cs_mem_free(memory, p->fills, p->fill_capacity * sizeof *p->fills);
+  cs_mem_free(memory, p->stops, p->stop_capacity * sizeof *p->stops);
+  cs_mem_free(memory, p->arcs, p->arc_capacity * sizeof *p->arcs);
+  cs_mem_free(memory, p->curves, p->curve_capacity * sizeof *p->curves);
+  cs_mem_free(memory, p->walks, p->walk_capacity * sizeof *p->walks);
+  cs_mem_free(memory, p->loops, p->loop_capacity * sizeof *p->loops);
+  *p = (cs_parcels){0};
+}
