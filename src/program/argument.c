@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "frames/apart/apart.h"
+#include "frames/parcels/svg.h"
 #include "frames/tiles/pyramid.h"
 
 bool cs_argument_read(const cs_argument *kind, const char *text, void *field) {
@@ -202,6 +203,7 @@ NUMBERS(millions, "at least 10,000 bytes, such as 500k, 8M, 1.5G (in thousands) 
         read_millions, 10000, 1e15, 0);
 NUMBERS(rate, "frames per second from 0.01 to 1000, such as 25 or 30000/1001", read_rate, 0.01,
         1000, 0);
+NUMBERS(precision, "a whole number from 0 to 9", read_integer, 0, 9, 0);
 NUMBERS(plays, "a whole number from 0 to 65535", read_integer, 0, 65535, 0);
 NUMBERS(size, "width x height in whole pixels, 1 to 1048576, such as 1920x1080", read_pair, 1,
         CS_SIDE_MAX, 'x');
@@ -255,6 +257,7 @@ CHOICE(progress, "auto, bar, lines, none, json or openjd", {"auto", CS_PROGRESS_
        {"json", CS_PROGRESS_JSON}, {"openjd", CS_PROGRESS_OPENJD});
 CHOICE(fit, "stretch, contain or cover", {"stretch", CS_FIT_STRETCH}, {"contain", CS_FIT_CONTAIN},
        {"cover", CS_FIT_COVER});
+CHOICE(flat, "over or regions", {"over", CS_FLAT_OVER}, {"regions", CS_FLAT_REGIONS});
 CHOICE(model, "translation, similarity or perspective", {"translation", 0}, {"similarity", 1},
        {"perspective", 2});
 

@@ -81,7 +81,7 @@ extern const cs_argument cs_argument_colours, cs_argument_lamp, cs_argument_ligh
 extern const cs_argument cs_argument_integer, cs_argument_every, cs_argument_mebibytes,
     cs_argument_minutes, cs_argument_count, cs_argument_pixels, cs_argument_tile,
     cs_argument_workers, cs_argument_port, cs_argument_memory, cs_argument_quality, cs_argument_crf,
-    cs_argument_plays;
+    cs_argument_plays, cs_argument_precision;
 /* int32_t[2]. Of rows and levels, the first is not greater than the second; of a share, both are
  * also at least 1. */
 extern const cs_argument cs_argument_size, cs_argument_grid, cs_argument_onion, cs_argument_share,
@@ -92,10 +92,10 @@ extern const cs_argument cs_argument_crop;
 extern const cs_argument cs_argument_rate, cs_argument_millions, cs_argument_scale,
     cs_argument_tolerance, cs_argument_smooth, cs_argument_loudness;
 /* The enumeration of the name: celspan_depth, celspan_alpha, cs_pyramid_layout,
- * cs_progress_style, cs_fit, cs_layers; for the model of a track, a number. */
+ * cs_progress_style, cs_fit, cs_layers, cs_flat; for the model of a track, a number. */
 extern const cs_argument cs_argument_depth, cs_argument_alpha, cs_argument_layout,
     cs_argument_progress, cs_argument_fit, cs_argument_layers, cs_argument_mattes,
-    cs_argument_model;
+    cs_argument_model, cs_argument_flat;
 extern const cs_argument cs_argument_antialias; /* cs_given_antialias */
 extern const cs_argument cs_argument_tint;      /* float[3]: linear light, opaque */
 extern const cs_argument cs_argument_texts;     /* cs_given_texts: adds a folder */

@@ -22,6 +22,7 @@
 #include "output/sinks/sink.h"
 #include "program/service.h"
 #include "program/shown.h"
+#include "program/svg_target.h"
 #include "program/target.h"
 #include "program/view.h"
 
@@ -471,6 +472,17 @@ static int write_plane(lua_State *L, const celspan_frame_desc *frame, const char
   return 0;
 }
 
+/* A drawing is made of a script's frame, or of a plane. */
+static int write_drawing(lua_State *L, const cs_still *still, const celspan_frame_desc *frame,
+                         const char *path) {
+  const cs_session *session = cs_service_session(L);
+  cs_service_try(
+      L, still->plane
+             ? cs_svg_target_write_plane(session->context, still->plane, path, session->request)
+             : cs_svg_target_write_frame(session->context, frame, path, session->request));
+  return 0;
+}
+
 /* convert(in, out): writes the picture that a file shows, under the request, to another file. */
 static int convert(lua_State *L) {
   const cs_session *session = cs_service_session(L);
@@ -481,14 +493,18 @@ static int convert(lua_State *L) {
   celspan_file_desc file = cs_target_file(session->request, &coding);
   celspan_frame_desc frame;
   bool is_plane = cs_plane_is_wanted(output, file.format);
-  if (is_plane && !cs_shown_is_film(input))
-    cs_service_require(L, cs_report_usage("%s: a plane is made of a script or a drawing, not of a "
+  bool is_drawing = cs_svg_target_is_wanted(output, session->request);
+  if ((is_plane || (is_drawing && !cs_plane_accepts(input))) && !cs_shown_is_film(input))
+    cs_service_require(L, cs_report_usage("%s: a %s is made of a script or a drawing%s, not of a "
                                           "picture",
-                                          output));
+                                          output, is_plane ? "plane" : "drawing",
+                                          is_plane ? "" : " or a plane"));
   cs_service_require(L, cs_shown_open(session->context, session->request, input, true, stills));
   cs_service_require(L, cs_shown_frame(session->request, stills, &frame));
   if (is_plane)
     return write_plane(L, &frame, output, &file);
+  if (is_drawing)
+    return write_drawing(L, stills, &frame, output);
   cs_service_try(L, cs_still_write(session->context, stills, &frame, output, &file));
   return 0;
 }

@@ -22,6 +22,7 @@
 #include "program/record.h"
 #include "program/refusals.h"
 #include "program/summary.h"
+#include "program/svg_target.h"
 #include "program/target.h"
 #include "program/verbs.h"
 #include "program/video_target.h"
@@ -84,6 +85,14 @@ static celspan_status put_layers(void *user, celspan_context *context,
                                  const celspan_file_desc *file) {
   const render_job *job = user;
   return cs_layers_target_write(context, job->apart, desc, path, file);
+}
+
+static celspan_status put_drawing(void *user, celspan_context *context,
+                                  const celspan_frame_desc *desc, const char *path,
+                                  const celspan_file_desc *file) {
+  const render_job *job = user;
+  (void)file;
+  return cs_svg_target_write_frame(context, desc, path, job->request);
 }
 
 /* Whether all frames go into one file. */
@@ -259,7 +268,10 @@ static celspan_status run_shoot(render_job *job) {
                                  : job->is_plane ? put_plane
                                  : is_stream     ? put_raw
                                                  : NULL,
-                          .write = is_apart(job) ? put_layers : NULL,
+                          .write = is_apart(job) ? put_layers
+                                   : cs_svg_target_is_wanted(job->output, job->request)
+                                       ? put_drawing
+                                       : NULL,
                           .hash = is_apart(job) ? cs_apart_hash : NULL,
                           .keep = job->resumes ? keep : NULL,
                           .build = build,

@@ -8,6 +8,7 @@
 #include "output/sinks/sink.h"
 #include "program/layers_target.h"
 #include "program/spaces.h"
+#include "program/svg_target.h"
 #include "program/video_target.h"
 
 celspan_coding cs_target_coding(const cs_request *request) {
@@ -37,10 +38,11 @@ static cs_exit refuse_format(const char *path, const char *name) {
   char pictures[CS_SINK_LIST], videos[CS_SINK_LIST];
   cs_sink_file_list(pictures, sizeof pictures);
   cs_video_format_list(videos, sizeof videos);
-  return cs_report_usage("%s: the format \"%s\" cannot be written; pictures can be %s; videos, "
-                         "which 'celspan render' makes, %s; planes plane; sounds, which 'celspan "
-                         "sound' makes, wav",
-                         path, name, pictures, videos);
+  return cs_report_usage(
+      "%s: the format \"%s\" cannot be written; pictures can be %s; videos, "
+      "which 'celspan render' makes, %s; planes plane; drawings svg; sounds, which 'celspan "
+      "sound' makes, wav",
+      path, name, pictures, videos);
 }
 
 /* Makes a sink and discards it: a sink opens no file before its first row. */
@@ -79,6 +81,9 @@ static cs_exit refuse_plane(const char *path, const cs_request *request) {
 cs_exit cs_target_refuse(celspan_context *context, const char *path, const cs_request *request) {
   const char *format = cs_request_text(request, "--format");
   CS_TRY_EXIT(cs_layers_target_refuse(request));
+  CS_TRY_EXIT(cs_svg_target_refuse(path, request));
+  if (cs_svg_target_is_wanted(path, request))
+    return CS_EXIT_OK;
   if (cs_layers_target_is_painting(request))
     return CS_EXIT_OK;
   if (cs_plane_is_wanted(path, format))

@@ -23,7 +23,11 @@
         "pixels of the whole frame; each axis is scaled separately"                                \
   }
 #define SCALE                                                                                      \
-  { "--scale", "S", &cs_argument_scale, "pixels per film unit, instead of --size" }
+  {                                                                                                \
+    "--scale", "S", &cs_argument_scale,                                                            \
+        "pixels per film unit, instead of --size; of an SVG drawing: of pictures in it, default: " \
+        "2"                                                                                        \
+  }
 #define CROP                                                                                       \
   { "--crop", "X,Y,W,H", &cs_argument_crop, "the part to render, in pixels of the output" }
 #define ANTIALIAS                                                                                  \
@@ -65,6 +69,14 @@
    "videos"},                                                                                      \
   {                                                                                                \
     "--no-dither", NULL, NULL, "8 bits rounded to nearest; the default except of videos"           \
+  }
+#define DRAWING                                                                                    \
+  {"--flat", "HOW", &cs_argument_flat,                                                             \
+   "of an SVG drawing: over (areas continue under each other, so that no seams show; default) or " \
+   "regions (areas that do not overlap)"},                                                         \
+  {                                                                                                \
+    "--precision", "N", &cs_argument_precision,                                                    \
+        "of an SVG drawing: digits after the point, 0 to 9; default: 3"                            \
   }
 #define FIT                                                                                        \
   {                                                                                                \
@@ -212,6 +224,7 @@ static const cs_option RENDER[] = {
     ANTIALIAS,
     CODING,
     DITHER,
+    DRAWING,
     VIDEO,
     RATE,
     BACKGROUND,
@@ -296,8 +309,10 @@ static const cs_option STAGE[] = {WORKERS, SCRIPT, MEMORY, {0}};
 static const cs_option CONVERT[] = {
     FRAME,
     SIZE,
+    SCALE,
     CROP,
     CODING,
+    DRAWING,
     VIDEO,
     {"--fps", "N", &cs_argument_rate, "of a video of pictures: their rate; default: 24"},
     {"--sound", "FILE", &cs_argument_file,

@@ -242,6 +242,9 @@ static celspan_status put_arc(const making *m, cs_parcel_arc arc) {
   arc.curve_count = parcels->curve_count - arc.curve;
   if (arc.curve_count == 0)
     return CELSPAN_OK;
+  /* weights have rounded them */
+  parcels->curves[arc.curve].points[0].y = arc.top / SIDE * parcels->height;
+  parcels->curves[parcels->curve_count - 1].points[3].y = arc.foot / SIDE * parcels->height;
   if (parcels->arc_count == CS_PARCEL_ARCS)
     return cs_fail(m->context, CELSPAN_LIMIT,
                    "there are more than %d borders between what is visible, too many for vectors: "

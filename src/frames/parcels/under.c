@@ -1,0 +1,201 @@
+#include "frames/parcels/under.h"
+
+#include <math.h>
+
+#include "base/sort.h"
+
+/* ---------------------------------------------------------------- thickness */
+
+static double distance(celspan_point a, celspan_point b) {
+  return sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
+}
+
+/* The integral of x over the height of a curve; the points of a line make one, too. */
+static double area_of(const celspan_point p[4]) {
+  return (p[0].x * (-10 * p[0].y + 6 * p[1].y + 3 * p[2].y + p[3].y) +
+          p[1].x * (-6 * p[0].y + 3 * p[2].y + 3 * p[3].y) +
+          p[2].x * (-3 * p[0].y - 3 * p[1].y + 6 * p[3].y) +
+          p[3].x * (-p[0].y - 3 * p[1].y - 6 * p[2].y + 10 * p[3].y)) /
+         20;
+}
+
+static double length_of(const celspan_point p[4]) {
+  double around = distance(p[0], p[1]) + distance(p[1], p[2]) + distance(p[2], p[3]);
+  return (distance(p[0], p[3]) + around) / 2;
+}
+
+/* The area and the perimeter of a parcel. */
+static void measure(const cs_parcels *parcels, const cs_fill *fill, double *area, double *length) {
+  *area = *length = 0;
+  for (size_t i = fill->loop; i < fill->loop + fill->loop_count; i++) {
+    const cs_parcel_loop *loop = &parcels->loops[i];
+    const cs_parcel_walk *walks = &parcels->walks[loop->walk];
+    celspan_point at = cs_parcel_end(parcels, walks[loop->walk_count - 1]);
+    for (size_t k = 0; k < loop->walk_count; k++) {
+      const cs_parcel_arc *arc = &parcels->arcs[walks[k].arc];
+      *length += distance(at, cs_parcel_begin(parcels, walks[k]));
+      at = cs_parcel_end(parcels, walks[k]);
+      for (size_t c = arc->curve; c < arc->curve + arc->curve_count; c++) {
+        *area += (walks[k].is_up ? 1 : -1) * area_of(parcels->curves[c].points);
+        *length += length_of(parcels->curves[c].points);
+      }
+    }
+  }
+}
+
+typedef struct ranked {
+  double thickness;
+  uint32_t fill;
+} ranked;
+
+static inline bool is_thinner(const ranked *a, const ranked *b) {
+  return a->thickness != b->thickness ? a->thickness < b->thickness : a->fill < b->fill;
+}
+CS_SORT_DEFINE(sort_ranked, ranked, is_thinner)
+
+/* A picture counts as the thinnest, because no stroke can show it. */
+static celspan_status rank_fills(celspan_context *context, const cs_parcels *parcels,
+                                 cs_under *out) {
+  const size_t count = parcels->fill_count;
+  ranked *all;
+  CS_TRY(CS_MAKE(context, out->order, count));
+  CS_TRY(CS_MAKE(context, out->ranks, count));
+  CS_TRY(CS_MAKE(context, all, count));
+  for (uint32_t i = 0; i < count; i++) {
+    const cs_fill *fill = &parcels->fills[i];
+    double area, length;
+    measure(parcels, fill, &area, &length);
+    all[i] = (ranked){fill->kind == CS_FILL_PICTURE || !(length > 0) ? -1 : area / length, i};
+    out->opaque += cs_under_suits(fill) ? area : 0;
+  }
+  sort_ranked(all, count);
+  for (uint32_t i = 0; i < count; i++) {
+    out->order[i] = all[i].fill;
+    out->ranks[all[i].fill] = i;
+  }
+  cs_mem_free(context->memory, all, count * sizeof *all);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- horizontal lines */
+
+/* A horizontal part of a parcel's outline. */
+typedef struct level_line {
+  double y, x0, x1;
+  bool is_floor; /* the parcel is above it */
+  uint32_t fill;
+} level_line;
+
+static inline bool is_before(const level_line *a, const level_line *b) {
+  if (a->y != b->y)
+    return a->y < b->y;
+  if (a->is_floor != b->is_floor)
+    return a->is_floor;
+  return a->x0 != b->x0 ? a->x0 < b->x0 : a->fill < b->fill;
+}
+CS_SORT_DEFINE(sort_levels, level_line, is_before)
+
+typedef struct level_list {
+  level_line *all;
+  size_t count, capacity;
+} level_list;
+
+/* The walker has the parcel on the left: above a line to the right, below a line to the left. */
+static celspan_status list_levels(celspan_context *context, const cs_parcels *parcels,
+                                  level_list *out) {
+  for (uint32_t f = 1; f < parcels->fill_count; f++) {
+    const cs_fill *fill = &parcels->fills[f];
+    for (size_t i = 0; i < fill->loop_count && cs_under_suits(fill); i++) {
+      const cs_parcel_loop *loop = &parcels->loops[fill->loop + i];
+      const cs_parcel_walk *walks = &parcels->walks[loop->walk];
+      celspan_point at = cs_parcel_end(parcels, walks[loop->walk_count - 1]);
+      for (size_t k = 0; k < loop->walk_count; k++) {
+        celspan_point to = cs_parcel_begin(parcels, walks[k]);
+        level_line line = {to.y, fmin(at.x, to.x), fmax(at.x, to.x), to.x > at.x, f};
+        if (line.x0 < line.x1)
+          CS_TRY(CS_APPEND(context, out->all, out->count, out->capacity, line));
+        at = cs_parcel_end(parcels, walks[k]);
+      }
+    }
+  }
+  sort_levels(out->all, out->count);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- lines */
+
+static uint32_t rank_of(const cs_under *under, uint32_t a, uint32_t b) {
+  return under->ranks[a] > under->ranks[b] ? under->ranks[a] : under->ranks[b];
+}
+
+/* Puts what floors and ceilings at one height have in common. */
+static celspan_status pair_levels(celspan_context *context, const level_line *floors, size_t count,
+                                  const level_line *ceilings, size_t ceiling_count, cs_under *out) {
+  for (size_t i = 0, k = 0; i < count && k < ceiling_count;) {
+    const level_line *a = &floors[i], *b = &ceilings[k];
+    double x0 = fmax(a->x0, b->x0), x1 = fmin(a->x1, b->x1);
+    const cs_under_line line = {rank_of(out, a->fill, b->fill), true, 0, {x0, a->y}, {x1, a->y}};
+    if (x0 < x1 && a->fill != b->fill)
+      CS_TRY(CS_APPEND(context, out->lines, out->line_count, out->line_capacity, line));
+    if (a->x1 < b->x1)
+      i++;
+    else
+      k++;
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status put_levels(celspan_context *context, const level_list *levels,
+                                 cs_under *out) {
+  for (size_t i = 0; i < levels->count;) {
+    size_t floors = i, end;
+    while (floors < levels->count && levels->all[floors].y == levels->all[i].y &&
+           levels->all[floors].is_floor)
+      floors++;
+    for (end = floors; end < levels->count && levels->all[end].y == levels->all[i].y; end++) {
+    }
+    CS_TRY(
+        pair_levels(context, levels->all + i, floors - i, levels->all + floors, end - floors, out));
+    i = end;
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status put_arcs(celspan_context *context, const cs_parcels *parcels, cs_under *out) {
+  for (uint32_t i = 0; i < parcels->arc_count; i++) {
+    const cs_parcel_arc *arc = &parcels->arcs[i];
+    const cs_under_line line = {.rank = rank_of(out, arc->left, arc->right), .arc = i};
+    if (cs_under_suits(&parcels->fills[arc->left]) && cs_under_suits(&parcels->fills[arc->right]))
+      CS_TRY(CS_APPEND(context, out->lines, out->line_count, out->line_capacity, line));
+  }
+  return CELSPAN_OK;
+}
+
+static inline bool is_under(const cs_under_line *a, const cs_under_line *b) {
+  if (a->rank != b->rank)
+    return a->rank < b->rank;
+  if (a->is_flat != b->is_flat || !a->is_flat)
+    return a->is_flat != b->is_flat ? b->is_flat : a->arc < b->arc;
+  return a->from.y != b->from.y ? a->from.y < b->from.y : a->from.x < b->from.x;
+}
+CS_SORT_DEFINE(sort_lines, cs_under_line, is_under)
+
+celspan_status cs_under_make(celspan_context *context, const cs_parcels *parcels, cs_under *out) {
+  level_list levels = {0};
+  *out = (cs_under){.fill_count = parcels->fill_count};
+  CS_TRY(rank_fills(context, parcels, out));
+  CS_TRY(put_arcs(context, parcels, out));
+  celspan_status status = list_levels(context, parcels, &levels);
+  if (status == CELSPAN_OK)
+    status = put_levels(context, &levels, out);
+  cs_mem_free(context->memory, levels.all, levels.capacity * sizeof *levels.all);
+  sort_lines(out->lines, out->line_count);
+  return status;
+}
+
+void cs_under_finish(cs_under *under, cs_memory *memory) {
+  cs_mem_free(memory, under->order, under->fill_count * sizeof *under->order);
+  cs_mem_free(memory, under->ranks, under->fill_count * sizeof *under->ranks);
+  cs_mem_free(memory, under->lines, under->line_capacity * sizeof *under->lines);
+  *under = (cs_under){0};
+}

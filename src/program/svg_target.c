@@ -1,0 +1,87 @@
+#include "program/svg_target.h"
+
+#include <string.h>
+
+static const int usual_precision = 3;
+static const double usual_scale = 2;
+
+static bool makes_drawings(const cs_verb *verb) {
+  const cs_option *option = verb->options;
+  while (option->name && strcmp(option->name, "--flat") != 0)
+    option++;
+  return option->name != NULL;
+}
+
+bool cs_svg_target_is_wanted(const char *output, const cs_request *request) {
+  return output && makes_drawings(request->verb) &&
+         cs_svg_is_wanted(output, cs_request_text(request, "--format"));
+}
+
+bool cs_svg_target_is_output(const cs_request *request) {
+  const char *output = cs_request_text(request, "-o");
+  return cs_svg_target_is_wanted(
+      output || request->operand_count < 2 ? output : request->operands[1], request);
+}
+
+cs_svg_desc cs_svg_target_read(const cs_request *request) {
+  cs_svg_desc desc = {.precision = usual_precision, .scale = usual_scale};
+  int32_t size[2] = {0, 0};
+  cs_request_read(request, "--flat", &desc.flat);
+  cs_request_read(request, "--precision", &desc.precision);
+  cs_request_read(request, "--scale", &desc.scale);
+  cs_request_read(request, "--size", size);
+  desc.width = size[0];
+  desc.height = size[1];
+  return desc;
+}
+
+/* The options of drawings alone, for other outputs. */
+static cs_exit refuse_own(const char *output, const cs_request *request) {
+  static const char *const own[] = {"--flat", "--precision"};
+  for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+    if (cs_request_has(request, own[i]))
+      return cs_report_usage("%s: %s is for drawings: give -o shot.####.svg", output, own[i]);
+  return CS_EXIT_OK;
+}
+
+cs_exit cs_svg_target_refuse(const char *output, const cs_request *request) {
+  static const char *const others[] = {
+      "--crop",  "--strip",  "--colour",    "--depth",     "--alpha",   "--dither", "--hash",
+      "--draft", "--resume", "--antialias", "--no-dither", "--display", "--view",   "--fit"};
+  if (!cs_svg_target_is_wanted(output, request))
+    return refuse_own(output, request);
+  for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+    if (cs_request_has(request, others[i]))
+      return cs_report_usage("%s: %s is for pictures, and a drawing has no pixels: leave it out",
+                             output, others[i]);
+  return CS_EXIT_OK;
+}
+
+static void report(const celspan_context *context, const char *path, const cs_svg_facts *facts) {
+  if (facts->is_picture)
+    cs_report_note("%s: is a picture of %d x %d pixels, because it has no vectors for this: %s",
+                   path, (int)facts->picture_width, (int)facts->picture_height,
+                   celspan_context_error(context));
+  else if (facts->picture_width > 0)
+    cs_report_note("%s: what SVG has no vectors for is a picture of %d x %d pixels, beside %zu "
+                   "areas",
+                   path, (int)facts->picture_width, (int)facts->picture_height, facts->areas);
+}
+
+celspan_status cs_svg_target_write_frame(celspan_context *context, const celspan_frame_desc *frame,
+                                         const char *path, const cs_request *request) {
+  cs_svg_facts facts;
+  const cs_svg_desc desc = cs_svg_target_read(request);
+  CS_TRY(cs_svg_write_frame(context, frame, path, &desc, &facts));
+  report(context, path, &facts);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_svg_target_write_plane(celspan_context *context, const celspan_plane *plane,
+                                         const char *path, const cs_request *request) {
+  cs_svg_facts facts;
+  const cs_svg_desc desc = cs_svg_target_read(request);
+  CS_TRY(cs_svg_write_plane(context, plane, path, &desc, &facts));
+  report(context, path, &facts);
+  return CELSPAN_OK;
+}
