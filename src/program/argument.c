@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "frames/apart/apart.h"
-#include "frames/parcels/svg.h"
+#include "frames/parcels/plot.h"
 #include "frames/tiles/pyramid.h"
 
 bool cs_argument_read(const cs_argument *kind, const char *text, void *field) {

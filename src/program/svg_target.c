@@ -14,7 +14,7 @@ static bool makes_drawings(const cs_verb *verb) {
 
 bool cs_svg_target_is_wanted(const char *output, const cs_request *request) {
   return output && makes_drawings(request->verb) &&
-         cs_svg_is_wanted(output, cs_request_text(request, "--format"));
+         cs_plot_is_wanted(output, cs_request_text(request, "--format"));
 }
 
 bool cs_svg_target_is_output(const cs_request *request) {
@@ -23,8 +23,8 @@ bool cs_svg_target_is_output(const cs_request *request) {
       output || request->operand_count < 2 ? output : request->operands[1], request);
 }
 
-cs_svg_desc cs_svg_target_read(const cs_request *request) {
-  cs_svg_desc desc = {.precision = usual_precision, .scale = usual_scale};
+cs_plot_desc cs_svg_target_read(const cs_request *request) {
+  cs_plot_desc desc = {.precision = usual_precision, .scale = usual_scale};
   int32_t size[2] = {0, 0};
   cs_request_read(request, "--flat", &desc.flat);
   cs_request_read(request, "--precision", &desc.precision);
@@ -57,7 +57,7 @@ cs_exit cs_svg_target_refuse(const char *output, const cs_request *request) {
   return CS_EXIT_OK;
 }
 
-static void report(const celspan_context *context, const char *path, const cs_svg_facts *facts) {
+static void report(const celspan_context *context, const char *path, const cs_plot_facts *facts) {
   if (facts->is_picture)
     cs_report_note("%s: is a picture of %d x %d pixels, because it has no vectors for this: %s",
                    path, (int)facts->picture_width, (int)facts->picture_height,
@@ -70,18 +70,18 @@ static void report(const celspan_context *context, const char *path, const cs_sv
 
 celspan_status cs_svg_target_write_frame(celspan_context *context, const celspan_frame_desc *frame,
                                          const char *path, const cs_request *request) {
-  cs_svg_facts facts;
-  const cs_svg_desc desc = cs_svg_target_read(request);
-  CS_TRY(cs_svg_write_frame(context, frame, path, &desc, &facts));
+  cs_plot_facts facts;
+  const cs_plot_desc desc = cs_svg_target_read(request);
+  CS_TRY(cs_plot_write_frame(context, frame, path, &desc, &facts));
   report(context, path, &facts);
   return CELSPAN_OK;
 }
 
 celspan_status cs_svg_target_write_plane(celspan_context *context, const celspan_plane *plane,
                                          const char *path, const cs_request *request) {
-  cs_svg_facts facts;
-  const cs_svg_desc desc = cs_svg_target_read(request);
-  CS_TRY(cs_svg_write_plane(context, plane, path, &desc, &facts));
+  cs_plot_facts facts;
+  const cs_plot_desc desc = cs_svg_target_read(request);
+  CS_TRY(cs_plot_write_plane(context, plane, path, &desc, &facts));
   report(context, path, &facts);
   return CELSPAN_OK;
 }

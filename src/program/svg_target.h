@@ -1,7 +1,7 @@
 /* Drawings as output: x.svg, and the options --flat, --precision and --scale of a request. */
 #pragma once
 
-#include "frames/parcels/svg.h"
+#include "frames/parcels/plot.h"
 #include "program/report.h"
 #include "program/request.h"
 
@@ -9,10 +9,10 @@
 bool cs_svg_target_is_wanted(const char *output, const cs_request *request);
 /* The same for the output that the request names. */
 bool cs_svg_target_is_output(const cs_request *request);
-cs_svg_desc cs_svg_target_read(const cs_request *request);
+cs_plot_desc cs_svg_target_read(const cs_request *request);
 /* OK if the output can have what is asked for; otherwise the reason is reported. */
 cs_exit cs_svg_target_refuse(const char *output, const cs_request *request);
-/* The same as the functions of frames/parcels/svg.h; a line says what has become a picture. */
+/* The same as the functions of frames/parcels/plot.h; a line says what has become a picture. */
 CELSPAN_CHECKED celspan_status cs_svg_target_write_frame(celspan_context *context,
                                                          const celspan_frame_desc *frame,
                                                          const char *path,

@@ -52,6 +52,57 @@ static celspan_status gather(gathering *g, cs_parcels *out) {
   return cs_arc_put_side(g->context, 1, around, 0, out);
 }
 
+/* ---------------------------------------------------------------- heights */
+
+/* Where one arc ends and the next one begins, a plane may have rounded their heights differently.
+ * Heights that are so near become one. */
+enum { NEAR = 1, CLUSTER = 4, APART = 64 }; /* units: two heights; all of them; what may remain */
+
+typedef struct arc_height {
+  int32_t height;
+  uint32_t id; /* 2 times the arc, plus 1 for the foot */
+} arc_height;
+
+static inline bool is_above(const arc_height *a, const arc_height *b) {
+  return a->height != b->height ? a->height < b->height : a->id < b->id;
+}
+CS_SORT_DEFINE(sort_heights, arc_height, is_above)
+
+static void set_height(cs_parcels *parcels, uint32_t id, int32_t height) {
+  cs_parcel_arc *arc = &parcels->arcs[id / 2];
+  cs_parcel_curve *first = &parcels->curves[arc->curve], *last = first + arc->curve_count - 1;
+  double y = (double)height / PLANEFILE_SIDE * parcels->height;
+  if (id & 1) {
+    arc->foot = height;
+    last->points[3].y = y;
+  } else {
+    arc->top = height;
+    first->points[0].y = y;
+  }
+}
+
+static celspan_status join_heights(celspan_context *context, cs_parcels *parcels) {
+  const size_t count = 2 * parcels->arc_count;
+  arc_height *all;
+  if (count == 0)
+    return CELSPAN_OK;
+  CS_TRY(CS_MAKE(context, all, count));
+  for (uint32_t i = 0; i < count; i++) {
+    const cs_parcel_arc *arc = &parcels->arcs[i / 2];
+    all[i] = (arc_height){i & 1 ? arc->foot : arc->top, i};
+  }
+  sort_heights(all, count);
+  int32_t first = all[0].height;
+  for (size_t i = 1; i < count; i++) {
+    bool is_near = all[i].height - all[i - 1].height <= NEAR && all[i].height - first <= CLUSTER;
+    first = is_near ? first : all[i].height;
+    if (all[i].height != first)
+      set_height(parcels, all[i].id, first);
+  }
+  cs_mem_free(context->memory, all, count * sizeof *all);
+  return CELSPAN_OK;
+}
+
 /* ---------------------------------------------------------------- ends */
 
 /* An end of an arc, for the fill on one of its sides. */
@@ -111,14 +162,33 @@ typedef struct tracing {
   size_t count;
 } tracing;
 
+/* The end of those at one height from an end on; at several heights, which become one, if their
+ * number is odd. */
+static size_t find_group(const tracing *t, size_t first) {
+  size_t end = first;
+  int32_t height = t->ends[first].height, last = height;
+  do {
+    last = t->ends[end].height;
+    for (; end < t->count && t->ends[end].set == t->ends[first].set && t->ends[end].height == last;
+         end++)
+      t->ends[end].height = height;
+  } while ((end - first) % 2 == 1 && end < t->count && t->ends[end].set == t->ends[first].set &&
+           t->ends[end].height - height <= APART);
+  if (last != height)
+    sort_ends(t->ends + first, end - first);
+  return end;
+}
+
 /* Each two neighbours of a set at one height are partners. */
 static celspan_status join_ends(const tracing *t) {
-  for (size_t i = 0; i < t->count; i += 2) {
-    const arc_end *a = &t->ends[i], *b = a + 1;
-    if (i + 1 == t->count || a->set != b->set || a->height != b->height)
-      return cs_fail(t->context, CELSPAN_INTERNAL, "parcels: borders do not meet");
-    t->partners[a->id] = b->id;
-    t->partners[b->id] = a->id;
+  for (size_t i = 0, end; i < t->count; i = end) {
+    end = find_group(t, i);
+    if ((end - i) % 2 == 1)
+      return cs_fail(t->context, CELSPAN_BAD_ARGUMENT, "the borders of an area do not meet");
+    for (; i < end; i += 2) {
+      t->partners[t->ends[i].id] = t->ends[i + 1].id;
+      t->partners[t->ends[i + 1].id] = t->ends[i].id;
+    }
   }
   return CELSPAN_OK;
 }
@@ -206,6 +276,7 @@ celspan_status cs_parcels_make(celspan_context *context, const celspan_plane *pl
   cs_hash_table_finish(&g.table.known, context);
   cs_mem_free(context->memory, g.fills, g.capacity * sizeof *g.fills);
   CS_TRY(status);
+  CS_TRY(join_heights(context, out));
   CS_TRY(cs_parcels_refuse_sums(context, out));
   return trace_fills(context, out);
 }

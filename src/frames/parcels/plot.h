@@ -12,34 +12,35 @@
 #include "celspan/plane.h"
 
 /* Whether a file of this name is such a drawing. format: NULL: the ending of the name says it. */
-bool cs_svg_is_wanted(const char *path, const char *format);
+bool cs_plot_is_wanted(const char *path, const char *format);
 
 typedef enum cs_flat {
   CS_FLAT_OVER,   /* there are strokes under the areas */
   CS_FLAT_REGIONS /* there are only areas, which do not overlap */
 } cs_flat;
 
-typedef struct cs_svg_desc {
+typedef struct cs_plot_desc {
   cs_flat flat;
   int32_t precision;     /* digits after the point, 0 to 9 */
   double scale;          /* pixels for each film unit of what becomes a picture */
   int32_t width, height; /* the size in pixels that the drawing is for; 0: the film's */
-} cs_svg_desc;
+} cs_plot_desc;
 
 /* What a drawing became. */
-typedef struct cs_svg_facts {
+typedef struct cs_plot_facts {
   size_t areas, curves;
   int32_t picture_width, picture_height; /* 0: it has no picture */
   bool is_picture;                       /* there is nothing else; the context says why */
-} cs_svg_facts;
+} cs_plot_facts;
 
 /* Writes a frame, whole: its size, crop and antialiasing are ignored. One that no plane can keep
  * becomes a picture. Errors: those of rendering and of writing a file; LIMIT for more borders than
  * CS_PARCEL_ARCS, and for a picture with too many pixels. */
-CELSPAN_CHECKED celspan_status cs_svg_write_frame(celspan_context *context,
-                                                  const celspan_frame_desc *frame, const char *path,
-                                                  const cs_svg_desc *desc, cs_svg_facts *facts);
+CELSPAN_CHECKED celspan_status cs_plot_write_frame(celspan_context *context,
+                                                   const celspan_frame_desc *frame,
+                                                   const char *path, const cs_plot_desc *desc,
+                                                   cs_plot_facts *facts);
 /* The same of a plane. */
-CELSPAN_CHECKED celspan_status cs_svg_write_plane(celspan_context *context,
-                                                  const celspan_plane *plane, const char *path,
-                                                  const cs_svg_desc *desc, cs_svg_facts *facts);
+CELSPAN_CHECKED celspan_status cs_plot_write_plane(celspan_context *context,
+                                                   const celspan_plane *plane, const char *path,
+                                                   const cs_plot_desc *desc, cs_plot_facts *facts);

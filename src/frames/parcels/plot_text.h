@@ -6,10 +6,10 @@
 #pragma once
 
 #include "frames/parcels/parcels.h"
-#include "frames/parcels/svg.h"
+#include "frames/parcels/plot.h"
 #include "output/sinks/file.h"
 
-typedef struct cs_svg_text {
+typedef struct cs_plot_text {
   celspan_context *context;
   const char *path;
   cs_file *file;
@@ -18,30 +18,30 @@ typedef struct cs_svg_text {
   int64_t x, y;          /* where the path is */
   char command;          /* its last one; 0: none */
   celspan_status status; /* the first failure: nothing is written after it */
-} cs_svg_text;
+} cs_plot_text;
 
-void cs_svg_put(cs_svg_text *out, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void cs_plot_put(cs_plot_text *out, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* A number with so many digits after the point at most, and none that say nothing. */
-void cs_svg_put_number(cs_svg_text *out, double number, int digits);
-int64_t cs_svg_round(const cs_svg_text *out, double coordinate);
+void cs_plot_put_number(cs_plot_text *out, double number, int digits);
+int64_t cs_plot_round(const cs_plot_text *out, double coordinate);
 
 /* A path is begun, and moves, lines and arcs follow. A line to where the path is, is left out. */
-void cs_svg_begin_path(cs_svg_text *out);
-void cs_svg_move(cs_svg_text *out, celspan_point to);
-void cs_svg_line(cs_svg_text *out, celspan_point to);
-void cs_svg_arc(cs_svg_text *out, const cs_parcels *parcels, cs_parcel_walk walk);
+void cs_plot_begin_path(cs_plot_text *out);
+void cs_plot_move(cs_plot_text *out, celspan_point to);
+void cs_plot_line(cs_plot_text *out, celspan_point to);
+void cs_plot_arc(cs_plot_text *out, const cs_parcels *parcels, cs_parcel_walk walk);
 /* Loops, closed. */
-void cs_svg_loops(cs_svg_text *out, const cs_parcels *parcels, size_t first, size_t count);
+void cs_plot_loops(cs_plot_text *out, const cs_parcels *parcels, size_t first, size_t count);
 
 /* A part of a picture of width x height pixels that stands for the whole film. */
-typedef struct cs_svg_picture {
+typedef struct cs_plot_picture {
   int32_t width, height, x, y, columns, rows;
   bool is_opaque;
-  celspan_status (*draw)(const struct cs_svg_picture *picture, celspan_context *context,
+  celspan_status (*draw)(const struct cs_plot_picture *picture, celspan_context *context,
                          const celspan_sink *sink);
   const celspan_plane *plane;      /* what it shows: a plane, */
   const celspan_frame_desc *frame; /* or a frame */
-} cs_svg_picture;
+} cs_plot_picture;
 /* Puts an image with the bytes of a PNG file. film_width, film_height: in units. */
-void cs_svg_put_picture(cs_svg_text *out, const cs_svg_picture *picture, double film_width,
-                        double film_height);
+void cs_plot_put_picture(cs_plot_text *out, const cs_plot_picture *picture, double film_width,
+                         double film_height);

@@ -1,10 +1,10 @@
-#include "frames/parcels/svg.h"
+#include "frames/parcels/plot.h"
 
 #include <math.h>
 #include <string.h>
 #include <strings.h>
 
-#include "frames/parcels/svg_text.h"
+#include "frames/parcels/plot_text.h"
 #include "frames/parcels/under.h"
 #include "frames/plane/plane.h"
 #include "model/scene/check.h"
@@ -13,81 +13,81 @@
 enum { PICTURE_SIDE = 16384 /* pixels, at most */ };
 enum { CODE_DIGITS = 4, STOP_DIGITS = 6, SPARE_DIGITS = 3, MATRIX_DIGITS = 9 };
 
-bool cs_svg_is_wanted(const char *path, const char *format) {
+bool cs_plot_is_wanted(const char *path, const char *format) {
   return strcasecmp(format ? format : cs_file_ending(path), "svg") == 0;
 }
 
 /* A drawing that is being written. */
 typedef struct drawing {
-  cs_svg_text text;
-  const cs_svg_desc *desc;
+  cs_plot_text text;
+  const cs_plot_desc *desc;
   const celspan_plane *plane;
   cs_parcels parcels;
   cs_under under;
-  cs_svg_facts *facts;
+  cs_plot_facts *facts;
 } drawing;
 
 /* ---------------------------------------------------------------- paints */
 
 static void put_pair(drawing *d, const char *x, const char *y, celspan_point at) {
-  cs_svg_put(&d->text, " %s=\"", x);
-  cs_svg_put_number(&d->text, at.x, d->desc->precision + SPARE_DIGITS);
-  cs_svg_put(&d->text, "\" %s=\"", y);
-  cs_svg_put_number(&d->text, at.y, d->desc->precision + SPARE_DIGITS);
-  cs_svg_put(&d->text, "\"");
+  cs_plot_put(&d->text, " %s=\"", x);
+  cs_plot_put_number(&d->text, at.x, d->desc->precision + SPARE_DIGITS);
+  cs_plot_put(&d->text, "\" %s=\"", y);
+  cs_plot_put_number(&d->text, at.y, d->desc->precision + SPARE_DIGITS);
+  cs_plot_put(&d->text, "\"");
 }
 
 static void put_code(drawing *d, const char *name, const unsigned char code[4]) {
-  cs_svg_put(&d->text, " %s=\"#%02x%02x%02x\"", name, code[0], code[1], code[2]);
+  cs_plot_put(&d->text, " %s=\"#%02x%02x%02x\"", name, code[0], code[1], code[2]);
 }
 
 static void put_alpha(drawing *d, const char *name, const unsigned char code[4]) {
   if (code[3] == 255)
     return;
-  cs_svg_put(&d->text, " %s=\"", name);
-  cs_svg_put_number(&d->text, code[3] / 255.0, CODE_DIGITS);
-  cs_svg_put(&d->text, "\"");
+  cs_plot_put(&d->text, " %s=\"", name);
+  cs_plot_put_number(&d->text, code[3] / 255.0, CODE_DIGITS);
+  cs_plot_put(&d->text, "\"");
 }
 
 static void put_stops(drawing *d, const cs_fill *fill) {
   for (size_t i = 0; i < fill->stop_count; i++) {
     const cs_fill_stop *stop = &d->parcels.stops[fill->stop + i];
-    cs_svg_put(&d->text, "<stop offset=\"");
-    cs_svg_put_number(&d->text, stop->at, STOP_DIGITS);
-    cs_svg_put(&d->text, "\"");
+    cs_plot_put(&d->text, "<stop offset=\"");
+    cs_plot_put_number(&d->text, stop->at, STOP_DIGITS);
+    cs_plot_put(&d->text, "\"");
     put_code(d, "stop-color", stop->code);
     put_alpha(d, "stop-opacity", stop->code);
-    cs_svg_put(&d->text, "/>");
+    cs_plot_put(&d->text, "/>");
   }
 }
 
 static void put_radial(drawing *d, const cs_fill *fill) {
   static const int columns[6] = {0, 3, 1, 4, 2, 5};
-  cs_svg_put(&d->text, " cx=\"");
-  cs_svg_put_number(&d->text, fill->centre, MATRIX_DIGITS);
-  cs_svg_put(&d->text, "\" cy=\"0\" r=\"");
-  cs_svg_put_number(&d->text, fill->radius, MATRIX_DIGITS);
-  cs_svg_put(&d->text, "\" fx=\"0\" fy=\"0\" gradientTransform=\"matrix(");
+  cs_plot_put(&d->text, " cx=\"");
+  cs_plot_put_number(&d->text, fill->centre, MATRIX_DIGITS);
+  cs_plot_put(&d->text, "\" cy=\"0\" r=\"");
+  cs_plot_put_number(&d->text, fill->radius, MATRIX_DIGITS);
+  cs_plot_put(&d->text, "\" fx=\"0\" fy=\"0\" gradientTransform=\"matrix(");
   for (int i = 0; i < 6; i++) {
-    cs_svg_put(&d->text, i > 0 ? " " : "");
-    cs_svg_put_number(&d->text, fill->matrix[columns[i]], MATRIX_DIGITS);
+    cs_plot_put(&d->text, i > 0 ? " " : "");
+    cs_plot_put_number(&d->text, fill->matrix[columns[i]], MATRIX_DIGITS);
   }
-  cs_svg_put(&d->text, ")\"");
+  cs_plot_put(&d->text, ")\"");
 }
 
 static void put_gradient(drawing *d, size_t number) {
   const cs_fill *fill = &d->parcels.fills[number];
   const char *name = fill->kind == CS_FILL_LINEAR ? "linearGradient" : "radialGradient";
-  cs_svg_put(&d->text, "<%s id=\"g%zu\" gradientUnits=\"userSpaceOnUse\"", name, number);
+  cs_plot_put(&d->text, "<%s id=\"g%zu\" gradientUnits=\"userSpaceOnUse\"", name, number);
   if (fill->kind == CS_FILL_LINEAR) {
     put_pair(d, "x1", "y1", fill->from);
     put_pair(d, "x2", "y2", fill->to);
   } else {
     put_radial(d, fill);
   }
-  cs_svg_put(&d->text, ">");
+  cs_plot_put(&d->text, ">");
   put_stops(d, fill);
-  cs_svg_put(&d->text, "</%s>\n", name);
+  cs_plot_put(&d->text, "</%s>\n", name);
 }
 
 static void put_gradients(drawing *d) {
@@ -96,11 +96,11 @@ static void put_gradients(drawing *d) {
     cs_fill_kind kind = d->parcels.fills[i].kind;
     if (kind != CS_FILL_LINEAR && kind != CS_FILL_RADIAL)
       continue;
-    cs_svg_put(&d->text, has_one ? "" : "<defs>\n");
+    cs_plot_put(&d->text, has_one ? "" : "<defs>\n");
     has_one = true;
     put_gradient(d, i);
   }
-  cs_svg_put(&d->text, has_one ? "</defs>\n" : "");
+  cs_plot_put(&d->text, has_one ? "</defs>\n" : "");
 }
 
 /* name: fill or stroke. */
@@ -109,12 +109,12 @@ static void put_paint(drawing *d, const char *name, uint32_t number) {
   if (fill->kind == CS_FILL_FLAT)
     put_code(d, name, fill->code);
   else
-    cs_svg_put(&d->text, " %s=\"url(#g%u)\"", name, (unsigned)number);
+    cs_plot_put(&d->text, " %s=\"url(#g%u)\"", name, (unsigned)number);
 }
 
 /* ---------------------------------------------------------------- pictures */
 
-static celspan_status draw_plane(const cs_svg_picture *picture, celspan_context *context,
+static celspan_status draw_plane(const cs_plot_picture *picture, celspan_context *context,
                                  const celspan_sink *sink) {
   celspan_plane_view view = CELSPAN_PLANE_VIEW;
   view.width = picture->width;
@@ -127,7 +127,7 @@ static celspan_status draw_plane(const cs_svg_picture *picture, celspan_context 
   return celspan_plane_render(context, picture->plane, &view, sink);
 }
 
-static celspan_status draw_frame(const cs_svg_picture *picture, celspan_context *context,
+static celspan_status draw_frame(const cs_plot_picture *picture, celspan_context *context,
                                  const celspan_sink *sink) {
   celspan_frame_desc frame = *picture->frame;
   frame.width = picture->width;
@@ -137,7 +137,7 @@ static celspan_status draw_frame(const cs_svg_picture *picture, celspan_context 
 }
 
 static celspan_status size_picture(celspan_context *context, double width, double height,
-                                   double scale, cs_svg_picture *out) {
+                                   double scale, cs_plot_picture *out) {
   double columns = ceil(width * scale), rows = ceil(height * scale);
   if (!(columns <= PICTURE_SIDE && rows <= PICTURE_SIDE))
     return cs_fail(context, CELSPAN_LIMIT,
@@ -160,7 +160,7 @@ static void clip_side(double low, double high, double film, int32_t side, int32_
 }
 
 /* The part of the whole picture in which a parcel lies. */
-static void crop_to(const cs_parcels *parcels, const cs_fill *fill, cs_svg_picture *picture) {
+static void crop_to(const cs_parcels *parcels, const cs_fill *fill, cs_plot_picture *picture) {
   celspan_point least = {INFINITY, INFINITY}, most = {-INFINITY, -INFINITY};
   for (size_t i = fill->loop; i < fill->loop + fill->loop_count; i++) {
     const cs_parcel_loop *loop = &parcels->loops[i];
@@ -178,17 +178,17 @@ static void crop_to(const cs_parcels *parcels, const cs_fill *fill, cs_svg_pictu
 }
 
 static celspan_status put_picture(drawing *d, const cs_fill *fill) {
-  cs_svg_picture picture = {
+  cs_plot_picture picture = {
       .draw = draw_plane, .plane = d->plane, .is_opaque = celspan_plane_is_opaque(d->plane)};
   CS_TRY(
       size_picture(d->text.context, d->parcels.width, d->parcels.height, d->desc->scale, &picture));
   crop_to(&d->parcels, fill, &picture);
-  cs_svg_put(&d->text, "<clipPath id=\"picture\"><path clip-rule=\"evenodd\" d=\"");
-  cs_svg_begin_path(&d->text);
-  cs_svg_loops(&d->text, &d->parcels, fill->loop, fill->loop_count);
-  cs_svg_put(&d->text, "\"/></clipPath>\n<g clip-path=\"url(#picture)\">\n");
-  cs_svg_put_picture(&d->text, &picture, d->parcels.width, d->parcels.height);
-  cs_svg_put(&d->text, "</g>\n");
+  cs_plot_put(&d->text, "<clipPath id=\"picture\"><path clip-rule=\"evenodd\" d=\"");
+  cs_plot_begin_path(&d->text);
+  cs_plot_loops(&d->text, &d->parcels, fill->loop, fill->loop_count);
+  cs_plot_put(&d->text, "\"/></clipPath>\n<g clip-path=\"url(#picture)\">\n");
+  cs_plot_put_picture(&d->text, &picture, d->parcels.width, d->parcels.height);
+  cs_plot_put(&d->text, "</g>\n");
   d->facts->picture_width = picture.columns;
   d->facts->picture_height = picture.rows;
   return CELSPAN_OK;
@@ -202,23 +202,23 @@ static celspan_status put_area(drawing *d, uint32_t number) {
     return CELSPAN_OK;
   if (fill->kind == CS_FILL_PICTURE)
     return put_picture(d, fill);
-  cs_svg_put(&d->text, "<path");
+  cs_plot_put(&d->text, "<path");
   put_paint(d, "fill", number);
   if (fill->kind == CS_FILL_FLAT)
     put_alpha(d, "fill-opacity", fill->code);
-  cs_svg_put(&d->text, " d=\"");
-  cs_svg_begin_path(&d->text);
-  cs_svg_loops(&d->text, &d->parcels, fill->loop, fill->loop_count);
-  cs_svg_put(&d->text, "\"/>\n");
+  cs_plot_put(&d->text, " d=\"");
+  cs_plot_begin_path(&d->text);
+  cs_plot_loops(&d->text, &d->parcels, fill->loop, fill->loop_count);
+  cs_plot_put(&d->text, "\"/>\n");
   d->facts->areas++;
   return CELSPAN_OK;
 }
 
 static celspan_status put_areas(drawing *d) {
-  cs_svg_put(&d->text, "<g fill-rule=\"evenodd\">\n");
+  cs_plot_put(&d->text, "<g fill-rule=\"evenodd\">\n");
   for (size_t i = d->parcels.fill_count; i-- > 0;)
     CS_TRY(put_area(d, d->under.order[i]));
-  cs_svg_put(&d->text, "</g>\n");
+  cs_plot_put(&d->text, "</g>\n");
   return CELSPAN_OK;
 }
 
@@ -226,11 +226,11 @@ static celspan_status put_areas(drawing *d) {
 
 static void put_line(drawing *d, const cs_under_line *line) {
   const cs_parcel_walk walk = {line->arc, false};
-  cs_svg_move(&d->text, line->is_flat ? line->from : cs_parcel_begin(&d->parcels, walk));
+  cs_plot_move(&d->text, line->is_flat ? line->from : cs_parcel_begin(&d->parcels, walk));
   if (line->is_flat)
-    cs_svg_line(&d->text, line->to);
+    cs_plot_line(&d->text, line->to);
   else
-    cs_svg_arc(&d->text, &d->parcels, walk);
+    cs_plot_arc(&d->text, &d->parcels, walk);
 }
 
 /* The union of all opaque areas, where not all of the frame is opaque: strokes are seen nowhere
@@ -248,10 +248,10 @@ static celspan_status put_clip(drawing *d, bool *has_clip) {
   celspan_status status = cs_parcels_trace(d->text.context, p, sets, 1, first);
   cs_mem_free(d->text.context->memory, sets, p->fill_count * sizeof *sets);
   CS_TRY(status);
-  cs_svg_put(&d->text, "<clipPath id=\"opaque\"><path clip-rule=\"evenodd\" d=\"");
-  cs_svg_begin_path(&d->text);
-  cs_svg_loops(&d->text, p, first[0], first[1] - first[0]);
-  cs_svg_put(&d->text, "\"/></clipPath>\n");
+  cs_plot_put(&d->text, "<clipPath id=\"opaque\"><path clip-rule=\"evenodd\" d=\"");
+  cs_plot_begin_path(&d->text);
+  cs_plot_loops(&d->text, p, first[0], first[1] - first[0]);
+  cs_plot_put(&d->text, "\"/></clipPath>\n");
   return CELSPAN_OK;
 }
 
@@ -263,47 +263,47 @@ static celspan_status put_under(drawing *d) {
   CS_TRY(put_clip(d, &has_clip));
   double x = d->desc->width > 0 ? d->parcels.width / d->desc->width : 1;
   double y = d->desc->height > 0 ? d->parcels.height / d->desc->height : 1;
-  cs_svg_put(&d->text,
-             "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"%s "
-             "stroke-width=\"",
-             has_clip ? " clip-path=\"url(#opaque)\"" : "");
-  cs_svg_put_number(&d->text, 2 * GROWN * fmax(x, y), d->desc->precision + SPARE_DIGITS);
-  cs_svg_put(&d->text, "\">\n");
+  cs_plot_put(&d->text,
+              "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"%s "
+              "stroke-width=\"",
+              has_clip ? " clip-path=\"url(#opaque)\"" : "");
+  cs_plot_put_number(&d->text, 2 * GROWN * fmax(x, y), d->desc->precision + SPARE_DIGITS);
+  cs_plot_put(&d->text, "\">\n");
   for (size_t i = 0; i < under->line_count; i++) {
     bool is_first = i == 0 || under->lines[i - 1].rank != under->lines[i].rank;
     if (is_first) {
-      cs_svg_put(&d->text, i > 0 ? "\"/>\n<path" : "<path");
+      cs_plot_put(&d->text, i > 0 ? "\"/>\n<path" : "<path");
       put_paint(d, "stroke", under->order[under->lines[i].rank]);
-      cs_svg_put(&d->text, " d=\"");
-      cs_svg_begin_path(&d->text);
+      cs_plot_put(&d->text, " d=\"");
+      cs_plot_begin_path(&d->text);
     }
     put_line(d, &under->lines[i]);
   }
-  cs_svg_put(&d->text, "\"/>\n</g>\n");
+  cs_plot_put(&d->text, "\"/>\n</g>\n");
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- files */
 
-static celspan_status begin(celspan_context *context, const char *path, const cs_svg_desc *desc,
-                            double width, double height, cs_svg_text *out) {
-  *out = (cs_svg_text){.context = context, .path = path, .precision = desc->precision};
+static celspan_status begin(celspan_context *context, const char *path, const cs_plot_desc *desc,
+                            double width, double height, cs_plot_text *out) {
+  *out = (cs_plot_text){.context = context, .path = path, .precision = desc->precision};
   CS_TRY(cs_file_create(context, NULL, path, &out->file));
-  cs_svg_put(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" "
-                  "xmlns:xlink=\"http://www.w3.org/1999/xlink\" viewBox=\"0 0 ");
-  cs_svg_put_number(out, width, MATRIX_DIGITS);
-  cs_svg_put(out, " ");
-  cs_svg_put_number(out, height, MATRIX_DIGITS);
-  cs_svg_put(out, "\" width=\"");
-  cs_svg_put_number(out, desc->width > 0 ? desc->width : width, MATRIX_DIGITS);
-  cs_svg_put(out, "\" height=\"");
-  cs_svg_put_number(out, desc->height > 0 ? desc->height : height, MATRIX_DIGITS);
-  cs_svg_put(out, "\" preserveAspectRatio=\"none\">\n");
+  cs_plot_put(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" "
+                   "xmlns:xlink=\"http://www.w3.org/1999/xlink\" viewBox=\"0 0 ");
+  cs_plot_put_number(out, width, MATRIX_DIGITS);
+  cs_plot_put(out, " ");
+  cs_plot_put_number(out, height, MATRIX_DIGITS);
+  cs_plot_put(out, "\" width=\"");
+  cs_plot_put_number(out, desc->width > 0 ? desc->width : width, MATRIX_DIGITS);
+  cs_plot_put(out, "\" height=\"");
+  cs_plot_put_number(out, desc->height > 0 ? desc->height : height, MATRIX_DIGITS);
+  cs_plot_put(out, "\" preserveAspectRatio=\"none\">\n");
   return CELSPAN_OK;
 }
 
-static celspan_status end(cs_svg_text *out, celspan_status status) {
-  cs_svg_put(out, "</svg>\n");
+static celspan_status end(cs_plot_text *out, celspan_status status) {
+  cs_plot_put(out, "</svg>\n");
   return cs_file_end(out->file, out->context, status == CELSPAN_OK ? out->status : status);
 }
 
@@ -319,10 +319,11 @@ static celspan_status write_parcels(drawing *d, const char *path) {
   return end(&d->text, status);
 }
 
-celspan_status cs_svg_write_plane(celspan_context *context, const celspan_plane *plane,
-                                  const char *path, const cs_svg_desc *desc, cs_svg_facts *facts) {
+celspan_status cs_plot_write_plane(celspan_context *context, const celspan_plane *plane,
+                                   const char *path, const cs_plot_desc *desc,
+                                   cs_plot_facts *facts) {
   drawing d = {.text = {.context = context}, .desc = desc, .plane = plane, .facts = facts};
-  *facts = (cs_svg_facts){0};
+  *facts = (cs_plot_facts){0};
   celspan_status status = cs_parcels_make(context, plane, &d.parcels);
   if (status == CELSPAN_OK)
     status = write_parcels(&d, path);
@@ -333,21 +334,22 @@ celspan_status cs_svg_write_plane(celspan_context *context, const celspan_plane 
 
 /* The frame as nothing but a picture. */
 static celspan_status write_picture(celspan_context *context, const celspan_frame_desc *frame,
-                                    const char *path, const cs_svg_desc *desc,
-                                    cs_svg_facts *facts) {
-  cs_svg_text text;
-  cs_svg_picture picture = {
+                                    const char *path, const cs_plot_desc *desc,
+                                    cs_plot_facts *facts) {
+  cs_plot_text text;
+  cs_plot_picture picture = {
       .draw = draw_frame, .frame = frame, .is_opaque = celspan_frame_is_opaque(frame)};
   CS_TRY(size_picture(context, frame->film_width, frame->film_height, desc->scale, &picture));
-  *facts = (cs_svg_facts){
+  *facts = (cs_plot_facts){
       .picture_width = picture.columns, .picture_height = picture.rows, .is_picture = true};
   CS_TRY(begin(context, path, desc, frame->film_width, frame->film_height, &text));
-  cs_svg_put_picture(&text, &picture, frame->film_width, frame->film_height);
+  cs_plot_put_picture(&text, &picture, frame->film_width, frame->film_height);
   return end(&text, CELSPAN_OK);
 }
 
-celspan_status cs_svg_write_frame(celspan_context *context, const celspan_frame_desc *frame,
-                                  const char *path, const cs_svg_desc *desc, cs_svg_facts *facts) {
+celspan_status cs_plot_write_frame(celspan_context *context, const celspan_frame_desc *frame,
+                                   const char *path, const cs_plot_desc *desc,
+                                   cs_plot_facts *facts) {
   celspan_frame_desc whole = *frame;
   celspan_plane_desc made = CELSPAN_PLANE_DESC;
   celspan_plane *plane;
@@ -357,7 +359,7 @@ celspan_status cs_svg_write_frame(celspan_context *context, const celspan_frame_
   celspan_status status =
       cs_plane_expose(context, frame->exposures, frame->exposure_count, &made, &plane);
   if (status == CELSPAN_OK)
-    status = cs_svg_write_plane(context, plane, path, desc, facts);
+    status = cs_plot_write_plane(context, plane, path, desc, facts);
   celspan_plane_unref(plane);
   if (status != CELSPAN_BAD_ARGUMENT)
     return status;

@@ -1,4 +1,4 @@
-#include "frames/parcels/svg_text.h"
+#include "frames/parcels/plot_text.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -14,12 +14,12 @@ enum { TEXT = 256, NUMBER = 48, DIGITS_MOST = 9 };
 
 /* ---------------------------------------------------------------- numbers */
 
-static void put_bytes(cs_svg_text *out, const char *bytes, size_t size) {
+static void put_bytes(cs_plot_text *out, const char *bytes, size_t size) {
   if (out->status == CELSPAN_OK)
     out->status = cs_file_write(out->file, out->context, bytes, size);
 }
 
-void cs_svg_put(cs_svg_text *out, const char *format, ...) {
+void cs_plot_put(cs_plot_text *out, const char *format, ...) {
   char text[TEXT];
   va_list arguments;
   va_start(arguments, format);
@@ -37,7 +37,7 @@ static int64_t power_of_ten(int digits) {
 }
 
 /* Steps of a grid as a number, without a zero before the point. */
-static void put_steps(cs_svg_text *out, int64_t steps, int digits) {
+static void put_steps(cs_plot_text *out, int64_t steps, int digits) {
   char text[NUMBER];
   const int64_t grid = power_of_ten(digits);
   uint64_t size = steps < 0 ? -(uint64_t)steps : (uint64_t)steps;
@@ -58,28 +58,28 @@ static int64_t round_to(double number, double grid) {
   return llround(steps > most ? most : steps > -most ? steps : -most);
 }
 
-void cs_svg_put_number(cs_svg_text *out, double number, int digits) {
+void cs_plot_put_number(cs_plot_text *out, double number, int digits) {
   digits = digits < DIGITS_MOST ? digits : DIGITS_MOST;
   put_steps(out, round_to(number, (double)power_of_ten(digits)), digits);
 }
 
-int64_t cs_svg_round(const cs_svg_text *out, double coordinate) {
+int64_t cs_plot_round(const cs_plot_text *out, double coordinate) {
   return round_to(coordinate, out->grid);
 }
 
 /* ---------------------------------------------------------------- paths */
 
-void cs_svg_begin_path(cs_svg_text *out) {
+void cs_plot_begin_path(cs_plot_text *out) {
   out->grid = (double)power_of_ten(out->precision);
   out->x = out->y = 0;
   out->command = 0;
 }
 
 /* A letter, unless it is that of the command before; then numbers. */
-static void put_command(cs_svg_text *out, char command, const int64_t *steps, int count) {
+static void put_command(cs_plot_text *out, char command, const int64_t *steps, int count) {
   for (int i = 0; i < count; i++) {
     if (i == 0 && command != out->command)
-      cs_svg_put(out, "%c", command);
+      cs_plot_put(out, "%c", command);
     else if (steps[i] >= 0)
       put_bytes(out, " ", 1);
     put_steps(out, steps[i], out->precision);
@@ -87,16 +87,16 @@ static void put_command(cs_svg_text *out, char command, const int64_t *steps, in
   out->command = command;
 }
 
-void cs_svg_move(cs_svg_text *out, celspan_point to) {
-  const int64_t x = cs_svg_round(out, to.x), y = cs_svg_round(out, to.y);
+void cs_plot_move(cs_plot_text *out, celspan_point to) {
+  const int64_t x = cs_plot_round(out, to.x), y = cs_plot_round(out, to.y);
   out->command = 0;
   put_command(out, 'm', (const int64_t[2]){x - out->x, y - out->y}, 2);
   out->x = x;
   out->y = y;
 }
 
-void cs_svg_line(cs_svg_text *out, celspan_point to) {
-  const int64_t x = cs_svg_round(out, to.x), y = cs_svg_round(out, to.y);
+void cs_plot_line(cs_plot_text *out, celspan_point to) {
+  const int64_t x = cs_plot_round(out, to.x), y = cs_plot_round(out, to.y);
   const int64_t by[2] = {x - out->x, y - out->y};
   if (by[0] == 0 && by[1] == 0)
     return;
@@ -110,12 +110,12 @@ void cs_svg_line(cs_svg_text *out, celspan_point to) {
   out->y = y;
 }
 
-static void put_curve(cs_svg_text *out, const celspan_point points[4], bool is_up) {
+static void put_curve(cs_plot_text *out, const celspan_point points[4], bool is_up) {
   int64_t by[6];
   for (int i = 1; i < 4; i++) {
     const celspan_point *p = &points[is_up ? 3 - i : i];
-    by[2 * i - 2] = cs_svg_round(out, p->x) - out->x;
-    by[2 * i - 1] = cs_svg_round(out, p->y) - out->y;
+    by[2 * i - 2] = cs_plot_round(out, p->x) - out->x;
+    by[2 * i - 1] = cs_plot_round(out, p->y) - out->y;
   }
   if (by[4] == 0 && by[5] == 0)
     return;
@@ -124,38 +124,38 @@ static void put_curve(cs_svg_text *out, const celspan_point points[4], bool is_u
   out->y += by[5];
 }
 
-void cs_svg_arc(cs_svg_text *out, const cs_parcels *parcels, cs_parcel_walk walk) {
+void cs_plot_arc(cs_plot_text *out, const cs_parcels *parcels, cs_parcel_walk walk) {
   const cs_parcel_arc *arc = &parcels->arcs[walk.arc];
   for (size_t i = 0; i < arc->curve_count; i++) {
     size_t at = walk.is_up ? arc->curve_count - 1 - i : i;
     const cs_parcel_curve *curve = &parcels->curves[arc->curve + at];
     if (curve->is_line)
-      cs_svg_line(out, curve->points[walk.is_up ? 0 : 3]);
+      cs_plot_line(out, curve->points[walk.is_up ? 0 : 3]);
     else
       put_curve(out, curve->points, walk.is_up);
   }
 }
 
-void cs_svg_loops(cs_svg_text *out, const cs_parcels *parcels, size_t first, size_t count) {
+void cs_plot_loops(cs_plot_text *out, const cs_parcels *parcels, size_t first, size_t count) {
   for (size_t i = first; i < first + count; i++) {
     const cs_parcel_loop *loop = &parcels->loops[i];
     const cs_parcel_walk *walks = &parcels->walks[loop->walk];
     celspan_point begin = cs_parcel_begin(parcels, walks[0]);
-    cs_svg_move(out, begin);
+    cs_plot_move(out, begin);
     for (size_t k = 0; k < loop->walk_count; k++) {
-      cs_svg_line(out, cs_parcel_begin(parcels, walks[k]));
-      cs_svg_arc(out, parcels, walks[k]);
+      cs_plot_line(out, cs_parcel_begin(parcels, walks[k]));
+      cs_plot_arc(out, parcels, walks[k]);
     }
     put_bytes(out, "z", 1);
-    out->x = cs_svg_round(out, begin.x);
-    out->y = cs_svg_round(out, begin.y);
+    out->x = cs_plot_round(out, begin.x);
+    out->y = cs_plot_round(out, begin.y);
     out->command = 0;
   }
 }
 
 /* ---------------------------------------------------------------- pictures */
 
-static celspan_status draw_png(const cs_svg_text *out, const cs_svg_picture *picture,
+static celspan_status draw_png(const cs_plot_text *out, const cs_plot_picture *picture,
                                cs_file *into) {
   celspan_file_desc file = CELSPAN_FILE_DESC;
   celspan_coding coding = CELSPAN_CODING;
@@ -168,7 +168,7 @@ static celspan_status draw_png(const cs_svg_text *out, const cs_svg_picture *pic
   return picture->draw(picture, out->context, &sink);
 }
 
-static void put_base64(cs_svg_text *out, const unsigned char *bytes, size_t size) {
+static void put_base64(cs_plot_text *out, const unsigned char *bytes, size_t size) {
   static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   for (size_t i = 0; i < size; i += 3) {
     uint32_t group = 0;
@@ -182,7 +182,7 @@ static void put_base64(cs_svg_text *out, const unsigned char *bytes, size_t size
 }
 
 /* The bytes of a file that is being written. */
-static celspan_status put_file(cs_svg_text *out, cs_file *from) {
+static celspan_status put_file(cs_plot_text *out, cs_file *from) {
   unsigned char bytes[3 * 1024];
   const char *name;
   CS_TRY(cs_file_temporary(from, out->context, &name));
@@ -201,7 +201,7 @@ static celspan_status put_file(cs_svg_text *out, cs_file *from) {
                  : out->status;
 }
 
-static celspan_status put_png(cs_svg_text *out, const cs_svg_picture *picture) {
+static celspan_status put_png(cs_plot_text *out, const cs_plot_picture *picture) {
   cs_file *png;
   CS_TRY(cs_file_create(out->context, NULL, out->path, &png));
   celspan_status status = draw_png(out, picture, png);
@@ -211,22 +211,22 @@ static celspan_status put_png(cs_svg_text *out, const cs_svg_picture *picture) {
   return status;
 }
 
-static void put_attribute(cs_svg_text *out, const char *name, double number) {
-  cs_svg_put(out, " %s=\"", name);
-  cs_svg_put_number(out, number, out->precision + 3);
-  cs_svg_put(out, "\"");
+static void put_attribute(cs_plot_text *out, const char *name, double number) {
+  cs_plot_put(out, " %s=\"", name);
+  cs_plot_put_number(out, number, out->precision + 3);
+  cs_plot_put(out, "\"");
 }
 
-void cs_svg_put_picture(cs_svg_text *out, const cs_svg_picture *picture, double film_width,
-                        double film_height) {
+void cs_plot_put_picture(cs_plot_text *out, const cs_plot_picture *picture, double film_width,
+                         double film_height) {
   double x = film_width / picture->width, y = film_height / picture->height;
-  cs_svg_put(out, "<image");
+  cs_plot_put(out, "<image");
   put_attribute(out, "x", picture->x * x);
   put_attribute(out, "y", picture->y * y);
   put_attribute(out, "width", picture->columns * x);
   put_attribute(out, "height", picture->rows * y);
-  cs_svg_put(out, " preserveAspectRatio=\"none\" xlink:href=\"data:image/png;base64,");
+  cs_plot_put(out, " preserveAspectRatio=\"none\" xlink:href=\"data:image/png;base64,");
   if (out->status == CELSPAN_OK)
     out->status = put_png(out, picture);
-  cs_svg_put(out, "\"/>\n");
+  cs_plot_put(out, "\"/>\n");
 }
