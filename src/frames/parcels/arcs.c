@@ -93,10 +93,12 @@ static void cut_heights(bend *curve, double top, double foot) {
 
 /* ---------------------------------------------------------------- curves */
 
-/* Where curves go. */
+/* Where curves go, and the arc that they are part of. */
 typedef struct making {
   celspan_context *context;
   cs_parcels *parcels;
+  cs_sides *sides;
+  cs_parcel_arc arc;
 } making;
 
 static celspan_point scaled(const making *m, celspan_point at) {
@@ -187,58 +189,13 @@ static bool is_within(const bend *curve, bool *outside) {
   return least >= 0 && most <= SIDE;
 }
 
-/* A curve that is not rational. */
-static celspan_status put_within(const making *m, const bend *curve, int halvings) {
-  bool outside;
-  celspan_point points[4];
-  if (is_within(curve, &outside) || outside || halvings == 0) {
-    for (int i = 0; i <= curve->degree; i++)
-      points[i] = place(curve->points[i]);
-    return outside || curve->degree == 1 ? append_line(m, points[0], points[curve->degree])
-                                         : append(m, false, points);
-  }
-  bend halves[2];
-  double side = crossed_side(curve);
-  cut(curve, isnan(side) ? 0.5 : find_root(curve, false, side), &halves[0], &halves[1]);
-  if (!isnan(side)) {
-    celspan_point at = {side, end_of(&halves[0]).y};
-    set_end(&halves[0], curve->degree, at);
-    set_end(&halves[1], 0, at);
-  }
-  CS_TRY(put_within(m, &halves[0], halvings - 1));
-  return put_within(m, &halves[1], halvings - 1);
-}
-
-static celspan_status put(const making *m, const bend *curve, int halvings) {
-  bend cubic;
-  if (curve->degree == 1)
-    return put_within(m, curve, SIDE_HALVINGS);
-  cubic = cubic_of(curve);
-  if (!curve->is_rational || halvings == 0 || are_alike(curve, &cubic))
-    return put_within(m, &cubic, SIDE_HALVINGS);
-  bend halves[2];
-  cut(curve, 0.5, &halves[0], &halves[1]);
-  CS_TRY(put(m, &halves[0], halvings - 1));
-  return put(m, &halves[1], halvings - 1);
-}
-
-/* ---------------------------------------------------------------- arcs */
-
-static celspan_status put_pieces(const making *m, const planefile_band *band,
-                                 const planefile_border *border) {
-  const planefile_chain *chain = &band->chains[border->chain];
-  for (uint32_t i = 0; i < chain->piece_count; i++) {
-    bend curve = bend_of(band, &band->pieces[chain->piece + i]);
-    if (end_of(&curve).y <= border->top || place(curve.points[0]).y >= border->foot)
-      continue;
-    cut_heights(&curve, border->top, border->foot);
-    CS_TRY(put(m, &curve, HALVINGS));
-  }
-  return CELSPAN_OK;
-}
-
-static celspan_status put_arc(const making *m, cs_parcel_arc arc) {
+/* Ends the arc at a height. */
+static celspan_status end_arc(making *m, int32_t height) {
   cs_parcels *parcels = m->parcels;
+  cs_parcel_arc arc = m->arc;
+  m->arc.top = height;
+  m->arc.curve = parcels->curve_count;
+  arc.foot = height;
   arc.curve_count = parcels->curve_count - arc.curve;
   if (arc.curve_count == 0)
     return CELSPAN_OK;
@@ -253,19 +210,81 @@ static celspan_status put_arc(const making *m, cs_parcel_arc arc) {
   return CS_APPEND(m->context, parcels->arcs, parcels->arc_count, parcels->arc_capacity, arc);
 }
 
-celspan_status cs_arc_put(celspan_context *context, const planefile_band *band,
-                          const planefile_border *border, uint32_t left, uint32_t right,
-                          cs_parcels *parcels) {
-  const making m = {context, parcels};
-  const cs_parcel_arc arc = {parcels->curve_count, 0, left, right, border->top, border->foot};
-  CS_TRY(put_pieces(&m, band, border));
-  return put_arc(&m, arc);
+/* The arc leaves the frame with a curve, and comes back at its end, or later. */
+static celspan_status put_outside(making *m, const bend *curve) {
+  celspan_point begin = place(curve->points[0]), end = end_of(curve);
+  int32_t foot = (int32_t)(end.y + 0.5);
+  CS_TRY(end_arc(m, (int32_t)(begin.y + 0.5)));
+  CS_TRY(cs_sides_add(m->context, m->sides, begin.x + end.x > SIDE, m->arc.top, foot, m->arc.left,
+                      m->arc.right));
+  m->arc.top = foot;
+  return CELSPAN_OK;
 }
 
-celspan_status cs_arc_put_side(celspan_context *context, double x, uint32_t left, uint32_t right,
-                               cs_parcels *parcels) {
-  const making m = {context, parcels};
-  const cs_parcel_arc arc = {parcels->curve_count, 0, left, right, 0, PLANEFILE_SIDE};
-  CS_TRY(append_line(&m, (celspan_point){x * SIDE, 0}, (celspan_point){x * SIDE, SIDE}));
-  return put_arc(&m, arc);
+/* A curve that is not rational. */
+static celspan_status put_within(making *m, const bend *curve, int halvings) {
+  bool outside;
+  celspan_point points[4];
+  if (is_within(curve, &outside) || outside || halvings == 0) {
+    for (int i = 0; i <= curve->degree; i++)
+      points[i] = place(curve->points[i]);
+    return outside              ? put_outside(m, curve)
+           : curve->degree == 1 ? append_line(m, points[0], points[1])
+                                : append(m, false, points);
+  }
+  bend halves[2];
+  double side = crossed_side(curve);
+  cut(curve, isnan(side) ? 0.5 : find_root(curve, false, side), &halves[0], &halves[1]);
+  if (!isnan(side)) {
+    celspan_point at = {side, end_of(&halves[0]).y};
+    set_end(&halves[0], curve->degree, at);
+    set_end(&halves[1], 0, at);
+  }
+  CS_TRY(put_within(m, &halves[0], halvings - 1));
+  return put_within(m, &halves[1], halvings - 1);
+}
+
+static celspan_status put(making *m, const bend *curve, int halvings) {
+  bend cubic;
+  if (curve->degree == 1)
+    return put_within(m, curve, SIDE_HALVINGS);
+  cubic = cubic_of(curve);
+  if (!curve->is_rational || halvings == 0 || are_alike(curve, &cubic))
+    return put_within(m, &cubic, SIDE_HALVINGS);
+  bend halves[2];
+  cut(curve, 0.5, &halves[0], &halves[1]);
+  CS_TRY(put(m, &halves[0], halvings - 1));
+  return put(m, &halves[1], halvings - 1);
+}
+
+/* ---------------------------------------------------------------- arcs */
+
+static celspan_status put_pieces(making *m, const planefile_band *band,
+                                 const planefile_border *border) {
+  const planefile_chain *chain = &band->chains[border->chain];
+  for (uint32_t i = 0; i < chain->piece_count; i++) {
+    bend curve = bend_of(band, &band->pieces[chain->piece + i]);
+    if (end_of(&curve).y <= border->top || place(curve.points[0]).y >= border->foot)
+      continue;
+    cut_heights(&curve, border->top, border->foot);
+    CS_TRY(put(m, &curve, HALVINGS));
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_arc_put(celspan_context *context, const planefile_band *band,
+                          const planefile_border *border, uint32_t left, uint32_t right,
+                          cs_sides *sides, cs_parcels *parcels) {
+  making m = {context, parcels, sides, {parcels->curve_count, 0, left, right, border->top, 0}};
+  CS_TRY(put_pieces(&m, band, border));
+  return end_arc(&m, border->foot);
+}
+
+celspan_status cs_arc_put_side(celspan_context *context, int side, int32_t top, int32_t foot,
+                               uint32_t fill, cs_parcels *parcels) {
+  making m = {.context = context, .parcels = parcels};
+  m.arc =
+      (cs_parcel_arc){parcels->curve_count, 0, side > 0 ? fill : 0, side > 0 ? 0 : fill, top, 0};
+  CS_TRY(append_line(&m, (celspan_point){side * SIDE, top}, (celspan_point){side * SIDE, foot}));
+  return end_arc(&m, foot);
 }

@@ -279,9 +279,10 @@ celspan_status cs_fill_find(celspan_context *context, const celspan_plane *plane
     return find(context, fill, table, parcels, out);
   if (table->picture == 0) {
     table->picture = (uint32_t)parcels->fill_count;
-    fill = (cs_fill){.kind = CS_FILL_PICTURE, .is_opaque = celspan_plane_is_opaque(plane)};
+    fill = (cs_fill){.kind = CS_FILL_PICTURE, .is_opaque = true};
     CS_TRY(CS_APPEND(context, parcels->fills, parcels->fill_count, parcels->fill_capacity, fill));
   }
+  parcels->fills[table->picture].is_opaque &= planefile_hides(band, cell);
   *out = table->picture;
   return CELSPAN_OK;
 }

@@ -17,6 +17,7 @@ typedef struct gathering {
   celspan_context *context;
   const celspan_plane *plane;
   cs_fill_table table;
+  cs_sides sides;
   uint32_t *fills; /* of the cells of a band */
   size_t capacity;
 } gathering;
@@ -29,7 +30,7 @@ static celspan_status gather_band(gathering *g, const planefile_band *band, cs_p
     const planefile_border *border = &band->borders[i];
     uint32_t left = g->fills[border->left], right = g->fills[border->right];
     if (left != right)
-      CS_TRY(cs_arc_put(g->context, band, border, left, right, out));
+      CS_TRY(cs_arc_put(g->context, band, border, left, right, &g->sides, out));
   }
   return CELSPAN_OK;
 }
@@ -46,10 +47,9 @@ static celspan_status gather(gathering *g, cs_parcels *out) {
     CS_TRY(gather_band(g, planefile_plane_band(plane, i), out));
   CS_TRY(cs_fill_find(g->context, g->plane, planefile_plane_band(plane, 0), 0, &g->table, out,
                       &around));
-  if (around == 0)
-    return CELSPAN_OK;
-  CS_TRY(cs_arc_put_side(g->context, 0, 0, around, out));
-  return cs_arc_put_side(g->context, 1, around, 0, out);
+  CS_TRY(cs_sides_add(g->context, &g->sides, 0, 0, PLANEFILE_SIDE, 0, around));
+  CS_TRY(cs_sides_add(g->context, &g->sides, 1, 0, PLANEFILE_SIDE, around, 0));
+  return cs_sides_put(g->context, &g->sides, out);
 }
 
 /* ---------------------------------------------------------------- heights */
@@ -273,6 +273,7 @@ celspan_status cs_parcels_make(celspan_context *context, const celspan_plane *pl
   gathering g = {.context = context, .plane = plane};
   *out = (cs_parcels){0};
   celspan_status status = gather(&g, out);
+  cs_sides_finish(&g.sides, context->memory);
   cs_hash_table_finish(&g.table.known, context);
   cs_mem_free(context->memory, g.fills, g.capacity * sizeof *g.fills);
   CS_TRY(status);

@@ -38,7 +38,7 @@ typedef struct cs_fill_stop {
 /* Between stops, codes are mixed as they are, which is within about one code of the plane. */
 typedef struct cs_fill {
   cs_fill_kind kind;
-  bool is_opaque;        /* of a picture: whether all of the plane is */
+  bool is_opaque;        /* of a picture: whether that is certain */
   unsigned char code[4]; /* FLAT */
   size_t stop, stop_count;
   celspan_point from, to; /* LINEAR: where 0 and 1 are */

@@ -302,6 +302,9 @@ planefile_info planefile_plane_info(const planefile_plane *plane);
 /* A band, from the top; where it has not been read it has heights and nothing else. */
 const planefile_band *planefile_plane_band(const planefile_plane *plane, uint32_t index);
 
+/* Whether it is certain that nothing shines through a cell that varies. */
+bool planefile_hides(const planefile_band *band, uint32_t cell);
+
 /* ---- gradients
  *
  * A cell whose program has ramps along one axis alone is a gradient, whatever else is in it. */

@@ -9,6 +9,10 @@ static bool are_same(const planefile_axis *a, const planefile_axis *b) {
   return same;
 }
 
+bool planefile_hides(const planefile_band *band, uint32_t cell) {
+  return pf_program_hides(band, band->programs[cell]);
+}
+
 const planefile_axis *planefile_only_axis(const planefile_band *band, uint32_t cell) {
   const planefile_axis *only = NULL;
   const planefile_program *program = band->programs ? &band->programs[cell] : NULL;
