@@ -47,6 +47,15 @@ CELSPAN_CHECKED celspan_status cs_arc_put(celspan_context *context, const planef
 CELSPAN_CHECKED celspan_status cs_arc_put_side(celspan_context *context, int side, int32_t top,
                                                int32_t foot, uint32_t fill, cs_parcels *parcels);
 
+/* An arc at a height, and where. */
+typedef struct cs_passing {
+  double x;
+  uint32_t arc;
+} cs_passing;
+/* The arcs at a height, from left to right. share: of the frame's height. out: room for all arcs.
+ * Returns how many there are. */
+size_t cs_passing_list(const cs_parcels *parcels, double share, cs_passing *out);
+
 /* BAD_ARGUMENT if places of the plane have several fills, because it is a sum. */
 CELSPAN_CHECKED celspan_status cs_parcels_refuse_sums(celspan_context *context,
                                                       const cs_parcels *parcels);

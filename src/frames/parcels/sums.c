@@ -1,5 +1,6 @@
-/* Whether a plane is one picture: at some heights, each place between two arcs must have one fill.
- * Where several pictures are added up, such as the exposures of a frame, places have several. */
+/* Arcs at a height; and whether a plane is one picture: at some heights, each place between two arcs
+ * must have one fill. Where several pictures are added up, such as the exposures of a frame, places
+ * have several. */
 #include <math.h>
 
 #include "base/sort.h"
@@ -8,13 +9,10 @@
 enum { HEIGHTS = 32, ROOT_STEPS = 40 };
 #define NEAR 4e-6 /* of the width: arcs that are nearer than this are at one place */
 
-typedef struct passing {
-  double x;
-  uint32_t left, right;
-} passing;
-
-static inline bool is_before(const passing *a, const passing *b) { return a->x < b->x; }
-CS_SORT_DEFINE(sort_passings, passing, is_before)
+static inline bool is_before(const cs_passing *a, const cs_passing *b) {
+  return a->x != b->x ? a->x < b->x : a->arc < b->arc;
+}
+CS_SORT_DEFINE(sort_passings, cs_passing, is_before)
 
 static celspan_point at(const celspan_point p[4], double t) {
   const double s = 1 - t, a = s * s * s, b = 3 * s * s * t, c = 3 * s * t * t, d = t * t * t;
@@ -41,37 +39,42 @@ static double find_x(const cs_parcels *parcels, const cs_parcel_arc *arc, double
   return at(p, low).x;
 }
 
+size_t cs_passing_list(const cs_parcels *parcels, double share, cs_passing *out) {
+  const double units = share * PLANEFILE_SIDE;
+  size_t count = 0;
+  for (uint32_t i = 0; i < parcels->arc_count; i++) {
+    const cs_parcel_arc *arc = &parcels->arcs[i];
+    if (arc->top <= units && arc->foot > units)
+      out[count++] = (cs_passing){find_x(parcels, arc, share * parcels->height), i};
+  }
+  sort_passings(out, count);
+  return count;
+}
+
 /* counts: of each fill, all 0 before and after. */
-static bool is_single(const cs_parcels *parcels, const passing *all, size_t count,
+static bool is_single(const cs_parcels *parcels, const cs_passing *all, size_t count,
                       int32_t *counts) {
   size_t open = 1;
   bool single = true;
   counts[0] = 1;
   for (size_t i = 0; i < count; i++) {
-    open -= counts[all[i].left] == 1;
-    open += --counts[all[i].left] == -1;
-    open -= counts[all[i].right] == -1;
-    open += ++counts[all[i].right] == 1;
+    const cs_parcel_arc *arc = &parcels->arcs[all[i].arc];
+    open -= counts[arc->left] == 1;
+    open += --counts[arc->left] == -1;
+    open -= counts[arc->right] == -1;
+    open += ++counts[arc->right] == 1;
     if (i + 1 == count || all[i + 1].x - all[i].x > NEAR * parcels->width)
       single &= open == 1;
   }
   for (size_t i = 0; i < count; i++)
-    counts[all[i].left] = counts[all[i].right] = 0;
+    counts[parcels->arcs[all[i].arc].left] = counts[parcels->arcs[all[i].arc].right] = 0;
   counts[0] = 0;
   return single;
 }
 
-static bool are_single(const cs_parcels *parcels, passing *all, int32_t *counts) {
+static bool are_single(const cs_parcels *parcels, cs_passing *all, int32_t *counts) {
   for (int i = 0; i < HEIGHTS; i++) {
-    double share = (i + 0.4321) / HEIGHTS, units = share * PLANEFILE_SIDE;
-    size_t count = 0;
-    for (size_t k = 0; k < parcels->arc_count; k++) {
-      const cs_parcel_arc *arc = &parcels->arcs[k];
-      if (arc->top <= units && arc->foot > units)
-        all[count++] =
-            (passing){find_x(parcels, arc, share * parcels->height), arc->left, arc->right};
-    }
-    sort_passings(all, count);
+    size_t count = cs_passing_list(parcels, (i + 0.4321) / HEIGHTS, all);
     if (!is_single(parcels, all, count, counts))
       return false;
   }
@@ -79,7 +82,7 @@ static bool are_single(const cs_parcels *parcels, passing *all, int32_t *counts)
 }
 
 celspan_status cs_parcels_refuse_sums(celspan_context *context, const cs_parcels *parcels) {
-  passing *all = NULL;
+  cs_passing *all = NULL;
   int32_t *counts;
   CS_TRY(CS_MAKE(context, counts, parcels->fill_count));
   celspan_status status = CS_MAKE(context, all, parcels->arc_count + 1);

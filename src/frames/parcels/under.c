@@ -3,6 +3,9 @@
 #include <math.h>
 
 #include "base/sort.h"
+#include "frames/parcels/making.h"
+
+enum { HEIGHTS = 512 }; /* at which arcs are compared with their neighbours */
 
 /* ---------------------------------------------------------------- thickness */
 
@@ -24,23 +27,39 @@ static double length_of(const celspan_point p[4]) {
   return (distance(p[0], p[3]) + around) / 2;
 }
 
-/* The area and the perimeter of a parcel. */
-static void measure(const cs_parcels *parcels, const cs_fill *fill, double *area, double *length) {
+/* The area and the perimeter of a loop; a hole has an area below 0. */
+static void measure(const cs_parcels *parcels, const cs_parcel_loop *loop, double *area,
+                    double *length) {
+  const cs_parcel_walk *walks = &parcels->walks[loop->walk];
+  celspan_point at = cs_parcel_end(parcels, walks[loop->walk_count - 1]);
   *area = *length = 0;
-  for (size_t i = fill->loop; i < fill->loop + fill->loop_count; i++) {
-    const cs_parcel_loop *loop = &parcels->loops[i];
-    const cs_parcel_walk *walks = &parcels->walks[loop->walk];
-    celspan_point at = cs_parcel_end(parcels, walks[loop->walk_count - 1]);
-    for (size_t k = 0; k < loop->walk_count; k++) {
-      const cs_parcel_arc *arc = &parcels->arcs[walks[k].arc];
-      *length += distance(at, cs_parcel_begin(parcels, walks[k]));
-      at = cs_parcel_end(parcels, walks[k]);
-      for (size_t c = arc->curve; c < arc->curve + arc->curve_count; c++) {
-        *area += (walks[k].is_up ? 1 : -1) * area_of(parcels->curves[c].points);
-        *length += length_of(parcels->curves[c].points);
-      }
+  for (size_t k = 0; k < loop->walk_count; k++) {
+    const cs_parcel_arc *arc = &parcels->arcs[walks[k].arc];
+    *length += distance(at, cs_parcel_begin(parcels, walks[k]));
+    at = cs_parcel_end(parcels, walks[k]);
+    for (size_t c = arc->curve; c < arc->curve + arc->curve_count; c++) {
+      *area += (walks[k].is_up ? 1 : -1) * area_of(parcels->curves[c].points);
+      *length += length_of(parcels->curves[c].points);
     }
   }
+}
+
+/* Of all of a fill, and of each of its loops, whose outline may be of a thinner part. */
+static double measure_fill(const cs_parcels *parcels, const cs_fill *fill, double *loops,
+                           double *area) {
+  double length = 0;
+  *area = 0;
+  for (size_t i = fill->loop; i < fill->loop + fill->loop_count; i++) {
+    double one[2];
+    measure(parcels, &parcels->loops[i], &one[0], &one[1]);
+    loops[i] = one[0] < 0 ? INFINITY : one[1] > 0 ? one[0] / one[1] : 0;
+    *area += one[0];
+    length += one[1];
+  }
+  double whole = fill->kind == CS_FILL_PICTURE || !(length > 0) ? -1 : *area / length;
+  for (size_t i = fill->loop; i < fill->loop + fill->loop_count; i++)
+    loops[i] = fmin(loops[i], whole);
+  return whole;
 }
 
 typedef struct ranked {
@@ -60,12 +79,12 @@ static celspan_status rank_fills(celspan_context *context, const cs_parcels *par
   ranked *all;
   CS_TRY(CS_MAKE(context, out->order, count));
   CS_TRY(CS_MAKE(context, out->ranks, count));
+  CS_TRY(CS_MAKE(context, out->loops, out->loop_count));
   CS_TRY(CS_MAKE(context, all, count));
   for (uint32_t i = 0; i < count; i++) {
     const cs_fill *fill = &parcels->fills[i];
-    double area, length;
-    measure(parcels, fill, &area, &length);
-    all[i] = (ranked){fill->kind == CS_FILL_PICTURE || !(length > 0) ? -1 : area / length, i};
+    double area;
+    all[i] = (ranked){measure_fill(parcels, fill, out->loops, &area), i};
     out->opaque += cs_under_suits(fill) ? area : 0;
   }
   sort_ranked(all, count);
@@ -84,6 +103,7 @@ typedef struct level_line {
   double y, x0, x1;
   bool is_floor; /* the parcel is above it */
   uint32_t fill;
+  double thickness; /* of its loop */
 } level_line;
 
 static inline bool is_before(const level_line *a, const level_line *b) {
@@ -96,6 +116,7 @@ static inline bool is_before(const level_line *a, const level_line *b) {
 CS_SORT_DEFINE(sort_levels, level_line, is_before)
 
 typedef struct level_list {
+  const double *thickness; /* of loops */
   level_line *all;
   size_t count, capacity;
 } level_list;
@@ -111,7 +132,12 @@ static celspan_status list_levels(celspan_context *context, const cs_parcels *pa
       celspan_point at = cs_parcel_end(parcels, walks[loop->walk_count - 1]);
       for (size_t k = 0; k < loop->walk_count; k++) {
         celspan_point to = cs_parcel_begin(parcels, walks[k]);
-        level_line line = {to.y, fmin(at.x, to.x), fmax(at.x, to.x), to.x > at.x, f};
+        level_line line = {to.y,
+                           fmin(at.x, to.x),
+                           fmax(at.x, to.x),
+                           to.x > at.x,
+                           f,
+                           out->thickness[fill->loop + i]};
         if (line.x0 < line.x1)
           CS_TRY(CS_APPEND(context, out->all, out->count, out->capacity, line));
         at = cs_parcel_end(parcels, walks[k]);
@@ -124,8 +150,10 @@ static celspan_status list_levels(celspan_context *context, const cs_parcels *pa
 
 /* ---------------------------------------------------------------- lines */
 
-static uint32_t rank_of(const cs_under *under, uint32_t a, uint32_t b) {
-  return under->ranks[a] > under->ranks[b] ? under->ranks[a] : under->ranks[b];
+/* The rank of the fill that is thicker at a border. */
+static uint32_t rank_of(const cs_under *under, const uint32_t fills[2], const double thickness[2]) {
+  uint32_t a = under->ranks[fills[0]], b = under->ranks[fills[1]];
+  return thickness[0] > thickness[1] || (thickness[0] == thickness[1] && a > b) ? a : b;
 }
 
 /* Puts what floors and ceilings at one height have in common. */
@@ -134,7 +162,9 @@ static celspan_status pair_levels(celspan_context *context, const level_line *fl
   for (size_t i = 0, k = 0; i < count && k < ceiling_count;) {
     const level_line *a = &floors[i], *b = &ceilings[k];
     double x0 = fmax(a->x0, b->x0), x1 = fmin(a->x1, b->x1);
-    const cs_under_line line = {rank_of(out, a->fill, b->fill), true, 0, {x0, a->y}, {x1, a->y}};
+    const uint32_t fills[2] = {a->fill, b->fill};
+    const double thickness[2] = {a->thickness, b->thickness};
+    const cs_under_line line = {rank_of(out, fills, thickness), true, 0, {x0, a->y}, {x1, a->y}};
     if (x0 < x1 && a->fill != b->fill)
       CS_TRY(CS_APPEND(context, out->lines, out->line_count, out->line_capacity, line));
     if (a->x1 < b->x1)
@@ -161,14 +191,65 @@ static celspan_status put_levels(celspan_context *context, const level_list *lev
   return CELSPAN_OK;
 }
 
-static celspan_status put_arcs(celspan_context *context, const cs_parcels *parcels, cs_under *out) {
-  for (uint32_t i = 0; i < parcels->arc_count; i++) {
-    const cs_parcel_arc *arc = &parcels->arcs[i];
-    const cs_under_line line = {.rank = rank_of(out, arc->left, arc->right), .arc = i};
-    if (cs_under_suits(&parcels->fills[arc->left]) && cs_under_suits(&parcels->fills[arc->right]))
-      CS_TRY(CS_APPEND(context, out->lines, out->line_count, out->line_capacity, line));
+/* The thickness of the loops on both sides of all arcs, left and right. */
+static void spread(const cs_parcels *parcels, const cs_under *under, double *out) {
+  for (uint32_t f = 1; f < parcels->fill_count; f++) {
+    const cs_fill *fill = &parcels->fills[f];
+    for (size_t i = fill->loop; i < fill->loop + fill->loop_count; i++)
+      for (size_t k = 0; k < parcels->loops[i].walk_count; k++) {
+        uint32_t arc = parcels->walks[parcels->loops[i].walk + k].arc;
+        out[2 * arc + (parcels->arcs[arc].right == f)] = under->loops[i];
+      }
   }
+}
+
+/* How far down an arc leads, in relation to its length. */
+static double steepness(const cs_parcels *parcels, uint32_t arc) {
+  celspan_point top = cs_parcel_begin(parcels, (cs_parcel_walk){arc, false});
+  celspan_point foot = cs_parcel_end(parcels, (cs_parcel_walk){arc, false});
+  double length = distance(top, foot);
+  return length > 0 ? (foot.y - top.y) / length : 0;
+}
+
+/* Arcs that come near each other have little between them, however thick that is elsewhere. */
+static celspan_status narrow(celspan_context *context, const cs_parcels *parcels, double *out) {
+  const size_t most = parcels->arc_count;
+  cs_passing *all;
+  CS_TRY(CS_MAKE(context, all, most));
+  for (int i = 0; i < HEIGHTS; i++) {
+    size_t count = cs_passing_list(parcels, (i + 0.5) / HEIGHTS, all);
+    for (size_t k = 1; k < count; k++) {
+      size_t left = all[k - 1].arc, right = all[k].arc;
+      const double gap = all[k].x - all[k - 1].x;
+      if (parcels->arcs[left].right != parcels->arcs[right].left) { /* they lie on each other */
+        left = right;
+        right = all[k - 1].arc;
+      }
+      double *sides[2] = {&out[2 * left + 1], &out[2 * right]};
+      *sides[0] = fmin(*sides[0], gap * steepness(parcels, (uint32_t)left));
+      *sides[1] = fmin(*sides[1], gap * steepness(parcels, (uint32_t)right));
+    }
+  }
+  cs_mem_free(context->memory, all, most * sizeof *all);
   return CELSPAN_OK;
+}
+
+static celspan_status put_arcs(celspan_context *context, const cs_parcels *parcels, cs_under *out) {
+  const size_t count = 2 * parcels->arc_count;
+  double *thickness;
+  if (count == 0)
+    return CELSPAN_OK;
+  CS_TRY(CS_MAKE(context, thickness, count));
+  spread(parcels, out, thickness);
+  celspan_status status = narrow(context, parcels, thickness);
+  for (uint32_t i = 0; i < parcels->arc_count && status == CELSPAN_OK; i++) {
+    const uint32_t fills[2] = {parcels->arcs[i].left, parcels->arcs[i].right};
+    const cs_under_line line = {.rank = rank_of(out, fills, thickness + 2 * (size_t)i), .arc = i};
+    if (cs_under_suits(&parcels->fills[fills[0]]) && cs_under_suits(&parcels->fills[fills[1]]))
+      status = CS_APPEND(context, out->lines, out->line_count, out->line_capacity, line);
+  }
+  cs_mem_free(context->memory, thickness, count * sizeof *thickness);
+  return status;
 }
 
 static inline bool is_under(const cs_under_line *a, const cs_under_line *b) {
@@ -182,9 +263,10 @@ CS_SORT_DEFINE(sort_lines, cs_under_line, is_under)
 
 celspan_status cs_under_make(celspan_context *context, const cs_parcels *parcels, cs_under *out) {
   level_list levels = {0};
-  *out = (cs_under){.fill_count = parcels->fill_count};
+  *out = (cs_under){.fill_count = parcels->fill_count, .loop_count = parcels->loop_count + 1};
   CS_TRY(rank_fills(context, parcels, out));
   CS_TRY(put_arcs(context, parcels, out));
+  levels.thickness = out->loops;
   celspan_status status = list_levels(context, parcels, &levels);
   if (status == CELSPAN_OK)
     status = put_levels(context, &levels, out);
@@ -196,6 +278,7 @@ celspan_status cs_under_make(celspan_context *context, const cs_parcels *parcels
 void cs_under_finish(cs_under *under, cs_memory *memory) {
   cs_mem_free(memory, under->order, under->fill_count * sizeof *under->order);
   cs_mem_free(memory, under->ranks, under->fill_count * sizeof *under->ranks);
+  cs_mem_free(memory, under->loops, under->loop_count * sizeof *under->loops);
   cs_mem_free(memory, under->lines, under->line_capacity * sizeof *under->lines);
   *under = (cs_under){0};
 }

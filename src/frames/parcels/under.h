@@ -16,9 +16,10 @@ typedef struct cs_under_line {
 typedef struct cs_under {
   uint32_t *order;      /* the numbers of all fills, from the thinnest to the thickest */
   uint32_t *ranks;      /* of each fill its place among them */
+  double *loops;        /* of each loop, how thick its part of the fill is */
   cs_under_line *lines; /* by rank */
   size_t line_count, line_capacity;
-  size_t fill_count;
+  size_t fill_count, loop_count;
   double opaque; /* the area of opaque fills, in square units */
 } cs_under;
 
