@@ -255,19 +255,24 @@ static celspan_status put_clip(drawing *d, bool *has_clip) {
   return CELSPAN_OK;
 }
 
+/* How far an area continues, in units. */
+static double growth(const drawing *d) {
+  double x = d->desc->width > 0 ? d->parcels.width / d->desc->width : 1;
+  double y = d->desc->height > 0 ? d->parcels.height / d->desc->height : 1;
+  return GROWN * fmax(x, y);
+}
+
 static celspan_status put_under(drawing *d) {
   const cs_under *under = &d->under;
   bool has_clip;
   if (under->line_count == 0)
     return CELSPAN_OK;
   CS_TRY(put_clip(d, &has_clip));
-  double x = d->desc->width > 0 ? d->parcels.width / d->desc->width : 1;
-  double y = d->desc->height > 0 ? d->parcels.height / d->desc->height : 1;
   cs_plot_put(&d->text,
               "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"%s "
               "stroke-width=\"",
               has_clip ? " clip-path=\"url(#opaque)\"" : "");
-  cs_plot_put_number(&d->text, 2 * GROWN * fmax(x, y), d->desc->precision + SPARE_DIGITS);
+  cs_plot_put_number(&d->text, 2 * growth(d), d->desc->precision + SPARE_DIGITS);
   cs_plot_put(&d->text, "\">\n");
   for (size_t i = 0; i < under->line_count; i++) {
     bool is_first = i == 0 || under->lines[i - 1].rank != under->lines[i].rank;
@@ -309,7 +314,7 @@ static celspan_status end(cs_plot_text *out, celspan_status status) {
 
 static celspan_status write_parcels(drawing *d, const char *path) {
   celspan_context *context = d->text.context;
-  CS_TRY(cs_under_make(context, &d->parcels, &d->under));
+  CS_TRY(cs_under_make(context, &d->parcels, growth(d), &d->under));
   CS_TRY(begin(context, path, d->desc, d->parcels.width, d->parcels.height, &d->text));
   put_gradients(d);
   celspan_status status = d->desc->flat == CS_FLAT_REGIONS ? CELSPAN_OK : put_under(d);

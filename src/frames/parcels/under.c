@@ -5,6 +5,7 @@
 #include "base/sort.h"
 #include "frames/parcels/making.h"
 
+#define VERY 1e12       /* units: more than any thickness */
 enum { HEIGHTS = 512 }; /* at which arcs are compared with their neighbours */
 
 /* ---------------------------------------------------------------- thickness */
@@ -211,8 +212,10 @@ static double steepness(const cs_parcels *parcels, uint32_t arc) {
   return length > 0 ? (foot.y - top.y) / length : 0;
 }
 
-/* Arcs that come near each other have little between them, however thick that is elsewhere. */
-static celspan_status narrow(celspan_context *context, const cs_parcels *parcels, double *out) {
+/* Where arcs are near each other, what is between them is thin, however thick it is elsewhere: of the
+ * two sides of an arc, the one that is so at fewer heights is thicker. */
+static celspan_status narrow(celspan_context *context, const cs_parcels *parcels, double thin,
+                             double *out) {
   const size_t most = parcels->arc_count;
   cs_passing *all;
   CS_TRY(CS_MAKE(context, all, most));
@@ -225,23 +228,23 @@ static celspan_status narrow(celspan_context *context, const cs_parcels *parcels
         left = right;
         right = all[k - 1].arc;
       }
-      double *sides[2] = {&out[2 * left + 1], &out[2 * right]};
-      *sides[0] = fmin(*sides[0], gap * steepness(parcels, (uint32_t)left));
-      *sides[1] = fmin(*sides[1], gap * steepness(parcels, (uint32_t)right));
+      out[2 * left + 1] -= gap * steepness(parcels, (uint32_t)left) < thin ? VERY : 0;
+      out[2 * right] -= gap * steepness(parcels, (uint32_t)right) < thin ? VERY : 0;
     }
   }
   cs_mem_free(context->memory, all, most * sizeof *all);
   return CELSPAN_OK;
 }
 
-static celspan_status put_arcs(celspan_context *context, const cs_parcels *parcels, cs_under *out) {
+static celspan_status put_arcs(celspan_context *context, const cs_parcels *parcels, double thin,
+                               cs_under *out) {
   const size_t count = 2 * parcels->arc_count;
   double *thickness;
   if (count == 0)
     return CELSPAN_OK;
   CS_TRY(CS_MAKE(context, thickness, count));
   spread(parcels, out, thickness);
-  celspan_status status = narrow(context, parcels, thickness);
+  celspan_status status = narrow(context, parcels, thin, thickness);
   for (uint32_t i = 0; i < parcels->arc_count && status == CELSPAN_OK; i++) {
     const uint32_t fills[2] = {parcels->arcs[i].left, parcels->arcs[i].right};
     const cs_under_line line = {.rank = rank_of(out, fills, thickness + 2 * (size_t)i), .arc = i};
@@ -261,11 +264,12 @@ static inline bool is_under(const cs_under_line *a, const cs_under_line *b) {
 }
 CS_SORT_DEFINE(sort_lines, cs_under_line, is_under)
 
-celspan_status cs_under_make(celspan_context *context, const cs_parcels *parcels, cs_under *out) {
+celspan_status cs_under_make(celspan_context *context, const cs_parcels *parcels, double thin,
+                             cs_under *out) {
   level_list levels = {0};
   *out = (cs_under){.fill_count = parcels->fill_count, .loop_count = parcels->loop_count + 1};
   CS_TRY(rank_fills(context, parcels, out));
-  CS_TRY(put_arcs(context, parcels, out));
+  CS_TRY(put_arcs(context, parcels, thin, out));
   levels.thickness = out->loops;
   celspan_status status = list_levels(context, parcels, &levels);
   if (status == CELSPAN_OK)
