@@ -113,6 +113,7 @@ return {
   deflate = { "unit/png_bytes", "unit/png" },
   png = { "unit/png_bytes", "unit/png", "spec/formats" },
   join = { "spec/join" },
+  parcels = { "spec/drawing" },
   relight = { "spec/relight", "property/stack" },
   include = { "spec/hosts", "unit/embedding", "example/memory", "example/host", "spec/embedding" },
 

@@ -97,7 +97,7 @@ static void cut_heights(bend *curve, double top, double foot) {
 typedef struct making {
   celspan_context *context;
   cs_parcels *parcels;
-  cs_sides *sides;
+  cs_frame_sides *sides;
   cs_parcel_arc arc;
 } making;
 
@@ -274,7 +274,7 @@ static celspan_status put_pieces(making *m, const planefile_band *band,
 
 celspan_status cs_arc_put(celspan_context *context, const planefile_band *band,
                           const planefile_border *border, uint32_t left, uint32_t right,
-                          cs_sides *sides, cs_parcels *parcels) {
+                          cs_frame_sides *sides, cs_parcels *parcels) {
   making m = {context, parcels, sides, {parcels->curve_count, 0, left, right, border->top, 0}};
   CS_TRY(put_pieces(&m, band, border));
   return end_arc(&m, border->foot);

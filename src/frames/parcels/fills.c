@@ -87,8 +87,8 @@ static void colour_clear(sample *all, size_t count) {
 typedef struct gradient {
   celspan_context *context;
   const planefile_plane *plane;
-  const planefile_band *band;
-  uint32_t cell;
+  const planefile_band *of;
+  uint32_t number; /* of the cell */
   double from, to;
 } gradient;
 
@@ -98,9 +98,9 @@ static celspan_status put_stretch(const gradient *g, double from, double to, siz
   planefile_cell colours[SAMPLES + 2];
   sample all[SAMPLES + 2];
   double length = to - from, whole = g->to - g->from, beside = length * BESIDE;
-  if (!planefile_along(g->plane, g->band, g->cell, from, from + beside, 1, &colours[0]) ||
-      !planefile_along(g->plane, g->band, g->cell, from, to, SAMPLES, &colours[1]) ||
-      !planefile_along(g->plane, g->band, g->cell, to - beside, to, 1, &colours[SAMPLES + 1]))
+  if (!planefile_along(g->plane, g->of, g->number, from, from + beside, 1, &colours[0]) ||
+      !planefile_along(g->plane, g->of, g->number, from, to, SAMPLES, &colours[1]) ||
+      !planefile_along(g->plane, g->of, g->number, to - beside, to, 1, &colours[SAMPLES + 1]))
     return cs_fail_memory(g->context);
   for (size_t i = 0; i < SAMPLES + 2; i++) {
     double share = i == 0 ? 0 : i == SAMPLES + 1 ? 1 : ((double)i - 0.5) / SAMPLES;
@@ -117,7 +117,7 @@ static celspan_status put_stretch(const gradient *g, double from, double to, siz
 static celspan_status put_rest(const gradient *g, double from, double to, double at, size_t first,
                                cs_parcels *out) {
   planefile_cell colour;
-  if (!planefile_along(g->plane, g->band, g->cell, from, to, 1, &colour))
+  if (!planefile_along(g->plane, g->of, g->number, from, to, 1, &colour))
     return cs_fail_memory(g->context);
   sample rest = sample_of(at, &colour);
   return put_stop(g->context, &rest, first, out);
@@ -126,12 +126,12 @@ static celspan_status put_rest(const gradient *g, double from, double to, double
 /* Lists the numbers at which stops are, in order, each once. Returns how many; STRETCHES + 1 if
  * there are more than STRETCHES. */
 static size_t list_places(const gradient *g, double *out) {
-  const planefile_program program = g->band->programs[g->cell];
+  const planefile_program program = g->of->programs[g->number];
   size_t count = 0;
   for (uint32_t i = 0; i < program.step_count; i++) {
-    const planefile_step *step = &g->band->steps[program.step + i];
+    const planefile_step *step = &g->of->steps[program.step + i];
     for (uint32_t k = 0; step->kind == PLANEFILE_RAMP && k < step->stop_count; k++) {
-      double at = g->band->stops[step->stop + k].at;
+      double at = g->of->stops[step->stop + k].at;
       size_t place = count;
       while (place > 0 && out[place - 1] >= at)
         place--;

@@ -25,24 +25,25 @@ typedef struct cs_side_change {
   int64_t by;
 } cs_side_change;
 
-typedef struct cs_sides {
+typedef struct cs_frame_sides {
   cs_side_change *changes;
   size_t count, capacity;
-} cs_sides;
+} cs_frame_sides;
 
 /* Adds a part of a border. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_sides_add(celspan_context *context, cs_sides *sides, int side,
-                                            int32_t top, int32_t foot, uint32_t left,
+CELSPAN_CHECKED celspan_status cs_sides_add(celspan_context *context, cs_frame_sides *sides,
+                                            int side, int32_t top, int32_t foot, uint32_t left,
                                             uint32_t right);
 /* Appends the arcs along the sides. Errors: those of cs_arc_put. */
-CELSPAN_CHECKED celspan_status cs_sides_put(celspan_context *context, cs_sides *sides,
+CELSPAN_CHECKED celspan_status cs_sides_put(celspan_context *context, cs_frame_sides *sides,
                                             cs_parcels *parcels);
-void cs_sides_finish(cs_sides *sides, cs_memory *memory);
+void cs_sides_finish(cs_frame_sides *sides, cs_memory *memory);
 
-/* Appends the arcs of a border, and adds what of it is beyond the frame. Errors: NO_MEMORY; LIMIT. */
+/* Appends the arcs of a border, and adds the parts beyond the frame. Errors: NO_MEMORY; LIMIT. */
 CELSPAN_CHECKED celspan_status cs_arc_put(celspan_context *context, const planefile_band *band,
                                           const planefile_border *border, uint32_t left,
-                                          uint32_t right, cs_sides *sides, cs_parcels *parcels);
+                                          uint32_t right, cs_frame_sides *sides,
+                                          cs_parcels *parcels);
 /* Appends a part of one of the frame's sides, inside of which there is a fill. */
 CELSPAN_CHECKED celspan_status cs_arc_put_side(celspan_context *context, int side, int32_t top,
                                                int32_t foot, uint32_t fill, cs_parcels *parcels);

@@ -2,7 +2,7 @@
  *
  *     plane --cells--> fills (fills.c)                  +-------+-----+
  *           --borders--> arcs (arcs.c) --> parcels      |   1   a  2  |     the arc a is the border
- *                        (parcels.c)                    +-------+-----+     of parcel 1 and of 2
+ *                        (make.c)                    +-------+-----+     of parcel 1 and of 2
  *
  * How to use them: cs_parcels_make, then for each fill that is not clear its loops, for each loop
  * its walks, for each walk its arc, down or up. The end of a walk and the beginning of the next one
@@ -26,7 +26,7 @@ typedef enum cs_fill_kind {
   CS_FILL_FLAT,
   CS_FILL_LINEAR,
   CS_FILL_RADIAL,
-  CS_FILL_PICTURE /* at most one: all that is none of the others */
+  CS_FILL_PICTURE /* at most one: whatever cannot be one of the others */
 } cs_fill_kind;
 
 /* Codes are 8 bits in sRGB, with straight alpha. */
@@ -91,12 +91,12 @@ CELSPAN_CHECKED celspan_status cs_parcels_make(celspan_context *context, const c
                                                cs_parcels *out);
 void cs_parcels_finish(cs_parcels *parcels, cs_memory *memory);
 
-/* Traces the loops of sets of fills: `sets` has a number for each fill, and 0 for those that are in
+/* Walks the loops of sets of fills: `sets` has a number for each fill, and 0 for those that are in
  * none. Appends loops to the parcels, set by set; *first: of each set from 0 its first loop, and
  * after the last one the end, set_count + 1 numbers. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_parcels_trace(celspan_context *context, cs_parcels *parcels,
-                                                const uint32_t *sets, uint32_t set_count,
-                                                size_t *first);
+CELSPAN_CHECKED celspan_status cs_parcels_walk(celspan_context *context, cs_parcels *parcels,
+                                               const uint32_t *sets, uint32_t set_count,
+                                               size_t *first);
 /* The end of a walk that it comes from, and the one that it leads to. */
 celspan_point cs_parcel_begin(const cs_parcels *parcels, cs_parcel_walk walk);
 celspan_point cs_parcel_end(const cs_parcels *parcels, cs_parcel_walk walk);

@@ -245,7 +245,7 @@ static celspan_status put_clip(drawing *d, bool *has_clip) {
   CS_TRY(CS_MAKE(d->text.context, sets, p->fill_count));
   for (size_t i = 0; i < p->fill_count; i++)
     sets[i] = cs_under_suits(&p->fills[i]);
-  celspan_status status = cs_parcels_trace(d->text.context, p, sets, 1, first);
+  celspan_status status = cs_parcels_walk(d->text.context, p, sets, 1, first);
   cs_mem_free(d->text.context->memory, sets, p->fill_count * sizeof *sets);
   CS_TRY(status);
   cs_plot_put(&d->text, "<clipPath id=\"opaque\"><path clip-rule=\"evenodd\" d=\"");

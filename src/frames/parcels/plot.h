@@ -4,7 +4,7 @@
  *     over:  the fills, from the thickest to the thinnest
  *
  * Renderers that mix edges one after the other would let the page shine through at a border, where
- * two areas cover parts of a pixel. The strokes lie under all areas, so that they show nowhere else.
+ * two areas cover parts of a pixel. Strokes lie under all areas, so that they show only there.
  */
 #pragma once
 
@@ -40,7 +40,7 @@ CELSPAN_CHECKED celspan_status cs_plot_write_frame(celspan_context *context,
                                                    const celspan_frame_desc *frame,
                                                    const char *path, const cs_plot_desc *desc,
                                                    cs_plot_facts *facts);
-/* The same of a plane. */
+/* Writes a plane in the same way. */
 CELSPAN_CHECKED celspan_status cs_plot_write_plane(celspan_context *context,
                                                    const celspan_plane *plane, const char *path,
                                                    const cs_plot_desc *desc, cs_plot_facts *facts);

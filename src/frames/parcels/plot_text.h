@@ -6,7 +6,6 @@
 #pragma once
 
 #include "frames/parcels/parcels.h"
-#include "frames/parcels/plot.h"
 #include "output/sinks/file.h"
 
 typedef struct cs_plot_text {

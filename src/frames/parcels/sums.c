@@ -1,6 +1,7 @@
-/* Arcs at a height; and whether a plane is one picture: at some heights, each place between two arcs
- * must have one fill. Where several pictures are added up, such as the exposures of a frame, places
- * have several. */
+/* Arcs at a height; and whether a plane is one picture: at some heights, each place between two
+ * arcs must have one fill. Where several pictures are added up, such as the exposures of a frame,
+ * places have several.
+ */
 #include <math.h>
 
 #include "base/sort.h"

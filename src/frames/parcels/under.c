@@ -100,31 +100,31 @@ static celspan_status rank_fills(celspan_context *context, const cs_parcels *par
 /* ---------------------------------------------------------------- horizontal lines */
 
 /* A horizontal part of a parcel's outline. */
-typedef struct level_line {
+typedef struct flat_line {
   double y, x0, x1;
   bool is_floor; /* the parcel is above it */
   uint32_t fill;
   double thickness; /* of its loop */
-} level_line;
+} flat_line;
 
-static inline bool is_before(const level_line *a, const level_line *b) {
+static inline bool is_before(const flat_line *a, const flat_line *b) {
   if (a->y != b->y)
     return a->y < b->y;
   if (a->is_floor != b->is_floor)
     return a->is_floor;
   return a->x0 != b->x0 ? a->x0 < b->x0 : a->fill < b->fill;
 }
-CS_SORT_DEFINE(sort_levels, level_line, is_before)
+CS_SORT_DEFINE(sort_flats, flat_line, is_before)
 
-typedef struct level_list {
+typedef struct flat_list {
   const double *thickness; /* of loops */
-  level_line *all;
+  flat_line *all;
   size_t count, capacity;
-} level_list;
+} flat_list;
 
 /* The walker has the parcel on the left: above a line to the right, below a line to the left. */
-static celspan_status list_levels(celspan_context *context, const cs_parcels *parcels,
-                                  level_list *out) {
+static celspan_status list_flats(celspan_context *context, const cs_parcels *parcels,
+                                 flat_list *out) {
   for (uint32_t f = 1; f < parcels->fill_count; f++) {
     const cs_fill *fill = &parcels->fills[f];
     for (size_t i = 0; i < fill->loop_count && cs_under_suits(fill); i++) {
@@ -133,19 +133,19 @@ static celspan_status list_levels(celspan_context *context, const cs_parcels *pa
       celspan_point at = cs_parcel_end(parcels, walks[loop->walk_count - 1]);
       for (size_t k = 0; k < loop->walk_count; k++) {
         celspan_point to = cs_parcel_begin(parcels, walks[k]);
-        level_line line = {to.y,
-                           fmin(at.x, to.x),
-                           fmax(at.x, to.x),
-                           to.x > at.x,
-                           f,
-                           out->thickness[fill->loop + i]};
+        flat_line line = {to.y,
+                          fmin(at.x, to.x),
+                          fmax(at.x, to.x),
+                          to.x > at.x,
+                          f,
+                          out->thickness[fill->loop + i]};
         if (line.x0 < line.x1)
           CS_TRY(CS_APPEND(context, out->all, out->count, out->capacity, line));
         at = cs_parcel_end(parcels, walks[k]);
       }
     }
   }
-  sort_levels(out->all, out->count);
+  sort_flats(out->all, out->count);
   return CELSPAN_OK;
 }
 
@@ -158,10 +158,10 @@ static uint32_t rank_of(const cs_under *under, const uint32_t fills[2], const do
 }
 
 /* Puts what floors and ceilings at one height have in common. */
-static celspan_status pair_levels(celspan_context *context, const level_line *floors, size_t count,
-                                  const level_line *ceilings, size_t ceiling_count, cs_under *out) {
+static celspan_status pair_flats(celspan_context *context, const flat_line *floors, size_t count,
+                                 const flat_line *ceilings, size_t ceiling_count, cs_under *out) {
   for (size_t i = 0, k = 0; i < count && k < ceiling_count;) {
-    const level_line *a = &floors[i], *b = &ceilings[k];
+    const flat_line *a = &floors[i], *b = &ceilings[k];
     double x0 = fmax(a->x0, b->x0), x1 = fmin(a->x1, b->x1);
     const uint32_t fills[2] = {a->fill, b->fill};
     const double thickness[2] = {a->thickness, b->thickness};
@@ -176,17 +176,15 @@ static celspan_status pair_levels(celspan_context *context, const level_line *fl
   return CELSPAN_OK;
 }
 
-static celspan_status put_levels(celspan_context *context, const level_list *levels,
-                                 cs_under *out) {
-  for (size_t i = 0; i < levels->count;) {
+static celspan_status put_flats(celspan_context *context, const flat_list *flats, cs_under *out) {
+  for (size_t i = 0; i < flats->count;) {
     size_t floors = i, end;
-    while (floors < levels->count && levels->all[floors].y == levels->all[i].y &&
-           levels->all[floors].is_floor)
+    while (floors < flats->count && flats->all[floors].y == flats->all[i].y &&
+           flats->all[floors].is_floor)
       floors++;
-    for (end = floors; end < levels->count && levels->all[end].y == levels->all[i].y; end++) {
+    for (end = floors; end < flats->count && flats->all[end].y == flats->all[i].y; end++) {
     }
-    CS_TRY(
-        pair_levels(context, levels->all + i, floors - i, levels->all + floors, end - floors, out));
+    CS_TRY(pair_flats(context, flats->all + i, floors - i, flats->all + floors, end - floors, out));
     i = end;
   }
   return CELSPAN_OK;
@@ -212,8 +210,8 @@ static double steepness(const cs_parcels *parcels, uint32_t arc) {
   return length > 0 ? (foot.y - top.y) / length : 0;
 }
 
-/* Where arcs are near each other, what is between them is thin, however thick it is elsewhere: of the
- * two sides of an arc, the one that is so at fewer heights is thicker. */
+/* Where arcs are near each other, the area between them is thin, however thick it is elsewhere: of
+ * the two sides of an arc, the one that is so at fewer heights is thicker. */
 static celspan_status narrow(celspan_context *context, const cs_parcels *parcels, double thin,
                              double *out) {
   const size_t most = parcels->arc_count;
@@ -266,15 +264,15 @@ CS_SORT_DEFINE(sort_lines, cs_under_line, is_under)
 
 celspan_status cs_under_make(celspan_context *context, const cs_parcels *parcels, double thin,
                              cs_under *out) {
-  level_list levels = {0};
+  flat_list flats = {0};
   *out = (cs_under){.fill_count = parcels->fill_count, .loop_count = parcels->loop_count + 1};
   CS_TRY(rank_fills(context, parcels, out));
   CS_TRY(put_arcs(context, parcels, thin, out));
-  levels.thickness = out->loops;
-  celspan_status status = list_levels(context, parcels, &levels);
+  flats.thickness = out->loops;
+  celspan_status status = list_flats(context, parcels, &flats);
   if (status == CELSPAN_OK)
-    status = put_levels(context, &levels, out);
-  cs_mem_free(context->memory, levels.all, levels.capacity * sizeof *levels.all);
+    status = put_flats(context, &flats, out);
+  cs_mem_free(context->memory, flats.all, flats.capacity * sizeof *flats.all);
   sort_lines(out->lines, out->line_count);
   return status;
 }

@@ -1,8 +1,9 @@
 /* Arcs become parcels.
  *
- *     above   |  1  |2| 1 |        at a height where arcs end, those with fill 1 on a side, in order:
- *           --a-----b-c---d--      each two neighbours, a b and c d, are joined by a line, which may
- *     below      2     1           have no length. So each end has a partner, and loops close.
+ *     above   |  1  |2| 1 |      at a height where arcs end, the ends of arcs that have fill 1 on a
+ *           --a-----b-c---d--    side, in order: each two neighbours, a b and c d, are joined by a
+ *     below      2     1         line, which may have no length. So each end has a partner, and
+ *                                loops close.
  */
 #include "frames/parcels/parcels.h"
 
@@ -13,16 +14,16 @@
 
 /* ---------------------------------------------------------------- arcs of a plane */
 
-typedef struct gathering {
+typedef struct collecting {
   celspan_context *context;
   const celspan_plane *plane;
   cs_fill_table table;
-  cs_sides sides;
+  cs_frame_sides sides;
   uint32_t *fills; /* of the cells of a band */
   size_t capacity;
-} gathering;
+} collecting;
 
-static celspan_status gather_band(gathering *g, const planefile_band *band, cs_parcels *out) {
+static celspan_status collect_part(collecting *g, const planefile_band *band, cs_parcels *out) {
   CS_TRY(CS_RESERVE(g->context, g->fills, g->capacity, band->cell_count));
   for (uint32_t i = 0; i < band->cell_count; i++)
     CS_TRY(cs_fill_find(g->context, g->plane, band, i, &g->table, out, &g->fills[i]));
@@ -36,7 +37,7 @@ static celspan_status gather_band(gathering *g, const planefile_band *band, cs_p
 }
 
 /* The first fill is clear; that of cell 0 is left and right of all borders, within the frame. */
-static celspan_status gather(gathering *g, cs_parcels *out) {
+static celspan_status collect(collecting *g, cs_parcels *out) {
   const planefile_plane *plane = g->plane->plane;
   const planefile_info info = planefile_plane_info(plane);
   uint32_t around = 0;
@@ -44,7 +45,7 @@ static celspan_status gather(gathering *g, cs_parcels *out) {
   out->height = info.height;
   CS_TRY(CS_APPEND(g->context, out->fills, out->fill_count, out->fill_capacity, (cs_fill){0}));
   for (uint32_t i = 0; i < info.band_count; i++)
-    CS_TRY(gather_band(g, planefile_plane_band(plane, i), out));
+    CS_TRY(collect_part(g, planefile_plane_band(plane, i), out));
   CS_TRY(cs_fill_find(g->context, g->plane, planefile_plane_band(plane, 0), 0, &g->table, out,
                       &around));
   CS_TRY(cs_sides_add(g->context, &g->sides, 0, 0, PLANEFILE_SIDE, 0, around));
@@ -56,7 +57,7 @@ static celspan_status gather(gathering *g, cs_parcels *out) {
 
 /* Where one arc ends and the next one begins, a plane may have rounded their heights differently.
  * Heights that are so near become one. */
-enum { NEAR = 1, CLUSTER = 4, APART = 64 }; /* units: two heights; all of them; what may remain */
+enum { NEAR = 1, TOGETHER = 4, APART = 64 }; /* units: two heights; all of them; what may remain */
 
 typedef struct arc_height {
   int32_t height;
@@ -94,7 +95,7 @@ static celspan_status join_heights(celspan_context *context, cs_parcels *parcels
   sort_heights(all, count);
   int32_t first = all[0].height;
   for (size_t i = 1; i < count; i++) {
-    bool is_near = all[i].height - all[i - 1].height <= NEAR && all[i].height - first <= CLUSTER;
+    bool is_near = all[i].height - all[i - 1].height <= NEAR && all[i].height - first <= TOGETHER;
     first = is_near ? first : all[i].height;
     if (all[i].height != first)
       set_height(parcels, all[i].id, first);
@@ -227,8 +228,8 @@ static celspan_status walk_all(const tracing *t, uint32_t set_count, size_t *fir
   return CELSPAN_OK;
 }
 
-celspan_status cs_parcels_trace(celspan_context *context, cs_parcels *parcels, const uint32_t *sets,
-                                uint32_t set_count, size_t *first) {
+celspan_status cs_parcels_walk(celspan_context *context, cs_parcels *parcels, const uint32_t *sets,
+                               uint32_t set_count, size_t *first) {
   const size_t most = 4 * parcels->arc_count + 1;
   tracing t = {context, parcels, NULL, NULL, 0};
   celspan_status status = CS_MAKE(context, t.ends, most);
@@ -249,7 +250,7 @@ celspan_status cs_parcels_trace(celspan_context *context, cs_parcels *parcels, c
 /* ---------------------------------------------------------------- parcels */
 
 /* Each fill but the first one is a set. */
-static celspan_status trace_fills(celspan_context *context, cs_parcels *p) {
+static celspan_status walk_fills(celspan_context *context, cs_parcels *p) {
   const size_t count = p->fill_count;
   uint32_t *sets;
   size_t *first;
@@ -258,7 +259,7 @@ static celspan_status trace_fills(celspan_context *context, cs_parcels *p) {
   for (uint32_t i = 0; i < count; i++)
     sets[i] = i;
   if (status == CELSPAN_OK)
-    status = cs_parcels_trace(context, p, sets, (uint32_t)count, first);
+    status = cs_parcels_walk(context, p, sets, (uint32_t)count, first);
   for (size_t i = 1; i < count && status == CELSPAN_OK; i++) {
     p->fills[i].loop = first[i - 1];
     p->fills[i].loop_count = first[i] - first[i - 1];
@@ -270,16 +271,16 @@ static celspan_status trace_fills(celspan_context *context, cs_parcels *p) {
 
 celspan_status cs_parcels_make(celspan_context *context, const celspan_plane *plane,
                                cs_parcels *out) {
-  gathering g = {.context = context, .plane = plane};
+  collecting g = {.context = context, .plane = plane};
   *out = (cs_parcels){0};
-  celspan_status status = gather(&g, out);
+  celspan_status status = collect(&g, out);
   cs_sides_finish(&g.sides, context->memory);
   cs_hash_table_finish(&g.table.known, context);
   cs_mem_free(context->memory, g.fills, g.capacity * sizeof *g.fills);
   CS_TRY(status);
   CS_TRY(join_heights(context, out));
   CS_TRY(cs_parcels_refuse_sums(context, out));
-  return trace_fills(context, out);
+  return walk_fills(context, out);
 }
 
 void cs_parcels_finish(cs_parcels *p, cs_memory *memory) {

@@ -1,0 +1,248 @@
+-- SVG drawings of what can be seen: their areas, what other programs draw, and what is refused.
+local celspan = require "celspan"
+local present = require "tests.support.present"
+local workbench = require "tests.support.workbench"
+
+local PYTHON = "/usr/bin/python3"
+local it_measures = os.execute(PYTHON .. " -c 'import shapely' 2>/dev/null") and it or pending
+local it_draws = present.program "rsvg-convert" and present.pictures() and it or pending
+
+-- Shapes that abut and overlap, holes, curves, thin lines, both gradients; some beyond the frame.
+local SHAPES = [[
+local celspan = require "celspan"
+local sky = celspan.linear { from = { 0, 0 }, to = { 30, 90 }, { 0, "#204060" }, { 1, "#f0d0a0" } }
+local sun = celspan.radial { centre = { 120, 30 }, radius = 25, focus = { 112, 24 },
+  { 0, "#fff4d0" }, { 0.6, "#ffb040" }, { 1, "#c04020" } }
+local disc, bar = celspan.circle { centre = { 50, 50 }, radius = 30 }, celspan.rect { 45, 5, 10, 80 }
+return celspan.film { size = { 160, 90 }, frames = 2, space = SPACE, frame = function(f)
+  return celspan.rostrum { back = "#fff", celspan.cel {
+    celspan.rect { -20, 0, 200, 60, texture = sky },
+    celspan.circle { centre = { 120, 30 }, radius = 25, texture = sun },
+    (disc - bar):with { texture = "#f26419" },
+    celspan.circle { centre = { 0, 80 }, radius = 22 + f.number, texture = "#33658ac0" },
+    celspan.polygon { { 80, 90 }, { 110, 60 }, { 140, 90 }, texture = "#55dde0" },
+    celspan.polygon { { 110, 60 }, { 140, 90 }, { 170, 60 }, texture = "#2f4858" },
+    celspan.circle { centre = { 78, 70 }, radius = 12, texture = "#00000000" }
+      :stroke { width = 0.7, texture = "#101010" } } }
+end }
+]]
+
+local bench
+
+before_each(function()
+  bench = workbench.new()
+  bench:write("light.lua", (SHAPES:gsub("SPACE", '"linear"')))
+  bench:write("codes.lua", (SHAPES:gsub("SPACE", '"srgb"')))
+end)
+after_each(function() bench:remove() end)
+
+local function done(arguments, ...)
+  local code, _, err = bench:celspan_inside(arguments, ...)
+  assert.equal(0, code, err)
+  return err
+end
+
+local function refused(exit, message, arguments)
+  local code, _, err = bench:celspan_inside(arguments)
+  assert.equal(exit, code, err)
+  assert.matches(message, err, 1, true)
+end
+
+local function pixels(name, w, h)
+  local picture = celspan.image { file = bench.folder .. "/" .. name, x = 0, y = 0, w = w, h = h }
+  local rostrum = celspan.rostrum { celspan.cel { picture } }
+  return assert(celspan.pixels(rostrum, { size = { w, h }, film = { w, h } })):bytes { depth = 8 }
+end
+
+--- For each channel of each pixel, the least and the greatest code within a number of pixels.
+local function ranges(bytes, w, h, radius)
+  local function pass(list, least, count, stride, step)
+    local out, better = {}, least and math.min or math.max
+    for i = 0, #list - 1 do
+      local at, best = (i // stride) % count, list[i + 1]
+      for k = -radius, radius do
+        if at + k >= 0 and at + k < count then best = better(best, list[i + 1 + k * step]) end
+      end
+      out[i + 1] = best
+    end
+    return out
+  end
+  local codes = {}
+  for i = 1, #bytes do codes[i] = bytes:byte(i) end
+  local low = pass(pass(codes, true, w, 4, 4), true, h, 4 * w, 4 * w)
+  return low, pass(pass(codes, false, w, 4, 4), false, h, 4 * w, 4 * w)
+end
+
+--- Compares a picture that another program has drawn with the frame: the share of the pixels away
+--- from edges that are within 3 codes; how far a pixel is beyond the codes around it.
+local function compare(frame, drawn, w, h)
+  local ours, theirs = pixels(frame, w, h), pixels(drawn, w, h)
+  local near_low, near_high = ranges(ours, w, h, 1)
+  local low, high = ranges(ours, w, h, 2)
+  local flat, same, beyond = 0, 0, 0
+  for i = 1, #ours, 4 do
+    local is_flat, off = true, 0
+    for c = i, i + 3 do
+      local code = theirs:byte(c)
+      is_flat = is_flat and near_high[c] - near_low[c] <= 3
+      off = math.max(off, math.abs(code - ours:byte(c)))
+      beyond = math.max(beyond, low[c] - code, code - high[c])
+    end
+    flat, same = flat + (is_flat and 1 or 0), same + (is_flat and off <= 3 and 1 or 0)
+  end
+  assert.is_true(flat > w * h // 3)
+  return same / flat, beyond
+end
+
+describe("a drawing", function()
+  it_measures("of regions has areas that do not overlap and leave nothing out", function()
+    done "render light.lua -o x.svg --flat regions --precision 6 --frames 1"
+    local out = io.popen(("%s tests/support/areas.py %s/x.svg"):format(PYTHON, bench.folder)):read "a"
+    local count, overlap, gap = out:match "(%S+) (%S+) (%S+)"
+    assert.is_true(tonumber(count) >= 8, out)
+    assert.is_true(tonumber(overlap) <= 1e-6, out)
+    assert.is_true(math.abs(tonumber(gap)) <= 1e-6, out)
+  end)
+
+  it("of regions has nothing under its areas, and no clipping", function()
+    done "render light.lua -o x.svg --flat regions --frames 1"
+    local text = bench:read "x.svg"
+    assert.is_nil(text:find("stroke", 1, true))
+    assert.is_nil(text:find("clip", 1, true))
+    assert.is_nil(text:find("<image", 1, true))
+    assert.matches("<linearGradient", text, 1, true)
+    assert.matches("<radialGradient", text, 1, true)
+  end)
+
+  it("has as many digits as are asked for", function()
+    done "render light.lua -o x.svg --flat regions --precision 0 --frames 1"
+    for path in bench:read("x.svg"):gmatch ' d="(.-)"' do assert.is_nil(path:find(".", 1, true)) end
+  end)
+
+  for _, name in ipairs { "codes", "light" } do
+    it_draws("in " .. name .. " looks as the frame in librsvg, and shows no seams", function()
+      for _, scale in ipairs { 2, 5 } do
+        local size = ("%dx%d"):format(160 * scale, 90 * scale)
+        done(("render %s.lua -o frame.png --frames 1 --size %s"):format(name, size))
+        done(("render %s.lua -o x.svg --frames 1 --size %s"):format(name, size))
+        assert.equal(0, (bench:inside "rsvg-convert x.svg -o drawn.png"))
+        local share, beyond = compare("frame.png", "drawn.png", 160 * scale, 90 * scale)
+        assert.is_true(share >= 0.99, ("%.4f"):format(share))
+        -- Light is mixed in another way at edges, where a thin line may have no pixel of its own.
+        assert.is_true(beyond <= (name == "codes" and 4 or 60), tostring(beyond))
+      end
+    end)
+  end
+
+  it_draws("of areas alone does show seams, which the strokes under them cover", function()
+    done "render codes.lua -o frame.png --frames 1 --size 320x180"
+    done "render codes.lua -o x.svg --frames 1 --size 320x180 --flat regions"
+    assert.equal(0, (bench:inside "rsvg-convert x.svg -o drawn.png"))
+    local _, beyond = compare("frame.png", "drawn.png", 320, 180)
+    assert.is_true(beyond > 20, tostring(beyond))
+  end)
+
+  it("of a plane is that of its frame", function()
+    done "render light.lua -o film.plane"
+    done("convert film.plane plane.svg --frame 2")
+    done "render light.lua -o frame.svg --frames 2"
+    assert.equal(bench:read "frame.svg", bench:read "plane.svg")
+  end)
+
+  it_draws("is clear where nothing is, and keeps alpha", function()
+    bench:write("clear.lua", [[
+local celspan = require "celspan"
+return celspan.film { size = { 60, 40 }, frames = 1, space = "srgb", frame = function()
+  return celspan.rostrum { celspan.cel {
+    celspan.rect { 10, 10, 20, 20, texture = "#204060" },
+    celspan.rect { 30, 10, 20, 20, texture = "#f2641980" } } } end }]])
+    done "render clear.lua -o x.svg"
+    assert.equal(0, (bench:inside "rsvg-convert x.svg -o drawn.png"))
+    local drawn = pixels("drawn.png", 60, 40)
+    local function code(x, y) return { drawn:byte(4 * (60 * y + x) + 1, 4 * (60 * y + x) + 4) } end
+    assert.same({ 0, 0, 0, 0 }, code(5, 5))
+    assert.same({ 0x20, 0x40, 0x60, 255 }, code(20, 20))
+    assert.equal(0x80, code(40, 20)[4])
+  end)
+
+  it("becomes a picture where SVG has no vectors, and says so", function()
+    bench:write("mixed.lua", [[
+local celspan = require "celspan"
+return celspan.film { size = { 60, 40 }, frames = 1, frame = function()
+  return celspan.rostrum { back = "#fff", celspan.cel {
+    celspan.circle { centre = { 15, 20 }, radius = 10, texture = "#f26419" } },
+    celspan.cel { celspan.circle { centre = { 40, 20 }, radius = 10 }, defocus = 3 } } end }]])
+    local err = done "render mixed.lua -o x.svg --scale 3"
+    assert.matches("what SVG has no vectors for is a picture of", err, 1, true)
+    local text = bench:read "x.svg"
+    assert.matches('href="data:image/png;base64,iVBOR', text, 1, true)
+    assert.matches('fill="#f26419"', text, 1, true)
+    bench:write("all.lua", [[
+local celspan = require "celspan"
+return celspan.film { size = { 60, 40 }, frames = 1, frame = function()
+  return celspan.rostrum { celspan.cel { celspan.procedure { box = { 0, 0, 60, 40 },
+    scan = function() return { { 0, 60, "#f26419" } } end } } } end }]])
+    err = done "render all.lua -o y.svg"
+    assert.matches("is a picture of 120 x 80 pixels, because", err, 1, true)
+    assert.matches("<image", bench:read "y.svg", 1, true)
+  end)
+
+  it("of nothing is empty", function()
+    bench:write("none.lua", [[
+local celspan = require "celspan"
+return celspan.film { size = { 60, 40 }, frames = 1, frame = function()
+  return celspan.rostrum {} end }]])
+    done "render none.lua -o x.svg"
+    assert.is_nil(bench:read("x.svg"):find("<path", 1, true))
+  end)
+
+  it("has colours within sRGB, whatever the scene has", function()
+    bench:write("bright.lua", [[
+local celspan = require "celspan"
+return celspan.film { size = { 60, 40 }, frames = 1, frame = function()
+  return celspan.rostrum { celspan.cel {
+    celspan.rect { 0, 0, 60, 40, texture = celspan.rgb(3, -1, 0) } } } end }]])
+    done "render bright.lua -o x.svg"
+    assert.matches('fill="#ff0000"', bench:read "x.svg", 1, true)
+  end)
+
+  it("is made for each frame under a numbered name", function()
+    done "render light.lua -o x.####.svg"
+    assert.matches("^<svg", bench:read "x.0001.svg")
+    assert.matches("^<svg", bench:read "x.0002.svg")
+    refused(2, "several frames (2) need a number in the name", "render light.lua -o x.svg")
+  end)
+
+  it("has no pixels to speak of", function()
+    refused(2, "--crop is for pictures, and a drawing has no pixels",
+      "render light.lua -o x.svg --crop 0,0,9,9")
+    refused(2, "--depth is for pictures", "render light.lua -o x.svg --depth 8")
+    refused(2, "--flat is for drawings", "render light.lua -o x.png --frames 1 --flat over")
+    refused(2, "--precision", "render light.lua -o x.svg --precision 10")
+    bench:write("light.png", "no picture")
+    refused(2, "a drawing is made of a script or a drawing or a plane", "convert light.png x.svg")
+  end)
+
+  it("has a limit of borders", function()
+    bench:write("dust.lua", [[
+local celspan = require "celspan"
+return celspan.film { size = { 1000, 1000 }, frames = 1, frame = function()
+  local dots = {}
+  for i = 0, 599 do
+    local all = {}
+    for k = 0, 899 do all[k + 1] = { i * 1.6, k * 1.1, 1, 0.6 } end
+    for k, r in ipairs(all) do dots[#dots + 1] = celspan.rect { r[1], r[2], r[3], r[4] } end
+  end
+  return celspan.rostrum { celspan.cel(dots) } end }]])
+    refused(6, "more than 1000000 borders", "render dust.lua -o x.svg --trust")
+    assert.is_nil(io.open(bench.folder .. "/x.svg"))
+  end)
+
+  it("appears whole or not at all", function()
+    bench:write("x.svg", "before")
+    local code = bench:inside("ulimit -f 1; '" .. workbench.binary
+      .. "' render light.lua -o x.svg --frames 1 --precision 9; exit $?")
+    assert.not_equal(0, code)
+    assert.equal("before", bench:read "x.svg")
+  end)
+end)
