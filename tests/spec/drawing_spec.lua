@@ -18,12 +18,12 @@ return celspan.film { size = { 160, 90 }, frames = 2, space = SPACE, frame = fun
   return celspan.rostrum { back = "#fff", celspan.cel {
     celspan.rect { -20, 0, 200, 60, texture = sky },
     celspan.circle { centre = { 120, 30 }, radius = 25, texture = sun },
-    (disc - bar):with { texture = "#f26419" },
+    (disc - bar):paint("#f26419"),
     celspan.circle { centre = { 0, 80 }, radius = 22 + f.number, texture = "#33658ac0" },
     celspan.polygon { { 80, 90 }, { 110, 60 }, { 140, 90 }, texture = "#55dde0" },
     celspan.polygon { { 110, 60 }, { 140, 90 }, { 170, 60 }, texture = "#2f4858" },
-    celspan.circle { centre = { 78, 70 }, radius = 12, texture = "#00000000" }
-      :stroke { width = 0.7, texture = "#101010" } } }
+    celspan.circle { centre = { 78, 70 }, radius = 12 }
+      :stroke { width = 2, texture = "#101010" } } }
 end }
 ]]
 
@@ -121,15 +121,15 @@ describe("a drawing", function()
 
   for _, name in ipairs { "codes", "light" } do
     it_draws("in " .. name .. " looks as the frame in librsvg, and shows no seams", function()
-      for _, scale in ipairs { 2, 5 } do
+      for _, scale in ipairs { 2, 3 } do
         local size = ("%dx%d"):format(160 * scale, 90 * scale)
         done(("render %s.lua -o frame.png --frames 1 --size %s"):format(name, size))
         done(("render %s.lua -o x.svg --frames 1 --size %s"):format(name, size))
         assert.equal(0, (bench:inside "rsvg-convert x.svg -o drawn.png"))
         local share, beyond = compare("frame.png", "drawn.png", 160 * scale, 90 * scale)
         assert.is_true(share >= 0.99, ("%.4f"):format(share))
-        -- Light is mixed in another way at edges, where a thin line may have no pixel of its own.
-        assert.is_true(beyond <= (name == "codes" and 4 or 60), tostring(beyond))
+        -- A pointed tip has no pixel of its own; and light is mixed in another way at edges.
+        assert.is_true(beyond <= (name == "codes" and 8 or 60), tostring(beyond))
       end
     end)
   end
@@ -180,8 +180,8 @@ return celspan.film { size = { 60, 40 }, frames = 1, frame = function()
     bench:write("all.lua", [[
 local celspan = require "celspan"
 return celspan.film { size = { 60, 40 }, frames = 1, frame = function()
-  return celspan.rostrum { celspan.cel { celspan.procedure { box = { 0, 0, 60, 40 },
-    scan = function() return { { 0, 60, "#f26419" } } end } } } end }]])
+  return celspan.rostrum { celspan.cel { celspan.scanline { bounds = { 0, 0, 60, 40 },
+    spans = function() return { { 0, 60, "#f26419" } } end } } } end }]])
     err = done "render all.lua -o y.svg"
     assert.matches("is a picture of 120 x 80 pixels, because", err, 1, true)
     assert.matches("<image", bench:read "y.svg", 1, true)
@@ -200,8 +200,8 @@ return celspan.film { size = { 60, 40 }, frames = 1, frame = function()
     bench:write("bright.lua", [[
 local celspan = require "celspan"
 return celspan.film { size = { 60, 40 }, frames = 1, frame = function()
-  return celspan.rostrum { celspan.cel {
-    celspan.rect { 0, 0, 60, 40, texture = celspan.rgb(3, -1, 0) } } } end }]])
+  return celspan.rostrum { celspan.cel { front = { 4, 1, 1 },
+    celspan.rect { 0, 0, 60, 40, texture = "#ff0000" } } } end }]])
     done "render bright.lua -o x.svg"
     assert.matches('fill="#ff0000"', bench:read "x.svg", 1, true)
   end)

@@ -1,16 +1,14 @@
-"""Prints how the areas of a drawing lie to each other: their number, OVERLAP and GAP.
+"""areas.py FILE.svg: of a drawing of `celspan render --flat regions`, prints COUNT OVERLAP GAP.
 
-areas.py FILE.svg: a drawing of `celspan render --flat regions`. OVERLAP is the largest area, in
-square units, that two of its paths have in common by shapely; GAP is what the paths together leave of
-the view box. Curves become chords that are the same from either end.
+OVERLAP is the largest area, in square units, that two of its paths have in common by shapely; GAP
+is what the paths together leave of the view box. Curves become chords, the same from either end.
 """
 import re
 import sys
 import xml.etree.ElementTree as xml
 
-from shapely.geometry import LinearRing, MultiPolygon, Polygon, box
-from shapely.ops import unary_union
-from shapely.strtree import STRtree
+from shapely.geometry import LinearRing, MultiPolygon, box
+from shapely.ops import polygonize, unary_union
 
 CHORDS = 16
 ARGUMENTS = {"m": 2, "l": 2, "h": 1, "v": 1, "c": 6, "z": 0}
@@ -54,18 +52,8 @@ def rings(text, grid):
     return [[(a / grid, b / grid) for a, b in ring] for ring in out]
 
 
-def area(text, grid):
-    """The even-odd union of a path."""
-    out = Polygon()
-    for ring in rings(text, grid):
-        if len(set(ring)) > 2:
-            out = out.symmetric_difference(Polygon(ring).buffer(0))
-    return out
-
-
 def even_odd(all_rings):
-    """The same, faster, and right where a ring crosses itself: by the parity of its parts."""
-    from shapely.ops import polygonize
+    """The area inside of rings, which may touch themselves."""
     lines = unary_union([LinearRing(r) for r in all_rings if len(set(r)) > 2])
     parts = []
     for part in polygonize(lines):
@@ -84,11 +72,10 @@ def main(path):
     grid = 10 ** 6
     paths = [p.get("d") for p in root.iter("{http://www.w3.org/2000/svg}path")]
     areas = [even_odd(rings(d, grid)) for d in paths]
-    tree, index, overlap = STRtree(areas), {id(a): i for i, a in enumerate(areas)}, 0
+    overlap = 0
     for i, one in enumerate(areas):
-        for other in tree.query(one):
-            if index[id(other)] > i:
-                overlap = max(overlap, one.intersection(other).area)
+        for other in areas[:i]:
+            overlap = max(overlap, one.intersection(other).area)
     x, y, width, height = (float(n) for n in root.get("viewBox").split())
     gap = box(x, y, x + width, y + height).area - unary_union(areas).area
     print(len(areas), "%.9f" % overlap, "%.9f" % gap)
