@@ -10,10 +10,12 @@ local it_draws = present.program "rsvg-convert" and present.pictures() and it or
 -- Shapes that abut and overlap, holes, curves, thin lines, both gradients; some beyond the frame.
 local SHAPES = [[
 local celspan = require "celspan"
-local sky = celspan.linear { from = { 0, 0 }, to = { 30, 90 }, { 0, "#204060" }, { 1, "#f0d0a0" } }
+local sky = celspan.linear { from = { 0, 0 }, to = { 30, 90 },
+  { 0, "#204060" }, { 1, "#f0d0a0" } }
 local sun = celspan.radial { centre = { 120, 30 }, radius = 25, focus = { 112, 24 },
   { 0, "#fff4d0" }, { 0.6, "#ffb040" }, { 1, "#c04020" } }
-local disc, bar = celspan.circle { centre = { 50, 50 }, radius = 30 }, celspan.rect { 45, 5, 10, 80 }
+local disc = celspan.circle { centre = { 50, 50 }, radius = 30 }
+local bar = celspan.rect { 45, 5, 10, 80 }
 return celspan.film { size = { 160, 90 }, frames = 2, space = SPACE, frame = function(f)
   return celspan.rostrum { back = "#fff", celspan.cel {
     celspan.rect { -20, 0, 200, 60, texture = sky },
@@ -97,7 +99,8 @@ end
 describe("a drawing", function()
   it_measures("of regions has areas that do not overlap and leave nothing out", function()
     done "render light.lua -o x.svg --flat regions --precision 6 --frames 1"
-    local out = io.popen(("%s tests/support/areas.py %s/x.svg"):format(PYTHON, bench.folder)):read "a"
+    local command = ("%s tests/support/areas.py %s/x.svg"):format(PYTHON, bench.folder)
+    local out = io.popen(command):read "a"
     local count, overlap, gap = out:match "(%S+) (%S+) (%S+)"
     assert.is_true(tonumber(count) >= 8, out)
     assert.is_true(tonumber(overlap) <= 1e-6, out)
