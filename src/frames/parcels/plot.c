@@ -7,6 +7,7 @@
 #include "frames/parcels/plot_text.h"
 #include "frames/parcels/under.h"
 #include "frames/plane/plane.h"
+#include "frames/render/frame.h"
 #include "model/scene/check.h"
 
 #define GROWN 1.6 /* pixels: how far an area continues under another one */
@@ -114,6 +115,23 @@ static void put_paint(drawing *d, const char *name, uint32_t number) {
 
 /* ---------------------------------------------------------------- pictures */
 
+static celspan_status send_rows(celspan_context *context, const celspan_plane *plane,
+                                const celspan_plane_view *view, const celspan_sink *sink) {
+  cs_plane_rows *rows;
+  CS_TRY(cs_plane_rows_create(context, plane, view, &rows));
+  celspan_status status = sink->begin(sink->user, context, view->crop_width, view->crop_height);
+  for (int32_t y = 0; y < view->crop_height && status == CELSPAN_OK; y++) {
+    const celspan_span *spans;
+    size_t count;
+    status = cs_plane_rows_get(rows, y, &spans, &count);
+    if (status == CELSPAN_OK)
+      status = sink->row(sink->user, context, y, spans, count);
+  }
+  cs_plane_rows_destroy(rows);
+  return status;
+}
+
+/* The sink is ended whatever happens. */
 static celspan_status draw_plane(const cs_plot_picture *picture, celspan_context *context,
                                  const celspan_sink *sink) {
   celspan_plane_view view = CELSPAN_PLANE_VIEW;
@@ -124,16 +142,19 @@ static celspan_status draw_plane(const cs_plot_picture *picture, celspan_context
   view.crop_width = picture->columns;
   view.crop_height = picture->rows;
   view.antialias = CELSPAN_ANTIALIAS_AREA;
-  return celspan_plane_render(context, picture->plane, &view, sink);
+  celspan_status status = send_rows(context, picture->plane, &view, sink);
+  celspan_status last = sink->end(sink->user, context, status);
+  return status == CELSPAN_OK ? last : status;
 }
 
 static celspan_status draw_frame(const cs_plot_picture *picture, celspan_context *context,
                                  const celspan_sink *sink) {
   celspan_frame_desc frame = *picture->frame;
+  celspan_sink own = *sink;
   frame.width = picture->width;
   frame.height = picture->height;
   frame.crop_x = frame.crop_y = frame.crop_width = frame.crop_height = 0;
-  return celspan_frame_render(context, &frame, sink, NULL);
+  return cs_frame_render_own(context, &frame, &own, NULL);
 }
 
 static celspan_status size_picture(celspan_context *context, double width, double height,
