@@ -88,6 +88,9 @@ void cs_drawing_open(lua_State *L);
 
 /* ---------------------------------------------------------------- planes */
 
+#define CS_CORE_PLANE "celspan.plane" /* the name of its metatable */
+/* (plane) -> what can be seen of it, as outlines (parcels.c) | nil, why not */
+int cs_parcels_list(lua_State *L);
 /* celspan.plane(film or rostrum [, options]) -> plane | nil, message */
 int cs_plane_make(lua_State *L);
 /* celspan.plane_read(path) -> plane | nil, message */

@@ -197,21 +197,13 @@ static void put_line(lua_State *L, const cs_stroke *stroke, const celspan_matrix
   lua_setfield(L, -2, "line");
 }
 
-static void put_outline(lua_State *L, const cs_primitive_data *data, const celspan_matrix *matrix,
-                        bool is_filled) {
-  double extent = cs_number_length(data->bounds.width, data->bounds.height) *
-                  cs_number_length(matrix->m[0], matrix->m[3]);
+/* Puts what is painted: the contours, and the rule that says which points are in them. */
+static void put_filled(lua_State *L, const cs_primitive_data *data, const celspan_matrix *matrix,
+                       double extent) {
   cs_outline_box room;
-  bool is_line =
-      !is_filled && data->stroke && cs_stroke_is_plain(data->stroke) && cs_matrix_is_affine(matrix);
-  cs_put_text(L, "kind", "outline");
   cs_put_text(L, "rule",
               data->rule == CELSPAN_RULE_EVENODD && !data->stroke ? "evenodd" : "nonzero");
-  put_texture(L, data, matrix);
-  if (is_line) {
-    put_line(L, data->stroke, matrix);
-    put_contours(L, &data->stroke->line, matrix, extent, data->stroke);
-  } else if (data->stroke) {
+  if (data->stroke) {
     cs_outline *made = push_held(L);
     cs_host_try(L, "morph", cs_stroke_outline_finely(cs_host_context(L), data->stroke, made));
     lua_insert(L, -2); /* moves the value below the node */
@@ -220,6 +212,34 @@ static void put_outline(lua_State *L, const cs_primitive_data *data, const celsp
   } else {
     put_contours(L, cs_primitive_data_outline(data, &room), matrix, extent, NULL);
   }
+}
+
+void cs_anatomy_put_filled(lua_State *L, const cs_primitive_data *data, double within) {
+  const celspan_matrix identity = celspan_matrix_identity();
+  const double extent = cs_number_length(data->bounds.width, data->bounds.height);
+  if (extent > 0) {
+    put_filled(L, data, &identity, within / WITHIN * extent);
+    return;
+  }
+  lua_newtable(L);
+  lua_setfield(L, -2, "contours");
+}
+
+static void put_outline(lua_State *L, const cs_primitive_data *data, const celspan_matrix *matrix,
+                        bool is_filled) {
+  double extent = cs_number_length(data->bounds.width, data->bounds.height) *
+                  cs_number_length(matrix->m[0], matrix->m[3]);
+  bool is_line =
+      !is_filled && data->stroke && cs_stroke_is_plain(data->stroke) && cs_matrix_is_affine(matrix);
+  cs_put_text(L, "kind", "outline");
+  put_texture(L, data, matrix);
+  if (!is_line) {
+    put_filled(L, data, matrix, extent);
+    return;
+  }
+  cs_put_text(L, "rule", "nonzero");
+  put_line(L, data->stroke, matrix);
+  put_contours(L, &data->stroke->line, matrix, extent, data->stroke);
 }
 
 static void push_node(lua_State *L, celspan_object *object, const celspan_matrix *around,

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "lua/bind/userdata.h"
+#include "model/scene/scene.h"
 
 extern const cs_noun cs_noun_gradient, cs_noun_linear, cs_noun_radial, cs_noun_conic, cs_noun_noise,
     cs_noun_picture, cs_noun_pattern, cs_noun_rect, cs_noun_triangle, cs_noun_circle,
@@ -55,6 +56,14 @@ int cs_operators_twist(lua_State *L);
 int cs_anatomy_of(lua_State *L);
 int cs_anatomy_rebuild(lua_State *L);
 int cs_anatomy_move(lua_State *L);
+/* Puts the fields `rule` and `contours` of an outline or of what a stroke covers, in its own units,
+ * into the table on top of the stack. within: how far cubics may lie from curves, as a share of the
+ * diagonal of the bounds. */
+void cs_anatomy_put_filled(lua_State *L, const cs_primitive_data *data, double within);
+/* (rostrum, width, height, space, shared) -> the frame's structure as tables (scenery.c). */
+int cs_scenery_of(lua_State *L);
+int cs_scenery_key(lua_State *L);
+int cs_scenery_rear(lua_State *L);
 
 /* object:blur(radius, options), object:displace{ ... } and object:sharpen(options); shadow, glow
  * and outline with options, also of cels. */
