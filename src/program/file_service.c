@@ -13,6 +13,7 @@
 #include "lua/bind/userdata.h"
 #include "lua/module/artwork.h"
 #include "lua/module/lua_script.h"
+#include "output/archive/archive.h"
 #include "output/join/join.h"
 #include "output/sinks/file.h"
 #include "program/movies.h"
@@ -186,6 +187,38 @@ static int save(lua_State *L) {
   return 0;
 }
 
+/* The members { name, bytes } of the list at index 2 of the stack. */
+static celspan_status put_members(lua_State *L, cs_archive *archive, const char *path) {
+  const lua_Integer count = (lua_Integer)lua_rawlen(L, 2);
+  for (lua_Integer i = 1; i <= count; i++) {
+    size_t size;
+    lua_rawgeti(L, 2, i);
+    lua_rawgeti(L, -1, 1);
+    lua_rawgeti(L, -2, 2);
+    const char *bytes = lua_tolstring(L, -1, &size); /* the list keeps it alive */
+    CS_TRY(cs_archive_put(archive, path, lua_tostring(L, -2), bytes, size));
+    lua_pop(L, 3);
+  }
+  return cs_archive_complete(archive);
+}
+
+static celspan_status save_members(lua_State *L, celspan_context *context, const char *path) {
+  cs_file *file;
+  CS_TRY(cs_file_create(context, NULL, path, &file));
+  cs_archive archive = {.context = context, .file = file};
+  celspan_status status = put_members(L, &archive, path);
+  cs_archive_finish(&archive);
+  return cs_file_end(file, context, status);
+}
+
+/* save_archive(path, { { name, bytes }, ... }): a zip archive that appears whole or not at all. */
+static int save_archive(lua_State *L) {
+  const char *path = luaL_checkstring(L, 1);
+  luaL_checktype(L, 2, LUA_TTABLE);
+  cs_service_try(L, save_members(L, cs_service_session(L)->context, path));
+  return 0;
+}
+
 static bool write_whole(const char *path, const char *text, size_t size) {
   int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (file < 0)
@@ -223,12 +256,11 @@ static int join(lua_State *L) {
 }
 
 void cs_service_add_files(lua_State *L) {
-  static const luaL_Reg services[] = {CS_SERVICE(kind),           CS_SERVICE(make_folders),
-                                      CS_SERVICE(entries),        CS_SERVICE(resolve),
-                                      CS_SERVICE(working_folder), CS_SERVICE(has_number),
-                                      CS_SERVICE(is_video),       CS_SERVICE(refuse_target),
-                                      CS_SERVICE(save),           CS_SERVICE(save_private),
-                                      CS_SERVICE(join),           CS_SERVICE(sha256),
-                                      {"is_movie", cs_movies_is}, {NULL, NULL}};
+  static const luaL_Reg services[] = {
+      CS_SERVICE(kind),         CS_SERVICE(make_folders),   CS_SERVICE(entries),
+      CS_SERVICE(resolve),      CS_SERVICE(working_folder), CS_SERVICE(has_number),
+      CS_SERVICE(is_video),     CS_SERVICE(refuse_target),  CS_SERVICE(save),
+      CS_SERVICE(save_archive), CS_SERVICE(save_private),   CS_SERVICE(join),
+      CS_SERVICE(sha256),       {"is_movie", cs_movies_is}, {NULL, NULL}};
   cs_service_add(L, services);
 }

@@ -25,6 +25,7 @@
 #include "program/lua_verb.h"
 #include "program/progress.h"
 #include "program/spaces.h"
+#include "program/target.h"
 #include "program/text_file.h"
 #include "program/verbs.h"
 
@@ -53,9 +54,10 @@ static cs_exit refuse_verb(const char *name) {
   return cs_report_usage("unknown verb '%s' ('celspan help' lists them)", name);
 }
 
-/* `render` is a verb in C, but with --table it runs in Lua. */
+/* `render` is a verb in C, but with --table, and for a Lottie animation, it runs in Lua. */
 static bool is_in_lua(const cs_request *request) {
-  return !request->verb->run || cs_request_has(request, "--table");
+  return !request->verb->run || cs_request_has(request, "--table") ||
+         (request->verb->run == cs_verb_render && cs_target_is_lottie(request));
 }
 
 /* Standard input can be read only once, and some verbs run a script several times. */

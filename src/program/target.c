@@ -2,6 +2,7 @@
 
 #include <inttypes.h>
 #include <string.h>
+#include <strings.h>
 
 #include "frames/plane/plane.h"
 #include "output/sinks/file.h"
@@ -40,8 +41,8 @@ static cs_exit refuse_format(const char *path, const char *name) {
   cs_video_format_list(videos, sizeof videos);
   return cs_report_usage(
       "%s: the format \"%s\" cannot be written; pictures can be %s; videos, "
-      "which 'celspan render' makes, %s; planes plane; drawings svg; sounds, which 'celspan "
-      "sound' makes, wav",
+      "which 'celspan render' makes, %s; planes plane; drawings svg; Lottie animations json or "
+      "lottie; sounds, which 'celspan sound' makes, wav",
       path, name, pictures, videos);
 }
 
@@ -76,6 +77,12 @@ static cs_exit refuse_plane(const char *path, const cs_request *request) {
   if (depth == CELSPAN_DEPTH_HALF || depth == CELSPAN_DEPTH_FLOAT)
     return cs_report_usage("%s: a plane takes --depth 8 or 16", path);
   return CS_EXIT_OK;
+}
+
+bool cs_target_is_lottie(const cs_request *request) {
+  const char *output = cs_request_text(request, "-o");
+  const char *ending = output && !cs_request_has(request, "--format") ? cs_file_ending(output) : "";
+  return strcasecmp(ending, "json") == 0 || strcasecmp(ending, "lottie") == 0;
 }
 
 cs_exit cs_target_refuse(celspan_context *context, const char *path, const cs_request *request) {

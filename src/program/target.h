@@ -19,5 +19,7 @@ cs_exit cs_target_frames(const cs_script *script, const cs_request *request, con
                          cs_sequence *out);
 /* Whether OUT is one plane file, for one frame or all of them. */
 bool cs_target_is_plane_film(const cs_request *request);
+/* Whether OUT is a Lottie animation, which verbs/render.lua writes. */
+bool cs_target_is_lottie(const cs_request *request);
 /* Whether the path means standard output, for raw frames. */
 bool cs_target_is_stream(const char *path);

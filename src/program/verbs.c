@@ -210,7 +210,7 @@ static const cs_option NONE[] = {{0}};
 static const cs_option RENDER[] = {
     OUTPUT("OUT", "shot.####.png, shot.%04d.exr, one.png for a single frame, - for raw frames; "
                   "film.mp4, .mov, .webm, .mkv, .gif, .webp, .apng or .avif: a video; one.svg: "
-                  "a drawing"),
+                  "a drawing; film.json or film.lottie: a Lottie animation"),
     FRAMES,
     SIZE,
     FIT,

@@ -1,0 +1,62 @@
+--- Tables as JSON without spaces: numbers with few digits, and names in alphabetical order, except
+--- for those that rlottie needs before others.
+local json = require "celspan.json"
+
+local DIGITS = 3 -- after the point, where a number says nothing else
+
+local early = { ty = 1, ddd = 2, p = 3 }
+
+local function is_before(a, b)
+  local first, second = early[a] or 9, early[b] or 9
+  return first < second or first == second and a < b
+end
+
+local text = {}
+
+--- A number with at most this many digits after the point.
+function text.number(value, digits)
+  local written = ("%." .. (digits or DIGITS) .. "f"):format(value)
+  if written:find(".", 1, true) then written = written:gsub("%.?0+$", "") end
+  return written == "-0" and "0" or written
+end
+
+--- A list of numbers as a text that is written as it is.
+function text.list(values, digits)
+  local parts = {}
+  for i, value in ipairs(values) do parts[i] = text.number(value, digits) end
+  return { raw = "[" .. table.concat(parts, ",") .. "]" }
+end
+
+local function written(value, parts)
+  if type(value) == "number" then
+    parts[#parts + 1] = text.number(value)
+  elseif type(value) ~= "table" then
+    parts[#parts + 1] = json.encode(value)
+  elseif value.raw then
+    parts[#parts + 1] = value.raw
+  elseif value[1] ~= nil or next(value) == nil then
+    for i, item in ipairs(value) do
+      parts[#parts + 1] = i == 1 and "[" or ","
+      written(item, parts)
+    end
+    parts[#parts + 1] = value[1] == nil and "[]" or "]"
+  else
+    local names = {}
+    for name in pairs(value) do names[#names + 1] = name end
+    table.sort(names, is_before)
+    for i, name in ipairs(names) do
+      parts[#parts + 1] = (i == 1 and "{" or ",") .. json.encode(name) .. ":"
+      written(value[name], parts)
+    end
+    parts[#parts + 1] = "}"
+  end
+end
+
+--- The whole value.
+function text.encode(value)
+  local parts = {}
+  written(value, parts)
+  return table.concat(parts)
+end
+
+return text

@@ -1,0 +1,203 @@
+--- Keys of what moves: the fewest that stay as near to the frames as is asked.
+--
+-- Times are frames from 0. A key is linear to the next one; the last one has no handles, which some
+-- players misread. Between keys a line through both is within the tolerance of every frame:
+--
+--     v |        . o          lines from a key through the ranges of the frames after it; the next
+--       |    .-'|             key is the last frame whose line lies between all of them
+--       | o--'--'
+--       +------------ frame
+local text = ...
+
+local NEAR = 1 / 20 -- units of the film: how far a point may be from where it is in the frame
+local SKEWED = 1e-4 -- how far axes may be from a right angle, as a share of their lengths
+
+local MIRRORED = 45 -- degrees that are better than a scale that becomes negative
+
+local keys = { near = NEAR }
+
+--- Extends [low, high], the slopes that are left, by a value `over` frames after the key; nil if
+--- none is left or the line to the value itself is not among them.
+local function narrow(low, high, value, from, over, tolerance)
+  local slope = (value - from) / over
+  if slope < low or slope > high then return nil end
+  return math.max(low, slope - tolerance / over), math.min(high, slope + tolerance / over)
+end
+
+--- The index of the next key after the one at `at`.
+local function next_key(values, at, tolerance)
+  local size, low, high = #values[at], {}, {}
+  for k = 1, size do low[k], high[k] = -math.huge, math.huge end
+  for i = at + 1, #values do
+    for k = 1, size do
+      local a, b = narrow(low[k], high[k], values[i][k], values[at][k], i - at, tolerance[k])
+      if not a then return math.max(i - 1, at + 1) end
+      low[k], high[k] = a, b
+    end
+  end
+  return #values
+end
+
+local function is_still(values, tolerance)
+  for i = 2, #values do
+    for k, value in ipairs(values[i]) do
+      if math.abs(value - values[1][k]) > tolerance[k] then return false end
+    end
+  end
+  return true
+end
+
+local function varies(values) return not is_still(values, { 1e-9, 1e-9 }) end
+
+local STRAIGHT = { i = { raw = '{"x":[1],"y":[1]}' }, o = { raw = '{"x":[0],"y":[0]}' } }
+
+--- A property of Lottie with these values, lists of numbers, a frame each; start: the first frame.
+--- tolerance: of each number.
+function keys.property(values, start, tolerance, digits)
+  if is_still(values, tolerance) then
+    local value = values[1]
+    if value[2] then return { a = 0, k = text.list(value, digits) } end
+    return { a = 0, k = { raw = text.number(value[1], digits) } }
+  end
+  local list, at = {}, 1
+  while true do
+    local key = { t = start + at - 1, s = text.list(values[at], digits) }
+    list[#list + 1] = key
+    if at == #values then break end
+    key.i, key.o = STRAIGHT.i, STRAIGHT.o
+    at = next_key(values, at, tolerance)
+  end
+  return { a = 1, k = list }
+end
+
+--- A property that holds each value until it changes.
+function keys.held(values, start)
+  local list = {}
+  for i, value in ipairs(values) do
+    if i == 1 or value ~= values[i - 1] then
+      list[#list + 1] = { t = start + i - 1, s = text.list { value }, h = 1 }
+    end
+  end
+  if not list[2] then return { a = 0, k = values[1] } end
+  return { a = 1, k = list }
+end
+
+--- Whether the axes of a map are at right angles, so that it turns, scales and mirrors only.
+function keys.is_upright(map)
+  local a, b, _, d, e = table.unpack(map)
+  return math.abs(a * b + d * e) <= SKEWED * (a * a + b * b + d * d + e * e) / 2
+end
+
+--- The turn in degrees and the scales of a map, as near as possible to those of the frame before.
+local function split(map, before)
+  local a, b, _, d, e = table.unpack(map)
+  local across, down = math.sqrt(a * a + d * d), math.sqrt(b * b + e * e)
+  local mirror = a * e - b * d < 0 and -1 or 1
+  if across + down < 1e-12 then return before and before[1] or 0, 0, 0 end
+  local turn = math.deg(across > 0 and math.atan(d, a) or math.atan(-b * mirror, e * mirror))
+  down = down * mirror
+  if not before then return turn, across, down end
+  local best, least
+  for flip = 0, 1 do -- half a turn further, both scales are mirrored
+    local sign = 1 - 2 * flip
+    local way = (turn + 180 * flip - before[1] + 180) % 360 - 180
+    local cost = math.abs(way) + (sign * across * before[2] < 0 and MIRRORED or 0)
+      + (sign * down * before[3] < 0 and MIRRORED or 0)
+    if not least or cost < least then
+      best, least = { before[1] + way, sign * across, sign * down }, cost
+    end
+  end
+  return table.unpack(best)
+end
+
+--- A map as the transform of a group.
+function keys.placed(map)
+  local turn, across, down = split(map)
+  local function still(value) return { a = 0, k = value } end
+  return { ty = "tr", a = still { raw = "[0,0]" }, p = still(text.list { map[3], map[6] }),
+           r = still { raw = text.number(turn, 6) },
+           s = still(text.list({ 100 * across, 100 * down }, 6)), o = still(100) }
+end
+
+--- Values of the frames: turns, scales in hundredths, and where the anchor is.
+local function values_of(maps, anchor)
+  local turns, scales, places, before = {}, {}, {}, nil
+  for i, map in ipairs(maps) do
+    local turn, across, down = split(map, before)
+    before = { turn, across, down }
+    turns[i], scales[i] = { turn }, { 100 * across, 100 * down }
+    places[i] = { map[1] * anchor[1] + map[2] * anchor[2] + map[3],
+                  map[4] * anchor[1] + map[5] * anchor[2] + map[6] }
+  end
+  return turns, scales, places
+end
+
+--- The point that stays while the map turns from one frame to another; nil: there is none.
+local function pivot(first, second)
+  local change = {}
+  for k = 1, 6 do change[k] = second[k] - first[k] end
+  local size = change[1] * change[5] - change[2] * change[4]
+  if math.abs(size) < 1e-9 then return nil end
+  return { (change[2] * change[6] - change[5] * change[3]) / size,
+           (change[4] * change[3] - change[1] * change[6]) / size }
+end
+
+--- The greatest scale of maps.
+function keys.scale(maps)
+  local most = 0
+  for _, map in ipairs(maps) do
+    most = math.max(most, map[1] ^ 2 + map[4] ^ 2, map[2] ^ 2 + map[5] ^ 2)
+  end
+  return math.sqrt(most)
+end
+
+local function count(property) return property.a == 1 and #property.k or 0 end
+
+--- The transform of a layer about an anchor.
+local function about(maps, start, box, anchor)
+  local turns, scales, places = values_of(maps, anchor)
+  local reach = 0 -- of the art, from the anchor
+  for _, x in ipairs { box[1], box[3] } do
+    for _, y in ipairs { box[2], box[4] } do
+      reach = math.max(reach, math.sqrt((x - anchor[1]) ^ 2 + (y - anchor[2]) ^ 2))
+    end
+  end
+  reach = math.max(reach, 1e-6)
+  local changing = 0
+  for _, values in ipairs { turns, scales, places } do
+    if varies(values) then changing = changing + 1 end
+  end
+  local part = NEAR / math.sqrt(2) / math.max(changing, 1) -- of each number
+  local turn = math.deg(part / math.max(reach * keys.scale(maps), 1e-6))
+  local scale = 100 * part / reach
+  return { a = { a = 0, k = text.list(anchor) },
+           p = keys.property(places, start, { part, part }),
+           r = keys.property(turns, start, { turn }, 4),
+           s = keys.property(scales, start, { scale, scale }, 4) }
+end
+
+local function rounded(value) return math.floor(value * 1000 + 0.5) / 1000 end
+
+--- The transform of a layer: maps of the frames, and the box { left, top, right, bottom } of the
+--- art before them. The anchor is the one that needs fewest keys.
+function keys.transform(maps, start, box)
+  local anchors = { { 0, 0 }, { (box[1] + box[3]) / 2, (box[2] + box[4]) / 2 } }
+  local first
+  for i = 2, #maps do
+    first = pivot(maps[1], maps[i])
+    if first then break end
+  end
+  anchors[3] = first
+  local best, least
+  for _, anchor in ipairs(anchors) do
+    if math.max(math.abs(anchor[1]), math.abs(anchor[2])) < 1e6 then
+      local made = about(maps, start, box, { rounded(anchor[1]), rounded(anchor[2]) })
+      local total = count(made.p) + count(made.r) + count(made.s)
+      if not least or total < least then best, least = made, total end
+    end
+  end
+  return best
+end
+
+
+return keys

@@ -1,0 +1,249 @@
+--- Layers of Lottie from tracks.
+--
+--   data that stay, in a track      a shape layer; its transform and its opacity have keys
+--   data that change: an outline    a layer for each drawing, which opacity shows and hides
+--                     a group       its objects as tracks; those that stay in place are one layer
+--   a group that is faded           a composition of its own
+local affine = require "celspan.affine"
+
+local text, keys, shapes, tracks = ...
+
+local IDENTITY = { 1, 0, 0, 0, 1, 0 }
+local OPACITY = 0.15 -- of 100: how far an opacity may be from that of the frame
+
+local Layers = {}
+Layers.__index = Layers
+
+--- film: size { w, h } and the count of frames.
+local function new(film)
+  return setmetatable({ film = film, assets = {}, main = { layers = {} } }, Layers)
+end
+
+local function add(comp, layer)
+  layer.ind, layer.ddd, layer.st, layer.sr, layer.bm = #comp.layers + 1, 0, 0, 1, 0
+  comp.layers[#comp.layers + 1] = layer
+end
+
+local function still(value) return { a = 0, k = value } end
+
+--- A transform that does nothing, with an opacity.
+local function in_place(opacity)
+  return { a = still { raw = "[0,0]" }, p = still { raw = "[0,0]" }, r = still(0),
+           s = still { raw = "[100,100]" }, o = opacity }
+end
+
+--- The opacity of a track from its first frame on: 0 where it is not there.
+local function opacity_of(track, first, last)
+  local values, one, is_faded = {}, nil, false
+  for frame = first, last do
+    local item = track.items[frame]
+    if item then
+      is_faded = is_faded or one and item.fade ~= one
+      one = item.fade
+    end
+    values[#values + 1] = item and 100 * item.fade or 0
+  end
+  if not is_faded then return keys.held(values, first - 1) end
+  for i, value in ipairs(values) do values[i] = { value } end
+  return keys.property(values, first - 1, { OPACITY })
+end
+
+--- The maps of a track; where it is not there, the one before.
+local function maps_of(track, first, last)
+  local maps = {}
+  for frame = first, last do
+    maps[#maps + 1] = track.items[frame] and track.items[frame].map or maps[#maps]
+  end
+  return maps
+end
+
+--- A composition for a track that is faded as a whole. Returns it.
+function Layers:inside(comp, track)
+  local first, last = tracks.range(track)
+  local inner = { id = "comp" .. #self.assets + 1, layers = {} }
+  self.assets[#self.assets + 1] = inner
+  add(comp, { ty = 0, nm = track.name or "group", refId = inner.id, w = self.film.size[1],
+              h = self.film.size[2], ip = first - 1, op = last,
+              ks = in_place(opacity_of(track, first, last)) })
+  return inner
+end
+
+--- The same track, without its fades.
+local function unfaded(track)
+  local whole = { id = track.id, name = track.name, items = {} }
+  for frame, item in pairs(track.items) do
+    whole.items[frame] = setmetatable({ fade = 1 }, { __index = item })
+  end
+  return whole
+end
+
+local function is_faded(track)
+  for _, item in pairs(track.items) do
+    if item.fade > 0 and item.fade < 1 then return true end
+  end
+  return false
+end
+
+--- A shape layer of data that stay. bend: the part of its maps that is in the shapes.
+local function add_shapes(comp, track, bend)
+  local first, last = tracks.range(track)
+  local item = track.items[first]
+  local box = shapes.box(item.data)
+  if not box then return end
+  local maps = maps_of(track, first, last)
+  local within = { kind = "group", { data = item.data, matrix = bend, fade = 1 } }
+  local ks = keys.transform(maps, first - 1, shapes.box(within))
+  ks.o = opacity_of(track, first, last)
+  add(comp, { ty = 4, nm = track.name or "shape", ip = first - 1, op = last, ks = ks,
+              shapes = shapes.items(item.data, bend, item.front, keys.scale(maps)) })
+end
+
+local function bend_of(map)
+  if keys.is_upright(map) then return "" end
+  return ("%.9g %.9g %.9g %.9g"):format(map[1], map[2], map[4], map[5])
+end
+
+--- Data that stay, whose axes may be turned against each other: that is bent in the shapes.
+local function add_still(comp, track)
+  for _, part in ipairs(tracks.parted(track, function(item) return bend_of(item.map) end)) do
+    local map = part.items[tracks.range(part)].map
+    local bend = IDENTITY
+    if bend_of(map) ~= "" then
+      bend = { map[1], map[2], 0, map[4], map[5], 0 }
+      for frame, item in pairs(part.items) do
+        local moved = affine.translation(item.map[3], item.map[6])
+        part.items[frame] = setmetatable({ map = moved }, { __index = item })
+      end
+    end
+    add_shapes(comp, part, bend)
+  end
+end
+
+--- The same data in one light, or in several.
+local function add_lit(comp, track)
+  for _, part in ipairs(tracks.parted(track, function(item) return item.front end)) do
+    add_still(comp, part)
+  end
+end
+
+--- Whether a track is in the same place of its group in all frames in which that is there.
+local function stays(track, around)
+  local before
+  for frame in pairs(around.items) do
+    local item = track.items[frame]
+    if not item or before and not tracks.is_same(before.placed, item.placed) then return false end
+    before = before or item
+  end
+  return not shapes.has_faded_group { item = 0, kind = "group", before.placed }
+end
+
+--- Tracks that stay in their group as one.
+local function join(list, around)
+  local group = { kind = "group", is_joined = true }
+  local _, first = next(list[1].items)
+  for i, track in ipairs(list) do
+    local _, item = next(track.items)
+    group[i] = item.placed
+  end
+  local joined = { id = first.id, name = list[2] and around.name or list[1].name or around.name,
+                   items = {} }
+  for frame, item in pairs(around.items) do
+    joined.items[frame] = setmetatable({ data = group, fade = 1 }, { __index = item })
+  end
+  return joined
+end
+
+--- The objects of a group whose data change.
+function Layers:add_group(comp, track)
+  local lists, waiting = {}, {}
+  for frame, item in pairs(track.items) do
+    local list = {}
+    for i, placed in ipairs(item.data) do list[i] = tracks.item(placed, item, item.fade) end
+    lists[frame] = list
+  end
+  local function flush()
+    if waiting[1] then self:add(comp, join(waiting, track)) end
+    waiting = {}
+  end
+  for _, child in ipairs(tracks.align(lists, self.film.count)) do
+    if stays(child, track) then
+      waiting[#waiting + 1] = child
+    else
+      flush()
+      self:add(comp, child)
+    end
+  end
+  flush()
+end
+
+--- Whether a track shows more than one outline at a time.
+local function has_several(track)
+  for _, item in pairs(track.items) do
+    if shapes.count(item.data) > 1 then return true end
+  end
+  return false
+end
+
+local function changes(track)
+  local _, before = next(track.items)
+  for _, item in pairs(track.items) do
+    if item.data ~= before.data or item.front ~= before.front then return true end
+  end
+  return false
+end
+
+--- Adds the layers of a track.
+function Layers:add(comp, track)
+  if is_faded(track) and has_several(track) then
+    comp, track = self:inside(comp, track), unfaded(track)
+  end
+  local _, item = next(track.items)
+  if item.data.kind == "outline" then
+    for _, part in ipairs(tracks.parted(track, function(one) return one.data end)) do
+      add_lit(comp, part)
+    end
+  elseif not item.data.is_joined
+      and (item.data.kind ~= "group" or changes(track) or shapes.has_faded_group(item.data)) then
+    self:add_group(comp, track)
+  else
+    add_lit(comp, track)
+  end
+end
+
+--- A picture that fills the frame where it is there. size: of the picture, in pixels.
+function Layers:add_picture(asset, track)
+  local first, last = tracks.range(track)
+  local ks = in_place(opacity_of(track, first, last))
+  local w, h = table.unpack(self.film.size)
+  ks.s = still(text.list({ 100 * w / asset.w, 100 * h / asset.h }, 6))
+  self.assets[#self.assets + 1] = asset
+  add(self.main, { ty = 2, nm = "picture", refId = asset.id, ip = first - 1, op = last, ks = ks })
+end
+
+--- Areas where they are there.
+function Layers:add_parcels(parcels, track)
+  local first, last = tracks.range(track)
+  local ks = in_place(opacity_of(track, first, last))
+  add(self.main, { ty = 4, nm = "areas", ip = first - 1, op = last, ks = ks,
+                   shapes = shapes.parcels(parcels) })
+end
+
+local function reversed(list)
+  local result = {}
+  for i = #list, 1, -1 do result[#result + 1] = list[i] end
+  return result
+end
+
+--- The document. facts: its rate and its title; markers: a list { frame from 0, name }.
+function Layers:document(facts, markers)
+  local list = {}
+  for i, mark in ipairs(markers) do list[i] = { tm = mark[1], cm = mark[2], dr = 0 } end
+  for _, asset in ipairs(self.assets) do
+    if asset.layers then asset.layers = reversed(asset.layers) end
+  end
+  return { v = "5.9.0", fr = { raw = text.number(facts.fps, 6) }, ip = 0, op = self.film.count,
+           w = self.film.size[1], h = self.film.size[2], nm = facts.title, ddd = 0,
+           assets = self.assets, markers = list, layers = reversed(self.main.layers) }
+end
+
+return new

@@ -1,0 +1,114 @@
+--- celspan render SCRIPT -o film.json|film.lottie: a film as a Lottie animation, for players in
+--- pages and applications.
+---
+---   frames --core.scenery--> structures --tracks--> what moves, and what changes --> layers
+---      \--what players cannot say--> pictures
+local program, request = ...
+
+local core = require "celspan.core"
+
+local FRAMES_MOST = 100000
+local text = program.part("compact.lua")
+local keys = program.part("keyed.lua", text)
+local tracks = program.part("tracked.lua")
+local bake = program.part("baked.lua", program)
+
+local TAKEN = { ["-o"] = true, ["--frames"] = true, ["--scale"] = true, ["--workers"] = true,
+  ["--progress"] = true, ["--table"] = true, ["--log"] = true, ["--set"] = true,
+  ["--set-from"] = true, ["--trust"] = true, ["--strict"] = true, ["--allow"] = true,
+  ["--allow-system-fonts"] = true, ["--limit"] = true, ["--memory"] = true }
+
+if program.has_number(request.output) then
+  program.usage("%s: a Lottie file has all frames: give it a name without a number", request.output)
+end
+for _, option in ipairs(request.given) do
+  if not TAKEN[option.name] then
+    program.usage("%s: a Lottie file is made without %s: leave it out", request.output, option.name)
+  end
+end
+
+local film = program.film()
+local numbers = film:numbers()
+if #numbers > FRAMES_MOST then
+  program.fail("limit", "%s: %d frames; a Lottie file of at most %d is written: choose some with "
+    .. "--frames", request.output, #numbers, FRAMES_MOST)
+end
+local shapes = program.part("outlined.lua", text, film.space == "srgb", keys)
+local layers = program.part("layered.lua", text, keys, shapes, tracks) {
+  size = film.size, count = #numbers }
+
+-- ---------------------------------------------------------------- frames
+
+--- Fronts that are alike as one table, so that a table is known again.
+local fronts = {}
+local function front_of(front)
+  local name = ("%.9g %.9g %.9g"):format(table.unpack(front))
+  fronts[name] = fronts[name] or front
+  return fronts[name]
+end
+
+local shared, frames, before = {}, {}, nil
+local pictures = bake.new { film = film, layers = layers, shapes = shapes, keys = keys,
+  path = request.output, numbers = numbers }
+for i, number in ipairs(numbers) do
+  local exposures = film:at(number)
+  local scene = film:scene()
+  if not (before and scene and scene == before) then
+    local structure = #exposures == 1 and exposures[1][2] == 1
+      and core.scenery(exposures[1][1], film.size[1], film.size[2], film.space, shared)
+      or { why = "a sum of exposures" }
+    for _, cel in ipairs(structure) do cel.front = front_of(cel.front) end
+    frames[i] = pictures:divide(structure, exposures, i)
+  else
+    frames[i] = pictures:again(i)
+  end
+  before = scene
+end
+
+-- ---------------------------------------------------------------- layers
+
+--- The ground of the film, as an item that fills the frame.
+local function ground_of(back)
+  local w, h = table.unpack(film.size)
+  local data = { kind = "outline", rule = "nonzero",
+    contours = { { 0, 0, 0, 0, w, 0, w, 0, w, 0, w, h, w, h, w, h, 0, h, 0, h, 0, h, 0, 0, 0, 0 } },
+    fill = { kind = "flat", stops = { { 0, 1, 1, 1, 1 } } } }
+  return { name = "ground", line = 0, matrix = { 1, 0, 0, 0, 1, 0 }, fade = 1,
+           front = front_of(back), data = data }
+end
+
+local grounds, lists = {}, {}
+for i, frame in ipairs(frames) do
+  local list = {}
+  if frame.back then
+    local front = front_of(frame.back)
+    grounds[front] = grounds[front] or ground_of(front)
+    list[1] = tracks.item(grounds[front], nil, 1)
+  end
+  for _, cel in ipairs(frame) do list[#list + 1] = tracks.item(cel, nil, 1) end
+  lists[i] = list
+end
+pictures:add_layers()
+for _, track in ipairs(tracks.align(lists, #numbers)) do layers:add(layers.main, track) end
+
+-- ---------------------------------------------------------------- the file
+
+--- The marks of the frames that are written.
+local function markers()
+  local places, list = {}, {}
+  for i, number in ipairs(numbers) do places[number] = i - 1 end
+  for _, mark in ipairs(film.marks) do
+    local place = places[mark.frame]
+    if place then list[#list + 1] = { place, mark.name } end
+  end
+  return list
+end
+
+pictures:report()
+if film.has_sound then program.note("%s: the sound of the film is left out", request.output) end
+local document = text.encode(layers:document(film, markers()))
+if not pictures.is_archive then return program.save(request.output, document) end
+local manifest = text.encode { version = "1", generator = "celspan " .. program.version,
+  animations = { { id = "film" } } }
+program.save_archive(request.output, { { "manifest.json", manifest },
+  { "animations/film.json", document }, table.unpack(pictures.members) })
