@@ -1,0 +1,269 @@
+-- Films as Lottie animations: how they look when celspan.lottie reads them again and in players,
+-- how few keys they have, and what is refused.
+local celspan = require "celspan"
+local json = require "celspan.json"
+local lottie = require "celspan.lottie"
+local present = require "tests.support.present"
+local system = require "tests.support.system"
+local workbench = require "tests.support.workbench"
+
+local bench = workbench.new()
+teardown(function() bench:remove() end)
+
+local FILM = [[
+local celspan = require "celspan"
+return celspan.film { size = { 160, 90 }, fps = 24, frames = %d, space = %q, title = 'a "film"',
+  frame = function(f)
+    local i, t = f.number - 1, (f.number - 1) / math.max(f.count - 1, 1)
+    %s
+  end }
+]]
+
+--- Writes a film, of whose frames the code returns the cels. Returns its path.
+local function film(count, space, code)
+  return bench:write("film.lua", FILM:format(count, space, code))
+end
+
+--- Renders the film; returns the path, what was said, and the document.
+local function out(name, options)
+  local path = bench.folder .. "/" .. name
+  local code, said, err = bench:celspan("render '%s/film.lua' -o '%s' --progress none %s",
+    bench.folder, path, options or "")
+  assert(code == 0, said .. err)
+  return path, err, name:find "json$" and assert(json.read(path))
+end
+
+--- The share of pixels that differ by at most 8 codes in each channel. Both: rows of RGBA.
+local function alike(own, other)
+  assert.equal(#own, #other)
+  local good = 0
+  for i = 1, #own, 4 do
+    local r, g, b, a = own:byte(i, i + 3)
+    local r2, g2, b2, a2 = other:byte(i, i + 3)
+    local most = math.max(math.abs(a - a2), a > 0 and a2 > 0
+      and math.max(math.abs(r - r2), math.abs(g - g2), math.abs(b - b2)) or 0)
+    if most <= 8 then good = good + 1 end
+  end
+  return good / (#own / 4)
+end
+
+local function own_pixels(number)
+  return assert(celspan.pixels(dofile(bench.folder .. "/film.lua"), { frame = number })):bytes()
+end
+
+local function share(path, number)
+  local art = assert(lottie.read(path)):film()
+  return alike(own_pixels(number), assert(celspan.pixels(art, { frame = number - 1 })):bytes())
+end
+
+local function is_film(path, count, least)
+  for number = 1, count do
+    local found = share(path, number)
+    assert.is_true(found >= (least or 0.99), ("frame %d: %.4f"):format(number, found))
+  end
+end
+
+--- The layers of a document by their names.
+local function by_name(document)
+  local list = {}
+  for _, layer in ipairs(document.layers) do list[layer.nm] = layer end
+  return list
+end
+
+local function keys_of(property) return property.a == 1 and #property.k or 0 end
+
+describe("a film as Lottie", function()
+  it("moves, turns, scales, mirrors and fades layers by keys", function()
+    film(20, "srgb", [[
+      local box = celspan.rect { -10, -10, 20, 20, texture = "#c03010" }
+      local bar = celspan.rect { -20, -3, 40, 6, texture = "#1030c0" }
+      return celspan.rostrum { back = "#eeddcc", celspan.cel {
+        box:translate(20 + 100 * t, 20):named "slides",
+        bar:rotate(300 * t):translate(40, 60):named "turns",
+        (box | bar):scale(1 - 2 * t, 1):translate(110, 60):named "flips",
+        box:fade(1 - t):translate(140, 20):named 'fades "away"' } }]])
+    local path, said, document = out "moves.json"
+    local layers = by_name(document)
+    assert.equal("", said)
+    assert.same({ 2, 0, 0 }, { keys_of(layers.slides.ks.p), keys_of(layers.slides.ks.r),
+      keys_of(layers.slides.ks.s) })
+    assert.same({ 0, 2 }, { keys_of(layers.turns.ks.p), keys_of(layers.turns.ks.r) })
+    assert.same({ 0, 2 }, { keys_of(layers.flips.ks.r), keys_of(layers.flips.ks.s) })
+    assert.equal(2, keys_of(layers['fades "away"'].ks.o))
+    assert.same({ t = 19, s = { 120, 20 } }, layers.slides.ks.p.k[2]) -- without handles
+    assert.same({ 0, 20, 160, 90, 24, 'a "film"' }, { document.ip, document.op, document.w,
+      document.h, document.fr, document.nm })
+    is_film(path, 20)
+  end)
+
+  it("has keys where a motion leaves a line by more than a twentieth of a unit", function()
+    film(96, "srgb", [[
+      return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 20, 20, texture = "#803020" }
+        :translate(120 * t, 40 + 30 * math.sin(3 * t)):named "wave" } }]])
+    local _, _, document = out "wave.json"
+    local list, at = by_name(document).wave.ks.p.k, 1
+    assert.is_true(#list > 4 and #list < 40, ("%d keys"):format(#list))
+    -- The anchor is the middle of the square, or its corner.
+    local start = list[1].s[1]
+    for i = 0, 95 do
+      if list[at + 1] and list[at + 1].t <= i then at = at + 1 end
+      local a, b = list[at], list[at + 1] or list[at]
+      local u = b.t > a.t and (i - a.t) / (b.t - a.t) or 0
+      local x, y = a.s[1] + u * (b.s[1] - a.s[1]), a.s[2] + u * (b.s[2] - a.s[2])
+      local off = math.max(math.abs(x - start - 120 * i / 95),
+        math.abs(y - start - 40 - 30 * math.sin(3 * i / 95)))
+      assert.is_true(off < 0.05, ("frame %d: %.4f"):format(i, off))
+    end
+  end)
+
+  it("holds drawings as long as the film does", function()
+    film(12, "srgb", [[
+      local size = 10 + 5 * (i // 3 % 2)
+      return celspan.rostrum { celspan.cel { celspan.rect { 20, 20, size, 40, texture = "#803020" }
+        :named "drawing" } }]])
+    local path, _, document = out "held.json"
+    assert.equal(2, #document.layers) -- two drawings, each shown twice
+    assert.same({ { 0, 100 }, { 3, 0 }, { 6, 100 } }, (function()
+      local list = {}
+      for k, key in ipairs(document.layers[2].ks.o.k) do
+        assert.equal(1, key.h)
+        list[k] = { key.t, key.s[1] }
+      end
+      return list
+    end)())
+    is_film(path, 12)
+  end)
+
+  it("shows strokes, holes, gradients, skewed shapes, groups and lights", function()
+    film(6, "srgb", [[
+      local round = celspan.radial { centre = { 0, 0 }, radius = 15, focus = { 5, 0 },
+        { 0, "#ffffff" }, { 1, "#20a05080" } }
+      local along = celspan.linear { from = { 0, 0 }, to = { 30, 10 }, { 0, "#ff0000" },
+        { 0.4, "#ffff00" }, { 1, "#0000ff00" } }
+      local pair = celspan.group { opacity = 1 - t / 2,
+        celspan.rect { 0, 0, 20, 20, texture = "#f00" },
+        celspan.rect { 10, 10, 20, 20, texture = "#00f" } }
+      return celspan.rostrum { back = "#d0d0d0", celspan.cel {
+          celspan.polygon { { 0, 0 }, { 20, 20 }, { 40, 0 } }:stroke { width = 5 }
+            :translate(5, 5 + i),
+          celspan.path { d = "M0 0H30V30H0ZM10 10H20V20H10Z", rule = "evenodd" }:translate(60, 5),
+          celspan.circle { centre = { 0, 0 }, radius = 15, texture = round }:scale(2, 1)
+            :rotate(20 + i):translate(120, 25),
+          celspan.rect { 0, 0, 30, 20, texture = along }:skew(20, 0):translate(10 + 2 * i, 60),
+          pair:translate(70, 50) },
+        celspan.cel { front = { 0.5, 4, 1 - t },
+          celspan.rect { 120, 55, 30, 30, texture = "#808080" } } }]])
+    local path, said, document = out "all.json"
+    assert.equal("", said)
+    assert.equal(1, #document.assets) -- the group that fades as a whole
+    is_film(path, 6, 0.985)
+  end)
+
+  it("goes into an archive", function()
+    film(3, "srgb", [[return celspan.rostrum { celspan.cel {
+      celspan.rect { 10, 10 + i, 60, 60, texture = "#404080" } } }]])
+    is_film(out "film.lottie", 3)
+  end)
+
+  it("has areas where players would mix other colours", function()
+    film(3, "linear", [[return celspan.rostrum { back = "#204060",
+      celspan.cel { celspan.rect { 10, 10, 60, 60, texture = "#f0e0c0" } },
+      celspan.cel { celspan.rect { 40, 30 + i, 60, 50, texture = "#ff2000" }:fade(0.5) },
+      celspan.cel { celspan.rect { 120, 30 + i, 20, 20, texture = "#ffffff" }:named "above" } }]])
+    local path, said, document = out "mixed.json"
+    assert.matches("3 frames from frame 1 on, in part as areas: cel 2: light that is mixed", said)
+    for _, layer in ipairs(document.layers) do
+      for _, key in ipairs(layer.ks.o.a == 1 and layer.ks.o.k or {}) do
+        assert.is_true(key.s[1] == 0 or key.s[1] == 100)
+      end
+    end
+    assert.equal(2, keys_of(by_name(document).above.ks.p))
+    is_film(path, 3)
+  end)
+
+  it("fades over nothing in any space", function()
+    film(3, "linear", [[return celspan.rostrum {
+      celspan.cel { celspan.rect { 10, 10, 60, 60, texture = "#f0e0c0" }:fade(1 - t / 2) } }]])
+    local path, said = out "nothing.json"
+    assert.equal("", said)
+    is_film(path, 3)
+  end)
+
+  it("has pictures of what has no outline", function()
+    film(3, "srgb", [[return celspan.rostrum { back = "#ffffff",
+      celspan.cel { defocus = 4, celspan.rect { 10, 10, 60, 60, texture = "#402010" } },
+      celspan.cel { celspan.rect { 80, 30 + i, 20, 20, texture = "#ff0000" } } }]])
+    local path, said, document = out "blurred.json"
+    assert.matches("3 frames from frame 1 on, in part as a picture %(.+%): cel 1: a blur", said)
+    assert.equal(1, #document.assets) -- the same in all frames
+    assert.matches("^data:image/png;base64,", document.assets[1].p)
+    is_film(path, 3)
+    is_film(out "blurred.lottie", 3)
+    assert.same({ 320, 180 }, (function(asset) return { asset.w, asset.h } end)(
+      select(3, out("large.json", "--scale 2")).assets[1]))
+  end)
+
+  it("has the marks, and says that the sound is missing", function()
+    bench:write("film.lua", [[local celspan = require "celspan"
+      return celspan.film { size = { 16, 9 }, frames = 9, marks = { go = 4 },
+        frame = function() return celspan.rostrum {} end }]])
+    local _, _, document = out("marks.json", "--frames 3-6")
+    assert.same({ { tm = 1, cm = "go", dr = 0 } }, document.markers)
+    assert.same({ 4, {} }, { document.op, document.layers })
+  end)
+
+  it("leaves out what is empty, and appears and disappears", function()
+    film(8, "srgb", [[local dot = celspan.circle { centre = { 80, 45 }, radius = 10 * (i % 2) }
+      local box = i > 2 and i ~= 5 and celspan.rect { 5, 5, 20, 20 }
+      return celspan.rostrum { celspan.cel { box, dot } }]])
+    is_film(out "gaps.json", 8)
+  end)
+end)
+
+describe("Lottie is refused", function()
+  local function refused(words, pattern)
+    local code, _, err = bench:celspan("render '%s/film.lua' %s", bench.folder, words)
+    assert.not_equal(0, code)
+    assert.matches(pattern, err)
+  end
+
+  it("for options of pixels, numbers in names, and films without end", function()
+    film(1000000, "srgb", "return celspan.rostrum {}")
+    local name = "'" .. bench.folder .. "/no.json' "
+    refused("-o " .. name .. "--size 20x20", "is made without %-%-size")
+    refused("-o " .. name .. "--hash", "is made without %-%-hash")
+    refused("-o '" .. bench.folder .. "/no.####.lottie'", "a name without a number")
+    refused("-o " .. name, "1000000 frames; a Lottie file of at most 100000 is written")
+    assert.is_nil(bench:read "no.json")
+  end)
+end)
+
+describe("Lottie in other players", function()
+  -- Made by ./run bench; both modules are WebAssembly.
+  local MODULES = "out/bench/node_modules"
+  local is_there = present.program "node" and system.read(MODULES .. "/canvaskit-wasm/package.json")
+    and system.read(MODULES .. "/@thorvg/webcanvas/package.json")
+
+  for _, player in ipairs { "skottie", "thorvg" } do
+    (is_there and it or pending)("looks the same in " .. player, function()
+      film(10, "srgb", [[
+        local round = celspan.radial { centre = { 0, 0 }, radius = 15,
+          { 0, "#ffffff" }, { 1, "#20a050" } }
+        return celspan.rostrum { back = "#eeddcc", celspan.cel {
+          celspan.rect { -10, -10, 20, 20, texture = "#c03010" }:rotate(200 * t)
+            :translate(20 + 100 * t, 40),
+          celspan.circle { centre = { 0, 0 }, radius = 15, texture = round }:scale(2, 1)
+            :rotate(20 + i):translate(110, 25),
+          celspan.rect { 10, 60, 20 + 10 * (i // 3), 20, texture = "#000000" },
+          celspan.rect { 90, 60, 40, 20, texture = "#0030a0" }:fade(1 - t) } }]])
+      local path = out "players.json"
+      local into = bench.folder .. "/" .. player
+      assert(os.execute(("node tests/support/lottie_players.js %s %s '%s' '%s' 160 90 0 3 6 9")
+        :format(MODULES, player, path, into)))
+      for _, frame in ipairs { 0, 3, 6, 9 } do
+        local found = alike(own_pixels(frame + 1), system.read(into .. "." .. frame))
+        assert.is_true(found >= 0.97, ("frame %d: %.4f"):format(frame, found))
+      end
+    end)
+  end
+end)
