@@ -34,6 +34,5 @@ program.refuse_self(path, page)
 program.plane(path) -- fails if the file is not a plane
 program.save(page, filled("plane.html", {
   TITLE = program.markup(request.title or path:match "[^/]*$"),
-  VIEWER = program.text "viewer.js", MODULE = module, PLANE = program.base64(bytes_of(path)),
-}
-program.save(request.output, (program.text "plane.html":gsub("@(%u+)@", fields)))
+  PLAYER = player, PLANE = program.base64(bytes_of(path)),
+}))
