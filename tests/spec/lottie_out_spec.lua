@@ -239,8 +239,7 @@ describe("Lottie is refused", function()
 end)
 
 describe("Lottie in other players", function()
-  -- Made by ./run bench; both modules are WebAssembly.
-  local MODULES = "out/bench/node_modules"
+  local MODULES = "out/npm/node_modules"
   local is_there = present.program "node" and system.read(MODULES .. "/canvaskit-wasm/package.json")
     and system.read(MODULES .. "/@thorvg/webcanvas/package.json")
 
