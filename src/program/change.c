@@ -33,16 +33,26 @@ static bool is_wanted(const celspan_cel *cel, const char *name) {
   return !name || strcmp(cs_mark_name(cel->mark), name) == 0;
 }
 
-/* The back light of the rostrum, unless it has a shape, in front of the background. */
-static celspan_light back_of(const cs_frame_change *change, const celspan_rostrum *rostrum) {
-  const celspan_light none = {0, 0, 0, 0};
+/* A light in front of the background. */
+static celspan_light over(celspan_light light, celspan_light ground) {
+  float through = 1 - light.a;
+  return (celspan_light){light.r + through * ground.r, light.g + through * ground.g,
+                         light.b + through * ground.b, 1};
+}
+
+/* The back light of the rostrum, unless it has a shape, in front of the background; also where codes
+ * are mixed. */
+static cs_light back_of(const cs_frame_change *change, const celspan_rostrum *rostrum) {
   const float *ground = change->background;
-  celspan_light own = change->cel ? none : rostrum->back.flat;
+  const celspan_light light = {ground[0], ground[1], ground[2], 1};
+  cs_light own = {0};
+  if (!change->cel)
+    own = (cs_light){.flat = rostrum->back.flat, .coded = rostrum->back.coded};
   if (!change->has_background)
     return own;
-  float through = 1 - own.a;
-  return (celspan_light){own.r + through * ground[0], own.g + through * ground[1],
-                         own.b + through * ground[2], 1};
+  own.flat = over(own.flat, light);
+  own.coded = over(own.coded, cs_space_light(CELSPAN_SPACE_SRGB, light));
+  return own;
 }
 
 /* A back light with a shape, as the back light of an empty cel. */

@@ -87,6 +87,23 @@ end }]])
     code, out = bench:celspan("render %s --background '#0000ff' --colour linear -o -", lit)
     assert.are.equal(0, code)
     assert.are.same({ 0, 255, 64, 255 }, { out:byte(1, 4) })
+    local coded = bench:write("coded.lua", [[
+local celspan = require "celspan"
+return celspan.film { size = { 2, 1 }, space = "srgb", frames = 3, frame = function(f)
+  local back = ({ "#f6ead2", { 0.5, 0.5, 0.5, 1 } })[f.number]
+  return celspan.rostrum { back = back, celspan.cel {
+    celspan.rect { 0, 0, 1, 1, texture = "#20406080" } } }
+end }]])
+    local function pixels(arguments)
+      local done, bytes = bench:celspan("render %s %s -o -", coded, arguments)
+      assert.are.equal(0, done)
+      return { bytes:byte(1, -1) }
+    end
+    for frame = 1, 2 do -- an opaque back light hides the background
+      local one = "--frames " .. frame
+      assert.are.same(pixels(one), pixels(one .. " --background '#123456'"))
+    end
+    assert.are.same(pixels "--frames 1", pixels "--frames 3 --background '#f6ead2'")
     local window = bench:write("window.lua", [[
 local celspan = require "celspan"
 local shade = celspan.linear { from = { 0, 0 }, to = { 2, 0 }, { 0, "#ff0000" }, { 1, "#ff000000" }

@@ -212,6 +212,25 @@ describe("a film as Lottie", function()
     assert.same({ 4, {} }, { document.op, document.layers })
   end)
 
+  it("keeps the places of radial gradients, and of their focuses", function()
+    film(2, "srgb", [[
+      local function ball(x, focus)
+        return celspan.circle { centre = { x, 45 }, radius = 30, texture = celspan.radial {
+          centre = { x, 45 }, radius = 30, focus = focus, { 0, "#ffffff" }, { 1, "#203060" } } }
+      end
+      return celspan.rostrum { back = "#eeddcc",
+        celspan.cel { ball(35), ball(115, { 125, 35 }) } }]])
+    is_film(out "balls.json", 2)
+  end)
+
+  it("keeps the opacity of cels, also of those that blink", function()
+    film(6, "srgb", [[local dot = celspan.circle { centre = { 110, 45 }, radius = 20 }
+      return celspan.rostrum { back = "#ffffff",
+        celspan.cel { opacity = 0.5, celspan.rect { 10, 10, 40, 40 } },
+        celspan.cel { opacity = i % 2, dot } }]])
+    is_film(out "opacity.json", 6)
+  end)
+
   it("leaves out what is empty, and appears and disappears", function()
     film(8, "srgb", [[local dot = celspan.circle { centre = { 80, 45 }, radius = 10 * (i % 2) }
       local box = i > 2 and i ~= 5 and celspan.rect { 5, 5, 20, 20 }

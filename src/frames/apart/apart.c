@@ -59,7 +59,7 @@ static size_t find(const cs_apart *apart, const char *name, size_t key) {
 /* *place: behind which layers of this exposure are; it grows. */
 static celspan_status take_cel(cs_apart *apart, const celspan_exposure *exposure, size_t index,
                                size_t *place) {
-  const celspan_light none = {0, 0, 0, 0};
+  const cs_light none = {0};
   const celspan_rostrum *from = exposure->rostrum;
   size_t key = key_of(from, index);
   size_t found = find(apart, cs_mark_name(from->cels[index]->mark), key);

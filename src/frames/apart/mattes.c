@@ -180,7 +180,7 @@ static celspan_status list_rest(const place *p, celspan_cel **cels, size_t *made
 
 /* cels: with room for those from the place on. */
 static celspan_status show_rest(const place *p, celspan_cel **cels, celspan_rostrum **out) {
-  const celspan_light none = {0, 0, 0, 0};
+  const cs_light none = {0};
   size_t made;
   celspan_status status = list_rest(p, cels, &made);
   if (status == CELSPAN_OK)

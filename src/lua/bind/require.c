@@ -82,9 +82,12 @@ static int require(lua_State *L) {
   return lua_gettop(L);
 }
 
+/* The table is registered when it is complete: memory may be short at any step. */
 void cs_require_push_globals(lua_State *L) {
-  if (luaL_getsubtable(L, LUA_REGISTRYINDEX, GLOBALS))
+  if (lua_getfield(L, LUA_REGISTRYINDEX, GLOBALS) == LUA_TTABLE)
     return;
+  lua_pop(L, 1);
+  lua_newtable(L);
   lua_pushglobaltable(L);
   lua_pushnil(L);
   while (lua_next(L, -2)) {
@@ -95,6 +98,8 @@ void cs_require_push_globals(lua_State *L) {
   lua_pop(L, 1);
   lua_pushcfunction(L, require);
   lua_setfield(L, -2, "require");
+  lua_pushvalue(L, -1);
+  lua_setfield(L, LUA_REGISTRYINDEX, GLOBALS);
 }
 
 /* ---------------------------------------------------------------- methods */

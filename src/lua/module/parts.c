@@ -125,7 +125,7 @@ static celspan_status set_text(list *to, celspan_object *placed, uint32_t words)
     return CELSPAN_OK;
   if (lua_isnil(L, to->over)) {
     CS_TRY(cs_rostrum_change(to->context, all, all->cels + after, all->cel_count - after,
-                             (celspan_light){0}, push_rostrum(L)));
+                             (cs_light){0}, push_rostrum(L)));
     lua_replace(L, to->over);
   }
   lua_pushvalue(L, to->over);

@@ -122,6 +122,15 @@ static celspan_point steepest(const celspan_matrix *matrix, celspan_point from, 
   return (celspan_point){b.x - along * ux, b.y - along * uy};
 }
 
+/* The second point of a gradient: the end of a linear one, or the focus of a radial one, of which
+ * the texture has the offset from the centre. */
+static celspan_point second_of(const celspan_texture *texture, const celspan_matrix *matrix) {
+  const celspan_point *points = texture->variation->points;
+  if (texture->kind == CS_TEXTURE_LINEAR)
+    return steepest(matrix, points[0], points[1]);
+  return moved(matrix, (celspan_point){points[0].x + points[1].x, points[0].y + points[1].y});
+}
+
 static void put_fill(lua_State *L, const celspan_texture *texture) {
   const cs_texture_variation *v = texture->variation;
   const bool is_flat = texture->kind == CS_TEXTURE_FLAT;
@@ -137,10 +146,10 @@ static void put_fill(lua_State *L, const celspan_texture *texture) {
   if (!is_flat) {
     const celspan_matrix matrix = v->has_matrix ? v->matrix : celspan_matrix_identity();
     const celspan_point a = moved(&matrix, v->points[0]);
-    const celspan_point b =
-        is_linear ? steepest(&matrix, v->points[0], v->points[1]) : moved(&matrix, v->points[1]);
+    const celspan_point b = second_of(texture, &matrix);
     put_list(L, "points", (const double[]){a.x, a.y, b.x, b.y}, 4);
-    cs_put_number(L, "radius", v->radius * hypot(matrix.m[0], matrix.m[3]));
+    cs_put_number(L, "radius",
+                  v->radius * sqrt(matrix.m[0] * matrix.m[0] + matrix.m[3] * matrix.m[3]));
   }
   lua_setfield(L, -2, "fill");
 }

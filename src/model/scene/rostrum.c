@@ -182,12 +182,13 @@ celspan_status cs_rostrum_with(celspan_context *context, const celspan_rostrum *
 }
 
 celspan_status cs_rostrum_change(celspan_context *context, const celspan_rostrum *from,
-                                 celspan_cel *const *cels, size_t cel_count, celspan_light back,
+                                 celspan_cel *const *cels, size_t cel_count, cs_light back,
                                  celspan_rostrum **out) {
   celspan_rostrum *changed;
   CS_TRY(cs_rostrum_with(context, from, cels, cel_count, &changed));
   cs_light_unref(&changed->back);
-  changed->back = (cs_light){.is_given = from->back.is_given, .flat = back, .coded = back};
+  changed->back = back;
+  changed->back.is_given = from->back.is_given;
   changed->hash = hash_rostrum(changed);
   *out = changed;
   return CELSPAN_OK;

@@ -344,7 +344,7 @@ CELSPAN_CHECKED celspan_status cs_rostrum_with(celspan_context *context,
 CELSPAN_CHECKED celspan_status cs_rostrum_change(celspan_context *context,
                                                  const celspan_rostrum *from,
                                                  celspan_cel *const *cels, size_t cel_count,
-                                                 celspan_light back, celspan_rostrum **out);
+                                                 cs_light back, celspan_rostrum **out);
 /* *out: new; like `from`, name and line included, as the camera of `by` sees it. Errors:
  * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_rostrum_by_camera(celspan_context *context,

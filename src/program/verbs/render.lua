@@ -108,7 +108,7 @@ pictures:report()
 if film.has_sound then program.note("%s: the sound of the film is left out", request.output) end
 local document = text.encode(layers:document(film, markers()))
 if not pictures.is_archive then return program.save(request.output, document) end
-local manifest = text.encode { version = "1", generator = "celspan " .. program.version,
+local manifest = text.encode { version = "2", generator = "celspan " .. program.version,
   animations = { { id = "film" } } }
 program.save_archive(request.output, { { "manifest.json", manifest },
-  { "animations/film.json", document }, table.unpack(pictures.members) })
+  { "a/film.json", document }, table.unpack(pictures.members) })

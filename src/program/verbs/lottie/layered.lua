@@ -148,7 +148,7 @@ local function join(list, around)
   local joined = { id = first.id, name = list[2] and around.name or list[1].name or around.name,
                    items = {} }
   for frame, item in pairs(around.items) do
-    joined.items[frame] = setmetatable({ data = group, fade = 1 }, { __index = item })
+    joined.items[frame] = setmetatable({ data = group }, { __index = item })
   end
   return joined
 end
