@@ -56,8 +56,8 @@ static celspan_status put_stop(celspan_context *context, const sample *of, size_
   cs_fill_stop stop = {.at = of->at};
   for (int c = 0; c < 4; c++)
     stop.code[c] = (unsigned char)(of->codes[c] + 0.5f);
-  const cs_fill_stop *last = &out->stops[out->stop_count - 1];
-  if (out->stop_count > first && last->at == stop.at && memcmp(last->code, stop.code, 4) == 0)
+  const cs_fill_stop *last = out->stop_count > first ? &out->stops[out->stop_count - 1] : NULL;
+  if (last && last->at == stop.at && memcmp(last->code, stop.code, 4) == 0)
     return CELSPAN_OK;
   return CS_APPEND(context, out->stops, out->stop_count, out->stop_capacity, stop);
 }

@@ -57,7 +57,9 @@ static double measure_fill(const cs_parcels *parcels, const cs_fill *fill, doubl
     *area += one[0];
     length += one[1];
   }
-  double whole = fill->kind == CS_FILL_PICTURE || !(length > 0) ? -1 : *area / length;
+  double whole = fill->kind == CS_FILL_PICTURE ? -INFINITY /* it cannot be a stroke */
+                 : !(length > 0)               ? -1
+                                               : *area / length;
   for (size_t i = fill->loop; i < fill->loop + fill->loop_count; i++)
     loops[i] = fmin(loops[i], whole);
   return whole;

@@ -31,8 +31,8 @@ static celspan_status report(const cs_plane_film *film, planefile_status status)
   return status == PLANEFILE_WRITE_FAILED ? film->status : cs_plane_report(film->context, status);
 }
 
-/* The largest grain of which a unit of the film, or a 1920th or 1080th of it, is 100. A border that
- * is off by half a grain changes pixels of that size by a code and a half, at most. */
+/* The largest grain of which a unit of the film, or a 1920th or 1080th of it, is 100: a border is
+ * off by a two-hundredth of a pixel of that size, at most. */
 static uint8_t find_grain(double side) {
   uint8_t grain = 0;
   while (grain < PLANEFILE_GRAIN && (100 << (grain + 1)) * side <= PLANEFILE_SIDE)

@@ -149,7 +149,8 @@ static const char *refuse(const cs_fill *fill) {
   if (fill->loop_count == 0)
     return NULL;
   if (fill->kind == CS_FILL_RADIAL &&
-      fabs(m[0] * m[1] + m[3] * m[4]) > SQUARE * hypot(m[0], m[3]) * hypot(m[1], m[4]))
+      fabs(m[0] * m[1] + m[3] * m[4]) >
+          SQUARE * sqrt((m[0] * m[0] + m[3] * m[3]) * (m[1] * m[1] + m[4] * m[4])))
     return "a radial gradient with skewed axes";
   return fill->kind == CS_FILL_PICTURE ? "what has no outline" : NULL;
 }

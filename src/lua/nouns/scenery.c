@@ -74,7 +74,7 @@ static celspan_point moved(const celspan_matrix *matrix, celspan_point point) {
 
 /* Whether the matrix keeps circles round. */
 static bool is_round(const double *m) {
-  const double across = hypot(m[0], m[3]), down = hypot(m[1], m[4]);
+  const double across = sqrt(m[0] * m[0] + m[3] * m[3]), down = sqrt(m[1] * m[1] + m[4] * m[4]);
   return fabs(across - down) <= ROUND * across &&
          fabs(m[0] * m[1] + m[3] * m[4]) <= ROUND * across * across;
 }

@@ -153,9 +153,11 @@ static int32_t to_units(double pixels, uint8_t grain) {
   return (int32_t)cs_number_clamp(units, -PLANEFILE_FAR, PLANEFILE_FAR);
 }
 
+/* Heights are rounded to those of the sweep first, because borders end where chains do. */
 static planefile_point point_at(const recorder *r, double x, double y) {
   planefile_grain grain = r->out->grain;
-  return (planefile_point){to_units(x, grain.x), to_units(y, grain.y), PLANEFILE_WEIGHT};
+  double height = floor(y * CS_COURSE_UNIT + 0.5) / CS_COURSE_UNIT;
+  return (planefile_point){to_units(x, grain.x), to_units(height, grain.y), PLANEFILE_WEIGHT};
 }
 
 /* The control points of a piece, from its coefficients in powers; its end points are known. */

@@ -125,47 +125,50 @@ static uint32_t find_known(const pf_known *known, uint32_t count, const pf_print
 
 /* ---------------------------------------------------------------- cells */
 
-static bool can_be_axis(const pf_match *m, uint32_t theirs, uint32_t ours) {
-  return m->plane_axes[theirs] == ours ||
-         (m->plane_axes[theirs] == PF_NONE && m->axes[ours] == PF_NONE);
-}
-
-/* Whether a cell of the base can stand for one with the same print. */
-static bool can_be(const pf_match *m, uint32_t theirs, uint32_t ours) {
-  planefile_program a = program_of(m->base->band, theirs), b = program_of(m->plane, ours);
-  bool is_good = m->plane_cells[theirs] == PF_NONE;
-  for (uint32_t i = 0; is_good && i < a.step_count; i++) {
-    const planefile_step *step = &m->base->band->steps[a.step + i];
-    if (step->kind == PLANEFILE_RAMP)
-      is_good = can_be_axis(m, step->axis, m->plane->steps[b.step + i].axis);
+/* Takes back pairs of axes, the latest `count` of them. */
+static void part_axes(pf_match *m, uint32_t count) {
+  for (; count > 0; count--) {
+    uint32_t ours = m->paired[--m->paired_count];
+    m->plane_axes[m->axes[ours]] = PF_NONE;
+    m->axes[ours] = PF_NONE;
   }
-  return is_good;
 }
 
-static void pair_cells(pf_match *m, uint32_t theirs, uint32_t ours) {
-  planefile_program a = program_of(m->base->band, theirs), b = program_of(m->plane, ours);
-  m->cells[ours] = theirs;
-  m->plane_cells[theirs] = ours;
-  for (uint32_t i = 0; i < a.step_count; i++) {
-    const planefile_step *step = &m->base->band->steps[a.step + i];
-    uint32_t axis = m->plane->steps[b.step + i].axis;
-    if (step->kind != PLANEFILE_RAMP)
+/* Pairs the axes of two programs of the same form. False: an axis of one of them would stand for two
+ * axes of the other; then no axis is paired. */
+static bool pair_axes(pf_match *m, planefile_program theirs, planefile_program ours) {
+  uint32_t before = m->paired_count;
+  for (uint32_t i = 0; i < theirs.step_count; i++) {
+    const planefile_step *step = &m->base->band->steps[theirs.step + i];
+    uint32_t axis = m->plane->steps[ours.step + i].axis;
+    if (step->kind != PLANEFILE_RAMP || m->axes[axis] == step->axis)
       continue;
+    if (m->axes[axis] != PF_NONE || m->plane_axes[step->axis] != PF_NONE) {
+      part_axes(m, m->paired_count - before);
+      return false;
+    }
     m->axes[axis] = step->axis;
     m->plane_axes[step->axis] = axis;
+    m->paired[m->paired_count++] = axis;
   }
+  return true;
+}
+
+/* Pairs a cell of the base with one of the same form, if it can stand for it. */
+static bool pair_cells(pf_match *m, uint32_t theirs, uint32_t ours) {
+  if (m->plane_cells[theirs] != PF_NONE ||
+      !pair_axes(m, program_of(m->base->band, theirs), program_of(m->plane, ours)))
+    return false;
+  m->cells[ours] = theirs;
+  m->plane_cells[theirs] = ours;
+  return true;
 }
 
 static void match_cell(pf_match *m, const pf_known *known, const pf_print *print, uint32_t cell) {
   uint32_t count = m->base->band->cell_count, at = find_known(known, count, print);
-  for (uint32_t i = at; i < count && i - at < TRIED; i++) {
-    if (compare_prints(&known[i].print, print) != 0)
+  for (uint32_t i = at; i < count && i - at < TRIED; i++)
+    if (compare_prints(&known[i].print, print) != 0 || pair_cells(m, known[i].number, cell))
       return;
-    if (can_be(m, known[i].number, cell)) {
-      pair_cells(m, known[i].number, cell);
-      return;
-    }
-  }
 }
 
 static bool find_same(pf_match *m, key *k) {
@@ -201,14 +204,15 @@ static bool can_become(const planefile_axis *from, const planefile_axis *to) {
 static bool are_alike(const pf_match *m, const planefile_step *a, const planefile_step *b) {
   if (a->kind != b->kind || a->how != b->how || a->kind != PLANEFILE_RAMP)
     return a->kind == b->kind && a->how == b->how;
-  bool is_good = a->stop_count == b->stop_count && can_be_axis(m, a->axis, b->axis) &&
+  bool is_good = a->stop_count == b->stop_count &&
                  can_become(&m->base->band->axes[a->axis], &m->plane->axes[b->axis]);
   for (uint32_t i = 0; is_good && i < a->stop_count; i++)
     is_good = m->base->band->stops[a->stop + i].at == m->plane->stops[b->stop + i].at;
   return is_good;
 }
 
-/* Whether the program of one cell becomes that of another one when its colours change. */
+/* Whether the program of one cell becomes that of another one when its colours change and its axes
+ * move. */
 static bool can_recolour(const pf_match *m, uint32_t theirs, uint32_t ours) {
   planefile_program a = program_of(m->base->band, theirs), b = program_of(m->plane, ours);
   bool is_good = a.step_count == b.step_count;
@@ -239,11 +243,23 @@ static bool have_same_colours(const pf_match *m, uint32_t theirs, uint32_t ours)
   return is_same;
 }
 
+/* Whether the axes of a program of the base stand for those of another one of the same form. */
+static bool have_axes(const pf_match *m, uint32_t theirs, uint32_t ours) {
+  planefile_program a = program_of(m->base->band, theirs), b = program_of(m->plane, ours);
+  bool is_good = true;
+  for (uint32_t i = 0; is_good && i < a.step_count; i++) {
+    const planefile_step *step = &m->base->band->steps[a.step + i];
+    is_good =
+        step->kind != PLANEFILE_RAMP || m->axes[m->plane->steps[b.step + i].axis] == step->axis;
+  }
+  return is_good;
+}
+
 pf_fate pf_match_fate(const pf_match *m, uint32_t theirs) {
   uint32_t ours = m->plane_cells[theirs];
   if (ours == PF_NONE)
     return PF_SAME;
-  if (!can_recolour(m, theirs, ours))
+  if (!can_recolour(m, theirs, ours) || !have_axes(m, theirs, ours))
     return PF_REPLACED;
   return have_same_colours(m, theirs, ours) ? PF_SAME : PF_RECOLOURED;
 }
@@ -289,8 +305,8 @@ static void join_pairs(pf_match *m) {
 static void pair_noted(pf_match *m, const pf_pair *pair) {
   if (m->plane_cells[pair->theirs] != PF_NONE || m->cells[pair->ours] != PF_NONE)
     return;
-  if (can_recolour(m, pair->theirs, pair->ours))
-    pair_cells(m, pair->theirs, pair->ours);
+  if (can_recolour(m, pair->theirs, pair->ours) && pair_cells(m, pair->theirs, pair->ours))
+    return;
   m->cells[pair->ours] = pair->theirs;
   m->plane_cells[pair->theirs] = pair->ours;
 }
@@ -445,9 +461,10 @@ bool pf_match_make(const pf_memory *memory, const planefile_band *plane, const p
   out->axes = make_empty(memory, plane->axis_count);
   out->plane_cells = make_empty(memory, base->band->cell_count);
   out->plane_axes = make_empty(memory, base->band->axis_count);
+  out->paired = pf_make(memory, sizeof *out->paired, plane->axis_count);
   key k = {.memory = &out->memory};
-  bool is_made =
-      out->cells && out->axes && out->plane_cells && out->plane_axes && find_chains(out, &k);
+  bool is_made = out->cells && out->axes && out->plane_cells && out->plane_axes && out->paired &&
+                 find_chains(out, &k);
   pf_free(memory, k.bytes, 1, k.capacity);
   return is_made;
 }
@@ -458,6 +475,7 @@ void pf_match_free(pf_match *m) {
   const planefile_band *band = m->base->band;
   pf_free(&m->memory, m->cells, sizeof *m->cells, m->plane->cell_count);
   pf_free(&m->memory, m->axes, sizeof *m->axes, m->plane->axis_count);
+  pf_free(&m->memory, m->paired, sizeof *m->paired, m->plane->axis_count);
   pf_free(&m->memory, m->plane_cells, sizeof *m->plane_cells, band->cell_count);
   pf_free(&m->memory, m->plane_axes, sizeof *m->plane_axes, band->axis_count);
   pf_free(&m->memory, m->chains, sizeof *m->chains, band->chain_count);

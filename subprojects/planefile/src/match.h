@@ -25,6 +25,8 @@ typedef struct pf_match {
   uint32_t *axes;
   uint32_t *plane_cells; /* of each of the base: that of the plane, or NONE */
   uint32_t *plane_axes;
+  uint32_t *paired; /* the axes of the plane that are, in the order of their pairing */
+  uint32_t paired_count;
   pf_known *chains; /* of the base, by their prints */
   pf_known *forms;  /* of the base, by the prints of their forms */
   pf_pair *pairs;   /* what borders say of cells */
