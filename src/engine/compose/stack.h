@@ -85,7 +85,6 @@ typedef struct cs_stack {
   bool has_group_light; /* any group has a light with a shape */
   bool has_curves;      /* any group curves */
   bool has_sources;     /* any group is a source */
-  bool has_pixels;      /* any defocused layer is made pixel by pixel: engine/sample/defocused.h */
 } cs_stack;
 
 void cs_stack_finish(cs_stack *stack, cs_memory *memory);

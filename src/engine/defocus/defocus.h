@@ -11,7 +11,7 @@
  *   cel --two plans: lit from the front (S), lit from behind (T)--> rows of spans on the grid
  *       --one of five ways--> bands of nodes
  *
- *   or: the same on the cel's own grid (own_grid.h) --mixed (regrid.h)--> bands of nodes
+ *   or: the same on the cel's own grid (own_grid.h) --mixed (regrid.h)--> rows of nodes
  *   or: means over pixels on a grid of its own --read along a shift (shifted.h)--> bands of nodes
  *
  * Between the nodes the blurred cel is linear (engine/sample/defocused.h reads it). The pitch grows
@@ -33,6 +33,8 @@
 #include "engine/defocus/sums.h"
 #include "engine/row/row.h"
 
+#include <stddef.h>
+
 typedef enum cs_defocus_way {
   CS_DEFOCUS_KERNEL, /* the rows of the plans are blurred by their kernel */
   CS_DEFOCUS_EDGES,
@@ -43,6 +45,7 @@ typedef enum cs_defocus_way {
   CS_DEFOCUS_SHIFTED /* the nodes are read from it along a shift */
 } cs_defocus_way;
 
+#define CS_DEFOCUS_ROWS_LEAST 8 /* of nodes in a band */
 /* Samples in the radius of a Gaussian, at least. */
 #define CS_DEFOCUS_SAMPLES 4
 
@@ -69,6 +72,11 @@ struct cs_defocus {
                                own objects */
   cs_hash key;
 };
+
+/* The layer that a grid is part of. */
+static inline const cs_defocus *cs_defocus_of(const cs_defocused *grid) {
+  return (const cs_defocus *)(const void *)((const char *)grid - offsetof(cs_defocus, grid));
+}
 
 /* The radius of a Gaussian or a disc along an axis, or the extent of a box: how far the blur
  * extends. */
@@ -99,6 +107,9 @@ void cs_defocus_use_shift(cs_defocus *defocus, const cs_shifted *shifted, cs_def
  * so. */
 void cs_defocus_use_pixels(cs_defocus *defocus, const int32_t first[2], const int32_t end[2]);
 /* The size of the plans, and the matrix from pixels of the frame to theirs. */
+/* Returns how many pixels of the plans a node is wide. *x, *y: how many pixels the plans have
+ * beyond the nodes on each side. */
+int32_t cs_defocus_beyond(const cs_defocus *defocus, int32_t *x, int32_t *y);
 void cs_defocus_raster(const cs_defocus *defocus, int32_t *width, int32_t *height);
 celspan_matrix cs_defocus_matrix(const cs_defocus *defocus);
 /* The kernel of the plans; NULL: the mean over each pixel. Errors: NO_MEMORY. */

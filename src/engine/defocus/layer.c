@@ -1,6 +1,7 @@
 #include "engine/defocus/layer.h"
 
 #include "base/number.h"
+#include "engine/defocus/fill.h"
 #include "engine/defocus/shifted_place.h"
 #include "model/scene/extend.h"
 #include "model/scene/nearby.h"
@@ -219,6 +220,7 @@ static celspan_status compile_new(celspan_context *context, const cs_defocus_cel
                                   const cs_defocus_compiler *compiler, cs_defocus *defocus) {
   cs_defocus_made *made = compiler->made;
   CS_TRY(compile_planes(context, place, compiler, defocus));
+  cs_defocus_fill_bands(defocus);
   CS_TRY(CS_RESERVE(context, made->list, made->capacity, made->count + 1));
   CS_TRY(cs_hash_table_add(&made->numbers, context, defocus->key, made->count));
   made->list[made->count++] = defocus;
@@ -371,6 +373,7 @@ static celspan_status make_shifted(celspan_context *context, const cs_defocus_ce
   if (cs_shifted_part_has_pixels(&where->by))
     status = make_means(context, place, shift->by, compiler, &where->by, &by);
   cs_defocus_use_shift(defocus, &where->map, own, by);
+  cs_defocus_fill_bands(defocus);
   return status == CELSPAN_OK ? cs_shifted_init(context, shift, &defocus->shifted) : status;
 }
 

@@ -33,32 +33,13 @@ static double place_of(const cs_regrid_axis *axis, double pixel) {
 static void find_columns(cs_regrid_rows *rows) {
   const cs_defocused *to = rows->to;
   int32_t last = rows->map->from->columns - 1;
-  rows->first = to->columns;
-  rows->end = 0;
   for (int32_t x = 0; x < to->columns; x++) {
     double at = place_of(&rows->map->axes[0], pixel_of(to->pitch_x, to->first_x + x));
-    cs_regrid_column *column = &rows->columns[x];
-    column->first = find_place(at, last, column->weights);
-    if (at > 0 && at < last) {
-      rows->first = x < rows->first ? x : rows->first;
-      rows->end = x + 1;
-    }
+    rows->columns[x].first = find_place(at, last, rows->columns[x].weights);
   }
 }
 
 static size_t mixed_count(const cs_regrid *map) { return (size_t)map->from->columns + 3; }
-
-celspan_status cs_regrid_begin(const cs_regrid *map, const cs_defocused *to,
-                               celspan_context *context, cs_regrid_rows *out) {
-  cs_memory *memory = context->memory;
-  *out = (cs_regrid_rows){.map = map, .to = to, .context = context, .isa = cs_isa_best()};
-  out->columns = cs_mem_array(memory, (size_t)to->columns, sizeof *out->columns);
-  out->mixed = cs_mem_array(memory, mixed_count(map), sizeof *out->mixed);
-  if (!out->columns || !out->mixed)
-    return cs_fail_memory(context);
-  find_columns(out);
-  return CELSPAN_OK;
-}
 
 static void drop_band(cs_regrid_rows *rows, int i) {
   const cs_defocused *from = rows->map->from;
@@ -67,12 +48,35 @@ static void drop_band(cs_regrid_rows *rows, int i) {
   rows->bands[i] = NULL;
 }
 
-void cs_regrid_finish(cs_regrid_rows *rows) {
+static void finish_rows(cs_regrid_rows *rows) {
   cs_memory *memory = rows->context->memory;
   drop_band(rows, 0);
   drop_band(rows, 1);
   cs_mem_free(memory, rows->columns, (size_t)rows->to->columns * sizeof *rows->columns);
   cs_mem_free(memory, rows->mixed, mixed_count(rows->map) * sizeof *rows->mixed);
+}
+
+void cs_regrid_forget(celspan_context *context, cs_defocused_view *view) {
+  if (view->rows)
+    finish_rows(view->rows);
+  cs_mem_free(context->memory, view->rows, sizeof *view->rows);
+  view->rows = NULL;
+}
+
+static celspan_status begin_rows(const cs_regrid *map, const cs_defocused *to,
+                                 celspan_context *context, cs_defocused_view *view) {
+  cs_memory *memory = context->memory;
+  CS_TRY(CS_MAKE(context, view->rows, 1));
+  cs_regrid_rows *rows = view->rows;
+  *rows = (cs_regrid_rows){.map = map, .to = to, .context = context, .isa = cs_isa_best()};
+  rows->columns = cs_mem_array(memory, (size_t)to->columns, sizeof *rows->columns);
+  rows->mixed = cs_mem_array(memory, mixed_count(map), sizeof *rows->mixed);
+  if (!rows->columns || !rows->mixed) {
+    cs_regrid_forget(context, view);
+    return cs_fail_memory(context);
+  }
+  find_columns(rows);
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- a row */
@@ -111,29 +115,6 @@ static celspan_status mix_rows(cs_regrid_rows *rows, int plane, double y) {
   return CELSPAN_OK;
 }
 
-static void mix_columns(const cs_regrid_rows *rows, int32_t x, int32_t stop, float (*nodes)[4]) {
-  CS_WIDE_CHOOSE(rows->isa, cs_regrid_across)
-  (rows->columns + x, stop - x, (const float(*)[4])rows->mixed, nodes + x);
-}
-
-celspan_status cs_regrid_row(cs_regrid_rows *rows, int plane, int32_t y, float (*nodes)[4],
-                             bool *even) {
-  int32_t groups = cs_defocused_groups(rows->to), columns = rows->to->columns;
-  CS_TRY(mix_rows(rows, plane, pixel_of(rows->to->pitch_y, rows->to->first_y + y)));
-  for (int32_t g = 0; g < groups; g++) {
-    int32_t x = g * CS_DEFOCUSED_GROUP, stop = x + CS_DEFOCUSED_GROUP;
-    stop = stop < columns ? stop : columns;
-    even[g] = stop <= rows->first || x >= rows->end;
-    if (even[g]) {
-      mix_columns(rows, x, x + 1, nodes);
-      mix_columns(rows, stop - 1, stop, nodes);
-    } else {
-      mix_columns(rows, x, stop, nodes);
-    }
-  }
-  return CELSPAN_OK;
-}
-
 /* ---------------------------------------------------------------- what a row has */
 
 /* The first column that reads the nodes of the mixed row with this number or a higher one. */
@@ -167,30 +148,16 @@ static celspan_status mix_visible(cs_regrid_rows *rows, int plane, double y, flo
     if (first == end)
       visible->first = visible->end;
   }
-  mix_columns(rows, visible->first, visible->end, nodes);
+  CS_WIDE_CHOOSE(rows->isa, cs_regrid_across)
+  (rows->columns + visible->first, visible->end - visible->first, (const float(*)[4])rows->mixed,
+   nodes + visible->first);
   return CELSPAN_OK;
 }
 
-void cs_regrid_forget(celspan_context *context, cs_defocused_view *view) {
-  if (view->rows)
-    cs_regrid_finish(view->rows);
-  cs_mem_free(context->memory, view->rows, sizeof *view->rows);
-  view->rows = NULL;
-}
-
-static celspan_status begin_view(const cs_regrid *map, const cs_defocused *to,
-                                 celspan_context *context, cs_defocused_view *view) {
-  CS_TRY(CS_MAKE(context, view->rows, 1));
-  celspan_status status = cs_regrid_begin(map, to, context, view->rows);
-  if (status != CELSPAN_OK)
-    cs_regrid_forget(context, view);
-  return status;
-}
-
-celspan_status cs_regrid_pixels(const cs_regrid *map, const cs_defocused *to,
-                                celspan_context *context, cs_defocused_view *view, double y) {
+celspan_status cs_regrid_row(const cs_regrid *map, const cs_defocused *to, celspan_context *context,
+                             cs_defocused_view *view, double y) {
   if (!view->rows)
-    CS_TRY(begin_view(map, to, context, view));
+    CS_TRY(begin_rows(map, to, context, view));
   for (int plane = 0; plane < to->planes; plane++)
     CS_TRY(mix_visible(view->rows, plane, y, view->mixed + (size_t)plane * (size_t)to->columns,
                        &view->visible));

@@ -1,8 +1,8 @@
-/* From a cel's own grid to the grid of a frame: each node of the frame is a cubic through the four
- * rows and the four columns of nodes that are nearest to it.
+/* From a cel's own grid to a row of a frame: each node of the row is a cubic through the four rows
+ * and the four columns of nodes that are nearest to it.
  *
  *     o    o    o    o     o  nodes of the cel's own grid
- *     o    o    o    o     x  a node of the frame's grid: first every column is mixed from four
+ *     o    o    o    o     x  a node of the row: first every column is mixed from four
  *     o    o  x o    o        rows, then the node from four columns
  *     o    o    o    o
  *
@@ -32,7 +32,7 @@ typedef struct cs_regrid_column {
   float weights[3];
 } cs_regrid_column;
 
-/* The rows of nodes of a frame. */
+/* How a view reads the cel's own nodes. */
 typedef struct cs_regrid_rows {
   const cs_regrid *map;
   const cs_defocused *to;
@@ -41,25 +41,16 @@ typedef struct cs_regrid_rows {
   cs_defocus_band *bands[2]; /* acquired: one with an even, one with an odd number; NULL: none */
   int32_t numbers[2];
   cs_regrid_column *columns;
-  float (*mixed)[4];  /* a row of the cel's own nodes, at the height of the row being made; its
-                         first node is there twice, its last one three times */
-  int32_t first, end; /* the columns of the frame's grid that lie between nodes; groups of the other
-                         columns are even */
+  float (*mixed)[4]; /* a row of the cel's own nodes, at the height of the row being made; its first
+                        node is there twice, its last one three times */
 } cs_regrid_rows;
 
-/* Must be finished after a failure too. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_regrid_begin(const cs_regrid *map, const cs_defocused *to,
-                                               celspan_context *context, cs_regrid_rows *out);
-void cs_regrid_finish(cs_regrid_rows *rows);
-/* Row y of one plane of the frame's nodes, and the groups that are even, as in defocused.h. Errors:
+/* As `mix` and `forget` of cs_defocused: mixes a row of nodes at a height of the frame, as far as
+ * something is visible in it. Nodes that are not visible are not written. Errors: NO_MEMORY, and
  * those of the bands of the cel's own grid. */
-CELSPAN_CHECKED celspan_status cs_regrid_row(cs_regrid_rows *rows, int plane, int32_t y,
-                                             float (*nodes)[4], bool *even);
-/* As `mix` and `forget` of cs_defocused: mixes a row of pixels, as far as something is visible in
- * it. Nodes that are not visible are not written. */
-CELSPAN_CHECKED celspan_status cs_regrid_pixels(const cs_regrid *map, const cs_defocused *to,
-                                                celspan_context *context, cs_defocused_view *view,
-                                                double y);
+CELSPAN_CHECKED celspan_status cs_regrid_row(const cs_regrid *map, const cs_defocused *to,
+                                             celspan_context *context, cs_defocused_view *view,
+                                             double y);
 void cs_regrid_forget(celspan_context *context, cs_defocused_view *view);
 
 /* ---- regrid_wide.c */

@@ -274,7 +274,7 @@ celspan_status cs_painter_pixels(cs_painter *painter, const cs_program *program,
 static celspan_status find_shown(cs_painter *painter, const cs_program *program, int32_t stride,
                                  cs_run run, int32_t *end) {
   int32_t left = run.x0 / stride * stride;
-  if (painter->stack->has_pixels && run.x1 - left > stride) {
+  if (run.x1 - left > stride) {
     *end = (run.x1 + stride - 1) / stride * stride;
     CS_TRY(cs_shown_find(painter, program, cs_run_between(run, left, *end), &painter->shown[0]));
     if (painter->shown[0].is_sure)

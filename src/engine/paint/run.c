@@ -56,10 +56,11 @@ static bool fits_defocused(const cs_stack *stack, const cs_program *program, uin
   if (cs_program_curves(stack, program) || is_blended(stack, program))
     return false;
   for (uint32_t i = 0; i < program->length; i++) {
-    cs_layer_kind kind = stack->layers[program->items[i].layer].kind;
-    if (kind == CS_LAYER_FLAT)
+    const cs_layer *layer = &stack->layers[program->items[i].layer];
+    if (layer->kind == CS_LAYER_FLAT)
       continue;
-    if (kind != CS_LAYER_DEFOCUSED || found++ > 0)
+    if (layer->kind != CS_LAYER_DEFOCUSED || stack->defocused[layer->index]->are_pixels ||
+        found++ > 0)
       return false;
     *item = i;
   }
@@ -196,7 +197,7 @@ static CELSPAN_CHECKED celspan_status defocused_run(cs_painter *painter, const c
 
 /* ---------------------------------------------------------------- programs without hidden items */
 
-/* Whether the program shows pixel by pixel, as pictures and noise do. */
+/* Whether the program shows pixel by pixel, as pictures, noise and rows of pixels do. */
 static celspan_status needs_array(cs_painter *painter, const cs_program *program, bool *out) {
   *out = is_blended(painter->stack, program);
   for (uint32_t i = 0; i < program->length && !*out; i++) {
@@ -204,6 +205,8 @@ static celspan_status needs_array(cs_painter *painter, const cs_program *program
     const cs_image_view *view;
     *out = layer->kind == CS_LAYER_SHADED &&
            painter->stack->shades[layer->index].texture->kind == CS_TEXTURE_NOISE;
+    *out |=
+        layer->kind == CS_LAYER_DEFOCUSED && painter->stack->defocused[layer->index]->are_pixels;
     if (layer->kind != CS_LAYER_PICTURE)
       continue;
     CS_TRY(cs_painter_image(painter, layer->index, &view));

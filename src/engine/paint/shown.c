@@ -33,33 +33,28 @@ static celspan_status bound_picture(cs_painter *painter, const cs_layer *layer, 
   return CELSPAN_OK;
 }
 
-static celspan_status bound_defocused(cs_painter *painter, const cs_layer *layer, cs_run run,
-                                      bound *out) {
+/* Whether a layer is a defocused cel whose rows are known to be clear outside some columns. */
+static inline bool is_pixels(const cs_stack *stack, const cs_layer *layer) {
+  return layer->kind == CS_LAYER_DEFOCUSED && stack->defocused[layer->index]->are_pixels;
+}
+
+/* is_last: nothing behind the layer could be hidden by it. */
+static celspan_status bound_defocused(cs_painter *painter, const cs_layer *layer, bool is_last,
+                                      cs_run run, bound *out) {
   const cs_defocused *defocused = painter->stack->defocused[layer->index];
   cs_defocused_view *view = &painter->defocused[layer->index];
   CS_TRY(cs_defocused_move(defocused, painter->context, view, run.y));
+  if (is_pixels(painter->stack, layer)) {
+    cs_defocused_range visible = cs_defocused_visible(defocused, view);
+    out->is_clear = run.x1 <= visible.first || run.x0 >= visible.end;
+    out->is_sure =
+        out->is_clear || (visible.first < run.x0 + STRIDE && visible.end > run.x1 - STRIDE);
+  }
+  if (out->is_clear || is_last)
+    return CELSPAN_OK;
   cs_v4 through = cs_defocused_through(defocused, view, run);
   out->is_sure = cs_over_is_opaque(through);
   out->through = faded(layer->fade, through);
-  return CELSPAN_OK;
-}
-
-/* Whether a layer is a defocused cel whose rows are known to be clear outside some columns. */
-static inline bool is_pixels(const cs_stack *stack, const cs_layer *layer) {
-  return stack->has_pixels && layer->kind == CS_LAYER_DEFOCUSED &&
-         stack->defocused[layer->index]->mix;
-}
-
-/* Asks a layer of pixels which columns are clear. */
-static celspan_status bound_pixels(cs_painter *painter, const cs_layer *layer, cs_run run,
-                                   bound *out) {
-  const cs_defocused *defocused = painter->stack->defocused[layer->index];
-  cs_defocused_view *view = &painter->defocused[layer->index];
-  CS_TRY(cs_defocused_move(defocused, painter->context, view, run.y));
-  cs_defocused_range visible = cs_defocused_visible(defocused, view);
-  out->is_clear = run.x1 <= visible.first || run.x0 >= visible.end;
-  out->is_sure =
-      out->is_clear || (visible.first < run.x0 + STRIDE && visible.end > run.x1 - STRIDE);
   return CELSPAN_OK;
 }
 
@@ -72,10 +67,9 @@ static celspan_status find_bound(cs_painter *painter, const cs_layer *layer, boo
     return CELSPAN_OK;
   if (layer->kind == CS_LAYER_PICTURE)
     return bound_picture(painter, layer, run, out);
-  if (is_pixels(painter->stack, layer))
-    return bound_pixels(painter, layer, run, out);
-  return layer->kind == CS_LAYER_DEFOCUSED && !is_last ? bound_defocused(painter, layer, run, out)
-                                                       : CELSPAN_OK;
+  bool is_asked =
+      is_pixels(painter->stack, layer) || (layer->kind == CS_LAYER_DEFOCUSED && !is_last);
+  return is_asked ? bound_defocused(painter, layer, is_last, run, out) : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- programs */
@@ -100,7 +94,7 @@ bool cs_shown_varies(const cs_stack *stack, const cs_program *program) {
   for (uint32_t i = 0; i < program->length; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
     if (layer->kind == CS_LAYER_PICTURE ||
-        (layer->kind == CS_LAYER_DEFOCUSED && (++defocused == 2 || stack->has_pixels)))
+        (layer->kind == CS_LAYER_DEFOCUSED && (++defocused == 2 || is_pixels(stack, layer))))
       return true;
   }
   return false;
@@ -112,8 +106,8 @@ int32_t cs_shown_stride(cs_painter *painter, const cs_program *program) {
   for (uint32_t i = 0; i < dear; i++) {
     const cs_layer *layer = &painter->stack->layers[program->items[i].layer];
     const cs_image_view *view;
-    if (layer->kind == CS_LAYER_DEFOCUSED && (i + 1 < dear || painter->stack->has_pixels) &&
-        columns > STRIDE)
+    if (layer->kind == CS_LAYER_DEFOCUSED && columns > STRIDE &&
+        (i + 1 < dear || is_pixels(painter->stack, layer)))
       columns = STRIDE;
     if (layer->kind == CS_LAYER_PICTURE &&
         cs_painter_image(painter, layer->index, &view) == CELSPAN_OK && !view->is_opaque &&
@@ -121,32 +115,6 @@ int32_t cs_shown_stride(cs_painter *painter, const cs_program *program) {
       columns = view->sampler.opacity_columns;
   }
   return columns;
-}
-
-/* Whether no item can hide another one by properties that hold only in some columns. */
-static bool hides_nothing(const cs_stack *stack, const cs_program *program) {
-  bool hides = false;
-  for (uint32_t i = 0; i < program->length && !hides; i++) {
-    const cs_layer *layer = &stack->layers[program->items[i].layer];
-    hides = layer->kind == CS_LAYER_PICTURE ||
-            (layer->kind == CS_LAYER_DEFOCUSED && !stack->defocused[layer->index]->mix);
-  }
-  return !hides;
-}
-
-/* All items except clear layers of pixels. */
-static celspan_status find_pixels(cs_painter *painter, const cs_program *program, cs_run run,
-                                  cs_shown *out) {
-  for (uint32_t i = 0; i < program->length; i++) {
-    const cs_layer *layer = &painter->stack->layers[program->items[i].layer];
-    bound known = {.is_sure = true};
-    if (is_pixels(painter->stack, layer))
-      CS_TRY(bound_pixels(painter, layer, run, &known));
-    if (!known.is_clear)
-      out->items[out->length++] = program->items[i];
-    out->is_sure &= known.is_sure;
-  }
-  return CELSPAN_OK;
 }
 
 celspan_status cs_shown_find(cs_painter *painter, const cs_program *program, cs_run run,
@@ -157,8 +125,6 @@ celspan_status cs_shown_find(cs_painter *painter, const cs_program *program, cs_
   out->length = 0;
   out->is_sure = true;
   out->ends_opaque = false;
-  if (stack->has_pixels && hides_nothing(stack, program))
-    return find_pixels(painter, program, run, out);
   uint32_t dear = count_dear(stack, program), end = UINT32_MAX;
   cs_over_begin(&over, stack, painter->outers);
   over.is_bound = true;

@@ -10,6 +10,8 @@
 #define TOLERANCE (0.25f / 1023)
 #define CONSTANT 3 /* this many equal neighbouring nodes become a line of their own */
 
+static const cs_v4 colours = {1, 1, 1, 0};
+
 /* ---------------------------------------------------------------- polylines */
 
 /* The constant stretch that was looked for last, since it is asked for several times. */
@@ -343,9 +345,20 @@ static celspan_status mix_rows(const cs_defocused *defocused, celspan_context *c
   return CELSPAN_OK;
 }
 
-static celspan_status make_vertices(const cs_defocused *defocused, celspan_context *context,
-                                    cs_defocused_view *view, const cs_defocus_band *upper,
-                                    int32_t row, float share) {
+/* The vertices of a row of nodes. */
+static celspan_status make_vertices(celspan_context *context, cs_defocused_view *view,
+                                    node_row *nodes) {
+  view->own.count = 0;
+  CS_TRY(add_row(context, nodes, &view->own));
+  view->at = view->own.at;
+  view->values = (const float(*)[4])view->own.values;
+  view->count = view->own.count;
+  return CELSPAN_OK;
+}
+
+static celspan_status move_between(const cs_defocused *defocused, celspan_context *context,
+                                   cs_defocused_view *view, const cs_defocus_band *upper,
+                                   int32_t row, float share) {
   node_row nodes = band_nodes(defocused, upper, row);
   if (share > 0) {
     const cs_defocus_band *lower;
@@ -353,21 +366,16 @@ static celspan_status make_vertices(const cs_defocused *defocused, celspan_conte
     node_row below = band_nodes(defocused, lower, row + 1);
     CS_TRY(mix_rows(defocused, context, view, &nodes, &below, share));
   }
-  view->own.count = 0;
-  CS_TRY(add_row(context, &nodes, &view->own));
-  view->at = view->own.at;
-  view->values = (const float(*)[4])view->own.values;
-  view->count = view->own.count;
-  return CELSPAN_OK;
+  return make_vertices(context, view, &nodes);
 }
 
-/* Moves to a row of vertices. */
-static celspan_status move_to_lines(const cs_defocused *defocused, celspan_context *context,
+/* Moves to a row of bands. */
+static celspan_status move_to_bands(const cs_defocused *defocused, celspan_context *context,
                                     cs_defocused_view *view, int32_t row, float share) {
   const cs_defocus_band *band;
   CS_TRY(pin_band(defocused, context, view, row / defocused->band_rows, &band));
   if (band->nodes)
-    return make_vertices(defocused, context, view, band, row, share);
+    return move_between(defocused, context, view, band, row, share);
   size_t first = band->rows[row % defocused->band_rows];
   view->at = band->polyline.at + first;
   view->values = (const float(*)[4])band->polyline.values + first * (size_t)defocused->planes;
@@ -375,16 +383,34 @@ static celspan_status move_to_lines(const cs_defocused *defocused, celspan_conte
   return CELSPAN_OK;
 }
 
-/* Moves to a row of pixels. */
-static celspan_status move_to_pixels(const cs_defocused *defocused, celspan_context *context,
-                                     cs_defocused_view *view, double y) {
+/* The nodes of a mixed row: all of them where they are not pixels. */
+static node_row mixed_nodes(const cs_defocused *defocused, const cs_defocused_view *view) {
+  const float(*mixed)[4] = (const float(*)[4])view->mixed;
+  return (node_row){.planes = {mixed, mixed + defocused->columns},
+                    .plane_count = defocused->planes,
+                    .last = defocused->columns - 1};
+}
+
+/* Makes the nodes that are not visible clear. */
+static void clear_beyond(const cs_defocused *defocused, cs_defocused_view *view) {
+  for (int plane = 0; plane < defocused->planes; plane++) {
+    float(*nodes)[4] = view->mixed + (size_t)plane * (size_t)defocused->columns;
+    const cs_v4 clear = plane == 0 ? cs_v4_all(0) : colours;
+    for (int32_t i = 0; i < view->visible.first; i++)
+      cs_v4_store(nodes[i], clear);
+    for (int32_t i = view->visible.end; i < defocused->columns; i++)
+      cs_v4_store(nodes[i], clear);
+  }
+}
+
+/* Moves to a row that is mixed. */
+static celspan_status move_to_mixed(const cs_defocused *defocused, celspan_context *context,
+                                    cs_defocused_view *view, double y) {
   CS_TRY(make_mixed(defocused, context, view));
   CS_TRY(defocused->mix(defocused, context, view, y));
-  size_t columns = (size_t)defocused->columns;
-  size_t first = (size_t)view->visible.first, end = (size_t)view->visible.end;
-  memset(view->mixed, 0, first * sizeof *view->mixed);
-  memset(view->mixed + end, 0, (columns - end) * sizeof *view->mixed);
-  return CELSPAN_OK;
+  clear_beyond(defocused, view);
+  node_row nodes = mixed_nodes(defocused, view);
+  return defocused->are_pixels ? CELSPAN_OK : make_vertices(context, view, &nodes);
 }
 
 celspan_status cs_defocused_move(const cs_defocused *defocused, celspan_context *context,
@@ -396,8 +422,8 @@ celspan_status cs_defocused_move(const cs_defocused *defocused, celspan_context 
   int32_t row = cs_number_floor(at);
   row = row > defocused->rows - 2 ? defocused->rows - 2 : row;
   view->is_placed = false;
-  CS_TRY(defocused->mix ? move_to_pixels(defocused, context, view, y)
-                        : move_to_lines(defocused, context, view, row, (float)(at - row)));
+  CS_TRY(defocused->mix ? move_to_mixed(defocused, context, view, y)
+                        : move_to_bands(defocused, context, view, row, (float)(at - row)));
   view->is_placed = true;
   view->y = y;
   return CELSPAN_OK;
@@ -429,8 +455,33 @@ static cs_v4 vertex_through(const cs_defocused *defocused, const cs_defocused_vi
   return t;
 }
 
+/* The node of a pixel where nodes are pixels. */
+static inline int32_t node_of(const cs_defocused *defocused, double x) {
+  return (int32_t)cs_defocused_at(defocused, x);
+}
+
+/* The paint of a node. */
+static inline cs_v4 node_through(const cs_defocused *defocused, const cs_defocused_view *view,
+                                 int32_t node) {
+  if (defocused->planes == 1)
+    return cs_v4_all(1 - view->mixed[node][3]) * colours;
+  return cs_v4_load(view->mixed[defocused->columns + node]) * colours;
+}
+
+/* Mostly much is let through in the first pixel, and then a bound of 1 is as good. */
+static cs_v4 pixels_through(const cs_defocused *defocused, const cs_defocused_view *view,
+                            cs_run run) {
+  int32_t node = node_of(defocused, run.x0 + 0.5), last = node_of(defocused, run.x1 - 0.5);
+  cs_v4 most = node_through(defocused, view, node);
+  while (node < last && cs_v4_is_between(most, cs_v4_all(-1), cs_v4_all(0.5f)))
+    most = cs_v4_max(node_through(defocused, view, ++node), most);
+  return node == last ? most : colours;
+}
+
 cs_v4 cs_defocused_through(const cs_defocused *defocused, const cs_defocused_view *view,
                            cs_run run) {
+  if (defocused->are_pixels)
+    return pixels_through(defocused, view, run);
   double last = cs_defocused_at(defocused, run.x1 - 0.5);
   size_t k = cs_defocused_find(view, cs_defocused_at(defocused, run.x0 + 0.5), 0);
   cs_v4 most = vertex_through(defocused, view, k);
@@ -455,22 +506,14 @@ static inline row_line line_at(const cs_defocused *defocused, const cs_defocused
   return out;
 }
 
-static const cs_v4 colours = {1, 1, 1, 0};
-
 /* The paints where nodes are pixels. */
 static void pixel_paints(const cs_defocused *defocused, const cs_defocused_view *view,
                          const cs_defocused_places *places, float (*s)[4], float (*t)[4]) {
-  size_t through = (size_t)(defocused->planes - 1) * (size_t)defocused->columns;
   for (int32_t i = 0; i < places->count; i++) {
     double x = (places->columns ? places->columns[i] : places->x0 + i) + 0.5;
-    int32_t node = (int32_t)cs_defocused_at(defocused, x);
-    bool is_visible = node >= view->visible.first && node < view->visible.end;
-    cs_v4 value = is_visible ? cs_v4_load(view->mixed[node]) : cs_v4_all(0);
-    cs_v4 clear = cs_v4_all(1 - value[3]);
-    if (is_visible && through > 0)
-      clear = cs_v4_load(view->mixed[through + (size_t)node]);
-    cs_v4_store(s[i], value * colours);
-    cs_v4_store(t[i], clear * colours);
+    int32_t node = node_of(defocused, x);
+    cs_v4_store(s[i], cs_v4_load(view->mixed[node]) * colours);
+    cs_v4_store(t[i], node_through(defocused, view, node));
   }
 }
 
@@ -497,7 +540,7 @@ static void line_paints(const cs_defocused *defocused, const cs_defocused_view *
 
 void cs_defocused_paints(const cs_defocused *defocused, const cs_defocused_view *view,
                          const cs_defocused_places *places, float (*s)[4], float (*t)[4]) {
-  if (defocused->mix)
+  if (defocused->are_pixels)
     pixel_paints(defocused, view, places, s, t);
   else
     line_paints(defocused, view, places, s, t);
@@ -506,7 +549,8 @@ void cs_defocused_paints(const cs_defocused *defocused, const cs_defocused_view 
 const float (*cs_defocused_samples(const cs_defocused *defocused, const cs_defocused_view *view,
                                    int32_t x0, int32_t count))[4] {
   int32_t first = x0 - (defocused->first_x - 1);
-  if (!defocused->mix || defocused->planes > 1 || first < 0 || first + count > defocused->columns)
+  if (!defocused->are_pixels || defocused->planes > 1 || first < 0 ||
+      first + count > defocused->columns)
     return NULL;
   return (const float(*)[4])view->mixed + first;
 }

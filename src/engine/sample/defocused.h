@@ -20,16 +20,16 @@
  *
  *   bands (defocus/ makes them) --a row, or two mixed--> vertices --along the line--> paint at x
  *
- * Where modes and mattes show a cel pixel by pixel, its nodes are pixels: a row of them is mixed
- * from the cel's own grid (defocus/) when it is asked for, and kept by the view alone, as far as
- * there is anything in it.
+ * Where a cel has a grid of its own (defocus/), a row of nodes at the height of the frame's row is
+ * mixed from that grid when it is asked for, as far as there is anything in it, and kept by the
+ * view alone: there are no bands. Where nodes are pixels, they are the paint, without vertices.
  *
  * A plane holds four values a node: the paint's S and its matte (1 - the mean of T); where T
  * differs from channel to channel a second plane holds T.
  *
  * Invariant: the values of a node are a function of the cel, its placement and the frame's size;
- * lines from vertex to vertex are within a quarter of 1/1023 of the nodes between them; where nodes
- * are pixels, those beyond the visible columns of a row are clear.
+ * lines from vertex to vertex are within a quarter of 1/1023 of the nodes between them; the nodes
+ * of a mixed row beyond its visible ones are clear.
  */
 #pragma once
 
@@ -82,12 +82,13 @@ struct cs_defocused {
   celspan_status (*acquire)(const cs_defocused *defocused, celspan_context *context, int32_t band,
                             cs_defocus_band **out);
   void (*release)(const cs_defocused *defocused, celspan_context *context, cs_defocus_band *band);
-  /* Where nodes are pixels; NULL: there are bands. Fills `mixed` of a view, which has its room, and
-   * `visible` at a height in pixels; gives up what the view keeps for that.
+  /* NULL: there are bands. Fills `mixed` of a view, which has its room, and `visible` at a height
+   * in pixels; gives up what the view keeps for that.
    * Errors: NO_MEMORY, and those of the rows of the cel. */
   celspan_status (*mix)(const cs_defocused *defocused, celspan_context *context,
                         struct cs_defocused_view *view, double y);
   void (*forget)(celspan_context *context, struct cs_defocused_view *view);
+  bool are_pixels; /* each node is a pixel of a mixed row */
 };
 
 /* A defocused cel as one worker sees it, along one row. */
@@ -101,9 +102,8 @@ typedef struct cs_defocused_view {
   size_t count;
   cs_defocused_polyline own;
   float (*mixed)[4];           /* a row of nodes, plane after plane */
-  struct cs_regrid_rows *rows; /* only where nodes are pixels, and there are no vertices */
-  /* where nodes are pixels: the columns of `mixed` that may not be clear */
-  cs_defocused_range visible;
+  struct cs_regrid_rows *rows; /* only of mixed rows */
+  cs_defocused_range visible;  /* the nodes of a mixed row that may not be clear */
 } cs_defocused_view;
 
 /* ---- bands */

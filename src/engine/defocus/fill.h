@@ -1,0 +1,18 @@
+/* The bands of a layer: rows that are summed together (sums.h, slices.h, neighbours.h), or made one
+ * after the other: of flat art, from its boundaries alone, through the kernel of the plans or line
+ * by line (lines.h); and along a shift (shifted.h).
+ *
+ *  plan of S --boundaries--> a row of nodes --\                 /--> polyline, where a row of nodes
+ *                                              >--> even groups     is a row of pixels,
+ *  plan of T --boundaries--> a row of nodes --/                 \--> or every node
+ *
+ * Of the latter only one row of nodes is held at a time, and groups of one colour are neither
+ * written nor looked at node by node.
+ */
+#pragma once
+
+#include "engine/defocus/defocus.h"
+
+/* From now on the bands of a layer that has its plans are made when they are asked for, and kept
+ * under its key. */
+void cs_defocus_fill_bands(cs_defocus *defocus);
