@@ -30,8 +30,7 @@ typedef struct samples {
 
 static void sample_shade(const cs_shade *shade, const cs_batch *batch, samples *out) {
   double x[CS_OVER_ROW_BATCH];
-  for (int32_t k = 0; k < batch->count; k++)
-    x[k] = cs_batch_centre(batch, k);
+  cs_batch_centres(batch, x);
   cs_shade_paints(shade, x, batch->count, batch->y, out->s, out->t);
 }
 

@@ -256,13 +256,18 @@ static int bend_of(const cs_painter *painter, const cs_layer *layer) {
   return painter->stack->images[layer->index].space == CELSPAN_SPACE_SRGB ? 2 : 1;
 }
 
+static int count_bends(const cs_painter *painter, const cs_program *program) {
+  int bends = 0;
+  for (uint32_t i = 0; i < program->length; i++)
+    bends += bend_of(painter, &painter->stack->layers[program->items[i].layer]);
+  return bends;
+}
+
 /* One layer that is linear between two cuts gives a line, since light, fades and flat layers act
  * linearly; the product of two such layers gives a curve, and so do modes, mattes, and pictures of
  * light where codes are mixed. */
 static line_shape shape_of(const cs_painter *painter, const cs_program *program) {
-  int bends = 0;
-  for (uint32_t i = 0; i < program->length; i++)
-    bends += bend_of(painter, &painter->stack->layers[program->items[i].layer]);
+  int bends = count_bends(painter, program);
   if (bends > 0 && cs_program_curves(painter->stack, program))
     return CURVED;
   return bends == 0 ? STEPPED : bends == 1 ? STRAIGHT : CURVED;
@@ -379,6 +384,8 @@ celspan_status cs_lines_run(cs_painter *painter, const cs_program *program, cs_r
   CS_TRY(cs_gradient_table_find(painter->gradients, program, &c.table));
   if (cs_gradient_run_fits(c.table))
     return cs_gradient_run(painter, c.table, run, row);
+  if (run.x1 - run.x0 < SHORT && count_bends(painter, program) > 2) /* its lines would be short */
+    return cs_painter_pixels(painter, program, run, row);
   CS_TRY(find_ends(painter, program, run, row, &ends));
   return put_lines(&c, &ends);
 }

@@ -30,6 +30,14 @@ static inline double cs_batch_centre(const cs_batch *batch, int32_t k) {
   return (batch->columns ? batch->columns[k] : batch->x0 + k) + 0.5;
 }
 
+static inline void cs_batch_centres(const cs_batch *batch, double *x) {
+  for (int32_t k = 0; k < batch->count && batch->columns; k++)
+    x[k] = batch->columns[k] + 0.5;
+#pragma omp simd
+  for (int32_t k = 0; k < (batch->columns ? 0 : batch->count); k++)
+    x[k] = batch->x0 + k + 0.5;
+}
+
 /* Four floats a pixel; lane 3 has no meaning. */
 typedef struct cs_over_row_state {
   float e[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4]; /* light gathered, and transmission */

@@ -8,9 +8,17 @@
 #define PLACES CS_SHADE_PLACES
 #define TURN 6.283185307179586
 
-static cs_shade_lanes lanes_of(const cs_paint *paint) {
-  return (cs_shade_lanes){{paint->s[0], paint->s[1], paint->s[2], 0},
-                          {paint->t[0], paint->t[1], paint->t[2], 0}};
+/* Three floats, of four that are there; lane 3 is 0. */
+static inline cs_v4 three_of(const float *channels) {
+  cs_v4 out = cs_v4_load(channels);
+  out[3] = 0;
+  return out;
+}
+
+/* What follows s is t, and what follows t is beta. */
+static inline cs_shade_lanes lanes_of(const cs_paint *paint) {
+  const float *channels = (const float *)paint;
+  return (cs_shade_lanes){three_of(channels), three_of(channels + 3)};
 }
 
 /* ---------------------------------------------------------------- the triangle */
@@ -55,19 +63,12 @@ static cs_paint triangle_paint(const cs_shade *shade, double u, double v) {
 
 /* ---------------------------------------------------------------- stops */
 
-/* The colours of a gradient from one stop to the next, before the first or after the last. */
-typedef struct stretch {
-  double from, to;            /* [from, to) along the stops */
-  double length;              /* 0: the paint is the same everywhere */
-  cs_shade_lanes paint, step; /* at its beginning, and from there to its end */
-} stretch;
-
-static stretch stretch_at(const celspan_texture *texture, double at) {
+static inline cs_shade_stretch stretch_at(const celspan_texture *texture, double at) {
   const cs_stop *stops = texture->variation->stops;
   size_t count = texture->variation->stop_count, next = 0;
   while (next < count && stops[next].at <= at)
     next++;
-  stretch out = {
+  cs_shade_stretch out = {
       -INFINITY, INFINITY, 0, lanes_of(&stops[next == 0 ? 0 : next - 1].paint), {{0}, {0}}};
   if (next > 0)
     out.from = stops[next - 1].at;
@@ -81,7 +82,7 @@ static stretch stretch_at(const celspan_texture *texture, double at) {
   return out;
 }
 
-static inline cs_shade_lanes stretch_paint(const stretch *part, double at) {
+static inline cs_shade_lanes stretch_paint(const cs_shade_stretch *part, double at) {
   if (part->length == 0)
     return part->paint;
   float u = (float)((at - part->from) / part->length);
@@ -186,7 +187,7 @@ cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y) {
   double at = cs_shade_at(shade, x, y);
   if (at != at)
     return lanes_of(&clear);
-  const stretch found = stretch_at(shade->texture, at);
+  const cs_shade_stretch found = stretch_at(shade->texture, at);
   return stretch_paint(&found, at);
 }
 
@@ -203,33 +204,18 @@ void cs_shade_find(const cs_shade *shade, const double *x, int32_t count, double
     CS_WIDE_CHOOSE(cs_isa_best(), cs_shade_places)(shade, x, count, y, at);
 }
 
-/* The colours of a stretch at up to PLACES places in it. */
-static void fill_paints(const stretch *part, const double *at, int32_t count, float (*s)[4],
-                        float (*t)[4]) {
-  float shares[PLACES];
-  if (part->length != 0)
-    CS_WIDE_CHOOSE(cs_isa_best(), cs_shade_shares)(at, count, part->from, part->length, shares);
-  for (int32_t k = 0; k < count; k++) {
-    float u = part->length != 0 ? shares[k] : 0;
-    cs_v4_store(s[k], part->paint.s + u * part->step.s);
-    cs_v4_store(t[k], part->paint.t + u * part->step.t);
-  }
-}
-
 /* At most PLACES places. */
 static void stop_paints(const cs_shade *shade, const double *x, int32_t count, double y,
                         float (*s)[4], float (*t)[4]) {
   const cs_paint clear = CS_PAINT_CLEAR;
+  const cs_isa isa = cs_isa_best();
   double at[PLACES];
   cs_shade_find(shade, x, count, y, at);
-  for (int32_t k = 0, end; k < count; k = end) {
-    stretch part = {.from = INFINITY, .paint = lanes_of(&clear)}; /* behind the horizon */
+  for (int32_t k = 0; k < count;) {
+    cs_shade_stretch part = {.from = INFINITY, .paint = lanes_of(&clear)}; /* behind the horizon */
     if (at[k] == at[k])
       part = stretch_at(shade->texture, at[k]);
-    end = k + 1;
-    end +=
-        CS_WIDE_CHOOSE(cs_isa_best(), cs_shade_extent)(at + end, count - end, part.from, part.to);
-    fill_paints(&part, at + k, end - k, s + k, t + k);
+    k += CS_WIDE_CHOOSE(isa, cs_shade_blend)(&part, at + k, count - k, s + k, t + k);
   }
 }
 

@@ -71,20 +71,26 @@ static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
 /* The same for up to CS_SHADE_PLACES places of a row. */
 #define CS_SHADE_PLACES 64
 void cs_shade_find(const cs_shade *shade, const double *x, int32_t count, double y, double *at);
-/* The same for all but noise; also the share of the way from the stop `from` to the next stop
- * at which each place lies; and how many places from the first one on lie in [from, to). In vector
- * code: shade_wide.c. */
-CS_WIDE_DECLARE(void, cs_shade_places,
-                (const cs_shade *shade, const double *x, int32_t count, double y, double *at));
-CS_WIDE_DECLARE(void, cs_shade_shares,
-                (const double *at, int32_t count, double from, double length, float *shares));
-CS_WIDE_DECLARE(int32_t, cs_shade_extent,
-                (const double *at, int32_t count, double from, double to));
-
 /* A paint in the form in which it is folded; lane 3 has no meaning. */
 typedef struct cs_shade_lanes {
   cs_v4 s, t;
 } cs_shade_lanes;
+
+/* The colours of a gradient from one stop to the next, before the first or after the last. */
+typedef struct cs_shade_stretch {
+  double from, to;            /* [from, to) along the stops */
+  double length;              /* 0: the paint is the same everywhere */
+  cs_shade_lanes paint, step; /* at its beginning, and from there to its end */
+} cs_shade_stretch;
+
+/* In vector code, shade_wide.c: as cs_shade_find, for all but noise; and the paints of those of at
+ * most CS_SHADE_PLACES places that lie in the stretch of the first one, up to the first one that
+ * does not. Returns how many. */
+CS_WIDE_DECLARE(void, cs_shade_places,
+                (const cs_shade *shade, const double *x, int32_t count, double y, double *at));
+CS_WIDE_DECLARE(int32_t, cs_shade_blend,
+                (const cs_shade_stretch *part, const double *at, int32_t count, float (*s)[4],
+                 float (*t)[4]));
 
 /* The paint at a point of the frame, pixels; clear behind the horizon. */
 cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y);

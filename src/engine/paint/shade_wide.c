@@ -1,6 +1,8 @@
 /* Plain loops that the compiler turns into vector code: see shade.h. */
 #include "engine/paint/shade.h"
 
+#include "engine/paint/over_wide.h"
+
 /* is_radial, is_affine: constants of each caller. */
 static inline void find_places(const cs_shade *restrict shade, const double *restrict x,
                                int32_t count, double y, double *restrict at, bool is_radial,
@@ -23,24 +25,67 @@ void CS_WIDE(cs_shade_places)(const cs_shade *shade, const double *x, int32_t co
     find_places(shade, x, count, y, at, false, true);
 }
 
-void CS_WIDE(cs_shade_shares)(const double *restrict at, int32_t count, double from, double length,
-                              float *restrict shares) {
+enum { TOGETHER = 8 };
+
+/* Whether all of TOGETHER places lie in [from, to). */
+static inline bool are_inside(const double *at, double from, double to) {
+  int64_t outside = 0;
+#pragma omp simd reduction(| : outside)
+  for (int32_t i = 0; i < TOGETHER; i++)
+    outside |= (at[i] >= from ? 0 : 1) | (at[i] < to ? 0 : 1);
+  return outside == 0;
+}
+
+/* How many places lie in a stretch, from the first one on, which does. */
+static inline int32_t find_extent(const cs_shade_stretch *part, const double *at, int32_t count) {
+  int32_t k = 0;
+  while (k + TOGETHER <= count && are_inside(at + k, part->from, part->to))
+    k += TOGETHER;
+  k = k > 0 ? k : 1;
+  while (k < count && at[k] >= part->from && at[k] < part->to)
+    k++;
+  return k;
+}
+
+/* The shares of the way from one stop to the next. */
+static inline void find_shares(const cs_shade_stretch *part, const double *restrict at,
+                               int32_t count, float *restrict shares) {
+  const double from = part->from, length = part->length;
 #pragma omp simd
   for (int32_t k = 0; k < count; k++)
     shares[k] = (float)((at[k] - from) / length);
 }
 
-int32_t CS_WIDE(cs_shade_extent)(const double *at, int32_t count, double from, double to) {
-  enum { TOGETHER = 8 };
-  int32_t k = 0, inside = TOGETHER;
-  for (; k + TOGETHER <= count && inside == TOGETHER; k += TOGETHER) {
-    inside = 0;
-#pragma omp simd reduction(+ : inside)
-    for (int32_t i = 0; i < TOGETHER; i++)
-      inside += (at[k + i] >= from) & (at[k + i] < to);
-  }
-  k -= inside == TOGETHER ? 0 : TOGETHER;
-  while (k < count && at[k] >= from && at[k] < to)
-    k++;
-  return k;
+/* The first shares of a register, each in all lanes of its pixel. */
+static inline cs_wide spread(const float *shares) {
+  cs_wide v = cs_wide_load(shares);
+#if CS_WIDE_LANES == 16
+  return __builtin_shufflevector(v, v, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
+#elif CS_WIDE_LANES == 8
+  return __builtin_shufflevector(v, v, 0, 0, 0, 0, 1, 1, 1, 1);
+#else
+  return CS_WIDE_SPREAD(v, 0);
+#endif
+}
+
+static inline void fill(cs_v4 paint, cs_v4 step, const float *shares, int32_t count,
+                        float (*out)[4]) {
+  const cs_wide base = cs_over_wide_all((const float *)&paint);
+  const cs_wide slope = cs_over_wide_all((const float *)&step);
+  int32_t k = 0;
+  for (; k + CS_OVER_WIDE_PIXELS <= count; k += CS_OVER_WIDE_PIXELS)
+    cs_wide_store(out[k], base + spread(shares + k) * slope);
+  for (; k < count; k++)
+    cs_v4_store(out[k], paint + shares[k] * step);
+}
+
+int32_t CS_WIDE(cs_shade_blend)(const cs_shade_stretch *part, const double *at, int32_t count,
+                                float (*s)[4], float (*t)[4]) {
+  float shares[CS_SHADE_PLACES + CS_WIDE_LANES] = {0}; /* whole registers are read */
+  count = find_extent(part, at, count);
+  if (part->length != 0)
+    find_shares(part, at, count, shares);
+  fill(part->paint.s, part->step.s, shares, count, s);
+  fill(part->paint.t, part->step.t, shares, count, t);
+  return count;
 }
