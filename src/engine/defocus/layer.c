@@ -3,6 +3,7 @@
 #include "base/number.h"
 #include "engine/defocus/fill.h"
 #include "engine/defocus/shifted_place.h"
+#include "model/scene/bounds.h"
 #include "model/scene/extend.h"
 #include "model/scene/nearby.h"
 #include "model/scene/texture.h"
@@ -78,7 +79,7 @@ bool cs_defocus_layer_is_needed(const cs_defocus_cel *place) {
 static bool find_art(const cs_defocus_cel *place, cs_boundary_frame *out) {
   const celspan_cel *cel = place->cel;
   celspan_box box;
-  if (!celspan_cel_bounds(cel, &box))
+  if (!cs_bounds_around(cel->objects, cel->object_count, &cel->matrix, &box))
     return false;
   celspan_matrix view = celspan_matrix_then(
       cs_scene_view(place->rostrum, cel, place->film_width, place->film_height), place->to_pixels);
@@ -321,12 +322,10 @@ static celspan_status make_for_frame(celspan_context *context, const cs_defocus_
 static celspan_status make(celspan_context *context, const cs_defocus_cel *place,
                            const cs_blur *blur, const cs_defocus_compiler *compiler,
                            const cs_boundary_frame *visible, cs_defocus **defocus) {
-  bool varies = cel_varies(place->cel), is_own = false;
+  bool varies = cel_varies(place->cel);
   cs_own_grid grid;
   (*defocus)->key = find_key(place, blur, CS_DEFOCUS_SAMPLES);
-  if (blur->kind != CELSPAN_DEFOCUS_PIXEL)
-    CS_TRY(cs_own_grid_find(context, place, blur, varies, &is_own, &grid));
-  if (!is_own)
+  if (blur->kind == CELSPAN_DEFOCUS_PIXEL || !cs_own_grid_find(place, blur, varies, &grid))
     return make_for_frame(context, place, varies, compiler, defocus);
   CS_TRY(use_own(context, place, varies, &grid, compiler, *defocus));
   if (place->is_source)

@@ -137,22 +137,20 @@ static void find_matrix(const celspan_matrix *placement, const grid_axis axes[2]
   }
 }
 
-celspan_status cs_own_grid_find(celspan_context *context, const cs_defocus_cel *place,
-                                const cs_blur *blur, bool varies, bool *is_there,
-                                cs_own_grid *out) {
+bool cs_own_grid_find(const cs_defocus_cel *place, const cs_blur *blur, bool varies,
+                      cs_own_grid *out) {
+  const celspan_cel *cel = place->cel;
   celspan_matrix facing = cs_matrix_facing(&place->matrix);
   const double *m = facing.m;
   grid_axis axes[2];
   celspan_box art;
-  *is_there = m[6] == 0 && m[7] == 0 && m[8] == 1 && find_axis(&facing, blur, 0, &axes[0]) &&
-              find_axis(&facing, blur, 1, &axes[1]);
-  if (!*is_there)
-    return CELSPAN_OK;
+  if (m[6] != 0 || m[7] != 0 || m[8] != 1 || !find_axis(&facing, blur, 0, &axes[0]) ||
+      !find_axis(&facing, blur, 1, &axes[1]))
+    return false;
   choose_density(blur, varies, axes, &out->samples);
   out->blur = blur_on(blur, axes);
   find_matrix(&facing, axes, out);
-  CS_TRY(cs_bounds_drawing(context, place->cel, &out->matrix, is_there, &art));
-  *is_there = *is_there && find_part(out, 0, place->width, art.x, art.x + art.width) &&
-              find_part(out, 1, place->height, art.y, art.y + art.height);
-  return CELSPAN_OK;
+  return cs_bounds_around(cel->objects, cel->object_count, &out->matrix, &art) &&
+         find_part(out, 0, place->width, art.x, art.x + art.width) &&
+         find_part(out, 1, place->height, art.y, art.y + art.height);
 }

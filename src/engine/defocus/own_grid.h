@@ -48,9 +48,8 @@ typedef struct cs_own_grid {
 } cs_own_grid;
 
 /* varies: the cel has layers that vary between their boundaries. blur: in pixels of the frame.
- * *is_there: false where the cel must be blurred for the frame alone: in perspective, where the
- * radius is small, where even kernels are not smooth on any grid as coarse as pixels, and very far
- * from the cel's origin. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_own_grid_find(celspan_context *context,
-                                                const cs_defocus_cel *place, const cs_blur *blur,
-                                                bool varies, bool *is_there, cs_own_grid *out);
+ * False where the cel must be blurred for the frame alone: in perspective, where the radius is
+ * small, where even kernels are not smooth on any grid as coarse as pixels, and very far from the
+ * cel's origin. */
+bool cs_own_grid_find(const cs_defocus_cel *place, const cs_blur *blur, bool varies,
+                      cs_own_grid *out);
