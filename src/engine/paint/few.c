@@ -28,8 +28,8 @@ bool cs_few_fits(const cs_stack *stack, const cs_program *program) {
     }
   }
   if (defocused == 0)
-    return formulas > 1; /* one alone is read from a table */
-  return defocused == 1 || made == 0;
+    return formulas > 1;                                      /* one alone is read from a table */
+  return defocused == 1 || (made == 0 && stack->has_sources); /* then little is hidden */
 }
 
 static celspan_status move_views(cs_painter *painter, const cs_program *program, double y) {
