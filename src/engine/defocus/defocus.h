@@ -62,7 +62,7 @@ struct cs_defocus {
   cs_defocus_slices slices;
   cs_defocus_neighbours neighbours;
   bool is_fine;     /* there are enough samples for each to be the mean over its area */
-  bool is_own;      /* the grid of a cel's own, whose bands are nodes */
+  bool is_own;      /* bands are nodes: on the grid of a cel's own, and along a shift */
   cs_defocus *own;  /* the cel's own grid, where it has one, and how the nodes are mixed from it; */
   cs_regrid regrid; /* then there are no plans here */
   cs_shifted shifted;

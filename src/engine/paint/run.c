@@ -59,8 +59,7 @@ static bool fits_defocused(const cs_stack *stack, const cs_program *program, uin
     const cs_layer *layer = &stack->layers[program->items[i].layer];
     if (layer->kind == CS_LAYER_FLAT)
       continue;
-    if (layer->kind != CS_LAYER_DEFOCUSED || stack->defocused[layer->index]->are_pixels ||
-        found++ > 0)
+    if (layer->kind != CS_LAYER_DEFOCUSED || cs_shown_is_pixels(stack, layer) || found++ > 0)
       return false;
     *item = i;
   }
@@ -203,10 +202,9 @@ static celspan_status needs_array(cs_painter *painter, const cs_program *program
   for (uint32_t i = 0; i < program->length && !*out; i++) {
     const cs_layer *layer = &painter->stack->layers[program->items[i].layer];
     const cs_image_view *view;
-    *out = layer->kind == CS_LAYER_SHADED &&
-           painter->stack->shades[layer->index].texture->kind == CS_TEXTURE_NOISE;
-    *out |=
-        layer->kind == CS_LAYER_DEFOCUSED && painter->stack->defocused[layer->index]->are_pixels;
+    *out = cs_shown_is_pixels(painter->stack, layer) ||
+           (layer->kind == CS_LAYER_SHADED &&
+            painter->stack->shades[layer->index].texture->kind == CS_TEXTURE_NOISE);
     if (layer->kind != CS_LAYER_PICTURE)
       continue;
     CS_TRY(cs_painter_image(painter, layer->index, &view));

@@ -58,6 +58,19 @@ static celspan_status bound_defocused(cs_painter *painter, const cs_layer *layer
   return CELSPAN_OK;
 }
 
+/* Asks a layer of pixels which columns are clear. */
+static celspan_status bound_pixels(cs_painter *painter, const cs_layer *layer, cs_run run,
+                                   bound *out) {
+  const cs_defocused *defocused = painter->stack->defocused[layer->index];
+  cs_defocused_view *view = &painter->defocused[layer->index];
+  CS_TRY(cs_defocused_move(defocused, painter->context, view, run.y));
+  cs_defocused_range visible = cs_defocused_visible(defocused, view);
+  out->is_clear = run.x1 <= visible.first || run.x0 >= visible.end;
+  out->is_sure =
+      out->is_clear || (visible.first < run.x0 + STRIDE && visible.end > run.x1 - STRIDE);
+  return CELSPAN_OK;
+}
+
 /* Finds a bound of a layer in some columns. is_last: no layer behind this one would have to be read
  * or made. */
 static celspan_status find_bound(cs_painter *painter, const cs_layer *layer, bool is_last,
@@ -67,9 +80,10 @@ static celspan_status find_bound(cs_painter *painter, const cs_layer *layer, boo
     return CELSPAN_OK;
   if (layer->kind == CS_LAYER_PICTURE)
     return bound_picture(painter, layer, run, out);
-  bool is_asked =
-      is_pixels(painter->stack, layer) || (layer->kind == CS_LAYER_DEFOCUSED && !is_last);
-  return is_asked ? bound_defocused(painter, layer, is_last, run, out) : CELSPAN_OK;
+  if (cs_shown_is_pixels(painter->stack, layer))
+    return bound_pixels(painter, layer, run, out);
+  return layer->kind == CS_LAYER_DEFOCUSED && !is_last ? bound_defocused(painter, layer, run, out)
+                                                       : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- programs */
@@ -115,6 +129,32 @@ int32_t cs_shown_stride(cs_painter *painter, const cs_program *program) {
       columns = view->sampler.opacity_columns;
   }
   return columns;
+}
+
+/* Whether no item can hide another one by properties that hold only in some columns. */
+static bool hides_nothing(const cs_stack *stack, const cs_program *program) {
+  bool hides = false;
+  for (uint32_t i = 0; i < program->length && !hides; i++) {
+    const cs_layer *layer = &stack->layers[program->items[i].layer];
+    hides = layer->kind == CS_LAYER_PICTURE ||
+            (layer->kind == CS_LAYER_DEFOCUSED && !cs_defocused_is_pixels(stack->defocused[layer->index]));
+  }
+  return !hides;
+}
+
+/* All items except clear layers of pixels. */
+static celspan_status find_pixels(cs_painter *painter, const cs_program *program, cs_run run,
+                                  cs_shown *out) {
+  for (uint32_t i = 0; i < program->length; i++) {
+    const cs_layer *layer = &painter->stack->layers[program->items[i].layer];
+    bound known = {.is_sure = true};
+    if (cs_shown_is_pixels(painter->stack, layer))
+      CS_TRY(bound_pixels(painter, layer, run, &known));
+    if (!known.is_clear)
+      out->items[out->length++] = program->items[i];
+    out->is_sure &= known.is_sure;
+  }
+  return CELSPAN_OK;
 }
 
 celspan_status cs_shown_find(cs_painter *painter, const cs_program *program, cs_run run,

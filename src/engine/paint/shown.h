@@ -31,3 +31,9 @@ CELSPAN_CHECKED celspan_status cs_shown_find(cs_painter *painter, const cs_progr
                                              cs_run run, cs_shown *out);
 /* Whether both show the same items. */
 bool cs_shown_same(const cs_shown *a, const cs_shown *b);
+/* Whether a layer is a defocused cel whose nodes are pixels: its rows are known to be clear outside
+ * some columns. */
+static inline bool cs_shown_is_pixels(const cs_stack *stack, const cs_layer *layer) {
+  return stack->has_pixels && layer->kind == CS_LAYER_DEFOCUSED &&
+         cs_defocused_is_pixels(stack->defocused[layer->index]);
+}

@@ -9,6 +9,8 @@
 /* How far a line between vertices may be from the nodes: half the tolerance of other lines. */
 #define TOLERANCE (0.25f / 1023)
 #define CONSTANT 3 /* this many equal neighbouring nodes become a line of their own */
+/* Nodes behind all others: loops over samples may read a register beyond them. */
+#define BEYOND (CS_WIDE_LINE / sizeof(cs_v4))
 
 static const cs_v4 colours = {1, 1, 1, 0};
 
@@ -245,7 +247,7 @@ static void fit(cs_memory *memory, void **items, size_t *capacity, size_t count,
 celspan_status cs_defocus_band_room(const cs_defocused *defocused, celspan_context *context,
                                     cs_defocus_band *band) {
   size_t count =
-      (size_t)defocused->planes * (size_t)defocused->band_rows * (size_t)defocused->columns;
+      (size_t)defocused->planes * (size_t)defocused->band_rows * (size_t)defocused->columns + BEYOND;
   band->nodes = cs_mem_resize(context->memory, NULL, 0, count * sizeof *band->nodes);
   if (!band->nodes)
     return cs_fail_memory(context);
@@ -290,9 +292,8 @@ static void drop_band(const cs_defocused *defocused, celspan_context *context,
   view->bands[i] = NULL;
 }
 
-/* Loops over samples may read a register beyond them. */
 static size_t mixed_count(const cs_defocused *defocused) {
-  return (size_t)defocused->columns * (size_t)defocused->planes + CS_WIDE_LINE / sizeof(cs_v4);
+  return (size_t)defocused->columns * (size_t)defocused->planes + BEYOND;
 }
 
 void cs_defocused_release(const cs_defocused *defocused, celspan_context *context,
@@ -383,34 +384,38 @@ static celspan_status move_to_bands(const cs_defocused *defocused, celspan_conte
   return CELSPAN_OK;
 }
 
-/* The nodes of a mixed row: all of them where they are not pixels. */
-static node_row mixed_nodes(const cs_defocused *defocused, const cs_defocused_view *view) {
-  const float(*mixed)[4] = (const float(*)[4])view->mixed;
-  return (node_row){.planes = {mixed, mixed + defocused->columns},
-                    .plane_count = defocused->planes,
-                    .last = defocused->columns - 1};
+static inline bool is_clear(const float node[4]) {
+  return cs_v4_same(cs_v4_load(node), cs_v4_all(0));
 }
 
-/* Makes the nodes that are not visible clear. */
-static void clear_beyond(const cs_defocused *defocused, cs_defocused_view *view) {
-  for (int plane = 0; plane < defocused->planes; plane++) {
-    float(*nodes)[4] = view->mixed + (size_t)plane * (size_t)defocused->columns;
-    const cs_v4 clear = plane == 0 ? cs_v4_all(0) : colours;
-    for (int32_t i = 0; i < view->visible.first; i++)
-      cs_v4_store(nodes[i], clear);
-    for (int32_t i = view->visible.end; i < defocused->columns; i++)
-      cs_v4_store(nodes[i], clear);
-  }
+/* Moves to a row of pixels that a band holds. */
+static celspan_status move_to_kept(const cs_defocused *defocused, celspan_context *context,
+                                   cs_defocused_view *view, int32_t row) {
+  const cs_defocus_band *band;
+  cs_defocused_range *visible = &view->visible;
+  CS_TRY(pin_band(defocused, context, view, row / defocused->band_rows, &band));
+  for (int plane = 0; plane < defocused->planes; plane++)
+    view->pixels[plane] = band_row(defocused, band, plane, row);
+  *visible = (cs_defocused_range){0, defocused->columns};
+  while (visible->end > 0 && is_clear(view->pixels[0][visible->end - 1]))
+    visible->end--;
+  while (visible->first < visible->end && is_clear(view->pixels[0][visible->first]))
+    visible->first++;
+  return CELSPAN_OK;
 }
 
-/* Moves to a row that is mixed. */
+/* Mixes a row of pixels. */
 static celspan_status move_to_mixed(const cs_defocused *defocused, celspan_context *context,
                                     cs_defocused_view *view, double y) {
   CS_TRY(make_mixed(defocused, context, view));
   CS_TRY(defocused->mix(defocused, context, view, y));
-  clear_beyond(defocused, view);
-  node_row nodes = mixed_nodes(defocused, view);
-  return defocused->are_pixels ? CELSPAN_OK : make_vertices(context, view, &nodes);
+  size_t columns = (size_t)defocused->columns;
+  size_t first = (size_t)view->visible.first, end = (size_t)view->visible.end;
+  memset(view->mixed, 0, first * sizeof *view->mixed);
+  memset(view->mixed + end, 0, (columns - end) * sizeof *view->mixed);
+  view->pixels[0] = (const float(*)[4])view->mixed;
+  view->pixels[1] = (const float(*)[4])view->mixed + columns;
+  return CELSPAN_OK;
 }
 
 celspan_status cs_defocused_move(const cs_defocused *defocused, celspan_context *context,
@@ -422,8 +427,12 @@ celspan_status cs_defocused_move(const cs_defocused *defocused, celspan_context 
   int32_t row = cs_number_floor(at);
   row = row > defocused->rows - 2 ? defocused->rows - 2 : row;
   view->is_placed = false;
-  CS_TRY(defocused->mix ? move_to_mixed(defocused, context, view, y)
-                        : move_to_bands(defocused, context, view, row, (float)(at - row)));
+  if (defocused->mix)
+    CS_TRY(move_to_mixed(defocused, context, view, y));
+  else if (defocused->keeps_pixels)
+    CS_TRY(move_to_kept(defocused, context, view, row));
+  else
+    CS_TRY(move_to_lines(defocused, context, view, row, (float)(at - row)));
   view->is_placed = true;
   view->y = y;
   return CELSPAN_OK;
@@ -511,9 +520,14 @@ static void pixel_paints(const cs_defocused *defocused, const cs_defocused_view 
                          const cs_defocused_places *places, float (*s)[4], float (*t)[4]) {
   for (int32_t i = 0; i < places->count; i++) {
     double x = (places->columns ? places->columns[i] : places->x0 + i) + 0.5;
-    int32_t node = node_of(defocused, x);
-    cs_v4_store(s[i], cs_v4_load(view->mixed[node]) * colours);
-    cs_v4_store(t[i], node_through(defocused, view, node));
+    int32_t node = (int32_t)cs_defocused_at(defocused, x);
+    bool is_visible = node >= view->visible.first && node < view->visible.end;
+    cs_v4 value = is_visible ? cs_v4_load(view->pixels[0][node]) : cs_v4_all(0);
+    cs_v4 clear = cs_v4_all(1 - value[3]);
+    if (is_visible && defocused->planes > 1)
+      clear = cs_v4_load(view->pixels[1][node]);
+    cs_v4_store(s[i], value * colours);
+    cs_v4_store(t[i], clear * colours);
   }
 }
 
@@ -540,7 +554,7 @@ static void line_paints(const cs_defocused *defocused, const cs_defocused_view *
 
 void cs_defocused_paints(const cs_defocused *defocused, const cs_defocused_view *view,
                          const cs_defocused_places *places, float (*s)[4], float (*t)[4]) {
-  if (defocused->are_pixels)
+  if (cs_defocused_is_pixels(defocused))
     pixel_paints(defocused, view, places, s, t);
   else
     line_paints(defocused, view, places, s, t);
@@ -549,10 +563,10 @@ void cs_defocused_paints(const cs_defocused *defocused, const cs_defocused_view 
 const float (*cs_defocused_samples(const cs_defocused *defocused, const cs_defocused_view *view,
                                    int32_t x0, int32_t count))[4] {
   int32_t first = x0 - (defocused->first_x - 1);
-  if (!defocused->are_pixels || defocused->planes > 1 || first < 0 ||
+  if (!cs_defocused_is_pixels(defocused) || defocused->planes > 1 || first < 0 ||
       first + count > defocused->columns)
     return NULL;
-  return (const float(*)[4])view->mixed + first;
+  return view->pixels[0] + first;
 }
 
 size_t cs_defocused_break_limit(const cs_defocused *defocused) {
