@@ -64,12 +64,21 @@ static size_t count_taps(const cs_shifted *map) {
 
 static bool is_affine(const double m[9]) { return m[6] == 0 && m[7] == 0 && m[8] == 1; }
 
+static celspan_status init_line(celspan_context *context, cs_shifted *map) {
+  const double *m = map->to_nodes.m;
+  const celspan_point to = map->shift->at;
+  const double end[2] = {m[0] * to.x + m[1] * to.y, m[3] * to.x + m[4] * to.y};
+  map->is_line = true;
+  return cs_shifted_line_init(context, end, count_taps(map), &map->line);
+}
+
 celspan_status cs_shifted_init(celspan_context *context, cs_shift *shift, cs_shifted *map) {
   map->shift = cs_shift_ref(shift);
+  map->is_affine = is_affine(map->to_units.m) && is_affine(map->to_nodes.m);
+  if (shift->kind == CS_SHIFT_LINE && map->is_affine)
+    return init_line(context, map);
   map->tap_count = shift->kind == CS_SHIFT_DISPLACED ? 1 : count_taps(map);
   CS_TRY(CS_MAKE(context, map->taps, map->tap_count));
-  const double *units = map->to_units.m, *nodes = map->to_nodes.m;
-  map->is_affine = is_affine(units) && is_affine(nodes);
   for (size_t k = 0; k < map->tap_count; k++)
     map->taps[k] = tap_at(map, (2 * (double)k + 1) / (double)map->tap_count - 1);
   return CELSPAN_OK;
@@ -77,64 +86,9 @@ celspan_status cs_shifted_init(celspan_context *context, cs_shift *shift, cs_shi
 
 void cs_shifted_finish(cs_shifted *map, cs_memory *memory) {
   cs_shift_unref((cs_shift *)map->shift);
+  cs_shifted_line_finish(&map->line, memory);
   cs_mem_free(memory, map->taps, map->tap_count * sizeof *map->taps);
   *map = (cs_shifted){0};
-}
-
-/* ---------------------------------------------------------------- nodes that are read */
-
-static celspan_status begin_source(celspan_context *context, const cs_defocused *grid,
-                                   cs_shifted_source *out) {
-  if (!grid)
-    return CELSPAN_OK;
-  out->grid = grid;
-  out->band_count = (size_t)((grid->rows + grid->band_rows - 1) / grid->band_rows);
-  return CS_MAKE(context, out->bands, out->band_count);
-}
-
-static void end_source(celspan_context *context, cs_shifted_source *source) {
-  for (size_t k = 0; source->bands && k < source->band_count; k++)
-    if (source->bands[k])
-      source->grid->release(source->grid, context, source->bands[k]);
-  cs_mem_free(context->memory, source->bands, source->band_count * sizeof *source->bands);
-}
-
-/* Acquires the bands of the rows from `low` to `high`, which may lie anywhere. */
-static celspan_status acquire(celspan_context *context, cs_shifted_source *source, double low,
-                              double high) {
-  const cs_defocused *grid = source->grid;
-  int32_t last = grid->rows - 1;
-  /* read_at mixes two rows everywhere, at the borders, too */
-  int32_t first = (int32_t)cs_number_clamp(floor(low), 0, last - 1) / grid->band_rows;
-  int32_t end = (int32_t)cs_number_clamp(floor(high) + 1, 1, last) / grid->band_rows;
-  for (int32_t k = first; k <= end; k++)
-    if (!source->bands[k])
-      CS_TRY(grid->acquire(grid, context, k, &source->bands[k]));
-  return CELSPAN_OK;
-}
-
-static inline const float (*row_of(const cs_shifted_source *source, int plane, int32_t row))[4] {
-  const cs_defocused *grid = source->grid;
-  size_t at = (size_t)plane * (size_t)grid->band_rows + (size_t)(row % grid->band_rows);
-  const cs_defocus_band *band = source->bands[row / grid->band_rows];
-  return (const float(*)[4])band->nodes + at * (size_t)grid->columns;
-}
-
-/* The nodes at a place, mixed. Beyond the grid nothing differs from its border. */
-static inline cs_v4 read_at(const cs_shifted_source *source, int plane, double x, double y) {
-  const cs_defocused *grid = source->grid;
-  x = cs_number_clamp(x, 0, grid->columns - 1);
-  y = cs_number_clamp(y, 0, grid->rows - 1);
-  int32_t i = (int32_t)x, j = (int32_t)y;
-  i = i < grid->columns - 1 ? i : grid->columns - 2;
-  j = j < grid->rows - 1 ? j : grid->rows - 2;
-  float across = (float)(x - i), down = (float)(y - j);
-  const float(*upper)[4] = row_of(source, plane, j) + i;
-  const float(*lower)[4] = row_of(source, plane, j + 1) + i;
-  cs_v4 a = cs_v4_load(upper[0]), b = cs_v4_load(lower[0]);
-  a += across * (cs_v4_load(upper[1]) - a);
-  b += across * (cs_v4_load(lower[1]) - b);
-  return a + down * (b - a);
 }
 
 /* ---------------------------------------------------------------- life */
@@ -146,27 +100,61 @@ celspan_status cs_shifted_refuse(celspan_context *context, double width, double 
                  width, height, MOST, CS_SHIFTED_SIDE);
 }
 
+static int32_t count_columns(const cs_shifted *map) {
+  return map->columns.end - map->columns.first;
+}
+
+static celspan_status begin_places(cs_shifted_rows *rows) {
+  const cs_shifted *map = rows->map;
+  size_t count = (size_t)count_columns(map);
+  for (int axis = 0; axis < 2; axis++)
+    CS_TRY(CS_MAKE(rows->context, rows->places[axis], count));
+  return map->shift->kind == CS_SHIFT_DISPLACED ? CS_MAKE(rows->context, rows->channels, 3 * count)
+                                                : CELSPAN_OK;
+}
+
 celspan_status cs_shifted_begin(const cs_shifted *map, const cs_defocused *to,
                                 celspan_context *context, cs_shifted_rows *out) {
   *out = (cs_shifted_rows){.map = map, .to = to, .context = context, .isa = cs_isa_best()};
-  size_t count = (size_t)(map->columns.end - map->columns.first);
   if ((int64_t)map->from->columns * map->from->rows > MOST)
     return cs_shifted_refuse(context, map->from->columns, map->from->rows);
-  CS_TRY(begin_source(context, map->from, &out->from));
-  CS_TRY(begin_source(context, map->by, &out->by));
-  if (map->shift->kind != CS_SHIFT_DISPLACED)
-    return CELSPAN_OK;
-  CS_TRY(CS_MAKE(context, out->places, count));
-  return CS_MAKE(context, out->channels, 3 * count);
+  CS_TRY(cs_shifted_source_begin(context, map->from, &out->from));
+  CS_TRY(cs_shifted_source_begin(context, map->by, &out->by));
+  return map->is_line ? cs_shifted_window_begin(context, &map->line, &out->from,
+                                                map->from_at[0] + map->columns.first,
+                                                count_columns(map), &out->window)
+                      : begin_places(out);
 }
 
 void cs_shifted_end(cs_shifted_rows *rows) {
   cs_memory *memory = rows->context->memory;
-  size_t count = (size_t)(rows->map->columns.end - rows->map->columns.first);
-  end_source(rows->context, &rows->from);
-  end_source(rows->context, &rows->by);
-  cs_mem_free(memory, rows->places, count * sizeof *rows->places);
+  size_t count = (size_t)count_columns(rows->map);
+  cs_shifted_window_end(&rows->window, memory);
+  cs_shifted_source_end(rows->context, &rows->from);
+  cs_shifted_source_end(rows->context, &rows->by);
+  for (int axis = 0; axis < 2; axis++)
+    cs_mem_free(memory, rows->places[axis], count * sizeof *rows->places[axis]);
   cs_mem_free(memory, rows->channels, 3 * count * sizeof *rows->channels);
+}
+
+/* ---------------------------------------------------------------- places */
+
+/* Clamps the places of a row to the nodes, and takes the rows that they are in. */
+static celspan_status settle(cs_shifted_rows *rows) {
+  const cs_defocused *grid = rows->map->from;
+  const double last[2] = {grid->columns - 1, grid->rows - 1};
+  double range[2];
+  CS_WIDE_CHOOSE(rows->isa, cs_shifted_settle)
+  (last, count_columns(rows->map), rows->places[0], rows->places[1], range);
+  return cs_shifted_source_take(rows->context, &rows->from, range[0], range[1]);
+}
+
+static void read_places(const cs_shifted_rows *rows, int plane, bool adds, float (*out)[4]) {
+  const cs_shifted_source *from = &rows->from;
+  const int32_t size[2] = {from->grid->columns, from->grid->rows};
+  CS_WIDE_CHOOSE(rows->isa, cs_shifted_read)
+  ((const float *const *)from->rows, (size_t)plane * from->plane, size, rows->places[0],
+   rows->places[1], count_columns(rows->map), adds, out[0]);
 }
 
 /* ---------------------------------------------------------------- displaced */
@@ -183,33 +171,10 @@ static void take_channel(const cs_shifted_rows *rows, const float (*nodes)[4], i
       out[i] *= out[i];
   else if (shift->space != rows->map->space)
     CS_WIDE_CHOOSE(rows->isa, cs_space_channels)
-  (shift->space, rows->channels + 2 * (size_t)count, count, out);
+  (shift->space, rows->channels, count, out);
 }
 
-/* How far a point moves along an axis, in the cel's units. */
-static inline double move_of(const cs_shift *shift, float channel, float alpha) {
-  double share = (double)channel / (double)alpha;
-  return shift->scale * (cs_number_clamp(share, 0, 1) - 0.5);
-}
-
-/* The place that is shown at the centre of a pixel, moved in the cel's units. */
-static inline void move_place(const cs_shifted *map, double x, double y, celspan_point by,
-                              double out[2]) {
-  const celspan_matrix *tap = &map->taps[0];
-  const double *m = map->to_nodes.m;
-  celspan_point p;
-  if (map->is_affine) {
-    p = (celspan_point){tap->m[0] * x + tap->m[1] * y + tap->m[2] + m[0] * by.x + m[1] * by.y,
-                        tap->m[3] * x + tap->m[4] * y + tap->m[5] + m[3] * by.x + m[4] * by.y};
-  } else {
-    celspan_point own = place_of(&map->to_units, x, y);
-    p = place_of(&map->to_nodes, own.x + by.x, own.y + by.y);
-  }
-  out[0] = p.x;
-  out[1] = p.y;
-}
-
-/* The nodes of `by` under [first, end) of the columns of a row; the others are clear. */
+/* The columns of row y of the frame that `by` covers, and its nodes there; else nothing. */
 static celspan_status read_by(cs_shifted_rows *rows, int32_t y, const float (**nodes)[4],
                               cs_defocused_range *out) {
   const cs_shifted *map = rows->map;
@@ -218,131 +183,121 @@ static celspan_status read_by(cs_shifted_rows *rows, int32_t y, const float (**n
   *out = (cs_defocused_range){0, 0};
   if (!by || row < 0 || row >= by->rows)
     return CELSPAN_OK;
-  out->first = left < 0 ? -left : 0;
-  out->end = (int32_t)cs_number_clamp(by->columns - left, 0, map->columns.end - map->columns.first);
-  CS_TRY(acquire(rows->context, &rows->by, row, row));
-  *nodes = row_of(&rows->by, 0, row) + left;
+  int32_t first = (int32_t)cs_number_clamp(-(double)left, 0, count_columns(map));
+  int32_t end = (int32_t)cs_number_clamp((double)by->columns - left, 0, count_columns(map));
+  CS_TRY(cs_shifted_source_take(rows->context, &rows->by, row, row));
+  if (first >= end)
+    return CELSPAN_OK;
+  *nodes = (const float(*)[4])(const void *)rows->by.rows[row] + (left + first);
+  *out = (cs_defocused_range){first, end};
   return CELSPAN_OK;
 }
 
-/* Finds the places of a row, and the rows that they are in. */
-static celspan_status find_places(cs_shifted_rows *rows, int32_t y) {
+/* How far the points of a row move, in the cel's units, as places. */
+static celspan_status find_moves(cs_shifted_rows *rows, int32_t y) {
   const cs_shifted *map = rows->map;
-  int32_t count = map->columns.end - map->columns.first;
+  const cs_shift *shift = map->shift;
+  const double clear = shift->moves_clear ? -shift->scale / 2 : 0;
+  int32_t count = count_columns(map);
+  float *alpha = rows->channels, *channels[2] = {alpha + count, alpha + 2 * (size_t)count};
   const float(*nodes)[4] = NULL;
   cs_defocused_range there;
-  double low = INFINITY, high = -INFINITY;
   CS_TRY(read_by(rows, y, &nodes, &there));
-  int32_t moved = there.end > there.first ? there.end - there.first : 0;
-  float *alpha = rows->channels + 2 * (size_t)moved;
+  int32_t moved = there.end - there.first;
+  bool is_one = shift->channels[0] == shift->channels[1];
   for (int32_t i = 0; i < moved; i++)
-    alpha[i] = nodes[there.first + i][3];
-  for (int axis = 0; axis < 2 && moved > 0; axis++)
-    take_channel(rows, nodes + there.first, moved, axis, rows->channels + axis * (size_t)moved);
-  const double clear = map->shift->moves_clear ? map->shift->scale / 2 : 0;
-  for (int32_t i = 0; i < count; i++) {
-    int32_t k = i - there.first;
-    celspan_point by = {-clear, -clear};
-    if (k >= 0 && k < moved && alpha[k] > 0)
-      by = (celspan_point){move_of(map->shift, rows->channels[k], alpha[k]),
-                           move_of(map->shift, rows->channels[moved + k], alpha[k])};
-    move_place(map, map->columns.first + i + 0.5, y + 0.5, by, rows->places[i]);
-    low = fmin(low, rows->places[i][1]);
-    high = fmax(high, rows->places[i][1]);
+    alpha[i] = nodes[i][CELSPAN_CHANNEL_ALPHA];
+  for (int axis = 0; axis < 2; axis++) {
+    double *moves = rows->places[axis];
+    const float *channel = channels[is_one ? 0 : axis];
+    if (moved > 0 && !(is_one && axis > 0))
+      take_channel(rows, nodes, moved, axis, channels[axis]);
+    for (int32_t i = 0; i < there.first; i++)
+      moves[i] = clear;
+    CS_WIDE_CHOOSE(rows->isa, cs_shifted_moves)
+    (channel, alpha, moved, shift->scale, clear, moves + there.first);
+    for (int32_t i = there.end; i < count; i++)
+      moves[i] = clear;
   }
-  return acquire(rows->context, &rows->from, low, high);
+  return CELSPAN_OK;
+}
+
+/* From moves to places, of the centres of a row of pixels. */
+static void move_places(cs_shifted_rows *rows, int32_t y) {
+  const cs_shifted *map = rows->map;
+  const double *tap = map->taps[0].m, *m = map->to_nodes.m;
+  const double column = map->columns.first + 0.5, row = y + 0.5, step[2] = {tap[0], tap[3]},
+               start[2] = {tap[0] * column + tap[1] * row + tap[2],
+                           tap[3] * column + tap[4] * row + tap[5]},
+               units[2][2] = {{m[0], m[1]}, {m[3], m[4]}};
+  double *x = rows->places[0], *y_of = rows->places[1];
+  int32_t count = count_columns(map);
+  if (map->is_affine) {
+    CS_WIDE_CHOOSE(rows->isa, cs_shifted_move)(start, step, units, count, x, y_of);
+    return;
+  }
+  for (int32_t i = 0; i < count; i++) {
+    celspan_point own = place_of(&map->to_units, column + i, row);
+    celspan_point place = place_of(&map->to_nodes, own.x + x[i], own.y + y_of[i]);
+    x[i] = place.x;
+    y_of[i] = place.y;
+  }
 }
 
 static celspan_status displace(cs_shifted_rows *rows, int plane, int32_t y, float (*out)[4]) {
-  int32_t count = rows->map->columns.end - rows->map->columns.first;
-  if (plane == 0)
-    CS_TRY(find_places(rows, y));
-  for (int32_t i = 0; i < count; i++)
-    cs_v4_store(out[i], read_at(&rows->from, plane, rows->places[i][0], rows->places[i][1]));
+  if (plane == 0) {
+    CS_TRY(find_moves(rows, y));
+    move_places(rows, y);
+    CS_TRY(settle(rows));
+  }
+  read_places(rows, plane, false, out);
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- along lines, rays and arcs */
 
-/* Whether a tap is the same step from every pixel. */
-static bool is_step(const celspan_matrix *tap) {
-  const double *m = tap->m;
-  return is_affine(m) && fabs(m[0] - 1) < 1e-9 && fabs(m[1]) < 1e-9 && fabs(m[3]) < 1e-9 &&
-         fabs(m[4] - 1) < 1e-9;
-}
-
-/* Adds a tap whose step is the same for all columns: they read neighbouring nodes of two rows. */
-static celspan_status add_step(cs_shifted_rows *rows, const celspan_matrix *tap, int plane,
-                               int32_t y, float (*sums)[4]) {
-  const cs_shifted *map = rows->map;
-  const cs_defocused *grid = map->from;
-  int32_t count = map->columns.end - map->columns.first;
-  double across = map->columns.first + 0.5 + tap->m[2];
-  double down = cs_number_clamp(y + 0.5 + tap->m[5], 0, grid->rows - 1);
-  int32_t j = (int32_t)down < grid->rows - 1 ? (int32_t)down : grid->rows - 2;
-  across = cs_number_clamp(across, -0x1p30, 0x1p30);
-  int32_t left = cs_number_floor(across);
-  const float shares[2] = {(float)(across - left), (float)(down - j)};
-  int32_t first = (int32_t)cs_number_clamp(-(double)left, 0, count);
-  int32_t end = (int32_t)cs_number_clamp((double)grid->columns - 1 - left, first, count);
-  CS_TRY(acquire(rows->context, &rows->from, down, down));
-  const float(*upper)[4] = row_of(&rows->from, plane, j), (*lower)[4];
-  lower = row_of(&rows->from, plane, j + 1);
-  const cs_v4 before = cs_v4_load(upper[0]), after = cs_v4_load(upper[grid->columns - 1]);
-  for (int32_t i = 0; i < first; i++)
-    cs_v4_store(sums[i], cs_v4_load(sums[i]) + before);
-  if (end > first)
-    CS_WIDE_CHOOSE(rows->isa, cs_shifted_add)
-  (upper[left + first], lower[left + first], shares, end - first, sums[first]);
-  for (int32_t i = end; i < count; i++)
-    cs_v4_store(sums[i], cs_v4_load(sums[i]) + after);
-  return CELSPAN_OK;
-}
-
-typedef struct tap_rows {
-  double low, high;
-} tap_rows;
-
-/* The least and the greatest y that a tap reads in a row. Without perspective its places lie on a
- * line; else some may be near the horizon, beyond all others. */
-static tap_rows rows_of_tap(const celspan_matrix *tap, double first, int32_t count, double y) {
-  tap_rows found = {INFINITY, -INFINITY};
-  int32_t step = is_affine(tap->m) && count > 1 ? count - 1 : 1;
-  for (int32_t i = 0; i < count; i += step) {
-    celspan_point p = place_of(tap, first + i, y);
-    found.low = fmin(found.low, p.y);
-    found.high = fmax(found.high, p.y);
+static void place_tap(cs_shifted_rows *rows, const celspan_matrix *tap, int32_t y) {
+  const double *m = tap->m, column = rows->map->columns.first + 0.5, row = y + 0.5;
+  double *across = rows->places[0], *down = rows->places[1];
+  int32_t count = count_columns(rows->map);
+  if (is_affine(m)) {
+    const double left = m[0] * column + m[1] * row + m[2], top = m[3] * column + m[4] * row + m[5];
+    for (int32_t i = 0; i < count; i++) {
+      across[i] = left + m[0] * i;
+      down[i] = top + m[3] * i;
+    }
+    return;
   }
-  return found;
-}
-
-/* Adds any other tap. */
-static celspan_status add_tap(cs_shifted_rows *rows, const celspan_matrix *tap, int plane,
-                              int32_t y, float (*sums)[4]) {
-  const cs_shifted *map = rows->map;
-  const double first = map->columns.first + 0.5;
-  int32_t count = map->columns.end - map->columns.first;
-  const tap_rows seen = rows_of_tap(tap, first, count, y + 0.5);
-  CS_TRY(acquire(rows->context, &rows->from, seen.low, seen.high));
   for (int32_t i = 0; i < count; i++) {
-    celspan_point p = place_of(tap, first + i, y + 0.5);
-    /* between the ends of a line, rounding may exceed both */
-    double down = cs_number_clamp(p.y, seen.low, seen.high);
-    cs_v4_store(sums[i], cs_v4_load(sums[i]) + read_at(&rows->from, plane, p.x, down));
+    celspan_point p = place_of(tap, column + i, row);
+    across[i] = p.x;
+    down[i] = p.y;
   }
+}
+
+static celspan_status add_taps(cs_shifted_rows *rows, int plane, int32_t y, float (*out)[4]) {
+  const cs_shifted *map = rows->map;
+  size_t count = (size_t)count_columns(map);
+  memset(out, 0, count * sizeof *out);
+  for (size_t k = 0; k < map->tap_count; k++) {
+    place_tap(rows, &map->taps[k], y);
+    CS_TRY(settle(rows));
+    read_places(rows, plane, true, out);
+  }
+  const float share = 1 / (float)map->tap_count;
+  for (size_t i = 0; i < count; i++)
+    cs_v4_store(out[i], share * cs_v4_load(out[i]));
   return CELSPAN_OK;
 }
 
 static celspan_status mean(cs_shifted_rows *rows, int plane, int32_t y, float (*out)[4]) {
   const cs_shifted *map = rows->map;
-  size_t count = (size_t)(map->columns.end - map->columns.first);
-  memset(out, 0, count * sizeof *out);
-  for (size_t k = 0; k < map->tap_count; k++)
-    CS_TRY(is_step(&map->taps[k]) ? add_step(rows, &map->taps[k], plane, y, out)
-                                  : add_tap(rows, &map->taps[k], plane, y, out));
-  const float share = 1 / (float)map->tap_count;
-  for (size_t i = 0; i < count; i++)
-    cs_v4_store(out[i], cs_v4_settled(share * cs_v4_load(out[i])));
+  const float *sums = out[0];
+  CS_TRY(map->is_line ? cs_shifted_window_row(rows->context, rows->isa, &rows->window, plane,
+                                              map->from_at[1] + y, &sums)
+                      : add_taps(rows, plane, y, out));
+  for (int32_t i = 0; i < count_columns(map); i++)
+    cs_v4_store(out[i], cs_v4_settled(cs_v4_load(sums + 4 * (size_t)i)));
   return CELSPAN_OK;
 }
 
@@ -370,6 +325,10 @@ celspan_status cs_shifted_row(cs_shifted_rows *rows, int plane, int32_t y, float
   if (row < map->rows.first || row >= map->rows.end) {
     clear(to, plane, 0, to->columns, nodes, even);
     return CELSPAN_OK;
+  }
+  if (plane == 0) {
+    cs_shifted_source_next(rows->context, &rows->from);
+    cs_shifted_source_next(rows->context, &rows->by);
   }
   clear(to, plane, 0, first, nodes, even);
   clear(to, plane, end, to->columns, nodes, even);

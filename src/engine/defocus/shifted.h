@@ -8,14 +8,14 @@
  *                          of taps, of about one for each pixel of the way
  *
  * A tap is a matrix from pixels of the frame to nodes of the cel's grid. What displaces is a grid
- * of the same pixels.
+ * of the same pixels. The taps of a line are the same for all pixels (shifted_line.h), except in
+ * perspective.
  *
  * Invariant: where the nodes around a tap are equal, it has their bits.
  */
 #pragma once
 
-#include "base/wide.h"
-#include "engine/sample/defocused.h"
+#include "engine/defocus/shifted_line.h"
 #include "model/geometry/boundary.h"
 #include "model/scene/shift.h"
 
@@ -26,17 +26,12 @@ typedef struct cs_shifted {
   celspan_matrix to_units, to_nodes; /* pixels of the frame to the cel's units, and on to nodes */
   cs_defocused_range columns, rows;  /* pixels of the frame that may not be clear */
   const cs_defocused *from, *by;     /* by: where the cel is displaced by something, else NULL */
-  int32_t by_at[2];                  /* the node of `by` under the frame's first pixel */
+  int32_t from_at[2], by_at[2];      /* the nodes under the frame's first pixel */
+  bool is_line;                      /* the taps are those of `line`; else: */
+  cs_shifted_line line;
   celspan_matrix *taps;
   size_t tap_count;
 } cs_shifted;
-
-/* The nodes of a grid, all bands that have been read. */
-typedef struct cs_shifted_source {
-  const cs_defocused *grid;
-  cs_defocus_band **bands; /* acquired; NULL: not yet */
-  size_t band_count;
-} cs_shifted_source;
 
 /* The rows of nodes of a frame. */
 typedef struct cs_shifted_rows {
@@ -45,8 +40,9 @@ typedef struct cs_shifted_rows {
   celspan_context *context;
   cs_isa isa;
   cs_shifted_source from, by;
-  double (*places)[2]; /* among the nodes, of each column of a row that is displaced */
-  float *channels;     /* scratch: of each column, two channels, and the alpha */
+  cs_shifted_window window; /* of a line */
+  double *places[2];        /* among the nodes, of each column of a row, by axis */
+  float *channels;          /* scratch: of each column, two channels, and the alpha */
 } cs_shifted_rows;
 
 #define CS_SHIFTED_SIDE (1 << 24) /* pixels of a side that are read, at most */
@@ -70,8 +66,21 @@ CELSPAN_CHECKED celspan_status cs_shifted_row(cs_shifted_rows *rows, int plane, 
 
 /* ---- shifted_wide.c */
 
-/* Adds a tap that is `count` nodes of two rows, mixed by the shares of the next column and of the
- * lower row. */
-CS_WIDE_DECLARE(void, cs_shifted_add,
-                (const float *upper, const float *lower, const float shares[2], int32_t count,
-                 float *sums));
+/* How far `count` points move along an axis by a channel that is multiplied by its alpha, in the
+ * cel's units. clear: where the alpha is 0. */
+CS_WIDE_DECLARE(void, cs_shifted_moves,
+                (const float *channel, const float *alpha, int32_t count, double scale,
+                 double clear, double *out));
+/* Adds moves, in the cel's units, to the places of neighbouring columns, which begin at `start` and
+ * are `step` nodes apart. units: how many nodes a unit along each axis is, by axis of the nodes. */
+CS_WIDE_DECLARE(void, cs_shifted_move,
+                (const double start[2], const double step[2], const double units[2][2],
+                 int32_t count, double *x, double *y));
+/* Clamps places to the nodes from 0 to `last`; range: of their y. */
+CS_WIDE_DECLARE(void, cs_shifted_settle,
+                (const double last[2], int32_t count, double *x, double *y, double range[2]));
+/* The nodes at settled places, mixed, or added to what is there. rows: of a grid of so many columns
+ * and rows; offset: floats from its rows to those that are read. */
+CS_WIDE_DECLARE(void, cs_shifted_read,
+                (const float *const *rows, size_t offset, const int32_t size[2], const double *x,
+                 const double *y, int32_t count, bool adds, float *out));

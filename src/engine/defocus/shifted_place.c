@@ -93,8 +93,10 @@ static void fill_map(const cs_defocus_cel *place, cs_shifted_place *out) {
   /* the first node lies outside the part */
   map->to_nodes = celspan_matrix_then(
       place->matrix, celspan_matrix_translation(0.5 - read->first[0], 0.5 - read->first[1]));
-  for (int k = 0; k < 2; k++)
+  for (int k = 0; k < 2; k++) {
+    map->from_at[k] = 1 - read->first[k];
     map->by_at[k] = 1 - out->by.first[k];
+  }
 }
 
 celspan_status cs_shifted_place_find(celspan_context *context, const cs_defocus_cel *place,

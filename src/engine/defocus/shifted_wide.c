@@ -1,19 +1,108 @@
-/* The taps of a line: each is the same step from all columns of a row. */
+/* Places among the nodes of a grid, many at a time in loops of a few steps each, which become vector
+ * code; and the nodes there. */
 #include "engine/defocus/shifted.h"
 
-void CS_WIDE(cs_shifted_add)(const float *upper, const float *lower, const float shares[2],
-                             int32_t count, float *sums) {
-  const float x = shares[0], y = shares[1];
-  int32_t end = 4 * count, i = 0;
-  for (; i + CS_WIDE_LANES <= end; i += CS_WIDE_LANES) {
-    cs_wide a = cs_wide_load(upper + i), b = cs_wide_load(lower + i);
-    a += x * (cs_wide_load(upper + i + 4) - a);
-    b += x * (cs_wide_load(lower + i + 4) - b);
-    cs_wide_store(sums + i, cs_wide_load(sums + i) + (a + y * (b - a)));
+#include "base/vector.h"
+
+#define TOGETHER 32 /* places */
+#define SIDES 8     /* of which the least and the greatest are found in lanes of their own */
+
+void CS_WIDE(cs_shifted_moves)(const float *channel, const float *alpha, int32_t count,
+                               double scale, double clear, double *out) {
+  for (int32_t i = 0; i < count; i++) {
+    float share = channel[i] / (alpha[i] > 0 ? alpha[i] : 1);
+    share = share > 0 ? share : 0;
+    share = share < 1 ? share : 1;
+    double move = scale * ((double)share - 0.5);
+    out[i] = alpha[i] > 0 ? move : clear;
   }
-  for (; i < end; i++) {
-    float a = upper[i] + x * (upper[i + 4] - upper[i]),
-          b = lower[i] + x * (lower[i + 4] - lower[i]);
-    sums[i] += a + y * (b - a);
+}
+
+void CS_WIDE(cs_shifted_move)(const double start[2], const double step[2], const double units[2][2],
+                              int32_t count, double *x, double *y) {
+  const double x0 = start[0], y0 = start[1], x_step = step[0], y_step = step[1];
+  const double xx = units[0][0], xy = units[0][1], yx = units[1][0], yy = units[1][1];
+  for (int32_t i = 0; i < count; i++) {
+    double across = x[i], down = y[i];
+    x[i] = x0 + x_step * i + (xx * across + xy * down);
+    y[i] = y0 + y_step * i + (yx * across + yy * down);
   }
+}
+
+/* What is not a number is 0. */
+static inline double clamped(double at, double last) {
+  at = at > 0 ? at : 0;
+  return at < last ? at : last;
+}
+
+void CS_WIDE(cs_shifted_settle)(const double last[2], int32_t count, double *x, double *y,
+                                double range[2]) {
+  const double right = last[0], bottom = last[1];
+  double low[SIDES], high[SIDES];
+  int32_t i = 0;
+  for (int k = 0; k < SIDES; k++) {
+    low[k] = bottom;
+    high[k] = 0;
+  }
+  for (; i + SIDES <= count; i += SIDES)
+    for (int k = 0; k < SIDES; k++) {
+      double down = clamped(y[i + k], bottom);
+      x[i + k] = clamped(x[i + k], right);
+      y[i + k] = down;
+      low[k] = down < low[k] ? down : low[k];
+      high[k] = down > high[k] ? down : high[k];
+    }
+  for (; i < count; i++) {
+    x[i] = clamped(x[i], right);
+    y[i] = clamped(y[i], bottom);
+    low[0] = y[i] < low[0] ? y[i] : low[0];
+    high[0] = y[i] > high[0] ? y[i] : high[0];
+  }
+  for (int k = 1; k < SIDES; k++) {
+    low[0] = low[k] < low[0] ? low[k] : low[0];
+    high[0] = high[k] > high[0] ? high[k] : high[0];
+  }
+  range[0] = low[0];
+  range[1] = high[0];
+}
+
+static inline cs_v4 mix(const float *upper, const float *lower, float across, float down) {
+  cs_v4 a = cs_v4_load(upper), b = cs_v4_load(lower);
+  a += across * (cs_v4_load(upper + 4) - a);
+  b += across * (cs_v4_load(lower + 4) - b);
+  return a + down * (b - a);
+}
+
+static inline void read_all(const float *const *rows, size_t offset, const int32_t size[2],
+                            const double *x, const double *y, int32_t count, bool adds,
+                            float *out) {
+  const int32_t right = size[0] - 2, bottom = size[1] - 2;
+  int32_t columns[TOGETHER], above[TOGETHER];
+  float across[TOGETHER], down[TOGETHER];
+  for (int32_t first = 0; first < count; first += TOGETHER) {
+    int32_t some = count - first < TOGETHER ? count - first : TOGETHER;
+    for (int32_t k = 0; k < some; k++) {
+      int32_t i = (int32_t)x[first + k], j = (int32_t)y[first + k];
+      i = i < right ? i : right;
+      j = j < bottom ? j : bottom;
+      columns[k] = 4 * i;
+      above[k] = j;
+      across[k] = (float)(x[first + k] - i);
+      down[k] = (float)(y[first + k] - j);
+    }
+    for (int32_t k = 0; k < some; k++, out += 4) {
+      size_t at = offset + (size_t)columns[k];
+      cs_v4 value = mix(rows[above[k]] + at, rows[above[k] + 1] + at, across[k], down[k]);
+      cs_v4_store(out, adds ? cs_v4_load(out) + value : value);
+    }
+  }
+}
+
+void CS_WIDE(cs_shifted_read)(const float *const *rows, size_t offset, const int32_t size[2],
+                              const double *x, const double *y, int32_t count, bool adds,
+                              float *out) {
+  if (adds)
+    read_all(rows, offset, size, x, y, count, true, out);
+  else
+    read_all(rows, offset, size, x, y, count, false, out);
 }

@@ -1,0 +1,151 @@
+#include "engine/defocus/shifted_line.h"
+
+#include "base/number.h"
+
+#include <math.h>
+
+#define RECENT 16 /* weights that the nodes of the next tap may be among */
+#define TOGETHER CS_DEFOCUS_SUMS_TOGETHER
+
+/* ---------------------------------------------------------------- weights */
+
+static void add_weight(cs_shifted_line *line, int32_t x, int32_t y, double weight) {
+  size_t k = line->count, oldest = k > RECENT ? k - RECENT : 0;
+  int32_t wide = x < 0 ? -x : x, high = y < 0 ? -y : y;
+  if (!(weight > 0) || (x == 0 && y == 0))
+    return;
+  while (k > oldest && (line->weights[k - 1].x != x || line->weights[k - 1].y != y))
+    k--;
+  if (k > oldest)
+    line->weights[k - 1].weight += (float)weight;
+  else
+    line->weights[line->count++] = (cs_shifted_weight){x, y, (float)weight};
+  line->reach[0] = wide > line->reach[0] ? wide : line->reach[0];
+  line->reach[1] = high > line->reach[1] ? high : line->reach[1];
+}
+
+static void add_tap(cs_shifted_line *line, double x, double y, double weight) {
+  int32_t i = cs_number_floor(x), j = cs_number_floor(y);
+  double across = x - i, down = y - j;
+  add_weight(line, i, j, (1 - across) * (1 - down) * weight);
+  add_weight(line, i + 1, j, across * (1 - down) * weight);
+  add_weight(line, i, j + 1, (1 - across) * down * weight);
+  add_weight(line, i + 1, j + 1, across * down * weight);
+}
+
+celspan_status cs_shifted_line_init(celspan_context *context, const double end[2], size_t taps,
+                                    cs_shifted_line *out) {
+  *out = (cs_shifted_line){0};
+  CS_TRY(CS_RESERVE(context, out->weights, out->capacity, 2 * taps + 2));
+  for (size_t k = (taps + 1) / 2; k < taps; k++) {
+    double t = (2 * (double)k + 1) / (double)taps - 1;
+    add_tap(out, t * end[0], t * end[1], 1 / (double)taps);
+  }
+  return CELSPAN_OK;
+}
+
+void cs_shifted_line_finish(cs_shifted_line *line, cs_memory *memory) {
+  cs_mem_free(memory, line->weights, line->capacity * sizeof *line->weights);
+  *line = (cs_shifted_line){0};
+}
+
+/* ---------------------------------------------------------------- the window */
+
+static size_t plane_floats(const cs_shifted_window *w) {
+  return 4 * (size_t)w->height * (size_t)w->width;
+}
+
+static size_t node_floats(const cs_shifted_window *w) {
+  return (size_t)w->from->grid->planes * plane_floats(w);
+}
+
+/* A reach that matters: beyond it everything is the border of the grid. */
+static void place_columns(cs_shifted_window *w) {
+  const double reach = w->line->reach[0], count = w->count, left = w->left;
+  const double end = fmin(left + reach, w->from->grid->columns) + count;
+  w->low = (int32_t)fmin(fmax(left - reach, -count), left);
+  w->width = (int32_t)(fmax(end, left + count) - w->low);
+}
+
+celspan_status cs_shifted_window_begin(celspan_context *context, const cs_shifted_line *line,
+                                       cs_shifted_source *from, int32_t left, int32_t count,
+                                       cs_shifted_window *out) {
+  cs_memory *memory = context->memory;
+  int32_t height = 2 * line->reach[1] + 1;
+  *out = (cs_shifted_window){.line = line, .from = from, .left = left};
+  out->count = (count + TOGETHER - 1) / TOGETHER * TOGETHER;
+  out->height = height < from->grid->rows ? height : from->grid->rows;
+  place_columns(out);
+  out->nodes = cs_mem_array(memory, node_floats(out), sizeof *out->nodes);
+  out->pairs = cs_mem_array(memory, line->count + 1, sizeof *out->pairs);
+  out->sums = cs_mem_array(memory, 4 * (size_t)out->count, sizeof *out->sums);
+  return out->nodes && out->pairs && out->sums ? CELSPAN_OK : cs_fail_memory(context);
+}
+
+void cs_shifted_window_end(cs_shifted_window *window, cs_memory *memory) {
+  if (!window->line)
+    return;
+  cs_mem_free(memory, window->nodes, node_floats(window) * sizeof *window->nodes);
+  cs_mem_free(memory, window->pairs, (window->line->count + 1) * sizeof *window->pairs);
+  cs_mem_free(memory, window->sums, 4 * (size_t)window->count * sizeof *window->sums);
+}
+
+static int32_t row_at(const cs_shifted_window *w, int32_t j) {
+  return (int32_t)cs_number_clamp(j, 0, w->from->grid->rows - 1);
+}
+
+/* Where the first of the summed columns lies in a plane, or what equals it: x and y nodes away. */
+static size_t place_of(const cs_shifted_window *w, int32_t j, int32_t x, int32_t y) {
+  double column = cs_number_clamp((double)w->left + x - w->low, 0, w->width - w->count);
+  size_t row = (size_t)(row_at(w, j + y) % w->height);
+  return 4 * (row * (size_t)w->width + (size_t)column);
+}
+
+/* Copies `count` nodes of a row from column `low` on, continued by its ends. */
+static void copy_row(const float *row, int32_t low, int32_t columns, int32_t count, float *out) {
+  int32_t first = (int32_t)cs_number_clamp(-(double)low, 0, count);
+  int32_t end = (int32_t)cs_number_clamp((double)columns - low, 0, count);
+  for (int32_t i = 0; i < first; i++)
+    memcpy(out + 4 * (size_t)i, row, 4 * sizeof *out);
+  if (end > first)
+    memcpy(out + 4 * (size_t)first, row + 4 * (size_t)(low + first),
+           4 * (size_t)(end - first) * sizeof *out);
+  for (int32_t i = end > first ? end : first; i < count; i++)
+    memcpy(out + 4 * (size_t)i, row + 4 * (size_t)(columns - 1), 4 * sizeof *out);
+}
+
+/* Copies the rows around row j that are not there yet. */
+static celspan_status fill(celspan_context *context, cs_shifted_window *w, int32_t j) {
+  cs_shifted_source *from = w->from;
+  int32_t reach = w->line->reach[1], first = row_at(w, j - reach), last = row_at(w, j + reach);
+  for (w->next = w->next > first ? w->next : first; w->next <= last; w->next++) {
+    CS_TRY(cs_shifted_source_take(context, from, w->next, w->next));
+    size_t at = 4 * (size_t)(w->next % w->height) * (size_t)w->width;
+    for (int plane = 0; plane < from->grid->planes; plane++)
+      copy_row(from->rows[w->next] + (size_t)plane * from->plane, w->low, from->grid->columns, w->width,
+               w->nodes + (size_t)plane * plane_floats(w) + at);
+  }
+  return CELSPAN_OK;
+}
+
+static void place_pairs(const cs_shifted_window *w, int32_t j) {
+  for (size_t k = 0; k < w->line->count; k++) {
+    const cs_shifted_weight *a = &w->line->weights[k];
+    w->pairs[k] =
+        (cs_defocus_pair){place_of(w, j, -a->x, -a->y), place_of(w, j, a->x, a->y), a->weight};
+  }
+}
+
+celspan_status cs_shifted_window_row(celspan_context *context, cs_isa isa,
+                                     cs_shifted_window *window, int plane, int32_t j,
+                                     const float **out) {
+  CS_TRY(fill(context, window, j));
+  if (plane == 0)
+    place_pairs(window, j);
+  CS_WIDE_CHOOSE(isa, cs_defocus_sums_about)
+  (window->pairs, (int32_t)window->line->count,
+   window->nodes + (size_t)plane * plane_floats(window), place_of(window, j, 0, 0), window->count,
+   window->sums);
+  *out = window->sums;
+  return CELSPAN_OK;
+}
