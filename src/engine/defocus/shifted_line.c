@@ -122,8 +122,8 @@ static celspan_status fill(celspan_context *context, cs_shifted_window *w, int32
     CS_TRY(cs_shifted_source_take(context, from, w->next, w->next));
     size_t at = 4 * (size_t)(w->next % w->height) * (size_t)w->width;
     for (int plane = 0; plane < from->grid->planes; plane++)
-      copy_row(from->rows[w->next] + (size_t)plane * from->plane, w->low, from->grid->columns, w->width,
-               w->nodes + (size_t)plane * plane_floats(w) + at);
+      copy_row(from->rows[w->next] + (size_t)plane * from->plane, w->low, from->grid->columns,
+               w->width, w->nodes + (size_t)plane * plane_floats(w) + at);
   }
   return CELSPAN_OK;
 }

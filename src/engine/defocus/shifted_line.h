@@ -29,12 +29,12 @@ typedef struct cs_shifted_line {
 typedef struct cs_shifted_window {
   const cs_shifted_line *line;
   cs_shifted_source *from;
-  int32_t left;             /* the node under the first column */
-  int32_t count;            /* columns that are summed, with some beyond the last one */
-  int32_t low, width;       /* the nodes of a row that are copied, beyond the grid, too */
-  int32_t height;           /* rows: row j of the nodes is row j % height */
-  int32_t next;             /* the first row of nodes that has not been copied */
-  float *nodes;             /* plane after plane */
+  int32_t left;       /* the node under the first column */
+  int32_t count;      /* columns that are summed, with some beyond the last one */
+  int32_t low, width; /* the nodes of a row that are copied, beyond the grid, too */
+  int32_t height;     /* rows: row j of the nodes is row j % height */
+  int32_t next;       /* the first row of nodes that has not been copied */
+  float *nodes;       /* plane after plane */
   cs_defocus_pair *pairs;
   float *sums;
 } cs_shifted_window;

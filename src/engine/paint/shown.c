@@ -137,7 +137,8 @@ static bool hides_nothing(const cs_stack *stack, const cs_program *program) {
   for (uint32_t i = 0; i < program->length && !hides; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
     hides = layer->kind == CS_LAYER_PICTURE ||
-            (layer->kind == CS_LAYER_DEFOCUSED && !cs_defocused_is_pixels(stack->defocused[layer->index]));
+            (layer->kind == CS_LAYER_DEFOCUSED &&
+             !cs_defocused_is_pixels(stack->defocused[layer->index]));
   }
   return !hides;
 }

@@ -247,7 +247,8 @@ static void fit(cs_memory *memory, void **items, size_t *capacity, size_t count,
 celspan_status cs_defocus_band_room(const cs_defocused *defocused, celspan_context *context,
                                     cs_defocus_band *band) {
   size_t count =
-      (size_t)defocused->planes * (size_t)defocused->band_rows * (size_t)defocused->columns + BEYOND;
+      (size_t)defocused->planes * (size_t)defocused->band_rows * (size_t)defocused->columns +
+      BEYOND;
   band->nodes = cs_mem_resize(context->memory, NULL, 0, count * sizeof *band->nodes);
   if (!band->nodes)
     return cs_fail_memory(context);
