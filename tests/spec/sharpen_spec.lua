@@ -1,7 +1,10 @@
 -- Sharpened objects against the formula of an unsharp mask.
 local celspan = require "celspan"
+local cases = require "tests.support.cases"
 local images = require "tests.support.images"
+local prng = require "tests.support.prng"
 local raised = require("tests.support.raised").message
+local scenes = require "tests.support.scenes"
 
 local pixels, assert_alike = images.of, images.alike
 
@@ -131,5 +134,83 @@ describe("a sharpened object", function()
       for _ = 1, 200 do nested = nested:sharpen { radius = 1, amount = 0.01 } end
     end))
     assert.is_true(select(4, pixels({ nested }, 8, 8):get(4, 4)) > 0.99)
+  end)
+end)
+
+-- ---------------------------------------------------------------- a second implementation
+
+--- The pixels of a column or a row, mixed by a Gaussian; get(k): one of them.
+local function softened(get, count, deviation)
+  local out, reach = {}, math.ceil(4 * deviation)
+  for at = 0, count - 1 do
+    local sum, total = { 0, 0, 0, 0 }, 0
+    for k = -reach, reach do
+      local weight = math.exp(-(k / deviation) ^ 2 / 2)
+      local pixel = get(at + k)
+      for c = 1, 4 do sum[c] = sum[c] + (pixel and weight * pixel[c] or 0) end
+      total = total + weight
+    end
+    for c = 1, 4 do sum[c] = sum[c] / total end
+    out[at] = sum
+  end
+  return out
+end
+
+--- The Gaussian of an image: rows of columns of pixels, and the pixels themselves.
+local function blurred(image, deviation)
+  local w, h, own, rows, out = image.width, image.height, {}, {}, {}
+  for y = 0, h - 1 do
+    own[y] = {}
+    for x = 0, w - 1 do own[y][x] = { image:get(x, y) } end
+    rows[y] = softened(function(x) return own[y][x] end, w, deviation)
+    out[y] = {}
+  end
+  for x = 0, w - 1 do
+    local column = softened(function(y) return rows[y] and rows[y][x] end, h, deviation)
+    for y = 0, h - 1 do out[y][x] = column[y] end
+  end
+  return out, own
+end
+
+describe("a random object, sharpened", function()
+  local MARGIN, W, H = 24, 40, 30
+
+  --- Below all, so that few objects have a single colour.
+  local ground = rect(4, 4, 30, 20, celspan.linear { from = { 4, 4 }, to = { 30, 20 },
+    { 0, "#104080" }, { 1, "#e0e0a080" } })
+
+  --- The greatest difference from an unsharp mask of the pixels of the object, as a share of 1
+  --- and of what may be exact: a Gaussian of points differs from one that is integrated.
+  local function difference(object, radius, amount)
+    local w, h = W + 2 * MARGIN, H + 2 * MARGIN
+    local placed = object:translate(MARGIN, MARGIN)
+    local soft, own = blurred(pixels({ placed }, w, h), radius / 2)
+    local image, most = pixels({ placed:sharpen { radius = radius, amount = amount } }, w, h), 0
+    for y = MARGIN, MARGIN + H - 1 do
+      for x = MARGIN, MARGIN + W - 1 do
+        local was, mean, found = own[y][x], soft[y][x], { image:get(x, y) }
+        for c = 1, 4 do
+          local share = mean[4] > 1e-6 and was[4] / mean[4] or 0
+          local wanted = c == 4 and was[4]
+            or math.max(0, was[c] + (share > 0 and amount * (was[c] - share * mean[c]) or 0))
+          most = math.max(most, math.abs(wanted - found[c]) / (1 + was[c]))
+        end
+      end
+    end
+    return most
+  end
+
+  it("is an unsharp mask of its pixels", function()
+    for _, case in cases.of(30) do
+      local random = prng.new(case)
+      local function object(seed)
+        return scenes.value((scenes.object(seed, { has_modes = false, is_plain = true })))
+      end
+      local radius, amount = random:between(3, 6), random:between(0.5, 1.5)
+      local most = difference(celspan.group { ground, object(case), object(case + 1000) }, radius,
+        amount)
+      assert.is_true(most < 0.006 * amount,
+        ("case %d, radius %.2f, amount %.2f: %.4f"):format(case, radius, amount, most))
+    end
   end)
 end)

@@ -289,15 +289,28 @@ static celspan_status use_sharpness(celspan_context *context, const cs_nearby *n
   return CELSPAN_OK;
 }
 
+/* From a cel's units to pixels, about the middle of its rule's box. */
+static celspan_matrix rule_matrix(const cs_defocus_cel *place) {
+  const celspan_box *box = &place->cel->nearby->box;
+  return touching(&place->matrix,
+                  (celspan_point){box->x + box->width / 2, box->y + box->height / 2});
+}
+
+/* Whether the cel has an area on the frame for its rule: a middle on the horizon has none. */
+static bool rule_is_seen(const cs_defocus_cel *place) {
+  const cs_nearby *nearby = place->cel->nearby;
+  celspan_matrix back;
+  return !nearby || nearby->kind == CS_NEARBY_SHARPEN ||
+         celspan_matrix_inverse(rule_matrix(place), &back);
+}
+
 /* Finds the way of a cel that is changed by a rule of its own. */
 static celspan_status use_nearby(celspan_context *context, const cs_defocus_cel *place,
                                  cs_defocus *defocus) {
   cs_nearby *nearby = place->cel->nearby;
-  const celspan_box *box = &nearby->box;
-  const celspan_point middle = {box->x + box->width / 2, box->y + box->height / 2};
   if (nearby->kind == CS_NEARBY_SHARPEN)
     return use_sharpness(context, nearby, defocus);
-  const celspan_matrix matrix = touching(&place->matrix, middle);
+  const celspan_matrix matrix = rule_matrix(place);
   defocus->way = CS_DEFOCUS_NEIGHBOURS;
   cs_defocus_neighbours_init(&defocus->neighbours, nearby);
   const celspan_matrix to_samples = celspan_matrix_then(matrix, cs_defocus_matrix(defocus));
@@ -424,7 +437,7 @@ static celspan_status create(celspan_context *context, const cs_defocus_cel *pla
   bool is_seen;
   if (place->cel->shift)
     status = create_shifted(context, place, &blur, compiler, &is_seen, &visible, defocus);
-  else if ((is_seen = find_box(place, &blur, &defocus->grid, &visible)))
+  else if ((is_seen = find_box(place, &blur, &defocus->grid, &visible) && rule_is_seen(place)))
     status = make(context, place, &blur, compiler, &visible, &defocus);
   if (is_seen && status == CELSPAN_OK)
     status = add_box(context, &visible, box);

@@ -106,9 +106,11 @@ static cs_v4 weighed(const filling *f, int32_t column, int32_t row) {
   cs_v4 sum = cs_v4_all((float)rule->bias);
   for (int32_t j = 0; j < rule->size[1]; j++) {
     int32_t y = row + j - rule->target[1], left = column - rule->target[0];
-    const cs_v4 *line = line_of(f, rule->continues ? held(f, 1, y) : y) - f->samples.low;
-    for (int32_t i = 0; i < rule->size[0]; i++)
-      sum += *weight++ * line[rule->continues ? held(f, 0, left + i) : left + i];
+    const cs_v4 *line = line_of(f, rule->continues ? held(f, 1, y) : y);
+    for (int32_t i = 0; i < rule->size[0]; i++) {
+      int32_t at = rule->continues ? held(f, 0, left + i) : left + i;
+      sum += *weight++ * line[at - f->samples.low];
+    }
   }
   return sum;
 }
@@ -133,7 +135,8 @@ static cs_v4 alpha_at(const filling *f, int32_t column, int32_t row) {
   const cs_nearby *rule = f->rule;
   const cs_v4 v = sample_at(f, column, row);
   const double *ground = rule->ground;
-  float at = (float)cs_number_clamp((double)v[3], 0, 1) * (float)(rule->count - 1);
+  /* what is not a number is clear */
+  float at = (v[3] > 0 ? v[3] < 1 ? v[3] : 1 : 0) * (float)(rule->count - 1);
   size_t k = (size_t)at < rule->count - 1 ? (size_t)at : rule->count - 2;
   float share = at - (float)k;
   float alpha = rule->numbers[k] + share * (rule->numbers[k + 1] - rule->numbers[k]);

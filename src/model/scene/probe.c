@@ -332,12 +332,14 @@ static double channel_of(const probe_call *probe, const cs_oracle_sight *seen,
   return cs_number_clamp(light / alpha, 0, 1);
 }
 
-/* A displaced cel shows another point. matrix: from its units to film units. */
+/* A displaced cel shows another point. matrix: from its units to film units. *is_there: false where
+ * that point is beyond the horizon. */
 static celspan_status displace(const probe_call *probe, const cs_shift *shift,
-                               const celspan_matrix *matrix, probe_call *out) {
+                               const celspan_matrix *matrix, bool *is_there, probe_call *out) {
   cs_oracle_sight by;
   celspan_point own;
   *out = *probe;
+  *is_there = true;
   CS_TRY(see_list(probe, shift->by->objects, 1, matrix, &white, &by));
   const bool is_clear = !(cs_oracle_alpha(&by) > 0);
   if ((is_clear && !shift->moves_clear) || !cs_inside_own_point(matrix, probe->point, &own))
@@ -346,7 +348,9 @@ static celspan_status displace(const probe_call *probe, const cs_shift *shift,
   own.y += shift->scale * (channel_of(probe, &by, shift->channels[1], shift->space) - 0.5);
   celspan_matrix facing = cs_matrix_facing(matrix);
   cs_hpoint p = cs_matrix_apply(&facing, (cs_hpoint){own.x, own.y, 1});
-  out->point = (celspan_point){p.x / p.w, p.y / p.w};
+  *is_there = p.w > 0;
+  if (*is_there)
+    out->point = (celspan_point){p.x / p.w, p.y / p.w};
   return CELSPAN_OK;
 }
 
@@ -362,8 +366,10 @@ static celspan_status see_cel(place *at, size_t index, cs_oracle_sight *seen) {
   CS_TRY(sample_light(probe, at->rostrum, index, &front, &objects.front));
   probe_call moved;
   if (cel->shift && cel->shift->by) {
-    CS_TRY(displace(probe, cel->shift, &objects.matrix, &moved));
+    bool is_there;
+    CS_TRY(displace(probe, cel->shift, &objects.matrix, &is_there, &moved));
     objects.probe = &moved;
+    objects.left = is_there ? objects.left : 0;
   }
   if (cs_cel_blends(cel, probe->space) && cel->blend == CELSPAN_BLEND_NORMAL) {
     objects.around = &around;
