@@ -1,4 +1,10 @@
 -- feDisplacementMap beside Chromium.
+--
+-- Compared by hand with resvg (@resvg/resvg-js 2.6.2), with filter regions in user space, because
+-- resvg leaves shapes without paint out of the box of a group: 11 of the 20 drawings have 97 % of
+-- pixels within 8 codes, and those with a blurred map 91 % and more, because it reads the nearest
+-- pixel. The four whose map is not opaque (16, 18, 19, 20) have 57 to 87 %, because resvg takes the
+-- map's colours times their alpha: with their maps over black, 18 and 20 have 98 % and 99 %.
 local celspan = require "celspan"
 local browsing = require "tests.support.browsing"
 local json = require "celspan.json"

@@ -297,7 +297,7 @@ static celspan_matrix rule_matrix(const cs_defocus_cel *place) {
 }
 
 /* Whether the cel has an area on the frame for its rule: a middle on the horizon has none. */
-static bool rule_is_seen(const cs_defocus_cel *place) {
+static bool rule_is_visible(const cs_defocus_cel *place) {
   const cs_nearby *nearby = place->cel->nearby;
   celspan_matrix back;
   return !nearby || nearby->kind == CS_NEARBY_SHARPEN ||
@@ -437,7 +437,7 @@ static celspan_status create(celspan_context *context, const cs_defocus_cel *pla
   bool is_seen;
   if (place->cel->shift)
     status = create_shifted(context, place, &blur, compiler, &is_seen, &visible, defocus);
-  else if ((is_seen = find_box(place, &blur, &defocus->grid, &visible) && rule_is_seen(place)))
+  else if ((is_seen = find_box(place, &blur, &defocus->grid, &visible) && rule_is_visible(place)))
     status = make(context, place, &blur, compiler, &visible, &defocus);
   if (is_seen && status == CELSPAN_OK)
     status = add_box(context, &visible, box);

@@ -120,16 +120,16 @@ celspan_status cs_shifted_begin(const cs_shifted *map, const cs_defocused *to,
     return cs_shifted_refuse(context, map->from->columns, map->from->rows);
   CS_TRY(cs_shifted_source_begin(context, map->from, &out->from));
   CS_TRY(cs_shifted_source_begin(context, map->by, &out->by));
-  return map->is_line ? cs_shifted_window_begin(context, &map->line, &out->from,
-                                                map->from_at[0] + map->columns.first,
-                                                count_columns(map), &out->window)
+  return map->is_line ? cs_shifted_line_begin(context, &map->line, &out->from,
+                                              map->from_at[0] + map->columns.first,
+                                              count_columns(map), &out->line)
                       : begin_places(out);
 }
 
 void cs_shifted_end(cs_shifted_rows *rows) {
   cs_memory *memory = rows->context->memory;
   size_t count = (size_t)count_columns(rows->map);
-  cs_shifted_window_end(&rows->window, memory);
+  cs_shifted_line_end(&rows->line, memory);
   cs_shifted_source_end(rows->context, &rows->from);
   cs_shifted_source_end(rows->context, &rows->by);
   for (int axis = 0; axis < 2; axis++)
@@ -151,10 +151,10 @@ static celspan_status settle(cs_shifted_rows *rows) {
 
 static void read_places(const cs_shifted_rows *rows, int plane, bool adds, float (*out)[4]) {
   const cs_shifted_source *from = &rows->from;
-  const int32_t size[2] = {from->grid->columns, from->grid->rows};
+  const cs_shifted_nodes nodes = {(const float *const *)from->rows, (size_t)plane * from->plane,
+                                  from->grid->columns, from->grid->rows};
   CS_WIDE_CHOOSE(rows->isa, cs_shifted_read)
-  ((const float *const *)from->rows, (size_t)plane * from->plane, size, rows->places[0],
-   rows->places[1], count_columns(rows->map), adds, out[0]);
+  (&nodes, rows->places[0], rows->places[1], count_columns(rows->map), adds, out[0]);
 }
 
 /* ---------------------------------------------------------------- displaced */
@@ -293,8 +293,8 @@ static celspan_status add_taps(cs_shifted_rows *rows, int plane, int32_t y, floa
 static celspan_status mean(cs_shifted_rows *rows, int plane, int32_t y, float (*out)[4]) {
   const cs_shifted *map = rows->map;
   const float *sums = out[0];
-  CS_TRY(map->is_line ? cs_shifted_window_row(rows->context, rows->isa, &rows->window, plane,
-                                              map->from_at[1] + y, &sums)
+  CS_TRY(map->is_line ? cs_shifted_line_row(rows->context, rows->isa, &rows->line, plane,
+                                            map->from_at[1] + y, &sums)
                       : add_taps(rows, plane, y, out));
   for (int32_t i = 0; i < count_columns(map); i++)
     cs_v4_store(out[i], cs_v4_settled(cs_v4_load(sums + 4 * (size_t)i)));

@@ -40,9 +40,9 @@ typedef struct cs_shifted_rows {
   celspan_context *context;
   cs_isa isa;
   cs_shifted_source from, by;
-  cs_shifted_window window; /* of a line */
-  double *places[2];        /* among the nodes, of each column of a row, by axis */
-  float *channels;          /* scratch: of each column, two channels, and the alpha */
+  cs_shifted_line_rows line; /* of a line */
+  double *places[2];         /* among the nodes, of each column of a row, by axis */
+  float *channels;           /* scratch: of each column, two channels, and the alpha */
 } cs_shifted_rows;
 
 #define CS_SHIFTED_SIDE (1 << 24) /* pixels of a side that are read, at most */
@@ -66,6 +66,13 @@ CELSPAN_CHECKED celspan_status cs_shifted_row(cs_shifted_rows *rows, int plane, 
 
 /* ---- shifted_wide.c */
 
+/* The nodes of one plane of a grid. */
+typedef struct cs_shifted_nodes {
+  const float *const *rows; /* of plane 0 */
+  size_t offset;            /* floats from these to the rows of the plane */
+  int32_t columns, count;   /* columns and rows */
+} cs_shifted_nodes;
+
 /* How far `count` points move along an axis by a channel that is multiplied by its alpha, in the
  * cel's units. clear: where the alpha is 0. */
 CS_WIDE_DECLARE(void, cs_shifted_moves,
@@ -79,8 +86,7 @@ CS_WIDE_DECLARE(void, cs_shifted_move,
 /* Clamps places to the nodes from 0 to `last`; range: of their y. */
 CS_WIDE_DECLARE(void, cs_shifted_settle,
                 (const double last[2], int32_t count, double *x, double *y, double range[2]));
-/* The nodes at settled places, mixed, or added to what is there. rows: of a grid of so many columns
- * and rows; offset: floats from its rows to those that are read. */
+/* The nodes at settled places of a grid, mixed; adds: to the sums in `out`. */
 CS_WIDE_DECLARE(void, cs_shifted_read,
-                (const float *const *rows, size_t offset, const int32_t size[2], const double *x,
-                 const double *y, int32_t count, bool adds, float *out));
+                (const cs_shifted_nodes *nodes, const double *x, const double *y, int32_t count,
+                 bool adds, float *out));

@@ -20,8 +20,8 @@ static void add_weight(cs_shifted_line *line, int32_t x, int32_t y, double weigh
     line->weights[k - 1].weight += (float)weight;
   else
     line->weights[line->count++] = (cs_shifted_weight){x, y, (float)weight};
-  line->reach[0] = wide > line->reach[0] ? wide : line->reach[0];
-  line->reach[1] = high > line->reach[1] ? high : line->reach[1];
+  line->extent[0] = wide > line->extent[0] ? wide : line->extent[0];
+  line->extent[1] = high > line->extent[1] ? high : line->extent[1];
 }
 
 static void add_tap(cs_shifted_line *line, double x, double y, double weight) {
@@ -49,30 +49,30 @@ void cs_shifted_line_finish(cs_shifted_line *line, cs_memory *memory) {
   *line = (cs_shifted_line){0};
 }
 
-/* ---------------------------------------------------------------- the window */
+/* ---------------------------------------------------------------- the rows */
 
-static size_t plane_floats(const cs_shifted_window *w) {
+static size_t plane_floats(const cs_shifted_line_rows *w) {
   return 4 * (size_t)w->height * (size_t)w->width;
 }
 
-static size_t node_floats(const cs_shifted_window *w) {
+static size_t node_floats(const cs_shifted_line_rows *w) {
   return (size_t)w->from->grid->planes * plane_floats(w);
 }
 
-/* A reach that matters: beyond it everything is the border of the grid. */
-static void place_columns(cs_shifted_window *w) {
-  const double reach = w->line->reach[0], count = w->count, left = w->left;
-  const double end = fmin(left + reach, w->from->grid->columns) + count;
-  w->low = (int32_t)fmin(fmax(left - reach, -count), left);
+/* A extent that matters: beyond it everything is the border of the grid. */
+static void place_columns(cs_shifted_line_rows *w) {
+  const double extent = w->line->extent[0], count = w->count, left = w->left;
+  const double end = fmin(left + extent, w->from->grid->columns) + count;
+  w->low = (int32_t)fmin(fmax(left - extent, -count), left);
   w->width = (int32_t)(fmax(end, left + count) - w->low);
 }
 
-celspan_status cs_shifted_window_begin(celspan_context *context, const cs_shifted_line *line,
-                                       cs_shifted_source *from, int32_t left, int32_t count,
-                                       cs_shifted_window *out) {
+celspan_status cs_shifted_line_begin(celspan_context *context, const cs_shifted_line *line,
+                                     cs_shifted_source *from, int32_t left, int32_t count,
+                                     cs_shifted_line_rows *out) {
   cs_memory *memory = context->memory;
-  int32_t height = 2 * line->reach[1] + 1;
-  *out = (cs_shifted_window){.line = line, .from = from, .left = left};
+  int32_t height = 2 * line->extent[1] + 1;
+  *out = (cs_shifted_line_rows){.line = line, .from = from, .left = left};
   out->count = (count + TOGETHER - 1) / TOGETHER * TOGETHER;
   out->height = height < from->grid->rows ? height : from->grid->rows;
   place_columns(out);
@@ -82,20 +82,20 @@ celspan_status cs_shifted_window_begin(celspan_context *context, const cs_shifte
   return out->nodes && out->pairs && out->sums ? CELSPAN_OK : cs_fail_memory(context);
 }
 
-void cs_shifted_window_end(cs_shifted_window *window, cs_memory *memory) {
-  if (!window->line)
+void cs_shifted_line_end(cs_shifted_line_rows *rows, cs_memory *memory) {
+  if (!rows->line)
     return;
-  cs_mem_free(memory, window->nodes, node_floats(window) * sizeof *window->nodes);
-  cs_mem_free(memory, window->pairs, (window->line->count + 1) * sizeof *window->pairs);
-  cs_mem_free(memory, window->sums, 4 * (size_t)window->count * sizeof *window->sums);
+  cs_mem_free(memory, rows->nodes, node_floats(rows) * sizeof *rows->nodes);
+  cs_mem_free(memory, rows->pairs, (rows->line->count + 1) * sizeof *rows->pairs);
+  cs_mem_free(memory, rows->sums, 4 * (size_t)rows->count * sizeof *rows->sums);
 }
 
-static int32_t row_at(const cs_shifted_window *w, int32_t j) {
+static int32_t row_at(const cs_shifted_line_rows *w, int32_t j) {
   return (int32_t)cs_number_clamp(j, 0, w->from->grid->rows - 1);
 }
 
 /* Where the first of the summed columns lies in a plane, or what equals it: x and y nodes away. */
-static size_t place_of(const cs_shifted_window *w, int32_t j, int32_t x, int32_t y) {
+static size_t place_of(const cs_shifted_line_rows *w, int32_t j, int32_t x, int32_t y) {
   double column = cs_number_clamp((double)w->left + x - w->low, 0, w->width - w->count);
   size_t row = (size_t)(row_at(w, j + y) % w->height);
   return 4 * (row * (size_t)w->width + (size_t)column);
@@ -115,9 +115,9 @@ static void copy_row(const float *row, int32_t low, int32_t columns, int32_t cou
 }
 
 /* Copies the rows around row j that are not there yet. */
-static celspan_status fill(celspan_context *context, cs_shifted_window *w, int32_t j) {
+static celspan_status fill(celspan_context *context, cs_shifted_line_rows *w, int32_t j) {
   cs_shifted_source *from = w->from;
-  int32_t reach = w->line->reach[1], first = row_at(w, j - reach), last = row_at(w, j + reach);
+  int32_t extent = w->line->extent[1], first = row_at(w, j - extent), last = row_at(w, j + extent);
   for (w->next = w->next > first ? w->next : first; w->next <= last; w->next++) {
     CS_TRY(cs_shifted_source_take(context, from, w->next, w->next));
     size_t at = 4 * (size_t)(w->next % w->height) * (size_t)w->width;
@@ -128,7 +128,7 @@ static celspan_status fill(celspan_context *context, cs_shifted_window *w, int32
   return CELSPAN_OK;
 }
 
-static void place_pairs(const cs_shifted_window *w, int32_t j) {
+static void place_pairs(const cs_shifted_line_rows *w, int32_t j) {
   for (size_t k = 0; k < w->line->count; k++) {
     const cs_shifted_weight *a = &w->line->weights[k];
     w->pairs[k] =
@@ -136,16 +136,14 @@ static void place_pairs(const cs_shifted_window *w, int32_t j) {
   }
 }
 
-celspan_status cs_shifted_window_row(celspan_context *context, cs_isa isa,
-                                     cs_shifted_window *window, int plane, int32_t j,
-                                     const float **out) {
-  CS_TRY(fill(context, window, j));
+celspan_status cs_shifted_line_row(celspan_context *context, cs_isa isa, cs_shifted_line_rows *rows,
+                                   int plane, int32_t j, const float **out) {
+  CS_TRY(fill(context, rows, j));
   if (plane == 0)
-    place_pairs(window, j);
+    place_pairs(rows, j);
   CS_WIDE_CHOOSE(isa, cs_defocus_sums_about)
-  (window->pairs, (int32_t)window->line->count,
-   window->nodes + (size_t)plane * plane_floats(window), place_of(window, j, 0, 0), window->count,
-   window->sums);
-  *out = window->sums;
+  (rows->pairs, (int32_t)rows->line->count, rows->nodes + (size_t)plane * plane_floats(rows),
+   place_of(rows, j, 0, 0), rows->count, rows->sums);
+  *out = rows->sums;
   return CELSPAN_OK;
 }

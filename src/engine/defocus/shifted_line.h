@@ -4,7 +4,7 @@
  *     . . . . + + + .       the nodes along the line: of pairs of them that are equally far from the
  *     . . + + o + + . .     middle one (o)
  *     . + + + . . . .
- *     + + . . . . . .       rows are copied into a window, continued by their ends on both sides,
+ *     + + . . . . . .       rows are copied, continued by their ends on both sides,
  *                           no farther than a whole row of the frame
  *
  * Differences from the middle node are summed (sums.h), so that equal nodes keep their bits.
@@ -23,10 +23,10 @@ typedef struct cs_shifted_weight {
 typedef struct cs_shifted_line {
   cs_shifted_weight *weights;
   size_t count, capacity;
-  int32_t reach[2]; /* nodes from the middle one, at most */
+  int32_t extent[2]; /* nodes from the middle one, at most */
 } cs_shifted_line;
 
-typedef struct cs_shifted_window {
+typedef struct cs_shifted_line_rows {
   const cs_shifted_line *line;
   cs_shifted_source *from;
   int32_t left;       /* the node under the first column */
@@ -37,7 +37,7 @@ typedef struct cs_shifted_window {
   float *nodes;       /* plane after plane */
   cs_defocus_pair *pairs;
   float *sums;
-} cs_shifted_window;
+} cs_shifted_line_rows;
 
 /* end: of the line, nodes from its middle. Must be finished after a failure too. Errors:
  * NO_MEMORY. */
@@ -46,13 +46,13 @@ CELSPAN_CHECKED celspan_status cs_shifted_line_init(celspan_context *context, co
 void cs_shifted_line_finish(cs_shifted_line *line, cs_memory *memory);
 
 /* left: as above. Must be ended after a failure too. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_shifted_window_begin(celspan_context *context,
-                                                       const cs_shifted_line *line,
-                                                       cs_shifted_source *from, int32_t left,
-                                                       int32_t count, cs_shifted_window *out);
-void cs_shifted_window_end(cs_shifted_window *window, cs_memory *memory);
+CELSPAN_CHECKED celspan_status cs_shifted_line_begin(celspan_context *context,
+                                                     const cs_shifted_line *line,
+                                                     cs_shifted_source *from, int32_t left,
+                                                     int32_t count, cs_shifted_line_rows *out);
+void cs_shifted_line_end(cs_shifted_line_rows *rows, cs_memory *memory);
 /* The means around the nodes of row j, not settled, of one plane; rows come from top to bottom, and
  * plane 0 first. They stay until the next call. Errors: those of the bands. */
-CELSPAN_CHECKED celspan_status cs_shifted_window_row(celspan_context *context, cs_isa isa,
-                                                     cs_shifted_window *window, int plane,
-                                                     int32_t j, const float **out);
+CELSPAN_CHECKED celspan_status cs_shifted_line_row(celspan_context *context, cs_isa isa,
+                                                   cs_shifted_line_rows *rows, int plane, int32_t j,
+                                                   const float **out);

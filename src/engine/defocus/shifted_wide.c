@@ -73,10 +73,10 @@ static inline cs_v4 mix(const float *upper, const float *lower, float across, fl
   return a + down * (b - a);
 }
 
-static inline void read_all(const float *const *rows, size_t offset, const int32_t size[2],
-                            const double *x, const double *y, int32_t count, bool adds,
-                            float *out) {
-  const int32_t right = size[0] - 2, bottom = size[1] - 2;
+static inline void read_all(const cs_shifted_nodes *nodes, const double *x, const double *y,
+                            int32_t count, bool adds, float *out) {
+  const float *const *rows = nodes->rows;
+  const int32_t right = nodes->columns - 2, bottom = nodes->count - 2;
   int32_t columns[TOGETHER], above[TOGETHER];
   float across[TOGETHER], down[TOGETHER];
   for (int32_t first = 0; first < count; first += TOGETHER) {
@@ -91,18 +91,17 @@ static inline void read_all(const float *const *rows, size_t offset, const int32
       down[k] = (float)(y[first + k] - j);
     }
     for (int32_t k = 0; k < some; k++, out += 4) {
-      size_t at = offset + (size_t)columns[k];
+      size_t at = nodes->offset + (size_t)columns[k];
       cs_v4 value = mix(rows[above[k]] + at, rows[above[k] + 1] + at, across[k], down[k]);
       cs_v4_store(out, adds ? cs_v4_load(out) + value : value);
     }
   }
 }
 
-void CS_WIDE(cs_shifted_read)(const float *const *rows, size_t offset, const int32_t size[2],
-                              const double *x, const double *y, int32_t count, bool adds,
-                              float *out) {
+void CS_WIDE(cs_shifted_read)(const cs_shifted_nodes *nodes, const double *x, const double *y,
+                              int32_t count, bool adds, float *out) {
   if (adds)
-    read_all(rows, offset, size, x, y, count, true, out);
+    read_all(nodes, x, y, count, true, out);
   else
-    read_all(rows, offset, size, x, y, count, false, out);
+    read_all(nodes, x, y, count, false, out);
 }

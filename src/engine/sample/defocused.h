@@ -20,9 +20,9 @@
  *
  *   bands (defocus/ makes them) --a row, or two mixed--> vertices --along the line--> paint at x
  *
- * Nodes are pixels where modes and mattes show a cel pixel by pixel: a row of them is mixed from the
- * cel's own grid (defocus/) when it is asked for, and kept by the view alone, as far as there is
- * anything in it. They are pixels of a shifted cel, too, whose bands hold all of them.
+ * Nodes are pixels where modes and mattes show a cel pixel by pixel: a row of them is mixed from
+ * the cel's own grid (defocus/) when it is asked for, and kept by the view alone, as far as there
+ * is anything in it. They are pixels of a shifted cel, too, whose bands hold all of them.
  *
  * A plane holds four values a node: the paint's S and its matte (1 - the mean of T); where T
  * differs from channel to channel a second plane holds T.
