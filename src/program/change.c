@@ -40,8 +40,8 @@ static celspan_light over(celspan_light light, celspan_light ground) {
                          light.b + through * ground.b, 1};
 }
 
-/* The back light of the rostrum, unless it has a shape, in front of the background; also where codes
- * are mixed. */
+/* The back light of the rostrum, unless it has a shape, in front of the background; also of films
+ * that mix codes. */
 static cs_light back_of(const cs_frame_change *change, const celspan_rostrum *rostrum) {
   const float *ground = change->background;
   const celspan_light light = {ground[0], ground[1], ground[2], 1};

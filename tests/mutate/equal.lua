@@ -61,22 +61,18 @@ return {
       "leaves a bit of alpha in the fourth lane, which is multiplied by 0 or not read" },
   },
   ["src/engine/paint/shown.c"] = {
-    { "if (layer->kind == CS_LAYER_DEFOCUSED && (i + 1 < dear || painter->stack->has_pixels) &&",
-      "`layer->kind == CS_LAYER_DEFOCUSED && (i + 1 < dear || painter->stack->has_pixels) && "
-        .. "columns > STRIDE` to `!(layer->kind == CS_LAYER_DEFOCUSED && (i + 1 < dear || "
-        .. "painter->stack->has_pixels) && columns > STRIDE)`",
+    { "if (layer->kind == CS_LAYER_DEFOCUSED && columns > STRIDE &&",
+      "`layer->kind == CS_LAYER_DEFOCUSED && columns > STRIDE && (i + 1 < dear || "
+        .. "cs_shown_is_pixels(painter->stack, layer))` to `!(layer->kind == CS_LAYER_DEFOCUSED && "
+        .. "columns > STRIDE && (i + 1 < dear || cs_shown_is_pixels(painter->stack, layer)))`",
       "asks about a stride at a time what is hidden, where more columns would do" },
-    { "if (layer->kind == CS_LAYER_DEFOCUSED && (i + 1 < dear || painter->stack->has_pixels) &&",
-      "`&&` to `||`",
+    { "if (layer->kind == CS_LAYER_DEFOCUSED && columns > STRIDE &&", "`&&` to `||`",
       "asks about a stride at a time what is hidden, where more columns would do", 1 },
-    { "if (layer->kind == CS_LAYER_DEFOCUSED && (i + 1 < dear || painter->stack->has_pixels) &&",
-      "`&&` to `||`",
+    { "if (layer->kind == CS_LAYER_DEFOCUSED && columns > STRIDE &&", "`&&` to `||`",
       "asks about a stride at a time what is hidden, where more columns would do", 2 },
-    { "if (layer->kind == CS_LAYER_DEFOCUSED && (i + 1 < dear || painter->stack->has_pixels) &&",
-      "`<` to `<=`",
+    { "(i + 1 < dear || cs_shown_is_pixels(painter->stack, layer)))", "`<` to `<=`",
       "asks about fewer columns at a time what is hidden, where one cel is defocused" },
-    { "if (layer->kind == CS_LAYER_DEFOCUSED && (i + 1 < dear || painter->stack->has_pixels) &&",
-      "`1` to `0`",
+    { "(i + 1 < dear || cs_shown_is_pixels(painter->stack, layer)))", "`1` to `0`",
       "asks about fewer columns at a time what is hidden, where one cel is defocused" },
   },
   ["src/frames/render/objects.c"] = {

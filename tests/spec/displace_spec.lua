@@ -133,6 +133,22 @@ describe("a displaced object", function()
       :get(40, 30)))
   end)
 
+  it("is seen in its last columns, wherever they are", function()
+    for edge = 56, 72 do
+      local row = celspan.rect { edge - 30, 3, 30, 4, texture = "#fff" }
+      local function pair(object)
+        return celspan.rostrum { back = "#000", celspan.cel { object },
+          celspan.cel { celspan.rect { 0, 6, W, 3, texture = "#804020" } } }
+      end
+      local moved = pair(row:displace { by = celspan.rect { 0, 0, W, 9 }, scale = 1e-9 })
+      local options = { size = { W, 9 } }
+      local one, two = celspan.pixels(moved, options), celspan.pixels(pair(row), options)
+      for x = 0, W - 1 do
+        assert.near((two:get(x, 4)), (one:get(x, 4)), 1e-6, ("%d, column %d"):format(edge, x))
+      end
+    end
+  end)
+
   it("follows transforms, with what displaces it", function()
     local whole = art():displace { by = waves(), scale = 16 }
     local sharp = seen(whole, { size = { 4 * W, 4 * H }, film = { W, H } })

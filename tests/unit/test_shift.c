@@ -1,4 +1,4 @@
-/* Shifts from C: what is refused, and the sums of a line, which every instruction set makes
+/* Shifts from C: what is refused, and the nodes that are read, which every instruction set mixes
  * alike. spec/displace compares frames with a second implementation. */
 #include <math.h>
 #include <string.h>
@@ -7,38 +7,72 @@
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
-#define NODES 37
+#define COLUMNS 9
+#define ROWS 6
+#define PLACES 37
 
 static celspan_context *context;
 static test_random random_state = {1};
 
-/* ---------------------------------------------------------------- sums */
+/* ---------------------------------------------------------------- reads */
 
-static void add(cs_isa isa, const float *upper, const float *lower, const float shares[2],
-                int32_t count, float *sums) {
-  CS_WIDE_CHOOSE(isa, cs_shifted_add)(upper, lower, shares, count, sums);
+typedef struct grid {
+  float nodes[2][ROWS][4 * COLUMNS]; /* by plane */
+  const float *rows[ROWS];
+  double x[PLACES], y[PLACES];
+} grid;
+
+/* Places are anywhere among the nodes, also on the last ones. */
+static void fill(grid *g) {
+  for (int row = 0; row < ROWS; row++) {
+    g->rows[row] = g->nodes[0][row];
+    for (int i = 0; i < 4 * COLUMNS; i++)
+      for (int plane = 0; plane < 2; plane++)
+        g->nodes[plane][row][i] = (float)random_between(&random_state, 0, 2);
+  }
+  for (int k = 0; k < PLACES; k++) {
+    g->x[k] = k % 5 == 0 ? COLUMNS - 1 : random_between(&random_state, 0, COLUMNS - 1);
+    g->y[k] = k % 7 == 0 ? ROWS - 1 : random_between(&random_state, 0, ROWS - 1);
+  }
 }
 
-static void test_sums(void) {
-  float rows[2][4 * (NODES + 1)], sums[3][4 * NODES];
-  const float shares[2] = {0.3125f, 0.7f};
-  for (int i = 0; i < 4 * (NODES + 1); i++)
-    for (int k = 0; k < 2; k++)
-      rows[k][i] = (float)random_between(&random_state, 0, 2);
-  for (int count = 1; count <= NODES; count++) {
-    for (cs_isa isa = CS_ISA_ANY; isa <= cs_isa_best(); isa++) {
-      for (int i = 0; i < 4 * NODES; i++)
-        sums[isa][i] = (float)i;
-      add(isa, rows[0], rows[1], shares, count, sums[isa]);
-      CHECK(memcmp(sums[isa], sums[CS_ISA_ANY], sizeof *sums) == 0);
-    }
-    for (int i = 0; i < 4 * NODES; i++) {
-      float a = rows[0][i] + shares[0] * (rows[0][i + 4] - rows[0][i]);
-      float b = rows[1][i] + shares[0] * (rows[1][i + 4] - rows[1][i]);
-      float want = i < 4 * count ? (float)i + (a + shares[1] * (b - a)) : (float)i;
-      CHECK(sums[CS_ISA_ANY][i] == want);
-    }
+/* One value of a node, mixed from the four around a place. */
+static float mixed(const grid *g, int plane, int k, int lane) {
+  int i = g->x[k] < COLUMNS - 2 ? (int)g->x[k] : COLUMNS - 2;
+  int j = g->y[k] < ROWS - 2 ? (int)g->y[k] : ROWS - 2;
+  const float *upper = g->nodes[plane][j] + 4 * i + lane;
+  const float *lower = g->nodes[plane][j + 1] + 4 * i + lane;
+  float across = (float)(g->x[k] - i), down = (float)(g->y[k] - j);
+  float a = upper[0] + across * (upper[4] - upper[0]);
+  float b = lower[0] + across * (lower[4] - lower[0]);
+  return a + down * (b - a);
+}
+
+static void check_reads(const grid *g, int plane, int count, bool adds) {
+  const cs_shifted_nodes nodes = {g->rows, (size_t)plane * (ROWS * 4 * COLUMNS), COLUMNS, ROWS};
+  float out[3][4 * PLACES];
+  for (cs_isa isa = CS_ISA_ANY; isa <= cs_isa_best(); isa++) {
+    for (int i = 0; i < 4 * PLACES; i++)
+      out[isa][i] = (float)i;
+    CS_WIDE_CHOOSE(isa, cs_shifted_read)(&nodes, g->x, g->y, count, adds, out[isa]);
+    CHECK(memcmp(out[isa], out[CS_ISA_ANY], sizeof *out) == 0);
   }
+  for (int i = 0; i < 4 * PLACES; i++) {
+    float want = (float)i;
+    if (i < 4 * count)
+      want = mixed(g, plane, i / 4, i % 4) + (adds ? want : 0);
+    CHECK(out[CS_ISA_ANY][i] == want);
+  }
+}
+
+static void test_reads(void) {
+  static grid g;
+  fill(&g);
+  for (int count = 1; count <= PLACES; count++)
+    for (int plane = 0; plane < 2; plane++) {
+      check_reads(&g, plane, count, false);
+      check_reads(&g, plane, count, true);
+    }
 }
 
 /* ---------------------------------------------------------------- refused */
@@ -114,7 +148,7 @@ static void test_blur_refused(void) {
 
 int main(void) {
   CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
-  test_sums();
+  test_reads();
   test_displacement_refused();
   test_blur_refused();
   celspan_context_destroy(context);

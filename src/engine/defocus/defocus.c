@@ -53,10 +53,10 @@ static void scale_blur(cs_blur *blur, double pitch_x, double pitch_y) {
 }
 
 /* Boundaries alone are not enough where colours vary between them: then samples are summed. */
-static cs_defocus_way choose_way(const cs_blur *blur, bool varies) {
+static cs_defocus_way choose_way(const cs_blur *blur, bool is_own, bool varies) {
   bool is_gaussian = blur->kind == CELSPAN_DEFOCUS_GAUSSIAN;
   if (blur->kind == CELSPAN_DEFOCUS_PIXEL)
-    return CS_DEFOCUS_KERNEL;
+    return is_own ? CS_DEFOCUS_MEANS : CS_DEFOCUS_KERNEL;
   if (varies)
     return is_gaussian ? CS_DEFOCUS_SUMS : CS_DEFOCUS_SLICES;
   double least = fmin(cs_defocus_radius(blur, 0), cs_defocus_radius(blur, 1));
@@ -83,7 +83,7 @@ static void init_grid(cs_defocused *grid, int32_t width, int32_t height, int32_t
 static celspan_status init_way(celspan_context *context, cs_defocus *defocus, bool varies,
                                double samples) {
   const cs_blur *s = &defocus->blur;
-  defocus->way = choose_way(s, varies);
+  defocus->way = choose_way(s, defocus->is_own, varies);
   switch (defocus->way) {
   case CS_DEFOCUS_EDGES:
     return cs_defocus_edges_init(context, s, &defocus->edges);
@@ -92,6 +92,7 @@ static celspan_status init_way(celspan_context *context, cs_defocus *defocus, bo
   case CS_DEFOCUS_SLICES:
     return cs_defocus_slices_init(context, s, &defocus->slices);
   case CS_DEFOCUS_NEIGHBOURS:
+  case CS_DEFOCUS_MEANS:
   case CS_DEFOCUS_KERNEL:
   case CS_DEFOCUS_OWN:
   case CS_DEFOCUS_SHIFTED:
@@ -161,6 +162,7 @@ void cs_defocus_use_shift(cs_defocus *defocus, const cs_shifted *shifted, cs_def
   defocus->by = by;
   defocus->way = CS_DEFOCUS_SHIFTED;
   defocus->grid.planes = own->grid.planes;
+  defocus->grid.are_pixels = true;
   defocus->shifted = *shifted;
   defocus->shifted.from = &own->grid;
   defocus->shifted.by = by ? &by->grid : NULL;
@@ -221,6 +223,7 @@ celspan_status cs_defocus_kernel(celspan_context *context, const cs_defocus *def
   switch (defocus->way) {
   case CS_DEFOCUS_EDGES:
   case CS_DEFOCUS_NEIGHBOURS:
+  case CS_DEFOCUS_MEANS:
   case CS_DEFOCUS_OWN:
   case CS_DEFOCUS_SHIFTED:
     return CELSPAN_OK;

@@ -9,7 +9,7 @@
  *      o   |   o       o       o   /
  *
  *   cel --two plans: lit from the front (S), lit from behind (T)--> rows of spans on the grid
- *       --one of five ways--> bands of nodes
+ *       --one of six ways--> bands of nodes
  *
  *   or: the same on the cel's own grid (own_grid.h) --mixed (regrid.h)--> rows of nodes
  *   or: means over pixels on a grid of its own --read along a shift (shifted.h)--> bands of nodes
@@ -41,6 +41,7 @@ typedef enum cs_defocus_way {
   CS_DEFOCUS_SUMS,
   CS_DEFOCUS_SLICES,
   CS_DEFOCUS_NEIGHBOURS,
+  CS_DEFOCUS_MEANS,  /* the rows of the plans are the nodes, on a grid of a cel's own */
   CS_DEFOCUS_OWN,    /* the nodes are mixed from those of the cel's own grid */
   CS_DEFOCUS_SHIFTED /* the nodes are read from it along a shift */
 } cs_defocus_way;
@@ -62,7 +63,7 @@ struct cs_defocus {
   cs_defocus_slices slices;
   cs_defocus_neighbours neighbours;
   bool is_fine;     /* there are enough samples for each to be the mean over its area */
-  bool is_own;      /* bands are nodes: on the grid of a cel's own, and along a shift */
+  bool is_own;      /* the grid of a cel's own, whose bands are nodes */
   cs_defocus *own;  /* the cel's own grid, where it has one, and how the nodes are mixed from it; */
   cs_regrid regrid; /* then there are no plans here */
   cs_shifted shifted;
@@ -106,10 +107,10 @@ void cs_defocus_use_shift(cs_defocus *defocus, const cs_shifted *shifted, cs_def
 /* From now on every pixel between these places of the frame is a node of a grid that is mixed
  * so. */
 void cs_defocus_use_pixels(cs_defocus *defocus, const int32_t first[2], const int32_t end[2]);
-/* The size of the plans, and the matrix from pixels of the frame to theirs. */
 /* Returns how many pixels of the plans a node is wide. *x, *y: how many pixels the plans have
  * beyond the nodes on each side. */
 int32_t cs_defocus_beyond(const cs_defocus *defocus, int32_t *x, int32_t *y);
+/* The size of the plans, and the matrix from pixels of the frame to theirs. */
 void cs_defocus_raster(const cs_defocus *defocus, int32_t *width, int32_t *height);
 celspan_matrix cs_defocus_matrix(const cs_defocus *defocus);
 /* The kernel of the plans; NULL: the mean over each pixel. Errors: NO_MEMORY. */

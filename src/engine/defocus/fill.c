@@ -2,6 +2,7 @@
 
 #include "base/number.h"
 #include "engine/defocus/lines.h"
+#include "engine/defocus/means.h"
 #include "engine/row/row.h"
 
 #define GROUP CS_DEFOCUSED_GROUP
@@ -20,7 +21,6 @@ typedef struct filling {
   const cs_defocused *grid;
   celspan_context *context;
   node_plane planes[2];
-  cs_shifted_rows shifted;
   int32_t groups;
 } filling;
 
@@ -32,8 +32,7 @@ static celspan_status init_plane(filling *f, int k) {
   node_plane *p = &f->planes[k];
   int32_t columns = f->grid->columns;
   cs_row_init(&p->row);
-  if (!defocus->own)
-    CS_TRY(cs_row_maker_init(&p->maker, f->context, &defocus->plans[k]));
+  CS_TRY(cs_row_maker_init(&p->maker, f->context, &defocus->plans[k]));
   p->nodes = cs_mem_array(memory, (size_t)columns, sizeof *p->nodes);
   p->even = cs_mem_array(memory, (size_t)f->groups, sizeof *p->even);
   if (!p->nodes || !p->even)
@@ -50,8 +49,7 @@ static void finish_plane(filling *f, int k) {
   cs_row_finish(&p->row, memory);
   cs_mem_free(memory, p->nodes, (size_t)f->grid->columns * sizeof *p->nodes);
   cs_mem_free(memory, p->even, (size_t)f->groups * sizeof *p->even);
-  if (!f->defocus->own)
-    cs_row_maker_finish(&p->maker);
+  cs_row_maker_finish(&p->maker);
 }
 
 /* ---------------------------------------------------------------- a row of nodes */
@@ -105,8 +103,6 @@ static void agree(const filling *f, node_plane *a, node_plane *b) {
 
 static celspan_status make_plane(filling *f, int k, int32_t y) {
   node_plane *p = &f->planes[k];
-  if (f->defocus->way == CS_DEFOCUS_SHIFTED)
-    return cs_shifted_row(&f->shifted, k, y, p->nodes, p->even);
   return p->lines ? cs_defocus_lines_row(p->lines, y, p->nodes, p->even) : filter_row(f, p, y);
 }
 
@@ -152,8 +148,6 @@ static celspan_status fill_rows(filling *f, int32_t first, int32_t end, cs_defoc
   const cs_defocus *defocus = f->defocus;
   CS_TRY(is_thin(defocus) ? cs_defocus_band_begin(f->context, end - first, band)
                           : cs_defocus_band_room(f->grid, f->context, band));
-  if (defocus->way == CS_DEFOCUS_SHIFTED)
-    CS_TRY(cs_shifted_begin(&defocus->shifted, f->grid, f->context, &f->shifted));
   for (int k = 0; k < f->grid->planes; k++)
     CS_TRY(init_plane(f, k));
   for (int32_t y = first; y < end; y++) {
@@ -178,16 +172,17 @@ static celspan_status fill_band(const cs_defocus *defocus, celspan_context *cont
   celspan_status status = fill_rows(&f, first, end, band);
   for (int k = 0; k < f.grid->planes; k++)
     finish_plane(&f, k);
-  if (f.shifted.map)
-    cs_shifted_end(&f.shifted);
   return status;
 }
 
-/* ---------------------------------------------------------------- rows that are summed together */
+/* ---------------------------------------------------------------- rows that are made together */
 
-static celspan_status sum_rows(const cs_defocus *defocus, cs_row_maker *maker, int plane,
-                               int32_t first, int32_t end, float (*nodes)[4]) {
+static celspan_status sum_rows(const cs_defocus *defocus, celspan_context *context,
+                               cs_row_maker *maker, int plane, int32_t first, int32_t end,
+                               float (*nodes)[4]) {
   int32_t columns = defocus->grid.columns;
+  if (defocus->way == CS_DEFOCUS_MEANS)
+    return cs_means_fill(context, maker, columns, first, end, nodes);
   if (defocus->way == CS_DEFOCUS_NEIGHBOURS)
     return cs_defocus_neighbours_fill(&defocus->neighbours, maker, columns, first, end, nodes);
   return defocus->way == CS_DEFOCUS_SUMS
@@ -209,7 +204,7 @@ static celspan_status sum_plane(const cs_defocus *defocus, celspan_context *cont
   celspan_status status = cs_row_maker_init(&maker, context, &defocus->plans[plane]);
   int32_t columns = defocus->grid.columns, step = rows_together(defocus);
   for (int32_t y = first; y < end && status == CELSPAN_OK; y += step)
-    status = sum_rows(defocus, &maker, plane, y, end - y < step ? end : y + step,
+    status = sum_rows(defocus, context, &maker, plane, y, end - y < step ? end : y + step,
                       nodes + (size_t)(y - first) * (size_t)columns);
   cs_row_maker_finish(&maker);
   return status;
@@ -225,6 +220,29 @@ static celspan_status sum_planes(const cs_defocus *defocus, celspan_context *con
   return CELSPAN_OK;
 }
 
+/* ---------------------------------------------------------------- rows along a shift */
+
+static celspan_status shift_rows(const cs_defocused *grid, cs_shifted_rows *rows, int32_t first,
+                                 int32_t end, cs_defocus_band *band) {
+  size_t columns = (size_t)grid->columns, size = (size_t)grid->band_rows * columns;
+  float(*nodes)[4] = band->nodes;
+  for (int32_t y = first; y < end; y++, nodes += columns)
+    for (int plane = 0; plane < grid->planes; plane++)
+      CS_TRY(cs_shifted_row(rows, plane, y, nodes + (size_t)plane * size));
+  return CELSPAN_OK;
+}
+
+static celspan_status shift_band(const cs_defocus *defocus, celspan_context *context, int32_t first,
+                                 int32_t end, cs_defocus_band *band) {
+  cs_shifted_rows rows;
+  CS_TRY(cs_defocus_band_room(&defocus->grid, context, band));
+  celspan_status status = cs_shifted_begin(&defocus->shifted, &defocus->grid, context, &rows);
+  if (status == CELSPAN_OK)
+    status = shift_rows(&defocus->grid, &rows, first, end, band);
+  cs_shifted_end(&rows);
+  return status;
+}
+
 /* ---------------------------------------------------------------- bands */
 
 static celspan_status make_band(const void *layer, celspan_context *context, int32_t number,
@@ -233,10 +251,11 @@ static celspan_status make_band(const void *layer, celspan_context *context, int
   const cs_defocused *grid = &defocus->grid;
   int32_t first = number * grid->band_rows;
   int32_t end = grid->rows - first < grid->band_rows ? grid->rows : first + grid->band_rows;
-  bool is_summed = defocus->way == CS_DEFOCUS_SUMS || defocus->way == CS_DEFOCUS_SLICES ||
-                   defocus->way == CS_DEFOCUS_NEIGHBOURS;
-  return is_summed ? sum_planes(defocus, context, first, end, band)
-                   : fill_band(defocus, context, first, end, band);
+  if (defocus->way == CS_DEFOCUS_SHIFTED)
+    return shift_band(defocus, context, first, end, band);
+  bool is_flat = defocus->way == CS_DEFOCUS_KERNEL || defocus->way == CS_DEFOCUS_EDGES;
+  return is_flat ? fill_band(defocus, context, first, end, band)
+                 : sum_planes(defocus, context, first, end, band);
 }
 
 static celspan_status acquire(const cs_defocused *grid, celspan_context *context, int32_t number,

@@ -1,6 +1,7 @@
-/* The bands of a layer: rows that are summed together (sums.h, slices.h, neighbours.h), or made one
- * after the other: of flat art, from its boundaries alone, through the kernel of the plans or line
- * by line (lines.h); and along a shift (shifted.h).
+/* The bands of a layer: rows that are summed together (sums.h, slices.h, neighbours.h), those of
+ * means (means.h), of what is read along a shift (shifted.h), or of flat art, which are made one
+ * after the other from its boundaries alone, through the kernel of the plans or line by line
+ * (lines.h).
  *
  *  plan of S --boundaries--> a row of nodes --\                 /--> polyline, where a row of nodes
  *                                              >--> even groups     is a row of pixels,

@@ -1,7 +1,7 @@
 #include "engine/defocus/layer.h"
 
 #include "base/number.h"
-#include "engine/defocus/means.h"
+#include "engine/defocus/fill.h"
 #include "engine/defocus/shifted_place.h"
 #include "model/scene/bounds.h"
 #include "model/scene/extend.h"
@@ -359,9 +359,7 @@ static celspan_status make_means(celspan_context *context, const cs_defocus_cel 
                                      celspan_matrix_translation(-part->first[0], -part->first[1]));
   alone.width = grid.size[0] = part->end[0] - part->first[0];
   alone.height = grid.size[1] = part->end[1] - part->first[1];
-  CS_TRY(make_own(context, &alone, cel_varies(cel), &grid, compiler, out));
-  cs_means_use(*out);
-  return CELSPAN_OK;
+  return make_own(context, &alone, cel_varies(cel), &grid, compiler, out);
 }
 
 static cs_hash shifted_key(const cs_defocus_cel *place, const cs_shifted_place *where,
@@ -387,7 +385,7 @@ static celspan_status make_shifted(celspan_context *context, const cs_defocus_ce
   if (cs_shifted_part_has_pixels(&where->by))
     status = make_means(context, place, shift->by, compiler, &where->by, &by);
   cs_defocus_use_shift(defocus, &where->map, own, by);
-  defocus->is_own = defocus->grid.keeps_pixels = true;
+  cs_defocus_fill_bands(defocus);
   return status == CELSPAN_OK ? cs_shifted_init(context, shift, &defocus->shifted) : status;
 }
 

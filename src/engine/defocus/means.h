@@ -1,4 +1,4 @@
-/* Bands of means over pixels, which shifted cels read (shifted.h).
+/* Means over pixels, which shifted cels read (shifted.h).
  *
  *     plan --row--> spans: | single | array          | gradient |
  *                            ||       ||               ||
@@ -8,7 +8,10 @@
  */
 #pragma once
 
-#include "engine/defocus/defocus.h"
+#include "engine/row/row.h"
 
-/* From now on the bands of such a grid are made so. */
-void cs_means_use(cs_defocus *own);
+/* Fills the rows [first, end) of `columns` nodes each. maker: of the means. Errors: those of its
+ * rows. */
+CELSPAN_CHECKED celspan_status cs_means_fill(celspan_context *context, cs_row_maker *maker,
+                                             int32_t columns, int32_t first, int32_t end,
+                                             float (*nodes)[4]);

@@ -9,7 +9,6 @@
 #define TAPS 2048      /* at most */
 #define SEGMENTS 16    /* of a way, to measure it */
 #define MOST (1 << 26) /* nodes of a grid that is read: 1 GiB a plane, if all of it is */
-#define GROUP CS_DEFOCUSED_GROUP
 
 /* ---------------------------------------------------------------- taps */
 
@@ -303,35 +302,26 @@ static celspan_status mean(cs_shifted_rows *rows, int plane, int32_t y, float (*
 
 /* ---------------------------------------------------------------- rows */
 
-/* Makes the nodes [first, end) clear, and the groups that lie in it even. */
-static void clear(const cs_defocused *to, int plane, int32_t first, int32_t end, float (*nodes)[4],
-                  bool *even) {
+/* Makes the nodes [first, end) clear. */
+static void clear(int plane, int32_t first, int32_t end, float (*nodes)[4]) {
   const cs_v4 value = plane == 0 ? cs_v4_all(0) : (cs_v4){1, 1, 1, 0};
   for (int32_t i = first; i < end; i++)
     cs_v4_store(nodes[i], value);
-  for (int32_t g = (first + GROUP - 1) / GROUP; g < cs_defocused_groups(to); g++) {
-    int32_t last = (g + 1) * GROUP < to->columns ? (g + 1) * GROUP : to->columns;
-    if (last <= end)
-      even[g] = true;
-  }
 }
 
-celspan_status cs_shifted_row(cs_shifted_rows *rows, int plane, int32_t y, float (*nodes)[4],
-                              bool *even) {
+celspan_status cs_shifted_row(cs_shifted_rows *rows, int plane, int32_t y, float (*nodes)[4]) {
   const cs_shifted *map = rows->map;
-  const cs_defocused *to = rows->to;
   int32_t row = y - 1, first = map->columns.first + 1, end = map->columns.end + 1;
-  memset(even, 0, (size_t)cs_defocused_groups(to) * sizeof *even);
   if (row < map->rows.first || row >= map->rows.end) {
-    clear(to, plane, 0, to->columns, nodes, even);
+    clear(plane, 0, rows->to->columns, nodes);
     return CELSPAN_OK;
   }
   if (plane == 0) {
     cs_shifted_source_next(rows->context, &rows->from);
     cs_shifted_source_next(rows->context, &rows->by);
   }
-  clear(to, plane, 0, first, nodes, even);
-  clear(to, plane, end, to->columns, nodes, even);
+  clear(plane, 0, first, nodes);
+  clear(plane, end, rows->to->columns, nodes);
   return map->shift->kind == CS_SHIFT_DISPLACED ? displace(rows, plane, row, nodes + first)
                                                 : mean(rows, plane, row, nodes + first);
 }

@@ -59,10 +59,10 @@ void cs_shifted_finish(cs_shifted *map, cs_memory *memory);
 CELSPAN_CHECKED celspan_status cs_shifted_begin(const cs_shifted *map, const cs_defocused *to,
                                                 celspan_context *context, cs_shifted_rows *out);
 void cs_shifted_end(cs_shifted_rows *rows);
-/* Row y of one plane of the frame's nodes, and the groups that are even, as in defocused.h; plane 0
- * of a row comes first. Errors: those of the bands that are read. */
+/* Row y of one plane of the frame's nodes; plane 0 of a row comes first. Errors: those of the bands
+ * that are read. */
 CELSPAN_CHECKED celspan_status cs_shifted_row(cs_shifted_rows *rows, int plane, int32_t y,
-                                              float (*nodes)[4], bool *even);
+                                              float (*nodes)[4]);
 
 /* ---- shifted_wide.c */
 

@@ -1,11 +1,11 @@
 /* The mean along a line that is the same for all pixels.
  *
- *     . . . . . . + +       a tap mixes the four nodes around it; all taps together are weights of
- *     . . . . + + + .       the nodes along the line: of pairs of them that are equally far from the
- *     . . + + o + + . .     middle one (o)
+ *     . . . . . . + +       a tap mixes the four nodes around it; all taps together are weights
+ *     . . . . + + + .       of the nodes along the line: of pairs of them that are equally far from
+ *     . . + + o + + . .     the middle one (o)
  *     . + + + . . . .
- *     + + . . . . . .       rows are copied, continued by their ends on both sides,
- *                           no farther than a whole row of the frame
+ *     + + . . . . . .       rows are copied, continued by their ends on both sides, no farther
+ *                           than a whole row of the frame
  *
  * Differences from the middle node are summed (sums.h), so that equal nodes keep their bits.
  */

@@ -1,5 +1,5 @@
-/* Places among the nodes of a grid, many at a time in loops of a few steps each, which become vector
- * code; and the nodes there. */
+/* Places among the nodes of a grid, many at a time in loops of a few steps each, which become
+ * vector code; and the nodes there. */
 #include "engine/defocus/shifted.h"
 
 #include "base/vector.h"

@@ -24,7 +24,7 @@ bool cs_few_fits(const cs_stack *stack, const cs_program *program) {
     formulas += is_formula;
     if (layer->kind == CS_LAYER_DEFOCUSED) {
       defocused++;
-      made += !cs_defocused_is_pixels(stack->defocused[layer->index]);
+      made += !stack->defocused[layer->index]->are_pixels;
     }
   }
   if (defocused == 0)
@@ -64,7 +64,7 @@ static void add_defocused(const cs_painter *painter, const cs_layer *layer, int3
 static bool is_clear(const cs_painter *painter, const cs_layer *layer, int32_t x) {
   const cs_defocused *defocused =
       layer->kind == CS_LAYER_DEFOCUSED ? painter->stack->defocused[layer->index] : NULL;
-  if (!defocused || !cs_defocused_is_pixels(defocused))
+  if (!defocused || !defocused->are_pixels)
     return false;
   cs_defocused_range visible = cs_defocused_visible(defocused, &painter->defocused[layer->index]);
   return x < visible.first || x >= visible.end;

@@ -33,18 +33,13 @@ static celspan_status bound_picture(cs_painter *painter, const cs_layer *layer, 
   return CELSPAN_OK;
 }
 
-/* Whether a layer is a defocused cel whose rows are known to be clear outside some columns. */
-static inline bool is_pixels(const cs_stack *stack, const cs_layer *layer) {
-  return layer->kind == CS_LAYER_DEFOCUSED && stack->defocused[layer->index]->are_pixels;
-}
-
 /* is_last: nothing behind the layer could be hidden by it. */
 static celspan_status bound_defocused(cs_painter *painter, const cs_layer *layer, bool is_last,
                                       cs_run run, bound *out) {
   const cs_defocused *defocused = painter->stack->defocused[layer->index];
   cs_defocused_view *view = &painter->defocused[layer->index];
   CS_TRY(cs_defocused_move(defocused, painter->context, view, run.y));
-  if (is_pixels(painter->stack, layer)) {
+  if (cs_shown_is_pixels(painter->stack, layer)) {
     cs_defocused_range visible = cs_defocused_visible(defocused, view);
     out->is_clear = run.x1 <= visible.first || run.x0 >= visible.end;
     out->is_sure =
@@ -58,19 +53,6 @@ static celspan_status bound_defocused(cs_painter *painter, const cs_layer *layer
   return CELSPAN_OK;
 }
 
-/* Asks a layer of pixels which columns are clear. */
-static celspan_status bound_pixels(cs_painter *painter, const cs_layer *layer, cs_run run,
-                                   bound *out) {
-  const cs_defocused *defocused = painter->stack->defocused[layer->index];
-  cs_defocused_view *view = &painter->defocused[layer->index];
-  CS_TRY(cs_defocused_move(defocused, painter->context, view, run.y));
-  cs_defocused_range visible = cs_defocused_visible(defocused, view);
-  out->is_clear = run.x1 <= visible.first || run.x0 >= visible.end;
-  out->is_sure =
-      out->is_clear || (visible.first < run.x0 + STRIDE && visible.end > run.x1 - STRIDE);
-  return CELSPAN_OK;
-}
-
 /* Finds a bound of a layer in some columns. is_last: no layer behind this one would have to be read
  * or made. */
 static celspan_status find_bound(cs_painter *painter, const cs_layer *layer, bool is_last,
@@ -80,10 +62,9 @@ static celspan_status find_bound(cs_painter *painter, const cs_layer *layer, boo
     return CELSPAN_OK;
   if (layer->kind == CS_LAYER_PICTURE)
     return bound_picture(painter, layer, run, out);
-  if (cs_shown_is_pixels(painter->stack, layer))
-    return bound_pixels(painter, layer, run, out);
-  return layer->kind == CS_LAYER_DEFOCUSED && !is_last ? bound_defocused(painter, layer, run, out)
-                                                       : CELSPAN_OK;
+  bool is_asked =
+      cs_shown_is_pixels(painter->stack, layer) || (layer->kind == CS_LAYER_DEFOCUSED && !is_last);
+  return is_asked ? bound_defocused(painter, layer, is_last, run, out) : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- programs */
@@ -107,8 +88,8 @@ bool cs_shown_varies(const cs_stack *stack, const cs_program *program) {
     return false;
   for (uint32_t i = 0; i < program->length; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
-    if (layer->kind == CS_LAYER_PICTURE ||
-        (layer->kind == CS_LAYER_DEFOCUSED && (++defocused == 2 || is_pixels(stack, layer))))
+    if (layer->kind == CS_LAYER_PICTURE || (layer->kind == CS_LAYER_DEFOCUSED &&
+                                            (++defocused == 2 || cs_shown_is_pixels(stack, layer))))
       return true;
   }
   return false;
@@ -121,7 +102,7 @@ int32_t cs_shown_stride(cs_painter *painter, const cs_program *program) {
     const cs_layer *layer = &painter->stack->layers[program->items[i].layer];
     const cs_image_view *view;
     if (layer->kind == CS_LAYER_DEFOCUSED && columns > STRIDE &&
-        (i + 1 < dear || is_pixels(painter->stack, layer)))
+        (i + 1 < dear || cs_shown_is_pixels(painter->stack, layer)))
       columns = STRIDE;
     if (layer->kind == CS_LAYER_PICTURE &&
         cs_painter_image(painter, layer->index, &view) == CELSPAN_OK && !view->is_opaque &&
@@ -129,33 +110,6 @@ int32_t cs_shown_stride(cs_painter *painter, const cs_program *program) {
       columns = view->sampler.opacity_columns;
   }
   return columns;
-}
-
-/* Whether no item can hide another one by properties that hold only in some columns. */
-static bool hides_nothing(const cs_stack *stack, const cs_program *program) {
-  bool hides = false;
-  for (uint32_t i = 0; i < program->length && !hides; i++) {
-    const cs_layer *layer = &stack->layers[program->items[i].layer];
-    hides = layer->kind == CS_LAYER_PICTURE ||
-            (layer->kind == CS_LAYER_DEFOCUSED &&
-             !cs_defocused_is_pixels(stack->defocused[layer->index]));
-  }
-  return !hides;
-}
-
-/* All items except clear layers of pixels. */
-static celspan_status find_pixels(cs_painter *painter, const cs_program *program, cs_run run,
-                                  cs_shown *out) {
-  for (uint32_t i = 0; i < program->length; i++) {
-    const cs_layer *layer = &painter->stack->layers[program->items[i].layer];
-    bound known = {.is_sure = true};
-    if (cs_shown_is_pixels(painter->stack, layer))
-      CS_TRY(bound_pixels(painter, layer, run, &known));
-    if (!known.is_clear)
-      out->items[out->length++] = program->items[i];
-    out->is_sure &= known.is_sure;
-  }
-  return CELSPAN_OK;
 }
 
 celspan_status cs_shown_find(cs_painter *painter, const cs_program *program, cs_run run,

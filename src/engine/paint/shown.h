@@ -34,6 +34,5 @@ bool cs_shown_same(const cs_shown *a, const cs_shown *b);
 /* Whether a layer is a defocused cel whose nodes are pixels: its rows are known to be clear outside
  * some columns. */
 static inline bool cs_shown_is_pixels(const cs_stack *stack, const cs_layer *layer) {
-  return stack->has_pixels && layer->kind == CS_LAYER_DEFOCUSED &&
-         cs_defocused_is_pixels(stack->defocused[layer->index]);
+  return layer->kind == CS_LAYER_DEFOCUSED && stack->defocused[layer->index]->are_pixels;
 }

@@ -371,11 +371,36 @@ static celspan_status move_between(const cs_defocused *defocused, celspan_contex
   return make_vertices(context, view, &nodes);
 }
 
+static inline bool is_clear(const float node[4]) {
+  return cs_v4_same(cs_v4_load(node), cs_v4_all(0));
+}
+
+static void show_pixels(cs_defocused_view *view, const node_row *nodes) {
+  for (int plane = 0; plane < nodes->plane_count; plane++)
+    view->pixels[plane] = nodes->planes[plane];
+}
+
+/* Shows a row of pixels that a band has. */
+static void show_kept(cs_defocused_view *view, const node_row *nodes) {
+  cs_defocused_range *visible = &view->visible;
+  *visible = (cs_defocused_range){0, nodes->last + 1};
+  show_pixels(view, nodes);
+  while (visible->end > 0 && is_clear(nodes->planes[0][visible->end - 1]))
+    visible->end--;
+  while (visible->first < visible->end && is_clear(nodes->planes[0][visible->first]))
+    visible->first++;
+}
+
 /* Moves to a row of bands. */
 static celspan_status move_to_bands(const cs_defocused *defocused, celspan_context *context,
                                     cs_defocused_view *view, int32_t row, float share) {
   const cs_defocus_band *band;
   CS_TRY(pin_band(defocused, context, view, row / defocused->band_rows, &band));
+  if (defocused->are_pixels) {
+    node_row nodes = band_nodes(defocused, band, row);
+    show_kept(view, &nodes);
+    return CELSPAN_OK;
+  }
   if (band->nodes)
     return move_between(defocused, context, view, band, row, share);
   size_t first = band->rows[row % defocused->band_rows];
@@ -385,37 +410,36 @@ static celspan_status move_to_bands(const cs_defocused *defocused, celspan_conte
   return CELSPAN_OK;
 }
 
-static inline bool is_clear(const float node[4]) {
-  return cs_v4_same(cs_v4_load(node), cs_v4_all(0));
+/* The nodes of a mixed row: all of them where they are not pixels. */
+static node_row mixed_nodes(const cs_defocused *defocused, const cs_defocused_view *view) {
+  const float(*mixed)[4] = (const float(*)[4])view->mixed;
+  return (node_row){.planes = {mixed, mixed + defocused->columns},
+                    .plane_count = defocused->planes,
+                    .last = defocused->columns - 1};
 }
 
-/* Moves to a row of pixels that a band holds. */
-static celspan_status move_to_kept(const cs_defocused *defocused, celspan_context *context,
-                                   cs_defocused_view *view, int32_t row) {
-  const cs_defocus_band *band;
-  cs_defocused_range *visible = &view->visible;
-  CS_TRY(pin_band(defocused, context, view, row / defocused->band_rows, &band));
-  for (int plane = 0; plane < defocused->planes; plane++)
-    view->pixels[plane] = band_row(defocused, band, plane, row);
-  *visible = (cs_defocused_range){0, defocused->columns};
-  while (visible->end > 0 && is_clear(view->pixels[0][visible->end - 1]))
-    visible->end--;
-  while (visible->first < visible->end && is_clear(view->pixels[0][visible->first]))
-    visible->first++;
-  return CELSPAN_OK;
+/* Makes the nodes that are not visible clear. */
+static void clear_beyond(const cs_defocused *defocused, cs_defocused_view *view) {
+  for (int plane = 0; plane < defocused->planes; plane++) {
+    float(*nodes)[4] = view->mixed + (size_t)plane * (size_t)defocused->columns;
+    const cs_v4 clear = plane == 0 ? cs_v4_all(0) : colours;
+    for (int32_t i = 0; i < view->visible.first; i++)
+      cs_v4_store(nodes[i], clear);
+    for (int32_t i = view->visible.end; i < defocused->columns; i++)
+      cs_v4_store(nodes[i], clear);
+  }
 }
 
-/* Mixes a row of pixels. */
+/* Moves to a row that is mixed. */
 static celspan_status move_to_mixed(const cs_defocused *defocused, celspan_context *context,
                                     cs_defocused_view *view, double y) {
   CS_TRY(make_mixed(defocused, context, view));
   CS_TRY(defocused->mix(defocused, context, view, y));
-  size_t columns = (size_t)defocused->columns;
-  size_t first = (size_t)view->visible.first, end = (size_t)view->visible.end;
-  memset(view->mixed, 0, first * sizeof *view->mixed);
-  memset(view->mixed + end, 0, (columns - end) * sizeof *view->mixed);
-  view->pixels[0] = (const float(*)[4])view->mixed;
-  view->pixels[1] = (const float(*)[4])view->mixed + columns;
+  clear_beyond(defocused, view);
+  node_row nodes = mixed_nodes(defocused, view);
+  if (!defocused->are_pixels)
+    return make_vertices(context, view, &nodes);
+  show_pixels(view, &nodes);
   return CELSPAN_OK;
 }
 
@@ -428,12 +452,8 @@ celspan_status cs_defocused_move(const cs_defocused *defocused, celspan_context 
   int32_t row = cs_number_floor(at);
   row = row > defocused->rows - 2 ? defocused->rows - 2 : row;
   view->is_placed = false;
-  if (defocused->mix)
-    CS_TRY(move_to_mixed(defocused, context, view, y));
-  else if (defocused->keeps_pixels)
-    CS_TRY(move_to_kept(defocused, context, view, row));
-  else
-    CS_TRY(move_to_lines(defocused, context, view, row, (float)(at - row)));
+  CS_TRY(defocused->mix ? move_to_mixed(defocused, context, view, y)
+                        : move_to_bands(defocused, context, view, row, (float)(at - row)));
   view->is_placed = true;
   view->y = y;
   return CELSPAN_OK;
@@ -474,8 +494,8 @@ static inline int32_t node_of(const cs_defocused *defocused, double x) {
 static inline cs_v4 node_through(const cs_defocused *defocused, const cs_defocused_view *view,
                                  int32_t node) {
   if (defocused->planes == 1)
-    return cs_v4_all(1 - view->mixed[node][3]) * colours;
-  return cs_v4_load(view->mixed[defocused->columns + node]) * colours;
+    return cs_v4_all(1 - view->pixels[0][node][3]) * colours;
+  return cs_v4_load(view->pixels[1][node]) * colours;
 }
 
 /* Mostly much is let through in the first pixel, and then a bound of 1 is as good. */
@@ -521,14 +541,9 @@ static void pixel_paints(const cs_defocused *defocused, const cs_defocused_view 
                          const cs_defocused_places *places, float (*s)[4], float (*t)[4]) {
   for (int32_t i = 0; i < places->count; i++) {
     double x = (places->columns ? places->columns[i] : places->x0 + i) + 0.5;
-    int32_t node = (int32_t)cs_defocused_at(defocused, x);
-    bool is_visible = node >= view->visible.first && node < view->visible.end;
-    cs_v4 value = is_visible ? cs_v4_load(view->pixels[0][node]) : cs_v4_all(0);
-    cs_v4 clear = cs_v4_all(1 - value[3]);
-    if (is_visible && defocused->planes > 1)
-      clear = cs_v4_load(view->pixels[1][node]);
-    cs_v4_store(s[i], value * colours);
-    cs_v4_store(t[i], clear * colours);
+    int32_t node = node_of(defocused, x);
+    cs_v4_store(s[i], cs_v4_load(view->pixels[0][node]) * colours);
+    cs_v4_store(t[i], node_through(defocused, view, node));
   }
 }
 
@@ -555,7 +570,7 @@ static void line_paints(const cs_defocused *defocused, const cs_defocused_view *
 
 void cs_defocused_paints(const cs_defocused *defocused, const cs_defocused_view *view,
                          const cs_defocused_places *places, float (*s)[4], float (*t)[4]) {
-  if (cs_defocused_is_pixels(defocused))
+  if (defocused->are_pixels)
     pixel_paints(defocused, view, places, s, t);
   else
     line_paints(defocused, view, places, s, t);
@@ -564,7 +579,7 @@ void cs_defocused_paints(const cs_defocused *defocused, const cs_defocused_view 
 const float (*cs_defocused_samples(const cs_defocused *defocused, const cs_defocused_view *view,
                                    int32_t x0, int32_t count))[4] {
   int32_t first = x0 - (defocused->first_x - 1);
-  if (!cs_defocused_is_pixels(defocused) || defocused->planes > 1 || first < 0 ||
+  if (!defocused->are_pixels || defocused->planes > 1 || first < 0 ||
       first + count > defocused->columns)
     return NULL;
   return view->pixels[0] + first;

@@ -20,9 +20,10 @@
  *
  *   bands (defocus/ makes them) --a row, or two mixed--> vertices --along the line--> paint at x
  *
- * Nodes are pixels where modes and mattes show a cel pixel by pixel: a row of them is mixed from
- * the cel's own grid (defocus/) when it is asked for, and kept by the view alone, as far as there
- * is anything in it. They are pixels of a shifted cel, too, whose bands hold all of them.
+ * Where a cel has a grid of its own (defocus/), a row of nodes at the height of the frame's row is
+ * mixed from that grid when it is asked for, as far as there is anything in it, and kept by the
+ * view alone: there are no bands. Where nodes are pixels, they are the paint, without vertices: of
+ * such a mixed row, or of the bands of a shifted cel.
  *
  * A plane holds four values a node: the paint's S and its matte (1 - the mean of T); where T
  * differs from channel to channel a second plane holds T.
@@ -77,19 +78,18 @@ struct cs_defocused {
   int32_t columns, rows; /* nodes, at least 2 */
   int32_t band_rows;
   int planes;
-  bool keeps_pixels; /* nodes are pixels, and bands hold all of them */
   /* Bands are shared; one that was acquired is kept until it is released. Threads: any.
    * Errors: NO_MEMORY, and those of the rows of the cel. */
   celspan_status (*acquire)(const cs_defocused *defocused, celspan_context *context, int32_t band,
                             cs_defocus_band **out);
   void (*release)(const cs_defocused *defocused, celspan_context *context, cs_defocus_band *band);
-  /* Where pixels are mixed; NULL: there are bands. Fills `mixed` of a view, which has its room, and
-   * `visible` at a height in pixels; gives up what the view keeps for that.
+  /* NULL: there are bands. Fills `mixed` of a view, which has its room, and `visible` at a height
+   * in pixels; gives up what the view keeps for that.
    * Errors: NO_MEMORY, and those of the rows of the cel. */
   celspan_status (*mix)(const cs_defocused *defocused, celspan_context *context,
                         struct cs_defocused_view *view, double y);
   void (*forget)(celspan_context *context, struct cs_defocused_view *view);
-  bool are_pixels; /* each node is a pixel of a mixed row */
+  bool are_pixels; /* each node is a pixel, of a mixed row or of a band, which has all its nodes */
 };
 
 /* A defocused cel as one worker sees it, along one row. */
@@ -103,10 +103,10 @@ typedef struct cs_defocused_view {
   size_t count;
   cs_defocused_polyline own;
   float (*mixed)[4];           /* a row of nodes, plane after plane */
-  struct cs_regrid_rows *rows; /* only where pixels are mixed, and there are no vertices */
-  /* where nodes are pixels: those of the row, by plane; and the columns that may not be clear */
-  const float (*pixels[2])[4];
-  cs_defocused_range visible;
+  struct cs_regrid_rows *rows; /* only of mixed rows */
+  cs_defocused_range visible;  /* the nodes of a row of pixels, or of a mixed one, that may not be
+                                  clear */
+  const float (*pixels[2])[4]; /* where nodes are pixels: the row of them, by plane */
 } cs_defocused_view;
 
 /* ---- bands */
@@ -126,9 +126,6 @@ CELSPAN_CHECKED celspan_status cs_defocus_band_add(const cs_defocused *defocused
                                                    const cs_defocused_nodes *nodes,
                                                    cs_defocus_band *band);
 void cs_defocus_band_end(const cs_defocused *defocused, cs_memory *memory, cs_defocus_band *band);
-static inline bool cs_defocused_is_pixels(const cs_defocused *defocused) {
-  return defocused->mix || defocused->keeps_pixels;
-}
 /* How many groups a row of nodes has. */
 static inline int32_t cs_defocused_groups(const cs_defocused *defocused) {
   return (defocused->columns + CS_DEFOCUSED_GROUP - 1) / CS_DEFOCUSED_GROUP;

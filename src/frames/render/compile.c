@@ -155,7 +155,6 @@ static celspan_status compile_defocused(cs_compiler *c, const cs_defocus_cel *pl
   if (status == CELSPAN_OK && defocus) {
     plan->defocus[plan->defocus_count++] = defocus;
     stack->defocused[stack->defocused_count] = &defocus->grid;
-    stack->has_pixels |= cs_defocused_is_pixels(&defocus->grid);
     status = append_defocused(c, place, &box, (uint32_t)stack->defocused_count++);
   }
   cs_outline_finish(&box, c->context->memory);

@@ -134,8 +134,8 @@ static void part_axes(pf_match *m, uint32_t count) {
   }
 }
 
-/* Pairs the axes of two programs of the same form. False: an axis of one of them would stand for two
- * axes of the other; then no axis is paired. */
+/* Pairs the axes of two programs of the same form. False: an axis of one of them would stand for
+ * two axes of the other; then no axis is paired. */
 static bool pair_axes(pf_match *m, planefile_program theirs, planefile_program ours) {
   uint32_t before = m->paired_count;
   for (uint32_t i = 0; i < theirs.step_count; i++) {
