@@ -5,10 +5,13 @@
  * compared: sRGB, straight, at 16 bits when both pictures hold integers and as floats when one of
  * them does not.
  */
+#include <errno.h>
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/context.h"
+#include "base/open.h"
 #include "celspan/plane.h"
 #include "frames/process/interrupt.h"
 #include "frames/still/still.h"
@@ -18,6 +21,7 @@
 #include "model/colour/transfer.h"
 #include "model/pictures/store.h"
 #include "output/sinks/difference.h"
+#include "output/sinks/file.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/sink.h"
 #include "program/service.h"
@@ -545,6 +549,21 @@ static int finish_frame(lua_State *L) {
   return 0;
 }
 
+/* Describes the first frame of a film, or of a rostrum that has a size, which is argument 1, under
+ * the request. Pushes what the frame is made of. */
+static void expose_first(lua_State *L, celspan_frame_desc *out) {
+  const cs_session *session = cs_service_session(L);
+  cs_film_info film;
+  luaL_argcheck(L, cs_lua_film_push(L, 1), 1, "must be a film or a rostrum");
+  const int index = lua_gettop(L);
+  cs_lua_film_read(L, index, &film);
+  cs_film_frame *frame =
+      cs_userdata_push_holder(L, "celspan.program.frame", sizeof *frame, finish_frame);
+  cs_service_require(L, cs_view_frame(session->request, film.width, film.height, out));
+  cs_service_try(L, cs_lua_film_build(L, index, film.first, frame));
+  cs_film_expose(&film, frame, out);
+}
+
 /* write(film, path): writes the first frame of a film, or a rostrum that has a size, as a picture
  * under the request. */
 static int write_frame(lua_State *L) {
@@ -553,24 +572,81 @@ static int write_frame(lua_State *L) {
   celspan_coding coding;
   celspan_file_desc file = cs_target_file(session->request, &coding);
   celspan_frame_desc desc;
-  cs_film_info film;
-  luaL_argcheck(L, cs_lua_film_push(L, 1), 1, "must be a film or a rostrum");
-  const int index = lua_gettop(L);
-  cs_lua_film_read(L, index, &film);
-  cs_film_frame *frame =
-      cs_userdata_push_holder(L, "celspan.program.frame", sizeof *frame, finish_frame);
-  cs_service_require(L, cs_view_frame(session->request, film.width, film.height, &desc));
-  cs_service_try(L, cs_lua_film_build(L, index, film.first, frame));
-  cs_film_expose(&film, frame, &desc);
+  expose_first(L, &desc);
   if (cs_plane_is_wanted(path, file.format))
     return write_plane(L, &desc, path, &file);
   cs_service_try(L, celspan_frame_write(session->context, &desc, path, &file, NULL));
   return 0;
 }
 
+/* ---------------------------------------------------------------- a picture in memory */
+
+typedef struct open_file {
+  celspan_context *context;
+  cs_file *file;
+} open_file;
+
+static int discard_file(lua_State *L) {
+  open_file *open = lua_touserdata(L, 1);
+  cs_file_discard(open->file, open->context);
+  open->file = NULL;
+  return 0;
+}
+
+static celspan_status draw_png(const open_file *open, const celspan_frame_desc *desc,
+                               const char *path) {
+  celspan_file_desc file = CELSPAN_FILE_DESC;
+  celspan_coding coding = CELSPAN_CODING;
+  celspan_sink sink;
+  coding.depth = CELSPAN_DEPTH_8;
+  coding.space = desc->space;
+  file.coding = &coding;
+  file.is_opaque = celspan_frame_is_opaque(desc);
+  file.workers = desc->workers;
+  CS_TRY(cs_sink_png_part(open->context, path, open->file, &file, &sink));
+  return celspan_frame_render(open->context, desc, &sink, NULL);
+}
+
+static celspan_status read_back(const open_file *open, const char *path, void *bytes, size_t size) {
+  const char *name;
+  CS_TRY(cs_file_temporary(open->file, open->context, &name));
+  int descriptor = cs_open_to_read(name);
+  ssize_t got = descriptor < 0 ? -1 : cs_open_read_at(descriptor, bytes, size, 0);
+  int error = errno;
+  if (descriptor >= 0)
+    close(descriptor);
+  return got == (ssize_t)size
+             ? CELSPAN_OK
+             : cs_fail(open->context, CELSPAN_OUTPUT, "%s: cannot read it back: %s", path,
+                       got < 0 ? strerror(error) : "bytes are missing");
+}
+
+/* png(film, path) -> the first frame of a film as the bytes of a PNG of 8 bits, its width, its
+ * height. path: of the output of which it becomes a part; a temporary file is beside that. */
+static int make_png(lua_State *L) {
+  const char *path = luaL_checkstring(L, 2);
+  celspan_frame_desc desc;
+  expose_first(L, &desc);
+  open_file *open =
+      cs_userdata_push_holder(L, "celspan.program.open_file", sizeof *open, discard_file);
+  open->context = cs_service_session(L)->context;
+  cs_service_try(L, cs_file_create(open->context, NULL, path, &open->file));
+  cs_service_try(L, draw_png(open, &desc, path));
+  const size_t size = (size_t)cs_file_size(open->file);
+  void *bytes = lua_newuserdatauv(L, size, 0);
+  cs_service_try(L, read_back(open, path, bytes, size));
+  cs_file_discard(open->file, open->context);
+  open->file = NULL;
+  lua_pushlstring(L, bytes, size);
+  lua_pushinteger(L, desc.width);
+  lua_pushinteger(L, desc.height);
+  return 3;
+}
+
 void cs_service_add_pictures(lua_State *L) {
   static const luaL_Reg services[] = {
-      {"picture", read_facts}, {"spans", read_spans},   {"plane", read_plane},  CS_SERVICE(compare),
-      CS_SERVICE(convert),     {"pixels", read_pixels}, {"write", write_frame}, {NULL, NULL}};
+      {"picture", read_facts}, {"spans", read_spans}, {"plane", read_plane},
+      CS_SERVICE(compare),     CS_SERVICE(convert),   {"pixels", read_pixels},
+      {"write", write_frame},  {"png", make_png},     {NULL, NULL}};
   cs_service_add(L, services);
 }

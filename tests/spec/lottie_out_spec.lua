@@ -193,7 +193,10 @@ describe("a film as Lottie", function()
     film(3, "srgb", [[return celspan.rostrum { back = "#ffffff",
       celspan.cel { defocus = 4, celspan.rect { 10, 10, 60, 60, texture = "#402010" } },
       celspan.cel { celspan.rect { 80, 30 + i, 20, 20, texture = "#ff0000" } } }]])
+    bench:write("blurred.json.picture.png", "of the user")
     local path, said, document = out "blurred.json"
+    assert.equal("of the user", bench:read "blurred.json.picture.png")
+    assert.equal("2\n", (select(2, bench:inside "ls -A | grep -c ^[.]*blurred")))
     assert.matches("3 frames from frame 1 on, in part as a picture %(.+%): cel 1: a blur", said)
     assert.equal(1, #document.assets) -- the same in all frames
     assert.matches("^data:image/png;base64,", document.assets[1].p)

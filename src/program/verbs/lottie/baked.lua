@@ -125,16 +125,6 @@ function Bake:again(index)
   return self.rest
 end
 
---- The PNG of a picture, and its size in pixels.
-function Bake:draw(picture)
-  local path = self.path .. ".picture.png"
-  program.write(program.still(self.film, picture.shown), path)
-  local file <close> = assert(io.open(path, "rb"))
-  local bytes = file:read "a"
-  os.remove(path)
-  return bytes, string.unpack(">I4I4", bytes, 17)
-end
-
 --- What can be seen in a picture, as outlines; nil: why it has none.
 function Bake:parcels_of(picture)
   local plane, message = celspan.plane(program.still(self.film, picture.shown))
@@ -143,7 +133,7 @@ function Bake:parcels_of(picture)
 end
 
 function Bake:add_drawn(picture, number)
-  local bytes, width, height = self:draw(picture)
+  local bytes, width, height = program.png(program.still(self.film, picture.shown), self.path)
   local asset = { id = "picture" .. number, w = width, h = height, u = "", e = 1 }
   if self.is_archive then
     asset.u, asset.p, asset.e = "i/", ("%d.png"):format(number), 0
