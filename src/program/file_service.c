@@ -19,6 +19,7 @@
 #include "program/movies.h"
 #include "program/service.h"
 #include "program/sha256.h"
+#include "program/svg_target.h"
 #include "program/target.h"
 #include "program/video_target.h"
 
@@ -163,6 +164,13 @@ static int is_video(lua_State *L) {
   return 1;
 }
 
+/* is_drawing(path) -> whether the request makes an SVG drawing of this name */
+static int is_drawing(lua_State *L) {
+  const cs_request *request = cs_service_session(L)->request;
+  lua_pushboolean(L, cs_svg_target_is_wanted(luaL_checkstring(L, 1), request));
+  return 1;
+}
+
 /* refuse_target(path): ends the verb if the request cannot write a picture of this name. */
 static int refuse_target(lua_State *L) {
   const cs_session *session = cs_service_session(L);
@@ -256,11 +264,13 @@ static int join(lua_State *L) {
 }
 
 void cs_service_add_files(lua_State *L) {
-  static const luaL_Reg services[] = {
-      CS_SERVICE(kind),         CS_SERVICE(make_folders),   CS_SERVICE(entries),
-      CS_SERVICE(resolve),      CS_SERVICE(working_folder), CS_SERVICE(has_number),
-      CS_SERVICE(is_video),     CS_SERVICE(refuse_target),  CS_SERVICE(save),
-      CS_SERVICE(save_archive), CS_SERVICE(save_private),   CS_SERVICE(join),
-      CS_SERVICE(sha256),       {"is_movie", cs_movies_is}, {NULL, NULL}};
+  static const luaL_Reg services[] = {CS_SERVICE(kind),           CS_SERVICE(make_folders),
+                                      CS_SERVICE(entries),        CS_SERVICE(resolve),
+                                      CS_SERVICE(working_folder), CS_SERVICE(has_number),
+                                      CS_SERVICE(is_video),       CS_SERVICE(refuse_target),
+                                      CS_SERVICE(save),           CS_SERVICE(save_archive),
+                                      CS_SERVICE(save_private),   CS_SERVICE(join),
+                                      CS_SERVICE(sha256),         CS_SERVICE(is_drawing),
+                                      {"is_movie", cs_movies_is}, {NULL, NULL}};
   cs_service_add(L, services);
 }

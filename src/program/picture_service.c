@@ -497,17 +497,15 @@ static int convert(lua_State *L) {
   celspan_file_desc file = cs_target_file(session->request, &coding);
   celspan_frame_desc frame;
   bool is_plane = cs_plane_is_wanted(output, file.format);
-  bool is_drawing = cs_svg_target_is_wanted(output, session->request);
-  if ((is_plane || (is_drawing && !cs_plane_accepts(input))) && !cs_shown_is_film(input))
-    cs_service_require(L, cs_report_usage("%s: a %s is made of a script or a drawing%s, not of a "
-                                          "picture",
-                                          output, is_plane ? "plane" : "drawing",
-                                          is_plane ? "" : " or a plane"));
+  if (is_plane && !cs_shown_is_film(input))
+    cs_service_require(
+        L,
+        cs_report_usage("%s: a plane is made of a script or a drawing, not of a picture", output));
   cs_service_require(L, cs_shown_open(session->context, session->request, input, true, stills));
   cs_service_require(L, cs_shown_frame(session->request, stills, &frame));
   if (is_plane)
     return write_plane(L, &frame, output, &file);
-  if (is_drawing)
+  if (cs_svg_target_is_wanted(output, session->request))
     return write_drawing(L, stills, &frame, output);
   cs_service_try(L, cs_still_write(session->context, stills, &frame, output, &file));
   return 0;

@@ -223,7 +223,12 @@ return celspan.film { size = { 60, 40 }, frames = 1, frame = function()
     refused(2, "--flat is for drawings", "render light.lua -o x.png --frames 1 --flat over")
     refused(2, "--precision", "render light.lua -o x.svg --precision 10")
     bench:write("light.png", "no picture")
-    refused(2, "a drawing is made of a script or a drawing or a plane", "convert light.png x.svg")
+    bench:write("light.0001.png", "no picture")
+    bench:write("light.mp4", "no movie")
+    for _, input in ipairs { "light.png", "'light.####.png'", "light.mp4" } do
+      refused(2, "a drawing is made of a script or a drawing or a plane",
+        "convert " .. input .. " 'x.####.svg'")
+    end
   end)
 
   it("has a limit of borders", function()

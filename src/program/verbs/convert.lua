@@ -11,6 +11,7 @@ local ONLY_VIDEO = { "quality", "codec", "max_size", "crf", "loop", "loudness", 
                      "background", "progress" }
 local NAME_MOST = 255 -- bytes of a file's name
 local RIGHTS = { ["--trust"] = true, ["--limit"] = true }
+local HAS_OUTLINES = { archive = true, svg = true, plane = true } -- kinds of inputs
 local OWN = { ["--fps"] = true, ["--sound"] = true, ["--frame"] = true }
 
 --- Runs this program, whose messages are shown. Returns its exit code.
@@ -68,6 +69,10 @@ end
 
 local kind = program.kind(request[1])
 local is_files = kind == "files"
+if program.is_drawing(request[2]) and not HAS_OUTLINES[kind] then
+  program.usage("%s: a drawing is made of a script or a drawing or a plane, not of a picture",
+    request[2])
+end
 if is_files or kind == "picture" and program.is_movie(request[1]) then
   if request.fps and not is_files then
     program.usage("--fps is the rate of numbered pictures, and %s has its own", request[1])
