@@ -3,6 +3,7 @@
 #include "frames/plane/plane.h"
 #include "program/layers_target.h"
 #include "program/progress.h"
+#include "program/svg_target.h"
 #include "program/target.h"
 #include "program/video_target.h"
 #include "program/view.h"
@@ -94,6 +95,8 @@ cs_exit cs_refusals_early(celspan_context *context, const cs_request *request) {
   CS_TRY_EXIT(refuse_dither(request));
   CS_TRY_EXIT(refuse_division(request, output));
   CS_TRY_EXIT(cs_layers_target_refuse(request));
+  if (!cs_svg_target_is_output(request))
+    CS_TRY_EXIT(cs_svg_target_refuse_own(output ? output : "--hash", request));
   if (output && cs_target_is_stream(output))
     return refuse_stream(request);
   return cs_refusals_of_output(context, request, 0);

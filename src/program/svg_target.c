@@ -35,8 +35,7 @@ cs_plot_desc cs_svg_target_read(const cs_request *request) {
   return desc;
 }
 
-/* The options of drawings alone, for other outputs. */
-static cs_exit refuse_own(const char *output, const cs_request *request) {
+cs_exit cs_svg_target_refuse_own(const char *output, const cs_request *request) {
   static const char *const own[] = {"--flat", "--precision"};
   for (size_t i = 0; i < sizeof own / sizeof *own; i++)
     if (cs_request_has(request, own[i]))
@@ -49,7 +48,7 @@ cs_exit cs_svg_target_refuse(const char *output, const cs_request *request) {
       "--crop",  "--strip",  "--colour",    "--depth",     "--alpha",   "--dither", "--hash",
       "--draft", "--resume", "--antialias", "--no-dither", "--display", "--view",   "--fit"};
   if (!cs_svg_target_is_wanted(output, request))
-    return refuse_own(output, request);
+    return cs_svg_target_refuse_own(output, request);
   for (size_t i = 0; i < sizeof others / sizeof *others; i++)
     if (cs_request_has(request, others[i]))
       return cs_report_usage("%s: %s is for pictures, and a drawing has no pixels: leave it out",

@@ -12,6 +12,9 @@ bool cs_svg_target_is_output(const cs_request *request);
 cs_plot_desc cs_svg_target_read(const cs_request *request);
 /* OK if the output can have what is asked for; otherwise the reason is reported. */
 cs_exit cs_svg_target_refuse(const char *output, const cs_request *request);
+/* The same for the options of drawings alone, where the output is no drawing; output: for the
+ * message. */
+cs_exit cs_svg_target_refuse_own(const char *output, const cs_request *request);
 /* The same as the functions of frames/parcels/plot.h; a line says what has become a picture. */
 CELSPAN_CHECKED celspan_status cs_svg_target_write_frame(celspan_context *context,
                                                          const celspan_frame_desc *frame,

@@ -221,9 +221,14 @@ return celspan.film { size = { 60, 40 }, frames = 1, frame = function()
       "render light.lua -o x.svg --crop 0,0,9,9")
     refused(2, "--depth is for pictures", "render light.lua -o x.svg --depth 8")
     refused(2, "--flat is for drawings", "render light.lua -o x.png --frames 1 --flat over")
+    bench:write("light.0001.png", "no picture")
+    for _, output in ipairs { "-o x.mp4", "-o -", "--hash", "-o x.plane" } do
+      refused(2, "--flat is for drawings", "render light.lua --flat over " .. output)
+      refused(2, "--precision is for drawings", "render light.lua --precision 2 " .. output)
+    end
+    refused(2, "--flat is for drawings", "convert 'light.####.png' x.mp4 --flat over")
     refused(2, "--precision", "render light.lua -o x.svg --precision 10")
     bench:write("light.png", "no picture")
-    bench:write("light.0001.png", "no picture")
     bench:write("light.mp4", "no movie")
     for _, input in ipairs { "light.png", "'light.####.png'", "light.mp4" } do
       refused(2, "a drawing is made of a script or a drawing or a plane",
