@@ -41,8 +41,9 @@ static cs_exit refuse_format(const char *path, const char *name) {
   cs_video_format_list(videos, sizeof videos);
   return cs_report_usage(
       "%s: the format \"%s\" cannot be written; pictures can be %s; videos, "
-      "which 'celspan render' makes, %s; planes plane; drawings svg; Lottie animations json or "
-      "lottie; sounds, which 'celspan sound' makes, wav",
+      "which 'celspan render' makes, %s; planes plane; drawings, which 'celspan render' and "
+      "'celspan convert' make, svg; Lottie animations, which 'celspan render' makes of a name such "
+      "as film.json or film.lottie, without --format; sounds, which 'celspan sound' makes, wav",
       path, name, pictures, videos);
 }
 

@@ -272,6 +272,9 @@ complete_words celspan render film.lua -- -
         usage_error("render x.lua -o y.avi", more)
         usage_error("convert x.png y.heic", more)
       end
+      for _, words in ipairs { "render x.lua -o y --format json", "convert x.png y.lottie" } do
+        usage_error(words, "'celspan render' makes of a name such as film.json or film.lottie")
+      end
       usage_error("render x.lua y.mp4", "unexpected argument 'y.mp4': write '-o y.mp4' if that is")
       usage_error("render x.lua -o y", "the format is unknown")
       usage_error("render x.lua -o y.png --format xyz", 'the format "xyz" cannot be written')
