@@ -140,6 +140,7 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
     Object.keys(CelspanFilm.prototype).forEach(name => this.#take_early(name));
     if (!this.hasAttribute("role")) this.setAttribute("role", "group");
     if (!this.#life) this.#load();
+    this.#take_early("currentTime"); // for the file that is loaded
   }
 
   // An element that only moves to another place of the page continues.
@@ -323,7 +324,7 @@ class CelspanFilm extends (globalThis.HTMLElement ?? class {}) {
     this.#started ??= now - this.#shown * 1000 / rate;
     const frame = Math.floor((now - this.#started) / 1000 * rate + 1e-6);
     if (frame >= frames && !this.loop) {
-      this.#choose(frames - 1);
+      this.#choose(frames - 1, this.#is_seen);
       this.pause();
       this.#send("ended");
       return;
