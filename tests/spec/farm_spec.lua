@@ -497,6 +497,9 @@ describe("celspan farm", function()
       ["-o o.plane"] = "a film of planes is made in one run",
       ["-o o.plane --keep-going"] = "a plane file is made whole",
       ["-o o.#.xyz"] = "cannot be written",
+      ["-o o.#.svg"] = "a farm makes no drawings and no Lottie animations",
+      ["-o o.#.x --format svg"] = "a farm makes no drawings",
+      ["-o o.json"] = "a farm makes no drawings and no Lottie animations",
       ["-o o.#.png --fit cover"] = "give --size",
       ["-o o.#.png --crop 50,0,20,20"] = "is not within the frame",
     } do

@@ -260,6 +260,11 @@ local function refuse()
   if output == "-" or not request.table and program.is_video(output) then
     program.usage "a farm makes files of frames: give -o shot.####.png (and make a video of them)"
   end
+  local named = request.format and "x." .. request.format or output
+  if program.has_ending(named, ".svg", ".json", ".lottie") then
+    program.usage("%s: a farm makes no drawings and no Lottie animations: give -o shot.####.png, "
+      .. "or use 'celspan render'", output)
+  end
   if request.log then refuse_log() end
   if #output > program.path_most then program.usage("%.80s...: the name is too long", output) end
 end
