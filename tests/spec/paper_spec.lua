@@ -44,15 +44,15 @@ describe("Table 1", function()
   local glass = celspan.rgb(0.8, 0.2, 0.1, 0.5)
   local textures = {
     single = glass,
-    gradient = gradient(0, 16, celspan.rgb(0.8, 0.2, 0.1, 0.5), celspan.rgb(0.1, 0.4, 0.9, 0.5)),
-    array = noise(16),
+    gradient = gradient(0, 64, celspan.rgb(0.8, 0.2, 0.1, 0.5), celspan.rgb(0.1, 0.4, 0.9, 0.5)),
+    array = noise(64),
   }
   local order = { single = 1, gradient = 2, array = 3 }
   for front, front_texture in pairs(textures) do
     for back, back_texture in pairs(textures) do
       it(("makes %s over %s a span of the richer kind"):format(front, back), function()
         local expected = order[front] > order[back] and front or back
-        local spans = row(sharp(bar(0, 16, back_texture), bar(0, 16, front_texture)), 16)
+        local spans = row(sharp(bar(0, 64, back_texture), bar(0, 64, front_texture)), 64)
         assert.are.equal(expected, kinds(spans))
       end)
     end

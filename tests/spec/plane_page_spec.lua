@@ -149,6 +149,7 @@ describe("the page of a plane", function()
       const whole = { corner: await at(100, 100), text: await page.get("where.textContent"),
                       fault: await page.get(fault), address: await page.get("location.hash") };
       await page.get("location.hash = '78.005,45,0.016'");
+      await page.until("Math.abs(film.view.width - 0.016) < 1e-7");
       await page.until("/10,\\d\\d\\d$/.test(where.textContent)");
       await is_at(230, 400, "242,100,25,255");
       await is_at(640, 400, "255,255,255,255");

@@ -338,8 +338,8 @@ describe("the element of planes #plain", function()
       await page.get(`document.head.append(Object.assign(document.createElement("script"),
         { src: "celspan-film.js" })), 0`);
       await page.until("events[0].length");
-      found.push(await page.get(
-        "[film.getAttribute('src'), film.hasAttribute('loop'), part('frame').value, events[0][0]]"));
+      found.push(await page.get(`[film.getAttribute('src'), film.hasAttribute('loop'),
+        part('frame').value, events[0][0]]`));
       return found;]=]
     assert.same({ { false, 1 }, { true, "pause", json.null }, { 0, "242,100,25,255" },
                   { "film.plane", true, "26", "loadeddata" } }, said)
