@@ -58,6 +58,7 @@ static celspan_status collect(collecting *g, cs_parcels *out) {
 /* Where one arc ends and the next one begins, a plane may have rounded their heights differently.
  * Heights that are so near become one. */
 enum { NEAR = 1, TOGETHER = 4, APART = 64 }; /* units: two heights; all of them; what may remain */
+enum { STEPS_APART = 4 };                    /* and that in steps of the plane's grid */
 
 typedef struct arc_height {
   int32_t height;
@@ -161,6 +162,7 @@ typedef struct tracing {
   arc_end *ends;
   uint32_t *partners; /* by id; of an end that has been walked itself */
   size_t count;
+  int32_t apart; /* heights that may become one */
 } tracing;
 
 /* The end of those at one height from an end on; at several heights, which become one, if their
@@ -174,7 +176,7 @@ static size_t find_group(const tracing *t, size_t first) {
          end++)
       t->ends[end].height = height;
   } while ((end - first) % 2 == 1 && end < t->count && t->ends[end].set == t->ends[first].set &&
-           t->ends[end].height - height <= APART);
+           t->ends[end].height - height <= t->apart);
   if (last != height)
     sort_ends(t->ends + first, end - first);
   return end;
@@ -231,7 +233,9 @@ static celspan_status walk_all(const tracing *t, uint32_t set_count, size_t *fir
 celspan_status cs_parcels_walk(celspan_context *context, cs_parcels *parcels, const uint32_t *sets,
                                uint32_t set_count, size_t *first) {
   const size_t most = 4 * parcels->arc_count + 1;
-  tracing t = {context, parcels, NULL, NULL, 0};
+  tracing t = {context, parcels, NULL, NULL, 0, APART};
+  if (parcels->step > 1)
+    t.apart = STEPS_APART * parcels->step;
   celspan_status status = CS_MAKE(context, t.ends, most);
   if (status == CELSPAN_OK)
     status = CS_MAKE(context, t.partners, most);
@@ -271,15 +275,17 @@ static celspan_status walk_fills(celspan_context *context, cs_parcels *p) {
 
 celspan_status cs_parcels_make(celspan_context *context, const celspan_plane *plane,
                                cs_parcels *out) {
+  const planefile_info info = planefile_plane_info(plane->plane);
   collecting g = {.context = context, .plane = plane};
-  *out = (cs_parcels){0};
+  *out = (cs_parcels){.step = (int32_t)(PLANEFILE_SIDE / planefile_steps(info.grid.rows))};
   celspan_status status = collect(&g, out);
   cs_sides_finish(&g.sides, context->memory);
   cs_hash_table_finish(&g.table.known, context);
   cs_mem_free(context->memory, g.fills, g.capacity * sizeof *g.fills);
   CS_TRY(status);
   CS_TRY(join_heights(context, out));
-  CS_TRY(cs_parcels_refuse_sums(context, out));
+  if (!info.is_coded) /* sums are no codes */
+    CS_TRY(cs_parcels_refuse_sums(context, out));
   return walk_fills(context, out);
 }
 

@@ -81,6 +81,7 @@ typedef struct cs_parcels {
   size_t fill_count, fill_capacity, stop_count, stop_capacity;
   size_t arc_count, arc_capacity, curve_count, curve_capacity;
   size_t walk_count, walk_capacity, loop_count, loop_capacity;
+  int32_t step; /* of the plane's grid, down, in its units */
 } cs_parcels;
 
 enum { CS_PARCEL_ARCS = 1000000 }; /* at most */

@@ -12,7 +12,7 @@ struct cs_plane_film {
   cs_file *file;
   planefile_writer *writer;
   celspan_plane_desc desc;
-  planefile_grain grain;
+  planefile_grid grid;
   bool has_last;
   cs_hash last;          /* of the scene of the latest frame */
   celspan_status status; /* the result of writing bytes */
@@ -31,13 +31,11 @@ static celspan_status report(const cs_plane_film *film, planefile_status status)
   return status == PLANEFILE_WRITE_FAILED ? film->status : cs_plane_report(film->context, status);
 }
 
-/* The largest grain of which a unit of the film, or a 1920th or 1080th of it, is 100: a border is
- * off by a two-hundredth of a pixel of that size, at most. */
-static uint8_t find_grain(double side) {
-  uint8_t grain = 0;
-  while (grain < PLANEFILE_GRAIN && (100 << (grain + 1)) * side <= PLANEFILE_SIDE)
-    grain++;
-  return grain;
+/* The columns or rows of the grid: those of the film, each cut into enough of them for `least`, so
+ * that what lies at the edges of pixels stays there. */
+static uint16_t count_of(double side, double least) {
+  double whole = fmax(ceil(side), 1), parts = ceil(least / whole);
+  return (uint16_t)fmin(whole * parts, UINT16_MAX);
 }
 
 static celspan_status open_writer(cs_plane_film *film, double frames_second) {
@@ -49,7 +47,7 @@ static celspan_status open_writer(cs_plane_film *film, double frames_second) {
                                       .resize_user = film->context->memory,
                                       .frames_second = frames_second,
                                       .is_coded = film->desc.depth == 8,
-                                      .grain = film->grain};
+                                      .grid = film->grid};
   return report(film, planefile_writer_create(&desc, &film->writer));
 }
 
@@ -64,8 +62,7 @@ celspan_status cs_plane_film_create(celspan_context *context, const char *path,
   film->desc.height = desc->height;
   film->desc.depth = desc->depth;
   if (desc->depth == 8 && desc->frames_second > 0)
-    film->grain = (planefile_grain){find_grain(fmax(desc->width, 1920)),
-                                    find_grain(fmax(desc->height, 1080))};
+    film->grid = (planefile_grid){count_of(desc->width, 1280), count_of(desc->height, 720)};
   celspan_status status = cs_file_create(context, NULL, path, &film->file);
   if (status == CELSPAN_OK)
     status = open_writer(film, desc->frames_second);
@@ -103,7 +100,7 @@ static celspan_status put_scene(cs_plane_film *film, const celspan_frame_desc *f
   cs_plane_frame made;
   film->desc.space = frame->space;
   celspan_status status = cs_plane_record(film->context, frame->exposures, frame->exposure_count,
-                                          &film->desc, film->grain, &made);
+                                          &film->desc, film->grid, &made);
   if (status == CELSPAN_OK) {
     planefile_band band = cs_record_plane(&made.record);
     planefile_status written = planefile_writer_frame(film->writer, &band);

@@ -184,7 +184,7 @@ static celspan_status record_all(celspan_context *context, const celspan_exposur
                         .most_dashes = CS_COMPILE_DASHES,
                         .space = CELSPAN_SPACE_LINEAR,
                         .film_space = desc->space,
-                        .unit = cs_record_unit(out->record.grain)};
+                        .unit = cs_record_unit(out->record.grid)};
   if (count != 1)
     CS_TRY(cs_record_begin_sum(context, &out->record));
   for (size_t i = 0; i < count; i++)
@@ -193,10 +193,10 @@ static celspan_status record_all(celspan_context *context, const celspan_exposur
 }
 
 celspan_status cs_plane_record(celspan_context *context, const celspan_exposure *exposures,
-                               size_t count, const celspan_plane_desc *desc, planefile_grain grain,
+                               size_t count, const celspan_plane_desc *desc, planefile_grid grid,
                                cs_plane_frame *out) {
   planefile_rounding *rounding = NULL;
-  *out = (cs_plane_frame){.record.grain = grain};
+  *out = (cs_plane_frame){.record.grid = grid};
   CS_TRY(check_desc(context, desc, count));
   if (desc->depth == 8) {
     rounding = planefile_rounding_create(cs_plane_resize, context->memory);
@@ -241,7 +241,7 @@ celspan_status cs_plane_expose(celspan_context *context, const celspan_exposure 
   *out = NULL;
   CS_TRY(create(context, &plane));
   celspan_status status =
-      cs_plane_record(context, exposures, count, desc, (planefile_grain){0, 0}, &made);
+      cs_plane_record(context, exposures, count, desc, (planefile_grid){0, 0}, &made);
   if (status == CELSPAN_OK)
     status = write_record(context, &made.record, desc, plane);
   cs_plane_frame_finish(&made, context->memory);

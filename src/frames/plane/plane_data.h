@@ -38,12 +38,12 @@ typedef struct cs_plane_frame {
   celspan_rostrum **shown; /* what they were made of: references */
   size_t shown_count, shown_capacity;
 } cs_plane_frame;
-/* The visible part of a frame, whose places are on a grain. out: must be finished, also after an
+/* The visible part of a frame, whose places are on a grid. out: must be finished, also after an
  * error. Errors: those of celspan_plane_create. */
 CELSPAN_CHECKED celspan_status cs_plane_record(celspan_context *context,
                                                const celspan_exposure *exposures, size_t count,
-                                               const celspan_plane_desc *desc,
-                                               planefile_grain grain, cs_plane_frame *out);
+                                               const celspan_plane_desc *desc, planefile_grid grid,
+                                               cs_plane_frame *out);
 void cs_plane_frame_finish(cs_plane_frame *frame, cs_memory *memory);
 /* The memory of a context for the subproject. user: a cs_memory. */
 void *cs_plane_resize(void *user, void *block, size_t old_size, size_t new_size);

@@ -8,8 +8,6 @@
 #include "output/record/pictures.h"
 #include "output/record/programs.h"
 
-/* units of a plane in a pixel of the plan */
-#define UNITS ((double)PLANEFILE_SIDE / CS_RECORD_SIDE)
 #define COUNT_MOST (UINT32_MAX / 4) /* of anything */
 #define WINDINGS_MOST ((size_t)1 << 24)
 
@@ -147,17 +145,23 @@ static celspan_status find_shown(void *user, cs_composer *composer, const cs_cel
 
 /* ---------------------------------------------------------------- curves */
 
-/* The nearest multiple of 2^grain units. */
-static int32_t to_units(double pixels, uint8_t grain) {
-  double unit = 1 << grain, units = floor(pixels * UNITS / unit + 0.5) * unit;
-  return (int32_t)cs_number_clamp(units, -PLANEFILE_FAR, PLANEFILE_FAR);
+/* A point in the middle between two places of the grid, as points often are, goes to the greater
+ * one, wherever it has been moved to, though its coordinate is then a little less or more. */
+#define MIDDLE (0.5 + 1.0 / 1024)
+
+/* The nearest place on the grid. */
+static int32_t to_units(double pixels, uint16_t count) {
+  const double steps = (double)planefile_steps(count), far = 4 * steps;
+  double step = floor(pixels / CS_RECORD_SIDE * steps + (count > 0 ? MIDDLE : 0.5));
+  return (int32_t)planefile_place_of((int64_t)cs_number_clamp(step, -far, far), count);
 }
 
 /* Heights are rounded to those of the sweep first, because borders end where chains do. */
 static planefile_point point_at(const recorder *r, double x, double y) {
-  planefile_grain grain = r->out->grain;
+  planefile_grid grid = r->out->grid;
   double height = floor(y * CS_COURSE_UNIT + 0.5) / CS_COURSE_UNIT;
-  return (planefile_point){to_units(x, grain.x), to_units(height, grain.y), PLANEFILE_WEIGHT};
+  return (planefile_point){to_units(x, grid.columns), to_units(height, grid.rows),
+                           PLANEFILE_WEIGHT};
 }
 
 /* The control points of a piece, from its coefficients in powers; its end points are known. */
@@ -262,7 +266,7 @@ static void find_limits(const cs_recording *record, uint32_t number, int32_t *le
 
 /* A height of the sweep, converted to units of a plane. */
 static int32_t height_of(const recorder *r, int32_t y) {
-  return to_units(y * (1.0 / CS_COURSE_UNIT), r->out->grain.y);
+  return to_units(y * (1.0 / CS_COURSE_UNIT), r->out->grid.rows);
 }
 
 static celspan_status find_chain(recorder *r, uint32_t course, uint32_t *out) {

@@ -17,15 +17,16 @@
 #define CS_RECORD_SIDE 16381 /* pixels of the plan's width and height */
 #define CS_RECORD_UNIT ((double)CS_RECORD_SIDE / PLANEFILE_SIDE) /* a unit of a plane, in pixels */
 
-/* What places are multiples of, in pixels of the plan. */
-static inline celspan_point cs_record_unit(planefile_grain grain) {
-  return (celspan_point){CS_RECORD_UNIT * (1 << grain.x), CS_RECORD_UNIT * (1 << grain.y)};
+/* The steps of a grid, in pixels of the plan. */
+static inline celspan_point cs_record_unit(planefile_grid grid) {
+  return (celspan_point){(double)CS_RECORD_SIDE / (double)planefile_steps(grid.columns),
+                         (double)CS_RECORD_SIDE / (double)planefile_steps(grid.rows)};
 }
 
 typedef struct cs_record_picture cs_record_picture; /* the source of its pixels: pictures.c */
 
 typedef struct cs_recording {
-  planefile_grain grain; /* of all places */
+  planefile_grid grid; /* of all places */
   planefile_point *points;
   planefile_piece *pieces;
   planefile_chain *chains;

@@ -42,7 +42,7 @@ typedef void *(*planefile_resize)(void *user, void *block, size_t old_size, size
 
 #define PLANEFILE_SIDE (1 << 26)   /* of the frame, in units, across and down */
 #define PLANEFILE_FAR (1 << 28)    /* no coordinate is larger, in either direction */
-#define PLANEFILE_GRAIN 15         /* of a file, at most; see planefile_grain */
+#define PLANEFILE_STEPS 100        /* of a grid, in a column or a row of it */
 #define PLANEFILE_WEIGHT (1 << 28) /* of a point of a plain piece */
 #define PLANEFILE_WHITE 65535      /* of a colour, and what is opaque */
 #define PLANEFILE_SHADE 17         /* colours of programs, beside cells that are codes */
@@ -74,10 +74,26 @@ typedef struct planefile_border {
   uint32_t left, right; /* cells, which differ */
 } planefile_border;
 
-/* All coordinates are multiples of 2^x units across and of 2^y units down. */
-typedef struct planefile_grain {
-  uint8_t x, y;
-} planefile_grain;
+/* All coordinates lie on a grid that divides the frame into columns and rows, and each of these
+ * into STEPS. 0: every unit is a step. */
+typedef struct planefile_grid {
+  uint16_t columns, rows;
+} planefile_grid;
+
+/* The steps across a frame of some columns, or down one of some rows. */
+static inline int64_t planefile_steps(uint16_t count) {
+  return count > 0 ? (int64_t)PLANEFILE_STEPS * count : PLANEFILE_SIDE;
+}
+/* The step that is next to a coordinate, and the coordinate of a step, which is below 2^34 in size:
+ * each is the other's inverse. */
+static inline int64_t planefile_step_at(int32_t coordinate, uint16_t count) {
+  int64_t at = coordinate * planefile_steps(count) + PLANEFILE_SIDE / 2;
+  return at >= 0 ? at / PLANEFILE_SIDE : -((PLANEFILE_SIDE - 1 - at) / PLANEFILE_SIDE);
+}
+static inline int64_t planefile_place_of(int64_t step, uint16_t count) {
+  int64_t steps = planefile_steps(count), at = step * PLANEFILE_SIDE + steps / 2;
+  return at >= 0 ? at / steps : -((steps - 1 - at) / steps);
+}
 
 /* Linear light, premultiplied; the last channel is alpha. */
 typedef struct planefile_cell {
@@ -211,10 +227,10 @@ typedef struct planefile_writer_desc {
   void *user;
   planefile_resize resize; /* NULL: the C library's */
   void *resize_user;
-  double frames_second;  /* of a film; 0: a single plane */
-  bool is_coded;         /* flat cells are rounded to 8-bit codes (planefile_round), and
+  double frames_second; /* of a film; 0: a single plane */
+  bool is_coded;        /* flat cells are rounded to 8-bit codes (planefile_round), and
                            the colours of programs to multiples of SHADE */
-  planefile_grain grain; /* of what is written; each at most GRAIN */
+  planefile_grid grid;  /* of all coordinates */
 } planefile_writer_desc;
 
 /* Writes a plane; desc and plane: borrowed. The bytes are a function of the plane alone. Curves of
@@ -279,6 +295,7 @@ typedef struct planefile_info {
   bool is_opaque;         /* alpha is PLANEFILE_WHITE everywhere */
   bool varies;            /* there may be cells with programs */
   bool is_coded;          /* flat cells are 8-bit codes */
+  planefile_grid grid;
 } planefile_info;
 
 /* The bytes from the start that planefile_is needs. */

@@ -144,6 +144,7 @@ enum {
   PF_ORIGIN_BITS = 2
 };
 
+/* In steps of the grid. */
 typedef struct pf_move {
   int32_t x, y;
 } pf_move;
@@ -186,12 +187,19 @@ static inline pf_sides pf_base_sides(const pf_base *base, uint32_t chain) {
   const planefile_border *border = &base->band->borders[base->first[chain]];
   return (pf_sides){border->left, border->right};
 }
+/* A height that has been moved by some steps; limited to the frame. */
+static inline int32_t pf_move_height(int32_t height, int32_t by, uint16_t rows) {
+  int64_t to = planefile_place_of(planefile_step_at(height, rows) + by, rows);
+  return (int32_t)(to < 0 ? 0 : to > PLANEFILE_SIDE ? PLANEFILE_SIDE : to);
+}
 /* The part of a border that is at the heights of a band when it has been moved; false: none is. */
-static inline bool pf_move_border(const planefile_border *border, int32_t by,
+static inline bool pf_move_border(const planefile_border *border, int32_t by, uint16_t rows,
                                   const planefile_band *band, planefile_border *out) {
+  int32_t top = pf_move_height(border->top, by, rows),
+          foot = pf_move_height(border->foot, by, rows);
   *out = *border;
-  out->top = border->top + by > band->top ? border->top + by : band->top;
-  out->foot = border->foot + by < band->foot ? border->foot + by : band->foot;
+  out->top = top > band->top ? top : band->top;
+  out->foot = foot < band->foot ? foot : band->foot;
   return out->top < out->foot;
 }
 
@@ -231,7 +239,7 @@ typedef struct pf_payload {
   const pf_codes *codes;  /* NULL: cells are not codes */
   uint32_t picture_count; /* of the file */
   const pf_base *base;    /* NULL: it has none */
-  planefile_grain grain;
+  planefile_grid grid;
   pf_learned *learned; /* where what it teaches goes; NULL: nowhere */
 } pf_payload;
 /* Decodes a band. out: empty; must be freed whatever happens. reason: set where the status is not
@@ -249,7 +257,7 @@ typedef struct pf_part {
   bool is_whole;         /* pieces of which nothing can be seen are kept, for other frames */
   const pf_base *base;   /* NULL: none */
   const pf_codes *codes; /* NULL: cells are not codes; otherwise all flat ones are rounded */
-  planefile_grain grain;
+  planefile_grid grid;
 } pf_part;
 /* The payload is in the encoder's bytes. */
 planefile_status pf_band_encode(const pf_memory *memory, const pf_part *part, pf_encoder *out);

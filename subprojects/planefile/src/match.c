@@ -41,15 +41,24 @@ static pf_print take_print(key *k) {
   return print;
 }
 
+/* The steps of the grid from one point to another. */
+static int64_t across(planefile_grid grid, int32_t to, int32_t from) {
+  return planefile_step_at(to, grid.columns) - planefile_step_at(from, grid.columns);
+}
+static int64_t down(planefile_grid grid, int32_t to, int32_t from) {
+  return planefile_step_at(to, grid.rows) - planefile_step_at(from, grid.rows);
+}
+
 /* The pieces of a chain, as moves from its first point. */
-static pf_print print_chain(key *k, const planefile_band *band, uint32_t piece, uint32_t end) {
+static pf_print print_chain(key *k, planefile_grid grid, const planefile_band *band, uint32_t piece,
+                            uint32_t end) {
   const planefile_point *start = &band->points[band->pieces[piece].point];
   for (uint32_t i = piece; i < end; i++) {
     const planefile_piece *of = &band->pieces[i];
     add_number(k, of->degree | (of->is_rational ? PF_RATIONAL : 0));
     for (uint32_t at = of->point; at <= of->point + of->degree; at++) {
-      add_number(k, (uint32_t)band->points[at].x - (uint32_t)start->x);
-      add_number(k, (uint32_t)band->points[at].y - (uint32_t)start->y);
+      add_number(k, (uint32_t)across(grid, band->points[at].x, start->x));
+      add_number(k, (uint32_t)down(grid, band->points[at].y, start->y));
       if (of->is_rational)
         add_number(k, band->points[at].w);
     }
@@ -350,7 +359,7 @@ static bool find_chains(pf_match *m, key *k) {
   m->forms = pf_make(&m->memory, sizeof *m->forms, band->chain_count);
   for (uint32_t i = 0; m->chains && m->forms && i < band->chain_count && !k->failed; i++) {
     uint32_t piece = band->chains[i].piece, end = piece + band->chains[i].piece_count;
-    m->chains[i] = (pf_known){print_chain(k, band, piece, end), i};
+    m->chains[i] = (pf_known){print_chain(k, m->grid, band, piece, end), i};
     m->forms[i] = (pf_known){print_forms(k, band, piece, end), i};
   }
   if (!m->chains || !m->forms || k->failed)
@@ -366,7 +375,7 @@ static uint32_t bits_of(int64_t number) {
 }
 
 /* About the bits of the moves of some pieces, as they are, or from those of a chain of the base. */
-static uint32_t price(const pf_match *m, uint32_t piece, uint32_t end, planefile_grain grain,
+static uint32_t price(const pf_match *m, uint32_t piece, uint32_t end,
                       const planefile_chain *from) {
   const planefile_band *plane = m->plane, *base = m->base->band;
   uint32_t bits = 0;
@@ -375,28 +384,31 @@ static uint32_t price(const pf_match *m, uint32_t piece, uint32_t end, planefile
     if (from)
       old = &base->points[base->pieces[from->piece + i - piece].point];
     for (int k = 0; k < plane->pieces[i].degree; k++) {
-      int64_t x = (int64_t)to[k + 1].x - to[k].x - (old ? (int64_t)old[k + 1].x - old[k].x : 0);
-      int64_t y = (int64_t)to[k + 1].y - to[k].y - (old ? (int64_t)old[k + 1].y - old[k].y : 0);
-      bits += bits_of(x / (1 << grain.x)) + bits_of(y / (1 << grain.y));
+      int64_t x = across(m->grid, to[k + 1].x, to[k].x), y = down(m->grid, to[k + 1].y, to[k].y);
+      if (old) {
+        x -= across(m->grid, old[k + 1].x, old[k].x);
+        y -= down(m->grid, old[k + 1].y, old[k].y);
+      }
+      bits += bits_of(x) + bits_of(y);
     }
   }
   return bits;
 }
 
-bool pf_match_bent(const pf_match *m, uint32_t piece, uint32_t end, planefile_grain grain,
-                   const pf_link *latest, pf_link *out) {
+bool pf_match_bent(const pf_match *m, uint32_t piece, uint32_t end, const pf_link *latest,
+                   pf_link *out) {
   enum { TRIED_FORMS = 256, WORTH = 16 }; /* bits */
   key k = {.memory = &m->memory};
   pf_print print = print_forms(&k, m->plane, piece, end);
   pf_free(&m->memory, k.bytes, 1, k.capacity);
   uint32_t count = m->base->band->chain_count, at = find_known(m->forms, count, &print);
-  uint32_t least = price(m, piece, end, grain, NULL);
+  uint32_t least = price(m, piece, end, NULL);
   least = least > WORTH ? least - WORTH : 0;
   for (uint32_t i = at; i < count && i - at < TRIED_FORMS && !k.failed; i++) {
     if (compare_prints(&m->forms[i].print, &print) != 0)
       break;
     uint32_t number = m->forms[i].number;
-    uint32_t bits = price(m, piece, end, grain, &m->base->band->chains[number]) +
+    uint32_t bits = price(m, piece, end, &m->base->band->chains[number]) +
                     bits_of((int64_t)number - latest->chain);
     if (bits >= least)
       continue;
@@ -409,7 +421,8 @@ bool pf_match_bent(const pf_match *m, uint32_t piece, uint32_t end, planefile_gr
 static pf_move find_move(const pf_match *m, uint32_t chain, const planefile_point *to) {
   const planefile_band *band = m->base->band;
   const planefile_point *from = &band->points[band->pieces[band->chains[chain].piece].point];
-  return (pf_move){to->x - from->x, to->y - from->y};
+  return (pf_move){(int32_t)across(m->grid, to->x, from->x),
+                   (int32_t)down(m->grid, to->y, from->y)};
 }
 
 /* Whether a chain of the base is better than what has been found. */
@@ -436,7 +449,7 @@ static void choose_chain(const pf_match *m, const pf_print *print, const planefi
 bool pf_match_chain(const pf_match *m, uint32_t piece, uint32_t end, const pf_link *latest,
                     pf_link *out) {
   key k = {.memory = &m->memory};
-  pf_print print = print_chain(&k, m->plane, piece, end);
+  pf_print print = print_chain(&k, m->grid, m->plane, piece, end);
   pf_free(&m->memory, k.bytes, 1, k.capacity);
   *out = (pf_link){PF_NEW, 0, {0, 0}};
   if (k.failed)
@@ -455,8 +468,8 @@ static uint32_t *make_empty(const pf_memory *memory, size_t count) {
 }
 
 bool pf_match_make(const pf_memory *memory, const planefile_band *plane, const pf_base *base,
-                   pf_match *out) {
-  *out = (pf_match){.memory = *memory, .plane = plane, .base = base};
+                   planefile_grid grid, pf_match *out) {
+  *out = (pf_match){.memory = *memory, .plane = plane, .base = base, .grid = grid};
   out->cells = make_empty(memory, plane->cell_count);
   out->axes = make_empty(memory, plane->axis_count);
   out->plane_cells = make_empty(memory, base->band->cell_count);

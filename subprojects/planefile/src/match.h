@@ -21,7 +21,8 @@ typedef struct pf_match {
   pf_memory memory;
   const planefile_band *plane;
   const pf_base *base;
-  uint32_t *cells; /* of each of the plane: that of the base, or NONE */
+  planefile_grid grid; /* of both */
+  uint32_t *cells;     /* of each of the plane: that of the base, or NONE */
   uint32_t *axes;
   uint32_t *plane_cells; /* of each of the base: that of the plane, or NONE */
   uint32_t *plane_axes;
@@ -36,7 +37,7 @@ typedef struct pf_match {
 /* Finds what chains can be found by. plane, base: borrowed. out: must be freed whatever happens.
  * False: no memory. */
 bool pf_match_make(const pf_memory *memory, const planefile_band *plane, const pf_base *base,
-                   pf_match *out);
+                   planefile_grid grid, pf_match *out);
 void pf_match_free(pf_match *match);
 
 /* Where a chain of the plane is in the base. */
@@ -53,8 +54,8 @@ bool pf_match_chain(const pf_match *match, uint32_t piece, uint32_t end, const p
 
 /* Finds a chain whose pieces have the forms of [piece, end), with the most similar moves, if that
  * is worth it. *out: changed only then. False: no memory. */
-bool pf_match_bent(const pf_match *match, uint32_t piece, uint32_t end, planefile_grain grain,
-                   const pf_link *latest, pf_link *out);
+bool pf_match_bent(const pf_match *match, uint32_t piece, uint32_t end, const pf_link *latest,
+                   pf_link *out);
 
 /* Notes that two cells, of the base and of the plane, are beside one chain. False: no memory. */
 bool pf_match_note(pf_match *match, uint32_t theirs, uint32_t ours);

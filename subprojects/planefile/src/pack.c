@@ -47,7 +47,7 @@ typedef struct packer {
   uint32_t piece_count, cell_count;
   uint32_t fresh[2 * PF_GROUP], fresh_count; /* cells that are new in the current group */
   uint32_t form;
-  pf_way way;            /* the latest move of the chain, in grains */
+  pf_way way;            /* the latest move of the chain, in steps */
   planefile_cell colour; /* of the latest cell */
   pf_models models;
   pf_program_coding *programs; /* NULL: nothing varies */
@@ -151,7 +151,7 @@ static bool link_chain(packer *p, shown *c) {
   c->is_whole = false;
   trim(p, c);
   return count_pieces(p, c) < c->end - c->piece ||
-         pf_match_bent(&p->match, c->piece, c->end, p->part->grain, &p->latest, &c->link);
+         pf_match_bent(&p->match, c->piece, c->end, &p->latest, &c->link);
 }
 
 /* Clips the borders to the band and finds its chains. */
@@ -193,7 +193,8 @@ static bool note_cells(packer *p, const shown *c) {
   planefile_border moved;
   bool is_done = true;
   for (uint32_t i = base->first[c->link.chain], k = 0; i < base->first[c->link.chain + 1]; i++) {
-    if (!pf_move_border(&base->band->borders[i], c->link.move.y, &heights, &moved))
+    if (!pf_move_border(&base->band->borders[i], c->link.move.y, p->part->grid.rows, &heights,
+                        &moved))
       continue;
     while (k < c->count && c->borders[k].foot <= moved.top)
       k++;
@@ -219,7 +220,8 @@ static bool keeps_borders(const packer *p, const shown *c) {
   planefile_border moved;
   uint32_t k = 0;
   for (uint32_t i = base->first[c->link.chain]; i < base->first[c->link.chain + 1]; i++) {
-    if (!pf_move_border(&base->band->borders[i], c->link.move.y, &heights, &moved))
+    if (!pf_move_border(&base->band->borders[i], c->link.move.y, p->part->grid.rows, &heights,
+                        &moved))
       continue;
     const planefile_border *b = &c->borders[k];
     if (k++ == c->count || b->top != moved.top || b->foot != moved.foot ||
@@ -425,12 +427,14 @@ static void put_smooth(packer *p, const pf_way *way) {
   pf_put_signed(p->out, &p->models.aside, way->by[!axis] - pf_go_on(&p->way, axis, along));
 }
 
-/* Differences of places, in grains: across, and down. */
+/* Differences of places, in steps: across, and down. */
 static int64_t across(const packer *p, int32_t to, int32_t from) {
-  return ((int64_t)to - from) / (INT32_C(1) << p->part->grain.x);
+  uint16_t columns = p->part->grid.columns;
+  return planefile_step_at(to, columns) - planefile_step_at(from, columns);
 }
 static int64_t down(const packer *p, int32_t to, int32_t from) {
-  return ((int64_t)to - from) / (INT32_C(1) << p->part->grain.y);
+  uint16_t rows = p->part->grid.rows;
+  return planefile_step_at(to, rows) - planefile_step_at(from, rows);
 }
 
 static void put_move(packer *p, int degree, int point, planefile_point from, planefile_point to) {
@@ -574,8 +578,8 @@ static void put_shift(packer *p, pf_move move) {
     number++;
   pf_put_symbol(p->out, p->models.moved, PF_MOVE_BITS, number);
   if (number == PF_MOVES) {
-    pf_put_signed(p->out, &p->models.shift[0], across(p, move.x, latest->x));
-    pf_put_signed(p->out, &p->models.shift[1], down(p, move.y, latest->y));
+    pf_put_signed(p->out, &p->models.shift[0], (int64_t)move.x - latest->x);
+    pf_put_signed(p->out, &p->models.shift[1], (int64_t)move.y - latest->y);
   }
   pf_moves_use(&p->moves, number, move);
 }
@@ -799,7 +803,8 @@ static void begin_models(packer *p) {
 static bool make_room(packer *p) {
   p->cells = pf_make(p->memory, sizeof *p->cells, p->plane->cell_count);
   return p->cells &&
-         (!p->part->base || pf_match_make(p->memory, p->plane, p->part->base, &p->match)) &&
+         (!p->part->base ||
+          pf_match_make(p->memory, p->plane, p->part->base, p->part->grid, &p->match)) &&
          (!p->plane->programs || make_programs(p));
 }
 

@@ -20,7 +20,6 @@ typedef struct reader {
   uint64_t left; /* bytes that the records that are still to be read may have */
   bool is_film;
   pf_codes codes;
-  planefile_grain grain;
   bool is_pictured;     /* the latest index has a list of pictures */
   uint64_t *offsets;    /* of the bands, and after them where the last one ends */
   uint64_t *bases;      /* of the bands of the base; NULL: there is none */
@@ -104,11 +103,12 @@ static planefile_status load_header(reader *r) {
   info->is_coded = flags & PF_CODED;
   r->is_film = flags == PF_FILM;
   r->is_pictured = flags & PF_PICTURED;
-  r->grain = (planefile_grain){header[32], header[33]};
+  info->grid = (planefile_grid){(uint16_t)pf_load_32(header + 32),
+                                (uint16_t)(pf_load_32(header + 32) >> 16)};
   info->width = pf_load_double(header + 16);
   info->height = pf_load_double(header + 24);
   if (!(info->width > 0 && info->height > 0 && isfinite(info->width) && isfinite(info->height)) ||
-      (!r->is_film && !are_flags(flags)) || (pf_load_32(header + 32) & ~UINT32_C(0x0f0f)) != 0)
+      (!r->is_film && !are_flags(flags)))
     return refuse(r, 12, "the header has a value that is not allowed");
   return PLANEFILE_OK;
 }
@@ -333,7 +333,7 @@ static planefile_status decode_band(reader *r, uint32_t index, uint64_t offset, 
                               .codes = info->is_coded ? &r->codes : NULL,
                               .picture_count = info->picture_count,
                               .base = base,
-                              .grain = r->grain,
+                              .grid = info->grid,
                               .learned = learned};
   int32_t top = r->plane->bands[index].band.top, foot = r->plane->bands[index].band.foot;
   planefile_status status = pf_band_decode(&r->plane->memory, &payload, out, &reason);

@@ -38,9 +38,9 @@ typedef struct unpacker {
   state *states;             /* of the chains */
   uint32_t chain_count, piece_count, cell_count, border_count; /* that there must be in the end */
   uint32_t change_count;
-  uint32_t form;       /* of the latest piece */
-  pf_way way;          /* the latest move of the chain, in grains */
-  int64_t unit[2];     /* of a grain, across and down */
+  uint32_t form; /* of the latest piece */
+  pf_way way;    /* the latest move of the chain, in steps */
+  planefile_grid grid;
   planefile_cell flat; /* the latest one that does not vary */
   planefile_point start;
   uint32_t next;      /* the chain of the base after the latest one that was taken */
@@ -281,18 +281,23 @@ static bool get_sides(unpacker *u, const pf_near *near, unsigned context, pf_sid
 
 /* ---------------------------------------------------------------- curves */
 
-/* Moves a coordinate by some grains, if it stays near enough. */
-static bool move_by(unpacker *u, int axis, int64_t move, int32_t *at) {
-  int64_t to = *at + move * u->unit[axis];
+/* Moves a coordinate by some steps of one of the grid's sides, if it stays near enough. */
+static bool move_by(unpacker *u, uint16_t side, int64_t move, int32_t *at) {
+  int64_t to = planefile_place_of(planefile_step_at(*at, side) + move, side);
   if (to < -PLANEFILE_FAR || to > PLANEFILE_FAR)
     return refuse(u, "a point is too far away");
   *at = (int32_t)to;
   return true;
 }
 
+/* The steps from one coordinate to another. */
+static int64_t steps(uint16_t side, int32_t to, int32_t from) {
+  return planefile_step_at(to, side) - planefile_step_at(from, side);
+}
+
 static bool get_point(unpacker *u, pf_number models[2], int32_t *x, int32_t *y) {
-  return move_by(u, 0, pf_get_signed(&u->decoder, &models[0]), x) &&
-         move_by(u, 1, pf_get_signed(&u->decoder, &models[1]), y);
+  return move_by(u, u->grid.columns, pf_get_signed(&u->decoder, &models[0]), x) &&
+         move_by(u, u->grid.rows, pf_get_signed(&u->decoder, &models[1]), y);
 }
 
 /* The move of a smooth joint. */
@@ -313,7 +318,8 @@ static bool get_move_of(unpacker *u, int degree, int point, planefile_point *at)
       way.by[axis] = pf_get_signed(&u->decoder, &u->models.moves[axis][degree - 1][point]) *
                      pf_direction(u->way.by[axis]);
   u->way = way;
-  return move_by(u, 0, way.by[0], &at->x) && move_by(u, 1, way.by[1], &at->y);
+  return move_by(u, u->grid.columns, way.by[0], &at->x) &&
+         move_by(u, u->grid.rows, way.by[1], &at->y);
 }
 
 static bool get_weight(unpacker *u, uint32_t *out) {
@@ -454,13 +460,14 @@ static bool get_bent_piece(unpacker *u, const planefile_piece *of, planefile_poi
   at->w = from->w;
   u->points[band->point_count++] = *at;
   for (int i = 0; i < piece.degree; i++) {
-    int64_t x = ((int64_t)from[i + 1].x - from[i].x) / u->unit[0];
-    int64_t y = ((int64_t)from[i + 1].y - from[i].y) / u->unit[1];
+    int64_t x = steps(u->grid.columns, from[i + 1].x, from[i].x);
+    int64_t y = steps(u->grid.rows, from[i + 1].y, from[i].y);
     bool is_known = end && i + 1 == piece.degree;
     if (is_known)
       *at = *end;
-    else if (!move_by(u, 0, x + pf_get_signed(&u->decoder, &u->models.bent[0]), &at->x) ||
-             !move_by(u, 1, y + pf_get_signed(&u->decoder, &u->models.bent[1]), &at->y))
+    else if (!move_by(u, u->grid.columns, x + pf_get_signed(&u->decoder, &u->models.bent[0]),
+                      &at->x) ||
+             !move_by(u, u->grid.rows, y + pf_get_signed(&u->decoder, &u->models.bent[1]), &at->y))
       return false;
     at->w = from[i + 1].w;
     u->points[band->point_count++] = *at;
@@ -488,7 +495,7 @@ static bool get_bent_chain(unpacker *u, uint32_t index) {
 static bool move_point(unpacker *u, planefile_point point) {
   const pf_move *by = u->moves.latest;
   bool is_near =
-      move_by(u, 0, by->x / u->unit[0], &point.x) && move_by(u, 1, by->y / u->unit[1], &point.y);
+      move_by(u, u->grid.columns, by->x, &point.x) && move_by(u, u->grid.rows, by->y, &point.y);
   u->points[u->out->band.point_count++] = point;
   return is_near;
 }
@@ -514,10 +521,20 @@ static bool move_chain(unpacker *u, uint32_t chain) {
   return true;
 }
 
+static bool get_shift(unpacker *u, pf_move *move) {
+  int64_t x = move->x + pf_get_signed(&u->decoder, &u->models.shift[0]);
+  int64_t y = move->y + pf_get_signed(&u->decoder, &u->models.shift[1]);
+  if (x < -2 * PLANEFILE_FAR || x > 2 * PLANEFILE_FAR || y < -2 * PLANEFILE_FAR ||
+      y > 2 * PLANEFILE_FAR)
+    return refuse(u, "a point is too far away");
+  *move = (pf_move){(int32_t)x, (int32_t)y};
+  return true;
+}
+
 static bool get_move(unpacker *u) {
   uint32_t number = pf_get_symbol(&u->decoder, u->models.moved, PF_MOVE_BITS);
   pf_move move = u->moves.latest[number < PF_MOVES ? number : 0];
-  bool is_good = number < PF_MOVES || get_point(u, u->models.shift, &move.x, &move.y);
+  bool is_good = number < PF_MOVES || get_shift(u, &move);
   pf_moves_use(&u->moves, number, move);
   return is_good;
 }
@@ -528,7 +545,7 @@ static bool keep_borders(unpacker *u, uint32_t index, uint32_t chain) {
   planefile_border moved;
   u->states[index] = (state){{0, 0}, INT32_MAX, 0};
   for (uint32_t i = u->base->first[chain]; i < u->base->first[chain + 1]; i++) {
-    if (!pf_move_border(&u->base->band->borders[i], u->moves.latest->y, band, &moved))
+    if (!pf_move_border(&u->base->band->borders[i], u->moves.latest->y, u->grid.rows, band, &moved))
       continue;
     moved.chain = index;
     if (band->border_count == u->border_count)
@@ -593,12 +610,13 @@ static bool apply(unpacker *u, const group *g, int32_t height, pf_sides *latest)
 }
 
 static bool get_changes(unpacker *u) {
-  int64_t height = u->out->band.top;
+  int64_t height, step = planefile_step_at(u->out->band.top, u->grid.rows);
   uint32_t left = u->change_count, first = 0;
   pf_sides latest = {0, 0};
   while (left > 0) {
     group g = {0};
-    height += pf_get_number(&u->decoder, &u->models.height) * u->unit[1];
+    step += pf_get_number(&u->decoder, &u->models.height);
+    height = planefile_place_of(step, u->grid.rows);
     g.size = pf_get_number(&u->decoder, &u->models.size) + 1;
     if (g.size == 0 || g.size > left || g.size > PF_GROUP)
       return refuse(u, "a group is too large");
@@ -799,8 +817,7 @@ static bool unpack(unpacker *u, const pf_payload *payload) {
   size_t head = pf_band_head(varies);
   u->base = payload->base;
   u->codes = payload->codes;
-  u->unit[0] = INT64_C(1) << payload->grain.x;
-  u->unit[1] = INT64_C(1) << payload->grain.y;
+  u->grid = payload->grid;
   u->out->band.picture_count = u->room.picture_count = payload->picture_count;
   if (payload->size < head)
     return refuse(u, "it is too short");

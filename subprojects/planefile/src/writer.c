@@ -83,20 +83,20 @@ static bool is_far(planefile_point at) {
          at.y > PLANEFILE_FAR;
 }
 
-/* Whether a point is not on a grain. */
-static bool is_between(planefile_point at, planefile_grain grain) {
-  uint32_t x = (UINT32_C(1) << grain.x) - 1, y = (UINT32_C(1) << grain.y) - 1;
-  return ((uint32_t)at.x & x) != 0 || ((uint32_t)at.y & y) != 0;
+/* Whether a coordinate is not on the grid. */
+static bool is_between(int32_t at, uint16_t count) {
+  return planefile_place_of(planefile_step_at(at, count), count) != at;
 }
 
-static bool is_piece(const planefile_band *plane, uint32_t index, planefile_grain grain) {
+static bool is_piece(const planefile_band *plane, uint32_t index, planefile_grid grid) {
   const planefile_piece *piece = &plane->pieces[index];
   if (piece->degree < (piece->is_rational ? 2 : 1) || piece->degree > 3 ||
       piece->point > plane->point_count || plane->point_count - piece->point <= piece->degree)
     return false;
   const planefile_point *points = &plane->points[piece->point];
   for (int i = 0; i <= piece->degree; i++)
-    if (is_far(points[i]) || is_between(points[i], grain) ||
+    if (is_far(points[i]) || is_between(points[i].x, grid.columns) ||
+        is_between(points[i].y, grid.rows) ||
         (piece->is_rational &&
          (points[i].w < PLANEFILE_WEIGHT / 16 || points[i].w / 16 >= (uint32_t)PLANEFILE_WEIGHT)))
       return false;
@@ -104,13 +104,13 @@ static bool is_piece(const planefile_band *plane, uint32_t index, planefile_grai
 }
 
 static bool is_chain(const planefile_band *plane, const planefile_chain *chain,
-                     planefile_grain grain) {
+                     planefile_grid grid) {
   if (chain->piece_count == 0 || chain->piece > plane->piece_count ||
       chain->piece_count > plane->piece_count - chain->piece)
     return false;
   for (uint32_t i = chain->piece; i < chain->piece + chain->piece_count; i++) {
     const planefile_piece *piece = &plane->pieces[i], *before = piece - 1;
-    if (!is_piece(plane, i, grain))
+    if (!is_piece(plane, i, grid))
       return false;
     if (i > chain->piece) {
       const planefile_point *end = &plane->points[before->point + before->degree];
@@ -123,15 +123,14 @@ static bool is_chain(const planefile_band *plane, const planefile_chain *chain,
 }
 
 static bool is_border(const planefile_band *plane, const planefile_border *border,
-                      planefile_grain grain) {
+                      planefile_grid grid) {
   if (border->chain >= plane->chain_count || border->left >= plane->cell_count ||
       border->right >= plane->cell_count || border->left == border->right)
     return false;
   const planefile_chain *chain = &plane->chains[border->chain];
   const planefile_piece *last = &plane->pieces[chain->piece + chain->piece_count - 1];
-  int32_t heights = border->top | border->foot;
-  return !is_between((planefile_point){0, heights, 0}, grain) && border->top >= 0 &&
-         border->top < border->foot && border->foot <= PLANEFILE_SIDE &&
+  return !is_between(border->top, grid.rows) && !is_between(border->foot, grid.rows) &&
+         border->top >= 0 && border->top < border->foot && border->foot <= PLANEFILE_SIDE &&
          border->top >= plane->points[plane->pieces[chain->piece].point].y &&
          border->foot <= plane->points[last->point + last->degree].y;
 }
@@ -163,12 +162,12 @@ static bool are_pictures(const planefile_band *plane) {
   return is_good;
 }
 
-static bool is_plane(const planefile_band *plane, planefile_grain grain) {
+static bool is_plane(const planefile_band *plane, planefile_grid grid) {
   bool is_good = plane->top == 0 && plane->foot == PLANEFILE_SIDE && plane->cell_count > 0;
   for (uint32_t i = 0; is_good && i < plane->chain_count; i++)
-    is_good = is_chain(plane, &plane->chains[i], grain);
+    is_good = is_chain(plane, &plane->chains[i], grid);
   for (uint32_t i = 0; is_good && i < plane->border_count; i++)
-    is_good = is_border(plane, &plane->borders[i], grain);
+    is_good = is_border(plane, &plane->borders[i], grid);
   for (uint32_t i = 0; is_good && i < plane->cell_count; i++)
     is_good = is_cell(&plane->cells[i]) && (!plane->programs || is_program(plane, i));
   return is_good && are_pictures(plane);
@@ -266,7 +265,7 @@ static planefile_status put_header(writer *w) {
   pf_store_32(header + 12, is_film(w) ? PF_FILM : w->flags);
   pf_store_double(header + 16, w->desc.width);
   pf_store_double(header + 24, w->desc.height);
-  pf_store_32(header + 32, w->desc.grain.x | (uint32_t)w->desc.grain.y << 8);
+  pf_store_32(header + 32, w->desc.grid.columns | (uint32_t)w->desc.grid.rows << 16);
   pf_store_32(header + 36, pf_crc32c(0, header, 36));
   return put(w, header, sizeof header);
 }
@@ -445,7 +444,7 @@ static planefile_status encode(writer *w, int32_t top, int32_t foot, const pf_ba
                         .is_whole = is_film(w) && !base,
                         .base = base,
                         .codes = codes_of(w),
-                        .grain = w->desc.grain};
+                        .grid = w->desc.grid};
   if (!pf_is_moderate(w->plane->cells, w->shown, w->shown_count)) {
     *out = (pf_encoder){0};
     return PLANEFILE_BAD_ARGUMENT;
@@ -472,7 +471,7 @@ static planefile_status add_key(writer *w, const pf_encoder *code) {
                         .size = code->count,
                         .varies = w->flags & PF_VARIES,
                         .codes = codes_of(w),
-                        .grain = w->desc.grain,
+                        .grid = w->desc.grid,
                         .picture_count = (uint32_t)w->picture_count};
   key_band *key = pf_grow(&w->memory, w->key, sizeof *key, &w->key_capacity, w->key_count + 1);
   if (!key)
@@ -695,6 +694,23 @@ static planefile_cell round_shades(planefile_cell colour) {
   return colour;
 }
 
+static void memcpy_some(void *to, const void *from, size_t size) {
+  if (size > 0)
+    memcpy(to, from, size);
+}
+
+/* Rounds the colours that a program shows. */
+static void round_program(const planefile_band *plane, planefile_program program,
+                          const copies *out) {
+  for (uint32_t i = program.step; i < program.step + program.step_count; i++) {
+    const planefile_step *step = &plane->steps[i];
+    if (step->kind == PLANEFILE_FLAT || step->kind == PLANEFILE_LEAVE)
+      out->steps[i].colour = round_shades(step->colour);
+    for (uint32_t k = 0; step->kind == PLANEFILE_RAMP && k < step->stop_count; k++)
+      out->stops[step->stop + k].colour = round_shades(plane->stops[step->stop + k].colour);
+  }
+}
+
 /* Rounds the cells of a plane to codes, and the colours of its programs to shades. */
 static void round_colours(const writer *w, planefile_band *plane, const copies *out) {
   int32_t straight[4];
@@ -702,12 +718,10 @@ static void round_colours(const writer *w, planefile_band *plane, const copies *
     pf_codes_of(&w->codes, &plane->cells[i], straight);
     out->cells[i] = pf_codes_cell(&w->codes, straight);
   }
-  for (uint32_t i = 0; i < plane->step_count; i++) {
-    out->steps[i] = plane->steps[i];
-    out->steps[i].colour = round_shades(plane->steps[i].colour);
-  }
-  for (uint32_t i = 0; i < plane->stop_count; i++)
-    out->stops[i] = (planefile_stop){plane->stops[i].at, round_shades(plane->stops[i].colour)};
+  memcpy_some(out->steps, plane->steps, plane->step_count * sizeof *out->steps);
+  memcpy_some(out->stops, plane->stops, plane->stop_count * sizeof *out->stops);
+  for (uint32_t i = 0; i < plane->cell_count && plane->programs; i++)
+    round_program(plane, plane->programs[i], out);
   plane->cells = out->cells;
   plane->steps = out->steps;
   plane->stops = out->stops;
@@ -731,7 +745,9 @@ static planefile_status put_frame(writer *w, planefile_band *plane, planefile_ax
 planefile_status planefile_writer_frame(planefile_writer *w, const planefile_band *given) {
   planefile_band plane = *given;
   plane.programs = varies(given) ? given->programs : NULL;
-  if ((!is_film(w) && w->frame_count > 0) || !is_plane(&plane, w->desc.grain))
+  if (!plane.programs)
+    plane.step_count = plane.stop_count = plane.axis_count = 0;
+  if ((!is_film(w) && w->frame_count > 0) || !is_plane(&plane, w->desc.grid))
     return PLANEFILE_BAD_ARGUMENT;
   copies room;
   planefile_status status = PLANEFILE_NO_MEMORY;
@@ -749,8 +765,7 @@ planefile_status planefile_writer_frame(planefile_writer *w, const planefile_ban
 
 static bool is_file(const planefile_writer_desc *desc) {
   return desc->width > 0 && desc->height > 0 && isfinite(desc->width) && isfinite(desc->height) &&
-         desc->frames_second >= 0 && isfinite(desc->frames_second) &&
-         desc->grain.x <= PLANEFILE_GRAIN && desc->grain.y <= PLANEFILE_GRAIN;
+         desc->frames_second >= 0 && isfinite(desc->frames_second);
 }
 
 planefile_status planefile_writer_create(const planefile_writer_desc *desc,

@@ -76,11 +76,11 @@ end
 
 ---------------------------------------------------------------------- a band
 
-local function new_band(payload, flags, grain, base)
+local function new_band(payload, flags, grid, base)
   local varies = flags & 2 > 0
   local band = {cells = {}, chains = {}, borders = {}, form = 0, varies = varies, axes = {},
     is_coded = flags & 8 > 0, cell_number = 0, flat = {0, 0, 0, 0}, stop = {0, 0, 0, 0},
-    shade = flags & 8 > 0 and 17 or 1, grain = grain}
+    shade = flags & 8 > 0 and 17 or 1, grid = grid}
   band.top, band.foot, band.chain_count, band.piece_count, band.cell_count, band.change_count,
     band.border_count = ("<I4I4I4I4I4I4I4"):unpack(payload)
   band.coder = new_coder(payload:sub(varies and 41 or 29), base and base.coder.models)
@@ -268,7 +268,7 @@ local function get_piece(band, x, y, way, foot)
       x, y = foot[1], foot[2]
     else
       way = get_way(coder, way, degree .. i, i == 1)
-      x, y = x + way[1] * band.grain.x, y + way[2] * band.grain.y
+      x, y = band.grid.move(x, way[1], 1), band.grid.move(y, way[2], 2)
     end
     piece[i + 1] = {x, y, weight()}
   end
@@ -295,10 +295,10 @@ local function get_top(band, chain, before, own)
   chain.slope = band.coder.signed("slope")
 end
 
--- Moves a place by some grains.
+-- Moves a place by some steps.
 local function move(band, at, name)
-  at.x = at.x + band.grain.x * band.coder.signed(name .. " x")
-  at.y = at.y + band.grain.y * band.coder.signed(name .. " y")
+  at.x = band.grid.move(at.x, band.coder.signed(name .. " x"), 1)
+  at.y = band.grid.move(at.y, band.coder.signed(name .. " y"), 2)
 end
 
 local function get_start(band, start)
@@ -341,8 +341,8 @@ local function get_move(band)
   local symbol = band.coder.symbol("moved", 3)
   local by = table.remove(band.moves, symbol < 7 and symbol + 1 or 7)
   if symbol == 7 then
-    by = {x = band.latest_move.x, y = band.latest_move.y}
-    move(band, by, "shift")
+    by = {x = band.latest_move.x + band.coder.signed("shift x")}
+    by.y = band.latest_move.y + band.coder.signed("shift y")
   end
   table.insert(band.moves, 1, by)
   band.latest_move = by
@@ -362,7 +362,9 @@ local function get_bent_chain(band, chain, start, before)
       if last and i == #old and k == #piece then
         at = {x = last[1], y = last[2]}
       else
-        at.x, at.y = at.x + piece[k][1] - piece[k - 1][1], at.y + piece[k][2] - piece[k - 1][2]
+        local grid, from, to = band.grid, piece[k - 1], piece[k]
+        at.x = grid.move(at.x, grid.step(to[1], 1) - grid.step(from[1], 1), 1)
+        at.y = grid.move(at.y, grid.step(to[2], 2) - grid.step(from[2], 2), 2)
         move(band, at, "bent")
       end
       chain[i][k] = {at.x, at.y, piece[k][3]}
@@ -376,7 +378,9 @@ local function get_old_chain(band, chain, start, before, is_kept)
   local by = get_move(band)
   for i, piece in ipairs(old) do
     chain[i] = {}
-    for k, p in ipairs(piece) do chain[i][k] = {p[1] + by.x, p[2] + by.y, p[3]} end
+    for k, p in ipairs(piece) do
+      chain[i][k] = {band.grid.move(p[1], by.x, 1), band.grid.move(p[2], by.y, 2), p[3]}
+    end
   end
   start.x, start.y = chain[1][1][1], chain[1][1][2]
   if not is_kept then
@@ -384,8 +388,8 @@ local function get_old_chain(band, chain, start, before, is_kept)
   end
   for _, border in ipairs(old.borders) do
     chain.sides = border.sides
-    chain.since = math.max(border.top + by.y, band.top)
-    local foot = math.min(border.foot + by.y, band.foot)
+    chain.since = math.max(band.grid.move(border.top, by.y, 2), band.top)
+    local foot = math.min(band.grid.move(border.foot, by.y, 2), band.foot)
     if chain.since < foot then add_border(band, chain, foot) end
   end
   chain.sides = {0, 0}
@@ -450,6 +454,7 @@ local function get_fate(band, number, cell)
   elseif fate == 2 then
     get_content(band, number - 1)
   end
+  assert(fate < 3)
 end
 
 -- A band begins with the cells of its base, which may have changed.
@@ -470,8 +475,8 @@ local function begin_with(band, base)
 end
 
 -- base: the band that it is made from, which is used up, or nil.
-local function read_band(payload, flags, grain, base)
-  local band, start, before = new_band(payload, flags, grain, base), {x = 0, y = 0}, {}
+local function read_band(payload, flags, grid, base)
+  local band, start, before = new_band(payload, flags, grid, base), {x = 0, y = 0}, {}
   if base then
     begin_with(band, base)
   else
@@ -481,7 +486,7 @@ local function read_band(payload, flags, grain, base)
   for _ = 1, band.chain_count do get_chain(band, start, before) end
   local height, first, latest, done = band.top, 0, {0, 0}, 0
   while done < band.change_count do
-    height = height + band.grain.y * band.coder.number("height")
+    height = band.grid.move(height, band.coder.number("height"), 2)
     done, first, latest = get_group(band, height, first, latest, done)
   end
   for _, chain in ipairs(band.chains) do add_border(band, chain, chain.foot) end
@@ -936,15 +941,26 @@ local function find_pictures(bytes, bands, offsets, host)
   end
 end
 
+-- The grid of a file: the step next to a coordinate of axis 1, x, or 2, y, and a coordinate that is
+-- moved by some steps.
+local function new_grid(columns, rows)
+  local grid, steps = {}, {}
+  for axis, count in ipairs {columns, rows} do steps[axis] = count > 0 and 100 * count or SIDE end
+  function grid.step(at, axis) return (at * steps[axis] + SIDE // 2) // SIDE end
+  function grid.move(at, by, axis)
+    return ((grid.step(at, axis) + by) * SIDE + steps[axis] // 2) // steps[axis]
+  end
+  return grid
+end
+
 -- bands: all that the index names, in order.
 local function read_bands(bytes, frame, host)
   local offsets, entries, flags, base_entries = read_index(bytes, frame)
-  local bands, across, down = {}, bytes:byte(33, 34)
-  local grain = {x = 1 << across, y = 1 << down}
+  local bands, grid = {}, new_grid(("<I2I2"):unpack(bytes, 33))
   for at = 1, #entries, 12 do
     local payload, kind = payload_at(bytes, (("<I8"):unpack(entries, at + 4)))
     local base = kind == "D" and payload_at(bytes, (("<I8"):unpack(base_entries, at + 4))) or nil
-    bands[#bands + 1] = read_band(payload, flags, grain, base and read_band(base, flags, grain))
+    bands[#bands + 1] = read_band(payload, flags, grid, base and read_band(base, flags, grid))
   end
   find_pictures(bytes, bands, offsets, host)
   return bands, flags & 1 > 0

@@ -41,7 +41,7 @@ static void put_drawn(const char *folder, int number, memory_file *file, uint32_
   planefile_plane_destroy(plane);
 }
 
-static const planefile_grain coarse = {5, 6}; /* where cells are codes */
+static const planefile_grid coarse = {1920, 1081}; /* where cells are codes */
 
 /* The drawing of a number; each third one is made from the one before. */
 static drawing make(int number, bool is_coded) {
@@ -64,7 +64,7 @@ static memory_file make_film(int from, int end, bool is_coded) {
                                 .frames_second = 12,
                                 .is_coded = is_coded};
   if (is_coded)
-    desc.grain = coarse;
+    desc.grid = coarse;
   planefile_writer *writer = NULL;
   CHECK(planefile_writer_create(&desc, &writer) == PLANEFILE_OK);
   for (int i = from; i < end; i++) {

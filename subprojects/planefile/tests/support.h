@@ -443,18 +443,21 @@ static inline void alter_cell(drawing *d, random_state *random, uint32_t cell, b
   }
 }
 
-/* Puts all places on a grain; borders that are lower than one are left out. */
-static inline void coarsen_drawing(drawing *d, planefile_grain grain) {
-  int32_t x = -(INT32_C(1) << grain.x), y = -(INT32_C(1) << grain.y);
+static inline int32_t on_grid(int32_t at, uint16_t count) {
+  return (int32_t)planefile_place_of(planefile_step_at(at, count), count);
+}
+
+/* Puts all places on a grid; borders that are lower than a step are left out. */
+static inline void coarsen_drawing(drawing *d, planefile_grid grid) {
   uint32_t kept = 0;
   for (uint32_t i = 0; i < d->plane.point_count; i++) {
-    d->points[i].x &= x;
-    d->points[i].y &= y;
+    d->points[i].x = on_grid(d->points[i].x, grid.columns);
+    d->points[i].y = on_grid(d->points[i].y, grid.rows);
   }
   for (uint32_t i = 0; i < d->plane.border_count; i++) {
     planefile_border b = d->borders[i];
-    b.top &= y;
-    b.foot &= y;
+    b.top = on_grid(b.top, grid.rows);
+    b.foot = on_grid(b.foot, grid.rows);
     if (b.top < b.foot)
       d->borders[kept++] = b;
   }

@@ -643,12 +643,6 @@ static void test_ends(void) {
   CHECK(is_refused(&file, "the plane file has another version: 1"));
   mend_sums(&file);
   CHECK(!is_refused(&file, NULL));
-  for (uint32_t i = 0; i < 4; i++) { /* the grain */
-    file.bytes[32 + i] = i < 2 ? PLANEFILE_GRAIN + 1 : 1;
-    mend_sums(&file);
-    CHECK(is_refused(&file, "the header has a value that is not allowed"));
-    file.bytes[32 + i] = 0;
-  }
   pf_store_double(file.bytes + 16, -1);
   mend_sums(&file);
   CHECK(is_refused(&file, "the header has a value that is not allowed"));
@@ -895,7 +889,7 @@ static memory_file write_changing(uint64_t seed, drawing drawings[FRAMES]) {
   memory_file file = {0};
   planefile_writer_desc desc = {
       .width = 4, .height = 3, .write = memory_write, .user = &file, .frames_second = 12.5};
-  desc.grain = (planefile_grain){seed % 4 == 1 ? 8 : 0, seed % 4 == 1 ? 9 : 0};
+  desc.grid = (planefile_grid){seed % 4 == 1 ? 1920 : 0, seed % 4 == 1 ? 1081 : 0};
   planefile_writer *writer;
   random_state random = {seed};
   CHECK(planefile_writer_create(&desc, &writer) == PLANEFILE_OK);
@@ -904,7 +898,7 @@ static memory_file write_changing(uint64_t seed, drawing drawings[FRAMES]) {
     random.state = seed + i / 4; /* the steps of four frames begin alike */
     for (uint32_t k = 0; k < i; k++)
       alter_drawing(&drawings[i], &random, seed % 3 == 0);
-    coarsen_drawing(&drawings[i], desc.grain);
+    coarsen_drawing(&drawings[i], desc.grid);
     CHECK(planefile_writer_frame(writer, &drawings[i].plane) == PLANEFILE_OK);
   }
   CHECK(planefile_writer_end(writer) == PLANEFILE_OK);
@@ -952,19 +946,25 @@ static void check_film_fault(memory_file *film, uint32_t frame, planefile_status
     fprintf(stderr, "  %s\n", fault.reason);
 }
 
-/* Places beside the grain, and grains that no file has. */
-static void test_grains(void) {
-  const planefile_grain grains[] = {{1, 0}, {0, 1}, {PLANEFILE_GRAIN + 1, 0}, {0, 255}};
-  for (size_t i = 0; i < sizeof grains / sizeof *grains; i++) {
+/* A step is the inverse of its place, whatever the grid; places beside it are refused. */
+static void test_grids(void) {
+  const planefile_grid grids[] = {{1, 0}, {0, 1}, {1920, 1080}, {65535, 65535}};
+  random_state random = {1};
+  for (size_t i = 0; i < 4 * 1000; i++) {
+    uint16_t count = i % 2 ? grids[i % 4].columns : grids[i % 4].rows;
+    int32_t at = random_between(&random, -PLANEFILE_FAR, PLANEFILE_FAR), near = on_grid(at, count);
+    double step = (double)PLANEFILE_SIDE / (double)planefile_steps(count);
+    CHECK(near - at <= step / 2 + 0.5 && at - near <= step / 2 + 0.5);
+    CHECK(on_grid(near, count) == near && (count > 0 || near == at));
+  }
+  for (size_t i = 0; i < sizeof grids / sizeof *grids; i++) {
     memory_file file = {0};
     drawing d = random_drawing(4, 6, FLAT);
     planefile_writer_desc desc = {
-        .width = 4, .height = 3, .write = memory_write, .user = &file, .grain = grains[i]};
+        .width = 4, .height = 3, .write = memory_write, .user = &file, .grid = grids[i]};
     CHECK(planefile_write(&desc, &d.plane) == PLANEFILE_BAD_ARGUMENT);
-    if (i < 2) {
-      coarsen_drawing(&d, grains[i]);
-      CHECK(planefile_write(&desc, &d.plane) == PLANEFILE_OK);
-    }
+    coarsen_drawing(&d, grids[i]);
+    CHECK(planefile_write(&desc, &d.plane) == PLANEFILE_OK);
     drawing_free(&d);
     free(file.bytes);
   }
@@ -1149,7 +1149,7 @@ int main(void) {
   check_no_memory(24, VARIED);
   test_films();
   test_changing_films();
-  test_grains();
+  test_grids();
   test_bad_films();
   test_no_output();
   return check_done();
