@@ -123,6 +123,19 @@ describe("a displaced object", function()
     end)
   end
 
+  it("is clear where a blur along a line is wider than all numbers of pixels", function()
+    for _, angle in ipairs { 0, 90, 30 } do
+      local bar = celspan.rect { 10 / 3000, 4 / 3000, 20 / 3000, 8 / 3000, texture = "#ffffff" }
+      local image = seen(bar:blur(1e6, { angle = angle }),
+        { size = { 64, 16 }, film = { 64 / 3000, 16 / 3000 } })
+      for x = 0, 63, 9 do
+        for _, channel in ipairs { image:get(x, 8) } do
+          assert.is_true(channel >= 0 and channel < 0.01)
+        end
+      end
+    end
+  end)
+
   it("is the object itself where nothing moves it", function()
     local plain = seen(art())
     local far = celspan.circle { centre = { 300, 20 }, radius = 9 }

@@ -407,7 +407,7 @@ static void check_pans(void) {
       CHECK(celspan_context_create(NULL, &alone.context) == CELSPAN_OK);
       image same = make_moved(&alone, k % 2, radius, CELSPAN_DEFOCUS_GAUSSIAN, 1, 0.27 * frame, 0);
       check_same(&panned, &same);
-      *(frame == 0 ? &first : &second) = made;
+      *(frame == 0 ? &first : &second) += made;
       free(panned.rgba);
       free(same.rgba);
       studio_finish(&alone);

@@ -11,8 +11,6 @@
 #define NODES_GAUSSIAN 6
 #define NODES_DISC 28
 #define NODES_BOX 64
-/* The fewest for a disc whose nodes are about as dense as pixels. */
-#define NODES_DISC_LEAST 10
 /* The most and the fewest samples of pictures in the radius of a Gaussian. */
 #define SAMPLES_FINE 18
 #define SAMPLES_LEAST 4
@@ -51,20 +49,17 @@ static double nodes_in_radius(celspan_defocus_kernel kernel) {
 }
 
 /* Pictures under a Gaussian that is not wide are sampled at the nodes, about once for each pixel;
- * under a wide Gaussian also between the nodes, as often as on the grids of frames. A disc that is
- * not wide has a node for each pixel, too. */
+ * under a wide Gaussian also between the nodes, as often as on the grids of frames. */
 static void choose_density(const cs_blur *blur, bool varies, grid_axis axes[2], double *samples) {
   bool is_gaussian = blur->kind == CELSPAN_DEFOCUS_GAUSSIAN;
   bool is_wide = fmin(blur->radius_x, blur->radius_y) >= SAMPLES_FINE;
-  bool is_disc = blur->kind == CELSPAN_DEFOCUS_DISC, is_sampled = varies && is_gaussian && !is_wide;
+  bool is_sampled = varies && is_gaussian && !is_wide;
   *samples = is_wide ? SAMPLES_FINE : SAMPLES_LEAST;
   for (int k = 0; k < 2; k++) {
     grid_axis *a = &axes[k];
     double least = nodes_in_radius(blur->kind) / (double)a->radius;
     double most = SAMPLES_FINE / (double)a->radius;
-    a->density = is_sampled ? cs_number_clamp(class_of(a->scale), least, most)
-                 : is_disc  ? fmin(class_of(a->scale), least)
-                            : least;
+    a->density = is_sampled ? cs_number_clamp(class_of(a->scale), least, most) : least;
   }
 }
 
@@ -78,7 +73,7 @@ static bool find_axis(const celspan_matrix *matrix, const cs_blur *blur, int k, 
   out->turn[1] = (float)(m[1] / out->scale);
   out->radius = (float)(radius / out->scale);
   if (blur->kind != CELSPAN_DEFOCUS_GAUSSIAN)
-    least = blur->kind == CELSPAN_DEFOCUS_DISC ? NODES_DISC_LEAST : NODES_BOX;
+    least = blur->kind == CELSPAN_DEFOCUS_DISC ? NODES_DISC : NODES_BOX;
   return cs_number_is_sane(out->scale) && out->scale > 1 / CS_NUMBER_LIMIT && radius >= least;
 }
 

@@ -6,6 +6,7 @@
 
 #define RECENT 16 /* weights that the nodes of the next tap may be among */
 #define TOGETHER CS_DEFOCUS_SUMS_TOGETHER
+#define FAR (1 << 28) /* nodes: a tap that is as far is beyond the border of every grid */
 
 /* ---------------------------------------------------------------- weights */
 
@@ -25,6 +26,8 @@ static void add_weight(cs_shifted_line *line, int32_t x, int32_t y, double weigh
 }
 
 static void add_tap(cs_shifted_line *line, double x, double y, double weight) {
+  x = cs_number_clamp(x, -FAR, FAR);
+  y = cs_number_clamp(y, -FAR, FAR);
   int32_t i = cs_number_floor(x), j = cs_number_floor(y);
   double across = x - i, down = y - j;
   add_weight(line, i, j, (1 - across) * (1 - down) * weight);
