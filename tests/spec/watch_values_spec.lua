@@ -10,7 +10,7 @@ local celspan = require "celspan"
 local p = celspan.parameters {
   lamp = { 20, 18, point = true, about = "its \"place\"", group = "Night" }, size = { 6, min = 1 },
   tint = { colour = "#fd0" }, how = { ease = "inQuad" }, mood = { "calm", "wild" },
-  word = "a\nb", is_lit = true, art = { file = "a.png" } }
+  word = "a\nb", is_lit = true, art = { file = "a.png" }, ["end"] = 4 }
 return celspan.film { size = { 64, 36 }, frames = 9, frame = function()
   return celspan.rostrum { celspan.cel { celspan.circle { centre = p.lamp, radius = p.size,
     texture = p.tint } } } end }
@@ -59,7 +59,8 @@ describe("values of parameters", function()
     assert.same({ lamp = "lamp = " .. lamp,
       size = "size = { 2.5, min = 1 }", tint = 'tint = { colour = "#fd0" }',
       how = 'how = { ease = "inQuad" }', mood = 'mood = { "wild", "calm" }',
-      word = [[word = "a\nb"]], is_lit = "is_lit = false", art = 'art = { file = "a.png" }' }, said)
+      word = [[word = "a\nb"]], is_lit = "is_lit = false", art = 'art = { file = "a.png" }',
+      ["end"] = '["end"] = 4' }, said)
     local lines = {}
     for _, line in pairs(said) do lines[#lines + 1] = line end
     local call = FILM:match "celspan.parameters (%b{})"

@@ -13,7 +13,7 @@ import { drawSheet, nextOnion, resetCels, setSheet } from "/rows.js";
 import { beside, frameOf, here, looks, loop, main, play, ratio, state, view } from "/state.js";
 import { hideThumb, showThumb } from "/thumb.js";
 import { frameAt, goToMark, scrubTo, setSpan, turnTimeline } from "/timeline.js";
-import { loadValues, resetValues, saveValues, undoValue } from "/values.js";
+import { loadValues, resetValues, saveValues, undoValues } from "/values.js";
 import { fit, move, natural, zoom, zoomMiddle } from "/view.js";
 
 const STRIDE = 80;           // device pixels that a key moves the picture
@@ -84,7 +84,7 @@ function hearKey(event) {
   const act = keys[event.key];
   if (event.key === "Tab") isPointed = false;
   const isUndo = event.key === "z" && (event.ctrlKey || event.metaKey);
-  if (isUndo && !event.target.matches("textarea, input[type=text]")) undoValue();
+  if (isUndo && !event.target.matches("textarea, input[type=text]")) undoValues();
   if (!act || isTaken(event)) return;
   event.preventDefault();
   act(event);

@@ -27,6 +27,8 @@ export function writeAddress() {
   history.replaceState(null, "", all.size ? `/#${all}` : "/");
 }
 
+const namesOf = one => stateOf(one)?.parameters.map(known => known.name) ?? [];
+
 /** Sends the values; while they are on their way, only the newest are kept. */
 async function sendValues(one) {
   one.isChanged = true;
@@ -37,7 +39,8 @@ async function sendValues(one) {
     one.isChanged = false;
     writeAddress();
     const path = one === main ? "/parameters" : "/parameters?side=2";
-    const sent = Object.fromEntries(one.given);
+    const names = namesOf(one); // the script may have lost some
+    const sent = Object.fromEntries([...one.given].filter(([name]) => names.includes(name)));
     const answer = await post(path, sent).catch(() => null);
     if (answer?.ok) takeAnswer(one, sent, await answer.json());
   }
@@ -52,8 +55,7 @@ function takeAnswer(one, sent, { build, values, refused }) {
   one.wantedBuild = build;
   Object.assign(one.wrong, refused);
   if (one.isChanged || !stateOf(one)) return;
-  const names = stateOf(one).parameters.map(known => known.name);
-  one.given = new URLSearchParams(names.filter(name => Object.hasOwn(values, name))
+  one.given = new URLSearchParams(namesOf(one).filter(name => Object.hasOwn(values, name))
     .map(name => [name, values[name]]));
   writeAddress();
   for (const [name, value] of one.given) {
@@ -76,27 +78,29 @@ export function sendGiven() {
   }
 }
 
-const before = []; // values before changes: { one, name, value, time }
+const before = []; // what was given before changes: { name, hand, given: [lane, text] of each }
+let hand = 0;      // how often a key or a pointer was pressed or let go
 
-/** Keeps the value before a change; a drag is one. */
-function keepBefore(one, { name, value }) {
-  const last = before.at(-1), time = performance.now();
-  if (last?.one === one && last.name === name && time - last.time < 1000) last.time = time;
-  else before.push({ one, name, value, time });
+for (const event of ["pointerdown", "pointerup", "keyup"]) {
+  document.addEventListener(event, () => { hand++; }, true);
 }
 
-/** Gives the value before the last change again. */
-export function undoValue() {
-  const { one, name, value } = before.pop() ?? {};
-  const parameter = one && stateOf(one)?.parameters.find(known => known.name === name);
-  if (!parameter) return;
-  one.isRefilled = true;
-  giveValue(one, parameter, value);
-  before.pop();
+/** Keeps what is given before a change of a parameter, "": of several; a drag is one change. */
+function keepBefore(name) {
+  const last = before.at(-1);
+  if (name && last?.name === name && last.hand === hand) return;
+  before.push({ name, hand, given: lanes().map(one => [one, String(one.given)]) });
+}
+
+/** Gives the values before the last change again. */
+export function undoValues() {
+  for (const [one, text] of before.pop()?.given ?? []) {
+    if (lanes().includes(one) && String(one.given) !== text) setValues(one, text);
+  }
 }
 
 export function giveValue(one, parameter, value) {
-  keepBefore(one, parameter);
+  keepBefore(`${one.side} ${parameter.name}`);
   one.given.set(parameter.name, value);
   parameter.value = value;
   delete one.wrong[parameter.name];
@@ -109,9 +113,10 @@ export function giveValue(one, parameter, value) {
 
 /** Gives a parameter the value of the script again. */
 export function giveBack(one, { name, start, default: own }) {
+  keepBefore("");
   if (start === textOf(own)) one.given.delete(name);
   else one.given.set(name, textOf(own));
-  takeValues(one, one.given);
+  setValues(one, one.given);
 }
 
 /** A value as the command line has it: a point is "120,80". */
@@ -164,6 +169,9 @@ function markFields(one) {
 export function showForm(one) {
   if (!stateOf(one)) return; // it is no longer shown
   const { parameters, build } = stateOf(one);
+  if (one.isSending || build < one.wantedBuild) { // the news has values of before
+    for (const known of parameters) known.value = one.given.get(known.name) ?? known.start;
+  }
   const isRefilled = one.isRefilled && !one.isSending && build >= one.wantedBuild;
   const kinds = JSON.stringify(parameters.map(known => ({ ...known, value: 0, source: 0 })));
   here("tune").hidden = lanes().every(any => stateOf(any).parameters.length === 0);
@@ -203,11 +211,12 @@ function groupsOf(one, parameters) {
 // ---------------------------------------------------------------- all values
 
 export function resetValues() {
-  for (const one of lanes()) takeValues(one, []);
+  keepBefore("");
+  for (const one of lanes()) setValues(one, []);
 }
 
 /** Gives these values, as pairs of a name and a text, and no others. */
-function takeValues(one, values) {
+function setValues(one, values) {
   one.given = new URLSearchParams(values);
   one.wrong = {};
   one.isRefilled = true;
@@ -243,16 +252,17 @@ export async function loadValues() {
   if (!all || typeof all !== "object" || Array.isArray(all)) {
     return sayValues(`${file?.name}: it must be a JSON object, { "name": value }`);
   }
-  const known = new Set(state.parameters.map(one => one.name));
+  const names = namesOf(main);
   const kinds = { odd: [], bad: [], good: [] };
   for (const [name, value] of Object.entries(all)) {
-    const kind = !known.has(name) ? "odd" : isValue(value) ? "good" : "bad";
+    const kind = !names.includes(name) ? "odd" : isValue(value) ? "good" : "bad";
     kinds[kind].push([name, textOf(value)]);
   }
   const say = (list, before, after) => list.length
     ? `${file.name}: ${before}${list.map(([name]) => name).join(", ")}${after}. ` : "";
   sayValues(say(kinds.odd, "the film has no ", "") + say(kinds.bad, "", " cannot be that"));
-  takeValues(main, kinds.good);
+  keepBefore("");
+  setValues(main, kinds.good);
 }
 
 function sayValues(text) {

@@ -54,6 +54,15 @@ function film:take(head)
   self.tell()
 end
 
+--- Forgets the value of a parameter that the saved script has no more. Returns whether a message
+--- says that there is one.
+function film:drop_lost(message)
+  local name = message:match "the script has no parameter '([%w_]+)'"
+  local is_lost = name and self.pool.values[name] ~= nil
+  if is_lost then self.pool.values[name] = nil end
+  return is_lost
+end
+
 --- Begins again with the current script.
 function film:build()
   self.pool:close("the film was saved again", 503)
@@ -66,6 +75,7 @@ function film:build()
     done = function(head) self:take(head) end,
     failed = function(message)
       if number ~= self.build_number then return end
+      if self:drop_lost(message) then return self:build() end
       self.errors, self.is_building = { self.places:describe(message, nil, self) }, false
       self.is_shown, self.check_state = false, nil
       self.tell()
