@@ -373,7 +373,9 @@ function parameters.line(name, given, text)
     end
   end
   local all = table.concat(parts, ", ")
-  return ("%s = %s"):format(name, is_plain and all or "{ " .. all .. " }")
+  local is_word = not load("local " .. name) -- of Lua, such as "end"
+  return (is_word and '["%s"] = %s' or "%s = %s"):format(name, is_plain and all
+    or "{ " .. all .. " }")
 end
 
 --- A value on one line, in a form that a terminal may show: control characters are written as
