@@ -22,12 +22,9 @@
     "--size", "WxH", &cs_argument_size,                                                            \
         "pixels of the whole frame; each axis is scaled separately"                                \
   }
-#define SCALE                                                                                      \
-  {                                                                                                \
-    "--scale", "S", &cs_argument_scale,                                                            \
-        "pixels per film unit, instead of --size; of an SVG drawing: of pictures in it, default: " \
-        "2"                                                                                        \
-  }
+#define SCALE(more)                                                                                \
+  { "--scale", "S", &cs_argument_scale, "pixels per film unit, instead of --size" more }
+#define SCALE_DRAWING SCALE("; of an SVG drawing: of pictures in it, default: 2")
 #define CROP                                                                                       \
   { "--crop", "X,Y,W,H", &cs_argument_crop, "the part to render, in pixels of the output" }
 #define ANTIALIAS                                                                                  \
@@ -214,7 +211,7 @@ static const cs_option RENDER[] = {
     FRAMES,
     SIZE,
     FIT,
-    SCALE,
+    SCALE_DRAWING,
     {"--draft", NULL, NULL, "half the size and no antialiasing (jagged), to look at a film soon"},
     CROP,
     {"--strip", "I/N", &cs_argument_share,
@@ -310,7 +307,7 @@ static const cs_option STAGE[] = {WORKERS, SCRIPT, MEMORY, {0}};
 static const cs_option CONVERT[] = {
     FRAME,
     SIZE,
-    SCALE,
+    SCALE_DRAWING,
     CROP,
     CODING,
     DRAWING,
@@ -343,7 +340,7 @@ static const cs_option TILES[] = {
      "the folder for the pyramid and its page; created if it is missing"},
     FRAME,
     SIZE,
-    SCALE,
+    SCALE(""),
     {"--crop", "X,Y,W,H", &cs_argument_crop,
      "only tiles that touch this part of the frame, in its pixels"},
     ANTIALIAS,
@@ -411,7 +408,7 @@ static const cs_option SPRITES[] = {
     OUTPUT("SHEET", "the picture to make, such as sheet.png; beside it sheet.json"),
     FRAMES,
     SIZE,
-    SCALE,
+    SCALE(""),
     {"--padding", "N", &cs_argument_pixels, "clear pixels around each sprite; default: 2"},
     TABLE("a sheet for each row of a CSV file, whose columns are parameters, or {NAME} in SHEET"),
     WORKERS,
@@ -475,7 +472,7 @@ static const cs_option FARM[] = {
     FRAMES,
     SIZE,
     FIT,
-    SCALE,
+    SCALE(""),
     CROP,
     ANTIALIAS,
     CODING,
