@@ -110,12 +110,19 @@ local function build_onion(ask)
     math.max(1, math.floor(shrunk * h)), labels)
 end
 
+--- Calls a function while `celspan.shots` does something, which ends also after an error in it.
+local function during(what, value, ending, call, ...)
+  film:ask("celspan.shots", what, value)
+  local results = table.pack(pcall(call, ...))
+  film:ask("celspan.shots", what, ending)
+  if not results[1] then error(results[2], 0) end
+  return table.unpack(results, 2, results.n)
+end
+
 --- Builds a frame with a function; in a cut its shots are marked. Returns what the function does.
 local function marked(build_it, ...)
-  if parts then film:ask("celspan.shots", "mark", "on") end
-  local good, message, code = build_it(...)
-  if parts then film:ask("celspan.shots", "mark", "off") end
-  return good, message, code
+  if not parts then return build_it(...) end
+  return during("mark", "on", "off", build_it, ...)
 end
 
 --- Builds a frame, with its cels changed as ask.cels says. false: refused.
@@ -286,12 +293,10 @@ local function add_rows(rows, from, to)
   return sheet ~= nil
 end
 
---- Adds the rows of the shot `place`, which are named by it: "evening / nell / mouth". In its
---- transitions the cels of other shots are left out. A shot with something over it is itself in a
---- cel without a name.
-local function add_shot(rows, place, last)
-  local begin, shot, labels = #rows + 1, parts[place], new_labels()
-  film:ask("celspan.shots", "isolate", ("%d %d"):format(film.frames, place))
+--- Adds the rows of a shot, which are named by it: "evening / nell / mouth". A shot with something
+--- over it is itself in a cel without a name.
+local function add_shot(rows, shot, last)
+  local begin, labels = #rows + 1, new_labels()
   local is_added = add_rows(rows, shot.from, math.min(shot.to, last))
   for i = begin, #rows do
     local row = rows[i]
@@ -300,7 +305,6 @@ local function add_shot(rows, place, last)
     row.shot, row.name = shot.name, shot.name .. " / " .. name:gsub("/", " / ")
     if shot.to < last then table.insert(row.cells.list, { shot.to + 1, "" }) end
   end
-  film:ask("celspan.shots", "isolate", "")
   return is_added
 end
 
@@ -309,7 +313,11 @@ end
 function answers.rows()
   local rows, last = {}, math.min(film.frames, SHEET_MOST)
   for place, shot in ipairs(parts or {}) do
-    if shot.from <= last and not add_shot(rows, place, last) then return end
+    -- in its transitions the cels of other shots are left out
+    local alone = ("%d %d"):format(film.frames, place)
+    if shot.from <= last and not during("isolate", alone, "", add_shot, rows, shot, last) then
+      return
+    end
   end
   if not parts then
     local labels = new_labels()
