@@ -6,7 +6,8 @@
 --- (where there is node); a name that is neither declared, imported nor the browser's, which would
 --- silently be an element of the page with this id; an import that is not used, that something
 --- else of its name hides, or that nothing exports; an export that nobody imports; a line of more
---- than 100 characters.
+--- than 100 characters; a text that the server would change, which sends modules without comments
+--- and indentation.
 local FOLDER = "src/program/verbs/watch/"
 
 local browser = {}
@@ -92,6 +93,16 @@ local function take_module(name, text)
   texts[name] = bare((("\n" .. text):gsub("\nimport [^;]*;", "\n")))
 end
 
+--- Whether a text that begins in this part of a line does not end in it.
+local function has_open_text(part)
+  local rest = part:gsub("\\.", "")
+  if rest:find "^%s*/?%*" or rest:find "^%s*//" then return false end -- a comment
+  for _, quote in ipairs { "`", '"', "'" } do
+    rest = rest:gsub(quote .. "[^" .. quote .. "]*" .. quote, "")
+  end
+  return rest:find "[`\"']" ~= nil
+end
+
 local listing = assert(io.popen("ls " .. FOLDER))
 for name in listing:lines() do
   if name:find "%.js$" then
@@ -102,6 +113,9 @@ for name in listing:lines() do
       number = number + 1
       if utf8.len(line) > 100 then
         complain("%s:%d: more than 100 characters", name, number)
+      end
+      if has_open_text(line:match "^(.-) // " or line) then
+        complain("%s:%d: a text with ' // ', or of several lines", name, number)
       end
     end
   end

@@ -45,7 +45,7 @@ function groupFaults() {
   const groups = new Map();
   for (const fault of state.errors) {
     const text = fault.message.replace(`frame ${fault.frame}: `, "")
-      .replace(/frame -?\d+ of '/, "'"); // of a shot
+      .replace(/frame -?\d+ of (?=\x27)/, ""); // of a shot
     if (!groups.has(text)) groups.set(text, { text, frames: [], fault });
     if (fault.frame !== undefined) groups.get(text).frames.push(fault.frame);
   }
