@@ -118,14 +118,20 @@ describe("parameters", function()
   it("are points and curves too", function()
     bench:write("film.lua", [[local celspan = require "celspan"
       local p = celspan.parameters { at = { 12.5, 80, point = true }, how = { ease = "outBack" } }
-      print(p.at[1] .. " " .. p.at[2] .. " " .. #p.at .. " " .. p.how)
+      local names = {}
+      for name, value in pairs(p) do
+        names[#names + 1] = name .. (value == p[name] and "" or "?")
+      end
+      table.sort(names)
+      print(p.at[1] .. " " .. p.at[2] .. " " .. #p.at .. " " .. p.how .. " of "
+        .. table.concat(names, "+"))
       return celspan.film { size = { 1, 1 }, frames = 1, frame = function()
         return celspan.rostrum {} end }]])
     bench:write("p.json", '{ "at": [3, -4], "how": "linear" }')
-    for options, said in pairs { [""] = "12.5 80 2 outBack",
-                                 ["--set at=1,2e2"] = "1 200.0 2 outBack",
-                                 ["--set how=inOutQuad"] = "12.5 80 2 inOutQuad",
-                                 ["--set-from p.json"] = "3 -4 2 linear" } do
+    for options, said in pairs { [""] = "12.5 80 2 outBack of at+how",
+                                 ["--set at=1,2e2"] = "1 200.0 2 outBack of at+how",
+                                 ["--set how=inOutQuad"] = "12.5 80 2 inOutQuad of at+how",
+                                 ["--set-from p.json"] = "3 -4 2 linear of at+how" } do
       local _, out, err = bench:celspan_inside("check film.lua " .. options)
       assert.truthy((out .. err):find(said, 1, true), options .. ": " .. out .. err)
     end

@@ -148,4 +148,31 @@ describe("the form of values #plain", function()
       return { first, off, on };]=])
     assert.same({ first = false, off = true, on = false }, said)
   end)
+
+  it("has pale handles for points that the frame does not read", function()
+    watching.bench:write("shot.lua", [[
+local celspan = require "celspan"
+local p = celspan.parameters { sun = { 20, 18, point = true }, moon = { 40, 8, point = true },
+  lamp = { 5, 5, point = true }, star = { 50, 30, point = true } }
+local lamp = p.lamp
+local function shot(name)
+  return celspan.film { size = { 64, 36 }, fps = 24, frames = 24, frame = function()
+    return celspan.rostrum { celspan.cel { celspan.circle { centre = p[name], radius = 4 },
+      celspan.circle { centre = lamp, radius = 2 } } } end }
+end
+return require "celspan.cut" { { film = shot "sun" }, require "celspan.cut".dissolve(0.25),
+  { film = shot "moon" } }
+]])
+    local said = watching.see(watching.watch(), [=[
+      const pale = async number => {
+        await page.get(`(one => { one.value = ${number}; one.dispatchEvent(new Event("input")); })(
+          document.querySelector("#scrub"))`);
+        await page.until(`${stage("frame")} === "${number}"`);
+        return page.get(`[...document.querySelectorAll(".handle.idle")]
+          .map(one => one.dataset.point).sort().join()`);
+      };
+      await page.until(`document.querySelectorAll(".handle").length === 4`);
+      return [await pale(40), await pale(2), await pale(22), await pale(40), await pale(41)];]=])
+    assert.same({ "star,sun", "moon,star", "star", "star,sun", "star,sun" }, said)
+  end)
 end)

@@ -241,10 +241,34 @@ local function set_from(settings, declared, values, given)
   end
 end
 
---- Makes it an error to read an unknown name.
-local function sealed(values)
-  return setmetatable(values, { __index = fields.reads("parameters", {}),
-                                __name = "celspan.parameters" })
+local read_points = {} -- the names of points that the script has read since they were asked for
+
+--- Makes it an error to read an unknown name, and notes which points are read: they are not in the
+--- table itself.
+local function sealed(values, points)
+  local missing = fields.reads("parameters", {})
+  return setmetatable(values, {
+    __name = "celspan.parameters",
+    __index = function(_, name)
+      if points[name] == nil then return missing(values, name) end
+      read_points[name] = true
+      return points[name]
+    end,
+    __pairs = function()
+      local all = {}
+      for name, value in next, values do all[name] = value end
+      for name, value in next, points do all[name], read_points[name] = value, true end
+      return next, all
+    end })
+end
+
+--- The names of the points that the script has read since they were asked for last, each with a
+--- comma behind it.
+function parameters.reads()
+  local names = {}
+  for name in pairs(read_points) do names[#names + 1] = name .. "," end
+  read_points = {}
+  return table.concat(names)
 end
 
 --- celspan.parameters.
@@ -268,7 +292,11 @@ function parameters.declare(given)
       set(settings, declared, values, one.source, one.name, one.text, true)
     end
   end
-  return sealed(values)
+  local points = {}
+  for _, one in ipairs(declared) do
+    if one.kind == "point" then points[one.name], values[one.name] = values[one.name], nil end
+  end
+  return sealed(values, points)
 end
 
 --- Why "NAME=VALUE", from a row of a table, cannot be set; "" if it can be set.

@@ -125,9 +125,21 @@ local function marked(build_it, ...)
   return during("mark", "on", "off", build_it, ...)
 end
 
+local points = {}  -- the points that a frame has read, such as ",sun,lamp,", by its number
+local before = "," -- those that the script has read before any frame
+
+--- Those and the points that the script has read since this was asked for last.
+local function with_points(known)
+  for name in film:ask("celspan.parameters", "reads", ""):gmatch "[^,]+," do
+    if not known:find("," .. name, 1, true) then known = known .. name end
+  end
+  return known
+end
+
 --- Builds a frame, with its cels changed as ask.cels says. false: refused.
 local function build(ask)
   local good, message, code
+  with_points(before) -- what others have read is not of this frame
   if ask.onion then
     good, message, code = marked(build_onion, ask)
   else
@@ -137,6 +149,7 @@ local function build(ask)
     good, message = film:alter(letters_of(ask.cels), parts ~= nil)
   end
   if not good then refuse(message, code) end
+  points[ask.number] = with_points(points[ask.number] or before)
   return good
 end
 
@@ -155,7 +168,8 @@ function answers.frame(ask)
   if ask.made then film:keep_line(ask.made[1], ask.made[2]) end
   local bytes, message = of_view(ask, "picture", ask.what)
   if not bytes then return refuse(("frame %d: %s"):format(ask.number, message)) end
-  put({ good = true, seconds = program.clock() - began, camera = camera }, bytes)
+  put({ good = true, seconds = program.clock() - began, camera = camera,
+        points = points[ask.number] }, bytes)
 end
 
 --- The cost of the frame, which is the first of `costs`, and the cost of each of its cels alone.
@@ -459,6 +473,7 @@ if good then
   film:keep_callers(false)
   local text = film:ask("celspan.shots", "text", tostring(film.frames))
   parts = text ~= "" and json.decode(text) or nil
+  before = with_points(before)
 end
 for ask in take do
   if not film then

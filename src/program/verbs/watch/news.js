@@ -5,7 +5,6 @@ import { fetch, firstState, pause } from "/fetch.js";
 import { outline, outlined } from "/over.js";
 import { forget, look } from "/pictures.js";
 import { start, takeSound } from "/playing.js";
-import { placePoints } from "/points.js";
 import { showRender, showRenderCommand } from "/render.js";
 import { loadSheet } from "/rows.js";
 import {
@@ -28,7 +27,6 @@ export function showNumbers() {
   here("facts").textContent = `${state.film.size.join(" × ")}, ${state.film.fps} fps`
     + (whole ? "" : `, loop ${loop.from} to ${loop.to}`);
   placeHead();
-  placePoints();
   showRenderCommand();
 }
 

@@ -13,6 +13,7 @@ import { showPoint } from "/inspector.js";
 import { showNumbers } from "/news.js";
 import { loadObjects } from "/objects.js";
 import { layOver, overlays } from "/over.js";
+import { placePoints } from "/points.js";
 import { cels } from "/rows.js";
 import { unpack } from "/runs.js";
 import {
@@ -95,7 +96,7 @@ export async function fetchPicture(wanted) {
   if (!answer.ok) throw Object.assign(new Error(await answer.text()), { status: answer.status });
   const buffer = await answer.arrayBuffer(), [, , w, h] = wanted.crop;
   const bytes = wanted.isOver ? new Uint8ClampedArray(buffer) : unpack(buffer, w, h);
-  const picture = { ...wanted, bytes,
+  const picture = { ...wanted, bytes, points: answer.headers.get("Celspan-Points"),
                     seconds: Number(answer.headers.get("Celspan-Seconds")) };
   if (isSeenNow(picture)) cost.noteTime(picture.number, picture.seconds, picture.build);
   if (wanted.build === stateOf(wanted.lane)?.build) keep(wanted.address, picture);
@@ -158,11 +159,13 @@ export function paint(picture) {
   place();
 }
 
-/** Puts what is painted where the view has it now, stretched if it was made for another one. */
+/** Puts what is painted, and the handles of points, where the view has them now; a picture that was
+ * made for another view is stretched. */
 function place() {
   if (!state.film) return;
   for (const one of lanes()) placeLane(one, one === main ? [here("paper"), stage, overlay]
     : [here("paper2"), one.canvas]);
+  placePoints();
 }
 
 function placeLane(one, layers) {

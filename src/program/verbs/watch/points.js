@@ -74,7 +74,8 @@ function putAt(one, x, y) {
                              top: `${(view.y + y * view.scale) / r}px` });
 }
 
-/** Puts the handles where the view has their points now, and the mark of the inspector. */
+/** Puts the handles where the view has their points now, and the mark of the inspector. Points that
+ * the frame has not read are pale. */
 export function placePoints() {
   const points = pointsOf(), names = new Set(points.map(one => one.name));
   for (const [name, handle] of handles) {
@@ -87,6 +88,7 @@ export function placePoints() {
     const handle = handles.get(one.name);
     putAt(handle, ...placeOf(one));
     handle.hidden = play.direction !== 0 || !looks.hasHandles;
+    handle.classList.toggle("idle", main.painted?.points.includes(`,${one.name},`) === false);
   }
   here("spot").hidden = !spot;
   if (spot) putAt(here("spot"), spot.x, spot.y);
