@@ -200,7 +200,7 @@ async function measure(said) {
   said.play = await play(8);
 }
 
-const said = { load: readFileSync("/proc/loadavg", "utf8").split(" ")[0] };
+const said = { load: Number(readFileSync("/proc/loadavg", "utf8").split(" ")[0]) };
 if (IS_PLAYED) {
   for (const [name, from] of Object.entries(SHOTS)) said[name] = await play(6, from);
   const sum = Object.keys(SHOTS).reduce((all, name) => all + said[name].frames_a_second, 0);

@@ -121,7 +121,7 @@ describe("the page of celspan watch #plain", function()
         await page.until(`${stage("frame")} === "${frame}"`);
       };
       const items = id => page.get(`[...document.querySelectorAll("#${id} li")]
-        .map(one => one.textContent.replace(/ shot.lua.*/, ""))`);
+        .map(one => one.textContent.replace(/ ?shot.lua.*/, ""))`);
       const place = () => text("place");
       await go(23);
       await page.press("q");

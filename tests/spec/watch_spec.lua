@@ -498,7 +498,7 @@ describe("the page of celspan watch #plain", function()
       .. "--progress none", said.crop)
     local code, out = bench:celspan_inside "compare seen.png made.png --fail 0.004"
     assert.equal(0, code, out)
-    assert.truthy(said.hits:find("ground (cel) shot.lua:4", 1, true), said.hits)
+    assert.matches("ground %(cel%)%s+shot%.lua:4", said.hits)
   end)
 
   it("shows the exposure sheet, and goes where it is clicked", function()
@@ -531,7 +531,7 @@ describe("the page of celspan watch #plain", function()
           Math.round(stage.height / 2), 1, 1).data]; })()`);
       const plain = await colour(8.4);
       await page.press("n");
-      await page.until(`document.querySelector("#onion").textContent === "Onion 1"`);
+      await page.until(`document.querySelector("#onion").textContent === "Onion skin 1"`);
       await page.pause(0.7);
       // The ball is from 8 to 20, and before and after that a unit to the left and to the right.
       return { plain, before: await colour(7.4), after: await colour(20.5),

@@ -73,9 +73,9 @@ function looksOf({ opacity = 1, light }) {
 
 function hitItem(hit) {
   const words = hit.name ? `${hit.name} (${hit.kind})` : `${hit.kind} without a name`;
-  return element("li", {}, words, " ", placeButton(hit),
-                 ...hit.via ? [" ", ...placesOf(hit.via, hit.callers)] : [],
-                 ...looksOf(hit).flatMap(one => [" ", one]));
+  return element("li", {}, words, ...looksOf(hit).flatMap(one => [" ", one]),
+                 element("p", {}, placeButton(hit),
+                         ...hit.via ? [" ", ...placesOf(hit.via, hit.callers)] : []));
 }
 
 /** The items of a list, those of each shot of a cut below its name. */

@@ -8,7 +8,9 @@ import { outline, outlined } from "/over.js";
 import { isOpen } from "/panels.js";
 import { look, nameOf } from "/pictures.js";
 import { cels, queryCels, switchesOf } from "/rows.js";
-import { element, here, icon, main, play, refill, state, view } from "/state.js";
+import {
+  clamp, desk, element, here, icon, main, play, refill, state, view,
+} from "/state.js";
 
 const ROWS_MOST = 2000; // of the server's answer
 const tree = { list: [], address: "" };
@@ -102,7 +104,7 @@ const nameAt = newest(async ({ one, event }, isNewest) => {
   if (!isNewest()) return;
   const hits = point ? await hitsAt(one, point, isNewest) : [];
   const isMixed = new Set(hits.map(hit => hit.shot)).size > 1;
-  if (isPointing) nameUnder(hits.find(known => known.name), isMixed);
+  if (isPointing) nameUnder(hits.find(known => known.name), isMixed, event);
 });
 
 /** Names and outlines the object at the pointer, while the objects or the inspector are seen. */
@@ -113,10 +115,18 @@ export function pointAt(one, event) {
   nameAt({ one, event });
 }
 
-/** Names and outlines an object; isMixed: in a transition, where its shot is named, too. */
-function nameUnder(hit, isMixed) {
-  here("under").hidden = !hit;
-  here("under").textContent = hit ? (isMixed && hit.shot ? `${hit.shot} / ` : "") + hit.name : "";
+/** Names an object beside the pointer, and outlines it; isMixed: in a transition, where its shot is
+ * named, too. */
+function nameUnder(hit, isMixed, event) {
+  const under = here("under");
+  under.hidden = !hit;
+  under.textContent = hit ? (isMixed && hit.shot ? `${hit.shot} / ` : "") + hit.name : "";
+  if (hit) {
+    const box = desk.getBoundingClientRect(), { offsetWidth: w, offsetHeight: h } = under;
+    const left = clamp(event.clientX - box.left + 14, 0, box.width - w);
+    const top = clamp(event.clientY - box.top + 18, 0, box.height - h);
+    Object.assign(under.style, { left: `${left}px`, top: `${top}px` });
+  }
   if (hit?.file) outline(hit);
   else if (outlined.place && !outlined.place.count) outline(null);
 }

@@ -90,7 +90,8 @@ function rowName({ name, shot, heading, cel, of }) {
   const isOn = unfolded.get(name);
   const fold = heading && element("button", { className: "fold", ariaExpanded: String(isOn),
     onclick: () => { unfolded.set(name, !isOn); showSheet(); } }, icon("fold"), words);
-  const row = element("li", { title: name, dataset: { row: name } }, fold || words,
+  const row = element("li", { title: name, className: cel ? "cel" : "",
+                              dataset: { row: name } }, fold || words,
                       ...cel ? switchesOf(cel) : []);
   row.style.setProperty("--depth", heading ? 0 : Boolean(shot) + Boolean(of));
   return row;
@@ -185,7 +186,7 @@ export function resetCels() {
 /** The onion skin of one more frame before and after, or none. */
 export function nextOnion() {
   looks.onion = (looks.onion + 1) % (ONION_MOST + 1);
-  label("onion", looks.onion ? `Onion ${looks.onion}` : "Onion");
+  label("onion", looks.onion ? `Onion skin ${looks.onion}` : "Onion skin");
   setPressed("onion", looks.onion > 0);
   look();
 }
@@ -203,7 +204,8 @@ function drawRow(brush, row, y, colours) {
     if (!name || !isNarrow) band = drawWords(brush, band, y, colours);
     if (!name || x > brush.canvas.width || x + wide < 0) return;
     brush.fillStyle = isNarrow || i % 2 ? colours.odd : colours.even;
-    brush.fillRect(x, y + 3, isNarrow ? wide + 0.5 : wide - 1, ROW - 6);
+    const isJoined = isNarrow && row.cells[i + 1]?.[1];
+    brush.fillRect(x, y + 3, isJoined ? wide + 0.5 : Math.max(wide - 1, 0.5), ROW - 6);
     if (isNarrow) band = { x: band?.x ?? x, end: x + wide, count: (band?.count ?? 0) + 1 };
     else drawWords(brush, { x, end: x + wide, name }, y, colours);
   });

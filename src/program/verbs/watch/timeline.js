@@ -146,8 +146,10 @@ function shotBlocks(shot) {
   one.style.paddingLeft = `${clamp(xOf(at + before) - Math.max(xOf(at), -EDGE), 0, width) + 6}px`;
   one.style.paddingRight = `${clamp(after * unit(), 0, width) + 2}px`;
   if (!before) return [one];
-  return [one, block("i", { at, count: before }, { className: "join", textContent: into,
-                                                  dataset: { transition: into } })];
+  const words = before * unit() > 6 * into.length + 6 ? into : "";
+  const properties = { className: "join", dataset: { transition: into } };
+  return [one, block("i", { at, count: before }, properties,
+                     element("span", { textContent: words }))];
 }
 
 function markBlock(mark) {
