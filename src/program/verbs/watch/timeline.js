@@ -141,15 +141,15 @@ const named = (one, className, title, dataset) => block("button", one, { classNa
 /** A shot, and the transition into it from the one before it, or from nothing. */
 function shotBlocks(shot) {
   const { name, from, to, before, after, into, at, i } = shot;
-  const one = named(shot, i % 2 ? "shot odd" : "shot", `${name}: frames ${from} to ${to}`,
+  const shade = i % 2 ? " odd" : "";
+  const one = named(shot, `shot${shade}`, `${name}: frames ${from} to ${to}`,
                     { shot: name, from, to });
   one.style.paddingLeft = `${clamp(xOf(at + before) - Math.max(xOf(at), -EDGE), 0, width) + 6}px`;
   one.style.paddingRight = `${clamp(after * unit(), 0, width) + 2}px`;
   if (!before) return [one];
-  const words = before * unit() > 6 * into.length + 6 ? into : "";
-  const properties = { className: "join", dataset: { transition: into } };
-  return [one, block("i", { at, count: before }, properties,
-                     element("span", { textContent: words }))];
+  const textContent = before * unit() > 6 * into.length + 6 ? into : "";
+  return [one, block("i", { at, count: before }, { className: `join${shade}`, textContent,
+                                                  dataset: { transition: into } })];
 }
 
 function markBlock(mark) {
