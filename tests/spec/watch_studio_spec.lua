@@ -216,6 +216,8 @@ describe("the page of celspan watch as a studio #plain", function()
         [one.dataset.shot, one.dataset.from, one.dataset.to].join(" "))`);
       const marks = await page.get(`[...document.querySelectorAll("[data-mark]")].map(one =>
         one.dataset.mark + " " + one.dataset.frame)`);
+      const joins = await page.get(`[...document.querySelectorAll("[data-transition]")].map(one =>
+        one.dataset.transition + " " + one.textContent)`);
       const seen = [];
       for (const key of ["]", "]", "["]) {
         await page.press(key);
@@ -232,9 +234,10 @@ describe("the page of celspan watch as a studio #plain", function()
       const opened = await page.get(`${folds}.map(one => one.getAttribute("aria-expanded"))`);
       const rows = await page.get(`[...document.querySelectorAll("[data-row]")]
         .map(one => one.dataset.row)`);
-      return { shots, marks, seen, opened, rows };]=])
+      return { shots, marks, joins, seen, opened, rows };]=])
     assert.same({ "evening 1 48", "night 37 84" }, said.shots)
     assert.same({ "bell 40" }, said.marks)
+    assert.same({ "dissolve dissolve" }, said.joins)
     assert.same({ "37 1:12", "40 1:15", "37 1:12" }, said.seen)
     assert.same({ "false", "true" }, said.opened)
     assert.same({ "evening", "night", "night / sun", "night / disc", "night / ground" }, said.rows)
@@ -252,6 +255,9 @@ describe("the page of celspan watch as a studio #plain", function()
       })()`);
       await page.mouse("mouseMoved", ...box);
       await page.until(`document.querySelector("#under").textContent === "disc"`);
+      const [x, y] = await page.get(`(box => [box.left, box.top])(
+        document.querySelector("#under").getBoundingClientRect())`);
+      const isBeside = Math.abs(x - box[0]) < 30 && Math.abs(y - box[1]) < 30;
       await page.press("v");
       const names = await page.get(`[...document.querySelectorAll("#values #form [name]")]
         .map(one => one.name)`);
@@ -272,11 +278,11 @@ describe("the page of celspan watch as a studio #plain", function()
       const line = await page.get(`document.querySelector("#render-command").value`);
       await page.get(`document.querySelector("#render-start").click()`);
       await page.until(`document.querySelector("#render-state").dataset.state === "done"`);
-      return { paths, names, group, isStale, command, file, state, line };]=])
+      return { paths, isBeside, names, group, isStale, command, file, state, line };]=])
     assert.same({ "evening/sun", "evening/sun/disc", "evening/ground" }, said.paths)
     assert.same({ "word", "sun", "how", "level", "dim" }, said.names)
     assert.truthy(said.group:find("Light.*sun.*its place.*how"))
-    assert.is_true(said.isStale)
+    assert.is_true(said.isStale and said.isBeside)
     assert.equal("celspan render shot.lua --strict --set sun=21,18 -o shot.mp4 -- 'a b'",
       said.command)
     assert.same({ "shot.0001.png", "idle" }, { said.file, said.state })
