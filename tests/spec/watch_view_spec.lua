@@ -364,7 +364,7 @@ describe("the page of celspan watch over its picture #plain", function()
     assert.equal(255, said.other[1])
     assert.same({ 0, 35, 0, 255 }, said.left)
     assert.same({ 255, 224, 176, 255 }, said.right)
-    assert.equal("Held 3", said.text)
+    assert.equal("Held: frame 3", said.text)
   end)
 
   it("shows the frame under the pointer over the scrubber, and guides over the picture", function()

@@ -57,7 +57,7 @@ export function setMixing(kind) {
 /** Holds the frame that is shown, so that others are compared with it; again: lets it go. */
 export function holdFrame() {
   looks.held = looks.held === view.number ? 0 : view.number;
-  label("hold", looks.held ? `Held ${looks.held}` : "Hold");
+  label("hold", looks.held ? `Held: frame ${looks.held}` : "Hold this frame");
   setPressed("hold", looks.held > 0);
   look();
 }
