@@ -335,10 +335,11 @@ static celspan_status end(cs_plot_text *out, celspan_status status) {
 
 static celspan_status write_parcels(drawing *d, const char *path) {
   celspan_context *context = d->text.context;
-  CS_TRY(cs_under_make(context, &d->parcels, growth(d), &d->under));
+  const double thin = d->desc->flat == CS_FLAT_REGIONS ? 0 : growth(d);
+  CS_TRY(cs_under_make(context, &d->parcels, thin, &d->under));
   CS_TRY(begin(context, path, d->desc, d->parcels.width, d->parcels.height, &d->text));
   put_gradients(d);
-  celspan_status status = d->desc->flat == CS_FLAT_REGIONS ? CELSPAN_OK : put_under(d);
+  celspan_status status = put_under(d);
   if (status == CELSPAN_OK)
     status = put_areas(d);
   d->facts->curves = d->parcels.curve_count;

@@ -269,6 +269,8 @@ celspan_status cs_under_make(celspan_context *context, const cs_parcels *parcels
   flat_list flats = {0};
   *out = (cs_under){.fill_count = parcels->fill_count, .loop_count = parcels->loop_count + 1};
   CS_TRY(rank_fills(context, parcels, out));
+  if (thin == 0)
+    return CELSPAN_OK;
   CS_TRY(put_arcs(context, parcels, thin, out));
   flats.thickness = out->loops;
   celspan_status status = list_flats(context, parcels, &flats);

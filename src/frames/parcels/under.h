@@ -27,8 +27,9 @@ typedef struct cs_under {
 static inline bool cs_under_suits(const cs_fill *fill) {
   return fill->kind != CS_FILL_CLEAR && fill->is_opaque;
 }
-/* thin: an area that is thinner than this, in units, does not continue if its neighbour is thicker.
- * out: must be finished in any case. Errors: NO_MEMORY. */
+/* thin: an area that is thinner than this, in units, does not continue if its neighbour is thicker;
+ * 0: only the fills are wanted, not the lines. out: must be finished in any case. Errors:
+ * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_under_make(celspan_context *context, const cs_parcels *parcels,
                                              double thin, cs_under *out);
 void cs_under_finish(cs_under *under, cs_memory *memory);

@@ -308,6 +308,7 @@ function show_tiles(canvas, pyramid, hooks) {
     if (!was_everything || is_everything()) return;
     goal = held({ ...goal, scale: whole() });
     view = { ...goal };
+    flight = null;
   }
 
   // ------------------------------------------------------------ mouse and touch
@@ -398,13 +399,15 @@ function show_tiles(canvas, pyramid, hooks) {
     if (event.target?.tagName === "INPUT") return;
     event.preventDefault();
     KEYS[event.key]();
-  });
+  }, { signal: hooks.signal });
 
   // ------------------------------------------------------------ start
 
   measure();
   everything(true);
-  new ResizeObserver(() => { goal = held(goal); ask(); }).observe(canvas);
+  const resizes = new ResizeObserver(() => { goal = held(goal); ask(); });
+  resizes.observe(canvas);
+  hooks.signal?.addEventListener("abort", () => resizes.disconnect());
   // The ratio changes with the browser's zoom.
   addEventListener("resize", ask, { signal: hooks.signal });
   return { go, zoom, everything, tell, ask };

@@ -378,7 +378,8 @@ static cs_hash hash_axis(const planefile_axis *axis) {
 /* A number that 24 bits hold. */
 static double shorten(double number) { return fabs(number) < FLT_MAX ? (float)number : number; }
 
-/* Rounds the numbers of an axis, which changes no colour by a tenth of an 8-bit code. */
+/* Rounds the numbers of an axis, which changes no colour by a tenth of an 8-bit code, except where
+ * two stops are at one place: that place moves by 2^-24 of the axis. */
 static void round_axis(planefile_axis *axis) {
   for (int i = 0; i < 3; i++) {
     axis->p[i] = shorten(axis->p[i]);

@@ -313,6 +313,11 @@ planefile_status planefile_read(const planefile_source *source, int32_t top, int
  * BAD_ARGUMENT: the file has fewer frames. The list of frames is also read, 8 bytes for each. */
 planefile_status planefile_read_frame(const planefile_source *source, uint32_t frame, int32_t top,
                                       int32_t foot, planefile_plane **out, planefile_fault *fault);
+/* Reads one frame, all heights, after another one of the same source, which this replaces: what
+ * both are made from is decoded once, and is kept for the next frame. *plane: NULL at first; NULL
+ * again, if the status is not OK. */
+planefile_status planefile_read_next(const planefile_source *source, uint32_t frame,
+                                     planefile_plane **plane, planefile_fault *fault);
 /* NULL is ignored. */
 void planefile_plane_destroy(planefile_plane *plane);
 planefile_info planefile_plane_info(const planefile_plane *plane);

@@ -16,9 +16,10 @@ typedef struct reader {
   const planefile_source *source;
   planefile_fault *fault; /* may be NULL */
   planefile_plane *plane;
-  uint64_t end;  /* offset of the trailer */
-  uint64_t left; /* bytes that the records that are still to be read may have */
-  bool is_film;
+  planefile_plane *before; /* a frame of the same file, whose bands may be taken; NULL: none */
+  uint64_t end;            /* offset of the trailer */
+  uint64_t left;           /* bytes that the records that are still to be read may have */
+  bool is_film, keeps;     /* keeps: what bands are made from */
   pf_codes codes;
   bool is_pictured;     /* the latest index has a list of pictures */
   uint64_t *offsets;    /* of the bands, and after them where the last one ends */
@@ -304,7 +305,9 @@ static planefile_status load_index(reader *r, uint64_t offset) {
   plane->bands = pf_make(&plane->memory, sizeof *plane->bands, count);
   r->offsets = pf_make(&plane->memory, sizeof *r->offsets, (size_t)count + 1);
   plane->info.band_count = count;
-  if (!plane->bands || !r->offsets)
+  if (r->keeps)
+    plane->kept = pf_make(&plane->memory, sizeof *plane->kept, count);
+  if (!plane->bands || !r->offsets || (r->keeps && !plane->kept))
     return fail_memory(r, offset);
   const unsigned char *entry = parts.entries;
   for (uint32_t i = 0; i < count; i++, entry += PF_ENTRY_BYTES) {
@@ -345,19 +348,55 @@ static planefile_status decode_band(reader *r, uint32_t index, uint64_t offset, 
   return PLANEFILE_OK;
 }
 
+/* ---------------------------------------------------------------- bands of the base */
+
+static void free_kept(const pf_memory *memory, pf_kept *kept) {
+  pf_base_free(&kept->base);
+  pf_band_free(memory, &kept->band);
+}
+
+/* What the frame before was made from at the same place. */
+static bool take_kept(reader *r, uint32_t index, pf_kept *out) {
+  planefile_plane *before = r->before;
+  const planefile_band *band = &r->plane->bands[index].band;
+  if (!before || index >= before->info.band_count ||
+      before->info.picture_count != r->plane->info.picture_count)
+    return false;
+  pf_kept *kept = &before->kept[index];
+  if (kept->offset == 0 || kept->offset != r->bases[index] || kept->band.band.top != band->top ||
+      kept->band.band.foot != band->foot)
+    return false;
+  *out = *kept;
+  *kept = (pf_kept){0};
+  out->base.band = &out->band.band;
+  return true;
+}
+
+static planefile_status load_from(reader *r, uint32_t index, pf_kept *out) {
+  size_t size;
+  uint64_t offset = r->bases[index];
+  if (take_kept(r, index, out))
+    return PLANEFILE_OK;
+  TRY(load_record(r, PF_BAND, index, offset, 0, &size));
+  if (!pf_base_begin(&r->plane->memory, &out->base))
+    return fail_memory(r, offset);
+  TRY(decode_band(r, index, offset, size, NULL, out->base.learned, &out->band));
+  if (!pf_base_complete(&out->band.band, size, &out->base))
+    return fail_memory(r, offset);
+  out->offset = offset;
+  return PLANEFILE_OK;
+}
+
 /* A band that is made from that of the base. */
-static planefile_status load_changed(reader *r, uint32_t index, pf_band *from, pf_base *base) {
+static planefile_status load_changed(reader *r, uint32_t index, pf_kept *from) {
   size_t size;
   uint64_t offset = r->offsets[index];
-  TRY(load_record(r, PF_BAND, index, r->bases[index], 0, &size));
-  if (!pf_base_begin(&r->plane->memory, base))
-    return fail_memory(r, offset);
-  TRY(decode_band(r, index, r->bases[index], size, NULL, base->learned, from));
-  if (!pf_base_complete(&from->band, size, base))
-    return fail_memory(r, offset);
+  TRY(load_from(r, index, from));
   TRY(load_record(r, PF_CHANGED, index, offset, 0, &size));
-  return decode_band(r, index, offset, size, base, NULL, &r->plane->bands[index]);
+  return decode_band(r, index, offset, size, &from->base, NULL, &r->plane->bands[index]);
 }
+
+/* ---------------------------------------------------------------- bands of the frame */
 
 static planefile_status load_kind(reader *r, uint32_t index, unsigned char *kind) {
   uint64_t offset = r->offsets[index];
@@ -368,17 +407,17 @@ static planefile_status load_kind(reader *r, uint32_t index, unsigned char *kind
 static planefile_status load_either(reader *r, uint32_t index) {
   size_t size;
   unsigned char kind;
-  pf_band from = {0};
-  pf_base base = {0};
+  pf_kept from = {0}, *kept = r->plane->kept;
   const uint64_t *offsets = &r->offsets[index];
   TRY(load_kind(r, index, &kind));
   if (kind != PF_CHANGED) {
     TRY(load_record(r, PF_BAND, index, offsets[0], r->is_film ? 0 : offsets[1], &size));
     return decode_band(r, index, offsets[0], size, NULL, NULL, &r->plane->bands[index]);
   }
-  planefile_status status = load_changed(r, index, &from, &base);
-  pf_base_free(&base);
-  pf_band_free(&r->plane->memory, &from);
+  if (kept)
+    return load_changed(r, index, &kept[index]);
+  planefile_status status = load_changed(r, index, &from);
+  free_kept(&r->plane->memory, &from);
   return status;
 }
 
@@ -457,27 +496,43 @@ static void forget(reader *r) {
 
 /* ---------------------------------------------------------------- the plane */
 
-planefile_status planefile_read_frame(const planefile_source *source, uint32_t frame, int32_t top,
-                                      int32_t foot, planefile_plane **out, planefile_fault *fault) {
-  pf_memory memory = pf_memory_of(source->resize, source->resize_user);
-  reader r = {.source = source, .fault = fault};
+static planefile_status read_frame(reader *r, uint32_t frame, int32_t top, int32_t foot,
+                                   planefile_plane **out) {
+  pf_memory memory = pf_memory_of(r->source->resize, r->source->resize_user);
   *out = NULL;
   if (top < 0 || top >= foot || foot > PLANEFILE_SIDE)
-    return fail(&r, PLANEFILE_BAD_ARGUMENT, 0, "there are no such heights");
-  r.plane = pf_make(&memory, sizeof *r.plane, 1);
-  if (!r.plane)
-    return fail_memory(&r, 0);
-  r.plane->memory = memory;
-  pf_codes_make(&r.codes);
-  planefile_status status = load_plane(&r, frame, top, foot);
-  forget(&r);
+    return fail(r, PLANEFILE_BAD_ARGUMENT, 0, "there are no such heights");
+  r->plane = pf_make(&memory, sizeof *r->plane, 1);
+  if (!r->plane)
+    return fail_memory(r, 0);
+  r->plane->memory = memory;
+  pf_codes_make(&r->codes);
+  planefile_status status = load_plane(r, frame, top, foot);
+  forget(r);
   if (status != PLANEFILE_OK) {
-    planefile_plane_destroy(r.plane);
+    planefile_plane_destroy(r->plane);
     return status;
   }
-  pf_pixels_make(&r.codes, r.plane->codes);
-  *out = r.plane;
+  pf_pixels_make(&r->codes, r->plane->codes);
+  *out = r->plane;
   return PLANEFILE_OK;
+}
+
+planefile_status planefile_read_frame(const planefile_source *source, uint32_t frame, int32_t top,
+                                      int32_t foot, planefile_plane **out, planefile_fault *fault) {
+  reader r = {.source = source, .fault = fault};
+  return read_frame(&r, frame, top, foot, out);
+}
+
+planefile_status planefile_read_next(const planefile_source *source, uint32_t frame,
+                                     planefile_plane **plane, planefile_fault *fault) {
+  planefile_plane *before = *plane;
+  reader r = {.source = source, .fault = fault, .keeps = true};
+  if (before && before->kept)
+    r.before = before;
+  planefile_status status = read_frame(&r, frame, 0, PLANEFILE_SIDE, plane);
+  planefile_plane_destroy(before);
+  return status;
 }
 
 planefile_status planefile_read(const planefile_source *source, int32_t top, int32_t foot,
@@ -491,7 +546,10 @@ void planefile_plane_destroy(planefile_plane *plane) {
   pf_memory memory = plane->memory;
   for (uint32_t i = 0; plane->bands && i < plane->info.band_count; i++)
     pf_band_free(&memory, &plane->bands[i]);
+  for (uint32_t i = 0; plane->kept && i < plane->info.band_count; i++)
+    free_kept(&memory, &plane->kept[i]);
   pf_free(&memory, plane->bands, sizeof *plane->bands, plane->info.band_count);
+  pf_free(&memory, plane->kept, sizeof *plane->kept, plane->info.band_count);
   for (uint32_t i = 0; plane->pictures && i < plane->info.picture_count; i++)
     pf_picture_free(&memory, &plane->pictures[i]);
   pf_free(&memory, plane->pictures, sizeof *plane->pictures, plane->info.picture_count);

@@ -140,6 +140,15 @@ static void use_plane(const planefile_plane *plane, uint32_t seed) {
   write_again(plane);
 }
 
+/* Frames one after the other, which may have a base in common. */
+static void read_on(const planefile_source *source, uint32_t frame) {
+  planefile_plane *plane = NULL;
+  for (uint32_t i = 0; i < 3; i++)
+    if (planefile_read_next(source, frame + i, &plane, NULL) == PLANEFILE_OK)
+      check_crop(plane, 24, PLANEFILE_AREA);
+  planefile_plane_destroy(plane);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   if (size == 0)
     return 0;
@@ -162,6 +171,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     demand(fault.offset <= file.size && fault.reason[0] != '\0', "a refusal without a reason");
     demand(m.peak <= 128 * 1024 + 600 * file.size, "memory that nothing pays for");
   }
+  read_on(&source, data[0] >> 2);
   demand(m.bytes == 0, "memory is not freed");
   demand(check_failures == 0, "a call failed");
   free(file.bytes);

@@ -863,6 +863,26 @@ static void test_films(void) {
   free(film.bytes);
 }
 
+/* Frames one after the other, some again, are what they are alone. */
+static void check_next(memory_file *film, uint64_t seed) {
+  random_state random = {seed};
+  planefile_source source = memory_source(film);
+  planefile_view view = {31, 23, 0, 0, 31, 23, PLANEFILE_AREA};
+  planefile_plane *plane = NULL;
+  for (uint32_t i = 0, frame = 0; i < 2 * FRAMES; i++) {
+    frame = (frame + random_below(&random, 3)) % FRAMES;
+    planefile_plane *alone = read_frame(film, frame);
+    CHECK(planefile_read_next(&source, frame, &plane, NULL) == PLANEFILE_OK);
+    planefile_cell *a = draw_view(plane, view), *b = draw_view(alone, view);
+    CHECK(memcmp(a, b, (size_t)view.columns * view.rows * sizeof *a) == 0);
+    free(a);
+    free(b);
+    planefile_plane_destroy(alone);
+  }
+  CHECK(planefile_read_next(&source, FRAMES, &plane, NULL) == PLANEFILE_BAD_ARGUMENT);
+  CHECK(plane == NULL);
+}
+
 /* A film with any byte altered is refused, or its frames can be drawn. */
 static void check_altered_film(memory_file *film, uint64_t seed) {
   random_state random = {seed};
@@ -876,7 +896,8 @@ static void check_altered_film(memory_file *film, uint64_t seed) {
   uint32_t frame = random_below(&random, FRAMES + 1); /* the last one is not there */
   planefile_view view = {9, 7, 0, 0, 9, 7, PLANEFILE_AREA};
   planefile_fault fault = {0};
-  if (planefile_read_frame(&source, frame, 0, PLANEFILE_SIDE, &plane, &fault) == PLANEFILE_OK)
+  planefile_read_next(&source, random_below(&random, FRAMES), &plane, NULL);
+  if (planefile_read_next(&source, frame, &plane, &fault) == PLANEFILE_OK)
     free(draw_view(plane, view));
   else
     CHECK(fault.offset <= film->size && fault.reason[0] != '\0');
@@ -926,6 +947,7 @@ static void test_changing_films(void) {
       alone += file.size;
       free(file.bytes);
     }
+    check_next(&film, seed);
     CHECK(count_records(&film, PF_CHANGED) >= FRAMES / 2);
     CHECK(film.size < alone / 4 * 3);
     for (uint32_t i = 0; i < 100; i++)
@@ -1070,6 +1092,10 @@ static planefile_status write_and_draw(const planefile_band from[2], double fram
     status = planefile_read_frame(&source, frames_second > 0, 0, PLANEFILE_SIDE, &plane, NULL);
   if (status == PLANEFILE_OK)
     status = draw_all(plane);
+  planefile_plane_destroy(plane);
+  plane = NULL;
+  for (uint32_t i = 1; frames_second > 0 && i < 3 && status == PLANEFILE_OK; i++)
+    status = planefile_read_next(&source, i, &plane, NULL);
   planefile_plane_destroy(plane);
   free(file.bytes);
   return status;

@@ -35,9 +35,7 @@ static bool read_bytes(void *user, uint64_t offset, void *out, size_t size) {
 EXPORT("open") const char *open(uint32_t frame) {
   const planefile_source source = {
       .read = read_bytes, .size = byte_count, .resize = cs_wasm_resize};
-  planefile_plane_destroy(plane);
-  plane = NULL;
-  planefile_status status = planefile_read_frame(&source, frame, 0, PLANEFILE_SIDE, &plane, &fault);
+  planefile_status status = planefile_read_next(&source, frame, &plane, &fault);
   return status == PLANEFILE_OK ? NULL : fault.reason;
 }
 
