@@ -11,10 +11,15 @@ enum { HOST = 256, LINE = 5 * 8192 + 512 /* a visible sentence, with its time an
 
 static int log_file = -1;
 
-/* A pipe without a reader is refused, as waiting for one would take for ever. */
+/* A pipe without a reader is refused, as waiting for one would take for ever. One that is full
+ * stops the run until it is read: no line is lost. */
 bool cs_log_open(const char *path) {
   log_file = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0666);
-  return log_file >= 0 && fcntl(log_file, F_SETFL, O_APPEND) == 0;
+  if (log_file < 0 || fcntl(log_file, F_SETFL, O_APPEND) == 0)
+    return log_file >= 0;
+  close(log_file);
+  log_file = -1;
+  return false;
 }
 
 void cs_log_time(char out[CS_LOG_TIME]) {

@@ -16,20 +16,21 @@
 /* ---------------------------------------------------------------- spaces */
 
 typedef struct curve {
-  const char *tag;           /* of ffmpeg; the number of the tag where its names differ */
+  int32_t tag;
   celspan_transfer transfer; /* DEFAULT: the power */
   double power;
 } curve;
 
 /* Players show BT.709 with the power 2.4, as BT.1886 says. */
-static const curve curves[] = {{"iec61966-2-1", CELSPAN_TRANSFER_SRGB, 0},
-                               {"bt709", CELSPAN_TRANSFER_REC709, 0},
-                               {"bt709", CELSPAN_TRANSFER_DEFAULT, 2.4},
-                               {"4", CELSPAN_TRANSFER_DEFAULT, 2.2}};
+static const curve curves[] = {{CS_VIDEO_SRGB, CELSPAN_TRANSFER_SRGB, 0},
+                               {CS_VIDEO_BT709, CELSPAN_TRANSFER_REC709, 0},
+                               {CS_VIDEO_BT709, CELSPAN_TRANSFER_DEFAULT, 2.4},
+                               {CS_VIDEO_POWER_22, CELSPAN_TRANSFER_DEFAULT, 2.2}};
 
 static const struct {
-  const char *name, *tag; /* in model/colour/primaries.h, and of ffmpeg */
-} gamuts[] = {{"BT.709", "bt709"}, {"BT.2020", "bt2020"}, {"P3-D65", "smpte432"}};
+  const char *name; /* in model/colour/primaries.h */
+  int32_t tag;
+} gamuts[] = {{"BT.709", CS_VIDEO_BT709}, {"BT.2020", CS_VIDEO_BT2020}, {"P3-D65", CS_VIDEO_P3}};
 
 enum { PROBES = 8 };
 
@@ -61,11 +62,11 @@ static bool is_coded_so(float codes[PROBES][4], const curve *along, const double
   return true;
 }
 
-static const char *primaries_tag(const cs_known_primaries *known) {
+static int32_t primaries_tag(const cs_known_primaries *known) {
   for (size_t i = 0; i < sizeof gamuts / sizeof *gamuts; i++)
     if (strcmp(gamuts[i].name, known->name) == 0)
       return gamuts[i].tag;
-  return NULL;
+  return 0;
 }
 
 /* Sets the tags if the numbers are light of known primaries along a known curve. */
@@ -115,8 +116,8 @@ static cs_exit set_view(const cs_request *request, const char *name, cs_video_op
         "%s: the view %s is for a display of other primaries or of high dynamic range, which "
         "celspan's videos do not say: give another --display, or write pictures",
         cs_request_text(request, "-o"), name);
-  options->primaries = "bt709";
-  options->transfer = has_word(name, "sRGB") ? "iec61966-2-1" : "bt709";
+  options->primaries = CS_VIDEO_BT709;
+  options->transfer = has_word(name, "sRGB") ? CS_VIDEO_SRGB : CS_VIDEO_BT709;
   return CS_EXIT_OK;
 }
 
@@ -140,6 +141,6 @@ cs_exit cs_video_colours_set(const cs_request *request, cs_video_options *option
   if (!cs_request_has(request, "--colour"))
     return set_view(request, name, options);
   bool has_tags = find_tags(spaces, options);
-  bool is_shown = has_tags && (!options->codec->is_rgb || strcmp(options->primaries, "bt709") == 0);
+  bool is_shown = has_tags && (!options->codec->is_rgb || options->primaries == CS_VIDEO_BT709);
   return is_shown ? CS_EXIT_OK : refuse(request, name, options->codec);
 }

@@ -131,7 +131,7 @@ static cs_exit refuse_options(const cs_request *request, const cs_video_format *
                            output);
   if (cs_request_has(request, "--loop") && !format->plays)
     return cs_report_usage("%s: players decide how often %s is played: leave --loop out, or write "
-                           ".gif, .webp or .apng",
+                           ".gif, .webp, .apng or .avif",
                            output, format->name);
   if (options.coding.transfer == CELSPAN_TRANSFER_LINEAR ||
       options.coding.transfer == CELSPAN_TRANSFER_CINEON)

@@ -134,6 +134,8 @@ describe("--layers cels", function()
       ["celspan.rostrum { under, over { back = " .. fan .. ", red } }"] =
         "has a back light with a matte",
       ["celspan.rostrum { under, over { blend = 'multiply', red } }"] = "has a blend mode",
+      ["celspan.rostrum { under, over { red:blend 'multiply' } }"] =
+        "has an object with a blend mode",
       ["celspan.rostrum { space = 'srgb', under, over { red } }"] = 'mixes codes (space "srgb")',
       ["{ { celspan.rostrum { under }, 0.5 }, { celspan.rostrum { under, over { red } }, 0.5 } }"] =
         "has several exposures",

@@ -267,6 +267,15 @@ NORMAL 255 (0, 0, 300, 200) cel_6
     check_alike("back.png", "frame.png")
   end)
 
+  it("says which light has no place in layers of straight alpha", function()
+    local lit = film "celspan.cel { back = { 0.3, 0.3, 0.3, 0 } }:named 'lamp',"
+    for _, name in ipairs { "x.psd", "x.ora", "x.png" } do
+      local note = render(lit, "--frames 1 --layers cels -o " .. name)
+      assert.truthy(note:find("cel 4 'lamp'", 1, true), note)
+      assert.truthy(note:find("has a back light without a matte", 1, true), note)
+    end
+  end)
+
   it_compares("writes a PNG file a cel, with its name before the number", function()
     assert.equal("", render(film(), "--layers cels -o out/x.####.png"))
     assert.same({ "x.0001.png", "x.0002.png", "x.a_b_c & <\"d\">.0001.png",

@@ -37,13 +37,34 @@ static bool has_mode(cs_apart_format format, celspan_blend blend) {
   return format == CS_APART_ORA || (format == CS_APART_PSD && cs_blend_is_photoshop(blend));
 }
 
+static const char *blend_reason(const celspan_cel *cel, cs_apart_format format,
+                                celspan_space space) {
+  if (!cs_cel_blends(cel, space))
+    return NULL;
+  if (cel->blend == CELSPAN_BLEND_NORMAL)
+    return "has an object with a blend mode";
+  return has_mode(format, CS_BLEND_MODE(cel->blend))
+             ? NULL
+             : "has a blend mode that such files do not have";
+}
+
+/* Only EXR has light where alpha is 0. */
+static const char *back_reason(const cs_light *back, cs_apart_format format) {
+  bool has_light = back->texture || back->flat.r > 0 || back->flat.g > 0 || back->flat.b > 0;
+  if (has_matte(back))
+    return "has a back light with a matte";
+  return has_light && format != CS_APART_EXR
+             ? "has a back light without a matte, which such files lack where alpha is 0"
+             : NULL;
+}
+
 /* NULL: the layer of the cel over the layers behind it shows the same as the frame. */
 static const char *reason_of(const celspan_cel *cel, cs_apart_format format, celspan_space space) {
-  bool is_kept = cel->blend != CELSPAN_BLEND_NORMAL && has_mode(format, CS_BLEND_MODE(cel->blend));
-  return cs_cel_blends(cel, space) && !is_kept ? "has a blend mode that such files do not have"
-         : has_gel(cel)                        ? "has a gel, which colours the light from behind"
-         : has_matte(&cel->back)               ? "has a back light with a matte"
-                                               : NULL;
+  const char *blends = blend_reason(cel, format, space);
+  if (blends)
+    return blends;
+  return has_gel(cel) ? "has a gel, which colours the light from behind"
+                      : back_reason(&cel->back, format);
 }
 
 static bool cels_sum(const celspan_rostrum *rostrum, cs_apart_format format, celspan_space space,

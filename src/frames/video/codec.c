@@ -16,6 +16,7 @@
  * INVARIANT: a file has one of the codecs that its format lists; the first of them is the default.
  */
 #include "frames/video/format.h"
+#include "output/sinks/picture_file.h"
 
 /* Drawings are flat between sharp edges: -tune animation uses bits for edges, not for grain. */
 static const char *const H264[] = {"-c:v",  "libx264",   "-preset", "medium",
@@ -128,14 +129,16 @@ const cs_video_codec cs_codec_apng = {.name = "apng",
                                       .deep_pixels = "rgb48be",
                                       .alpha_pixels = "rgba",
                                       .deep_alpha_pixels = "rgba64be"};
-/* The quality is that of AV1. */
-const cs_video_codec cs_codec_avif = {.name = "avif",
+/* The quality is that of AV1. Numbered pictures, which have no quality, have that of 75. */
+enum { AVIF_BEST = 11, AVIF_WORST = 63 };
+_Static_assert(AVIF_WORST + (AVIF_BEST - AVIF_WORST) * 75 / 100 == CS_AVIF_CRF, "quality 75");
+const cs_video_codec cs_codec_avif = {.name = CS_PICTURE_AVIF,
                                       .is_module = true,
                                       .pixels = "rgba",
                                       .deep_pixels = "rgba64le",
                                       .alpha_pixels = "rgba",
                                       .deep_alpha_pixels = "rgba64le",
                                       .quality = "-crf",
-                                      .best = 11,
-                                      .worst = 63,
+                                      .best = AVIF_BEST,
+                                      .worst = AVIF_WORST,
                                       .most_crf = 63};

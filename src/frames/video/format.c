@@ -7,6 +7,7 @@
 #include <strings.h>
 
 #include "frames/process/child.h"
+#include "model/pictures/module.h"
 #include "output/sinks/pixels.h"
 
 #define FROM_RGB                                                                                   \
@@ -91,7 +92,7 @@ static const cs_video_format FORMATS[] = {
      .most_frames_second = 1000,
      .plays = "-plays",
      .mark = {0, "\x89PNG"}},
-    {.name = "avif",
+    {.name = CS_PICTURE_AVIF,
      .codecs = {&cs_codec_avif},
      .is_picture = true,
      .most_frames_second = 1000,
@@ -273,18 +274,20 @@ int cs_video_quality(const cs_video_options *options) {
  * Planes are passed on unchanged. */
 static void add_yuv(cs_video_command *command, const cs_video_options *options, bool is_coded) {
   bool is_rec709 = options->coding.transfer == CELSPAN_TRANSFER_REC709;
-  const char *curve = is_rec709 ? "bt709" : "iec61966-2-1";
-  const char *transfer = options->transfer ? options->transfer : curve;
-  const char *primaries = options->primaries ? options->primaries : "bt709";
+  int curve = is_rec709 ? CS_VIDEO_BT709 : CS_VIDEO_SRGB;
+  int transfer = options->transfer ? options->transfer : curve;
+  int primaries = options->primaries ? options->primaries : CS_VIDEO_BT709;
   bool is_made = is_coded || cs_video_layout_of(options) != CS_VIDEO_RGBA;
-  const char *const tags[] = {
-      "-color_range", "tv",         "-colorspace", "bt709", "-color_primaries",
-      primaries,      "-color_trc", transfer,      NULL};
+  static const char *const tags[] = {"-color_range", "tv", "-colorspace", "bt709", NULL};
   add(command, "-vf");
   add_text(command,
-           "%sformat=%s,setparams=range=tv:colorspace=bt709:color_primaries=%s:color_trc=%s",
+           "%sformat=%s,setparams=range=tv:colorspace=bt709:color_primaries=%d:color_trc=%d",
            is_made ? "" : FROM_RGB, cs_video_pixels(options), primaries, transfer);
   add_all(command, tags);
+  add(command, "-color_primaries");
+  add_text(command, "%d", primaries);
+  add(command, "-color_trc");
+  add_text(command, "%d", transfer);
 }
 
 static void add_pixels(cs_video_command *command, const char *pixels) {

@@ -74,6 +74,15 @@ typedef enum cs_video_layout {
   CS_VIDEO_420
 } cs_video_layout;
 
+/* Numbers of ITU-T H.273 for primaries (BT.709, BT.2020, P3) and curves (BT.709, sRGB, a power). */
+enum {
+  CS_VIDEO_BT709 = 1,
+  CS_VIDEO_POWER_22 = 4,
+  CS_VIDEO_BT2020 = 9,
+  CS_VIDEO_P3 = 12,
+  CS_VIDEO_SRGB = 13
+};
+
 /* The requested properties of a video. */
 typedef struct cs_video_options {
   const cs_video_codec *codec; /* of the format */
@@ -84,9 +93,8 @@ typedef struct cs_video_options {
   bool has_crf;                /* crf is the value of -crf, whatever the quality is */
   int32_t crf;
   double crf_less; /* below 1: taken away from it, where the encoder has such factors */
-  /* What the tags say of a coding that converts; ffmpeg's names, which live as long as the options.
-   * NULL: those of its curve. */
-  const char *primaries, *transfer;
+  /* What the tags say of a coding that converts; 0: those of its curve. */
+  int32_t primaries, transfer;
   int32_t plays; /* how often it is played; 0: for ever */
 } cs_video_options;
 

@@ -77,18 +77,6 @@ static void discard_files(cs_video *video) {
 
 static bool is_of_module(const cs_video *video) { return video->options.codec->is_module; }
 
-/* The numbers of ITU-T H.273 for the tags of ffmpeg that program/video_colours.c gives; 0: none. */
-static int32_t tag_number(const char *tag) {
-  static const struct {
-    const char *name;
-    int32_t number;
-  } tags[] = {{"bt709", 1}, {"4", 4}, {"bt2020", 9}, {"smpte432", 12}, {"iec61966-2-1", 13}};
-  for (size_t i = 0; tag && i < sizeof tags / sizeof *tags; i++)
-    if (strcmp(tag, tags[i].name) == 0)
-      return tags[i].number;
-  return 0;
-}
-
 static celspan_status open_picture(cs_video *video, const cs_video_desc *desc) {
   const cs_video_options *options = &desc->options;
   const celspan_coding coding = cs_pixels_resolve(&video->coding, CELSPAN_DEPTH_8);
@@ -104,8 +92,8 @@ static celspan_status open_picture(cs_video *video, const cs_video_desc *desc) {
                                     .avif = {.crf = cs_video_quality(options),
                                              .plays = options->plays,
                                              .is_opaque = options->is_opaque,
-                                             .primaries = tag_number(options->primaries),
-                                             .transfer = tag_number(options->transfer)}};
+                                             .primaries = options->primaries,
+                                             .transfer = options->transfer}};
   video->pixels = cs_mem_array(video->context->memory, (size_t)desc->frames.height, video->stride);
   if (!video->pixels)
     return cs_fail_memory(video->context);

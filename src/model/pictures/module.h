@@ -24,6 +24,7 @@ extern "C" {
 #define CS_PICTURE_SPACE 256   /* bytes of the name of a space in a file */
 #define CS_PICTURE_SOFTWARE 64 /* bytes of the name of the program, with its version */
 #define CS_PICTURE_OTHER "other"
+#define CS_PICTURE_AVIF "avif" /* cs_picture_output.format, which modules write with libavif */
 /* Before the name of a space in the project of a DPX file, which has no place for it. */
 #define CS_PICTURE_PROJECT "celspan:colour "
 

@@ -54,7 +54,7 @@ celspan_status cs_picture_file_rows(cs_picture_file *file, celspan_context *cont
  * because the module reads none. */
 static celspan_status check_file(const cs_picture_file *file, celspan_context *context) {
   const cs_picture_output *output = &file->output;
-  if (strcmp(output->format, "avif") == 0)
+  if (strcmp(output->format, CS_PICTURE_AVIF) == 0)
     return CELSPAN_OK;
   cs_picture_request request = {0};
   CS_TRY(cs_file_temporary(file->file, context, &request.file));

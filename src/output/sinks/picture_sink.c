@@ -56,7 +56,7 @@ static const file_format formats[] = {
      false},
     {" jp2 j2k jpeg2000 ", "jpeg2000", 65535, (int64_t)1 << 28, 3, CELSPAN_DEPTH_8,
      HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16), false, true, false},
-    {" avif ", "avif", CS_AVIF_SIDE, CS_AVIF_PIXELS, 4, CELSPAN_DEPTH_8,
+    {" avif ", CS_PICTURE_AVIF, CS_AVIF_SIDE, CS_AVIF_PIXELS, 4, CELSPAN_DEPTH_8,
      HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16), false, false, true},
 };
 

@@ -14,8 +14,6 @@
 extern "C" {
 #endif
 
-#define CS_AVIF_FORMAT "avif" /* cs_picture_output.format */
-
 typedef struct cs_avif cs_avif;
 
 /* The output is copied, without its names and its title. Errors: BAD_ARGUMENT, OUTPUT, NO_MEMORY;

@@ -178,7 +178,7 @@ static celspan_status open_avif(const cs_picture_output *output, cs_picture_writ
 
 celspan_status open_writer(const cs_picture_output *output, cs_picture_writer **out,
                            cs_picture_failure *failure) {
-  if (strcmp(output->format, CS_AVIF_FORMAT) == 0)
+  if (strcmp(output->format, CS_PICTURE_AVIF) == 0)
     return open_avif(output, out, failure);
   return fence(failure, CELSPAN_OUTPUT, output->name, [&] {
     prepare_library();

@@ -85,7 +85,7 @@ static celspan_status open_avif(const cs_picture_output *output, cs_picture_writ
 
 celspan_status cs_write_open(const cs_picture_output *output, cs_picture_writer **out,
                              cs_picture_failure *failure) {
-  if (strcmp(output->format, CS_AVIF_FORMAT) == 0)
+  if (strcmp(output->format, CS_PICTURE_AVIF) == 0)
     return open_avif(output, out, failure);
   const cs_write_format *format = find(output->format);
   if (!format)
