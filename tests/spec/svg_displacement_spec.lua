@@ -5,21 +5,13 @@
 -- pixels within 8 codes, and those with a blurred map 91 % and more, because it reads the nearest
 -- pixel. The four whose map is not opaque (16, 18, 19, 20) have 57 to 87 %, because resvg takes the
 -- map's colours times their alpha: with their maps over black, 18 and 20 have 98 % and 99 %.
-local celspan = require "celspan"
-local browsing = require "tests.support.browsing"
-local json = require "celspan.json"
+local filtered = require "tests.support.filtered"
 local present = require "tests.support.present"
-local svg = require "celspan.svg"
-local workbench = require "tests.support.workbench"
 
 local in_browser = present.program "chromium" and it or pending
-local W, H = 120, 100
+local W = filtered.width
 local CODES = 'x="0" y="0" width="1" height="1" color-interpolation-filters="sRGB"'
 local LIGHT = 'x="0" y="0" width="1" height="1"'
-local bench, count = workbench.new(), 0
-
-teardown(function() bench:remove() end)
-
 --- A drawing on white: art under a filter that makes a map `m`, and displaces the art by it.
 local function drawing(map, attributes, filter, art)
   return ([[<svg xmlns="http://www.w3.org/2000/svg" width="120" height="100">
@@ -72,50 +64,20 @@ local cases = {
     'scale="18" xChannelSelector="R" yChannelSelector="B"' },
 }
 
-local function codes_of(objects)
-  return assert(celspan.pixels(celspan.film { size = { W, H }, space = "srgb", frame = function()
-    return celspan.rostrum { celspan.cel(objects) }
-  end })):bytes()
-end
-
-local function read(text)
-  count = count + 1
-  local art = assert(svg.read(bench:write(("drawing-%d.svg"):format(count), text)))
-  assert.are_same({}, { table.unpack(art.skipped) })
-  return codes_of { art.object }
-end
-
---- The codes of a drawing in the browser.
-local function draw_in_browser(text)
-  local path = os.tmpname()
-  local script = "document.body.style.margin = 0; document.body.innerHTML = "
-    .. json.encode((text:gsub("<svg ", '<svg style="display:block" ')))
-  browsing.see("about:blank", ("await page.get(%s); await page.shot(%s); return true;"):format(
-    json.encode(script), json.encode(path)))
-  local codes = codes_of { celspan.image { file = path, x = 0, y = 0 } }
-  os.remove(path)
-  return codes
-end
-
---- The share of pixels that differ by at most 8 codes.
-local function share_near(ours, theirs)
-  local near = 0
-  for at = 1, #ours, 4 do
-    local worst = 0
-    for c = at, at + 2 do worst = math.max(worst, math.abs(ours:byte(c) - theirs:byte(c))) end
-    if worst <= 8 then near = near + 1 end
-  end
-  return near / W / H
+local function draw(text)
+  local image, left_out = filtered.draw(text)
+  assert.equal("", left_out)
+  return image
 end
 
 describe("feDisplacementMap", function()
   it("moves by whole pixels, and counts clear as black", function()
-    local still = read(drawing(flood "#808080", "", CODES))
-    local moved = read(drawing(flood "#fff",
-      'scale="20" xChannelSelector="A" yChannelSelector="A"'))
-    local clear = read(drawing('<feFlood flood-opacity="0" result="m"/>',
-      'scale="20" xChannelSelector="R" yChannelSelector="G"'))
-    local function at(codes, x, y) return codes:sub((y * W + x) * 4 + 1, (y * W + x) * 4 + 4) end
+    local function codes(...) return draw(drawing(...)):bytes() end
+    local still = codes(flood "#808080", "", CODES)
+    local moved = codes(flood "#fff", 'scale="20" xChannelSelector="A" yChannelSelector="A"')
+    local clear = codes('<feFlood flood-opacity="0" result="m"/>',
+      'scale="20" xChannelSelector="R" yChannelSelector="G"')
+    local function at(all, x, y) return all:sub((y * W + x) * 4 + 1, (y * W + x) * 4 + 4) end
     for _, p in ipairs { { 40, 40 }, { 60, 35 }, { 15, 40 }, { 88, 60 } } do
       assert.are_equal(at(still, p[1] + 10, p[2] + 10), at(moved, p[1], p[2]))
       assert.are_equal(at(still, p[1] - 10, p[2] - 10), at(clear, p[1], p[2]))
@@ -126,7 +88,7 @@ describe("feDisplacementMap", function()
     local report = {}
     for i, case in ipairs(cases) do
       local text = drawing(table.unpack(case, 1, 4))
-      local share = share_near(read(text), draw_in_browser(text))
+      local share = filtered.share_near(draw(text), filtered.in_browser(text))
       if share < 0.97 then report[#report + 1] = ("drawing %d: %.4f"):format(i, share) end
     end
     assert.are_same({}, report)

@@ -1,33 +1,18 @@
 -- feConvolveMatrix, the lighting filters and functions of alpha beside their formulas, written
 -- again, and beside Chromium.
-local celspan = require "celspan"
-local browsing = require "tests.support.browsing"
-local json = require "celspan.json"
+local filtered = require "tests.support.filtered"
 local present = require "tests.support.present"
-local svg = require "celspan.svg"
-local workbench = require "tests.support.workbench"
 
 local in_browser = present.program "chromium" and it or pending
-local W, H = 120, 100
+local W, H = filtered.width, filtered.height
 local LIGHT = 'x="0" y="0" width="120" height="100" filterUnits="userSpaceOnUse"'
 local CODES = LIGHT .. ' color-interpolation-filters="sRGB"'
 local HEAD = '<svg xmlns="http://www.w3.org/2000/svg" width="120" height="100"%s>'
-local bench, count = workbench.new(), 0
-
-local function read(text)
-  count = count + 1
-  return assert(svg.read(bench:write(("drawing-%d.svg"):format(count), text)))
-end
-
-local function image_of(objects, size)
-  return assert(celspan.pixels(celspan.film { size = size or { W, H }, space = "srgb",
-    frame = function() return celspan.rostrum { celspan.cel(objects) } end }))
-end
 
 local function draw(text)
-  local art = read(text)
-  assert.equal("", art.skipped[1] and art.skipped[1].what or "")
-  return image_of { art.object }
+  local image, left_out = filtered.draw(text)
+  assert.equal("", left_out)
+  return image
 end
 
 -- ---------------------------------------------------------------- the formulas
@@ -264,9 +249,9 @@ describe("filters of neighbours", function()
       ["<feSpecularLighting><feFlood/></feSpecularLighting>"] =
         "feSpecularLighting without a light source",
     } do
-      local art = read(blocks(step))
+      local art = filtered.read(blocks(step))
       assert.equal("filter of g: " .. what, art.skipped[1].what)
-      assert.equal(image_of { art.object }:bytes(), draw(blocks "<feMerge><feMergeNode/></feMerge>")
+      assert.equal(filtered.image { art.object }:bytes(), draw(blocks "<feMerge><feMergeNode/></feMerge>")
         :bytes())
     end
   end)
@@ -401,37 +386,14 @@ describe("filters of neighbours", function()
       case[1]):gsub("([fg])N", "%1" .. number)
   end
 
-  --- The codes of all drawings in the browser, four below each other in a column.
+  --- All drawings in the browser, four below each other in a column.
   local function draw_in_browser(list)
-    local path, parts = os.tmpname(), {}
+    local parts = {}
     for i, case in ipairs(list) do
-      local style = ("position:absolute;left:%dpx;top:%dpx"):format((i - 1) // 4 * W,
-        (i - 1) % 4 * H)
-      parts[i] = drawing(case, i):gsub("<svg ", ('<svg style="%s" '):format(style), 1)
+      parts[i] = ('<div style="position:absolute;left:%dpx;top:%dpx">%s</div>'):format(
+        (i - 1) // 4 * W, (i - 1) % 4 * H, (drawing(case, i)))
     end
-    local script = "document.body.style.margin = 0; document.body.innerHTML = "
-      .. json.encode(table.concat(parts))
-    browsing.see("about:blank", ("await page.get(%s); await page.shot(%s); return true;"):format(
-      json.encode(script), json.encode(path)))
-    local shot = celspan.image { file = path, x = 0, y = 0 }
-    local codes = image_of({ shot }, { 5 * W, 4 * H }):bytes()
-    os.remove(path)
-    return codes
-  end
-
-  --- The share of pixels of drawing i that are within 8 codes of the browser's.
-  local function share_near(ours, theirs, i)
-    local left, top, near = (i - 1) // 4 * W, (i - 1) % 4 * H, 0
-    for y = 0, H - 1 do
-      for x = 0, W - 1 do
-        local a, b, worst = 4 * (W * y + x), 4 * (5 * W * (top + y) + left + x), 0
-        for c = 1, 3 do
-          worst = math.max(worst, math.abs(ours:byte(a + c) - theirs:byte(b + c)))
-        end
-        if worst <= 8 then near = near + 1 end
-      end
-    end
-    return near / W / H
+    return filtered.in_browser(table.concat(parts), 5 * W, 4 * H)
   end
 
   for name, list in pairs(cases) do
@@ -440,7 +402,8 @@ describe("filters of neighbours", function()
         assert.equal(20, #list)
         local theirs = draw_in_browser(list)
         for i, case in ipairs(list) do
-          local share = share_near(draw(drawing(case, i)):bytes(), theirs, i)
+          local share = filtered.share_near(draw((drawing(case, i))), theirs, (i - 1) // 4 * W,
+            (i - 1) % 4 * H)
           assert.is_true(share >= 0.97, ("drawing %d: %g"):format(i, share))
         end
       end)
