@@ -108,6 +108,22 @@ local function moves(by, x, y, options)
 end
 
 describe("a displaced object", function()
+  it("ends within a pixel as its art does", function()
+    local small = celspan.rect { 20.3, 10.6, 40.5, 30.25, texture = "#fff" }
+    local by = celspan.rect { 0, 0, W, H, texture = "#fff" }
+    local moved, want = seen(small:displace { by = by, scale = 2 }), seen(small:translate(-1, -1))
+    compare(moved, function(x, y) return { want:get(x - 0.5, y - 0.5) } end, 1e-6)
+    assert.same({ 1, 1, 1, 1 }, probe(rostrum(small:displace { by = by, scale = 2 }), 19.4, 20))
+    for _, along in ipairs { { angle = 0 }, { angle = 90 } } do -- no light is lost
+      local function light(object)
+        local image, sum = seen(object), 0
+        for y = 0, H - 1 do for x = 0, W - 1 do sum = sum + image:get(x, y) end end
+        return sum
+      end
+      assert.near(light(small), light(small:blur(2, along)), 0.01)
+    end
+  end)
+
   for _, options in ipairs { { scale = 20 }, { scale = -31, x = "b", y = "r" },
     { scale = 12, x = "a", y = "g" }, { scale = 25, space = "linear" } } do
     local name = ("by %s%s, %g, %s"):format(options.x or "r", options.y or "g", options.scale,

@@ -72,5 +72,3 @@ void cs_plane_rows_destroy(cs_plane_rows *rows); /* NULL is ignored */
  * call. */
 CELSPAN_CHECKED celspan_status cs_plane_rows_get(cs_plane_rows *rows, int32_t y,
                                                  const celspan_span **spans, size_t *count);
-/* Columns and rows of the view. */
-void cs_plane_rows_size(const cs_plane_rows *rows, int32_t *columns, int32_t *row_count);

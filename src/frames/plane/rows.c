@@ -70,11 +70,6 @@ void cs_plane_rows_destroy(cs_plane_rows *rows) {
   cs_mem_free(rows->context->memory, rows, sizeof *rows);
 }
 
-void cs_plane_rows_size(const cs_plane_rows *rows, int32_t *columns, int32_t *row_count) {
-  *columns = (int32_t)rows->view.columns;
-  *row_count = (int32_t)rows->view.rows;
-}
-
 /* Begins to draw at a row. */
 static celspan_status seek(cs_plane_rows *rows, int32_t y) {
   planefile_view view = rows->view;

@@ -10,8 +10,10 @@
 #include "frames/render/patterns.h"
 #include "frames/render/unseen.h"
 #include "model/geometry/matrix.h"
+#include "model/scene/shift.h"
 
-#define PARTS 16 /* a union of more operands is compiled as a union of this many unions */
+#define SMALLEST 1e-9 /* pixels of a unit, at which a frame is not changed */
+#define PARTS 16      /* a union of more operands is compiled as a union of this many unions */
 
 /* Moves to the nearest multiples of the units; objects in perspective keep their place. */
 static void snap(const cs_compiler *c, celspan_matrix *matrix) {
@@ -453,6 +455,19 @@ static celspan_status add_boolean(cs_compiler *c, const cs_primitive_data *data,
 
 /* ---------------------------------------------------------------- a rostrum inside another */
 
+/* Where its frame is. What is read from pixels may end at the frame, in the middle of a pixel, which
+ * has only that share of it already: then the frame goes on for a pixel. */
+static celspan_box frame_of(const cs_primitive_data *data, const celspan_matrix *matrix) {
+  const double *m = matrix->m;
+  const celspan_box *box = &data->bounds;
+  const cs_shift *shift = data->rostrum->cel_count == 1 ? data->rostrum->cels[0]->shift : NULL;
+  const double across = sqrt(m[0] * m[0] + m[3] * m[3]), down = sqrt(m[1] * m[1] + m[4] * m[4]);
+  if (!shift || shift->is_cut || !cs_matrix_keeps_weights(matrix) || fmin(across, down) < SMALLEST)
+    return *box;
+  return (celspan_box){box->x - 1 / across, box->y - 1 / down, box->width + 2 / across,
+                       box->height + 2 / down};
+}
+
 /* The layer of its frame: clear, except for the part that the mattes of its flat back lights hold
  * back. */
 static celspan_status add_frame(cs_compiler *c, const cs_primitive_data *data,
@@ -464,9 +479,9 @@ static celspan_status add_frame(cs_compiler *c, const cs_primitive_data *data,
   cs_layer *layer = &c->plan->stack.layers[index];
   cs_layers_fill_flat(layer, CS_PAINT_CLEAR, 1);
   layer->t = (cs_v4){keep, keep, keep, 0};
+  const celspan_box frame = frame_of(data, matrix);
   cs_outline_box room;
-  return cs_layers_add_outline(c, cs_primitive_data_outline(data, &room), &data->bounds, matrix,
-                               index);
+  return cs_layers_add_outline(c, cs_outline_of_box(&frame, &room), &frame, matrix, index);
 }
 
 /* Adds the layers of a rostrum, and the step that cuts them at the frame and leaves one result. */

@@ -47,10 +47,11 @@ static celspan_status add(celspan_context *context, celspan_object *object, cs_s
                           celspan_blur_edge edge, celspan_object **out) {
   celspan_box box = {0};
   bool is_there;
-  shift->hash = cs_shift_hash(shift);
   CS_TRY(cs_bounds_object(context, object, &is_there, &box));
   const celspan_box frame = cs_shift_shows(shift, &box);
-  if (is_there && edge == CELSPAN_BLUR_EXTEND && box.width > 0 && box.height > 0)
+  shift->is_cut = edge == CELSPAN_BLUR_EXTEND && box.width > 0 && box.height > 0;
+  shift->hash = cs_shift_hash(shift);
+  if (is_there && shift->is_cut)
     return compose_extended(context, object, shift, &box, out);
   if (is_there && frame.width > 0 && frame.height > 0)
     return compose(context, object, shift, &frame, out);

@@ -12,15 +12,6 @@ const cs_oracle_paint cs_oracle_clear = {{0, 0, 0}, {1, 1, 1}, 0};
 
 /* ---------------------------------------------------------------- algebra */
 
-cs_oracle_paint cs_oracle_over(const cs_oracle_paint *front, const cs_oracle_paint *back) {
-  cs_oracle_paint result = {.beta = front->beta + back->beta - front->beta * back->beta};
-  for (int c = 0; c < 3; c++) {
-    result.s[c] = front->s[c] + front->t[c] * back->s[c];
-    result.t[c] = front->t[c] * back->t[c];
-  }
-  return result;
-}
-
 cs_oracle_paint cs_oracle_mix(const cs_oracle_paint *p, const cs_oracle_paint *q, double u) {
   cs_oracle_paint result = {.beta = (1 - u) * p->beta + u * q->beta};
   for (int c = 0; c < 3; c++) {
@@ -28,10 +19,6 @@ cs_oracle_paint cs_oracle_mix(const cs_oracle_paint *p, const cs_oracle_paint *q
     result.t[c] = (1 - u) * p->t[c] + u * q->t[c];
   }
   return result;
-}
-
-bool cs_oracle_hides(const cs_oracle_paint *shade) {
-  return shade->t[0] == 0 && shade->t[1] == 0 && shade->t[2] == 0;
 }
 
 /* The paint with its pigment as a number of a space. */

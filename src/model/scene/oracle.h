@@ -12,11 +12,8 @@ typedef struct cs_oracle_paint {
 
 extern const cs_oracle_paint cs_oracle_clear;
 
-cs_oracle_paint cs_oracle_over(const cs_oracle_paint *front, const cs_oracle_paint *back);
 /* (1 - u) p + u q */
 cs_oracle_paint cs_oracle_mix(const cs_oracle_paint *p, const cs_oracle_paint *q, double u);
-/* Whether the paint lets no light through, so that nothing behind it is visible. */
-bool cs_oracle_hides(const cs_oracle_paint *shade);
 
 /* A texture at a point of its own units, with its pigments as numbers of a space. Pictures are
  * bilinear at full resolution. bounds: the box of a picture that has no box of its own. Errors:

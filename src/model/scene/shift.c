@@ -13,6 +13,7 @@ cs_hash cs_shift_hash(const cs_shift *shift) {
   cs_hash_word(&hash, shift->kind);
   cs_value_hash_point(&hash, shift->at);
   cs_hash_number(&hash, shift->extent);
+  cs_hash_word(&hash, shift->is_cut);
   if (shift->by) {
     cs_hash_hash(&hash, shift->by->hash);
     cs_hash_word(&hash, shift->channels[0]);

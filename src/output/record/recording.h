@@ -15,7 +15,6 @@
 #include "base/context.h"
 
 #define CS_RECORD_SIDE 16381 /* pixels of the plan's width and height */
-#define CS_RECORD_UNIT ((double)CS_RECORD_SIDE / PLANEFILE_SIDE) /* a unit of a plane, in pixels */
 
 /* The steps of a grid, in pixels of the plan. */
 static inline celspan_point cs_record_unit(planefile_grid grid) {
