@@ -321,7 +321,7 @@ end }
     assert.is_nil(bench:read "a.plane")
   end)
 
-  it_compares("is, with 8-bit colours, what the film's frame shows, and exact at its pixels", function()
+  it_compares("is, with 8-bit colours, what the film shows, exact at its pixels", function()
     bench:write("edges.lua", [[
 local celspan = require "celspan"
 return celspan.film { size = { 1280, 90 }, frames = 4, frame = function(f)

@@ -455,8 +455,8 @@ static celspan_status add_boolean(cs_compiler *c, const cs_primitive_data *data,
 
 /* ---------------------------------------------------------------- a rostrum inside another */
 
-/* Where its frame is. What is read from pixels may end at the frame, in the middle of a pixel, which
- * has only that share of it already: then the frame goes on for a pixel. */
+/* Where its frame is. What is read from pixels may end at the frame, within a pixel, which has only
+ * that share of it already: then the frame is larger by a pixel. */
 static celspan_box frame_of(const cs_primitive_data *data, const celspan_matrix *matrix) {
   const double *m = matrix->m;
   const celspan_box *box = &data->bounds;

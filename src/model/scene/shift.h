@@ -31,7 +31,7 @@ struct cs_shift {
   celspan_point at; /* LINE: from p to an end; ZOOM, SPIN: the centre */
   /* how far to either side. ZOOM: a share of the distance, less than 1; SPIN: radians, up to pi */
   double extent;
-  bool is_cut; /* the composition ends where the cel may go on */
+  bool is_cut;     /* the composition ends where the cel may continue */
   celspan_cel *by; /* DISPLACED, and all that follows; a reference to a cel of one object */
   celspan_channel channels[2];
   double scale;
