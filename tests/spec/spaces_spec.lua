@@ -458,8 +458,9 @@ return celspan.rostrum { size = { 256, 48 }, celspan.cel { celspan.rect { 0, 0, 
       end
       assert.is_truthy(said "wide.png":find("colour srgb\ncolour_from format\n"
         .. "space wide (config.ocio)\n", 1, true), said "wide.png")
-      for _, name in ipairs { "rec709", "linear", "srgb" } do
-        bench:write("other.png", with_text(bench:read "plain.png", "colour", name))
+      for _, other in ipairs { { "colour", "rec709" }, { "colour", "linear" }, { "colour", "srgb" },
+        { "Colour", "RGB" } } do
+        bench:write("other.png", with_text(bench:read "plain.png", table.unpack(other)))
         local same = said("plain.png"):gsub("bytes %d+", "")
         assert.equal(same, (said("other.png"):gsub("bytes %d+", "")))
       end

@@ -228,9 +228,11 @@ bool is_own(const std::string &colour) {
   return cs_transfer_parse(colour.c_str(), &unused);
 }
 
-/* celspan writes this text for spaces alone; other programs may mean other things by such names. */
+/* celspan writes this text for spaces alone; other programs may mean other things by such names, or
+ * by names with capitals, which OpenImageIO takes for the same unless it is asked not to. */
 std::string named_in_png(const ImageSpec &spec) {
-  std::string text = spec.get_string_attribute("colour").c_str();
+  const OIIO::ParamValue *found = spec.find_attribute("colour", TypeDesc::STRING, true);
+  std::string text = found ? found->get_string() : "";
   return is_own(text) ? "" : text;
 }
 
