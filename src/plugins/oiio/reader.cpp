@@ -229,7 +229,7 @@ bool is_own(const std::string &colour) {
 }
 
 /* celspan writes this text for spaces alone; other programs may mean other things by such names, or
- * by names with capitals, which OpenImageIO takes for the same unless it is asked not to. */
+ * by names with capitals, which OpenImageIO finds, too, unless it is asked not to. */
 std::string named_in_png(const ImageSpec &spec) {
   const OIIO::ParamValue *found = spec.find_attribute("colour", TypeDesc::STRING, true);
   std::string text = found ? found->get_string() : "";
