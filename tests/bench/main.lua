@@ -18,6 +18,7 @@ local everyday = require "tests.bench.parts_films"
 local footage = require "tests.bench.parts_footage"
 local frames = require "tests.bench.parts_frames"
 local lottie = require "tests.bench.parts_lottie"
+local lottie_out = require "tests.bench.parts_lottie_out"
 local planes = require "tests.bench.parts_planes"
 local pictures = require "tests.bench.parts_pictures"
 local shapes = require "tests.bench.parts_shapes"
@@ -49,6 +50,7 @@ local parts = {
   { "films", "films as people make them, raw and to video", everyday.films },
   { "planes", "plane files beside frames", planes.planes },
   { "lottie", "heavy Lottie animations", lottie.lottie },
+  { "lottie_out", "films as Lottie animations, in other players", lottie_out.lottie_out },
   { "beside", "one film, made by what people would pick instead", beside.beside },
 }
 

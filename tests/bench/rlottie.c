@@ -1,12 +1,15 @@
-/* rlottie: the frames of a Lottie animation into memory, with times as in lottie.lua.
+/* rlottie: the frames of a Lottie animation into memory, with times as in lottie.lua, or as files.
  *
  *   bench_rlottie FILE WIDTH HEIGHT FRAMES
+ *   bench_rlottie show FILE OUT WIDTH HEIGHT FRAME...    over white, rows of RGBA: OUT.FRAME
  *
- * It sums the processor time of all threads that rlottie starts. */
+ * The first sums the processor time of all threads that rlottie starts. */
 #include <rlottie_capi.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 static double seconds(clockid_t clock) {
@@ -15,31 +18,84 @@ static double seconds(clockid_t clock) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static void draw(Lottie_Animation *animation, uint32_t *pixels, size_t width, size_t height,
-                 size_t frames) {
-  double total = (double)lottie_animation_get_totalframe(animation);
-  for (size_t i = 0; i < frames; i++)
-    lottie_animation_render(animation, (size_t)((double)i * total / (double)frames), pixels, width,
-                            height, 4 * width);
+typedef struct canvas {
+  Lottie_Animation *animation;
+  uint32_t *pixels;
+  size_t width, height;
+} canvas;
+
+static bool open_canvas(canvas *c, const char *file, const char *width, const char *height) {
+  c->width = strtoul(width, NULL, 10), c->height = strtoul(height, NULL, 10);
+  c->animation = lottie_animation_from_file(file);
+  c->pixels = calloc(c->width * c->height, sizeof *c->pixels);
+  return c->animation && c->pixels;
 }
 
-int main(int argc, char **argv) {
-  if (argc != 5)
-    return 2;
-  size_t width = strtoul(argv[2], NULL, 10), height = strtoul(argv[3], NULL, 10);
-  size_t frames = strtoul(argv[4], NULL, 10);
-  Lottie_Animation *animation = lottie_animation_from_file(argv[1]);
-  uint32_t *pixels = calloc(width * height, sizeof *pixels);
-  if (!animation || !pixels || frames == 0)
-    return 1;
-  draw(animation, pixels, width, height, frames);
+static void close_canvas(canvas *c) {
+  free(c->pixels);
+  if (c->animation)
+    lottie_animation_destroy(c->animation);
+}
+
+static void draw(canvas *c, size_t frame) {
+  lottie_animation_render(c->animation, frame, c->pixels, c->width, c->height, 4 * c->width);
+}
+
+/* ---------------------------------------------------------------- times */
+
+static void draw_all(canvas *c, size_t frames) {
+  double total = (double)lottie_animation_get_totalframe(c->animation);
+  for (size_t i = 0; i < frames; i++)
+    draw(c, (size_t)((double)i * total / (double)frames));
+}
+
+static void measure(canvas *c, size_t frames) {
+  draw_all(c, frames);
   double wall = seconds(CLOCK_MONOTONIC), processor = seconds(CLOCK_PROCESS_CPUTIME_ID);
-  draw(animation, pixels, width, height, frames);
+  draw_all(c, frames);
   wall = (seconds(CLOCK_MONOTONIC) - wall) / (double)frames;
   processor = (seconds(CLOCK_PROCESS_CPUTIME_ID) - processor) / (double)frames;
   printf("wall %.9f best_wall %.9f processor %.9f best_processor %.9f runs 1\n", wall, wall,
          processor, processor);
-  free(pixels);
-  lottie_animation_destroy(animation);
-  return 0;
+}
+
+/* ---------------------------------------------------------------- files */
+
+/* Premultiplied pixels over white, as bytes. */
+static bool write_pixels(const canvas *c, FILE *file) {
+  for (size_t i = 0; i < c->width * c->height; i++) {
+    const uint32_t pixel = c->pixels[i], white = 255 - (pixel >> 24);
+    const unsigned char bytes[] = {(unsigned char)((pixel >> 16 & 255) + white),
+                                   (unsigned char)((pixel >> 8 & 255) + white),
+                                   (unsigned char)((pixel & 255) + white), 255};
+    if (fwrite(bytes, 1, sizeof bytes, file) != sizeof bytes)
+      return false;
+  }
+  return true;
+}
+
+static bool show(canvas *c, const char *out, const char *frame) {
+  char path[4096];
+  snprintf(path, sizeof path, "%s.%s", out, frame);
+  draw(c, strtoul(frame, NULL, 10));
+  FILE *file = fopen(path, "wb");
+  if (!file)
+    return false;
+  bool is_good = write_pixels(c, file);
+  return fclose(file) == 0 && is_good;
+}
+
+int main(int argc, char **argv) {
+  const bool shows = argc > 6 && strcmp(argv[1], "show") == 0;
+  canvas c;
+  if (!shows && argc != 5)
+    return 2;
+  char **const first = shows ? argv + 4 : argv + 2; /* the width */
+  bool is_good = open_canvas(&c, argv[shows ? 2 : 1], first[0], first[1]);
+  for (int i = 6; shows && is_good && i < argc; i++)
+    is_good = show(&c, argv[3], argv[i]);
+  if (is_good && !shows)
+    measure(&c, strtoul(argv[4], NULL, 10));
+  close_canvas(&c);
+  return is_good ? 0 : 1;
 }

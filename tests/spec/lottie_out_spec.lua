@@ -3,9 +3,12 @@
 local celspan = require "celspan"
 local json = require "celspan.json"
 local lottie = require "celspan.lottie"
+local players = require "tests.support.players"
 local present = require "tests.support.present"
-local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
+
+local MODULES = "out/npm/node_modules"
+local CODES = 8 -- how far a pixel may be in each channel
 
 local bench = workbench.new()
 teardown(function() bench:remove() end)
@@ -33,27 +36,14 @@ local function out(name, options)
   return path, err, name:find "json$" and assert(json.read(path))
 end
 
---- The share of pixels that differ by at most 8 codes in each channel. Both: rows of RGBA.
-local function alike(own, other)
-  assert.equal(#own, #other)
-  local good = 0
-  for i = 1, #own, 4 do
-    local r, g, b, a = own:byte(i, i + 3)
-    local r2, g2, b2, a2 = other:byte(i, i + 3)
-    local most = math.max(math.abs(a - a2), a > 0 and a2 > 0
-      and math.max(math.abs(r - r2), math.abs(g - g2), math.abs(b - b2)) or 0)
-    if most <= 8 then good = good + 1 end
-  end
-  return good / (#own / 4)
-end
-
 local function own_pixels(number)
   return assert(celspan.pixels(dofile(bench.folder .. "/film.lua"), { frame = number })):bytes()
 end
 
 local function share(path, number)
   local art = assert(lottie.read(path)):film()
-  return alike(own_pixels(number), assert(celspan.pixels(art, { frame = number - 1 })):bytes())
+  return players.share(own_pixels(number),
+    assert(celspan.pixels(art, { frame = number - 1 })):bytes(), CODES)
 end
 
 local function is_film(path, count, least)
@@ -159,10 +149,20 @@ describe("a film as Lottie", function()
     is_film(path, 6, 0.985)
   end)
 
-  it("goes into an archive", function()
-    film(3, "srgb", [[return celspan.rostrum { celspan.cel {
-      celspan.rect { 10, 10 + i, 60, 60, texture = "#404080" } } }]])
-    is_film(out "film.lottie", 3)
+  it("goes into an archive, deflated", function()
+    film(3, "srgb", [[local list = {}
+      for k = 1, 50 do
+        list[k] = celspan.circle { centre = { 3 * k, 20 + i * k }, radius = k / 5 }
+      end
+      return celspan.rostrum { celspan.cel(list) }]])
+    local path = out "film.lottie"
+    is_film(path, 3)
+    local size, plain = #bench:read "film.lottie", #bench:read(out "film.json":match "[^/]*$")
+    assert.is_true(size < plain / 5, ("%d bytes of %d"):format(size, plain))
+    if present.program "python3" then
+      local _, said = bench:inside "python3 -m zipfile -t film.lottie"
+      assert.equal("Done testing\n", said)
+    end
   end)
 
   it("has areas where players would mix other colours", function()
@@ -226,6 +226,20 @@ describe("a film as Lottie", function()
     is_film(out "balls.json", 2)
   end)
 
+  it("keeps art in small and in large units apart, and exact", function()
+    film(4, "srgb", [[
+      local along = celspan.linear { from = { 0.0025, 0 }, to = { 0.0075, 0 },
+        { 0, "#000000" }, { 1, "#ffffff" } }
+      return celspan.rostrum { back = "#eeddcc", celspan.cel {
+        celspan.rect { 0, 0, 1e-5, 1e-5 }:scale(1e6):translate(10, 10 + i),
+        celspan.rect { 0, 0, 4e-5, 4e-5 }:scale(1e6):translate(30, 10 + i),
+        celspan.rect { 4e6, 2e6, 3e6, 3e6, texture = "#a02020" }:scale(1.53e-5)
+          :translate(30, i),
+        celspan.rect { 0, 0, .01, .01, texture = along }:scale(5000)
+          :translate(20, 55 - i / 2) } }]])
+    is_film(out "units.json", 4)
+  end)
+
   it("keeps the opacity of cels, also of those that blink", function()
     film(6, "srgb", [[local dot = celspan.circle { centre = { 110, 45 }, radius = 20 }
       return celspan.rostrum { back = "#ffffff",
@@ -261,11 +275,8 @@ describe("Lottie is refused", function()
 end)
 
 describe("Lottie in other players", function()
-  local MODULES = "out/npm/node_modules"
-  local is_there = present.program "node" and system.read(MODULES .. "/canvaskit-wasm/package.json")
-    and system.read(MODULES .. "/@thorvg/webcanvas/package.json")
-
   for _, player in ipairs { "skottie", "thorvg" } do
+    local is_there = present.program "node" and players.are_in(MODULES);
     (is_there and it or pending)("looks the same in " .. player, function()
       film(10, "srgb", [[
         local round = celspan.radial { centre = { 0, 0 }, radius = 15,
@@ -277,14 +288,48 @@ describe("Lottie in other players", function()
             :rotate(20 + i):translate(110, 25),
           celspan.rect { 10, 60, 20 + 10 * (i // 3), 20, texture = "#000000" },
           celspan.rect { 90, 60, 40, 20, texture = "#0030a0" }:fade(1 - t) } }]])
-      local path = out "players.json"
-      local into = bench.folder .. "/" .. player
-      assert(os.execute(("node tests/support/lottie_players.js %s %s '%s' '%s' 160 90 0 3 6 9")
-        :format(MODULES, player, path, into)))
-      for _, frame in ipairs { 0, 3, 6, 9 } do
-        local found = alike(own_pixels(frame + 1), system.read(into .. "." .. frame))
+      local frames = { 0, 3, 6, 9 }
+      local shown = assert(players.draw(players.command(MODULES, player), out "players.json",
+        bench.folder .. "/" .. player, { 160, 90 }, frames))
+      for i, frame in ipairs(frames) do
+        local found = players.share(own_pixels(frame + 1), shown[i], CODES)
         assert.is_true(found >= 0.97, ("frame %d: %.4f"):format(frame, found))
       end
     end)
   end
+end)
+
+describe("Lottie by its schema", function()
+  local VALIDATOR = MODULES .. "/@lottie-animation-community/lottie-specs/bin/validate.js"
+  local it_checks = present.program "node" and io.open(VALIDATOR) and it or pending
+
+  --- What the schema says against a file, as JSON.
+  local function faults(path)
+    local pipe = assert(io.popen(("node %s -q '%s' 2>&1"):format(VALIDATOR, path)))
+    local text = pipe:read "a"
+    pipe:close()
+    return text:gsub("%s+$", "")
+  end
+
+  it_checks("has keys, gradients, groups, areas and pictures", function()
+    film(6, "srgb", [[
+      local round = celspan.radial { centre = { 0, 0 }, radius = 15, focus = { 5, 0 },
+        { 0, "#ffffff" }, { 1, "#20a05080" } }
+      local pair = celspan.group { opacity = 1 - t / 2, celspan.rect { 0, 0, 20, 20 },
+        celspan.rect { 10, 10, 20, 20, texture = celspan.linear { from = { 10, 0 },
+          to = { 30, 0 }, { 0, "#f00" }, { 1, "#0000ff80" } } } }
+      return celspan.rostrum { back = "#d0d0d0",
+        celspan.cel { blend = i < 3 and "multiply" or nil, defocus = i > 4 and 3 or 0,
+          celspan.rect { 5, 60 + i, 50, 20, texture = "#d08020" } },
+        celspan.cel { celspan.circle { centre = { 0, 0 }, radius = 15, texture = round }
+            :scale(2, 1 + t):rotate(20 + 40 * t):translate(120, 25 + i * i),
+          pair:translate(70, 50 + i // 2) } }]])
+    local path, said = out "schema.json"
+    assert.matches("areas", said)
+    assert.matches("a picture", said)
+    assert.equal("[]", faults(path))
+    local document = assert(json.read(path))
+    document.layers[1].ks.p = { a = 0 }
+    assert.matches('"error"', faults(bench:write("broken.json", json.encode(document))))
+  end)
 end)

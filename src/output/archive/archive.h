@@ -1,4 +1,4 @@
-/* A zip archive whose members are stored as they are, because pictures are packed already.
+/* A zip archive. Members are stored as they are, as pictures are packed already, or deflated.
  * Source: APPNOTE.TXT of PKWARE, 4.3.
  *
  *   member: head, name, bytes | member | ... | list of all members | end
@@ -16,7 +16,8 @@ enum { CS_ARCHIVE_NAME = 40 };
 
 typedef struct cs_archive_member {
   char name[CS_ARCHIVE_NAME];
-  uint32_t at, sum, size;
+  bool is_deflated;
+  uint32_t at, sum, size, packed; /* size: of its bytes; packed: of those in the file */
 } cs_archive_member;
 
 typedef struct cs_archive {
@@ -33,6 +34,9 @@ CELSPAN_CHECKED celspan_status cs_archive_end(cs_archive *archive, const char *p
 /* A whole member. */
 CELSPAN_CHECKED celspan_status cs_archive_put(cs_archive *archive, const char *path,
                                               const char *name, const void *bytes, size_t size);
+/* A whole member, deflated. */
+CELSPAN_CHECKED celspan_status cs_archive_pack(cs_archive *archive, const char *path,
+                                               const char *name, const void *bytes, size_t size);
 /* Writes the list, after the last member. */
 CELSPAN_CHECKED celspan_status cs_archive_complete(cs_archive *archive);
 /* Frees the list, which does not end the file. */

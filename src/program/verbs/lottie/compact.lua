@@ -20,6 +20,13 @@ function text.number(value, digits)
   return written == "-0" and "0" or written
 end
 
+local MOST = 15 -- digits: more say nothing of a number of 64 bits
+
+--- How many digits a number needs to be within a tenth of a tolerance.
+function text.digits(tolerance)
+  return math.max(0, math.min(math.ceil(1 - math.log(tolerance, 10)), MOST))
+end
+
 --- A list of numbers as a text that is written as it is.
 function text.list(values, digits)
   local parts = {}

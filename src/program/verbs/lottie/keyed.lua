@@ -7,14 +7,18 @@
 --       |    .-'|             key is the last frame whose line lies between all of them
 --       | o--'--'
 --       +------------ frame
+local affine = require "celspan.affine"
+
 local text = ...
 
 local NEAR = 1 / 20 -- units of the film: how far a point may be from where it is in the frame
 local SKEWED = 1e-4 -- how far axes may be from a right angle, as a share of their lengths
-
 local MIRRORED = 45 -- degrees that are better than a scale that becomes negative
 
-local keys = { near = NEAR }
+local keys = {}
+
+--- A map that scales both axes.
+function keys.zoom(scale) return affine.stretch(scale, scale, 1, 0, 0, 0) end
 
 --- Extends [low, high], the slopes that are left, by a value `over` frames after the key; nil if
 --- none is left or the line to the value itself is not among them.
@@ -172,8 +176,8 @@ local function about(maps, start, box, anchor)
   local scale = 100 * part / reach
   return { a = { a = 0, k = text.list(anchor) },
            p = keys.property(places, start, { part, part }),
-           r = keys.property(turns, start, { turn }, 4),
-           s = keys.property(scales, start, { scale, scale }, 4) }
+           r = keys.property(turns, start, { turn }, text.digits(turn)),
+           s = keys.property(scales, start, { scale, scale }, text.digits(scale)) }
 end
 
 local function rounded(value) return math.floor(value * 1000 + 0.5) / 1000 end
@@ -198,6 +202,5 @@ function keys.transform(maps, start, box)
   end
   return best
 end
-
 
 return keys

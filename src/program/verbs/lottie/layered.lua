@@ -84,13 +84,24 @@ local function is_faded(track)
   return false
 end
 
+local LARGEST = 64 -- scale of a layer: art in far smaller or larger units is scaled in the shapes
+
+--- Maps whose greatest scale is near 1, and the scale that is left for what lies before them.
+local function near_one(maps)
+  local size = keys.scale(maps)
+  if size == 0 or size >= 1 / LARGEST and size <= LARGEST then return maps, IDENTITY end
+  local list = {}
+  for i, map in ipairs(maps) do list[i] = affine.compose(map, keys.zoom(1 / size)) end
+  return list, keys.zoom(size)
+end
+
 --- A shape layer of data that stay. bend: the part of its maps that is in the shapes.
 local function add_shapes(comp, track, bend)
   local first, last = tracks.range(track)
   local item = track.items[first]
-  local box = shapes.box(item.data)
-  if not box then return end
-  local maps = maps_of(track, first, last)
+  if not shapes.box(item.data) then return end
+  local maps, zoom = near_one(maps_of(track, first, last))
+  bend = affine.compose(zoom, bend)
   local within = { kind = "group", { data = item.data, matrix = bend, fade = 1 } }
   local ks = keys.transform(maps, first - 1, shapes.box(within))
   ks.o = opacity_of(track, first, last)
@@ -228,22 +239,16 @@ function Layers:add_parcels(parcels, track)
                    shapes = shapes.parcels(parcels) })
 end
 
-local function reversed(list)
-  local result = {}
-  for i = #list, 1, -1 do result[#result + 1] = list[i] end
-  return result
-end
-
 --- The document. facts: its rate and its title; markers: a list { frame from 0, name }.
 function Layers:document(facts, markers)
   local list = {}
   for i, mark in ipairs(markers) do list[i] = { tm = mark[1], cm = mark[2], dr = 0 } end
   for _, asset in ipairs(self.assets) do
-    if asset.layers then asset.layers = reversed(asset.layers) end
+    if asset.layers then asset.layers = shapes.reversed(asset.layers) end
   end
   return { v = "5.9.0", fr = { raw = text.number(facts.fps, 6) }, ip = 0, op = self.film.count,
            w = self.film.size[1], h = self.film.size[2], nm = facts.title, ddd = 0,
-           assets = self.assets, markers = list, layers = reversed(self.main.layers) }
+           assets = self.assets, markers = list, layers = shapes.reversed(self.main.layers) }
 end
 
 return new

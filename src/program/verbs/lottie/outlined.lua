@@ -3,7 +3,7 @@ local affine = require "celspan.affine"
 
 local text, is_coded, keys = ...
 
-local DIGITS = 3 -- of places in units of the film
+local NEAR = 1 / 100 -- units of the film: how far a place may be off
 local OWN_DIGITS = 7 -- of places in units of a gradient
 local SMOOTH = 1 / 512 -- how far a gradient's colour may be from that between two stops
 local DEEPEST = 6 -- halvings of the way between two stops
@@ -103,7 +103,7 @@ end
 
 local function still(value) return { a = 0, k = value } end
 
-local function gradient(fill, front, rule)
+local function gradient(fill, front, rule, digits)
   local stops, numbers, is_clear = stops_of(fill, front), {}, false
   for _, stop in ipairs(stops) do
     is_clear = is_clear or stop[5] < 1
@@ -114,13 +114,14 @@ local function gradient(fill, front, rule)
   end
   local x, y, u, v = table.unpack(fill.points)
   local item = { ty = "gf", o = still(100), r = rule, t = fill.kind == "linear" and 1 or 2,
+                 s = still(text.list({ x, y }, digits)),
                  g = { p = #stops, k = still(text.list(numbers, 5)) } }
   if fill.kind == "linear" then
-    item.s, item.e = still(text.list { x, y }), still(text.list { u, v })
+    item.e = still(text.list({ u, v }, digits))
     return item
   end
   local length = math.sqrt((u - x) ^ 2 + (v - y) ^ 2)
-  item.s, item.e = still(text.list { x, y }), still(text.list { x + fill.radius, y })
+  item.e = still(text.list({ x + fill.radius, y }, digits))
   if length > 1e-9 then
     item.h = still(100 * length / fill.radius)
     item.a = still(math.deg(math.atan(v - y, u - x)))
@@ -128,10 +129,11 @@ local function gradient(fill, front, rule)
   return item
 end
 
-local function paint_of(data, front, fade)
+--- digits: of the places of a gradient.
+local function paint_of(data, front, fade, digits)
   local rule, fill = data.rule == "evenodd" and 2 or 1, data.fill
   if fill.kind ~= "flat" then
-    local item = gradient(fill, front, rule)
+    local item = gradient(fill, front, rule, digits)
     item.o = still(100 * fade)
     return item
   end
@@ -271,32 +273,51 @@ function shapes.box(data)
   return data.box or nil
 end
 
---- The items of a layer that shows the data, moved by a map. scale: of the layer, so that so many
---- digits are written as are seen.
+--- The digits of places that are shown at a scale.
+local function digits_at(scale) return text.digits(NEAR / math.max(scale, 1e-12)) end
+
+--- The map of an outline's points and the transform of the group around them: a gradient that is
+--- not round has a transform of its own. scale: of the layer. Returns the digits of places, too.
+local function layout_of(outline, map, scale)
+  local own = outline.fill.map
+  if own then
+    return affine.compose(affine.inverse(own), map), keys.placed(own), OWN_DIGITS
+  elseif outline.fill.kind == "radial" and not is_round(map) then
+    local size = keys.scale { map }
+    return keys.zoom(size), keys.placed(affine.compose(map, keys.zoom(1 / size))),
+      digits_at(scale)
+  end
+  return map, CENTRE, digits_at(scale)
+end
+
+--- An outline as a group; nil: it is empty.
+local function group_of(outline, map, fade, front, scale)
+  local group = {}
+  local inner, place, digits = layout_of(outline, map, scale)
+  for _, contour in ipairs(outline.contours) do
+    if #contour > 2 then group[#group + 1] = contour_of(contour, inner, digits) end
+  end
+  if not group[1] then return nil end
+  local fill = outline.fill.map and outline.fill or moved(outline.fill, inner)
+  group[#group + 1] = paint_of({ rule = outline.rule, fill = fill }, front, fade, digits)
+  group[#group + 1] = place
+  return { ty = "gr", it = group }
+end
+
+--- A list from its last item on: players draw the first one on top.
+function shapes.reversed(list)
+  local result = {}
+  for i = #list, 1, -1 do result[#result + 1] = list[i] end
+  return result
+end
+
+--- The items of a layer that shows the data, moved by a map. scale: of the layer.
 function shapes.items(data, map, front, scale)
   local list = {}
-  local digits = math.ceil(DIGITS + math.log(math.max(scale, 1e-3), 10))
-  digits = math.min(math.max(digits, 0), OWN_DIGITS)
   each(data, map, 1, function(outline, whole, fade)
-    local group, inner, place = {}, whole, CENTRE
-    local own = outline.fill.map
-    if own then
-      inner, place = affine.compose(affine.inverse(own), whole), keys.placed(own)
-    elseif outline.fill.kind == "radial" and not is_round(whole) then
-      inner, place = IDENTITY, keys.placed(whole)
-    end
-    for _, contour in ipairs(outline.contours) do
-      if #contour > 2 then
-        group[#group + 1] = contour_of(contour, inner, own and OWN_DIGITS or digits)
-      end
-    end
-    if not group[1] then return end
-    local fill = own and outline.fill or moved(outline.fill, inner)
-    group[#group + 1] = paint_of({ rule = outline.rule, fill = fill }, front, fade)
-    group[#group + 1] = place
-    table.insert(list, 1, { ty = "gr", it = group })
+    list[#list + 1] = group_of(outline, whole, fade, front, scale)
   end)
-  return list
+  return shapes.reversed(list)
 end
 
 local UNDER = 3.2 -- units: the width of strokes below areas, wider than what players leave clear
@@ -311,9 +332,9 @@ function shapes.parcels(parcels)
   for i = #parcels.lines, 1, -1 do
     local line, group = parcels.lines[i], {}
     for k, contour in ipairs(line.contours) do
-      group[k] = contour_of(contour, IDENTITY, DIGITS, true)
+      group[k] = contour_of(contour, IDENTITY, digits_at(1), true)
     end
-    local stroke = paint_of(line, nil, 1)
+    local stroke = paint_of(line, nil, 1, digits_at(1))
     stroke.ty, stroke.r = strokes[stroke.ty], nil
     stroke.w, stroke.lc, stroke.lj = still(UNDER), 2, 2
     group[#group + 1] = stroke

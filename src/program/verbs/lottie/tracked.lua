@@ -16,10 +16,22 @@ end
 
 local outlines = {} -- the kept ones, by their points from the first one on
 
+local SAME = 2 ^ -20 -- how far places may be apart, as a share of an outline's size
+
+--- A step that places of an outline are counted in; equal for outlines of nearly the same size.
+local function step_of(contours)
+  local size, first = 0, contours[1] or {}
+  for _, contour in ipairs(contours) do
+    for i, value in ipairs(contour) do size = math.max(size, math.abs(value - first[2 - i % 2])) end
+  end
+  return size > 0 and 2.0 ^ math.floor(math.log(size, 2)) * SAME or 1
+end
+
 --- A text that is equal for outlines that differ by their place alone.
 local function key_of(data, x, y)
-  local parts, fill = { data.rule, data.fill.kind }, data.fill
-  local function add(value) parts[#parts + 1] = ("%.4f"):format(value) end
+  local fill, step = data.fill, step_of(data.contours)
+  local parts = { data.rule or "", fill.kind, ("%g"):format(step) }
+  local function add(value) parts[#parts + 1] = ("%.0f"):format(value / step) end
   for _, contour in ipairs(data.contours) do
     parts[#parts + 1] = "M"
     for i = 1, #contour, 2 do
@@ -32,7 +44,7 @@ local function key_of(data, x, y)
   end
   for i, value in ipairs(fill.points or {}) do add(value - (i % 2 == 1 and x or y)) end
   add(fill.radius or 0)
-  return (table.concat(parts, " "):gsub("%-0%.0000", "0.0000"))
+  return (table.concat(parts, " "):gsub("%-0%f[^%d]", "0"))
 end
 
 --- The outline that is kept for all that differ from it by their place.
