@@ -300,7 +300,7 @@ describe("Lottie in other players", function()
 end)
 
 describe("Lottie by its schema", function()
-  local VALIDATOR = MODULES .. "/@lottie-animation-community/lottie-specs/bin/validate.js"
+  local VALIDATOR = MODULES .. "/.bin/lottie-specs"
   local it_checks = present.program "node" and io.open(VALIDATOR) and it or pending
 
   --- What the schema says against a file, as JSON.
