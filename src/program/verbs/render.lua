@@ -8,6 +8,7 @@ local program, request = ...
 local core = require "celspan.core"
 
 local FRAMES_MOST = 100000
+local LAYERS_SMOOTH = 1000
 local text = program.part("compact.lua")
 local keys = program.part("keyed.lua", text)
 local tracks = program.part("tracked.lua")
@@ -34,8 +35,8 @@ if #numbers > FRAMES_MOST then
     .. "--frames", request.output, #numbers, FRAMES_MOST)
 end
 local shapes = program.part("outlined.lua", text, film.space == "srgb", keys)
-local layers = program.part("layered.lua", text, keys, shapes, tracks) {
-  size = film.size, count = #numbers }
+local layers = program.part("layered.lua", program, text, keys, shapes, tracks)(
+  { size = film.size, count = #numbers }, request.output)
 
 -- ---------------------------------------------------------------- frames
 
@@ -105,6 +106,10 @@ local function markers()
 end
 
 pictures:report()
+if layers:count() > LAYERS_SMOOTH then
+  program.note("%s: %d layers, more than many players draw smoothly: a group whose objects stay in "
+    .. "place is one layer", request.output, layers:count())
+end
 if film.has_sound then program.note("%s: the sound of the film is left out", request.output) end
 local document = text.encode(layers:document(film, markers()))
 if not pictures.is_archive then return program.save(request.output, document) end

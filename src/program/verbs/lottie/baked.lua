@@ -134,6 +134,7 @@ end
 
 function Bake:add_drawn(picture, number)
   local bytes, width, height = program.png(program.still(self.film, picture.shown), self.path)
+  self.layers:weigh(#bytes)
   local asset = { id = "picture" .. number, w = width, h = height, u = "", e = 1 }
   if self.is_archive then
     asset.u, asset.p, asset.e = "i/", ("%d.png"):format(number), 0

@@ -6,7 +6,7 @@
 --   a group that is faded           a composition of its own
 local affine = require "celspan.affine"
 
-local text, keys, shapes, tracks = ...
+local program, text, keys, shapes, tracks = ...
 
 local IDENTITY = { 1, 0, 0, 0, 1, 0 }
 local OPACITY = 0.15 -- of 100: how far an opacity may be from that of the frame
@@ -14,9 +14,28 @@ local OPACITY = 0.15 -- of 100: how far an opacity may be from that of the frame
 local Layers = {}
 Layers.__index = Layers
 
---- film: size { w, h } and the count of frames.
-local function new(film)
-  return setmetatable({ film = film, assets = {}, main = { layers = {} } }, Layers)
+local MOST = 256 << 20 -- bytes of shapes and pictures: players read a file at once
+
+--- film: size { w, h } and the count of frames; path: of the output.
+local function new(film, path)
+  return setmetatable({ film = film, path = path, bytes = 0, assets = {},
+                        main = { layers = {} } }, Layers)
+end
+
+--- Counts bytes of the file.
+function Layers:weigh(bytes)
+  self.bytes = self.bytes + bytes
+  if self.bytes > MOST then
+    program.fail("limit", "%s: more than %d MiB of shapes and pictures: choose some frames with "
+      .. "--frames, or a smaller --scale", self.path, MOST >> 20)
+  end
+end
+
+--- Shapes as text at once, which is far smaller than their tables.
+function Layers:written(value)
+  local raw = text.encode(value)
+  self:weigh(#raw)
+  return { raw = raw }
 end
 
 local function add(comp, layer)
@@ -96,7 +115,7 @@ local function near_one(maps)
 end
 
 --- A shape layer of data that stay. bend: the part of its maps that is in the shapes.
-local function add_shapes(comp, track, bend)
+function Layers:add_shapes(comp, track, bend)
   local first, last = tracks.range(track)
   local item = track.items[first]
   if not shapes.box(item.data) then return end
@@ -106,7 +125,7 @@ local function add_shapes(comp, track, bend)
   local ks = keys.transform(maps, first - 1, shapes.box(within))
   ks.o = opacity_of(track, first, last)
   add(comp, { ty = 4, nm = track.name or "shape", ip = first - 1, op = last, ks = ks,
-              shapes = shapes.items(item.data, bend, item.front, keys.scale(maps)) })
+              shapes = self:written(shapes.items(item.data, bend, item.front, keys.scale(maps))) })
 end
 
 local function bend_of(map)
@@ -115,7 +134,7 @@ local function bend_of(map)
 end
 
 --- Data that stay, whose axes may be turned against each other: that is bent in the shapes.
-local function add_still(comp, track)
+function Layers:add_still(comp, track)
   for _, part in ipairs(tracks.parted(track, function(item) return bend_of(item.map) end)) do
     local map = part.items[tracks.range(part)].map
     local bend = IDENTITY
@@ -126,14 +145,14 @@ local function add_still(comp, track)
         part.items[frame] = setmetatable({ map = moved }, { __index = item })
       end
     end
-    add_shapes(comp, part, bend)
+    self:add_shapes(comp, part, bend)
   end
 end
 
 --- The same data in one light, or in several.
-local function add_lit(comp, track)
+function Layers:add_lit(comp, track)
   for _, part in ipairs(tracks.parted(track, function(item) return item.front end)) do
-    add_still(comp, part)
+    self:add_still(comp, part)
   end
 end
 
@@ -211,13 +230,13 @@ function Layers:add(comp, track)
   local _, item = next(track.items)
   if item.data.kind == "outline" then
     for _, part in ipairs(tracks.parted(track, function(one) return one.data end)) do
-      add_lit(comp, part)
+      self:add_lit(comp, part)
     end
   elseif not item.data.is_joined
       and (item.data.kind ~= "group" or changes(track) or shapes.has_faded_group(item.data)) then
     self:add_group(comp, track)
   else
-    add_lit(comp, track)
+    self:add_lit(comp, track)
   end
 end
 
@@ -236,7 +255,14 @@ function Layers:add_parcels(parcels, track)
   local first, last = tracks.range(track)
   local ks = in_place(opacity_of(track, first, last))
   add(self.main, { ty = 4, nm = "areas", ip = first - 1, op = last, ks = ks,
-                   shapes = shapes.parcels(parcels) })
+                   shapes = self:written(shapes.parcels(parcels)) })
+end
+
+--- How many layers there are in all compositions.
+function Layers:count()
+  local count = #self.main.layers
+  for _, asset in ipairs(self.assets) do count = count + #(asset.layers or {}) end
+  return count
 end
 
 --- The document. facts: its rate and its title; markers: a list { frame from 0, name }.

@@ -145,27 +145,51 @@ end
 
 -- ---------------------------------------------------------------- outlines
 
---- A contour, a list of x, y and six numbers for each cubic, as a shape, which is closed unless
---- is_open.
-local function contour_of(contour, map, digits, is_open)
+--- A contour's points, moved by a map.
+local function points_of(contour, map)
+  local points = {}
   local a, b, c, d, e, f = table.unpack(map)
-  local points, last = {}, #contour
-  for i = 1, last, 2 do
+  for i = 1, #contour, 2 do
     local x, y = contour[i], contour[i + 1]
     points[i], points[i + 1] = a * x + b * y + c, d * x + e * y + f
   end
-  local is_back = last > 2 and contour[1] == contour[last - 1] and contour[2] == contour[last]
-  is_back = is_back and not is_open
-  local count = (last - 2) // 6 + (is_back and 0 or 1)
+  return points
+end
+
+--- Gives the cubics that are straight lines in even steps handles without length, as lines have.
+local function straighten(points)
+  for at = 1, #points - 6, 6 do
+    local off, length = 0, 0
+    for k = at, at + 1 do
+      local first, second, third, last = points[k], points[k + 2], points[k + 4], points[k + 6]
+      off = math.max(off, math.abs(3 * second - 2 * first - last),
+        math.abs(3 * third - first - 2 * last))
+      length = math.max(length, math.abs(last - first))
+    end
+    if off <= 1e-6 * length then
+      table.move(points, at, at + 1, at + 2)
+      table.move(points, at + 6, at + 7, at + 4)
+    end
+  end
+end
+
+--- A contour, a list of x, y and six numbers for each cubic, as a shape, which is closed unless
+--- is_open.
+local function contour_of(contour, map, digits, is_open)
+  local points, last = points_of(contour, map), #contour
+  straighten(points)
+  local is_back = not is_open and last > 2 and contour[1] == contour[last - 1]
+    and contour[2] == contour[last]
+  local function way(at, x, y)
+    return text.list(at and { points[at] - x, points[at + 1] - y } or { 0, 0 }, digits)
+  end
   local vertices, ins, outs = {}, {}, {}
-  for k = 1, count do
+  for k = 1, (last - 2) // 6 + (is_back and 0 or 1) do
     local at = 6 * k - 5
-    local before = k > 1 and at - 2 or is_back and last - 3
     local x, y = points[at], points[at + 1]
     vertices[k] = text.list({ x, y }, digits)
-    outs[k] = text.list({ (points[at + 2] or x) - x, (points[at + 3] or y) - y }, digits)
-    local way = before and { points[before] - x, points[before + 1] - y } or { 0, 0 }
-    ins[k] = text.list(way, digits)
+    outs[k] = way(points[at + 2] and at + 2, x, y)
+    ins[k] = way(k > 1 and at - 2 or is_back and last - 3, x, y)
   end
   return { ty = "sh", ks = still { c = not is_open, v = vertices, i = ins, o = outs } }
 end
@@ -320,6 +344,7 @@ function shapes.items(data, map, front, scale)
   return shapes.reversed(list)
 end
 
+local COARSE = 1 / 10 -- the scale by which areas have digits: there are many, and borders stay equal
 local UNDER = 3.2 -- units: the width of strokes below areas, wider than what players leave clear
 
 local strokes = { fl = "st", gf = "gs" }
@@ -328,11 +353,11 @@ local strokes = { fl = "st", gf = "gs" }
 function shapes.parcels(parcels)
   local all = { kind = "group" }
   for i, parcel in ipairs(parcels) do all[i] = { data = parcel, matrix = IDENTITY, fade = 1 } end
-  local list = shapes.items(all, IDENTITY, nil, 1)
+  local list = shapes.items(all, IDENTITY, nil, COARSE)
   for i = #parcels.lines, 1, -1 do
     local line, group = parcels.lines[i], {}
     for k, contour in ipairs(line.contours) do
-      group[k] = contour_of(contour, IDENTITY, digits_at(1), true)
+      group[k] = contour_of(contour, IDENTITY, digits_at(COARSE), true)
     end
     local stroke = paint_of(line, nil, 1, digits_at(1))
     stroke.ty, stroke.r = strokes[stroke.ty], nil
