@@ -25,7 +25,7 @@ function Bake:object_refusal(placed, map)
   local whole = affine.compose(map, placed.matrix)
   local is_upright = self.keys.is_upright(whole)
   return placed.why
-    or self.shapes.refusal(placed.data, is_upright and { 1, 0, 0, 0, 1, 0 } or whole)
+    or self.shapes.refusal(placed.data, is_upright and affine.translation(0, 0) or whole)
 end
 
 --- Whether light passes through what is drawn of a cel.

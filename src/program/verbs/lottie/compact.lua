@@ -34,6 +34,16 @@ function text.list(values, digits)
   return { raw = "[" .. table.concat(parts, ",") .. "]" }
 end
 
+--- A property that does not change: a number, a list of numbers, or a shape.
+function text.still(value, digits)
+  if type(value) == "number" then
+    value = { raw = text.number(value, digits) }
+  elseif value[1] then
+    value = text.list(value, digits)
+  end
+  return { a = 0, k = value }
+end
+
 local function written(value, parts)
   if type(value) == "number" then
     parts[#parts + 1] = text.number(value)

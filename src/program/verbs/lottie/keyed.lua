@@ -60,8 +60,7 @@ local STRAIGHT = { i = { raw = '{"x":[1],"y":[1]}' }, o = { raw = '{"x":[0],"y":
 function keys.property(values, start, tolerance, digits)
   if is_still(values, tolerance) then
     local value = values[1]
-    if value[2] then return { a = 0, k = text.list(value, digits) } end
-    return { a = 0, k = { raw = text.number(value[1], digits) } }
+    return text.still(value[2] and value or value[1], digits)
   end
   local list, at = {}, 1
   while true do
@@ -82,7 +81,7 @@ function keys.held(values, start)
       list[#list + 1] = { t = start + i - 1, s = text.list { value }, h = 1 }
     end
   end
-  if not list[2] then return { a = 0, k = values[1] } end
+  if not list[2] then return text.still(values[1]) end
   return { a = 1, k = list }
 end
 
@@ -114,13 +113,11 @@ local function split(map, before)
   return table.unpack(best)
 end
 
---- A map as the transform of a group.
+--- The transform of a map.
 function keys.placed(map)
   local turn, across, down = split(map)
-  local function still(value) return { a = 0, k = value } end
-  return { ty = "tr", a = still { raw = "[0,0]" }, p = still(text.list { map[3], map[6] }),
-           r = still { raw = text.number(turn, 6) },
-           s = still(text.list({ 100 * across, 100 * down }, 6)), o = still(100) }
+  return { a = text.still { 0, 0 }, p = text.still { map[3], map[6] }, r = text.still(turn, 6),
+           s = text.still({ 100 * across, 100 * down }, 6), o = text.still(100) }
 end
 
 --- Values of the frames: turns, scales in hundredths, and where the anchor is.
@@ -174,7 +171,7 @@ local function about(maps, start, box, anchor)
   local part = NEAR / math.sqrt(2) / math.max(changing, 1) -- of each number
   local turn = math.deg(part / math.max(reach * keys.scale(maps), 1e-6))
   local scale = 100 * part / reach
-  return { a = { a = 0, k = text.list(anchor) },
+  return { a = text.still(anchor),
            p = keys.property(places, start, { part, part }),
            r = keys.property(turns, start, { turn }, text.digits(turn)),
            s = keys.property(scales, start, { scale, scale }, text.digits(scale)) }

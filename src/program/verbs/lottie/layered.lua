@@ -8,7 +8,7 @@ local affine = require "celspan.affine"
 
 local program, text, keys, shapes, tracks = ...
 
-local IDENTITY = { 1, 0, 0, 0, 1, 0 }
+local IDENTITY = affine.translation(0, 0)
 local OPACITY = 0.15 -- of 100: how far an opacity may be from that of the frame
 
 local Layers = {}
@@ -43,14 +43,6 @@ local function add(comp, layer)
   comp.layers[#comp.layers + 1] = layer
 end
 
-local function still(value) return { a = 0, k = value } end
-
---- A transform that does nothing, with an opacity.
-local function in_place(opacity)
-  return { a = still { raw = "[0,0]" }, p = still { raw = "[0,0]" }, r = still(0),
-           s = still { raw = "[100,100]" }, o = opacity }
-end
-
 --- The opacity of a track from its first frame on: 0 where it is not there.
 local function opacity_of(track, first, last)
   local values, one, is_faded = {}, nil, false
@@ -65,6 +57,13 @@ local function opacity_of(track, first, last)
   if not is_faded then return keys.held(values, first - 1) end
   for i, value in ipairs(values) do values[i] = { value } end
   return keys.property(values, first - 1, { OPACITY })
+end
+
+--- The transform of what stays in place, with the opacity of a track. map: where, if it is moved.
+local function in_place(track, first, last, map)
+  local ks = keys.placed(map or IDENTITY)
+  ks.o = opacity_of(track, first, last)
+  return ks
 end
 
 --- The maps of a track; where it is not there, the one before.
@@ -83,7 +82,7 @@ function Layers:inside(comp, track)
   self.assets[#self.assets + 1] = inner
   add(comp, { ty = 0, nm = track.name or "group", refId = inner.id, w = self.film.size[1],
               h = self.film.size[2], ip = first - 1, op = last,
-              ks = in_place(opacity_of(track, first, last)) })
+              ks = in_place(track, first, last) })
   return inner
 end
 
@@ -243,18 +242,18 @@ end
 --- A picture that fills the frame where it is there. size: of the picture, in pixels.
 function Layers:add_picture(asset, track)
   local first, last = tracks.range(track)
-  local ks = in_place(opacity_of(track, first, last))
   local w, h = table.unpack(self.film.size)
-  ks.s = still(text.list({ 100 * w / asset.w, 100 * h / asset.h }, 6))
+  local scaled = { w / asset.w, 0, 0, 0, h / asset.h, 0 }
   self.assets[#self.assets + 1] = asset
-  add(self.main, { ty = 2, nm = "picture", refId = asset.id, ip = first - 1, op = last, ks = ks })
+  add(self.main, { ty = 2, nm = "picture", refId = asset.id, ip = first - 1, op = last,
+                   ks = in_place(track, first, last, scaled) })
 end
 
 --- Areas where they are there.
 function Layers:add_parcels(parcels, track)
   local first, last = tracks.range(track)
-  local ks = in_place(opacity_of(track, first, last))
-  add(self.main, { ty = 4, nm = "areas", ip = first - 1, op = last, ks = ks,
+  add(self.main, { ty = 4, nm = "areas", ip = first - 1, op = last,
+                   ks = in_place(track, first, last),
                    shapes = self:written(shapes.parcels(parcels)) })
 end
 

@@ -3,6 +3,8 @@ local affine = require "celspan.affine"
 
 local text, is_coded, keys = ...
 
+local still = text.still
+
 local NEAR = 1 / 100 -- units of the film: how far a place may be off
 local OWN_DIGITS = 7 -- of places in units of a gradient
 local SMOOTH = 1 / 512 -- how far a gradient's colour may be from that between two stops
@@ -101,10 +103,9 @@ end
 
 -- ---------------------------------------------------------------- fills
 
-local function still(value) return { a = 0, k = value } end
-
-local function gradient(fill, front, rule, digits)
-  local stops, numbers, is_clear = stops_of(fill, front), {}, false
+--- The stops of a gradient as Lottie lists them: all colours, and then all alphas if one is clear.
+local function ramp(stops)
+  local numbers, is_clear = {}, false
   for _, stop in ipairs(stops) do
     is_clear = is_clear or stop[5] < 1
     table.move(stop, 1, 4, #numbers + 1, numbers)
@@ -112,17 +113,19 @@ local function gradient(fill, front, rule, digits)
   for _, stop in ipairs(is_clear and stops or {}) do
     numbers[#numbers + 1], numbers[#numbers + 2] = stop[1], stop[5]
   end
+  return { p = #stops, k = still(numbers, 5) }
+end
+
+local function gradient(fill, front, rule, digits)
   local x, y, u, v = table.unpack(fill.points)
-  local item = { ty = "gf", o = still(100), r = rule, t = fill.kind == "linear" and 1 or 2,
-                 s = still(text.list({ x, y }, digits)),
-                 g = { p = #stops, k = still(text.list(numbers, 5)) } }
+  local item = { ty = "gf", r = rule, s = still({ x, y }, digits), g = ramp(stops_of(fill, front)) }
   if fill.kind == "linear" then
-    item.e = still(text.list({ u, v }, digits))
+    item.t, item.e = 1, still({ u, v }, digits)
     return item
   end
   local length = math.sqrt((u - x) ^ 2 + (v - y) ^ 2)
-  item.e = still(text.list({ x + fill.radius, y }, digits))
-  if length > 1e-9 then
+  item.t, item.e = 2, still({ x + fill.radius, y }, digits)
+  if length > 1e-9 * fill.radius then
     item.h = still(100 * length / fill.radius)
     item.a = still(math.deg(math.atan(v - y, u - x)))
   end
@@ -139,7 +142,7 @@ local function paint_of(data, front, fade, digits)
   end
   local stop = fill.stops[1]
   local colour = colour_of(stop, not fill.coded and front)
-  return { ty = "fl", c = still(text.list({ colour[1], colour[2], colour[3], 1 }, 5)), r = rule,
+  return { ty = "fl", c = still({ colour[1], colour[2], colour[3], 1 }, 5), r = rule,
            o = still(100 * stop[5] * fade) }
 end
 
@@ -194,9 +197,16 @@ local function contour_of(contour, map, digits, is_open)
   return { ty = "sh", ks = still { c = not is_open, v = vertices, i = ins, o = outs } }
 end
 
-local IDENTITY = { 1, 0, 0, 0, 1, 0 }
-local CENTRE = { a = still { raw = "[0,0]" }, p = still { raw = "[0,0]" }, r = still(0),
-                 s = still { raw = "[100,100]" }, o = still(100), ty = "tr" }
+local IDENTITY = affine.translation(0, 0)
+
+--- The transform of a group.
+local function placed_at(map)
+  local transform = keys.placed(map)
+  transform.ty = "tr"
+  return transform
+end
+
+local CENTRE = placed_at(IDENTITY)
 
 --- A fill in the units around a shape; a map that is not round bends none that is here.
 local function moved(fill, map)
@@ -305,10 +315,10 @@ local function digits_at(scale) return text.digits(NEAR / math.max(scale, 1e-12)
 local function layout_of(outline, map, scale)
   local own = outline.fill.map
   if own then
-    return affine.compose(affine.inverse(own), map), keys.placed(own), OWN_DIGITS
+    return affine.compose(affine.inverse(own), map), placed_at(own), OWN_DIGITS
   elseif outline.fill.kind == "radial" and not is_round(map) then
     local size = keys.scale { map }
-    return keys.zoom(size), keys.placed(affine.compose(map, keys.zoom(1 / size))),
+    return keys.zoom(size), placed_at(affine.compose(map, keys.zoom(1 / size))),
       digits_at(scale)
   end
   return map, CENTRE, digits_at(scale)
@@ -344,7 +354,7 @@ function shapes.items(data, map, front, scale)
   return shapes.reversed(list)
 end
 
-local COARSE = 1 / 10 -- the scale by which areas have digits: there are many, and borders stay equal
+local COARSE = 1 / 10 -- the scale whose digits areas have, as there are many of them
 local UNDER = 3.2 -- units: the width of strokes below areas, wider than what players leave clear
 
 local strokes = { fl = "st", gf = "gs" }
