@@ -24,7 +24,8 @@ local function render(runner, film, frames, out)
   local words = { runner.celspan, "render", "scripts/" .. film[1] .. ".lua", "--trust",
     "--progress", "none", "-o", out }
   if frames then words[#words + 1], words[#words + 2] = "--frames", frames end
-  local pipe = assert(io.popen(Command(table.unpack(words)) .. " 2>/dev/null"))
+  local pipe = assert(io.popen("CELSPAN_PATH='scripts/?.lua' " .. Command(table.unpack(words))
+    .. " 2>/dev/null"))
   local text = pipe:read "a"
   return pipe:close() and text or nil
 end

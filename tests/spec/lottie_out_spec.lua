@@ -181,6 +181,28 @@ describe("a film as Lottie", function()
     is_film(path, 3)
   end)
 
+  it("has areas that stay once, and shows them in their frames", function()
+    film(8, "linear", [[
+      local sun = celspan.star { centre = { 30, 30 }, points = 20, outer = 20, inner = 18,
+        texture = "#f0c020" }
+      return celspan.rostrum { back = "#204060",
+        celspan.cel { sun, celspan.star { centre = { 120, 60 }, points = 20, outer = 20,
+          inner = 18 + i % 2, texture = "#c0e0f0" } },
+        celspan.cel { celspan.rect { 70, 5 + 5 * i, 20, 20, texture = "#ff2000" }:fade(0.5) } }]])
+    local path, _, document = out "shared.json"
+    local counts = {}
+    for _, layer in ipairs(document.layers) do
+      for _, group in ipairs(layer.nm == "areas" and layer.shapes or {}) do
+        local red = group.it[#group.it - 1].c.k[1]
+        counts[red] = counts[red] or {}
+        table.insert(counts[red], keys_of(layer.ks.o))
+      end
+    end
+    assert.same({ 0 }, counts[0.94118]) -- the star that stays
+    assert.same({ 7, 7 }, counts[0.75294]) -- two that take turns
+    is_film(path, 8, 0.97) -- edges are mixed in codes
+  end)
+
   it("fades over nothing in any space", function()
     film(3, "linear", [[return celspan.rostrum {
       celspan.cel { celspan.rect { 10, 10, 60, 60, texture = "#f0e0c0" }:fade(1 - t / 2) } }]])

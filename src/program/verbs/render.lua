@@ -34,7 +34,8 @@ if #numbers > FRAMES_MOST then
   program.fail("limit", "%s: %d frames; a Lottie file of at most %d is written: choose some with "
     .. "--frames", request.output, #numbers, FRAMES_MOST)
 end
-local shapes = program.part("outlined.lua", text, film.space == "srgb", keys)
+local shapes = program.part("outlined.lua", text, keys,
+  program.part("painted.lua", text, film.space == "srgb"))
 local layers = program.part("layered.lua", program, text, keys, shapes, tracks)(
   { size = film.size, count = #numbers }, request.output)
 
@@ -50,7 +51,7 @@ end
 
 local shared, frames, before = {}, {}, nil
 local pictures = bake.new { film = film, layers = layers, shapes = shapes, keys = keys,
-  path = request.output, numbers = numbers }
+  pool = program.part("pooled.lua", layers), path = request.output, numbers = numbers }
 for i, number in ipairs(numbers) do
   local exposures = film:at(number)
   local scene = film:scene()

@@ -11,7 +11,7 @@ Bake.__index = Bake
 
 local bake = {}
 
---- job: film, layers, shapes and keys; path: of the output; numbers: of the frames.
+--- job: film, layers, shapes, keys and pool; path: of the output; numbers: of the frames.
 function bake.new(job)
   job.is_archive = program.has_ending(job.path, ".lottie")
   job.pictures, job.reasons, job.known, job.members = {}, {}, {}, {}
@@ -147,17 +147,22 @@ end
 
 --- Adds the layers of all pictures, which lie behind all others.
 function Bake:add_layers()
+  local below, above = self.pool "lines", self.pool "areas"
   for i, picture in ipairs(self.pictures) do
     local parcels, why = self:parcels_of(picture)
     for _, reason in ipairs(picture.reasons) do
       reason[parcels and "areas" or "drawn"] = why or true
     end
     if parcels then
-      self.layers:add_parcels(parcels, picture)
+      local areas, lines = self.shapes.parcels(parcels)
+      below:add(lines, picture.items)
+      above:add(areas, picture.items)
     else
       self:add_drawn(picture, i)
     end
   end
+  below:add_layers()
+  above:add_layers()
 end
 
 --- Reports the cels that are not layers.

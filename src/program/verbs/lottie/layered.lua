@@ -249,12 +249,12 @@ function Layers:add_picture(asset, track)
                    ks = in_place(track, first, last, scaled) })
 end
 
---- Areas where they are there.
-function Layers:add_parcels(parcels, track)
+--- Shapes, as a text, in the frames of a track.
+function Layers:add_shown(name, written, track)
   local first, last = tracks.range(track)
-  add(self.main, { ty = 4, nm = "areas", ip = first - 1, op = last,
+  add(self.main, { ty = 4, nm = name, ip = first - 1, op = last,
                    ks = in_place(track, first, last),
-                   shapes = self:written(shapes.parcels(parcels)) })
+                   shapes = { raw = written } })
 end
 
 --- How many layers there are in all compositions.

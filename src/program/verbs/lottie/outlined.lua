@@ -1,150 +1,14 @@
 --- Shapes of Lottie from what a frame's structure holds (core.scenery): outlines with their fills.
 local affine = require "celspan.affine"
 
-local text, is_coded, keys = ...
+local text, keys, paint_of = ...
 
 local still = text.still
 
 local NEAR = 1 / 100 -- units of the film: how far a place may be off
 local OWN_DIGITS = 7 -- of places in units of a gradient
-local SMOOTH = 1 / 512 -- how far a gradient's colour may be from that between two stops
-local DEEPEST = 6 -- halvings of the way between two stops
 
 local shapes = {}
-
--- ---------------------------------------------------------------- colours
-
---- sRGB's code of light, limited to what it can say. Codes stay below 1.
-local function code(light)
-  if light <= 0 then return 0 end
-  if light >= 1 then return 1 end
-  return light <= 0.0031308 and 12.92 * light or 1.055 * light ^ (1 / 2.4) - 0.055
-end
-
---- What a film mixes of a pigment in this light: codes, or light.
-local function mixed(pigment, front)
-  return is_coded and code(pigment) * front or pigment * front
-end
-
---- The code of what a film mixes.
-local function shown(value)
-  return is_coded and math.min(value, 1) or code(value)
-end
-
---- The colour in a fill, as codes.
-local function colour_of(stop, front)
-  if not front then return { table.unpack(stop, 2, 4) } end
-  local codes = {}
-  for c = 1, 3 do codes[c] = shown(mixed(stop[c + 1], front[c])) end
-  return codes
-end
-
---- A stop as { at, r, g, b, alpha } of what the film mixes, premultiplied.
-local function premultiply(stop, front)
-  local made = { stop[1], 0, 0, 0, stop[5] }
-  for c = 1, 3 do made[c + 1] = mixed(stop[c + 1], front[c]) * stop[5] end
-  return made
-end
-
-local function between(a, b)
-  local middle = {}
-  for k = 1, 5 do middle[k] = (a[k] + b[k]) / 2 end
-  return middle
-end
-
---- A premultiplied stop as straight codes; where it is clear, those of `near`.
-local function straight(stop, near)
-  local alpha = stop[5]
-  if alpha <= 0 then
-    if not near or near[5] <= 0 then return { stop[1], 0, 0, 0, 0 } end
-    local there = straight(near)
-    return { stop[1], there[2], there[3], there[4], 0 }
-  end
-  local made = { stop[1], 0, 0, 0, alpha }
-  for c = 2, 4 do made[c] = shown(stop[c] / alpha) end
-  return made
-end
-
---- Adds stops from `a` to `b`, as many as players need, which mix straight codes.
-local function add_between(list, a, b, depth)
-  local middle = between(a, b)
-  local first, last, real = straight(a, b), straight(b, a), straight(middle)
-  for c = 2, 4 do
-    if depth > 0 and real[5] > 0 and math.abs((first[c] + last[c]) / 2 - real[c]) > SMOOTH then
-      add_between(list, a, middle, depth - 1)
-      return add_between(list, middle, b, depth - 1)
-    end
-  end
-  list[#list + 1] = first
-  list[#list + 1] = last
-end
-
---- Whether a list ends with this stop.
-local function ends_with(list, stop)
-  local last = list[#list]
-  for k = 1, 5 do
-    if not last or math.abs(last[k] - stop[k]) > 1e-9 then return false end
-  end
-  return true
-end
-
-local function stops_of(fill, front)
-  if fill.coded then return fill.stops end
-  local made, list = {}, {}
-  for i, stop in ipairs(fill.stops) do made[i] = premultiply(stop, front) end
-  for i = 2, #made do add_between(list, made[i - 1], made[i], DEEPEST) end
-  if not list[1] then list[1] = straight(made[1]) end
-  local kept = {}
-  for _, stop in ipairs(list) do
-    if not ends_with(kept, stop) then kept[#kept + 1] = stop end
-  end
-  return kept
-end
-
--- ---------------------------------------------------------------- fills
-
---- The stops of a gradient as Lottie lists them: all colours, and then all alphas if one is clear.
-local function ramp(stops)
-  local numbers, is_clear = {}, false
-  for _, stop in ipairs(stops) do
-    is_clear = is_clear or stop[5] < 1
-    table.move(stop, 1, 4, #numbers + 1, numbers)
-  end
-  for _, stop in ipairs(is_clear and stops or {}) do
-    numbers[#numbers + 1], numbers[#numbers + 2] = stop[1], stop[5]
-  end
-  return { p = #stops, k = still(numbers, 5) }
-end
-
-local function gradient(fill, front, rule, digits)
-  local x, y, u, v = table.unpack(fill.points)
-  local item = { ty = "gf", r = rule, s = still({ x, y }, digits), g = ramp(stops_of(fill, front)) }
-  if fill.kind == "linear" then
-    item.t, item.e = 1, still({ u, v }, digits)
-    return item
-  end
-  local length = math.sqrt((u - x) ^ 2 + (v - y) ^ 2)
-  item.t, item.e = 2, still({ x + fill.radius, y }, digits)
-  if length > 1e-9 * fill.radius then
-    item.h = still(100 * length / fill.radius)
-    item.a = still(math.deg(math.atan(v - y, u - x)))
-  end
-  return item
-end
-
---- digits: of the places of a gradient.
-local function paint_of(data, front, fade, digits)
-  local rule, fill = data.rule == "evenodd" and 2 or 1, data.fill
-  if fill.kind ~= "flat" then
-    local item = gradient(fill, front, rule, digits)
-    item.o = still(100 * fade)
-    return item
-  end
-  local stop = fill.stops[1]
-  local colour = colour_of(stop, not fill.coded and front)
-  return { ty = "fl", c = still({ colour[1], colour[2], colour[3], 1 }, 5), r = rule,
-           o = still(100 * stop[5] * fade) }
-end
 
 -- ---------------------------------------------------------------- outlines
 
@@ -354,29 +218,81 @@ function shapes.items(data, map, front, scale)
   return shapes.reversed(list)
 end
 
+-- ---------------------------------------------------------------- areas
+
 local COARSE = 1 / 10 -- the scale whose digits areas have, as there are many of them
 local UNDER = 3.2 -- units: the width of strokes below areas, wider than what players leave clear
 
 local strokes = { fl = "st", gf = "gs" }
 
---- The items of a layer that shows parcels (core.parcels).
-function shapes.parcels(parcels)
-  local all = { kind = "group" }
-  for i, parcel in ipairs(parcels) do all[i] = { data = parcel, matrix = IDENTITY, fade = 1 } end
-  local list = shapes.items(all, IDENTITY, nil, COARSE)
-  for i = #parcels.lines, 1, -1 do
-    local line, group = parcels.lines[i], {}
-    for k, contour in ipairs(line.contours) do
-      group[k] = contour_of(contour, IDENTITY, digits_at(COARSE), true)
-    end
-    local stroke = paint_of(line, nil, 1, digits_at(1))
-    stroke.ty, stroke.r = strokes[stroke.ty], nil
-    stroke.w, stroke.lc, stroke.lj = still(UNDER), 2, 2
-    group[#group + 1] = stroke
-    group[#group + 1] = CENTRE
-    if not line.fill.map then list[#list + 1] = { ty = "gr", it = group } end
+--- The ends of a contour along an axis, 1 or 2.
+local function extent(contour, axis)
+  local low, high = math.huge, -math.huge
+  for i = axis, #contour, 2 do low, high = math.min(low, contour[i]), math.max(high, contour[i]) end
+  return low, high
+end
+
+--- Cuts a list of contours where no contour is along an axis.
+local function cut(contours, axis)
+  local ends, parts, reach = {}, {}, -math.huge
+  for i, contour in ipairs(contours) do ends[i] = { i, extent(contour, axis) } end
+  table.sort(ends, function(a, b) return a[2] < b[2] or a[2] == b[2] and a[1] < b[1] end)
+  for _, one in ipairs(ends) do
+    if one[2] > reach then parts[#parts + 1] = {} end
+    table.insert(parts[#parts], contours[one[1]])
+    reach = math.max(reach, one[3])
   end
-  return list
+  return parts
+end
+
+--- Adds parts of contours whose boxes are apart, so that each part can be filled alone. is_whole:
+--- the other axis did not cut them.
+local function separate(list, contours, axis, is_whole)
+  local parts = cut(contours, axis)
+  for _, part in ipairs(parts) do
+    if part[2] and not (is_whole and #parts == 1) then
+      separate(list, part, 3 - axis, #parts == 1)
+    else
+      list[#list + 1] = part
+    end
+  end
+end
+
+local function encoded(contours, map, digits, is_open)
+  local texts = {}
+  for i, contour in ipairs(contours) do
+    texts[i] = text.encode(contour_of(contour, map, digits, is_open))
+  end
+  return texts
+end
+
+--- An area as a text of its fill, and texts of the parts of its outline.
+local function area_of(parcel)
+  local inner, place, digits = layout_of(parcel, IDENTITY, COARSE)
+  local parts, pieces = {}, {}
+  separate(parts, parcel.contours, 1, false)
+  for i, part in ipairs(parts) do pieces[i] = table.concat(encoded(part, inner, digits), ",") end
+  return { pieces = pieces,
+           paint = text.encode(paint_of(parcel, nil, 1, digits)) .. "," .. text.encode(place) }
+end
+
+--- A line below areas in the same form.
+local function line_of(line)
+  local stroke = paint_of(line, nil, 1, digits_at(1))
+  stroke.ty, stroke.r = strokes[stroke.ty], nil
+  stroke.w, stroke.lc, stroke.lj = still(UNDER), 2, 2
+  return { pieces = encoded(line.contours, IDENTITY, digits_at(COARSE), true),
+           paint = text.encode(stroke) .. "," .. text.encode(CENTRE) }
+end
+
+--- The areas of parcels (core.parcels), and the lines below them.
+function shapes.parcels(parcels)
+  local areas, lines = {}, {}
+  for i, parcel in ipairs(parcels) do areas[i] = area_of(parcel) end
+  for _, line in ipairs(parcels.lines) do
+    if not line.fill.map then lines[#lines + 1] = line_of(line) end
+  end
+  return areas, lines
 end
 
 return shapes
