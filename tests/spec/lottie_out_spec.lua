@@ -270,6 +270,19 @@ describe("a film as Lottie", function()
     is_film(out "opacity.json", 6)
   end)
 
+  it("writes names with quotes, and says when there are many layers", function()
+    film(2, "srgb", [[
+      local list = {}
+      for k = 1, 1001 do
+        list[k] = celspan.rect { 0, 0, 2, 2 }:translate(k % 50 + i * (k % 7), k // 50)
+          :named(k == 1 and 'it\'s "one" \\' or "n" .. k)
+      end
+      return celspan.rostrum { celspan.cel(list) }]])
+    local _, said, document = out "many.json"
+    assert.matches("many.json: 1001 layers, more than many players draw smoothly: a group", said)
+    assert.equal('it\'s "one" \\', document.layers[1001].nm)
+  end)
+
   it("leaves out what is empty, and appears and disappears", function()
     film(8, "srgb", [[local dot = celspan.circle { centre = { 80, 45 }, radius = 10 * (i % 2) }
       local box = i > 2 and i ~= 5 and celspan.rect { 5, 5, 20, 20 }

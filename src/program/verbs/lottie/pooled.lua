@@ -30,8 +30,8 @@ function Pool:piece(paint, text)
   return known[text]
 end
 
---- Adds paints with their pieces, all as texts, that are shown together. items: of a track, by
---- frames.
+--- Adds paints with their pieces, all as texts, that are shown together, the rearmost first.
+--- items: of a track, by frames.
 function Pool:add(paints, items)
   self.frames[#self.frames + 1] = items
   for _, painted in ipairs(paints) do
@@ -55,10 +55,13 @@ local function put(groups, places, pieces)
   end
 end
 
---- Groups of pieces with the same places; what is too small for a layer is in that of each place.
+--- Groups of pieces with the same places, those with most of them first; what is too small for a
+--- layer is in that of each place.
 function Pool:groups()
   local shared, groups = {}, {}
   for _, piece in ipairs(self.pieces) do put(shared, { table.unpack(piece) }, { piece }) end
+  for i, group in ipairs(shared) do group.order = i - #group.places * #self.pieces end
+  table.sort(shared, function(a, b) return a.order < b.order end)
   for _, group in ipairs(shared) do
     if group.size * (#group.places - 1) < SAVED then
       for _, place in ipairs(group.places) do put(groups, { place }, group) end
@@ -69,7 +72,8 @@ function Pool:groups()
   return groups
 end
 
---- The shapes of a layer with these pieces: those of one paint are filled together.
+--- The shapes of a layer with these pieces, the last one on top: those of one paint are filled
+--- together.
 local function shapes_of(pieces)
   local lists, parts = {}, {}
   for _, piece in ipairs(pieces) do
@@ -81,7 +85,8 @@ local function shapes_of(pieces)
     list[#list + 1] = piece.text
   end
   for i, list in ipairs(lists) do
-    parts[i] = '{"ty":"gr","it":[' .. table.concat(list, ",") .. "," .. list.paint .. "]}"
+    list[#list + 1] = list.paint
+    parts[#lists + 1 - i] = '{"ty":"gr","it":[' .. table.concat(list, ",") .. "]}"
   end
   return "[" .. table.concat(parts, ",") .. "]"
 end
