@@ -307,6 +307,14 @@ describe("Lottie is refused", function()
     refused("-o " .. name, "1000000 frames; a Lottie file of at most 100000 is written")
     assert.is_nil(bench:read "no.json")
   end)
+
+  it("for pictures that no player holds", function()
+    film(1, "srgb", [[return celspan.rostrum { celspan.cel { defocus = 4,
+      celspan.rect { 10, 10, 60, 60 } } }]])
+    refused("-o '" .. bench.folder .. "/no.json' --scale 1000",
+      "no.json: pictures of 160000 x 90000 pixels; the limit is 16384: give a smaller %-%-scale")
+    assert.is_nil(bench:read "no.json")
+  end)
 end)
 
 describe("Lottie in other players", function()

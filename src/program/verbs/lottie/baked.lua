@@ -132,7 +132,18 @@ function Bake:parcels_of(picture)
   return core.parcels(plane)
 end
 
+local SIDE_MOST = 16384 -- pixels: more than players can hold
+
+function Bake:check_size()
+  local width, height = self.film:view_size()
+  if math.max(width, height) > SIDE_MOST then
+    program.fail("limit", "%s: pictures of %d x %d pixels; the limit is %d: give a smaller --scale",
+      self.path, width, height, SIDE_MOST)
+  end
+end
+
 function Bake:add_drawn(picture, number)
+  self:check_size()
   local bytes, width, height = program.png(program.still(self.film, picture.shown), self.path)
   self.layers:weigh(#bytes)
   local asset = { id = "picture" .. number, w = width, h = height, u = "", e = 1 }
