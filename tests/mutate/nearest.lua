@@ -49,7 +49,7 @@ return {
   program = { "golden/golden", "spec/change", "spec/cli", "spec/sequence", "spec/shown",
     "spec/video" },
   raster = { "spec/raster" },
-  archive = { "spec/layered" },
+  archive = { "spec/layered", "spec/lottie_out" },
   photoshop = { "spec/layered" },
   exr = { "spec/raster", "spec/apart" },
   apart = { "spec/apart", "spec/cryptomatte", "spec/layered" },

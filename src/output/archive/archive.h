@@ -34,7 +34,7 @@ CELSPAN_CHECKED celspan_status cs_archive_end(cs_archive *archive, const char *p
 /* A whole member. */
 CELSPAN_CHECKED celspan_status cs_archive_put(cs_archive *archive, const char *path,
                                               const char *name, const void *bytes, size_t size);
-/* A whole member, deflated. */
+/* A whole member, deflated. Errors: NO_MEMORY, too. */
 CELSPAN_CHECKED celspan_status cs_archive_pack(cs_archive *archive, const char *path,
                                                const char *name, const void *bytes, size_t size);
 /* Writes the list, after the last member. */

@@ -163,7 +163,7 @@ local function stays(track, around)
     if not item or before and not tracks.is_same(before.placed, item.placed) then return false end
     before = before or item
   end
-  return not shapes.has_faded_group { item = 0, kind = "group", before.placed }
+  return not shapes.has_faded_group { kind = "group", before.placed }
 end
 
 --- Tracks that stay in their group as one.
@@ -239,7 +239,7 @@ function Layers:add(comp, track)
   end
 end
 
---- A picture that fills the frame where it is there. size: of the picture, in pixels.
+--- A picture that fills the frame where it is there. asset: with its size in pixels, w and h.
 function Layers:add_picture(asset, track)
   local first, last = tracks.range(track)
   local w, h = table.unpack(self.film.size)
@@ -252,9 +252,8 @@ end
 --- Shapes, as a text, in the frames of a track.
 function Layers:add_shown(name, written, track)
   local first, last = tracks.range(track)
-  add(self.main, { ty = 4, nm = name, ip = first - 1, op = last,
-                   ks = in_place(track, first, last),
-                   shapes = { raw = written } })
+  add(self.main, { ty = 4, nm = name, ip = first - 1, op = last, shapes = { raw = written },
+                   ks = in_place(track, first, last) })
 end
 
 --- How many layers there are in all compositions.
