@@ -6,7 +6,6 @@ local text, keys, paint_of = ...
 local still = text.still
 
 local NEAR = 1 / 100 -- units of the film: how far a place may be off
-local OWN_DIGITS = 7 -- of places in units of a gradient
 
 local shapes = {}
 
@@ -174,31 +173,32 @@ end
 --- The digits of places that are shown at a scale.
 local function digits_at(scale) return text.digits(NEAR / math.max(scale, 1e-12)) end
 
---- The map of an outline's points and the transform of the group around them: a gradient that is
---- not round has a transform of its own. scale: of the layer. Returns the digits of places, too.
+--- How an outline is written that is moved by a map: the map of its points, the transform of the
+--- group around them, its fill in their units, the digits of places, and the smaller scale of the
+--- transform. A gradient that is not round has a transform of its own. scale: of the layer.
 local function layout_of(outline, map, scale)
-  local own = outline.fill.map
-  if own then
-    return affine.compose(affine.inverse(own), map), placed_at(own), OWN_DIGITS
-  elseif outline.fill.kind == "radial" and not is_round(map) then
-    local size = keys.scale { map }
-    return keys.zoom(size), placed_at(affine.compose(map, keys.zoom(1 / size))),
-      digits_at(scale)
+  local fill, digits = outline.fill, digits_at(scale)
+  if not fill.map and (fill.kind ~= "radial" or is_round(map)) then
+    return { map = map, place = CENTRE, fill = moved(fill, map), digits = digits, least = 1 }
   end
-  return map, CENTRE, digits_at(scale)
+  local units = fill.map or map
+  local size = keys.scale { units }
+  local zoom, place = keys.zoom(size), affine.compose(units, keys.zoom(1 / size))
+  local inner = fill.map and affine.compose(affine.inverse(units), map) or IDENTITY
+  return { map = affine.compose(zoom, inner), place = placed_at(place), fill = moved(fill, zoom),
+           digits = digits, least = keys.least(place) }
 end
 
 --- An outline as a group; nil: it is empty.
 local function group_of(outline, map, fade, front, scale)
-  local group = {}
-  local inner, place, digits = layout_of(outline, map, scale)
+  local group, layout = {}, layout_of(outline, map, scale)
   for _, contour in ipairs(outline.contours) do
-    if #contour > 2 then group[#group + 1] = contour_of(contour, inner, digits) end
+    if #contour > 2 then group[#group + 1] = contour_of(contour, layout.map, layout.digits) end
   end
   if not group[1] then return nil end
-  local fill = outline.fill.map and outline.fill or moved(outline.fill, inner)
-  group[#group + 1] = paint_of({ rule = outline.rule, fill = fill }, front, fade, digits)
-  group[#group + 1] = place
+  group[#group + 1] = paint_of({ rule = outline.rule, fill = layout.fill }, front, fade,
+    layout.digits)
+  group[#group + 1] = layout.place
   return { ty = "gr", it = group }
 end
 
@@ -258,40 +258,41 @@ local function separate(list, contours, axis, is_whole)
   end
 end
 
-local function encoded(contours, map, digits, is_open)
+local function encoded(contours, layout, is_open)
   local texts = {}
   for i, contour in ipairs(contours) do
-    texts[i] = text.encode(contour_of(contour, map, digits, is_open))
+    texts[i] = text.encode(contour_of(contour, layout.map, layout.digits, is_open))
   end
   return texts
 end
 
---- An area as a text of its fill, and texts of the parts of its outline.
-local function area_of(parcel)
-  local inner, place, digits = layout_of(parcel, IDENTITY, COARSE)
-  local parts, pieces = {}, {}
-  separate(parts, parcel.contours, 1, false)
-  for i, part in ipairs(parts) do pieces[i] = table.concat(encoded(part, inner, digits), ",") end
-  return { pieces = pieces,
-           paint = text.encode(paint_of(parcel, nil, 1, digits)) .. "," .. text.encode(place) }
+local function painted(paint, layout)
+  return text.encode(paint) .. "," .. text.encode(layout.place)
 end
 
---- A line below areas in the same form.
+--- An area as a text of its fill, and texts of the parts of its outline.
+local function area_of(parcel)
+  local layout, parts, pieces = layout_of(parcel, IDENTITY, COARSE), {}, {}
+  separate(parts, parcel.contours, 1, false)
+  for i, part in ipairs(parts) do pieces[i] = table.concat(encoded(part, layout), ",") end
+  local paint = paint_of({ rule = parcel.rule, fill = layout.fill }, nil, 1, layout.digits)
+  return { pieces = pieces, paint = painted(paint, layout) }
+end
+
+--- A line below areas in the same form. It is as wide as it has to be where it is thinnest.
 local function line_of(line)
-  local stroke = paint_of(line, nil, 1, digits_at(1))
+  local layout = layout_of(line, IDENTITY, COARSE)
+  local stroke = paint_of({ fill = layout.fill }, nil, 1, layout.digits)
   stroke.ty, stroke.r = strokes[stroke.ty], nil
-  stroke.w, stroke.lc, stroke.lj = still(UNDER), 2, 2
-  return { pieces = encoded(line.contours, IDENTITY, digits_at(COARSE), true),
-           paint = text.encode(stroke) .. "," .. text.encode(CENTRE) }
+  stroke.w, stroke.lc, stroke.lj = still(UNDER / layout.least), 2, 2
+  return { pieces = encoded(line.contours, layout, true), paint = painted(stroke, layout) }
 end
 
 --- The areas of parcels (core.parcels), and the lines below them.
 function shapes.parcels(parcels)
   local areas, lines = {}, {}
   for i, parcel in ipairs(parcels) do areas[i] = area_of(parcel) end
-  for _, line in ipairs(parcels.lines) do
-    if not line.fill.map then lines[#lines + 1] = line_of(line) end
-  end
+  for i, line in ipairs(parcels.lines) do lines[i] = line_of(line) end
   return areas, lines
 end
 
