@@ -342,6 +342,31 @@ describe("Lottie in other players", function()
   end
 end)
 
+describe("Areas of gradients in other players", function()
+  for _, player in ipairs { "skottie", "thorvg" } do
+    local is_there = present.program "node" and players.are_in(MODULES);
+    (is_there and it or pending)("have no seams in " .. player, function()
+      film(1, "linear", [[
+        local function dark(x, y, radius)
+          return celspan.radial { centre = { x, y }, radius = radius, { 0, "#302010" },
+            { 1, "#100804" } }
+        end
+        return celspan.rostrum { back = "#201008",
+          celspan.cel { celspan.rect { -10, -10, 200, 200, texture = dark(80, 45, 100) },
+            celspan.circle { centre = { 0, 0 }, radius = 30, texture = dark(0, 0, 30) }
+              :scale(1.5, 1):translate(70, 45) },
+          celspan.cel { celspan.rect { 0, 0, 5, 5, texture = "#000000" }:fade(0.5) } }]])
+      local path, said = out "seams.json"
+      assert.matches("areas", said)
+      local shown = assert(players.draw(players.command(MODULES, player), path,
+        bench.folder .. "/seams", { 160, 90 }, { 0 }))[1]
+      local most = 0
+      for i = 1, #shown, 4 do most = math.max(most, shown:byte(i)) end
+      assert.is_true(most <= 0x38, ("the canvas, which is white, shines through: %d"):format(most))
+    end)
+  end
+end)
+
 describe("Lottie by its schema", function()
   local VALIDATOR = MODULES .. "/.bin/lottie-specs"
   local it_checks = present.program "node" and io.open(VALIDATOR) and it or pending
