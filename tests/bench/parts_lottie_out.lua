@@ -73,7 +73,7 @@ local function kilobytes(path) return #assert(system.read(path)) / 1000 end
 local function facts_of(path)
   local text = assert(system.read(path))
   local count, width = text:sub(-100):match '"op":(%d+),"v":[^,]*,"w":(%d+)}$'
-  return { tonumber(width), tonumber(text:sub(1, 200):match '"h":(%d+)') }, tonumber(count)
+  return { tonumber(width), tonumber(text:match '"fr":[%d.]+,"h":(%d+)') }, tonumber(count)
 end
 
 --- The cells of a film's line: sizes, and a share for each player.

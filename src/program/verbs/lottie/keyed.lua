@@ -152,11 +152,6 @@ function keys.scale(maps)
   return math.sqrt(most)
 end
 
---- The smaller scale of the axes of a map.
-function keys.least(map)
-  return math.sqrt(math.min(map[1] ^ 2 + map[4] ^ 2, map[2] ^ 2 + map[5] ^ 2))
-end
-
 local function count(property) return property.a == 1 and #property.k or 0 end
 
 --- The transform of a layer about an anchor.

@@ -174,19 +174,19 @@ end
 local function digits_at(scale) return text.digits(NEAR / math.max(scale, 1e-12)) end
 
 --- How an outline is written that is moved by a map: the map of its points, the transform of the
---- group around them, its fill in their units, the digits of places, and the smaller scale of the
---- transform. A gradient that is not round has a transform of its own. scale: of the layer.
+--- group around them, its fill in their units, and the digits of places. A gradient that is not
+--- round has a transform of its own. scale: of the layer.
 local function layout_of(outline, map, scale)
   local fill, digits = outline.fill, digits_at(scale)
   if not fill.map and (fill.kind ~= "radial" or is_round(map)) then
-    return { map = map, place = CENTRE, fill = moved(fill, map), digits = digits, least = 1 }
+    return { map = map, place = CENTRE, fill = moved(fill, map), digits = digits }
   end
   local units = fill.map or map
   local size = keys.scale { units }
-  local zoom, place = keys.zoom(size), affine.compose(units, keys.zoom(1 / size))
+  local zoom, place = keys.zoom(size), placed_at(affine.compose(units, keys.zoom(1 / size)))
   local inner = fill.map and affine.compose(affine.inverse(units), map) or IDENTITY
-  return { map = affine.compose(zoom, inner), place = placed_at(place), fill = moved(fill, zoom),
-           digits = digits, least = keys.least(place) }
+  return { map = affine.compose(zoom, inner), place = place, fill = moved(fill, zoom),
+           digits = digits }
 end
 
 --- An outline as a group; nil: it is empty.
@@ -279,12 +279,12 @@ local function area_of(parcel)
   return { pieces = pieces, paint = painted(paint, layout) }
 end
 
---- A line below areas in the same form. It is as wide as it has to be where it is thinnest.
+--- A line below areas in the same form, thinner along an axis if the gradient is not round.
 local function line_of(line)
   local layout = layout_of(line, IDENTITY, COARSE)
   local stroke = paint_of({ fill = layout.fill }, nil, 1, layout.digits)
   stroke.ty, stroke.r = strokes[stroke.ty], nil
-  stroke.w, stroke.lc, stroke.lj = still(UNDER / layout.least), 2, 2
+  stroke.w, stroke.lc, stroke.lj = still(UNDER), 2, 2
   return { pieces = encoded(line.contours, layout, true), paint = painted(stroke, layout) }
 end
 
