@@ -12,6 +12,7 @@
  * express; it is nil where they can. Colours are pigments, before light falls on them.
  */
 #include <math.h>
+#include <stdint.h>
 
 #include "lua/bind/bare.h"
 #include "lua/bind/host.h"
@@ -188,9 +189,28 @@ static const char *refuse_data(const asked *of, const cs_primitive_data *data) {
 
 static void push_placed(const asked *of, const celspan_object *object);
 
+/* (data, table): puts the contours into the table, or fails. */
+static int put_contours(lua_State *L) {
+  cs_anatomy_put_filled(L, lua_touserdata(L, 1), WITHIN);
+  return 0;
+}
+
+/* Whether the contours of the data, which are put into the table on top, have not too many curves. */
+static bool has_contours(lua_State *L, const cs_primitive_data *data) {
+  lua_pushcfunction(L, put_contours);
+  lua_pushlightuserdata(L, (void *)(uintptr_t)data);
+  lua_pushvalue(L, -3);
+  if (lua_pcall(L, 2, 0, 0) == LUA_OK)
+    return true;
+  lua_pop(L, 1);
+  return false;
+}
+
 static void put_data(const asked *of, const cs_primitive_data *data) {
   lua_State *L = of->L;
   const char *why = refuse_data(of, data);
+  if (!why && data->kind == CS_PRIMITIVE_DATA_OUTLINE && !has_contours(L, data))
+    why = "an outline of too many curves";
   cs_put_text(L, "why", why);
   cs_put_text(L, "kind",
               why                                       ? "other"
@@ -199,7 +219,6 @@ static void put_data(const asked *of, const cs_primitive_data *data) {
   if (why)
     return;
   if (data->kind == CS_PRIMITIVE_DATA_OUTLINE) {
-    cs_anatomy_put_filled(L, data, WITHIN);
     put_fill(L, data->texture);
     return;
   }
