@@ -195,7 +195,7 @@ static int put_contours(lua_State *L) {
   return 0;
 }
 
-/* Whether the contours of the data, which are put into the table on top, have not too many curves. */
+/* Puts the contours of the data into the table on top; false: they have too many curves. */
 static bool has_contours(lua_State *L, const cs_primitive_data *data) {
   lua_pushcfunction(L, put_contours);
   lua_pushlightuserdata(L, (void *)(uintptr_t)data);
