@@ -8,6 +8,7 @@
 #include "celspan/celspan.h"
 #include "model/colour/transfer.h"
 #include "output/sinks/pixels.h"
+#include "output/sinks/shares.h"
 #include "output/sinks/sink.h"
 #include "tests/support/memory.h"
 #include "tests/support/random.h"
@@ -287,6 +288,42 @@ static void test_failing_allocations(void) {
   }
 }
 
+/* ---------------------------------------------------------------- several threads */
+
+/* Workers that dither by themselves, straight and premultiplied: the same bytes as through the
+ * sink, and no memory stays if some is missing. */
+static void test_shares(celspan_alpha alpha) {
+  const celspan_coding coding = {
+      .struct_size = sizeof coding, .depth = CELSPAN_DEPTH_8_DITHER, .alpha = alpha};
+  celspan_coding plain = cs_pixels_resolve(&coding, CELSPAN_DEPTH_8);
+  for (size_t n = 1; n < 5; n++) {
+    memory_watch watch = {0};
+    celspan_context *context = memory_watch_context(&watch);
+    unsigned char pixels[2][9][4] = {0};
+    celspan_sink sink;
+    cs_shares shares;
+    void *worker = NULL;
+    CHECK(cs_sink_memory(context, &plain, pixels, sizeof pixels[0], &sink) == CELSPAN_OK);
+    CHECK(cs_dither_sink(context, &coding, &plain, 5, 7, &sink) == CELSPAN_OK);
+    CHECK(sink.begin(sink.user, context, 9, 2) == CELSPAN_OK);
+    CHECK(cs_sink_shares(&sink, &shares));
+    watch.fail_at = watch.allocations + n;
+    celspan_status status = shares.open_worker(shares.user, context, &worker);
+    CHECK((status == CELSPAN_OK) == (n > 2));
+    if (status == CELSPAN_OK) {
+      celspan_span span = single(0, 9, (const float[4]){0.2003f, 0.4007f, 0.1f, 0.7f});
+      unsigned char wanted[9][4];
+      CHECK(shares.row(shares.user, worker, context, 1, &span, 1) == CELSPAN_OK);
+      celspan_spans_code_at(&coding, 5, 8, &span, 1, wanted);
+      CHECK(memcmp(wanted, pixels[1], sizeof wanted) == 0 && pixels[0][0][0] == 0);
+    }
+    shares.close_worker(shares.user, context, worker);
+    CHECK(sink.end(sink.user, context, status) == status);
+    celspan_context_destroy(context);
+    CHECK(watch.blocks == 0 && watch.bytes == 0);
+  }
+}
+
 int main(void) {
   test_mean();
   test_exact();
@@ -297,5 +334,7 @@ int main(void) {
     test_rows(isa);
   }
   test_failing_allocations();
+  test_shares(CELSPAN_ALPHA_STRAIGHT);
+  test_shares(CELSPAN_ALPHA_PREMULTIPLIED);
   return check_done();
 }

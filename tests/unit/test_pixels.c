@@ -3,10 +3,12 @@
 
 #include <stdlib.h>
 
+#include "model/colour/space.h"
 #include "model/colour/srgb8.h"
 #include "model/colour/transfer.h"
 #include "output/sinks/pixels8.h"
 #include "output/sinks/sink.h"
+#include "output/sinks/straight.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -128,6 +130,75 @@ static void check_16(void) {
     uint16_t pixel[4];
     cs_pixels_code(&coding, rgba, pixel);
     wrong += pixel[0] != code || pixel[1] != code || pixel[3] != 65535;
+  }
+  CHECK(wrong == 0);
+}
+
+/* ---------------------------------------------------------------- every set of instructions */
+
+static bool is_same(float a, float b) {
+  return memcmp(&a, &b, sizeof a) == 0 || (isnan(a) && isnan(b));
+}
+
+static unsigned word_of(float x) {
+  return !(x > 0) ? 0 : x >= 1 ? 65535 : (unsigned)((double)x * 65535 + 0.5);
+}
+
+/* The light at the border below a code of 16 bits, and the floats beside it. */
+static float near_border(int code, int step) {
+  float light = cs_transfer_decode(CELSPAN_TRANSFER_SRGB, (float)((code - 0.5) / 65535));
+  for (int k = 0; k < abs(step); k++)
+    light = nextafterf(light, step < 0 ? -2.0f : 2.0f);
+  return light;
+}
+
+/* All borders of codes, and among them colours that no code has. */
+static void check_borders_16(cs_isa isa) {
+  enum { NEIGHBOURS = 3, BATCH = 67, AROUND = 2 * NEIGHBOURS + 1 };
+  static const float strange[] = {NAN, INFINITY, -INFINITY, -0.0f, 1, 1.5f, -0.3f, 1e-30f, 3e7f};
+  enum { STRANGERS = sizeof strange / sizeof *strange };
+  int wrong = 0;
+  for (int code = 0; code <= 65536; code += BATCH) {
+    float light[BATCH * AROUND + 1], coded[BATCH * AROUND + 1];
+    uint16_t words[BATCH * AROUND + 1];
+    for (int i = 0; i < BATCH * AROUND; i++)
+      light[i] = near_border(code + i / AROUND, i % AROUND - NEIGHBOURS);
+    if (code / BATCH % 4 == 0)
+      light[code % (BATCH * AROUND)] = strange[code / BATCH / 4 % STRANGERS];
+    light[BATCH * AROUND] = 77;
+    words[BATCH * AROUND] = 77;
+    memcpy(coded, light, sizeof coded);
+    CS_WIDE_CHOOSE(isa, cs_space_codes)(BATCH * AROUND, coded);
+    CS_WIDE_CHOOSE(isa, cs_straight_words)(coded, BATCH * AROUND, words);
+    for (int i = 0; i < BATCH * AROUND; i++) {
+      float wanted = cs_transfer_encode(CELSPAN_TRANSFER_SRGB, light[i]);
+      wrong += !is_same(coded[i], wanted) || words[i] != word_of(wanted);
+    }
+    wrong += coded[BATCH * AROUND] != 77 || words[BATCH * AROUND] != 77;
+  }
+  CHECK(wrong == 0);
+}
+
+static void check_divided(cs_isa isa) {
+  enum { PIXELS = 37 };
+  static const float alphas[] = {1, 0, 0.5f, -0.25f, NAN, INFINITY, 1e-20f, 0.3f, -0.0f, 2};
+  test_random random = {11};
+  int wrong = 0;
+  for (int round = 0; round < 2000; round++) {
+    float given[4 * PIXELS + 4], divided[4 * PIXELS + 4];
+    int32_t count = 1 + round % PIXELS;
+    bool keeps_clear = round % 3 == 0;
+    for (int i = 0; i < 4 * PIXELS + 4; i++)
+      given[i] = i % 4 == 3 && round % 2 ? alphas[random_below(&random, 10)]
+                                         : (float)random_between(&random, -0.2, 1.2);
+    memcpy(divided, given, sizeof divided);
+    CS_WIDE_CHOOSE(isa, cs_straight_divide)(divided, count, keeps_clear);
+    for (int i = 0; i < 4 * PIXELS + 4; i++) {
+      float alpha = given[i | 3], kept = keeps_clear ? given[i] : 0;
+      bool is_colour = i < 4 * count && i % 4 < 3;
+      float wanted = !is_colour ? given[i] : alpha > 0 ? given[i] / alpha : kept;
+      wrong += !is_same(divided[i], wanted);
+    }
   }
   CHECK(wrong == 0);
 }
@@ -400,8 +471,11 @@ int main(void) {
                                  .depth = CELSPAN_DEPTH_FLOAT,
                                  .transfer = CELSPAN_TRANSFER_LINEAR,
                                  .alpha = CELSPAN_ALPHA_PREMULTIPLIED});
-  for (cs_isa isa = CS_ISA_ANY; isa <= cs_isa_best(); isa++)
+  for (cs_isa isa = CS_ISA_ANY; isa <= cs_isa_best(); isa++) {
     check_usual_rows(isa);
+    check_borders_16(isa);
+    check_divided(isa);
+  }
   check_memory_sink(context, same);
   check_digest_sink(context, same);
   check_digest_sink(context, different);

@@ -20,14 +20,18 @@ typedef struct channels {
   double rests[TOGETHER], powers[TOGETHER];
 } channels;
 
-/* False if some colour is outside of the tables. At first `there` holds the shares. */
-static inline bool find_colours(channels *all) {
-  int32_t beyond = 0;
+/* At first `there` holds the shares. */
+static inline void find_colours(channels *all) {
   for (int i = 0; i < TOGETHER; i++) {
     float there = cs_space_there(all->s[i], all->there[i]);
     all->there[i] = there;
     all->colours[i] = all->s[i] / (there > 0 ? there : 1);
   }
+}
+
+/* False if some colour is outside of the tables. */
+static inline bool find_sizes(channels *all) {
+  int32_t beyond = 0;
   for (int i = 0; i < TOGETHER; i++) {
     all->sizes[i] = fabs((double)all->colours[i]);
     beyond += !(all->sizes[i] < CS_POWER_END / 2);
@@ -78,7 +82,8 @@ void CS_WIDE(cs_space_channels)(celspan_space to, const float *shares, int32_t c
     int32_t some = count < TOGETHER ? count : TOGETHER;
     memcpy(all.s, s, (size_t)some * sizeof *s);
     memcpy(all.there, shares, (size_t)some * sizeof *shares);
-    if (!find_colours(&all)) {
+    find_colours(&all);
+    if (!find_sizes(&all)) {
       for (int32_t i = 0; i < some; i++)
         s[i] = cs_space_channel(to, s[i], shares[i]);
       continue;
@@ -89,5 +94,22 @@ void CS_WIDE(cs_space_channels)(celspan_space to, const float *shares, int32_t c
       decode(&all);
     join(&all);
     memcpy(s, all.s, (size_t)some * sizeof *s);
+  }
+}
+
+void CS_WIDE(cs_space_codes)(int32_t count, float *colours) {
+  channels all = {.colours = {0}};
+  for (; count > 0; count -= TOGETHER, colours += TOGETHER) {
+    int32_t some = count < TOGETHER ? count : TOGETHER;
+    memcpy(all.colours, colours, (size_t)some * sizeof *colours);
+    if (!find_sizes(&all)) {
+      for (int32_t i = 0; i < some; i++)
+        colours[i] = cs_space_channel(CELSPAN_SPACE_SRGB, colours[i], 1);
+      continue;
+    }
+    encode(&all);
+    for (int i = 0; i < TOGETHER; i++)
+      all.colours[i] = copysignf((float)all.sizes[i], all.colours[i]);
+    memcpy(colours, all.colours, (size_t)some * sizeof *colours);
   }
 }

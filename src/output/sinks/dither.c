@@ -1,6 +1,7 @@
 #include "output/sinks/dither.h"
 
 #include "output/sinks/pixels.h"
+#include "output/sinks/shares.h"
 #include "output/sinks/sink.h"
 
 /* ---------------------------------------------------------------- a row */
@@ -40,6 +41,7 @@ typedef struct dither_sink {
   int32_t x, y;
   int32_t width;
   unsigned char *row; /* from begin to end */
+  cs_shares shares;   /* of the inner sink, if there are several threads */
 } dither_sink;
 
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
@@ -51,12 +53,17 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
   return sink->inner.begin(sink->inner.user, context, width, height);
 }
 
-/* The inner sink gets the final bytes. */
+/* The inner sink gets the final bytes, which are in `row`. */
+static celspan_span dither(const dither_sink *sink, int32_t y, const celspan_span *spans,
+                           size_t span_count, unsigned char *row) {
+  cs_dither_row(&sink->coding, sink->x, sink->y + y, spans, span_count, row);
+  return (celspan_span){.x1 = sink->width, .kind = CELSPAN_SPAN_ARRAY, .codes = row};
+}
+
 static celspan_status put_row(void *user, celspan_context *context, int32_t y,
                               const celspan_span *spans, size_t span_count) {
   dither_sink *sink = user;
-  cs_dither_row(&sink->coding, sink->x, sink->y + y, spans, span_count, sink->row);
-  const celspan_span coded = {.x1 = sink->width, .kind = CELSPAN_SPAN_ARRAY, .codes = sink->row};
+  const celspan_span coded = dither(sink, y, spans, span_count, sink->row);
   return sink->inner.row(sink->inner.user, context, y, &coded, 1);
 }
 
@@ -81,4 +88,95 @@ celspan_status cs_dither_sink(celspan_context *context, const celspan_coding *as
   *dither = (dither_sink){.inner = *sink, .coding = *coding, .x = x, .y = y};
   *sink = (celspan_sink){CS_SINK_CALLS, .user = dither};
   return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- several threads */
+
+/* A worker of the inner sink, and a row for it. */
+typedef struct dither_worker {
+  const dither_sink *sink;
+  void *inner;
+  unsigned char *row;
+} dither_worker;
+
+static void close_worker(void *user, celspan_context *context, void *made) {
+  const dither_sink *sink = user;
+  dither_worker *worker = made;
+  if (!worker)
+    return;
+  if (sink->shares.close_worker)
+    sink->shares.close_worker(sink->shares.user, context, worker->inner);
+  cs_mem_free(context->memory, worker->row, 4 * (size_t)sink->width);
+  cs_mem_free(context->memory, worker, sizeof *worker);
+}
+
+static celspan_status open_worker(void *user, celspan_context *context, void **made) {
+  const dither_sink *sink = user;
+  dither_worker *worker;
+  CS_TRY(CS_MAKE(context, worker, 1));
+  *made = worker;
+  worker->sink = sink;
+  worker->row = cs_mem_array(context->memory, (size_t)sink->width, 4);
+  if (!worker->row)
+    return cs_fail_memory(context);
+  return sink->shares.open_worker
+             ? sink->shares.open_worker(sink->shares.user, context, &worker->inner)
+             : CELSPAN_OK;
+}
+
+static celspan_status open_share(void *user, celspan_context *context, void **share) {
+  const cs_shares *shares = &((const dither_sink *)user)->shares;
+  return shares->open_share ? shares->open_share(shares->user, context, share) : CELSPAN_OK;
+}
+
+static void close_share(void *user, celspan_context *context, void *share) {
+  const cs_shares *shares = &((const dither_sink *)user)->shares;
+  if (shares->close_share)
+    shares->close_share(shares->user, context, share);
+}
+
+static celspan_status begin_share(void *made, celspan_context *context, void *share,
+                                  int32_t index) {
+  const dither_worker *worker = made;
+  const cs_shares *shares = &worker->sink->shares;
+  return shares->begin ? shares->begin(worker->inner, context, share, index) : CELSPAN_OK;
+}
+
+/* Dithers into the place of the pixels, if the inner sink has one. */
+static celspan_status put_share_row(void *user, void *made, celspan_context *context, int32_t y,
+                                    const celspan_span *spans, size_t span_count) {
+  const dither_sink *sink = user;
+  const dither_worker *worker = made;
+  const cs_shares *shares = &sink->shares;
+  unsigned char *row =
+      shares->pixels ? shares->pixels(shares->user, worker->inner, y) : worker->row;
+  const celspan_span coded = dither(sink, y, spans, span_count, row);
+  return shares->row(shares->user, worker->inner, context, y, &coded, 1);
+}
+
+static celspan_status end_share(void *made, celspan_context *context) {
+  const dither_worker *worker = made;
+  const cs_shares *shares = &worker->sink->shares;
+  return shares->end ? shares->end(worker->inner, context) : CELSPAN_OK;
+}
+
+static celspan_status join_share(void *user, celspan_context *context, void *share, int32_t index) {
+  const cs_shares *shares = &((const dither_sink *)user)->shares;
+  return shares->join ? shares->join(shares->user, context, share, index) : CELSPAN_OK;
+}
+
+const celspan_sink *cs_dither_sink_inner(const celspan_sink *sink) {
+  return sink->row == put_row ? &((const dither_sink *)sink->user)->inner : sink;
+}
+
+void cs_dither_sink_shares(const celspan_sink *sink, cs_shares *shares) {
+  if (sink->row != put_row)
+    return;
+  dither_sink *dithers = sink->user;
+  dithers->shares = *shares;
+  *shares = (cs_shares){.user = dithers,
+                        .rows = shares->rows,
+                        .takes_above = shares->takes_above,
+                        CS_SHARES_CALLS,
+                        .end = end_share};
 }

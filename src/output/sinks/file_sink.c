@@ -287,8 +287,11 @@ celspan_status celspan_file_sink_create(celspan_context *context, const char *pa
 }
 
 bool cs_sink_shares(const celspan_sink *sink, cs_shares *out) {
-  const celspan_sink *inner = open_guard(sink);
+  const celspan_sink *outer = open_guard(sink), *inner = cs_dither_sink_inner(outer);
   *out = (cs_shares){.rows = 0};
-  return !inner->row || cs_memory_sink_shares(inner, out) || cs_planes_sink_shares(inner, out) ||
-         cs_png_sink_shares(inner, out) || cs_span_sink_shares(inner, out);
+  if (inner->row && !cs_memory_sink_shares(inner, out) && !cs_planes_sink_shares(inner, out) &&
+      !cs_png_sink_shares(inner, out) && !cs_span_sink_shares(inner, out))
+    return false;
+  cs_dither_sink_shares(outer, out);
+  return true;
 }

@@ -14,10 +14,15 @@
 #include "model/colour/srgb8_lanes.h"
 #include "model/colour/transfer.h"
 #include "output/sinks/pixels8.h"
+#include "output/sinks/straight.h"
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "pixels are written little endian");
 
-enum { CHUNK = 64 };
+enum {
+  CHUNK = 64,          /* pixels that are coded together */
+  CURVE_TOGETHER = 16, /* numbers of which the vector code is quicker */
+  MOST_BYTES = 16      /* of a pixel */
+};
 
 size_t celspan_coding_pixel_size(const celspan_coding *coding) {
   celspan_coding whole;
@@ -174,19 +179,36 @@ static void convert(const celspan_coding *coding, const float *rgba, size_t coun
     finish_converted(coding, rgba + 4 * i, out[i]);
 }
 
-static void encode_by_curve(const celspan_coding *coding, const float rgba[4], float coded[4]) {
-  bool is_divided_first = coding->alpha == CS_ALPHA_CODED && rgba[3] > 0;
-  bool divide = (coding->alpha == CELSPAN_ALPHA_STRAIGHT || is_divided_first) && rgba[3] != 1;
-  bool is_coded = is_in_codes(coding);
-  memcpy(coded, rgba, 4 * sizeof *coded);
+/* The curve of sRGB is quicker for many numbers at once; both ways give the same bits. */
+static void apply_curve(celspan_transfer transfer, size_t count, float *numbers) {
+  if (transfer == CELSPAN_TRANSFER_SRGB && count >= CURVE_TOGETHER)
+    CS_WIDE_CHOOSE(cs_isa_best(), cs_space_codes)((int32_t)count, numbers);
+  else
+    for (size_t i = 0; i < count && transfer != CELSPAN_TRANSFER_LINEAR; i++)
+      numbers[i] = cs_transfer_encode(transfer, numbers[i]);
+}
+
+static void multiply(const float *rgba, size_t count, float coded[][4]) {
+  for (size_t i = 0; i < count; i++)
+    for (int c = 0; c < 3; c++)
+      coded[i][c] *= rgba[4 * i + 3] > 0 ? rgba[4 * i + 3] : 1;
+}
+
+static void encode_by_curve(const celspan_coding *coding, const float *rgba, size_t count,
+                            float coded[][4]) {
+  bool is_coded = is_in_codes(coding), is_multiplied = coding->alpha == CS_ALPHA_CODED;
+  bool is_decoded = coding->space == CELSPAN_SPACE_SRGB && !is_coded;
+  memcpy(coded, rgba, 4 * count * sizeof *rgba);
+  for (size_t i = 0; i < count && is_decoded; i++)
+    cs_space_decode(coding->space, coded[i]);
+  if (coding->alpha == CELSPAN_ALPHA_STRAIGHT || is_multiplied)
+    CS_WIDE_CHOOSE(cs_isa_best(), cs_straight_divide)(coded[0], (int32_t)count, is_multiplied);
   if (!is_coded)
-    cs_space_decode(coding->space, coded);
-  for (int c = 0; c < 3; c++) {
-    float value = !divide ? coded[c] : rgba[3] > 0 ? coded[c] / rgba[3] : 0;
-    coded[c] = is_coded ? value : cs_transfer_encode(coding->transfer, value);
-  }
-  for (int c = 0; is_divided_first && c < 3; c++)
-    coded[c] *= rgba[3];
+    apply_curve(coding->transfer, 4 * count, coded[0]);
+  if (is_multiplied)
+    multiply(rgba, count, coded);
+  for (size_t i = 0; i < count; i++)
+    coded[i][3] = rgba[4 * i + 3];
 }
 
 /* count: at most CHUNK. */
@@ -195,8 +217,7 @@ static void encode(const celspan_coding *coding, const float *rgba, size_t count
   if (coding->convert)
     convert(coding, rgba, count, coded);
   else
-    for (size_t i = 0; i < count; i++)
-      encode_by_curve(coding, rgba + 4 * i, coded[i]);
+    encode_by_curve(coding, rgba, count, coded);
 }
 
 void cs_pixels_encode(const celspan_coding *coding, const float rgba[4], float coded[4]) {
@@ -250,30 +271,29 @@ static void code_8(const celspan_coding *coding, const float *rgba, size_t count
   }
 }
 
-/* is_half: the words are floats; otherwise they are integers. */
-static inline void code_words(const celspan_coding *coding, const float *rgba, size_t count,
-                              unsigned char *out, bool is_half) {
+static void code_16(const celspan_coding *coding, const float *rgba, size_t count,
+                    unsigned char *out) {
   for (size_t portion; count > 0; count -= portion, rgba += 4 * portion, out += 8 * portion) {
     float coded[CHUNK][4];
     uint16_t words[4 * CHUNK];
     portion = portion_of(count);
     encode(coding, rgba, portion, coded);
-    for (size_t i = 0; i < 4 * portion; i++) {
-      float value = coded[i / 4][i % 4];
-      words[i] = is_half ? to_half(value) : (uint16_t)to_integer(value, 65535);
-    }
+    CS_WIDE_CHOOSE(cs_isa_best(), cs_straight_words)(coded[0], 4 * (int32_t)portion, words);
     memcpy(out, words, 8 * portion);
   }
 }
 
-static void code_16(const celspan_coding *coding, const float *rgba, size_t count,
-                    unsigned char *out) {
-  code_words(coding, rgba, count, out, false);
-}
-
 static void code_half(const celspan_coding *coding, const float *rgba, size_t count,
                       unsigned char *out) {
-  code_words(coding, rgba, count, out, true);
+  for (size_t portion; count > 0; count -= portion, rgba += 4 * portion, out += 8 * portion) {
+    float coded[CHUNK][4];
+    uint16_t words[4 * CHUNK];
+    portion = portion_of(count);
+    encode(coding, rgba, portion, coded);
+    for (size_t i = 0; i < 4 * portion; i++)
+      words[i] = to_half(coded[i / 4][i % 4]);
+    memcpy(out, words, 8 * portion);
+  }
 }
 
 static void code_float(const celspan_coding *coding, const float *rgba, size_t count,
@@ -344,37 +364,57 @@ static void put_gradient(gathered *waiting, const celspan_coding *coding, coder 
   }
 }
 
-/* Arrays and flat spans. */
-static void code_span(const celspan_coding *coding, coder code, const celspan_span *span,
-                      size_t pixel_size, unsigned char *out) {
+/* The coded colours of the single spans among `count` spans, at most CHUNK, one after another. */
+static void code_singles(const celspan_coding *coding, coder code, const celspan_span *spans,
+                         size_t count, unsigned char *coded) {
+  float rgba[CHUNK][4];
+  size_t singles = 0;
+  for (size_t i = 0; i < count; i++)
+    if (spans[i].kind == CELSPAN_SPAN_SINGLE)
+      memcpy(rgba[singles++], spans[i].colour, sizeof spans[i].colour);
+  code(coding, rgba[0], singles, coded);
+}
+
+static void code_array(const celspan_coding *coding, coder code, const celspan_span *span,
+                       size_t pixel_size, unsigned char *out) {
   size_t count = (size_t)(span->x1 - span->x0);
-  if (span->kind == CELSPAN_SPAN_ARRAY && span->codes) {
+  if (span->codes)
     memcpy(out, span->codes, count * pixel_size);
-    return;
-  }
-  if (span->kind == CELSPAN_SPAN_ARRAY) {
+  else
     code(coding, span->array, count, out);
-    return;
+}
+
+/* waiting: gradients, which the next portion may continue. count: at most CHUNK. */
+static void code_portion(const celspan_coding *coding, coder code, const celspan_span *spans,
+                         size_t count, gathered *waiting, unsigned char *row) {
+  unsigned char coded[MOST_BYTES * CHUNK], *single = coded;
+  size_t pixel_size = cs_pixels_size(coding);
+  code_singles(coding, code, spans, count, coded);
+  for (const celspan_span *span = spans; span < spans + count; span++) {
+    unsigned char *out = row + (size_t)span->x0 * pixel_size;
+    if (span->kind == CELSPAN_SPAN_GRADIENT) {
+      put_gradient(waiting, coding, code, span, pixel_size, out);
+      continue;
+    }
+    flush(waiting, coding, code);
+    if (span->kind == CELSPAN_SPAN_ARRAY) {
+      code_array(coding, code, span, pixel_size, out);
+      continue;
+    }
+    size_t size = (size_t)(span->x1 - span->x0) * pixel_size;
+    CS_WIDE_CHOOSE(cs_isa_best(), cs_fill_run)(out, size, single, pixel_size);
+    single += pixel_size;
   }
-  unsigned char pixel[16];
-  code(coding, span->colour, 1, pixel);
-  CS_WIDE_CHOOSE(cs_isa_best(), cs_fill_run)(out, count * pixel_size, pixel, pixel_size);
 }
 
 static void code_spans(const celspan_coding *coding, const celspan_span *spans, size_t span_count,
                        unsigned char *row) {
   coder code = choose_coder(coding);
-  size_t pixel_size = cs_pixels_size(coding);
   gathered waiting;
   waiting.count = 0;
-  for (const celspan_span *span = spans; span < spans + span_count; span++) {
-    unsigned char *out = row + (size_t)span->x0 * pixel_size;
-    if (span->kind == CELSPAN_SPAN_GRADIENT) {
-      put_gradient(&waiting, coding, code, span, pixel_size, out);
-      continue;
-    }
-    flush(&waiting, coding, code);
-    code_span(coding, code, span, pixel_size, out);
+  for (size_t portion; span_count > 0; span_count -= portion, spans += portion) {
+    portion = portion_of(span_count);
+    code_portion(coding, code, spans, portion, &waiting, row);
   }
   flush(&waiting, coding, code);
 }

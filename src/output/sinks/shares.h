@@ -45,11 +45,15 @@ typedef struct cs_shares {
   .close_share = close_share, .begin = begin_share, .row = put_share_row, .join = join_share
 
 /* How each kind of sink fills its shares; false: the sink, which has begun, is of another kind.
- * cs_sink_shares calls all of them. */
+ * cs_sink_shares calls all these functions. */
 bool cs_memory_sink_shares(const celspan_sink *sink, cs_shares *out);
 bool cs_planes_sink_shares(const celspan_sink *sink, cs_shares *out);
 bool cs_png_sink_shares(const celspan_sink *sink, cs_shares *out);
 bool cs_span_sink_shares(const celspan_sink *sink, cs_shares *out);
+/* The sink for which this one dithers (output/sinks/dither.h); any other sink is its own. */
+const celspan_sink *cs_dither_sink_inner(const celspan_sink *sink);
+/* Makes of the shares of that sink those of this one. */
+void cs_dither_sink_shares(const celspan_sink *sink, cs_shares *shares);
 /* Whether the sink, which has begun, can receive rows in shares. A sink without `row` always
  * can. */
 bool cs_sink_shares(const celspan_sink *sink, cs_shares *out);
