@@ -290,7 +290,8 @@ celspan_status cs_context_make(const celspan_context_desc *desc, celspan_context
   context->root = context;
   context->picture_bytes = desc->picture_bytes;
   context->map_bytes = desc->defocus_bytes / 4;
-  context->defocus_bytes = desc->defocus_bytes - context->map_bytes;
+  /* the rest is for outlines (model/stroke/kept.h) */
+  context->defocus_bytes = desc->defocus_bytes - context->map_bytes - context->map_bytes / 8;
   *out = context;
   return CELSPAN_OK;
 }

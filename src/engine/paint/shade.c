@@ -1,5 +1,8 @@
 #include "engine/paint/shade.h"
 
+#include <assert.h>
+#include <stddef.h>
+
 #include "base/elementary.h"
 #include "base/number.h"
 #include "engine/paint/noise.h"
@@ -15,7 +18,9 @@ static inline cs_v4 three_of(const float *channels) {
   return out;
 }
 
-/* What follows s is t, and what follows t is beta. */
+static_assert(offsetof(cs_paint, t) == 3 * sizeof(float), "what follows s is t");
+static_assert(offsetof(cs_paint, beta) == 6 * sizeof(float), "what follows t is beta");
+
 static inline cs_shade_lanes lanes_of(const cs_paint *paint) {
   const float *channels = (const float *)paint;
   return (cs_shade_lanes){three_of(channels), three_of(channels + 3)};

@@ -7,6 +7,7 @@
 #include "frames/render/through.h"
 #include "model/geometry/matrix.h"
 #include "model/scene/texture.h"
+#include "model/stroke/kept.h"
 #include "model/stroke/outliner.h"
 
 void cs_layers_fill_flat(cs_layer *layer, cs_paint paint, float fade) {
@@ -153,6 +154,15 @@ static bool takes_dashes(cs_compiler *c, const cs_stroke *stroke, const cs_strok
   return !plan->is_crowded;
 }
 
+static celspan_status add_kept(cs_compiler *c, const cs_stroke *stroke, const cs_stroke_view *view,
+                               uint32_t index) {
+  cs_stroke_kept *kept;
+  CS_TRY(cs_stroke_kept_acquire(c->context, stroke, view, &kept));
+  celspan_status status = cs_boundary_add(c->boundaries, &kept->outline, &view->matrix, index);
+  cs_stroke_kept_release(c->context, kept);
+  return status;
+}
+
 /* The outline of a stroke is made only as far as the requested rows show it. The census counts
  * numbers that do not depend on these rows: two sides of its line and two ends of each of its
  * parts. */
@@ -169,6 +179,8 @@ static celspan_status add_stroke(cs_compiler *c, const cs_primitive_data *data,
   size_t pieces = 2 * (stroke->line.piece_count + stroke->part_count);
   if (!is_asked_for(c, pieces, &data->bounds, facing, index) || !takes_dashes(c, stroke, &view))
     return CELSPAN_OK;
+  if (cs_stroke_kept_suits(stroke, &view))
+    return add_kept(c, stroke, &view, index);
   cs_outline outline;
   cs_outline_init(&outline);
   celspan_status status = cs_stroke_outline(c->context, stroke, &view, &outline);

@@ -224,3 +224,18 @@ celspan_status cs_outline_polygon(celspan_context *context, cs_outline *outline,
   }
   return cs_outline_close(context, outline);
 }
+
+void cs_outline_hash(cs_hash *hash, const cs_outline *outline) {
+  cs_hash_word(hash, outline->contour_count);
+  for (size_t i = 0; i < outline->contour_count; i++)
+    cs_hash_word(hash, outline->contours[i]);
+  cs_hash_word(hash, outline->piece_count);
+  for (size_t i = 0; i < outline->piece_count; i++)
+    cs_hash_word(hash, outline->degrees[i]);
+  cs_hash_word(hash, outline->point_count);
+  for (size_t i = 0; i < outline->point_count; i++) {
+    cs_hash_number(hash, outline->points[i].x);
+    cs_hash_number(hash, outline->points[i].y);
+    cs_hash_number(hash, outline->points[i].w);
+  }
+}

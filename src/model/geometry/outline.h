@@ -15,6 +15,7 @@
 #pragma once
 
 #include "base/context.h"
+#include "base/hash.h"
 
 #define CS_OUTLINE_PLAIN_DEGREE 3
 
@@ -38,6 +39,7 @@ typedef struct cs_outline {
 /* An empty outline; finish frees its arrays. */
 void cs_outline_init(cs_outline *outline);
 void cs_outline_finish(cs_outline *outline, cs_memory *memory);
+void cs_outline_hash(cs_hash *hash, const cs_outline *outline);
 
 /* Building: move begins a contour, close ends it with a line when it is open, and the other
  * functions append a piece from the current point. A contour without pieces is removed. Errors:

@@ -145,21 +145,6 @@ void cs_primitive_data_unref(cs_primitive_data *data) {
   cs_memory_unref(memory);
 }
 
-static void hash_outline(cs_hash *hash, const cs_outline *outline) {
-  cs_hash_word(hash, outline->contour_count);
-  for (size_t i = 0; i < outline->contour_count; i++)
-    cs_hash_word(hash, outline->contours[i]);
-  cs_hash_word(hash, outline->piece_count);
-  for (size_t i = 0; i < outline->piece_count; i++)
-    cs_hash_word(hash, outline->degrees[i]);
-  cs_hash_word(hash, outline->point_count);
-  for (size_t i = 0; i < outline->point_count; i++) {
-    cs_hash_number(hash, outline->points[i].x);
-    cs_hash_number(hash, outline->points[i].y);
-    cs_hash_number(hash, outline->points[i].w);
-  }
-}
-
 /* Nothing is known about the spans of a procedure, so it equals only itself. Its address can be
  * used again after it was freed, but the count of allocations only grows. */
 static void hash_procedure(cs_hash *hash, const cs_primitive_data *data) {
@@ -173,9 +158,9 @@ static cs_hash hash_primitive(const cs_primitive_data *data) {
   const cs_outline *outline = cs_primitive_data_outline(data, &room);
   cs_hash hash = cs_hash_begin(CS_VALUE_DATA);
   cs_hash_word(&hash, data->kind);
-  hash_outline(&hash, outline ? outline : &none);
+  cs_outline_hash(&hash, outline ? outline : &none);
   if (data->stroke) {
-    hash_outline(&hash, &data->stroke->line);
+    cs_outline_hash(&hash, &data->stroke->line);
     cs_stroke_hash(&hash, data->stroke);
   }
   cs_hash_word(&hash, data->rule);
