@@ -169,6 +169,9 @@ typedef struct boiling {
   uint64_t across, down; /* seeds */
   uint64_t step;
   double amount, grain; /* units */
+  /* The square of the grid in which the last point was, and how far its corners are moved along x
+   * and along y: most points lie in the square of the point before. */
+  double i, j, corners[2][4];
   uint64_t points;
 } boiling;
 
@@ -186,16 +189,20 @@ static double grid_value(uint64_t seed, double x, double y, uint64_t step) {
   return (double)(cs_splitmix_next(&state) >> 11) * 0x1p-52 - 1;
 }
 
-/* Where a coordinate is moved to, inside the cell (i, j), of which (u, v) is the share before the
- * place. The order of the sums decides the last bit. */
-static double moved(const boiling *b, uint64_t seed, double at, double i, double j, double u,
-                    double v) {
-  double first = b->amount * grid_value(seed, i, j, b->step),
-         second = b->amount * grid_value(seed, i + 1, j, b->step),
-         third = b->amount * grid_value(seed, i, j + 1, b->step),
-         fourth = b->amount * grid_value(seed, i + 1, j + 1, b->step);
-  double near = first + (second - first) * u;
-  return at + near + (third + (fourth - third) * u - near) * v;
+static void enter_square(boiling *b, double i, double j) {
+  const uint64_t seeds[2] = {b->across, b->down};
+  b->i = i;
+  b->j = j;
+  for (int axis = 0; axis < 2; axis++)
+    for (int k = 0; k < 4; k++)
+      b->corners[axis][k] = b->amount * grid_value(seeds[axis], i + k % 2, j + k / 2, b->step);
+}
+
+/* Where a coordinate is moved to, in a square of which (u, v) is the share before the place. The
+ * order of the sums decides the last bit. */
+static double moved(const double corners[4], double at, double u, double v) {
+  double near = corners[0] + (corners[1] - corners[0]) * u;
+  return at + near + (corners[2] + (corners[3] - corners[2]) * u - near) * v;
 }
 
 static double eased(double t) { return t * t * t * (t * (6 * t - 15) + 10); }
@@ -210,8 +217,10 @@ static celspan_status boil_point(void *user, celspan_context *context, celspan_p
   boiling *b = user;
   double i = floor(from.x / b->grain), j = floor(from.y / b->grain);
   double u = eased(from.x / b->grain - i), v = eased(from.y / b->grain - j);
-  to->x = moved(b, b->across, from.x, i, j, u, v);
-  to->y = moved(b, b->down, from.y, i, j, u, v);
+  if (i != b->i || j != b->j)
+    enter_square(b, i, j);
+  to->x = moved(b->corners[0], from.x, u, v);
+  to->y = moved(b->corners[1], from.y, u, v);
   if (++b->points % POINTS_A_CHARGE > 0)
     return CELSPAN_OK;
   lua_State *L = b->mapping.L;
@@ -228,7 +237,8 @@ int cs_derived_boil(lua_State *L) {
                .down = (uint64_t)luaL_checkinteger(L, 3),
                .step = whole_of(luaL_checknumber(L, 4)),
                .amount = luaL_checknumber(L, 5),
-               .grain = luaL_checknumber(L, 6)};
+               .grain = luaL_checknumber(L, 6),
+               .i = NAN};
   celspan_warp_desc desc = read_desc(L, 7, boil_point, &b);
   lua_settop(L, 1);
   bend(L, "boil", &desc, &b.mapping);
