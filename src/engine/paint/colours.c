@@ -28,12 +28,6 @@ typedef struct samples {
   float s[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4]; /* all others; s is not lit */
 } samples;
 
-static void sample_shade(const cs_shade *shade, const cs_batch *batch, samples *out) {
-  double x[CS_OVER_ROW_BATCH];
-  cs_batch_centres(batch, x);
-  cs_shade_paints(shade, x, batch->count, batch->y, out->s, out->t);
-}
-
 static void sample_procedure(const cs_procedure_span *span, const cs_batch *batch, samples *out) {
   for (int32_t k = 0; k < batch->count; k++) {
     cs_paint paint = procedure_paint(span, cs_batch_centre(batch, k));
@@ -116,6 +110,26 @@ static celspan_status add_defocused(cs_painter *painter, cs_over_row *over, cons
   return cs_over_row_add_paint(over, layer, (const float(*)[4])room->s, (const float(*)[4])room->t);
 }
 
+/* The same for a shade, whose paints are put nowhere unless they are a light. */
+static celspan_status add_shade(cs_painter *painter, cs_over_row *over, const cs_layer *layer,
+                                const cs_batch *batch, samples *room) {
+  const cs_shade *shade = &painter->stack->shades[layer->index];
+  double x[CS_OVER_ROW_BATCH];
+  if (shade->is_level && layer->role == CS_LAYER_PAINT) {
+    const cs_over_pair lit = cs_painter_lit_level(painter, layer, batch->y);
+    cs_over_row_add_lit(over, &lit);
+    return CELSPAN_OK;
+  }
+  cs_batch_centres(batch, x);
+  if (layer->role == CS_LAYER_PAINT) {
+    cs_over_row_state *state = cs_over_row_state_of(over);
+    cs_shade_fold(shade, layer, x, batch->count, batch->y, state->e, state->t);
+    return CELSPAN_OK;
+  }
+  cs_shade_paints(shade, x, batch->count, batch->y, room->s, room->t);
+  return cs_over_row_add_paint(over, layer, (const float(*)[4])room->s, (const float(*)[4])room->t);
+}
+
 static celspan_status add_item(cs_painter *painter, cs_over_row *over,
                                const cs_procedure_span *procedure_spans, cs_item item,
                                const cs_batch *batch, samples *room) {
@@ -132,10 +146,10 @@ static celspan_status add_item(cs_painter *painter, cs_over_row *over,
   }
   if (layer->kind == CS_LAYER_DEFOCUSED)
     return add_defocused(painter, over, layer, batch, room);
+  if (layer->kind == CS_LAYER_SHADED)
+    return add_shade(painter, over, layer, batch, room);
   if (layer->kind == CS_LAYER_PICTURE)
     CS_TRY(sample_media(painter, layer, batch, room));
-  else if (layer->kind == CS_LAYER_SHADED)
-    sample_shade(&stack->shades[layer->index], batch, room);
   else
     sample_procedure(&procedure_spans[item.procedure_span], batch, room);
   return cs_over_row_add_paint(over, layer, (const float(*)[4])room->s, (const float(*)[4])room->t);

@@ -43,10 +43,16 @@ static celspan_status move_views(cs_painter *painter, const cs_program *program,
   return CELSPAN_OK;
 }
 
-static void add_formula(const cs_painter *painter, const cs_layer *layer, int32_t x, double y,
+static void add_formula(cs_painter *painter, const cs_layer *layer, int32_t x, double y,
                         cs_over *over) {
-  cs_shade_lanes paint = cs_shade_paint(&painter->stack->shades[layer->index], x + 0.5, y);
-  cs_over_pair lit = cs_over_lit(layer->front, layer->fade, paint.s, paint.t);
+  const cs_shade *shade = &painter->stack->shades[layer->index];
+  cs_over_pair lit;
+  if (shade->is_level) {
+    lit = cs_painter_lit_level(painter, layer, y);
+  } else {
+    cs_shade_lanes paint = cs_shade_paint(shade, x + 0.5, y);
+    lit = cs_over_lit(layer->front, layer->fade, paint.s, paint.t);
+  }
   cs_over_add(over, lit.e, lit.t);
 }
 
@@ -70,7 +76,7 @@ static bool is_clear(const cs_painter *painter, const cs_layer *layer, int32_t x
   return x < visible.first || x >= visible.end;
 }
 
-static cs_v4 colour_at(const cs_painter *painter, const cs_program *program, int32_t x, double y) {
+static cs_v4 colour_at(cs_painter *painter, const cs_program *program, int32_t x, double y) {
   cs_over over;
   cs_over_begin(&over, painter->stack, painter->outers);
   for (uint32_t i = 0; i < program->length; i++) {

@@ -17,7 +17,7 @@ static void clear_state(cs_over_row *over) {
 }
 
 /* The state, to be added to or read. */
-static inline cs_over_row_state *state_of(cs_over_row *over) {
+cs_over_row_state *cs_over_row_state_of(cs_over_row *over) {
   if (over->is_clear)
     clear_state(over);
   return over->state;
@@ -25,7 +25,8 @@ static inline cs_over_row_state *state_of(cs_over_row *over) {
 
 static void meet_light(cs_over_row *over) {
   const cs_back_light *light = &over->stack->lights[over->light++];
-  WIDE(over, cs_over_row_add_light)(state_of(over), over->count, (const float *)&light->light);
+  WIDE(over, cs_over_row_add_light)
+  (cs_over_row_state_of(over), over->count, (const float *)&light->light);
   over->keep *= light->keep;
 }
 
@@ -56,7 +57,7 @@ static void add_left(cs_over_row *over, const cs_group *group, cs_over_row_state
     over->state = inner;
     over->is_clear = false;
   } else {
-    WIDE(over, cs_over_row_add_group)(state_of(over), over->count, group->fade, inner);
+    WIDE(over, cs_over_row_add_group)(cs_over_row_state_of(over), over->count, group->fade, inner);
   }
 }
 
@@ -65,7 +66,7 @@ static void leave_group(cs_over_row *over) {
   const cs_over_row_outer *around = &over->outers[--over->depth];
   while (group->is_frame && over->light < over->stack->light_count)
     meet_light(over);
-  cs_over_row_state *inner = state_of(over);
+  cs_over_row_state *inner = cs_over_row_state_of(over);
   finish_group(over, group, around, inner);
   over->state = around->outer;
   over->is_clear = around->is_clear;
@@ -125,9 +126,14 @@ celspan_status cs_over_row_move(cs_over_row *over, uint32_t layer) {
   return CELSPAN_OK;
 }
 
-void cs_over_row_add_layer(cs_over_row *over, const cs_layer *layer) {
+void cs_over_row_add_lit(cs_over_row *over, const cs_over_pair *lit) {
   WIDE(over, cs_over_row_add_flat)
-  (state_of(over), over->count, (const float *)&layer->s, (const float *)&layer->t);
+  (cs_over_row_state_of(over), over->count, (const float *)&lit->e, (const float *)&lit->t);
+}
+
+void cs_over_row_add_layer(cs_over_row *over, const cs_layer *layer) {
+  const cs_over_pair lit = {layer->s, layer->t};
+  cs_over_row_add_lit(over, &lit);
 }
 
 /* A light with a shape: lane 3 of its pigments is not read. */
@@ -135,7 +141,7 @@ static celspan_status add_light_shape(cs_over_row *over, const cs_layer *layer,
                                       const float (*s)[4]) {
   const float *gain = (const float *)&layer->front;
   if (layer->role == CS_LAYER_BACK) {
-    WIDE(over, cs_over_row_add_back)(state_of(over), over->count, gain, s);
+    WIDE(over, cs_over_row_add_back)(cs_over_row_state_of(over), over->count, gain, s);
     return CELSPAN_OK;
   }
   float(*front)[4] = cs_arena_take(over->context, over->arena, CS_OVER_ROW_BATCH * sizeof *front);
@@ -151,7 +157,7 @@ celspan_status cs_over_row_add_samples(cs_over_row *over, const cs_layer *layer,
   if (layer->role != CS_LAYER_PAINT)
     return add_light_shape(over, layer, rgba);
   WIDE(over, cs_over_row_add_picture)
-  (state_of(over), over->count, (const float *)&layer->front, layer->fade,
+  (cs_over_row_state_of(over), over->count, (const float *)&layer->front, layer->fade,
    use == CELSPAN_PICTURE_GEL, rgba);
   return CELSPAN_OK;
 }
@@ -161,7 +167,7 @@ celspan_status cs_over_row_add_paint(cs_over_row *over, const cs_layer *layer, c
   if (layer->role != CS_LAYER_PAINT)
     return add_light_shape(over, layer, s);
   WIDE(over, cs_over_row_add_paints)
-  (state_of(over), over->count, (const float *)&layer->front, layer->fade, s, t);
+  (cs_over_row_state_of(over), over->count, (const float *)&layer->front, layer->fade, s, t);
   return CELSPAN_OK;
 }
 
@@ -180,5 +186,5 @@ void cs_over_row_end(cs_over_row *over, float (*rgba)[4]) {
     leave_group(over);
   while (over->light < over->stack->light_count)
     meet_light(over);
-  WIDE(over, cs_over_row_to_rgba)(state_of(over), over->count, over->keep, rgba);
+  WIDE(over, cs_over_row_to_rgba)(cs_over_row_state_of(over), over->count, over->keep, rgba);
 }

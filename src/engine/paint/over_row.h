@@ -81,6 +81,10 @@ CELSPAN_CHECKED celspan_status cs_over_row_move(cs_over_row *over, uint32_t laye
 /* Add a layer that has been moved to, by its role. rgba: a picture's samples; s and t: paints, s
  * not yet lit. Room for a whole batch in each. Errors: NO_MEMORY. */
 void cs_over_row_add_layer(cs_over_row *over, const cs_layer *layer);
+/* The same where the layer has one paint in all pixels, given lit. */
+void cs_over_row_add_lit(cs_over_row *over, const cs_over_pair *lit);
+/* The state, for others to add to. */
+cs_over_row_state *cs_over_row_state_of(cs_over_row *over);
 CELSPAN_CHECKED celspan_status cs_over_row_add_samples(cs_over_row *over, const cs_layer *layer,
                                                        celspan_picture_use use,
                                                        const float (*rgba)[4]);

@@ -5,6 +5,7 @@
 
 #include "base/elementary.h"
 #include "base/number.h"
+#include "engine/compose/over.h"
 #include "engine/paint/noise.h"
 #include "model/geometry/matrix.h"
 
@@ -68,11 +69,18 @@ static cs_paint triangle_paint(const cs_shade *shade, double u, double v) {
 
 /* ---------------------------------------------------------------- stops */
 
-static inline cs_shade_stretch stretch_at(const celspan_texture *texture, double at) {
+/* The first stop behind a place, or their number. */
+static inline size_t stop_after(const celspan_texture *texture, double at) {
   const cs_stop *stops = texture->variation->stops;
   size_t count = texture->variation->stop_count, next = 0;
   while (next < count && stops[next].at <= at)
     next++;
+  return next;
+}
+
+static inline cs_shade_stretch stretch_at(const celspan_texture *texture, double at) {
+  const cs_stop *stops = texture->variation->stops;
+  size_t count = texture->variation->stop_count, next = stop_after(texture, at);
   cs_shade_stretch out = {
       -INFINITY, INFINITY, 0, lanes_of(&stops[next == 0 ? 0 : next - 1].paint), {{0}, {0}}};
   if (next > 0)
@@ -87,11 +95,16 @@ static inline cs_shade_stretch stretch_at(const celspan_texture *texture, double
   return out;
 }
 
-static inline cs_shade_lanes stretch_paint(const cs_shade_stretch *part, double at) {
-  if (part->length == 0)
-    return part->paint;
-  float u = (float)((at - part->from) / part->length);
-  return (cs_shade_lanes){part->paint.s + u * part->step.s, part->paint.t + u * part->step.t};
+/* The same at one place. */
+static inline cs_shade_lanes stops_paint(const celspan_texture *texture, double at) {
+  const cs_stop *stops = texture->variation->stops;
+  size_t next = stop_after(texture, at);
+  cs_shade_lanes paint = lanes_of(&stops[next == 0 ? 0 : next - 1].paint);
+  if (next == 0 || next == texture->variation->stop_count)
+    return paint;
+  cs_shade_lanes end = lanes_of(&stops[next].paint);
+  float u = (float)((at - stops[next - 1].at) / (stops[next].at - stops[next - 1].at));
+  return (cs_shade_lanes){paint.s + u * (end.s - paint.s), paint.t + u * (end.t - paint.t)};
 }
 
 /* The plane over frame pixels of the function a u + b v + c w in own units. */
@@ -175,6 +188,8 @@ void cs_shade_prepare(cs_shade *shade) {
     prepare_noise(shade);
   else
     prepare_radial(shade);
+  shade->is_level =
+      shade->texture->kind == CS_TEXTURE_LINEAR && shade->is_affine && shade->plane[0][0] == 0;
 }
 
 static cs_shade_lanes triangle_at(const cs_shade *shade, double x, double y) {
@@ -190,10 +205,7 @@ cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y) {
   if (shade->texture->kind == CS_TEXTURE_TRIANGLE)
     return triangle_at(shade, x, y);
   double at = cs_shade_at(shade, x, y);
-  if (at != at)
-    return lanes_of(&clear);
-  const cs_shade_stretch found = stretch_at(shade->texture, at);
-  return stretch_paint(&found, at);
+  return at == at ? stops_paint(shade->texture, at) : lanes_of(&clear);
 }
 
 double cs_shade_noise_at(const cs_shade *shade, double x, double y) {
@@ -209,32 +221,54 @@ void cs_shade_find(const cs_shade *shade, const double *x, int32_t count, double
     CS_WIDE_CHOOSE(cs_isa_best(), cs_shade_places)(shade, x, count, y, at);
 }
 
-/* At most PLACES places. */
-static void stop_paints(const cs_shade *shade, const double *x, int32_t count, double y,
-                        float (*s)[4], float (*t)[4]) {
+/* The stretch in which a place along the stops lies; a clear one behind the horizon. */
+static inline cs_shade_stretch stretch_of(const cs_shade *shade, double at) {
   const cs_paint clear = CS_PAINT_CLEAR;
+  if (at == at)
+    return stretch_at(shade->texture, at);
+  return (cs_shade_stretch){.from = INFINITY, .paint = lanes_of(&clear)};
+}
+
+/* layer: NULL: the paints themselves are put. */
+static void put_stops(const cs_shade *shade, const cs_layer *layer, const double *x, int32_t count,
+                      double y, float (*s)[4], float (*t)[4]) {
   const cs_isa isa = cs_isa_best();
   double at[PLACES];
-  cs_shade_find(shade, x, count, y, at);
-  for (int32_t k = 0; k < count;) {
-    cs_shade_stretch part = {.from = INFINITY, .paint = lanes_of(&clear)}; /* behind the horizon */
-    if (at[k] == at[k])
-      part = stretch_at(shade->texture, at[k]);
-    k += CS_WIDE_CHOOSE(isa, cs_shade_blend)(&part, at + k, count - k, s + k, t + k);
+  for (int32_t k = 0, end = 0; k < count;) {
+    if (k == end) {
+      end = count - k < PLACES ? count : k + PLACES;
+      cs_shade_find(shade, x + k, end - k, y, at);
+    }
+    const double *places = at + k % PLACES;
+    const cs_shade_stretch part = stretch_of(shade, *places);
+    k += layer ? CS_WIDE_CHOOSE(isa, cs_shade_add)(&part, layer, places, end - k, s + k, t + k)
+               : CS_WIDE_CHOOSE(isa, cs_shade_blend)(&part, places, end - k, s + k, t + k);
   }
 }
 
 void cs_shade_paints(const cs_shade *shade, const double *x, int32_t count, double y, float (*s)[4],
                      float (*t)[4]) {
-  int32_t done = 0;
-  if (shade->texture->kind != CS_TEXTURE_TRIANGLE)
-    for (; done < count; done += PLACES)
-      stop_paints(shade, x + done, count - done < PLACES ? count - done : PLACES, y, s + done,
-                  t + done);
-  for (; done < count; done++) {
-    cs_shade_lanes paint = triangle_at(shade, x[done], y);
-    cs_v4_store(s[done], paint.s);
-    cs_v4_store(t[done], paint.t);
+  const bool has_stops = shade->texture->kind != CS_TEXTURE_TRIANGLE;
+  if (has_stops)
+    put_stops(shade, NULL, x, count, y, s, t);
+  for (int32_t k = 0; k < count && !has_stops; k++) {
+    cs_shade_lanes paint = triangle_at(shade, x[k], y);
+    cs_v4_store(s[k], paint.s);
+    cs_v4_store(t[k], paint.t);
+  }
+}
+
+void cs_shade_fold(const cs_shade *shade, const cs_layer *layer, const double *x, int32_t count,
+                   double y, float (*e)[4], float (*t)[4]) {
+  const bool has_stops = shade->texture->kind != CS_TEXTURE_TRIANGLE;
+  if (has_stops)
+    put_stops(shade, layer, x, count, y, e, t);
+  for (int32_t k = 0; k < count && !has_stops; k++) {
+    cs_shade_lanes paint = triangle_at(shade, x[k], y);
+    cs_over_pair lit = cs_over_lit(layer->front, layer->fade, paint.s, paint.t);
+    lit = cs_over_pair_over((cs_over_pair){cs_v4_load(e[k]), cs_v4_load(t[k])}, lit);
+    cs_v4_store(e[k], lit.e);
+    cs_v4_store(t[k], lit.t);
   }
 }
 

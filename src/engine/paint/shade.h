@@ -85,18 +85,26 @@ typedef struct cs_shade_stretch {
 
 /* In vector code, shade_wide.c: as cs_shade_find, for all but noise; and the paints of those of at
  * most CS_SHADE_PLACES places that lie in the stretch of the first one, up to the first one that
- * does not. Returns how many. */
+ * does not, or their effect as a layer on light gathered (e) and transmission (t). Return how
+ * many. */
 CS_WIDE_DECLARE(void, cs_shade_places,
                 (const cs_shade *shade, const double *x, int32_t count, double y, double *at));
 CS_WIDE_DECLARE(int32_t, cs_shade_blend,
                 (const cs_shade_stretch *part, const double *at, int32_t count, float (*s)[4],
                  float (*t)[4]));
+CS_WIDE_DECLARE(int32_t, cs_shade_add,
+                (const cs_shade_stretch *part, const cs_layer *layer, const double *at,
+                 int32_t count, float (*e)[4], float (*t)[4]));
 
 /* The paint at a point of the frame, pixels; clear behind the horizon. */
 cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y);
 /* The same at several places of a row, quickest where neighbours are near each other. */
 void cs_shade_paints(const cs_shade *shade, const double *x, int32_t count, double y, float (*s)[4],
                      float (*t)[4]);
+/* Adds the paints there, lit and faded as those of a layer, behind light gathered (e) and
+ * transmission (t). */
+void cs_shade_fold(const cs_shade *shade, const cs_layer *layer, const double *x, int32_t count,
+                   double y, float (*e)[4], float (*t)[4]);
 /* The places x inside a run at which the formula bends, in no order; at most as many as the limit
  * says. Returns how many. */
 size_t cs_shade_breaks(const cs_shade *shade, cs_run run, double *breaks);

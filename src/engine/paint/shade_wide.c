@@ -1,6 +1,7 @@
 /* Plain loops that the compiler turns into vector code: see shade.h. */
 #include "engine/paint/shade.h"
 
+#include "engine/compose/over.h"
 #include "engine/paint/over_wide.h"
 
 /* is_radial, is_affine: constants of each caller. */
@@ -79,13 +80,68 @@ static inline void fill(cs_v4 paint, cs_v4 step, const float *shares, int32_t co
     cs_v4_store(out[k], paint + shares[k] * step);
 }
 
-int32_t CS_WIDE(cs_shade_blend)(const cs_shade_stretch *part, const double *at, int32_t count,
-                                float (*s)[4], float (*t)[4]) {
-  float shares[CS_SHADE_PLACES + CS_WIDE_LANES] = {0}; /* whole registers are read */
+/* Finds the shares of the places in a stretch, and returns how many there are. */
+static inline int32_t begin_stretch(const cs_shade_stretch *part, const double *at, int32_t count,
+                                    float *shares) {
   count = find_extent(part, at, count);
   if (part->length != 0)
     find_shares(part, at, count, shares);
+  else
+    memset(shares, 0, (size_t)count * sizeof *shares);
+  return count;
+}
+
+int32_t CS_WIDE(cs_shade_blend)(const cs_shade_stretch *part, const double *at, int32_t count,
+                                float (*s)[4], float (*t)[4]) {
+  float shares[CS_SHADE_PLACES + CS_WIDE_LANES]; /* whole registers are read */
+  count = begin_stretch(part, at, count, shares);
   fill(part->paint.s, part->step.s, shares, count, s);
   fill(part->paint.t, part->step.t, shares, count, t);
+  return count;
+}
+
+/* ---------------------------------------------------------------- as a layer */
+
+/* The paint at a share of the way, lit and faded as cs_over_lit does it. is_lit, a constant of each
+ * caller: neither changes it otherwise. */
+static inline void add_pixels(const cs_shade_stretch *part, const cs_layer *layer,
+                              const float *shares, int32_t count, float (*e)[4], float (*t)[4],
+                              bool is_lit) {
+  const cs_wide s0 = cs_over_wide_all((const float *)&part->paint.s),
+                t0 = cs_over_wide_all((const float *)&part->paint.t),
+                s1 = cs_over_wide_all((const float *)&part->step.s),
+                t1 = cs_over_wide_all((const float *)&part->step.t),
+                light = cs_over_wide_all((const float *)&layer->front);
+  const float fade = layer->fade;
+  int32_t k = 0;
+  for (; k + CS_OVER_WIDE_PIXELS <= count; k += CS_OVER_WIDE_PIXELS) {
+    const cs_wide share = spread(shares + k), through = cs_wide_load(t[k]);
+    const cs_wide ps = s0 + share * s1, pt = t0 + share * t1;
+    cs_wide_store(e[k], cs_wide_load(e[k]) + through * (is_lit ? light * (fade * ps) : ps));
+    cs_wide_store(t[k], through * (is_lit ? (1 - fade) + fade * pt : pt));
+  }
+  for (; k < count; k++) {
+    const cs_over_pair lit =
+        cs_over_lit(layer->front, fade, part->paint.s + shares[k] * part->step.s,
+                    part->paint.t + shares[k] * part->step.t);
+    const cs_v4 through = cs_v4_load(t[k]);
+    cs_v4_store(e[k], cs_v4_load(e[k]) + through * lit.e);
+    cs_v4_store(t[k], through * lit.t);
+  }
+}
+
+/* Whether light and fade leave paints as they are, to the bit. */
+static inline bool is_bare(const cs_layer *layer) {
+  return layer->fade == 1 && layer->front[0] == 1 && layer->front[1] == 1 && layer->front[2] == 1;
+}
+
+int32_t CS_WIDE(cs_shade_add)(const cs_shade_stretch *part, const cs_layer *layer, const double *at,
+                              int32_t count, float (*e)[4], float (*t)[4]) {
+  float shares[CS_SHADE_PLACES + CS_WIDE_LANES]; /* whole registers are read */
+  count = begin_stretch(part, at, count, shares);
+  if (is_bare(layer))
+    add_pixels(part, layer, shares, count, e, t, false);
+  else
+    add_pixels(part, layer, shares, count, e, t, true);
   return count;
 }
