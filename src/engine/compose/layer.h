@@ -69,7 +69,8 @@ typedef struct cs_shade {
   double plane[7][3];
   double eccentricity; /* RADIAL: 0 without a focus; else see engine/paint/shade.h */
   bool is_affine;      /* and w is above 0 everywhere */
-  bool is_level;       /* it is the same in all columns of a row */
+  bool is_steady;      /* it is the same in all columns of a row */
+  bool is_even;        /* it has stops, and their paints dim the three channels alike */
 } cs_shade;
 
 typedef struct cs_image_layer {

@@ -3,6 +3,7 @@
 #include "base/number.h"
 #include "engine/paint/gradient_table.h"
 #include "engine/paint/over_bare.h"
+#include "engine/paint/over_planes.h"
 #include "engine/paint/over_row.h"
 #include "engine/paint/shade.h"
 #include "engine/paint/shown.h"
@@ -47,9 +48,10 @@ static celspan_status sample(cs_painter *painter, const cs_sampler *sampler, con
 /* Samples of a picture used as paint, as numbers of the layer's space. */
 static void code_samples(const cs_painter *painter, const cs_image_layer *image, int32_t count,
                          float (*rgba)[4]) {
-  float alphas[CS_OVER_ROW_BATCH][4] = {{0}};
+  float alphas[CS_OVER_ROW_BATCH][4];
   if (image->texture->variation->use != CELSPAN_PICTURE_PAINT || image->space != CELSPAN_SPACE_SRGB)
     return;
+  memset(alphas, 0, (size_t)count * sizeof *alphas);
   for (int32_t k = 0; k < count; k++)
     cs_v4_store(alphas[k], cs_v4_all(rgba[k][3]));
   CS_WIDE_CHOOSE(painter->isa, cs_space_channels)(image->space, alphas[0], 4 * count, rgba[0]);
@@ -110,24 +112,16 @@ static celspan_status add_defocused(cs_painter *painter, cs_over_row *over, cons
   return cs_over_row_add_paint(over, layer, (const float(*)[4])room->s, (const float(*)[4])room->t);
 }
 
-/* The same for a shade, whose paints are put nowhere unless they are a light. */
 static celspan_status add_shade(cs_painter *painter, cs_over_row *over, const cs_layer *layer,
-                                const cs_batch *batch, samples *room) {
-  const cs_shade *shade = &painter->stack->shades[layer->index];
+                                const cs_batch *batch) {
   double x[CS_OVER_ROW_BATCH];
-  if (shade->is_level && layer->role == CS_LAYER_PAINT) {
-    const cs_over_pair lit = cs_painter_lit_level(painter, layer, batch->y);
+  if (painter->stack->shades[layer->index].is_steady && layer->role == CS_LAYER_PAINT) {
+    const cs_over_pair lit = cs_painter_lit_steady(painter, layer, batch->y);
     cs_over_row_add_lit(over, &lit);
     return CELSPAN_OK;
   }
   cs_batch_centres(batch, x);
-  if (layer->role == CS_LAYER_PAINT) {
-    cs_over_row_state *state = cs_over_row_state_of(over);
-    cs_shade_fold(shade, layer, x, batch->count, batch->y, state->e, state->t);
-    return CELSPAN_OK;
-  }
-  cs_shade_paints(shade, x, batch->count, batch->y, room->s, room->t);
-  return cs_over_row_add_paint(over, layer, (const float(*)[4])room->s, (const float(*)[4])room->t);
+  return cs_over_row_add_shade(over, layer, x, batch->y);
 }
 
 static celspan_status add_item(cs_painter *painter, cs_over_row *over,
@@ -147,7 +141,7 @@ static celspan_status add_item(cs_painter *painter, cs_over_row *over,
   if (layer->kind == CS_LAYER_DEFOCUSED)
     return add_defocused(painter, over, layer, batch, room);
   if (layer->kind == CS_LAYER_SHADED)
-    return add_shade(painter, over, layer, batch, room);
+    return add_shade(painter, over, layer, batch);
   if (layer->kind == CS_LAYER_PICTURE)
     CS_TRY(sample_media(painter, layer, batch, room));
   else
@@ -160,13 +154,11 @@ static celspan_status fold_items(cs_painter *painter, const cs_program *program,
   celspan_context *context = painter->context;
   cs_arena *scratch = &painter->scratch;
   cs_over_row over;
-  samples *room = cs_arena_take(context, scratch, sizeof *room);
-  if (!room)
-    return CELSPAN_NO_MEMORY;
+  samples room;
   CS_TRY(cs_over_row_begin(context, scratch, painter->stack, painter->isa, batch->count, &over));
   for (uint32_t i = 0; i < program->length; i++) {
     CS_TRY(cs_over_row_move(&over, program->items[i].layer));
-    CS_TRY(add_item(painter, &over, program->procedure_spans, program->items[i], batch, room));
+    CS_TRY(add_item(painter, &over, program->procedure_spans, program->items[i], batch, &room));
   }
   cs_over_row_end(&over, rgba);
   return CELSPAN_OK;
@@ -219,6 +211,12 @@ celspan_status cs_painter_batch_colours(cs_painter *painter, const cs_program *p
                                         const cs_batch *batch, float (*rgba)[4]) {
   const cs_gradient_table *table;
   painter->evaluations += (uint64_t)batch->count;
+  if (cs_over_planes_fits(painter->stack, program)) {
+    cs_over_planes planes;
+    cs_over_planes_fold(painter, program, batch, &planes);
+    CS_WIDE_CHOOSE(painter->isa, cs_over_planes_to_rgba)(&planes, rgba);
+    return CELSPAN_OK;
+  }
   CS_TRY(cs_gradient_table_find(painter->gradients, program, &table));
   if (table) {
     cs_gradient_table_colours(table, batch, rgba);
@@ -240,6 +238,13 @@ celspan_status cs_painter_batch_codes(cs_painter *painter, const cs_program *pro
     painter->evaluations += (uint64_t)batch->count;
     CS_TRY(fold_bare(painter, program, batch, &over));
     cs_over_bare_codes(painter->isa, painter->stack, &over, codes);
+    return CELSPAN_OK;
+  }
+  if (cs_over_planes_fits(painter->stack, program)) {
+    cs_over_planes planes;
+    painter->evaluations += (uint64_t)batch->count;
+    cs_over_planes_fold(painter, program, batch, &planes);
+    CS_WIDE_CHOOSE(painter->isa, cs_over_planes_to_codes)(&planes, codes);
     return CELSPAN_OK;
   }
   float rgba[CS_OVER_ROW_BATCH][4];

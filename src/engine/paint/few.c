@@ -47,8 +47,8 @@ static void add_formula(cs_painter *painter, const cs_layer *layer, int32_t x, d
                         cs_over *over) {
   const cs_shade *shade = &painter->stack->shades[layer->index];
   cs_over_pair lit;
-  if (shade->is_level) {
-    lit = cs_painter_lit_level(painter, layer, y);
+  if (shade->is_steady) {
+    lit = cs_painter_lit_steady(painter, layer, y);
   } else {
     cs_shade_lanes paint = cs_shade_paint(shade, x + 0.5, y);
     lit = cs_over_lit(layer->front, layer->fade, paint.s, paint.t);

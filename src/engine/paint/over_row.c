@@ -1,5 +1,7 @@
 #include "engine/paint/over_row.h"
 
+#include "engine/paint/shade.h"
+
 #define WIDE(over, name) CS_WIDE_CHOOSE((over)->isa, name)
 
 static celspan_status open_state(cs_over_row *over) {
@@ -17,16 +19,23 @@ static void clear_state(cs_over_row *over) {
 }
 
 /* The state, to be added to or read. */
-cs_over_row_state *cs_over_row_state_of(cs_over_row *over) {
+static inline cs_over_row_state *state_of(cs_over_row *over) {
   if (over->is_clear)
     clear_state(over);
   return over->state;
 }
 
+/* Whether what is added now is the first. */
+static inline bool is_first(cs_over_row *over) {
+  bool is_clear = over->is_clear;
+  over->is_clear = false;
+  return is_clear;
+}
+
 static void meet_light(cs_over_row *over) {
   const cs_back_light *light = &over->stack->lights[over->light++];
   WIDE(over, cs_over_row_add_light)
-  (cs_over_row_state_of(over), over->count, (const float *)&light->light);
+  (state_of(over), over->count, (const float *)&light->light);
   over->keep *= light->keep;
 }
 
@@ -57,7 +66,7 @@ static void add_left(cs_over_row *over, const cs_group *group, cs_over_row_state
     over->state = inner;
     over->is_clear = false;
   } else {
-    WIDE(over, cs_over_row_add_group)(cs_over_row_state_of(over), over->count, group->fade, inner);
+    WIDE(over, cs_over_row_add_group)(state_of(over), over->count, group->fade, inner);
   }
 }
 
@@ -66,7 +75,7 @@ static void leave_group(cs_over_row *over) {
   const cs_over_row_outer *around = &over->outers[--over->depth];
   while (group->is_frame && over->light < over->stack->light_count)
     meet_light(over);
-  cs_over_row_state *inner = cs_over_row_state_of(over);
+  cs_over_row_state *inner = state_of(over);
   finish_group(over, group, around, inner);
   over->state = around->outer;
   over->is_clear = around->is_clear;
@@ -105,8 +114,6 @@ celspan_status cs_over_row_begin(celspan_context *context, cs_arena *arena, cons
       return CELSPAN_NO_MEMORY;
   }
   CS_TRY(open_state(out));
-  if (!stack->has_sources)
-    clear_state(out);
   return stack->has_root ? enter(out, 0) : CELSPAN_OK;
 }
 
@@ -115,7 +122,7 @@ static celspan_status enter_group(cs_over_row *over, uint32_t group) {
   return entered == over->group ? CELSPAN_OK : enter(over, entered);
 }
 
-celspan_status cs_over_row_move(cs_over_row *over, uint32_t layer) {
+celspan_status cs_over_row_move_far(cs_over_row *over, uint32_t layer) {
   const cs_stack *stack = over->stack;
   while (over->group != CS_STACK_NONE && layer < stack->groups[over->group].first)
     leave_group(over);
@@ -128,7 +135,7 @@ celspan_status cs_over_row_move(cs_over_row *over, uint32_t layer) {
 
 void cs_over_row_add_lit(cs_over_row *over, const cs_over_pair *lit) {
   WIDE(over, cs_over_row_add_flat)
-  (cs_over_row_state_of(over), over->count, (const float *)&lit->e, (const float *)&lit->t);
+  (over->state, over->count, is_first(over), (const float *)&lit->e, (const float *)&lit->t);
 }
 
 void cs_over_row_add_layer(cs_over_row *over, const cs_layer *layer) {
@@ -141,7 +148,7 @@ static celspan_status add_light_shape(cs_over_row *over, const cs_layer *layer,
                                       const float (*s)[4]) {
   const float *gain = (const float *)&layer->front;
   if (layer->role == CS_LAYER_BACK) {
-    WIDE(over, cs_over_row_add_back)(cs_over_row_state_of(over), over->count, gain, s);
+    WIDE(over, cs_over_row_add_back)(state_of(over), over->count, gain, s);
     return CELSPAN_OK;
   }
   float(*front)[4] = cs_arena_take(over->context, over->arena, CS_OVER_ROW_BATCH * sizeof *front);
@@ -157,7 +164,7 @@ celspan_status cs_over_row_add_samples(cs_over_row *over, const cs_layer *layer,
   if (layer->role != CS_LAYER_PAINT)
     return add_light_shape(over, layer, rgba);
   WIDE(over, cs_over_row_add_picture)
-  (cs_over_row_state_of(over), over->count, (const float *)&layer->front, layer->fade,
+  (over->state, over->count, is_first(over), (const float *)&layer->front, layer->fade,
    use == CELSPAN_PICTURE_GEL, rgba);
   return CELSPAN_OK;
 }
@@ -167,8 +174,21 @@ celspan_status cs_over_row_add_paint(cs_over_row *over, const cs_layer *layer, c
   if (layer->role != CS_LAYER_PAINT)
     return add_light_shape(over, layer, s);
   WIDE(over, cs_over_row_add_paints)
-  (cs_over_row_state_of(over), over->count, (const float *)&layer->front, layer->fade, s, t);
+  (over->state, over->count, is_first(over), (const float *)&layer->front, layer->fade, s, t);
   return CELSPAN_OK;
+}
+
+celspan_status cs_over_row_add_shade(cs_over_row *over, const cs_layer *layer, const double *x,
+                                     double y) {
+  const cs_shade *shade = &over->stack->shades[layer->index];
+  if (layer->role == CS_LAYER_PAINT) {
+    const cs_shade_state state = {over->state->e, over->state->t, is_first(over)};
+    cs_shade_fold(shade, layer, x, over->count, y, &state);
+    return CELSPAN_OK;
+  }
+  float pigments[CS_OVER_ROW_BATCH][4];
+  cs_shade_paints(shade, x, over->count, y, pigments, NULL);
+  return add_light_shape(over, layer, (const float(*)[4])pigments);
 }
 
 celspan_status cs_over_row_layer(cs_over_row *over, uint32_t layer, const float (*s)[4],
@@ -186,5 +206,5 @@ void cs_over_row_end(cs_over_row *over, float (*rgba)[4]) {
     leave_group(over);
   while (over->light < over->stack->light_count)
     meet_light(over);
-  WIDE(over, cs_over_row_to_rgba)(cs_over_row_state_of(over), over->count, over->keep, rgba);
+  WIDE(over, cs_over_row_to_rgba)(state_of(over), over->count, over->keep, rgba);
 }

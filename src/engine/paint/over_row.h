@@ -77,14 +77,21 @@ CELSPAN_CHECKED celspan_status cs_over_row_begin(celspan_context *context, cs_ar
                                                  cs_over_row *out);
 /* Moves back to just in front of a layer: leaves groups, meets back lights, enters groups.
  * Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_over_row_move(cs_over_row *over, uint32_t layer);
+CELSPAN_CHECKED celspan_status cs_over_row_move_far(cs_over_row *over, uint32_t layer);
+static inline CELSPAN_CHECKED celspan_status cs_over_row_move(cs_over_row *over, uint32_t layer) {
+  const cs_stack *stack = over->stack;
+  bool is_near = stack->layers[layer].group == over->group &&
+                 (over->light >= stack->light_count || layer >= stack->lights[over->light].below);
+  return is_near ? CELSPAN_OK : cs_over_row_move_far(over, layer);
+}
 /* Add a layer that has been moved to, by its role. rgba: a picture's samples; s and t: paints, s
  * not yet lit. Room for a whole batch in each. Errors: NO_MEMORY. */
 void cs_over_row_add_layer(cs_over_row *over, const cs_layer *layer);
 /* The same where the layer has one paint in all pixels, given lit. */
 void cs_over_row_add_lit(cs_over_row *over, const cs_over_pair *lit);
-/* The state, for others to add to. */
-cs_over_row_state *cs_over_row_state_of(cs_over_row *over);
+/* The same where the layer has a gradient: x: the middles of the pixels. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_over_row_add_shade(cs_over_row *over, const cs_layer *layer,
+                                                     const double *x, double y);
 CELSPAN_CHECKED celspan_status cs_over_row_add_samples(cs_over_row *over, const cs_layer *layer,
                                                        celspan_picture_use use,
                                                        const float (*rgba)[4]);
@@ -100,14 +107,16 @@ void cs_over_row_end(cs_over_row *over, float (*rgba)[4]);
 /* ---- over_row_wide.c: loops over the pixels of a state */
 
 CS_WIDE_DECLARE(void, cs_over_row_clear, (cs_over_row_state * state, int32_t count));
+/* is_first: the state has no contents yet. */
 CS_WIDE_DECLARE(void, cs_over_row_add_flat,
-                (cs_over_row_state * state, int32_t count, const float s[4], const float t[4]));
+                (cs_over_row_state * state, int32_t count, bool is_first, const float s[4],
+                 const float t[4]));
 CS_WIDE_DECLARE(void, cs_over_row_add_picture,
-                (cs_over_row_state * state, int32_t count, const float front[4], float fade,
-                 bool is_gel, const float (*rgba)[4]));
+                (cs_over_row_state * state, int32_t count, bool is_first, const float front[4],
+                 float fade, bool is_gel, const float (*rgba)[4]));
 CS_WIDE_DECLARE(void, cs_over_row_add_paints,
-                (cs_over_row_state * state, int32_t count, const float front[4], float fade,
-                 const float (*s)[4], const float (*t)[4]));
+                (cs_over_row_state * state, int32_t count, bool is_first, const float front[4],
+                 float fade, const float (*s)[4], const float (*t)[4]));
 CS_WIDE_DECLARE(void, cs_over_row_add_light,
                 (cs_over_row_state * state, int32_t count, const float light[4]));
 /* Adds a back light with a shape: of a gain, and pigments. */

@@ -27,7 +27,7 @@ celspan_status cs_painter_init(cs_painter *painter, celspan_context *context, co
   CS_TRY(allocate(painter, &painter->defocused, stack->defocused_count, sizeof(cs_defocused_view)));
   if (stack->shade_count == 0)
     return CELSPAN_OK;
-  CS_TRY(allocate(painter, &painter->levels, stack->shade_count, sizeof(cs_painter_level)));
+  CS_TRY(allocate(painter, &painter->steady, stack->shade_count, sizeof(cs_painter_steady)));
   return cs_gradient_tables_create(context, stack, painter->isa, &painter->scratch,
                                    &painter->gradients);
 }
@@ -55,7 +55,7 @@ void cs_painter_finish(cs_painter *painter) {
   for (size_t i = 0; painter->defocused && i < stack->defocused_count; i++)
     cs_defocused_release(stack->defocused[i], painter->context, &painter->defocused[i]);
   cs_mem_free(memory, painter->defocused, stack->defocused_count * sizeof(cs_defocused_view));
-  cs_mem_free(memory, painter->levels, stack->shade_count * sizeof *painter->levels);
+  cs_mem_free(memory, painter->steady, stack->shade_count * sizeof *painter->steady);
   cs_gradient_tables_destroy(painter->gradients, memory);
   for (int i = 0; i < 2; i++)
     cs_mem_free(memory, painter->shown[i].items,
@@ -113,12 +113,12 @@ cs_image_opacity cs_painter_opacity(cs_painter *painter) {
   return (cs_image_opacity){is_opaque, painter};
 }
 
-/* ---------------------------------------------------------------- level shades */
+/* ---------------------------------------------------------------- steady shades */
 
-cs_over_pair cs_painter_lit_level(cs_painter *painter, const cs_layer *layer, double y) {
-  cs_painter_level *level = &painter->levels[layer->index];
-  if (!level->is_found || level->y != y)
-    *level =
-        (cs_painter_level){cs_shade_paint(&painter->stack->shades[layer->index], 0, y), y, true};
-  return cs_over_lit(layer->front, layer->fade, level->paint.s, level->paint.t);
+cs_over_pair cs_painter_lit_steady(cs_painter *painter, const cs_layer *layer, double y) {
+  cs_painter_steady *known = &painter->steady[layer->index];
+  if (!known->is_found || known->y != y)
+    *known =
+        (cs_painter_steady){cs_shade_paint(&painter->stack->shades[layer->index], 0, y), y, true};
+  return cs_over_lit(layer->front, layer->fade, known->paint.s, known->paint.t);
 }

@@ -65,12 +65,12 @@ typedef struct cs_copies_plan {
 /* Runs of copied pictures whose pieces are kept. */
 #define CS_PAINTER_COPIES 16
 
-/* The paint of a level shade in the row that was asked for last. */
-typedef struct cs_painter_level {
+/* The paint of a steady shade in the row that was asked for last. */
+typedef struct cs_painter_steady {
   cs_shade_lanes paint;
   double y;
   bool is_found;
-} cs_painter_level;
+} cs_painter_steady;
 
 typedef struct cs_painter {
   celspan_context *context;    /* the worker's branch */
@@ -81,7 +81,7 @@ typedef struct cs_painter {
   cs_image_view *images;
   cs_block_cache *blocks; /* of its pictures; NULL without pictures */
   cs_defocused_view *defocused;
-  cs_painter_level *levels;             /* one a shade */
+  cs_painter_steady *steady;            /* one a shade */
   struct cs_gradient_tables *gradients; /* NULL without formulas: gradient_table.h */
   cs_copies_plan *copies;               /* NULL without pictures: copies.c */
   cs_arena scratch;                     /* of one run */
@@ -104,5 +104,5 @@ cs_image_opacity cs_painter_opacity(cs_painter *painter);
 CELSPAN_CHECKED celspan_status cs_painter_image(cs_painter *painter, uint32_t image,
                                                 const cs_image_view **out);
 
-/* What a layer whose shade is level (cs_shade.is_level) adds in a row, lit and faded. */
-cs_over_pair cs_painter_lit_level(cs_painter *painter, const cs_layer *layer, double y);
+/* What a layer whose shade is steady (cs_shade.is_steady) adds in a row, lit and faded. */
+cs_over_pair cs_painter_lit_steady(cs_painter *painter, const cs_layer *layer, double y);

@@ -188,7 +188,9 @@ void cs_shade_prepare(cs_shade *shade) {
     prepare_noise(shade);
   else
     prepare_radial(shade);
-  shade->is_level =
+  shade->is_even =
+      shade->texture->kind != CS_TEXTURE_TRIANGLE && cs_texture_is_grey(shade->texture);
+  shade->is_steady =
       shade->texture->kind == CS_TEXTURE_LINEAR && shade->is_affine && shade->plane[0][0] == 0;
 }
 
@@ -221,17 +223,21 @@ void cs_shade_find(const cs_shade *shade, const double *x, int32_t count, double
     CS_WIDE_CHOOSE(cs_isa_best(), cs_shade_places)(shade, x, count, y, at);
 }
 
-/* The stretch in which a place along the stops lies; a clear one behind the horizon. */
-static inline cs_shade_stretch stretch_of(const cs_shade *shade, double at) {
+cs_shade_stretch cs_shade_find_stretch(const cs_shade *shade, double at) {
   const cs_paint clear = CS_PAINT_CLEAR;
   if (at == at)
     return stretch_at(shade->texture, at);
   return (cs_shade_stretch){.from = INFINITY, .paint = lanes_of(&clear)};
 }
 
-/* layer: NULL: the paints themselves are put. */
-static void put_stops(const cs_shade *shade, const cs_layer *layer, const double *x, int32_t count,
-                      double y, float (*s)[4], float (*t)[4]) {
+/* What is done with paints at places along the stops. */
+typedef struct fold {
+  const cs_layer *layer; /* to which the paints belong; NULL: they are put as they are */
+  bool is_first;         /* of the layers */
+} fold;
+
+static void fold_stops(const fold *f, const cs_shade *shade, const double *x, int32_t count,
+                       double y, float (*s)[4], float (*t)[4]) {
   const cs_isa isa = cs_isa_best();
   double at[PLACES];
   for (int32_t k = 0, end = 0; k < count;) {
@@ -240,35 +246,45 @@ static void put_stops(const cs_shade *shade, const cs_layer *layer, const double
       cs_shade_find(shade, x + k, end - k, y, at);
     }
     const double *places = at + k % PLACES;
-    const cs_shade_stretch part = stretch_of(shade, *places);
-    k += layer ? CS_WIDE_CHOOSE(isa, cs_shade_add)(&part, layer, places, end - k, s + k, t + k)
-               : CS_WIDE_CHOOSE(isa, cs_shade_blend)(&part, places, end - k, s + k, t + k);
+    const cs_shade_stretch part = cs_shade_find_stretch(shade, *places);
+    float(*part_t)[4] = t ? t + k : NULL;
+    k += f->layer ? CS_WIDE_CHOOSE(isa, cs_shade_add)(&part, f->layer, places, end - k, f->is_first,
+                                                      s + k, part_t)
+                  : CS_WIDE_CHOOSE(isa, cs_shade_blend)(&part, places, end - k, s + k, part_t);
   }
 }
 
 void cs_shade_paints(const cs_shade *shade, const double *x, int32_t count, double y, float (*s)[4],
                      float (*t)[4]) {
-  const bool has_stops = shade->texture->kind != CS_TEXTURE_TRIANGLE;
-  if (has_stops)
-    put_stops(shade, NULL, x, count, y, s, t);
-  for (int32_t k = 0; k < count && !has_stops; k++) {
+  const fold none = {0};
+  if (shade->texture->kind != CS_TEXTURE_TRIANGLE) {
+    fold_stops(&none, shade, x, count, y, s, t);
+    return;
+  }
+  for (int32_t k = 0; k < count; k++) {
     cs_shade_lanes paint = triangle_at(shade, x[k], y);
     cs_v4_store(s[k], paint.s);
-    cs_v4_store(t[k], paint.t);
+    if (t)
+      cs_v4_store(t[k], paint.t);
   }
 }
 
 void cs_shade_fold(const cs_shade *shade, const cs_layer *layer, const double *x, int32_t count,
-                   double y, float (*e)[4], float (*t)[4]) {
-  const bool has_stops = shade->texture->kind != CS_TEXTURE_TRIANGLE;
-  if (has_stops)
-    put_stops(shade, layer, x, count, y, e, t);
-  for (int32_t k = 0; k < count && !has_stops; k++) {
+                   double y, const cs_shade_state *state) {
+  const fold f = {layer, state->is_first};
+  float(*e)[4] = state->e, (*t)[4] = state->t;
+  if (shade->texture->kind != CS_TEXTURE_TRIANGLE) {
+    fold_stops(&f, shade, x, count, y, e, t);
+    return;
+  }
+  for (int32_t k = 0; k < count; k++) {
+    cs_over_pair front = cs_over_pair_clear;
+    if (!state->is_first)
+      front = (cs_over_pair){cs_v4_load(e[k]), cs_v4_load(t[k])};
     cs_shade_lanes paint = triangle_at(shade, x[k], y);
-    cs_over_pair lit = cs_over_lit(layer->front, layer->fade, paint.s, paint.t);
-    lit = cs_over_pair_over((cs_over_pair){cs_v4_load(e[k]), cs_v4_load(t[k])}, lit);
-    cs_v4_store(e[k], lit.e);
-    cs_v4_store(t[k], lit.t);
+    front = cs_over_pair_over(front, cs_over_lit(layer->front, layer->fade, paint.s, paint.t));
+    cs_v4_store(e[k], front.e);
+    cs_v4_store(t[k], front.t);
   }
 }
 

@@ -29,59 +29,57 @@
 
 #include "base/wide.h"
 #include "engine/compose/layer.h"
+#include "engine/paint/shade_stretch.h"
 #include "engine/span/run.h"
 
 #include <math.h>
 
 /* Fills the planes, from texture and inverse. */
 void cs_shade_prepare(cs_shade *shade);
-/* Where a point of the frame lies along the stops of a linear or radial texture. Not a number
- * behind the horizon. is_radial, is_affine: of the shade; they are parameters, so that they are
- * constants in loops. */
-static inline double cs_shade_at_known(const cs_shade *shade, double x, double y, bool is_radial,
-                                       bool is_affine) {
-  const double *p = shade->plane[0], *q = shade->plane[1], *m = shade->inverse.m;
-  double at = p[0] * x + (p[1] * y + p[2]);
-  if (is_radial) {
-    double v = q[0] * x + (q[1] * y + q[2]);
-    at = sqrt(at * at + v * v) - shade->eccentricity * at;
-  }
-  if (is_affine)
-    return at;
-  double w = m[6] * x + (m[7] * y + m[8]);
-  return w > 0 ? at / w : NAN;
+/* The planes of a linear or radial texture on one row. */
+typedef struct cs_shade_row {
+  double step, base, across_step, across_base, eccentricity;
+} cs_shade_row;
+
+static inline cs_shade_row cs_shade_row_of(const cs_shade *shade, double y) {
+  const double *p = shade->plane[0], *q = shade->plane[1];
+  return (cs_shade_row){p[0], p[1] * y + p[2], q[0], q[1] * y + q[2], shade->eccentricity};
 }
 
-/* The same for a conic texture, whose planes 0 and 1 are the ways along and across the direction of
- * 0. */
+/* Where a point of the row lies along the stops, if the shade is affine; else that times its w.
+ * is_radial: of the shade; it is a parameter, so that it is a constant in loops. */
+static inline double cs_shade_row_at(const cs_shade_row *row, double x, bool is_radial) {
+  double at = row->step * x + row->base, v = row->across_step * x + row->across_base;
+  return is_radial ? sqrt(at * at + v * v) - row->eccentricity * at : at;
+}
+
+/* Where a point of the frame lies along the stops of a conic texture, whose planes 0 and 1 are the
+ * ways along and across the direction of 0. */
 double cs_shade_conic_at(const cs_shade *shade, double x, double y);
 
 /* The same for a texture of noise, whose planes are its coordinates in cells: noise.h. */
 double cs_shade_noise_at(const cs_shade *shade, double x, double y);
 
+/* Where a point of the frame lies along the stops. Not a number behind the horizon. */
 static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
   if (shade->texture->kind == CS_TEXTURE_CONIC)
     return cs_shade_conic_at(shade, x, y);
   if (shade->texture->kind == CS_TEXTURE_NOISE)
     return cs_shade_noise_at(shade, x, y);
-  return cs_shade_at_known(shade, x, y, shade->texture->kind == CS_TEXTURE_RADIAL,
-                           shade->is_affine);
+  const cs_shade_row row = cs_shade_row_of(shade, y);
+  double at = cs_shade_row_at(&row, x, shade->texture->kind == CS_TEXTURE_RADIAL);
+  if (shade->is_affine)
+    return at;
+  const double *m = shade->inverse.m;
+  double w = m[6] * x + (m[7] * y + m[8]);
+  return w > 0 ? at / w : NAN;
 }
 
 /* The same for up to CS_SHADE_PLACES places of a row. */
 #define CS_SHADE_PLACES 64
 void cs_shade_find(const cs_shade *shade, const double *x, int32_t count, double y, double *at);
-/* A paint in the form in which it is folded; lane 3 has no meaning. */
-typedef struct cs_shade_lanes {
-  cs_v4 s, t;
-} cs_shade_lanes;
-
-/* The colours of a gradient from one stop to the next, before the first or after the last. */
-typedef struct cs_shade_stretch {
-  double from, to;            /* [from, to) along the stops */
-  double length;              /* 0: the paint is the same everywhere */
-  cs_shade_lanes paint, step; /* at its beginning, and from there to its end */
-} cs_shade_stretch;
+/* The stretch in which a place along the stops lies; a clear one behind the horizon. */
+cs_shade_stretch cs_shade_find_stretch(const cs_shade *shade, double at);
 
 /* In vector code, shade_wide.c: as cs_shade_find, for all but noise; and the paints of those of at
  * most CS_SHADE_PLACES places that lie in the stretch of the first one, up to the first one that
@@ -94,17 +92,23 @@ CS_WIDE_DECLARE(int32_t, cs_shade_blend,
                  float (*t)[4]));
 CS_WIDE_DECLARE(int32_t, cs_shade_add,
                 (const cs_shade_stretch *part, const cs_layer *layer, const double *at,
-                 int32_t count, float (*e)[4], float (*t)[4]));
+                 int32_t count, bool is_first, float (*e)[4], float (*t)[4]));
 
 /* The paint at a point of the frame, pixels; clear behind the horizon. */
 cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y);
-/* The same at several places of a row, quickest where neighbours are near each other. */
+/* The same at several places of a row, t unless that is NULL. Quickest where neighbours are near
+ * each other. */
 void cs_shade_paints(const cs_shade *shade, const double *x, int32_t count, double y, float (*s)[4],
                      float (*t)[4]);
-/* Adds the paints there, lit and faded as those of a layer, behind light gathered (e) and
- * transmission (t). */
+/* Light gathered and transmission of pixels. is_first: nothing has been added yet, and they have no
+ * contents. */
+typedef struct cs_shade_state {
+  float (*e)[4], (*t)[4];
+  bool is_first;
+} cs_shade_state;
+/* Adds the paints there, lit and faded as those of a layer, behind what has been added. */
 void cs_shade_fold(const cs_shade *shade, const cs_layer *layer, const double *x, int32_t count,
-                   double y, float (*e)[4], float (*t)[4]);
+                   double y, const cs_shade_state *state);
 /* The places x inside a run at which the formula bends, in no order; at most as many as the limit
  * says. Returns how many. */
 size_t cs_shade_breaks(const cs_shade *shade, cs_run run, double *breaks);

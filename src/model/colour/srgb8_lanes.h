@@ -204,15 +204,13 @@ static inline void cs_srgb8_lanes(cs_wide rgba, bool is_coded, unsigned char *ou
 
 #endif
 
-/* 8-bit sRGB of sixteen pixels, of which every register holds one channel: for kernels
- * (base/wide.h). Where there is no AVX-512 there are no planes.
+/* 8-bit sRGB of as many pixels as a register has lanes: every register holds one channel. For
+ * kernels (base/wide.h).
  *
  * Invariant: a pixel is cs_srgb8_pixel of its colour, whichever instructions made the pixel.
  */
 
-#ifdef __AVX512F__
-
-/* Sixteen pixels: red, green, blue, alpha. */
+/* Red, green, blue, alpha. */
 typedef struct cs_srgb8_planes {
   cs_wide channels[4];
 } cs_srgb8_planes;
@@ -228,6 +226,8 @@ static inline cs_wide_int cs_srgb8_settle_planes(const cs_srgb8_planes *colours,
   }
   return pixels;
 }
+
+#ifdef __AVX2__
 
 /* One pixel a lane. If all alpha is 1, the usual case, there is no division. */
 static inline cs_wide_int cs_srgb8_code_planes(const cs_srgb8_planes *colours, bool is_coded) {
@@ -253,6 +253,12 @@ static inline cs_wide_int cs_srgb8_code_planes(const cs_srgb8_planes *colours, b
   if (__builtin_expect(unsure != 0, 0))
     pixels = cs_srgb8_settle_planes(colours, is_coded, unsure, pixels);
   return pixels;
+}
+
+#else
+
+static inline cs_wide_int cs_srgb8_code_planes(const cs_srgb8_planes *colours, bool is_coded) {
+  return cs_srgb8_settle_planes(colours, is_coded, ~0u, (cs_wide_int){0});
 }
 
 #endif

@@ -1,0 +1,179 @@
+/* engine/paint/over_planes.c: programs of gradients that dim all channels alike have the bits that
+ * folding their paints gives, with every set of instructions, whatever pixels a batch has.
+ */
+#include "engine/paint/over_planes.h"
+
+#include "engine/paint/colours.h"
+#include "model/colour/srgb8.h"
+#include "tests/support/check.h"
+#include "tests/support/random.h"
+
+enum { LEAVES = 5, WIDTH = 200, TRIES = 300 };
+
+static test_random numbers = {11};
+
+static cs_layer layers[LEAVES];
+static cs_layer_rule rules[LEAVES];
+static cs_shade shades[LEAVES];
+static cs_back_light lights[1];
+static celspan_texture *textures[4];
+static cs_stack stack = {.layers = layers,
+                         .rules = rules,
+                         .shades = shades,
+                         .lights = lights,
+                         .layer_count = LEAVES,
+                         .shade_count = LEAVES};
+
+static celspan_paint grey_paint(void) {
+  celspan_paint paint = {.beta = random_unit(&numbers)};
+  float medium = random_unit(&numbers);
+  for (int c = 0; c < 3; c++) {
+    paint.pigment[c] = random_unit(&numbers);
+    paint.medium[c] = medium;
+  }
+  return paint;
+}
+
+/* Slanted, upright, radial and conic, with stops in one place. */
+static void make_textures(celspan_context *context) {
+  celspan_point from = {20, 10};
+  celspan_stop stops[4] = {{.at = 0.1}, {.at = 0.4}, {.at = 0.4}, {.at = 0.9}};
+  for (int i = 0; i < 4; i++)
+    stops[i].paint = grey_paint();
+  CHECK(celspan_texture_create_linear(context, from, (celspan_point){150, 60}, stops, 4,
+                                      &textures[0]) == CELSPAN_OK);
+  CHECK(celspan_texture_create_linear(context, from, (celspan_point){20, 90}, stops, 4,
+                                      &textures[1]) == CELSPAN_OK);
+  CHECK(celspan_texture_create_radial(context, from, 160, stops, 4, &textures[2]) == CELSPAN_OK);
+  CHECK(celspan_texture_create_conic(context, from, 0.3, stops, 4, &textures[3]) == CELSPAN_OK);
+}
+
+static float sometimes_one(void) {
+  return random_below(&numbers, 2) == 0 ? 1 : random_unit(&numbers);
+}
+
+/* Layers of which each may be flat, bare or lit, and in perspective. */
+static void make_layers(void) {
+  for (uint32_t i = 0; i < LEAVES; i++) {
+    float through = random_unit(&numbers);
+    float light = sometimes_one();
+    double tilt = random_below(&numbers, 4) == 0 ? 0.004 : 0;
+    float blue = light * sometimes_one();
+    float fade = sometimes_one();
+    float green = random_unit(&numbers);
+    bool is_shaded = i < 2 || random_below(&numbers, 3) > 0;
+    layers[i] = (cs_layer){.kind = is_shaded ? CS_LAYER_SHADED : CS_LAYER_FLAT,
+                           .group = CS_STACK_NONE,
+                           .index = i,
+                           .fade = fade,
+                           .front = {light, light, blue, 0},
+                           .s = {0.1f, green, 0.3f, 0},
+                           .t = {through, through, through, 0}};
+    rules[i] = (cs_layer_rule){.key = {(uint64_t)1 << i, ~(uint64_t)i}};
+    shades[i] = (cs_shade){.texture = textures[random_below(&numbers, 4)],
+                           .inverse = {{1, 0, 5.0 * i, 0, 1, 3, -tilt, 0, 1}}};
+    cs_shade_prepare(&shades[i]);
+  }
+  lights[0] = (cs_back_light){.light = {0.5f, random_unit(&numbers), 1, 0}, .keep = 0.3f};
+  stack.light_count = (size_t)random_below(&numbers, 2);
+}
+
+/* The fold of paints. */
+static void fold(cs_painter *painter, const cs_program *program, double y, float (*out)[4]) {
+  static float s[CS_OVER_ROW_BATCH][4], t[CS_OVER_ROW_BATCH][4];
+  cs_over_row over;
+  cs_arena_reset(&painter->scratch);
+  CHECK(cs_over_row_begin(painter->context, &painter->scratch, &stack, CS_ISA_ANY, WIDTH, &over) ==
+        CELSPAN_OK);
+  for (uint32_t i = 0; i < program->length; i++) {
+    const cs_layer *layer = &layers[program->items[i].layer];
+    for (int32_t x = 0; x < WIDTH && layer->kind == CS_LAYER_SHADED; x++) {
+      cs_shade_lanes paint = cs_shade_paint(&shades[layer->index], x + 0.5, y);
+      cs_v4_store(s[x], paint.s);
+      cs_v4_store(t[x], paint.t);
+    }
+    CHECK(cs_over_row_layer(&over, program->items[i].layer, (const float(*)[4])s,
+                            (const float(*)[4])t) == CELSPAN_OK);
+  }
+  cs_over_row_end(&over, out);
+}
+
+/* Colours and codes of a batch are those of the same pixels of the row. */
+static void check_batch(cs_painter *painter, const cs_program *program, const cs_batch *batch,
+                        const float (*wanted)[4]) {
+  static float made[CS_OVER_ROW_BATCH][4];
+  uint32_t codes[CS_OVER_ROW_BATCH];
+  int32_t wrong = 0;
+  CHECK(cs_painter_batch_colours(painter, program, batch, made) == CELSPAN_OK);
+  CHECK(cs_painter_batch_codes(painter, program, batch, (unsigned char *)codes) == CELSPAN_OK);
+  for (int32_t k = 0; k < batch->count; k++) {
+    int32_t x = batch->columns ? batch->columns[k] : batch->x0 + k;
+    wrong += memcmp(made[k], wanted[x], sizeof made[k]) != 0;
+    wrong += codes[k] != cs_srgb8_pixel(wanted[x]);
+  }
+  CHECK(wrong == 0);
+}
+
+static void check_row(cs_painter *painter, const cs_program *program, double y) {
+  static float wanted[CS_OVER_ROW_BATCH][4];
+  static int32_t columns[WIDTH];
+  fold(painter, program, y, wanted);
+  for (int isa = CS_ISA_ANY; isa <= (int)cs_isa_best(); isa++) {
+    int32_t x0 = random_below(&numbers, WIDTH - 1), listed = 0;
+    for (int32_t x = x0; x < WIDTH; x += 1 + random_below(&numbers, 9))
+      columns[listed++] = x;
+    painter->isa = (cs_isa)isa;
+    check_batch(painter, program, &(cs_batch){NULL, 0, WIDTH, y}, (const float(*)[4])wanted);
+    check_batch(painter, program, &(cs_batch){NULL, x0, 1 + random_below(&numbers, WIDTH - x0), y},
+                (const float(*)[4])wanted);
+    check_batch(painter, program, &(cs_batch){columns, 0, listed, y}, (const float(*)[4])wanted);
+  }
+}
+
+/* Programs that are not folded so. */
+static void check_refusals(const cs_program *program) {
+  cs_stack other = stack;
+  cs_back_light near = {.below = LEAVES - 1};
+  other.lights = &near;
+  other.light_count = 1;
+  CHECK(!cs_over_planes_fits(&other, program)); /* a light between the layers */
+  other = stack;
+  other.has_root = true;
+  CHECK(!cs_over_planes_fits(&other, program));
+  const cs_layer kept = layers[0];
+  layers[0].group = 0;
+  CHECK(!cs_over_planes_fits(&stack, program));
+  layers[0] = kept;
+  layers[0].role = CS_LAYER_BACK;
+  CHECK(!cs_over_planes_fits(&stack, program));
+  layers[0] = kept;
+  shades[0].is_even = false;
+  CHECK(!cs_over_planes_fits(&stack, program));
+  shades[0].is_even = true;
+}
+
+int main(void) {
+  celspan_context *context;
+  cs_composer composer;
+  cs_painter painter;
+  cs_item items[LEAVES];
+  for (uint32_t i = 0; i < LEAVES; i++)
+    items[i] = (cs_item){.layer = LEAVES - 1 - i};
+  const cs_program program = {.items = items, .length = LEAVES};
+  CHECK(celspan_context_create(NULL, &context) == CELSPAN_OK);
+  make_textures(context);
+  for (int i = 0; i < TRIES; i++) {
+    make_layers();
+    CHECK(cs_composer_init(&composer, context, &stack, cs_painter_opacity(&painter)) == CELSPAN_OK);
+    CHECK(cs_painter_init(&painter, context, composer.stack, &composer) == CELSPAN_OK);
+    CHECK(cs_over_planes_fits(&stack, &program));
+    check_row(&painter, &program, random_between(&numbers, -20, 140));
+    check_refusals(&program);
+    cs_painter_finish(&painter);
+    cs_composer_finish(&composer);
+  }
+  for (int i = 0; i < 4; i++)
+    celspan_texture_unref(textures[i]);
+  celspan_context_destroy(context);
+  return check_done();
+}
