@@ -184,34 +184,26 @@ static inline void put_short_gradient(const celspan_span *span, bool is_coded, u
   }
 }
 
-#ifdef __AVX512F__
-
-/* Writes sixteen pixels at once, channel by channel. */
+/* Writes a register of pixels at once, channel by channel. */
 static inline void put_gradient(const celspan_span *span, bool is_coded, unsigned char *out,
                                 size_t room) {
-  const __m512 numbers = _mm512_setr_ps(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  cs_wide numbers;
+  for (int i = 0; i < CS_WIDE_LANES; i++)
+    numbers[i] = (float)i;
   if (span->x1 - span->x0 <= CS_WIDE_LANES / 2) {
     put_short_gradient(span, is_coded, out, room);
     return;
   }
   for (int32_t x = span->x0; x < span->x1; x += CS_WIDE_LANES, out += 4 * CS_WIDE_LANES) {
-    const cs_wide at = (cs_wide)numbers + (float)(x - span->origin);
+    const cs_wide at = numbers + (float)(x - span->origin);
     cs_srgb8_planes colours;
     for (int c = 0; c < 4; c++)
       colours.channels[c] = span->colour[c] + span->slope[c] * at;
-    __mmask16 inside = (__mmask16)(0xffff >> (span->x1 - x < 16 ? 16 - (span->x1 - x) : 0));
-    _mm512_mask_storeu_epi32(out, inside, (__m512i)cs_srgb8_code_planes(&colours, is_coded));
+    const cs_wide_int pixels = cs_srgb8_code_planes(&colours, is_coded);
+    const int32_t left = span->x1 - x;
+    memcpy(out, &pixels, 4 * (size_t)(left < CS_WIDE_LANES ? left : CS_WIDE_LANES));
   }
 }
-
-#else
-
-static inline void put_gradient(const celspan_span *span, bool is_coded, unsigned char *out,
-                                size_t room) {
-  put_short_gradient(span, is_coded, out, room);
-}
-
-#endif
 
 static inline void put_varied(const target *row, bool is_coded, const celspan_span *span) {
   size_t at = 4 * (size_t)span->x0, count = (size_t)(span->x1 - span->x0);
