@@ -267,6 +267,7 @@ static celspan_status find(celspan_context *context, cs_fill fill, cs_fill_table
 celspan_status cs_fill_find(celspan_context *context, const celspan_plane *plane,
                             const planefile_band *band, uint32_t cell, cs_fill_table *table,
                             cs_parcels *parcels, uint32_t *out) {
+  const bool is_faced = *out > 0;
   cs_fill fill = {.kind = CS_FILL_FLAT};
   *out = 0;
   if (!band->programs || band->programs[cell].step_count == 0) {
@@ -277,12 +278,12 @@ celspan_status cs_fill_find(celspan_context *context, const celspan_plane *plane
   CS_TRY(make_gradient(context, plane, band, cell, &fill, parcels));
   if (fill.kind != CS_FILL_CLEAR)
     return find(context, fill, table, parcels, out);
-  if (table->picture == 0) {
-    table->picture = (uint32_t)parcels->fill_count;
-    fill = (cs_fill){.kind = CS_FILL_PICTURE, .is_opaque = true};
+  fill = (cs_fill){.kind = CS_FILL_PICTURE, .is_opaque = planefile_hides(band, cell, is_faced)};
+  uint32_t *picture = &table->pictures[fill.is_opaque];
+  if (*picture == 0) {
+    *picture = (uint32_t)parcels->fill_count;
     CS_TRY(CS_APPEND(context, parcels->fills, parcels->fill_count, parcels->fill_capacity, fill));
   }
-  parcels->fills[table->picture].is_opaque &= planefile_hides(band, cell);
-  *out = table->picture;
+  *out = *picture;
   return CELSPAN_OK;
 }

@@ -19,12 +19,24 @@ typedef struct collecting {
   const celspan_plane *plane;
   cs_fill_table table;
   cs_frame_sides sides;
-  uint32_t *fills; /* of the cells of a band */
+  uint32_t *fills; /* of the cells of a band; before that, whether all their borders face them */
   size_t capacity;
 } collecting;
 
+/* Of each cell, whether all its borders face it. */
+static void find_faced(const planefile_band *band, uint32_t *is_faced) {
+  for (uint32_t i = 0; i < band->cell_count; i++)
+    is_faced[i] = true;
+  for (uint32_t i = 0; i < band->border_count; i++) {
+    const planefile_border *border = &band->borders[i];
+    is_faced[border->left] &= planefile_faces(band, border, border->left);
+    is_faced[border->right] &= planefile_faces(band, border, border->right);
+  }
+}
+
 static celspan_status collect_part(collecting *g, const planefile_band *band, cs_parcels *out) {
   CS_TRY(CS_RESERVE(g->context, g->fills, g->capacity, band->cell_count));
+  find_faced(band, g->fills);
   for (uint32_t i = 0; i < band->cell_count; i++)
     CS_TRY(cs_fill_find(g->context, g->plane, band, i, &g->table, out, &g->fills[i]));
   for (uint32_t i = 0; i < band->border_count; i++) {
@@ -182,6 +194,23 @@ static size_t find_group(const tracing *t, size_t first) {
   return end;
 }
 
+/* Whether a walk of the set goes away from an end: an arc with the set on its right is walked down,
+ * another one up. */
+static bool is_begin(uint32_t id) { return (id & 2) ? !(id & 1) : id & 1; }
+
+/* At one place ends are in any order: puts one to which the first one leads, or comes from, after
+ * it. */
+static void pair_first(arc_end *ends, size_t count) {
+  size_t other = 1;
+  while (other < count && is_begin(ends[other].id) == is_begin(ends[0].id))
+    other++;
+  for (; other > 1 && other < count; other--) {
+    arc_end moved = ends[other];
+    ends[other] = ends[other - 1];
+    ends[other - 1] = moved;
+  }
+}
+
 /* Each two neighbours of a set at one height are partners. */
 static celspan_status join_ends(const tracing *t) {
   for (size_t i = 0, end; i < t->count; i = end) {
@@ -189,6 +218,7 @@ static celspan_status join_ends(const tracing *t) {
     if ((end - i) % 2 == 1)
       return cs_fail(t->context, CELSPAN_BAD_ARGUMENT, "the borders of an area do not meet");
     for (; i < end; i += 2) {
+      pair_first(t->ends + i, end - i);
       t->partners[t->ends[i].id] = t->ends[i + 1].id;
       t->partners[t->ends[i + 1].id] = t->ends[i].id;
     }
@@ -214,15 +244,13 @@ static celspan_status walk_loop(const tracing *t, uint32_t first) {
   return CS_APPEND(t->context, p->loops, p->loop_count, p->loop_capacity, loop);
 }
 
-/* An arc with the set on its right begins at its top, another one at its foot. */
 static celspan_status walk_all(const tracing *t, uint32_t set_count, size_t *first) {
   uint32_t set = 0;
   for (size_t i = 0; i < t->count; i++) {
     uint32_t id = t->ends[i].id;
     for (; set < t->ends[i].set; set++)
       first[set] = t->parcels->loop_count;
-    bool is_begin = (id & 2) ? !(id & 1) : id & 1;
-    if (is_begin && t->partners[id] != id)
+    if (is_begin(id) && t->partners[id] != id)
       CS_TRY(walk_loop(t, id));
   }
   for (; set <= set_count; set++)
@@ -286,6 +314,7 @@ celspan_status cs_parcels_make(celspan_context *context, const celspan_plane *pl
   CS_TRY(join_heights(context, out));
   if (!info.is_coded) /* sums are no codes */
     CS_TRY(cs_parcels_refuse_sums(context, out));
+  CS_TRY(cs_parcels_join_slivers(context, out));
   return walk_fills(context, out);
 }
 

@@ -8,10 +8,11 @@
 /* Fills by what they are, so that each is there once. */
 typedef struct cs_fill_table {
   cs_hash_table known;
-  uint32_t picture; /* the number of the fill of pictures; 0: none yet */
+  uint32_t pictures[2]; /* the numbers of the fills of pictures, translucent, opaque; 0: none yet */
 } cs_fill_table;
 
-/* The fill of a cell, a new one if need be. Errors: NO_MEMORY. */
+/* The fill of a cell, a new one if need be. *out: before, 1 if all borders of the cell face it (see
+ * planefile_hides), and else 0. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_fill_find(celspan_context *context, const celspan_plane *plane,
                                             const planefile_band *band, uint32_t cell,
                                             cs_fill_table *table, cs_parcels *parcels,
@@ -56,6 +57,34 @@ typedef struct cs_passing {
 /* The arcs at a height, from left to right. share: of the frame's height. out: room for all arcs.
  * Returns how many there are. */
 size_t cs_passing_list(const cs_parcels *parcels, double share, cs_passing *out);
+
+/* The share of a curve, or of a line, at which it comes to a height in film units; where an arc is
+ * at a height. */
+double cs_curve_share(const cs_parcel_curve *curve, double y);
+double cs_arc_x(const cs_parcels *parcels, uint32_t arc, double y);
+
+/* The arcs at a height in units, from left to right. Those that are nearer to each other than the
+ * plane's rounding may have exchanged their places. */
+typedef struct cs_beside {
+  celspan_context *context;
+  const cs_parcels *parcels;
+  double height;
+  uint32_t *arcs;
+  size_t count;
+} cs_beside;
+/* Gets an arc by its place in the row. */
+typedef celspan_status cs_beside_visit(const cs_beside *row, size_t place, void *user);
+/* Visits each arc at some heights between its ends. Errors: NO_MEMORY, and those of visits, after
+ * which none follows. */
+CELSPAN_CHECKED celspan_status cs_beside_walk(celspan_context *context, const cs_parcels *parcels,
+                                              int visits, cs_beside_visit *visit, void *user);
+/* How wide it is between two arcs of the row, across the first one, in film units. */
+double cs_beside_gap(const cs_beside *row, size_t place, size_t other);
+
+/* Joins arcs between which there is a fill that is no wider than the plane's rounding. Errors:
+ * NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_parcels_join_slivers(celspan_context *context,
+                                                       cs_parcels *parcels);
 
 /* BAD_ARGUMENT if places of the plane have several fills, because it is a sum. */
 CELSPAN_CHECKED celspan_status cs_parcels_refuse_sums(celspan_context *context,

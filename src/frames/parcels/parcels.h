@@ -26,7 +26,7 @@ typedef enum cs_fill_kind {
   CS_FILL_FLAT,
   CS_FILL_LINEAR,
   CS_FILL_RADIAL,
-  CS_FILL_PICTURE /* at most one: whatever cannot be one of the others */
+  CS_FILL_PICTURE /* at most two, one of them opaque: whatever cannot be one of the others */
 } cs_fill_kind;
 
 /* Codes are 8 bits in sRGB, with straight alpha. */

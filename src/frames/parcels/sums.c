@@ -21,15 +21,11 @@ static celspan_point at(const celspan_point p[4], double t) {
                          a * p[0].y + b * p[1].y + c * p[2].y + d * p[3].y};
 }
 
-static double find_x(const cs_parcels *parcels, const cs_parcel_arc *arc, double y) {
-  const cs_parcel_curve *curve = &parcels->curves[arc->curve];
-  const cs_parcel_curve *last = curve + arc->curve_count - 1;
-  double low = 0, high = 1;
-  while (curve < last && curve->points[3].y <= y)
-    curve++;
+double cs_curve_share(const cs_parcel_curve *curve, double y) {
   const celspan_point *p = curve->points;
+  double low = 0, high = 1;
   if (curve->is_line)
-    return p[3].y > p[0].y ? p[0].x + (y - p[0].y) / (p[3].y - p[0].y) * (p[3].x - p[0].x) : p[0].x;
+    return p[3].y > p[0].y ? (y - p[0].y) / (p[3].y - p[0].y) : 0;
   for (int i = 0; i < ROOT_STEPS; i++) {
     double middle = (low + high) / 2;
     if (at(p, middle).y < y)
@@ -37,7 +33,17 @@ static double find_x(const cs_parcels *parcels, const cs_parcel_arc *arc, double
     else
       high = middle;
   }
-  return at(p, low).x;
+  return low;
+}
+
+double cs_arc_x(const cs_parcels *parcels, uint32_t arc, double y) {
+  const cs_parcel_curve *curve = &parcels->curves[parcels->arcs[arc].curve];
+  const cs_parcel_curve *last = curve + parcels->arcs[arc].curve_count - 1;
+  while (curve < last && curve->points[3].y <= y)
+    curve++;
+  const celspan_point *p = curve->points;
+  const double t = cs_curve_share(curve, y);
+  return curve->is_line ? p[0].x + t * (p[3].x - p[0].x) : at(p, t).x;
 }
 
 size_t cs_passing_list(const cs_parcels *parcels, double share, cs_passing *out) {
@@ -46,7 +52,7 @@ size_t cs_passing_list(const cs_parcels *parcels, double share, cs_passing *out)
   for (uint32_t i = 0; i < parcels->arc_count; i++) {
     const cs_parcel_arc *arc = &parcels->arcs[i];
     if (arc->top <= units && arc->foot > units)
-      out[count++] = (cs_passing){find_x(parcels, arc, share * parcels->height), i};
+      out[count++] = (cs_passing){cs_arc_x(parcels, i, share * parcels->height), i};
   }
   sort_passings(out, count);
   return count;

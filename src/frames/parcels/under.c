@@ -5,8 +5,8 @@
 #include "base/sort.h"
 #include "frames/parcels/making.h"
 
-#define VERY 1e12       /* units: more than any thickness */
-enum { HEIGHTS = 512 }; /* at which arcs are compared with their neighbours */
+#define VERY 1e12 /* units: more than any thickness */
+enum { VISITS = 5 /* heights at which an arc is compared with those beside it */, GRADES = 8 };
 
 /* ---------------------------------------------------------------- thickness */
 
@@ -167,7 +167,10 @@ static celspan_status pair_flats(celspan_context *context, const flat_line *floo
     double x0 = fmax(a->x0, b->x0), x1 = fmin(a->x1, b->x1);
     const uint32_t fills[2] = {a->fill, b->fill};
     const double thickness[2] = {a->thickness, b->thickness};
-    const cs_under_line line = {rank_of(out, fills, thickness), true, 0, {x0, a->y}, {x1, a->y}};
+    const cs_under_line line = {.rank = rank_of(out, fills, thickness),
+                                .is_flat = true,
+                                .from = {x0, a->y},
+                                .to = {x1, a->y}};
     if (x0 < x1 && a->fill != b->fill)
       CS_TRY(CS_APPEND(context, out->lines, out->line_count, out->line_capacity, line));
     if (a->x1 < b->x1)
@@ -204,58 +207,58 @@ static void spread(const cs_parcels *parcels, const cs_under *under, double *out
   }
 }
 
-/* How far down an arc leads, in relation to its length. */
-static double steepness(const cs_parcels *parcels, uint32_t arc) {
-  celspan_point top = cs_parcel_begin(parcels, (cs_parcel_walk){arc, false});
-  celspan_point foot = cs_parcel_end(parcels, (cs_parcel_walk){arc, false});
-  double length = distance(top, foot);
-  return length > 0 ? (foot.y - top.y) / length : 0;
+/* How thick the areas on both sides of arcs are beside them: 0 is nothing, and GRADES as thick as
+ * it must be, or thicker. 2 of each arc, left and right. */
+typedef struct narrowing {
+  double thin, *grades;
+} narrowing;
+
+static celspan_status narrow(const cs_beside *row, size_t place, void *user) {
+  const narrowing *n = user;
+  for (size_t side = 0; side < 2; side++) {
+    const bool has_other = side == 0 ? place > 0 : place + 1 < row->count;
+    const double gap = has_other ? cs_beside_gap(row, place, side == 0 ? place - 1 : place + 1) : 0;
+    n->grades[2 * row->arcs[place] + side] += fmin(gap / n->thin, 1) * GRADES / VISITS;
+  }
+  return CELSPAN_OK;
 }
 
-/* Where arcs are near each other, the area between them is thin, however thick it is elsewhere: of
- * the two sides of an arc, the one that is so at fewer heights is thicker. */
-static celspan_status narrow(celspan_context *context, const cs_parcels *parcels, double thin,
-                             double *out) {
-  const size_t most = parcels->arc_count;
-  cs_passing *all;
-  CS_TRY(CS_MAKE(context, all, most));
-  for (int i = 0; i < HEIGHTS; i++) {
-    size_t count = cs_passing_list(parcels, (i + 0.5) / HEIGHTS, all);
-    for (size_t k = 1; k < count; k++) {
-      size_t left = all[k - 1].arc, right = all[k].arc;
-      const double gap = all[k].x - all[k - 1].x;
-      if (parcels->arcs[left].right != parcels->arcs[right].left) { /* they lie on each other */
-        left = right;
-        right = all[k - 1].arc;
-      }
-      out[2 * left + 1] -= gap * steepness(parcels, (uint32_t)left) < thin ? VERY : 0;
-      out[2 * right] -= gap * steepness(parcels, (uint32_t)right) < thin ? VERY : 0;
-    }
-  }
-  cs_mem_free(context->memory, all, most * sizeof *all);
-  return CELSPAN_OK;
+/* What is as thick beside the arc is compared as a whole. */
+static celspan_status put_arc(celspan_context *context, const cs_parcels *parcels, uint32_t arc,
+                              const double *loops, const double *grades, cs_under *out) {
+  const uint32_t fills[2] = {parcels->arcs[arc].left, parcels->arcs[arc].right};
+  const double thickness[2] = {loops[0] + VERY * round(grades[0]),
+                               loops[1] + VERY * round(grades[1])};
+  const uint32_t rank = rank_of(out, fills, thickness);
+  const double grade = grades[rank == out->ranks[fills[0]] ? 0 : 1];
+  const cs_under_line line = {.rank = rank, .is_thin = round(grade) < GRADES, .arc = arc};
+  if (!cs_under_suits(&parcels->fills[fills[0]]) || !cs_under_suits(&parcels->fills[fills[1]]))
+    return CELSPAN_OK;
+  return CS_APPEND(context, out->lines, out->line_count, out->line_capacity, line);
 }
 
 static celspan_status put_arcs(celspan_context *context, const cs_parcels *parcels, double thin,
                                cs_under *out) {
   const size_t count = 2 * parcels->arc_count;
-  double *thickness;
+  double *loops, *grades = NULL;
   if (count == 0)
     return CELSPAN_OK;
-  CS_TRY(CS_MAKE(context, thickness, count));
-  spread(parcels, out, thickness);
-  celspan_status status = narrow(context, parcels, thin, thickness);
-  for (uint32_t i = 0; i < parcels->arc_count && status == CELSPAN_OK; i++) {
-    const uint32_t fills[2] = {parcels->arcs[i].left, parcels->arcs[i].right};
-    const cs_under_line line = {.rank = rank_of(out, fills, thickness + 2 * (size_t)i), .arc = i};
-    if (cs_under_suits(&parcels->fills[fills[0]]) && cs_under_suits(&parcels->fills[fills[1]]))
-      status = CS_APPEND(context, out->lines, out->line_count, out->line_capacity, line);
+  CS_TRY(CS_MAKE(context, loops, count));
+  celspan_status status = CS_MAKE(context, grades, count);
+  if (status == CELSPAN_OK) {
+    spread(parcels, out, loops);
+    status = cs_beside_walk(context, parcels, VISITS, narrow, &(narrowing){thin, grades});
   }
-  cs_mem_free(context->memory, thickness, count * sizeof *thickness);
+  for (uint32_t i = 0; i < parcels->arc_count && status == CELSPAN_OK; i++)
+    status = put_arc(context, parcels, i, loops + 2 * (size_t)i, grades + 2 * (size_t)i, out);
+  cs_mem_free(context->memory, loops, count * sizeof *loops);
+  cs_mem_free(context->memory, grades, count * sizeof *grades);
   return status;
 }
 
 static inline bool is_under(const cs_under_line *a, const cs_under_line *b) {
+  if (a->is_thin != b->is_thin)
+    return a->is_thin;
   if (a->rank != b->rank)
     return a->rank < b->rank;
   if (a->is_flat != b->is_flat || !a->is_flat)
@@ -269,7 +272,7 @@ celspan_status cs_under_make(celspan_context *context, const cs_parcels *parcels
   flat_list flats = {0};
   *out = (cs_under){.fill_count = parcels->fill_count, .loop_count = parcels->loop_count + 1};
   CS_TRY(rank_fills(context, parcels, out));
-  if (thin == 0)
+  if (!(thin > 0))
     return CELSPAN_OK;
   CS_TRY(put_arcs(context, parcels, thin, out));
   flats.thickness = out->loops;

@@ -324,8 +324,11 @@ planefile_info planefile_plane_info(const planefile_plane *plane);
 /* A band, from the top; where it has not been read it has heights and nothing else. */
 const planefile_band *planefile_plane_band(const planefile_plane *plane, uint32_t index);
 
-/* Whether it is certain that nothing shines through a cell that varies. */
-bool planefile_hides(const planefile_band *band, uint32_t cell);
+/* Whether all of a border is in front of the eye of the gradients of a cell beside it: w > 0. */
+bool planefile_faces(const planefile_band *band, const planefile_border *border, uint32_t cell);
+/* Whether it is certain that nothing shines through a cell that varies. is_faced: all of its
+ * borders face its gradients, and so does what lies between them. */
+bool planefile_hides(const planefile_band *band, uint32_t cell, bool is_faced);
 
 /* ---- gradients
  *

@@ -9,8 +9,39 @@ static bool are_same(const planefile_axis *a, const planefile_axis *b) {
   return same;
 }
 
-bool planefile_hides(const planefile_band *band, uint32_t cell) {
-  return pf_program_hides(band, band->programs[cell]);
+/* A curve is within the hull of its points. */
+static bool is_before(const planefile_band *band, const planefile_border *border,
+                      const planefile_axis *axis) {
+  const planefile_chain *chain = &band->chains[border->chain];
+  bool is_so = true;
+  for (uint32_t i = 0; i < chain->piece_count; i++) {
+    const planefile_piece *piece = &band->pieces[chain->piece + i];
+    const planefile_point *points = &band->points[piece->point];
+    if (points[piece->degree].y <= border->top || points[0].y >= border->foot)
+      continue;
+    for (uint32_t k = 0; k <= piece->degree; k++) {
+      const planefile_point *at = &points[k];
+      double x = (double)at->x / PLANEFILE_SIDE, y = (double)at->y / PLANEFILE_SIDE;
+      is_so &= axis->w[0] * x + axis->w[1] * y + axis->w[2] > 0;
+    }
+  }
+  return is_so;
+}
+
+bool planefile_faces(const planefile_band *band, const planefile_border *border, uint32_t cell) {
+  const planefile_program *program = band->programs ? &band->programs[cell] : NULL;
+  bool is_so = true;
+  for (uint32_t i = 0; is_so && program && i < program->step_count; i++) {
+    const planefile_step *step = &band->steps[program->step + i];
+    const planefile_axis *axis = &band->axes[step->axis];
+    if (step->kind == PLANEFILE_RAMP && !pf_axis_is_affine(axis))
+      is_so = is_before(band, border, axis);
+  }
+  return is_so;
+}
+
+bool planefile_hides(const planefile_band *band, uint32_t cell, bool is_faced) {
+  return pf_program_hides(band, band->programs[cell], is_faced);
 }
 
 const planefile_axis *planefile_only_axis(const planefile_band *band, uint32_t cell) {

@@ -221,7 +221,7 @@ static inline bool pf_band_is_opaque(const planefile_band *band) {
   bool is_opaque = true;
   for (uint32_t i = 0; is_opaque && i < band->cell_count; i++)
     is_opaque = band->programs && band->programs[i].step_count > 0
-                    ? pf_program_hides(band, band->programs[i])
+                    ? pf_program_hides(band, band->programs[i], false)
                     : band->cells[i].colour[3] == PLANEFILE_WHITE;
   return is_opaque;
 }

@@ -60,9 +60,10 @@ void pf_put_recoloured(pf_encoder *encoder, pf_program_coding *coding, const pla
 const char *pf_get_recoloured(pf_decoder *decoder, pf_program_coding *coding,
                               const pf_program_room *room, planefile_program program);
 
-/* Whether a program is as planefile.h says; and whether nothing shines through it anywhere. */
+/* Whether a program is as planefile.h says; and whether nothing shines through it, anywhere or,
+ * is_faced, in front of its gradients. */
 bool pf_program_is_good(const planefile_band *band, planefile_program program);
-bool pf_program_hides(const planefile_band *band, planefile_program program);
+bool pf_program_hides(const planefile_band *band, planefile_program program, bool is_faced);
 
 /* ---------------------------------------------------------------- colours */
 

@@ -338,18 +338,18 @@ bool pf_program_is_good(const planefile_band *band, planefile_program program) {
 static bool is_opaque(const planefile_cell *colour) { return colour->colour[3] == PLANEFILE_WHITE; }
 
 /* Whether a layer hides all that is behind it. */
-static bool hides(const planefile_band *band, const planefile_step *step) {
+static bool hides(const planefile_band *band, const planefile_step *step, bool is_faced) {
   if (step->kind == PLANEFILE_FLAT)
     return is_opaque(&step->colour);
   const planefile_axis *axis = &band->axes[step->axis];
-  bool is_solid =
-      step->kind == PLANEFILE_RAMP && axis->kind != PLANEFILE_PICTURE && pf_axis_is_affine(axis);
+  bool is_solid = step->kind == PLANEFILE_RAMP && axis->kind != PLANEFILE_PICTURE &&
+                  (is_faced || pf_axis_is_affine(axis));
   for (uint32_t i = 0; is_solid && i < step->stop_count; i++)
     is_solid = is_opaque(&band->stops[step->stop + i].colour);
   return is_solid;
 }
 
-bool pf_program_hides(const planefile_band *band, planefile_program program) {
+bool pf_program_hides(const planefile_band *band, planefile_program program, bool is_faced) {
   bool is_hidden[PLANEFILE_DEPTH + 1] = {false}; /* nothing more shows, in the groups so far */
   bool is_matted[PLANEFILE_DEPTH + 1] = {false}; /* no layer to come hides anything */
   uint32_t depth = 0;
@@ -364,7 +364,7 @@ bool pf_program_hides(const planefile_band *band, planefile_program program) {
       is_hidden[depth] |= step->how <= PLANEFILE_DECODED && !is_matted[depth] &&
                           is_hidden[depth + 1] && is_opaque(&step->colour);
     } else {
-      is_hidden[depth] |= !is_matted[depth] && hides(band, step);
+      is_hidden[depth] |= !is_matted[depth] && hides(band, step, is_faced);
     }
   }
   return is_hidden[0];
