@@ -97,14 +97,35 @@ local function compare(frame, drawn, w, h)
 end
 
 describe("a drawing", function()
-  it_measures("of regions has areas that do not overlap and leave nothing out", function()
-    done "render light.lua -o x.svg --flat regions --precision 6 --frames 1"
+  --- How many areas x.svg has, the largest that two have in common, and what they leave out.
+  local function measured()
     local command = ("%s tests/support/areas.py %s/x.svg"):format(PYTHON, bench.folder)
     local out = io.popen(command):read "a"
     local count, overlap, gap = out:match "(%S+) (%S+) (%S+)"
-    assert.is_true(tonumber(count) >= 8, out)
-    assert.is_true(tonumber(overlap) <= 1e-6, out)
-    assert.is_true(math.abs(tonumber(gap)) <= 1e-6, out)
+    return tonumber(count), tonumber(overlap), tonumber(gap)
+  end
+
+  it_measures("of regions has areas that do not overlap and leave nothing out", function()
+    done "render light.lua -o x.svg --flat regions --precision 6 --frames 1"
+    local count, overlap, gap = measured()
+    assert.is_true(count >= 8 and overlap <= 1e-6 and math.abs(gap) <= 1e-6)
+  end)
+
+  it_measures("of regions has no slivers where outlines have a part in common", function()
+    bench:write("cut.lua", [[
+local celspan = require "celspan"
+local function disc(radius) return celspan.circle { centre = { 50, 50 }, radius = radius } end
+return celspan.film { size = { 100, 100 }, frames = 1, frame = function()
+  return celspan.rostrum { celspan.cel { disc(40):paint("#f26419"),
+    celspan.clip(celspan.rect { 0, 60, 100, 40, texture = "#33658a" }, disc(40)),
+    celspan.clip(celspan.rect { 60, 0, 40, 100, texture = "#55dde0" }, disc(40)) } } end }]])
+    done "render cut.lua -o x.svg --flat regions --precision 6"
+    local count, overlap = measured()
+    assert.is_true(count == 3 and overlap <= 1e-6)
+    -- The first disc ends where the others begin: no part of its outline is right or below of them.
+    local first = bench:read("x.svg"):match 'fill="#f26419" d="([^"]*)"'
+    assert.equal(1, select(2, first:gsub("z", "")))
+    assert.is_true(#first < 800, first)
   end)
 
   it("of regions has nothing under its areas, and no clipping", function()
@@ -188,6 +209,59 @@ return celspan.film { size = { 60, 40 }, frames = 1, frame = function()
     err = done "render all.lua -o y.svg"
     assert.matches("is a picture of 120 x 80 pixels, because", err, 1, true)
     assert.matches("<image", bench:read "y.svg", 1, true)
+  end)
+
+  it("of a sum of pictures is a picture, of a frame and of its plane", function()
+    bench:write("sum.lua", [[
+local celspan = require "celspan"
+local function disc(x)
+  return celspan.rostrum { back = "#fff", celspan.cel {
+    celspan.circle { centre = { x, 20 }, radius = 10, texture = "#f26419" } } }
+end
+return celspan.film { size = { 60, 40 }, frames = 1, frame = function()
+  return { { disc(20), 0.5 }, { disc(26), 0.5 } } end }]])
+    local err = done "render sum.lua -o frame.svg"
+    assert.matches("of 120 x 80 pixels, because it has no vectors for this: the plane is a sum of "
+      .. "several pictures", err, 1, true)
+    done "render sum.lua -o sum.plane"
+    local again = done "convert sum.plane plane.svg"
+    assert.equal(err:match "because.-areas", again:match "because.-areas")
+    assert.equal(bench:read "frame.svg", bench:read "plane.svg")
+  end)
+
+  it("has small pictures of large films", function()
+    bench:write("wide.lua", [[
+local celspan = require "celspan"
+local function layer(from, to)
+  return celspan.rect { WHERE, texture =
+    celspan.linear { from = from, to = to, { 0, "#f26419" }, { 1, "#33658a80" } } }
+end
+return celspan.film { size = { 20000, 10 }, frames = 1, frame = function()
+  return celspan.rostrum { back = "#fff", celspan.cel { layer({ 0, 0 }, { 9, 0 }),
+    layer({ 0, 0 }, { 0, 9 }) } } end }]])
+    bench:write("small.lua", (bench:read("wide.lua"):gsub("WHERE", "0, 0, 9, 9")))
+    assert.matches("is a picture of 1[89] x 1[89] pixels", done "render small.lua -o x.svg")
+    bench:write("large.lua", (bench:read("wide.lua"):gsub("WHERE", "0, 0, 19000, 9")))
+    refused(6, "pixels; a side has at most 16384: give a smaller --scale",
+      "render large.lua -o y.svg")
+    assert.is_nil(io.open(bench.folder .. "/y.svg"))
+  end)
+
+  it("has strokes under the borders of pictures through which nothing shines", function()
+    bench:write("floor.lua", [[
+local celspan = require "celspan"
+local wood = celspan.linear { from = { 0, 0 }, to = { 100, 0 }, { 0, "#c8a25c" }, { 1, "#4b2e3a" } }
+local floor = celspan.rect { 0, 0, 100, 100, texture = wood }
+  :quad({ { 0, 0 }, { 100, 0 }, { 100, 100 }, { 0, 100 } },
+    { { 40, 20 }, { 60, 20 }, { 100, 60 }, { 0, 60 } })
+return celspan.film { size = { 100, 60 }, frames = 1, frame = function()
+  return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 100, 60, texture = "#3f6f73" },
+    floor } } end }]])
+    done "render floor.lua -o x.svg"
+    local text = bench:read "x.svg"
+    assert.matches('<path stroke="#3f6f73"', text, 1, true)
+    assert.matches('<clipPath id="picture"', text, 1, true)
+    assert.is_nil(text:find('id="opaque"', 1, true))
   end)
 
   it("of nothing is empty", function()

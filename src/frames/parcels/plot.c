@@ -10,8 +10,9 @@
 #include "frames/render/frame.h"
 #include "model/scene/check.h"
 
-#define GROWN 1.6 /* pixels: how far an area continues under another one */
-enum { PICTURE_SIDE = 16384 /* pixels, at most */ };
+#define GROWN 1.6     /* pixels: how far an area continues under another one */
+#define OPAQUE 0.999f /* alpha, rounded */
+enum { PICTURE_SIDE = 16384 /* pixels, at most */, PROOF_SIDE = 512 };
 enum { CODE_DIGITS = 4, STOP_DIGITS = 6, SPARE_DIGITS = 3, MATRIX_DIGITS = 9 };
 
 bool cs_plot_is_wanted(const char *path, const char *format) {
@@ -157,17 +158,24 @@ static celspan_status draw_frame(const cs_plot_picture *picture, celspan_context
   return cs_frame_render_own(context, &frame, &own, NULL);
 }
 
-static celspan_status size_picture(celspan_context *context, double width, double height,
-                                   double scale, cs_plot_picture *out) {
-  double columns = ceil(width * scale), rows = ceil(height * scale);
-  if (!(columns <= PICTURE_SIDE && rows <= PICTURE_SIDE))
-    return cs_fail(context, CELSPAN_LIMIT,
-                   "a picture in the drawing would have %.0f x %.0f pixels; a side has at most %d: "
-                   "give a smaller --scale",
-                   columns, rows, PICTURE_SIDE);
-  out->width = out->columns = columns >= 1 ? (int32_t)columns : 1;
-  out->height = out->rows = rows >= 1 ? (int32_t)rows : 1;
-  return CELSPAN_OK;
+static int32_t pixels_of(double units, double scale) {
+  double pixels = ceil(units * scale);
+  return pixels > INT32_MAX ? INT32_MAX : pixels > 1 ? (int32_t)pixels : 1;
+}
+
+/* The picture of a film, whole. */
+static void size_picture(double width, double height, double scale, cs_plot_picture *out) {
+  out->width = out->columns = pixels_of(width, scale);
+  out->height = out->rows = pixels_of(height, scale);
+}
+
+static celspan_status check_picture(celspan_context *context, const cs_plot_picture *picture) {
+  if (picture->columns <= PICTURE_SIDE && picture->rows <= PICTURE_SIDE)
+    return CELSPAN_OK;
+  return cs_fail(context, CELSPAN_LIMIT,
+                 "a picture in the drawing would have %d x %d pixels; a side has at most %d: "
+                 "give a smaller --scale",
+                 (int)picture->columns, (int)picture->rows, PICTURE_SIDE);
 }
 
 /* The columns or rows that a range of units touches. */
@@ -180,10 +188,10 @@ static void clip_side(double low, double high, double film, int32_t side, int32_
   *count = to - from;
 }
 
-/* The part of the whole picture in which a parcel lies. */
-static void crop_to(const cs_parcels *parcels, const cs_fill *fill, cs_plot_picture *picture) {
+/* The part of the whole picture in which loops lie. */
+static void crop_to(const cs_parcels *parcels, const size_t loops[2], cs_plot_picture *picture) {
   celspan_point least = {INFINITY, INFINITY}, most = {-INFINITY, -INFINITY};
-  for (size_t i = fill->loop; i < fill->loop + fill->loop_count; i++) {
+  for (size_t i = loops[0]; i < loops[1]; i++) {
     const cs_parcel_loop *loop = &parcels->loops[i];
     for (size_t k = loop->walk; k < loop->walk + loop->walk_count; k++) {
       const cs_parcel_arc *arc = &parcels->arcs[parcels->walks[k].arc];
@@ -198,16 +206,39 @@ static void crop_to(const cs_parcels *parcels, const cs_fill *fill, cs_plot_pict
   clip_side(least.y, most.y, parcels->height, picture->height, &picture->y, &picture->rows);
 }
 
-static celspan_status put_picture(drawing *d, const cs_fill *fill) {
+/* The union of all fills that are wanted: loops, from the first one to the end. */
+static celspan_status unite(drawing *d, bool (*is_wanted)(const cs_fill *fill), size_t loops[2]) {
+  cs_parcels *p = &d->parcels;
+  uint32_t *sets;
+  CS_TRY(CS_MAKE(d->text.context, sets, p->fill_count));
+  for (size_t i = 0; i < p->fill_count; i++)
+    sets[i] = is_wanted(&p->fills[i]);
+  celspan_status status = cs_parcels_walk(d->text.context, p, sets, 1, loops);
+  cs_mem_free(d->text.context->memory, sets, p->fill_count * sizeof *sets);
+  return status;
+}
+
+static void put_clip(drawing *d, const char *name, const size_t loops[2]) {
+  cs_plot_put(&d->text, "<clipPath id=\"%s\"><path clip-rule=\"evenodd\" d=\"", name);
+  cs_plot_begin_path(&d->text);
+  cs_plot_loops(&d->text, &d->parcels, loops[0], loops[1] - loops[0]);
+  cs_plot_put(&d->text, "\"/></clipPath>\n");
+}
+
+static bool is_picture(const cs_fill *fill) { return fill->kind == CS_FILL_PICTURE; }
+
+static celspan_status put_picture(drawing *d) {
+  size_t loops[2];
   cs_plot_picture picture = {
       .draw = draw_plane, .plane = d->plane, .is_opaque = celspan_plane_is_opaque(d->plane)};
-  CS_TRY(
-      size_picture(d->text.context, d->parcels.width, d->parcels.height, d->desc->scale, &picture));
-  crop_to(&d->parcels, fill, &picture);
-  cs_plot_put(&d->text, "<clipPath id=\"picture\"><path clip-rule=\"evenodd\" d=\"");
-  cs_plot_begin_path(&d->text);
-  cs_plot_loops(&d->text, &d->parcels, fill->loop, fill->loop_count);
-  cs_plot_put(&d->text, "\"/></clipPath>\n<g clip-path=\"url(#picture)\">\n");
+  CS_TRY(unite(d, is_picture, loops));
+  if (loops[0] == loops[1])
+    return CELSPAN_OK;
+  size_picture(d->parcels.width, d->parcels.height, d->desc->scale, &picture);
+  crop_to(&d->parcels, loops, &picture);
+  CS_TRY(check_picture(d->text.context, &picture));
+  put_clip(d, "picture", loops);
+  cs_plot_put(&d->text, "<g clip-path=\"url(#picture)\">\n");
   cs_plot_put_picture(&d->text, &picture, d->parcels.width, d->parcels.height);
   cs_plot_put(&d->text, "</g>\n");
   d->facts->picture_width = picture.columns;
@@ -215,14 +246,49 @@ static celspan_status put_picture(drawing *d, const cs_fill *fill) {
   return CELSPAN_OK;
 }
 
+/* Whether nothing shines through a plane anywhere, by its pixels. */
+static celspan_status prove_opaque(const drawing *d, bool *is_opaque) {
+  celspan_plane_view view = CELSPAN_PLANE_VIEW;
+  cs_plane_rows *rows;
+  view.width = view.crop_width = view.height = view.crop_height = PROOF_SIDE;
+  view.antialias = CELSPAN_ANTIALIAS_AREA;
+  CS_TRY(cs_plane_rows_create(d->text.context, d->plane, &view, &rows));
+  celspan_status status = CELSPAN_OK;
+  *is_opaque = true;
+  for (int32_t y = 0; y < PROOF_SIDE && *is_opaque && status == CELSPAN_OK; y++) {
+    const celspan_span *spans;
+    size_t count = 0;
+    float colour[4];
+    status = cs_plane_rows_get(rows, y, &spans, &count);
+    for (size_t i = 0; i < count; i++)
+      for (int32_t x = spans[i].x0; x < spans[i].x1; x++) {
+        celspan_span_colour(&spans[i], x, colour);
+        *is_opaque &= colour[3] > OPAQUE;
+      }
+  }
+  cs_plane_rows_destroy(rows);
+  return status;
+}
+
+/* What vectors cannot say is opaque if all is. */
+static celspan_status judge_pictures(drawing *d) {
+  cs_parcels *p = &d->parcels;
+  bool is_certain = true, is_opaque = true;
+  for (size_t i = 0; i < p->fill_count; i++)
+    is_certain &= !is_picture(&p->fills[i]) || p->fills[i].is_opaque;
+  if (!is_certain)
+    CS_TRY(prove_opaque(d, &is_opaque));
+  for (size_t i = 0; i < p->fill_count && is_opaque; i++)
+    p->fills[i].is_opaque |= is_picture(&p->fills[i]);
+  return CELSPAN_OK;
+}
+
 /* ---------------------------------------------------------------- areas */
 
-static celspan_status put_area(drawing *d, uint32_t number) {
+static void put_area(drawing *d, uint32_t number) {
   const cs_fill *fill = &d->parcels.fills[number];
-  if (fill->loop_count == 0)
-    return CELSPAN_OK;
-  if (fill->kind == CS_FILL_PICTURE)
-    return put_picture(d, fill);
+  if (fill->loop_count == 0 || is_picture(fill))
+    return;
   cs_plot_put(&d->text, "<path");
   put_paint(d, "fill", number);
   if (fill->kind == CS_FILL_FLAT)
@@ -232,13 +298,13 @@ static celspan_status put_area(drawing *d, uint32_t number) {
   cs_plot_loops(&d->text, &d->parcels, fill->loop, fill->loop_count);
   cs_plot_put(&d->text, "\"/>\n");
   d->facts->areas++;
-  return CELSPAN_OK;
 }
 
 static celspan_status put_areas(drawing *d) {
   cs_plot_put(&d->text, "<g fill-rule=\"evenodd\">\n");
   for (size_t i = d->parcels.fill_count; i-- > 0;)
-    CS_TRY(put_area(d, d->under.order[i]));
+    put_area(d, d->under.order[i]);
+  CS_TRY(put_picture(d));
   cs_plot_put(&d->text, "</g>\n");
   return CELSPAN_OK;
 }
@@ -254,28 +320,6 @@ static void put_line(drawing *d, const cs_under_line *line) {
     cs_plot_arc(&d->text, &d->parcels, walk);
 }
 
-/* The union of all opaque areas, where not all of the frame is opaque: strokes are seen nowhere
- * else. */
-static celspan_status put_clip(drawing *d, bool *has_clip) {
-  cs_parcels *p = &d->parcels;
-  uint32_t *sets;
-  size_t first[2];
-  *has_clip = d->under.opaque < p->width * p->height * (1 - 1e-7);
-  if (!*has_clip)
-    return CELSPAN_OK;
-  CS_TRY(CS_MAKE(d->text.context, sets, p->fill_count));
-  for (size_t i = 0; i < p->fill_count; i++)
-    sets[i] = cs_under_suits(&p->fills[i]);
-  celspan_status status = cs_parcels_walk(d->text.context, p, sets, 1, first);
-  cs_mem_free(d->text.context->memory, sets, p->fill_count * sizeof *sets);
-  CS_TRY(status);
-  cs_plot_put(&d->text, "<clipPath id=\"opaque\"><path clip-rule=\"evenodd\" d=\"");
-  cs_plot_begin_path(&d->text);
-  cs_plot_loops(&d->text, p, first[0], first[1] - first[0]);
-  cs_plot_put(&d->text, "\"/></clipPath>\n");
-  return CELSPAN_OK;
-}
-
 /* How far an area continues, in units. */
 static double growth(const drawing *d) {
   double x = d->desc->width > 0 ? d->parcels.width / d->desc->width : 1;
@@ -285,10 +329,15 @@ static double growth(const drawing *d) {
 
 static celspan_status put_under(drawing *d) {
   const cs_under *under = &d->under;
-  bool has_clip;
+  /* where not all of the frame is opaque, strokes must not be seen beside what is */
+  const bool has_clip = under->opaque < d->parcels.width * d->parcels.height * (1 - 1e-7);
+  size_t loops[2];
   if (under->line_count == 0)
     return CELSPAN_OK;
-  CS_TRY(put_clip(d, &has_clip));
+  if (has_clip) {
+    CS_TRY(unite(d, cs_under_suits, loops));
+    put_clip(d, "opaque", loops);
+  }
   cs_plot_put(&d->text,
               "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"%s "
               "stroke-width=\"",
@@ -335,43 +384,51 @@ static celspan_status end(cs_plot_text *out, celspan_status status) {
 
 static celspan_status write_parcels(drawing *d, const char *path) {
   celspan_context *context = d->text.context;
-  const double thin = d->desc->flat == CS_FLAT_REGIONS ? 0 : growth(d);
-  CS_TRY(cs_under_make(context, &d->parcels, thin, &d->under));
+  const bool is_over = d->desc->flat == CS_FLAT_OVER;
+  CS_TRY(judge_pictures(d));
+  CS_TRY(cs_under_make(context, &d->parcels, is_over ? growth(d) : 0, &d->under));
   CS_TRY(begin(context, path, d->desc, d->parcels.width, d->parcels.height, &d->text));
   put_gradients(d);
-  celspan_status status = put_under(d);
+  celspan_status status = is_over ? put_under(d) : CELSPAN_OK;
   if (status == CELSPAN_OK)
     status = put_areas(d);
   d->facts->curves = d->parcels.curve_count;
   return end(&d->text, status);
 }
 
+/* A film as nothing but a picture; the context keeps its text, which says why. */
+static celspan_status write_picture(celspan_context *context, cs_plot_picture picture,
+                                    celspan_point film, const char *path, const cs_plot_desc *desc,
+                                    cs_plot_facts *facts) {
+  cs_plot_text text;
+  char reason[sizeof context->error];
+  memcpy(reason, context->error, sizeof reason);
+  size_picture(film.x, film.y, desc->scale, &picture);
+  CS_TRY(check_picture(context, &picture));
+  *facts = (cs_plot_facts){
+      .picture_width = picture.columns, .picture_height = picture.rows, .is_picture = true};
+  CS_TRY(begin(context, path, desc, film.x, film.y, &text));
+  cs_plot_put_picture(&text, &picture, film.x, film.y);
+  CS_TRY(end(&text, CELSPAN_OK));
+  memcpy(context->error, reason, sizeof reason);
+  return CELSPAN_OK;
+}
+
 celspan_status cs_plot_write_plane(celspan_context *context, const celspan_plane *plane,
                                    const char *path, const cs_plot_desc *desc,
                                    cs_plot_facts *facts) {
   drawing d = {.text = {.context = context}, .desc = desc, .plane = plane, .facts = facts};
+  const cs_plot_picture picture = {
+      .draw = draw_plane, .plane = plane, .is_opaque = celspan_plane_is_opaque(plane)};
   *facts = (cs_plot_facts){0};
   celspan_status status = cs_parcels_make(context, plane, &d.parcels);
+  const celspan_point film = {d.parcels.width, d.parcels.height};
   if (status == CELSPAN_OK)
     status = write_parcels(&d, path);
   cs_under_finish(&d.under, context->memory);
   cs_parcels_finish(&d.parcels, context->memory);
-  return status;
-}
-
-/* The frame as nothing but a picture. */
-static celspan_status write_picture(celspan_context *context, const celspan_frame_desc *frame,
-                                    const char *path, const cs_plot_desc *desc,
-                                    cs_plot_facts *facts) {
-  cs_plot_text text;
-  cs_plot_picture picture = {
-      .draw = draw_frame, .frame = frame, .is_opaque = celspan_frame_is_opaque(frame)};
-  CS_TRY(size_picture(context, frame->film_width, frame->film_height, desc->scale, &picture));
-  *facts = (cs_plot_facts){
-      .picture_width = picture.columns, .picture_height = picture.rows, .is_picture = true};
-  CS_TRY(begin(context, path, desc, frame->film_width, frame->film_height, &text));
-  cs_plot_put_picture(&text, &picture, frame->film_width, frame->film_height);
-  return end(&text, CELSPAN_OK);
+  return status == CELSPAN_BAD_ARGUMENT ? write_picture(context, picture, film, path, desc, facts)
+                                        : status;
 }
 
 celspan_status cs_plot_write_frame(celspan_context *context, const celspan_frame_desc *frame,
@@ -385,15 +442,14 @@ celspan_status cs_plot_write_frame(celspan_context *context, const celspan_frame
   made.space = frame->space;
   celspan_status status =
       cs_plane_expose(context, frame->exposures, frame->exposure_count, &made, &plane);
+  if (status == CELSPAN_BAD_ARGUMENT) {
+    const cs_plot_picture picture = {
+        .draw = draw_frame, .frame = &whole, .is_opaque = celspan_frame_is_opaque(&whole)};
+    const celspan_point film = {whole.film_width, whole.film_height};
+    return write_picture(context, picture, film, path, desc, facts);
+  }
   if (status == CELSPAN_OK)
     status = cs_plot_write_plane(context, plane, path, desc, facts);
   celspan_plane_unref(plane);
-  if (status != CELSPAN_BAD_ARGUMENT)
-    return status;
-  char reason[sizeof context->error];
-  memcpy(reason, context->error, sizeof reason);
-  status = write_picture(context, &whole, path, desc, facts);
-  if (status == CELSPAN_OK)
-    memcpy(context->error, reason, sizeof reason);
   return status;
 }

@@ -40,7 +40,7 @@ CELSPAN_CHECKED celspan_status cs_plot_write_frame(celspan_context *context,
                                                    const celspan_frame_desc *frame,
                                                    const char *path, const cs_plot_desc *desc,
                                                    cs_plot_facts *facts);
-/* Writes a plane in the same way. */
+/* Writes a plane in the same way; one that is a sum becomes a picture. */
 CELSPAN_CHECKED celspan_status cs_plot_write_plane(celspan_context *context,
                                                    const celspan_plane *plane, const char *path,
                                                    const cs_plot_desc *desc, cs_plot_facts *facts);
