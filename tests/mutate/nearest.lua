@@ -114,7 +114,7 @@ return {
   deflate = { "unit/png_bytes", "unit/png" },
   png = { "unit/png_bytes", "unit/png", "spec/formats" },
   join = { "spec/join" },
-  parcels = { "spec/drawing" },
+  parcels = { "spec/drawing", "spec/svg_drawn" },
   relight = { "spec/relight", "property/stack" },
   include = { "spec/hosts", "unit/embedding", "example/memory", "example/host", "spec/embedding" },
 

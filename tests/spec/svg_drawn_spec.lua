@@ -1,0 +1,109 @@
+-- SVG drawings by celspan as three other programs draw them: headless Chromium, librsvg and resvg.
+-- 12 drawings and 6 frames of films, of 512 pixels and of 2048. All but SOON are tagged #full.
+local browsing = require "tests.support.browsing"
+local celspan = require "celspan"
+local present = require "tests.support.present"
+local system = require "tests.support.system"
+local workbench = require "tests.support.workbench"
+
+if not (present.art() and present.pictures()
+  and present.program("chromium", "node", "rsvg-convert")) then
+  return pending "there is no chromium, no node or no librsvg"
+end
+
+-- Borders of translucent areas, which have no strokes, can show seams.
+local TRANSLUCENT = { chromium = 10, librsvg = 10, resvg = 10 }
+-- resvg draws the outline of a picture, a mask, in another way than that of an area.
+local PICTURE = { resvg = 6 }
+-- Each: a file, a frame, and how many codes are allowed where it is not 4.
+local CASES = {
+  { "scripts/drawings/child.svg" }, { "scripts/drawings/head-front.svg" },
+  { "scripts/drawings/head-quarter.svg" }, { "scripts/drawings/head-side.svg" },
+  { "scripts/drawings/owl.svg" }, { "scripts/strokes.lua", 1 },
+  { "scripts/title.lua", 20, PICTURE },
+  { "tests/golden/area/abutting.lua", 1 }, { "tests/golden/booleans/nested.lua", 1 },
+  { "tests/golden/booleans/operators.lua", 1, TRANSLUCENT },
+  { "tests/golden/shapes/primitives.lua", 1 }, { "tests/golden/view/camera.lua", 1, TRANSLUCENT },
+  { "scripts/booleans.lua", 12 }, { "scripts/demo.lua", 12 },
+  -- At 2048, 24 pixels of the uppermost row by librsvg.
+  { "scripts/lights_and_gels.lua", 12, { librsvg = 13 } },
+  { "scripts/pan.lua", 12 }, { "scripts/perspective.lua", 12 },
+  { "scripts/rack_focus.lua", 12, PICTURE },
+}
+local SOON = { ["scripts/drawings/owl.svg"] = true, ["scripts/demo.lua"] = true,
+  ["tests/golden/shapes/primitives.lua"] = true, ["scripts/perspective.lua"] = true,
+  ["scripts/rack_focus.lua"] = true }
+local RESVG = "out/npm/node_modules/@resvg/resvg-js/index.js"
+-- Colours of lines that are thinner than a pixel are in a frame of more pixels alone.
+local FINE = 4
+
+local bench
+
+before_each(function() bench = workbench.new() end)
+after_each(function() bench:remove() end)
+
+--- Writes an output of a case.
+local function write(case, name, options)
+  local of = case[2] and ("render %s --trust --frames %d"):format(case[1], case[2])
+    or ("convert %s"):format(case[1])
+  local code, _, err = bench:celspan("%s %s '%s/%s' %s", of, case[2] and "-o" or "", bench.folder,
+    name, options or "")
+  assert.equal(0, code, err)
+end
+
+--- Writes the codes of a picture.
+local function unpack_picture(name, w, h)
+  local file = ("%s/%s.png"):format(bench.folder, name)
+  local picture = celspan.image { file = file, x = 0, y = 0, w = w, h = h }
+  local rostrum = celspan.rostrum { celspan.cel { picture } }
+  local pixels = assert(celspan.pixels(rostrum, { size = { w, h }, film = { w, h } }))
+  bench:write(name, pixels:bytes { depth = 8 })
+end
+
+--- The width and the height of a drawing in pixels, where that of its longer side is given.
+local function size_of(side)
+  local text = bench:read "x.svg"
+  local w, h = text:match 'viewBox="0 0 ([%d.]+) ([%d.]+)"'
+  local scale = side / math.max(w, h)
+  return math.floor(w * scale + 0.5), math.floor(h * scale + 0.5)
+end
+
+local function found_in(case, side)
+  write(case, "x.svg")
+  local w, h = size_of(side)
+  write(case, "x.svg", ("--size %dx%d"):format(w, h))
+  write(case, "frame.png", ("--size %dx%d"):format(w, h))
+  write(case, "fine.png", ("--size %dx%d"):format(FINE * w, FINE * h))
+  assert.equal(0, (bench:inside "rsvg-convert x.svg -o librsvg.png"))
+  unpack_picture("frame", w, h)
+  unpack_picture("fine", FINE * w, FINE * h)
+  unpack_picture("librsvg", w, h)
+  local given = ("const CASE = { folder: %q, width: %d, height: %d, fine: %d, resvg: %q };\n")
+    :format(bench.folder, w, h, FINE, system.exists(RESVG) and RESVG or "")
+  return browsing.see("about:blank", given .. system.read "tests/support/svg_drawn.js", 600), w, h
+end
+
+local function it_is_drawn(case, side, tag)
+  it(("of %s is its frame in %d pixels, without seams%s"):format(case[1], side, tag), function()
+    local found, w, h = found_in(case, side)
+    for program, is in pairs(found) do
+      local text = ("%s: %.4f, %g codes at %d, %d, in all %d"):format(program, is.share, is.worst,
+        is.place[1], is.place[2], is.seams)
+      assert.is_true(is.flat > w * h // 3, text)
+      assert.is_true(is.share >= 0.99, text)
+      assert.is_true(is.worst <= (case[3] and case[3][program] or 4), text)
+    end
+  end)
+end
+
+describe("a drawing", function()
+  for _, case in ipairs(CASES) do
+    it_is_drawn(case, 512, SOON[case[1]] and "" or " #full")
+    it_is_drawn(case, 2048, " #full")
+  end
+
+  local it_has_resvg = system.exists(RESVG) and it or pending
+  it_has_resvg("is also drawn by resvg", function()
+    assert.is_table(found_in(CASES[1], 128).resvg)
+  end)
+end)
