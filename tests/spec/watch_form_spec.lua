@@ -47,7 +47,7 @@ describe("the form of a render #plain", function()
         await click("#render");
         const options = await page.get(`[...${field("range")}.options]
           .filter(one => !one.disabled).map(one => one.textContent + "=" + one.value)`);
-        const seen = [await wish()];
+        const seen = [await wish()], size = await value("size");
         await choose("range", "frame"); seen.push(await wish());
         await page.get("document.activeElement.blur()");
         await page.press("ArrowRight");
@@ -65,15 +65,30 @@ describe("the form of a render #plain", function()
         await click("#render");
         const loop = await page.get(`[...${field("range")}.options]
           .some(one => one.value === "loop" && !one.disabled && !one.hidden)`);
-        return { options, seen, command, loop, kept: await value("range") };]=])
+        const place = await text("render-place");
+        return { options, seen, size, place, command, loop, kept: await value("range") };]=])
       assert.same({ "the whole film=all", "this frame=frame", "day=1-24", "night=13-36",
         "the beginning to gull=1-4", "gull to storm=5-19", "storm to the end=20-36" }, said.options)
       assert.same({ "mp4 all shot.mp4", "png frame shot.0001.png", "png frame shot.0002.png",
         "mp4 13-36 shot.13-36.mp4", "png 13-36 shot.####.png", "png all shot.####.png",
         "png frame mine.0002.png" }, said.seen)
       assert.equal("celspan render shot.lua --frames 13-36 -o shot.13-36.mp4", said.command)
+      assert.equal("64x36", said.size)
+      assert.equal("Beside the script; a file that is there is replaced only after a question.",
+        said.place)
       assert.same({ true, "20-36" }, { said.loop, said.kept })
     end)
+
+  it("proposes the size of the film, and says where the file will be", function()
+    watching.bench:shell(("mkdir %s/out"):format(watching.bench.folder))
+    local said = watching.see(watching.watch "shot.lua --size 32x18 -o out/", HELP .. [=[
+      await click("#render");
+      return { size: await value("size"), place: await text("render-place"),
+               command: await page.get(`document.querySelector("#render-command").value`) };]=])
+    assert.equal("64x36", said.size)
+    assert.truthy(said.place:find("^In out/; "), said.place)
+    assert.equal("celspan render shot.lua -o out/shot.mp4", said.command)
+  end)
 
   it("forgets what it said of the render before, and says on its button how one has ended",
     function()

@@ -19,6 +19,16 @@ end
 return cut { { film = shot "#036", name = "evening" }, { film = shot "#630", name = "night" } }
 ]]
 
+-- A shot with a cel that has two parts.
+local PARTS = [[
+local celspan = require "celspan"
+local function box(x) return celspan.rect { x, 0, 8, 8, texture = "#fff" } end
+local shot = celspan.film { size = { 64, 36 }, frames = 4, frame = function()
+  return celspan.rostrum { celspan.cel { box(0):named "near", box(9):named "far" }:named "hills" }
+end }
+return require "celspan.cut" { { film = shot, name = "evening" } }
+]]
+
 -- A ball that moves and a cel without a name, and values of several kinds.
 local FILM = [[
 local celspan = require "celspan"
@@ -182,6 +192,22 @@ describe("the page of celspan watch under hands #plain", function()
     assert.same({ 255, 255, 255 }, said.plain)
     assert.is_true(said.before[1] > said.before[2] and said.after[2] > said.after[1])
     assert.same({ { 0, 0, 255 }, { 255, 255, 255 }, "true" }, { said.own, said.dot, said.pressed })
+  end)
+
+  it("folds the parts of a cel in the tree and in the sheet together, and shots", function()
+    local said = see([=[
+      await page.press("q"); await page.press("s");
+      const count = async () => [await all("[data-object]", 1), await all("[data-row]", 1)]
+        .map(list => list.length).join();
+      await page.until(`document.querySelectorAll("[data-row]").length === 4`);
+      await page.until(`document.querySelectorAll("[data-object]").length === 3`);
+      const seen = [];
+      for (const row of ['object="evening/hills"', 'row="evening / hills"', 'head="evening"']) {
+        await click(`[data-${row}] .fold`);
+        seen.push(await count());
+      }
+      return seen;]=], PARTS)
+    assert.same({ "1,2", "3,4", "0,4" }, said)
   end)
 
   it("takes a film when it is ready, and not only when it was saved", function()

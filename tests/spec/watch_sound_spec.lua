@@ -143,7 +143,7 @@ describe("the page of celspan watch with a sound #plain", function()
       await page.until(`document.querySelector("#timeline").ariaBusy === "false"`);
       const drawn = await page.get(`(() => { const wave = document.querySelector("#wave");
         const brush = wave.getContext("2d"), r = devicePixelRatio;
-        const at = x => brush.getImageData(Math.round(x * wave.width), 12 * r, 1, 1).data[3];
+        const at = x => brush.getImageData(Math.round(x * wave.width), 8 * r, 1, 1).data[3];
         return [at(0.1), at(0.4), at(0.6), at(0.9)]; })()`);
       return { drawn, mark: await page.get(`document.querySelector("[data-mark=half]")
                  .dataset.frame`),

@@ -230,7 +230,7 @@ describe("the page of celspan watch as a studio #plain", function()
       await page.until(`${stage("frame")} === "61"`);
       await page.press("s");
       const folds = `[...document.querySelectorAll("#names [aria-expanded]")]`;
-      await page.until(`${folds}.length === 2`);
+      await page.until(`${folds}.length === 3`);
       const opened = await page.get(`${folds}.map(one => one.getAttribute("aria-expanded"))`);
       const rows = await page.get(`[...document.querySelectorAll("[data-row]")]
         .map(one => one.dataset.row)`);
@@ -239,7 +239,7 @@ describe("the page of celspan watch as a studio #plain", function()
     assert.same({ "bell 40" }, said.marks)
     assert.same({ "dissolve dissolve" }, said.joins)
     assert.same({ "37 1:12", "40 1:15", "37 1:12" }, said.seen)
-    assert.same({ "false", "true" }, said.opened)
+    assert.same({ "false", "true", "true" }, said.opened)
     assert.same({ "evening", "night", "night / sun", "night / disc", "night / ground" }, said.rows)
   end)
 

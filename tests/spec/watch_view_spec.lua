@@ -306,13 +306,13 @@ describe("the page of celspan watch over its picture #plain", function()
         await wait(old);
         seen.push((await colour("stage", 0.5, 0.5)).join());
       };
-      await press("Light off: ball");
+      await press("Unlit: ball");
       await press("Hide: ball");
       await press("Hide: ball");
       await press("Solo: ground");
       await press("Solo: ball");
       return { seen, pressed: await page.get(`document.querySelector(
-        '[aria-label="Light off: ball"]').ariaPressed`) };]=])
+        '[aria-label="Unlit: ball"]').ariaPressed`) };]=])
     assert.same({ "204,51,51,255", "255,224,176,255", "204,51,51,255", "255,224,176,255",
                   "204,51,51,255" }, said.seen)
     assert.equal("true", said.pressed)

@@ -78,14 +78,15 @@ function hitItem(hit) {
                          ...hit.via ? [" ", ...placesOf(hit.via, hit.callers)] : []));
 }
 
+const headOf = textContent => element("li", { className: "heading", textContent });
+
 /** The items of a list, those of each shot of a cut below its name. */
-export function belowShots(list, itemOf) {
+export function belowShots(list, itemOf, makeHead = headOf) {
   let last;
   return list.flatMap(one => {
     const isNew = one.shot !== last;
     last = one.shot;
-    const head = { className: "heading", textContent: last ?? "over the shots" };
-    return [...isNew ? [element("li", head)] : [], itemOf(one)];
+    return [isNew ? makeHead(last ?? "over the shots", last) : [], itemOf(one)].flat();
   });
 }
 

@@ -7,14 +7,13 @@ import { belowShots, hitsAt, pointOf } from "/inspector.js";
 import { outline, outlined } from "/over.js";
 import { isOpen } from "/panels.js";
 import { look, nameOf } from "/pictures.js";
-import { cels, queryCels, switchesOf } from "/rows.js";
+import { cels, foldButton, folded, queryCels, switchesOf } from "/rows.js";
 import {
-  clamp, desk, element, here, icon, main, play, refill, state, view,
+  clamp, desk, element, here, main, play, refill, state, view,
 } from "/state.js";
 
 const ROWS_MOST = 2000; // of the server's answer
 const tree = { list: [], address: "" };
-const folded = new Set(); // paths of rows whose children are hidden
 
 export const celNames = () => tree.list.map(one => one.cel).filter(Boolean);
 
@@ -58,29 +57,32 @@ function pathsOf(list) {
   });
 }
 
+const foldOf = one => one.cel ?? one.path;
+
 /** The rows that no folded row hides. */
 function shownRows() {
   let until = Infinity;
   return tree.list.filter(one => {
     if (one.depth > until) return false;
-    until = folded.has(one.path) ? one.depth : Infinity;
+    until = folded.has(foldOf(one)) ? one.depth : Infinity;
     return true;
   });
 }
 
+/** The name of a shot, which unfolds. */
+const headRow = (name, shot) => element("li", { className: "heading", dataset: { head: name } },
+                                        foldButton(`${shot}/`, name));
+
 function objectRow(one) {
-  const fold = () => element("button", { className: "fold", ariaLabel: `${one.label}: parts`,
-    ariaExpanded: String(!folded.has(one.path)), onclick: () => {
-      if (!folded.delete(one.path)) folded.add(one.path);
-      showObjects();
-    } }, icon("fold"));
+  if (folded.has(`${one.shot}/`)) return [];
   const name = element("button", { className: "name", textContent: one.label,
     title: one.file ? `${one.file}:${one.line}` : "",
     onclick: () => { if (state.editor && one.file) post("/open", one); } });
   const row = element("li", { className: one.kind, dataset: { object: one.path } },
-    one.isParent ? fold() : element("i", { className: "leaf" }), name,
+    one.isParent ? Object.assign(foldButton(foldOf(one)), { ariaLabel: `${one.label}: parts` })
+      : element("i", { className: "leaf" }), name,
     ...one.cel ? switchesOf(one.cel) : []);
-  row.style.setProperty("--depth", one.depth);
+  row.style.setProperty("--depth", one.depth + Boolean(one.shot));
   for (const event of ["pointerenter", "pointerleave", "focusin", "focusout"]) {
     const isIn = /enter|in$/.test(event);
     row.addEventListener(event, () => outline(isIn && one.file ? one : null));
@@ -90,7 +92,7 @@ function objectRow(one) {
 
 export function showObjects() {
   if (here("objects").hidden) return;
-  refill(here("object-list"), belowShots(shownRows(), objectRow));
+  refill(here("object-list"), belowShots(shownRows(), objectRow, headRow));
   setReading(here("objects").ariaBusy === "true");
 }
 

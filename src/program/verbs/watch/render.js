@@ -75,10 +75,20 @@ function rangeText() {
   return range === "all" ? "" : range;
 }
 
+let proposed = ""; // the size that was proposed last
+
+/** Proposes the size of the film, unless another was typed. */
+function nameSize() {
+  const size = field("size"), own = state.film.size.join("x");
+  if (size.value === proposed) size.value = own;
+  size.placeholder = proposed = own;
+}
+
 /** What is sent to the server. */
 function renderWish() {
+  const size = field("size").value.trim();
   return { format: field("format").value, file: field("file").value, frames: rangeText(),
-           size: field("size").value.trim(), replace: own?.state === "asking",
+           size: size === proposed ? "" : size, replace: own?.state === "asking",
            draft: field("draft").checked };
 }
 
@@ -86,7 +96,9 @@ function renderWish() {
 export function showRenderCommand() {
   if (!state.film || !isOpen("render-form")) return;
   if (!isNamed || field("file").value.endsWith(last)) nameFile();
+  nameSize();
   const { file, frames, size, draft } = renderWish(), { folder } = state;
+  if (folder) label("render-place", `In ${folder}`);
   const more = [...frames ? ["--frames", frames] : [], ...size ? ["--size", size] : [],
                 ...draft ? ["--draft"] : []];
   here("render-command").value = renderOf(main, folder + file, more);
@@ -100,7 +112,6 @@ function propose() {
   }
   isProposed = true;
   listRanges();
-  field("size").placeholder = state.film.size.join("x");
   showRenderCommand();
 }
 

@@ -19,8 +19,9 @@ export const SHEET_MOST = 10000;    // frames of a sheet, as the server has them
 const ROWS_MOST = 2000;      // rows that are shown
 const NARROW = 12;           // CSS pixels below which boxes are not told apart
 const ONION_MOST = 3;        // frames before and after
-const sheet = { rows: [], shown: [], builds: "" };
+const sheet = { rows: [], parents: new Set(), shown: [], builds: "" };
 const unfolded = new Map();  // whether the rows of a shot are shown, by its name
+export const folded = new Set(); // cels, and other rows of the outliner, without their parts
 
 /** The builds of the films whose sheets are wanted. */
 const buildsOf = () => lanes().filter(isReady).map(one => stateOf(one).build).join();
@@ -35,6 +36,7 @@ export async function loadSheet() {
     await read(`/sheet.json?side=${one.side}&build=${stateOf(one).build}`, isWanted)]));
   if (!isWanted()) return;
   sheet.rows = said.flatMap(([one, all]) => all ? rowsOf(one, all) : []);
+  sheet.parents = new Set(sheet.rows.map(row => row.of));
   setBusy("sheet", false);
   showSheet();
 }
@@ -55,6 +57,22 @@ function rowsOf(one, { rows, frames }) {
   return rows.map(({ name, cells, moved }) => ({ name, end: at(frames + 1),
     shot: state.has_two ? state.second.script : "Other values",
     cells: cells.map(([from, drawing]) => [at(from), drawing]), moved: (moved || []).map(at) }));
+}
+
+function swapFold(name) {
+  if (!folded.delete(name)) folded.add(name);
+  showSheet();
+  showObjects();
+}
+
+/** A button that hides the parts of a row, here and in the outliner, or shows them. */
+export const foldButton = (name, words = "", isOn = !folded.has(name), act = swapFold) =>
+  element("button", { className: "fold", ariaExpanded: String(isOn), onclick: () => act(name) },
+          icon("fold"), words);
+
+function swapShot(name) {
+  unfolded.set(name, !unfolded.get(name));
+  showSheet();
 }
 
 const shotOf = name => shotsOf().find(one => one.name === name);
@@ -78,18 +96,17 @@ function unfoldedRows() {
       if (row.shot) list.push({ name: row.shot, heading: true, shot: shotOf(row.shot) });
     }
     last = row.shot;
-    if (isOn) list.push(row);
+    if (isOn && !folded.has(row.of)) list.push(row);
   }
   return [...list, ...heard.lips].slice(0, ROWS_MOST);
 }
 
-/** The name of a row: that of a shot unfolds, and is not repeated below. */
+/** The name of a row: a shot, or a cel with parts, unfolds. The name of a shot is not repeated. */
 function rowName({ name, shot, heading, cel, of }) {
   const isBelow = !heading && name.startsWith(`${shot} / `);
   const words = element("span", { textContent: isBelow ? name.slice(shot.length + 3) : name });
-  const isOn = unfolded.get(name);
-  const fold = heading && element("button", { className: "fold", ariaExpanded: String(isOn),
-    onclick: () => { unfolded.set(name, !isOn); showSheet(); } }, icon("fold"), words);
+  const fold = heading ? foldButton(name, words, unfolded.get(name), swapShot)
+    : cel && sheet.parents.has(cel) && foldButton(cel, words);
   const row = element("li", { title: name, className: cel ? "cel" : "",
                               dataset: { row: name } }, fold || words,
                       ...cel ? switchesOf(cel) : []);
@@ -117,8 +134,8 @@ export function showSheet() {
 const SWITCHES = {
   s: ["Solo", "solo", "Shows this cel alone"],
   h: ["Hide", "hide", "Hides this cel"],
-  l: ["Light off", "light", "Takes its lights away: white light is on it"],
-  f: ["Focus off", "blur", "Takes its defocus away: it is sharp"],
+  l: ["Unlit", "light", "Takes its lights away: white light is on it"],
+  f: ["Sharp", "blur", "Takes its defocus away"],
   o: ["Onion", "onion", "Shows its frames before and after behind it"],
 };
 const letters = new Map(); // by the names of the cels

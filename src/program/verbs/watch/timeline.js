@@ -14,7 +14,7 @@ import {
   clamp, element, here, loop, ratio, refill, span, state, timecode, view,
 } from "/state.js";
 
-const RULER = 26, WAVE = 34;   // CSS pixels
+const RULER = 26, WAVE = 26;   // CSS pixels
 const WAVE_COLUMNS = 2000;
 const LABEL_LEAST = 68;        // pixels between two numbers of the ruler, where they are short
 const LABEL_GAP = 20, DIGIT = 7;
@@ -80,6 +80,8 @@ function drawTicks(brush, colours) {
 
 /** Which frames are kept as they are seen now, and which took longer than they are shown. */
 function drawReady(brush, colours) {
+  brush.fillStyle = colours.line;
+  brush.fillRect(0, RULER - 3, width, 3);
   for (const number of keptFrames()) {
     brush.fillStyle = cost.isSlow(number, 1 / state.film.fps) ? colours.slow : colours.ready;
     brush.fillRect(xOf(number - 1), RULER - 3, Math.max(1, unit()), 3);
