@@ -359,6 +359,20 @@ describe("what is read elsewhere", function()
     end
   end)
 
+  it("is an operand of its own size", function()
+    local big = celspan.rect { 0, 0, 64, 64, texture = "#f00" }
+    local moved = celspan.rect { 20, 20, 10, 20, texture = "#fff" }:blur(1, { angle = 0 })
+    for _, object in ipairs { celspan.difference { big, moved },
+      celspan.intersection { big, moved }, celspan.union { moved, big } } do
+      local made = seen(object, { size = { 64, 64 }, film = { 64, 64 } })
+      for x = 15, 33 do
+        local want = probe(rostrum(object), x + 0.5, 30.5)[4]
+        local _, _, _, got = made:get(x, 30)
+        if want == 0 or want == 1 then assert.is_true(math.abs(got - want) < 0.02, x) end
+      end
+    end
+  end)
+
   it("is kept in span files, and refused by planes, which have no pixels", function()
     for _, object in ipairs(all) do
       local rows = assert(celspan.spans(rostrum(object), { size = { W, H } }))

@@ -20,12 +20,17 @@ static celspan_context *context_of(memory_watch *watch, size_t bytes) {
   return context;
 }
 
-static celspan_status make_stroke(celspan_context *context, double width, cs_stroke *stroke) {
+static celspan_stroke_desc desc_of(double width) {
   celspan_stroke_desc desc = CELSPAN_STROKE_DESC;
   desc.data = "M20 20C60 -10 90 80 60 60S10 70 40 30L80 20";
   desc.width = width;
   desc.cap = CELSPAN_STROKE_CAP_ROUND;
   desc.join = CELSPAN_STROKE_JOIN_ROUND;
+  return desc;
+}
+
+static celspan_status make_stroke(celspan_context *context, double width, cs_stroke *stroke) {
+  celspan_stroke_desc desc = desc_of(width);
   return cs_stroke_init(context, stroke, &desc, NULL, NULL);
 }
 
@@ -87,6 +92,24 @@ static void check_suits(void) {
   CHECK(!cs_stroke_kept_suits(&stroke, &cut) && !cs_stroke_kept_suits(&stroke, &far));
   CHECK(!cs_stroke_kept_suits(&stroke, &large) && cs_stroke_kept_suits(&stroke, &part));
   cs_stroke_finish(&stroke, context->memory);
+  celspan_context_destroy(context);
+}
+
+/* Each pane of a crowded frame would make all dashes of a stroke that is kept whole. */
+static void check_dashes(void) {
+  memory_watch watch = {0};
+  celspan_context *context = context_of(&watch, 1 << 20);
+  for (int i = 0; i < 2; i++) {
+    const double dash = i == 0 ? 1 : 0.01;
+    const cs_stroke_view view = view_of(1, 300, 300);
+    celspan_stroke_desc desc = desc_of(3);
+    cs_stroke stroke;
+    desc.dashes = &dash;
+    desc.dash_count = 1;
+    CHECK(cs_stroke_init(context, &stroke, &desc, NULL, NULL) == CELSPAN_OK);
+    CHECK(cs_stroke_kept_suits(&stroke, &view) == (i == 0));
+    cs_stroke_finish(&stroke, context->memory);
+  }
   celspan_context_destroy(context);
 }
 
@@ -179,6 +202,7 @@ int main(void) {
   check_places(1 << 22);
   check_places(0);
   check_suits();
+  check_dashes();
   check_budget();
   check_threads();
   check_memory();

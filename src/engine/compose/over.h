@@ -20,7 +20,7 @@
  * Before a layer is added three moves may be due, in this order: leave the groups that end in front
  * of it, meet the back lights in front of it, enter the groups it is in.
  *
- * The same fold is written six times, since it must be fast on six kinds of data:
+ * The same fold is written seven times, since it must be fast on seven kinds of data:
  *   over.h            one cell, layer by layer;
  *   over_table.h      one cell of a frame that has flat layers only, without groups, of which
  *                     dozens are seen at once: most layers of neighbouring cells are the same, so

@@ -456,13 +456,16 @@ static celspan_status add_boolean(cs_compiler *c, const cs_primitive_data *data,
 /* ---------------------------------------------------------------- a rostrum inside another */
 
 /* Where its frame is. What is read from pixels may end at the frame, within a pixel, which has only
- * that share of it already: then the frame is larger by a pixel. */
-static celspan_box frame_of(const cs_primitive_data *data, const celspan_matrix *matrix) {
+ * that share of it already: then the frame is larger by a pixel. As an operand it has its own size,
+ * since there the frame is what is united, cut and cut away. */
+static celspan_box frame_of(const cs_primitive_data *data, const celspan_matrix *matrix,
+                            bool is_operand) {
   const double *m = matrix->m;
   const celspan_box *box = &data->bounds;
   const cs_shift *shift = data->rostrum->cel_count == 1 ? data->rostrum->cels[0]->shift : NULL;
   const double across = sqrt(m[0] * m[0] + m[3] * m[3]), down = sqrt(m[1] * m[1] + m[4] * m[4]);
-  if (!shift || shift->is_cut || !cs_matrix_keeps_weights(matrix) || fmin(across, down) < SMALLEST)
+  if (is_operand || !shift || shift->is_cut || !cs_matrix_keeps_weights(matrix) ||
+      fmin(across, down) < SMALLEST)
     return *box;
   return (celspan_box){box->x - 1 / across, box->y - 1 / down, box->width + 2 / across,
                        box->height + 2 / down};
@@ -471,7 +474,7 @@ static celspan_box frame_of(const cs_primitive_data *data, const celspan_matrix 
 /* The layer of its frame: clear, except for the part that the mattes of its flat back lights hold
  * back. */
 static celspan_status add_frame(cs_compiler *c, const cs_primitive_data *data,
-                                const celspan_matrix *matrix) {
+                                const celspan_box *frame, const celspan_matrix *matrix) {
   uint32_t index;
   bool has_layers = cs_rostrum_blends(data->rostrum, c->space); /* layers of mattes, one for each */
   float keep = c->fades_out || has_layers ? 1 : cs_lights_keep(data->rostrum);
@@ -479,14 +482,13 @@ static celspan_status add_frame(cs_compiler *c, const cs_primitive_data *data,
   cs_layer *layer = &c->plan->stack.layers[index];
   cs_layers_fill_flat(layer, CS_PAINT_CLEAR, 1);
   layer->t = (cs_v4){keep, keep, keep, 0};
-  const celspan_box frame = frame_of(data, matrix);
   cs_outline_box room;
-  return cs_layers_add_outline(c, cs_outline_of_box(&frame, &room), &frame, matrix, index);
+  return cs_layers_add_outline(c, cs_outline_of_box(frame, &room), frame, matrix, index);
 }
 
 /* Adds the layers of a rostrum, and the step that cuts them at the frame and leaves one result. */
 static celspan_status add_framed(cs_compiler *inner, const cs_primitive_data *data,
-                                 const celspan_matrix *matrix) {
+                                 const celspan_box *frame, const celspan_matrix *matrix) {
   const cs_stack *stack = &inner->plan->stack;
   const celspan_rostrum *rostrum = data->rostrum;
   cs_outline_box room;
@@ -494,7 +496,7 @@ static celspan_status add_framed(cs_compiler *inner, const cs_primitive_data *da
                                  cs_primitive_data_outline(data, &room)};
   uint32_t first = next_layer(inner), guard = (uint32_t)stack->step_count;
   CS_TRY(append_step(inner, (cs_step){.kind = CS_STEP_GUARD, .first = first, .end = first + 1}));
-  CS_TRY(add_frame(inner, data, matrix));
+  CS_TRY(add_frame(inner, data, frame, matrix));
   CS_TRY(inner->compile_nested(inner, rostrum, &film));
   stack->steps[guard].operands = (uint32_t)stack->step_count - guard;
   return append_step(inner, (cs_step){.kind = CS_STEP_FRAME,
@@ -522,7 +524,8 @@ static celspan_status add_rostrum(cs_compiler *c, const cs_primitive_data *data,
   inner.records = false;
   inner.is_nested = true;
   inner.results = 0;
-  CS_TRY(add_framed(&inner, data, matrix));
+  const celspan_box frame = frame_of(data, matrix, c->records);
+  CS_TRY(add_framed(&inner, data, &frame, matrix));
   c->results += !c->records;
   return c->records || c->is_nested ? CELSPAN_OK : end_tree(c, tree);
 }

@@ -5,6 +5,7 @@
 
 #define SHARE 8   /* of the memory for maps, one part in this many */
 #define WIDE 1e12 /* pixels: everywhere */
+#define MOST 1024 /* pieces of the line and dashes */
 
 /* ---------------------------------------------------------------- life */
 
@@ -33,7 +34,8 @@ bool cs_stroke_kept_suits(const cs_stroke *stroke, const cs_stroke_view *view) {
   cs_stroke_view all = *view;
   all.top = all.left = -WIDE;
   all.bottom = all.right = WIDE;
-  return cs_matrix_keeps_weights(&view->matrix) && cs_stroke_view_holds(&all, &stroke->around);
+  return stroke->line.piece_count + stroke->part_count <= MOST &&
+         cs_matrix_keeps_weights(&view->matrix) && cs_stroke_view_holds(&all, &stroke->around);
 }
 
 typedef struct order {

@@ -19,7 +19,8 @@ typedef struct cs_stroke_kept {
   cs_outline outline;
 } cs_stroke_kept;
 
-/* Whether an outline can be kept: the frame has no perspective and shows the stroke whole. */
+/* Whether an outline is made and kept whole: the frame has no perspective and shows the stroke
+ * whole. It has few pieces and dashes, because whoever asks for a few rows gets all of them. */
 bool cs_stroke_kept_suits(const cs_stroke *stroke, const cs_stroke_view *view);
 /* Finds the outline of such a stroke, or makes it. Any thread. Errors: NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_stroke_kept_acquire(celspan_context *context,
