@@ -5,6 +5,7 @@ local json = require "celspan.json"
 local lottie = require "celspan.lottie"
 local players = require "tests.support.players"
 local present = require "tests.support.present"
+local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
 local MODULES = "out/npm/node_modules"
@@ -43,7 +44,7 @@ end
 local function share(path, number)
   local art = assert(lottie.read(path)):film()
   return players.share(own_pixels(number),
-    assert(celspan.pixels(art, { frame = number - 1 })):bytes(), CODES)
+    assert(celspan.pixels(art, { frame = number - 1 })):bytes(), CODES, true)
 end
 
 local function is_film(path, count, least)
@@ -279,8 +280,29 @@ describe("a film as Lottie", function()
       end
       return celspan.rostrum { celspan.cel(list) }]])
     local _, said, document = out "many.json"
-    assert.matches("many.json: 1001 layers, more than many players draw smoothly: a group", said)
+    assert.matches("many.json: 1001 layers, more than many players draw smoothly: put", said)
     assert.equal('it\'s "one" \\', document.layers[1001].nm)
+  end)
+
+  it("is one layer where a square of 64 moves, whatever its place rounds to", function()
+    film(24, "srgb", [[local x = 2005 + 1.1 * i
+      return celspan.rostrum { celspan.cel { celspan.polygon { { x, 10 }, { x + 64, 10 },
+        { x + 64, 50 }, { x, 50 }, texture = "#c03010" }:translate(-2000, 0) } }]])
+    local path, said, document = out "square.json"
+    assert.equal("", said)
+    assert.equal(1, #document.layers)
+    is_film(path, 24)
+  end)
+
+  it("has areas of an outline of more curves than a layer may have", function()
+    local code = [[return celspan.rostrum { celspan.cel { celspan.path {
+      d = "M0 0" .. ("l1 1 0 1"):rep(%d) .. "z" } } }]]
+    film(1, "srgb", code:format(99000))
+    local _, said = out "curves.json"
+    assert.equal("", said)
+    film(1, "srgb", code:format(100001))
+    _, said = out "curves.json"
+    assert.matches("in part as areas: cel 1: an outline of too many curves", said)
   end)
 
   it("leaves out what is empty, and appears and disappears", function()
@@ -369,14 +391,14 @@ end)
 
 describe("Lottie by its schema", function()
   local VALIDATOR = MODULES .. "/.bin/lottie-specs"
-  local it_checks = present.program "node" and io.open(VALIDATOR) and it or pending
+  local it_checks = present.program "node" and system.exists(VALIDATOR) and it or pending
 
   --- What the schema says against a file, as JSON.
   local function faults(path)
     local pipe = assert(io.popen(("node %s -q '%s' 2>&1"):format(VALIDATOR, path)))
     local text = pipe:read "a"
     pipe:close()
-    return text:gsub("%s+$", "")
+    return (text:gsub("%s+$", ""))
   end
 
   it_checks("has keys, gradients, groups, areas and pictures", function()

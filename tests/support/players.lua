@@ -34,15 +34,17 @@ end
 
 local function over_white(code, alpha) return (255 * (255 - alpha) + code * alpha) / 255 end
 
---- How many of the pixels of two rows of RGBA, laid over white, differ by at most `codes`.
-local function count_alike(own, other, codes)
+--- How many of the pixels of two rows of RGBA, laid over white, differ by at most `codes`, with
+--- is_clear also in how opaque they are.
+local function count_alike(own, other, codes, is_clear)
   local good = 0
   for i = 1, #own, 4 do
     local r, g, b, a = own:byte(i, i + 3)
     local r2, g2, b2, a2 = other:byte(i, i + 3)
     if a < 255 then r, g, b = over_white(r, a), over_white(g, a), over_white(b, a) end
     if a2 < 255 then r2, g2, b2 = over_white(r2, a2), over_white(g2, a2), over_white(b2, a2) end
-    if math.max(math.abs(r - r2), math.abs(g - g2), math.abs(b - b2)) <= codes then
+    local alpha = is_clear and math.abs(a - a2) or 0
+    if math.max(math.abs(r - r2), math.abs(g - g2), math.abs(b - b2), alpha) <= codes then
       good = good + 1
     end
   end
@@ -52,12 +54,13 @@ end
 local PIECE = 256 -- bytes of both that are compared at once
 
 --- The share of pixels that differ by at most `codes` in each channel, both laid over white.
-function players.share(own, other, codes)
+--- is_clear: and in alpha, which not all players write.
+function players.share(own, other, codes, is_clear)
   assert(#own == #other, "the pictures have different sizes")
   local good = 0
   for i = 1, #own, PIECE do
     local a, b = own:sub(i, i + PIECE - 1), other:sub(i, i + PIECE - 1)
-    good = good + (a == b and #a // 4 or count_alike(a, b, codes))
+    good = good + (a == b and #a // 4 or count_alike(a, b, codes, is_clear))
   end
   return good / (#own // 4)
 end

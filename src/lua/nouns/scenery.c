@@ -13,6 +13,7 @@
  */
 #include <math.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "lua/bind/bare.h"
 #include "lua/bind/host.h"
@@ -195,13 +196,25 @@ static int put_contours(lua_State *L) {
   return 0;
 }
 
-/* Puts the contours of the data into the table on top; false: they have too many curves. */
+/* Whether the last call of the core failed because an outline would have too many curves. */
+static bool is_too_rough(const cs_host *host) {
+  return host->failure == CELSPAN_LIMIT &&
+         strncmp(celspan_context_error(host->context), "warp: ", 6) == 0;
+}
+
+/* Puts the contours of the data into the table on top; false: they have too many curves. All else
+ * that goes wrong, such as a lack of memory, is raised. */
 static bool has_contours(lua_State *L, const cs_primitive_data *data) {
+  cs_host *host = cs_host_get(L);
+  host->failure = CELSPAN_OK;
   lua_pushcfunction(L, put_contours);
   lua_pushlightuserdata(L, (void *)(uintptr_t)data);
   lua_pushvalue(L, -3);
-  if (lua_pcall(L, 2, 0, 0) == LUA_OK)
+  const int outcome = lua_pcall(L, 2, 0, 0);
+  if (outcome == LUA_OK)
     return true;
+  if (outcome != LUA_ERRRUN || !is_too_rough(host))
+    lua_error(L);
   lua_pop(L, 1);
   return false;
 }

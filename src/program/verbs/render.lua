@@ -6,6 +6,7 @@
 local program, request = ...
 
 local core = require "celspan.core"
+local json = require "celspan.json"
 
 local FRAMES_MOST = 100000
 local LAYERS_SMOOTH = 1000
@@ -108,11 +109,15 @@ end
 
 pictures:report()
 if layers:count() > LAYERS_SMOOTH then
-  program.note("%s: %d layers, more than many players draw smoothly: a group whose objects stay in "
-    .. "place is one layer", request.output, layers:count())
+  program.note("%s: %d layers, more than many players draw smoothly: put objects that stay in "
+    .. "place into one group, which is one layer", request.output, layers:count())
 end
 if film.has_sound then program.note("%s: the sound of the film is left out", request.output) end
 local document = text.encode(layers:document(film, markers()))
+if #document > json.most_bytes then
+  program.note("%s: more than %d MiB, which celspan.lottie does not read again", request.output,
+    json.most_bytes >> 20)
+end
 if not pictures.is_archive then return program.save(request.output, document) end
 local manifest = text.encode { version = "2", generator = "celspan " .. program.version,
   animations = { { id = "film" } } }

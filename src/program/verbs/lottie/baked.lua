@@ -145,7 +145,6 @@ end
 function Bake:add_drawn(picture, number)
   self:check_size()
   local bytes, width, height = program.png(program.still(self.film, picture.shown), self.path)
-  self.layers:weigh(#bytes)
   local asset = { id = "picture" .. number, w = width, h = height, u = "", e = 1 }
   if self.is_archive then
     asset.u, asset.p, asset.e = "i/", ("%d.png"):format(number), 0
@@ -153,6 +152,7 @@ function Bake:add_drawn(picture, number)
   else
     asset.p = "data:image/png;base64," .. program.base64(bytes)
   end
+  self.layers:weigh(self.is_archive and #bytes or #asset.p)
   self.layers:add_picture(asset, picture)
 end
 

@@ -113,11 +113,12 @@ local function split(map, before)
   return table.unpack(best)
 end
 
---- The transform of a map.
-function keys.placed(map)
+--- The transform of a map. digits: of its place.
+function keys.placed(map, digits)
   local turn, across, down = split(map)
-  return { a = text.still { 0, 0 }, p = text.still { map[3], map[6] }, r = text.still(turn, 6),
-           s = text.still({ 100 * across, 100 * down }, 6), o = text.still(100) }
+  return { a = text.still { 0, 0 }, p = text.still({ map[3], map[6] }, digits),
+           r = text.still(turn, 6), s = text.still({ 100 * across, 100 * down }, 6),
+           o = text.still(100) }
 end
 
 --- Values of the frames: turns, scales in hundredths, and where the anchor is.

@@ -22,7 +22,7 @@ local function new(film, path)
                         main = { layers = {} } }, Layers)
 end
 
---- Counts bytes of the file.
+--- Counts bytes of shapes and pictures, as they are in the file.
 function Layers:weigh(bytes)
   self.bytes = self.bytes + bytes
   if self.bytes > MOST then
@@ -252,6 +252,7 @@ end
 --- Shapes, as a text, in the frames of a track.
 function Layers:add_shown(name, written, track)
   local first, last = tracks.range(track)
+  self:weigh(#written)
   add(self.main, { ty = 4, nm = name, ip = first - 1, op = last, shapes = { raw = written },
                    ks = in_place(track, first, last) })
 end

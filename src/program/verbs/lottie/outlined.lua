@@ -63,8 +63,8 @@ end
 local IDENTITY = affine.translation(0, 0)
 
 --- The transform of a group.
-local function placed_at(map)
-  local transform = keys.placed(map)
+local function placed_at(map, digits)
+  local transform = keys.placed(map, digits)
   transform.ty = "tr"
   return transform
 end
@@ -183,10 +183,10 @@ local function layout_of(outline, map, scale)
   end
   local units = fill.map or map
   local size = keys.scale { units }
-  local zoom, place = keys.zoom(size), placed_at(affine.compose(units, keys.zoom(1 / size)))
+  local zoom, place = keys.zoom(size), affine.compose(units, keys.zoom(1 / size))
   local inner = fill.map and affine.compose(affine.inverse(units), map) or IDENTITY
-  return { map = affine.compose(zoom, inner), place = place, fill = moved(fill, zoom),
-           digits = digits }
+  return { map = affine.compose(zoom, inner), place = placed_at(place, digits),
+           fill = moved(fill, zoom), digits = digits }
 end
 
 --- An outline as a group; nil: it is empty.

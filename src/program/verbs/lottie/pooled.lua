@@ -5,7 +5,9 @@
 --   frame 2    sky  letters  ball at B         the ball at A              a layer, frames 1 and 3
 --   frame 3    sky  letters  ball at A         the ball at B              a layer, frame 2
 --
--- Areas of a frame do not overlap, so that their order does not matter. The lines lie below them.
+-- Areas of a frame do not overlap, so that their order does not matter. The lines lie below them,
+-- and are seen only where edges of areas let them shine through: they keep their order where they
+-- have the same paint and are in the same frames; of others those of most frames lie behind.
 local layers = ...
 
 local SAVED = 1000 -- bytes that a layer of several frames has to save: about twice its own
@@ -15,7 +17,7 @@ Pool.__index = Pool
 
 --- name: of the layers.
 local function new(name)
-  return setmetatable({ name = name, pieces = {}, known = {}, frames = {} }, Pool)
+  return setmetatable({ name = name, pieces = {}, known = {}, frames = {}, bytes = 0 }, Pool)
 end
 
 --- The piece of this paint and text, with the places of self.frames where it is.
@@ -25,6 +27,7 @@ function Pool:piece(paint, text)
   if not known[text] then
     known[text] = { paint = paint, text = text }
     layers:weigh(#text)
+    self.bytes = self.bytes + #text
     self.pieces[#self.pieces + 1] = known[text]
   end
   return known[text]
@@ -93,6 +96,7 @@ end
 
 --- Adds the layers, behind those that are added later.
 function Pool:add_layers()
+  layers:weigh(-self.bytes) -- from here on each is counted as often as it is written
   for _, group in ipairs(self:groups()) do
     local items = {}
     for _, place in ipairs(group.places) do

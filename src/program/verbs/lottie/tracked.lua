@@ -18,13 +18,16 @@ local outlines = {} -- the kept ones, by their points from the first one on
 
 local SAME = 2 ^ -20 -- how far places may be apart, as a share of an outline's size
 
+local TURN = 0.3719 -- where between powers of two steps change: sides are often powers of two
+
 --- A step that places of an outline are counted in; equal for outlines of nearly the same size.
 local function step_of(contours)
-  local size, first = 0, contours[1] or {}
+  local size, first = 0, nil
   for _, contour in ipairs(contours) do
+    first = first or contour[1] and contour
     for i, value in ipairs(contour) do size = math.max(size, math.abs(value - first[2 - i % 2])) end
   end
-  return size > 0 and 2.0 ^ math.floor(math.log(size, 2)) * SAME or 1
+  return size > 0 and 2.0 ^ math.floor(math.log(size, 2) + TURN) * SAME or 1
 end
 
 --- A text that is equal for outlines that differ by their place alone.
@@ -44,7 +47,7 @@ local function key_of(data, x, y)
   end
   for i, value in ipairs(fill.points or {}) do add(value - (i % 2 == 1 and x or y)) end
   add(fill.radius or 0)
-  return (table.concat(parts, " "):gsub("%-0%f[^%d]", "0"))
+  return (table.concat(parts, " "):gsub("%-0%f[ \0]", "0"))
 end
 
 --- The outline that is kept for all that differ from it by their place.
