@@ -146,6 +146,20 @@ describe("parameters", function()
     assert.equal(2, (bench:celspan_inside "check film.lua --set-from p.json"))
   end)
 
+  it("may be given to points by the script, for all ways to read them", function()
+    bench:write("given.lua", [[
+local celspan = require "celspan"
+local p = celspan.parameters { sun = { 1, 2, point = true }, size = 3 }
+p.sun, p.size = { 5, 6 }, 4
+local found = {}
+for name, value in pairs(p) do found[name] = value end
+print(p.sun[1], found.sun[1], p.size, found.size)
+return celspan.film { size = { 8, 8 }, frame = function() return celspan.rostrum {} end }
+]])
+    local _, said, err = bench:celspan_inside "info given.lua"
+    assert.matches("5%s+5%s+4%s+4", said .. err)
+  end)
+
   it("are checked where they are declared", function()
     for declared, message in pairs {
       ["speed = { 5, max = 4 }"] = "'speed' has the default 5, which is not a number of at most 4",

@@ -416,6 +416,22 @@ describe("the page of celspan watch under hands #plain", function()
     assert.same({ "3", "short", "20,18", "on" }, said)
   end)
 
+  it("takes back what changed something, and finds no fault in names of objects", function()
+    local said = see [=[
+      const field = "#form [name=at]";
+      const give = text => set(field, `one.value = "${text}";
+        one.dispatchEvent(new Event("change"))`);
+      const until = text => page.until(`location.hash === "${text}"`);
+      await page.press("v");
+      await give("10,10");
+      await until("#at=10%2C10");
+      for (const key of ["1", "2", "3"]) { await page.press(key); await give("10,10"); }
+      await page.press("z", 2);
+      await page.until(`document.querySelector("${field}").value === "20,18"`);
+      return all("#form .wrong:not([hidden])", "one.textContent");]=]
+    assert.same({}, said)
+  end)
+
   it("gives values also after the script has lost the parameter of one", function()
     local fewer = film():gsub("constructor = %b{}, ", "")
     local said = see([=[

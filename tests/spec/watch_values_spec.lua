@@ -30,6 +30,27 @@ local GIVE = [=[
 ]=]
 
 describe("values of parameters", function()
+  it("are in the order of the script, also those with names in brackets", function()
+    watching.bench:write("shot.lua", (FILM:gsub("size = { 6, min = 1 },", "")
+      :gsub('"%]%s*= 4 }', '"] = 4, size = 6 }')))
+    local said = watching.speak(watching.watch(), GIVE .. [=[
+      return JSON.parse((await web.get("/state.json")).body).parameters.map(one => one.name);]=])
+    assert.same({ "lamp", "tint", "how", "mood", "word", "is_lit", "art", "end", "size" }, said)
+  end)
+
+  it("are forgotten when the saved script cannot have them any more", function()
+    local fewer = FILM:gsub("min = 1", "max = 10")
+    local said = watching.speak(watching.watch(), GIVE .. [=[
+      const given = await give({ size: "50", lamp: "30,9" });
+      require("fs").writeFileSync("]=] .. watching.bench.folder .. [=[/shot.lua", ]=]
+      .. ("%q"):format(fewer):gsub("\\\n", "\\n") .. [=[);
+      const until = Date.now() + 10000;
+      let values = {};
+      while (values.size !== "6" && Date.now() < until) values = await all("value");
+      return { values, status: (await web.get("/frame/1.png")).status };]=])
+    assert.same({ "6", "30,9", 200 }, { said.values.size, said.values.lamp, said.status })
+  end)
+
   it("are refused one by one, and are given in their own form", function()
     local said = watching.speak(watching.watch "--set size=3 shot.lua", GIVE .. [=[
       const good = await give({ lamp: " 30, 9", size: "4" });
@@ -147,6 +168,25 @@ describe("the form of values #plain", function()
       await page.until(`document.querySelector("#hits").textContent.includes("shot.lua:7")`);
       return { first, off, on };]=])
     assert.same({ first = false, off = true, on = false }, said)
+  end)
+
+  it("says which points a frame reads, also while it is drawn, and not those of others", function()
+    watching.bench:write("shot.lua", [[
+local celspan = require "celspan"
+local p = celspan.parameters { sun = { 20, 18, point = true }, moon = { 40, 8, point = true },
+  star = { 5, 5, point = true } }
+return celspan.film { size = { 64, 36 }, frames = 4, frame = function(f)
+  local at = f.number < 3 and p.sun or p.moon
+  return celspan.rostrum { celspan.cel { celspan.circle { centre = at, radius = 4 },
+    celspan.scanline { bounds = { 0, 0, 64, 36 }, spans = function(y)
+      return y > p.star[2] and { { 0, 9, "#f80" } } or {} end } } } end }
+]])
+    local said = watching.speak(watching.watch(), [=[
+      const points = async path => /-Points: (.*)/.exec((await web.get(path)).head)[1].trim();
+      return [await points("/frame/2.rgba?onion=0,1"), await points("/frame/2.rgba?camera=4"),
+              await points("/frame/2.rgba"), await points("/frame/4.rgba")];]=])
+    assert.same({ ",sun,star,", ",moon,star," }, { said[3], said[4] })
+    for i = 1, 2 do assert.matches(",moon,", said[i]) end
   end)
 
   it("has pale handles for points that the frame does not read", function()

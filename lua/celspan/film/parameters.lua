@@ -254,6 +254,10 @@ local function sealed(values, points)
       read_points[name] = true
       return points[name]
     end,
+    __newindex = function(_, name, value)
+      if points[name] == nil then return rawset(values, name, value) end
+      points[name] = value
+    end,
     __pairs = function()
       local all = {}
       for name, value in next, values do all[name] = value end

@@ -42,7 +42,8 @@ local answers = {}
 --- last.
 local function place_of(text, name)
   local call = text:find "parameters%s*[({]" or 1
-  return text:find("%f[%w_]" .. name .. "%s*=[^=]", call) or math.huge
+  return text:find("%f[%w_]" .. name .. "%s*=[^=]", call)
+    or text:find("%[%s*[\"']" .. name .. "[\"']%s*%]%s*=[^=]", call) or math.huge
 end
 
 --- The parameters of the film in the order of the script, each described as in JSON Schema.
@@ -114,8 +115,9 @@ end
 local function during(what, value, ending, call, ...)
   film:ask("celspan.shots", what, value)
   local results = table.pack(pcall(call, ...))
-  film:ask("celspan.shots", what, ending)
+  local is_ended, fault = pcall(film.ask, film, "celspan.shots", what, ending)
   if not results[1] then error(results[2], 0) end
+  if not is_ended then error(fault, 0) end
   return table.unpack(results, 2, results.n)
 end
 
@@ -136,6 +138,13 @@ local function with_points(known)
   return known
 end
 
+--- Notes what was read for a request in ask.points. It is the frame's own, and kept, unless other
+--- frames were built for it, too.
+local function note_points(ask)
+  ask.points = with_points(ask.points or points[ask.number] or before)
+  if not ask.onion and not ask.camera then points[ask.number] = ask.points end
+end
+
 --- Builds a frame, with its cels changed as ask.cels says. false: refused.
 local function build(ask)
   local good, message, code
@@ -149,7 +158,7 @@ local function build(ask)
     good, message = film:alter(letters_of(ask.cels), parts ~= nil)
   end
   if not good then refuse(message, code) end
-  points[ask.number] = with_points(points[ask.number] or before)
+  note_points(ask)
   return good
 end
 
@@ -168,8 +177,9 @@ function answers.frame(ask)
   if ask.made then film:keep_line(ask.made[1], ask.made[2]) end
   local bytes, message = of_view(ask, "picture", ask.what)
   if not bytes then return refuse(("frame %d: %s"):format(ask.number, message)) end
-  put({ good = true, seconds = program.clock() - began, camera = camera,
-        points = points[ask.number] }, bytes)
+  note_points(ask) -- procedures read points while they draw
+  put({ good = true, seconds = program.clock() - began, camera = camera, points = ask.points },
+    bytes)
 end
 
 --- The cost of the frame, which is the first of `costs`, and the cost of each of its cels alone.

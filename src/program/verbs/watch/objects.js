@@ -8,9 +8,7 @@ import { outline, outlined } from "/over.js";
 import { isOpen } from "/panels.js";
 import { look, nameOf } from "/pictures.js";
 import { cels, foldButton, folded, queryCels, switchesOf } from "/rows.js";
-import {
-  clamp, desk, element, here, main, play, refill, state, view,
-} from "/state.js";
+import { desk, element, here, main, play, refill, state, view } from "/state.js";
 
 const ROWS_MOST = 2000; // of the server's answer
 const tree = { list: [], address: "" };
@@ -124,9 +122,10 @@ function nameUnder(hit, isMixed, event) {
   under.hidden = !hit;
   under.textContent = hit ? (isMixed && hit.shot ? `${hit.shot} / ` : "") + hit.name : "";
   if (hit) {
+    under.style.left = 0; // it is no wider than what is right of it
     const box = desk.getBoundingClientRect(), { offsetWidth: w, offsetHeight: h } = under;
-    const left = clamp(event.clientX - box.left + 14, 0, box.width - w);
-    const top = clamp(event.clientY - box.top + 18, 0, box.height - h);
+    const left = Math.max(0, Math.min(event.clientX - box.left + 14, box.width - w));
+    const top = Math.max(0, Math.min(event.clientY - box.top + 18, box.height - h));
     Object.assign(under.style, { left: `${left}px`, top: `${top}px` });
   }
   if (hit?.file) outline(hit);

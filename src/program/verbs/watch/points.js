@@ -88,7 +88,7 @@ export function placePoints() {
     const handle = handles.get(one.name);
     putAt(handle, ...placeOf(one));
     handle.hidden = play.direction !== 0 || !looks.hasHandles;
-    handle.classList.toggle("idle", main.painted?.points.includes(`,${one.name},`) === false);
+    handle.classList.toggle("idle", main.painted?.points?.includes(`,${one.name},`) === false);
   }
   here("spot").hidden = !spot;
   if (spot) putAt(here("spot"), spot.x, spot.y);

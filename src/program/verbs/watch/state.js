@@ -34,8 +34,8 @@ export const span = { from: 0, to: 1 };
 const lane = (side, canvas, box) => ({
   side, canvas, box, pen: canvas.getContext("2d"), painted: null, refused: null, lastFault: null,
   isAsking: false, isWanted: false, slowness: 0, fetching: null, given: new URLSearchParams(),
-  wrong: {}, isGiven: false, isSending: false, isChanged: false, isRefilled: false, wantedBuild: 0,
-  formOf: "",
+  wrong: { __proto__: null }, isGiven: false, isSending: false, isChanged: false,
+  isRefilled: false, wantedBuild: 0, formOf: "",
 });
 export const main = lane(1, stage, desk);
 export const beside = lane(2, here("stage2"), here("desk2"));

@@ -39,8 +39,7 @@ async function sendValues(one) {
     one.isChanged = false;
     writeAddress();
     const path = one === main ? "/parameters" : "/parameters?side=2";
-    const names = namesOf(one); // the script may have lost some
-    const sent = Object.fromEntries([...one.given].filter(([name]) => names.includes(name)));
+    const sent = Object.fromEntries(one.given);
     const answer = await post(path, sent).catch(() => null);
     if (answer?.ok) takeAnswer(one, sent, await answer.json());
   }
@@ -92,10 +91,15 @@ function keepBefore(name) {
   before.push({ name, hand, given: lanes().map(one => [one, String(one.given)]) });
 }
 
-/** Gives the values before the last change again. */
+/** Gives the values before the last change again; changes that changed nothing are passed. */
 export function undoValues() {
-  for (const [one, text] of before.pop()?.given ?? []) {
-    if (lanes().includes(one) && String(one.given) !== text) setValues(one, text);
+  let isDone = false;
+  while (!isDone && before.length) {
+    for (const [one, text] of before.pop().given) {
+      if (!lanes().includes(one) || String(one.given) === text) continue;
+      setValues(one, new URLSearchParams(text));
+      isDone = true;
+    }
   }
 }
 
@@ -217,8 +221,9 @@ export function resetValues() {
 
 /** Gives these values, as pairs of a name and a text, and no others. */
 function setValues(one, values) {
-  one.given = new URLSearchParams(values);
-  one.wrong = {};
+  const names = namesOf(one); // the script may have lost some
+  one.given = new URLSearchParams([...values].filter(([name]) => names.includes(name)));
+  one.wrong = { __proto__: null };
   one.isRefilled = true;
   sendValues(one);
 }

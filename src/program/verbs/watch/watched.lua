@@ -54,10 +54,11 @@ function film:take(head)
   self.tell()
 end
 
---- Forgets the value of a parameter that the saved script has no more. Returns whether a message
---- says that there is one.
+--- Forgets the value of a parameter that the saved script has no more, or that cannot have it any
+--- more. Returns whether a message says that there is one.
 function film:drop_lost(message)
   local name = message:match "the script has no parameter '([%w_]+)'"
+    or message:match "set: ([%w_]+) is "
   local is_lost = name and self.pool.values[name] ~= nil
   if is_lost then self.pool.values[name] = nil end
   return is_lost
