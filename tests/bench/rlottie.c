@@ -90,12 +90,15 @@ int main(int argc, char **argv) {
   canvas c;
   if (!shows && argc != 5)
     return 2;
+  const size_t frames = shows ? 1 : strtoul(argv[4], NULL, 10);
+  if (frames == 0)
+    return 2;
   char **const first = shows ? argv + 4 : argv + 2; /* the width */
   bool is_good = open_canvas(&c, argv[shows ? 2 : 1], first[0], first[1]);
   for (int i = 6; shows && is_good && i < argc; i++)
     is_good = show(&c, argv[3], argv[i]);
   if (is_good && !shows)
-    measure(&c, strtoul(argv[4], NULL, 10));
+    measure(&c, frames);
   close_canvas(&c);
   return is_good ? 0 : 1;
 }

@@ -15,7 +15,7 @@ const SHOTS = { opening: 101, street: 250, close: 421, town: 600 };
 
 /** Makes the window so large that the picture has its size, whatever is beside it. */
 async function size() {
-  for (let wide = width; ;) {
+  for (let wide = width, tries = 0; ;) {
     await page.call("Emulation.setDeviceMetricsOverride",
       { width: wide, height: height + 600, deviceScaleFactor: 1, mobile: false });
     await page.pause(1);
@@ -24,7 +24,7 @@ async function size() {
     const has = await page.get(`document.querySelector("#stage").dataset.size`);
     if (has === `${width}x${height}`) return;
     wide += width - has.split("x")[0];
-    if (wide > 2 * width + 400) throw new Error(`the picture has ${has}`);
+    if (wide > 2 * width + 400 || ++tries === 20) throw new Error(`the picture has ${has}`);
   }
 }
 

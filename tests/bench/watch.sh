@@ -9,7 +9,6 @@
 # medians is printed, too, and how many times better the new one is. CELSPAN_NEW: instead of
 # build/celspan.
 set -u
-root=$PWD
 new=$(realpath "${CELSPAN_NEW:-build/celspan}")
 old=${CELSPAN_OLD:+$(realpath "$CELSPAN_OLD")}
 rounds=${CELSPAN_ROUNDS:-$([ -n "$old" ] && echo 3 || echo 1)}
@@ -22,8 +21,9 @@ watched() {
   local server
   (cd "$folder/film" && exec "$1" watch "$2" >../said) &
   server=$!
+  trap 'kill $server 2>/dev/null' EXIT
   while ! grep -q watching "$folder/said" 2>/dev/null; do
-    kill -0 $server 2>/dev/null || return 1
+    kill -0 $server 2>/dev/null || { echo "$1 does not serve $2" >&2; return 1; }
     sleep 0.1
   done
   CELSPAN_SHOT=$folder/film/$2 CELSPAN_SERVER=$server CELSPAN_BROWSER_SECONDS=600 \
@@ -31,6 +31,7 @@ watched() {
     tests/bench/watch.js
   local code=$?
   kill $server
+  trap - EXIT
   wait $server
   rm -f "$folder/said"
   return $code

@@ -14,6 +14,8 @@ function middle(list) {
   return Math.round(value * 100) / 100;
 }
 
+const NOT_COMPARED = new Set(["shot.load", "film.load"]); // what else the machine did
+
 const isRate = item => item.endsWith("frames_a_second"); // more is better
 
 /** The numbers of an object by their paths, such as "play.server_cpu_ms". */
@@ -33,9 +35,11 @@ for (const file of readdirSync(folder).sort()) {
 
 console.log("item                                     new        old      times better");
 for (const [item, { new: fresh, old }] of measured) {
-  const better = Object.keys(fresh).filter(round => round in old)
-    .map(round => isRate(item) ? fresh[round] / old[round] : old[round] / fresh[round]);
-  const cells = [fresh, old].map(one => String(middle(Object.values(one)) || "-").padStart(10));
+  const better = Object.keys(fresh).filter(round => round in old && !NOT_COMPARED.has(item))
+    .map(round => isRate(item) ? fresh[round] / old[round] : old[round] / fresh[round])
+    .filter(Number.isFinite);
+  const cells = [fresh, old].map(one => middle(Object.values(one)))
+    .map(value => (Number.isFinite(value) ? String(value) : "-").padStart(10));
   const times = better.length ? middle(better).toFixed(2) : "-";
   console.log(`${item.padEnd(34)}${cells.join(" ")}${times.padStart(12)}`
     + `  (${better.map(one => one.toFixed(2)).join(", ")})`);

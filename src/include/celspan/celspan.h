@@ -142,9 +142,8 @@ typedef struct celspan_context_desc {
   celspan_resize resize; /* NULL: the C library's */
   void *resize_user;
   size_t picture_bytes; /* decoded picture tiles kept in memory; 512 MiB */
-  size_t
-      defocus_bytes; /* defocused cels, maps of drawings (a quarter of it) and outlines of strokes
-                           (a thirty-second), kept from frame to frame; 256 MiB */
+  size_t defocus_bytes; /* defocused cels, maps of drawings (a quarter of it) and outlines of
+                           strokes (a thirty-second), kept from frame to frame; 256 MiB */
 } celspan_context_desc;
 
 CELSPAN_DESCRIPTION(celspan_context_desc)
