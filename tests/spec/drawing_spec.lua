@@ -244,6 +244,8 @@ return celspan.film { size = { 20000, 10 }, frames = 1, frame = function()
     bench:write("large.lua", (bench:read("wide.lua"):gsub("WHERE", "0, 0, 19000, 9")))
     refused(6, "pixels; a side has at most 16384: give a smaller --scale",
       "render large.lua -o y.svg")
+    refused(6, "would have 4000000000 x 2000000 pixels; a side has at most 2147483647",
+      "render small.lua -o y.svg --scale 200000")
     assert.is_nil(io.open(bench.folder .. "/y.svg"))
   end)
 
@@ -262,6 +264,35 @@ return celspan.film { size = { 100, 60 }, frames = 1, frame = function()
     assert.matches('<path stroke="#3f6f73"', text, 1, true)
     assert.matches('<clipPath id="picture"', text, 1, true)
     assert.is_nil(text:find('id="opaque"', 1, true))
+  end)
+
+  it("has no arcs of no height, where edges leave the frame", function()
+    for i, corners in ipairs { "{ 999, 100 }, { 3000, 100.01 }", "{ 999.9, 100 }, { 3000, 100.1 }",
+      "{ 999.99, 100 }, { 3000, 100.5 }" } do
+      bench:write("flat.lua", ([[
+local celspan = require "celspan"
+return celspan.film { size = { 1000, 1000 }, frames = 1, frame = function()
+  return celspan.rostrum { celspan.cel {
+    celspan.triangle { %s, { 500, 500 }, texture = "#000" } } } end }]]):format(corners))
+      done("render flat.lua -o %d.svg", i)
+      assert.matches(' d="m999[.9]* 100l', bench:read(i .. ".svg"))
+    end
+  end)
+
+  it("of a film's plane has its thin lines, however wide the film is", function()
+    bench:write("thin.lua", [[
+local celspan = require "celspan"
+return celspan.film { size = { 4000, 100 }, frames = 2, frame = function(f)
+  local art = {}
+  for i = 1, 8 do
+    art[i] = celspan.rect { 400 * i, 10 + f.number, 0.05 * i, 60, texture = "#000" }
+    art[8 + i] = celspan.rect { 10 + f.number, 70 + 2 * i, 60, 0.05 * i, texture = "#000" }
+  end
+  return celspan.rostrum { back = "#fff", celspan.cel(art) } end }]])
+    done "render thin.lua -o thin.plane --depth 8"
+    done "convert thin.plane thin.svg --frame 1"
+    local lines = bench:read("thin.svg"):match '<path fill="#000000" d="([^"]*)"'
+    assert.equal(16, select(2, lines:gsub("z", "")))
   end)
 
   it("of nothing is empty", function()

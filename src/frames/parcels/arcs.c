@@ -189,6 +189,13 @@ static bool is_within(const bend *curve, bool *outside) {
   return least >= 0 && most <= SIDE;
 }
 
+celspan_status cs_arc_refuse(celspan_context *context) {
+  return cs_fail(context, CELSPAN_LIMIT,
+                 "there are more than %d borders between what is visible, too many for vectors: "
+                 "write a picture, or a smaller part",
+                 CS_PARCEL_ARCS);
+}
+
 /* Ends the arc at a height. */
 static celspan_status end_arc(making *m, int32_t height) {
   cs_parcels *parcels = m->parcels;
@@ -203,10 +210,7 @@ static celspan_status end_arc(making *m, int32_t height) {
   parcels->curves[arc.curve].points[0].y = arc.top / SIDE * parcels->height;
   parcels->curves[parcels->curve_count - 1].points[3].y = arc.foot / SIDE * parcels->height;
   if (parcels->arc_count == CS_PARCEL_ARCS)
-    return cs_fail(m->context, CELSPAN_LIMIT,
-                   "there are more than %d borders between what is visible, too many for vectors: "
-                   "write a picture, or a smaller part",
-                   CS_PARCEL_ARCS);
+    return cs_arc_refuse(m->context);
   return CS_APPEND(m->context, parcels->arcs, parcels->arc_count, parcels->arc_capacity, arc);
 }
 

@@ -38,7 +38,7 @@ static size_t find_place(const cs_beside *row, double x) {
 }
 
 /* Where an arc is in the row: near its place, because those that lie on each other may have changed
- * theirs. */
+ * theirs. The end of the row: it is not there. */
 static size_t find_arc(const cs_beside *row, uint32_t arc) {
   size_t place = find_place(row, x_at(row->parcels, arc, row->height));
   for (size_t by = 0; by <= row->count; by++) {
@@ -47,7 +47,7 @@ static size_t find_arc(const cs_beside *row, uint32_t arc) {
     if (by <= place && place - by < row->count && row->arcs[place - by] == arc)
       return place - by;
   }
-  return 0;
+  return row->count;
 }
 
 /* Arcs do not cross: they are compared in the middle of the heights that they have in common, where
@@ -75,6 +75,8 @@ static void begin_arc(cs_beside *row, uint32_t arc) {
 
 static void end_arc(cs_beside *row, uint32_t arc) {
   size_t place = find_arc(row, arc);
+  if (place == row->count)
+    return;
   row->count--;
   memmove(row->arcs + place, row->arcs + place + 1, (row->count - place) * sizeof *row->arcs);
 }
@@ -83,6 +85,8 @@ static size_t list_events(const cs_parcels *parcels, int visits, event *out) {
   size_t count = 0;
   for (uint32_t i = 0; i < parcels->arc_count; i++) {
     const double top = parcels->arcs[i].top, foot = parcels->arcs[i].foot;
+    if (top >= foot) /* it would end before it begins */
+      continue;
     out[count++] = (event){top, EVENT_BEGIN, i};
     out[count++] = (event){foot, EVENT_END, i};
     for (int k = 0; k < visits; k++)

@@ -216,7 +216,9 @@ static celspan_status join_ends(const tracing *t) {
   for (size_t i = 0, end; i < t->count; i = end) {
     end = find_group(t, i);
     if ((end - i) % 2 == 1)
-      return cs_fail(t->context, CELSPAN_BAD_ARGUMENT, "the borders of an area do not meet");
+      return cs_fail(t->context, CELSPAN_BAD_ARGUMENT,
+                     "the borders of an area do not meet, "
+                     "so that it has no vectors: write a picture");
     for (; i < end; i += 2) {
       pair_first(t->ends + i, end - i);
       t->partners[t->ends[i].id] = t->ends[i + 1].id;
@@ -262,8 +264,8 @@ celspan_status cs_parcels_walk(celspan_context *context, cs_parcels *parcels, co
                                uint32_t set_count, size_t *first) {
   const size_t most = 4 * parcels->arc_count + 1;
   tracing t = {context, parcels, NULL, NULL, 0, APART};
-  if (parcels->step > 1)
-    t.apart = STEPS_APART * parcels->step;
+  if (parcels->rows > 1)
+    t.apart = STEPS_APART * parcels->rows;
   celspan_status status = CS_MAKE(context, t.ends, most);
   if (status == CELSPAN_OK)
     status = CS_MAKE(context, t.partners, most);
@@ -305,7 +307,8 @@ celspan_status cs_parcels_make(celspan_context *context, const celspan_plane *pl
                                cs_parcels *out) {
   const planefile_info info = planefile_plane_info(plane->plane);
   collecting g = {.context = context, .plane = plane};
-  *out = (cs_parcels){.step = (int32_t)(PLANEFILE_SIDE / planefile_steps(info.grid.rows))};
+  *out = (cs_parcels){.columns = (int32_t)(PLANEFILE_SIDE / planefile_steps(info.grid.columns)),
+                      .rows = (int32_t)(PLANEFILE_SIDE / planefile_steps(info.grid.rows))};
   celspan_status status = collect(&g, out);
   cs_sides_finish(&g.sides, context->memory);
   cs_hash_table_finish(&g.table.known, context);
@@ -313,7 +316,9 @@ celspan_status cs_parcels_make(celspan_context *context, const celspan_plane *pl
   CS_TRY(status);
   CS_TRY(join_heights(context, out));
   if (!info.is_coded) /* sums are no codes */
-    CS_TRY(cs_parcels_refuse_sums(context, out));
+    status = cs_parcels_refuse_sums(context, out);
+  out->is_sum = status == CELSPAN_BAD_ARGUMENT;
+  CS_TRY(status);
   CS_TRY(cs_parcels_join_slivers(context, out));
   return walk_fills(context, out);
 }

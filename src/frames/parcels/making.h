@@ -45,6 +45,8 @@ CELSPAN_CHECKED celspan_status cs_arc_put(celspan_context *context, const planef
                                           const planefile_border *border, uint32_t left,
                                           uint32_t right, cs_frame_sides *sides,
                                           cs_parcels *parcels);
+/* Says that there are too many arcs: LIMIT. */
+CELSPAN_CHECKED celspan_status cs_arc_refuse(celspan_context *context);
 /* Appends a part of one of the frame's sides, inside of which there is a fill. */
 CELSPAN_CHECKED celspan_status cs_arc_put_side(celspan_context *context, int side, int32_t top,
                                                int32_t foot, uint32_t fill, cs_parcels *parcels);
@@ -74,15 +76,15 @@ typedef struct cs_beside {
 } cs_beside;
 /* Gets an arc by its place in the row. */
 typedef celspan_status cs_beside_visit(const cs_beside *row, size_t place, void *user);
-/* Visits each arc at some heights between its ends. Errors: NO_MEMORY, and those of visits, after
- * which none follows. */
+/* Visits each arc that has a height, at some heights between its ends. Errors: NO_MEMORY, and those
+ * of visits, after which none follows. */
 CELSPAN_CHECKED celspan_status cs_beside_walk(celspan_context *context, const cs_parcels *parcels,
                                               int visits, cs_beside_visit *visit, void *user);
 /* How wide it is between two arcs of the row, across the first one, in film units. */
 double cs_beside_gap(const cs_beside *row, size_t place, size_t other);
 
-/* Joins arcs between which there is a fill that is no wider than the plane's rounding. Errors:
- * NO_MEMORY. */
+/* Joins arcs between which there is a fill that is no wider than the plane's rounding, and drops
+ * those that separate nothing. Errors: NO_MEMORY; LIMIT. */
 CELSPAN_CHECKED celspan_status cs_parcels_join_slivers(celspan_context *context,
                                                        cs_parcels *parcels);
 

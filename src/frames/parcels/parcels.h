@@ -81,13 +81,14 @@ typedef struct cs_parcels {
   size_t fill_count, fill_capacity, stop_count, stop_capacity;
   size_t arc_count, arc_capacity, curve_count, curve_capacity;
   size_t walk_count, walk_capacity, loop_count, loop_capacity;
-  int32_t step; /* of the plane's grid, down, in its units */
+  int32_t columns, rows; /* the steps of the plane's grid, across and down, in its units */
+  bool is_sum;           /* of several pictures, so that it has no areas */
 } cs_parcels;
 
 enum { CS_PARCEL_ARCS = 1000000 }; /* at most */
 
 /* out: must be finished in any case. Errors: NO_MEMORY; LIMIT for more borders than CS_PARCEL_ARCS;
- * BAD_ARGUMENT for a plane that is the sum of several pictures, which has no areas. */
+ * BAD_ARGUMENT for a plane with is_sum, and for one whose borders do not meet. */
 CELSPAN_CHECKED celspan_status cs_parcels_make(celspan_context *context, const celspan_plane *plane,
                                                cs_parcels *out);
 void cs_parcels_finish(cs_parcels *parcels, cs_memory *memory);

@@ -158,15 +158,18 @@ static celspan_status draw_frame(const cs_plot_picture *picture, celspan_context
   return cs_frame_render_own(context, &frame, &own, NULL);
 }
 
-static int32_t pixels_of(double units, double scale) {
-  double pixels = ceil(units * scale);
-  return pixels > INT32_MAX ? INT32_MAX : pixels > 1 ? (int32_t)pixels : 1;
-}
-
 /* The picture of a film, whole. */
-static void size_picture(double width, double height, double scale, cs_plot_picture *out) {
-  out->width = out->columns = pixels_of(width, scale);
-  out->height = out->rows = pixels_of(height, scale);
+static celspan_status size_picture(celspan_context *context, double width, double height,
+                                   double scale, cs_plot_picture *out) {
+  const double columns = fmax(ceil(width * scale), 1), rows = fmax(ceil(height * scale), 1);
+  if (columns > INT32_MAX || rows > INT32_MAX)
+    return cs_fail(context, CELSPAN_LIMIT,
+                   "at this scale the film would have %.0f x %.0f pixels; a side has at most %d: "
+                   "give a smaller --scale",
+                   columns, rows, (int)INT32_MAX);
+  out->width = out->columns = (int32_t)columns;
+  out->height = out->rows = (int32_t)rows;
+  return CELSPAN_OK;
 }
 
 static celspan_status check_picture(celspan_context *context, const cs_plot_picture *picture) {
@@ -234,7 +237,8 @@ static celspan_status put_picture(drawing *d) {
   CS_TRY(unite(d, is_picture, loops));
   if (loops[0] == loops[1])
     return CELSPAN_OK;
-  size_picture(d->parcels.width, d->parcels.height, d->desc->scale, &picture);
+  CS_TRY(
+      size_picture(d->text.context, d->parcels.width, d->parcels.height, d->desc->scale, &picture));
   crop_to(&d->parcels, loops, &picture);
   CS_TRY(check_picture(d->text.context, &picture));
   put_clip(d, "picture", loops);
@@ -403,7 +407,7 @@ static celspan_status write_picture(celspan_context *context, cs_plot_picture pi
   cs_plot_text text;
   char reason[sizeof context->error];
   memcpy(reason, context->error, sizeof reason);
-  size_picture(film.x, film.y, desc->scale, &picture);
+  CS_TRY(size_picture(context, film.x, film.y, desc->scale, &picture));
   CS_TRY(check_picture(context, &picture));
   *facts = (cs_plot_facts){
       .picture_width = picture.columns, .picture_height = picture.rows, .is_picture = true};
@@ -423,12 +427,12 @@ celspan_status cs_plot_write_plane(celspan_context *context, const celspan_plane
   *facts = (cs_plot_facts){0};
   celspan_status status = cs_parcels_make(context, plane, &d.parcels);
   const celspan_point film = {d.parcels.width, d.parcels.height};
+  const bool is_sum = d.parcels.is_sum;
   if (status == CELSPAN_OK)
     status = write_parcels(&d, path);
   cs_under_finish(&d.under, context->memory);
   cs_parcels_finish(&d.parcels, context->memory);
-  return status == CELSPAN_BAD_ARGUMENT ? write_picture(context, picture, film, path, desc, facts)
-                                        : status;
+  return is_sum ? write_picture(context, picture, film, path, desc, facts) : status;
 }
 
 celspan_status cs_plot_write_frame(celspan_context *context, const celspan_frame_desc *frame,
@@ -442,14 +446,14 @@ celspan_status cs_plot_write_frame(celspan_context *context, const celspan_frame
   made.space = frame->space;
   celspan_status status =
       cs_plane_expose(context, frame->exposures, frame->exposure_count, &made, &plane);
+  if (status == CELSPAN_OK)
+    status = cs_plot_write_plane(context, plane, path, desc, facts);
+  celspan_plane_unref(plane);
   if (status == CELSPAN_BAD_ARGUMENT) {
     const cs_plot_picture picture = {
         .draw = draw_frame, .frame = &whole, .is_opaque = celspan_frame_is_opaque(&whole)};
     const celspan_point film = {whole.film_width, whole.film_height};
     return write_picture(context, picture, film, path, desc, facts);
   }
-  if (status == CELSPAN_OK)
-    status = cs_plot_write_plane(context, plane, path, desc, facts);
-  celspan_plane_unref(plane);
   return status;
 }

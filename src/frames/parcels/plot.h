@@ -40,7 +40,8 @@ CELSPAN_CHECKED celspan_status cs_plot_write_frame(celspan_context *context,
                                                    const celspan_frame_desc *frame,
                                                    const char *path, const cs_plot_desc *desc,
                                                    cs_plot_facts *facts);
-/* Writes a plane in the same way; one that is a sum becomes a picture. */
+/* Writes a plane in the same way; one that is a sum becomes a picture. Errors: BAD_ARGUMENT for one
+ * whose borders do not meet. */
 CELSPAN_CHECKED celspan_status cs_plot_write_plane(celspan_context *context,
                                                    const celspan_plane *plane, const char *path,
                                                    const cs_plot_desc *desc, cs_plot_facts *facts);

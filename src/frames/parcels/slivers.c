@@ -12,7 +12,11 @@
 #include "frames/parcels/making.h"
 
 enum { VISITS = 3, HEIGHTS = 3, MOST = 16 /* arcs that lie on each other */ };
-#define NEAR 16.0 /* units: how far apart they are at most, or as many steps of the plane's grid */
+enum { FULL = 4096 /* places to cut at, before the first look for equal ones */ };
+/* How far apart they are at most: units, and steps of the plane's grid. Each of two borders of one
+ * shape is rounded by at most half a step; what is wider may have been drawn. */
+#define NEAR 16.0
+#define STEPS 2.0
 
 #define CORNER 0.05 /* the sine of an angle */
 
@@ -29,32 +33,51 @@ CS_SORT_DEFINE(sort_cuts, cut_place, is_cut_before)
 typedef struct cut_list {
   cut_place *all;
   size_t count, capacity;
+  size_t full; /* the count at which those that are there twice go */
 } cut_list;
 
-static double near_by(const cs_parcels *parcels) {
-  return NEAR * fmax(1, parcels->step) / PLANEFILE_SIDE * fmax(parcels->width, parcels->height);
+/* Across and down, in film units. */
+static celspan_point near_by(const cs_parcels *parcels) {
+  return (celspan_point){fmax(NEAR, STEPS * parcels->columns) / PLANEFILE_SIDE * parcels->width,
+                         fmax(NEAR, STEPS * parcels->rows) / PLANEFILE_SIDE * parcels->height};
 }
 
-/* Whether two arcs lie on each other from a height to another one. */
+/* Whether two arcs lie on each other from a height to another one. A point of either may be anywhere
+ * in a box: an upright border is moved by its width, one that is nearly flat by its height. */
 static bool are_near(const cs_parcels *parcels, uint32_t a, uint32_t b, double top, double foot) {
   const double unit = parcels->height / PLANEFILE_SIDE, down = (foot - top) * unit;
   const double across = cs_arc_x(parcels, a, foot * unit) - cs_arc_x(parcels, a, top * unit);
-  const double length = sqrt(across * across + down * down);
+  const celspan_point most = near_by(parcels);
   bool near = foot > top;
   for (int i = 0; i < HEIGHTS && near; i++) {
     double y = (top + (foot - top) * (i + 0.5) / HEIGHTS) * unit;
     double gap = fabs(cs_arc_x(parcels, a, y) - cs_arc_x(parcels, b, y));
-    near = gap * down <= near_by(parcels) * length;
+    near = gap * down <= most.x * down + most.y * fabs(across);
   }
   return near;
 }
 
 /* ---------------------------------------------------------------- cuts */
 
+/* Each place is left once. Each one makes an arc more. */
+static celspan_status sort_out(celspan_context *context, const cs_parcels *parcels,
+                               cut_list *cuts) {
+  size_t count = 0;
+  sort_cuts(cuts->all, cuts->count);
+  for (size_t i = 0; i < cuts->count; i++)
+    if (i == 0 || is_cut_before(&cuts->all[count - 1], &cuts->all[i]))
+      cuts->all[count++] = cuts->all[i];
+  cuts->count = count;
+  cuts->full = 2 * count + FULL;
+  return parcels->arc_count + count > CS_PARCEL_ARCS ? cs_arc_refuse(context) : CELSPAN_OK;
+}
+
 static celspan_status add_cut(const cs_beside *row, cut_list *cuts, uint32_t arc, int32_t height) {
   const cs_parcel_arc *a = &row->parcels->arcs[arc];
   if (height <= a->top || height >= a->foot)
     return CELSPAN_OK;
+  if (cuts->count >= cuts->full)
+    CS_TRY(sort_out(row->context, row->parcels, cuts));
   return CS_APPEND(row->context, cuts->all, cuts->count, cuts->capacity, (cut_place){arc, height});
 }
 
@@ -147,13 +170,9 @@ static celspan_status cut_arc(celspan_context *context, cs_parcels *parcels, con
 }
 
 static celspan_status cut_arcs(celspan_context *context, cs_parcels *parcels, cut_list *cuts) {
-  size_t count = 0;
-  sort_cuts(cuts->all, cuts->count);
-  for (size_t i = 0; i < cuts->count; i++)
-    if (i == 0 || is_cut_before(&cuts->all[count - 1], &cuts->all[i]))
-      cuts->all[count++] = cuts->all[i];
-  for (size_t i = 0, end; i < count; i = end) {
-    for (end = i + 1; end < count && cuts->all[end].arc == cuts->all[i].arc; end++) {
+  CS_TRY(sort_out(context, parcels, cuts));
+  for (size_t i = 0, end; i < cuts->count; i = end) {
+    for (end = i + 1; end < cuts->count && cuts->all[end].arc == cuts->all[i].arc; end++) {
     }
     CS_TRY(cut_arc(context, parcels, cuts->all + i, end - i));
   }
@@ -242,10 +261,12 @@ static void join_all(cs_parcels *parcels, placed *all) {
   }
 }
 
-static void drop_joined(cs_parcels *parcels) {
+/* Loops have horizontal lines without an arc of no height. */
+static void drop_needless(cs_parcels *parcels) {
   size_t count = 0;
   for (size_t i = 0; i < parcels->arc_count; i++)
-    if (parcels->arcs[i].left != parcels->arcs[i].right)
+    if (parcels->arcs[i].left != parcels->arcs[i].right &&
+        parcels->arcs[i].top < parcels->arcs[i].foot)
       parcels->arcs[count++] = parcels->arcs[i];
   parcels->arc_count = count;
 }
@@ -253,6 +274,7 @@ static void drop_joined(cs_parcels *parcels) {
 celspan_status cs_parcels_join_slivers(celspan_context *context, cs_parcels *parcels) {
   cut_list cuts = {0};
   placed *all;
+  drop_needless(parcels);
   celspan_status status = cut_corners(context, parcels);
   if (status == CELSPAN_OK)
     status = cs_beside_walk(context, parcels, VISITS, compare_arc, &cuts);
@@ -264,7 +286,7 @@ celspan_status cs_parcels_join_slivers(celspan_context *context, cs_parcels *par
     return status;
   CS_TRY(CS_MAKE(context, all, count));
   join_all(parcels, all);
-  drop_joined(parcels);
+  drop_needless(parcels);
   cs_mem_free(context->memory, all, count * sizeof *all);
   return CELSPAN_OK;
 }

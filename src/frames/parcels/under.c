@@ -5,7 +5,6 @@
 #include "base/sort.h"
 #include "frames/parcels/making.h"
 
-#define VERY 1e12 /* units: more than any thickness */
 enum { VISITS = 5 /* heights at which an arc is compared with those beside it */, GRADES = 8 };
 
 /* ---------------------------------------------------------------- thickness */
@@ -223,13 +222,19 @@ static celspan_status narrow(const cs_beside *row, size_t place, void *user) {
   return CELSPAN_OK;
 }
 
-/* What is as thick beside the arc is compared as a whole. */
+/* What is as thick beside the arc is compared as a whole; so is a picture, which is no stroke. */
+static uint32_t rank_beside(const cs_under *under, const uint32_t fills[2], const double loops[2],
+                            const double grades[2]) {
+  const double left = round(grades[0]), right = round(grades[1]);
+  if (left == right || fmin(loops[0], loops[1]) == -INFINITY)
+    return rank_of(under, fills, loops);
+  return under->ranks[fills[left > right ? 0 : 1]];
+}
+
 static celspan_status put_arc(celspan_context *context, const cs_parcels *parcels, uint32_t arc,
                               const double *loops, const double *grades, cs_under *out) {
   const uint32_t fills[2] = {parcels->arcs[arc].left, parcels->arcs[arc].right};
-  const double thickness[2] = {loops[0] + VERY * round(grades[0]),
-                               loops[1] + VERY * round(grades[1])};
-  const uint32_t rank = rank_of(out, fills, thickness);
+  const uint32_t rank = rank_beside(out, fills, loops, grades);
   const double grade = grades[rank == out->ranks[fills[0]] ? 0 : 1];
   const cs_under_line line = {.rank = rank, .is_thin = round(grade) < GRADES, .arc = arc};
   if (!cs_under_suits(&parcels->fills[fills[0]]) || !cs_under_suits(&parcels->fills[fills[1]]))

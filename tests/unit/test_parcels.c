@@ -1,0 +1,137 @@
+/* Parcels of planes: arcs of no height, slivers and what is as thin but was drawn, borders that do
+ * not meet, and memory that is not there.
+ */
+#include <math.h>
+
+#include "celspan/plane.h"
+#include "frames/parcels/making.h"
+#include "frames/parcels/plot.h"
+#include "frames/parcels/under.h"
+#include "tests/support/frame_rows.h"
+#include "tests/support/memory.h"
+
+enum { SIDE = 1000 };
+
+static celspan_texture *ink(studio *s) { return studio_paint(s, celspan_paint_rgb(0, 0, 0, 1)); }
+
+static celspan_plane *plane_of(studio *s, const celspan_rostrum *rostrum) {
+  celspan_plane_desc desc = CELSPAN_PLANE_DESC;
+  celspan_plane *plane = NULL;
+  desc.width = desc.height = SIDE;
+  studio_check(s, celspan_plane_create(s->context, rostrum, &desc, &plane));
+  return plane;
+}
+
+/* ---------------------------------------------------------------- arcs */
+
+/* Two upright arcs with a fill between them, and one of no height in front. */
+static cs_parcels upright(celspan_context *context, double width) {
+  cs_parcels p = {.width = SIDE, .height = SIDE, .columns = 700, .rows = 7000, .fill_count = 3};
+  const double x[3] = {500, 500, 500 + width};
+  for (uint32_t i = 0; i < 3; i++) {
+    const celspan_point top = {x[i], SIDE / 4.0}, foot = {x[i], i == 0 ? SIDE / 4.0 : SIDE / 2.0};
+    const cs_parcel_curve line = {true, {top, top, foot, foot}};
+    const cs_parcel_arc arc = {i,
+                               1,
+                               i == 2 ? 2 : 1,
+                               i == 2 ? 1 : 2,
+                               PLANEFILE_SIDE / 4,
+                               i == 0 ? PLANEFILE_SIDE / 4 : PLANEFILE_SIDE / 2};
+    CHECK(CS_APPEND(context, p.curves, p.curve_count, p.curve_capacity, line) == CELSPAN_OK);
+    CHECK(CS_APPEND(context, p.arcs, p.arc_count, p.arc_capacity, arc) == CELSPAN_OK);
+  }
+  return p;
+}
+
+static celspan_status count_visit(const cs_beside *row, size_t place, void *user) {
+  size_t *counts = user;
+  CHECK(place < row->count && row->count == 2);
+  counts[row->arcs[place]]++;
+  return CELSPAN_OK;
+}
+
+static void check_rows(celspan_context *context) {
+  size_t counts[3] = {0};
+  cs_parcels p = upright(context, 1);
+  CHECK(cs_beside_walk(context, &p, 3, count_visit, counts) == CELSPAN_OK);
+  CHECK(counts[0] == 0 && counts[1] == 3 && counts[2] == 3);
+  cs_parcels_finish(&p, context->memory);
+}
+
+/* Steps across are 700 units and those down are 7000, which count for flat borders alone. */
+static void check_slivers(celspan_context *context) {
+  for (int steps = 1; steps <= 5; steps += 4) {
+    cs_parcels p = upright(context, steps * 700.0 / PLANEFILE_SIDE * SIDE);
+    CHECK(cs_parcels_join_slivers(context, &p) == CELSPAN_OK);
+    CHECK(p.arc_count == (steps == 1 ? 0 : 2));
+    cs_parcels_finish(&p, context->memory);
+  }
+}
+
+/* ---------------------------------------------------------------- planes */
+
+static celspan_status write_drawing(studio *s, const celspan_plane *plane, cs_plot_facts *facts) {
+  const cs_plot_desc desc = {.precision = 3, .scale = 0.1};
+  return cs_plot_write_plane(s->context, plane, "parcels.svg", &desc, facts);
+}
+
+/* A border that ends too early is no sum of pictures. */
+static void check_apart(studio *s) {
+  cs_plot_facts facts;
+  celspan_plane *plane = plane_of(s, studio_show(s, studio_rect(s, 100, 100, 300, 300, ink(s))));
+  CHECK(write_drawing(s, plane, &facts) == CELSPAN_OK && facts.areas == 1 && !facts.is_picture);
+  planefile_border *first = (planefile_border *)planefile_plane_band(plane->plane, 0)->borders;
+  first->foot -= PLANEFILE_SIDE / 1000;
+  CHECK(write_drawing(s, plane, &facts) == CELSPAN_BAD_ARGUMENT);
+  CHECK(strstr(celspan_context_error(s->context), "do not meet") != NULL);
+  celspan_plane_unref(plane);
+  remove("parcels.svg");
+  studio_finish(s);
+}
+
+/* Discs that have a part of their outlines in common, so that arcs are cut and joined. */
+static celspan_plane *discs(studio *s) {
+  celspan_object *objects[3] = {studio_circle(s, 500, 500, 400, ink(s)),
+                                studio_circle(s, 500, 500, 400, NULL),
+                                studio_rect(s, 100, 300, 500, 500, ink(s))};
+  celspan_cel *cel = studio_cel(s, CELSPAN_CEL_DESC, objects, 3);
+  return plane_of(s, studio_rostrum(s, CELSPAN_ROSTRUM_DESC, &cel, 1));
+}
+
+static celspan_status make_all(studio *s, const celspan_plane *plane) {
+  cs_parcels parcels;
+  cs_under under = {0};
+  celspan_status status = cs_parcels_make(s->context, plane, &parcels);
+  if (status == CELSPAN_OK)
+    status = cs_under_make(s->context, &parcels, 1, &under);
+  cs_under_finish(&under, s->context->memory);
+  cs_parcels_finish(&parcels, s->context->memory);
+  return status;
+}
+
+/* Every allocation fails once. */
+static void check_failures_of_memory(studio *s, memory_watch *watch) {
+  celspan_plane *plane = discs(s);
+  bool has_failed = true;
+  for (size_t n = 1; has_failed; n++) {
+    watch->fail_at = watch->allocations + n;
+    celspan_status status = make_all(s, plane);
+    watch->fail_at = 0;
+    has_failed = status != CELSPAN_OK;
+    CHECK(status == CELSPAN_OK || status == CELSPAN_NO_MEMORY);
+  }
+  celspan_plane_unref(plane);
+  studio_finish(s);
+}
+
+int main(void) {
+  memory_watch watch = {0};
+  studio s = {.context = memory_watch_context(&watch)};
+  check_rows(s.context);
+  check_slivers(s.context);
+  check_apart(&s);
+  check_failures_of_memory(&s, &watch);
+  celspan_context_destroy(s.context);
+  CHECK(watch.blocks == 0 && watch.size_errors == 0);
+  return check_done();
+}
