@@ -195,6 +195,14 @@ static int save(lua_State *L) {
   return 0;
 }
 
+/* Pictures are packed already. */
+static celspan_status put_member(cs_archive *archive, const char *path, const char *name,
+                                 const char *bytes, size_t size) {
+  return strcmp(cs_file_ending(name), "png") == 0
+             ? cs_archive_put(archive, path, name, bytes, size)
+             : cs_archive_pack(archive, path, name, bytes, size);
+}
+
 /* The members { name, bytes } of the list at index 2 of the stack. */
 static celspan_status put_members(lua_State *L, cs_archive *archive, const char *path) {
   const lua_Integer count = (lua_Integer)lua_rawlen(L, 2);
@@ -204,7 +212,7 @@ static celspan_status put_members(lua_State *L, cs_archive *archive, const char 
     lua_rawgeti(L, -1, 1);
     lua_rawgeti(L, -2, 2);
     const char *bytes = lua_tolstring(L, -1, &size); /* the list keeps it alive */
-    CS_TRY(cs_archive_pack(archive, path, lua_tostring(L, -2), bytes, size));
+    CS_TRY(put_member(archive, path, lua_tostring(L, -2), bytes, size));
     lua_pop(L, 3);
   }
   return cs_archive_complete(archive);
@@ -219,8 +227,8 @@ static celspan_status save_members(lua_State *L, celspan_context *context, const
   return cs_file_end(file, context, status);
 }
 
-/* save_archive(path, { { name, bytes }, ... }): a zip archive of deflated members, which appears
- * whole or not at all. */
+/* save_archive(path, { { name, bytes }, ... }): a zip archive of deflated members, and of pictures
+ * as they are, which appears whole or not at all. */
 static int save_archive(lua_State *L) {
   const char *path = luaL_checkstring(L, 1);
   luaL_checktype(L, 2, LUA_TTABLE);

@@ -225,6 +225,8 @@ describe("a film as Lottie", function()
     assert.matches("^data:image/png;base64,", document.assets[1].p)
     is_film(path, 3)
     is_film(out "blurred.lottie", 3)
+    -- Pictures are packed already, and stand in the archive as they are.
+    assert.matches("\137PNG\r\n\26\n", bench:read "blurred.lottie", 1, true)
     assert.same({ 320, 180 }, (function(asset) return { asset.w, asset.h } end)(
       select(3, out("large.json", "--scale 2")).assets[1]))
   end)

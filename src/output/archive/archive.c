@@ -87,7 +87,7 @@ static celspan_status put_packed(cs_archive *archive, const char *path, const ch
                                  const void *bytes, size_t size, unsigned char *packed,
                                  size_t room) {
   uLongf used = room;
-  if (compress2(packed, &used, bytes, size, Z_BEST_COMPRESSION) != Z_OK)
+  if (compress2(packed, &used, bytes, size, Z_BEST_COMPRESSION) != Z_OK) /* it has room */
     return cs_fail(archive->context, CELSPAN_NO_MEMORY, "%s: no memory to pack '%s'", path, name);
   CS_TRY(cs_archive_begin(archive, name));
   CS_TRY(cs_file_write(archive->file, archive->context, packed + ZLIB_HEAD,
@@ -101,11 +101,12 @@ static celspan_status put_packed(cs_archive *archive, const char *path, const ch
 
 celspan_status cs_archive_pack(cs_archive *archive, const char *path, const char *name,
                                const void *bytes, size_t size) {
-  unsigned char *packed;
   if (size >= UINT32_MAX)
     return refuse_size(archive, path);
   const size_t room = compressBound(size);
-  CS_TRY(CS_MAKE(archive->context, packed, room));
+  unsigned char *packed = cs_mem_resize(archive->context->memory, NULL, 0, room);
+  if (!packed)
+    return cs_fail_memory(archive->context);
   celspan_status status = put_packed(archive, path, name, bytes, size, packed, room);
   cs_mem_free(archive->context->memory, packed, room);
   return status;
