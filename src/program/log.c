@@ -17,10 +17,11 @@ bool cs_log_open(const char *path) {
   log_file = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0666);
   if (log_file < 0 || fcntl(log_file, F_SETFL, O_APPEND) == 0)
     return log_file >= 0;
-  const int reason = errno;
+  const int reason = errno; /* for the caller's message */
   close(log_file);
   errno = reason;
   log_file = -1;
+  errno = reason;
   return false;
 }
 
