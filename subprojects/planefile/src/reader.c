@@ -524,12 +524,27 @@ planefile_status planefile_read_frame(const planefile_source *source, uint32_t f
   return read_frame(&r, frame, top, foot, out);
 }
 
+/* Leaves what the next frame may be made from. */
+static void free_drawn(planefile_plane *plane) {
+  pf_memory *memory = &plane->memory;
+  for (uint32_t i = 0; plane->bands && i < plane->info.band_count; i++)
+    pf_band_free(memory, &plane->bands[i]);
+  pf_free(memory, plane->bands, sizeof *plane->bands, plane->info.band_count);
+  for (uint32_t i = 0; plane->pictures && i < plane->info.picture_count; i++)
+    pf_picture_free(memory, &plane->pictures[i]);
+  pf_free(memory, plane->pictures, sizeof *plane->pictures, plane->info.picture_count);
+  plane->bands = NULL;
+  plane->pictures = NULL;
+}
+
 planefile_status planefile_read_next(const planefile_source *source, uint32_t frame,
                                      planefile_plane **plane, planefile_fault *fault) {
   planefile_plane *before = *plane;
   reader r = {.source = source, .fault = fault, .keeps = true};
   if (before && before->kept)
     r.before = before;
+  if (before)
+    free_drawn(before);
   planefile_status status = read_frame(&r, frame, 0, PLANEFILE_SIDE, plane);
   planefile_plane_destroy(before);
   return status;
@@ -544,15 +559,10 @@ void planefile_plane_destroy(planefile_plane *plane) {
   if (!plane)
     return;
   pf_memory memory = plane->memory;
-  for (uint32_t i = 0; plane->bands && i < plane->info.band_count; i++)
-    pf_band_free(&memory, &plane->bands[i]);
+  free_drawn(plane);
   for (uint32_t i = 0; plane->kept && i < plane->info.band_count; i++)
     free_kept(&memory, &plane->kept[i]);
-  pf_free(&memory, plane->bands, sizeof *plane->bands, plane->info.band_count);
   pf_free(&memory, plane->kept, sizeof *plane->kept, plane->info.band_count);
-  for (uint32_t i = 0; plane->pictures && i < plane->info.picture_count; i++)
-    pf_picture_free(&memory, &plane->pictures[i]);
-  pf_free(&memory, plane->pictures, sizeof *plane->pictures, plane->info.picture_count);
   pf_free(&memory, plane, sizeof *plane, 1);
 }
 

@@ -883,6 +883,35 @@ static void check_next(memory_file *film, uint64_t seed) {
   CHECK(plane == NULL);
 }
 
+typedef struct live_bytes {
+  size_t now, least;
+} live_bytes;
+
+static void *count_bytes(void *user, void *block, size_t old_size, size_t new_size) {
+  live_bytes *live = user;
+  live->now += new_size - old_size;
+  live->least = live->now < live->least ? live->now : live->least;
+  if (new_size > 0)
+    return realloc(block, new_size);
+  free(block);
+  return NULL;
+}
+
+/* What is not needed of the frame before is freed before the next one is read. */
+static void check_memory_of_next(memory_file *film) {
+  live_bytes live = {0, SIZE_MAX};
+  planefile_source source = memory_source(film);
+  planefile_plane *plane = NULL;
+  source.resize = count_bytes;
+  source.resize_user = &live;
+  CHECK(planefile_read_next(&source, 1, &plane, NULL) == PLANEFILE_OK);
+  const size_t before = live.least = live.now;
+  CHECK(planefile_read_next(&source, 1, &plane, NULL) == PLANEFILE_OK);
+  CHECK(live.now == before && live.least < before);
+  planefile_plane_destroy(plane);
+  CHECK(live.now == 0);
+}
+
 /* A film with any byte altered is refused, or its frames can be drawn. */
 static void check_altered_film(memory_file *film, uint64_t seed) {
   random_state random = {seed};
@@ -948,6 +977,7 @@ static void test_changing_films(void) {
       free(file.bytes);
     }
     check_next(&film, seed);
+    check_memory_of_next(&film);
     CHECK(count_records(&film, PF_CHANGED) >= FRAMES / 2);
     CHECK(film.size < alone / 4 * 3);
     for (uint32_t i = 0; i < 100; i++)
