@@ -42,8 +42,8 @@ static celspan_point near_by(const cs_parcels *parcels) {
                          fmax(NEAR, STEPS * parcels->rows) / PLANEFILE_SIDE * parcels->height};
 }
 
-/* Whether two arcs lie on each other from a height to another one. A point of either may be anywhere
- * in a box: an upright border is moved by its width, one that is nearly flat by its height. */
+/* Whether two arcs lie on each other from a height to another one. A point of either may be
+ * anywhere in a box: its width moves an upright border, and its height one that is nearly flat. */
 static bool are_near(const cs_parcels *parcels, uint32_t a, uint32_t b, double top, double foot) {
   const double unit = parcels->height / PLANEFILE_SIDE, down = (foot - top) * unit;
   const double across = cs_arc_x(parcels, a, foot * unit) - cs_arc_x(parcels, a, top * unit);
