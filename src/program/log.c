@@ -19,7 +19,6 @@ bool cs_log_open(const char *path) {
     return log_file >= 0;
   const int reason = errno; /* for the caller's message */
   close(log_file);
-  errno = reason;
   log_file = -1;
   errno = reason;
   return false;

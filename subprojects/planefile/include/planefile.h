@@ -314,8 +314,8 @@ planefile_status planefile_read(const planefile_source *source, int32_t top, int
 planefile_status planefile_read_frame(const planefile_source *source, uint32_t frame, int32_t top,
                                       int32_t foot, planefile_plane **out, planefile_fault *fault);
 /* Reads one frame, all heights, after another one of the same source, which this replaces: what
- * both are made from is decoded once, and is kept for the next frame; all else of the frame before is
- * freed first. *plane: NULL at first; NULL again, if the status is not OK. */
+ * both are made from is decoded once, and is kept for the next frame; all else of the frame before
+ * is freed first. *plane: NULL at first; NULL again, if the status is not OK. */
 planefile_status planefile_read_next(const planefile_source *source, uint32_t frame,
                                      planefile_plane **plane, planefile_fault *fault);
 /* NULL is ignored. */
