@@ -12,7 +12,7 @@ const fs = require("fs");
 const readline = require("readline");
 
 const [folder, ...single] = process.argv.slice(2);
-const SECONDS = Number(process.env.CELSPAN_BROWSER_SECONDS ?? 60);
+const SECONDS = Number(process.env.CELSPAN_BROWSER_SECONDS ?? 180);
 
 const browser = spawn("chromium", ["--headless=new", "--no-sandbox", "--disable-gpu", "--mute-audio",
   "--no-first-run", "--disable-extensions", "--disable-background-networking",
@@ -99,7 +99,7 @@ async function open(address) {
     },
     /** Waits until an expression is true. */
     async until(expression) {
-      for (let i = 0; i < 400; i++) {
+      for (let i = 0; i < 1200; i++) {
         if (await page.get(`Boolean(${expression})`)) return;
         await pause(0.05);
       }

@@ -9,7 +9,7 @@ const fs = require("fs");
 
 const [address, steps] = process.argv.slice(2);
 const [, host, port, token] = address.match(/^http:\/\/([^:]+):(\d+)\/\?token=(\w+)$/);
-const SECONDS = 50; // for everything
+const SECONDS = 150; // for everything
 setTimeout(() => { console.error(`no end after ${SECONDS} seconds`); process.exit(1); },
            SECONDS * 1000);
 

@@ -8,7 +8,7 @@ const fs = require("fs");
 const Module = require("module");
 
 const [program, script, steps] = process.argv.slice(2);
-const SECONDS = 60; // for everything
+const SECONDS = 180; // for everything
 
 const commands = new Map();
 const desk = {

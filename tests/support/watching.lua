@@ -29,7 +29,7 @@ end
 function watching.start(command, said)
   local _, out = watching.bench:inside(command .. " & echo $!")
   server = out:match "%d+"
-  for _ = 1, 200 do
+  for _ = 1, 600 do
     local address = said()
     if address then return address end
     os.execute "sleep 0.05"
