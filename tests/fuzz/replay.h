@@ -1,6 +1,6 @@
 /* A fuzz target without a fuzzer: every file named on the command line, or in a folder named there,
  * is run whole and cut to a half. A target that defines REPLAY_FAILURES is run once more for each
- * of its allocations, which then fails; it has
+ * of its allocations that check_is_drawn selects, which then fails; it has
  *
  *   fail_at       the number of the allocation that fails, 0: none
  *   allocations   how many the last run made
@@ -11,6 +11,8 @@
 #include <stdio.h>
 #include <sys/stat.h>
 
+#include "tests/support/check.h"
+
 #ifndef REPLAY_FAILURES
 static size_t fail_at, allocations;
 #endif
@@ -19,12 +21,16 @@ static size_t fail_at, allocations;
 static size_t replay_bytes(const uint8_t *bytes, size_t size) {
   fail_at = 0;
   LLVMFuzzerTestOneInput(bytes, size);
-  size_t count = allocations;
-  for (fail_at = 1; fail_at <= count; fail_at++)
-    LLVMFuzzerTestOneInput(bytes, size);
+  size_t count = allocations, runs = 2;
+  for (size_t i = 1; i <= count; i++)
+    if (check_is_drawn((int)i)) {
+      fail_at = i;
+      LLVMFuzzerTestOneInput(bytes, size);
+      runs++;
+    }
   fail_at = 0;
   LLVMFuzzerTestOneInput(bytes, size / 2);
-  return count + 2;
+  return runs;
 }
 
 static size_t replay_file(const char *path) {
