@@ -114,6 +114,37 @@ static void check_batch(cs_painter *painter, const cs_program *program, const cs
   CHECK(wrong == 0);
 }
 
+static bool is_ready(const cs_painter *painter, const cs_program *program, int32_t x0,
+                     int32_t count, double y) {
+  static float rgba[CS_OVER_ROW_BATCH][4];
+  return cs_over_planes_ready(painter, program, &(cs_batch){NULL, x0, count, y}, rgba);
+}
+
+/* What has been folded ahead is given for these pixels of this program, and is not folded again. */
+static void check_ahead(cs_painter *painter, const cs_program *program, double y,
+                        const float (*wanted)[4]) {
+  const int32_t x0 = 1 + random_below(&numbers, WIDTH - 20), x1 = x0 + 12, listed[] = {x0, x1 - 1};
+  const cs_program shorter = {program->items + 1, NULL, program->length - 1};
+  cs_over_planes_prepare(painter, program, (cs_run){x0, x1, y});
+  cs_over_planes_prepare(painter, &shorter, (cs_run){x0, x1, y});
+  const uint64_t evaluations = painter->evaluations;
+  cs_over_planes_prepare(painter, program, (cs_run){x0 + 1, x1, y});
+  check_batch(painter, program, &(cs_batch){NULL, x0, 12, y}, wanted);
+  check_batch(painter, program, &(cs_batch){NULL, x0 + 5, 3, y}, wanted);
+  CHECK(painter->evaluations == evaluations);
+  check_batch(painter, program, &(cs_batch){listed, 0, 2, y}, wanted);
+  CHECK(painter->evaluations == evaluations + 2); /* codes of listed pixels are folded */
+  CHECK(is_ready(painter, program, x0, 12, y) && is_ready(painter, &shorter, x0, 12, y));
+  CHECK(!is_ready(painter, program, x0 - 1, 12, y) && !is_ready(painter, program, x0 + 1, 12, y));
+  CHECK(!is_ready(painter, program, x0, 12, y + 1));
+  const cs_program prefix = {program->items, NULL, program->length - 1};
+  CHECK(!is_ready(painter, &prefix, x0, 12, y));
+  const cs_program other = {program->items + 2, NULL, program->length - 2};
+  CHECK(!is_ready(painter, &other, x0, 12, y));
+  cs_over_planes_prepare(painter, &other, (cs_run){x0, x1, y});
+  CHECK(!is_ready(painter, program, x0, 12, y)); /* two at most */
+}
+
 static void check_row(cs_painter *painter, const cs_program *program, double y) {
   static float wanted[CS_OVER_ROW_BATCH][4];
   static int32_t columns[WIDTH];
@@ -127,6 +158,7 @@ static void check_row(cs_painter *painter, const cs_program *program, double y) 
     check_batch(painter, program, &(cs_batch){NULL, x0, 1 + random_below(&numbers, WIDTH - x0), y},
                 (const float(*)[4])wanted);
     check_batch(painter, program, &(cs_batch){columns, 0, listed, y}, (const float(*)[4])wanted);
+    check_ahead(painter, program, y, (const float(*)[4])wanted);
   }
 }
 

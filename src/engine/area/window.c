@@ -109,6 +109,7 @@ static celspan_status make_stretch(cs_window *window, int32_t next) {
   cs_window_stretch made;
   int32_t end = window->width - next < BESIDE ? window->width : next + BESIDE;
   cs_run between = {window->end, next, window->centre};
+  cs_painter_ahead(window->painter, window->cell, (cs_run){window->from, end, window->centre});
   if (!window->has_stretches || next <= window->end ||
       !cs_painter_blends(window->painter, window->cell) ||
       find_stretch(window, window->cell, between))

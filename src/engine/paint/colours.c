@@ -210,13 +210,9 @@ static celspan_status fold_bare(cs_painter *painter, const cs_program *program,
 celspan_status cs_painter_batch_colours(cs_painter *painter, const cs_program *program,
                                         const cs_batch *batch, float (*rgba)[4]) {
   const cs_gradient_table *table;
-  painter->evaluations += (uint64_t)batch->count;
-  if (cs_over_planes_fits(painter->stack, program)) {
-    cs_over_planes planes;
-    cs_over_planes_fold(painter, program, batch, &planes);
-    CS_WIDE_CHOOSE(painter->isa, cs_over_planes_to_rgba)(&planes, rgba);
+  if (cs_over_planes_colours(painter, program, batch, rgba))
     return CELSPAN_OK;
-  }
+  painter->evaluations += (uint64_t)batch->count;
   CS_TRY(cs_gradient_table_find(painter->gradients, program, &table));
   if (table) {
     cs_gradient_table_colours(table, batch, rgba);
@@ -240,13 +236,8 @@ celspan_status cs_painter_batch_codes(cs_painter *painter, const cs_program *pro
     cs_over_bare_codes(painter->isa, painter->stack, &over, codes);
     return CELSPAN_OK;
   }
-  if (cs_over_planes_fits(painter->stack, program)) {
-    cs_over_planes planes;
-    painter->evaluations += (uint64_t)batch->count;
-    cs_over_planes_fold(painter, program, batch, &planes);
-    CS_WIDE_CHOOSE(painter->isa, cs_over_planes_to_codes)(&planes, codes);
+  if (cs_over_planes_codes(painter, program, batch, codes))
     return CELSPAN_OK;
-  }
   float rgba[CS_OVER_ROW_BATCH][4];
   CS_TRY(cs_painter_batch_colours(painter, program, batch, rgba));
   cs_srgb8_choose(painter->isa)(rgba[0], (size_t)batch->count, codes);
@@ -304,6 +295,9 @@ static celspan_status find_shown(cs_painter *painter, const cs_program *program,
 
 celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program *program,
                                           cs_run run, float (*rgba)[4]) {
+  const cs_batch batch = {NULL, run.x0, run.x1 - run.x0, run.y};
+  if (run.x1 - run.x0 <= CS_FEW_PIXELS && cs_over_planes_ready(painter, program, &batch, rgba))
+    return CELSPAN_OK;
   if (run.x1 - run.x0 <= CS_FEW_PIXELS && cs_few_fits(painter->stack, program))
     return cs_few_colours(painter, program, run, rgba);
   if (!cs_shown_varies(painter->stack, program))
@@ -317,6 +311,12 @@ celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program 
     CS_TRY(cs_painter_shown_colours(painter, &visible, cs_run_between(run, x, end), rgba));
   }
   return CELSPAN_OK;
+}
+
+void cs_painter_ahead(cs_painter *painter, const cs_cell *cell, cs_run run) {
+  const cs_program program = cs_composer_program(painter->composer, cell);
+  if (painter->ahead && cell->length > 0)
+    cs_over_planes_prepare(painter, &program, run);
 }
 
 celspan_status cs_painter_colours(cs_painter *painter, const cs_cell *cell, cs_run run,

@@ -18,6 +18,8 @@ CELSPAN_CHECKED celspan_status cs_painter_colours(cs_painter *painter, const cs_
 CELSPAN_CHECKED celspan_status cs_painter_program_colours(cs_painter *painter,
                                                           const cs_program *program, cs_run run,
                                                           float (*rgba)[4]);
+/* Says that the colours of a cell will be asked for in some parts of a run. */
+void cs_painter_ahead(cs_painter *painter, const cs_cell *cell, cs_run run);
 
 /* ---- for the rest of the room */
 

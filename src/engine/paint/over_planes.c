@@ -22,9 +22,11 @@ bool cs_over_planes_fits(const cs_stack *stack, const cs_program *program) {
   return fits && gradients > 1;
 }
 
-void cs_over_planes_fold(cs_painter *painter, const cs_program *program, const cs_batch *batch,
-                         cs_over_planes *out) {
+/* Folds such a program for the pixels of a batch. */
+static void fold(cs_painter *painter, const cs_program *program, const cs_batch *batch,
+                 cs_over_planes *out) {
   const cs_stack *stack = painter->stack;
+  painter->evaluations += (uint64_t)batch->count;
   WIDE(painter, cs_over_planes_clear)(out, batch->count);
   for (uint32_t i = 0; i < program->length; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
@@ -41,4 +43,92 @@ void cs_over_planes_fold(cs_painter *painter, const cs_program *program, const c
     WIDE(painter, cs_over_planes_add_light)(out, (const float *)&stack->lights[i].light);
     out->keep *= stack->lights[i].keep;
   }
+}
+
+/* Premultiplied RGBA of pixel k. */
+static inline cs_v4 colour_at(const cs_over_planes *planes, int32_t k) {
+  return (cs_v4){planes->light[0][k], planes->light[1][k], planes->light[2][k],
+                 1 - planes->keep * planes->through[k]};
+}
+
+/* ---------------------------------------------------------------- ahead */
+
+static inline bool is_of(const cs_over_planes_ahead *ahead, const cs_program *program, double y) {
+  return ahead->length == program->length && ahead->run.y == y &&
+         memcmp(ahead->items, program->items, program->length * sizeof *program->items) == 0;
+}
+
+/* What has been folded ahead from column x0 up to x1; NULL: not all of it. */
+static const cs_over_planes_ahead *find_ahead(const cs_painter *painter, const cs_program *program,
+                                              cs_run run) {
+  for (int i = 0; i < 2 && painter->ahead && program->length > 0; i++) {
+    const cs_over_planes_ahead *ahead = &painter->ahead[i];
+    if (ahead->run.x0 <= run.x0 && run.x1 <= ahead->run.x1 && is_of(ahead, program, run.y))
+      return ahead;
+  }
+  return NULL;
+}
+
+void cs_over_planes_prepare(cs_painter *painter, const cs_program *program, cs_run run) {
+  const int32_t count = run.x1 - run.x0;
+  if (!painter->ahead || count > CS_OVER_ROW_BATCH || program->length > CS_OVER_PLANES_ITEMS ||
+      find_ahead(painter, program, run) || !cs_over_planes_fits(painter->stack, program))
+    return;
+  cs_over_planes_ahead *ahead = &painter->ahead[painter->next_ahead];
+  painter->next_ahead = !painter->next_ahead;
+  fold(painter, program, &(cs_batch){NULL, run.x0, count, run.y}, &ahead->planes);
+  memcpy(ahead->items, program->items, program->length * sizeof *program->items);
+  ahead->length = program->length;
+  ahead->run = run;
+}
+
+/* ---------------------------------------------------------------- colours */
+
+static inline cs_run run_of(const cs_batch *batch) {
+  if (!batch->columns)
+    return (cs_run){batch->x0, batch->x0 + batch->count, batch->y};
+  return (cs_run){batch->columns[0], batch->columns[batch->count - 1] + 1, batch->y};
+}
+
+static void copy_ready(const cs_over_planes_ahead *ahead, const cs_batch *batch, float (*rgba)[4]) {
+  for (int32_t k = 0; k < batch->count; k++) {
+    const int32_t x = batch->columns ? batch->columns[k] : batch->x0 + k;
+    cs_v4_store(rgba[k], colour_at(&ahead->planes, x - ahead->run.x0));
+  }
+}
+
+bool cs_over_planes_ready(const cs_painter *painter, const cs_program *program,
+                          const cs_batch *batch, float (*rgba)[4]) {
+  const cs_over_planes_ahead *ahead = find_ahead(painter, program, run_of(batch));
+  if (ahead)
+    copy_ready(ahead, batch, rgba);
+  return ahead != NULL;
+}
+
+bool cs_over_planes_colours(cs_painter *painter, const cs_program *program, const cs_batch *batch,
+                            float (*rgba)[4]) {
+  cs_over_planes planes;
+  if (cs_over_planes_ready(painter, program, batch, rgba))
+    return true;
+  if (!cs_over_planes_fits(painter->stack, program))
+    return false;
+  fold(painter, program, batch, &planes);
+  for (int32_t k = 0; k < batch->count; k++)
+    cs_v4_store(rgba[k], colour_at(&planes, k));
+  return true;
+}
+
+bool cs_over_planes_codes(cs_painter *painter, const cs_program *program, const cs_batch *batch,
+                          unsigned char *codes) {
+  const cs_over_planes_ahead *ahead =
+      batch->columns ? NULL : find_ahead(painter, program, run_of(batch));
+  cs_over_planes planes;
+  const int32_t first = ahead ? batch->x0 - ahead->run.x0 : 0;
+  if (!ahead && !cs_over_planes_fits(painter->stack, program))
+    return false;
+  if (!ahead)
+    fold(painter, program, batch, &planes);
+  WIDE(painter, cs_over_planes_to_codes)
+  (ahead ? &ahead->planes : &planes, first, batch->count, codes);
+  return true;
 }

@@ -12,23 +12,24 @@
  */
 #pragma once
 
+#include "engine/paint/ahead.h"
 #include "engine/paint/over_row.h"
 #include "engine/paint/painter.h"
 
-#define CS_OVER_PLANES_ROOM (CS_OVER_ROW_BATCH + 16) /* whole registers are read and written */
-
-typedef struct cs_over_planes {
-  float light[3][CS_OVER_PLANES_ROOM], through[CS_OVER_PLANES_ROOM];
-  int32_t count; /* pixels */
-  float keep;    /* the share of transparency that the mattes of back lights leave */
-} cs_over_planes;
-
 /* Whether a program is folded so. It has several gradients: one alone is read from a table. */
 bool cs_over_planes_fits(const cs_stack *stack, const cs_program *program);
+/* Folds a run ahead, if the program is folded so and neither it nor the run is long. */
+void cs_over_planes_prepare(cs_painter *painter, const cs_program *program, cs_run run);
 
-/* Folds such a program for the pixels of a batch. */
-void cs_over_planes_fold(cs_painter *painter, const cs_program *program, const cs_batch *batch,
-                         cs_over_planes *out);
+/* The colours of a batch, premultiplied RGBA, and its codes: pixel by pixel in the order of the
+ * columns. False: the program is not folded so. */
+bool cs_over_planes_colours(cs_painter *painter, const cs_program *program, const cs_batch *batch,
+                            float (*rgba)[4]);
+bool cs_over_planes_codes(cs_painter *painter, const cs_program *program, const cs_batch *batch,
+                          unsigned char *codes);
+/* The colours where they have been folded ahead. False: they have not. */
+bool cs_over_planes_ready(const cs_painter *painter, const cs_program *program,
+                          const cs_batch *batch, float (*rgba)[4]);
 
 /* ---- over_planes_wide.c */
 
@@ -39,6 +40,6 @@ CS_WIDE_DECLARE(void, cs_over_planes_add_light, (cs_over_planes * planes, const 
 CS_WIDE_DECLARE(void, cs_over_planes_add_shade,
                 (cs_over_planes * planes, const cs_layer *layer, const cs_shade *shade,
                  const cs_batch *batch));
-/* Premultiplied RGBA, and 8-bit sRGB. */
-CS_WIDE_DECLARE(void, cs_over_planes_to_rgba, (const cs_over_planes *planes, float (*rgba)[4]));
-CS_WIDE_DECLARE(void, cs_over_planes_to_codes, (const cs_over_planes *planes, unsigned char *out));
+/* 8-bit sRGB of `count` pixels from a first one on. */
+CS_WIDE_DECLARE(void, cs_over_planes_to_codes,
+                (const cs_over_planes *planes, int32_t first, int32_t count, unsigned char *out));

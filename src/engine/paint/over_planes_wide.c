@@ -153,21 +153,15 @@ void CS_WIDE(cs_over_planes_add_shade)(cs_over_planes *planes, const cs_layer *l
   }
 }
 
-void CS_WIDE(cs_over_planes_to_rgba)(const cs_over_planes *planes, float (*rgba)[4]) {
-  const float(*light)[CS_OVER_PLANES_ROOM] = planes->light;
-  for (int32_t k = 0; k < planes->count; k++)
-    cs_v4_store(rgba[k], (cs_v4){light[0][k], light[1][k], light[2][k],
-                                 1 - planes->keep * planes->through[k]});
-}
-
-void CS_WIDE(cs_over_planes_to_codes)(const cs_over_planes *planes, unsigned char *out) {
-  for (int32_t k = 0; k < planes->count; k += CS_WIDE_LANES) {
+void CS_WIDE(cs_over_planes_to_codes)(const cs_over_planes *planes, int32_t first, int32_t count,
+                                      unsigned char *out) {
+  for (int32_t k = 0; k < count; k += CS_WIDE_LANES) {
     cs_srgb8_planes colours;
     for (int c = 0; c < 3; c++)
-      colours.channels[c] = cs_wide_load(planes->light[c] + k);
-    colours.channels[3] = 1 - planes->keep * cs_wide_load(planes->through + k);
+      colours.channels[c] = cs_wide_load(planes->light[c] + first + k);
+    colours.channels[3] = 1 - planes->keep * cs_wide_load(planes->through + first + k);
     const cs_wide_int pixels = cs_srgb8_code_planes(&colours, false);
-    const int32_t left = planes->count - k;
+    const int32_t left = count - k;
     memcpy(out + 4 * (size_t)k, &pixels, 4 * (size_t)(left < CS_WIDE_LANES ? left : CS_WIDE_LANES));
   }
 }

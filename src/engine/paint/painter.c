@@ -28,6 +28,7 @@ celspan_status cs_painter_init(cs_painter *painter, celspan_context *context, co
   if (stack->shade_count == 0)
     return CELSPAN_OK;
   CS_TRY(allocate(painter, &painter->steady, stack->shade_count, sizeof(cs_painter_steady)));
+  CS_TRY(allocate(painter, &painter->ahead, 2, sizeof(cs_over_planes_ahead)));
   return cs_gradient_tables_create(context, stack, painter->isa, &painter->scratch,
                                    &painter->gradients);
 }
@@ -56,6 +57,7 @@ void cs_painter_finish(cs_painter *painter) {
     cs_defocused_release(stack->defocused[i], painter->context, &painter->defocused[i]);
   cs_mem_free(memory, painter->defocused, stack->defocused_count * sizeof(cs_defocused_view));
   cs_mem_free(memory, painter->steady, stack->shade_count * sizeof *painter->steady);
+  cs_mem_free(memory, painter->ahead, 2 * sizeof *painter->ahead);
   cs_gradient_tables_destroy(painter->gradients, memory);
   for (int i = 0; i < 2; i++)
     cs_mem_free(memory, painter->shown[i].items,

@@ -20,6 +20,7 @@
 
 #include "base/arena.h"
 #include "engine/compose/composer.h"
+#include "engine/paint/ahead.h"
 #include "engine/paint/shade.h"
 #include "engine/sample/defocused.h"
 #include "engine/sample/sampler.h"
@@ -83,6 +84,8 @@ typedef struct cs_painter {
   cs_defocused_view *defocused;
   cs_painter_steady *steady;            /* one a shade */
   struct cs_gradient_tables *gradients; /* NULL without formulas: gradient_table.h */
+  cs_over_planes_ahead *ahead;          /* two; NULL without formulas: ahead.h */
+  int next_ahead;                       /* which of the two is replaced next */
   cs_copies_plan *copies;               /* NULL without pictures: copies.c */
   cs_arena scratch;                     /* of one run */
   cs_shown shown[2];    /* of the columns being painted, and of those right of them */
