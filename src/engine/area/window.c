@@ -458,30 +458,44 @@ static celspan_status close_tile(mixture *m, int32_t p0, int32_t p1) {
   return put_pixels(window, p0, p1, sum);
 }
 
-/* The same where one border goes through the row, as in most windows. */
-static celspan_status close_between(cs_window *window, const cs_direct_piece *f) {
+/* Gives the areas right of a border to the columns of the window. */
+static void add_areas(const cs_window *window, const cs_border *border, double *areas) {
+  const cs_direct_piece f = measure(window, border);
+  for (int32_t p = f.first; p < window->end; p++)
+    areas[p - window->from] += p < f.end ? cover(&f, p) : f.height;
+}
+
+/* The same where one boundary goes through the row, as in most windows: in one piece, or bent. */
+static celspan_status close_between(cs_window *window) {
   const cs_border *border = window->borders;
   int32_t p0 = window->from, p1 = window->end;
   float left[CS_WINDOW_NARROW][4], right[CS_WINDOW_NARROW][4], room[4 * FEW], *sum;
+  double areas[CS_WINDOW_NARROW] = {0};
   cs_run run = {p0, p1, window->centre};
   CS_TRY(find_colours(window, border->left, run, left));
   CS_TRY(find_colours(window, border->right, run, right));
   CS_TRY(open_pixels(window, p0, p1, room, &sum));
-  for (int32_t p = p0; p < p1; p++) {
-    double area = p < f->end ? cover(f, p) : 1;
-    cs_v4_store(sum + 4 * (p - p0), cs_v4_load(left[p - p0]) * (float)(1 - area) +
-                                        cs_v4_load(right[p - p0]) * (float)area);
-  }
+  for (size_t i = 0; i < window->border_count; i++)
+    add_areas(window, &border[i], areas);
+  for (int32_t k = 0; k < p1 - p0; k++)
+    cs_v4_store(sum + 4 * k, cs_v4_load(left[k]) * (float)(1 - areas[k]) +
+                                 cs_v4_load(right[k]) * (float)areas[k]);
   return put_pixels(window, p0, p1, sum);
 }
 
-/* Whether the first border goes through the whole row, and the window has no columns except those
- * of this border. */
-static bool is_between(const cs_window *window, const cs_direct_piece *f) {
+/* Whether all borders are pieces of one boundary that goes through the whole row. */
+static bool is_between(const cs_window *window) {
   const cs_border *border = window->borders;
   const cs_composer *composer = window->composer;
-  return window->end - window->from <= CS_WINDOW_NARROW && f->first == window->from &&
-         f->height == 1 &&
+  double height = 0;
+  if (window->end - window->from > CS_WINDOW_NARROW)
+    return false;
+  for (size_t i = 0; i < window->border_count; i++) {
+    if (border[i].left != border->left || border[i].right != border->right)
+      return false;
+    height += measure(window, &border[i]).height;
+  }
+  return height == 1 &&
          (border->left == window->base || cs_composer_same(composer, border->left, window->base)) &&
          !cs_composer_same(composer, border->left, border->right);
 }
@@ -495,15 +509,13 @@ static celspan_status close_varying(cs_window *window) {
 }
 
 static celspan_status draw_window(cs_window *window) {
+  if (window->varies)
+    return is_between(window) ? close_between(window) : close_varying(window);
   if (window->border_count == 1) {
     const cs_direct_piece lone = measure(window, window->borders);
-    if (window->varies && is_between(window, &lone))
-      return close_between(window, &lone);
-    if (!window->varies && lone.end > lone.first)
+    if (lone.end > lone.first)
       return close_lone(window, &lone);
   }
-  if (window->varies)
-    return close_varying(window);
   return window->end - window->from <= CS_WINDOW_NARROW ? close_narrow(window) : close_wide(window);
 }
 
