@@ -21,9 +21,14 @@
 /* columns of the next window for which a cell is folded together with the columns of its own
  * window */
 #define BESIDE 2
+/* and those that the painter folds together with them, if it can */
+#define AHEAD 4
 
 /* Clears the sums of the open window. */
 static void clear_change(cs_window *window) {
+  if (!window->has_change)
+    return;
+  window->has_change = false;
   int32_t columns = window->end - window->from;
   columns = columns < CS_WINDOW_NARROW ? columns : CS_WINDOW_NARROW;
   memset(window->change, 0, (size_t)(columns + 3) * sizeof *window->change);
@@ -55,6 +60,7 @@ void cs_window_begin_row(cs_window *window, int32_t y, const cs_cell *leftmost, 
   window->base = window->cell = leftmost;
   window->border_count = 0;
   window->is_open = window->varies = window->is_whole_row = false;
+  window->ahead = NULL;
   for (int i = 0; i < 2; i++)
     window->stretches[i].end = window->stretches[i].from = 0;
 }
@@ -103,13 +109,23 @@ static const float (*find_stretch(const cs_window *window, const cs_cell *cell, 
   return NULL;
 }
 
+/* Says which columns of the cell right of the open window will be asked for. */
+static void say_ahead(cs_window *window, int32_t next) {
+  int32_t end = window->width - next < AHEAD ? window->width : next + AHEAD;
+  if (window->cell->length == 0 || (window->cell == window->ahead && end <= window->ahead_end))
+    return;
+  window->ahead = window->cell;
+  window->ahead_end = end;
+  cs_painter_ahead(window->painter, window->cell, (cs_run){window->from, end, window->centre});
+}
+
 /* Makes the stretch of the cell right of the open window, up to the next window's first columns,
  * which replaces the stretch of the previous cell. next: the first column of the next window. */
 static celspan_status make_stretch(cs_window *window, int32_t next) {
   cs_window_stretch made;
   int32_t end = window->width - next < BESIDE ? window->width : next + BESIDE;
   cs_run between = {window->end, next, window->centre};
-  cs_painter_ahead(window->painter, window->cell, (cs_run){window->from, end, window->centre});
+  say_ahead(window, next);
   if (!window->has_stretches || next <= window->end ||
       !cs_painter_blends(window->painter, window->cell) ||
       find_stretch(window, window->cell, between))
@@ -151,8 +167,9 @@ static celspan_status draw_cell(cs_window *window, int32_t next) {
 /* ---------------------------------------------------------------- closing */
 
 /* A window with one border, which crosses columns between flat cells. */
-static celspan_status close_lone(cs_window *window, const cs_direct_piece *f) {
-  const cs_border *border = window->borders;
+static celspan_status close_lone(cs_window *window) {
+  const cs_border *border = &window->borders->border;
+  const cs_direct_piece *f = &window->borders->piece;
   cs_v4 base = window->base->colour, step = border->right->colour - border->left->colour;
   int32_t last = f->end - 1;
   double across = f->xa < f->xb ? f->xb - f->xa : f->xa - f->xb;
@@ -213,11 +230,11 @@ static celspan_status list_by_tiles(const cs_window *window, crossing ***out) {
     return CELSPAN_NO_MEMORY;
   memset(lists, 0, count * sizeof *lists);
   for (size_t i = window->border_count; i-- > 0;) {
-    const cs_direct_piece piece = measure(window, &window->borders[i]);
-    if (piece.first >= window->end)
+    const cs_window_border *at = &window->borders[i];
+    if (at->piece.first >= window->end)
       continue;
-    crossing **list = &lists[(piece.first - window->from) / TILE];
-    all[i] = (crossing){piece, &window->borders[i], *list};
+    crossing **list = &lists[(at->piece.first - window->from) / TILE];
+    all[i] = (crossing){at->piece, &at->border, *list};
     *list = &all[i];
   }
   *out = lists;
@@ -350,9 +367,9 @@ static celspan_status begin_mixture(cs_window *window, mixture *m) {
     return CELSPAN_NO_MEMORY;
   m->cells[find_cell(m, window->base)].carry = 1;
   for (size_t i = 0; i < count; i++) {
-    const cs_border *border = &window->borders[i];
+    const cs_border *border = &window->borders[i].border;
     uint32_t left = find_cell(m, border->left);
-    m->edges[i] = (cell_edge){measure(window, border), border, left, find_cell(m, border->right)};
+    m->edges[i] = (cell_edge){window->borders[i].piece, border, left, find_cell(m, border->right)};
   }
   sort_edges(m->edges, count);
   return CELSPAN_OK;
@@ -458,16 +475,15 @@ static celspan_status close_tile(mixture *m, int32_t p0, int32_t p1) {
   return put_pixels(window, p0, p1, sum);
 }
 
-/* Gives the areas right of a border to the columns of the window. */
-static void add_areas(const cs_window *window, const cs_border *border, double *areas) {
-  const cs_direct_piece f = measure(window, border);
-  for (int32_t p = f.first; p < window->end; p++)
-    areas[p - window->from] += p < f.end ? cover(&f, p) : f.height;
+/* Adds the areas right of a border in the columns of the window. */
+static void add_areas(const cs_window *window, const cs_direct_piece *f, double *areas) {
+  for (int32_t p = f->first; p < window->end; p++)
+    areas[p - window->from] += p < f->end ? cover(f, p) : f->height;
 }
 
-/* The same where one boundary goes through the row, as in most windows: in one piece, or bent. */
+/* The same where one boundary goes through the whole row, straight or bent, as in most windows. */
 static celspan_status close_between(cs_window *window) {
-  const cs_border *border = window->borders;
+  const cs_border *border = &window->borders->border;
   int32_t p0 = window->from, p1 = window->end;
   float left[CS_WINDOW_NARROW][4], right[CS_WINDOW_NARROW][4], room[4 * FEW], *sum;
   double areas[CS_WINDOW_NARROW] = {0};
@@ -476,28 +492,27 @@ static celspan_status close_between(cs_window *window) {
   CS_TRY(find_colours(window, border->right, run, right));
   CS_TRY(open_pixels(window, p0, p1, room, &sum));
   for (size_t i = 0; i < window->border_count; i++)
-    add_areas(window, &border[i], areas);
+    add_areas(window, &window->borders[i].piece, areas);
   for (int32_t k = 0; k < p1 - p0; k++)
     cs_v4_store(sum + 4 * k, cs_v4_load(left[k]) * (float)(1 - areas[k]) +
                                  cs_v4_load(right[k]) * (float)areas[k]);
   return put_pixels(window, p0, p1, sum);
 }
 
-/* Whether all borders are pieces of one boundary that goes through the whole row. */
+/* Whether the borders are the pieces of one boundary that goes through the whole row. */
 static bool is_between(const cs_window *window) {
-  const cs_border *border = window->borders;
+  const cs_border *first = &window->borders->border;
   const cs_composer *composer = window->composer;
+  bool is_one = window->end - window->from <= CS_WINDOW_NARROW;
   double height = 0;
-  if (window->end - window->from > CS_WINDOW_NARROW)
-    return false;
-  for (size_t i = 0; i < window->border_count; i++) {
-    if (border[i].left != border->left || border[i].right != border->right)
-      return false;
-    height += measure(window, &border[i]).height;
+  for (size_t i = 0; i < window->border_count && is_one; i++) {
+    const cs_window_border *at = &window->borders[i];
+    is_one = at->border.left == first->left && at->border.right == first->right;
+    height += at->piece.height;
   }
-  return height == 1 &&
-         (border->left == window->base || cs_composer_same(composer, border->left, window->base)) &&
-         !cs_composer_same(composer, border->left, border->right);
+  return is_one && height == 1 &&
+         (first->left == window->base || cs_composer_same(composer, first->left, window->base)) &&
+         !cs_composer_same(composer, first->left, first->right);
 }
 
 static celspan_status close_varying(cs_window *window) {
@@ -511,11 +526,8 @@ static celspan_status close_varying(cs_window *window) {
 static celspan_status draw_window(cs_window *window) {
   if (window->varies)
     return is_between(window) ? close_between(window) : close_varying(window);
-  if (window->border_count == 1) {
-    const cs_direct_piece lone = measure(window, window->borders);
-    if (lone.end > lone.first)
-      return close_lone(window, &lone);
-  }
+  if (window->border_count == 1 && window->borders->piece.end > window->borders->piece.first)
+    return close_lone(window);
   return window->end - window->from <= CS_WINDOW_NARROW ? close_narrow(window) : close_wide(window);
 }
 
@@ -550,14 +562,15 @@ celspan_status cs_window_begin_item(cs_window *window, double x) {
 
 /* Extends the window to the columns of a new border. If the cells of the border are flat and the
  * columns few, adds the border to the sums of the columns. */
-static void note_border(cs_window *window, const cs_border *border) {
-  const cs_direct_piece piece = measure(window, border);
-  window->end = piece.end > window->end ? piece.end : window->end;
+static void note_border(cs_window *window, const cs_window_border *noted) {
+  const cs_border *border = &noted->border;
+  window->end = noted->piece.end > window->end ? noted->piece.end : window->end;
   if ((border->left->length | border->right->length) != 0) {
     window->varies = true;
-  } else if (piece.end - window->from <= CS_WINDOW_NARROW) {
+  } else if (noted->piece.end - window->from <= CS_WINDOW_NARROW) {
     cs_sum4 step = CS_SUM4(border->right->colour) - CS_SUM4(border->left->colour);
-    cs_direct_add(window->change, window->from, piece, &step);
+    cs_direct_add(window->change, window->from, noted->piece, &step);
+    window->has_change = true;
   }
 }
 
@@ -565,8 +578,9 @@ celspan_status cs_window_add(cs_window *window, const cs_border *border) {
   if (window->border_count == window->border_capacity)
     CS_TRY(CS_RESERVE(window->composer->context, window->borders, window->border_capacity,
                       window->border_count + 1));
-  window->borders[window->border_count++] = *border;
-  note_border(window, border);
+  cs_window_border *added = &window->borders[window->border_count++];
+  *added = (cs_window_border){*border, measure(window, border)};
+  note_border(window, added);
   return CELSPAN_OK;
 }
 

@@ -36,6 +36,12 @@ typedef struct cs_window_stretch {
   size_t capacity;
 } cs_window_stretch;
 
+/* A border of the open window, and its part inside the window. */
+typedef struct cs_window_border {
+  cs_border border;
+  cs_direct_piece piece;
+} cs_window_border;
+
 typedef struct cs_window {
   cs_painter *painter;         /* borrowed */
   const cs_composer *composer; /* the painter's */
@@ -48,14 +54,17 @@ typedef struct cs_window {
   int32_t end;         /* of the open window; equal to `from` if it is empty */
   const cs_cell *base; /* the cell left of the window */
   const cs_cell *cell; /* the cell right of all items so far */
-  cs_border *borders;  /* of the open window */
+  cs_window_border *borders;
   size_t border_count, border_capacity;
   bool is_open, varies;
   /* what borders between flat cells that end near the window's left end add to the sum of colours
    * from column to column */
   cs_sum4 change[CS_WINDOW_NARROW + 3];
-  bool is_whole_row;              /* the whole row is one window: items may come in any order */
-  cs_arena tiles;                 /* memory for the weights of one tile; owned by the window */
+  bool has_change;      /* it is not all 0 */
+  bool is_whole_row;    /* the whole row is one window: items may come in any order */
+  cs_arena tiles;       /* memory for the weights of one tile; owned by the window */
+  const cs_cell *ahead; /* the cell whose pixels up to ahead_end are folded */
+  int32_t ahead_end;
   bool has_stretches;             /* there may be stretches */
   cs_window_stretch stretches[2]; /* of the cells on both sides of the open window */
 } cs_window;

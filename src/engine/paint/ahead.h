@@ -8,7 +8,7 @@
  *     |   /   |            |  /    |
  *         |<----- ahead ----->|
  *
- * Invariant: the pixels depend on the stack, the program's items and the place alone, so they stay
+ * Invariant: the pixels depend on the stack, the program's layers and the place alone, so they stay
  * right as long as the stack lives.
  */
 #pragma once
@@ -29,7 +29,7 @@ typedef struct cs_over_planes {
 /* The pixels of a run, folded ahead. */
 typedef struct cs_over_planes_ahead {
   cs_over_planes planes;
-  cs_item items[CS_OVER_PLANES_ITEMS]; /* of the program */
-  uint32_t length;                     /* 0: nothing has been folded */
+  uint32_t layers[CS_OVER_PLANES_ITEMS]; /* of the program's items */
+  uint32_t length;                       /* 0: nothing has been folded */
   cs_run run;
 } cs_over_planes_ahead;

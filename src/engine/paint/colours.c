@@ -210,10 +210,12 @@ static celspan_status fold_bare(cs_painter *painter, const cs_program *program,
 celspan_status cs_painter_batch_colours(cs_painter *painter, const cs_program *program,
                                         const cs_batch *batch, float (*rgba)[4]) {
   const cs_gradient_table *table;
-  if (cs_over_planes_colours(painter, program, batch, rgba))
+  if (cs_over_planes_ready(painter, program, batch, rgba))
+    return CELSPAN_OK;
+  CS_TRY(cs_gradient_table_find(painter->gradients, program, &table));
+  if (!table && cs_over_planes_colours(painter, program, batch, rgba))
     return CELSPAN_OK;
   painter->evaluations += (uint64_t)batch->count;
-  CS_TRY(cs_gradient_table_find(painter->gradients, program, &table));
   if (table) {
     cs_gradient_table_colours(table, batch, rgba);
     return CELSPAN_OK;
@@ -315,8 +317,7 @@ celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program 
 
 void cs_painter_ahead(cs_painter *painter, const cs_cell *cell, cs_run run) {
   const cs_program program = cs_composer_program(painter->composer, cell);
-  if (painter->ahead && cell->length > 0)
-    cs_over_planes_prepare(painter, &program, run);
+  cs_over_planes_prepare(painter, &program, run);
 }
 
 celspan_status cs_painter_colours(cs_painter *painter, const cs_cell *cell, cs_run run,

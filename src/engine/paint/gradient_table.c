@@ -2,6 +2,7 @@
 
 #define SLOTS 1024          /* tables remembered; a power of two */
 #define SECTION_LIMIT 16384 /* sections of all tables together */
+#define FEW 4               /* pixels that are found one by one: vectors do not pay */
 
 struct cs_gradient_tables {
   celspan_context *context;
@@ -35,17 +36,22 @@ void cs_gradient_tables_destroy(cs_gradient_tables *tables, cs_memory *memory) {
 
 /* ---------------------------------------------------------------- colours */
 
+static inline void put_colour(const cs_gradient_table *table, double at, float *rgba) {
+  size_t section = cs_gradient_table_section_at(table->shade, at);
+  cs_v4_store(rgba, cs_gradient_table_mix(&table->sections[section], at));
+}
+
 void cs_gradient_table_colours(const cs_gradient_table *table, const cs_batch *batch,
                                float (*rgba)[4]) {
-  for (int32_t first = 0, k = 0; k < batch->count; first = k) {
+  for (int32_t k = 0; k < batch->count && batch->count <= FEW; k++)
+    put_colour(table, cs_shade_at(table->shade, cs_batch_centre(batch, k), batch->y), rgba[k]);
+  for (int32_t first = 0, k = 0; k < batch->count && batch->count > FEW; first = k) {
     double x[CS_SHADE_PLACES], at[CS_SHADE_PLACES];
     for (; k < batch->count && k - first < CS_SHADE_PLACES; k++)
       x[k - first] = cs_batch_centre(batch, k);
     cs_shade_find(table->shade, x, k - first, batch->y, at);
-    for (int32_t i = 0; i < k - first; i++) {
-      size_t section = cs_gradient_table_section_at(table->shade, at[i]);
-      cs_v4_store(rgba[first + i], cs_gradient_table_mix(&table->sections[section], at[i]));
-    }
+    for (int32_t i = 0; i < k - first; i++)
+      put_colour(table, at[i], rgba[first + i]);
   }
 }
 

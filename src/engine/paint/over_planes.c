@@ -53,17 +53,20 @@ static inline cs_v4 colour_at(const cs_over_planes *planes, int32_t k) {
 
 /* ---------------------------------------------------------------- ahead */
 
-static inline bool is_of(const cs_over_planes_ahead *ahead, const cs_program *program, double y) {
-  return ahead->length == program->length && ahead->run.y == y &&
-         memcmp(ahead->items, program->items, program->length * sizeof *program->items) == 0;
+static inline bool is_of(const cs_over_planes_ahead *ahead, const cs_program *program) {
+  for (uint32_t i = 0; i < program->length; i++)
+    if (ahead->layers[i] != program->items[i].layer)
+      return false;
+  return ahead->length > 0;
 }
 
 /* What has been folded ahead from column x0 up to x1; NULL: not all of it. */
-static const cs_over_planes_ahead *find_ahead(const cs_painter *painter, const cs_program *program,
-                                              cs_run run) {
-  for (int i = 0; i < 2 && painter->ahead && program->length > 0; i++) {
+static inline const cs_over_planes_ahead *find_ahead(const cs_painter *painter,
+                                                     const cs_program *program, cs_run run) {
+  for (int i = 0; i < 2 && painter->ahead; i++) {
     const cs_over_planes_ahead *ahead = &painter->ahead[i];
-    if (ahead->run.x0 <= run.x0 && run.x1 <= ahead->run.x1 && is_of(ahead, program, run.y))
+    if (ahead->run.x0 <= run.x0 && run.x1 <= ahead->run.x1 && ahead->run.y == run.y &&
+        ahead->length == program->length && is_of(ahead, program))
       return ahead;
   }
   return NULL;
@@ -77,7 +80,8 @@ void cs_over_planes_prepare(cs_painter *painter, const cs_program *program, cs_r
   cs_over_planes_ahead *ahead = &painter->ahead[painter->next_ahead];
   painter->next_ahead = !painter->next_ahead;
   fold(painter, program, &(cs_batch){NULL, run.x0, count, run.y}, &ahead->planes);
-  memcpy(ahead->items, program->items, program->length * sizeof *program->items);
+  for (uint32_t i = 0; i < program->length; i++)
+    ahead->layers[i] = program->items[i].layer;
   ahead->length = program->length;
   ahead->run = run;
 }
@@ -91,10 +95,11 @@ static inline cs_run run_of(const cs_batch *batch) {
 }
 
 static void copy_ready(const cs_over_planes_ahead *ahead, const cs_batch *batch, float (*rgba)[4]) {
-  for (int32_t k = 0; k < batch->count; k++) {
-    const int32_t x = batch->columns ? batch->columns[k] : batch->x0 + k;
-    cs_v4_store(rgba[k], colour_at(&ahead->planes, x - ahead->run.x0));
-  }
+  const int32_t first = batch->x0 - ahead->run.x0;
+  for (int32_t k = 0; k < batch->count && batch->columns; k++)
+    cs_v4_store(rgba[k], colour_at(&ahead->planes, batch->columns[k] - ahead->run.x0));
+  for (int32_t k = 0; k < batch->count && !batch->columns; k++)
+    cs_v4_store(rgba[k], colour_at(&ahead->planes, first + k));
 }
 
 bool cs_over_planes_ready(const cs_painter *painter, const cs_program *program,
@@ -108,8 +113,6 @@ bool cs_over_planes_ready(const cs_painter *painter, const cs_program *program,
 bool cs_over_planes_colours(cs_painter *painter, const cs_program *program, const cs_batch *batch,
                             float (*rgba)[4]) {
   cs_over_planes planes;
-  if (cs_over_planes_ready(painter, program, batch, rgba))
-    return true;
   if (!cs_over_planes_fits(painter->stack, program))
     return false;
   fold(painter, program, batch, &planes);

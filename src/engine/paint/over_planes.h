@@ -21,8 +21,8 @@ bool cs_over_planes_fits(const cs_stack *stack, const cs_program *program);
 /* Folds a run ahead, if the program is folded so and neither it nor the run is long. */
 void cs_over_planes_prepare(cs_painter *painter, const cs_program *program, cs_run run);
 
-/* The colours of a batch, premultiplied RGBA, and its codes: pixel by pixel in the order of the
- * columns. False: the program is not folded so. */
+/* The colours of a batch, premultiplied RGBA, and its codes, folded ahead or not. False: the
+ * program is not folded so. */
 bool cs_over_planes_colours(cs_painter *painter, const cs_program *program, const cs_batch *batch,
                             float (*rgba)[4]);
 bool cs_over_planes_codes(cs_painter *painter, const cs_program *program, const cs_batch *batch,

@@ -82,44 +82,44 @@ static inline void find_places(piece *p) {
 }
 
 /* One register of a stretch, of pixels from k on. is_lit, a constant of each caller: light and fade
- * change paints. */
+ * change paints. mask: the lanes that lie in the stretch; the others are kept. */
 static inline void add_register(cs_over_planes *planes, const cs_layer *layer,
-                                const cs_shade_stretch *part, cs_wide share, int32_t k,
-                                bool is_lit) {
-  const cs_wide through = cs_wide_load(planes->through + k);
+                                const cs_shade_stretch *part, cs_wide share, cs_wide_int mask,
+                                int32_t k, bool is_lit) {
   const float fade = layer->fade;
+  const cs_wide through = cs_wide_load(planes->through + k);
   for (int c = 0; c < 3; c++) {
     float *light = planes->light[c] + k;
-    const cs_wide s = part->paint.s[c] + share * part->step.s[c];
-    cs_wide_store(light,
-                  cs_wide_load(light) + through * (is_lit ? layer->front[c] * (fade * s) : s));
+    const cs_wide before = cs_wide_load(light), s = part->paint.s[c] + share * part->step.s[c];
+    const cs_wide after = before + through * (is_lit ? layer->front[c] * (fade * s) : s);
+    cs_wide_store(light, cs_wide_choose(mask, after, before));
   }
   const cs_wide t = part->paint.t[0] + share * part->step.t[0];
-  cs_wide_store(planes->through + k, through * (is_lit ? (1 - fade) + fade * t : t));
+  const cs_wide after = through * (is_lit ? (1 - fade) + fade * t : t);
+  cs_wide_store(planes->through + k, cs_wide_choose(mask, after, through));
+}
+
+/* The first lanes of a register. */
+static inline cs_wide_int first_lanes(int32_t count) {
+  cs_wide_int number;
+  for (int i = 0; i < CS_WIDE_LANES; i++)
+    number[i] = i;
+  return number < count;
 }
 
 /* Pixels that lie in a stretch, from pixel `first` of the piece on. */
 static inline void add_stretch(cs_over_planes *planes, const piece *p, const cs_shade_stretch *part,
                                int32_t first, int32_t count, bool is_lit) {
   const cs_shade_stretch own = *part; /* the compiler sees that nothing changes it */
-  for (int32_t i = 0; i < count; i += CS_WIDE_LANES)
-    add_register(planes, p->layer, &own, cs_wide_load(p->shares + i), p->first + first + i, is_lit);
-}
-
-static inline float *plane_of(cs_over_planes *planes, int c) {
-  return c < 3 ? planes->light[c] : planes->through;
-}
-
-/* As add_stretch where other pixels of the batch follow in the last register: they are kept. */
-static void add_part(cs_over_planes *planes, const piece *p, const cs_shade_stretch *part,
-                     int32_t first, int32_t count, bool is_lit) {
-  const int32_t end = p->first + first + count;
-  float kept[4][CS_WIDE_LANES];
-  for (int c = 0; c < 4; c++)
-    memcpy(kept[c], plane_of(planes, c) + end, sizeof kept[c]);
-  add_stretch(planes, p, part, first, count, is_lit);
-  for (int c = 0; c < 4; c++)
-    memcpy(plane_of(planes, c) + end, kept[c], sizeof kept[c]);
+  const cs_layer *layer = p->layer;
+  const int32_t from = p->first + first;
+  const cs_wide_int all = first_lanes(CS_WIDE_LANES);
+  int32_t i = 0;
+  for (; i + CS_WIDE_LANES <= count; i += CS_WIDE_LANES)
+    add_register(planes, layer, &own, cs_wide_load(p->shares + i), all, from + i, is_lit);
+  if (i < count)
+    add_register(planes, layer, &own, cs_wide_load(p->shares + i), first_lanes(count - i), from + i,
+                 is_lit);
 }
 
 static inline void add_piece(cs_over_planes *planes, piece *p, bool is_lit) {
@@ -128,10 +128,7 @@ static inline void add_piece(cs_over_planes *planes, piece *p, bool is_lit) {
     const cs_shade_stretch part = cs_shade_find_stretch(p->shade, p->at[k]);
     count = cs_shade_stretch_extent(&part, p->at + k, p->count - k);
     cs_shade_stretch_shares(&part, p->at + k, whole(count), p->shares);
-    if (p->first + k + count < planes->count)
-      add_part(planes, p, &part, k, count, is_lit);
-    else
-      add_stretch(planes, p, &part, k, count, is_lit);
+    add_stretch(planes, p, &part, k, count, is_lit);
   }
 }
 

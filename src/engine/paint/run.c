@@ -53,7 +53,8 @@ static bool is_blended(const cs_stack *stack, const cs_program *program) {
 /* Whether a program has one defocused layer and else flat ones; *item: which. */
 static bool fits_defocused(const cs_stack *stack, const cs_program *program, uint32_t *item) {
   uint32_t found = 0;
-  if (cs_program_curves(stack, program) || is_blended(stack, program))
+  if (stack->defocused_count == 0 || cs_program_curves(stack, program) ||
+      is_blended(stack, program))
     return false;
   for (uint32_t i = 0; i < program->length; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
@@ -322,7 +323,7 @@ celspan_status cs_painter_run_program(cs_painter *painter, const cs_program *pro
   bool are_copies = false;
   if (run.x1 <= run.x0)
     return CELSPAN_OK;
-  if (row->takes_codes)
+  if (row->takes_codes && painter->copies)
     CS_TRY(cs_copies_fit(painter, program, &are_copies));
   if (are_copies)
     return run_copies(painter, program, run, row);
