@@ -54,23 +54,30 @@ static inline void *cs_wide_align(void *block) {
   return (char *)block + (-(uintptr_t)block & (CS_WIDE_LINE - 1));
 }
 
-/* As many lanes as the registers have. Lane 4 k + c is channel c of pixel k. */
+/* As many lanes as the registers have. Lane 4 k + c is channel c of pixel k. In each four lanes,
+ * CS_WIDE_SPREAD has channel c of v four times; CS_WIDE_JOINED has the channels i and j of v, and
+ * then those of w. */
 #ifdef __AVX512F__
 #define CS_WIDE_LANES 16
 #define CS_WIDE_SPREAD(v, c)                                                                       \
   __builtin_shufflevector(v, v, (c), (c), (c), (c), (c) + 4, (c) + 4, (c) + 4, (c) + 4, (c) + 8,   \
                           (c) + 8, (c) + 8, (c) + 8, (c) + 12, (c) + 12, (c) + 12, (c) + 12)
+#define CS_WIDE_JOINED(v, w, i, j)                                                                 \
+  ((cs_wide)_mm512_shuffle_ps((__m512)(v), (__m512)(w), _MM_SHUFFLE(j, i, j, i)))
 #define CS_WIDE_PIXEL(r, g, b, a)                                                                  \
   { r, g, b, a, r, g, b, a, r, g, b, a, r, g, b, a }
 #elif defined(__AVX2__)
 #define CS_WIDE_LANES 8
 #define CS_WIDE_SPREAD(v, c)                                                                       \
   __builtin_shufflevector(v, v, (c), (c), (c), (c), (c) + 4, (c) + 4, (c) + 4, (c) + 4)
+#define CS_WIDE_JOINED(v, w, i, j)                                                                 \
+  ((cs_wide)_mm256_shuffle_ps((__m256)(v), (__m256)(w), _MM_SHUFFLE(j, i, j, i)))
 #define CS_WIDE_PIXEL(r, g, b, a)                                                                  \
   { r, g, b, a, r, g, b, a }
 #else
 #define CS_WIDE_LANES 4
 #define CS_WIDE_SPREAD(v, c) __builtin_shufflevector(v, v, (c), (c), (c), (c))
+#define CS_WIDE_JOINED(v, w, i, j) __builtin_shufflevector(v, w, i, j, 4 + (i), 4 + (j))
 #define CS_WIDE_PIXEL(r, g, b, a)                                                                  \
   { r, g, b, a }
 #endif
@@ -96,6 +103,21 @@ static inline cs_wide cs_wide_pixel(const float rgba[4]) {
   return (cs_wide)_mm256_broadcast_ps((const __m128 *)(const void *)rgba);
 #else
   return cs_wide_load(rgba);
+#endif
+}
+
+/* Sets the register to these pixels. */
+static inline cs_wide cs_wide_pixels(const float *const pixels[CS_WIDE_LANES / 4]) {
+#ifdef __AVX512F__
+  __m512 v = _mm512_castps128_ps512(_mm_loadu_ps(pixels[0]));
+  v = _mm512_insertf32x4(v, _mm_loadu_ps(pixels[1]), 1);
+  v = _mm512_insertf32x4(v, _mm_loadu_ps(pixels[2]), 2);
+  return (cs_wide)_mm512_insertf32x4(v, _mm_loadu_ps(pixels[3]), 3);
+#elif defined(__AVX2__)
+  __m256 v = _mm256_castps128_ps256(_mm_loadu_ps(pixels[0]));
+  return (cs_wide)_mm256_insertf128_ps(v, _mm_loadu_ps(pixels[1]), 1);
+#else
+  return cs_wide_load(pixels[0]);
 #endif
 }
 

@@ -144,22 +144,23 @@ static void test_frames(void) {
 
 enum { NEIGHBOURS = 3, ROW = 255 * CS_DITHER_PERIOD };
 
-static const float alphas[] = {1, 0.5f, 0.3f};
+static const float alphas[] = {1, 0.5f, 0.3f, 0}; /* 0: alpha is at borders too */
 
 /* Each border between two codes of each place of a row of lifts, `step` floats beside it. */
 static void fill_borders(const celspan_coding *coding, const cs_dither_lifts *lifts, int step,
                          float alpha, float (*row)[4]) {
   for (int i = 0; i < ROW; i++) {
-    float border = ((float)(i / CS_DITHER_PERIOD) + 1 - lifts->of[i % CS_DITHER_PERIOD][0]) / 255;
+    float border = ((float)(i / CS_DITHER_PERIOD) + 1 - lifts->of[i % CS_DITHER_PERIOD]) / 255;
     bool is_light = coding->space != CELSPAN_SPACE_SRGB;
+    float opacity = alpha > 0 ? alpha : nextafterf(border, step < 0 ? -1 : 2);
     float number = is_light ? cs_transfer_decode(CELSPAN_TRANSFER_SRGB, border) : border;
     for (int c = 0; c < 3; c++) {
       float near = number;
       for (int k = 0; k < abs(step) + c; k++)
         near = nextafterf(near, step < 0 ? -1 : 2);
-      row[i][c] = coding->alpha == CELSPAN_ALPHA_STRAIGHT ? near * alpha : near;
+      row[i][c] = coding->alpha == CELSPAN_ALPHA_STRAIGHT ? near * opacity : near;
     }
-    row[i][3] = alpha;
+    row[i][3] = opacity;
   }
 }
 
@@ -171,7 +172,7 @@ static int count_wrong(const celspan_coding *coding, const cs_dither_lifts *lift
     cs_pixels_encode(coding, row[i], coded);
     for (int c = 0; c < 4; c++) {
       double number = !(coded[c] > 0) ? 0 : coded[c] > 1 ? 255 : 255 * (double)coded[c];
-      double sum = number + (double)lifts->of[i % CS_DITHER_PERIOD][c];
+      double sum = number + (double)lifts->of[i % CS_DITHER_PERIOD];
       wrong += pixels[i][c] != (unsigned char)floor(sum);
     }
   }
@@ -182,22 +183,43 @@ static int count_wrong(const celspan_coding *coding, const cs_dither_lifts *lift
 static cs_dither_lifts lifts_from(int first) {
   cs_dither_lifts lifts;
   for (int i = 0; i < 2 * CS_DITHER_PERIOD; i++)
-    for (int c = 0; c < 4; c++)
-      lifts.of[i][c] = 1 - (float)(2 * (first + i % CS_DITHER_PERIOD) + 1) / 512;
+    lifts.of[i] = 1 - (float)(2 * (first + i % CS_DITHER_PERIOD) + 1) / 512;
   return lifts;
 }
 
-static int test_borders_of(const celspan_coding *coding, cs_isa isa) {
+/* Cuts the row into spans of every kind. Where one has a single colour, it is that of one of its
+ * pixels. */
+static size_t cut_borders(test_random *random, float (*row)[4], celspan_span *spans) {
+  size_t count = 0;
+  for (int32_t at = 0, end; at < ROW; at = end) {
+    end = at + 1 + random_below(random, 2 * CS_DITHER_PERIOD);
+    end = end < ROW ? end : ROW;
+    celspan_span *span = &spans[count++];
+    *span = (celspan_span){.x0 = at, .x1 = end, .origin = at, .kind = random_below(random, 3)};
+    span->array = row[at];
+    if (span->kind == CELSPAN_SPAN_ARRAY)
+      continue;
+    memcpy(span->colour, row[at + random_below(random, end - at)], sizeof span->colour);
+    for (int32_t x = at; x < end; x++)
+      memcpy(row[x], span->colour, sizeof span->colour);
+  }
+  return count;
+}
+
+static int test_borders_of(const celspan_coding *coding, cs_isa isa, bool is_cut) {
   static float row[ROW][4];
   static unsigned char pixels[ROW][4];
+  static celspan_span spans[ROW];
+  test_random random = {9};
   int wrong = 0;
-  celspan_span span = {.x1 = ROW, .kind = CELSPAN_SPAN_ARRAY, .array = row[0]};
   for (int first = 0; first < 256; first += CS_DITHER_PERIOD) {
     cs_dither_lifts lifts = lifts_from(first);
     for (int step = -NEIGHBOURS; step <= NEIGHBOURS; step += NEIGHBOURS)
       for (size_t a = 0; a < sizeof alphas / sizeof *alphas; a++) {
+        spans[0] = (celspan_span){.x1 = ROW, .kind = CELSPAN_SPAN_ARRAY, .array = row[0]};
         fill_borders(coding, &lifts, step, alphas[a], row);
-        CS_WIDE_CHOOSE(isa, cs_dither_spans)(coding, &lifts, 0, &span, 1, pixels[0]);
+        size_t count = is_cut ? cut_borders(&random, row, spans) : 1;
+        CS_WIDE_CHOOSE(isa, cs_dither_spans)(coding, &lifts, 0, spans, count, pixels[0]);
         wrong += count_wrong(coding, &lifts, (const float(*)[4])row, ROW,
                              (const unsigned char(*)[4])pixels);
       }
@@ -214,7 +236,8 @@ static void test_borders(cs_isa isa) {
                                    .alpha =
                                        k % 2 ? CELSPAN_ALPHA_STRAIGHT : CELSPAN_ALPHA_PREMULTIPLIED,
                                    .space = k / 2 ? CELSPAN_SPACE_SRGB : CELSPAN_SPACE_LINEAR};
-    CHECK(test_borders_of(&coding, isa) == 0);
+    CHECK(test_borders_of(&coding, isa, false) == 0);
+    CHECK(test_borders_of(&coding, isa, true) == 0);
   }
 }
 
@@ -257,7 +280,7 @@ static void test_rows(cs_isa isa) {
     }
     cs_dither_lifts turned = lifts;
     for (int i = 0; i < CS_DITHER_PERIOD; i++)
-      memcpy(turned.of[i], lifts.of[(x + i) % CS_DITHER_PERIOD], sizeof turned.of[i]);
+      turned.of[i] = lifts.of[(x + i) % CS_DITHER_PERIOD];
     memset(pixels, 0xa5, sizeof pixels);
     CS_WIDE_CHOOSE(isa, cs_dither_spans)(&coding, &lifts, x, spans, (size_t)count, pixels[0]);
     CHECK(count_wrong(&coding, &turned, (const float(*)[4])colours, width,

@@ -215,6 +215,21 @@ typedef struct cs_srgb8_planes {
   cs_wide channels[4];
 } cs_srgb8_planes;
 
+/* A register of colours that lie one after another. */
+static inline cs_srgb8_planes cs_srgb8_planes_of(const float *rgba) {
+  cs_wide v[4]; /* v[i]: the pixels i, i + 4, i + 8, ... */
+  for (int i = 0; i < 4; i++) {
+    const float *pixels[CS_SRGB8_PIXELS];
+    for (int k = 0; k < CS_SRGB8_PIXELS; k++)
+      pixels[k] = rgba + 16 * k + 4 * i;
+    v[i] = cs_wide_pixels(pixels);
+  }
+  cs_wide rg = CS_WIDE_JOINED(v[0], v[1], 0, 1), next_rg = CS_WIDE_JOINED(v[2], v[3], 0, 1);
+  cs_wide ba = CS_WIDE_JOINED(v[0], v[1], 2, 3), next_ba = CS_WIDE_JOINED(v[2], v[3], 2, 3);
+  return (cs_srgb8_planes){{CS_WIDE_JOINED(rg, next_rg, 0, 2), CS_WIDE_JOINED(rg, next_rg, 1, 3),
+                            CS_WIDE_JOINED(ba, next_ba, 0, 2), CS_WIDE_JOINED(ba, next_ba, 1, 3)}};
+}
+
 /* Codes the pixels that have an unsure lane (a set bit) again, exactly. */
 static inline cs_wide_int cs_srgb8_settle_planes(const cs_srgb8_planes *colours, bool is_coded,
                                                  unsigned unsure, cs_wide_int pixels) {
@@ -229,27 +244,36 @@ static inline cs_wide_int cs_srgb8_settle_planes(const cs_srgb8_planes *colours,
 
 #ifdef __AVX2__
 
-/* One pixel a lane. If all alpha is 1, the usual case, there is no division. */
-static inline cs_wide_int cs_srgb8_code_planes(const cs_srgb8_planes *colours, bool is_coded) {
+/* One pixel a lane: the whole parts of its numbers and its lift. If all alpha is 1, the usual case,
+ * there is no division. Sets a bit of `unsure` for each lane that is not certain. */
+static inline cs_wide_int cs_srgb8_lift_planes(const cs_srgb8_planes *colours, bool is_coded,
+                                               bool is_straight, cs_wide lift, unsigned *unsure) {
   const cs_wide one = cs_wide_all(1), slope = cs_wide_all(255 * 12.92f);
   const cs_wide knee = cs_wide_all(0.0031308f);
   const cs_wide_int none = {0};
   cs_wide alpha = colours->channels[3];
-  bool divides = cs_srgb8_differ((cs_wide_int)alpha, (cs_wide_int)one) != 0;
+  bool is_opaque = cs_srgb8_differ((cs_wide_int)alpha, (cs_wide_int)one) == 0;
   cs_wide_int is_seen = alpha > 0, doubt = {0}, pixels = none + 255;
-  if (divides) {
-    pixels = cs_srgb8_round(cs_srgb8_clamped(alpha) * 255, &doubt);
+  if (!is_opaque) {
+    pixels = cs_srgb8_lifted(cs_srgb8_clamped(alpha) * 255, lift, &doubt);
     alpha = cs_wide_choose(is_seen, alpha, one);
   }
   for (int c = 2; c >= 0; c--) {
     cs_wide v = colours->channels[c];
-    if (divides)
+    if (is_straight && !is_opaque)
       v = cs_wide_choose(is_seen, v / alpha, (cs_wide){0});
     v = cs_srgb8_clamped(v);
     v = is_coded ? v * 255 : cs_srgb8_coded(v, slope, knee);
-    pixels = pixels << 8 | cs_srgb8_round(v, &doubt);
+    pixels = pixels << 8 | cs_srgb8_lifted(v, lift, &doubt);
   }
-  unsigned unsure = cs_srgb8_differ(doubt, none);
+  *unsure = cs_srgb8_differ(doubt, none);
+  return pixels;
+}
+
+/* One pixel a lane. */
+static inline cs_wide_int cs_srgb8_code_planes(const cs_srgb8_planes *colours, bool is_coded) {
+  unsigned unsure;
+  cs_wide_int pixels = cs_srgb8_lift_planes(colours, is_coded, true, cs_wide_all(0.5f), &unsure);
   if (__builtin_expect(unsure != 0, 0))
     pixels = cs_srgb8_settle_planes(colours, is_coded, unsure, pixels);
   return pixels;

@@ -24,11 +24,8 @@ static bool is_usual(const celspan_coding *coding) {
 void cs_dither_row(const celspan_coding *coding, int32_t x, int32_t y, const celspan_span *spans,
                    size_t span_count, unsigned char *row) {
   cs_dither_lifts lifts;
-  for (uint32_t i = 0; i < CS_DITHER_PERIOD; i++) {
-    float lift = 1 - threshold(i, (uint32_t)y);
-    for (int c = 0; c < 4; c++)
-      lifts.of[i][c] = lifts.of[i + CS_DITHER_PERIOD][c] = lift;
-  }
+  for (uint32_t i = 0; i < CS_DITHER_PERIOD; i++)
+    lifts.of[i] = lifts.of[i + CS_DITHER_PERIOD] = 1 - threshold(i, (uint32_t)y);
   cs_isa isa = is_usual(coding) ? cs_isa_best() : CS_ISA_ANY;
   CS_WIDE_CHOOSE(isa, cs_dither_spans)(coding, &lifts, x, spans, span_count, row);
 }

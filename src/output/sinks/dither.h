@@ -33,9 +33,9 @@ CELSPAN_CHECKED celspan_status cs_dither_sink(celspan_context *context, const ce
 enum { CS_DITHER_PERIOD = 16 }; /* pixels after which thresholds repeat, along x and along y */
 
 /* What is added to a number before its fraction is cut off: 1 minus the threshold of the place, for
- * each channel of two periods of pixels along a row. */
+ * two periods of pixels along a row. */
 typedef struct cs_dither_lifts {
-  float of[2 * CS_DITHER_PERIOD][4];
+  float of[2 * CS_DITHER_PERIOD];
 } cs_dither_lifts;
 
 /* As cs_dither_row, where pixel x of a row has lift x modulo the period. The version for the

@@ -1,16 +1,18 @@
 /* Dithering as a rounding of the coder of srgb8_lanes.h: where the others add a half before they
- * cut a number to a whole one, here each pixel has a lift of its own.
+ * cut a number to a whole one, here each pixel has a lift of its own. A register has one channel of
+ * as many pixels as it has lanes, and another register has their lifts, as they lie in the row.
  *
- *   colours --cs_srgb8_numbers--> y of 0..255 --(+ lift)--> floor
- *                                                 unsure, as one pixel in six hundred: exact_pixel
+ *   colours --cs_srgb8_lift_planes--> whole part of y + lift, for y of 0..255
+ *                                 unsure, as one number in two thousand: exact_pixel
  *
- * The narrowest make has the exact numbers, so that nothing is unsure.
+ * The narrowest make codes every pixel exactly.
  */
 #include <string.h>
 
 #include "model/colour/srgb8_lanes.h"
 #include "output/sinks/dither.h"
 #include "output/sinks/pixels.h"
+#include "output/sinks/pixels8.h"
 
 typedef struct dithered {
   const celspan_coding *coding;
@@ -18,105 +20,139 @@ typedef struct dithered {
   bool is_coded, is_straight;
 } dithered;
 
-/* ---------------------------------------------------------------- numbers and rounding */
+/* ---------------------------------------------------------------- exactly */
 
 static inline unsigned char round_lifted(float x, float lift) {
   return !(x > 0) ? 0 : x >= 1 ? 255 : (unsigned char)((double)x * 255 + (double)lift);
 }
 
-static inline void exact_pixel(const float coded[4], const float lift[4], unsigned char *pixel) {
+static inline int32_t exact_pixel(const float coded[4], float lift) {
+  unsigned char bytes[4];
+  int32_t pixel;
   for (int c = 0; c < 4; c++)
-    pixel[c] = round_lifted(coded[c], lift[c]);
+    bytes[c] = round_lifted(coded[c], lift);
+  memcpy(&pixel, bytes, sizeof pixel);
+  return pixel;
 }
 
-#ifdef __AVX2__
-
-/* The numbers that are rounded: 0..255. */
-static inline cs_wide numbers_of(const dithered *d, cs_wide rgba) {
-  return cs_srgb8_numbers(d->is_straight ? cs_srgb8_straight(rgba) : cs_srgb8_clamped(rgba),
-                          d->is_coded);
+/* A register of pixels of one colour. */
+static cs_wide_int exact_single(const float coded[4], const float *lifts) {
+  cs_wide_int pixels = {0};
+  for (int k = 0; k < CS_WIDE_LANES; k++)
+    pixels[k] = exact_pixel(coded, lifts[k]);
+  return pixels;
 }
 
 /* Codes the pixels that have an unsure lane (a set bit) again. */
-static void settle(const dithered *d, cs_wide rgba, const float (*lifts)[4], unsigned unsure,
-                   unsigned char *out) {
-  float colours[CS_WIDE_LANES], coded[4];
-  cs_wide_store(colours, rgba);
-  for (int k = 0; k < CS_SRGB8_PIXELS; k++, unsure >>= 4)
-    if (unsure & 15) {
-      cs_pixels_encode(d->coding, colours + 4 * k, coded);
-      exact_pixel(coded, lifts[k], out + 4 * k);
-    }
+static cs_wide_int settle(const dithered *d, const cs_srgb8_planes *colours, const float *lifts,
+                          unsigned unsure, cs_wide_int pixels) {
+  for (int k = 0; unsure != 0; k++, unsure >>= 1) {
+    float coded[4], rgba[4];
+    if (!(unsure & 1))
+      continue;
+    for (int c = 0; c < 4; c++)
+      rgba[c] = colours->channels[c][k];
+    cs_pixels_encode(d->coding, rgba, coded);
+    pixels[k] = exact_pixel(coded, lifts[k]);
+  }
+  return pixels;
 }
 
-static inline void put_pixels(const dithered *d, cs_wide rgba, cs_wide numbers,
-                              const float (*lifts)[4], unsigned char *out) {
-  cs_wide_int doubt = {0}, none = {0};
-  cs_srgb8_store(out, cs_srgb8_lifted(numbers, cs_wide_load(lifts[0]), &doubt));
-  unsigned unsure = cs_srgb8_differ(doubt, none);
-  if (__builtin_expect(unsure != 0, 0))
-    settle(d, rgba, lifts, unsure, out);
+/* ---------------------------------------------------------------- a register of pixels */
+
+#ifdef __AVX2__
+
+/* Numbers of a colour for lift_single: 0..255. */
+static inline void numbers_of(const dithered *d, const float rgba[4],
+                              float numbers[CS_WIDE_LANES]) {
+  cs_wide v = cs_wide_pixel(rgba);
+  v = d->is_straight ? cs_srgb8_straight(v) : cs_srgb8_clamped(v);
+  cs_wide_store(numbers, cs_srgb8_numbers(v, d->is_coded));
+}
+
+/* Pixels of one colour. */
+static inline cs_wide_int lift_single(const dithered *d, const float rgba[4], const float *numbers,
+                                      const float *lifts) {
+  const cs_wide_int none = {0};
+  cs_wide_int pixels = none, doubt = none;
+  for (int c = 3; c >= 0; c--)
+    pixels = pixels << 8 | cs_srgb8_lifted(cs_wide_all(numbers[c]), cs_wide_load(lifts), &doubt);
+  if (__builtin_expect(cs_srgb8_differ(doubt, none) != 0, 0)) {
+    float coded[4];
+    cs_pixels_encode(d->coding, rgba, coded);
+    return exact_single(coded, lifts);
+  }
+  return pixels;
+}
+
+/* Pixels of several colours, of which the first `count` are needed. */
+static inline cs_wide_int lift_planes(const dithered *d, const cs_srgb8_planes *colours,
+                                      const float *lifts, int32_t count) {
+  unsigned unsure;
+  cs_wide_int pixels =
+      cs_srgb8_lift_planes(colours, d->is_coded, d->is_straight, cs_wide_load(lifts), &unsure);
+  unsure &= (1u << count) - 1;
+  return __builtin_expect(unsure != 0, 0) ? settle(d, colours, lifts, unsure, pixels) : pixels;
 }
 
 #else
 
-/* The numbers that are rounded: exact numbers of 0..1. */
-static inline cs_wide numbers_of(const dithered *d, cs_wide rgba) {
-  float colour[4], coded[4];
-  cs_wide_store(colour, rgba);
-  cs_pixels_encode(d->coding, colour, coded);
-  return cs_wide_load(coded);
+static inline void numbers_of(const dithered *d, const float rgba[4],
+                              float numbers[CS_WIDE_LANES]) {
+  cs_pixels_encode(d->coding, rgba, numbers);
 }
 
-static inline void put_pixels(const dithered *d, cs_wide rgba, cs_wide numbers,
-                              const float (*lifts)[4], unsigned char *out) {
-  float coded[4];
+static inline cs_wide_int lift_single(const dithered *d, const float rgba[4], const float *numbers,
+                                      const float *lifts) {
   (void)d, (void)rgba;
-  cs_wide_store(coded, numbers);
-  exact_pixel(coded, lifts[0], out);
+  return exact_single(numbers, lifts);
+}
+
+static inline cs_wide_int lift_planes(const dithered *d, const cs_srgb8_planes *colours,
+                                      const float *lifts, int32_t count) {
+  return settle(d, colours, lifts, (1u << count) - 1, (cs_wide_int){0});
 }
 
 #endif
 
 /* ---------------------------------------------------------------- spans */
 
-/* Pixels of one colour: all of them, or one period, which is repeated. x: the place of the first
- * one. */
-static inline void put_single(const dithered *d, const celspan_span *span, uint32_t x,
+/* Pixels of one colour: all of them, or one period, which is repeated. lifts: from the first one
+ * on. */
+static inline void put_single(const dithered *d, const celspan_span *span, const float *lifts,
                               unsigned char *out) {
-  unsigned char period[4 * CS_DITHER_PERIOD + CS_WIDE_LANES];
-  const float(*lifts)[4] = d->lifts->of + x % CS_DITHER_PERIOD;
-  cs_wide rgba = cs_wide_pixel(span->colour), numbers = numbers_of(d, rgba);
-  size_t rest = 4 * (size_t)(span->x1 - span->x0), size = 4 * CS_DITHER_PERIOD;
-  for (size_t at = 0; at < size && at < rest; at += CS_WIDE_LANES)
-    put_pixels(d, rgba, numbers, lifts + at / 4, period + at);
+  cs_wide_int period[CS_DITHER_PERIOD / CS_WIDE_LANES];
+  float numbers[CS_WIDE_LANES];
+  size_t rest = 4 * (size_t)(span->x1 - span->x0), size = sizeof period;
+  numbers_of(d, span->colour, numbers);
+  for (size_t at = 0; at < size && at < rest; at += sizeof *period)
+    period[at / sizeof *period] = lift_single(d, span->colour, numbers, lifts + at / 4);
   for (; rest > size; rest -= size, out += size)
     memcpy(out, period, size);
   memcpy(out, period, rest);
 }
 
 /* At most a register of columns, `count` from x on, of a span whose colours vary. */
-static inline cs_wide colours_of(const celspan_span *span, int32_t x, size_t count) {
-  float last[CS_WIDE_LANES] = {0};
+static inline cs_srgb8_planes colours_of(const celspan_span *span, int32_t x, int32_t count) {
   if (span->kind == CELSPAN_SPAN_GRADIENT)
-    return cs_wide_pixel(span->colour) +
-           cs_wide_pixel(span->slope) * (cs_wide_pixel_numbers() + (float)(x - span->origin));
+    return cs_pixels8_columns(span, x);
   const float *rgba = span->array + 4 * (size_t)(x - span->x0);
-  if (count == CS_SRGB8_PIXELS)
-    return cs_wide_load(rgba);
-  memcpy(last, rgba, 4 * count * sizeof *rgba);
-  return cs_wide_load(last);
+  if (count == CS_WIDE_LANES)
+    return cs_srgb8_planes_of(rgba);
+  float last[4 * CS_WIDE_LANES] = {0};
+  memcpy(last, rgba, 4 * (size_t)count * sizeof *rgba);
+  return cs_srgb8_planes_of(last);
 }
 
 static inline void put_varied(const dithered *d, const celspan_span *span, uint32_t place,
                               unsigned char *out) {
-  for (int32_t x = span->x0; x < span->x1; x += CS_SRGB8_PIXELS, place += CS_SRGB8_PIXELS) {
-    size_t rest = (size_t)(span->x1 - x), count = rest < CS_SRGB8_PIXELS ? rest : CS_SRGB8_PIXELS;
-    unsigned char pixels[CS_WIDE_LANES];
-    cs_wide rgba = colours_of(span, x, count);
-    put_pixels(d, rgba, numbers_of(d, rgba), d->lifts->of + place % CS_DITHER_PERIOD, pixels);
-    memcpy(out, pixels, 4 * count);
-    out += 4 * count;
+  for (int32_t x = span->x0; x < span->x1; x += CS_WIDE_LANES, place += CS_WIDE_LANES) {
+    int32_t rest = span->x1 - x, count = rest < CS_WIDE_LANES ? rest : CS_WIDE_LANES;
+    const cs_srgb8_planes colours = colours_of(span, x, count);
+    const cs_wide_int pixels =
+        lift_planes(d, &colours, d->lifts->of + place % CS_DITHER_PERIOD, count);
+    memcpy(out, &pixels, 4 * (size_t)count);
+    out += sizeof pixels;
   }
 }
 
@@ -130,7 +166,7 @@ void CS_WIDE(cs_dither_spans)(const celspan_coding *coding, const cs_dither_lift
     unsigned char *out = row + 4 * (size_t)span->x0;
     uint32_t place = (uint32_t)x + (uint32_t)span->x0;
     if (span->kind == CELSPAN_SPAN_SINGLE)
-      put_single(&d, span, place, out);
+      put_single(&d, span, lifts->of + place % CS_DITHER_PERIOD, out);
     else
       put_varied(&d, span, place, out);
   }

@@ -5,6 +5,7 @@
 
 #include "base/wide.h"
 #include "celspan/celspan.h"
+#include "model/colour/srgb8_lanes.h"
 
 /* spans: at least one; they cover [0, width) without gap. Their numbers are linear. */
 CS_WIDE_DECLARE(void, cs_pixels8_row,
@@ -12,6 +13,17 @@ CS_WIDE_DECLARE(void, cs_pixels8_row,
 /* The same for spans whose numbers are codes. */
 CS_WIDE_DECLARE(void, cs_pixels8_codes,
                 (const celspan_span *spans, size_t count, unsigned char *row));
+
+/* A register of columns from x on of a gradient, also beyond its end: for kernels (base/wide.h). */
+static inline cs_srgb8_planes cs_pixels8_columns(const celspan_span *span, int32_t x) {
+  cs_wide numbers;
+  cs_srgb8_planes colours;
+  for (int i = 0; i < CS_WIDE_LANES; i++)
+    numbers[i] = (float)i;
+  for (int c = 0; c < 4; c++)
+    colours.channels[c] = span->colour[c] + span->slope[c] * (numbers + (float)(x - span->origin));
+  return colours;
+}
 
 /* Runs of one pixel, filled in chunks of 64 bytes: for kernels (base/wide.h).
  *

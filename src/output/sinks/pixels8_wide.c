@@ -21,8 +21,6 @@
  */
 #include "output/sinks/pixels8.h"
 
-#include "model/colour/srgb8_lanes.h"
-
 #ifdef __SSE2__
 #include <immintrin.h>
 #endif
@@ -44,28 +42,14 @@ static inline cs_wide_int all_of(uint32_t pixel) { return (cs_wide_int){0} + (in
 
 /* ---------------------------------------------------------------- colours */
 
-static inline cs_wide load_colours(const celspan_span *const spans[CS_SRGB8_PIXELS]) {
-#ifdef __AVX512F__
-  __m512 v = _mm512_castps128_ps512(_mm_loadu_ps(spans[0]->colour));
-  v = _mm512_insertf32x4(v, _mm_loadu_ps(spans[1]->colour), 1);
-  v = _mm512_insertf32x4(v, _mm_loadu_ps(spans[2]->colour), 2);
-  return (cs_wide)_mm512_insertf32x4(v, _mm_loadu_ps(spans[3]->colour), 3);
-#elif defined(__AVX2__)
-  __m256 v = _mm256_castps128_ps256(_mm_loadu_ps(spans[0]->colour));
-  return (cs_wide)_mm256_insertf128_ps(v, _mm_loadu_ps(spans[1]->colour), 1);
-#else
-  return cs_wide_load(spans[0]->colour);
-#endif
-}
-
 /* codes: of a portion. The entries of spans that are not single have no meaning. */
 static inline void code_colours(const celspan_span *spans, size_t count, bool is_coded,
                                 uint32_t *codes) {
   for (size_t k = 0; k < count; k += CS_SRGB8_PIXELS) {
-    const celspan_span *together[CS_SRGB8_PIXELS];
+    const float *together[CS_SRGB8_PIXELS];
     for (size_t i = 0; i < CS_SRGB8_PIXELS; i++)
-      together[i] = &spans[k + i < count ? k + i : k];
-    cs_srgb8_lanes(load_colours(together), is_coded, (unsigned char *)(codes + k));
+      together[i] = spans[k + i < count ? k + i : k].colour;
+    cs_srgb8_lanes(cs_wide_pixels(together), is_coded, (unsigned char *)(codes + k));
   }
 }
 
@@ -187,18 +171,12 @@ static inline void put_short_gradient(const celspan_span *span, bool is_coded, u
 /* Writes a register of pixels at once, channel by channel. */
 static inline void put_gradient(const celspan_span *span, bool is_coded, unsigned char *out,
                                 size_t room) {
-  cs_wide numbers;
-  for (int i = 0; i < CS_WIDE_LANES; i++)
-    numbers[i] = (float)i;
   if (span->x1 - span->x0 <= CS_WIDE_LANES / 2) {
     put_short_gradient(span, is_coded, out, room);
     return;
   }
   for (int32_t x = span->x0; x < span->x1; x += CS_WIDE_LANES, out += 4 * CS_WIDE_LANES) {
-    const cs_wide at = numbers + (float)(x - span->origin);
-    cs_srgb8_planes colours;
-    for (int c = 0; c < 4; c++)
-      colours.channels[c] = span->colour[c] + span->slope[c] * at;
+    const cs_srgb8_planes colours = cs_pixels8_columns(span, x);
     const cs_wide_int pixels = cs_srgb8_code_planes(&colours, is_coded);
     const int32_t left = span->x1 - x;
     memcpy(out, &pixels, 4 * (size_t)(left < CS_WIDE_LANES ? left : CS_WIDE_LANES));
