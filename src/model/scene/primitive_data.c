@@ -159,10 +159,8 @@ static cs_hash hash_primitive(const cs_primitive_data *data) {
   cs_hash hash = cs_hash_begin(CS_VALUE_DATA);
   cs_hash_word(&hash, data->kind);
   cs_outline_hash(&hash, outline ? outline : &none);
-  if (data->stroke) {
-    cs_outline_hash(&hash, &data->stroke->line);
-    cs_stroke_hash(&hash, data->stroke);
-  }
+  if (data->stroke)
+    cs_hash_hash(&hash, data->stroke->hash);
   cs_hash_word(&hash, data->rule);
   if (data->texture)
     cs_hash_hash(&hash, data->texture->hash);

@@ -1,4 +1,4 @@
-/* Making a stroke from its description: the line, its parts, and the box around all. */
+/* Making a stroke from its description: the line, its parts, the box around all, and the hash. */
 #include <math.h>
 
 #include "model/stroke/parts.h"
@@ -32,6 +32,49 @@ static celspan_status build(celspan_context *context, cs_stroke *stroke,
   return CELSPAN_OK;
 }
 
+static void hash_part(cs_hash *hash, const cs_stroke_part *part) {
+  cs_hash_word(hash, part->first);
+  cs_hash_word(hash, part->count);
+  cs_hash_number(hash, part->begin);
+  cs_hash_number(hash, part->end);
+  cs_hash_word(hash, part->is_closed);
+}
+
+static void hash_dashes(cs_hash *hash, const cs_dashes *dashes) {
+  cs_hash_number(hash, dashes->pattern);
+  for (size_t i = 0; i < dashes->place_count; i++)
+    cs_hash_number(hash, dashes->places[i]);
+  for (size_t i = 0; i < dashes->run_count; i++) {
+    const cs_dashes_run *run = &dashes->runs[i];
+    cs_hash_word(hash, run->contour);
+    cs_hash_word(hash, run->is_closed);
+    cs_hash_word(hash, run->is_joined);
+    cs_hash_number(hash, run->start);
+    cs_hash_number(hash, run->from);
+    cs_hash_number(hash, run->to);
+  }
+}
+
+/* Of what decides how the stroke is drawn. */
+static cs_hash hash_of(const cs_stroke *stroke) {
+  cs_hash hash = cs_hash_begin(0);
+  cs_outline_hash(&hash, &stroke->line);
+  cs_hash_word(&hash, stroke->cap);
+  cs_hash_word(&hash, stroke->join);
+  cs_hash_number(&hash, stroke->miter);
+  for (size_t i = 0; i < stroke->line.piece_count; i++)
+    cs_hash_word(&hash, stroke->radius_degrees[i]);
+  for (size_t i = 0; i < stroke->radius_count; i++)
+    cs_hash_number(&hash, stroke->radii[i]);
+  cs_hash_word(&hash, stroke->part_count);
+  if (stroke->dashes.place_count > 0)
+    hash_dashes(&hash, &stroke->dashes);
+  else
+    for (size_t i = 0; i < stroke->part_count; i++)
+      hash_part(&hash, &stroke->parts[i]);
+  return cs_hash_end(hash);
+}
+
 celspan_status cs_stroke_init(celspan_context *context, cs_stroke *stroke,
                               const celspan_stroke_desc *desc, const cs_outline *outline,
                               const cs_outline_closed *closed) {
@@ -41,6 +84,8 @@ celspan_status cs_stroke_init(celspan_context *context, cs_stroke *stroke,
   celspan_status status = cs_stroke_raw_init(context, &raw, desc, outline, closed);
   if (status == CELSPAN_OK)
     status = build(context, stroke, desc, &raw);
+  if (status == CELSPAN_OK)
+    stroke->hash = hash_of(stroke);
   cs_stroke_raw_finish(&raw, context->memory);
   return status;
 }

@@ -73,9 +73,7 @@ static celspan_status make(void *user, celspan_context *context, cs_cache_entry 
 
 static cs_cache_key key_of(const order *o) {
   static const int turns[] = {0, 1, 3, 4}; /* of a matrix: all but its translation */
-  cs_hash hash = cs_hash_begin(0);
-  cs_outline_hash(&hash, &o->stroke->line);
-  cs_stroke_hash(&hash, o->stroke);
+  cs_hash hash = o->stroke->hash;
   for (int i = 0; i < 4; i++)
     cs_hash_number(&hash, o->view.matrix.m[turns[i]]);
   cs_hash_number(&hash, o->view.tolerance);

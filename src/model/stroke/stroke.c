@@ -55,45 +55,6 @@ void cs_stroke_finish(cs_stroke *stroke, cs_memory *memory) {
   cs_mem_free(memory, dashes->runs, dashes->run_capacity * sizeof *dashes->runs);
 }
 
-static void hash_part(cs_hash *hash, const cs_stroke_part *part) {
-  cs_hash_word(hash, part->first);
-  cs_hash_word(hash, part->count);
-  cs_hash_number(hash, part->begin);
-  cs_hash_number(hash, part->end);
-  cs_hash_word(hash, part->is_closed);
-}
-
-static void hash_dashes(cs_hash *hash, const cs_dashes *dashes) {
-  cs_hash_number(hash, dashes->pattern);
-  for (size_t i = 0; i < dashes->place_count; i++)
-    cs_hash_number(hash, dashes->places[i]);
-  for (size_t i = 0; i < dashes->run_count; i++) {
-    const cs_dashes_run *run = &dashes->runs[i];
-    cs_hash_word(hash, run->contour);
-    cs_hash_word(hash, run->is_closed);
-    cs_hash_word(hash, run->is_joined);
-    cs_hash_number(hash, run->start);
-    cs_hash_number(hash, run->from);
-    cs_hash_number(hash, run->to);
-  }
-}
-
-void cs_stroke_hash(cs_hash *hash, const cs_stroke *stroke) {
-  cs_hash_word(hash, stroke->cap);
-  cs_hash_word(hash, stroke->join);
-  cs_hash_number(hash, stroke->miter);
-  for (size_t i = 0; i < stroke->line.piece_count; i++)
-    cs_hash_word(hash, stroke->radius_degrees[i]);
-  for (size_t i = 0; i < stroke->radius_count; i++)
-    cs_hash_number(hash, stroke->radii[i]);
-  cs_hash_word(hash, stroke->part_count);
-  if (stroke->dashes.place_count > 0)
-    hash_dashes(hash, &stroke->dashes);
-  else
-    for (size_t i = 0; i < stroke->part_count; i++)
-      hash_part(hash, &stroke->parts[i]);
-}
-
 /* ---------------------------------------------------------------- view */
 
 #define LARGE 2 /* frames */

@@ -74,6 +74,7 @@ typedef struct cs_stroke {
   double miter;       /* as SVG's miter limit */
   double largest;     /* radius */
   celspan_box around; /* nothing of the stroke is outside it; not tight */
+  cs_hash hash;       /* of the line, the radii and the parts, and of how they are drawn */
 } cs_stroke;
 
 /* Makes a stroke from a description whose numbers have been checked. outline: the line from which
@@ -85,7 +86,6 @@ CELSPAN_CHECKED celspan_status cs_stroke_init(celspan_context *context, cs_strok
                                               const cs_outline *outline,
                                               const cs_outline_closed *closed);
 void cs_stroke_finish(cs_stroke *stroke, cs_memory *memory);
-void cs_stroke_hash(cs_hash *hash, const cs_stroke *stroke);
 
 /* Whether it is drawn along its whole line with one width, without dashes: one part a contour. */
 bool cs_stroke_is_plain(const cs_stroke *stroke);
