@@ -28,13 +28,19 @@ static celspan_status begin_raw(void *user, celspan_context *context, int32_t wi
   return raw->rows ? CELSPAN_OK : cs_fail_memory(context);
 }
 
+static celspan_status fail_output(celspan_context *context) {
+  return celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: %s", strerror(errno));
+}
+
 static celspan_status write_raw(raw_rows *raw, celspan_context *context) {
   size_t size = raw->count * raw->row_size;
   raw->count = 0;
-  return fwrite(raw->rows, 1, size, stdout) == size
-             ? CELSPAN_OK
-             : celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: %s",
-                                    strerror(errno));
+  return fwrite(raw->rows, 1, size, stdout) == size ? CELSPAN_OK : fail_output(context);
+}
+
+/* The end of a frame. */
+static celspan_status flush(celspan_context *context) {
+  return fflush(stdout) == 0 ? CELSPAN_OK : fail_output(context);
 }
 
 static celspan_status put_raw_row(void *user, celspan_context *context, int32_t y,
@@ -51,9 +57,7 @@ static celspan_status end_raw(void *user, celspan_context *context, celspan_stat
     outcome = write_raw(raw, context);
   cs_mem_free(context->memory, raw->rows, raw->capacity * raw->row_size);
   raw->rows = NULL;
-  if (outcome == CELSPAN_OK && fflush(stdout) != 0)
-    return celspan_context_fail(context, CELSPAN_OUTPUT, "standard output: %s", strerror(errno));
-  return outcome;
+  return outcome == CELSPAN_OK ? flush(context) : outcome;
 }
 
 static celspan_sink raw_sink(raw_rows *raw, const celspan_coding *coding,
@@ -72,4 +76,33 @@ celspan_status cs_raw_frame_print(celspan_context *context, const celspan_frame_
   raw_rows raw;
   celspan_sink sink = raw_sink(&raw, coding, frame);
   return celspan_frame_render(context, frame, &sink, NULL);
+}
+
+/* ---------------------------------------------------------------- slots */
+
+/* Bytes of a row. */
+static size_t stride_of(const celspan_frame_desc *frame, const celspan_coding *coding) {
+  const celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
+  int32_t width = frame->crop_width > 0 ? frame->crop_width : frame->width;
+  return (size_t)width * celspan_coding_pixel_size(&resolved);
+}
+
+celspan_status cs_raw_frame_slots(celspan_context *context, const celspan_frame_desc *frame,
+                                  const celspan_coding *coding, cs_slots *slots) {
+  int32_t height = frame->crop_width > 0 ? frame->crop_height : frame->height;
+  size_t size = stride_of(frame, coding) * (size_t)height;
+  size_t count = cs_slots_count(context, size, frame->workers);
+  *slots = (cs_slots){0};
+  return count > 1 ? cs_slots_open(slots, context, count, size) : CELSPAN_OK;
+}
+
+celspan_status cs_raw_frame_make(celspan_context *context, const celspan_frame_desc *frame,
+                                 const celspan_coding *coding, const cs_slots *slots, size_t slot) {
+  return celspan_frame_pixels(context, frame, coding, slots->frames[slot], stride_of(frame, coding),
+                              NULL);
+}
+
+celspan_status cs_raw_frame_give(celspan_context *context, const cs_slots *slots, size_t slot) {
+  bool is_written = fwrite(slots->frames[slot], 1, slots->frame_size, stdout) == slots->frame_size;
+  return is_written ? flush(context) : fail_output(context);
 }

@@ -50,6 +50,7 @@ typedef struct render_job {
   cs_video video; /* used if the output is a video */
   bool is_plane;
   cs_plane_film *plane; /* used if the film becomes one plane file */
+  cs_slots raw;         /* of frames that go to standard output; none: they are written in rows */
   int64_t *failed;      /* frames; owned */
   size_t failed_count, failed_capacity;
   cs_exit outcome; /* of the reported failure */
@@ -57,21 +58,47 @@ typedef struct render_job {
 
 /* ---------------------------------------------------------------- frames */
 
-static celspan_status put_raw(void *user, const celspan_frame_desc *frame, cs_shoot_frame *unused) {
-  const render_job *job = user;
-  (void)unused;
+static celspan_coding raw_coding(const render_job *job, const celspan_frame_desc *frame) {
   celspan_coding coding = cs_target_coding(job->request);
   coding.space = frame->space;
-  return cs_raw_frame_print(job->script->context, frame, &coding);
+  return coding;
 }
 
-static celspan_status put_video(void *user, const celspan_frame_desc *desc, cs_shoot_frame *frame) {
-  render_job *job = user;
-  return cs_video_put(&job->video, desc, frame);
-}
-
-static celspan_status put_plane(void *user, const celspan_frame_desc *desc, cs_shoot_frame *frame) {
+static celspan_status put_raw(void *user, celspan_context *context, const celspan_frame_desc *desc,
+                              size_t slot, cs_shoot_frame *frame) {
   const render_job *job = user;
+  (void)frame;
+  const celspan_coding coding = raw_coding(job, desc);
+  return job->raw.count ? cs_raw_frame_make(context, desc, &coding, &job->raw, slot)
+                        : cs_raw_frame_print(context, desc, &coding);
+}
+
+static celspan_status give_raw(void *user, size_t slot) {
+  const render_job *job = user;
+  return cs_raw_frame_give(job->script->context, &job->raw, slot);
+}
+
+static celspan_status put_video(void *user, celspan_context *context,
+                                const celspan_frame_desc *desc, size_t slot,
+                                cs_shoot_frame *frame) {
+  const render_job *job = user;
+  return cs_video_put(&job->video, context, desc, slot, frame->digest);
+}
+
+static celspan_status give_video(void *user, size_t slot) {
+  return cs_video_give(&((render_job *)user)->video, slot);
+}
+
+static celspan_status repeat_video(void *user) {
+  return cs_video_repeat(&((render_job *)user)->video);
+}
+
+static celspan_status put_plane(void *user, celspan_context *context,
+                                const celspan_frame_desc *desc, size_t slot,
+                                cs_shoot_frame *frame) {
+  const render_job *job = user;
+  (void)context;
+  (void)slot;
   return cs_plane_film_put(job->plane, desc, frame->is_named ? &frame->scene : NULL);
 }
 
@@ -93,6 +120,11 @@ static celspan_status put_drawing(void *user, celspan_context *context,
   const render_job *job = user;
   (void)file;
   return cs_svg_target_write_frame(context, desc, path, job->request);
+}
+
+/* Whether frames go to standard output. */
+static bool is_stream(const render_job *job) {
+  return job->output && cs_target_is_stream(job->output);
 }
 
 /* Whether all frames go into one file. */
@@ -133,10 +165,10 @@ static celspan_status report_failure(render_job *job, int64_t number, celspan_st
 
 static const char *destination_of(const render_job *job, const cs_shoot_frame *frame) {
   const char *output = job->output;
-  return !output                       ? "hashed"
-         : cs_target_is_stream(output) ? "standard output"
-         : is_whole(job)               ? output
-                                       : frame->path;
+  return !output          ? "hashed"
+         : is_stream(job) ? "standard output"
+         : is_whole(job)  ? output
+                          : frame->path;
 }
 
 /* Says once in a run that layers over each other are not the frame. */
@@ -250,38 +282,61 @@ static celspan_file_desc describe_file(render_job *job) {
   return file;
 }
 
-static celspan_status run_shoot(render_job *job) {
+static bool keeps_nothing(const render_job *job) {
   int32_t memory = 1;
-  cs_request_read(job->request, "--memory", &memory);
-  bool is_stream = job->output && cs_target_is_stream(job->output);
-  const cs_shoot shoot = {.context = job->script->context,
-                          .film = job->script->film,
-                          .frames = &job->frames,
-                          .pattern = is_stream || is_whole(job) ? NULL : job->output,
-                          .frame = job->frame,
-                          .file = describe_file(job),
-                          .has_digests = job->has_digests,
-                          .keeps_going = job->keeps_going,
-                          .keeps_nothing = memory == 0,
-                          .user = job,
-                          .put = job->is_video   ? put_video
-                                 : job->is_plane ? put_plane
-                                 : is_stream     ? put_raw
-                                                 : NULL,
-                          .write = is_apart(job) ? put_layers
-                                   : cs_svg_target_is_wanted(job->output, job->request)
-                                       ? put_drawing
-                                       : NULL,
-                          .hash = is_apart(job) ? cs_apart_hash : NULL,
-                          .keep = job->resumes ? keep : NULL,
-                          .build = build,
-                          .finished = finished,
-                          .tick = tick};
+  return cs_request_read(job->request, "--memory", &memory) && memory == 0;
+}
+
+/* Adds where frames go that are no files of their own. */
+static void add_stream(const render_job *job, cs_shoot *shoot) {
+  shoot->put = job->is_video    ? put_video
+               : job->is_plane  ? put_plane
+               : is_stream(job) ? put_raw
+                                : NULL;
+  shoot->slots = job->is_video ? job->video.slots.count : job->raw.count;
+  if (shoot->slots > 0) {
+    shoot->give = job->is_video ? give_video : give_raw;
+    shoot->repeat = job->is_video ? repeat_video : NULL;
+  }
+}
+
+static celspan_status run_shoot(render_job *job) {
+  cs_shoot shoot = {.context = job->script->context,
+                    .film = job->script->film,
+                    .frames = &job->frames,
+                    .pattern = is_stream(job) || is_whole(job) ? NULL : job->output,
+                    .frame = job->frame,
+                    .file = describe_file(job),
+                    .has_digests = job->has_digests,
+                    .keeps_going = job->keeps_going,
+                    .keeps_nothing = keeps_nothing(job),
+                    .user = job,
+                    .write = is_apart(job)                                        ? put_layers
+                             : cs_svg_target_is_wanted(job->output, job->request) ? put_drawing
+                                                                                  : NULL,
+                    .hash = is_apart(job) ? cs_apart_hash : NULL,
+                    .keep = job->resumes ? keep : NULL,
+                    .build = build,
+                    .finished = finished,
+                    .tick = tick};
+  add_stream(job, &shoot);
   return cs_shoot_run(&shoot);
 }
 
+/* Frames go to standard output from slots, if there are several and workers can make them beside
+ * each other. */
+static celspan_status open_raw(render_job *job) {
+  const celspan_coding coding = raw_coding(job, &job->frame);
+  return is_stream(job) && job->frames.count > 1 && !keeps_nothing(job)
+             ? cs_raw_frame_slots(job->script->context, &job->frame, &coding, &job->raw)
+             : CELSPAN_OK;
+}
+
 static cs_exit shoot(render_job *job) {
-  celspan_status status = run_shoot(job);
+  celspan_status status = open_raw(job);
+  if (status == CELSPAN_OK)
+    status = run_shoot(job);
+  cs_slots_close(&job->raw, job->script->context);
   return job->outcome != CS_EXIT_OK ? job->outcome
                                     : cs_report_failure(job->script->context, status, NULL);
 }

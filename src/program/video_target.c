@@ -288,6 +288,7 @@ static cs_video_desc describe(const cs_script *script, const cs_request *request
                                    .frames_second = script->film.frames_second},
                         .most_bytes = most_bytes_of(request),
                         .has_digests = cs_request_has(request, "--hash"),
+                        .workers = frame->workers,
                         .keeps_nothing = has_memory && memory == 0};
   cs_request_read(request, "--fps", &desc.frames.frames_second);
   return desc;

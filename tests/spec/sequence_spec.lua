@@ -205,6 +205,73 @@ describe("frames by several workers", function()
   end)
 end)
 
+describe("frames to standard output by several workers", function()
+  local FRAME = 96 * 64 * 4 -- bytes
+
+  local function raw(script, workers, arguments)
+    return render(script, "-o - --workers %d --progress none %s", workers, arguments or "")
+  end
+
+  it("are the same to the byte, whatever memory they have #workers", function()
+    bench:write("procedures.lua", PROCEDURES)
+    for _, script in ipairs { "film.lua", "procedures.lua" } do
+      local code, alone, err = raw(script, 1)
+      assert.are.equal(0, code, err)
+      assert.are.equal((script == "film.lua" and 12 or 9) * FRAME, #alone)
+      assert.is_true(alone:sub(1, FRAME) ~= alone:sub(FRAME + 1, 2 * FRAME))
+      for workers = 2, 3 do
+        for _, memory in ipairs { "", "--memory 0", "--memory 1" } do
+          local _, out = raw(script, workers, memory)
+          assert.is_true(alone == out, ("%s %d %s"):format(script, workers, memory))
+        end
+      end
+    end
+  end)
+
+  it("have the codes and the place that was asked for #workers", function()
+    for _, arguments in ipairs { "--depth 16", "--depth half", "--dither --alpha premultiplied",
+      "--depth float --colour linear", "--crop 10,7,33,21" } do
+      local code, alone, err = raw("film.lua", 1, arguments)
+      assert.are.equal(0, code, err)
+      local _, out = raw("film.lua", 2, arguments)
+      assert.is_true(alone == out, arguments)
+    end
+  end)
+
+  it("end before the first that fails #workers", function()
+    bench:write("singular.lua", (FILM:gsub("defocus%s*= 4",
+      "viewport = {0, 0, f.number == 5 and 1e-300 or 1, 1}")))
+    for script, frame in pairs { ["faulty.lua"] = 3, ["singular.lua"] = 5 } do
+      local alone
+      for workers = 1, 3 do
+        local code, out, err = raw(script, workers)
+        alone = alone or out
+        assert.are.equal(3, code, err)
+        assert.is_truthy(err:find(("frame %d: "):format(frame), 1, true), err)
+        assert.are.equal(1, count(err, "error"), err)
+        -- one worker writes the rows of a frame while it makes them
+        assert.are.equal((frame - 1) * FRAME, #out)
+        assert.is_true(alone == out)
+      end
+    end
+  end)
+
+  it("end with 5 when nobody reads them any more #workers", function()
+    for workers = 1, 3 do
+      local _, out = bench:shell(("{ %s render %s/film.lua -o - --workers %d --progress none 2>&3; "
+        .. "echo $? >&3; } 3>&1 >/dev/full"):format(workbench.binary, bench.folder, workers))
+      assert.is_truthy(out:find "^celspan: error: frame 1: standard output: [^\n]+\n", out)
+      assert.is_truthy(out:find "\n5\n$", out)
+      local _, said = bench:shell(("{ { %s render %s/film.lua -o - --workers %d --progress none "
+        .. "2>&3; echo $? >&3; } | head -c 1000 >/dev/null; } 3>&1")
+        :format(workbench.binary, bench.folder, workers))
+      assert.is_truthy(said:find "frame %d+: standard output: Broken pipe\n", said)
+      assert.are.equal(1, count(said, "error"), said)
+      assert.is_truthy(said:find "\n5\n$", said)
+    end
+  end)
+end)
+
 describe("a frame by several workers", function()
   local function assert_alike(ending, arguments)
     local alone

@@ -577,6 +577,26 @@ end }]])
       nothing_is_left()
     end)
 
+    it("reads them, frames are the same from any number of workers and any memory", function()
+      fake("for last; do :; done; cat >'" .. bench.folder
+        .. "/read'; printf '\\0\\0\\0\\030ftypisom0000000' >\"${last#file:}\"\n")
+      for _, arguments in ipairs { "-o out.mp4", "-o out.mp4 --hash", "-o out.mov --hash" } do
+        local alone
+        for workers = 1, 3 do
+          for _, memory in ipairs { "", "--memory 0", "--memory 1 --size 640x400" } do
+            local code, out, err = faked(("%s --workers %d %s"):format(arguments, workers, memory))
+            assert.equal(0, code, err)
+            alone = alone or {}
+            local size = memory:match "%-%-size.*" or ""
+            local made = out .. bench:read "read"
+            assert.is_true(#made > 12 * 128 * 80)
+            alone[size] = alone[size] or made
+            assert.is_true(made == alone[size], ("%s %d %s"):format(arguments, workers, memory))
+          end
+        end
+      end
+    end)
+
     it("works, and a frame fails, nothing is left", function()
       fake "cat >/dev/null\n"
       bench:write("film.lua",

@@ -142,9 +142,14 @@ static celspan_status run_frames(run *r) {
 
 static int count_threads(const run *r) {
   size_t count = r->desc->count;
-  if (r->workers < 2 || count < 2)
+  if (r->workers < 2 || count < 2 || r->desc->slots == 1)
     return 0;
   return count < (size_t)r->workers ? (int)count : r->workers;
+}
+
+static size_t size_ring(const run *r, int threads) {
+  size_t size = threads ? (size_t)threads * AHEAD + 1 : 1, slots = r->desc->slots;
+  return slots && slots < size ? slots : size;
 }
 
 static celspan_status make_ring(run *r) {
@@ -172,7 +177,7 @@ celspan_status cs_frame_pipeline_run(celspan_context *context, const cs_frame_pi
            .desc = pipeline,
            .workers = cs_frame_workers(context, pipeline->workers)};
   int threads = count_threads(&r);
-  r.ring_size = threads ? (size_t)threads * AHEAD + 1 : 1;
+  r.ring_size = size_ring(&r, threads);
   const cs_pipeline_desc desc = {.count = pipeline->count,
                                  .slots = r.ring_size,
                                  .threads = threads,

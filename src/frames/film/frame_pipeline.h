@@ -22,6 +22,9 @@ typedef struct cs_frame_pipeline {
   int workers;       /* 0: one per processor */
   bool keeps_going;  /* after the failure of a frame, other frames are still made */
   size_t frame_size; /* bytes that a frame carries; zero when it is built */
+  /* Frames that are built and not yet finished, at most; 0: as many as suit the workers. With 1 the
+   * calling thread makes each frame, and has all workers for it. */
+  size_t slots;
   void *user;
   /* *step: who makes the frame; ANYWHERE unless it is set. HERE: before the next one is built. */
   celspan_status (*build)(void *user, size_t index, void *carried, cs_pipeline_step *step);

@@ -56,10 +56,19 @@ static void finish_duplicates(known_frames *duplicates, celspan_context *context
 
 /* ---------------------------------------------------------------- frames */
 
+/* What a frame of a stream shows. */
+typedef struct pictured {
+  bool is_named; /* the fields below are set */
+  cs_hash scene;
+  uint64_t digest[2];
+} pictured;
+
 typedef struct job {
   const cs_shoot *shoot;
   bool has_duplicates; /* equal frames are searched for */
   known_frames duplicates;
+  bool repeats;                    /* equal frames of a stream are given on again */
+  pictured built_last, given_last; /* of a stream */
 } job;
 
 /* The data of a frame in the pipeline. */
@@ -69,6 +78,8 @@ typedef struct frame_task {
   bool is_known; /* `duplicate` is set */
   bool is_first; /* the first of the frames that are equal */
   size_t duplicate;
+  size_t slot;  /* of a stream */
+  bool repeats; /* it shows the same as the frame before it */
 } frame_task;
 
 /* ---------------------------------------------------------------- building */
@@ -94,12 +105,28 @@ static celspan_status find_duplicate(job *j, frame_task *task) {
                         : CELSPAN_OK;
 }
 
+static pictured picture_of(const cs_shoot_frame *frame) {
+  return (pictured){frame->is_named, frame->scene, {frame->digest[0], frame->digest[1]}};
+}
+
+static bool equals(const pictured *other, const cs_shoot_frame *frame) {
+  return other->is_named && frame->is_named && other->scene.a == frame->scene.a &&
+         other->scene.b == frame->scene.b;
+}
+
+static void find_repeat(job *j, frame_task *task) {
+  task->repeats = j->repeats && equals(&j->built_last, &task->frame);
+  j->built_last = picture_of(&task->frame);
+}
+
 static cs_pipeline_step choose_step(const job *j, const frame_task *task) {
+  const cs_shoot *shoot = j->shoot;
   if (task->frame.way == CS_SHOOT_KEPT)
     return CS_PIPELINE_NOTHING;
-  if (!task->frame.is_named || j->shoot->put)
+  if (!task->frame.is_named || (shoot->put && !shoot->give))
     return CS_PIPELINE_HERE;
-  return task->is_known && !task->is_first ? CS_PIPELINE_IN_ORDER : CS_PIPELINE_ANYWHERE;
+  return task->repeats || (task->is_known && !task->is_first) ? CS_PIPELINE_IN_ORDER
+                                                              : CS_PIPELINE_ANYWHERE;
 }
 
 static celspan_status build(void *user, size_t index, void *carried, cs_pipeline_step *step) {
@@ -108,11 +135,13 @@ static celspan_status build(void *user, size_t index, void *carried, cs_pipeline
   const cs_shoot *shoot = j->shoot;
   double begun = cs_clock_seconds();
   task->frame.number = shoot->frames->frames[index];
+  task->slot = shoot->slots ? index % shoot->slots : 0;
   CS_TRY(shoot->build(shoot->user, task->frame.number, &task->built));
   CS_TRY(name_frame(j, task));
   if (shoot->keep && shoot->keep(shoot->user, &task->frame))
     task->frame.way = CS_SHOOT_KEPT;
   CS_TRY(find_duplicate(j, task));
+  find_repeat(j, task);
   *step = choose_step(j, task);
   task->frame.seconds = cs_clock_seconds() - begun;
   return CELSPAN_OK;
@@ -159,10 +188,11 @@ static celspan_file_desc describe_file(const job *j, int64_t number,
 }
 
 static celspan_status make_frame(const job *j, celspan_context *context,
-                                 const celspan_frame_desc *desc, cs_shoot_frame *frame) {
+                                 const celspan_frame_desc *desc, frame_task *task) {
   const cs_shoot *shoot = j->shoot;
+  cs_shoot_frame *frame = &task->frame;
   if (shoot->put)
-    return shoot->put(shoot->user, desc, frame);
+    return shoot->put(shoot->user, context, desc, task->slot, frame);
   if (!shoot->pattern)
     return celspan_frame_digest(context, desc, shoot->file.coding, frame->digest);
   if (cs_plane_is_wanted(frame->path, shoot->file.format))
@@ -192,6 +222,15 @@ static celspan_status copy_duplicate(const job *j, celspan_context *context, fra
   return CELSPAN_OK;
 }
 
+/* Leaves a frame to `repeat` if it shows the same as the one that was given last, which is the
+ * frame before it unless that failed. Calling thread. */
+static void copy_last(const job *j, frame_task *task) {
+  if (!equals(&j->given_last, &task->frame))
+    return;
+  task->frame.way = CS_SHOOT_COPIED;
+  memcpy(task->frame.digest, j->given_last.digest, sizeof task->frame.digest);
+}
+
 /* Puts the frame's number before the sentence of a failure; a run that was stopped has none. */
 static celspan_status name_failure(celspan_context *context, int64_t number,
                                    celspan_status status) {
@@ -206,8 +245,9 @@ static celspan_status make_or_copy(const job *j, celspan_context *context, frame
                                    const celspan_frame_desc *desc) {
   if (task->is_known && !task->is_first)
     CS_TRY(copy_duplicate(j, context, task));
-  return task->frame.way == CS_SHOOT_COPIED ? CELSPAN_OK
-                                            : make_frame(j, context, desc, &task->frame);
+  if (task->repeats)
+    copy_last(j, task);
+  return task->frame.way == CS_SHOOT_COPIED ? CELSPAN_OK : make_frame(j, context, desc, task);
 }
 
 static celspan_status make(void *user, celspan_context *context, void *carried, int workers,
@@ -239,9 +279,23 @@ static void note_duplicate(job *j, const frame_task *task) {
   memcpy(duplicate->digest, task->frame.digest, sizeof duplicate->digest);
 }
 
+/* Gives a frame of a stream on. */
+static celspan_status give(job *j, const frame_task *task) {
+  const cs_shoot *shoot = j->shoot;
+  if (!shoot->give || task->frame.way == CS_SHOOT_KEPT)
+    return CELSPAN_OK;
+  celspan_status status = task->frame.way == CS_SHOOT_COPIED ? shoot->repeat(shoot->user)
+                                                             : shoot->give(shoot->user, task->slot);
+  if (status == CELSPAN_OK)
+    j->given_last = picture_of(&task->frame);
+  return name_failure(shoot->context, task->frame.number, status);
+}
+
 static celspan_status finish(void *user, void *carried, celspan_status status) {
   job *j = user;
   frame_task *task = carried;
+  if (status == CELSPAN_OK)
+    status = give(j, task);
   if (status == CELSPAN_OK && task->is_known && task->frame.way != CS_SHOOT_COPIED)
     note_duplicate(j, task);
   return j->shoot->finished(j->shoot->user, &task->frame, status);
@@ -265,11 +319,14 @@ static bool has_duplicates(const cs_shoot *shoot) {
 }
 
 celspan_status cs_shoot_run(const cs_shoot *shoot) {
-  job j = {.shoot = shoot, .has_duplicates = has_duplicates(shoot)};
+  job j = {.shoot = shoot,
+           .has_duplicates = has_duplicates(shoot),
+           .repeats = shoot->repeat && !shoot->keeps_nothing};
   const cs_frame_pipeline pipeline = {.count = shoot->frames->count,
                                       .workers = shoot->frame.workers,
                                       .keeps_going = shoot->keeps_going,
                                       .frame_size = sizeof(frame_task),
+                                      .slots = shoot->slots,
                                       .user = &j,
                                       .build = build,
                                       .make = make,

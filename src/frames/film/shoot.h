@@ -1,14 +1,19 @@
 /* Shooting a film: its frames are built in order by one thread, made by several workers, and put
- * into files or digests. celspan.render and the command line share it.
+ * into files, digests or a stream. celspan.render and the command line share it.
  *
- *   build --> keep?  -->  make, or copy from an equal frame  -->  finished
- *   \_____________/      \_________________________________/       \______/
+ *   build --> keep?  -->  make, or copy from an equal frame  -->  give, finished
+ *   \_____________/      \_________________________________/      \____________/
  *   calling thread,         any worker; copies, and           calling thread,
  *   in order                procedures: calling thread        in order
  *
- * A frame that shows the same as an earlier frame of the run is copied from it. Frames that contain
- * scan-line procedures are never copied: a procedure can be compared with nothing, and the calling
- * thread has to call it before it builds the next frame.
+ * The frames of a stream, such as a video, are made in slots, which are memory of the user, and
+ * given on in order. A slow frame holds later ones back in their slots, and while no slot is free,
+ * no frame is built.
+ *
+ * A frame that shows the same as an earlier frame of the run is copied from it; in a stream, from
+ * the frame before it alone. Frames that contain scan-line procedures are never copied: a procedure
+ * can be compared with nothing, and the calling thread has to call it before it builds the next
+ * frame.
  *
  * INVARIANT: frames are reported in their order, and the reports do not depend on the number of
  * workers.
@@ -54,10 +59,18 @@ typedef struct cs_shoot {
   /* The exposures of a frame: new. Errors: with their sentence in the context. Calling thread, in
    * order. */
   celspan_status (*build)(void *user, int64_t number, cs_film_frame *out);
-  /* The function that is called for each frame instead of writing a file: frame->way is set where
-   * the frame was not made, and frame->digest where there are digests. Calling thread, in order.
-   * NULL: files. */
-  celspan_status (*put)(void *user, const celspan_frame_desc *desc, cs_shoot_frame *frame);
+  /* The function that is called for each frame instead of writing a file; it sets frame->digest
+   * where there are digests. With `give`, it makes the frame in a slot, in any thread; otherwise it
+   * is called by the calling thread, in order, and slot is 0. NULL: files. */
+  celspan_status (*put)(void *user, celspan_context *context, const celspan_frame_desc *desc,
+                        size_t slot, cs_shoot_frame *frame);
+  size_t slots; /* of the stream; 0 without `give` */
+  /* Gives the frame in a slot on; the slot is free afterwards. Calling thread, in order. NULL: it
+   * is no stream. */
+  celspan_status (*give)(void *user, size_t slot);
+  /* Gives on once more the frame that was given last, because the next one equals it. Calling
+   * thread, in order. NULL: such frames are made. */
+  celspan_status (*repeat)(void *user);
   /* Writes the file of a frame instead of celspan_frame_write; such files are not copied. Any
    * thread. NULL: that one. */
   celspan_status (*write)(void *user, celspan_context *context, const celspan_frame_desc *desc,

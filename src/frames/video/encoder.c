@@ -319,30 +319,31 @@ static bool has_no_place(const cs_encoder *encoder) {
 }
 static bool is_writing(const cs_encoder *encoder) { return !encoder->is_done; }
 
-unsigned char *cs_encoder_pixels(const cs_encoder *encoder, int place) {
-  return encoder->places[place].pixels;
-}
-
-celspan_status cs_encoder_take(cs_encoder *encoder, int *place) {
-  CS_TRY(wait_for(encoder, has_no_place));
-  pthread_mutex_lock(&encoder->mutex);
-  *place = free_place(encoder);
-  pthread_mutex_unlock(&encoder->mutex);
-  return CELSPAN_OK;
-}
-
-void cs_encoder_give(cs_encoder *encoder, int place) {
-  pthread_mutex_lock(&encoder->mutex);
+/* Locked. */
+static void queue(cs_encoder *encoder, int place) {
   encoder->queue[(encoder->head + encoder->waiting++) % CS_ENCODER_QUEUE] = place;
   encoder->places[place].queued++;
   encoder->last = place;
   pthread_cond_broadcast(&encoder->changed);
+}
+
+celspan_status cs_encoder_give(cs_encoder *encoder, unsigned char **pixels) {
+  CS_TRY(wait_for(encoder, has_no_place));
+  pthread_mutex_lock(&encoder->mutex);
+  int place = free_place(encoder);
+  unsigned char *given = *pixels;
+  *pixels = encoder->places[place].pixels;
+  encoder->places[place].pixels = given;
+  queue(encoder, place);
   pthread_mutex_unlock(&encoder->mutex);
+  return CELSPAN_OK;
 }
 
 celspan_status cs_encoder_repeat(cs_encoder *encoder) {
   CS_TRY(wait_for(encoder, is_full));
-  cs_encoder_give(encoder, encoder->last);
+  pthread_mutex_lock(&encoder->mutex);
+  queue(encoder, encoder->last);
+  pthread_mutex_unlock(&encoder->mutex);
   return CELSPAN_OK;
 }
 

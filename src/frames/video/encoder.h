@@ -1,11 +1,11 @@
 /* A queue of frames for an encoder, which runs while the next frames are made.
  *
- *   take: a free place --> pixels --> give --> queue --thread--> the encoder's standard input
- *                                    repeat --^                  (frames/process/child.h)
+ *   give: pixels --> a free place --> queue --thread--> the encoder's standard input
+ *                           repeat --^                  (frames/process/child.h)
  *   samples --feeder: a thread--> its second pipe
  *
- * There are places for three frames: one that is written, one that waits, one that is made. A frame
- * that is shown again is queued again, not copied.
+ * There are places for two frames: one that is written, and one that waits. Pixels are exchanged
+ * for those of a free place, not copied; a frame that is shown again is queued again.
  *
  * INVARIANT: frames are written in the order in which they were given, each as often as it was
  * given or repeated. An encoder that failed is closed already.
@@ -35,7 +35,7 @@ typedef struct cs_feeder {
   bool is_open;
 } cs_feeder;
 
-enum { CS_ENCODER_PLACES = 3, CS_ENCODER_QUEUE = 64 };
+enum { CS_ENCODER_PLACES = 2, CS_ENCODER_QUEUE = 64 };
 
 typedef struct cs_encoder {
   celspan_context *context; /* borrowed */
@@ -64,11 +64,10 @@ typedef struct cs_encoder {
 CELSPAN_CHECKED celspan_status cs_encoder_open(cs_encoder *out, celspan_context *context,
                                                const char *name, const char *const *arguments,
                                                size_t frame_size, cs_sound_stream *samples);
-/* Finds a place for the pixels of the next frame. Errors: OUTPUT, with the message of an encoder
- * that has ended; those of the samples; CANCELLED. */
-CELSPAN_CHECKED celspan_status cs_encoder_take(cs_encoder *encoder, int *place);
-unsigned char *cs_encoder_pixels(const cs_encoder *encoder, int place);
-void cs_encoder_give(cs_encoder *encoder, int place);
+/* Exchanges the pixels of the next frame for others of the same size that are free, from
+ * cs_mem_resize like those; waits until there are such. Errors: OUTPUT, with the message of an
+ * encoder that has ended; those of the samples; CANCELLED. */
+CELSPAN_CHECKED celspan_status cs_encoder_give(cs_encoder *encoder, unsigned char **pixels);
 /* Repeats the frame given last. Errors: as above. */
 CELSPAN_CHECKED celspan_status cs_encoder_repeat(cs_encoder *encoder);
 /* Waits until all frames are written and the encoder has succeeded, and closes it. Errors: as

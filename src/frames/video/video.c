@@ -106,23 +106,39 @@ static void close_picture(cs_video *video) {
   video->pixels = NULL;
 }
 
-static celspan_status put_picture(cs_video *video) {
+static celspan_status give_picture(cs_video *video) {
   return cs_picture_file_rows(&video->picture, video->context, 0, video->extras.height,
                               video->pixels);
 }
 
 static celspan_status open_module(cs_video *out, const cs_video_desc *desc) {
-  cs_sound_stream none = desc->sound;
   cs_temporary_sweep(out->path, is_same);
   celspan_status status = open_picture(out, desc);
   if (status != CELSPAN_OK)
     close_picture(out);
-  cs_sound_stream_close(&none);
   return status;
 }
 
-celspan_status cs_video_open(cs_video *out, celspan_context *context, const cs_video_desc *desc) {
+static celspan_status open_encoder(cs_video *out, const cs_video_desc *desc,
+                                   cs_sound_stream *samples) {
   cs_video_command command;
+  celspan_status status = prepare(out, desc, &command);
+  if (status == CELSPAN_OK)
+    status = cs_encoder_open(&out->encoder, out->context, out->path, command.arguments,
+                             out->slots.frame_size, samples);
+  if (status != CELSPAN_OK)
+    discard_files(out);
+  return status;
+}
+
+static celspan_status open_slots(cs_video *out, const cs_video_desc *desc) {
+  size_t size = frame_size(out, desc->frames.width, desc->frames.height);
+  size_t count = desc->keeps_nothing ? 1 : cs_slots_count(out->context, size, desc->workers);
+  return cs_slots_open(&out->slots, out->context, count, size);
+}
+
+celspan_status cs_video_open(cs_video *out, celspan_context *context, const cs_video_desc *desc) {
+  cs_sound_stream samples = desc->sound;
   *out = (cs_video){.context = context,
                     .path = desc->path,
                     .format = desc->format,
@@ -132,28 +148,18 @@ celspan_status cs_video_open(cs_video *out, celspan_context *context, const cs_v
                     .extras = {.width = desc->frames.width, .height = desc->frames.height},
                     .most_bytes = desc->most_bytes,
                     .has_sound = desc->sound.user != NULL,
-                    .has_digests = desc->has_digests,
-                    .keeps_nothing = desc->keeps_nothing};
+                    .has_digests = desc->has_digests};
   out->stride = (size_t)desc->frames.width * cs_pixels_size(&out->coding);
-  if (is_of_module(out))
-    return open_module(out, desc);
-  cs_sound_stream samples = desc->sound;
-  celspan_status status = prepare(out, desc, &command);
+  celspan_status status = open_slots(out, desc);
   if (status == CELSPAN_OK)
-    status = cs_encoder_open(&out->encoder, context, out->path, command.arguments,
-                             frame_size(out, desc->frames.width, desc->frames.height), &samples);
+    status = is_of_module(out) ? open_module(out, desc) : open_encoder(out, desc, &samples);
   if (status != CELSPAN_OK)
-    discard_files(out);
+    cs_slots_close(&out->slots, context);
   cs_sound_stream_close(&samples);
   return status;
 }
 
 /* ---------------------------------------------------------------- frames */
-
-static bool is_repeated(const cs_video *video, const cs_shoot_frame *frame) {
-  return video->has_last && frame->is_named && !video->keeps_nothing &&
-         frame->scene.a == video->last.a && frame->scene.b == video->last.b;
-}
 
 /* The coding of the frame's spans, without dithering. */
 static celspan_coding plain_coding(const cs_video *video, const celspan_frame_desc *desc) {
@@ -176,81 +182,73 @@ static celspan_sink planes_sink(const cs_video *video, const celspan_frame_desc 
 }
 
 /* A sink for the pixels in the layout of the encoder. planes: must live as long as the sink. */
-static celspan_status open_sink(const cs_video *video, const celspan_frame_desc *desc,
-                                unsigned char *pixels, cs_planes *planes, celspan_sink *out) {
+static celspan_status open_sink(const cs_video *video, celspan_context *context,
+                                const celspan_frame_desc *desc, unsigned char *pixels,
+                                cs_planes *planes, celspan_sink *out) {
   if (video->layout != CS_VIDEO_RGBA) {
     *out = planes_sink(video, desc, pixels, planes);
     return CELSPAN_OK;
   }
   celspan_coding plain = plain_coding(video, desc);
-  CS_TRY(cs_sink_memory(video->context, &plain, pixels, video->stride, out));
-  return cs_dither_sink(video->context, &video->coding, &plain, desc->crop_x, desc->crop_y, out);
+  CS_TRY(cs_sink_memory(context, &plain, pixels, video->stride, out));
+  return cs_dither_sink(context, &video->coding, &plain, desc->crop_x, desc->crop_y, out);
 }
 
 /* A sink that hashes RGBA pixels. */
-static celspan_status open_digest(cs_video *video, const celspan_frame_desc *desc,
+static celspan_status open_digest(const cs_video *video, celspan_context *context,
+                                  const celspan_frame_desc *desc, uint64_t digest[2],
                                   celspan_sink *out) {
   celspan_coding plain = plain_coding(video, desc);
-  CS_TRY(cs_sink_digest(video->context, &plain, video->digest, out));
-  return cs_dither_sink(video->context, &video->coding, &plain, desc->crop_x, desc->crop_y, out);
+  CS_TRY(cs_sink_digest(context, &plain, digest, out));
+  return cs_dither_sink(context, &video->coding, &plain, desc->crop_x, desc->crop_y, out);
 }
 
 /* Makes and hashes the frame in one pass over its rows. */
-static celspan_status make_both(cs_video *video, const celspan_frame_desc *desc,
-                                unsigned char *pixels) {
+static celspan_status make_both(const cs_video *video, celspan_context *context,
+                                const celspan_frame_desc *desc, unsigned char *pixels,
+                                uint64_t digest[2]) {
   cs_planes planes;
   cs_tee tee;
-  CS_TRY(open_sink(video, desc, pixels, &planes, &tee.sinks[0]));
-  celspan_status status = open_digest(video, desc, &tee.sinks[1]);
+  CS_TRY(open_sink(video, context, desc, pixels, &planes, &tee.sinks[0]));
+  celspan_status status = open_digest(video, context, desc, digest, &tee.sinks[1]);
   if (status != CELSPAN_OK) {
-    cs_sink_discard(video->context, &tee.sinks[0]);
+    cs_sink_discard(context, &tee.sinks[0]);
     return status;
   }
   celspan_sink sink = cs_tee_sink(&tee);
-  status = celspan_frame_render(video->context, desc, &sink, NULL);
+  status = celspan_frame_render(context, desc, &sink, NULL);
   for (int i = 0; i < 2 && !tee.is_ended; i++)
-    cs_sink_discard(video->context, &tee.sinks[i]);
+    cs_sink_discard(context, &tee.sinks[i]);
   return status;
 }
 
-static celspan_status make_one(const cs_video *video, const celspan_frame_desc *desc,
-                               unsigned char *pixels) {
+static celspan_status make_one(const cs_video *video, celspan_context *context,
+                               const celspan_frame_desc *desc, unsigned char *pixels) {
   cs_planes planes;
   if (video->layout == CS_VIDEO_RGBA)
-    return celspan_frame_pixels(video->context, desc, &video->coding, pixels, video->stride, NULL);
+    return celspan_frame_pixels(context, desc, &video->coding, pixels, video->stride, NULL);
   celspan_sink sink = planes_sink(video, desc, pixels, &planes);
-  return celspan_frame_render(video->context, desc, &sink, NULL);
+  return celspan_frame_render(context, desc, &sink, NULL);
 }
 
-static celspan_status make_into(cs_video *video, const celspan_frame_desc *desc,
-                                unsigned char *pixels) {
-  return video->has_digests ? make_both(video, desc, pixels) : make_one(video, desc, pixels);
+celspan_status cs_video_put(const cs_video *video, celspan_context *context,
+                            const celspan_frame_desc *desc, size_t slot, uint64_t digest[2]) {
+  unsigned char *pixels = video->slots.frames[slot];
+  return video->has_digests ? make_both(video, context, desc, pixels, digest)
+                            : make_one(video, context, desc, pixels);
 }
 
-static celspan_status make(cs_video *video, const celspan_frame_desc *desc) {
-  int place;
-  if (is_of_module(video)) {
-    CS_TRY(make_into(video, desc, video->pixels));
-    return put_picture(video);
-  }
-  CS_TRY(cs_encoder_take(&video->encoder, &place));
-  CS_TRY(make_into(video, desc, cs_encoder_pixels(&video->encoder, place)));
-  cs_encoder_give(&video->encoder, place);
-  return CELSPAN_OK;
+celspan_status cs_video_give(cs_video *video, size_t slot) {
+  unsigned char **pixels = &video->slots.frames[slot], *given = *pixels;
+  if (!is_of_module(video))
+    return cs_encoder_give(&video->encoder, pixels);
+  *pixels = video->pixels;
+  video->pixels = given;
+  return give_picture(video);
 }
 
-celspan_status cs_video_put(cs_video *video, const celspan_frame_desc *desc,
-                            cs_shoot_frame *frame) {
-  if (is_repeated(video, frame)) {
-    frame->way = CS_SHOOT_COPIED;
-    CS_TRY(is_of_module(video) ? put_picture(video) : cs_encoder_repeat(&video->encoder));
-  } else {
-    CS_TRY(make(video, desc));
-  }
-  video->has_last = frame->is_named;
-  video->last = frame->scene;
-  memcpy(frame->digest, video->digest, sizeof frame->digest);
-  return CELSPAN_OK;
+celspan_status cs_video_repeat(cs_video *video) {
+  return is_of_module(video) ? give_picture(video) : cs_encoder_repeat(&video->encoder);
 }
 
 /* ---------------------------------------------------------------- the end */
@@ -312,6 +310,7 @@ static celspan_status complete(cs_video *video) {
 }
 
 celspan_status cs_video_finish(cs_video *video) {
+  cs_slots_close(&video->slots, video->context);
   if (is_of_module(video)) {
     celspan_status outcome = cs_picture_file_close(&video->picture, video->context);
     close_picture(video);
@@ -327,6 +326,7 @@ celspan_status cs_video_finish(cs_video *video) {
 }
 
 void cs_video_discard(cs_video *video) {
+  cs_slots_close(&video->slots, video->context);
   if (is_of_module(video)) {
     close_picture(video);
     return;

@@ -1,7 +1,7 @@
 /* A film as one file with its sound, made by ffmpeg.
  *
- *   frames --> encoder.h --> ffmpeg --> .film.mp4.1a2b.part --finish--> film.mp4
- *   samples ---------------^
+ *   frames --> slots --> encoder.h --> ffmpeg --> .film.mp4.1a2b.part --finish--> film.mp4
+ *   samples -------------------------^
  *
  *   with a limit of bytes:
  *   frames, samples --> ffmpeg --> master --ffmpeg, several times--> .film.mp4.1a2b.part
@@ -9,7 +9,7 @@
  *   with few colours:
  *   frames --> ffmpeg --> master --ffmpeg--> palette; both --ffmpeg--> .film.gif.1a2b.part
  *
- *   AVIF: frames --> picture_file.h --> film.avif
+ *   AVIF: frames --> slots --> picture_file.h --> film.avif
  *
  * INVARIANT: the file appears under its name when cs_video_finish returns OK, not before. After
  * cs_video_finish and cs_video_discard there is no temporary file and no process.
@@ -17,6 +17,7 @@
 #pragma once
 
 #include "frames/film/shoot.h"
+#include "frames/film/slots.h"
 #include "frames/video/encoder.h"
 #include "frames/video/format.h"
 #include "output/sinks/file.h"
@@ -33,7 +34,8 @@ typedef struct cs_video_desc {
   const unsigned char *poster; /* RGBA of 8 bits, of the frames' size; NULL: none */
   uint64_t most_bytes; /* of the file, whose quality is the highest that fits; 0: any number */
   bool has_digests;    /* hashes the RGBA pixels of each frame */
-  bool keeps_nothing;  /* makes a frame again that equals the previous one */
+  int workers;         /* that make frames beside each other, if there is memory for it */
+  bool keeps_nothing;  /* makes one frame at a time */
 } cs_video_desc;
 
 typedef struct cs_video {
@@ -54,20 +56,23 @@ typedef struct cs_video {
   cs_encoder encoder;
   /* where the picture module codes, instead of the encoder and the files: */
   cs_picture_file picture;
-  unsigned char *pixels; /* of the last frame; owned */
-  bool has_digests, keeps_nothing;
-  bool has_last; /* the previous frame can be compared with the next one */
-  cs_hash last;
-  uint64_t digest[2]; /* of its pixels, if has_digests */
+  unsigned char *pixels; /* of the frame given last; owned */
+  bool has_digests;
+  cs_slots slots; /* of the frames that are made; owned */
 } cs_video;
 
 /* Starts the encoder. The samples of the sound are the video's, whatever it returns. out: must not
  * move until it is finished or discarded. Errors: OUTPUT, NO_MEMORY, LIMIT. */
 CELSPAN_CHECKED celspan_status cs_video_open(cs_video *out, celspan_context *context,
                                              const cs_video_desc *desc);
-/* Makes a frame, or repeats the previous one if it is equal. */
-CELSPAN_CHECKED celspan_status cs_video_put(cs_video *video, const celspan_frame_desc *desc,
-                                            cs_shoot_frame *frame);
+/* Makes a frame in a slot, with its digest if there are digests. Any thread, with its context. */
+CELSPAN_CHECKED celspan_status cs_video_put(const cs_video *video, celspan_context *context,
+                                            const celspan_frame_desc *desc, size_t slot,
+                                            uint64_t digest[2]);
+/* Gives the frame in a slot to the encoder, after all frames before it. */
+CELSPAN_CHECKED celspan_status cs_video_give(cs_video *video, size_t slot);
+/* Gives it the frame again that was given last. */
+CELSPAN_CHECKED celspan_status cs_video_repeat(cs_video *video);
 /* Both end the video, whatever they return. */
 CELSPAN_CHECKED celspan_status cs_video_finish(cs_video *video);
 void cs_video_discard(cs_video *video);
