@@ -97,7 +97,7 @@ local function compare(frame, drawn, w, h)
 end
 
 describe("a drawing", function()
-  --- How many areas x.svg has, the largest that two have in common, and what they leave out.
+  --- How many areas x.svg has, what each two have in common, and what they leave out.
   local function measured()
     local command = ("%s tests/support/areas.py %s/x.svg"):format(PYTHON, bench.folder)
     local out = io.popen(command):read "a"
@@ -109,6 +109,13 @@ describe("a drawing", function()
     done "render light.lua -o x.svg --flat regions --precision 6 --frames 1"
     local count, overlap, gap = measured()
     assert.is_true(count >= 8 and overlap <= 1e-6 and math.abs(gap) <= 1e-6)
+  end)
+
+  it_measures("of regions has areas that meet at one point where flat borders end", function()
+    done("render %s/scripts/demo.lua -o x.svg --flat regions --precision 6 --frames 12",
+      os.getenv "PWD")
+    local count, overlap = measured()
+    assert.is_true(count >= 60 and overlap <= 1e-6)
   end)
 
   it_measures("of regions has no slivers where outlines have a part in common", function()

@@ -1,7 +1,8 @@
 """areas.py FILE.svg: of a drawing of `celspan render --flat regions`, prints COUNT OVERLAP GAP.
 
-OVERLAP is the largest area, in square units, that two of its paths have in common by shapely; GAP
-is what the paths together leave of the view box. Curves become chords, the same from either end.
+OVERLAP is the sum of the areas, in square units, that two of its paths have in common, by shapely.
+GAP is what the paths together leave of the view box. Curves become chords, the same
+from either end.
 """
 import re
 import sys
@@ -75,7 +76,7 @@ def main(path):
     overlap = 0
     for i, one in enumerate(areas):
         for other in areas[:i]:
-            overlap = max(overlap, one.intersection(other).area)
+            overlap += one.intersection(other).area
     x, y, width, height = (float(n) for n in root.get("viewBox").split())
     gap = box(x, y, x + width, y + height).area - unary_union(areas).area
     print(len(areas), "%.9f" % overlap, "%.9f" % gap)

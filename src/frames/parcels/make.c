@@ -320,7 +320,8 @@ celspan_status cs_parcels_make(celspan_context *context, const celspan_plane *pl
   out->is_sum = status == CELSPAN_BAD_ARGUMENT;
   CS_TRY(status);
   CS_TRY(cs_parcels_join_slivers(context, out));
-  return walk_fills(context, out);
+  CS_TRY(walk_fills(context, out));
+  return cs_joints_make(context, out);
 }
 
 void cs_parcels_finish(cs_parcels *p, cs_memory *memory) {

@@ -83,10 +83,16 @@ CELSPAN_CHECKED celspan_status cs_beside_walk(celspan_context *context, const cs
 /* How wide it is between two arcs of the row, across the first one, in film units. */
 double cs_beside_gap(const cs_beside *row, size_t place, size_t other);
 
+/* How far apart two borders of one shape may be by the plane's rounding, across and down, in film
+ * units. */
+celspan_point cs_parcels_near(const cs_parcels *parcels);
 /* Joins arcs between which there is a fill that is no wider than the plane's rounding, and drops
  * those that separate nothing. Errors: NO_MEMORY; LIMIT. */
 CELSPAN_CHECKED celspan_status cs_parcels_join_slivers(celspan_context *context,
                                                        cs_parcels *parcels);
+/* Moves ends of arcs that meet to one point. The loops of all fills must be there. Errors:
+ * NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_joints_make(celspan_context *context, cs_parcels *parcels);
 
 /* BAD_ARGUMENT if places of the plane have several fills, because it is a sum. */
 CELSPAN_CHECKED celspan_status cs_parcels_refuse_sums(celspan_context *context,

@@ -36,8 +36,7 @@ typedef struct cut_list {
   size_t full; /* the count at which those that are there twice go */
 } cut_list;
 
-/* Across and down, in film units. */
-static celspan_point near_by(const cs_parcels *parcels) {
+celspan_point cs_parcels_near(const cs_parcels *parcels) {
   return (celspan_point){fmax(NEAR, STEPS * parcels->columns) / PLANEFILE_SIDE * parcels->width,
                          fmax(NEAR, STEPS * parcels->rows) / PLANEFILE_SIDE * parcels->height};
 }
@@ -47,7 +46,7 @@ static celspan_point near_by(const cs_parcels *parcels) {
 static bool are_near(const cs_parcels *parcels, uint32_t a, uint32_t b, double top, double foot) {
   const double unit = parcels->height / PLANEFILE_SIDE, down = (foot - top) * unit;
   const double across = cs_arc_x(parcels, a, foot * unit) - cs_arc_x(parcels, a, top * unit);
-  const celspan_point most = near_by(parcels);
+  const celspan_point most = cs_parcels_near(parcels);
   bool near = foot > top;
   for (int i = 0; i < HEIGHTS && near; i++) {
     double y = (top + (foot - top) * (i + 0.5) / HEIGHTS) * unit;
