@@ -61,10 +61,15 @@ static void report(const celspan_context *context, const char *path, const cs_pl
     cs_report_note("%s: is a picture of %d x %d pixels, because it has no vectors for this: %s",
                    path, (int)facts->picture_width, (int)facts->picture_height,
                    celspan_context_error(context));
-  else if (facts->picture_width > 0)
+  else if (facts->pictures == 1)
     cs_report_note("%s: what SVG has no vectors for is a picture of %d x %d pixels, beside %zu "
                    "areas",
                    path, (int)facts->picture_width, (int)facts->picture_height, facts->areas);
+  else if (facts->pictures > 1)
+    cs_report_note("%s: what SVG has no vectors for is %zu pictures, the largest of %d x %d "
+                   "pixels, beside %zu areas",
+                   path, facts->pictures, (int)facts->picture_width, (int)facts->picture_height,
+                   facts->areas);
 }
 
 celspan_status cs_svg_target_write_frame(celspan_context *context, const celspan_frame_desc *frame,

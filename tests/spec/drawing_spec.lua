@@ -218,6 +218,23 @@ return celspan.film { size = { 60, 40 }, frames = 1, frame = function()
     assert.matches("<image", bench:read "y.svg", 1, true)
   end)
 
+  it("has a picture for each part that is apart", function()
+    bench:write("spots.lua", [[
+local celspan = require "celspan"
+local function spot(x, y)
+  return celspan.cel { celspan.circle { centre = { x, y }, radius = 4 }, defocus = 1 }
+end
+return celspan.film { size = { 300, 200 }, frames = 1, frame = function()
+  return celspan.rostrum { back = "#fff", spot(20, 20), spot(270, 180), spot(280, 175) } end }]])
+    assert.matches("is 2 pictures, the largest of 4[0-9] x 3[0-9] pixels, beside",
+      done "render spots.lua -o x.svg")
+    local places = {}
+    for x, y in bench:read("x.svg"):gmatch '<image x="(%d+)%.?%d*" y="(%d+)' do
+      places[#places + 1] = x .. "," .. y
+    end
+    assert.same({ "13,13", "263,168" }, places)
+  end)
+
   it("of a sum of pictures is a picture, of a frame and of its plane", function()
     bench:write("sum.lua", [[
 local celspan = require "celspan"

@@ -1,9 +1,10 @@
 /* Parcels of planes: arcs of no height, slivers and what is as thin but was drawn, borders that do
- * not meet, and memory that is not there.
+ * not meet, boxes of pixels that are apart, and memory that is not there.
  */
 #include <math.h>
 
 #include "celspan/plane.h"
+#include "frames/parcels/boxes.h"
 #include "frames/parcels/making.h"
 #include "frames/parcels/plot.h"
 #include "frames/parcels/under.h"
@@ -68,6 +69,30 @@ static void check_slivers(celspan_context *context) {
   }
 }
 
+/* ---------------------------------------------------------------- boxes */
+
+static void check_boxes(void) {
+  cs_boxes boxes = {.count = 0};
+  cs_boxes_add(&boxes, (cs_box){0, 0, 10, 10});
+  cs_boxes_add(&boxes, (cs_box){20, 0, 30, 10});
+  cs_boxes_add(&boxes, (cs_box){100, 0, 110, 10});
+  CHECK(boxes.count == 3);
+  cs_boxes_add(&boxes, (cs_box){9, 9, 20, 20}); /* overlaps the first one and touches the second */
+  CHECK(boxes.count == 2);
+  const cs_box joined = boxes.all[1];
+  CHECK(joined.x0 == 0 && joined.y0 == 0 && joined.x1 == 30 && joined.y1 == 20);
+}
+
+/* What is one more than there is room for goes to its neighbour. */
+static void check_many_boxes(void) {
+  cs_boxes boxes = {.count = 0};
+  for (int32_t i = 0; i <= CS_BOXES; i++)
+    cs_boxes_add(&boxes, (cs_box){10 * i, 0, 10 * i + 2, 2});
+  CHECK(boxes.count == CS_BOXES);
+  const cs_box last = boxes.all[CS_BOXES - 1];
+  CHECK(last.x0 == 10 * (CS_BOXES - 1) && last.x1 == 10 * CS_BOXES + 2 && last.y1 == 2);
+}
+
 /* ---------------------------------------------------------------- planes */
 
 static celspan_status write_drawing(studio *s, const celspan_plane *plane, cs_plot_facts *facts) {
@@ -129,6 +154,8 @@ int main(void) {
   studio s = {.context = memory_watch_context(&watch)};
   check_rows(s.context);
   check_slivers(s.context);
+  check_boxes();
+  check_many_boxes();
   check_apart(&s);
   check_failures_of_memory(&s, &watch);
   celspan_context_destroy(s.context);

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "frames/parcels/boxes.h"
 #include "frames/parcels/plot_text.h"
 #include "frames/parcels/under.h"
 #include "frames/plane/plane.h"
@@ -183,30 +184,28 @@ static celspan_status check_picture(celspan_context *context, const cs_plot_pict
 
 /* The columns or rows that a range of units touches. */
 static void clip_side(double low, double high, double film, int32_t side, int32_t *first,
-                      int32_t *count) {
-  double begin = floor(low / film * side), end = ceil(high / film * side);
-  int32_t from = begin < 0 ? 0 : begin < side ? (int32_t)begin : side - 1;
-  int32_t to = end > side ? side : end > from ? (int32_t)end : from + 1;
-  *first = from;
-  *count = to - from;
+                      int32_t *end) {
+  double begin = floor(low / film * side), last = ceil(high / film * side);
+  *first = begin < 0 ? 0 : begin < side ? (int32_t)begin : side - 1;
+  *end = last > side ? side : last > *first ? (int32_t)last : *first + 1;
 }
 
-/* The part of the whole picture in which loops lie. */
-static void crop_to(const cs_parcels *parcels, const size_t loops[2], cs_plot_picture *picture) {
+/* The part of the whole picture in which a loop lies. */
+static cs_box box_of(const cs_parcels *parcels, const cs_parcel_loop *loop,
+                     const cs_plot_picture *whole) {
   celspan_point least = {INFINITY, INFINITY}, most = {-INFINITY, -INFINITY};
-  for (size_t i = loops[0]; i < loops[1]; i++) {
-    const cs_parcel_loop *loop = &parcels->loops[i];
-    for (size_t k = loop->walk; k < loop->walk + loop->walk_count; k++) {
-      const cs_parcel_arc *arc = &parcels->arcs[parcels->walks[k].arc];
-      for (size_t c = 4 * arc->curve; c < 4 * (arc->curve + arc->curve_count); c++) {
-        celspan_point at = parcels->curves[c / 4].points[c % 4];
-        least = (celspan_point){fmin(least.x, at.x), fmin(least.y, at.y)};
-        most = (celspan_point){fmax(most.x, at.x), fmax(most.y, at.y)};
-      }
+  cs_box box;
+  for (size_t k = loop->walk; k < loop->walk + loop->walk_count; k++) {
+    const cs_parcel_arc *arc = &parcels->arcs[parcels->walks[k].arc];
+    for (size_t c = 4 * arc->curve; c < 4 * (arc->curve + arc->curve_count); c++) {
+      celspan_point at = parcels->curves[c / 4].points[c % 4];
+      least = (celspan_point){fmin(least.x, at.x), fmin(least.y, at.y)};
+      most = (celspan_point){fmax(most.x, at.x), fmax(most.y, at.y)};
     }
   }
-  clip_side(least.x, most.x, parcels->width, picture->width, &picture->x, &picture->columns);
-  clip_side(least.y, most.y, parcels->height, picture->height, &picture->y, &picture->rows);
+  clip_side(least.x, most.x, parcels->width, whole->width, &box.x0, &box.x1);
+  clip_side(least.y, most.y, parcels->height, whole->height, &box.y0, &box.y1);
+  return box;
 }
 
 /* The union of all fills that are wanted: loops, from the first one to the end. */
@@ -230,8 +229,27 @@ static void put_clip(drawing *d, const char *name, const size_t loops[2]) {
 
 static bool is_picture(const cs_fill *fill) { return fill->kind == CS_FILL_PICTURE; }
 
-static celspan_status put_picture(drawing *d) {
+static celspan_status put_part(drawing *d, cs_plot_picture picture, const cs_box *part) {
+  cs_plot_facts *facts = d->facts;
+  picture.x = part->x0;
+  picture.y = part->y0;
+  picture.columns = part->x1 - part->x0;
+  picture.rows = part->y1 - part->y0;
+  CS_TRY(check_picture(d->text.context, &picture));
+  cs_plot_put_picture(&d->text, &picture, d->parcels.width, d->parcels.height);
+  facts->pictures++;
+  if ((double)picture.columns * picture.rows >
+      (double)facts->picture_width * facts->picture_height) {
+    facts->picture_width = picture.columns;
+    facts->picture_height = picture.rows;
+  }
+  return CELSPAN_OK;
+}
+
+/* Parts that are apart are pictures of their own. */
+static celspan_status put_pictures(drawing *d) {
   size_t loops[2];
+  cs_boxes parts = {.count = 0};
   cs_plot_picture picture = {
       .draw = draw_plane, .plane = d->plane, .is_opaque = celspan_plane_is_opaque(d->plane)};
   CS_TRY(unite(d, is_picture, loops));
@@ -239,14 +257,13 @@ static celspan_status put_picture(drawing *d) {
     return CELSPAN_OK;
   CS_TRY(
       size_picture(d->text.context, d->parcels.width, d->parcels.height, d->desc->scale, &picture));
-  crop_to(&d->parcels, loops, &picture);
-  CS_TRY(check_picture(d->text.context, &picture));
+  for (size_t i = loops[0]; i < loops[1]; i++)
+    cs_boxes_add(&parts, box_of(&d->parcels, &d->parcels.loops[i], &picture));
   put_clip(d, "picture", loops);
   cs_plot_put(&d->text, "<g clip-path=\"url(#picture)\">\n");
-  cs_plot_put_picture(&d->text, &picture, d->parcels.width, d->parcels.height);
+  for (size_t i = 0; i < parts.count; i++)
+    CS_TRY(put_part(d, picture, &parts.all[i]));
   cs_plot_put(&d->text, "</g>\n");
-  d->facts->picture_width = picture.columns;
-  d->facts->picture_height = picture.rows;
   return CELSPAN_OK;
 }
 
@@ -308,7 +325,7 @@ static celspan_status put_areas(drawing *d) {
   cs_plot_put(&d->text, "<g fill-rule=\"evenodd\">\n");
   for (size_t i = d->parcels.fill_count; i-- > 0;)
     put_area(d, d->under.order[i]);
-  CS_TRY(put_picture(d));
+  CS_TRY(put_pictures(d));
   cs_plot_put(&d->text, "</g>\n");
   return CELSPAN_OK;
 }
@@ -409,8 +426,10 @@ static celspan_status write_picture(celspan_context *context, cs_plot_picture pi
   memcpy(reason, context->error, sizeof reason);
   CS_TRY(size_picture(context, film.x, film.y, desc->scale, &picture));
   CS_TRY(check_picture(context, &picture));
-  *facts = (cs_plot_facts){
-      .picture_width = picture.columns, .picture_height = picture.rows, .is_picture = true};
+  *facts = (cs_plot_facts){.pictures = 1,
+                           .picture_width = picture.columns,
+                           .picture_height = picture.rows,
+                           .is_picture = true};
   CS_TRY(begin(context, path, desc, film.x, film.y, &text));
   cs_plot_put_picture(&text, &picture, film.x, film.y);
   CS_TRY(end(&text, CELSPAN_OK));
