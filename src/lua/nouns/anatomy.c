@@ -127,14 +127,20 @@ static celspan_status stay(void *user, celspan_context *context, celspan_point f
   return CELSPAN_OK;
 }
 
-/* Puts the contours of an outline. line: the stroke whose line it is, or NULL. */
-static void put_contours(lua_State *L, const cs_outline *outline, const celspan_matrix *matrix,
-                         double extent, const cs_stroke *line) {
+/* Puts the contours of an outline. line: the stroke whose line it is, or NULL. Errors: those of
+ * cs_warp_bend. */
+static celspan_status put_contours(lua_State *L, const cs_outline *outline,
+                                   const celspan_matrix *matrix, double extent,
+                                   const cs_stroke *line) {
   celspan_context *context = cs_host_context(L);
   const cs_warp_map map = {
       .context = context, .call = stay, .within = WITHIN * extent, .extent = INFINITY};
   cs_outline *plain = push_held(L);
-  cs_host_try(L, "morph", cs_warp_bend(&map, outline, matrix, plain));
+  const celspan_status status = cs_warp_bend(&map, outline, matrix, plain);
+  if (status != CELSPAN_OK) {
+    lua_pop(L, 1);
+    return status;
+  }
   lua_createtable(L, (int)plain->contour_count, 0);
   for (size_t c = 0; c < plain->contour_count; c++) {
     size_t begin, end;
@@ -145,6 +151,7 @@ static void put_contours(lua_State *L, const cs_outline *outline, const celspan_
   }
   lua_setfield(L, -3, "contours");
   lua_pop(L, 1);
+  return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- paints */
@@ -198,31 +205,29 @@ static void put_line(lua_State *L, const cs_stroke *stroke, const celspan_matrix
 }
 
 /* Puts what is painted: the contours, and the rule that says which points are in them. */
-static void put_filled(lua_State *L, const cs_primitive_data *data, const celspan_matrix *matrix,
-                       double extent) {
+static celspan_status put_filled(lua_State *L, const cs_primitive_data *data,
+                                 const celspan_matrix *matrix, double extent) {
   cs_outline_box room;
   cs_put_text(L, "rule",
               data->rule == CELSPAN_RULE_EVENODD && !data->stroke ? "evenodd" : "nonzero");
-  if (data->stroke) {
-    cs_outline *made = push_held(L);
-    cs_host_try(L, "morph", cs_stroke_outline_finely(cs_host_context(L), data->stroke, made));
-    lua_insert(L, -2); /* moves the value below the node */
-    put_contours(L, made, matrix, extent, NULL);
-    lua_remove(L, -2);
-  } else {
-    put_contours(L, cs_primitive_data_outline(data, &room), matrix, extent, NULL);
-  }
+  if (!data->stroke)
+    return put_contours(L, cs_primitive_data_outline(data, &room), matrix, extent, NULL);
+  cs_outline *made = push_held(L);
+  cs_host_try(L, "morph", cs_stroke_outline_finely(cs_host_context(L), data->stroke, made));
+  lua_insert(L, -2); /* moves the value below the node */
+  const celspan_status status = put_contours(L, made, matrix, extent, NULL);
+  lua_remove(L, -2);
+  return status;
 }
 
-void cs_anatomy_put_filled(lua_State *L, const cs_primitive_data *data, double within) {
+celspan_status cs_anatomy_put_filled(lua_State *L, const cs_primitive_data *data, double within) {
   const celspan_matrix identity = celspan_matrix_identity();
   const double extent = cs_number_length(data->bounds.width, data->bounds.height);
-  if (extent > 0) {
-    put_filled(L, data, &identity, within / WITHIN * extent);
-    return;
-  }
+  if (extent > 0)
+    return put_filled(L, data, &identity, within / WITHIN * extent);
   lua_newtable(L);
   lua_setfield(L, -2, "contours");
+  return CELSPAN_OK;
 }
 
 static void put_outline(lua_State *L, const cs_primitive_data *data, const celspan_matrix *matrix,
@@ -234,12 +239,12 @@ static void put_outline(lua_State *L, const cs_primitive_data *data, const celsp
   cs_put_text(L, "kind", "outline");
   put_texture(L, data, matrix);
   if (!is_line) {
-    put_filled(L, data, matrix, extent);
+    cs_host_try(L, "morph", put_filled(L, data, matrix, extent));
     return;
   }
   cs_put_text(L, "rule", "nonzero");
   put_line(L, data->stroke, matrix);
-  put_contours(L, &data->stroke->line, matrix, extent, data->stroke);
+  cs_host_try(L, "morph", put_contours(L, &data->stroke->line, matrix, extent, data->stroke));
 }
 
 static void push_node(lua_State *L, celspan_object *object, const celspan_matrix *around,

@@ -58,8 +58,9 @@ int cs_anatomy_rebuild(lua_State *L);
 int cs_anatomy_move(lua_State *L);
 /* Puts the fields `rule` and `contours` of an outline or of what a stroke covers, in its own units,
  * into the table on top of the stack. within: how far cubics may lie from curves, as a share of the
- * diagonal of the bounds. */
-void cs_anatomy_put_filled(lua_State *L, const cs_primitive_data *data, double within);
+ * diagonal of the bounds. Errors: NO_MEMORY; LIMIT for too many curves, without `contours`. */
+CELSPAN_CHECKED celspan_status cs_anatomy_put_filled(lua_State *L, const cs_primitive_data *data,
+                                                     double within);
 /* (rostrum, width, height, space, shared) -> the frame's structure as tables (scenery.c). */
 int cs_scenery_of(lua_State *L);
 int cs_scenery_key(lua_State *L);

@@ -12,8 +12,6 @@
  * express; it is nil where they can. Colours are pigments, before light falls on them.
  */
 #include <math.h>
-#include <stdint.h>
-#include <string.h>
 
 #include "lua/bind/bare.h"
 #include "lua/bind/host.h"
@@ -190,33 +188,12 @@ static const char *refuse_data(const asked *of, const cs_primitive_data *data) {
 
 static void push_placed(const asked *of, const celspan_object *object);
 
-/* (data, table): puts the contours into the table, or fails. */
-static int put_contours(lua_State *L) {
-  cs_anatomy_put_filled(L, lua_touserdata(L, 1), WITHIN);
-  return 0;
-}
-
-/* Whether the last call of the core failed because an outline would have too many curves. */
-static bool is_too_rough(const cs_host *host) {
-  return host->failure == CELSPAN_LIMIT &&
-         strncmp(celspan_context_error(host->context), "warp: ", 6) == 0;
-}
-
-/* Puts the contours of the data into the table on top; false: they have too many curves. All else
- * that goes wrong, such as a lack of memory, is raised. */
+/* Puts the contours of the data into the table on top; false: they have too many curves. */
 static bool has_contours(lua_State *L, const cs_primitive_data *data) {
-  cs_host *host = cs_host_get(L);
-  host->failure = CELSPAN_OK;
-  lua_pushcfunction(L, put_contours);
-  lua_pushlightuserdata(L, (void *)(uintptr_t)data);
-  lua_pushvalue(L, -3);
-  const int outcome = lua_pcall(L, 2, 0, 0);
-  if (outcome == LUA_OK)
-    return true;
-  if (outcome != LUA_ERRRUN || !is_too_rough(host))
-    lua_error(L);
-  lua_pop(L, 1);
-  return false;
+  const celspan_status status = cs_anatomy_put_filled(L, data, WITHIN);
+  if (status != CELSPAN_LIMIT)
+    cs_host_try(L, "render", status);
+  return status == CELSPAN_OK;
 }
 
 static void put_data(const asked *of, const cs_primitive_data *data) {
