@@ -131,15 +131,19 @@ void cs_video_format_list(char *out, size_t size);
 const cs_video_codec *cs_video_codec_named(const cs_video_format *format, const char *name);
 /* The names of the format's codecs, in the same way. */
 void cs_video_codec_list(const cs_video_format *format, char *out, size_t size);
+/* Whether the encoder gets alpha under the options. */
+bool cs_video_has_alpha(const cs_video_options *options);
 /* The pixels of the encoder under the options; NULL: not available. */
 const char *cs_video_pixels(const cs_video_options *options);
-/* The value of the encoder's quality option. */
-int cs_video_quality(const cs_video_options *options);
 /* Planes where the encoder accepts 8 bits without alpha. */
 cs_video_layout cs_video_layout_of(const cs_video_options *options);
 /* The coding of the frames for the encoder; over black where there is no alpha. */
 celspan_coding cs_video_coding(const cs_video_options *options);
 
+/* ---- command.c */
+
+/* The value of the encoder's quality option. */
+int cs_video_quality(const cs_video_options *options);
 /* The command that makes a video of raw frames, as above. sound: as long as the frames, or none.
  * extras: borrowed by the command; left out where the format has no place for them. file: the name
  * of the output. */

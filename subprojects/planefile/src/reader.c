@@ -5,6 +5,8 @@
  *
  * INVARIANT: nothing in the file is trusted. Every number is checked before it is used, and memory
  * is allocated only for bytes that the file has.
+ *
+ * One file, because every step reads records of the one reader, and says what is wrong in them.
  */
 #include <inttypes.h>
 #include <math.h>
