@@ -4,6 +4,7 @@
 local browsing = require "tests.support.browsing"
 local movies = require "tests.support.movies"
 local present = require "tests.support.present"
+local rendering = require "tests.support.rendering"
 local workbench = require "tests.support.workbench"
 
 if not present.avif() then return pending "celspan was built without libavif" end
@@ -38,18 +39,10 @@ describe("AVIF", function()
   end)
   after_each(function() bench:remove() end)
 
-  local function celspan(arguments, ...)
-    return bench:celspan_inside("render film.lua --progress none " .. arguments, ...)
-  end
-  local function render(arguments, ...)
-    local code, _, err = celspan(arguments, ...)
-    assert.equal(0, code, err)
-  end
+  local function celspan(arguments, ...) return rendering.run(bench, arguments, ...) end
+  local function render(arguments, ...) return rendering.done(bench, arguments, ...) end
   local function refused(arguments, words, exit)
-    local code, _, err = celspan(arguments)
-    assert.equal(exit or 2, code, err)
-    assert.truthy(err:find(words, 1, true), err)
-    for _, name in ipairs(bench:files()) do assert.falsy(name:find "avif", name) end
+    rendering.refused(bench, exit or 2, words, arguments)
   end
   --- The pixels that avifdec finds, as RGBA of 8 or 16 bits.
   local function decoded(name, bits)

@@ -2,6 +2,7 @@
 
 local movies = require "tests.support.movies"
 local present = require "tests.support.present"
+local rendering = require "tests.support.rendering"
 local workbench = require "tests.support.workbench"
 
 local it_reads = present.program("ffmpeg", "ffprobe") and it or pending
@@ -46,19 +47,9 @@ describe("a delivery", function()
   end)
   after_each(function() bench:remove() end)
 
-  local function celspan(arguments, ...)
-    return bench:celspan_inside("render film.lua --progress none " .. arguments, ...)
-  end
-  local function render(arguments, ...)
-    local code, _, err = celspan(arguments, ...)
-    assert.equal(0, code, err)
-  end
-  local function refused(arguments, words)
-    local code, _, err = celspan(arguments)
-    assert.equal(2, code, err)
-    assert.truthy(err:find(words, 1, true), err)
-    assert.is_nil(bench:read(arguments:match "-o (%S+)"))
-  end
+  local function celspan(arguments, ...) return rendering.run(bench, arguments, ...) end
+  local function render(arguments, ...) return rendering.done(bench, arguments, ...) end
+  local function refused(arguments, words) rendering.refused(bench, 2, words, arguments) end
   local function stream(name) return movies.stream(bench, name) end
   --- The pixels of a frame from 0, as RGBA of 8 or 16 bits.
   local function pixels(name, frame, width, height, bits)

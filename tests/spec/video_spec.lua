@@ -2,6 +2,7 @@
 -- options, sound and failures.
 
 local present = require "tests.support.present"
+local rendering = require "tests.support.rendering"
 local workbench = require "tests.support.workbench"
 
 local has_ffmpeg = present.program("ffmpeg", "ffprobe")
@@ -73,14 +74,8 @@ describe("a video", function()
   after_each(function() bench:remove() end)
 
   local function run(command, ...) return bench:inside(command:format(...)) end
-  local function celspan(arguments, ...)
-    return bench:celspan_inside("render film.lua --progress none " .. arguments, ...)
-  end
-  local function render(arguments, ...)
-    local code, _, err = celspan(arguments, ...)
-    assert.equal(0, code, err)
-    return err
-  end
+  local function celspan(arguments, ...) return rendering.run(bench, arguments, ...) end
+  local function render(arguments, ...) return rendering.done(bench, arguments, ...) end
   local function probe(name, entries)
     local code, out, err =
       run("ffprobe -v error -select_streams v -count_frames -show_entries %s -of default=nw=1 %s",
