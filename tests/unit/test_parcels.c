@@ -1,5 +1,5 @@
-/* Parcels of planes: arcs of no height, slivers and what is as thin but was drawn, borders that do
- * not meet, boxes of pixels that are apart, and memory that is not there.
+/* Parcels of planes: arcs of no height, slivers and what is as thin but was drawn, joints, borders
+ * that do not meet, boxes of pixels that are apart, and memory that is not there.
  */
 #include <math.h>
 
@@ -67,6 +67,41 @@ static void check_slivers(celspan_context *context) {
     CHECK(p.arc_count == (steps == 1 ? 0 : 2));
     cs_parcels_finish(&p, context->memory);
   }
+}
+
+/* Two upright arcs, one below the other, and a third one that leaves them on the right, nearly flat
+ * and too late, by 3 units. loop_count: 2 if a walk leads from each to each other one. */
+static double begin_of_third(celspan_context *context, size_t loop_count) {
+  cs_parcel_curve curves[3] = {{true, {{500, 250}, {500, 250}, {500, 500}, {500, 500}}},
+                               {true, {{500, 500}, {500, 500}, {500, 750}, {500, 750}}},
+                               {false, {{503, 500}, {533, 500.3}, {563, 500.6}, {593, 500.9}}}};
+  const int32_t unit = PLANEFILE_SIDE / SIDE;
+  cs_parcel_arc arcs[3] = {{0, 1, 1, 2, 250 * unit, 500 * unit},
+                           {1, 1, 1, 3, 500 * unit, 750 * unit},
+                           {2, 1, 2, 3, 500 * unit, 501 * unit}};
+  cs_parcel_walk walks[4] = {{0, false}, {2, false}, {0, false}, {1, false}};
+  cs_parcel_loop loops[2] = {{0, 2}, {2, 2}};
+  cs_parcels p = {.width = SIDE,
+                  .height = SIDE,
+                  .columns = 700,
+                  .rows = 7000,
+                  .curves = curves,
+                  .arcs = arcs,
+                  .walks = walks,
+                  .loops = loops,
+                  .arc_count = 3,
+                  .loop_count = loop_count};
+  CHECK(cs_joints_make(context, &p) == CELSPAN_OK);
+  const celspan_point *third = curves[2].points;
+  CHECK(curves[0].points[3].x == 500 && curves[1].points[0].x == 500);
+  CHECK(third[0].y == 500 && third[3].x == 593 && third[3].y == 500.9);
+  CHECK(fabs(third[1].y - third[0].y - (third[1].x - third[0].x) / 100) < 0.031);
+  return third[0].x;
+}
+
+static void check_joints(celspan_context *context) {
+  CHECK(begin_of_third(context, 1) == 503); /* the line between two is that of both sides */
+  CHECK(begin_of_third(context, 2) == 500);
 }
 
 /* ---------------------------------------------------------------- boxes */
@@ -154,6 +189,7 @@ int main(void) {
   studio s = {.context = memory_watch_context(&watch)};
   check_rows(s.context);
   check_slivers(s.context);
+  check_joints(s.context);
   check_boxes();
   check_many_boxes();
   check_apart(&s);
