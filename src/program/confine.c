@@ -255,8 +255,12 @@ static void output_folder(const cs_request *request, char out[PATH_SIZE]) {
 /* Adds the files that the program itself reads: its modules, the settings of colours, and the files
  * that options name. */
 static bool add_own_folders(const cs_request *request, cs_roots *read) {
-  static const char *const variables[] = {"OCIO", "CELSPAN_PICTURE_MODULE", "CELSPAN_ART_MODULE",
-                                          "CELSPAN_COLOUR_MODULE", "CELSPAN_SPACE_MODULE"};
+  static const char *const variables[] = {"OCIO",
+                                          "CELSPAN_PICTURE_MODULE",
+                                          "CELSPAN_ART_MODULE",
+                                          "CELSPAN_COLOUR_MODULE",
+                                          "CELSPAN_SPACE_MODULE",
+                                          "CELSPAN_PDF_MODULE"};
   char folder[PATH_SIZE], library[PATH_SIZE + 64];
   bool is_known = cs_program_folder(folder, PATH_SIZE);
   bool is_good = !is_known || cs_roots_add(read, folder);

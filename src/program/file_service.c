@@ -16,10 +16,10 @@
 #include "output/archive/archive.h"
 #include "output/join/join.h"
 #include "output/sinks/file.h"
+#include "program/drawing_target.h"
 #include "program/movies.h"
 #include "program/service.h"
 #include "program/sha256.h"
-#include "program/svg_target.h"
 #include "program/target.h"
 #include "program/video_target.h"
 
@@ -167,7 +167,7 @@ static int is_video(lua_State *L) {
 /* is_drawing(path) -> whether the request makes an SVG drawing of this name */
 static int is_drawing(lua_State *L) {
   const cs_request *request = cs_service_session(L)->request;
-  lua_pushboolean(L, cs_svg_target_is_wanted(luaL_checkstring(L, 1), request));
+  lua_pushboolean(L, cs_drawing_target_is_wanted(luaL_checkstring(L, 1), request));
   return 1;
 }
 

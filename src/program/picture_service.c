@@ -24,9 +24,9 @@
 #include "output/sinks/file.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/sink.h"
+#include "program/drawing_target.h"
 #include "program/service.h"
 #include "program/shown.h"
-#include "program/svg_target.h"
 #include "program/target.h"
 #include "program/view.h"
 
@@ -482,8 +482,8 @@ static int write_drawing(lua_State *L, const cs_still *still, const celspan_fram
   const cs_session *session = cs_service_session(L);
   cs_service_try(
       L, still->plane
-             ? cs_svg_target_write_plane(session->context, still->plane, path, session->request)
-             : cs_svg_target_write_frame(session->context, frame, path, session->request));
+             ? cs_drawing_target_write_plane(session->context, still->plane, path, session->request)
+             : cs_drawing_target_write_frame(session->context, frame, path, session->request));
   return 0;
 }
 
@@ -505,7 +505,7 @@ static int convert(lua_State *L) {
   cs_service_require(L, cs_shown_frame(session->request, stills, &frame));
   if (is_plane)
     return write_plane(L, &frame, output, &file);
-  if (cs_svg_target_is_wanted(output, session->request))
+  if (cs_drawing_target_is_wanted(output, session->request))
     return write_drawing(L, stills, &frame, output);
   cs_service_try(L, cs_still_write(session->context, stills, &frame, output, &file));
   return 0;

@@ -1,9 +1,9 @@
 #include "program/refusals.h"
 
 #include "frames/plane/plane.h"
+#include "program/drawing_target.h"
 #include "program/layers_target.h"
 #include "program/progress.h"
-#include "program/svg_target.h"
 #include "program/target.h"
 #include "program/video_target.h"
 #include "program/view.h"
@@ -36,10 +36,11 @@ static cs_exit refuse_resume(const cs_request *request, const char *output) {
   bool resumes = cs_request_has(request, "--resume");
   if (cs_request_has(request, "--force") && !resumes)
     return cs_report_usage("--force needs --resume");
-  if (cs_request_has(request, "--keep-going") && cs_target_is_plane_film(request))
-    return cs_report_usage("%s: a plane file is made whole: leave --keep-going out, or render "
-                           "shot.####.plane",
-                           output);
+  const char *shared = cs_target_shared(request);
+  if (cs_request_has(request, "--keep-going") && shared)
+    return cs_report_usage("%s: a %s file is made whole: leave --keep-going out, or render "
+                           "shot.####.%s",
+                           output, shared, shared);
   if (resumes && (!output || cs_target_is_stream(output)))
     return cs_report_usage("--resume looks for the frames of an earlier run: give -o "
                            "shot.####.png");
@@ -81,9 +82,11 @@ static cs_exit refuse_division(const cs_request *request, const char *output) {
     return cs_report_usage("%s: a video is made of all its frames in one run; render frames, and "
                            "make the video of them",
                            option);
-  if (cs_target_is_plane_film(request))
-    return cs_report_usage("%s: a film of planes is made in one run; render shot.####.plane",
-                           option);
+  const char *shared = cs_target_shared(request);
+  if (shared)
+    return cs_report_usage(
+        "%s: a %s file of several frames is made in one run; render shot.####.%s", option, shared,
+        shared);
   return CS_EXIT_OK;
 }
 
@@ -95,8 +98,8 @@ cs_exit cs_refusals_early(celspan_context *context, const cs_request *request) {
   CS_TRY_EXIT(refuse_dither(request));
   CS_TRY_EXIT(refuse_division(request, output));
   CS_TRY_EXIT(cs_layers_target_refuse(request));
-  if (!cs_svg_target_is_output(request))
-    CS_TRY_EXIT(cs_svg_target_refuse_own(output ? output : "--hash", request));
+  if (!cs_drawing_target_is_output(request))
+    CS_TRY_EXIT(cs_drawing_target_refuse_own(output ? output : "--hash", request));
   if (output && cs_target_is_stream(output))
     return refuse_stream(request);
   return cs_refusals_of_output(context, request, 0);

@@ -16,13 +16,13 @@
 #include "frames/plane/plane.h"
 #include "frames/video/video.h"
 #include "program/change.h"
+#include "program/drawing_target.h"
 #include "program/layers_target.h"
 #include "program/progress.h"
 #include "program/raw_frame.h"
 #include "program/record.h"
 #include "program/refusals.h"
 #include "program/summary.h"
-#include "program/svg_target.h"
 #include "program/target.h"
 #include "program/verbs.h"
 #include "program/video_target.h"
@@ -36,7 +36,7 @@ typedef struct render_job {
   const char *output; /* NULL: digests alone */
   bool has_digests, resumes, keeps_going;
   cs_apart_contents apart;
-  bool has_noted; /* that the layers do not add up to the frame */
+  bool has_noted; /* that layers do not add up to the frame, or that a page has a picture */
   cs_frame_change change;
   celspan_frame_desc frame;
   cs_sequence frames;
@@ -50,8 +50,10 @@ typedef struct render_job {
   cs_video video; /* used if the output is a video */
   bool is_plane;
   cs_plane_film *plane; /* used if the film becomes one plane file */
-  cs_slots raw;         /* of frames that go to standard output; none: they are written in rows */
-  int64_t *failed;      /* frames; owned */
+  bool is_pages;
+  cs_plot *pages;  /* used if the film becomes one PDF */
+  cs_slots raw;    /* of frames that go to standard output; none: they are written in rows */
+  int64_t *failed; /* frames; owned */
   size_t failed_count, failed_capacity;
   cs_exit outcome; /* of the reported failure */
 } render_job;
@@ -102,6 +104,19 @@ static celspan_status put_plane(void *user, celspan_context *context,
   return cs_plane_film_put(job->plane, desc, frame->is_named ? &frame->scene : NULL);
 }
 
+static celspan_status put_page(void *user, const celspan_frame_desc *desc, cs_shoot_frame *frame) {
+  render_job *job = user;
+  cs_plot_facts facts;
+  (void)frame;
+  CS_TRY(cs_plot_add_frame(job->pages, desc, &facts));
+  if (!job->has_noted) {
+    const cs_plot_desc drawing = cs_drawing_target_read(job->request);
+    cs_drawing_target_report(job->script->context, job->output, &drawing, &facts);
+    job->has_noted = facts.picture_width > 0;
+  }
+  return CELSPAN_OK;
+}
+
 /* Whether files have more than the frame. */
 static bool is_apart(const render_job *job) {
   return job->apart.has_layers || job->apart.mattes != CS_APART_MATTES_NONE;
@@ -119,7 +134,7 @@ static celspan_status put_drawing(void *user, celspan_context *context,
                                   const celspan_file_desc *file) {
   const render_job *job = user;
   (void)file;
-  return cs_svg_target_write_frame(context, desc, path, job->request);
+  return cs_drawing_target_write_frame(context, desc, path, job->request);
 }
 
 /* Whether frames go to standard output. */
@@ -128,7 +143,9 @@ static bool is_stream(const render_job *job) {
 }
 
 /* Whether all frames go into one file. */
-static bool is_whole(const render_job *job) { return job->is_video || job->is_plane; }
+static bool is_whole(const render_job *job) {
+  return job->is_video || job->is_plane || job->is_pages;
+}
 
 static bool keep(void *user, cs_shoot_frame *frame) {
   render_job *job = user;
@@ -291,6 +308,7 @@ static bool keeps_nothing(const render_job *job) {
 static void add_stream(const render_job *job, cs_shoot *shoot) {
   shoot->put = job->is_video    ? put_video
                : job->is_plane  ? put_plane
+               : job->is_pages  ? put_page
                : is_stream(job) ? put_raw
                                 : NULL;
   shoot->slots = job->is_video ? job->video.slots.count : job->raw.count;
@@ -312,8 +330,7 @@ static celspan_status run_shoot(render_job *job) {
                     .keeps_nothing = keeps_nothing(job),
                     .user = job,
                     .write = is_apart(job)                                        ? put_layers
-                             : cs_svg_target_is_wanted(job->output, job->request) ? put_drawing
-                                                                                  : NULL,
+                             : cs_drawing_target_is_wanted(job->output, job->request) ? put_drawing : NULL,
                     .hash = is_apart(job) ? cs_apart_hash : NULL,
                     .keep = job->resumes ? keep : NULL,
                     .build = build,
@@ -341,19 +358,27 @@ static cs_exit shoot(render_job *job) {
                                     : cs_report_failure(job->script->context, status, NULL);
 }
 
+/* Discards the file after a failure, which has been reported. */
 static void discard_whole(render_job *job) {
   if (job->is_video)
     cs_video_discard(&job->video);
-  else
+  else if (job->is_plane)
     cs_plane_film_discard(job->plane);
+  else
+    (void)!cs_plot_end(job->pages, CELSPAN_CANCELLED);
+}
+
+static celspan_status commit_whole(render_job *job) {
+  return job->is_video   ? cs_video_finish(&job->video)
+         : job->is_plane ? cs_plane_film_commit(job->plane)
+                         : cs_plot_end(job->pages, CELSPAN_OK);
 }
 
 /* Gives the file its final name, and adds it to the record. */
 static celspan_status complete_whole(render_job *job) {
   celspan_context *context = job->script->context;
   context->contents = job->resumes ? &job->whole.file.contents : NULL;
-  celspan_status status =
-      job->is_video ? cs_video_finish(&job->video) : cs_plane_film_commit(job->plane);
+  celspan_status status = commit_whole(job);
   context->contents = NULL;
   return status == CELSPAN_OK && job->resumes ? cs_whole_finish(&job->whole) : status;
 }
@@ -403,11 +428,18 @@ static cs_exit open_plane(render_job *job) {
                            NULL);
 }
 
+static cs_exit open_pages(render_job *job) {
+  celspan_context *context = job->script->context;
+  const cs_plot_desc desc = cs_drawing_target_read(job->request);
+  return cs_report_failure(context, cs_plot_begin(context, job->output, &desc, &job->pages), NULL);
+}
+
 static cs_exit open_whole(render_job *job) {
   const cs_sequence *played = job->played.count ? &job->played : &job->frames;
   return job->is_video
              ? cs_video_target_open(&job->video, job->script, job->request, &job->frame, played)
-             : open_plane(job);
+         : job->is_plane ? open_plane(job)
+                         : open_pages(job);
 }
 
 static cs_exit make_whole(render_job *job) {
@@ -477,14 +509,16 @@ static cs_exit retime(render_job *job) {
 }
 
 /* Only here, where the frames are known, it is known whether the output is one picture, a film of
- * planes or a video. */
+ * planes, a PDF of several pages or a video. */
 static cs_exit make_frames(render_job *job) {
   const cs_request *request = job->request;
   if (job->frames.count == 0)
     return report_no_frames(job);
   CS_TRY_EXIT(cs_change_refuse(job->script, &job->change, &job->frames));
   job->is_plane = cs_target_is_plane_film(request) && job->frames.count > 1;
-  job->is_video = !job->is_plane && cs_video_target_is_wanted(request, job->frames.count);
+  job->is_pages = cs_drawing_target_is_film(request) && job->frames.count > 1;
+  job->is_video =
+      !job->is_plane && !job->is_pages && cs_video_target_is_wanted(request, job->frames.count);
   CS_TRY_EXIT(retime(job));
   if (is_whole(job))
     return job->resumes ? resume_whole(job) : make_whole(job);

@@ -7,9 +7,9 @@
 #include "frames/plane/plane.h"
 #include "output/sinks/file.h"
 #include "output/sinks/sink.h"
+#include "program/drawing_target.h"
 #include "program/layers_target.h"
 #include "program/spaces.h"
-#include "program/svg_target.h"
 #include "program/video_target.h"
 
 celspan_coding cs_target_coding(const cs_request *request) {
@@ -42,7 +42,8 @@ static cs_exit refuse_format(const char *path, const char *name) {
   return cs_report_usage(
       "%s: the format \"%s\" cannot be written; pictures can be %s; videos, "
       "which 'celspan render' makes, %s; planes plane; drawings, which 'celspan render' and "
-      "'celspan convert' make, svg; Lottie animations, which 'celspan render' makes of a name such "
+      "'celspan convert' make, svg and pdf; Lottie animations, which 'celspan render' makes of a "
+      "name such "
       "as film.json or film.lottie, without --format; sounds, which 'celspan sound' makes, wav",
       path, name, pictures, videos);
 }
@@ -89,8 +90,8 @@ bool cs_target_is_lottie(const cs_request *request) {
 cs_exit cs_target_refuse(celspan_context *context, const char *path, const cs_request *request) {
   const char *format = cs_request_text(request, "--format");
   CS_TRY_EXIT(cs_layers_target_refuse(request));
-  CS_TRY_EXIT(cs_svg_target_refuse(path, request));
-  if (cs_svg_target_is_wanted(path, request))
+  CS_TRY_EXIT(cs_drawing_target_refuse(path, request));
+  if (cs_drawing_target_is_wanted(path, request))
     return CS_EXIT_OK;
   if (cs_layers_target_is_painting(request))
     return CS_EXIT_OK;
@@ -108,6 +109,12 @@ bool cs_target_is_plane_film(const cs_request *request) {
   const char *output = cs_request_text(request, "-o");
   return output && !cs_target_is_stream(output) && !cs_sequence_has_number(output) &&
          cs_plane_is_wanted(output, cs_request_text(request, "--format"));
+}
+
+const char *cs_target_shared(const cs_request *request) {
+  return cs_target_is_plane_film(request)     ? "plane"
+         : cs_drawing_target_is_film(request) ? "pdf"
+                                              : NULL;
 }
 
 bool cs_target_is_stream(const char *path) { return strcmp(path, "-") == 0; }
@@ -144,7 +151,7 @@ cs_exit cs_target_frames(const cs_script *script, const cs_request *request, con
   if (status != CELSPAN_OK)
     return cs_report_failure(script->context, status, NULL);
   bool is_one_file = output && !cs_target_is_stream(output) && !cs_sequence_has_number(output) &&
-                     !cs_video_target_is_wanted(request, 0) && !cs_target_is_plane_film(request);
+                     !cs_video_target_is_wanted(request, 0) && !cs_target_shared(request);
   if (is_one_file && out->count > 1)
     return cs_report_usage("%s: several frames (%zu) need a number in the name, such as "
                            "shot.####.png; for one, name it: --frames %" PRId64,

@@ -19,6 +19,9 @@ cs_exit cs_target_frames(const cs_script *script, const cs_request *request, con
                          cs_sequence *out);
 /* Whether OUT is one plane file, for one frame or all of them. */
 bool cs_target_is_plane_film(const cs_request *request);
+/* The same for any file that several frames share, except videos: "plane" or "pdf"; NULL: it is
+ * not such a file. */
+const char *cs_target_shared(const cs_request *request);
 /* Whether OUT is a Lottie animation, which verbs/render.lua writes. */
 bool cs_target_is_lottie(const cs_request *request);
 /* Whether the path means standard output, for raw frames. */

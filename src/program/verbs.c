@@ -24,7 +24,7 @@
   }
 #define SCALE(more)                                                                                \
   { "--scale", "S", &cs_argument_scale, "pixels per film unit, instead of --size" more }
-#define SCALE_DRAWING SCALE("; of an SVG drawing: of pictures in it, default: 2")
+#define SCALE_DRAWING SCALE("; of a drawing: of pictures in it, default: 2")
 #define CROP                                                                                       \
   { "--crop", "X,Y,W,H", &cs_argument_crop, "the part to render, in pixels of the output" }
 #define ANTIALIAS                                                                                  \
@@ -69,7 +69,7 @@
   }
 #define DRAWING                                                                                    \
   {"--flat", "HOW", &cs_argument_flat,                                                             \
-   "of an SVG drawing: over (areas continue under each other, so that no seams show; default) or " \
+   "of a drawing: over (areas continue under each other, so that no seams show; default) or "      \
    "regions (areas that do not overlap)"},                                                         \
   {                                                                                                \
     "--precision", "N", &cs_argument_precision,                                                    \
@@ -206,8 +206,8 @@ static const cs_option NONE[] = {{0}};
 
 static const cs_option RENDER[] = {
     OUTPUT("OUT", "shot.####.png, shot.%04d.exr, one.png for a single frame, - for raw frames; "
-                  "film.mp4, .mov, .webm, .mkv, .gif, .webp, .apng or .avif: a video; one.svg: "
-                  "a drawing; film.json or film.lottie: a Lottie animation"),
+                  "film.mp4, .mov, .webm, .mkv, .gif, .webp, .apng or .avif: a video; one.svg or "
+                  "film.pdf: drawings; film.json or film.lottie: a Lottie animation"),
     FRAMES,
     SIZE,
     FIT,

@@ -115,6 +115,7 @@ return {
   png = { "unit/png_bytes", "unit/png", "spec/formats" },
   join = { "spec/join" },
   parcels = { "spec/drawing", "spec/svg_drawn" },
+  cairo = { "spec/drawing" },
   relight = { "spec/relight", "property/stack" },
   include = { "spec/hosts", "unit/embedding", "example/memory", "example/host", "spec/embedding" },
 

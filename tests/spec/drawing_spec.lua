@@ -388,3 +388,114 @@ return celspan.film { size = { 1000, 1000 }, frames = 1, frame = function()
     assert.equal("before", bench:read "x.svg")
   end)
 end)
+
+describe("a drawing as PDF", function()
+  local it = present.pdf() and present.program("pdfinfo", "pdftoppm", "pdfimages") and it or pending
+  local it_compares = present.pictures() and it or pending
+
+  --- What a program of Poppler prints.
+  local function said(command, ...)
+    local code, out, err = bench:inside(command:format(...))
+    assert.equal(0, code, err)
+    return out
+  end
+
+  --- The codes of a page at one pixel for each point.
+  local function drawn(name, page, w, h)
+    said("pdftoppm -f %d -singlefile -r 72 -png %s drawn", page, name)
+    return pixels("drawn.png", w, h)
+  end
+
+  local function code_at(bytes, w, x, y)
+    return ("%02x%02x%02x"):format(bytes:byte(4 * (w * y + x) + 1, 4 * (w * y + x) + 3))
+  end
+
+  for _, name in ipairs { "codes", "light" } do
+    it_compares("in " .. name .. " looks as the frame in Poppler, and shows no seams", function()
+      for page = 1, 2 do
+        local w, h = 160 * page, 90 * page
+        local size = ("%dx%d"):format(w, h)
+        done("render %s.lua -o frame.png --frames %d --size %s", name, page, size)
+        done("render %s.lua -o x.pdf --size %s", name, size)
+        drawn("x.pdf", page, w, h)
+        local share, beyond = compare("frame.png", "drawn.png", w, h)
+        assert.is_true(share >= 0.99, ("%.4f"):format(share))
+        assert.is_true(beyond <= (name == "codes" and 8 or 20), tostring(beyond))
+      end
+      assert.is_nil(said("pdfimages -list x.pdf"):find("image", 60, true))
+    end)
+  end
+
+  it("has a page for each frame, or is a file for each", function()
+    done "render light.lua -o x.pdf"
+    local about = said "pdfinfo x.pdf"
+    assert.matches("Pages: +2\n", about)
+    assert.matches("Page size: +160 x 90 pts", about)
+    assert.is_nil(about:find("Date", 1, true))
+    done "render light.lua -o x.##.pdf --size 320x90"
+    assert.matches("Pages: +1\n", said "pdfinfo x.02.pdf")
+    assert.matches("Page size: +320 x 90 pts", said "pdfinfo x.02.pdf")
+    done "render light.lua -o film.plane"
+    done "convert film.plane plane.pdf --frame 2 --size 320x90"
+    assert.is_true(bench:read "x.02.pdf" == bench:read "plane.pdf")
+    done "render light.lua -o one.pdf --frames 2 --size 320x90 --strict"
+    assert.is_true(bench:read "x.02.pdf" == bench:read "one.pdf")
+  end)
+
+  it("has the same bytes whatever the workers", function()
+    done "render light.lua -o x.pdf --workers 1"
+    done "render light.lua -o y.pdf --workers 4"
+    assert.is_true(bench:read "x.pdf" == bench:read "y.pdf")
+  end)
+
+  it_compares("keeps opacity, and has pictures where PDF has no vectors", function()
+    bench:write("mixed.lua", [[
+local celspan = require "celspan"
+return celspan.film { size = { 60, 40 }, frames = 2, space = "srgb", frame = function(f)
+  local disc = celspan.circle { centre = { 45, 20 }, radius = 10, texture = "#204060" }
+  return celspan.rostrum { celspan.cel {
+    celspan.rect { 0, 0, 20, 40, texture = "#f26419" },
+    celspan.rect { 20, 0, 10, 40, texture = "#00000080" } },
+    celspan.cel { disc, defocus = f.number == 2 and 1 or nil } } end }]])
+    local err = done "render mixed.lua -o x.pdf --scale 3"
+    assert.equal(1, select(2, err:gsub("what PDF has no vectors for is a picture", "")))
+    for page = 1, 2 do
+      local codes = drawn("x.pdf", page, 60, 40)
+      assert.equal("f26419", code_at(codes, 60, 10, 20))
+      assert.equal("7f7f7f", code_at(codes, 60, 25, 20))
+      assert.equal("204060", code_at(codes, 60, 45, 20))
+      assert.equal("ffffff", code_at(codes, 60, 32, 2))
+    end
+    local list = said "pdfimages -list x.pdf"
+    assert.matches("\n +2 +0 image", list)
+    assert.is_nil(list:find "\n +1 +%d image")
+  end)
+
+  it("is whole or not there", function()
+    bench:write("x.pdf", "before")
+    local code, _, err = bench:inside("ulimit -f 1; '" .. workbench.absolute
+      .. "' render light.lua -o x.pdf; exit $?")
+    assert.equal(5, code, err)
+    assert.matches("x.pdf: ", err, 1, true)
+    bench:write("late.lua", (bench:read("light.lua"):gsub("return celspan.rostrum",
+      "assert(f.number < 2, 'no second frame') return celspan.rostrum")))
+    refused(3, "no second frame", "render late.lua -o x.pdf")
+    assert.equal("before", bench:read "x.pdf")
+    for _, name in ipairs(bench:files()) do assert.falsy(name:find "part$", name) end
+  end)
+
+  it("refuses what it does not have", function()
+    refused(2, "--precision is for SVG", "render light.lua -o x.pdf --precision 3")
+    refused(2, "--crop is for pictures", "render light.lua -o x.pdf --crop 0,0,9,9")
+    refused(2, "--keep-going", "render light.lua -o x.pdf --keep-going")
+    refused(2, "render shot.####.pdf", "render light.lua -o x.pdf --task 1/2")
+    refused(6, "a side of PDF has at most 14400", "render light.lua -o x.pdf --size 14401x9")
+    bench:write("light.png", "no picture")
+    refused(2, "a drawing is made of a script", "convert light.png x.pdf")
+    local code, _, err = bench:inside("CELSPAN_PDF_MODULE=none.so '" .. workbench.absolute
+      .. "' render light.lua -o x.pdf")
+    assert.equal(5, code, err)
+    assert.matches("writing PDF needs the module celspan-pdf.so", err, 1, true)
+    assert.is_nil(io.open(bench.folder .. "/x.pdf"))
+  end)
+end)

@@ -56,6 +56,9 @@ function present.avif()
   return false
 end
 
+--- Whether PDF can be written.
+function present.pdf() return contains "writing PDF" and not contains "built without Cairo" end
+
 --- Whether celspan watch can show a page: it was built with libmicrohttpd.
 function present.web() return not contains "built without libmicrohttpd" end
 

@@ -132,7 +132,9 @@ static void check_many_boxes(void) {
 
 static celspan_status write_drawing(studio *s, const celspan_plane *plane, cs_plot_facts *facts) {
   const cs_plot_desc desc = {.precision = 3, .scale = 0.1};
-  return cs_plot_write_plane(s->context, plane, "parcels.svg", &desc, facts);
+  cs_plot *plot;
+  CHECK(cs_plot_begin(s->context, "parcels.svg", &desc, &plot) == CELSPAN_OK);
+  return cs_plot_end(plot, cs_plot_add_plane(plot, plane, facts));
 }
 
 /* A border that ends too early is no sum of pictures. */

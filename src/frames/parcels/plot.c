@@ -5,7 +5,9 @@
 #include <strings.h>
 
 #include "frames/parcels/boxes.h"
-#include "frames/parcels/plot_text.h"
+#include "frames/parcels/plot_pdf.h"
+#include "frames/parcels/plot_picture.h"
+#include "frames/parcels/plot_svg.h"
 #include "frames/parcels/under.h"
 #include "frames/plane/plane.h"
 #include "frames/render/frame.h"
@@ -14,15 +16,22 @@
 #define GROWN 1.6     /* pixels: how far an area continues under another one */
 #define OPAQUE 0.999f /* alpha, rounded */
 enum { PICTURE_SIDE = 16384 /* pixels, at most */, PROOF_SIDE = 512 };
-enum { CODE_DIGITS = 4, STOP_DIGITS = 6, SPARE_DIGITS = 3, MATRIX_DIGITS = 9 };
 
-bool cs_plot_is_wanted(const char *path, const char *format) {
-  return strcasecmp(format ? format : cs_file_ending(path), "svg") == 0;
+static bool is_named(const char *path, const char *format, const char *name) {
+  return strcasecmp(format ? format : cs_file_ending(path), name) == 0;
 }
 
-/* A drawing that is being written. */
+bool cs_plot_is_wanted(const char *path, const char *format) {
+  return is_named(path, format, "svg") || cs_plot_is_pdf(path, format);
+}
+
+bool cs_plot_is_pdf(const char *path, const char *format) { return is_named(path, format, "pdf"); }
+
+/* A page that is being written. */
 typedef struct drawing {
-  cs_plot_text text;
+  celspan_context *context;
+  const char *path;
+  const cs_plotter *to;
   const cs_plot_desc *desc;
   const celspan_plane *plane;
   cs_parcels parcels;
@@ -30,89 +39,39 @@ typedef struct drawing {
   cs_plot_facts *facts;
 } drawing;
 
-/* ---------------------------------------------------------------- paints */
+/* ---------------------------------------------------------------- paths */
 
-static void put_pair(drawing *d, const char *x, const char *y, celspan_point at) {
-  cs_plot_put(&d->text, " %s=\"", x);
-  cs_plot_put_number(&d->text, at.x, d->desc->precision + SPARE_DIGITS);
-  cs_plot_put(&d->text, "\" %s=\"", y);
-  cs_plot_put_number(&d->text, at.y, d->desc->precision + SPARE_DIGITS);
-  cs_plot_put(&d->text, "\"");
-}
-
-static void put_code(drawing *d, const char *name, const unsigned char code[4]) {
-  cs_plot_put(&d->text, " %s=\"#%02x%02x%02x\"", name, code[0], code[1], code[2]);
-}
-
-static void put_alpha(drawing *d, const char *name, const unsigned char code[4]) {
-  if (code[3] == 255)
-    return;
-  cs_plot_put(&d->text, " %s=\"", name);
-  cs_plot_put_number(&d->text, code[3] / 255.0, CODE_DIGITS);
-  cs_plot_put(&d->text, "\"");
-}
-
-static void put_stops(drawing *d, const cs_fill *fill) {
-  for (size_t i = 0; i < fill->stop_count; i++) {
-    const cs_fill_stop *stop = &d->parcels.stops[fill->stop + i];
-    cs_plot_put(&d->text, "<stop offset=\"");
-    cs_plot_put_number(&d->text, stop->at, STOP_DIGITS);
-    cs_plot_put(&d->text, "\"");
-    put_code(d, "stop-color", stop->code);
-    put_alpha(d, "stop-opacity", stop->code);
-    cs_plot_put(&d->text, "/>");
+static void put_arc(const drawing *d, cs_parcel_walk walk) {
+  const cs_parcel_arc *arc = &d->parcels.arcs[walk.arc];
+  for (size_t i = 0; i < arc->curve_count; i++) {
+    size_t at = walk.is_up ? arc->curve_count - 1 - i : i;
+    const cs_parcel_curve *curve = &d->parcels.curves[arc->curve + at];
+    const celspan_point *p = curve->points;
+    if (curve->is_line)
+      d->to->line(d->to->user, p[walk.is_up ? 0 : 3]);
+    else
+      d->to->curve(d->to->user, walk.is_up ? (celspan_point[3]){p[2], p[1], p[0]} : p + 1);
   }
 }
 
-static void put_radial(drawing *d, const cs_fill *fill) {
-  static const int columns[6] = {0, 3, 1, 4, 2, 5};
-  cs_plot_put(&d->text, " cx=\"");
-  cs_plot_put_number(&d->text, fill->centre, MATRIX_DIGITS);
-  cs_plot_put(&d->text, "\" cy=\"0\" r=\"");
-  cs_plot_put_number(&d->text, fill->radius, MATRIX_DIGITS);
-  cs_plot_put(&d->text, "\" fx=\"0\" fy=\"0\" gradientTransform=\"matrix(");
-  for (int i = 0; i < 6; i++) {
-    cs_plot_put(&d->text, i > 0 ? " " : "");
-    cs_plot_put_number(&d->text, fill->matrix[columns[i]], MATRIX_DIGITS);
+/* Loops, closed. */
+static void put_loops(const drawing *d, size_t first, size_t count) {
+  for (size_t i = first; i < first + count; i++) {
+    const cs_parcel_loop *loop = &d->parcels.loops[i];
+    const cs_parcel_walk *walks = &d->parcels.walks[loop->walk];
+    d->to->move(d->to->user, cs_parcel_begin(&d->parcels, walks[0]));
+    for (size_t k = 0; k < loop->walk_count; k++) {
+      d->to->line(d->to->user, cs_parcel_begin(&d->parcels, walks[k]));
+      put_arc(d, walks[k]);
+    }
+    d->to->close_path(d->to->user);
   }
-  cs_plot_put(&d->text, ")\"");
 }
 
-static void put_gradient(drawing *d, size_t number) {
+static cs_plotter_path path_of(const drawing *d, cs_plotter_kind kind, uint32_t number) {
   const cs_fill *fill = &d->parcels.fills[number];
-  const char *name = fill->kind == CS_FILL_LINEAR ? "linearGradient" : "radialGradient";
-  cs_plot_put(&d->text, "<%s id=\"g%zu\" gradientUnits=\"userSpaceOnUse\"", name, number);
-  if (fill->kind == CS_FILL_LINEAR) {
-    put_pair(d, "x1", "y1", fill->from);
-    put_pair(d, "x2", "y2", fill->to);
-  } else {
-    put_radial(d, fill);
-  }
-  cs_plot_put(&d->text, ">");
-  put_stops(d, fill);
-  cs_plot_put(&d->text, "</%s>\n", name);
-}
-
-static void put_gradients(drawing *d) {
-  bool has_one = false;
-  for (size_t i = 0; i < d->parcels.fill_count; i++) {
-    cs_fill_kind kind = d->parcels.fills[i].kind;
-    if (kind != CS_FILL_LINEAR && kind != CS_FILL_RADIAL)
-      continue;
-    cs_plot_put(&d->text, has_one ? "" : "<defs>\n");
-    has_one = true;
-    put_gradient(d, i);
-  }
-  cs_plot_put(&d->text, has_one ? "</defs>\n" : "");
-}
-
-/* name: fill or stroke. */
-static void put_paint(drawing *d, const char *name, uint32_t number) {
-  const cs_fill *fill = &d->parcels.fills[number];
-  if (fill->kind == CS_FILL_FLAT)
-    put_code(d, name, fill->code);
-  else
-    cs_plot_put(&d->text, " %s=\"url(#g%u)\"", name, (unsigned)number);
+  return (cs_plotter_path){
+      .kind = kind, .number = number, .fill = fill, .stops = d->parcels.stops + fill->stop};
 }
 
 /* ---------------------------------------------------------------- pictures */
@@ -160,9 +119,9 @@ static celspan_status draw_frame(const cs_plot_picture *picture, celspan_context
 }
 
 /* The picture of a film, whole. */
-static celspan_status size_picture(celspan_context *context, double width, double height,
-                                   double scale, cs_plot_picture *out) {
-  const double columns = fmax(ceil(width * scale), 1), rows = fmax(ceil(height * scale), 1);
+static celspan_status size_picture(celspan_context *context, celspan_point film, double scale,
+                                   cs_plot_picture *out) {
+  const double columns = fmax(ceil(film.x * scale), 1), rows = fmax(ceil(film.y * scale), 1);
   if (columns > INT32_MAX || rows > INT32_MAX)
     return cs_fail(context, CELSPAN_LIMIT,
                    "at this scale the film would have %.0f x %.0f pixels; a side has at most %d: "
@@ -212,22 +171,26 @@ static cs_box box_of(const cs_parcels *parcels, const cs_parcel_loop *loop,
 static celspan_status unite(drawing *d, bool (*is_wanted)(const cs_fill *fill), size_t loops[2]) {
   cs_parcels *p = &d->parcels;
   uint32_t *sets;
-  CS_TRY(CS_MAKE(d->text.context, sets, p->fill_count));
+  CS_TRY(CS_MAKE(d->context, sets, p->fill_count));
   for (size_t i = 0; i < p->fill_count; i++)
     sets[i] = is_wanted(&p->fills[i]);
-  celspan_status status = cs_parcels_walk(d->text.context, p, sets, 1, loops);
-  cs_mem_free(d->text.context->memory, sets, p->fill_count * sizeof *sets);
+  celspan_status status = cs_parcels_walk(d->context, p, sets, 1, loops);
+  cs_mem_free(d->context->memory, sets, p->fill_count * sizeof *sets);
   return status;
 }
 
-static void put_clip(drawing *d, const char *name, const size_t loops[2]) {
-  cs_plot_put(&d->text, "<clipPath id=\"%s\"><path clip-rule=\"evenodd\" d=\"", name);
-  cs_plot_begin_path(&d->text);
-  cs_plot_loops(&d->text, &d->parcels, loops[0], loops[1] - loops[0]);
-  cs_plot_put(&d->text, "\"/></clipPath>\n");
+static void put_clip(const drawing *d, const char *name, const size_t loops[2]) {
+  const cs_plotter_path path = {.kind = CS_PLOTTER_CLIP, .name = name};
+  d->to->begin_path(d->to->user, &path);
+  put_loops(d, loops[0], loops[1] - loops[0]);
+  d->to->end_path(d->to->user, &path);
 }
 
 static bool is_picture(const cs_fill *fill) { return fill->kind == CS_FILL_PICTURE; }
+
+static celspan_point film_of(const drawing *d) {
+  return (celspan_point){d->parcels.width, d->parcels.height};
+}
 
 static celspan_status put_part(drawing *d, cs_plot_picture picture, const cs_box *part) {
   cs_plot_facts *facts = d->facts;
@@ -235,8 +198,8 @@ static celspan_status put_part(drawing *d, cs_plot_picture picture, const cs_box
   picture.y = part->y0;
   picture.columns = part->x1 - part->x0;
   picture.rows = part->y1 - part->y0;
-  CS_TRY(check_picture(d->text.context, &picture));
-  cs_plot_put_picture(&d->text, &picture, d->parcels.width, d->parcels.height);
+  CS_TRY(check_picture(d->context, &picture));
+  CS_TRY(cs_plot_picture_put(d->context, d->path, &picture, film_of(d), d->to));
   facts->pictures++;
   if ((double)picture.columns * picture.rows >
       (double)facts->picture_width * facts->picture_height) {
@@ -248,6 +211,7 @@ static celspan_status put_part(drawing *d, cs_plot_picture picture, const cs_box
 
 /* Parts that are apart are pictures of their own. */
 static celspan_status put_pictures(drawing *d) {
+  const cs_plotter_group group = {.clip = "picture"};
   size_t loops[2];
   cs_boxes parts = {.count = 0};
   cs_plot_picture picture = {
@@ -255,15 +219,14 @@ static celspan_status put_pictures(drawing *d) {
   CS_TRY(unite(d, is_picture, loops));
   if (loops[0] == loops[1])
     return CELSPAN_OK;
-  CS_TRY(
-      size_picture(d->text.context, d->parcels.width, d->parcels.height, d->desc->scale, &picture));
+  CS_TRY(size_picture(d->context, film_of(d), d->desc->scale, &picture));
   for (size_t i = loops[0]; i < loops[1]; i++)
     cs_boxes_add(&parts, box_of(&d->parcels, &d->parcels.loops[i], &picture));
-  put_clip(d, "picture", loops);
-  cs_plot_put(&d->text, "<g clip-path=\"url(#picture)\">\n");
+  put_clip(d, group.clip, loops);
+  d->to->begin_group(d->to->user, &group);
   for (size_t i = 0; i < parts.count; i++)
     CS_TRY(put_part(d, picture, &parts.all[i]));
-  cs_plot_put(&d->text, "</g>\n");
+  d->to->end_group(d->to->user, &group);
   return CELSPAN_OK;
 }
 
@@ -273,7 +236,7 @@ static celspan_status prove_opaque(const drawing *d, bool *is_opaque) {
   cs_plane_rows *rows;
   view.width = view.crop_width = view.height = view.crop_height = PROOF_SIDE;
   view.antialias = CELSPAN_ANTIALIAS_AREA;
-  CS_TRY(cs_plane_rows_create(d->text.context, d->plane, &view, &rows));
+  CS_TRY(cs_plane_rows_create(d->context, d->plane, &view, &rows));
   celspan_status status = CELSPAN_OK;
   *is_opaque = true;
   for (int32_t y = 0; y < PROOF_SIDE && *is_opaque && status == CELSPAN_OK; y++) {
@@ -308,37 +271,47 @@ static celspan_status judge_pictures(drawing *d) {
 
 static void put_area(drawing *d, uint32_t number) {
   const cs_fill *fill = &d->parcels.fills[number];
+  const cs_plotter_path path = path_of(d, CS_PLOTTER_AREA, number);
   if (fill->loop_count == 0 || is_picture(fill))
     return;
-  cs_plot_put(&d->text, "<path");
-  put_paint(d, "fill", number);
-  if (fill->kind == CS_FILL_FLAT)
-    put_alpha(d, "fill-opacity", fill->code);
-  cs_plot_put(&d->text, " d=\"");
-  cs_plot_begin_path(&d->text);
-  cs_plot_loops(&d->text, &d->parcels, fill->loop, fill->loop_count);
-  cs_plot_put(&d->text, "\"/>\n");
+  d->to->begin_path(d->to->user, &path);
+  put_loops(d, fill->loop, fill->loop_count);
+  d->to->end_path(d->to->user, &path);
   d->facts->areas++;
 }
 
 static celspan_status put_areas(drawing *d) {
-  cs_plot_put(&d->text, "<g fill-rule=\"evenodd\">\n");
+  const cs_plotter_group group = {.clip = NULL};
+  d->to->begin_group(d->to->user, &group);
   for (size_t i = d->parcels.fill_count; i-- > 0;)
     put_area(d, d->under.order[i]);
   CS_TRY(put_pictures(d));
-  cs_plot_put(&d->text, "</g>\n");
+  d->to->end_group(d->to->user, &group);
   return CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- under them */
 
-static void put_line(drawing *d, const cs_under_line *line) {
+static void put_line(const drawing *d, const cs_under_line *line) {
   const cs_parcel_walk walk = {line->arc, false};
-  cs_plot_move(&d->text, line->is_flat ? line->from : cs_parcel_begin(&d->parcels, walk));
+  d->to->move(d->to->user, line->is_flat ? line->from : cs_parcel_begin(&d->parcels, walk));
   if (line->is_flat)
-    cs_plot_line(&d->text, line->to);
+    d->to->line(d->to->user, line->to);
   else
-    cs_plot_arc(&d->text, &d->parcels, walk);
+    put_arc(d, walk);
+}
+
+/* All lines of one colour, from the first; returns the first line after them. */
+static size_t put_lines(const drawing *d, size_t first) {
+  const cs_under_line *lines = d->under.lines;
+  const uint32_t rank = lines[first].rank;
+  const cs_plotter_path path = path_of(d, CS_PLOTTER_STROKE, d->under.order[rank]);
+  size_t at = first;
+  d->to->begin_path(d->to->user, &path);
+  for (; at < d->under.line_count && lines[at].rank == rank; at++)
+    put_line(d, &lines[at]);
+  d->to->end_path(d->to->user, &path);
+  return at;
 }
 
 /* How far an area continues, in units. */
@@ -352,111 +325,116 @@ static celspan_status put_under(drawing *d) {
   const cs_under *under = &d->under;
   /* where not all of the frame is opaque, strokes must not be seen beside what is */
   const bool has_clip = under->opaque < d->parcels.width * d->parcels.height * (1 - 1e-7);
+  const cs_plotter_group group = {.clip = has_clip ? "opaque" : NULL, .stroke = 2 * growth(d)};
   size_t loops[2];
   if (under->line_count == 0)
     return CELSPAN_OK;
   if (has_clip) {
     CS_TRY(unite(d, cs_under_suits, loops));
-    put_clip(d, "opaque", loops);
+    put_clip(d, group.clip, loops);
   }
-  cs_plot_put(&d->text,
-              "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"%s "
-              "stroke-width=\"",
-              has_clip ? " clip-path=\"url(#opaque)\"" : "");
-  cs_plot_put_number(&d->text, 2 * growth(d), d->desc->precision + SPARE_DIGITS);
-  cs_plot_put(&d->text, "\">\n");
-  for (size_t i = 0; i < under->line_count; i++) {
-    bool is_first = i == 0 || under->lines[i - 1].rank != under->lines[i].rank;
-    if (is_first) {
-      cs_plot_put(&d->text, i > 0 ? "\"/>\n<path" : "<path");
-      put_paint(d, "stroke", under->order[under->lines[i].rank]);
-      cs_plot_put(&d->text, " d=\"");
-      cs_plot_begin_path(&d->text);
-    }
-    put_line(d, &under->lines[i]);
-  }
-  cs_plot_put(&d->text, "\"/>\n</g>\n");
+  d->to->begin_group(d->to->user, &group);
+  for (size_t i = 0; i < under->line_count;)
+    i = put_lines(d, i);
+  d->to->end_group(d->to->user, &group);
   return CELSPAN_OK;
 }
 
-/* ---------------------------------------------------------------- files */
+/* ---------------------------------------------------------------- pages */
 
-static celspan_status begin(celspan_context *context, const char *path, const cs_plot_desc *desc,
-                            double width, double height, cs_plot_text *out) {
-  *out = (cs_plot_text){.context = context, .path = path, .precision = desc->precision};
-  CS_TRY(cs_file_create(context, NULL, path, &out->file));
-  cs_plot_put(out, "<svg xmlns=\"http://www.w3.org/2000/svg\" "
-                   "xmlns:xlink=\"http://www.w3.org/1999/xlink\" viewBox=\"0 0 ");
-  cs_plot_put_number(out, width, MATRIX_DIGITS);
-  cs_plot_put(out, " ");
-  cs_plot_put_number(out, height, MATRIX_DIGITS);
-  cs_plot_put(out, "\" width=\"");
-  cs_plot_put_number(out, desc->width > 0 ? desc->width : width, MATRIX_DIGITS);
-  cs_plot_put(out, "\" height=\"");
-  cs_plot_put_number(out, desc->height > 0 ? desc->height : height, MATRIX_DIGITS);
-  cs_plot_put(out, "\" preserveAspectRatio=\"none\">\n");
+/* A file of drawings that is being written. */
+struct cs_plot {
+  cs_plot_text text; /* its bytes */
+  cs_plotter to;
+  cs_plot_desc desc;
+  char *path; /* owned */
+};
+
+static celspan_status begin_page(cs_plot *plot, celspan_point film) {
+  const cs_plot_desc *desc = &plot->desc;
+  const cs_plotter_page page = {.width = film.x,
+                                .height = film.y,
+                                .across = desc->width > 0 ? desc->width : film.x,
+                                .down = desc->height > 0 ? desc->height : film.y};
+  if (desc->is_pdf && fmax(page.across, page.down) > CS_PDF_SIDE)
+    return cs_fail(plot->text.context, CELSPAN_LIMIT,
+                   "%s: a page would have %.0f x %.0f points; a side of PDF has at most %d: give "
+                   "a smaller --size",
+                   plot->path, page.across, page.down, CS_PDF_SIDE);
+  plot->to.begin_page(plot->to.user, &page);
   return CELSPAN_OK;
 }
 
-static celspan_status end(cs_plot_text *out, celspan_status status) {
-  cs_plot_put(out, "</svg>\n");
-  return cs_file_end(out->file, out->context, status == CELSPAN_OK ? out->status : status);
+/* The first failure: of writing bytes, or of what makes them. */
+static celspan_status judge(cs_plot *plot, celspan_status status, const char *reason) {
+  cs_plot_text *text = &plot->text;
+  if (text->status == CELSPAN_OK && status != CELSPAN_OK)
+    text->status = status == CELSPAN_NO_MEMORY
+                       ? cs_fail_memory(text->context)
+                       : cs_fail(text->context, status, "%s: %s", plot->path, reason);
+  return text->status;
 }
 
-static celspan_status write_parcels(drawing *d, const char *path) {
-  celspan_context *context = d->text.context;
+static celspan_status end_page(cs_plot *plot) {
+  const char *reason = "";
+  celspan_status status = plot->to.end_page(plot->to.user, &reason);
+  return judge(plot, status, reason);
+}
+
+static celspan_status put_parcels(cs_plot *plot, drawing *d) {
   const bool is_over = d->desc->flat == CS_FLAT_OVER;
   CS_TRY(judge_pictures(d));
-  CS_TRY(cs_under_make(context, &d->parcels, is_over ? growth(d) : 0, &d->under));
-  CS_TRY(begin(context, path, d->desc, d->parcels.width, d->parcels.height, &d->text));
-  put_gradients(d);
-  celspan_status status = is_over ? put_under(d) : CELSPAN_OK;
-  if (status == CELSPAN_OK)
-    status = put_areas(d);
+  CS_TRY(cs_under_make(d->context, &d->parcels, is_over ? growth(d) : 0, &d->under));
+  CS_TRY(begin_page(plot, film_of(d)));
+  d->to->gradients(d->to->user, &d->parcels);
+  CS_TRY(is_over ? put_under(d) : CELSPAN_OK);
+  CS_TRY(put_areas(d));
   d->facts->curves = d->parcels.curve_count;
-  return end(&d->text, status);
+  return end_page(plot);
 }
 
 /* A film as nothing but a picture; the context keeps its text, which says why. */
-static celspan_status write_picture(celspan_context *context, cs_plot_picture picture,
-                                    celspan_point film, const char *path, const cs_plot_desc *desc,
-                                    cs_plot_facts *facts) {
-  cs_plot_text text;
+static celspan_status add_picture(cs_plot *plot, cs_plot_picture picture, celspan_point film,
+                                  cs_plot_facts *facts) {
+  celspan_context *context = plot->text.context;
   char reason[sizeof context->error];
   memcpy(reason, context->error, sizeof reason);
-  CS_TRY(size_picture(context, film.x, film.y, desc->scale, &picture));
+  CS_TRY(size_picture(context, film, plot->desc.scale, &picture));
   CS_TRY(check_picture(context, &picture));
   *facts = (cs_plot_facts){.pictures = 1,
                            .picture_width = picture.columns,
                            .picture_height = picture.rows,
                            .is_picture = true};
-  CS_TRY(begin(context, path, desc, film.x, film.y, &text));
-  cs_plot_put_picture(&text, &picture, film.x, film.y);
-  CS_TRY(end(&text, CELSPAN_OK));
+  CS_TRY(begin_page(plot, film));
+  CS_TRY(cs_plot_picture_put(context, plot->path, &picture, film, &plot->to));
+  CS_TRY(end_page(plot));
   memcpy(context->error, reason, sizeof reason);
   return CELSPAN_OK;
 }
 
-celspan_status cs_plot_write_plane(celspan_context *context, const celspan_plane *plane,
-                                   const char *path, const cs_plot_desc *desc,
-                                   cs_plot_facts *facts) {
-  drawing d = {.text = {.context = context}, .desc = desc, .plane = plane, .facts = facts};
+celspan_status cs_plot_add_plane(cs_plot *plot, const celspan_plane *plane, cs_plot_facts *facts) {
+  celspan_context *context = plot->text.context;
+  drawing d = {.context = context,
+               .path = plot->path,
+               .to = &plot->to,
+               .desc = &plot->desc,
+               .plane = plane,
+               .facts = facts};
   const cs_plot_picture picture = {
       .draw = draw_plane, .plane = plane, .is_opaque = celspan_plane_is_opaque(plane)};
   *facts = (cs_plot_facts){0};
   celspan_status status = cs_parcels_make(context, plane, &d.parcels);
-  const celspan_point film = {d.parcels.width, d.parcels.height};
+  const celspan_point film = film_of(&d);
   const bool is_sum = d.parcels.is_sum;
   if (status == CELSPAN_OK)
-    status = write_parcels(&d, path);
+    status = put_parcels(plot, &d);
   cs_under_finish(&d.under, context->memory);
   cs_parcels_finish(&d.parcels, context->memory);
-  return is_sum ? write_picture(context, picture, film, path, desc, facts) : status;
+  return is_sum ? add_picture(plot, picture, film, facts) : status;
 }
 
-celspan_status cs_plot_write_frame(celspan_context *context, const celspan_frame_desc *frame,
-                                   const char *path, const cs_plot_desc *desc,
-                                   cs_plot_facts *facts) {
+celspan_status cs_plot_add_frame(cs_plot *plot, const celspan_frame_desc *frame,
+                                 cs_plot_facts *facts) {
   celspan_frame_desc whole = *frame;
   celspan_plane_desc made = CELSPAN_PLANE_DESC;
   celspan_plane *plane;
@@ -464,15 +442,54 @@ celspan_status cs_plot_write_frame(celspan_context *context, const celspan_frame
   whole.film_height = made.height = frame->film_height > 0 ? frame->film_height : frame->height;
   made.space = frame->space;
   celspan_status status =
-      cs_plane_expose(context, frame->exposures, frame->exposure_count, &made, &plane);
+      cs_plane_expose(plot->text.context, frame->exposures, frame->exposure_count, &made, &plane);
   if (status == CELSPAN_OK)
-    status = cs_plot_write_plane(context, plane, path, desc, facts);
+    status = cs_plot_add_plane(plot, plane, facts);
   celspan_plane_unref(plane);
-  if (status == CELSPAN_BAD_ARGUMENT) {
-    const cs_plot_picture picture = {
-        .draw = draw_frame, .frame = &whole, .is_opaque = celspan_frame_is_opaque(&whole)};
-    const celspan_point film = {whole.film_width, whole.film_height};
-    return write_picture(context, picture, film, path, desc, facts);
-  }
+  if (status != CELSPAN_BAD_ARGUMENT)
+    return status;
+  const cs_plot_picture picture = {
+      .draw = draw_frame, .frame = &whole, .is_opaque = celspan_frame_is_opaque(&whole)};
+  return add_picture(plot, picture, (celspan_point){whole.film_width, whole.film_height}, facts);
+}
+
+/* ---------------------------------------------------------------- files */
+
+static celspan_status open_file(cs_plot *plot, const char *path) {
+  celspan_context *context = plot->text.context;
+  const size_t size = strlen(path) + 1;
+  CS_TRY(CS_MAKE(context, plot->path, size));
+  memcpy(plot->path, path, size);
+  CS_TRY(cs_file_create(context, NULL, path, &plot->text.file));
+  if (plot->desc.is_pdf)
+    return cs_plot_pdf_open(&plot->text, &plot->to);
+  cs_plot_svg_open(&plot->text, &plot->to);
+  return CELSPAN_OK;
+}
+
+celspan_status cs_plot_begin(celspan_context *context, const char *path, const cs_plot_desc *desc,
+                             cs_plot **out) {
+  cs_plot *plot;
+  CS_TRY(CS_MAKE(context, plot, 1));
+  plot->text = (cs_plot_text){.context = context, .precision = desc->precision};
+  plot->desc = *desc;
+  celspan_status status = open_file(plot, path);
+  *out = status == CELSPAN_OK ? plot : NULL;
+  return status == CELSPAN_OK ? CELSPAN_OK : cs_plot_end(plot, status);
+}
+
+celspan_status cs_plot_end(cs_plot *plot, celspan_status outcome) {
+  celspan_context *context = plot->text.context;
+  const char *reason = "";
+  /* what is not kept need not be written, either */
+  if (plot->text.status == CELSPAN_OK)
+    plot->text.status = outcome;
+  celspan_status status = plot->to.close ? plot->to.close(plot->to.user, &reason) : CELSPAN_OK;
+  status = judge(plot, status, reason);
+  if (plot->text.file)
+    status = cs_file_end(plot->text.file, context, status);
+  if (plot->path)
+    cs_mem_free(context->memory, plot->path, strlen(plot->path) + 1);
+  cs_mem_free(context->memory, plot, sizeof *plot);
   return status;
 }

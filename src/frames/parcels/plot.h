@@ -1,4 +1,4 @@
-/* Frames as SVG drawings of what can be seen of them.
+/* Frames as drawings, SVG or PDF, of what can be seen of them.
  *
  *     under: a stroke of the colour of the thicker fill along each border between opaque fills
  *     over:  the fills, from the thickest to the thinnest
@@ -13,6 +13,8 @@
 
 /* Whether a file of this name is such a drawing. format: NULL: the ending of the name says it. */
 bool cs_plot_is_wanted(const char *path, const char *format);
+/* The same for PDF alone. */
+bool cs_plot_is_pdf(const char *path, const char *format);
 
 typedef enum cs_flat {
   CS_FLAT_OVER,   /* there are strokes under the areas */
@@ -21,9 +23,10 @@ typedef enum cs_flat {
 
 typedef struct cs_plot_desc {
   cs_flat flat;
-  int32_t precision;     /* digits after the point, 0 to 9 */
+  int32_t precision;     /* digits after the point, 0 to 9; PDF has a grid of its own */
   double scale;          /* pixels for each film unit of what becomes a picture */
   int32_t width, height; /* the size in pixels that the drawing is for; 0: the film's */
+  bool is_pdf;           /* instead of SVG; a pixel of the size is then a point */
 } cs_plot_desc;
 
 /* What a drawing became. */
@@ -33,15 +36,20 @@ typedef struct cs_plot_facts {
   bool is_picture;                       /* there is nothing else; the context says why */
 } cs_plot_facts;
 
-/* Writes a frame, whole: its size, crop and antialiasing are ignored. One that no plane can keep
+/* A file that is being written: SVG of one page, or PDF of any number of them. */
+typedef struct cs_plot cs_plot;
+
+/* *out: NULL if it fails. Errors: those of a file; for PDF OUTPUT if its module is missing. */
+CELSPAN_CHECKED celspan_status cs_plot_begin(celspan_context *context, const char *path,
+                                             const cs_plot_desc *desc, cs_plot **out);
+/* Adds a frame, whole: its size, crop and antialiasing are ignored. One that no plane can keep
  * becomes a picture. Errors: those of rendering and of writing a file; LIMIT for more borders than
- * CS_PARCEL_ARCS, and for a picture with too many pixels. */
-CELSPAN_CHECKED celspan_status cs_plot_write_frame(celspan_context *context,
-                                                   const celspan_frame_desc *frame,
-                                                   const char *path, const cs_plot_desc *desc,
-                                                   cs_plot_facts *facts);
-/* Writes a plane in the same way; one that is a sum becomes a picture. Errors: BAD_ARGUMENT for one
+ * CS_PARCEL_ARCS, and for a picture or a page that is too large. */
+CELSPAN_CHECKED celspan_status cs_plot_add_frame(cs_plot *plot, const celspan_frame_desc *frame,
+                                                 cs_plot_facts *facts);
+/* Adds a plane in the same way; one that is a sum becomes a picture. Errors: BAD_ARGUMENT for one
  * whose borders do not meet. */
-CELSPAN_CHECKED celspan_status cs_plot_write_plane(celspan_context *context,
-                                                   const celspan_plane *plane, const char *path,
-                                                   const cs_plot_desc *desc, cs_plot_facts *facts);
+CELSPAN_CHECKED celspan_status cs_plot_add_plane(cs_plot *plot, const celspan_plane *plane,
+                                                 cs_plot_facts *facts);
+/* Ends the file: it gets its name if `outcome` is OK. Returns the first failure. */
+CELSPAN_CHECKED celspan_status cs_plot_end(cs_plot *plot, celspan_status outcome);

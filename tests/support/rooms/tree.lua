@@ -5,9 +5,9 @@ local c_source = require "tests.support.rooms.c_source"
 local tree = {}
 tree.__index = tree
 
-local BUILT_APART = { "plugins/avif", "plugins/ocio", "plugins/oiio", "plugins/raster",
-  "plugins/type", "plugins/icc", "plugins/web", "lua/bind", "lua/nouns", "lua/module",
-  "lua/sandbox", "program" }
+local BUILT_APART = { "plugins/avif", "plugins/cairo", "plugins/ocio", "plugins/oiio",
+  "plugins/raster", "plugins/type", "plugins/icc", "plugins/web", "lua/bind", "lua/nouns",
+  "lua/module", "lua/sandbox", "program" }
 local PUBLIC = "include/celspan"
 
 --- The rank of each folder in the list of src/meson.build, followed by those that are built
