@@ -9,6 +9,7 @@ class Celspan < Formula
   depends_on "meson" => :build
   depends_on "ninja" => :build
   depends_on "pkg-config" => :build
+  depends_on "cairo"
   depends_on "expat"
   depends_on "fribidi"
   depends_on "harfbuzz"

@@ -7,6 +7,7 @@ pkgs.stdenv.mkDerivation {
   src = ../..;
   nativeBuildInputs = with pkgs; [ binaryen clang lld meson ninja pkg-config ];
   buildInputs = with pkgs; [
+    cairo
     expat
     fribidi
     harfbuzz

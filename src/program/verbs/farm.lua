@@ -261,7 +261,7 @@ local function refuse()
     program.usage "a farm makes files of frames: give -o shot.####.png (and make a video of them)"
   end
   local named = request.format and "x." .. request.format or output
-  if program.has_ending(named, ".svg", ".json", ".lottie") then
+  if program.has_ending(named, ".svg", ".pdf", ".json", ".lottie") then
     program.usage("%s: a farm makes no drawings and no Lottie animations: give -o shot.####.png, "
       .. "or use 'celspan render'", output)
   end

@@ -20,6 +20,7 @@ local environment = {
   { "CELSPAN_ART_MODULE", "the same for celspan-art.so: type, drawings, paintings" },
   { "CELSPAN_COLOUR_MODULE", "the same for celspan-colour.so: colour profiles" },
   { "CELSPAN_SPACE_MODULE", "the same for celspan-space.so: spaces of OpenColorIO" },
+  { "CELSPAN_PDF_MODULE", "the same for celspan-pdf.so: drawings as PDF" },
   { "CELSPAN_WEB_MODULE", "the same for celspan-web.so: watch and play" },
   { "OCIO", "an OpenColorIO configuration: its spaces may be named in colour and --colour" },
 }
