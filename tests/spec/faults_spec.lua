@@ -53,8 +53,8 @@ local function make(format, plan, options)
   local output = format.is_stream and "- > out/stream" or "out/" .. format.output
   local command = format.joins and "join 'strips/#." .. format.joins .. "'"
     or format.sounds and "sound film.lua"
-    or ("render film.lua --workers 1 --progress none %s %s"):format(format.options or "",
-      options or "")
+    or ("render film.lua --workers %d --progress none %s %s"):format(format.workers or 1,
+      format.options or "", options or "")
   return bench:shell(("cd '%s' && mkdir -p out && %s %s %s -o %s"):format(bench.folder, plan or "",
     workbench.absolute, command, output))
 end
@@ -162,7 +162,7 @@ end
 
 local formats = {
   { output = "f.##.png" }, { output = "f.##.png", options = "--depth 16" }, { output = "f.##.tga" },
-  { output = "f.##.span" }, { is_stream = true },
+  { output = "f.##.span" }, { is_stream = true }, { is_stream = true, workers = 2 },
   { output = "f.##.exr", has_module = true, options = "--trust" },
   { output = "f.##.tiff", has_module = true, options = "--trust" },
   { output = "f.##.jpg", has_module = true, options = "--trust" },
@@ -306,7 +306,7 @@ end)
 describe("if calls to the system fail #plain", function()
   for _, format in ipairs(formats) do
     local name = (format.joins and "joining " or "") .. (format.output or "a stream")
-      .. (format.options or "")
+      .. (format.workers and " by two workers" or "") .. (format.options or "")
     it("once, " .. name .. " ends well", function() sweep(format, false) end)
     it("for good, " .. name .. " ends well", function() sweep(format, true) end)
   end

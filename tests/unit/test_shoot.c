@@ -241,8 +241,8 @@ static void check_failed_stream(studio *s, int workers, size_t slots) {
   }
 }
 
-/* When the run continues, all others are given; the second of two equal frames is made where the first
- * has failed. */
+/* When the run continues, all others are given; the second of two equal frames is made where the
+ * first has failed. */
 static void check_kept_going(studio *s, int workers, size_t slots) {
   for (int at = 0; at < FRAMES * STEPS; at++) {
     int number = at / STEPS;
