@@ -104,9 +104,12 @@ static celspan_status put_plane(void *user, celspan_context *context,
   return cs_plane_film_put(job->plane, desc, frame->is_named ? &frame->scene : NULL);
 }
 
-static celspan_status put_page(void *user, const celspan_frame_desc *desc, cs_shoot_frame *frame) {
+static celspan_status put_page(void *user, celspan_context *context, const celspan_frame_desc *desc,
+                               size_t slot, cs_shoot_frame *frame) {
   render_job *job = user;
   cs_plot_facts facts;
+  (void)context;
+  (void)slot;
   (void)frame;
   CS_TRY(cs_plot_add_frame(job->pages, desc, &facts));
   if (!job->has_noted) {
@@ -329,8 +332,9 @@ static celspan_status run_shoot(render_job *job) {
                     .keeps_going = job->keeps_going,
                     .keeps_nothing = keeps_nothing(job),
                     .user = job,
-                    .write = is_apart(job)                                        ? put_layers
-                             : cs_drawing_target_is_wanted(job->output, job->request) ? put_drawing : NULL,
+                    .write = is_apart(job)                                            ? put_layers
+                             : cs_drawing_target_is_wanted(job->output, job->request) ? put_drawing
+                                                                                      : NULL,
                     .hash = is_apart(job) ? cs_apart_hash : NULL,
                     .keep = job->resumes ? keep : NULL,
                     .build = build,
