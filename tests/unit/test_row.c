@@ -1,5 +1,7 @@
 /* Rows of spans: merging, cropping, and the exposures of one frame. */
 #include "engine/span/row.h"
+
+#include "model/colour/space.h"
 #include "tests/support/check.h"
 
 static celspan_context *context;
@@ -81,6 +83,71 @@ static void test_exposing(void) {
   cs_row_finish(&sum, context->memory);
 }
 
+enum { EXPOSURES = 3, COLUMNS = 60 };
+
+/* Spans of every kind, which end elsewhere in every row; its arrays are longer or shorter than the
+ * spans that lie beside them. */
+static void fill_row(cs_row *row, int number) {
+  cs_row_init(row);
+  for (int32_t x0 = 0, k = number; x0 < COLUMNS; k++) {
+    int32_t x1 = x0 + 1 + (5 * k + 3 * number) % 11;
+    x1 = x1 < COLUMNS ? x1 : COLUMNS;
+    float *array;
+    cs_v4 colour = grey(0.03f * (float)(k % 29), 0.1f * (float)(k % 7));
+    if (k % 3 == 0) {
+      CHECK(cs_row_single(context, row, x0, x1, colour) == CELSPAN_OK);
+    } else if (k % 3 == 1) {
+      CHECK(cs_row_gradient(context, row, x0, x1, colour, grey(0.013f, 0.007f)) == CELSPAN_OK);
+    } else {
+      CHECK(cs_row_array(context, row, x0, x1, &array) == CELSPAN_OK);
+      for (int32_t i = 0; i < 4 * (x1 - x0); i++)
+        array[i] = 0.037f * (float)((x0 + i) % 31);
+    }
+    x0 = x1;
+  }
+}
+
+/* What the exposures of one column add up to. */
+static void add_column(celspan_space space, const cs_row *rows, const float *weights, int32_t x,
+                       float sum[4]) {
+  memset(sum, 0, 4 * sizeof *sum);
+  for (int i = 0; i < EXPOSURES; i++) {
+    float rgba[4];
+    for (size_t k = 0; k < rows[i].count; k++)
+      if (rows[i].spans[k].x0 <= x && x < rows[i].spans[k].x1)
+        celspan_span_colour(&rows[i].spans[k], x, rgba);
+    cs_space_decode(space, rgba);
+    for (int c = 0; c < 4; c++)
+      sum[c] += weights[i] * rgba[c];
+  }
+  sum[3] = sum[3] > 1 ? 1 : sum[3];
+  cs_space_encode(space, sum);
+}
+
+/* Columns of single spans and arrays are what they are one by one, to the bit. */
+static void test_columns(celspan_space space) {
+  const float weights[EXPOSURES] = {0.3f, 0.6f, 0.7f};
+  cs_row rows[EXPOSURES], sum;
+  int32_t columns = 0, wrong = 0;
+  for (int i = 0; i < EXPOSURES; i++)
+    fill_row(&rows[i], i);
+  cs_row_init(&sum);
+  CHECK(cs_row_expose(context, &sum, space, rows, weights, EXPOSURES) == CELSPAN_OK);
+  CHECK(sum.spans[0].x0 == 0 && sum.spans[sum.count - 1].x1 == COLUMNS);
+  for (const celspan_span *span = sum.spans; span < sum.spans + sum.count; span++)
+    for (int32_t x = span->x0; x < span->x1 && span->kind != CELSPAN_SPAN_GRADIENT; x++) {
+      float found[4], wanted[4];
+      celspan_span_colour(span, x, found);
+      add_column(space, rows, weights, x, wanted);
+      wrong += memcmp(found, wanted, sizeof found) != 0;
+      columns++;
+    }
+  CHECK(wrong == 0 && columns > COLUMNS / 2);
+  for (int i = 0; i < EXPOSURES; i++)
+    cs_row_finish(&rows[i], context->memory);
+  cs_row_finish(&sum, context->memory);
+}
+
 #ifdef CELSPAN_CHECKS
 /* The self-check finds every fault of a row, and nothing else. */
 static void test_self_check(void) {
@@ -111,6 +178,8 @@ int main(void) {
   test_merging();
   test_cropping();
   test_exposing();
+  test_columns(CELSPAN_SPACE_LINEAR);
+  test_columns(CELSPAN_SPACE_SRGB);
 #ifdef CELSPAN_CHECKS
   test_self_check();
 #endif

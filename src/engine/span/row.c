@@ -246,28 +246,35 @@ static cs_v4 light_of(cs_v4 codes) {
   return cs_v4_load(rgba);
 }
 
-/* The sum of the light in a column. */
-static cs_v4 sum_at(const exposed *e, int32_t x) {
-  cs_v4 sum = cs_v4_all(0);
-  for (size_t i = 0; i < e->count; i++) {
-    cs_v4 colour = colour_at(e->spans[i], x);
-    sum += e->weights[i] * (e->space == CELSPAN_SPACE_SRGB ? light_of(colour) : colour);
+/* Adds the light of one span in columns [x0, x1). */
+static void add_light(const exposed *e, size_t i, int32_t x0, int32_t x1, float *sums) {
+  const celspan_span *span = e->spans[i];
+  const float weight = e->weights[i];
+  const bool is_coded = e->space == CELSPAN_SPACE_SRGB;
+  for (int32_t x = x0; x < x1; x++, sums += 4) {
+    cs_v4 colour = colour_at(span, x);
+    cs_v4_store(sums, cs_v4_load(sums) + weight * (is_coded ? light_of(colour) : colour));
   }
-  sum[3] = sum[3] > 1 ? 1 : sum[3];
-  return sum;
 }
 
-static void put_sum(const exposed *e, int32_t x, float out[4]) {
-  cs_v4_store(out, sum_at(e, x));
-  cs_space_encode(e->space, out);
+/* The sums of columns [x0, x1), span by span: each is what the columns are one by one. */
+static void put_sums(const exposed *e, int32_t x0, int32_t x1, float *sums) {
+  const size_t count = 4 * (size_t)(x1 - x0);
+  memset(sums, 0, count * sizeof *sums);
+  for (size_t i = 0; i < e->count; i++)
+    add_light(e, i, x0, x1, sums);
+  for (float *sum = sums; sum < sums + count; sum += 4) {
+    sum[3] = sum[3] > 1 ? 1 : sum[3];
+    if (e->space == CELSPAN_SPACE_SRGB)
+      cs_space_encode(e->space, sum);
+  }
 }
 
 static celspan_status expose_array(celspan_context *context, cs_row *out, const exposed *e,
                                    int32_t x0, int32_t x1) {
   float *colours;
   CS_TRY(cs_row_array(context, out, x0, x1, &colours));
-  for (int32_t x = x0; x < x1; x++, colours += 4)
-    put_sum(e, x, colours);
+  put_sums(e, x0, x1, colours);
   return CELSPAN_OK;
 }
 
@@ -287,7 +294,7 @@ static celspan_status expose_interval(celspan_context *context, cs_row *out, con
     return expose_array(context, out, e, x0, x1);
   if (e->space == CELSPAN_SPACE_SRGB) {
     float sum[4];
-    put_sum(e, x0, sum);
+    put_sums(e, x0, x0 + 1, sum);
     return cs_row_single(context, out, x0, x1, cs_v4_load(sum));
   }
   for (size_t i = 0; i < e->count; i++) {
