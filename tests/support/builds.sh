@@ -26,7 +26,8 @@ absent() {
 
 without_lua() {
   quietly env CXX=/nonexistent/c++ meson setup "$tree/core" "${quick[@]}" -Dlua=disabled \
-    -Dpictures=disabled -Draster=disabled -Dart=disabled -Dcolour=disabled -Dpdf=disabled -Dtests=false
+    -Dpictures=disabled -Draster=disabled -Dart=disabled -Dcolour=disabled -Dpdf=disabled \
+    -Dtests=false
   quietly ninja -C "$tree/core"
   "$tree/core/examples/example_memory" | grep -q '#'
   absent "$tree/core" 'libcelspan_lua.a'
