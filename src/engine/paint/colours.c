@@ -210,7 +210,7 @@ static celspan_status fold_bare(cs_painter *painter, const cs_program *program,
 celspan_status cs_painter_batch_colours(cs_painter *painter, const cs_program *program,
                                         const cs_batch *batch, float (*rgba)[4]) {
   const cs_gradient_table *table;
-  if (cs_over_planes_ready(painter, program, batch, rgba))
+  if (painter->ahead && cs_over_planes_ready(painter, program, batch, rgba))
     return CELSPAN_OK;
   CS_TRY(cs_gradient_table_find(painter->gradients, program, &table));
   if (!table && cs_over_planes_colours(painter, program, batch, rgba))
@@ -298,7 +298,8 @@ static celspan_status find_shown(cs_painter *painter, const cs_program *program,
 celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program *program,
                                           cs_run run, float (*rgba)[4]) {
   const cs_batch batch = {NULL, run.x0, run.x1 - run.x0, run.y};
-  if (run.x1 - run.x0 <= CS_FEW_PIXELS && cs_over_planes_ready(painter, program, &batch, rgba))
+  if (painter->ahead && batch.count <= CS_FEW_PIXELS &&
+      cs_over_planes_ready(painter, program, &batch, rgba))
     return CELSPAN_OK;
   if (run.x1 - run.x0 <= CS_FEW_PIXELS && cs_few_fits(painter->stack, program))
     return cs_few_colours(painter, program, run, rgba);
@@ -317,7 +318,8 @@ celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program 
 
 void cs_painter_ahead(cs_painter *painter, const cs_cell *cell, cs_run run) {
   const cs_program program = cs_composer_program(painter->composer, cell);
-  cs_over_planes_prepare(painter, &program, run);
+  if (painter->ahead)
+    cs_over_planes_prepare(painter, &program, run);
 }
 
 celspan_status cs_painter_colours(cs_painter *painter, const cs_cell *cell, cs_run run,

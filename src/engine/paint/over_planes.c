@@ -63,7 +63,7 @@ static inline bool is_of(const cs_over_planes_ahead *ahead, const cs_program *pr
 /* What has been folded ahead from column x0 up to x1; NULL: not all of it. */
 static inline const cs_over_planes_ahead *find_ahead(const cs_painter *painter,
                                                      const cs_program *program, cs_run run) {
-  for (int i = 0; i < 2 && painter->ahead; i++) {
+  for (int i = 0; i < 2; i++) {
     const cs_over_planes_ahead *ahead = &painter->ahead[i];
     if (ahead->run.x0 <= run.x0 && run.x1 <= ahead->run.x1 && ahead->run.y == run.y &&
         ahead->length == program->length && is_of(ahead, program))
@@ -74,7 +74,7 @@ static inline const cs_over_planes_ahead *find_ahead(const cs_painter *painter,
 
 void cs_over_planes_prepare(cs_painter *painter, const cs_program *program, cs_run run) {
   const int32_t count = run.x1 - run.x0;
-  if (!painter->ahead || count > CS_OVER_ROW_BATCH || program->length > CS_OVER_PLANES_ITEMS ||
+  if (count > CS_OVER_ROW_BATCH || program->length > CS_OVER_PLANES_ITEMS ||
       find_ahead(painter, program, run) || !cs_over_planes_fits(painter->stack, program))
     return;
   cs_over_planes_ahead *ahead = &painter->ahead[painter->next_ahead];
@@ -124,7 +124,7 @@ bool cs_over_planes_colours(cs_painter *painter, const cs_program *program, cons
 bool cs_over_planes_codes(cs_painter *painter, const cs_program *program, const cs_batch *batch,
                           unsigned char *codes) {
   const cs_over_planes_ahead *ahead =
-      batch->columns ? NULL : find_ahead(painter, program, run_of(batch));
+      batch->columns || !painter->ahead ? NULL : find_ahead(painter, program, run_of(batch));
   cs_over_planes planes;
   const int32_t first = ahead ? batch->x0 - ahead->run.x0 : 0;
   if (!ahead && !cs_over_planes_fits(painter->stack, program))

@@ -18,7 +18,8 @@
 
 /* Whether a program is folded so. It has several gradients: one alone is read from a table. */
 bool cs_over_planes_fits(const cs_stack *stack, const cs_program *program);
-/* Folds a run ahead, if the program is folded so and neither it nor the run is long. */
+/* Folds a run ahead, if the program is folded so and neither it nor the run is long. This function
+ * and the last one: only where the painter has room for what is folded ahead. */
 void cs_over_planes_prepare(cs_painter *painter, const cs_program *program, cs_run run);
 
 /* The colours of a batch, premultiplied RGBA, and its codes, folded ahead or not. False: the
