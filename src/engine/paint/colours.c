@@ -207,10 +207,15 @@ static celspan_status fold_bare(cs_painter *painter, const cs_program *program,
 
 /* ---------------------------------------------------------------- batches */
 
+/* Whether any pixels have been folded ahead: in many frames no program is folded so. */
+static inline bool is_ahead(const cs_painter *painter) {
+  return painter->ahead && painter->ahead->length > 0;
+}
+
 celspan_status cs_painter_batch_colours(cs_painter *painter, const cs_program *program,
                                         const cs_batch *batch, float (*rgba)[4]) {
   const cs_gradient_table *table;
-  if (painter->ahead && cs_over_planes_ready(painter, program, batch, rgba))
+  if (is_ahead(painter) && cs_over_planes_ready(painter, program, batch, rgba))
     return CELSPAN_OK;
   CS_TRY(cs_gradient_table_find(painter->gradients, program, &table));
   if (!table && cs_over_planes_colours(painter, program, batch, rgba))
@@ -298,7 +303,7 @@ static celspan_status find_shown(cs_painter *painter, const cs_program *program,
 celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program *program,
                                           cs_run run, float (*rgba)[4]) {
   const cs_batch batch = {NULL, run.x0, run.x1 - run.x0, run.y};
-  if (painter->ahead && batch.count <= CS_FEW_PIXELS &&
+  if (is_ahead(painter) && batch.count <= CS_FEW_PIXELS &&
       cs_over_planes_ready(painter, program, &batch, rgba))
     return CELSPAN_OK;
   if (run.x1 - run.x0 <= CS_FEW_PIXELS && cs_few_fits(painter->stack, program))
