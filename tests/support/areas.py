@@ -59,9 +59,10 @@ def even_odd(all_rings):
     parts = []
     for part in polygonize(lines):
         at, inside = part.representative_point(), False
+        x, y = at.x, at.y
         for ring in all_rings:
             for (x0, y0), (x1, y1) in zip(ring, ring[1:] + ring[:1]):
-                if (y0 > at.y) != (y1 > at.y) and at.x < x0 + (at.y - y0) / (y1 - y0) * (x1 - x0):
+                if (y0 > y) != (y1 > y) and x < x0 + (y - y0) / (y1 - y0) * (x1 - x0):
                     inside = not inside
         if inside:
             parts.append(part)
