@@ -34,6 +34,7 @@ without_lua() {
   absent "$tree/core" 'celspan.so'
   absent "$tree/core" 'celspan-art.so'
   absent "$tree/core" 'celspan-colour.so'
+  absent "$tree/core" 'celspan-pdf.so'
   absent "$tree/core" 'celspan-web.so'
 }
 
