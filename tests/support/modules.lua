@@ -7,8 +7,11 @@
 --- silently be an element of the page with this id; an import that is not used, that something
 --- else of its name hides, or that nothing exports; an export that nobody imports; a line of more
 --- than 100 characters; a text that the server would change, which sends modules without comments
---- and indentation.
+--- and indentation; an import or an export in a form that the server cannot join; a module that
+--- comes before one that it needs, or is never reached; two modules with one name in the script
+--- that they are joined to, or one that is the browser's.
 local FOLDER = "src/program/verbs/watch/"
+local joining = dofile(FOLDER .. "joining.lua")
 
 local browser = {}
 for name in ([[
@@ -89,7 +92,6 @@ local function take_module(name, text)
   for list, from in text:gmatch 'import {([^}]*)} from "/([%w.]+)"' do
     for word in list:gmatch "[%a_$][%w_$]*" do imports[name][word] = from end
   end
-  for word in text:gmatch "import %* as ([%w_$]+)" do imports[name][word] = false end
   texts[name] = bare((("\n" .. text):gsub("\nimport [^;]*;", "\n")))
 end
 
@@ -132,10 +134,8 @@ for name, text in pairs(texts) do
   for word, from in pairs(imports[name]) do
     if not used[word] then complain("%s: the import %s is not used", name, word) end
     if hidden[word] then complain("%s: the import %s is hidden by another", name, word) end
-    if from and not exports[from][word] then
-      complain("%s: %s does not export %s", name, from, word)
-    end
-    if from then wanted[from .. word] = true end
+    if not exports[from][word] then complain("%s: %s does not export %s", name, from, word) end
+    wanted[from .. word] = true
   end
   for at, word, after in text:gmatch "()%f[%w_$]([%a_$][%w_$]*)()" do
     local before = text:sub(math.max(1, at - 40), at - 1):match "[^%s]*%s*$"
@@ -149,17 +149,74 @@ for name, text in pairs(texts) do
 end
 for name, list in pairs(exports) do
   for word in pairs(list) do
-    local is_whole = name == "cost.js" or name == "sound.js" -- imported as one
-    if not is_whole and not wanted[name .. word] then
-      complain("%s: nobody imports %s", name, word)
+    if not wanted[name .. word] then complain("%s: nobody imports %s", name, word) end
+  end
+end
+
+-- ---------------------------------------------------------------- the joined script
+
+local function text_of(name) return read(FOLDER .. name) end
+
+--- Whether a module needs another one, by whatever way.
+local function reaches(from, to, seen)
+  if from == to then return true end
+  if seen[from] then return false end
+  seen[from] = true
+  for _, next in pairs(imports[from]) do
+    if reaches(next, to, seen) then return true end
+  end
+  return false
+end
+
+local function check_order(order)
+  local place = {}
+  for i, name in ipairs(order) do place[name] = i end
+  for name in pairs(texts) do
+    if not place[name] then complain("page.js does not need %s", name) end
+    for _, from in pairs(place[name] and imports[name] or {}) do
+      if place[from] > place[name] and not reaches(from, name, {}) then
+        complain("%s comes before %s, which it needs", name, from)
+      end
     end
+  end
+end
+
+--- Names that modules declare for themselves alone are names of the whole script.
+local function check_names()
+  local owner = {}
+  for name in pairs(texts) do
+    local text = "\n" .. text_of(name)
+    for _, form in ipairs { "function", "const", "let" } do
+      for word in text:gsub("\nexport ", "\n"):gsub("\nasync ", "\n")
+        :gmatch("\n" .. form .. " ([%w_$]+)") do
+        if owner[word] then complain("%s and %s both have a %s", owner[word], name, word) end
+        if browser[word] then complain("%s: %s is a name of the browser", name, word) end
+        owner[word] = name
+      end
+    end
+  end
+end
+
+--- Asks node whether a text is a module.
+local function is_module(text)
+  local pipe = assert(io.popen("node --input-type=module --check", "w"))
+  pipe:write(text)
+  return pipe:close()
+end
+
+local joined = joining.join("page.js", text_of)
+check_order(joining.order("page.js", text_of))
+check_names()
+for line in joined:gmatch "[^\n]+" do
+  if line:find "^import%f[%W]" or line:find "^export%f[%W]" then
+    complain("the joined script keeps: %s", line)
   end
 end
 if os.execute "command -v node >/dev/null" then
   for name in pairs(texts) do
-    local command = "node --input-type=module --check < %s%s"
-    if not os.execute(command:format(FOLDER, name)) then complain("%s: node refuses it", name) end
+    if not is_module(text_of(name)) then complain("%s: node refuses it", name) end
   end
+  if not is_module(joined) then complain "node refuses the joined script" end
 end
 
 table.sort(faults)

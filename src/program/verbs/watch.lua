@@ -14,7 +14,7 @@ local json = require "celspan.json"
 
 local function part(name) return program.part(name, program, request) end
 local guard, watched, choices = part "guard.lua", part "watched.lua", part "choices.lua"
-local programs = part "programs.lua"
+local programs, joining = part "programs.lua", part "joining.lua"
 
 local HELD = 20            -- seconds for which a request waits for news, or for a film
 local SIDE_MOST = 1048576  -- pixels
@@ -26,12 +26,8 @@ local UNITS_MOST = 1 << 30  -- the greatest distance of a point, on either side
 
 -- The texts of the page.
 local pages = { ["/"] = "page.html", ["/again.html"] = "again.html", ["/page.css"] = "page.css",
+                ["/page.js"] = "page.js",
                 ["/icon.svg"] = "icon.svg", ["/favicon.ico"] = "icon.svg" }
-for name in ([[beside compare cost costing faults fetch fields guides hands inspector news objects
-  over page panels pictures playing points render rows runs sound state thumb timeline values
-  view]]):gmatch "%l+" do
-  pages["/" .. name .. ".js"] = name .. ".js"
-end
 
 for _, script in ipairs(request) do
   local file, why = io.open(script, "rb")
@@ -313,17 +309,24 @@ end
 local kinds = { html = "text/html; charset=utf-8", css = "text/css; charset=utf-8",
                 js = "text/javascript; charset=utf-8", svg = "image/svg+xml" }
 
+local made = {} -- the texts of the page as they are sent
+
 --- The text of the page. Scripts and styles travel without comments and indentation, and styles
 --- without most blanks: so they have two fifths fewer bytes. No text in a style may have a blank
 --- after a colon or a comma.
-local function give_text(id, name)
+local function made_text(name, ending)
+  if ending == "js" then return joining.join(name, program.text) end
   local text = program.text(name)
-  if not name:find "%.html$" then
-    text = ("\n" .. text):gsub("\n%s*/%*.-%*/", "\n"):gsub("\n%s*//[^\n]*", "")
-      :gsub(" +// [^\n]*", ""):gsub("\n%s+", "\n")
-    if name:find "%.css$" then text = text:gsub("%s*([{};])%s*", "%1"):gsub("([:,]) ", "%1") end
-  end
-  answer(id, 200, kinds[name:match "%w+$"], text)
+  if ending == "html" then return text end
+  text = joining.bare(text)
+  if ending ~= "css" then return text end
+  return (text:gsub("%s*([{};])%s*", "%1"):gsub("([:,]) ", "%1"))
+end
+
+local function give_text(id, name)
+  local ending = name:match "%w+$"
+  made[name] = made[name] or made_text(name, ending)
+  answer(id, 200, kinds[ending], made[name])
 end
 
 --- Sends the files that a parameter may name. fields: parameter=NAME.

@@ -3,7 +3,7 @@ import { post } from "/fetch.js";
 import { showPanel } from "/panels.js";
 import { forget } from "/pictures.js";
 import {
-  beside, here, isComparing, lanes, main, part, setPressed, state, stateOf,
+  beside, here, isComparing, lanes, main, part, setWords, setPressed, state, stateOf, write,
 } from "/state.js";
 import { writeAddress } from "/values.js";
 
@@ -38,11 +38,11 @@ export function showComparing() {
   const isOn = isComparing(), wasOn = !beside.box.hidden;
   if (comparing.isOn === isOn) comparing.isOn = null;
   const canCompare = state.has_two || state.parameters.length > 0;
-  for (const id of ["desk2", "caption", "caption2", "beside"]) here(id).hidden = !isOn;
-  here("compare").hidden = !canCompare;
+  for (const id of ["desk2", "caption", "caption2", "beside"]) write(here(id), "hidden", !isOn);
+  write(here("compare"), "hidden", !canCompare);
   setPressed("compare", isOn);
-  here("beside-title").textContent = state.has_two ? `Values of ${state.second?.script}`
-    : "Compare with these values";
+  setWords("beside-title", state.has_two ? `Values of ${state.second?.script}`
+    : "Compare with these values");
   nameLanes();
   if (isOn === wasOn) return;
   Object.assign(beside, { painted: null, isGiven: false, formOf: "" });

@@ -7,12 +7,12 @@ const SLOWEST = 5; // frames that are listed
 const SLOW_SHARE = 1;
 
 const times = new Map(); // seconds, by the number of the frame
-let build = 0;
+let timesBuild = 0;
 
 /** Notes how long a frame of a save took. */
 export function noteTime(number, seconds, ofBuild) {
-  if (ofBuild !== build) times.clear();
-  build = ofBuild;
+  if (ofBuild !== timesBuild) times.clear();
+  timesBuild = ofBuild;
   if (seconds > 0) times.set(number, seconds);
 }
 

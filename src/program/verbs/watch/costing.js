@@ -1,5 +1,5 @@
 // What cels and frames cost, in the panel.
-import * as cost from "/cost.js";
+import { cellsOf, slowest } from "/cost.js";
 import { read } from "/fetch.js";
 import { look } from "/pictures.js";
 import { jump } from "/playing.js";
@@ -13,7 +13,7 @@ export async function loadCosts(picture) {
   const list = await read(address, () => main.painted === picture);
   if (!list || main.painted !== picture) return;
   here("cost-rows").replaceChildren(...list.map((one, i) => {
-    const cells = cost.cellsOf(one, i === 0).map((textContent, column) => column
+    const cells = cellsOf(one, i === 0).map((textContent, column) => column
       ? element("td", { textContent }) : element("th", { textContent, scope: "row" }));
     return element("tr", { title: one.file ? `${one.file}:${one.line}` : "" }, ...cells);
   }));
@@ -21,7 +21,7 @@ export async function loadCosts(picture) {
 }
 
 function showSlowest() {
-  here("slowest").replaceChildren(...cost.slowest().map(({ number, seconds }) => {
+  here("slowest").replaceChildren(...slowest().map(({ number, seconds }) => {
     const way = { textContent: `frame ${number}`, onclick: () => jump(number) };
     return element("li", {}, element("button", way), ` ${(seconds * 1000).toFixed(1)} ms`);
   }));

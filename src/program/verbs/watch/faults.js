@@ -1,7 +1,9 @@
 // What is wrong: the error over the picture, and the faults of all frames.
 import { placeButton, placesOf } from "/inspector.js";
 import { jump } from "/playing.js";
-import { element, here, label, main, part, state, stateOf, view } from "/state.js";
+import {
+  element, here, label, main, part, setWords, state, stateOf, view, write,
+} from "/state.js";
 
 const FAULT_FRAMES = 6;      // frames of one fault that are listed
 
@@ -20,8 +22,8 @@ function currentFault(one = main) {
 export function showFault(one = main) {
   if (!stateOf(one)) return; // it is no longer shown
   const fault = one.lastFault = currentFault(one);
-  part(one, "fault").hidden = part(one, "error").hidden = !fault;
-  part(one, "error").textContent = fault ? fault.message : "";
+  for (const id of ["fault", "error"]) write(part(one, id), "hidden", !fault);
+  write(part(one, "error"), "textContent", fault ? fault.message : "");
   const all = fault ? [...fault.file ? [fault] : [], ...fault.callers ?? []] : [];
   const names = all.map(({ file, line }) => `${file}:${line}`).join(" ← ");
   part(one, "lines").replaceChildren(...state.editor ? placesOf(names, all) : []);
@@ -36,8 +38,8 @@ export function showFault(one = main) {
 export function showNews() {
   const bad = groupFaults().length;
   const found = `${bad} fault${bad === 1 ? "" : "s"}: ${state.errors[0]?.message}`;
-  here("news").textContent = state.building && state.seconds > 0.5 ? "building …"
-    : bad && state.shown && !currentFault() ? found : "";
+  setWords("news", state.building && state.seconds > 0.5 ? "building …"
+    : bad && state.shown && !currentFault() ? found : "");
 }
 
 /** The errors of the film, those of one text together: { text, frames, all }. */
@@ -83,7 +85,7 @@ export function showFaults() {
   const groups = groupFaults(), kinds = JSON.stringify([state.errors, state.editor]);
   label("check", `Faults ${groups.length}`);
   here("check").classList.toggle("bad", groups.length > 0);
-  here("checked").textContent = checkedText(groups.length);
+  setWords("checked", checkedText(groups.length));
   if (kinds === listed) return;
   listed = kinds;
   here("fault-list").replaceChildren(...groups.map(faultItem));

@@ -24,9 +24,16 @@ export const post = (path, value) => fetch(path, { method: "POST", body: JSON.st
 
 export const pause = seconds => new Promise(done => setTimeout(done, seconds * 1000));
 
+let noteFirst;
+const first = new Promise(done => { noteFirst = done; });
+
+/** Called when a picture is seen, or cannot be: what lies beside it may be asked for now. */
+export const noteSeen = () => noteFirst();
+
 /** The JSON of an address; null: it was refused. Renderers that are busy are asked again as long as
- * it is wanted. */
+ * it is wanted. Nothing is asked for before the first picture, which would have to wait for it. */
 export async function read(address, isWanted = () => true) {
+  await first;
   for (;;) {
     const answer = await fetch(address).catch(() => null);
     if (answer?.ok) return answer.json();

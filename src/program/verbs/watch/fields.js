@@ -1,6 +1,6 @@
 // The fields of the form of values: one for each kind of parameter.
 import { read } from "/fetch.js";
-import { element, stateOf } from "/state.js";
+import { element, stateOf, write } from "/state.js";
 import { coloursOf } from "/timeline.js";
 import { giveBack, giveValue } from "/values.js";
 
@@ -92,11 +92,11 @@ export function markField(input, own, fault) {
   const box = input.closest(".field"), back = box.querySelector(".back");
   const wrong = box.querySelector(".wrong");
   box.classList.toggle("changed", own !== false);
-  back.hidden = own === false;
-  back.textContent = `back to ${own}`;
-  wrong.hidden = !fault;
-  wrong.textContent = fault ?? "";
-  input.setAttribute("aria-invalid", Boolean(fault));
+  write(back, "hidden", own === false);
+  write(back, "textContent", `back to ${own}`);
+  write(wrong, "hidden", !fault);
+  write(wrong, "textContent", fault ?? "");
+  write(input, "ariaInvalid", String(Boolean(fault)));
 }
 
 /** A field of the form: its name, what it is changed with, and what the script says about it. */

@@ -3,7 +3,7 @@ import { beside, element, here, main, part, setPressed } from "/state.js";
 import { drawTimeline } from "/timeline.js";
 
 export const GUIDES = ["safe", "fields"]; // shown over the picture, one at a time
-const FIELDS = 12;           // of a field guide: rectangles around its middle
+const RECTANGLES = 12;           // of a field guide: rectangles around its middle
 
 export function setGround(ground) {
   here("ground").value = ground;
@@ -25,9 +25,9 @@ export function nextGuide() {
 
 /** The rectangles of the field guide, each with its number. */
 export function makeFields() {
-  for (let k = 1; k <= FIELDS; k++) {
+  for (let k = 1; k <= RECTANGLES; k++) {
     for (const id of ["fields", "fields2"]) {
-      const style = { inset: `${50 - 50 * k / FIELDS}%` };
+      const style = { inset: `${50 - 50 * k / RECTANGLES}%` };
       here(id).append(element("div", { textContent: k, style }));
     }
   }

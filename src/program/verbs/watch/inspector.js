@@ -7,7 +7,7 @@ import { clamp, element, here, isReady, main, play, state, stateOf, view } from 
 import { gridOf } from "/view.js";
 
 let chosen = null; // the point that was clicked, in film units: { one, x, y }
-let asked = "";    // the point and the frame whose objects are wanted
+let chosenFor = ""; // the point and the frame whose objects are wanted
 
 const hex = code => code.toString(16).padStart(2, "0");
 
@@ -105,13 +105,13 @@ export async function showPoint(one) {
   const wanted = [one.side, build, frame, x, y].join(" ");
   showColour(one, film.size, x, y);
   setSpot(one === main ? chosen : null);
-  if (wanted === asked) return;
-  asked = wanted;
+  if (wanted === chosenFor) return;
+  chosenFor = wanted;
   const [left, top] = [x, y].map(side => side.toFixed(Math.log10(gridOf())));
   here("place").textContent = `x ${left}, y ${top}, frame ${frame}`;
   here("inspector").setAttribute("aria-busy", "true");
-  const hits = await hitsAt(one, chosen, () => wanted === asked);
-  if (wanted !== asked) return;
+  const hits = await hitsAt(one, chosen, () => wanted === chosenFor);
+  if (wanted !== chosenFor) return;
   here("inspector").setAttribute("aria-busy", "false");
   here("hint").textContent = hits.length ? "" : "Nothing is there.";
   here("hits").replaceChildren(...belowShots(hits, hitItem));

@@ -8,31 +8,32 @@ import { start, takeSound } from "/playing.js";
 import { showRender, showRenderCommand } from "/render.js";
 import { loadSheet } from "/rows.js";
 import {
-  beside, clamp, here, lanes, loop, main, span, state, stateOf, timecode, view,
+  beside, clamp, here, lanes, loop, main, setWords, span, state, stateOf, timecode, view, write,
 } from "/state.js";
-import { drawTimeline, placeHead, shotsAt } from "/timeline.js";
+import { drawTimeline, placeHead, shotsAt, showRows } from "/timeline.js";
 import { sendGiven, showForm } from "/values.js";
 import { measureDesk } from "/view.js";
 
 export function showNumbers() {
   if (!state.film) return;
   const whole = loop.from === 1 && loop.to === state.film.frames, percent = view.scale * 100;
-  here("frame").textContent = view.number;
-  here("frames").textContent = state.film.frames;
-  here("timecode").textContent = timecode(view.number);
-  here("scrub").value = view.number;
-  here("scrub").setAttribute("aria-valuetext", `${timecode(view.number)}, frame ${view.number}`);
-  here("shot").textContent = shotsAt(view.number - 1).map(shot => shot.name).join(" / ");
-  here("zoom").textContent = `${percent < 10 ? percent.toFixed(1) : Math.round(percent)} %`;
-  here("facts").textContent = `${state.film.size.join(" × ")}, ${state.film.fps} fps`
-    + (whole ? "" : `, loop ${loop.from} to ${loop.to}`);
+  setWords("frame", view.number);
+  setWords("frames", state.film.frames);
+  setWords("timecode", timecode(view.number));
+  write(here("scrub"), "value", String(view.number));
+  write(here("scrub"), "ariaValueText", `${timecode(view.number)}, frame ${view.number}`);
+  setWords("shot", shotsAt(view.number - 1).map(shot => shot.name).join(" / "));
+  setWords("zoom", `${percent < 10 ? percent.toFixed(1) : Math.round(percent)} %`);
+  setWords("facts", `${state.film.size.join(" × ")}, ${state.film.fps} fps`
+    + (whole ? "" : `, loop ${loop.from} to ${loop.to}`));
   placeHead();
   showRenderCommand();
 }
 
 function showState() {
-  const title = here("title").textContent = state.film?.title || state.script;
-  document.title = `${title} – celspan`;
+  const title = state.film?.title || state.script;
+  setWords("title", title);
+  write(document, "title", `${title} – celspan`);
   showNews();
   for (const one of lanes()) if (!stateOf(one).building) showFault(one);
 }
@@ -46,9 +47,11 @@ function takeState(news) {
   Object.assign(state, news, { film: news.film || film, second: news.second || null });
   document.body.classList.toggle("alone", news.alone);
   showComparing();
+  if (state.film && (!film || film.frames !== state.film.frames)) takeFrames(!film);
+  const isFirst = !film && state.shown && !lanes().some(one => one.given.size);
+  if (isFirst) lookFirst();
   lanes().forEach(showForm);
   sendGiven();
-  if (state.film && (!film || film.frames !== state.film.frames)) takeFrames(!film);
   if (state.here && state.here.count !== outlined.count) outline(state.here);
   showState();
   showFaults();
@@ -58,6 +61,14 @@ function takeState(news) {
   if (old.build !== state.build) forget(main);
   if (isNewFilm(old, state)) takeFilm();
   else if (isNewFilm(old.second, state.second)) look();
+}
+
+/** Asks for the first picture, before anything is laid out but the rows of the timeline, which take
+ * room from the picture. */
+function lookFirst() {
+  showRows();
+  measureDesk();
+  look();
 }
 
 /** The film has another number of frames than before; the first one opens at its poster. */

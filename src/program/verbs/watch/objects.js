@@ -10,7 +10,7 @@ import { look, nameOf } from "/pictures.js";
 import { cels, foldButton, folded, queryCels, switchesOf } from "/rows.js";
 import { desk, element, here, main, play, refill, state, view } from "/state.js";
 
-const ROWS_MOST = 2000; // of the server's answer
+const TREE_MOST = 2000; // of the server's answer
 const tree = { list: [], address: "" };
 
 export const celNames = () => tree.list.map(one => one.cel).filter(Boolean);
@@ -35,7 +35,7 @@ export async function loadObjects() {
 function setReading(isOn) {
   here("objects").setAttribute("aria-busy", isOn);
   const { length } = tree.list, hint = here("objects-hint");
-  hint.hidden = isOn || (length > 0 && length < ROWS_MOST);
+  hint.hidden = isOn || (length > 0 && length < TREE_MOST);
   hint.textContent = length ? `These are the first ${length}.`
     : "Nothing has a name in this frame.";
 }

@@ -4,10 +4,10 @@
 //
 // Pictures are wanted one after the other: while one is on its way, only the newest wish is kept.
 import { addHeld, keepOlder, mixed } from "/compare.js";
-import * as cost from "/cost.js";
+import { noteTime } from "/cost.js";
 import { loadCosts } from "/costing.js";
 import { showFault } from "/faults.js";
-import { fetch, pause, post } from "/fetch.js";
+import { fetch, noteSeen, pause, post } from "/fetch.js";
 import { GUIDES } from "/guides.js";
 import { showPoint } from "/inspector.js";
 import { showNumbers } from "/news.js";
@@ -85,12 +85,12 @@ export function wish(number, coarse = 1, one = main) {
 }
 
 const pageName = Math.random().toString(36).slice(2);
-let wishes = 0;
+let wishCount = 0;
 
 export async function fetchPicture(wanted) {
   const known = kept.get(wanted.address);
   if (known) return known;
-  wanted.name = `${pageName}-${++wishes}`;
+  wanted.name = `${pageName}-${++wishCount}`;
   const answer = await fetch(`${wanted.address}&wish=${wanted.name}`);
   wanted.isHere = true;
   if (!answer.ok) throw Object.assign(new Error(await answer.text()), { status: answer.status });
@@ -98,7 +98,7 @@ export async function fetchPicture(wanted) {
   const bytes = wanted.isOver ? new Uint8ClampedArray(buffer) : unpack(buffer, w, h);
   const picture = { ...wanted, bytes, points: answer.headers.get("Celspan-Points"),
                     seconds: Number(answer.headers.get("Celspan-Seconds")) };
-  if (isSeenNow(picture)) cost.noteTime(picture.number, picture.seconds, picture.build);
+  if (isSeenNow(picture)) noteTime(picture.number, picture.seconds, picture.build);
   if (wanted.build === stateOf(wanted.lane)?.build) keep(wanted.address, picture);
   return picture;
 }
@@ -143,6 +143,7 @@ function put(picture, bytes) {
   Object.assign(canvas.dataset, { frame: nameOf(one, picture.number), size: picture.size.join("x"),
                                   crop: picture.crop.join(), build: picture.build });
   canvas.setAttribute("aria-label", `Frame ${picture.number}`);
+  noteSeen();
   markStale(one);
 }
 
@@ -284,6 +285,7 @@ async function addTo(picture) {
 export async function failed(fault, wanted) {
   if (!fault.status) console.error(fault); // of the page, or there is no server
   const one = wanted.lane;
+  if (fault.status !== 503) noteSeen();
   if (fault.status === 422) {
     one.refused = { number: wanted.number, build: wanted.build, message: fault.message.trim() };
     return showFault(one);

@@ -3,13 +3,17 @@
 // While the film plays, several pictures are asked for ahead.
 import { showFault } from "/faults.js";
 import { showNumbers } from "/news.js";
+import { newPace, nextPlace, noteArrival } from "/pace.js";
 import { abandon, failed, fetchPicture, kept, look, paint, wish } from "/pictures.js";
-import * as sound from "/sound.js";
+import {
+  beginSound, endSound, feedSound, hasSound, heardSeconds, muteSound, setSoundOf, tapSound,
+} from "/sound.js";
 import {
   clamp, element, here, icon, isReady, lanes, loop, play, setPressed, state, view,
 } from "/state.js";
 import { drawRuler, followHead } from "/timeline.js";
 
+let isTicking = false; // one chain of ticks, however often playing begins again
 // pictures that are requested ahead while playing, and at the same time
 const AHEAD = 8, AT_ONCE = 3;
 const BEHIND = 24;           // frames that a picture may be late
@@ -18,7 +22,7 @@ function go(number) {
   if (!state.film) return;
   view.number = clamp(Math.round(number) || 1, 1, state.film.frames);
   lanes().forEach(showFault);
-  if (play.direction === 0) sound.tap(view.number - 1);
+  if (play.direction === 0) tapSound(view.number - 1);
   followHead();
   look();
 }
@@ -37,19 +41,20 @@ export function start(direction) {
   if (view.number < loop.from || view.number > loop.to) view.number = loop.from;
   play.number = view.number;
   play.start = performance.now() / 1000;
-  play.isHeard = false;
-  play.painted = [];
-  if (direction > 0) sound.begin(view.number - 1, play.speed, loop.from - 1, loop.to - 1);
-  else sound.end();
+  Object.assign(play, { isHeard: false, passed: 0, painted: [], place: -1, isAsked: false });
+  refused.clear();
+  if (direction > 0) beginSound(view.number - 1, play.speed, loop.from - 1, loop.to - 1);
+  else endSound();
   play.shown = -1;
   showPlaying(true);
-  requestAnimationFrame(tick);
+  if (!isTicking) requestAnimationFrame(tick);
+  isTicking = true;
 }
 
 function stop() {
   play.direction = 0;
   for (const wanted of [...asked.values()].flat()) abandon(wanted);
-  sound.end();
+  endSound();
   showPlaying(false);
   here("rate").textContent = "";
 }
@@ -73,28 +78,18 @@ function onward(number, by) {
 }
 
 const asked = new Map(); // requests that were made ahead, by the number of the frame
-// Means of recent values, in seconds: between the request of a picture and its arrival, and between
-// two arrivals.
-const pace = { latency: 0.05, interval: 0.02, last: 0 };
-const mean = (old, value) => old + 0.2 * (value - old);
+const refused = new Set(); // addresses of pictures that failed since the start
+const pace = newPace();
 
-function notePace(began) {
-  const now = performance.now();
-  pace.latency = mean(pace.latency, (now - began) / 1000);
-  if (pace.last > began) pace.interval = mean(pace.interval, (now - pace.last) / 1000);
-  pace.last = now;
-}
-
-/** Asks for the next pictures: for those that can be here in time, and if the film is slower than
- * its rate, only for one in `stride`, so that others are dropped evenly. passed: frames since the
+/** Asks for the next pictures, for those that can be here in time. elapsed: frames since the
  * start. */
-function askAhead(passed) {
+function askAhead(elapsed) {
   const rate = state.film.fps * play.speed;
-  const stride = clamp(Math.ceil(pace.interval * rate - 0.2), 1, AHEAD);
-  const lead = Math.ceil(Math.max(0, pace.latency - pace.interval) * rate);
-  const first = Math.ceil((passed + lead) / stride) * stride;
-  for (let i = 0; i < AHEAD && asked.size < AT_ONCE; i++) {
-    askBoth(onward(play.number, (first + i * stride) * play.direction));
+  while (asked.size < AT_ONCE) {
+    const place = nextPlace(pace, play.place, elapsed, rate, play.isAsked);
+    if (place > elapsed + pace.latency * rate + AHEAD) return;
+    play.place = place;
+    play.isAsked = askBoth(onward(play.number, Math.ceil(place) * play.direction));
   }
 }
 
@@ -103,14 +98,26 @@ const playing = () => lanes().filter(isReady);
 
 const wishes = number => playing().map(one => wish(number, 1, one)).filter(Boolean);
 
-/** Asks for a frame of all films that play, if it is not here and not on its way. */
+/** Asks for a frame of all films that play, if it is not here, not on its way, and has not failed.
+ * Returns whether it is asked for. */
 function askBoth(number) {
-  const missing = wishes(number).filter(wanted => !kept.has(wanted.address));
-  if (missing.length === 0 || asked.has(number)) return;
-  const began = performance.now();
+  const missing = wishes(number)
+    .filter(({ address }) => !kept.has(address) && !refused.has(address));
+  if (missing.length === 0 || asked.has(number)) return false;
   asked.set(number, missing);
-  Promise.all(missing.map(wanted => fetchPicture(wanted).catch(fault => failed(fault, wanted))))
-    .then(() => notePace(began)).finally(() => asked.delete(number));
+  Promise.all(missing.map(fetchTimed)).finally(() => asked.delete(number));
+  return true;
+}
+
+async function fetchTimed(wanted) {
+  const began = performance.now();
+  try {
+    await fetchPicture(wanted);
+    noteArrival(pace, began / 1000, performance.now() / 1000);
+  } catch (fault) {
+    if (fault.status !== 503) refused.add(wanted.address);
+    await failed(fault, wanted);
+  }
 }
 
 /** The pictures that are due after that many frames, or the newest before them that have not been
@@ -126,7 +133,7 @@ function duePictures(passed) {
 
 /** Seconds since the start, by the sound's clock as soon as it is heard. */
 function passedSeconds() {
-  const heard = sound.seconds(), now = heard ?? performance.now() / 1000;
+  const heard = heardSeconds(), now = heard ?? performance.now() / 1000;
   if (play.isHeard !== (heard !== null)) {
     play.isHeard = heard !== null;
     play.start = now - play.passed;
@@ -142,7 +149,8 @@ function showRate(now) {
 }
 
 function tick(now) {
-  if (play.direction === 0 || !state.film) return;
+  isTicking = play.direction !== 0 && Boolean(state.film);
+  if (!isTicking) return;
   const elapsed = passedSeconds() * state.film.fps * play.speed, passed = Math.floor(elapsed);
   const due = duePictures(passed);
   if (due) {
@@ -153,8 +161,8 @@ function tick(now) {
     showNumbers();
     followHead();
   }
-  askAhead(passed);
-  if (play.direction > 0) sound.feed(onward(play.number, passed) - 1 + elapsed - passed);
+  askAhead(elapsed);
+  if (play.direction > 0) feedSound(onward(play.number, passed) - 1 + elapsed - passed);
   showRate(now);
   requestAnimationFrame(tick);
 }
@@ -176,8 +184,8 @@ export function setLoop(from, to) {
 }
 
 export function takeSound() {
-  sound.takeFilm(state.film, state.build);
-  here("mute").hidden = !sound.hasSound();
+  setSoundOf(state.film, state.build);
+  here("mute").hidden = !hasSound();
   if (play.direction > 0) start(1);
 }
 
@@ -185,7 +193,7 @@ export function swapMute() {
   const isMuted = here("mute").getAttribute("aria-pressed") !== "true";
   setPressed("mute", isMuted);
   here("mute").firstChild.replaceWith(icon(isMuted ? "muted" : "sound"));
-  sound.mute(isMuted);
+  muteSound(isMuted);
   if (!isMuted && play.direction > 0) start(1);
 }
 

@@ -125,14 +125,14 @@ const sayings = {
 };
 
 /** What the server says of the render: { state, number, done, count, left, file, message }. */
-function heard() {
+function renderOfPage() {
   const { number = 0, ...said } = state.render ?? { state: "idle" };
   return number < begun ? { number, state: "running" } : { number, ...said };
 }
 
 /** Shows what the page, or else the server, says of the render. */
 export function showRender() {
-  const server = heard(), isRunning = server.state === "running";
+  const server = renderOfPage(), isRunning = server.state === "running";
   if (isRunning) own = null;
   const said = own ?? server, isAsking = said.state === "asking";
   const left = said.left > 1 ? `, ${Math.ceil(said.left)} s left` : "";

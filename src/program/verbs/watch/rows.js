@@ -4,7 +4,7 @@
 //   /sheet.json --> sheet.rows --what is unfolded--> sheet.shown --> the names, and the canvas
 //
 // The canvas covers what is seen of them: browsers have no canvas as high as two thousand rows.
-import * as cost from "/cost.js";
+import { drawStrip } from "/cost.js";
 import { read } from "/fetch.js";
 import { celNames, showObjects } from "/objects.js";
 import { look } from "/pictures.js";
@@ -266,7 +266,7 @@ export function drawSheet() {
   for (let i = Math.floor(top / ROW); i < rows.length && i * ROW < top + height; i++) {
     (rows[i].heading ? drawHeading : drawRow)(brush, rows[i], i * ROW, colours);
   }
-  if (strip) cost.drawStrip(brush, all - STRIP, STRIP, xOf, unit(), 1 / state.film.fps, colours);
+  if (strip) drawStrip(brush, all - STRIP, STRIP, xOf, unit(), 1 / state.film.fps, colours);
 }
 
 export function setSheet(isOn) {

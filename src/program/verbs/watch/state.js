@@ -14,10 +14,11 @@ export const state = { news: 0, build: 0, film: null, errors: [], shown: false, 
 // frame's corner in the window, in device pixels. isFitted: scale and place follow the window.
 export const view = { number: 1, scale: 1, x: 0, y: 0, isFitted: true };
 export const loop = { from: 1, to: 1 };
+// place: of the frame that was asked for last, isAsked: it had to be; see pace.js.
 // start: by the clock of the sound while the sound is heard, otherwise by the machine's clock, in
 // seconds.
 export const play = { direction: 0, speed: 1, start: 0, isHeard: false, passed: 0, number: 1,
-                      shown: -1, painted: [] };
+                      shown: -1, painted: [], place: -1, isAsked: false };
 // How pictures are looked at. mixing: "", "wipe" or "differ"; held: the frame that others are
 // compared with, 0: the frame before the last save; older: the picture at this place before it;
 // onion: the number of frames before and after. hasHandles: whether points have some.
@@ -83,8 +84,15 @@ export function icon(name) {
   return picture;
 }
 
+/** Gives an element a property, if it has another value: the browser calculates styles again for
+ * each that is given, also for the same value. */
+export function write(one, name, value) { if (one[name] !== value) one[name] = value; }
+
+/** Writes the words of an element. */
+export const setWords = (id, text) => write(here(id), "textContent", String(text));
+
 /** Writes the words of a button, which may have an icon and a key beside them. */
-export function label(id, text) { here(id).querySelector("span").textContent = text; }
+export const label = (id, text) => write(here(id).querySelector("span"), "textContent", text);
 
 /** Says of a button whether what it does is on. */
 export function setPressed(id, isOn) { here(id).setAttribute("aria-pressed", isOn); }

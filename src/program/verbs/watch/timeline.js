@@ -4,14 +4,14 @@
 //   frames from 0 --xOf--> CSS pixels: frame k is from xOf(k) to xOf(k + 1)
 //
 // Hands change `span`, the loop or the frame; everything here is drawn from them.
-import * as cost from "/cost.js";
+import { isSlow } from "/cost.js";
 import { read } from "/fetch.js";
 import { outlined } from "/over.js";
 import { keptFrames } from "/pictures.js";
 import { jump } from "/playing.js";
 import { SHEET_MOST, drawSheet, showSheet } from "/rows.js";
 import {
-  clamp, element, here, loop, ratio, refill, span, state, timecode, view,
+  clamp, element, here, loop, ratio, refill, span, state, timecode, view, write,
 } from "/state.js";
 
 const RULER = 26, WAVE = 26;   // CSS pixels
@@ -19,6 +19,7 @@ const WAVE_COLUMNS = 2000;
 const LABEL_LEAST = 68;        // pixels between two numbers of the ruler, where they are short
 const LABEL_GAP = 20, DIGIT = 7;
 const SNAP = 6;                // pixels within which a drag goes to a mark
+const FONT = "11px system-ui, 'DejaVu Sans', sans-serif";
 const CLOSEST = 4;             // frames, the least that the timeline shows
 const BLOCKS_MOST = 1000;      // shots, or marks, that are shown at once
 const MARK_LEAST = 12, EDGE = 9; // pixels: of a mark; how far a block goes beyond the window
@@ -34,22 +35,31 @@ const placeAt = clientX =>
 /** The number of the frame at a place of the window, from 1. */
 export const frameAt = clientX => clamp(Math.floor(placeAt(clientX)) + 1, 1, state.film.frames);
 
-/** A brush for a canvas that is as wide as the rows. */
+/** A brush for an empty canvas that is as wide as the rows. A canvas that keeps its size keeps its
+ * font, too: to set one makes the browser calculate styles. */
 export function brushOf(canvas, height) {
   const r = ratio(), brush = canvas.getContext("2d");
-  canvas.width = Math.max(1, Math.round(width * r));
-  canvas.height = Math.round(height * r);
-  canvas.style.height = `${height}px`;
-  brush.scale(r, r);
-  brush.font = "11px system-ui, 'DejaVu Sans', sans-serif";
+  const size = [Math.max(1, Math.round(width * r)), Math.round(height * r)];
+  if (canvas.width !== size[0] || canvas.height !== size[1]) {
+    [canvas.width, canvas.height] = size;
+    canvas.style.height = `${height}px`;
+    brush.font = FONT;
+  }
+  brush.setTransform(r, 0, 0, r, 0, 0);
+  brush.clearRect(0, 0, width, height);
   return brush;
 }
 
-/** The colours of the style sheet that are drawn with. */
+const COLOURS = ["line", "text", "quiet", "accent", "slow", "ready", "even", "odd", "wave", "tint"];
+const colours = { theme: "" }; // of the theme, by their names
+
+/** The colours of the style sheet that are drawn with, read once for a theme. */
 export function coloursOf() {
-  const style = getComputedStyle(document.documentElement);
-  const names = ["line", "text", "quiet", "accent", "slow", "ready", "even", "odd", "wave", "tint"];
-  return Object.fromEntries(names.map(name => [name, style.getPropertyValue(`--${name}`)]));
+  const root = document.documentElement, { theme } = root.dataset;
+  if (colours.theme === theme) return colours;
+  const style = getComputedStyle(root);
+  for (const name of COLOURS) colours[name] = style.getPropertyValue(`--${name}`);
+  return Object.assign(colours, { theme });
 }
 
 // ---------------------------------------------------------------- the ruler
@@ -83,7 +93,7 @@ function drawReady(brush, colours) {
   brush.fillStyle = colours.line;
   brush.fillRect(0, RULER - 3, width, 3);
   for (const number of keptFrames()) {
-    brush.fillStyle = cost.isSlow(number, 1 / state.film.fps) ? colours.slow : colours.ready;
+    brush.fillStyle = isSlow(number, 1 / state.film.fps) ? colours.slow : colours.ready;
     brush.fillRect(xOf(number - 1), RULER - 3, Math.max(1, unit()), 3);
   }
 }
@@ -164,9 +174,16 @@ function markBlock(mark) {
 const captionBlock = one => named(one, "shot caption-block", one.text,
                                   { text: one.text, from: one.from, to: one.to });
 
-/** Fills a row of the timeline with those that are seen; without any it is hidden. */
+/** Shows the rows for what the film has, and hides the others. */
+export function showRows() {
+  const { shots, marks, captions } = blocksOf(), wave = state.film.sound ? [true] : [];
+  for (const [id, list] of Object.entries({ shots, marks, captions, wave })) {
+    for (const name of [id, `${id}-head`]) write(here(name), "hidden", list.length === 0);
+  }
+}
+
+/** Fills a row of the timeline with those that are seen. */
 function fillRow(id, list, make) {
-  here(id).hidden = here(`${id}-head`).hidden = list.length === 0;
   refill(here(id), list.filter(one => one.at + one.count > span.from && one.at < span.to)
     .slice(0, BLOCKS_MOST).flatMap(make));
 }
@@ -199,7 +216,6 @@ export async function loadWave() {
 }
 
 function drawWave() {
-  here("wave").hidden = here("wave-head").hidden = !state.film.sound;
   const brush = brushOf(here("wave"), WAVE), count = Math.min(state.film.frames, SHEET_MOST);
   brush.fillStyle = coloursOf().wave;
   const words = busy.has("wave") ? "being read …" : "It cannot be read: see the faults.";
@@ -222,18 +238,23 @@ export function setBusy(what, isOn) {
   here("timeline").setAttribute("aria-busy", busy.size > 0);
 }
 
+let headPlace = ""; // of the playhead, as it was written last
+
 export function placeHead() {
   if (!state.film) return;
-  const { style } = here("timeline"), x = xOf(view.number - 1);
-  style.setProperty("--at", x);
-  style.setProperty("--unit", unit());
+  const x = xOf(view.number - 1), place = `--at: ${x}; --unit: ${unit()}`;
+  if (place === headPlace) return;
+  headPlace = place;
+  here("timeline").style.cssText = place;
   here("timeline").classList.toggle("away", x < 0 || x > width);
 }
 
 export function drawTimeline() {
   if (!state.film) return;
   const { shots, marks, captions } = blocksOf();
-  Object.assign(here("scrub"), { min: 1, max: state.film.frames, value: view.number });
+  const scrub = { min: 1, max: state.film.frames, value: view.number };
+  for (const [name, value] of Object.entries(scrub)) write(here("scrub"), name, String(value));
+  showRows();
   drawRuler();
   fillRow("shots", shots, shotBlocks);
   fillRow("marks", marks, markBlock);

@@ -5,7 +5,7 @@ import { fieldOf, markField } from "/fields.js";
 import { markStale } from "/pictures.js";
 import { placePoints } from "/points.js";
 import {
-  beside, element, here, isComparing, isReady, lanes, main, part, state, stateOf,
+  beside, element, here, isComparing, isReady, lanes, main, part, state, stateOf, write,
 } from "/state.js";
 
 // The address contains the values by name. A mark precedes those of the second film, and shows by
@@ -149,14 +149,14 @@ export const stemOf = () => state.script.match(/[^/]*$/)[0].replace(/\.\w+$/, ""
 function showCommand() {
   const ending = state.film?.frames > 1 ? ".mp4" : ".png";
   const others = isComparing() ? [renderOf(beside, `other${ending}`)] : [];
-  here("command").value = [renderOf(main, stemOf() + ending), ...others].join("\n");
+  write(here("command"), "value", [renderOf(main, stemOf() + ending), ...others].join("\n"));
 }
 
 /** Shows the lines of the script that would have the values of the page. */
 function showSource() {
   const lines = state.parameters.filter(isChanged).map(known => known.source).filter(Boolean);
-  here("source").value = lines.map(line => `${line},`).join("\n");
-  here("sources").hidden = lines.length === 0;
+  write(here("source"), "value", lines.map(line => `${line},`).join("\n"));
+  write(here("sources"), "hidden", lines.length === 0);
 }
 
 /** Marks the fields whose values are not those of the script, or cannot be. */

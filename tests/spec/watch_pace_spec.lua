@@ -1,0 +1,105 @@
+-- celspan watch: which frames are asked for while a film plays, and what comes first.
+local json = require "celspan.json"
+local present = require "tests.support.present"
+local system = require "tests.support.system"
+local watching = require "tests.support.watching"
+
+if not present.program "node" then return pending "there is no node" end
+
+-- Plays 20 seconds of a film of 24 frames a second, by a clock of its own: `drawn` frames a second
+-- are drawn, `together` of them arrive at the same time, and three are asked for at once. It says
+-- how many frames a second are shown in the second half, and the longest time that one stays.
+local MODEL = [=[
+const RATE = 24, TICK = 1 / 60;
+function played(drawn, together) {
+  const pace = newPace(), waiting = [], here = new Set();
+  let place = -1, isAsked = false, free = 0, shown = -1, count = 0, last = 10, longest = 0;
+  for (let now = 0; now < 20; now += TICK) {
+    const elapsed = now * RATE;
+    while (waiting.length && waiting[0].at <= now) {
+      const one = waiting.shift();
+      here.add(one.number);
+      noteArrival(pace, one.began, one.at);
+    }
+    while (waiting.length < 3) {
+      const next = nextPlace(pace, place, elapsed, RATE, isAsked);
+      if (next > elapsed + pace.latency * RATE + 8) break;
+      place = next;
+      isAsked = true;
+      free = Math.max(free, now) + 1 / drawn;
+      const at = Math.ceil(free * drawn / together - 1e-6) * together / drawn;
+      waiting.push({ at, began: now, number: Math.ceil(place) });
+    }
+    for (let at = Math.floor(elapsed); at > shown && at > elapsed - 24; at--) {
+      if (!here.has(at)) continue;
+      if (now >= 10) {
+        count++;
+        longest = Math.max(longest, now - last);
+        last = now;
+      }
+      shown = at;
+    }
+  }
+  return [count / 10, longest * RATE];
+}
+console.log(JSON.stringify({ list: [[15, 1], [21, 1], [13, 1], [18, 1], [40, 1], [16, 2]]
+  .map(one => played(...one)) }));
+]=]
+
+local function read(path)
+  local file = assert(io.open(path, "rb"))
+  local text = file:read "a"
+  file:close()
+  return text
+end
+
+describe("playing", function()
+  it("shows nearly all frames that can be drawn in time", function()
+    local name = os.tmpname()
+    system.write(name .. ".mjs", read "src/program/verbs/watch/pace.js" .. MODEL)
+    local pipe = assert(io.popen("node " .. name .. ".mjs 2>&1"))
+    local said = pipe:read "a"
+    pipe:close()
+    os.remove(name)
+    os.remove(name .. ".mjs")
+    local list = assert(json.decode(said), said).list
+    local least = { 14, 19, 12, 16.5, 23.5, 14 }
+    for i, one in ipairs(list) do
+      assert.is_true(one[1] >= least[i], said)
+      assert.is_true(one[2] < 5, said)
+    end
+    assert.equal(#least, #list)
+  end)
+end)
+
+if not present.web() or not present.program "chromium" then return end
+
+describe("a page that is opened", function()
+  after_each(watching.finish)
+
+  -- The film has what the page asks for by itself: values with a curve, a list of files, a sound.
+  it("asks for the first picture before all that lies beside it", function()
+    watching.begin { ["shot.lua"] = [[
+local celspan = require "celspan"
+local p = celspan.parameters { how = { ease = "outBack" }, size = { 3, min = 1, max = 9 } }
+return celspan.film { size = { 64, 36 }, fps = 24, frames = 48, marks = { bell = 40 },
+  frame = function()
+    return celspan.rostrum { celspan.cel { celspan.circle { centre = { 9, 9 }, radius = p.size } } }
+  end }
+]] }
+    local said = watching.see(watching.watch(), [=[
+      const all = `performance.getEntriesByType("resource")`;
+      await page.until(`${all}.some(one => one.name.includes("/curve.json"))`);
+      return { list: (await page.get(`(() => {
+        const list = ${all}, seen = Math.min(...list.filter(one => one.name.includes("/frame/"))
+          .map(one => one.responseEnd));
+        return list.filter(one => one.startTime < seen)
+          .map(one => new URL(one.name).pathname.replace(/[0-9]+[.]runs/, "N"));
+      })()`)).filter(name => name !== "/icon.svg") };]=])
+    local names = {}
+    for i = 1, 4 do names[i] = said.list[i] end
+    table.sort(names)
+    assert.same({ "/frame/N", "/page.css", "/page.js", "/state.json" }, names)
+    for i = 5, #said.list do assert.is_truthy(said.list[i]:find "^/[sf][tr]a[tm]e", said.list[i]) end
+  end)
+end)
