@@ -4,6 +4,9 @@
 // parameter, in the folder of SHOT. With CELSPAN_PLAYED=1 shots of the film are only played, at its
 // own size. The page may be that of an older build.
 const { readFileSync, readdirSync, writeFileSync, appendFileSync } = require("fs");
+// the function of the page that takes runs apart
+const UNPACK = readFileSync("src/program/verbs/watch/runs.js", "utf8")
+  .replace("\nexport ", "\n");
 const SHOT = process.env.CELSPAN_SHOT, SERVER = process.env.CELSPAN_SERVER;
 const IS_PLAYED = Boolean(process.env.CELSPAN_PLAYED);
 const TICK = 10; // milliseconds of the kernel's clock for processes
@@ -129,12 +132,13 @@ async function travel(ending, count) {
   const server = serverTime(), own = pageTime(), began = Date.now();
   const bytes = await page.get(`(async () => {
     const canvas = document.createElement("canvas"), pen = canvas.getContext("2d");
-    const { unpack } = await import("/runs.js"), { fetch } = await import("/fetch.js");
+    const headers = { "Celspan-Token": localStorage.getItem("celspan-token") };
+    ${UNPACK}
     let all = 0;
     canvas.width = 1280;
     canvas.height = 720;
     for (let i = 1; i <= ${count}; i++) {
-      const answer = await fetch("/frame/" + i + ".${ending}?size=1280x720");
+      const answer = await fetch("/frame/" + i + ".${ending}?size=1280x720", { headers });
       const bytes = await answer.arrayBuffer();
       all += bytes.byteLength;
       if ("${ending}" === "png") pen.drawImage(await createImageBitmap(new Blob([bytes])), 0, 0);

@@ -46,17 +46,10 @@ console.log(JSON.stringify({ list: [[15, 1], [21, 1], [13, 1], [18, 1], [40, 1],
   .map(one => played(...one)) }));
 ]=]
 
-local function read(path)
-  local file = assert(io.open(path, "rb"))
-  local text = file:read "a"
-  file:close()
-  return text
-end
-
 describe("playing", function()
   it("shows nearly all frames that can be drawn in time", function()
     local name = os.tmpname()
-    system.write(name .. ".mjs", read "src/program/verbs/watch/pace.js" .. MODEL)
+    system.write(name .. ".mjs", system.read "src/program/verbs/watch/pace.js" .. MODEL)
     local pipe = assert(io.popen("node " .. name .. ".mjs 2>&1"))
     local said = pipe:read "a"
     pipe:close()

@@ -1,6 +1,7 @@
 -- celspan watch: what lies under the picture, and other ways to look at it.
 local json = require "celspan.json"
 local present = require "tests.support.present"
+local system = require "tests.support.system"
 local watching = require "tests.support.watching"
 
 if not present.web() then return pending "celspan was built without libmicrohttpd" end
@@ -69,9 +70,8 @@ describe("a frame in another way", function()
   end)
 
   it("travels as runs, which are the same pixels in fewer bytes", function()
-    local said = watching.speak(watching.watch(), [=[
-      const unpack = new Function((await web.get("/runs.js")).body.replace("export ", "")
-        + "; return unpack;")();
+    local unpack = system.read "src/program/verbs/watch/runs.js":gsub("\nexport ", "\n")
+    local said = watching.speak(watching.watch(), unpack .. [=[
       const bytes = async path => Buffer.from((await web.get(path)).body, "latin1");
       const said = { same: [], shares: [] };
       for (const [query, w, h] of [["size=640x360", 640, 360], ["size=64x36&crop=20,8,7,9", 7, 9],
