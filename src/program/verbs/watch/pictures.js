@@ -18,7 +18,7 @@ import { cels } from "/rows.js";
 import { unpack } from "/runs.js";
 import {
   beside, clamp, here, isReady, lanes, looks, main, overlay, part, play, ratio, setPressed, stage,
-  state, stateOf, view,
+  state, stateOf, view, write,
 } from "/state.js";
 import { drawRuler, loadWave } from "/timeline.js";
 import { fit, frameSize, visible } from "/view.js";
@@ -140,9 +140,10 @@ function put(picture, bytes) {
   }
   one.pen.putImageData(new ImageData(looks.isMatte ? matteOf(bytes) : bytes, w, h), 0, 0);
   one.painted = picture;
-  Object.assign(canvas.dataset, { frame: nameOf(one, picture.number), size: picture.size.join("x"),
-                                  crop: picture.crop.join(), build: picture.build });
-  canvas.setAttribute("aria-label", `Frame ${picture.number}`);
+  const said = { frame: nameOf(one, picture.number), size: picture.size.join("x"),
+                 crop: picture.crop.join(), build: picture.build };
+  for (const [name, value] of Object.entries(said)) write(canvas.dataset, name, String(value));
+  write(canvas, "ariaLabel", `Frame ${picture.number}`);
   noteSeen();
   markStale(one);
 }
@@ -156,7 +157,8 @@ export function paint(picture) {
   }
   keepOlder(picture);
   put(picture, mixed(picture));
-  overlay.hidden = overlay.dataset.over !== picture.address + overlays() || play.direction !== 0;
+  const isOver = overlay.dataset.over === picture.address + overlays() && play.direction === 0;
+  write(overlay, "hidden", !isOver);
   place();
 }
 

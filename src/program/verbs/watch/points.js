@@ -1,6 +1,6 @@
 // Handles on the picture for parameters that are points.
 import {
-  clamp, desk, element, here, looks, main, play, ratio, setPressed, state, view,
+  clamp, desk, element, here, looks, main, play, ratio, setPressed, state, view, write,
 } from "/state.js";
 import { giveValue } from "/values.js";
 import { gridOf } from "/view.js";
@@ -87,10 +87,10 @@ export function placePoints() {
     if (!handles.has(one.name)) handles.set(one.name, makeHandle(one.name));
     const handle = handles.get(one.name);
     putAt(handle, ...placeOf(one));
-    handle.hidden = play.direction !== 0 || !looks.hasHandles;
+    write(handle, "hidden", play.direction !== 0 || !looks.hasHandles);
     handle.classList.toggle("idle", main.painted?.points?.includes(`,${one.name},`) === false);
   }
-  here("spot").hidden = !spot;
+  write(here("spot"), "hidden", !spot);
   if (spot) putAt(here("spot"), spot.x, spot.y);
 }
 

@@ -3,7 +3,7 @@
 //   #render-form --/render--> idle, asking (a file is there), running, done, failed, cancelled
 import { post } from "/fetch.js";
 import { isOpen, onPanel } from "/panels.js";
-import { element, here, label, loop, main, state, view } from "/state.js";
+import { element, here, label, loop, main, setWords, state, view, write } from "/state.js";
 import { marksOf, shotsOf } from "/timeline.js";
 import { renderOf, stemOf } from "/values.js";
 
@@ -137,11 +137,14 @@ export function showRender() {
   const said = own ?? server, isAsking = said.state === "asking";
   const left = said.left > 1 ? `, ${Math.ceil(said.left)} s left` : "";
   const { done = 0, count = 1 } = said;
-  here("render-state").dataset.state = said.state;
-  here("render-words").textContent = sayings[said.state]({ ...said, left });
-  Object.assign(here("render-progress"), { hidden: !isRunning, max: count, value: done });
-  here("render-cancel").hidden = !isRunning && !isAsking;
-  here("render-start").disabled = isRunning;
+  write(here("render-state").dataset, "state", said.state);
+  setWords("render-words", sayings[said.state]({ ...said, left }));
+  const progress = { hidden: !isRunning, max: count, value: done };
+  for (const [name, value] of Object.entries(progress)) {
+    write(here("render-progress"), name, value);
+  }
+  write(here("render-cancel"), "hidden", !isRunning && !isAsking);
+  write(here("render-start"), "disabled", isRunning);
   label("render-start", isAsking ? "Replace it" : "Start");
   showButton(server);
 }

@@ -95,7 +95,7 @@ export const setWords = (id, text) => write(here(id), "textContent", String(text
 export const label = (id, text) => write(here(id).querySelector("span"), "textContent", text);
 
 /** Says of a button whether what it does is on. */
-export function setPressed(id, isOn) { here(id).setAttribute("aria-pressed", isOn); }
+export const setPressed = (id, isOn) => write(here(id), "ariaPressed", String(isOn));
 
 /** Seconds and frames of a frame of the film, counted from 1: "2:12" is frame 61 at 24. */
 export function timecode(number) {

@@ -182,10 +182,14 @@ export function showRows() {
   }
 }
 
-/** Fills a row of the timeline with those that are seen. */
+const filled = {}; // what the rows are filled with, as text, by their names
+
+/** Fills a row of the timeline with those that are seen, if they are others than before. */
 function fillRow(id, list, make) {
-  refill(here(id), list.filter(one => one.at + one.count > span.from && one.at < span.to)
-    .slice(0, BLOCKS_MOST).flatMap(make));
+  const seen = list.filter(one => one.at + one.count > span.from && one.at < span.to)
+    .slice(0, BLOCKS_MOST), key = JSON.stringify([seen, span, width]);
+  if (filled[id] !== key) refill(here(id), seen.flatMap(make));
+  filled[id] = key;
 }
 
 /** Where shots and marks begin, as numbers of frames from 1. */
