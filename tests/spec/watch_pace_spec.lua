@@ -97,4 +97,36 @@ return celspan.film { size = { 64, 36 }, fps = 24, frames = 48, marks = { bell =
       assert.is_true(said.list[i] == "/state.json" or said.list[i] == "/frame/N", said.list[i])
     end
   end)
+
+  it("writes nothing again that a value has not changed", function()
+    watching.begin { ["shot.lua"] = [[
+local celspan = require "celspan"
+local p = celspan.parameters { size = { 3, min = 1, max = 9 } }
+return celspan.film { size = { 64, 36 }, frames = 48, marks = { bell = 40 }, frame = function()
+  return celspan.rostrum { celspan.cel { celspan.circle { centre = { 9, 9 }, radius = p.size } } }
+end }
+]] }
+    local said = watching.see(watching.watch(), [=[
+      const build = `Number(document.querySelector("#stage").dataset.build)`;
+      await page.until(`${build} > 0 && document.querySelector("#marks button")`);
+      await page.get(`(() => {
+        window.first = ${build};
+        window.written = new Set();
+        const look = list => list.forEach(({ target }) => written.add(target.id));
+        new MutationObserver(look).observe(document, { subtree: true, childList: true,
+                                                       attributes: true });
+        const field = document.querySelector("#form [name=size]");
+        field.value = 7;
+        field.dispatchEvent(new Event("input", { bubbles: true }));
+      })()`);
+      await page.until(`${build} > first && !document.querySelector("[data-stale]")`);
+      return { list: await page.get("[...written]") };]=])
+    local written = {}
+    for _, id in ipairs(said.list) do written[id] = true end
+    assert.is_true(written.stage)
+    for _, id in ipairs { "marks", "shots", "title", "frame", "timecode", "zoom", "facts", "spot",
+                          "compare", "render-state", "render-progress", "render-cancel" } do
+      assert.is_nil(written[id], id)
+    end
+  end)
 end)
