@@ -1,10 +1,10 @@
-// Draws an SVG drawing in a browser and in resvg, and compares both, and what librsvg has drawn,
-// with the frame: the steps of browser.js for tests/spec/svg_drawn_spec.lua, after CASE:
+// Draws an SVG drawing in a browser and in resvg, and compares both, and what librsvg and Poppler
+// have drawn, with the frame: the steps of browser.js for tests/spec/svg_drawn_spec.lua, after CASE:
 //
 //   { folder, width, height, fine, resvg }   resvg: the file of its package
 //
-// The folder has x.svg, and pictures as RGBA of 8 bits: `frame`, `librsvg`, and `fine`, the frame with
-// `fine` times as many pixels on both sides. For each program the result has the share of the pixels
+// The folder has x.svg, and pictures as RGBA of 8 bits: `frame`, `librsvg`, `poppler`, and `fine`,
+// the frame with `fine` times as many pixels on both sides. For each program the result has the share of the pixels
 // away from edges that are within 3 codes of the frame; how many there are; and how far a pixel is
 // outside of the codes of the 5 x 5 pixels around it in both frames, where, and how many are by more
 // than 4. All are over white.
@@ -84,6 +84,7 @@ async function drawInBrowser() {
 }
 
 const found = { librsvg: compare(read("librsvg")), chromium: compare(await drawInBrowser()) };
+if (fs.existsSync(`${folder}/poppler`)) found.poppler = compare(read("poppler"));
 if (resvg) {
   const drawing = new (require(`${process.cwd()}/${resvg}`).Resvg)(fs.readFileSync(`${folder}/x.svg`), { background: "white" });
   found.resvg = compare(overWhite(new Uint8ClampedArray(drawing.render().pixels)));
