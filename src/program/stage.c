@@ -269,15 +269,16 @@ static celspan_status render(picture *p, const celspan_frame_desc *desc, int kin
   return kind == RUNS ? pack(p) : CELSPAN_OK;
 }
 
-/* film:picture(width, height, x, y, w, h, what) -> a part of the frame that was built last,
- * rendered at this size: 8 bits, sRGB, straight alpha, as "rgba", as a "png", or as "runs" (see
- * above); or as "spans", the kinds of its spans in RGBA | nil, message */
+/* film:picture(width, height, x, y, w, h, what, workers or nil) -> a part of the frame that was
+ * built last, rendered at this size: 8 bits, sRGB, straight alpha, as "rgba", as a "png", or as
+ * "runs" (see above); or as "spans", the kinds of its spans in RGBA | nil, message */
 int cs_stage_picture(lua_State *L, cs_script *script) {
   static const char *const kinds[] = {"rgba", "png", "spans", "runs", NULL};
   celspan_frame_desc desc;
   int kind = luaL_checkoption(L, 8, NULL, kinds);
   if (!cs_stage_frame(L, script, &desc))
     return 2;
+  desc.workers = (int)luaL_optinteger(L, 9, desc.workers);
   picture *p = cs_userdata_push_holder(L, "celspan.program.stage", sizeof *p, release_picture);
   p->context = script->context;
   celspan_status status = render(p, &desc, kind);

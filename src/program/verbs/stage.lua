@@ -169,13 +169,14 @@ local function of_view(ask, method, ...)
   return film[method](film, w, h, x, y, width, height, ...)
 end
 
---- ask.made: { file, line }: only what this line made is shown.
+--- ask.made: { file, line }: only what this line made is shown. ask.workers: the threads that may
+--- draw it; nil: those of the command line.
 function answers.frame(ask)
   local began = program.clock()
   if not build(ask) then return end
   local camera = film:camera()
   if ask.made then film:keep_line(ask.made[1], ask.made[2]) end
-  local bytes, message = of_view(ask, "picture", ask.what)
+  local bytes, message = of_view(ask, "picture", ask.what, ask.workers)
   if not bytes then return refuse(("frame %d: %s"):format(ask.number, message)) end
   note_points(ask) -- procedures read points while they draw
   put({ good = true, seconds = program.clock() - began, camera = camera, points = ask.points },

@@ -6,6 +6,11 @@
 --
 -- One renderer always stays; others end when they have nothing to do.
 --
+-- While the film plays, several frames are wanted at once. Then renderers draw whole frames side by
+-- side and share the processors: building a frame, packing it and sending it use one processor
+-- each, so that all processors for one frame after the other would often wait. A frame that is
+-- wanted alone has all processors.
+--
 -- So a script that hangs or eats memory costs one renderer, which its limits end, and the others
 -- answer meanwhile.
 --
@@ -17,7 +22,8 @@ local RENDERERS_MOST = 4
 local SOON, LATE = 0.25, 1.5 -- seconds
 local IDLE = 20              -- a renderer that is not needed ends after this many seconds
 local TAIL = 2000            -- bytes of the last words that are kept
-local REQUEST_MOST = 32767   -- the most bytes of a request to a renderer
+local REQUEST_MOST = 32700   -- the most bytes of a request to a renderer, without its workers
+local FRAMES_WAITING = 2     -- frames that wait, for which another renderer is started
 
 local renderers = {}
 renderers.__index = renderers
@@ -35,15 +41,19 @@ end
 
 function renderers.new(script, note_files)
   program.divide_memory(RENDERERS_MOST * #request) -- for the renderers of each film
+  local workers = math.tointeger(request.workers) or 0
   return setmetatable({ script = script, list = {}, queue = {}, values = {},
-                        note_files = note_files }, renderers)
+                        note_files = note_files,
+                        workers = workers > 0 and workers or program.processors() }, renderers)
 end
 
 --- job: want, and its data in `ask`; done, failed. is_patient: no other renderer is started for the
 --- job, and it may wait for ever. wish: the name by which it can be given up, or nil.
 function renderers:ask(job)
-  job.text, job.since = program.json(job.ask), program.clock()
-  if #job.text > REQUEST_MOST then return job.failed("the request is too long", 400) end
+  job.since = program.clock()
+  if #program.json(job.ask) > REQUEST_MOST then
+    return job.failed("the request is too long", 400)
+  end
   table.insert(self.queue, job)
 end
 
@@ -157,21 +167,38 @@ function renderers:next_job()
   return table.remove(self.queue, 1)
 end
 
+--- The workers of the next job: an equal share of the processors, for as many jobs as there are
+--- for the renderers.
+function renderers:share()
+  local jobs = #self.queue
+  for _, one in ipairs(self.list) do jobs = jobs + (one.job and 1 or 0) end
+  return math.max(1, self.workers // math.min(jobs, #self.list))
+end
+
 function renderers:hand_out()
   for _, one in ipairs(self.list) do
     if #self.queue == 0 then return end
     if not one.job then
+      local workers = self:share()
       one.job = self:next_job()
-      if not one.process:send(one.job.text) then
+      one.job.ask.workers = workers
+      if not one.process:send(program.json(one.job.ask)) then
         finish(one, "the renderer has ended", 500)
       end
     end
   end
 end
 
+--- Whether frames wait for which there are processors, but no renderers.
+function renderers:has_room()
+  local frames = 0
+  for _, job in ipairs(self.queue) do frames = frames + (job.ask.want == "frame" and 1 or 0) end
+  return frames >= FRAMES_WAITING and #self.list < self.workers
+end
+
 --- Gives up jobs that have waited too long, and starts a renderer if jobs wait.
 function renderers:hurry()
-  local now, waits = program.clock(), #self.list == 0 and #self.queue > 0
+  local now, waits = program.clock(), #self.list == 0 and #self.queue > 0 or self:has_room()
   for i = #self.queue, 1, -1 do
     local job = self.queue[i]
     if not job.is_patient and now - job.since > LATE and #self.list >= RENDERERS_MOST then
