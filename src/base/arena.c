@@ -29,6 +29,13 @@ void cs_arena_reset(cs_arena *arena) {
   arena->used = 0;
 }
 
+size_t cs_arena_bytes(const cs_arena *arena) {
+  size_t bytes = 0;
+  for (const cs_arena_chunk *chunk = arena->first; chunk; chunk = chunk->next)
+    bytes += sizeof *chunk + chunk->size;
+  return bytes;
+}
+
 /* The link to the next chunk. */
 static cs_arena_chunk **link_of_next(cs_arena *arena) {
   return arena->current ? &arena->current->next : &arena->first;

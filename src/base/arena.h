@@ -18,6 +18,8 @@ typedef struct cs_arena {
 void cs_arena_init(cs_arena *arena);
 void cs_arena_finish(cs_arena *arena, cs_memory *memory);
 void cs_arena_reset(cs_arena *arena);
+/* All bytes that it has allocated. */
+size_t cs_arena_bytes(const cs_arena *arena);
 /* size bytes, aligned to 16. NULL if there is no memory; the context then has the error. */
 void *cs_arena_take(celspan_context *context, cs_arena *arena, size_t size);
 /* An array with room for one more than `count` items of `size` bytes: `items`, or a copy of it with

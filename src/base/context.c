@@ -291,7 +291,9 @@ celspan_status cs_context_make(const celspan_context_desc *desc, celspan_context
   context->picture_bytes = desc->picture_bytes;
   context->map_bytes = desc->defocus_bytes / 4;
   /* the rest is for outlines (model/stroke/kept.h) */
-  context->defocus_bytes = desc->defocus_bytes - context->map_bytes - context->map_bytes / 8;
+  context->held_bytes = desc->defocus_bytes / 8;
+  context->defocus_bytes =
+      desc->defocus_bytes - context->map_bytes - context->map_bytes / 8 - context->held_bytes;
   *out = context;
   return CELSPAN_OK;
 }
@@ -354,7 +356,8 @@ void cs_context_branch(celspan_context *branch, celspan_context *from) {
                               .root = from->root,
                               .picture_bytes = from->picture_bytes,
                               .defocus_bytes = from->defocus_bytes,
-                              .map_bytes = from->map_bytes};
+                              .map_bytes = from->map_bytes,
+                              .held_bytes = from->held_bytes};
 }
 
 /* ---------------------------------------------------------------- services */

@@ -81,7 +81,7 @@ struct celspan_context {
   cs_memory *memory;
   celspan_context *root;          /* itself, or the context it was branched from */
   _Atomic(cs_service *) services; /* root only; owned; grows at its head, by any thread */
-  size_t picture_bytes, defocus_bytes, map_bytes;
+  size_t picture_bytes, defocus_bytes, map_bytes, held_bytes;
   cs_mark origin; /* of the values that are made now; its source is kept while the line is 0 */
   const struct cs_picture_module *picture_module; /* root only; NULL: it is loaded on first use */
   const struct cs_colour_module *colour_module;   /* likewise, for colour profiles */

@@ -60,6 +60,7 @@ static void print_statistics(const celspan_statistics *s, cs_cache_counts kept, 
              {"maps", s->maps},
              {"maps_made", s->maps_made},
              {"swept", s->swept},
+             {"rows_held", s->rows_held},
              {"colour_evaluations", s->colour_evaluations},
              {"allocations", s->allocations},
              {"peak_bytes", s->peak_bytes},
@@ -75,9 +76,11 @@ static void print_statistics(const celspan_statistics *s, cs_cache_counts kept, 
 /* A line that says in words what was kept and what was made. */
 static void print_work(const celspan_statistics *s, cs_cache_counts kept) {
   printf("cels: %" PRIu64 " drawn from kept maps, %" PRIu64 " from new maps, %" PRIu64
-         " swept; rows of blurs: %" PRIu64 " made, %" PRIu64 " found again, %.1f MiB kept\n",
-         s->maps - s->maps_made, s->maps_made, s->swept, kept.made, kept.found,
-         (double)kept.bytes / 1048576);
+         " swept; rows: %" PRIu64 " made, %" PRIu64
+         " taken from held bands; rows of blurs: %" PRIu64 " made, %" PRIu64
+         " found again, %.1f MiB kept\n",
+         s->maps - s->maps_made, s->maps_made, s->swept, s->rows - s->rows_held, s->rows_held,
+         kept.made, kept.found, (double)kept.bytes / 1048576);
 }
 
 static celspan_status measure(celspan_context *context, const cs_request *request,

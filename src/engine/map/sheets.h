@@ -24,6 +24,9 @@
 typedef struct cs_map_sheet {
   cs_map_drawing drawing; /* of a map; all 0 for other sheets */
   cs_plan *plan; /* the plan of cels that are swept, owned; NULL: the sheet is drawn from a map */
+  /* Of a map: a hash of all that it shows, and the heights of the frame that it reaches. */
+  cs_hash hash;
+  double top, bottom;
   size_t source_count; /* the number of cels that it was made from, for the caller */
   cs_v4 back;          /* the light behind the sheet; lane 3 is 0 */
   float keep;          /* the share of transparency that the matte of that light leaves */

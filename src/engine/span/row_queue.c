@@ -81,6 +81,11 @@ celspan_status cs_row_queue_add_small(celspan_context *context, cs_row_queue *qu
                   : cs_row_queue_add(context, queue, spans, count);
 }
 
+size_t cs_row_queue_bytes(const cs_row_queue *queue) {
+  return queue->span_capacity * sizeof *queue->spans + queue->end_capacity * sizeof *queue->ends +
+         cs_arena_bytes(&queue->arrays);
+}
+
 cs_row_queue_row cs_row_queue_get(const cs_row_queue *queue, size_t row) {
   size_t first = row > 0 ? queue->ends[row - 1].spans : 0;
   return (cs_row_queue_row){queue->spans + first, queue->ends[row].spans - first,

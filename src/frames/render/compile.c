@@ -1,5 +1,7 @@
 #include "frames/render/compile.h"
 
+#include <math.h>
+
 #include "engine/compose/tree.h"
 #include "engine/defocus/layer.h"
 #include "frames/render/compiler.h"
@@ -9,6 +11,7 @@
 #include "frames/render/patterns.h"
 #include "frames/render/through.h"
 #include "model/pictures/surface.h"
+#include "model/scene/value.h"
 
 /* ---------------------------------------------------------------- what is hidden */
 
@@ -244,6 +247,28 @@ static celspan_status compile_cel(cs_compiler *c, const celspan_rostrum *rostrum
   return cs_objects_end_source(c, cel->blend, outer);
 }
 
+/* The objects count too, because a part of a cel (parts.h) has the hash of the whole cel. */
+static cs_hash hash_cel(const celspan_cel *cel) {
+  cs_hash hash = cs_hash_begin(cel->object_count);
+  cs_hash_hash(&hash, cel->hash);
+  cs_value_hash_matrix(&hash, &cel->matrix);
+  cs_hash_number(&hash, cel->opacity);
+  for (size_t i = 0; i < cel->object_count; i++)
+    cs_hash_hash(&hash, cel->objects[i]->hash);
+  return cs_hash_end(hash);
+}
+
+/* Notes a cel of which the outlines are the chains from `first` on. */
+static celspan_status note_cel(cs_compiler *c, const celspan_cel *cel, size_t first) {
+  const cs_boundary_set *set = &c->plan->boundaries;
+  cs_plan_cel noted = {.hash = hash_cel(cel), .top = HUGE_VAL, .bottom = -HUGE_VAL};
+  for (size_t i = first; i < set->chain_count; i++) {
+    noted.top = fmin(noted.top, set->chains[i].y0);
+    noted.bottom = fmax(noted.bottom, set->chains[i].y1);
+  }
+  return CS_APPEND(c->context, c->plan->cels, c->plan->cel_count, c->plan->cel_capacity, noted);
+}
+
 /* firsts: as of cs_lights_add_mattes. */
 static celspan_status compile_cels(cs_compiler *c, const celspan_rostrum *rostrum,
                                    const cs_compiler_film *film, uint32_t *firsts) {
@@ -262,7 +287,10 @@ static celspan_status compile_cels(cs_compiler *c, const celspan_rostrum *rostru
       c->mark = rostrum->cels[i]->mark;
     }
     c->isolation.mattes = firsts[i];
+    size_t chains = c->plan->boundaries.chain_count;
     CS_TRY(compile_cel(c, rostrum, i, film));
+    if (!c->is_nested)
+      CS_TRY(note_cel(c, rostrum->cels[i], chains));
   }
   return CELSPAN_OK;
 }

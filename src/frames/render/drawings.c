@@ -341,9 +341,27 @@ static bool is_cropped(const making *m, const placed_cel *d) {
          !d->is_turned && !d->census.may_have_dashes && !cs_ways_is_uneven(d->cel);
 }
 
+/* Notes what a map shows, and which rows it reaches: those of its raster, of which the width does
+ * not matter unless it is turned. */
+static void note_sheet(const placed_cel *d, cs_map_sheet *sheet) {
+  const cs_map_drawing *drawing = &sheet->drawing;
+  const double height = drawing->map->height, down = drawing->to_raster.m[4];
+  const cs_cache_key key = key_of(d);
+  cs_hash hash = cs_hash_begin(key.a);
+  cs_hash_word(&hash, key.b);
+  cs_hash_hash(&hash, d->cel->hash);
+  cs_value_hash_matrix(&hash, &d->matrix);
+  cs_hash_bytes(&hash, &drawing->light, sizeof drawing->light);
+  cs_grade_hash(&hash, d->cel->grade);
+  sheet->hash = cs_hash_end(hash);
+  sheet->top = d->is_turned ? 0 : -drawing->to_raster.m[5] / down;
+  sheet->bottom = d->is_turned ? d->view->height : (height - drawing->to_raster.m[5]) / down;
+}
+
 /* *suits: whether the cel can be a map in its place. */
-static celspan_status make_drawing(const making *m, placed_cel *d, cs_map_drawing *drawing,
+static celspan_status make_drawing(const making *m, placed_cel *d, cs_map_sheet *sheet,
                                    bool *suits) {
+  cs_map_drawing *drawing = &sheet->drawing;
   celspan_context *context = m->context;
   const cs_light front = cs_scene_front(m->rostrum, d->cel);
   float opacity = (float)d->opacity;
@@ -361,7 +379,10 @@ static celspan_status make_drawing(const making *m, placed_cel *d, cs_map_drawin
     CS_TRY(place_turned(context, d, drawing, suits));
   else if (*suits)
     place_upright(d, drawing);
-  return *suits ? light_cells(context, drawing) : CELSPAN_OK;
+  if (!*suits)
+    return CELSPAN_OK;
+  note_sheet(d, sheet);
+  return light_cells(context, drawing);
 }
 
 /* Makes the sheet that begins with a cel. *suits: as in make_drawing and compile_cels. */
@@ -372,7 +393,7 @@ static celspan_status make_sheet(making *m, size_t first, cs_map_sheet *sheet, b
     set_back(rostrum, &rostrum->cels[first]->back, m->view->space, &sheet->back, &sheet->keep);
   if (!m->ways.mapped[first])
     return compile_cels(m->context, &m->parts, m->view, m->antialias, sheet, first, suits);
-  return make_drawing(m, &m->drawings[first], &sheet->drawing, suits);
+  return make_drawing(m, &m->drawings[first], sheet, suits);
 }
 
 static size_t count_sheets(const making *m) {

@@ -83,14 +83,15 @@ int cs_frame_workers(celspan_context *context, int wanted) {
 }
 
 /* Makes strips of whole swaths, so that no swath is made twice if the crop begins with a whole
- * swath. */
+ * swath; in films of whole bands, because a band is held only if one worker makes it. */
 static void choose_workers(celspan_context *context, cs_frame *frame,
                            const celspan_frame_desc *desc) {
   frame->workers = needs_one_thread(frame) ? 1 : cs_frame_workers(context, desc->workers);
   int32_t share = frame->crop_height / (frame->workers * 8);
-  for (size_t i = 0; i < frame->count; i++)
-    if (cs_drawings_are_used(&frame->maps[i]) && share % CS_MAP_ROWS > 0)
-      share += CS_MAP_ROWS - share % CS_MAP_ROWS;
+  int32_t whole = desc->repeats ? CS_FRAME_BAND : 1;
+  for (size_t i = 0; i < frame->count && whole == 1; i++)
+    whole = cs_drawings_are_used(&frame->maps[i]) ? CS_MAP_ROWS : 1;
+  share += (whole - share % whole) % whole;
   frame->strip_height = desc->strip_rows > 0 ? desc->strip_rows
                         : share < 4          ? 4
                         : share > 64         ? 64

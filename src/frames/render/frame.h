@@ -13,6 +13,8 @@
 #include "engine/map/sheets.h"
 #include "frames/render/compile.h"
 
+#define CS_FRAME_BAND 16 /* rows that are held together (held.h), a multiple of CS_MAP_ROWS */
+
 typedef struct cs_frame {
   cs_plan *plans; /* one for each exposure of weight > 0; empty where the frame is crowded, or the
                      exposure is drawn from maps */
@@ -29,6 +31,7 @@ typedef struct cs_frame {
   int32_t crop_x, crop_y, crop_width, crop_height;
   int workers; /* at least 1 */
   int strip_height;
+  struct cs_held *held; /* held.h; NULL: no bands are held */
   bool takes_codes; /* rows may contain codes, because their sink takes them */
 } cs_frame;
 

@@ -2,6 +2,7 @@
  * row. */
 #include "base/description.h"
 #include "frames/render/drawings.h"
+#include "frames/render/held.h"
 #include "frames/render/row_worker.h"
 #include "model/scene/check.h"
 #include "model/scene/inspect.h"
@@ -81,7 +82,11 @@ static celspan_status render(celspan_context *context, const celspan_frame_desc 
   if (status == CELSPAN_OK) {
     frame.takes_codes = sink->takes_codes;
     count_cels(&frame, &counted);
-    status = feed_sink(context, &frame, desc, sink, &counted, ended);
+    status = cs_held_begin(context, desc, &frame);
+    counted.rows_held = cs_held_rows(&frame);
+    if (status == CELSPAN_OK)
+      status = feed_sink(context, &frame, desc, sink, &counted, ended);
+    cs_held_end(context, &frame, status == CELSPAN_OK);
     cs_frame_free(&frame, context->memory);
   }
   cs_account_end_rendering(context->memory, before);

@@ -71,6 +71,7 @@ void cs_row_worker_finish(cs_row_worker *worker) {
     cs_row_finish(&worker->rows[i], memory);
   cs_row_finish(&worker->sum, memory);
   cs_row_finish(&worker->joined, memory);
+  cs_held_copy_finish(&worker->held, memory);
   cs_mem_free(memory, worker->makers, count * sizeof *worker->makers);
   cs_mem_free(memory, worker->map_makers, count * sizeof *worker->map_makers);
   cs_mem_free(memory, worker->rows, count * sizeof *worker->rows);
@@ -198,11 +199,16 @@ celspan_status cs_row_worker_row(cs_row_worker *worker, int32_t y, const cs_row 
   cs_row *row;
   int32_t place = frame->crop_y + y;
   bool is_outside = place < 0 || place >= frame->height;
+  if (!is_outside && (*out = cs_held_find(frame, &worker->held, place)))
+    return CELSPAN_OK;
   CS_TRY(is_outside          ? make_clear_row(worker, &row)
          : frame->is_crowded ? make_paned_row(worker, place, &row)
                              : make_row(worker, place, &row));
   *out = row;
-  return is_outside ? CELSPAN_OK : crop_row(worker, row);
+  if (is_outside)
+    return CELSPAN_OK;
+  CS_TRY(crop_row(worker, row));
+  return cs_held_add(&worker->context, frame, &worker->held, place, row);
 }
 
 uint64_t cs_row_worker_evaluations(const cs_row_worker *worker) {

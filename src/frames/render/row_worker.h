@@ -22,7 +22,7 @@
 
 #include "engine/map/frame_rows.h"
 #include "engine/row/row.h"
-#include "frames/render/frame.h"
+#include "frames/render/held.h"
 
 typedef struct cs_row_worker {
   celspan_context context; /* branched from the frame's context */
@@ -31,6 +31,7 @@ typedef struct cs_row_worker {
   cs_map_maker *map_makers; /* one for each exposure that is drawn from maps */
   cs_row *rows;             /* one for each exposure */
   cs_row sum;
+  cs_held_copy held;
   /* of a crowded frame */
   cs_plan *plans;       /* of the current pane */
   cs_view pane;         /* the current pane; without rows where there is none */

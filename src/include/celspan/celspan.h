@@ -1452,6 +1452,7 @@ typedef struct celspan_statistics {
   uint64_t maps;               /* cels, or parts of cels, drawn from maps */
   uint64_t maps_made;          /* how many of these maps were not kept from another frame */
   uint64_t swept;              /* those that were not drawn from maps */
+  uint64_t rows_held;          /* rows that were not made, but kept from another frame */
 } celspan_statistics;
 
 CELSPAN_RESULT(celspan_statistics)

@@ -38,28 +38,32 @@ static celspan_status check(celspan_context *context, const celspan_rostrum_desc
   return cs_check_number(context, "rostrum", "camera.rotate", desc->camera_rotation);
 }
 
+void cs_rostrum_hash_own(cs_hash *hash, const celspan_rostrum *rostrum) {
+  cs_hash_word(hash, rostrum->front.is_given);
+  cs_light_hash(hash, &rostrum->front);
+  cs_light_hash(hash, &rostrum->back);
+  cs_hash_number(hash, rostrum->brightness);
+  cs_hash_word(hash, rostrum->has_camera_centre);
+  cs_value_hash_point(hash, rostrum->camera_centre);
+  cs_hash_word(hash, rostrum->has_camera_width);
+  cs_hash_number(hash, rostrum->camera_width);
+  cs_hash_number(hash, rostrum->camera_rotation);
+  cs_antialias_hash(hash, &rostrum->antialias);
+  if (rostrum->has_size)
+    cs_value_hash_point(hash, (celspan_point){rostrum->width, rostrum->height});
+  if (rostrum->space != CELSPAN_SPACE_AROUND)
+    cs_hash_word(hash, rostrum->space);
+  cs_grade_hash(hash, rostrum->grade);
+  if (rostrum->grain)
+    cs_hash_hash(hash, rostrum->grain->hash);
+}
+
 static cs_hash hash_rostrum(const celspan_rostrum *rostrum) {
   cs_hash hash = cs_hash_begin(CS_VALUE_ROSTRUM);
   cs_hash_word(&hash, rostrum->cel_count);
   for (size_t i = 0; i < rostrum->cel_count; i++)
     cs_hash_hash(&hash, rostrum->cels[i]->hash);
-  cs_hash_word(&hash, rostrum->front.is_given);
-  cs_light_hash(&hash, &rostrum->front);
-  cs_light_hash(&hash, &rostrum->back);
-  cs_hash_number(&hash, rostrum->brightness);
-  cs_hash_word(&hash, rostrum->has_camera_centre);
-  cs_value_hash_point(&hash, rostrum->camera_centre);
-  cs_hash_word(&hash, rostrum->has_camera_width);
-  cs_hash_number(&hash, rostrum->camera_width);
-  cs_hash_number(&hash, rostrum->camera_rotation);
-  cs_antialias_hash(&hash, &rostrum->antialias);
-  if (rostrum->has_size)
-    cs_value_hash_point(&hash, (celspan_point){rostrum->width, rostrum->height});
-  if (rostrum->space != CELSPAN_SPACE_AROUND)
-    cs_hash_word(&hash, rostrum->space);
-  cs_grade_hash(&hash, rostrum->grade);
-  if (rostrum->grain)
-    cs_hash_hash(&hash, rostrum->grain->hash);
+  cs_rostrum_hash_own(&hash, rostrum);
   return cs_hash_end(hash);
 }
 

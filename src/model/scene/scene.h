@@ -351,6 +351,8 @@ CELSPAN_CHECKED celspan_status cs_rostrum_by_camera(celspan_context *context,
                                                     const celspan_rostrum *from,
                                                     const celspan_rostrum *by,
                                                     celspan_rostrum **out);
+/* Adds all that belongs to a rostrum itself, without its cels. */
+void cs_rostrum_hash_own(cs_hash *hash, const celspan_rostrum *rostrum);
 /* Sets the hash of a new rostrum whose members have been changed. */
 void cs_rostrum_rehash(celspan_rostrum *rostrum);
 /* *out: new; what is drawn instead of a rostrum that is the frame of a film, or an object of that

@@ -1,0 +1,54 @@
+/* Held bands: rows of a frame that are the same as in a frame made before are not made again.
+ *
+ *   row 16 k      +----------------+     a band: rows of full width, its first one a multiple of 16
+ *   ...           |   o   |\  |    |     its key: a hash of all that can decide its pixels, which is
+ *   row 16 k + 15 +----------------+     the frame, and each cel that reaches the band
+ *
+ * A band whose key was met in an earlier frame is copied when it is made, and the copy is kept in a
+ * cache of the context; a later band of that key is given out from there. So a film in which
+ * everything moves copies nothing.
+ *
+ * What is in a key
+ *   frame  sizes, columns, spaces, errors, filter, weights; of each rostrum its camera, lights,
+ *          grade; of each cel its place, its back light and its mode; what the stacks were found to
+ *          be, and the grid of the cull; files of pictures and when they were changed
+ *   cel    its hash and its place among the cels, in each band that its outlines reach: with the
+ *          margin of the filter, and as far as whole rows of tiles of the cull, since all cels of a
+ *          row of tiles decide what is hidden in it
+ *   map    all that it is made of, its place and its light, in each band that its raster reaches
+ *
+ * Invariants
+ *   - spans that are given out are the spans that would be made, bit by bit;
+ *   - copies are put into the cache only after the whole frame has been made.
+ * Frames with procedures, crowded frames, and frames in which a map lacks a zone, hold nothing.
+ */
+#pragma once
+
+#include "base/cache.h"
+#include "engine/span/row_queue.h"
+#include "frames/render/frame.h"
+
+/* The rows of a band that one worker is making. */
+typedef struct cs_held_copy {
+  cs_row_queue rows;
+  int32_t next; /* the row of the frame that comes next */
+  cs_row given; /* borrows the spans of a kept band */
+} cs_held_copy;
+
+/* Finds the bands of a frame, before its rows are made: frame->held, which stays NULL where nothing
+ * may be held. desc: of the frame. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_held_begin(celspan_context *context,
+                                             const celspan_frame_desc *desc, cs_frame *frame);
+/* is_made: all rows of the frame were made, so that their copies may be kept. */
+void cs_held_end(celspan_context *context, cs_frame *frame, bool is_made);
+/* How many rows of the frame are kept. */
+uint64_t cs_held_rows(const cs_frame *frame);
+
+/* Row y of the frame, if it is kept; else NULL. */
+const cs_row *cs_held_find(const cs_frame *frame, cs_held_copy *copy, int32_t y);
+/* Copies a row that was made, where its band shall be kept. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_held_add(celspan_context *context, const cs_frame *frame,
+                                           cs_held_copy *copy, int32_t y, const cs_row *row);
+void cs_held_copy_finish(cs_held_copy *copy, cs_memory *memory);
+/* Bytes of all kept bands, and how many were kept and found. */
+cs_cache_counts cs_held_count(celspan_context *context);
