@@ -41,7 +41,7 @@ return {
   sinks = { "unit/ycbcr", "unit/pixels", "unit/file", "unit/tga", "unit/picture_sink", "unit/guard",
     "unit/span_sink", "unit/inspect", "unit/embedding", "spec/formats", "property/spanfile",
     "spec/cli" },
-  render = { "unit/maps", "unit/dashes", "unit/through", "unit/light", "unit/procedures",
+  render = { "unit/maps", "unit/held", "unit/dashes", "unit/through", "unit/light", "unit/procedures",
     "unit/picture_rows", "property/hidden", "golden/golden", "spec/render", "spec/tiles" },
   film = { "spec/cut", "spec/film", "spec/noise", "spec/motion", "spec/timing", "golden/golden" },
   bind = { "unit/embedding", "spec/values", "spec/errors", "spec/wrong_calls", "spec/callers" },
