@@ -186,7 +186,418 @@ static void check_films(void) {
   CHECK(watch.blocks == 0 && watch.bytes == 0 && watch.size_errors == 0);
 }
 
+/* ---------------------------------------------------------------- what is in a key */
+
+static celspan_grade *bright(studio *s) {
+  celspan_grade_desc desc = CELSPAN_GRADE_DESC;
+  celspan_grade *grade = NULL;
+  desc.exposure = 1;
+  studio_check(s, celspan_grade_create(s->context, &desc, &grade));
+  return grade;
+}
+
+static void swap_cels(shot *made) {
+  celspan_object *object = made->objects[1][0];
+  made->objects[1][0] = made->objects[2][0];
+  made->objects[2][0] = object;
+}
+
+/* Changes one thing; false: there is no change of this number. */
+static bool change_scene(studio *s, shot *made, celspan_grade *grade, int number) {
+  celspan_rostrum_desc *rostrum = &made->rostrum;
+  celspan_light dim = {0.5f, 0.4f, 0.3f, 0.2f};
+  switch (number) {
+  case 0:
+    return rostrum->has_camera_centre = true;
+  case 1:
+    rostrum->camera_rotation = 0.01;
+    return true;
+  case 2:
+    rostrum->has_front = true;
+    rostrum->front = dim;
+    return true;
+  case 3:
+    rostrum->back = dim;
+    return true;
+  case 4:
+    rostrum->brightness = 0.5;
+    return true;
+  case 5:
+    rostrum->grade = grade;
+    return true;
+  case 6:
+    rostrum->space = CELSPAN_SPACE_SRGB;
+    return true;
+  case 7:
+    rostrum->antialias = CELSPAN_ANTIALIAS_NONE;
+    return true;
+  case 8: /* the cel is in the last rows, and its light in all */
+    made->cels[CELS - 1].back = dim;
+    return true;
+  case 9:
+    made->cels[CELS - 1].back_texture = (celspan_light_texture){
+        .texture = studio_linear(s, (celspan_point){0, 0}, (celspan_point){WIDTH, 0},
+                                 (celspan_stop[2]){{.at = 0, .paint = celspan_paint_rgb(1, 0, 0, 1)},
+                                                   {.at = 1, .paint = celspan_paint_rgb(0, 1, 0, 1)}},
+                                 2),
+        .gain = 0.5,
+        .matte = 0.5};
+    return true;
+  case 10:
+    made->cels[2].blend = CELSPAN_BLEND_SCREEN;
+    return true;
+  case 11:
+    made->cels[2].defocus_radius = 5;
+    return true;
+  case 12:
+    swap_cels(made);
+    return true;
+  case 13:
+    made->objects[2][0] =
+        studio_transform(s, made->objects[2][0], celspan_matrix_translation(0, 9));
+    return true;
+  case 14:
+    made->cels[2].grade = grade;
+    return true;
+  case 15:
+    made->cels[1].has_viewport = true;
+    made->cels[1].viewport = (celspan_box){0, 0, WIDTH / 2.0, HEIGHT};
+    return true;
+  }
+  return false;
+}
+
+/* The same for the description of the frame. */
+static bool change_frame(shot *made, int number) {
+  celspan_frame_desc *desc = &made->frame;
+  switch (number) {
+  case 0:
+    desc->crop_width = WIDTH - 32;
+    desc->crop_height = HEIGHT;
+    return true;
+  case 1:
+    desc->crop_x = 32;
+    desc->crop_width = WIDTH - 32;
+    desc->crop_height = HEIGHT;
+    return true;
+  case 2: /* bands of other rows */
+    desc->crop_y = 8;
+    desc->crop_width = WIDTH;
+    desc->crop_height = HEIGHT - 16;
+    return true;
+  case 3:
+    desc->width = 2 * WIDTH;
+    return true;
+  case 4:
+    desc->height = HEIGHT - 16;
+    return true;
+  case 5:
+    desc->film_width = WIDTH / 2.0;
+    return true;
+  case 6:
+    desc->film_height = HEIGHT / 2.0;
+    return true;
+  case 7:
+    desc->has_tolerance = true;
+    desc->tolerance = 0.5;
+    return true;
+  case 8:
+    desc->space = CELSPAN_SPACE_SRGB;
+    return true;
+  case 9:
+    desc->has_antialias = true;
+    desc->antialias = CELSPAN_ANTIALIAS_NONE;
+    return true;
+  case 10:
+    desc->has_antialias = true;
+    desc->antialias = CELSPAN_ANTIALIAS_FILTER;
+    return true;
+  case 11:
+    desc->has_antialias = true;
+    desc->antialias = CELSPAN_ANTIALIAS_FILTER;
+    made->filter.has_radius = true;
+    made->filter.radius = 3;
+    return true;
+  case 12:
+    made->exposures[0].weight = 0.5;
+    return true;
+  case 13:
+    made->depth = CELSPAN_DEPTH_8;
+    return true;
+  }
+  return false;
+}
+
+/* Two frames in turn, of which both are held in the end: were the change not in the keys, one frame
+ * would be given out as the other. */
+static void check_change(studio *s, studio *bare, const shot *before, const shot *after) {
+  uint64_t held[2] = {0, 0};
+  for (int k = 0; k < 6; k++) {
+    shot now = k % 2 ? *after : *before;
+    held[k % 2] = compare(s, bare, &now, 1 + k % 3);
+  }
+  CHECK(held[0] > 0 && held[1] > 0);
+}
+
+/* A rectangle behind all, and a shape in each part of the height. */
+static shot plain_shot(studio *s, bool is_rich) {
+  test_random random = {77};
+  shot made = begin_shot();
+  for (int i = 0; i < CELS; i++)
+    fill(s, &random, &made, i, is_rich && i < 2 ? SHAPES : 1, i == 0 ? 0 : 24.0 * i,
+         i == 0 ? HEIGHT : 20);
+  made.rostrum.back = (celspan_light){0.1f, 0.2f, 0.3f, 1};
+  return made;
+}
+
+static void check_keys(bool is_rich) {
+  memory_watch watch = {0};
+  static studio s, bare;
+  s.context = context_of(&watch, 64 << 20);
+  bare.context = context_of(&watch, 0);
+  celspan_grade *grade = bright(&s);
+  shot before = plain_shot(&s, is_rich), after = before;
+  for (int i = 0; change_scene(&s, &after, grade, i); i++) {
+    check_change(&s, &bare, &before, &after);
+    studio_finish(&bare);
+    studio_finish(&s);
+    after = before = plain_shot(&s, is_rich);
+  }
+  for (int i = 0; change_frame(&after, i); i++) {
+    check_change(&s, &bare, &before, &after);
+    studio_finish(&bare);
+    studio_finish(&s);
+    after = before = plain_shot(&s, is_rich);
+  }
+  studio_finish(&s);
+  celspan_grade_unref(grade);
+  celspan_context_destroy(s.context);
+  celspan_context_destroy(bare.context);
+  CHECK(watch.blocks == 0 && watch.bytes == 0 && watch.size_errors == 0);
+}
+
+/* ---------------------------------------------------------------- how much is held */
+
+/* Frames in which a bar of 8 rows moves: its band is made, and the others are held from the third
+ * frame on, where there is room for them. */
+static uint64_t held_rows(size_t bytes, int32_t frames) {
+  memory_watch watch = {0};
+  static studio s;
+  uint64_t rows = 0;
+  static float pixels[4 * PIXELS];
+  s.context = context_of(&watch, bytes);
+  for (int32_t k = 0; k < frames; k++) {
+    shot now = plain_shot(&s, false);
+    celspan_texture *red = studio_paint(&s, celspan_paint_rgb(1, 0, 0, 1));
+    now.objects[1][0] = studio_rect(&s, (double)(k % WIDTH), 20, 10, 8, red);
+    rows += draw(&s, &now, 1 + k % 2, pixels);
+    CHECK(cs_held_count(s.context).bytes <= bytes / 8);
+    studio_finish(&s);
+  }
+  celspan_context_destroy(s.context);
+  CHECK(watch.blocks == 0 && watch.bytes == 0 && watch.size_errors == 0);
+  return rows;
+}
+
+static void check_rows(void) {
+  CHECK(held_rows(64 << 20, 2) == 0);
+  CHECK(held_rows(64 << 20, 12) == 10 * (HEIGHT - CS_FRAME_BAND));
+  CHECK(held_rows(1 << 20, 12) == 10 * (HEIGHT - CS_FRAME_BAND));
+  CHECK(held_rows(0, 12) == 0);
+  uint64_t few = held_rows(1 << 18, 12);
+  CHECK(few > 0 && few < 10 * (HEIGHT - CS_FRAME_BAND));
+}
+
+/* Where a blur is in all rows, and its radius grows, nothing is copied: only keys are noted. */
+static void check_copies(void) {
+  memory_watch watch = {0};
+  static studio s;
+  static float pixels[4 * PIXELS];
+  s.context = context_of(&watch, 64 << 20);
+  for (int k = 0; k < 6; k++) {
+    shot now = plain_shot(&s, false);
+    now.objects[0][0] = studio_rect(&s, 10, -10, 50, HEIGHT + 20, NULL);
+    now.cels[0].defocus_radius = 1 + 0.01 * k;
+    CHECK(draw(&s, &now, 1, pixels) == 0);
+    studio_finish(&s);
+  }
+  const cs_cache_counts counts = cs_held_count(s.context);
+  CHECK(counts.bytes < 6 * HEIGHT / CS_FRAME_BAND * 1024);
+  CHECK(counts.found == 0 && counts.made == 6 * HEIGHT / CS_FRAME_BAND);
+  celspan_context_destroy(s.context);
+}
+
+/* Very many cels, of which one moves. */
+static void check_crowd(void) {
+  enum { CROWD = 10000 };
+  memory_watch watch = {0};
+  static studio s, bare;
+  static celspan_cel *cels[CROWD];
+  static float held[4 * PIXELS], made[4 * PIXELS];
+  s.context = context_of(&watch, 64 << 20);
+  bare.context = context_of(&watch, 0);
+  for (int i = 0; i < CROWD; i++) {
+    celspan_rect_desc desc = {sizeof desc, i % 90, 10 + i / 80, 3, 2, 0, NULL};
+    celspan_cel_desc cel = CELSPAN_CEL_DESC;
+    celspan_object *object = NULL;
+    studio_check(&s, celspan_object_create_rect(s.context, &desc, &object));
+    cel.objects = &object;
+    cel.object_count = 1;
+    studio_check(&s, celspan_cel_create(s.context, &cel, &cels[i]));
+    celspan_object_unref(object);
+  }
+  for (int k = 0; k < 4; k++) {
+    celspan_matrix right = celspan_matrix_translation(1, 0);
+    celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
+    celspan_statistics statistics = CELSPAN_STATISTICS;
+    celspan_cel *moved = NULL;
+    studio_check(&s, celspan_cel_transform(s.context, cels[CROWD / 2], &right, &moved));
+    celspan_cel_unref(cels[CROWD / 2]);
+    cels[CROWD / 2] = moved;
+    celspan_exposure exposure = {studio_rostrum(&s, desc, cels, CROWD), 1};
+    celspan_frame_desc frame = studio_frame(&exposure, 1, WIDTH, HEIGHT, NULL);
+    celspan_coding coding = CELSPAN_CODING;
+    coding.depth = CELSPAN_DEPTH_FLOAT;
+    frame.repeats = true;
+    studio_check(&s, celspan_frame_pixels(s.context, &frame, &coding, held, 16 * WIDTH,
+                                          &statistics));
+    studio_check(&s, celspan_frame_pixels(bare.context, &frame, &coding, made, 16 * WIDTH, NULL));
+    CHECK(memcmp(held, made, sizeof held) == 0);
+    CHECK(k < 2 ? statistics.rows_held == 0 : statistics.rows_held >= HEIGHT / 2);
+  }
+  studio_finish(&s);
+  for (int i = 0; i < CROWD; i++)
+    celspan_cel_unref(cels[i]);
+  celspan_context_destroy(s.context);
+  celspan_context_destroy(bare.context);
+  CHECK(watch.blocks == 0);
+}
+
+/* ---------------------------------------------------------------- failures and threads */
+
+static bool gives_up(void *user, int32_t rows_done, int32_t rows_total) {
+  (void)user;
+  return rows_done < rows_total;
+}
+
+/* A frame that is given up in its last row leaves nothing behind. */
+static void check_given_up(void) {
+  memory_watch watch = {0};
+  static studio s;
+  static float pixels[4 * PIXELS];
+  s.context = context_of(&watch, 64 << 20);
+  for (int k = 0; k < 6; k++) {
+    shot now = plain_shot(&s, false);
+    celspan_exposure exposure = {rostrum_of(&s, &now), 1};
+    now.frame.exposures = &exposure;
+    now.frame.repeats = true;
+    now.frame.workers = 1 + k % 2;
+    now.frame.progress = k < 4 ? gives_up : NULL;
+    celspan_statistics statistics = CELSPAN_STATISTICS;
+    celspan_status status =
+        celspan_frame_pixels(s.context, &now.frame, NULL, pixels, 4 * WIDTH, &statistics);
+    CHECK(status == (k < 4 ? CELSPAN_CANCELLED : CELSPAN_OK));
+    CHECK(k < 4 || statistics.rows_held == (k == 4 ? 0 : HEIGHT));
+    studio_finish(&s);
+  }
+  celspan_context_destroy(s.context);
+  CHECK(watch.blocks == 0);
+}
+
+/* Every allocation of a frame that is met again, and of the next one, fails once. */
+static void check_memory(void) {
+  int failures = 0;
+  static float pixels[4 * PIXELS];
+  for (size_t n = 1, last = 1; last; n += 7) {
+    memory_watch watch = {0};
+    static studio s;
+    last = 0;
+    s.context = context_of(&watch, 1 << 20);
+    shot now = plain_shot(&s, false);
+    celspan_exposure exposure = {rostrum_of(&s, &now), 1};
+    now.frame.exposures = &exposure;
+    now.frame.repeats = true;
+    now.frame.workers = 1;
+    for (int k = 0; k < 3; k++) {
+      watch.fail_at = k == 1 ? watch.allocations + n : 0;
+      celspan_status status =
+          celspan_frame_pixels(s.context, &now.frame, NULL, pixels, 4 * WIDTH, NULL);
+      CHECK(status == CELSPAN_OK || (k == 1 && status == CELSPAN_NO_MEMORY));
+      last |= status == CELSPAN_NO_MEMORY;
+    }
+    failures += last > 0;
+    studio_finish(&s);
+    celspan_context_destroy(s.context);
+    CHECK(watch.blocks == 0 && watch.bytes == 0 && watch.size_errors == 0);
+  }
+  CHECK(failures > 10);
+}
+
+enum { THREADS = 4 };
+
+typedef struct job {
+  celspan_context *contexts[2];
+  celspan_rostrum *rostrums[2];
+  float made[2][4 * PIXELS], pixels[THREADS][4 * PIXELS];
+  atomic_int wrong;
+} job;
+
+static celspan_status draw_one(celspan_context *context, celspan_rostrum *rostrum, float *pixels) {
+  celspan_exposure exposure = {rostrum, 1};
+  celspan_frame_desc frame = studio_frame(&exposure, 1, WIDTH, HEIGHT, NULL);
+  celspan_coding coding = CELSPAN_CODING;
+  coding.depth = CELSPAN_DEPTH_FLOAT;
+  frame.repeats = true;
+  frame.workers = 2;
+  return celspan_frame_pixels(context, &frame, &coding, pixels, 16 * WIDTH, NULL);
+}
+
+static void work(void *user, int thread, int32_t index) {
+  job *j = user;
+  celspan_context branch;
+  (void)thread;
+  cs_context_branch(&branch, j->contexts[index % 2]);
+  for (int k = 0; k < 12; k++) {
+    if (draw_one(&branch, j->rostrums[k % 2], j->pixels[index]) != CELSPAN_OK)
+      j->wrong++;
+    j->wrong += memcmp(j->pixels[index], j->made[k % 2], sizeof j->made[0]) != 0;
+  }
+}
+
+/* Frames of two contexts, which share their cels, in four threads. */
+static void check_threads(void) {
+  memory_watch watch = {0};
+  static studio s;
+  static job j;
+  s.context = context_of(&watch, 1 << 22);
+  j.contexts[0] = s.context;
+  j.contexts[1] = context_of(&watch, 1 << 18);
+  celspan_context *bare = context_of(&watch, 0);
+  for (int i = 0; i < 2; i++) {
+    shot now = plain_shot(&s, false);
+    now.cels[3].opacity = i ? 0.5 : 1;
+    j.rostrums[i] = rostrum_of(&s, &now);
+    studio_check(&s, draw_one(bare, j.rostrums[i], j.made[i]));
+  }
+  cs_thread_pool_run(THREADS, THREADS, work, &j);
+  CHECK(j.wrong == 0);
+  CHECK(cs_held_count(j.contexts[0]).found > 0 && cs_held_count(j.contexts[1]).found > 0);
+  studio_finish(&s);
+  celspan_context_destroy(bare);
+  celspan_context_destroy(j.contexts[0]);
+  celspan_context_destroy(j.contexts[1]);
+  CHECK(watch.blocks == 0);
+}
+
 int main(void) {
   check_films();
+  check_keys(false);
+  check_keys(true);
+  check_rows();
+  check_copies();
+  check_crowd();
+  check_given_up();
+  check_memory();
+  check_threads();
   return check_done();
 }
