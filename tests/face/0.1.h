@@ -387,7 +387,8 @@ celspan_status celspan_probe(celspan_context *context, const celspan_frame_desc 
   celspan_point point, double rgba[4]);
 typedef struct celspan_statistics { size_t struct_size; uint64_t rows, spans, single, gradient,
   array; uint64_t pixels_in_arrays; uint64_t colour_evaluations; uint64_t allocations; uint64_t
-  peak_bytes; uint64_t maps; uint64_t maps_made; uint64_t swept; } celspan_statistics;
+  peak_bytes; uint64_t maps; uint64_t maps_made; uint64_t swept; uint64_t rows_held; }
+  celspan_statistics;
 typedef struct celspan_sink { size_t struct_size; void *user; celspan_status (*begin)(void *user,
   celspan_context *context, int32_t width, int32_t height); celspan_status (*row)(void *user,
   celspan_context *context, int32_t y, const celspan_span *spans, size_t span_count);

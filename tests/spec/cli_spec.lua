@@ -706,10 +706,12 @@ complete_words celspan render film.lua -- -
     end)
 
     local STATISTICS = "^rows (%d+) spans (%d+) single (%d+) gradient (%d+) array (%d+) "
-      .. "pixels_in_arrays (%d+) maps (%d+) maps_made (%d+) swept (%d+) colour_evaluations (%d+) "
+      .. "pixels_in_arrays (%d+) maps (%d+) maps_made (%d+) swept (%d+) rows_held (%d+) "
+      .. "colour_evaluations (%d+) "
       .. "allocations (%d+) peak_bytes (%d+) bands_made (%d+) bands_found (%d+) "
       .. "bands_bytes (%d+) seconds (%d+%.%d+)\ncels: (%d+) drawn from kept maps, (%d+) from new "
-      .. "maps, (%d+) swept; rows of blurs: (%d+) made, (%d+) found again, (%d+%.%d) MiB kept\n$"
+      .. "maps, (%d+) swept; rows: (%d+) made, (%d+) taken from held bands; "
+      .. "rows of blurs: (%d+) made, (%d+) found again, (%d+%.%d) MiB kept\n$"
 
     it("counts spans by kind", function()
       local code, out, err = celspan("spans " .. plain .. " --stats")
@@ -727,10 +729,11 @@ complete_words celspan render film.lua -- -
           return celspan.rostrum{ celspan.cel{ disc, defocus = 5 } } end }]])
       local _, soft = celspan("spans " .. script .. " --stats")
       local _, sharp = celspan("spans " .. plain .. " --stats")
-      local made, _, bytes = select(13, soft:match(STATISTICS))
+      local made, _, bytes = select(14, soft:match(STATISTICS))
       assert.is_true(tonumber(made) >= 2 and tonumber(bytes) > 64 * 16, soft)
-      local kept, new, swept, made_again = select(17, soft:match(STATISTICS))
-      assert.same({ "0", "0", "1", made }, { kept, new, swept, made_again }, soft)
+      local kept, new, swept, rows, held, made_again = select(18, soft:match(STATISTICS))
+      assert.same({ "0", "0", "1", "64", "0", made }, { kept, new, swept, rows, held, made_again },
+        soft)
       assert.truthy(sharp:find("bands_made 0 bands_found 0 bands_bytes 0 ", 1, true), sharp)
     end)
 

@@ -158,9 +158,8 @@ static void check_film(studio *s, studio *bare, uint64_t seed, uint64_t *rows) {
   film.frame.strip_rows = seed % 7 == 2 ? 13 : 0;
   film.depth = seed % 2 ? CELSPAN_DEPTH_8 : CELSPAN_DEPTH_FLOAT;
   for (int k = 0; k < FRAMES; k++) {
-    if (k > 2 && film.shapes[CELS - 1] > 0) /* the first frames are all the same */
-      film.objects[CELS - 1][0] =
-          studio_transform(s, film.objects[CELS - 1][0], moves[CELS - 1]);
+    if (k > 2 && film.shapes[CELS - 1] > 0) /* the first frames do not differ */
+      film.objects[CELS - 1][0] = studio_transform(s, film.objects[CELS - 1][0], moves[CELS - 1]);
     *rows += compare(s, bare, &film, 1 + (int)(seed + (uint64_t)k) % 3);
   }
   studio_finish(bare);
@@ -186,7 +185,7 @@ static void check_films(void) {
   CHECK(watch.blocks == 0 && watch.bytes == 0 && watch.size_errors == 0);
 }
 
-/* ---------------------------------------------------------------- what is in a key */
+/* ---------------------------------------------------------------- the parts of a key */
 
 static celspan_grade *bright(studio *s) {
   celspan_grade_desc desc = CELSPAN_GRADE_DESC;
@@ -205,7 +204,9 @@ static void swap_cels(shot *made) {
 /* Changes one thing; false: there is no change of this number. */
 static bool change_scene(studio *s, shot *made, celspan_grade *grade, int number) {
   celspan_rostrum_desc *rostrum = &made->rostrum;
-  celspan_light dim = {0.5f, 0.4f, 0.3f, 0.2f};
+  const celspan_light dim = {0.5f, 0.4f, 0.3f, 0.2f};
+  const celspan_stop stops[2] = {{0, celspan_paint_rgb(1, 0, 0, 1)},
+                                 {1, celspan_paint_rgb(0, 1, 0, 1)}};
   switch (number) {
   case 0:
     return rostrum->has_camera_centre = true;
@@ -236,10 +237,7 @@ static bool change_scene(studio *s, shot *made, celspan_grade *grade, int number
     return true;
   case 9:
     made->cels[CELS - 1].back_texture = (celspan_light_texture){
-        .texture = studio_linear(s, (celspan_point){0, 0}, (celspan_point){WIDTH, 0},
-                                 (celspan_stop[2]){{.at = 0, .paint = celspan_paint_rgb(1, 0, 0, 1)},
-                                                   {.at = 1, .paint = celspan_paint_rgb(0, 1, 0, 1)}},
-                                 2),
+        .texture = studio_linear(s, (celspan_point){0, 0}, (celspan_point){WIDTH, 0}, stops, 2),
         .gain = 0.5,
         .matte = 0.5};
     return true;
@@ -347,6 +345,7 @@ static shot plain_shot(studio *s, bool is_rich) {
     fill(s, &random, &made, i, is_rich && i < 2 ? SHAPES : 1, i == 0 ? 0 : 24.0 * i,
          i == 0 ? HEIGHT : 20);
   made.rostrum.back = (celspan_light){0.1f, 0.2f, 0.3f, 1};
+  made.cels[CELS - 1].back = (celspan_light){0.1f, 0.1f, 0, 0.1f};
   return made;
 }
 
@@ -459,8 +458,8 @@ static void check_crowd(void) {
     celspan_coding coding = CELSPAN_CODING;
     coding.depth = CELSPAN_DEPTH_FLOAT;
     frame.repeats = true;
-    studio_check(&s, celspan_frame_pixels(s.context, &frame, &coding, held, 16 * WIDTH,
-                                          &statistics));
+    studio_check(&s,
+                 celspan_frame_pixels(s.context, &frame, &coding, held, 16 * WIDTH, &statistics));
     studio_check(&s, celspan_frame_pixels(bare.context, &frame, &coding, made, 16 * WIDTH, NULL));
     CHECK(memcmp(held, made, sizeof held) == 0);
     CHECK(k < 2 ? statistics.rows_held == 0 : statistics.rows_held >= HEIGHT / 2);

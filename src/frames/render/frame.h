@@ -32,7 +32,7 @@ typedef struct cs_frame {
   int workers; /* at least 1 */
   int strip_height;
   struct cs_held *held; /* held.h; NULL: no bands are held */
-  bool takes_codes; /* rows may contain codes, because their sink takes them */
+  bool takes_codes;     /* rows may contain codes, because their sink takes them */
 } cs_frame;
 
 /* Whether the description can be read and rendered. Errors: BAD_ARGUMENT and LIMIT, naming the

@@ -51,17 +51,9 @@ cs_cache_counts cs_held_count(celspan_context *context) {
 
 /* ---------------------------------------------------------------- what the frame adds to keys */
 
-static void hash_cels(cs_hash *hash, const celspan_rostrum *rostrum) {
-  cs_hash_word(hash, rostrum->cel_count);
-  for (size_t i = 0; i < rostrum->cel_count; i++) {
-    const celspan_cel *cel = rostrum->cels[i];
-    cs_light_hash(hash, &cel->back);
-    cs_hash_word(hash, cel->blend);
-    cs_hash_word(hash, (uint64_t)cel->has_modes | (uint64_t)(cel->opacity == 0) << 1 |
-                           (uint64_t)(cel->opacity < 1) << 2 | (uint64_t)cs_cel_isolates(cel) << 3);
-    for (int space = 0; space < CS_SPACES; space++)
-      cs_hash_word(hash, cel->blends_inside[space]);
-  }
+static void hash_back_lights(cs_hash *hash, const celspan_rostrum *rostrum) {
+  for (size_t i = 0; i < rostrum->cel_count; i++)
+    cs_light_hash(hash, &rostrum->cels[i]->back);
 }
 
 /* Mattes are behind all cels, and are made of all of them. */
@@ -111,7 +103,7 @@ static void hash_exposure(cs_hash *hash, const cs_frame *frame, size_t index) {
   const cs_map_frame *maps = &frame->maps[index];
   cs_hash_number(hash, (double)frame->weights[index]);
   cs_rostrum_hash_own(hash, rostrum);
-  hash_cels(hash, rostrum);
+  hash_back_lights(hash, rostrum);
   if (has_shaped_light(rostrum))
     cs_hash_hash(hash, rostrum->hash);
   cs_hash_word(hash, maps->count);
@@ -150,7 +142,7 @@ static size_t band_at(const cs_held *held, double row) {
 }
 
 /* Adds something to the keys of the bands that it reaches, from `top` to `bottom`. */
-static void reach(cs_held *held, double top, double bottom, uint64_t place, cs_hash hash) {
+static void add(cs_held *held, double top, double bottom, uint64_t place, cs_hash hash) {
   if (top > bottom)
     return;
   size_t end = band_at(held, bottom + CS_FRAME_BAND);
@@ -169,24 +161,24 @@ static void widen(const cs_cull *cull, double *top, double *bottom) {
   *bottom = last + 1 == cull->tile_rows ? HUGE_VAL : (double)(last + 1) * cull->tile_height;
 }
 
-static void reach_plan(cs_held *held, const cs_plan *plan, uint64_t place) {
+static void add_plan(cs_held *held, const cs_plan *plan, uint64_t place) {
   const double margin = plan->margin + 1; /* a pixel for rounding */
   for (size_t i = 0; i < plan->cel_count; i++) {
     const cs_plan_cel *cel = &plan->cels[i];
     double top = cel->top, bottom = cel->bottom;
     widen(&plan->cull, &top, &bottom);
-    reach(held, top - margin, bottom + margin, place + i, cel->hash);
+    add(held, top - margin, bottom + margin, place + i, cel->hash);
   }
 }
 
-static void reach_sheets(cs_held *held, const cs_map_frame *maps, uint64_t place) {
+static void add_sheets(cs_held *held, const cs_map_frame *maps, uint64_t place) {
   for (size_t i = 0; i < maps->count; i++) {
     const cs_map_sheet *sheet = &maps->sheets[i];
     uint64_t at = place + ((uint64_t)i << 32);
     if (sheet->plan)
-      reach_plan(held, sheet->plan, at);
+      add_plan(held, sheet->plan, at);
     else
-      reach(held, sheet->top - 1, sheet->bottom + 1, at, sheet->hash);
+      add(held, sheet->top - 1, sheet->bottom + 1, at, sheet->hash);
   }
 }
 
@@ -200,9 +192,9 @@ static void make_keys(cs_held *held, const cs_frame *frame, const celspan_frame_
   }
   for (size_t i = 0; i < frame->count; i++)
     if (cs_drawings_are_used(&frame->maps[i]))
-      reach_sheets(held, &frame->maps[i], (uint64_t)i << 48);
+      add_sheets(held, &frame->maps[i], (uint64_t)i << 48);
     else
-      reach_plan(held, &frame->plans[i], (uint64_t)i << 48);
+      add_plan(held, &frame->plans[i], (uint64_t)i << 48);
   for (size_t i = 0; i < held->count; i++)
     held->bands[i].key = cs_hash_end(held->bands[i].key);
 }
@@ -316,9 +308,8 @@ const cs_row *cs_held_find(const cs_frame *frame, cs_held_copy *copy, int32_t y)
     return NULL;
   const cs_row_queue *rows = &b->kept->rows;
   const cs_row_queue_row row = cs_row_queue_get(rows, (size_t)(y - first_of(frame->held, b)));
-  copy->given = (cs_row){.spans = rows->spans + (row.spans - rows->spans),
-                         .count = row.count,
-                         .varied = row.varied};
+  copy->given = (cs_row){
+      .spans = rows->spans + (row.spans - rows->spans), .count = row.count, .varied = row.varied};
   return &copy->given;
 }
 

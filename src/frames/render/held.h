@@ -1,6 +1,6 @@
 /* Held bands: rows of a frame that are the same as in a frame made before are not made again.
  *
- *   row 16 k      +----------------+     a band: rows of full width, its first one a multiple of 16
+ *   row 16 k      +----------------+     a band: whole rows, of which the first is a multiple of 16
  *   ...           |   o   |\  |    |     its key: a hash of all that can decide its pixels, which is
  *   row 16 k + 15 +----------------+     the frame, and each cel that reaches the band
  *
@@ -8,10 +8,10 @@
  * cache of the context; a later band of that key is given out from there. So a film in which
  * everything moves copies nothing.
  *
- * What is in a key
+ * The parts of a key
  *   frame  sizes, columns, spaces, errors, filter, weights; of each rostrum its camera, lights,
- *          grade; of each cel its place, its back light and its mode; what the stacks were found to
- *          be, and the grid of the cull; files of pictures and when they were changed
+ *          grade; of each cel its back light; what the stacks were found to be, and the grid of the
+ *          cull; files of pictures and when they were changed
  *   cel    its hash and its place among the cels, in each band that its outlines reach: with the
  *          margin of the filter, and as far as whole rows of tiles of the cull, since all cels of a
  *          row of tiles decide what is hidden in it

@@ -1428,7 +1428,8 @@ typedef struct celspan_frame_desc {
                           light in any space */
   /* Whether its drawings are likely to return in other frames, as those of a film do: the maps
    * that it makes of them (docs/how-it-works.md) may then take the place of older ones in the
-   * context; otherwise they are kept only where there is room. It changes no pixel. */
+   * context; otherwise they are kept only where there is room. And rows that are the same as in an
+   * earlier frame are not made again. It changes no pixel. */
   bool repeats;
 } celspan_frame_desc;
 

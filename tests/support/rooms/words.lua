@@ -23,8 +23,10 @@ words.list = {
                "tools/relight/stack", "frames/film/", "base/pipeline", "model/pictures/",
                "program/farm", "program/join", "program/re", "program/stage", "program/view" } },
   { word = "band",
-    means = "node rows of a defocused cel's grid that are kept together; frequencies of a sound",
-    places = { "engine/defocus/", "engine/sample/defocused", "plugins/sound/spectrum" } },
+    means = "rows of a frame, or node rows of a defocused cel's grid, that are kept together; "
+      .. "frequencies of a sound",
+    places = { "frames/render/", "engine/defocus/", "engine/sample/defocused",
+               "plugins/sound/spectrum" } },
   { word = "pane", means = "a part of a crowded frame, compiled by itself",
     places = { "frames/render/" } },
   { word = "block", means = "64 x 64 texels of a picture, or a block of the deflate format",
