@@ -11,8 +11,8 @@ local words = {}
 words.list = {
   -- words that have one meaning, and the places where they may be used
   { word = "cel", means = "a sheet of artwork on the rostrum",
-    places = { "model/scene/", "frames/", "engine/defocus/", "tools/relight/", "lua/",
-               "program/" } },
+    places = { "model/scene/", "frames/", "engine/defocus/", "engine/row/plan",
+               "tools/relight/", "lua/", "program/" } },
   { word = "cell", means = "what lies between two neighbouring boundaries of a row",
     places = { "engine/compose/", "engine/paint/", "engine/area/", "engine/kernel/",
                "engine/row/", "engine/map/", "output/record/", "engine/defocus/edges",
