@@ -1,8 +1,8 @@
 /* Held bands: rows of a frame that are the same as in a frame made before are not made again.
  *
- *   row 16 k      +----------------+     a band: whole rows, of which the first is a multiple of 16
- *   ...           |   o   |\  |    |     its key: a hash of all that can decide its pixels, which is
- *   row 16 k + 15 +----------------+     the frame, and each cel that reaches the band
+ *   row 16 k      +----------------+   a band: whole rows, of which the first is a multiple of 16
+ *   ...           |   o   |\  |    |   its key: a hash of all that can decide its pixels, which is
+ *   row 16 k + 15 +----------------+   the frame, and each cel that reaches the band
  *
  * A band whose key was met in an earlier frame is copied when it is made, and the copy is kept in a
  * cache of the context; a later band of that key is given out from there. So a film in which
