@@ -98,6 +98,15 @@ static bool find(const cs_module_desc *desc, module_search *search) {
   return exists(search, CELSPAN_MODULE_FOLDER, "", desc);
 }
 
+/* An error of the system may pass, and another module would write other bytes in its place: after
+ * one, the module is searched for a second time. */
+static bool find_again(const cs_module_desc *desc, module_search *search) {
+  if (!search->error || search->error == ENOMEM)
+    return false;
+  *search = (module_search){.error = 0};
+  return find(desc, search);
+}
+
 static celspan_status fail_search(celspan_context *context, const cs_module_desc *desc,
                                   celspan_status failure, const module_search *search) {
   if (search->error == ENOMEM)
@@ -146,7 +155,7 @@ static void *open_object(const char *path) {
 static celspan_status load(celspan_context *context, const cs_module_desc *desc,
                            celspan_status failure, const void **table) {
   module_search search = {.error = 0};
-  if (!find(desc, &search))
+  if (!find(desc, &search) && !find_again(desc, &search))
     return fail_search(context, desc, failure, &search);
   void *handle = open_object(search.path);
   if (!handle)

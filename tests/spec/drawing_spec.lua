@@ -412,14 +412,14 @@ describe("a drawing as PDF", function()
 
   for _, name in ipairs { "codes", "light" } do
     it_compares("in " .. name .. " looks as the frame in Poppler, and shows no seams", function()
+      local w, h = 320, 180
+      done("render %s.lua -o x.pdf --size 320x180", name)
       for page = 1, 2 do
-        local w, h = 160 * page, 90 * page
-        local size = ("%dx%d"):format(w, h)
-        done("render %s.lua -o frame.png --frames %d --size %s", name, page, size)
-        done("render %s.lua -o x.pdf --size %s", name, size)
+        done("render %s.lua -o frame.png --frames %d --size 320x180", name, page)
         drawn("x.pdf", page, w, h)
         local share, beyond = compare("frame.png", "drawn.png", w, h)
         assert.is_true(share >= 0.99, ("%.4f"):format(share))
+        -- At the rim of the sun, where its gradient is steep. Poppler has 16 samples a pixel.
         assert.is_true(beyond <= (name == "codes" and 8 or 20), tostring(beyond))
       end
       assert.is_nil(said("pdfimages -list x.pdf"):find("image", 60, true))

@@ -308,6 +308,22 @@ describe("a folder that cannot be read to its end #plain", function()
 end)
 
 describe("if calls to the system fail #plain", function()
+  it("once, a module is found again, and no other one is taken", function()
+    if not has_library() then return pending "the library that makes calls fail is not built" end
+    local format, at = { output = "f.##.exr", options = "--frames 1 --trust" }, 0
+    bench:write("film.lua", FILM)
+    local code, _, err = make(format)
+    if code ~= 0 then return pending(err) end
+    local right = results()
+    repeat
+      at = at + 1
+      os.execute(("rm -rf '%s/out'"):format(bench.folder))
+      assert.equal(0, (make(format, faulty(at, false, 28, "access"))))
+      check_frames(right, true, ("the search %d"):format(at))
+    until calls() < at
+    assert.is_true(at > 3)
+  end)
+
   for _, format in ipairs(formats) do
     local name = (format.joins and "joining " or "") .. (format.output or "a stream")
       .. (format.workers and " by two workers" or "") .. (format.options or "")

@@ -105,7 +105,7 @@ describe("the interface", function()
     local glow = "double gain; } celspan_glow_desc"
     assert.equal("nothing", verdict(glow, glow))
     assert.equal("minor", verdict(glow, "double gain; double angle; } celspan_glow_desc"))
-    assert.equal("minor", verdict("uint64_t swept; }", "uint64_t swept, more; }"))
+    assert.equal("minor", verdict("uint64_t rows_held; }", "uint64_t rows_held, more; }"))
     assert.equal("minor", verdict("int32_t line; } celspan_glyph;",
       "int32_t line; int32_t column; } celspan_glyph;"))
     assert.equal("minor", verdict("void *user; } celspan_lua_limits;",
