@@ -164,7 +164,7 @@ static int is_video(lua_State *L) {
   return 1;
 }
 
-/* is_drawing(path) -> whether the request makes an SVG drawing of this name */
+/* is_drawing(path) -> whether the request makes a drawing of this name */
 static int is_drawing(lua_State *L) {
   const cs_request *request = cs_service_session(L)->request;
   lua_pushboolean(L, cs_drawing_target_is_wanted(luaL_checkstring(L, 1), request));

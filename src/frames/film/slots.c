@@ -10,7 +10,9 @@ static size_t least(size_t a, size_t b) { return a < b ? a : b; }
 /* Bytes that the caches may keep, and do not. */
 static size_t bytes_left(const celspan_context *context) {
   const celspan_context *root = context->root;
-  size_t most = root->picture_bytes + root->defocus_bytes + root->map_bytes;
+  /* and an eighth of that of maps for outlines of strokes (model/stroke/kept.h) */
+  size_t most = root->picture_bytes + root->defocus_bytes + root->map_bytes + root->map_bytes / 8 +
+                root->held_bytes;
   size_t kept = atomic_load(&context->memory->kept);
   return kept < most ? most - kept : 0;
 }

@@ -69,9 +69,12 @@ static void put_loops(const drawing *d, size_t first, size_t count) {
 }
 
 static cs_plotter_path path_of(const drawing *d, cs_plotter_kind kind, uint32_t number) {
-  const cs_fill *fill = &d->parcels.fills[number];
-  return (cs_plotter_path){
-      .kind = kind, .number = number, .fill = fill, .stops = d->parcels.stops + fill->stop};
+  const cs_parcels *parcels = &d->parcels;
+  const cs_fill *fill = &parcels->fills[number];
+  return (cs_plotter_path){.kind = kind,
+                           .number = number,
+                           .fill = fill,
+                           .stops = parcels->stops ? parcels->stops + fill->stop : NULL};
 }
 
 /* ---------------------------------------------------------------- pictures */
@@ -132,8 +135,12 @@ static celspan_status size_picture(celspan_context *context, celspan_point film,
   return CELSPAN_OK;
 }
 
+static bool is_too_large(const cs_plot_picture *picture) {
+  return picture->columns > PICTURE_SIDE || picture->rows > PICTURE_SIDE;
+}
+
 static celspan_status check_picture(celspan_context *context, const cs_plot_picture *picture) {
-  if (picture->columns <= PICTURE_SIDE && picture->rows <= PICTURE_SIDE)
+  if (!is_too_large(picture))
     return CELSPAN_OK;
   return cs_fail(context, CELSPAN_LIMIT,
                  "a picture in the drawing would have %d x %d pixels; a side has at most %d: "
@@ -347,6 +354,7 @@ struct cs_plot {
   cs_plot_text text; /* its bytes */
   cs_plotter to;
   cs_plot_desc desc;
+  bool is_in_page;
   char *path; /* owned */
 };
 
@@ -362,6 +370,7 @@ static celspan_status begin_page(cs_plot *plot, celspan_point film) {
                    "a smaller --size",
                    plot->path, page.across, page.down, CS_PDF_SIDE);
   plot->to.begin_page(plot->to.user, &page);
+  plot->is_in_page = true;
   return CELSPAN_OK;
 }
 
@@ -378,6 +387,7 @@ static celspan_status judge(cs_plot *plot, celspan_status status, const char *re
 static celspan_status end_page(cs_plot *plot) {
   const char *reason = "";
   celspan_status status = plot->to.end_page(plot->to.user, &reason);
+  plot->is_in_page = false;
   return judge(plot, status, reason);
 }
 
@@ -400,7 +410,11 @@ static celspan_status add_picture(cs_plot *plot, cs_plot_picture picture, celspa
   char reason[sizeof context->error];
   memcpy(reason, context->error, sizeof reason);
   CS_TRY(size_picture(context, film, plot->desc.scale, &picture));
-  CS_TRY(check_picture(context, &picture));
+  if (is_too_large(&picture))
+    return cs_fail(context, CELSPAN_LIMIT,
+                   "the drawing would be a picture of %d x %d pixels, because it has no vectors "
+                   "for this: %s; a side has at most %d: give a smaller --scale",
+                   (int)picture.columns, (int)picture.rows, reason, PICTURE_SIDE);
   *facts = (cs_plot_facts){.pictures = 1,
                            .picture_width = picture.columns,
                            .picture_height = picture.rows,
@@ -446,7 +460,7 @@ celspan_status cs_plot_add_frame(cs_plot *plot, const celspan_frame_desc *frame,
   if (status == CELSPAN_OK)
     status = cs_plot_add_plane(plot, plane, facts);
   celspan_plane_unref(plane);
-  if (status != CELSPAN_BAD_ARGUMENT)
+  if (status != CELSPAN_BAD_ARGUMENT || plot->is_in_page)
     return status;
   const cs_plot_picture picture = {
       .draw = draw_frame, .frame = &whole, .is_opaque = celspan_frame_is_opaque(&whole)};

@@ -42,9 +42,9 @@ typedef struct cs_plot cs_plot;
 /* *out: NULL if it fails. Errors: those of a file; for PDF OUTPUT if its module is missing. */
 CELSPAN_CHECKED celspan_status cs_plot_begin(celspan_context *context, const char *path,
                                              const cs_plot_desc *desc, cs_plot **out);
-/* Adds a frame, whole: its size, crop and antialiasing are ignored. One that no plane can keep
- * becomes a picture. Errors: those of rendering and of writing a file; LIMIT for more borders than
- * CS_PARCEL_ARCS, and for a picture or a page that is too large. */
+/* Adds a frame, whole: its size and crop are ignored. One that no plane can keep becomes a picture,
+ * which alone has its antialiasing. Errors: those of rendering and of writing a file; LIMIT for
+ * more borders than CS_PARCEL_ARCS, and for a picture or a page that is too large. */
 CELSPAN_CHECKED celspan_status cs_plot_add_frame(cs_plot *plot, const celspan_frame_desc *frame,
                                                  cs_plot_facts *facts);
 /* Adds a plane in the same way; one that is a sum becomes a picture. Errors: BAD_ARGUMENT for one

@@ -143,7 +143,7 @@ static size_t band_at(const cs_held *held, double row) {
 
 /* Adds something to the keys of the bands that it reaches, from `top` to `bottom`. */
 static void add(cs_held *held, double top, double bottom, uint64_t place, cs_hash hash) {
-  if (top > bottom)
+  if (!(top <= bottom))
     return;
   size_t end = band_at(held, bottom + CS_FRAME_BAND);
   for (size_t i = band_at(held, top); i < end; i++) {
@@ -308,6 +308,7 @@ const cs_row *cs_held_find(const cs_frame *frame, cs_held_copy *copy, int32_t y)
     return NULL;
   const cs_row_queue *rows = &b->kept->rows;
   const cs_row_queue_row row = cs_row_queue_get(rows, (size_t)(y - first_of(frame->held, b)));
+  /* the same span, which may be written: a row's member says so, though none is */
   copy->given = (cs_row){
       .spans = rows->spans + (row.spans - rows->spans), .count = row.count, .varied = row.varied};
   return &copy->given;
@@ -327,29 +328,41 @@ static celspan_status complete(celspan_context *context, cs_held *held, band *b,
   CS_TRY(cs_cache_create(held->cache, context, key_of(b, KEPT), bytes, &made));
   ((entry *)made)->rows = *rows;
   *rows = (cs_row_queue){0};
-  if (!atomic_compare_exchange_strong(&b->finished, &none, (entry *)made))
+  if (!atomic_compare_exchange_strong(&b->finished, &none, (entry *)made)) {
+    atomic_fetch_sub(&held->bytes, bytes);
     cs_cache_discard(held->cache, made);
+  }
   return CELSPAN_OK;
 }
 
-celspan_status cs_held_add(celspan_context *context, const cs_frame *frame, cs_held_copy *copy,
-                           int32_t y, const cs_row *row) {
+/* Copies the next row; the last one completes the copy. */
+static celspan_status copy_row(celspan_context *context, cs_held *held, band *b, cs_held_copy *copy,
+                               const cs_row *row) {
+  CS_TRY(cs_row_queue_add(context, &copy->rows, row->spans, row->count));
+  if (++copy->next < end_of(held, b))
+    return CELSPAN_OK;
+  copy->next = -1;
+  return complete(context, held, b, &copy->rows);
+}
+
+/* A copy only saves time: where there is no room for it, it is given up, and the frame is made. */
+void cs_held_add(celspan_context *context, const cs_frame *frame, cs_held_copy *copy, int32_t y,
+                 const cs_row *row) {
   cs_held *held = frame->held;
   band *b = band_of(frame, y);
   if (!b || !b->is_wanted)
-    return CELSPAN_OK;
+    return;
   if (y == first_of(held, b)) {
     cs_row_queue_clear(&copy->rows);
     copy->next = y;
   }
   if (y != copy->next)
-    return CELSPAN_OK;
-  copy->next++;
-  CS_TRY(cs_row_queue_add(context, &copy->rows, row->spans, row->count));
-  if (copy->next < end_of(held, b))
-    return CELSPAN_OK;
-  copy->next = -1;
-  return complete(context, held, b, &copy->rows);
+    return;
+  celspan_status status = copy_row(context, held, b, copy, row);
+  if (status != CELSPAN_OK || cs_row_queue_bytes(&copy->rows) + held->bytes > held->cache->budget) {
+    cs_held_copy_finish(copy, context->memory);
+    copy->next = -1;
+  }
 }
 
 void cs_held_copy_finish(cs_held_copy *copy, cs_memory *memory) {

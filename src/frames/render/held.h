@@ -46,9 +46,9 @@ uint64_t cs_held_rows(const cs_frame *frame);
 
 /* Row y of the frame, if it is kept; else NULL. */
 const cs_row *cs_held_find(const cs_frame *frame, cs_held_copy *copy, int32_t y);
-/* Copies a row that was made, where its band shall be kept. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_held_add(celspan_context *context, const cs_frame *frame,
-                                           cs_held_copy *copy, int32_t y, const cs_row *row);
+/* Copies a row that was made, where its band shall be kept and there is room for the copy. */
+void cs_held_add(celspan_context *context, const cs_frame *frame, cs_held_copy *copy, int32_t y,
+                 const cs_row *row);
 void cs_held_copy_finish(cs_held_copy *copy, cs_memory *memory);
 /* Bytes of all kept bands, and how many were kept and found. */
 cs_cache_counts cs_held_count(celspan_context *context);

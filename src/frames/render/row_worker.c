@@ -208,7 +208,8 @@ celspan_status cs_row_worker_row(cs_row_worker *worker, int32_t y, const cs_row 
   if (is_outside)
     return CELSPAN_OK;
   CS_TRY(crop_row(worker, row));
-  return cs_held_add(&worker->context, frame, &worker->held, place, row);
+  cs_held_add(&worker->context, frame, &worker->held, place, row);
+  return CELSPAN_OK;
 }
 
 uint64_t cs_row_worker_evaluations(const cs_row_worker *worker) {

@@ -154,9 +154,14 @@ static cairo_status_t read_bytes(void *user, unsigned char *into, unsigned size)
 /* Whether there is memory for the picture, what Cairo makes of it, and its packed bytes: it is
  * better not to begin than to run out in the middle of a library. */
 static bool has_room(const cs_plotter_picture *picture) {
-  void *room = malloc((size_t)picture->columns * (size_t)picture->rows * 12);
+  const size_t columns = (size_t)picture->columns, rows = (size_t)picture->rows;
+  if (rows > SIZE_MAX / 12 / columns)
+    return false;
+  /* volatile, because compilers leave out memory that is allocated and freed at once */
+  void *volatile room = malloc(columns * rows * 12);
+  const bool is_there = room != NULL;
   free(room);
-  return room;
+  return is_there;
 }
 
 static void put_picture(cs_pdf *pdf, cairo_surface_t *picture) {

@@ -3,6 +3,7 @@
 // The address that celspan prints has the token. The browser keeps it for this address and this
 // port alone, and the page sends it in a header: a cookie would go to all servers of this machine.
 const NAME = "celspan-token", BUSY = 503;
+const PATIENCE = 5; // seconds
 
 let token = new URLSearchParams(location.search).get("token");
 try {
@@ -31,9 +32,10 @@ const first = new Promise(done => { noteFirst = done; });
 export const noteSeen = () => noteFirst();
 
 /** The JSON of an address; null: it was refused. Renderers that are busy are asked again as long as
- * it is wanted. Nothing is asked for before the first picture, which would have to wait for it. */
+ * it is wanted. Nothing is asked for before the first picture, which would have to wait for it,
+ * unless that takes long. */
 export async function read(address, isWanted = () => true) {
-  await first;
+  await Promise.race([first, pause(PATIENCE)]);
   for (;;) {
     const answer = await fetch(address).catch(() => null);
     if (answer?.ok) return answer.json();

@@ -9,6 +9,7 @@ import { showRender, showRenderCommand } from "/render.js";
 import { loadSheet } from "/rows.js";
 import {
   beside, clamp, here, lanes, loop, main, setWords, span, state, stateOf, timecode, view, write,
+  writeAttribute,
 } from "/state.js";
 import { drawTimeline, placeHead, shotsAt, showRows } from "/timeline.js";
 import { sendGiven, showForm } from "/values.js";
@@ -21,7 +22,8 @@ export function showNumbers() {
   setWords("frames", state.film.frames);
   setWords("timecode", timecode(view.number));
   write(here("scrub"), "value", String(view.number));
-  write(here("scrub"), "ariaValueText", `${timecode(view.number)}, frame ${view.number}`);
+  writeAttribute(here("scrub"), "aria-valuetext",
+                 `${timecode(view.number)}, frame ${view.number}`);
   setWords("shot", shotsAt(view.number - 1).map(shot => shot.name).join(" / "));
   setWords("zoom", `${percent < 10 ? percent.toFixed(1) : Math.round(percent)} %`);
   setWords("facts", `${state.film.size.join(" × ")}, ${state.film.fps} fps`

@@ -8,13 +8,14 @@ const WEIGHT = 0.1; // of the newest value in a mean
 // below what can be drawn
 const SLACK = 0.95;
 
-/** Means in seconds: latency, between the request of a picture and its arrival; interval, between
+/** Means in seconds: latency, between the request of a frame and its arrival; interval, between
  * two arrivals while pictures are awaited. last: the newest arrival. */
 export const newPace = () => ({ latency: 0.05, interval: 0.02, last: 0 });
 
 const mean = (old, value) => old + WEIGHT * (value - old);
 
-/** Notes the arrival of a picture; times in seconds. A time without requests is no interval. */
+/** Notes the arrival of a frame, with all its pictures; times in seconds. A time without requests
+ * is no interval. */
 export function noteArrival(pace, began, now) {
   pace.latency = mean(pace.latency, now - began);
   if (pace.last > began) pace.interval = mean(pace.interval, now - pace.last);

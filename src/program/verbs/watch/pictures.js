@@ -18,7 +18,7 @@ import { cels } from "/rows.js";
 import { unpack } from "/runs.js";
 import {
   beside, clamp, here, isReady, lanes, looks, main, overlay, part, play, ratio, setPressed, stage,
-  state, stateOf, view, write,
+  state, stateOf, view, write, writeAttribute,
 } from "/state.js";
 import { drawRuler, loadWave } from "/timeline.js";
 import { fit, frameSize, visible } from "/view.js";
@@ -143,7 +143,7 @@ function put(picture, bytes) {
   const said = { frame: nameOf(one, picture.number), size: picture.size.join("x"),
                  crop: picture.crop.join(), build: picture.build };
   for (const [name, value] of Object.entries(said)) write(canvas.dataset, name, String(value));
-  write(canvas, "ariaLabel", `Frame ${picture.number}`);
+  writeAttribute(canvas, "aria-label", `Frame ${picture.number}`);
   noteSeen();
   markStale(one);
 }

@@ -105,18 +105,22 @@ function askBoth(number) {
     .filter(({ address }) => !kept.has(address) && !refused.has(address));
   if (missing.length === 0 || asked.has(number)) return false;
   asked.set(number, missing);
-  Promise.all(missing.map(fetchTimed)).finally(() => asked.delete(number));
+  const began = performance.now();
+  Promise.all(missing.map(fetchOne)).then(all => {
+    if (all.every(Boolean)) noteArrival(pace, began / 1000, performance.now() / 1000);
+  }).finally(() => asked.delete(number));
   return true;
 }
 
-async function fetchTimed(wanted) {
-  const began = performance.now();
+/** Whether the picture is here now. */
+async function fetchOne(wanted) {
   try {
     await fetchPicture(wanted);
-    noteArrival(pace, began / 1000, performance.now() / 1000);
+    return true;
   } catch (fault) {
     if (fault.status !== 503) refused.add(wanted.address);
     await failed(fault, wanted);
+    return false;
   }
 }
 

@@ -88,6 +88,11 @@ export function icon(name) {
  * each that is given, also for the same value. */
 export function write(one, name, value) { if (one[name] !== value) one[name] = value; }
 
+/** The same for an attribute: browsers of 2023 lack the properties of ARIA. */
+export function writeAttribute(one, name, value) {
+  if (one.getAttribute(name) !== value) one.setAttribute(name, value);
+}
+
 /** Writes the words of an element. */
 export const setWords = (id, text) => write(here(id), "textContent", String(text));
 
@@ -95,7 +100,7 @@ export const setWords = (id, text) => write(here(id), "textContent", String(text
 export const label = (id, text) => write(here(id).querySelector("span"), "textContent", text);
 
 /** Says of a button whether what it does is on. */
-export const setPressed = (id, isOn) => write(here(id), "ariaPressed", String(isOn));
+export const setPressed = (id, isOn) => writeAttribute(here(id), "aria-pressed", String(isOn));
 
 /** Seconds and frames of a frame of the film, counted from 1: "2:12" is frame 61 at 24. */
 export function timecode(number) {
