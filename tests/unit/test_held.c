@@ -591,6 +591,35 @@ static void check_threads(void) {
   CHECK(watch.blocks == 0);
 }
 
+/* A rostrum of which one light shines alone has the hashes of the rostrum that it was made of, and
+ * other lights. */
+static void check_lit_alone(void) {
+  memory_watch watch = {0};
+  static studio s;
+  static float held[4 * PIXELS], made[4 * PIXELS];
+  s.context = context_of(&watch, 64 << 20);
+  celspan_context *bare = context_of(&watch, 0);
+  celspan_texture *white = studio_paint(&s, celspan_paint_rgb(1, 1, 1, 1));
+  celspan_object *disc = studio_circle(&s, WIDTH / 2.0, HEIGHT / 2.0, 40, white);
+  celspan_cel_desc cel = CELSPAN_CEL_DESC;
+  cel.has_front = true;
+  cel.front = (celspan_light){0.5f, 0.2f, 0.1f, 0};
+  celspan_cel *lit = studio_cel(&s, cel, &disc, 1);
+  celspan_rostrum *rostrum = studio_rostrum(&s, CELSPAN_ROSTRUM_DESC, &lit, 1);
+  cs_lit_alone alone;
+  for (int k = 0; k < 2; k++)
+    studio_check(&s, draw_one(s.context, rostrum, held));
+  studio_check(&s, cs_lit_alone_make(s.context, rostrum, 0, false, &alone));
+  celspan_rostrum_ref(&alone.rostrum);
+  studio_check(&s, draw_one(s.context, &alone.rostrum, held));
+  studio_check(&s, draw_one(bare, &alone.rostrum, made));
+  CHECK(memcmp(held, made, sizeof held) == 0);
+  cs_lit_alone_finish(s.context, &alone);
+  studio_finish(&s);
+  celspan_context_destroy(bare);
+  celspan_context_destroy(s.context);
+}
+
 int main(void) {
   check_films();
   check_keys(false);
@@ -601,5 +630,6 @@ int main(void) {
   check_given_up();
   check_memory();
   check_threads();
+  check_lit_alone();
   return check_done();
 }

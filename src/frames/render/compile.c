@@ -247,12 +247,15 @@ static celspan_status compile_cel(cs_compiler *c, const celspan_rostrum *rostrum
   return cs_objects_end_source(c, cel->blend, outer);
 }
 
-/* The objects count too, because a part of a cel (parts.h) has the hash of the whole cel. */
+/* The objects count too, because a part of a cel (parts.h) has the hash of the whole cel. So does
+ * the front light, because cs_lit_alone changes lights without their hashes. */
 static cs_hash hash_cel(const celspan_cel *cel) {
   cs_hash hash = cs_hash_begin(cel->object_count);
   cs_hash_hash(&hash, cel->hash);
   cs_value_hash_matrix(&hash, &cel->matrix);
   cs_hash_number(&hash, cel->opacity);
+  cs_hash_word(&hash, cel->front.is_given);
+  cs_light_hash(&hash, &cel->front);
   for (size_t i = 0; i < cel->object_count; i++)
     cs_hash_hash(&hash, cel->objects[i]->hash);
   return cs_hash_end(hash);
