@@ -80,8 +80,11 @@ static void make(cs_pipeline *p, celspan_context *context, int worker, size_t it
   celspan_status status = p->desc.make(p->desc.user, context, worker, item);
   pthread_mutex_lock(&p->lock);
   set_done(p, context, item, status);
-  if (worker > 0)
-    pthread_cond_signal(&p->done_some);
+  if (worker == 0)
+    return;
+  pthread_cond_signal(&p->done_some);
+  if (p->desc.tell)
+    p->desc.tell(p->desc.user);
 }
 
 static void run_worker(void *user, int worker) {

@@ -59,6 +59,9 @@ typedef struct cs_pipeline_desc {
   /* Called whenever the owner has waited for a tenth of a second. A status other than OK ends the
    * waiting. NULL: the owner waits without a limit. */
   celspan_status (*idle)(void *user, celspan_context *context);
+  /* Called when another thread than the owner's has made an item, by that thread and under the
+   * lock: it may only wake the owner, which waits elsewhere. NULL: nobody is woken. */
+  void (*tell)(void *user);
 } cs_pipeline_desc;
 
 /* Starts the threads. desc: copied. Errors: NO_MEMORY. */

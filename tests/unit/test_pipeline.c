@@ -46,6 +46,7 @@ typedef struct works {
   atomic_int made[ITEMS];
   int made_by[ITEMS];
   int added, delivered, idle;
+  atomic_int told;   /* of items that other threads have made */
   atomic_int faults; /* seen by the callbacks */
 } works;
 
@@ -113,6 +114,12 @@ static celspan_status be_idle(void *user, celspan_context *context) {
   return w->idle++ < w->idle_most ? CELSPAN_OK : cs_fail(context, CELSPAN_CANCELLED, "waited");
 }
 
+static void be_told(void *user) {
+  works *w = user;
+  w->faults += is_owner(w);
+  w->told++;
+}
+
 static celspan_status add_all(works *w) {
   while (w->added < ITEMS) {
     CS_TRY(cs_pipeline_deliver(w->pipeline, w->context, w->slots - 1));
@@ -139,7 +146,8 @@ static celspan_status run(works *w, celspan_context *context, int threads, bool 
                                  .user = w,
                                  .make = make,
                                  .deliver = deliver,
-                                 .idle = be_idle};
+                                 .idle = be_idle,
+                                 .tell = be_told};
   CS_TRY(cs_pipeline_create(context, &desc, &w->pipeline));
   celspan_status status = add_all(w);
   cs_pipeline_destroy(w->pipeline);
@@ -155,9 +163,13 @@ static void check_order(celspan_context *context, int threads, bool owner_claims
       w.steps[i] = (cs_pipeline_step)(i * 7 % 11 % kinds);
     CHECK(run(&w, context, threads, owner_claims) == CELSPAN_OK);
     CHECK(w.delivered == ITEMS && w.faults == 0);
-    for (int i = 0; i < ITEMS; i++)
+    int others = 0;
+    for (int i = 0; i < ITEMS; i++) {
+      others += w.made_by[i] > 0;
       CHECK(w.made[i] == (w.steps[i] != CS_PIPELINE_NOTHING) &&
             (owner_claims || w.steps[i] != CS_PIPELINE_ANYWHERE || w.made_by[i] > 0));
+    }
+    CHECK(w.told == others);
   }
 }
 
