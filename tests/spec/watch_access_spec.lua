@@ -66,7 +66,6 @@ describe("the page of celspan watch #plain", function()
       };
       await page.until(`${stage("frame")} === "1"`);
       await page.get(require("fs").readFileSync("]=] .. AXE .. [=[", "utf8") + "; 0");
-      await page.get(`document.querySelector(".stage").style.transition = "none"`);
       const themes = {};
       for (const theme of ["one", "other"]) {
         await look(theme);

@@ -28,6 +28,7 @@ const KEPT_MOST = 192 << 20; // bytes of pictures that are kept
 // seconds after which a picture is slow: then a coarse picture is shown first
 const SLOW = 0.15;
 const VERY_SLOW = 1;         // seconds after which the coarse picture is made coarser still
+const LATE = 250;            // milliseconds after which a picture is seen to be an older one
 
 export const kept = new Map(); // by their addresses, the oldest first
 let keptBytes = 0;
@@ -113,11 +114,19 @@ function matteOf(bytes) {
   return out;
 }
 
-/** Marks the canvas of a lane while it does not show what was wanted last: values, frame, place. */
+/** Marks the canvas of a lane while it does not show what was wanted last: values, frame, place. It
+ * is only seen after a while: a filter costs the browser two thirds of the time of a frame. */
 export function markStale(one) {
   const isSent = !one.isSending && !one.isChanged && one.painted?.build >= one.wantedBuild;
   const isSeen = isReady(one) && one.painted?.address === wish(view.number, 1, one)?.address;
-  one.canvas.toggleAttribute("data-stale", !(isSent && isSeen) && play.direction === 0);
+  const isStale = !(isSent && isSeen) && play.direction === 0;
+  if (!one.canvas.toggleAttribute("data-stale", isStale)) {
+    clearTimeout(one.late);
+    one.late = 0;
+    one.canvas.classList.remove("late");
+  } else {
+    one.late ||= setTimeout(() => one.canvas.classList.add("late"), LATE);
+  }
 }
 
 /** Whether a picture is of the first film as it is seen now, without an onion skin. */

@@ -29,14 +29,15 @@ export const span = { from: 0, to: 1 };
 
 /** What is known of one of the films and its canvas. refused: the frame that could not be made,
  * { number, build, message }. lastFault: the error that is shown. painted: the picture. slowness:
- * the seconds that it took. fetching: the picture that is on its way, { wanted, since }. given:
- * values of parameters, as the address holds them; wrong: sentences about others, by their names.
- * isRefilled: all of them were given again. */
+ * the seconds that it took. late: the timer after which an older picture is seen as one. fetching:
+ * the picture that is on its way, { wanted, since }. given: values of parameters, as the address
+ * holds them; wrong: sentences about others, by their names. isRefilled: all of them were given
+ * again. */
 const lane = (side, canvas, box) => ({
   side, canvas, box, pen: canvas.getContext("2d"), painted: null, refused: null, lastFault: null,
-  isAsking: false, isWanted: false, slowness: 0, fetching: null, given: new URLSearchParams(),
-  wrong: { __proto__: null }, isGiven: false, isSending: false, isChanged: false,
-  isRefilled: false, wantedBuild: 0, formOf: "",
+  isAsking: false, isWanted: false, slowness: 0, late: 0, fetching: null,
+  given: new URLSearchParams(), wrong: { __proto__: null }, isGiven: false, isSending: false,
+  isChanged: false, isRefilled: false, wantedBuild: 0, formOf: "",
 });
 export const main = lane(1, stage, desk);
 export const beside = lane(2, here("stage2"), here("desk2"));
