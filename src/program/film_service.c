@@ -413,7 +413,7 @@ static int faults(lua_State *L) {
 
 /* ---------------------------------------------------------------- watched films */
 
-static int picture(lua_State *L) { return cs_stage_picture(L, &self(L)->script); }
+static int draw(lua_State *L) { return cs_stage_draw(L, &self(L)->script); }
 static int hits(lua_State *L) { return cs_stage_hits(L, &self(L)->script); }
 static int files(lua_State *L) { return cs_stage_files(L, &self(L)->script); }
 static int sound(lua_State *L) { return cs_stage_sound(L, &self(L)->script); }
@@ -499,7 +499,7 @@ static void set_methods(lua_State *L) {
       CS_SERVICE(lay_onion),  CS_SERVICE(check_tracks),  CS_SERVICE(scene),
       CS_SERVICE(counts),     CS_SERVICE(names),         CS_SERVICE(ask),
       CS_SERVICE(faults),     CS_SERVICE(drop_warnings), CS_SERVICE(files),
-      CS_SERVICE(picture),    CS_SERVICE(hits),          CS_SERVICE(alter),
+      CS_SERVICE(draw),       CS_SERVICE(hits),          CS_SERVICE(alter),
       CS_SERVICE(keep_line),  CS_SERVICE(keep_callers),  CS_SERVICE(silence),
       CS_SERVICE(costs),      CS_SERVICE(camera),        CS_SERVICE(hold_camera),
       CS_SERVICE(use_camera), CS_SERVICE(sound),         CS_SERVICE(wave),

@@ -155,6 +155,7 @@ static void push_program(lua_State *L) {
   cs_service_add_pictures(L);
   cs_service_add_processes(L);
   cs_service_add_renderers(L);
+  cs_service_add_stage(L);
   cs_service_add_watchers(L);
   cs_service_add_web(L);
 }

@@ -45,17 +45,16 @@ static void close_descriptor(int *descriptor) {
   *descriptor = -1;
 }
 
-static void reap(renderer *r, int options) {
-  if (r->id && waitpid(r->id, &r->status, options) == r->id)
+/* Waits for the end of a renderer. */
+static void reap(renderer *r) {
+  if (r->id && waitpid(r->id, &r->status, 0) == r->id)
     r->id = 0;
 }
 
 /* Ends the process group of a renderer, which includes processes that it has started. */
 static void end_renderer(renderer *r) {
-  if (r->id) {
+  if (r->id)
     kill(-r->id, SIGKILL);
-    reap(r, 0);
-  }
   close_descriptor(&r->requests);
   close_descriptor(&r->answers);
   close_descriptor(&r->words);
@@ -64,6 +63,7 @@ static void end_renderer(renderer *r) {
 static int close_renderer(lua_State *L) {
   renderer *r = lua_touserdata(L, 1);
   end_renderer(r);
+  reap(r);
   if (r->bytes)
     cs_mem_free(r->context->memory, r->bytes, r->capacity);
   r->bytes = NULL;
@@ -75,18 +75,31 @@ static renderer *self(lua_State *L) { return cs_service_opened(L); }
 
 /* ---------------------------------------------------------------- messages */
 
-/* renderer:send(text) -> whether it was sent. A renderer reads each request before the next one is
- * sent, so small requests always fit into the pipe. */
-static int send(lua_State *L) {
+/* Pushes whether a message was sent. A renderer reads each request before the next one is sent, so
+ * small requests always fit into the pipe. kind, number: as in program/stage_service.c. */
+static int put_message(lua_State *L, unsigned char kind, size_t number, const char *text,
+                       size_t size) {
   const renderer *r = self(L);
-  size_t size;
-  const char *text = luaL_checklstring(L, 2, &size);
-  luaL_argcheck(L, size < 32768, 2, "too long");
-  const unsigned char head[HEAD] = {0, 0, (unsigned char)(size >> 8), (unsigned char)size};
+  const unsigned char head[HEAD] = {kind, (unsigned char)(number >> 16),
+                                    (unsigned char)(number >> 8), (unsigned char)number};
   bool is_sent = r->requests >= 0 && write(r->requests, head, HEAD) == HEAD &&
                  write(r->requests, text, size) == (ssize_t)size;
   lua_pushboolean(L, is_sent);
   return 1;
+}
+
+/* renderer:send(text) -> whether it was sent */
+static int send(lua_State *L) {
+  size_t size;
+  const char *text = luaL_checklstring(L, 2, &size);
+  luaL_argcheck(L, size < 32768, 2, "too long");
+  return put_message(L, 0, size, text, size);
+}
+
+/* renderer:abandon(number) -> whether it was sent that the picture of this request, counted from 1,
+ * is not wanted any more */
+static int abandon(lua_State *L) {
+  return put_message(L, 1, (size_t)luaL_checkinteger(L, 2), "", 0);
 }
 
 static size_t size_of(const renderer *r) {
@@ -176,8 +189,9 @@ static int finish(lua_State *L) {
   renderer *r = self(L);
   char byte;
   if (r->answers >= 0 && read(r->answers, &byte, 1) == 0)
-    reap(r, 0);
+    reap(r);
   end_renderer(r);
+  reap(r);
   if (WIFEXITED(r->status)) {
     lua_pushinteger(L, WEXITSTATUS(r->status));
     return 1;
@@ -185,6 +199,12 @@ static int finish(lua_State *L) {
   luaL_pushfail(L);
   lua_pushstring(L, strsignal(WTERMSIG(r->status)));
   return 2;
+}
+
+/* renderer:kill(): ends it. Nobody waits for that, which takes milliseconds in a large process. */
+static int kill_renderer(lua_State *L) {
+  end_renderer(self(L));
+  return 0;
 }
 
 /* Opens three pipes: [0] for the renderer, [1] for the verb. */
@@ -226,9 +246,9 @@ static int spawn(renderer *r, const char *const *arguments) {
 
 /* renderer(words) -> a renderer | nil, message: this program with the words */
 static int open_renderer(lua_State *L) {
-  static const luaL_Reg methods[] = {
-      CS_SERVICE(send),   CS_SERVICE(take), CS_SERVICE(words), CS_SERVICE(descriptors),
-      CS_SERVICE(finish), CS_SERVICE(stop), {NULL, NULL}};
+  static const luaL_Reg methods[] = {CS_SERVICE(send),  CS_SERVICE(abandon),     CS_SERVICE(take),
+                                     CS_SERVICE(words), CS_SERVICE(descriptors), CS_SERVICE(finish),
+                                     CS_SERVICE(stop),  {"kill", kill_renderer}, {NULL, NULL}};
   const char **arguments = cs_service_push_words(L, 1);
   lua_createtable(L, 0, 8);
   renderer *r = cs_userdata_push_holder(L, "celspan.program.renderer", sizeof *r, close_renderer);

@@ -48,5 +48,6 @@ void cs_service_add_files(lua_State *L);
 void cs_service_add_pictures(lua_State *L);
 void cs_service_add_processes(lua_State *L);
 void cs_service_add_renderers(lua_State *L);
+void cs_service_add_stage(lua_State *L);
 void cs_service_add_watchers(lua_State *L);
 void cs_service_add_web(lua_State *L);

@@ -1,14 +1,11 @@
 #include "program/stage.h"
 
-#include <poll.h>
 #include <stdint.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "celspan/celspan.h"
 #include "frames/process/interrupt.h"
 #include "lua/bind/host.h"
-#include "lua/bind/userdata.h"
 #include "model/scene/scene.h"
 #include "output/png/chunk.h"
 #include "output/png/strips.h"
@@ -17,8 +14,6 @@
 #include "program/service.h"
 
 #define PIXELS_MOST (1 << 25) /* of a picture in memory */
-
-enum { CODES, PNG, KINDS, RUNS }; /* the contents and the form of a picture */
 
 static const celspan_coding coding = {.struct_size = sizeof coding,
                                       .depth = CELSPAN_DEPTH_8,
@@ -94,25 +89,13 @@ static size_t pack_runs(const uint32_t *pixels, size_t count, size_t width, uint
 
 /* ---------------------------------------------------------------- bytes */
 
-/* A picture in memory. */
-typedef struct picture {
-  celspan_coding coding;
-  celspan_context *context;
-  unsigned char *bytes; /* owned */
-  size_t size, capacity;
-  size_t stride;         /* bytes of a row; 0 for a PNG */
-  cs_png_strips *strips; /* of a PNG that is being made */
-} picture;
-
-static int release_picture(lua_State *L) {
-  picture *p = lua_touserdata(L, 1);
+void cs_stage_release(cs_stage_picture *p) {
   if (p->context)
     cs_mem_free(p->context->memory, p->bytes, p->capacity);
-  p->bytes = NULL;
-  return 0;
+  *p = (cs_stage_picture){0};
 }
 
-static celspan_status append(picture *p, const void *bytes, size_t size) {
+static celspan_status append(cs_stage_picture *p, const void *bytes, size_t size) {
   CS_TRY(CS_RESERVE(p->context, p->bytes, p->capacity, p->size + size));
   memcpy(p->bytes + p->size, bytes, size);
   p->size += size;
@@ -121,7 +104,8 @@ static celspan_status append(picture *p, const void *bytes, size_t size) {
 
 /* ---------------------------------------------------------------- a PNG in memory */
 
-static celspan_status put_chunk(picture *p, const char *type, const void *bytes, size_t size) {
+static celspan_status put_chunk(cs_stage_picture *p, const char *type, const void *bytes,
+                                size_t size) {
   unsigned char head[CS_PNG_CHUNK_HEAD], tail[CS_PNG_CHUNK_TAIL];
   cs_png_chunk_ends(type, bytes, size, head, tail);
   CS_TRY(append(p, head, sizeof head));
@@ -137,7 +121,7 @@ static celspan_status put_data(void *user, celspan_context *context, const void 
 
 static celspan_status begin_png(void *user, celspan_context *context, int32_t width,
                                 int32_t height) {
-  picture *p = user;
+  cs_stage_picture *p = user;
   const cs_png_picture desc = {.coding = p->coding, .width = width, .height = height, .workers = 1};
   unsigned char header[CS_PNG_HEADER] = {0};
   cs_png_store_32(header, (uint32_t)width);
@@ -152,13 +136,13 @@ static celspan_status begin_png(void *user, celspan_context *context, int32_t wi
 
 static celspan_status put_png_row(void *user, celspan_context *context, int32_t y,
                                   const celspan_span *spans, size_t span_count) {
-  const picture *p = user;
+  const cs_stage_picture *p = user;
   (void)y;
   return cs_png_strips_row(p->strips, context, spans, span_count);
 }
 
 static celspan_status end_png(void *user, celspan_context *context, celspan_status outcome) {
-  picture *p = user;
+  cs_stage_picture *p = user;
   if (outcome == CELSPAN_OK)
     outcome = cs_png_strips_finish(p->strips, context);
   if (outcome == CELSPAN_OK)
@@ -170,19 +154,12 @@ static celspan_status end_png(void *user, celspan_context *context, celspan_stat
 
 /* ---------------------------------------------------------------- pictures */
 
-/* A picture is wanted until the program that requested it, which waits for the answer, sends more
- * or ends. */
-static bool is_wanted(void *user, int32_t rows_done, int32_t rows_total) {
-  struct pollfd requests = {.fd = STDIN_FILENO, .events = POLLIN};
-  return cs_interrupt_progress(user, rows_done, rows_total) && poll(&requests, 1, 0) == 0;
-}
-
 /* The description of the frame that was built last. */
 static celspan_frame_desc frame_of(lua_State *L, const cs_script *script) {
   celspan_frame_desc desc = CELSPAN_FRAME_DESC;
   cs_request_read(cs_service_session(L)->request, "--workers", &desc.workers);
   cs_film_expose(&script->film, &script->frame, &desc);
-  desc.progress = is_wanted;
+  desc.progress = cs_interrupt_progress;
   return desc;
 }
 
@@ -219,7 +196,7 @@ static celspan_status put_kinds_row(void *user, celspan_context *context, int32_
   static const unsigned char colours[][4] = {[CELSPAN_SPAN_SINGLE] = {60, 130, 255, 110},
                                              [CELSPAN_SPAN_GRADIENT] = {40, 200, 90, 130},
                                              [CELSPAN_SPAN_ARRAY] = {255, 70, 60, 150}};
-  const picture *p = user;
+  const cs_stage_picture *p = user;
   (void)context;
   unsigned char *row = p->bytes + p->stride * (size_t)y;
   for (size_t i = 0; i < span_count; i++) {
@@ -231,14 +208,14 @@ static celspan_status put_kinds_row(void *user, celspan_context *context, int32_
 }
 
 /* Allocates the bytes of a crop. */
-static celspan_status reserve_rows(picture *p, const celspan_frame_desc *desc) {
+static celspan_status reserve_rows(cs_stage_picture *p, const celspan_frame_desc *desc) {
   p->stride = 4 * (size_t)desc->crop_width;
   p->size = p->stride * (size_t)desc->crop_height;
   return CS_RESERVE(p->context, p->bytes, p->capacity, p->size);
 }
 
 /* Packs the rows that were rendered. */
-static celspan_status pack(picture *p) {
+static celspan_status pack(cs_stage_picture *p) {
   size_t count = p->size / sizeof(uint32_t), capacity = 0;
   uint32_t *words = NULL;
   CS_TRY(CS_RESERVE(p->context, words, capacity, runs_words(count)));
@@ -250,7 +227,9 @@ static celspan_status pack(picture *p) {
   return CELSPAN_OK;
 }
 
-static celspan_status render(picture *p, const celspan_frame_desc *desc, int kind) {
+celspan_status cs_stage_make(cs_stage_picture *p, celspan_context *context,
+                             const celspan_frame_desc *desc, cs_stage_kind kind) {
+  p->context = context;
   p->coding = coding;
   p->coding.space = desc->space;
   celspan_sink sink = {.struct_size = sizeof sink,
@@ -259,36 +238,14 @@ static celspan_status render(picture *p, const celspan_frame_desc *desc, int kin
                        .row = put_png_row,
                        .end = end_png,
                        .takes_codes = true};
-  if (kind != PNG)
+  if (kind != CS_STAGE_PNG)
     CS_TRY(reserve_rows(p, desc));
-  if (kind == KINDS)
+  if (kind == CS_STAGE_KINDS)
     sink = (celspan_sink){.struct_size = sizeof(celspan_sink), .user = p, .row = put_kinds_row};
-  if (kind == CODES || kind == RUNS)
+  if (kind == CS_STAGE_CODES || kind == CS_STAGE_RUNS)
     CS_TRY(cs_sink_memory(p->context, &p->coding, p->bytes, p->stride, &sink));
   CS_TRY(celspan_frame_render(p->context, desc, &sink, NULL));
-  return kind == RUNS ? pack(p) : CELSPAN_OK;
-}
-
-/* film:picture(width, height, x, y, w, h, what, workers or nil) -> a part of the frame that was
- * built last, rendered at this size: 8 bits, sRGB, straight alpha, as "rgba", as a "png", or as
- * "runs" (see above); or as "spans", the kinds of its spans in RGBA | nil, message */
-int cs_stage_picture(lua_State *L, cs_script *script) {
-  static const char *const kinds[] = {"rgba", "png", "spans", "runs", NULL};
-  celspan_frame_desc desc;
-  int kind = luaL_checkoption(L, 8, NULL, kinds);
-  if (!cs_stage_frame(L, script, &desc))
-    return 2;
-  desc.workers = (int)luaL_optinteger(L, 9, desc.workers);
-  picture *p = cs_userdata_push_holder(L, "celspan.program.stage", sizeof *p, release_picture);
-  p->context = script->context;
-  celspan_status status = render(p, &desc, kind);
-  if (status != CELSPAN_OK) {
-    luaL_pushfail(L);
-    lua_pushstring(L, celspan_context_error(script->context));
-    return 2;
-  }
-  lua_pushlstring(L, (const char *)p->bytes, p->size);
-  return 1;
+  return kind == CS_STAGE_RUNS ? pack(p) : CELSPAN_OK;
 }
 
 /* ---------------------------------------------------------------- files */

@@ -114,8 +114,8 @@ function shows.watch(file)
   local ask = '{"want":"frame","number":1,"size":[8,8],"crop":[0,0,8,8],"what":"rgba"}'
   bench:write("ask", string.pack(">s4", ask))
   -- The picture is given up when the requests end.
-  local wait = ("(cat ask; until [ -s answer-%s ]; do sleep 0.02; done) | timeout 20 '%s' stage %s "
-    .. ">answer-%s"):format(file[1], workbench.absolute, file[1], file[1])
+  local wait = ("(cat ask; until grep -q picture answer-%s; do sleep 0.02; done) | timeout 20 "
+    .. "'%s' stage %s >answer-%s"):format(file[1], workbench.absolute, file[1], file[1])
   bench:inside(wait)
   return (bench:read("answer-" .. file[1])):byte(-4)
 end

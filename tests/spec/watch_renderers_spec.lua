@@ -8,14 +8,16 @@ local now, started
 
 --- A process that keeps what is sent to it, and gives the answers that a test has put into it.
 local function new_process()
-  local process = { sent = {}, answers = {} }
+  local process = { sent = {}, answers = {}, abandoned = {} }
   function process:send(text)
     table.insert(self.sent, json.decode(text))
     return true
   end
+  function process:abandon(number) table.insert(self.abandoned, number) end
   function process:take() return table.remove(self.answers, 1) end
   function process.words() return "" end
   function process.finish() return 1 end
+  function process.kill() end
   started[#started + 1] = process
   return process
 end
@@ -58,11 +60,20 @@ local function step(times)
   for _ = 1, times or 1 do pool:step() end
 end
 
---- Lets a renderer answer what it was sent last.
-local function answer(i, bytes)
-  local head = program.json { good = bytes ~= nil, message = "no", files = {} }
-  table.insert(started[i].answers, (">s4"):pack(head) .. (bytes or ""))
+--- Lets a renderer answer with a head and bytes, which are nil if it refuses.
+local function put(i, head, bytes)
+  head.good, head.message, head.files = bytes ~= nil, "no", {}
+  table.insert(started[i].answers, (">s4"):pack(program.json(head)) .. (bytes or ""))
 end
+
+--- Lets a renderer answer the request that it was sent last.
+local function answer(i, bytes) put(i, {}, bytes) end
+
+--- Lets it say that it has built the frame that it was sent last.
+local function begin(i) put(i, { begun = true }, "") end
+
+--- Lets it answer with the picture that it has begun first.
+local function draw(i, bytes) put(i, { picture = true }, bytes) end
 
 --- The frames that a renderer was sent, each with its workers.
 local function sent(i)
@@ -80,99 +91,187 @@ before_each(function()
 end)
 
 describe("frames that are wanted at once #plain", function()
-  it("are drawn side by side, each by a share of the processors", function()
+  it("are drawn side by side, and share the processors", function()
     for number = 1, 3 do ask(number) end
-    step(2)
-    assert.equal(2, #started)
-    answer(1, "one")
     step()
-    assert.same({ { "1 by 2", "3 by 1" }, { "2 by 1" } }, { sent(1), sent(2) })
+    assert.same({ "1 by 1" }, sent(1))
+    for _ = 1, 2 do
+      begin(1)
+      step()
+    end
+    assert.same({ "1 by 1", "2 by 1", "3 by 1" }, sent(1))
+    assert.equal(1, #started)
   end)
 
-  it("do not wait for each other", function()
-    for number = 1, 3 do ask(number) end
-    step(2)
-    answer(2, "two")
+  it("are built one after the other, while earlier ones are drawn", function()
+    ask(1)
+    ask(2)
+    step(3)
+    assert.same({ "1 by 1" }, sent(1))
+    begin(1)
     step()
-    assert.same({ "2:two" }, results)
-    answer(1, "one")
-    answer(2, "three")
+    draw(1, "one")
+    begin(1)
     step()
-    table.sort(results)
-    assert.same({ "1:one", "2:two", "3:three" }, results)
+    draw(1, "two")
+    step()
+    assert.same({ "1:one", "2:two" }, results)
+  end)
+
+  it("wait where enough are drawn, and other requests do not", function()
+    for number = 1, 5 do ask(number) end
+    ask(6, { ask = { want = "costs" } })
+    for _ = 1, 3 do
+      step()
+      begin(1)
+    end
+    step()
+    assert.same({ "1 by 1", "2 by 1", "3 by 1", "costs" }, sent(1))
+    answer(1, "costs")
+    step()
+    draw(1, "one")
+    step()
+    assert.same({ "6:costs", "1:one" }, results)
+    assert.equal("4 by 1", sent(1)[5])
   end)
 
   it("are given up one by one", function()
-    for number = 1, 3 do ask(number) end
-    step(2)
-    pool:abandon "w2"
-    pool:abandon "w3"
-    assert.same({ { "1 by 2" }, { "2 by 1", "abandon" } }, { sent(1), sent(2) })
-    answer(1, "one")
-    answer(2)
-    step()
-    table.sort(results)
-    assert.same({ "1:one", "2:503", "3:503" }, results)
-  end)
-
-  it("do not fail with one of them, or with its renderer", function()
     for number = 1, 4 do ask(number) end
-    step(2)
-    answer(2)
     step()
-    assert.same({ "2:422" }, results)
-    table.insert(started[2].answers, false)
-    answer(1, "one")
-    step(2)
-    assert.same({ "2:422", "3:500", "1:one" }, results)
-    assert.same({ "1 by 2", "4 by 2" }, sent(1))
+    begin(1)
+    step()
+    begin(1)
+    step()
+    for _, wish in ipairs { "w2", "w2", "w3", "w4", "none" } do pool:abandon(wish) end
+    assert.same({ 2, 3 }, started[1].abandoned)
+    answer(1)
+    draw(1, "one")
+    draw(1)
+    step()
+    assert.same({ "4:503", "3:503", "1:one", "2:503" }, results)
   end)
 
-  it("have no more renderers than there are workers", function()
-    for number = 1, 9 do ask(number) end
-    step(9)
-    assert.equal(2, #started)
-    started = {}
-    renderers_of { workers = "1" }
-    for number = 1, 9 do ask(number) end
-    step(9)
-    assert.equal(1, #started)
-    assert.same({ "1 by 1" }, sent(1))
-    started = {}
-    renderers_of { workers = "9" }
-    for number = 1, 9 do ask(number) end
-    step(9)
-    assert.equal(4, #started)
-    assert.same({ "4 by 2" }, sent(4))
+  it("do not fail with one of them", function()
+    for number = 1, 3 do ask(number) end
+    step()
+    answer(1)
+    step()
+    begin(1)
+    step()
+    draw(1)
+    begin(1)
+    step()
+    draw(1, "three")
+    step()
+    assert.same({ "1:422", "2:422", "3:three" }, results)
+  end)
+
+  it("fail with their renderer, and others do not", function()
+    for number = 1, 3 do ask(number) end
+    step()
+    begin(1)
+    step()
+    table.insert(started[1].answers, false)
+    step(2)
+    table.sort(results)
+    assert.same({ "1:500", "2:500" }, results)
+    assert.same({ "3 by 2" }, sent(2))
+  end)
+
+  it("may begin everything again when one fails", function()
+    ask(1)
+    ask(2, { failed = function()
+      pool:close("again", 503)
+      ask(3)
+    end })
+    step()
+    begin(1)
+    step()
+    answer(1)
+    started[1].kill = function(self) self.take = function() return false end end
+    step()
+    assert.same({ "1:503" }, results)
+    assert.same({ "3 by 2" }, sent(2))
+  end)
+
+  it("end a renderer that answers what it was not asked", function()
+    for _, put_it in ipairs { answer, begin, draw } do
+      started, results = {}, {}
+      renderers_of {}
+      ask(1)
+      step()
+      begin(1)
+      draw(1, "one")
+      put_it(1, "more")
+      step()
+      assert.same({ "1:one" }, results)
+      ask(2)
+      step()
+      assert.same({ "2 by 2" }, sent(2))
+    end
   end)
 end)
 
 describe("a frame that is wanted alone #plain", function()
-  it("has all workers, also where there are several renderers", function()
-    for number = 1, 3 do ask(number) end
-    step(2)
-    answer(1, "one")
-    answer(2, "two")
-    step()
-    answer(1, "three")
-    step()
-    ask(4)
-    step()
-    local last = { sent(1)[#sent(1)], sent(2)[#sent(2)] }
-    table.sort(last)
-    assert.equal("4 by 2", last[#last])
+  it("has all workers", function()
+    for number = 1, 3 do
+      ask(number)
+      step()
+      begin(1)
+      draw(1, "done")
+      step()
+    end
+    assert.same({ "1 by 2", "2 by 2", "3 by 2" }, sent(1))
   end)
+end)
 
-  it("does not start a renderer, nor do other requests beside it", function()
+describe("another renderer #plain", function()
+  it("is started when nothing is heard of the others for a while", function()
     ask(1)
     step()
     ask(2)
-    for _ = 1, 3 do ask(3, { ask = { want = "costs" } }) end
     step(3)
     assert.equal(1, #started)
     now = 0.3
     step()
-    assert.equal(2, #started) -- as for every request that has waited so long
+    assert.same({ { "1 by 2" }, { "2 by 2" } }, { sent(1), sent(2) })
+  end)
+
+  it("is not started while frames are only slow", function()
+    for number = 1, 9 do ask(number) end
+    for number = 1, 9 do
+      step()
+      begin(1)
+      now = now + 0.2
+      step()
+      if number > 1 then draw(1, "done") end
+      now = now + 0.2
+    end
+    assert.equal(1, #started)
+  end)
+
+  it("ends when it is not needed any more", function()
+    ask(1)
+    step()
+    ask(2)
+    now = 0.3
+    step(2)
+    answer(1, "one")
+    begin(2)
+    draw(2, "two")
+    step()
+    now = 30
+    step(2)
+    assert.equal(1, #pool.list)
+  end)
+
+  it("is one of four at most", function()
+    for number = 1, 9 do
+      ask(number)
+      now = now + 0.3
+      step(2)
+    end
+    assert.equal(4, #started)
   end)
 end)
 

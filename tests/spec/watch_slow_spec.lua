@@ -23,12 +23,8 @@ end }
 ]]):format(steps)
 end
 
---- Requests as a renderer reads them.
-local function asked(...)
-  local messages = {}
-  for i, text in ipairs { ... } do messages[i] = (">s4"):pack(text) end
-  return table.concat(messages)
-end
+--- A request as a renderer reads it, and that it is given up.
+local function abandoned(text) return (">s4I4"):pack(text, 1 << 24 | 1) end
 
 after_each(watching.finish)
 
@@ -64,13 +60,14 @@ describe("a slow frame", function()
   end)
 
   it("is given up when both requests arrive before the renderer has begun #plain", function()
-    watching.begin { ["shot.lua"] = film(50000), asks = asked(
-      '{ "want": "frame", "number": 1, "size": [1280, 720], "crop": [0, 0, 1280, 720],'
-        .. ' "what": "rgba" }', '{ "want": "abandon" }') }
+    watching.begin { ["shot.lua"] = film(50000), asks = abandoned [[
+      { "want": "frame", "number": 1, "size": [1280, 720], "crop": [0, 0, 1280, 720],
+        "what": "rgba" }]] }
     local code, out = watching.bench:inside(("{ cat asks; sleep 2; } | '%s' stage shot.lua")
       :format(workbench.absolute))
     assert.equal(0, code)
-    local _, head = (">I4s4"):unpack(out)
+    local _, at = (">s4"):unpack(out)
+    local _, head = (">I4s4"):unpack(out, at)
     local rows = json.decode(head).message:match "stopped after (%d+) of 720 rows"
     assert.is_true(tonumber(rows) <= 64, head) -- in two seconds there are some hundreds
   end)
@@ -84,7 +81,7 @@ describe("a slow frame", function()
         const { dataset } = document.querySelector("#stage");
         new MutationObserver(() => {
           const now = dataset.frame + " " + dataset.size;
-          if (window.seen.at(-1) !== now) window.seen.push(now);
+          if (dataset.size && window.seen.at(-1) !== now) window.seen.push(now);
         }).observe(document.querySelector("#stage"), { attributes: true });
       })()`);
       const sharp = frame => page.until(`${stage("frame")} === "${frame}"

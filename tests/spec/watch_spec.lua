@@ -220,8 +220,8 @@ describe("the server of celspan watch", function()
       const two = web.get("/frame/2.png"), three = web.get("/frame/3.png");
       return { two: (await two).body, three: (await three).body,
                errors: JSON.parse((await web.get("/errors.json")).body) };]=])
-    assert.truthy(said.two:find("shot.lua:3: frame 2: the script ran for more than 1 sec", 1, true),
-      said.two)
+    -- a busy machine keeps it waiting for ten seconds instead
+    assert.truthy(said.two:find "^shot.lua:3: frame 2: the script .* more than 10? sec", said.two)
     assert.truthy(said.three:find("^shot.lua:4: .*%-%-limit"), said.three)
     local lines = {}
     for _, one in ipairs(said.errors) do lines[one.frame] = one.line end

@@ -1,10 +1,12 @@
 --- celspan stage SCRIPT: a film that answers requests, for celspan watch, which runs several of
 --- them (program/renderer_service.c).
 --
---   standard input    size, { "want": "frame", "number": 3, ... }
+--   standard input    { "want": "frame", "number": 3, ... }, as program/stage_service.c reads it
 --   standard output   size, size of the head, { "good": true, ... }, bytes
 --
--- Sizes have four bytes, the highest first. Every answer has in `files` the paths that the script
+-- Sizes have four bytes, the highest first. A frame that was built is said to be `begun`; its
+-- picture, in whose head there is `picture`, comes after those of frames that were begun before it,
+-- and meanwhile other requests are answered. Every answer has in `files` the paths that the script
 -- has asked for since the one before, { path, whether it was let read there }. What the script
 -- prints goes to standard error: while it is run, and for pictures. Frames that are built for other
 -- reasons, such as checks of all of them, print nothing.
@@ -18,6 +20,7 @@ local SCRIPT_MOST = 1 << 20 -- bytes of a script in which parameters are looked 
 local TREE_MOST = 2000     -- cels and objects of a frame's tree
 local SKIN_MOST = 2048     -- pixels of a side of an onion skin
 
+local requests = program.stage()
 local film
 local parts -- the shots of a cut; nil: the film is not a cut
 
@@ -72,9 +75,6 @@ function answers.film()
   facts.shots = parts and { list = parts }
   put { good = true, film = facts, parameters = parameters() }
 end
-
---- The previous request is not wanted any more. It has been answered already.
-function answers.abandon() end
 
 --- Builds a frame. by: the frame whose camera is used, or nil.
 local function build_seen(number, by)
@@ -169,18 +169,30 @@ local function of_view(ask, method, ...)
   return film[method](film, w, h, x, y, width, height, ...)
 end
 
+local begun = {} -- the heads of pictures that are being drawn, in their order
+
 --- ask.made: { file, line }: only what this line made is shown. ask.workers: the threads that may
 --- draw it; nil: those of the command line.
 function answers.frame(ask)
   local began = program.clock()
   if not build(ask) then return end
-  local camera = film:camera()
+  local head = { picture = true, good = true, camera = film:camera(), number = ask.number }
   if ask.made then film:keep_line(ask.made[1], ask.made[2]) end
-  local bytes, message = of_view(ask, "picture", ask.what, ask.workers)
-  if not bytes then return refuse(("frame %d: %s"):format(ask.number, message)) end
+  head.seconds = program.clock() - began
+  local is_begun, message = of_view(ask, "draw", ask.what, ask.workers, requests)
+  if not is_begun then return refuse(("frame %d: %s"):format(ask.number, message)) end
   note_points(ask) -- procedures read points while they draw
-  put({ good = true, seconds = program.clock() - began, camera = camera, points = ask.points },
-    bytes)
+  head.points = ask.points
+  table.insert(begun, head)
+  put { good = true, begun = true }
+end
+
+--- Answers with a picture that was drawn. seconds: that drawing it took.
+local function put_picture(seconds, bytes, message)
+  local head = table.remove(begun, 1)
+  head.good, head.seconds = bytes ~= nil, head.seconds + seconds
+  if message then head.message = ("frame %d: %s"):format(head.number, message) end
+  put(head, bytes)
 end
 
 --- The cost of the frame, which is the first of `costs`, and the cost of each of its cels alone.
@@ -466,18 +478,6 @@ end
 
 -- ---------------------------------------------------------------- requests
 
---- A picture is given up when another request arrives, which `program/stage.c` finds out from the
---- pipe. Therefore no request may wait in a buffer of Lua.
-io.stdin:setvbuf "no"
-
---- The next request; nil: no more will arrive.
-local function take()
-  local head = io.stdin:read(4)
-  local size = head and #head == 4 and (">I4"):unpack(head)
-  local text = size and io.stdin:read(size)
-  return text and #text == size and json.decode(text) or nil
-end
-
 local good, made = pcall(program.film, request[1])
 if good then
   film = made
@@ -486,13 +486,19 @@ if good then
   parts = text ~= "" and json.decode(text) or nil
   before = with_points(before)
 end
-for ask in take do
-  if not film then
-    refuse(program.reported() or tostring(made), program.outcome())
+
+local function answer(text)
+  local ask = assert(json.decode(text))
+  if not film then return refuse(program.reported() or tostring(made), program.outcome()) end
+  film:silence(ask.want ~= "frame")
+  local is_answered, fault = pcall(answers[ask.want], ask)
+  if not is_answered then refuse(program.reported() or tostring(fault)) end
+end
+
+for kind, first, bytes, message in requests.next, requests do
+  if kind == "picture" then
+    put_picture(first, bytes, message)
   else
-    film:silence(ask.want ~= "frame")
-    local is_answered, fault = pcall(answers[ask.want], ask)
-    if not is_answered then refuse(program.reported() or tostring(fault)) end
+    answer(first)
   end
-  if program.is_stopped() then break end
 end

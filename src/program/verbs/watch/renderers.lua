@@ -1,15 +1,14 @@
---- The renderers of a film (celspan watch): processes that answer one request each at a time.
+--- The renderers of a film (celspan watch): processes that answer requests.
 --
---   ask --> queue --> an idle renderer --> done(head, bytes) or failed(message, status)
---              \--nobody is idle for SOON seconds--> one more renderer, RENDERERS_MOST at most
---               \--nobody for LATE seconds--> failed
+--   ask --> queue --> a free renderer --> building --> done(head, bytes) or failed(message, status)
+--              |                              \--> drawing, with others --> the same
+--              |--no renderer says anything for SOON seconds--> one more, RENDERERS_MOST at most
+--              \--nobody for LATE seconds--> failed
 --
--- One renderer always stays; others end when they have nothing to do.
---
--- While the film plays, several frames are wanted at once. Then renderers draw whole frames side by
--- side and share the processors: building a frame, packing it and sending it use one processor
--- each, so that all processors for one frame after the other would often wait. A frame that is
--- wanted alone has all processors.
+-- A renderer builds one frame at a time and draws several side by side, so that it is free for the
+-- next request as soon as it has built a frame. Frames that are drawn at the same time share the
+-- processors; a frame that is wanted alone has all of them. One renderer always stays; others end
+-- when they have nothing to do.
 --
 -- So a script that hangs or eats memory costs one renderer, which its limits end, and the others
 -- answer meanwhile.
@@ -23,7 +22,6 @@ local SOON, LATE = 0.25, 1.5 -- seconds
 local IDLE = 20              -- a renderer that is not needed ends after this many seconds
 local TAIL = 2000            -- bytes of the last words that are kept
 local REQUEST_MOST = 32700   -- the most bytes of a request to a renderer, without its workers
-local FRAMES_WAITING = 2     -- frames that wait, for which another renderer is started
 
 local renderers = {}
 renderers.__index = renderers
@@ -59,6 +57,12 @@ end
 
 local NOT_WANTED = "it is not wanted any more"
 
+local function give_up(one, job, wish)
+  if job.wish ~= wish or job.is_abandoned then return end
+  job.is_abandoned = true
+  one.process:abandon(job.number)
+end
+
 --- Gives up a job. A renderer that is working on it stops within a few rows.
 function renderers:abandon(wish)
   for i, job in ipairs(self.queue) do
@@ -68,17 +72,18 @@ function renderers:abandon(wish)
     end
   end
   for _, one in ipairs(self.list) do
-    if one.job and one.job.wish == wish and not one.job.is_abandoned then
-      one.job.is_abandoned = true
-      one.process:send(program.json { want = "abandon" })
-    end
+    for _, job in ipairs(one.drawing) do give_up(one, job, wish) end
+    if one.building then give_up(one, one.building, wish) end
   end
 end
+
+--- Whether a renderer has nothing to do.
+local function is_idle(one) return not one.building and #one.drawing == 0 end
 
 function renderers:is_idle()
   if #self.queue > 0 then return false end
   for _, one in ipairs(self.list) do
-    if not one.job then return true end
+    if is_idle(one) then return true end
   end
   return false
 end
@@ -96,7 +101,8 @@ end
 function renderers:start()
   local process, message = program.renderer(self:add_options { "stage", self.script })
   if not process then return nil, message end
-  local one = { process = process, tail = "", used = program.clock() }
+  -- sent: the number of requests; used: when it has said or been sent something
+  local one = { process = process, tail = "", used = program.clock(), sent = 0, drawing = {} }
   table.insert(self.list, one)
   return one
 end
@@ -119,19 +125,29 @@ local function last_words(one)
     or ("the renderer was ended by a signal: %s"):format(signal)
 end
 
+--- Ends the jobs of a renderer.
 local function finish(one, ...)
-  local job = one.job
-  one.job = nil
-  if job then job.failed(...) end
+  local jobs = one.drawing
+  jobs[#jobs + 1] = one.building
+  one.building, one.drawing = nil, {}
+  for _, job in ipairs(jobs) do job.failed(...) end
 end
 
---- Hands the answer of a renderer to the job. A trusted script can write to the same pipe, so the
---- message may be anything; what is wrong with it is raised as an error.
-function renderers:give(job, message)
+--- Takes an answer of a renderer, and hands it to its job. A trusted script can write to the same
+--- pipe, so the message may be anything; what is wrong with it is raised as an error.
+function renderers:give(one, message)
   local text, at = (">s4"):unpack(message)
   local head = assert(json.decode(text))
   self.note_files(head.files)
-  if head.good then
+  local job
+  if head.picture then
+    job = assert(table.remove(one.drawing, 1))
+  else
+    job, one.building = assert(one.building), nil
+  end
+  if head.begun then
+    table.insert(one.drawing, job)
+  elseif head.good then
     job.done(head, message:sub(at))
   elseif job.is_abandoned then
     job.failed(NOT_WANTED, 503)
@@ -143,68 +159,82 @@ end
 --- Reads what has arrived from a renderer. false: the renderer has ended.
 function renderers:listen(one)
   hear(one)
-  local message = one.process:take()
-  if message == false then
-    hear(one)
-    finish(one, last_words(one), 500)
-    return false
+  for message in one.process.take, one.process do
+    if not message then
+      hear(one)
+      finish(one, last_words(one), 500)
+      return false
+    end
+    one.used = program.clock()
+    if not pcall(self.give, self, one, message) then
+      finish(one, "the renderer's answer cannot be read", 500)
+      return false
+    end
   end
-  local job = one.job
-  if not message or not job then return message == nil end
-  one.job, one.used = nil, program.clock()
-  local is_good = pcall(self.give, self, job, message)
-  if not is_good then job.failed("the renderer's answer cannot be read", 500) end
-  return is_good
+  return true
 end
 
 -- ---------------------------------------------------------------- all of them
 
---- The next job for an idle renderer; patient jobs come last.
-function renderers:next_job()
+--- Takes the next job for a renderer from the queue; patient jobs come last. nil: it can take
+--- none.
+function renderers:next_job(one)
+  local is_full, patient = #one.drawing > self.workers, nil
   for i, job in ipairs(self.queue) do
-    if not job.is_patient then return table.remove(self.queue, i) end
+    if job.is_patient then
+      patient = patient or i
+    elseif not is_full or job.ask.want ~= "frame" then
+      return table.remove(self.queue, i)
+    end
   end
-  return table.remove(self.queue, 1)
+  return patient and table.remove(self.queue, patient)
 end
 
---- The workers of the next job: an equal share of the processors, for as many jobs as there are
---- for the renderers.
+--- The workers of the next frame: an equal share of the processors, for as many frames as are drawn
+--- then or wait.
 function renderers:share()
-  local jobs = #self.queue
-  for _, one in ipairs(self.list) do jobs = jobs + (one.job and 1 or 0) end
-  return math.max(1, self.workers // math.min(jobs, #self.list))
+  local frames = 1
+  for _, job in ipairs(self.queue) do frames = frames + (job.ask.want == "frame" and 1 or 0) end
+  for _, one in ipairs(self.list) do frames = frames + #one.drawing end
+  return math.max(1, self.workers // frames)
+end
+
+--- Sends a job to a renderer.
+function renderers:give_job(one, job)
+  one.sent, one.used = one.sent + 1, program.clock()
+  job.number = one.sent
+  one.building = job
+  job.ask.workers = self:share()
+  if not one.process:send(program.json(job.ask)) then
+    finish(one, "the renderer has ended", 500)
+  end
 end
 
 function renderers:hand_out()
   for _, one in ipairs(self.list) do
-    if #self.queue == 0 then return end
-    if not one.job then
-      local workers = self:share()
-      one.job = self:next_job()
-      one.job.ask.workers = workers
-      if not one.process:send(program.json(one.job.ask)) then
-        finish(one, "the renderer has ended", 500)
-      end
-    end
+    local job = not one.building and self:next_job(one)
+    if job then self:give_job(one, job) end
   end
 end
 
---- Whether frames wait for which there are processors, but no renderers.
-function renderers:has_room()
-  local frames = 0
-  for _, job in ipairs(self.queue) do frames = frames + (job.ask.want == "frame" and 1 or 0) end
-  return frames >= FRAMES_WAITING and #self.list < self.workers
+--- Whether no renderer has said anything for a while.
+function renderers:is_silent(now)
+  for _, one in ipairs(self.list) do
+    if now - one.used <= SOON then return false end
+  end
+  return true
 end
 
 --- Gives up jobs that have waited too long, and starts a renderer if jobs wait.
 function renderers:hurry()
-  local now, waits = program.clock(), #self.list == 0 and #self.queue > 0 or self:has_room()
+  local now = program.clock()
+  local waits, is_silent = #self.list == 0 and #self.queue > 0, self:is_silent(now)
   for i = #self.queue, 1, -1 do
     local job = self.queue[i]
     if not job.is_patient and now - job.since > LATE and #self.list >= RENDERERS_MOST then
       table.remove(self.queue, i)
       job.failed("all renderers are at work: the film is slow, or does not end", 503)
-    elseif not job.is_patient and now - job.since > SOON then
+    elseif is_silent and not job.is_patient and now - job.since > SOON then
       waits = true
     end
   end
@@ -218,15 +248,13 @@ end
 --- Whether a renderer has ended, or is not needed any more.
 function renderers:is_over(one)
   if not self:listen(one) then return true end
-  return #self.list > 1 and not one.job and program.clock() - one.used > IDLE
+  return #self.list > 1 and is_idle(one) and program.clock() - one.used > IDLE
 end
 
 function renderers:step()
-  for i = #self.list, 1, -1 do
-    if self:is_over(self.list[i]) then
-      self.list[i].process:finish()
-      table.remove(self.list, i)
-    end
+  local list = self.list -- a job that has failed may close all of them, and then there is another
+  for i = #list, 1, -1 do
+    if self:is_over(list[i]) then table.remove(list, i).process:kill() end
   end
   self:hand_out()
   self:hurry()
@@ -248,7 +276,7 @@ function renderers:close(message, status)
   self.list, self.queue = {}, {}
   for _, one in ipairs(list) do
     hear(one)
-    one.process:finish()
+    one.process:kill()
     finish(one, message, status)
   end
   for _, job in ipairs(queue) do job.failed(message, status) end
