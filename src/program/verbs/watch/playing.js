@@ -9,7 +9,7 @@ import {
   beginSound, endSound, feedSound, hasSound, heardSeconds, muteSound, setSoundOf, tapSound,
 } from "/sound.js";
 import {
-  clamp, element, here, icon, isReady, lanes, loop, play, setPressed, state, view,
+  clamp, element, here, icon, isReady, lanes, loop, play, setPressed, setWords, state, view,
 } from "/state.js";
 import { drawRuler, followHead } from "/timeline.js";
 
@@ -56,7 +56,7 @@ function stop() {
   for (const wanted of [...asked.values()].flat()) abandon(wanted);
   endSound();
   showPlaying(false);
-  here("rate").textContent = "";
+  setWords("rate", "");
 }
 
 function showPlaying(isOn) {
@@ -149,7 +149,7 @@ function passedSeconds() {
 function showRate(now) {
   play.painted = play.painted.filter(time => now - time < 1000);
   const age = Math.min(play.passed, 1);
-  here("rate").textContent = age > 0.5 ? `${(play.painted.length / age).toFixed(1)} fps` : "";
+  setWords("rate", age > 0.5 ? `${(play.painted.length / age).toFixed(1)} fps` : "");
 }
 
 function tick(now) {
