@@ -9,9 +9,9 @@ const FAULT_FRAMES = 6;      // frames of one fault that are listed
 
 /** The error of a film, or of the frame that is shown; null: neither. */
 function currentFault(one = main) {
-  const { shown, errors, build } = stateOf(one), refused = one.refused;
+  const { shown, errors, build } = stateOf(one), refused = one.refused.get(view.number);
   if (!shown) return errors[0] || null;
-  if (refused && refused.number === view.number && refused.build === build) {
+  if (refused?.build === build) {
     return errors.find(known => known.message === refused.message) || refused;
   }
   // false until there is a picture

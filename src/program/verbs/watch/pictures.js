@@ -43,8 +43,9 @@ function keep(address, picture) {
   }
 }
 
-/** Forgets the pictures of a film. */
+/** Forgets the pictures of a film, and which of its frames could not be made. */
 export function forget(one) {
+  one.refused.clear();
   for (const [address, picture] of kept) {
     if (picture.lane !== one) continue;
     kept.delete(address);
@@ -257,7 +258,7 @@ async function takeBest(picture) {
   one.slowness = picture.seconds;
   one.fetching = null;
   paint(picture);
-  one.refused = null;
+  one.refused.delete(picture.number);
   showFault(one);
   showPoint(one);
   if (one === main) await addTo(picture);
@@ -298,7 +299,7 @@ export async function failed(fault, wanted) {
   const one = wanted.lane;
   if (fault.status !== 503) noteSeen();
   if (fault.status === 422) {
-    one.refused = { number: wanted.number, build: wanted.build, message: fault.message.trim() };
+    one.refused.set(wanted.number, { build: wanted.build, message: fault.message.trim() });
     return showFault(one);
   }
   if (!one.isWanted) await pause(0.3);

@@ -124,15 +124,28 @@ async function fetchOne(wanted) {
   }
 }
 
-/** The pictures that are due after that many frames, or the newest before them that have not been
- * shown: they, the frame and its place; null: there are none. */
-function duePictures(passed) {
+/** Whether the picture of a wish is here, or is known to fail. */
+const isKnown = ({ address, lane, number, build }) =>
+  kept.has(address) || lane.refused.get(number)?.build === build;
+
+/** The frame that is due after that many frames, or the newest before it that has not been shown:
+ * what is wanted of it, its number and its place; null: there is none. */
+function dueFrame(passed) {
   for (let at = passed; at > play.shown && at > passed - BEHIND; at--) {
-    const number = onward(play.number, at * play.direction);
-    const pictures = wishes(number).map(one => kept.get(one.address));
-    if (pictures.length > 0 && pictures.every(Boolean)) return { pictures, number, at };
+    const number = onward(play.number, at * play.direction), all = wishes(number);
+    if (all.length > 0 && all.every(isKnown)) return { all, number, at };
   }
   return null;
+}
+
+/** Shows what is due of a film: its picture, or the error over the last one. */
+function showDue({ address, lane, number }) {
+  const picture = kept.get(address);
+  if (picture) {
+    lane.refused.delete(number);
+    paint(picture);
+  }
+  if (!picture || lane.lastFault) showFault(lane);
 }
 
 /** Seconds since the start, by the sound's clock as soon as it is heard. */
@@ -156,11 +169,11 @@ function tick(now) {
   isTicking = play.direction !== 0 && Boolean(state.film);
   if (!isTicking) return;
   const elapsed = passedSeconds() * state.film.fps * play.speed, passed = Math.floor(elapsed);
-  const due = duePictures(passed);
+  const due = dueFrame(passed);
   if (due) {
     play.shown = due.at;
     view.number = due.number;
-    due.pictures.forEach(paint);
+    due.all.forEach(showDue);
     play.painted.push(now);
     showNumbers();
     followHead();

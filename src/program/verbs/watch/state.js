@@ -27,15 +27,15 @@ export const looks = { isMatte: false, hasSpans: false, mixing: "", held: 0, old
 // The part of the film that the timeline shows, in frames from 0.
 export const span = { from: 0, to: 1 };
 
-/** What is known of one of the films and its canvas. refused: the frame that could not be made,
- * { number, build, message }. lastFault: the error that is shown. painted: the picture. slowness:
- * the seconds that it took. late: the timer after which an older picture is seen as one. fetching:
- * the picture that is on its way, { wanted, since }. given: values of parameters, as the address
- * holds them; wrong: sentences about others, by their names. isRefilled: all of them were given
- * again. */
+/** What is known of one of the films and its canvas. refused: the frames that could not be made,
+ * { build, message } by their numbers. lastFault: the error that is shown. painted: the picture.
+ * slowness: the seconds that it took. late: the timer after which an older picture is seen as one.
+ * fetching: the picture that is on its way, { wanted, since }. given: values of parameters, as the
+ * address holds them; wrong: sentences about others, by their names. isRefilled: all of them were
+ * given again. */
 const lane = (side, canvas, box) => ({
-  side, canvas, box, pen: canvas.getContext("2d"), painted: null, refused: null, lastFault: null,
-  isAsking: false, isWanted: false, slowness: 0, late: 0, fetching: null,
+  side, canvas, box, pen: canvas.getContext("2d"), painted: null, refused: new Map(),
+  lastFault: null, isAsking: false, isWanted: false, slowness: 0, late: 0, fetching: null,
   given: new URLSearchParams(), wrong: { __proto__: null }, isGiven: false, isSending: false,
   isChanged: false, isRefilled: false, wantedBuild: 0, formOf: "",
 });

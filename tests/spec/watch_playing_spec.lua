@@ -1,0 +1,140 @@
+-- celspan watch: playing while hands, saves, errors and other windows get in its way.
+local present = require "tests.support.present"
+local watching = require "tests.support.watching"
+
+if not present.web() then return pending "celspan was built without libmicrohttpd" end
+if not present.program("node", "chromium") then return pending "there is no node or chromium" end
+
+-- The frames after GOOD fail.
+local FILM = [[
+local celspan = require "celspan"
+return celspan.film { size = { 64, 36 }, fps = 24, frames = 48, frame = function(f)
+  assert(f.number <= GOOD, "no drawing of " .. f.number)
+  return celspan.rostrum { celspan.cel { celspan.circle { centre = { f.index, 9 }, radius = 4 } } }
+end }
+]]
+
+local function film(good) return (FILM:gsub("GOOD", tostring(good))) end
+
+--- Steps in the page of a film that is shown. The page counts the ticks that wait for a moment to
+--- draw, and keeps what was asked for: the number of the frame, the build, and the status.
+local function see(script, steps)
+  watching.bench:write("shot.lua", script)
+  return watching.see(watching.watch(), [=[
+    const number = `Number(${stage("frame")})`;
+    const isWrong = `!document.querySelector("#error").hidden`;
+    const shown = `Number(document.querySelector("#frame").textContent)`;
+    const save = text => page.write("]=] .. watching.bench.folder .. [=[/shot.lua", text);
+    await page.until(`${number} === 1`);
+    await page.get(`(() => {
+      window.most = 0;
+      window.asked = [];
+      const real = window.fetch, next = window.requestAnimationFrame, waiting = new Set();
+      window.fetch = async (address, more) => {
+        const frame = /^.frame.([0-9]+).*build=([0-9]+)/.exec(address);
+        const one = frame && { number: Number(frame[1]), build: Number(frame[2]) };
+        if (one) asked.push(one);
+        const answer = await real(address, more);
+        if (one) one.status = answer.status;
+        return answer;
+      };
+      window.requestAnimationFrame = act => {
+        if (act.name === "tick") waiting.add(act = act.bind(null));
+        most = Math.max(most, waiting.size);
+        return next(now => { waiting.delete(act); act(now); });
+      };
+    })()`);]=] .. steps)
+end
+
+before_each(function() watching.begin {} end)
+after_each(watching.finish)
+
+describe("playing in the page of celspan watch #plain", function()
+  it("is one chain of ticks, however quickly it is begun, ended and changed", function()
+    local said = see(film(48), [=[
+      await page.get(`(() => {
+        const press = key => document.body.dispatchEvent(
+          new KeyboardEvent("keydown", { key, bubbles: true }));
+        for (let i = 0; i < 20; i++) {
+          for (const key of ["k", "k", "k", "l", "l", "j", "i", "x", "ArrowRight", "l"]) press(key);
+        }
+      })()`);
+      await page.until(`${number} > 30`);
+      await page.press("k");
+      const name = await page.get(`document.querySelector("#play").ariaLabel`);
+      await page.press("j");
+      await page.until(`${number} < 20`);
+      return { most: await page.get("most"), name };]=])
+    assert.same({ most = 1, name = "Play" }, said)
+  end)
+
+  it("continues over frames that fail, shows their errors, and asks for each once", function()
+    local said = see(film(24), [=[
+      await page.press("l");
+      const errors = [];
+      for (let lap = 0; lap < 3; lap++) {
+        await page.until(`${isWrong} && ${shown} > 24`);
+        errors.push(await text("error"), await page.get(`${number} <= 24`));
+        await page.until(`!${isWrong} && ${shown} <= 24 && ${number} <= 24`);
+      }
+      const name = await page.get(`document.querySelector("#play").ariaLabel`);
+      return { errors, name, twice: await page.get(`(list => list.filter((one, i) =>
+        list.indexOf(one) < i))(asked.filter(one => one.status === 422).map(one => one.number))`) };
+    ]=])
+    for lap = 1, 3 do
+      assert.truthy(said.errors[2 * lap - 1]:find "no drawing of %d+$", said.errors[2 * lap - 1])
+      assert.is_true(said.errors[2 * lap])
+    end
+    assert.same({ "Pause", {} }, { said.name, said.twice })
+  end)
+
+  it("asks for nothing while nobody can see it, and continues where the clock is", function()
+    local said = see((film(9999):gsub("frames = 48", "frames = 9999")), [=[
+      const { windowId } = await page.call("Browser.getWindowForTarget");
+      const turn = async (windowState, isHidden) => {
+        await page.call("Browser.setWindowBounds", { windowId, bounds: { windowState } });
+        await page.until(`document.hidden === ${isHidden}`);
+      };
+      await page.press("l");
+      await page.until(`${number} > 3`);
+      const before = await page.get(shown);
+      await turn("minimized", true);
+      await page.until("asked.every(one => one.status)");
+      const count = await page.get("asked.length");
+      await page.pause(2);
+      const more = await page.get("asked.length") - count;
+      await turn("normal", false);
+      await page.until(`${number} > ${before + 48}`);
+      return { more, jump: await page.get(`asked[${count}].number`) - before };]=])
+    assert.equal(0, said.more)
+    assert.is_true(said.jump >= 48, said.jump)
+  end)
+
+  it("continues after saves in quick succession, most of them broken", function()
+    local said = see(film(48), ([=[
+      const good = %q, short = good.replace("frames = 48", "frames = 12");
+      const broken = ["return nil +", "error 'no film'", good.replace("36 }", "0 }"),
+                      good.replace("<= 48", "<= 0"), "while true do", ""];
+      for (const [key, last, count] of [["l", good, 48], ["j", short, 12], ["l", good, 48]]) {
+        await page.press(key);
+        for (let i = 0; i < 24; i++) {
+          save(i %% 4 ? broken[i %% broken.length] : good);
+          await page.pause(0.02 * (i %% 5));
+        }
+        save("return nil +");
+        await page.until(`${isWrong} && document.querySelector("#error").textContent
+          .includes("unexpected symbol")`);
+        const build = await page.get(`Number(${stage("build")})`);
+        save(last);
+        await page.until(`document.querySelector("#frames").textContent === "${count}"
+          && !${isWrong} && Number(${stage("build")}) > ${build}
+          && asked.some(one => one.status === 200 && one.number > 1 && one.build > ${build})`);
+        const first = await page.get(number);
+        await page.until(`${number} !== ${first}`);
+      }
+      await page.until(`${number} > 30`);
+      return { name: await page.get(`document.querySelector("#play").ariaLabel`),
+               most: await page.get("most") };]=]):format(film(48)):gsub("\\\n", "\\n"))
+    assert.same({ name = "Pause", most = 1 }, said)
+  end)
+end)
