@@ -19,12 +19,14 @@ local function film(good) return (FILM:gsub("GOOD", tostring(good))) end
 --- Steps in the page of a film that is shown. The page counts the ticks that wait for a moment to
 --- draw, and keeps what was asked for: the number of the frame, the build, and the status.
 local function see(script, steps)
-  watching.bench:write("shot.lua", script)
-  return watching.see(watching.watch(), [=[
+  watching.bench:inside "mkdir film"
+  watching.bench:write("film/shot.lua", script)
+  return watching.see(watching.watch "film/shot.lua", [=[
     const number = `Number(${stage("frame")})`;
     const isWrong = `!document.querySelector("#error").hidden`;
     const shown = `Number(document.querySelector("#frame").textContent)`;
-    const save = text => page.write("]=] .. watching.bench.folder .. [=[/shot.lua", text);
+    const folder = "]=] .. watching.bench.folder .. [=[/film";
+    const save = text => page.write(folder + "/shot.lua", text);
     await page.until(`${number} === 1`);
     await page.get(`(() => {
       window.most = 0;
@@ -137,4 +139,33 @@ describe("playing in the page of celspan watch #plain", function()
                most: await page.get("most") };]=]):format(film(48)):gsub("\\\n", "\\n"))
     assert.same({ name = "Pause", most = 1 }, said)
   end)
+
+  it("continues after the folder of the film was removed, and a render into it leaves nothing",
+    function()
+      local said = see((film(1000000):gsub("frames = 48", "frames = 1000000")), [=[
+        const fs = require("fs"), good = fs.readFileSync(folder + "/shot.lua", "utf8");
+        const state = `document.querySelector("#render-state").dataset.state`;
+        const click = id => page.get(`document.querySelector("#${id}").click()`);
+        await page.press("l");
+        await click("render");
+        await click("render-start");
+        await page.until(`/^frame [1-9]/.test(
+          document.querySelector("#render-words").textContent)`);
+        fs.rmSync(folder, { recursive: true });
+        await page.until(isWrong);
+        const error = await text("error");
+        await click("render-cancel");
+        await page.until(`["cancelled", "failed"].includes(${state})`);
+        await click("render-start");
+        await page.until(`${state} === "failed"`);
+        const words = await text("render-words");
+        fs.mkdirSync(folder);
+        save(good);
+        await page.until(`!${isWrong}`);
+        const first = await page.get(number);
+        await page.until(`${number} !== ${first}`);
+        return { error, words, left: fs.readdirSync(folder) };]=])
+      local missing = "cannot open film/shot.lua: No such file or directory"
+      assert.same({ error = missing, words = missing, left = { "shot.lua" } }, said)
+    end)
 end)

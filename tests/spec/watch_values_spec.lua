@@ -152,6 +152,39 @@ describe("the form of values #plain", function()
     assert.same({ "#size=6", "20,18" }, { said.last, said.lamp })
   end)
 
+  it("has fields that are named like parts of a form, and one whose default is false", function()
+    watching.bench:write("shot.lua", [[
+local celspan = require "celspan"
+celspan.parameters { elements = { 3, group = "<b>one</b>" }, contains = "<i>two</i>",
+  replaceChildren = { false, about = "<b>three</b>" }, querySelector = 4 }
+return celspan.film { size = { 64, 36 }, frames = 9, frame = function()
+  return celspan.rostrum { celspan.cel { celspan.circle { centre = { 9, 9 }, radius = 4 } } }
+  end }
+]])
+    local said = watching.see(watching.watch(), [=[
+      await page.until(`${stage("frame")} === "1"`);
+      await page.press("v");
+      const command = `document.querySelector("#command").value`;
+      const act = (name, what) => page.get(`document.querySelector("#form [name=${name}]")${what}`);
+      const check = () => act("replaceChildren", ".click()");
+      await check();
+      await page.until(`${command}.includes("--set replaceChildren=true")`);
+      await act("contains", ".select()");
+      await page.press("x");
+      await page.press("Enter");
+      await page.until(`${command}.includes("--set contains=x")`);
+      await check();
+      await page.until(`!${command}.includes("replaceChildren")`);
+      await page.get(`document.querySelector("#reset-values").click()`);
+      await page.until(`!${command}.includes("--set")
+        && !document.querySelector("#stage").hasAttribute("data-stale")`);
+      return { tags: await page.get(`document.querySelectorAll("#form b, #form i").length`),
+        names: await page.get(`[...document.querySelectorAll("#form [name]")]
+          .map(one => one.name)`) };]=])
+    assert.same({ tags = 0, names = { "elements", "contains", "replaceChildren",
+                                      "querySelector" } }, said)
+  end)
+
   it("has handles that can be hidden, and that leave clicks to the inspector", function()
     local said = watching.see(watching.watch(), [=[
       await page.until(`${stage("frame")} === "1"`);
