@@ -1,4 +1,5 @@
--- celspan watch: which frames are asked for while a film plays, and what comes first.
+-- celspan watch: which frames are asked for while a film plays, what is kept of them, and what comes
+-- first.
 local json = require "celspan.json"
 local present = require "tests.support.present"
 local system = require "tests.support.system"
@@ -46,22 +47,38 @@ console.log(JSON.stringify({ list: [[15, 1], [21, 1], [13, 1], [18, 1], [40, 1],
   .map(one => played(...one)) }));
 ]=]
 
+--- What a module of the page prints, as JSON, with more text at its end.
+local function run(module, text)
+  local name = os.tmpname()
+  system.write(name .. ".mjs", system.read("src/program/verbs/watch/" .. module) .. text)
+  local pipe = assert(io.popen("node " .. name .. ".mjs 2>&1"))
+  local said = pipe:read "a"
+  pipe:close()
+  os.remove(name)
+  os.remove(name .. ".mjs")
+  return assert(json.decode(said), said)
+end
+
 describe("playing", function()
   it("shows nearly all frames that can be drawn in time", function()
-    local name = os.tmpname()
-    system.write(name .. ".mjs", system.read "src/program/verbs/watch/pace.js" .. MODEL)
-    local pipe = assert(io.popen("node " .. name .. ".mjs 2>&1"))
-    local said = pipe:read "a"
-    pipe:close()
-    os.remove(name)
-    os.remove(name .. ".mjs")
-    local list = assert(json.decode(said), said).list
+    local list = run("pace.js", MODEL).list
     local least = { 14, 19, 12, 16.5, 23.5, 14 }
     for i, one in ipairs(list) do
-      assert.is_true(one[1] >= least[i], said)
-      assert.is_true(one[2] < 5, said)
+      assert.is_true(one[1] >= least[i], one[1])
+      assert.is_true(one[2] < 5, one[2])
     end
     assert.equal(#least, #list)
+  end)
+
+  it("leaves a bar for each of half a million frames", function()
+    local said = run("cost.js", [=[
+      for (let i = 1; i <= 500000; i++) noteTime(i, i === 7 ? 2 : 1, 1);
+      const heights = new Set();
+      let count = 0;
+      const brush = { fillRect: (x, y, wide, height) => { count++; heights.add(height); } };
+      drawStrip(brush, 0, 24, x => x, 1, 0.5, {});
+      console.log(JSON.stringify({ count, heights: [...heights] }));]=])
+    assert.same({ count = 500000, heights = { 10, 20 } }, said)
   end)
 end)
 

@@ -28,7 +28,8 @@ export const isSlow = (number, due) => times.get(number) > SLOW_SHARE * due;
 /** A bar for each frame whose time is known, from y on; `due`: the seconds that a frame may take.
  * xOf, unit: of the timeline. */
 export function drawStrip(brush, y, height, xOf, unit, due, colours) {
-  const most = Math.max(due, ...times.values());
+  let most = due; // a call cannot take all of them: there may be more than 100,000
+  for (const seconds of times.values()) most = Math.max(most, seconds);
   for (const [number, seconds] of times) {
     const bar = Math.max(1, seconds / most * (height - 4));
     brush.fillStyle = seconds > SLOW_SHARE * due ? colours.slow : colours.quiet;
