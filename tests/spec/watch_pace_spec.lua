@@ -1,5 +1,5 @@
--- celspan watch: which frames are asked for while a film plays, what is kept of them, and what comes
--- first.
+-- celspan watch: which frames are asked for while a film plays, what is kept of them, and what
+-- comes first.
 local json = require "celspan.json"
 local present = require "tests.support.present"
 local system = require "tests.support.system"
