@@ -5,6 +5,7 @@ local present = require "tests.support.present"
 local rendering = require "tests.support.rendering"
 local workbench = require "tests.support.workbench"
 
+local HAS_ALL = (tonumber(os.getenv "CELSPAN_SCENES") or 300) >= 300
 local it_reads = present.program("ffmpeg", "ffprobe") and it or pending
 
 --- Four fields of one colour each, and a bar that grows with the frames. With "glass" half of the
@@ -194,13 +195,16 @@ return celspan.film { size = { %d, %d }, fps = 24, frames = %d, grain = { amount
     assert.is_true(bytes <= most and bytes >= 0.85 * most, codec .. bytes)
   end
   it_reads("fills --max-size with noise, too", function()
-    for _, case in ipairs { { "h264", 12000 }, { "h264", 20000 }, { "h265", 12000 } } do
+    -- A whole step is 29025 or 23840 bytes of H.264, of which neither fills the limit of 28900.
+    for _, case in ipairs { { "h264", 12000 }, { "h264", 28900 }, { "h265", 12000 } } do
       filled(NOISE:format(320, 180, 12, 40, 320, 180), case[1], case[2])
     end
   end)
-  it_reads("fills 2 MB with noise of 1080 lines #full", function()
-    filled(NOISE:format(1920, 1080, 96, 240, 1920, 1080), "h264", 2e6)
-  end)
+  if HAS_ALL then
+    it_reads("fills 2 MB with noise of 1080 lines #full", function()
+      filled(NOISE:format(1920, 1080, 96, 240, 1920, 1080), "h264", 2e6)
+    end)
+  end
 
   --- Puts a program called ffmpeg first in PATH, which adds a line to the file `calls` and runs
   --- ffmpeg. Returns the setting of PATH.
