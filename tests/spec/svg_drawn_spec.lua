@@ -1,7 +1,7 @@
 -- Drawings by celspan as other programs draw them: SVG by headless Chromium, librsvg and resvg, and
 -- PDF by Poppler.
 -- 12 drawings and 6 frames of films, of 512 pixels and of 2048. All but SOON are tagged #full, and
--- at 2048 these alone are drawn unless every case is wanted, because each takes half a minute.
+-- at 2048 these alone are drawn unless every case is wanted, because each takes six seconds.
 local browsing = require "tests.support.browsing"
 local celspan = require "celspan"
 local present = require "tests.support.present"
@@ -48,13 +48,20 @@ local bench
 before_each(function() bench = workbench.new() end)
 after_each(function() bench:remove() end)
 
---- Writes an output of a case.
-local function write(case, name, options)
-  local of = case[2] and ("render %s --trust --frames %d"):format(case[1], case[2])
-    or ("convert %s"):format(case[1])
-  local code, _, err = bench:celspan("%s %s '%s/%s' %s", of, case[2] and "-o" or "", bench.folder,
-    name, options or "")
+local function done(...)
+  local code, _, err = bench:celspan(...)
   assert.equal(0, code, err)
+end
+
+--- The arguments that make an output of a case, before its name.
+local function making(case)
+  return case[2] and ("render %s --trust --frames %d --progress none -o"):format(case[1], case[2])
+    or "convert " .. case[1]
+end
+
+--- Writes an output of a case with a number of pixels, or a drawing in its own.
+local function write(case, name, w, h)
+  done("%s '%s/%s' %s", making(case), bench.folder, name, w and ("--size %dx%d"):format(w, h) or "")
 end
 
 --- Writes the codes of a picture.
@@ -64,6 +71,16 @@ local function unpack_picture(name, w, h)
   local rostrum = celspan.rostrum { celspan.cel { picture } }
   local pixels = assert(celspan.pixels(rostrum, { size = { w, h }, film = { w, h } }))
   bench:write(name, pixels:bytes { depth = 8 })
+end
+
+--- Writes the codes of a case. Those of a film need no picture, which takes seconds to read where
+--- it has many pixels.
+local function write_codes(case, name, w, h)
+  if case[2] then
+    return done("%s - --size %dx%d >'%s/%s'", making(case), w, h, bench.folder, name)
+  end
+  write(case, name .. ".png", w, h)
+  unpack_picture(name, w, h)
 end
 
 --- The width and the height of a drawing in pixels, where that of its longer side is given.
@@ -77,15 +94,13 @@ end
 local function found_in(case, side)
   write(case, "x.svg")
   local w, h = size_of(side)
-  write(case, "x.svg", ("--size %dx%d"):format(w, h))
-  write(case, "frame.png", ("--size %dx%d"):format(w, h))
-  write(case, "fine.png", ("--size %dx%d"):format(FINE * w, FINE * h))
+  write(case, "x.svg", w, h)
+  write_codes(case, "frame", w, h)
+  write_codes(case, "fine", FINE * w, FINE * h)
   assert.equal(0, (bench:inside "rsvg-convert x.svg -o librsvg.png"))
-  unpack_picture("frame", w, h)
-  unpack_picture("fine", FINE * w, FINE * h)
   unpack_picture("librsvg", w, h)
   if HAS_PDF and side == 512 then
-    write(case, "x.pdf", ("--size %dx%d"):format(w, h))
+    write(case, "x.pdf", w, h)
     assert.equal(0, (bench:inside "pdftoppm -singlefile -r 72 -png x.pdf poppler"))
     unpack_picture("poppler", w, h)
   end

@@ -21,41 +21,50 @@ function overWhite(bytes) {
 
 const read = name => overWhite(new Uint8ClampedArray(fs.readFileSync(`${folder}/${name}`)));
 
-/** For each channel of each pixel, the least or the greatest code within a number of pixels. */
-function within(codes, better, radius) {
-  const along = (list, count, stride) => list.map((code, i) => {
-    const at = Math.floor(i / stride) % count;
-    const last = Math.min(radius, count - 1 - at);
-    for (let k = Math.max(-radius, -at); k <= last; k++) code = better(code, list[i + k * stride]);
-    return code;
-  });
-  return along(along(codes, W, 4), H, 4 * W);
+// Ranges have the least and the greatest code of each channel of each pixel. They grow in loops, because
+// functions of arrays take four times as long.
+const rangesOf = codes => ({ least: codes.slice(), most: codes.slice() });
+
+function grow(ranges, at, least, most) {
+  if (least < ranges.least[at]) ranges.least[at] = least;
+  if (most > ranges.most[at]) ranges.most[at] = most;
 }
 
-/** The least or the greatest codes of a pixel in both frames. */
-function everyOne(frame, fine, better) {
-  const out = frame.slice();
-  for (let i = 0; i < fine.length; i++) {
-    const x = Math.floor((i >> 2) % (FINE * W) / FINE), y = Math.floor(i / (4 * FINE * FINE * W));
-    const at = 4 * (W * y + x) + i % 4;
-    out[at] = better(out[at], fine[i]);
-  }
+/** The ranges of the pixels within a number of columns, where the stride is 4, or of rows. */
+function along(ranges, radius, stride, line) {
+  const { least, most } = ranges;
+  const out = { least: least.slice(), most: most.slice() };
+  for (let start = 0; start < least.length; start += line)
+    for (let k = stride; k <= radius * stride; k += stride)
+      for (let i = start, j = start + k; j < start + line; i++, j++) {
+        grow(out, i, least[j], most[j]);
+        grow(out, j, least[i], most[i]);
+      }
   return out;
 }
 
-const less = (a, b) => a < b ? a : b, more = (a, b) => a > b ? a : b;
+const within = (ranges, radius) => along(along(ranges, radius, 4, 4 * W), radius, 4 * W, 4 * W * H);
+
+/** Lets ranges have the codes of a frame with more pixels, too. */
+function include(ranges, fine) {
+  for (let y = 0, i = 0; y < FINE * H; y++)
+    for (let x = 0; x < FINE * W; x++)
+      for (let c = 0; c < 4; c++, i++)
+        grow(ranges, 4 * (W * Math.floor(y / FINE) + Math.floor(x / FINE)) + c, fine[i], fine[i]);
+  return ranges;
+}
+
 const frame = read("frame"), fine = read("fine");
-const near = [within(frame, less, 1), within(frame, more, 1)];
-const far = [within(everyOne(frame, fine, less), less, 2), within(everyOne(frame, fine, more), more, 2)];
+const near = within(rangesOf(frame), 1), far = within(include(rangesOf(frame), fine), 2);
 
 function compare(drawn) {
   let flat = 0, same = 0, worst = 0, place = [0, 0], seams = 0;
   for (let i = 0; i < drawn.length; i += 4) {
     let isFlat = true, off = 0, beyond = 0;
     for (let c = i; c < i + 3; c++) {
-      isFlat &&= near[1][c] - near[0][c] <= 3;
-      off = more(off, Math.abs(drawn[c] - frame[c]));
-      beyond = more(beyond, more(far[0][c] - drawn[c], drawn[c] - far[1][c]));
+      isFlat &&= near.most[c] - near.least[c] <= 3;
+      off = Math.max(off, Math.abs(drawn[c] - frame[c]));
+      beyond = Math.max(beyond, far.least[c] - drawn[c], drawn[c] - far.most[c]);
     }
     flat += isFlat;
     same += isFlat && off <= 3;
@@ -77,7 +86,7 @@ async function drawInBrowser() {
   })()`);
   const out = new Uint8ClampedArray(4 * W * H), BAND = 128;
   for (let y = 0; y < H; y += BAND) {
-    const band = `canvas.getImageData(0, ${y}, ${W}, ${less(BAND, H - y)}).data.buffer`;
+    const band = `canvas.getImageData(0, ${y}, ${W}, ${Math.min(BAND, H - y)}).data.buffer`;
     out.set(Buffer.from(await page.get(`new Uint8Array(${band}).toBase64()`), "base64"), 4 * W * y);
   }
   return overWhite(out);
