@@ -365,7 +365,7 @@ return celspan.film { size = { 60, 40 }, frames = 1, frame = function()
     end
   end)
 
-  it("has a limit of borders", function()
+  it("has a limit of borders #plain", function()
     bench:write("dust.lua", [[
 local celspan = require "celspan"
 return celspan.film { size = { 1000, 1000 }, frames = 1, frame = function()

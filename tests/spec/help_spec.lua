@@ -98,7 +98,7 @@ local designers = {
   "render queue", "colour scripts",
 }
 
-describe("the search of help", function()
+describe("the search of help #plain", function() -- in Lua, and in a build as in another
   it("leads from the words of other programs to a recipe, a chapter or a name", function()
     for phrase, place in pairs(expected) do
       local found = table.concat(places(find(phrase)), "\n")

@@ -273,7 +273,7 @@ describe("the verb info", function()
   end)
 
   describe("of a very long film", function()
-    it("distinguishes its scenes with bounded memory", function()
+    it("distinguishes its scenes with bounded memory #plain", function()
       local script = write("long.lua", [[
         local celspan = require "celspan"
         return celspan.film{ size = {8, 4}, frames = 550000, frame = function(f)

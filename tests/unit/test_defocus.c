@@ -235,6 +235,8 @@ static void check_coarse(void) {
   static studio s;
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
   for (int k = 0; k < 9; k++) {
+    if (!check_is_drawn(k))
+      continue;
     double radius = k < 6 ? 6 : 16;
     celspan_defocus_kernel kernel = (celspan_defocus_kernel)(k % 3);
     random_state = 990 + (uint64_t)k;
@@ -251,6 +253,8 @@ static void check_ramps(double least, celspan_antialias_mode mode) {
   static studio s;
   CHECK(celspan_context_create(NULL, &s.context) == CELSPAN_OK);
   for (int k = 0; k < 12; k++) {
+    if (!check_is_drawn(k))
+      continue;
     double radius = least * (1 + 0.75 * (k % 4));
     celspan_defocus_kernel kernel = (celspan_defocus_kernel)(k % 3);
     random_state = 4000 + (uint64_t)k;

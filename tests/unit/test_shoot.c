@@ -233,6 +233,8 @@ static void check_stream(studio *s, int workers, size_t slots) {
 static void check_failed_stream(studio *s, int workers, size_t slots) {
   for (int at = 0; at < FRAMES * STEPS; at++) {
     int number = at / STEPS;
+    if (!check_is_drawn(at + workers + (int)slots))
+      continue;
     stream t = {.scenes = s, .fails_at = number, .step = at % STEPS};
     celspan_status status = shoot_stream(&t, workers, slots, true);
     CHECK(status == CELSPAN_CALLBACK && t.failed == 1);
@@ -246,6 +248,8 @@ static void check_failed_stream(studio *s, int workers, size_t slots) {
 static void check_kept_going(studio *s, int workers, size_t slots) {
   for (int at = 0; at < FRAMES * STEPS; at++) {
     int number = at / STEPS;
+    if (!check_is_drawn(at + workers + (int)slots))
+      continue;
     stream t = {.scenes = s, .fails_at = number, .step = at % STEPS, .goes_on = true};
     bool is_repeat = number % 2 == 1;
     t.fails_at = is_repeat && t.step == MAKING ? NOWHERE : number;
