@@ -53,15 +53,21 @@ local function done(...)
   assert.equal(0, code, err)
 end
 
---- The arguments that make an output of a case, before its name.
-local function making(case)
-  return case[2] and ("render %s --trust --frames %d --progress none -o"):format(case[1], case[2])
-    or "convert " .. case[1]
+--- The arguments that render the frame of a case, before the name of an output.
+local function rendering(case)
+  return ("render %s --trust --frames %d --progress none -o"):format(case[1], case[2] or 1)
 end
 
 --- Writes an output of a case with a number of pixels, or a drawing in its own.
 local function write(case, name, w, h)
-  done("%s '%s/%s' %s", making(case), bench.folder, name, w and ("--size %dx%d"):format(w, h) or "")
+  done("%s '%s/%s' %s", case[2] and rendering(case) or "convert " .. case[1], bench.folder, name,
+    w and ("--size %dx%d"):format(w, h) or "")
+end
+
+--- Writes the codes of the frame of a case, without a picture between: one of many pixels takes
+--- seconds to read.
+local function write_codes(case, name, w, h)
+  done("%s - --size %dx%d >'%s/%s'", rendering(case), w, h, bench.folder, name)
 end
 
 --- Writes the codes of a picture.
@@ -71,16 +77,6 @@ local function unpack_picture(name, w, h)
   local rostrum = celspan.rostrum { celspan.cel { picture } }
   local pixels = assert(celspan.pixels(rostrum, { size = { w, h }, film = { w, h } }))
   bench:write(name, pixels:bytes { depth = 8 })
-end
-
---- Writes the codes of a case. Those of a film need no picture, which takes seconds to read where
---- it has many pixels.
-local function write_codes(case, name, w, h)
-  if case[2] then
-    return done("%s - --size %dx%d >'%s/%s'", making(case), w, h, bench.folder, name)
-  end
-  write(case, name .. ".png", w, h)
-  unpack_picture(name, w, h)
 end
 
 --- The width and the height of a drawing in pixels, where that of its longer side is given.
