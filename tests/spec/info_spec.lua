@@ -60,10 +60,10 @@ describe("the verb info", function()
     end)
 
     it_reads_pictures("names the profile of a picture, and says what is taken instead", function()
+      local files = { png = read(picture "a.png"), jpg = read(picture "a.jpg") }
       local function named(kind, bytes)
-        local path = picture("a." .. kind)
-        write("a." .. kind, profile[kind == "png" and "png" or "jpeg"](read(path), bytes))
-        local _, out = celspan("info " .. path)
+        local add = profile[kind == "png" and "png" or "jpeg"]
+        local _, out = celspan("info " .. write("a." .. kind, add(files[kind], bytes)))
         return out:match "colour srgb\ncolour_from format\nprofile (.-)\nprimaries_taken bt709\n"
       end
       local wide = "P3 \u{e9}\u{20ac}\u{1f3a8}\u{ffff}"
