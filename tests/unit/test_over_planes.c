@@ -57,7 +57,7 @@ static void make_layers(void) {
   for (uint32_t i = 0; i < LEAVES; i++) {
     float through = random_unit(&numbers);
     float light = sometimes_one();
-    double tilt = random_below(&numbers, 4) == 0 ? 0.004 : 0;
+    double tilt = random_below(&numbers, 4) == 0 ? 0.008 : 0; /* the horizon lies at column 125 */
     float blue = light * sometimes_one();
     float fade = sometimes_one();
     float green = random_unit(&numbers);

@@ -1,8 +1,5 @@
 #include "engine/paint/shade.h"
 
-#include <assert.h>
-#include <stddef.h>
-
 #include "base/elementary.h"
 #include "base/number.h"
 #include "engine/compose/over.h"
@@ -11,21 +8,6 @@
 
 #define PLACES CS_SHADE_PLACES
 #define TURN 6.283185307179586
-
-/* Three floats, of four that are there; lane 3 is 0. */
-static inline cs_v4 three_of(const float *channels) {
-  cs_v4 out = cs_v4_load(channels);
-  out[3] = 0;
-  return out;
-}
-
-static_assert(offsetof(cs_paint, t) == 3 * sizeof(float), "what follows s is t");
-static_assert(offsetof(cs_paint, beta) == 6 * sizeof(float), "what follows t is beta");
-
-static inline cs_shade_lanes lanes_of(const cs_paint *paint) {
-  const float *channels = (const float *)paint;
-  return (cs_shade_lanes){three_of(channels), three_of(channels + 3)};
-}
 
 /* ---------------------------------------------------------------- the triangle */
 
@@ -69,40 +51,14 @@ static cs_paint triangle_paint(const cs_shade *shade, double u, double v) {
 
 /* ---------------------------------------------------------------- stops */
 
-/* The first stop behind a place, or their number. */
-static inline size_t stop_after(const celspan_texture *texture, double at) {
-  const cs_stop *stops = texture->variation->stops;
-  size_t count = texture->variation->stop_count, next = 0;
-  while (next < count && stops[next].at <= at)
-    next++;
-  return next;
-}
-
-static inline cs_shade_stretch stretch_at(const celspan_texture *texture, double at) {
-  const cs_stop *stops = texture->variation->stops;
-  size_t count = texture->variation->stop_count, next = stop_after(texture, at);
-  cs_shade_stretch out = {
-      -INFINITY, INFINITY, 0, lanes_of(&stops[next == 0 ? 0 : next - 1].paint), {{0}, {0}}};
-  if (next > 0)
-    out.from = stops[next - 1].at;
-  if (next < count)
-    out.to = stops[next].at;
-  if (next > 0 && next < count) {
-    cs_shade_lanes end = lanes_of(&stops[next].paint);
-    out.length = out.to - out.from;
-    out.step = (cs_shade_lanes){end.s - out.paint.s, end.t - out.paint.t};
-  }
-  return out;
-}
-
-/* The same at one place. */
+/* The paint at one place. */
 static inline cs_shade_lanes stops_paint(const celspan_texture *texture, double at) {
   const cs_stop *stops = texture->variation->stops;
-  size_t next = stop_after(texture, at);
-  cs_shade_lanes paint = lanes_of(&stops[next == 0 ? 0 : next - 1].paint);
+  size_t next = cs_shade_stretch_stop_after(texture, at);
+  cs_shade_lanes paint = cs_shade_stretch_lanes(&stops[next == 0 ? 0 : next - 1].paint);
   if (next == 0 || next == texture->variation->stop_count)
     return paint;
-  cs_shade_lanes end = lanes_of(&stops[next].paint);
+  cs_shade_lanes end = cs_shade_stretch_lanes(&stops[next].paint);
   float u = (float)((at - stops[next - 1].at) / (stops[next].at - stops[next - 1].at));
   return (cs_shade_lanes){paint.s + u * (end.s - paint.s), paint.t + u * (end.t - paint.t)};
 }
@@ -199,7 +155,7 @@ static cs_shade_lanes triangle_at(const cs_shade *shade, double x, double y) {
   cs_paint paint = CS_PAINT_CLEAR;
   if (own.w > 0)
     paint = triangle_paint(shade, own.x / own.w, own.y / own.w);
-  return lanes_of(&paint);
+  return cs_shade_stretch_lanes(&paint);
 }
 
 cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y) {
@@ -207,7 +163,7 @@ cs_shade_lanes cs_shade_paint(const cs_shade *shade, double x, double y) {
   if (shade->texture->kind == CS_TEXTURE_TRIANGLE)
     return triangle_at(shade, x, y);
   double at = cs_shade_at(shade, x, y);
-  return at == at ? stops_paint(shade->texture, at) : lanes_of(&clear);
+  return at == at ? stops_paint(shade->texture, at) : cs_shade_stretch_lanes(&clear);
 }
 
 double cs_shade_noise_at(const cs_shade *shade, double x, double y) {
@@ -221,13 +177,6 @@ void cs_shade_find(const cs_shade *shade, const double *x, int32_t count, double
     cs_noise_at(shade, x, count, y, at);
   else
     CS_WIDE_CHOOSE(cs_isa_best(), cs_shade_places)(shade, x, count, y, at);
-}
-
-cs_shade_stretch cs_shade_find_stretch(const cs_shade *shade, double at) {
-  const cs_paint clear = CS_PAINT_CLEAR;
-  if (at == at)
-    return stretch_at(shade->texture, at);
-  return (cs_shade_stretch){.from = INFINITY, .paint = lanes_of(&clear)};
 }
 
 /* What is done with paints at places along the stops. */
@@ -246,7 +195,7 @@ static void fold_stops(const fold *f, const cs_shade *shade, const double *x, in
       cs_shade_find(shade, x + k, end - k, y, at);
     }
     const double *places = at + k % PLACES;
-    const cs_shade_stretch part = cs_shade_find_stretch(shade, *places);
+    const cs_shade_stretch part = cs_shade_stretch_at(shade->texture, *places);
     float(*part_t)[4] = t ? t + k : NULL;
     k += f->layer ? CS_WIDE_CHOOSE(isa, cs_shade_add)(&part, f->layer, places, end - k, f->is_first,
                                                       s + k, part_t)

@@ -47,10 +47,11 @@ static inline cs_shade_row cs_shade_row_of(const cs_shade *shade, double y) {
 }
 
 /* Where a point of the row lies along the stops, if the shade is affine; else that times its w.
- * is_radial: of the shade; it is a parameter, so that it is a constant in loops. */
-static inline double cs_shade_row_at(const cs_shade_row *row, double x, bool is_radial) {
+ * is_radial, has_focus: of the shade; they are parameters, so that they are constants in loops. */
+static inline double cs_shade_row_at(const cs_shade_row *row, double x, bool is_radial,
+                                     bool has_focus) {
   double at = row->step * x + row->base, v = row->across_step * x + row->across_base;
-  return is_radial ? sqrt(at * at + v * v) - row->eccentricity * at : at;
+  return is_radial ? sqrt(at * at + v * v) - (has_focus ? row->eccentricity * at : 0) : at;
 }
 
 /* Where a point of the frame lies along the stops of a conic texture, whose planes 0 and 1 are the
@@ -67,7 +68,8 @@ static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
   if (shade->texture->kind == CS_TEXTURE_NOISE)
     return cs_shade_noise_at(shade, x, y);
   const cs_shade_row row = cs_shade_row_of(shade, y);
-  double at = cs_shade_row_at(&row, x, shade->texture->kind == CS_TEXTURE_RADIAL);
+  double at =
+      cs_shade_row_at(&row, x, shade->texture->kind == CS_TEXTURE_RADIAL, shade->eccentricity > 0);
   if (shade->is_affine)
     return at;
   const double *m = shade->inverse.m;
@@ -78,8 +80,6 @@ static inline double cs_shade_at(const cs_shade *shade, double x, double y) {
 /* The same for up to CS_SHADE_PLACES places of a row. */
 #define CS_SHADE_PLACES 64
 void cs_shade_find(const cs_shade *shade, const double *x, int32_t count, double y, double *at);
-/* The stretch in which a place along the stops lies; a clear one behind the horizon. */
-cs_shade_stretch cs_shade_find_stretch(const cs_shade *shade, double at);
 
 /* In vector code, shade_wide.c: as cs_shade_find, for all but noise; and the paints of those of at
  * most CS_SHADE_PLACES places that lie in the stretch of the first one, up to the first one that

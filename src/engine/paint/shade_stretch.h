@@ -1,6 +1,10 @@
-/* Which places of a row lie in one stretch of a gradient, and their shares of the way from one stop
- * to the next: for kernels (base/wide.h). */
+/* The stretches of a gradient from one stop to the next, which places of a row lie in one, and the
+ * shares of the way of these: for kernels (base/wide.h). */
 #pragma once
+
+#include <assert.h>
+#include <math.h>
+#include <stddef.h>
 
 #include "engine/compose/layer.h"
 
@@ -15,6 +19,58 @@ typedef struct cs_shade_stretch {
   double length;              /* 0: the paint is the same everywhere */
   cs_shade_lanes paint, step; /* at its beginning, and from there to its end */
 } cs_shade_stretch;
+
+/* ---------------------------------------------------------------- the stretch of a place */
+
+/* Three floats, of four that are there; lane 3 is 0. */
+static inline cs_v4 cs_shade_stretch_three(const float *channels) {
+  cs_v4 out = cs_v4_load(channels);
+  out[3] = 0;
+  return out;
+}
+
+static_assert(offsetof(cs_paint, t) == 3 * sizeof(float), "what follows s is t");
+static_assert(offsetof(cs_paint, beta) == 6 * sizeof(float), "what follows t is beta");
+
+static inline cs_shade_lanes cs_shade_stretch_lanes(const cs_paint *paint) {
+  const float *channels = (const float *)paint;
+  return (cs_shade_lanes){cs_shade_stretch_three(channels), cs_shade_stretch_three(channels + 3)};
+}
+
+/* The first stop behind a place, or their number. */
+static inline size_t cs_shade_stretch_stop_after(const celspan_texture *texture, double at) {
+  const cs_stop *stops = texture->variation->stops;
+  size_t count = texture->variation->stop_count, next = 0;
+  while (next < count && stops[next].at <= at)
+    next++;
+  return next;
+}
+
+/* Behind the horizon, where the place is not a number, the stretch is clear and holds no place. */
+static inline cs_shade_stretch cs_shade_stretch_at(const celspan_texture *texture, double at) {
+  const cs_stop *stops = texture->variation->stops;
+  size_t count = texture->variation->stop_count, next = cs_shade_stretch_stop_after(texture, at);
+  const cs_paint clear = CS_PAINT_CLEAR;
+  if (at != at)
+    return (cs_shade_stretch){.from = INFINITY, .paint = cs_shade_stretch_lanes(&clear)};
+  cs_shade_stretch out = {-INFINITY,
+                          INFINITY,
+                          0,
+                          cs_shade_stretch_lanes(&stops[next == 0 ? 0 : next - 1].paint),
+                          {{0}, {0}}};
+  if (next > 0)
+    out.from = stops[next - 1].at;
+  if (next < count)
+    out.to = stops[next].at;
+  if (next > 0 && next < count) {
+    cs_shade_lanes end = cs_shade_stretch_lanes(&stops[next].paint);
+    out.length = out.to - out.from;
+    out.step = (cs_shade_lanes){end.s - out.paint.s, end.t - out.paint.t};
+  }
+  return out;
+}
+
+/* ---------------------------------------------------------------- the places in a stretch */
 
 enum { CS_SHADE_STRETCH_TOGETHER = 8 };
 

@@ -11,7 +11,7 @@ static inline void find_places(const cs_shade *restrict shade, const double *res
   const cs_shade_row row = cs_shade_row_of(shade, y);
 #pragma omp simd
   for (int32_t k = 0; k < count; k++)
-    at[k] = cs_shade_row_at(&row, x[k], is_radial);
+    at[k] = cs_shade_row_at(&row, x[k], is_radial, true);
 }
 
 void CS_WIDE(cs_shade_places)(const cs_shade *shade, const double *x, int32_t count, double y,
