@@ -1,5 +1,6 @@
 /* engine/paint/over_planes.c: programs of gradients that dim all channels alike have the bits that
- * folding their paints gives, with every set of instructions, whatever pixels a batch has.
+ * folding their paints gives, with every set of instructions, whatever pixels a batch has, also
+ * under a front light with a shape.
  */
 #include "engine/paint/over_planes.h"
 
@@ -16,11 +17,13 @@ static cs_layer layers[LEAVES];
 static cs_layer_rule rules[LEAVES];
 static cs_shade shades[LEAVES];
 static cs_back_light lights[1];
+static cs_group groups[1];
 static celspan_texture *textures[4];
 static cs_stack stack = {.layers = layers,
                          .rules = rules,
                          .shades = shades,
                          .lights = lights,
+                         .groups = groups,
                          .layer_count = LEAVES,
                          .shade_count = LEAVES};
 
@@ -76,6 +79,25 @@ static void make_layers(void) {
   }
   lights[0] = (cs_back_light){.light = {0.5f, random_unit(&numbers), 1, 0}, .keep = 0.3f};
   stack.light_count = (size_t)random_below(&numbers, 2);
+}
+
+/* Puts all layers into a group, which the one in front may light. */
+static void make_group(void) {
+  cs_layer *front = &layers[LEAVES - 1];
+  groups[0] = (cs_group){.parent = CS_STACK_NONE,
+                         .fade = 1,
+                         .has_light = random_below(&numbers, 4) > 0,
+                         .converts = CELSPAN_SPACE_AROUND,
+                         .light = LEAVES - 1};
+  for (uint32_t i = 0; i < LEAVES; i++)
+    layers[i].group = 0;
+  stack.group_count = 1;
+  stack.light_count = 0;
+  if (!groups[0].has_light)
+    return;
+  front->kind = CS_LAYER_SHADED;
+  front->role = CS_LAYER_FRONT;
+  front->front *= random_below(&numbers, 4) == 0 ? 1e13f : 1.5f;
 }
 
 /* The fold of paints. */
@@ -173,7 +195,7 @@ static void check_refusals(const cs_program *program) {
   other.has_root = true;
   CHECK(!cs_over_planes_fits(&other, program));
   const cs_layer kept = layers[0];
-  layers[0].group = 0;
+  layers[0].group = kept.group == CS_STACK_NONE ? 0 : CS_STACK_NONE;
   CHECK(!cs_over_planes_fits(&stack, program));
   layers[0] = kept;
   layers[0].role = CS_LAYER_BACK;
@@ -182,6 +204,27 @@ static void check_refusals(const cs_program *program) {
   shades[0].is_even = false;
   CHECK(!cs_over_planes_fits(&stack, program));
   shades[0].is_even = true;
+}
+
+/* Groups that do more than be lit. */
+static void check_group_refusals(const cs_program *program) {
+  const cs_group kept = groups[0];
+  const cs_grade grade = {0};
+  cs_group others[6] = {kept, kept, kept, kept, kept, kept};
+  others[0].fade = 0.5f;
+  others[1].has_front = true;
+  others[2].kind = CS_GROUP_MATTE;
+  others[3].parent = 0;
+  others[4].converts = CELSPAN_SPACE_SRGB;
+  others[5].grade = &grade;
+  for (int i = 0; i < 6; i++) {
+    groups[0] = others[i];
+    CHECK(!cs_over_planes_fits(&stack, program));
+  }
+  groups[0] = kept;
+  stack.light_count = 1;
+  CHECK(!cs_over_planes_fits(&stack, program));
+  stack.light_count = 0;
 }
 
 int main(void) {
@@ -196,11 +239,16 @@ int main(void) {
   make_textures(context);
   for (int i = 0; i < TRIES; i++) {
     make_layers();
+    stack.group_count = 0;
+    if (i % 2 == 1)
+      make_group();
     CHECK(cs_composer_init(&composer, context, &stack, cs_painter_opacity(&painter)) == CELSPAN_OK);
     CHECK(cs_painter_init(&painter, context, composer.stack, &composer) == CELSPAN_OK);
     CHECK(cs_over_planes_fits(&stack, &program));
     check_row(&painter, &program, random_between(&numbers, -20, 140));
     check_refusals(&program);
+    if (stack.group_count > 0)
+      check_group_refusals(&program);
     cs_painter_finish(&painter);
     cs_composer_finish(&composer);
   }

@@ -13,7 +13,7 @@
 #include "engine/map/sums.h"
 #include "engine/paint/painter.h"
 
-#define CS_MAP_STREAK 4 /* pixels */
+#define CS_MAP_STREAK 8 /* pixels */
 
 typedef struct cs_map_streak {
   uint32_t cell;

@@ -2,43 +2,69 @@
 
 #define WIDE(painter, name) CS_WIDE_CHOOSE((painter)->isa, name)
 
+/* Whether the only effect of a group is that a light with a shape lights it. */
+static bool group_fits(const cs_stack *stack, uint32_t index) {
+  const cs_group *group = &stack->groups[index];
+  return stack->light_count == 0 && group->parent == CS_STACK_NONE &&
+         group->kind == CS_GROUP_PLAIN && group->fade == 1 && !group->grade && !group->has_front &&
+         group->converts == CELSPAN_SPACE_AROUND;
+}
+
 /* layer: in front of all back lights. */
 static bool layer_fits(const cs_stack *stack, const cs_layer *layer) {
-  if (layer->role != CS_LAYER_PAINT || layer->group != CS_STACK_NONE)
-    return false;
   if (layer->kind == CS_LAYER_FLAT)
-    return layer->t[0] == layer->t[1] && layer->t[1] == layer->t[2];
-  return layer->kind == CS_LAYER_SHADED && stack->shades[layer->index].is_even;
+    return layer->role == CS_LAYER_PAINT && layer->t[0] == layer->t[1] &&
+           layer->t[1] == layer->t[2];
+  return layer->kind == CS_LAYER_SHADED && layer->role != CS_LAYER_BACK &&
+         stack->shades[layer->index].is_even;
 }
 
 bool cs_over_planes_fits(const cs_stack *stack, const cs_program *program) {
   uint32_t gradients = 0, below = stack->light_count > 0 ? stack->lights[0].below : 0;
-  bool fits = stack->shade_count > 1 && !stack->has_root;
+  bool fits = stack->shade_count > 1 && !stack->has_root && program->length > 0;
+  const uint32_t group = fits ? stack->layers[program->items[0].layer].group : CS_STACK_NONE;
   for (uint32_t i = 0; i < program->length && fits; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
-    fits = program->items[i].layer >= below && layer_fits(stack, layer);
+    fits = program->items[i].layer >= below && layer->group == group && layer_fits(stack, layer);
     gradients += layer->kind == CS_LAYER_SHADED;
   }
-  return fits && gradients > 1;
+  return fits && gradients > 1 && (group == CS_STACK_NONE || group_fits(stack, group));
 }
 
-/* Folds such a program for the pixels of a batch. */
+static inline void add_layer(cs_painter *painter, const cs_layer *layer, const cs_batch *batch,
+                             cs_over_planes *planes) {
+  const cs_shade *shade =
+      layer->kind == CS_LAYER_FLAT ? NULL : &painter->stack->shades[layer->index];
+  if (shade && !shade->is_steady) {
+    WIDE(painter, cs_over_planes_add_shade)(planes, layer, shade, batch);
+    return;
+  }
+  const cs_over_pair lit =
+      shade ? cs_painter_lit_steady(painter, layer, batch->y) : (cs_over_pair){layer->s, layer->t};
+  WIDE(painter, cs_over_planes_add_flat)(planes, &lit);
+}
+
+/* Folds such a program for the pixels of a batch: a front light by itself, as a layer that is not
+ * faded. */
 static void fold(cs_painter *painter, const cs_program *program, const cs_batch *batch,
                  cs_over_planes *out) {
   const cs_stack *stack = painter->stack;
+  cs_over_planes front;
+  cs_layer light = {.role = CS_LAYER_PAINT};
   painter->evaluations += (uint64_t)batch->count;
   WIDE(painter, cs_over_planes_clear)(out, batch->count);
   for (uint32_t i = 0; i < program->length; i++) {
     const cs_layer *layer = &stack->layers[program->items[i].layer];
-    const cs_shade *shade = layer->kind == CS_LAYER_FLAT ? NULL : &stack->shades[layer->index];
-    if (shade && !shade->is_steady) {
-      WIDE(painter, cs_over_planes_add_shade)(out, layer, shade, batch);
-      continue;
+    const bool is_light = layer->role == CS_LAYER_FRONT;
+    if (is_light) {
+      light = *layer;
+      light.fade = 1;
+      WIDE(painter, cs_over_planes_clear)(&front, batch->count);
     }
-    const cs_over_pair lit = shade ? cs_painter_lit_steady(painter, layer, batch->y)
-                                   : (cs_over_pair){layer->s, layer->t};
-    WIDE(painter, cs_over_planes_add_flat)(out, &lit);
+    add_layer(painter, is_light ? &light : layer, batch, is_light ? &front : out);
   }
+  if (light.role == CS_LAYER_FRONT)
+    WIDE(painter, cs_over_planes_light)(out, &front);
   for (size_t i = 0; i < stack->light_count; i++) {
     WIDE(painter, cs_over_planes_add_light)(out, (const float *)&stack->lights[i].light);
     out->keep *= stack->lights[i].keep;

@@ -1,7 +1,8 @@
 /* The fold of over_row.h for programs of flat layers and gradients that dim the three channels
- * alike, in no group and in front of all back lights: most programs. A register holds one channel
- * of as many pixels as it has lanes, so that their shares and transmissions are computed once for
- * all channels, and the codes of pixels need no shuffling.
+ * alike, in front of all back lights: most programs. They lie in no group, or all in one that does
+ * nothing but be lit by a gradient. A register holds one channel of as many pixels as it has lanes,
+ * so that their shares and transmissions are computed once for all channels, and the codes of
+ * pixels need no shuffling.
  *
  *     red      [ r r r r r r r r   r r r r ...     light gathered
  *     green    [ g g g g g g g g   g g g g ...
@@ -37,6 +38,8 @@ bool cs_over_planes_ready(const cs_painter *painter, const cs_program *program,
 CS_WIDE_DECLARE(void, cs_over_planes_clear, (cs_over_planes * planes, int32_t count));
 CS_WIDE_DECLARE(void, cs_over_planes_add_flat, (cs_over_planes * planes, const cs_over_pair *lit));
 CS_WIDE_DECLARE(void, cs_over_planes_add_light, (cs_over_planes * planes, const float light[4]));
+/* Multiplies light by the light of a front light, as cs_over_row_light_group. */
+CS_WIDE_DECLARE(void, cs_over_planes_light, (cs_over_planes * planes, const cs_over_planes *front));
 /* Adds a layer with a gradient, whose pixels are those of the batch. */
 CS_WIDE_DECLARE(void, cs_over_planes_add_shade,
                 (cs_over_planes * planes, const cs_layer *layer, const cs_shade *shade,

@@ -33,6 +33,16 @@ void CS_WIDE(cs_over_planes_add_light)(cs_over_planes *planes, const float light
     }
 }
 
+void CS_WIDE(cs_over_planes_light)(cs_over_planes *planes, const cs_over_planes *front) {
+  const cs_wide brightest = cs_wide_all(CS_LAYER_BRIGHTEST);
+  for (int32_t k = 0; k < planes->count; k += CS_WIDE_LANES)
+    for (int c = 0; c < 3; c++) {
+      float *light = planes->light[c] + k;
+      const cs_wide lit = cs_wide_load(light) * cs_wide_load(front->light[c] + k);
+      cs_wide_store(light, cs_wide_choose(lit > brightest, brightest, lit));
+    }
+}
+
 /* ---------------------------------------------------------------- gradients */
 
 enum { ROOM = CS_SHADE_PLACES + CS_WIDE_LANES }; /* whole registers are read and written */
