@@ -30,7 +30,7 @@ static cs_stack stack = {.layers = layers,
                          .shade_count = LEAVES,
                          .group_count = 1,
                          .light_count = 2};
-static celspan_texture *linear, *radial;
+static celspan_texture *linear, *upright, *radial;
 
 static celspan_paint random_paint(void) {
   celspan_paint paint = {.beta = random_unit(&numbers)};
@@ -48,6 +48,8 @@ static void make_textures(celspan_context *context) {
     stops[i].paint = random_paint();
   celspan_point from = {20, 10}, to = {150, 60};
   CHECK(celspan_texture_create_linear(context, from, to, stops, 4, &linear) == CELSPAN_OK);
+  CHECK(celspan_texture_create_linear(context, from, (celspan_point){20, 90}, stops, 4, &upright) ==
+        CELSPAN_OK);
   CHECK(celspan_texture_create_radial(context, from, 160, stops, 4, &radial) == CELSPAN_OK);
 }
 
@@ -62,8 +64,12 @@ static void make_layers(bool is_grouped, double perspective) {
                            .s = {0.1f, 0.2f, s, 0},
                            .t = {0.5f, t, 0.7f, 0}};
     rules[i] = (cs_layer_rule){.key = {(uint64_t)1 << i | (uint64_t)i << 40, ~(uint64_t)i << i}};
-    shades[i] = (cs_shade){.texture = i % 2 ? linear : radial,
-                           .inverse = {{1, 0.1 * i, 3, -0.2, 1, 5, perspective, 0, 1}}};
+    const bool is_steady = i == 3; /* without perspective */
+    shades[i] =
+        (cs_shade){.texture = is_steady ? upright
+                              : i % 2   ? linear
+                                        : radial,
+                   .inverse = {{1, 0.1 * i, 3, is_steady ? 0 : -0.2, 1, 5, perspective, 0, 1}}};
     cs_shade_prepare(&shades[i]);
   }
 }
@@ -286,6 +292,7 @@ int main(void) {
   CHECK(pixels_in_arrays > 0);
   test_forgotten(context);
   celspan_texture_unref(linear);
+  celspan_texture_unref(upright);
   celspan_texture_unref(radial);
   celspan_context_destroy(context);
   return check_done();

@@ -41,18 +41,38 @@ static inline void put_colour(const cs_gradient_table *table, double at, float *
   cs_v4_store(rgba, cs_gradient_table_mix(&table->sections[section], at));
 }
 
+/* Neighbours lie mostly in the same section. */
+static void put_colours(const cs_gradient_table *table, const double *at, int32_t count,
+                        float (*rgba)[4]) {
+  const celspan_texture *texture = table->shade->texture;
+  const size_t stops = texture->variation->stop_count;
+  const cs_gradient_table_section *section = table->sections;
+  double from = INFINITY, to = INFINITY;
+  for (int32_t k = 0; k < count; k++) {
+    if (!(at[k] >= from && at[k] < to)) {
+      const size_t i = cs_gradient_table_section_at(table->shade, at[k]);
+      section = &table->sections[i];
+      from = i == 0 ? -INFINITY : i <= stops ? texture->variation->stops[i - 1].at : INFINITY;
+      to = i < stops ? texture->variation->stops[i].at : INFINITY;
+    }
+    cs_v4_store(rgba[k], cs_gradient_table_mix(section, at[k]));
+  }
+}
+
 void cs_gradient_table_colours(const cs_gradient_table *table, const cs_batch *batch,
                                float (*rgba)[4]) {
-  for (int32_t k = 0; k < batch->count && batch->count <= FEW; k++)
+  const int32_t count = table->shade->is_steady ? 1 : batch->count;
+  for (int32_t k = 0; k < count && count <= FEW; k++)
     put_colour(table, cs_shade_at(table->shade, cs_batch_centre(batch, k), batch->y), rgba[k]);
-  for (int32_t first = 0, k = 0; k < batch->count && batch->count > FEW; first = k) {
+  for (int32_t first = 0, k = 0; k < count && count > FEW; first = k) {
     double x[CS_SHADE_PLACES], at[CS_SHADE_PLACES];
-    for (; k < batch->count && k - first < CS_SHADE_PLACES; k++)
+    for (; k < count && k - first < CS_SHADE_PLACES; k++)
       x[k - first] = cs_batch_centre(batch, k);
     cs_shade_find(table->shade, x, k - first, batch->y, at);
-    for (int32_t i = 0; i < k - first; i++)
-      put_colour(table, at[i], rgba[first + i]);
+    put_colours(table, at, k - first, rgba + first);
   }
+  for (int32_t k = count; k < batch->count; k++)
+    memcpy(rgba[k], rgba[0], sizeof rgba[k]);
 }
 
 /* ---------------------------------------------------------------- which programs */
