@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "engine/defocus/lines.h"
+#include "engine/defocus/regrid.h"
 #include "engine/defocus/slices.h"
 #include "engine/defocus/sums.h"
 #include "engine/sample/defocused.h"
@@ -149,6 +150,45 @@ static void check_sums(cs_isa isa, test_random *random) {
   CHECK(memcmp(out[0], out[1], sizeof out[0]) == 0);
 }
 
+/* Four rows mixed into one, and columns of it, as many as there are. */
+static void check_regrid(cs_isa isa, test_random *random) {
+  enum { NODES = 40, COLUMNS = 13 };
+  float rows[4][4 * NODES], mixed[2][NODES][4], out[2][COLUMNS][4] = {{{0}}};
+  cs_regrid_column columns[COLUMNS];
+  size_t across = 4 + (size_t)random_below(random, NODES - 3);
+  int32_t count = random_below(random, COLUMNS + 1);
+  fill(random, rows[0], 16 * NODES);
+  for (int i = 0; i < COLUMNS; i++) {
+    columns[i].first = random_below(random, (int32_t)across - 3);
+    fill(random, columns[i].weights, 3);
+  }
+  for (int i = 0; i < 2; i++) {
+    cs_isa by = i == 0 ? CS_ISA_ANY : isa;
+    const float *const four[4] = {rows[0], rows[1], rows[2], rows[3]};
+    CS_WIDE_CHOOSE(by, cs_regrid_mix)(four, columns[0].weights, 4 * across, mixed[i][0]);
+    CS_WIDE_CHOOSE(by, cs_regrid_across)
+    (columns, count, (const float(*)[4])mixed[i], out[i]);
+  }
+  CHECK(memcmp(mixed[0], mixed[1], across * sizeof mixed[0][0]) == 0);
+  CHECK(memcmp(out[0], out[1], sizeof out[0]) == 0);
+}
+
+/* What can be seen of a row, of which one end, both or all of it are clear. */
+static void check_seen(cs_isa isa, test_random *random) {
+  enum { NODES = 70 };
+  float row[NODES][4] = {{0}};
+  int32_t low = random_below(random, NODES), high = random_below(random, NODES);
+  int32_t first = random_below(random, NODES), end = first + random_below(random, NODES - first);
+  for (int32_t i = low; i < high; i++)
+    row[i][random_below(random, 4)] = 0.5f;
+  const cs_defocused_range within = {first, end};
+  cs_defocused_range seen = CS_WIDE_CHOOSE(isa, cs_regrid_visible)((const float(*)[4])row, within);
+  low = low > first ? low : first;
+  high = high < end ? high : end;
+  CHECK(seen.end - seen.first == (low < high ? high - low : 0));
+  CHECK(low >= high || seen.first == low);
+}
+
 int main(void) {
   test_random random = {41};
   celspan_context *context;
@@ -161,6 +201,8 @@ int main(void) {
       check_spread((cs_isa)isa, &random);
       check_sum((cs_isa)isa, &random);
       check_sums((cs_isa)isa, &random);
+      check_regrid((cs_isa)isa, &random);
+      check_seen((cs_isa)isa, &random);
     }
   return check_done();
 }

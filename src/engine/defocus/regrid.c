@@ -130,27 +130,19 @@ static int32_t first_beyond(const cs_regrid_rows *rows, int32_t nodes) {
   return low;
 }
 
-static inline bool is_clear(const cs_regrid_rows *rows, int32_t node) {
-  return cs_v4_same(cs_v4_load(rows->mixed[node]), cs_v4_all(0));
-}
-
 /* The plane of S comes first: its matte says which columns are clear. */
 static celspan_status mix_visible(cs_regrid_rows *rows, int plane, double y, float (*nodes)[4],
                                   cs_defocused_range *visible) {
-  int32_t first = 0, end = rows->map->from->columns + 3;
+  const float(*mixed)[4] = (const float(*)[4])rows->mixed;
   CS_TRY(mix_rows(rows, plane, y));
   if (plane == 0) {
-    while (first < end && is_clear(rows, first))
-      first++;
-    while (end > first && is_clear(rows, end - 1))
-      end--;
-    *visible = (cs_defocused_range){first_beyond(rows, first - 3), first_beyond(rows, end)};
-    if (first == end)
-      visible->first = visible->end;
+    cs_defocused_range seen = CS_WIDE_CHOOSE(rows->isa, cs_regrid_visible)(
+        mixed, (cs_defocused_range){0, rows->map->from->columns + 3});
+    visible->end = first_beyond(rows, seen.end);
+    visible->first = seen.first < seen.end ? first_beyond(rows, seen.first - 3) : visible->end;
   }
   CS_WIDE_CHOOSE(rows->isa, cs_regrid_across)
-  (rows->columns + visible->first, visible->end - visible->first, (const float(*)[4])rows->mixed,
-   nodes + visible->first);
+  (rows->columns + visible->first, visible->end - visible->first, mixed, nodes + visible->first);
   return CELSPAN_OK;
 }
 
@@ -158,8 +150,10 @@ celspan_status cs_regrid_row(const cs_regrid *map, const cs_defocused *to, celsp
                              cs_defocused_view *view, double y) {
   if (!view->rows)
     CS_TRY(begin_rows(map, to, context, view));
+  cs_defocused_range visible;
   for (int plane = 0; plane < to->planes; plane++)
     CS_TRY(mix_visible(view->rows, plane, y, view->mixed + (size_t)plane * (size_t)to->columns,
-                       &view->visible));
+                       &visible));
+  view->visible = visible;
   return CELSPAN_OK;
 }

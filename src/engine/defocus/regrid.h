@@ -57,9 +57,11 @@ void cs_regrid_forget(celspan_context *context, cs_defocused_view *view);
 
 /* Mixes `count` floats of four rows; at least 16. */
 CS_WIDE_DECLARE(void, cs_regrid_mix,
-                (const float *rows[4], const float weights[3], size_t count, float *out));
-/* Mixes `count` nodes from the columns of a mixed row. Light and mattes are not negative, and a
- * matte is at most 1; a cubic may pass these bounds. */
+                (const float *const rows[4], const float weights[3], size_t count, float *out));
+/* The nodes within a range from the first one that is not clear to the last. */
+CS_WIDE_DECLARE(cs_defocused_range, cs_regrid_visible,
+                (const float (*nodes)[4], cs_defocused_range within));
+/* Mixes `count` nodes from the columns of a mixed row. */
 CS_WIDE_DECLARE(void, cs_regrid_across,
-                (const cs_regrid_column *columns, int32_t count, const float (*mixed)[4],
+                (const cs_regrid_column *columns, int32_t count, const float (*nodes)[4],
                  float (*out)[4]));

@@ -325,9 +325,10 @@ static celspan_status pin_band(const cs_defocused *defocused, celspan_context *c
 
 static celspan_status make_mixed(const cs_defocused *defocused, celspan_context *context,
                                  cs_defocused_view *view) {
-  if (!view->mixed)
-    view->mixed = cs_mem_array(context->memory, mixed_count(defocused), sizeof *view->mixed);
-  return view->mixed ? CELSPAN_OK : cs_fail_memory(context);
+  if (view->mixed)
+    return CELSPAN_OK;
+  view->visible = (cs_defocused_range){0, defocused->columns};
+  return CS_MAKE(context, view->mixed, mixed_count(defocused));
 }
 
 static celspan_status mix_rows(const cs_defocused *defocused, celspan_context *context,
@@ -418,14 +419,18 @@ static node_row mixed_nodes(const cs_defocused *defocused, const cs_defocused_vi
                     .last = defocused->columns - 1};
 }
 
-/* Makes the nodes that are not visible clear. */
-static void clear_beyond(const cs_defocused *defocused, cs_defocused_view *view) {
+/* Makes the nodes clear that are not visible but were in the row before. */
+static void clear_beyond(const cs_defocused *defocused, cs_defocused_view *view,
+                         cs_defocused_range before) {
+  const cs_defocused_range now = view->visible;
+  int32_t left = now.first < before.end ? now.first : before.end;
+  int32_t right = now.end > before.first ? now.end : before.first;
   for (int plane = 0; plane < defocused->planes; plane++) {
     float(*nodes)[4] = view->mixed + (size_t)plane * (size_t)defocused->columns;
     const cs_v4 clear = plane == 0 ? cs_v4_all(0) : colours;
-    for (int32_t i = 0; i < view->visible.first; i++)
+    for (int32_t i = before.first; i < left; i++)
       cs_v4_store(nodes[i], clear);
-    for (int32_t i = view->visible.end; i < defocused->columns; i++)
+    for (int32_t i = right; i < before.end; i++)
       cs_v4_store(nodes[i], clear);
   }
 }
@@ -434,8 +439,10 @@ static void clear_beyond(const cs_defocused *defocused, cs_defocused_view *view)
 static celspan_status move_to_mixed(const cs_defocused *defocused, celspan_context *context,
                                     cs_defocused_view *view, double y) {
   CS_TRY(make_mixed(defocused, context, view));
+  const cs_defocused_range before = view->visible;
+  view->visible = (cs_defocused_range){0, defocused->columns}; /* if mixing fails */
   CS_TRY(defocused->mix(defocused, context, view, y));
-  clear_beyond(defocused, view);
+  clear_beyond(defocused, view, before);
   node_row nodes = mixed_nodes(defocused, view);
   if (!defocused->are_pixels)
     return make_vertices(context, view, &nodes);

@@ -83,8 +83,8 @@ struct cs_defocused {
   celspan_status (*acquire)(const cs_defocused *defocused, celspan_context *context, int32_t band,
                             cs_defocus_band **out);
   void (*release)(const cs_defocused *defocused, celspan_context *context, cs_defocus_band *band);
-  /* NULL: there are bands. Fills `mixed` of a view, which has its room, and `visible` at a height
-   * in pixels; gives up what the view keeps for that.
+  /* NULL: there are bands. Fills `mixed` of a view, which has its room, and then `visible`, at a
+   * height in pixels; gives up what the view keeps for that.
    * Errors: NO_MEMORY, and those of the rows of the cel. */
   celspan_status (*mix)(const cs_defocused *defocused, celspan_context *context,
                         struct cs_defocused_view *view, double y);
