@@ -12,8 +12,9 @@ typedef struct node_plane {
   cs_row_maker maker;
   cs_defocus_lines *lines; /* NULL: the rows go through the kernel of the plan */
   cs_row row;
-  float (*nodes)[4];
-  bool *even; /* by group */
+  float (*nodes)[4]; /* the row that is being made: a row of the band, or `alone` */
+  float (*alone)[4]; /* NULL where the band keeps all nodes */
+  bool *even;        /* by group */
 } node_plane;
 
 typedef struct filling {
@@ -26,6 +27,12 @@ typedef struct filling {
 
 /* ---------------------------------------------------------------- life */
 
+/* Whether only the ends of straight runs of nodes are kept: nothing is interpolated between the
+ * rows. */
+static bool is_thin(const cs_defocus *defocus) {
+  return defocus->grid.pitch_y == 1 && !defocus->is_own;
+}
+
 static celspan_status init_plane(filling *f, int k) {
   const cs_defocus *defocus = f->defocus;
   cs_memory *memory = f->context->memory;
@@ -33,9 +40,10 @@ static celspan_status init_plane(filling *f, int k) {
   int32_t columns = f->grid->columns;
   cs_row_init(&p->row);
   CS_TRY(cs_row_maker_init(&p->maker, f->context, &defocus->plans[k]));
-  p->nodes = cs_mem_array(memory, (size_t)columns, sizeof *p->nodes);
+  if (is_thin(defocus))
+    p->nodes = p->alone = cs_mem_array(memory, (size_t)columns, sizeof *p->alone);
   p->even = cs_mem_array(memory, (size_t)f->groups, sizeof *p->even);
-  if (!p->nodes || !p->even)
+  if ((is_thin(defocus) && !p->alone) || !p->even)
     return cs_fail_memory(f->context);
   return defocus->way == CS_DEFOCUS_EDGES
              ? cs_defocus_lines_create(&defocus->edges, &p->maker, columns, &p->lines)
@@ -47,7 +55,7 @@ static void finish_plane(filling *f, int k) {
   node_plane *p = &f->planes[k];
   cs_defocus_lines_free(p->lines);
   cs_row_finish(&p->row, memory);
-  cs_mem_free(memory, p->nodes, (size_t)f->grid->columns * sizeof *p->nodes);
+  cs_mem_free(memory, p->alone, (size_t)f->grid->columns * sizeof *p->alone);
   cs_mem_free(memory, p->even, (size_t)f->groups * sizeof *p->even);
   cs_row_maker_finish(&p->maker);
 }
@@ -117,28 +125,23 @@ static celspan_status make_nodes(filling *f, int32_t y) {
 
 /* ---------------------------------------------------------------- row by row */
 
-/* Whether only the ends of straight runs of nodes are kept: nothing is interpolated between the
- * rows. */
-static bool is_thin(const cs_defocus *defocus) {
-  return defocus->grid.pitch_y == 1 && !defocus->is_own;
-}
-
-/* Keeps all nodes of a row, as row k of the band. */
-static void keep_nodes(filling *f, int32_t k, cs_defocus_band *band) {
+/* Makes all nodes of row y in their place, row k of the band. */
+static celspan_status make_kept(filling *f, int32_t y, int32_t k, cs_defocus_band *band) {
   const cs_defocused *grid = f->grid;
   size_t columns = (size_t)grid->columns, size = (size_t)grid->band_rows * columns;
-  for (int i = 0; i < grid->planes; i++) {
-    node_plane *p = &f->planes[i];
+  for (int i = 0; i < grid->planes; i++)
+    f->planes[i].nodes = band->nodes + (size_t)i * size + (size_t)k * columns;
+  CS_TRY(make_nodes(f, y));
+  for (int i = 0; i < grid->planes; i++)
     for (int32_t g = 0; g < f->groups; g++)
-      if (p->even[g])
-        write_group(f, p, g);
-    memcpy(band->nodes + (size_t)i * size + (size_t)k * columns, p->nodes,
-           columns * sizeof *p->nodes);
-  }
+      if (f->planes[i].even[g])
+        write_group(f, &f->planes[i], g);
+  return CELSPAN_OK;
 }
 
-static celspan_status keep_vertices(filling *f, cs_defocus_band *band) {
+static celspan_status make_vertices(filling *f, int32_t y, cs_defocus_band *band) {
   const node_plane *p = f->planes;
+  CS_TRY(make_nodes(f, y));
   cs_defocused_nodes nodes = {{(const float(*)[4])p[0].nodes, (const float(*)[4])p[1].nodes},
                               p[0].even};
   return cs_defocus_band_add(f->grid, f->context, &nodes, band);
@@ -150,13 +153,8 @@ static celspan_status fill_rows(filling *f, int32_t first, int32_t end, cs_defoc
                           : cs_defocus_band_room(f->grid, f->context, band));
   for (int k = 0; k < f->grid->planes; k++)
     CS_TRY(init_plane(f, k));
-  for (int32_t y = first; y < end; y++) {
-    CS_TRY(make_nodes(f, y));
-    if (is_thin(defocus))
-      CS_TRY(keep_vertices(f, band));
-    else
-      keep_nodes(f, y - first, band);
-  }
+  for (int32_t y = first; y < end; y++)
+    CS_TRY(is_thin(defocus) ? make_vertices(f, y, band) : make_kept(f, y, y - first, band));
   if (is_thin(defocus))
     cs_defocus_band_end(f->grid, f->context->memory, band);
   return CELSPAN_OK;
