@@ -109,14 +109,26 @@ typedef struct summing {
   float (*out)[4];            /* TILE nodes */
 } summing;
 
-static void place_samples(summing *s, int32_t k) {
+/* The nodes of a tile, rounded up to what is summed at once. */
+static int32_t node_count(const summing *s) {
+  const cs_defocus_sums *sums = s->sums;
+  int32_t count = (s->samples.high - s->samples.low - 2 * sums->extent_x) / sums->factor;
+  return (count + CS_DEFOCUS_SUMS_TOGETHER - 1) / CS_DEFOCUS_SUMS_TOGETHER *
+         CS_DEFOCUS_SUMS_TOGETHER;
+}
+
+/* Returns the samples of row k by their place, which are in order where a node is one sample. */
+static const cs_v4 *place_samples(summing *s, int32_t k) {
   size_t factor = (size_t)s->sums->factor, places = s->sums->places;
   size_t count = (size_t)(s->samples.high - s->samples.low);
   cs_v4 *first = s->placed;
   cs_defocus_samples_spread(&s->samples, k, s->row);
+  if (factor == 1)
+    return s->row;
   for (size_t at = 0; at < count; first++)
     for (size_t place = 0; place < factor && at < count; place++, at++)
       first[place * places] = s->row[at];
+  return s->placed;
 }
 
 static void sum_across(void *user, int32_t k) {
@@ -131,13 +143,13 @@ static void sum_across(void *user, int32_t k) {
       middle[x] = colour;
     return;
   }
-  place_samples(s, k);
+  const cs_v4 *placed = place_samples(s, k);
   if (middle)
     memcpy(middle, s->row + sums->extent_x,
            (size_t)(s->samples.high - s->samples.low - 2 * sums->extent_x) * sizeof *middle);
   CS_WIDE_CHOOSE(s->isa, cs_defocus_sums_about)
-  (sums->across, sums->extent_x, (const float *)s->placed,
-   4 * place_of(sums, sums->extent_x + sums->factor / 2), TILE, (float *)out);
+  (sums->across, sums->extent_x, (const float *)placed,
+   4 * place_of(sums, sums->extent_x + sums->factor / 2), node_count(s), (float *)out);
 }
 
 /* A sample, sharpened by the Gaussian around it. */
@@ -154,8 +166,8 @@ static void sum_down(void *user, int32_t y, int32_t count, float (*nodes)[4]) {
   const cs_defocus_sums *sums = s->sums;
   size_t first = (size_t)(y * sums->factor), middle = (size_t)(sums->extent_y + sums->factor / 2);
   CS_WIDE_CHOOSE(s->isa, cs_defocus_sums_about)
-  (sums->down, sums->extent_y, (const float *)(s->across + first * TILE), 4 * TILE * middle, TILE,
-   s->out[0]);
+  (sums->down, sums->extent_y, (const float *)(s->across + first * TILE), 4 * TILE * middle,
+   node_count(s), s->out[0]);
   const cs_v4 *samples = s->middle ? s->middle + (size_t)(y + sums->extent_y) * TILE : NULL;
   for (int32_t x = 0; samples && x < count; x++)
     cs_v4_store(s->out[x], sharpened(samples[x], cs_v4_load(s->out[x]), s->amount));
@@ -178,12 +190,12 @@ celspan_status cs_defocus_sums_fill(const cs_defocus_sums *sums, cs_row_maker *m
                                   .sum_nodes = sum_down,
                                   .user = &s};
   int32_t rows = (end - first) * sums->factor + 2 * sums->extent_y;
-  size_t samples = TILE * (size_t)sums->factor + 2 * (size_t)sums->extent_x;
+  /* at least as many as the samples under a tile */
   size_t placed = sums->places * (size_t)sums->factor, across = (size_t)rows * TILE;
   celspan_status status = cs_defocus_samples_init(context, rows, &s.samples);
-  s.row = cs_mem_array(memory, samples, sizeof *s.row);
+  s.row = cs_mem_array(memory, placed, sizeof *s.row);
   s.placed = cs_mem_array(memory, placed, sizeof *s.placed);
-  s.across = cs_mem_array(memory, across, sizeof *s.across);
+  s.across = cs_mem_resize(memory, NULL, 0, across * sizeof *s.across); /* not read unset */
   s.out = cs_mem_array(memory, TILE, sizeof *s.out);
   if (sums->sharpens)
     s.middle = cs_mem_array(memory, across, sizeof *s.middle);
@@ -195,7 +207,7 @@ celspan_status cs_defocus_sums_fill(const cs_defocus_sums *sums, cs_row_maker *m
   if (status == CELSPAN_OK)
     cs_defocus_samples_sum(&s.samples, &tiles, nodes);
   cs_defocus_samples_finish(&s.samples, memory);
-  cs_mem_free(memory, s.row, samples * sizeof *s.row);
+  cs_mem_free(memory, s.row, placed * sizeof *s.row);
   cs_mem_free(memory, s.placed, placed * sizeof *s.placed);
   cs_mem_free(memory, s.across, across * sizeof *s.across);
   cs_mem_free(memory, s.out, TILE * sizeof *s.out);

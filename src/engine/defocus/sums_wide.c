@@ -8,24 +8,25 @@
  */
 #include "engine/defocus/sums.h"
 
-#define REGISTERS 4 /* in a pass */
+/* In a pass: as many as can be added to without keeping sums in memory, or as fill it. */
+#define REGISTERS (CS_WIDE_LANES == 8 ? 8 : 4)
 #define FLOATS (REGISTERS * CS_WIDE_LANES)
 
 _Static_assert(4 * CS_DEFOCUS_SUMS_TOGETHER % FLOATS == 0, "nodes fill whole passes");
 
 void CS_WIDE(cs_defocus_sums_about)(const cs_defocus_pair *pairs, int32_t pair_count,
                                     const float *values, size_t middle, int32_t count, float *out) {
-  for (int32_t at = 0; at < 4 * count; at += FLOATS) {
+  for (const float *end = values + 4 * count; values < end; values += FLOATS, out += FLOATS) {
     cs_wide centre[REGISTERS], sum[REGISTERS] = {{0}};
     for (int j = 0; j < REGISTERS; j++)
-      centre[j] = cs_wide_load(values + middle + at + j * CS_WIDE_LANES);
+      centre[j] = cs_wide_load(values + middle + j * CS_WIDE_LANES);
     for (int32_t i = 0; i < pair_count; i++) {
-      const float *before = values + pairs[i].before + at, *after = values + pairs[i].after + at;
+      const float *before = values + pairs[i].before, *after = values + pairs[i].after;
       for (int j = 0; j < REGISTERS; j++)
         sum[j] += pairs[i].weight * (cs_wide_load(before + j * CS_WIDE_LANES) +
                                      cs_wide_load(after + j * CS_WIDE_LANES) - 2 * centre[j]);
     }
     for (int j = 0; j < REGISTERS; j++)
-      cs_wide_store(out + at + j * CS_WIDE_LANES, centre[j] + sum[j]);
+      cs_wide_store(out + j * CS_WIDE_LANES, centre[j] + sum[j]);
   }
 }
