@@ -26,6 +26,13 @@ typedef struct cs_scatter {
   uint32_t *terms;                 /* of the retained row's cells that vary */
 } cs_scatter;
 
+/* floor for the places of edges, which are numbers of columns: with fewer instructions than a floor
+ * for all numbers. */
+static inline int32_t whole_below(double x) {
+  int32_t whole = (int32_t)x;
+  return whole - (x < whole);
+}
+
 /* ---------------------------------------------------------------- columns */
 
 static void touch(cs_convolve *convolve, int32_t p) {
@@ -128,12 +135,13 @@ typedef struct stretch {
 /* Adds the shares of a segment at x to the sums of a stretch, a number for each column. */
 static void add_segment(const cs_kernel *kernel, const stretch *s, double x, float weight,
                         float *sums) {
-  double column = floor(x - 0.5), phase = (x - 0.5 - column) * kernel->phases;
+  int32_t column = whole_below(x - 0.5);
+  double phase = (x - 0.5 - column) * kernel->phases;
   /* Just left of a centre, phase rounds to `phases`. */
   int32_t row = cs_number_row(phase, kernel->phases), stride = kernel->stride;
   float t = (float)(phase - row);
   const float *low = kernel->shares + (size_t)row * (size_t)stride, *high = low + stride;
-  float *out = sums + ((int32_t)column - kernel->columns - s->first);
+  float *out = sums + (column - kernel->columns - s->first);
   cs_v4 near = cs_v4_all(weight * (1 - t)), far = cs_v4_all(weight * t);
   for (int32_t k = 0; k < stride; k += 4)
     cs_v4_store(out + k,
@@ -214,8 +222,7 @@ static celspan_status add_stretch(cs_scatter *g, const cs_border *edge, const cs
   float *sums = g->convolve->sums;
   double low = fmin(cut->xa, cut->xb) - 0.5, high = fmax(cut->xa, cut->xb) - 0.5;
   double above = cs_kernel_above(kernel, cut->ya - g->centre), begin = above;
-  stretch s = {(int32_t)floor(low) - kernel->columns, (int32_t)floor(high) + kernel->columns + 2,
-               0};
+  stretch s = {whole_below(low) - kernel->columns, whole_below(high) + kernel->columns + 2, 0};
   if (s.first >= g->convolve->width)
     return CELSPAN_OK;
   memset(sums, 0, (size_t)(s.end - s.first + kernel->stride) * sizeof *sums);
