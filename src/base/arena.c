@@ -85,17 +85,25 @@ static cs_arena_chunk *make_next(celspan_context *context, cs_arena *arena, size
   return insert_next(arena, chunk);
 }
 
+/* Moves to a chunk that has at least `size` bytes. It is a function of its own, because most calls
+ * do not need it and would only save registers for it. */
+static __attribute__((noinline)) bool move_on(celspan_context *context, cs_arena *arena,
+                                              size_t size) {
+  cs_arena_chunk *next = find_next(arena, size);
+  if (!next)
+    next = make_next(context, arena, size);
+  if (!next)
+    return false;
+  arena->current = next;
+  arena->used = 0;
+  return true;
+}
+
 void *cs_arena_take(celspan_context *context, cs_arena *arena, size_t size) {
   size = (size + 15) & ~(size_t)15;
-  while (!arena->current || arena->current->size - arena->used < size) {
-    cs_arena_chunk *next = find_next(arena, size);
-    if (!next)
-      next = make_next(context, arena, size);
-    if (!next)
-      return NULL;
-    arena->current = next;
-    arena->used = 0;
-  }
+  bool has_room = arena->current && arena->current->size - arena->used >= size;
+  if (!has_room && !move_on(context, arena, size))
+    return NULL;
   void *taken = arena->current->bytes + arena->used;
   arena->used += size;
   return taken;
