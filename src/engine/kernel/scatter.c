@@ -51,21 +51,25 @@ static void touch(cs_convolve *convolve, int32_t p) {
   }
 }
 
-static celspan_status shift_term(cs_scatter *g, int32_t p, const cs_cell *cell, double weight) {
+static inline void shift_term(const cs_scatter *g, int32_t p, const cs_cell *cell, double weight) {
   cs_convolve *convolve = g->convolve;
   if (cell->length == 0)
-    return CELSPAN_OK;
+    return;
   uint32_t term = g->terms[cs_retained_number(g->retained, cell)];
-  CS_TRY(CS_APPEND(g->context, convolve->shifts, convolve->shift_count, convolve->shift_capacity,
-                   (cs_convolve_shift){convolve->shifts_at[p], term, weight}));
+  convolve->shifts[convolve->shift_count++] =
+      (cs_convolve_shift){convolve->shifts_at[p], term, weight};
   convolve->shifts_at[p] = (uint32_t)convolve->shift_count;
-  return CELSPAN_OK;
 }
 
 /* Adds the step between two colours that are programs. Errors: NO_MEMORY. */
-static celspan_status add_shift(cs_scatter *g, const cs_border *edge, int32_t p, double weight) {
-  CS_TRY(shift_term(g, p, edge->left, -weight));
-  return shift_term(g, p, edge->right, weight);
+static celspan_status add_shift(const cs_scatter *g, const cs_border *edge, int32_t p,
+                                double weight) {
+  cs_convolve *convolve = g->convolve;
+  CS_TRY(CS_RESERVE(g->context, convolve->shifts, convolve->shift_capacity,
+                    convolve->shift_count + 2));
+  shift_term(g, p, edge->left, -weight);
+  shift_term(g, p, edge->right, weight);
+  return CELSPAN_OK;
 }
 
 /* From column p on, which is touched, the share of the colour right of the edge grows by `weight`,
@@ -141,12 +145,12 @@ static void add_segment(const cs_kernel *kernel, const stretch *s, double x, flo
   int32_t row = cs_number_row(phase, kernel->phases), stride = kernel->stride;
   float t = (float)(phase - row);
   const float *low = kernel->shares + (size_t)row * (size_t)stride, *high = low + stride;
-  float *out = sums + (column - kernel->columns - s->first);
+  float *out = sums + (column - kernel->columns - s->first), *end = sums + (s->end - s->first);
   cs_v4 near = cs_v4_all(weight * (1 - t)), far = cs_v4_all(weight * t);
   for (int32_t k = 0; k < stride; k += 4)
     cs_v4_store(out + k,
                 cs_v4_load(out + k) + (near * cs_v4_load(low + k) + far * cs_v4_load(high + k)));
-  for (float *rest = out + stride; rest < sums + (s->end - s->first); rest++)
+  for (float *rest = out + stride; rest < end; rest++)
     *rest += weight;
 }
 
