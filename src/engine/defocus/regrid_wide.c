@@ -15,10 +15,11 @@ _Static_assert(sizeof(cs_regrid_column) == sizeof(cs_v4), "a column lies where a
 
 /* ---------------------------------------------------------------- rows */
 
-/* Values about the one before a place, by the weights of the other three. */
+/* Values about the one before a place, by the weights of the other three. The others are subtracted
+ * from it, because an instruction can read what it subtracts from memory. */
 static inline cs_wide mixed(const cs_wide four[4], const cs_wide weights[3]) {
-  return four[1] + (weights[0] * (four[0] - four[1]) + weights[1] * (four[2] - four[1]) +
-                    weights[2] * (four[3] - four[1]));
+  return four[1] - (weights[0] * (four[1] - four[0]) + weights[1] * (four[1] - four[2]) +
+                    weights[2] * (four[1] - four[3]));
 }
 
 static inline void mix_at(const float *const rows[4], const cs_wide weights[3], size_t at,
