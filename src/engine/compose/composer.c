@@ -18,7 +18,7 @@ static celspan_status allocate(cs_composer *composer, void *field, size_t count,
   return CELSPAN_OK;
 }
 
-static bool has_flats_alone(const cs_stack *stack) {
+bool cs_composer_is_flat(const cs_stack *stack) {
   for (size_t i = 0; i < stack->layer_count; i++)
     if (stack->layers[i].kind != CS_LAYER_FLAT)
       return false;
@@ -30,7 +30,7 @@ static bool has_flats_alone(const cs_stack *stack) {
 
 /* Makes a fast fold for very many flat layers, if it suits them. */
 static celspan_status make_table(cs_composer *composer) {
-  composer->is_flat = has_flats_alone(composer->stack);
+  composer->is_flat = cs_composer_is_flat(composer->stack);
   if (!composer->is_flat || !cs_over_table_suits(composer->stack))
     return CELSPAN_OK;
   CS_TRY(allocate(composer, &composer->table, 1, sizeof(cs_over_table)));

@@ -53,7 +53,7 @@ typedef struct cs_composer {
   cs_set_hash hash; /* of the set */
   cs_tree_result *results;
   cs_over_outer *outers; /* memory for folds; cs_stack_depth items */
-  bool is_flat;          /* all layers are flat, in no group and in front of all back lights */
+  bool is_flat;          /* cs_composer_is_flat */
   cs_over_table *table;  /* NULL if it does not suit the stack */
   cs_memo *memo;
   size_t memo_size;
@@ -67,6 +67,9 @@ typedef struct cs_composer {
   /* the first failure of the row, recorded in the context; kept until the row ends */
   celspan_status failure;
 } cs_composer;
+
+/* Whether all layers are flat, in no group and in front of all back lights. */
+bool cs_composer_is_flat(const cs_stack *stack);
 
 /* Errors: NO_MEMORY; cs_composer_finish must be called then, too. */
 CELSPAN_CHECKED celspan_status cs_composer_init(cs_composer *composer, celspan_context *context,

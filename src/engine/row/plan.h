@@ -14,11 +14,12 @@
 
 struct cs_defocus; /* engine/defocus/defocus.h */
 
-/* A cel of the film in a plan: what it is, and the heights that its outlines reach. */
-typedef struct cs_plan_cel {
-  cs_hash hash;       /* of the cel and its objects */
-  double top, bottom; /* pixels; top > bottom: it reaches none */
-} cs_plan_cel;
+/* What a plan shows: a cel of the film, or a flat back light behind one. */
+typedef struct cs_plan_shown {
+  cs_hash hash;       /* of the cel and its objects, or of the light */
+  size_t first;       /* the number of its first layer */
+  double top, bottom; /* the heights that it reaches, in pixels; top > bottom: it reaches none */
+} cs_plan_shown;
 
 typedef struct cs_plan {
   cs_stack stack;
@@ -32,8 +33,8 @@ typedef struct cs_plan {
    * too; released by cs_compile_free. */
   struct cs_defocus **defocus;
   size_t defocus_count, defocus_capacity;
-  cs_plan_cel *cels; /* from the rear; none in the plan of a drawing */
-  size_t cel_count, cel_capacity;
+  cs_plan_shown *shown; /* from the rear; none in the plan of a drawing */
+  size_t shown_count, shown_capacity;
   size_t dash_count;    /* in view, of strokes that are not defocused */
   bool stays_on_thread; /* a procedure or a surface in it must be called by the rendering thread */
   bool is_crowded;      /* there were more than allowed: outlines are missing, so it has no rows */

@@ -247,29 +247,43 @@ static celspan_status compile_cel(cs_compiler *c, const celspan_rostrum *rostrum
   return cs_objects_end_source(c, cel->blend, outer);
 }
 
-/* The objects count too, because a part of a cel (parts.h) has the hash of the whole cel. So does
- * the front light, because cs_lit_alone changes lights without their hashes. */
+/* The lights count too, because cs_lit_alone changes them without the hash of the cel. A flat back
+ * light does not, because it is noted by itself. */
 static cs_hash hash_cel(const celspan_cel *cel) {
-  cs_hash hash = cs_hash_begin(cel->object_count);
+  cs_hash hash = cs_hash_begin(cel->front.is_given);
   cs_hash_hash(&hash, cel->hash);
-  cs_value_hash_matrix(&hash, &cel->matrix);
-  cs_hash_number(&hash, cel->opacity);
-  cs_hash_word(&hash, cel->front.is_given);
   cs_light_hash(&hash, &cel->front);
-  for (size_t i = 0; i < cel->object_count; i++)
-    cs_hash_hash(&hash, cel->objects[i]->hash);
+  if (cel->back.texture)
+    cs_light_hash(&hash, &cel->back);
   return cs_hash_end(hash);
 }
 
-/* Notes a cel of which the outlines are the chains from `first` on. */
-static celspan_status note_cel(cs_compiler *c, const celspan_cel *cel, size_t first) {
+static cs_hash hash_light(const cs_back_light *light) {
+  cs_hash hash = cs_hash_begin(0);
+  cs_hash_bytes(&hash, &light->light, sizeof light->light);
+  cs_hash_number(&hash, (double)light->keep);
+  return cs_hash_end(hash);
+}
+
+static celspan_status note(const cs_compiler *c, cs_plan_shown shown) {
+  cs_plan *plan = c->plan;
+  return CS_APPEND(c->context, plan->shown, plan->shown_count, plan->shown_capacity, shown);
+}
+
+/* Notes a cel, and its flat back light if it has one: in the plan is what belongs to them, behind
+ * what the plan had before. */
+static celspan_status note_cel(const cs_compiler *c, const celspan_cel *cel,
+                               const size_t before[3]) {
   const cs_boundary_set *set = &c->plan->boundaries;
-  cs_plan_cel noted = {.hash = hash_cel(cel), .top = HUGE_VAL, .bottom = -HUGE_VAL};
-  for (size_t i = first; i < set->chain_count; i++) {
-    noted.top = fmin(noted.top, set->chains[i].y0);
-    noted.bottom = fmax(noted.bottom, set->chains[i].y1);
+  const cs_stack *stack = &c->plan->stack;
+  cs_plan_shown shown = {hash_cel(cel), before[1], HUGE_VAL, -HUGE_VAL};
+  for (size_t i = before[0]; i < set->chain_count; i++) {
+    shown.top = fmin(shown.top, set->chains[i].y0);
+    shown.bottom = fmax(shown.bottom, set->chains[i].y1);
   }
-  return CS_APPEND(c->context, c->plan->cels, c->plan->cel_count, c->plan->cel_capacity, noted);
+  for (size_t i = before[2]; i < stack->light_count; i++)
+    CS_TRY(note(c, (cs_plan_shown){hash_light(&stack->lights[i]), 0, -HUGE_VAL, HUGE_VAL}));
+  return note(c, shown);
 }
 
 /* firsts: as of cs_lights_add_mattes. */
@@ -290,10 +304,11 @@ static celspan_status compile_cels(cs_compiler *c, const celspan_rostrum *rostru
       c->mark = rostrum->cels[i]->mark;
     }
     c->isolation.mattes = firsts[i];
-    size_t chains = c->plan->boundaries.chain_count;
+    const size_t before[] = {c->plan->boundaries.chain_count, stack->layer_count,
+                             stack->light_count};
     CS_TRY(compile_cel(c, rostrum, i, film));
     if (!c->is_nested)
-      CS_TRY(note_cel(c, rostrum->cels[i], chains));
+      CS_TRY(note_cel(c, rostrum->cels[i], before));
   }
   return CELSPAN_OK;
 }

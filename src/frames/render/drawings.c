@@ -341,21 +341,29 @@ static bool is_cropped(const making *m, const placed_cel *d) {
          !d->is_turned && !d->census.may_have_dashes && !cs_ways_is_uneven(d->cel);
 }
 
-/* Notes what a map shows, and which rows it reaches: those of its raster, of which the width does
- * not matter unless it is turned. */
-static void note_sheet(const placed_cel *d, cs_map_sheet *sheet) {
+/* The rows that the raster of an upright map reaches, or the lines of a turned one. */
+static void find_rows(const placed_cel *d, cs_map_sheet *sheet) {
   const cs_map_drawing *drawing = &sheet->drawing;
-  const double height = drawing->map->height, down = drawing->to_raster.m[4];
+  const cs_map_lines *lines = &drawing->turned;
+  const double down = drawing->to_raster.m[4], first = -drawing->to_raster.m[5] / down;
+  sheet->top = d->is_turned ? HUGE_VAL : first;
+  sheet->bottom = d->is_turned ? -HUGE_VAL : first + drawing->map->height / down;
+  for (size_t i = 0; i < lines->border_count; i++) {
+    const cs_map_border *border = &lines->borders[i];
+    sheet->top = fmin(sheet->top, lines->points[border->first].y * drawing->scale_y);
+    sheet->bottom = fmax(sheet->bottom, border->foot * drawing->scale_y);
+  }
+}
+
+/* All that a map shows. */
+static cs_hash hash_sheet(const placed_cel *d, const cs_map_sheet *sheet) {
   const cs_cache_key key = key_of(d);
-  cs_hash hash = cs_hash_begin(key.a);
-  cs_hash_word(&hash, key.b);
-  cs_hash_hash(&hash, d->cel->hash);
+  cs_hash hash = cs_hash_begin(0);
+  cs_hash_hash(&hash, (cs_hash){key.a, key.b});
   cs_value_hash_matrix(&hash, &d->matrix);
-  cs_hash_bytes(&hash, &drawing->light, sizeof drawing->light);
+  cs_hash_bytes(&hash, &sheet->drawing.light, sizeof sheet->drawing.light);
   cs_grade_hash(&hash, d->cel->grade);
-  sheet->hash = cs_hash_end(hash);
-  sheet->top = d->is_turned ? 0 : -drawing->to_raster.m[5] / down;
-  sheet->bottom = d->is_turned ? d->view->height : (height - drawing->to_raster.m[5]) / down;
+  return cs_hash_end(hash);
 }
 
 /* *suits: whether the cel can be a map in its place. */
@@ -381,7 +389,8 @@ static celspan_status make_drawing(const making *m, placed_cel *d, cs_map_sheet 
     place_upright(d, drawing);
   if (!*suits)
     return CELSPAN_OK;
-  note_sheet(d, sheet);
+  find_rows(d, sheet);
+  sheet->hash = hash_sheet(d, sheet);
   return light_cells(context, drawing);
 }
 

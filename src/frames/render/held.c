@@ -2,20 +2,27 @@
 
 #include <math.h>
 
+#include "engine/compose/composer.h"
 #include "engine/compose/over_table.h"
 #include "frames/render/drawings.h"
-#include "model/scene/value.h"
 #include "model/scene/walk.h"
 
 /* ---------------------------------------------------------------- the cache */
 
-/* The third word of a key. Of a band that was met, nothing but the key is in the cache. */
-enum { MET, KEPT };
+#define MET 4096 /* keys that were met are remembered, at most: a power of two */
 
 typedef struct entry {
   cs_cache_entry entry;
   cs_row_queue rows;
 } entry;
+
+typedef struct store {
+  cs_service service;
+  cs_cache cache;
+  /* Half a key, in the place that the other half says; a later key takes the place of an earlier
+   * one. 0: none was met. */
+  _Atomic uint64_t met[MET];
+} store;
 
 typedef struct band {
   cs_hash key;
@@ -25,7 +32,7 @@ typedef struct band {
 } band;
 
 typedef struct cs_held {
-  cs_cache *cache;
+  store *store;
   int32_t first_row, end_row; /* of the frame, as far as its rows are asked for */
   int32_t first_band;
   size_t count;
@@ -38,103 +45,50 @@ static void clear_entry(cs_cache_entry *cached, cs_memory *memory) {
 }
 
 static celspan_status create(celspan_context *context, cs_service **out) {
-  return cs_cache_service_create(context, sizeof(entry), clear_entry, context->root->held_bytes,
-                                 out);
+  store *made;
+  CS_TRY(CS_MAKE(context, made, 1));
+  made->cache = (cs_cache){.memory = context->memory,
+                           .entry_size = sizeof(entry),
+                           .clear = clear_entry,
+                           .shrinks_on_unpin = true,
+                           .budget = context->root->held_bytes};
+  cs_cache_init(&made->cache);
+  *out = &made->service;
+  return CELSPAN_OK;
 }
 
-static const cs_service_kind kind = {create, cs_cache_service_destroy, cs_cache_service_trim};
+static void destroy(cs_service *service) {
+  store *old = (store *)service;
+  cs_memory *memory = old->cache.memory;
+  cs_cache_finish(&old->cache);
+  cs_mem_free(memory, old, sizeof *old);
+}
+
+static void trim(cs_service *service) { cs_cache_trim(&((store *)service)->cache); }
+
+static const cs_service_kind kind = {create, destroy, trim};
 
 cs_cache_counts cs_held_count(celspan_context *context) {
   cs_service *service = cs_context_find_service(context, &kind);
-  return service ? cs_cache_count(cs_cache_of(service)) : (cs_cache_counts){0};
+  return service ? cs_cache_count(&((store *)service)->cache) : (cs_cache_counts){0};
 }
 
-/* ---------------------------------------------------------------- what the frame adds to keys */
-
-static void hash_back_lights(cs_hash *hash, const celspan_rostrum *rostrum) {
-  for (size_t i = 0; i < rostrum->cel_count; i++)
-    cs_light_hash(hash, &rostrum->cels[i]->back);
+/* Whether a key was met before; from now on it was. */
+static bool was_met(store *from, cs_hash key) {
+  return atomic_exchange(&from->met[key.b % MET], key.a) == key.a;
 }
 
-/* Mattes are behind all cels, and are made of all of them. */
-static bool has_shaped_light(const celspan_rostrum *rostrum) {
-  bool has = rostrum->back.texture;
-  for (size_t i = 0; i < rostrum->cel_count; i++)
-    has |= rostrum->cels[i]->back.texture != NULL;
-  return has;
+/* ---------------------------------------------------------------- the parts of a key */
+
+static int32_t first_of(const cs_held *held, const band *b) {
+  int32_t row = (held->first_band + (int32_t)(b - held->bands)) * CS_FRAME_BAND;
+  return row > held->first_row ? row : held->first_row;
 }
 
-/* What a stack was found to be: other ways of painting may have other last bits. */
-static void hash_plan(cs_hash *hash, const cs_plan *plan) {
-  const cs_stack *stack = &plan->stack;
-  const size_t counts[] = {stack->layer_count,
-                           stack->shade_count,
-                           stack->image_count,
-                           stack->defocused_count,
-                           stack->group_count,
-                           stack->source_count,
-                           stack->light_count,
-                           stack->step_count,
-                           stack->step_depth,
-                           stack->tree_count,
-                           (size_t)plan->cull.tile_rows,
-                           (size_t)plan->cull.tile_height,
-                           (size_t)plan->antialias,
-                           plan->cel_count};
-  cs_hash_bytes(hash, counts, sizeof counts);
-  cs_hash_word(hash, (uint64_t)stack->has_root | (uint64_t)stack->has_group_light << 1 |
-                         (uint64_t)stack->has_curves << 2 | (uint64_t)stack->has_sources << 3 |
-                         (uint64_t)cs_over_table_suits(stack) << 4);
+static int32_t end_of(const cs_held *held, const band *b) {
+  int32_t row = (held->first_band + (int32_t)(b - held->bands) + 1) * CS_FRAME_BAND;
+  return row < held->end_row ? row : held->end_row;
 }
-
-static void hash_sheet(cs_hash *hash, const cs_map_sheet *sheet) {
-  cs_hash_word(hash, sheet->plan != NULL);
-  cs_hash_word(hash, sheet->source_count);
-  cs_hash_word(hash, sheet->drawing.stack.layer_count > 0);
-  cs_hash_word(hash, sheet->drawing.through != NULL);
-  cs_hash_bytes(hash, &sheet->back, sizeof sheet->back);
-  cs_hash_number(hash, (double)sheet->keep);
-  if (sheet->plan)
-    hash_plan(hash, sheet->plan);
-}
-
-static void hash_exposure(cs_hash *hash, const cs_frame *frame, size_t index) {
-  const celspan_rostrum *rostrum = frame->rostrums[index];
-  const cs_map_frame *maps = &frame->maps[index];
-  cs_hash_number(hash, (double)frame->weights[index]);
-  cs_rostrum_hash_own(hash, rostrum);
-  hash_back_lights(hash, rostrum);
-  if (has_shaped_light(rostrum))
-    cs_hash_hash(hash, rostrum->hash);
-  cs_hash_word(hash, maps->count);
-  cs_hash_word(hash, cs_drawings_are_used(maps));
-  for (size_t i = 0; i < maps->count; i++)
-    hash_sheet(hash, &maps->sheets[i]);
-  if (!cs_drawings_are_used(maps))
-    hash_plan(hash, &frame->plans[index]);
-}
-
-static cs_hash hash_frame(const cs_frame *frame, const celspan_frame_desc *desc) {
-  const cs_view *view = &frame->view;
-  cs_hash hash = cs_hash_begin(0x68656c64u);
-  const int32_t sizes[] = {frame->width, frame->height, frame->crop_x, frame->crop_width};
-  cs_hash_bytes(&hash, sizes, sizeof sizes);
-  cs_hash_number(&hash, view->film_width);
-  cs_hash_number(&hash, view->film_height);
-  cs_hash_number(&hash, (double)view->span_error);
-  cs_hash_word(&hash, view->space);
-  cs_hash_word(&hash, frame->takes_codes);
-  cs_hash_word(&hash, frame->has_antialias);
-  if (frame->has_antialias)
-    cs_antialias_hash(&hash, &frame->antialias);
-  cs_hash_hash(&hash, cs_walk_hash_files(desc->exposures, desc->exposure_count));
-  cs_hash_word(&hash, frame->count);
-  for (size_t i = 0; i < frame->count; i++)
-    hash_exposure(&hash, frame, i);
-  return cs_hash_end(hash);
-}
-
-/* ---------------------------------------------------------------- what cels add to keys */
 
 static size_t band_at(const cs_held *held, double row) {
   double number = floor(row / CS_FRAME_BAND) - held->first_band;
@@ -142,14 +96,31 @@ static size_t band_at(const cs_held *held, double row) {
 }
 
 /* Adds something to the keys of the bands that it reaches, from `top` to `bottom`. */
-static void add(cs_held *held, double top, double bottom, uint64_t place, cs_hash hash) {
+static void add(cs_held *held, double top, double bottom, cs_hash hash) {
   if (!(top <= bottom))
     return;
   size_t end = band_at(held, bottom + CS_FRAME_BAND);
-  for (size_t i = band_at(held, top); i < end; i++) {
-    cs_hash_word(&held->bands[i].key, place);
+  for (size_t i = band_at(held, top); i < end; i++)
     cs_hash_hash(&held->bands[i].key, hash);
-  }
+}
+
+static void add_everywhere(cs_held *held, cs_hash hash) { add(held, -HUGE_VAL, HUGE_VAL, hash); }
+
+static void add_frame(cs_held *held, const cs_frame *frame, const celspan_frame_desc *desc) {
+  const cs_view *view = &frame->view;
+  cs_hash hash = cs_hash_begin(0x68656c64u);
+  const int32_t sizes[] = {frame->width,      frame->height,   frame->crop_x,
+                           frame->crop_width, view->first_row, view->end_row};
+  cs_hash_bytes(&hash, sizes, sizeof sizes);
+  cs_hash_number(&hash, view->film_width);
+  cs_hash_number(&hash, view->film_height);
+  cs_hash_number(&hash, (double)view->span_error);
+  cs_hash_word(&hash, view->space);
+  cs_hash_word(&hash, frame->takes_codes);
+  if (frame->has_antialias)
+    cs_antialias_hash(&hash, &frame->antialias);
+  cs_hash_hash(&hash, cs_walk_hash_files(desc->exposures, desc->exposure_count));
+  add_everywhere(held, cs_hash_end(hash));
 }
 
 /* The heights whose boundaries are decided by a cel: those of whole rows of tiles of the cull. */
@@ -161,72 +132,77 @@ static void widen(const cs_cull *cull, double *top, double *bottom) {
   *bottom = last + 1 == cull->tile_rows ? HUGE_VAL : (double)(last + 1) * cull->tile_height;
 }
 
-static void add_plan(cs_held *held, const cs_plan *plan, uint64_t place) {
-  const double margin = plan->margin + 1; /* a pixel for rounding */
-  for (size_t i = 0; i < plan->cel_count; i++) {
-    const cs_plan_cel *cel = &plan->cels[i];
-    double top = cel->top, bottom = cel->bottom;
+/* What a stack was found to be: crowds and blurs are painted in other ways where something
+ * elsewhere does not suit them, with other last bits. Where light is folded by a table, it is
+ * joined by the numbers of the layers. */
+static void add_plan(cs_held *held, const cs_plan *plan) {
+  const cs_stack *stack = &plan->stack;
+  const bool is_flat = cs_composer_is_flat(stack);
+  const bool is_numbered = is_flat && cs_over_table_suits(stack);
+  cs_hash traits = cs_hash_begin((uint64_t)plan->cull.tile_height);
+  cs_hash_word(&traits, is_flat && stack->tree_count == 0); /* crowds (engine/area/crowd.h) */
+  cs_hash_word(&traits, is_numbered);
+  cs_hash_word(&traits, stack->has_sources); /* blurs (engine/paint/few.c) */
+  add_everywhere(held, cs_hash_end(traits));
+  for (size_t i = 0; i < plan->shown_count; i++) {
+    const cs_plan_shown *shown = &plan->shown[i];
+    double top = shown->top, bottom = shown->bottom;
+    cs_hash hash = cs_hash_begin(is_numbered ? shown->first : 0);
+    cs_hash_hash(&hash, shown->hash);
     widen(&plan->cull, &top, &bottom);
-    add(held, top - margin, bottom + margin, place + i, cel->hash);
+    add(held, top - plan->margin, bottom + plan->margin, cs_hash_end(hash));
   }
 }
 
-static void add_sheets(cs_held *held, const cs_map_frame *maps, uint64_t place) {
-  for (size_t i = 0; i < maps->count; i++) {
-    const cs_map_sheet *sheet = &maps->sheets[i];
-    uint64_t at = place + ((uint64_t)i << 32);
-    if (sheet->plan)
-      add_plan(held, sheet->plan, at);
-    else
-      add(held, sheet->top - 1, sheet->bottom + 1, at, sheet->hash);
-  }
+static void add_sheet(cs_held *held, const cs_map_sheet *sheet) {
+  cs_hash whole = cs_hash_begin(sheet->plan != NULL);
+  cs_hash_bytes(&whole, &sheet->back, sizeof sheet->back);
+  cs_hash_number(&whole, (double)sheet->keep);
+  add_everywhere(held, cs_hash_end(whole));
+  if (sheet->plan)
+    add_plan(held, sheet->plan);
+  else
+    add(held, sheet->top, sheet->bottom, sheet->hash);
+}
+
+static void add_exposure(cs_held *held, const cs_frame *frame, size_t index) {
+  const cs_map_frame *maps = &frame->maps[index];
+  cs_hash whole = cs_hash_begin(index);
+  cs_hash_number(&whole, (double)frame->weights[index]);
+  cs_rostrum_hash_own(&whole, frame->rostrums[index]);
+  add_everywhere(held, cs_hash_end(whole));
+  for (size_t i = 0; i < maps->count; i++)
+    add_sheet(held, &maps->sheets[i]);
+  if (!cs_drawings_are_used(maps))
+    add_plan(held, &frame->plans[index]);
 }
 
 static void make_keys(cs_held *held, const cs_frame *frame, const celspan_frame_desc *desc) {
-  const cs_hash whole = hash_frame(frame, desc);
-  for (size_t i = 0; i < held->count; i++) {
-    held->bands[i].key = whole;
-    int32_t top = (held->first_band + (int32_t)i) * CS_FRAME_BAND, end = top + CS_FRAME_BAND;
-    cs_hash_word(&held->bands[i].key, (uint64_t)(top > held->first_row ? top : held->first_row));
-    cs_hash_word(&held->bands[i].key, (uint64_t)(end < held->end_row ? end : held->end_row));
-  }
+  for (size_t i = 0; i < held->count; i++)
+    held->bands[i].key = cs_hash_begin((uint64_t)held->first_band + i);
+  add_frame(held, frame, desc);
   for (size_t i = 0; i < frame->count; i++)
-    if (cs_drawings_are_used(&frame->maps[i]))
-      add_sheets(held, &frame->maps[i], (uint64_t)i << 48);
-    else
-      add_plan(held, &frame->plans[i], (uint64_t)i << 48);
+    add_exposure(held, frame, i);
   for (size_t i = 0; i < held->count; i++)
     held->bands[i].key = cs_hash_end(held->bands[i].key);
 }
 
 /* ---------------------------------------------------------------- the bands of a frame */
 
-static cs_cache_key key_of(const band *b, uint64_t what) {
-  return (cs_cache_key){b->key.a, b->key.b, what};
-}
+static cs_cache_key key_of(const band *b) { return (cs_cache_key){b->key.a, b->key.b, 0}; }
 
-static celspan_status find_band(celspan_context *context, cs_held *held, band *b) {
-  cs_cache_entry *met;
-  b->kept = (entry *)cs_cache_pin(held->cache, key_of(b, KEPT));
-  if (b->kept) {
+static void find_band(cs_held *held, band *b) {
+  b->kept = (entry *)cs_cache_pin(&held->store->cache, key_of(b));
+  if (b->kept)
     held->bytes += b->kept->entry.bytes;
-    return CELSPAN_OK;
-  }
-  met = cs_cache_pin(held->cache, key_of(b, MET));
-  b->is_wanted = met != NULL;
-  if (met)
-    cs_cache_unpin(held->cache, met);
-  else {
-    CS_TRY(cs_cache_create(held->cache, context, key_of(b, MET), sizeof(entry), &met));
-    (void)cs_cache_insert(held->cache, met, false);
-  }
-  return CELSPAN_OK;
+  else
+    b->is_wanted = was_met(held->store, b->key);
 }
 
 static bool suits(const celspan_context *context, const cs_frame *frame,
                   const celspan_frame_desc *desc) {
-  bool suits = desc->repeats && context->root->held_bytes > 0 && frame->count > 0 &&
-               !frame->is_crowded && !cs_scene_has_procedure(desc->exposures, desc->exposure_count);
+  bool suits = desc->repeats && context->root->held_bytes > 0 && !frame->is_crowded &&
+               !cs_scene_has_procedure(desc->exposures, desc->exposure_count);
   for (size_t i = 0; suits && i < frame->count; i++)
     suits = !frame->maps[i].has_gaps;
   return suits;
@@ -248,14 +224,14 @@ celspan_status cs_held_begin(celspan_context *context, const celspan_frame_desc 
     return cs_fail_memory(context);
   memset(held, 0, size_of(count));
   frame->held = held;
-  held->cache = cs_cache_of(service);
+  held->store = (store *)service;
   held->first_row = first_row;
   held->end_row = end_row;
   held->first_band = first;
   held->count = count;
   make_keys(held, frame, desc);
   for (size_t i = 0; i < count; i++)
-    CS_TRY(find_band(context, held, &held->bands[i]));
+    find_band(held, &held->bands[i]);
   return CELSPAN_OK;
 }
 
@@ -265,25 +241,15 @@ void cs_held_end(celspan_context *context, cs_frame *frame, bool is_made) {
     band *b = &held->bands[i];
     entry *finished = b->finished;
     if (finished && is_made)
-      (void)cs_cache_insert(held->cache, &finished->entry, false);
+      (void)cs_cache_insert(&held->store->cache, &finished->entry, false);
     else if (finished)
-      cs_cache_discard(held->cache, &finished->entry);
+      cs_cache_discard(&held->store->cache, &finished->entry);
     if (b->kept)
-      cs_cache_unpin(held->cache, &b->kept->entry);
+      cs_cache_unpin(&held->store->cache, &b->kept->entry);
   }
   if (held)
     cs_mem_free(context->memory, held, size_of(held->count));
   frame->held = NULL;
-}
-
-static int32_t first_of(const cs_held *held, const band *b) {
-  int32_t row = (held->first_band + (int32_t)(b - held->bands)) * CS_FRAME_BAND;
-  return row > held->first_row ? row : held->first_row;
-}
-
-static int32_t end_of(const cs_held *held, const band *b) {
-  int32_t row = (held->first_band + (int32_t)(b - held->bands) + 1) * CS_FRAME_BAND;
-  return row < held->end_row ? row : held->end_row;
 }
 
 uint64_t cs_held_rows(const cs_frame *frame) {
@@ -321,16 +287,16 @@ static celspan_status complete(celspan_context *context, cs_held *held, band *b,
   size_t bytes = sizeof(entry) + cs_row_queue_bytes(rows);
   cs_cache_entry *made;
   entry *none = NULL;
-  if (atomic_fetch_add(&held->bytes, bytes) + bytes > held->cache->budget) {
+  if (atomic_fetch_add(&held->bytes, bytes) + bytes > held->store->cache.budget) {
     atomic_fetch_sub(&held->bytes, bytes);
     return CELSPAN_OK;
   }
-  CS_TRY(cs_cache_create(held->cache, context, key_of(b, KEPT), bytes, &made));
+  CS_TRY(cs_cache_create(&held->store->cache, context, key_of(b), bytes, &made));
   ((entry *)made)->rows = *rows;
   *rows = (cs_row_queue){0};
   if (!atomic_compare_exchange_strong(&b->finished, &none, (entry *)made)) {
     atomic_fetch_sub(&held->bytes, bytes);
-    cs_cache_discard(held->cache, made);
+    cs_cache_discard(&held->store->cache, made);
   }
   return CELSPAN_OK;
 }
@@ -339,10 +305,7 @@ static celspan_status complete(celspan_context *context, cs_held *held, band *b,
 static celspan_status copy_row(celspan_context *context, cs_held *held, band *b, cs_held_copy *copy,
                                const cs_row *row) {
   CS_TRY(cs_row_queue_add(context, &copy->rows, row->spans, row->count));
-  if (++copy->next < end_of(held, b))
-    return CELSPAN_OK;
-  copy->next = -1;
-  return complete(context, held, b, &copy->rows);
+  return copy->next == end_of(held, b) ? complete(context, held, b, &copy->rows) : CELSPAN_OK;
 }
 
 /* A copy only saves time: where there is no room for it, it is given up, and the frame is made. */
@@ -358,8 +321,10 @@ void cs_held_add(celspan_context *context, const cs_frame *frame, cs_held_copy *
   }
   if (y != copy->next)
     return;
+  copy->next = y + 1;
   celspan_status status = copy_row(context, held, b, copy, row);
-  if (status != CELSPAN_OK || cs_row_queue_bytes(&copy->rows) + held->bytes > held->cache->budget) {
+  size_t bytes = cs_row_queue_bytes(&copy->rows) + held->bytes;
+  if (status != CELSPAN_OK || bytes > held->store->cache.budget) {
     cs_held_copy_finish(copy, context->memory);
     copy->next = -1;
   }

@@ -6,16 +6,21 @@
  *
  * A band whose key was met in an earlier frame is copied when it is made, and the copy is kept in a
  * cache of the context; a later band of that key is given out from there. So a film in which
- * everything moves copies nothing.
+ * everything moves copies nothing: of a key that was met, eight bytes are noted.
  *
- * The parts of a key
- *   frame  sizes, columns, spaces, errors, filter, weights; of each rostrum its camera, lights,
- *          grade; of each cel its back light; what the stacks were found to be, and the grid of the
- *          cull; files of pictures and when they were changed
- *   cel    its hash and its place among the cels, in each band that its outlines reach: with the
- *          margin of the filter, and as far as whole rows of tiles of the cull, since all cels of a
- *          row of tiles decide what is hidden in it
- *   map    all that it is made of, its place and its light, in each band that its raster reaches
+ * The parts of a key, of which those of a cel are only in the bands that it reaches
+ *   frame     sizes, rows, columns, spaces, errors, filter; files of pictures, and when they were
+ *             changed
+ *   band      its number
+ *   exposure  its weight, camera, lights, grade
+ *   stack     what decides the last bits in all rows: how high the tiles of the cull are, whether
+ *             crowds are painted by themselves, whether light is folded by a table, and whether any
+ *             cel has a mode
+ *   cel       its hash, in the order of the cels: with the margin of the filter, and as far as whole
+ *             rows of tiles of the cull, since all cels of a row of tiles decide what is hidden
+ *             there; where there is a table, the number of its first layer
+ *   light     the flat back light of a cel, before the cel, in all bands
+ *   map       all that it is made of, its place and its light; the light behind it, in all bands
  *
  * Invariants
  *   - spans that are given out are the spans that would be made, bit by bit;
