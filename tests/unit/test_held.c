@@ -6,6 +6,7 @@
 #include "base/thread_pool.h"
 #include "frames/render/ways.h"
 #include "tests/support/memory.h"
+#include "tests/support/picture.h"
 #include "tests/support/random.h"
 #include "tests/support/scene.h"
 
@@ -298,6 +299,25 @@ static void crowd(studio *s, shot *made) {
   }
 }
 
+/* Pixels that a sink may take as they are. */
+static void pixels(studio *s, shot *made) {
+  static unsigned char codes[PIXELS][4];
+  celspan_surface_desc desc = CELSPAN_SURFACE_DESC;
+  celspan_picture_desc picture = CELSPAN_PICTURE_DESC;
+  plain(s, made);
+  for (int i = 0; i < PIXELS; i++)
+    memcpy(codes[i], (unsigned char[4]){(unsigned char)i, (unsigned char)(i / 7), 30, 255}, 4);
+  desc.width = WIDTH;
+  desc.height = HEIGHT;
+  desc.format = CELSPAN_SURFACE_RGBA8;
+  desc.pixels = codes;
+  studio_check(s, celspan_surface_create(s->context, &desc, &picture.surface));
+  celspan_texture **texture = &s->textures[s->texture_count++];
+  studio_check(s, celspan_texture_create_picture(s->context, &picture, texture));
+  celspan_surface_unref(picture.surface);
+  made->objects[0][0] = studio_rect(s, 0, 0, WIDTH, HEIGHT, *texture);
+}
+
 /* Two blurred cels over each other. */
 static void blurred(studio *s, shot *made) {
   plain(s, made);
@@ -531,19 +551,20 @@ static const difference differences[] = {
     DIFFERENCE(gradients, film_width), DIFFERENCE(gradients, film_height),
     DIFFERENCE(plain, frame_space),    DIFFERENCE(plain, frame_antialias),
     DIFFERENCE(plain, weight),         DIFFERENCE(plain, depth),
-    DIFFERENCE(cropped, crop_x),       DIFFERENCE(cropped, width),
-    DIFFERENCE(gradients, tolerance),  DIFFERENCE(filtered, recoloured),
-    DIFFERENCE(filtered, radius),      DIFFERENCE(hidden, hiding),
-    DIFFERENCE(hidden, tiles),         DIFFERENCE(faint, one_more),
-    DIFFERENCE(faint, last_ramp),      DIFFERENCE(crowd, last_ramp),
-    DIFFERENCE(crowd, boolean),        DIFFERENCE(hidden, crop_y),
-    DIFFERENCE(hidden, crop_end),      DIFFERENCE(rich, last_ramp),
-    DIFFERENCE(rich, last_blur),       DIFFERENCE(blurred, last_blend),
-    DIFFERENCE(rich, cel_back),        DIFFERENCE(rich, cel_matte),
-    DIFFERENCE(rich, cel_front),       DIFFERENCE(rich, cel_grade),
-    DIFFERENCE(rich, moved),           DIFFERENCE(rich, first_moved),
-    DIFFERENCE(rich, first_turned),    DIFFERENCE(rich, cel_blur),
-    DIFFERENCE(rich, order),           DIFFERENCE(rich, viewport),
+    DIFFERENCE(pixels, depth),         DIFFERENCE(cropped, crop_x),
+    DIFFERENCE(cropped, width),        DIFFERENCE(gradients, tolerance),
+    DIFFERENCE(filtered, recoloured),  DIFFERENCE(filtered, radius),
+    DIFFERENCE(hidden, hiding),        DIFFERENCE(hidden, tiles),
+    DIFFERENCE(faint, one_more),       DIFFERENCE(faint, last_ramp),
+    DIFFERENCE(crowd, last_ramp),      DIFFERENCE(crowd, boolean),
+    DIFFERENCE(hidden, crop_y),        DIFFERENCE(hidden, crop_end),
+    DIFFERENCE(rich, last_ramp),       DIFFERENCE(rich, last_blur),
+    DIFFERENCE(blurred, last_blend),   DIFFERENCE(rich, cel_back),
+    DIFFERENCE(rich, cel_matte),       DIFFERENCE(rich, cel_front),
+    DIFFERENCE(rich, cel_grade),       DIFFERENCE(rich, moved),
+    DIFFERENCE(rich, first_moved),     DIFFERENCE(rich, first_turned),
+    DIFFERENCE(rich, cel_blur),        DIFFERENCE(rich, order),
+    DIFFERENCE(rich, viewport),
 };
 
 /* Two frames in turn, of which both are held in the end: were the change not in the keys, one frame
@@ -593,6 +614,44 @@ static void dashes(studio *s, shot *made) {
   desc.texture = studio_paint(s, celspan_paint_rgb(1, 0, 0, 1));
   studio_check(s, celspan_object_create_stroke(s->context, &desc, &made->objects[0][0]));
   s->objects[s->object_count++] = made->objects[0][0];
+}
+
+static void paint_dark(int x, int y, float rgba[4]) {
+  memcpy(rgba, (float[4]){(float)x / WIDTH, (float)y / HEIGHT, 0, 1}, 4 * sizeof(float));
+}
+
+static void paint_light(int x, int y, float rgba[4]) {
+  memcpy(rgba, (float[4]){1, (float)y / HEIGHT, (float)x / WIDTH, 1}, 4 * sizeof(float));
+}
+
+/* A file of a picture that is written again is another picture. */
+static void check_file(void) {
+  memory_watch watch = {0};
+  static studio s, bare;
+  uint64_t rows;
+  const char *path = picture_path("held.png");
+  celspan_picture_desc picture = CELSPAN_PICTURE_DESC;
+  s.context = context_of(&watch, 64 << 20);
+  bare.context = context_of(&watch, 0);
+  picture.file = path;
+  if (picture_module_or_skip(s.context)) {
+    shot made = begin_shot();
+    plain(&s, &made);
+    celspan_texture **texture = &s.textures[s.texture_count++];
+    studio_check(&s, celspan_texture_create_picture(s.context, &picture, texture));
+    made.objects[0][0] = studio_rect(&s, 0, 0, WIDTH, HEIGHT, *texture);
+    for (int k = 0; k < 6; k++) {
+      if (k % 3 == 0)
+        studio_check(&s, picture_write(s.context, path, NULL, WIDTH, HEIGHT,
+                                       k == 0 ? paint_dark : paint_light));
+      CHECK(compare(&s, &bare, &made, 1, &rows) && (k % 3 < 2 || rows == HEIGHT));
+    }
+    unlink(path);
+  }
+  studio_finish(&bare);
+  studio_finish(&s);
+  celspan_context_destroy(s.context);
+  celspan_context_destroy(bare.context);
 }
 
 static void check_not_held(void (*scene)(studio *s, shot *made), bool repeats) {
@@ -664,6 +723,27 @@ static void check_rows(void) {
   CHECK(held_rows(0, 12) == 0);
   uint64_t few = held_rows(1 << 18, 12);
   CHECK(few > 0 && few < 10 * (HEIGHT - CS_FRAME_BAND));
+}
+
+/* A copy that is given up in the first rows of a band is not taken up again in its last ones. */
+static void check_given_up_copies(void) {
+  memory_watch watch = {0};
+  static studio s, bare;
+  uint64_t rows = 0;
+  s.context = context_of(&watch, 1 << 17);
+  bare.context = context_of(&watch, 0);
+  shot made = begin_shot();
+  plain(&s, &made);
+  made.shapes[1] = SHAPES;
+  for (int k = 0; k < SHAPES; k++)
+    made.objects[1][k] = studio_circle(&s, k * 1.5, 38 + k % 3, 2, ramp(&s, k));
+  for (int k = 0; k < 5; k++)
+    CHECK(compare(&s, &bare, &made, 1, &rows));
+  CHECK(rows > 0 && rows < HEIGHT);
+  studio_finish(&bare);
+  studio_finish(&s);
+  celspan_context_destroy(s.context);
+  celspan_context_destroy(bare.context);
 }
 
 /* Where a blur is in all rows, and its radius grows, nothing is copied: only keys are
@@ -899,11 +979,13 @@ static void check_lights_alone(void) {
 int main(void) {
   check_films();
   check_keys();
+  check_file();
   check_not_held(procedure, true);
   check_not_held(gaps, true);
   check_not_held(dashes, true);
   check_not_held(plain, false);
   check_rows();
+  check_given_up_copies();
   check_copies();
   check_crowd();
   check_given_up();

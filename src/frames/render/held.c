@@ -141,13 +141,12 @@ static void add_plan(cs_held *held, const cs_plan *plan) {
   const bool is_numbered = is_flat && cs_over_table_suits(stack);
   cs_hash traits = cs_hash_begin((uint64_t)plan->cull.tile_height);
   cs_hash_word(&traits, is_flat && stack->tree_count == 0); /* crowds (engine/area/crowd.h) */
-  cs_hash_word(&traits, is_numbered);
   cs_hash_word(&traits, stack->has_sources); /* blurs (engine/paint/few.c) */
   add_everywhere(held, cs_hash_end(traits));
   for (size_t i = 0; i < plan->shown_count; i++) {
     const cs_plan_shown *shown = &plan->shown[i];
     double top = shown->top, bottom = shown->bottom;
-    cs_hash hash = cs_hash_begin(is_numbered ? shown->first : 0);
+    cs_hash hash = cs_hash_begin(is_numbered ? 1 + shown->first : 0);
     cs_hash_hash(&hash, shown->hash);
     widen(&plan->cull, &top, &bottom);
     add(held, top - plan->margin, bottom + plan->margin, cs_hash_end(hash));
