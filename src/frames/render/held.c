@@ -123,15 +123,6 @@ static void add_frame(cs_held *held, const cs_frame *frame, const celspan_frame_
   add_everywhere(held, cs_hash_end(hash));
 }
 
-/* The heights whose boundaries are decided by a cel: those of whole rows of tiles of the cull. */
-static void widen(const cs_cull *cull, double *top, double *bottom) {
-  if (cull->tile_rows == 0 || *top > *bottom)
-    return;
-  int32_t first = cs_cull_row(cull, *top), last = cs_cull_row(cull, *bottom);
-  *top = first == 0 ? -HUGE_VAL : (double)first * cull->tile_height;
-  *bottom = last + 1 == cull->tile_rows ? HUGE_VAL : (double)(last + 1) * cull->tile_height;
-}
-
 /* What a stack was found to be: crowds and blurs are painted in other ways where something
  * elsewhere does not suit them, with other last bits. Where light is folded by a table, it is
  * joined by the numbers of the layers. */
@@ -141,20 +132,18 @@ static void add_plan(cs_held *held, const cs_plan *plan) {
   const bool is_numbered = is_flat && cs_over_table_suits(stack);
   cs_hash traits = cs_hash_begin((uint64_t)plan->cull.tile_height);
   cs_hash_word(&traits, is_flat && stack->tree_count == 0); /* crowds (engine/area/crowd.h) */
-  cs_hash_word(&traits, stack->has_sources); /* blurs (engine/paint/few.c) */
+  cs_hash_word(&traits, stack->has_sources);                /* blurs (engine/paint/few.c) */
   add_everywhere(held, cs_hash_end(traits));
   for (size_t i = 0; i < plan->shown_count; i++) {
     const cs_plan_shown *shown = &plan->shown[i];
-    double top = shown->top, bottom = shown->bottom;
     cs_hash hash = cs_hash_begin(is_numbered ? 1 + shown->first : 0);
     cs_hash_hash(&hash, shown->hash);
-    widen(&plan->cull, &top, &bottom);
-    add(held, top - plan->margin, bottom + plan->margin, cs_hash_end(hash));
+    add(held, shown->top - plan->margin, shown->bottom + plan->margin, cs_hash_end(hash));
   }
 }
 
 static void add_sheet(cs_held *held, const cs_map_sheet *sheet) {
-  cs_hash whole = cs_hash_begin(sheet->plan != NULL);
+  cs_hash whole = cs_hash_begin(0);
   cs_hash_bytes(&whole, &sheet->back, sizeof sheet->back);
   cs_hash_number(&whole, (double)sheet->keep);
   add_everywhere(held, cs_hash_end(whole));
@@ -166,7 +155,7 @@ static void add_sheet(cs_held *held, const cs_map_sheet *sheet) {
 
 static void add_exposure(cs_held *held, const cs_frame *frame, size_t index) {
   const cs_map_frame *maps = &frame->maps[index];
-  cs_hash whole = cs_hash_begin(index);
+  cs_hash whole = cs_hash_begin(0);
   cs_hash_number(&whole, (double)frame->weights[index]);
   cs_rostrum_hash_own(&whole, frame->rostrums[index]);
   add_everywhere(held, cs_hash_end(whole));

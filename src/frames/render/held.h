@@ -16,11 +16,13 @@
  *   stack     what decides the last bits in all rows: how high the tiles of the cull are, whether
  *             crowds are painted by themselves, whether light is folded by a table, and whether any
  *             cel has a mode
- *   cel       its hash, in the order of the cels: with the margin of the filter, and as far as
- *             whole rows of tiles of the cull, since all cels of a row of tiles decide what is
- *             hidden there; where there is a table, the number of its first layer
+ *   cel       its hash, in the order of the cels, with the margin of the filter; where there is a
+ *             table, the number of its first layer
  *   light     the flat back light of a cel, before the cel, in all bands
  *   map       all that it is made of, its place and its light; the light behind it, in all bands
+ *
+ * What the cull hides in a row of tiles is decided by layers that are inside its tiles from the top
+ * to the foot, and these reach all bands of the row.
  *
  * Invariants
  *   - spans that are given out are the spans that would be made, bit by bit;
