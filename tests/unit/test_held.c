@@ -488,13 +488,14 @@ static void crop_x(studio *s, shot *made) {
   made->frame.crop_x = 32;
   made->frame.crop_width = WIDTH / 2;
 }
-/* The first band has other rows, and the last one. */
+/* The first band has other rows. */
 static void crop_y(studio *s, shot *made) {
   (void)s;
   made->frame.crop_y = 8;
   made->frame.crop_width = WIDTH;
-  made->frame.crop_height = HEIGHT - 16;
+  made->frame.crop_height = HEIGHT - 8;
 }
+/* The same of the last one. */
 static void crop_end(studio *s, shot *made) {
   (void)s;
   made->frame.crop_width = WIDTH;
