@@ -1,6 +1,6 @@
 std = "lua54"
 max_line_length = false -- tests/support/rooms.lua --columns checks the sources of all languages
-exclude_files = { "build*", "out", "lua/celspan.d.lua" }
+exclude_files = { "build*", "out" }
 files["tests/spec"] = { std = "+busted" }
 files["tests/property"] = { std = "+busted" }
 files["tests/golden/**/*_spec.lua"] = { std = "+busted" }

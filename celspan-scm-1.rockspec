@@ -27,7 +27,7 @@ ninja -C "$build"]],
   install_command = [[
 build=${CELSPAN_BUILD:-build-rock}
 install -D -m 755 "$build/celspan.so" "$(LIBDIR)/celspan.so" &&
-install -D -m 644 lua/celspan.d.lua "$(PREFIX)/annotations/celspan.d.lua" &&
+install -D -m 644 "$build/lua/celspan.d.lua" "$(PREFIX)/annotations/celspan.d.lua" &&
 for module in plugins/oiio/celspan-picture.so plugins/type/celspan-art.so plugins/icc/celspan-colour.so \
   plugins/cairo/celspan-pdf.so; do
   if [ -f "$build/src/$module" ]; then

@@ -127,9 +127,9 @@ static bool holds_annotations(const char *folder) {
 }
 
 /* The folder of the annotations: where they were installed; otherwise beside the program, in a
- * checkout or in an installation that was moved. */
+ * build folder or in an installation that was moved. */
 static void put_annotations(lua_State *L) {
-  static const char *const beside[] = {"../share/celspan/annotations", "../lua"};
+  static const char *const beside[] = {"../share/celspan/annotations", "lua"};
   char own[FOLDER_SIZE / 2], folder[FOLDER_SIZE], found[PATH_MAX];
   bool is_known = cs_program_folder(own, sizeof own);
   bool is_there = holds_annotations(CS_ANNOTATIONS);

@@ -132,7 +132,6 @@ return {
   ["scripts"] = { "golden/golden" },
   ["scripts/film.lua"] = { "spec/little_one" },
   ["scripts/film"] = { "spec/little_one" },
-  ["lua/celspan.d.lua"] = { "spec/meta" },
   ["lua/celspan/dev/annotations.lua"] = { "spec/meta" },
   ["lua/celspan/film/artwork.lua"] = { "spec/habits", "spec/lottie", "spec/delivery" },
   ["lua/celspan/film/subtitles.lua"] = { "spec/delivery" },

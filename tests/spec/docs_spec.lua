@@ -14,6 +14,7 @@
 local celspan = require "celspan"
 local lotties = require "tests.support.lotties"
 local markdown = require "tests.support.markdown"
+local own = require "tests.support.own"
 local pictures = require "docs.pictures.list"
 local present = require "tests.support.present"
 local raised = require "tests.support.raised"
@@ -253,7 +254,7 @@ local function section(heading)
   return reference:sub(from, to or -1)
 end
 
-local annotations = markdown.read "lua/celspan.d.lua"
+local annotations = own "celspan.manual".annotations()
 
 --- The named fields of an annotated class.
 local function annotated(class)

@@ -1,4 +1,4 @@
---- The part of lua/celspan.d.lua that is written by hand: functions, methods, and tables that
+--- The part of celspan.d.lua that is written by hand: functions, methods, and tables that
 --- functions return. celspan.manual puts the annotations of a noun in the place of a line
 ---
 ---   ---@noun circle: celspan.object        a value, and the class that it extends

@@ -1,4 +1,4 @@
---- The manual of the Lua interface: the annotations for editors, lua/celspan.d.lua, and the pages
+--- The manual of the Lua interface: the annotations for editors, celspan.d.lua, and the pages
 --- of `celspan help lua`. The fields of nouns come from their rows in C (src/lua/nouns), the rest
 --- from celspan.annotations and from the annotations in the modules. One file, because annotations
 --- and pages show the same rows.
@@ -106,7 +106,7 @@ local function expand(noun, parent, has_methods, has_constructor)
   return table.concat(lines, "\n")
 end
 
---- The text of lua/celspan.d.lua.
+--- The text of celspan.d.lua.
 function manual.annotations()
   local celspan, nouns, by_line = require "celspan", core.nouns(), {}
   for _, noun in pairs(nouns) do

@@ -6,7 +6,7 @@
  *
  * Everything that is known about a field is in its row: cs_fields_read fills the description of the
  * core from the rows, messages and :with use them, and cs_describe_push gives them to the Lua
- * module that prints `celspan help lua` and the annotations for editors, lua/celspan.d.lua.
+ * module that prints `celspan help lua` and the annotations for editors, celspan.d.lua.
  */
 #pragma once
 
