@@ -128,20 +128,20 @@ static celspan_status fail_search(celspan_context *context, const cs_module_desc
 
 /* The table of the module, which must have the version of this release. */
 static celspan_status get_table(celspan_context *context, const cs_module_desc *desc,
-                                celspan_status failure, const char *path,
+                                uint32_t version, celspan_status failure, const char *path,
                                 const void *(*entry)(void), const void **table) {
-  const uint32_t *version = entry ? entry() : NULL;
-  if (!version)
+  const uint32_t *own = entry ? entry() : NULL;
+  if (!own)
     return cs_fail(
         context, failure,
         "%s is not a module of this celspan (it lacks %s): %s, or name another file in %s", path,
         desc->symbol, desc->advice, desc->override);
-  if (*version != desc->version)
+  if (*own != version)
     return cs_fail(
         context, failure,
         "%s is of another version of celspan (%u, not %u): %s, or name another file in %s", path,
-        *version, desc->version, desc->advice, desc->override);
-  *table = version;
+        *own, version, desc->advice, desc->override);
+  *table = own;
   return CELSPAN_OK;
 }
 
@@ -152,7 +152,7 @@ static void *open_object(const char *path) {
   return handle ? handle : dlopen(path, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
 }
 
-static celspan_status load(celspan_context *context, const cs_module_desc *desc,
+static celspan_status load(celspan_context *context, const cs_module_desc *desc, uint32_t version,
                            celspan_status failure, const void **table) {
   module_search search = {.error = 0};
   if (!find(desc, &search) && !find_again(desc, &search))
@@ -166,19 +166,19 @@ static celspan_status load(celspan_context *context, const cs_module_desc *desc,
   const void *(*entry)(void);
   void *symbol = dlsym(handle, desc->symbol);
   memcpy(&entry, &symbol, sizeof entry);
-  celspan_status status = get_table(context, desc, failure, search.path, entry, table);
+  celspan_status status = get_table(context, desc, version, failure, search.path, entry, table);
   dlclose(handle);
   return status;
 }
 
 /* If the other module is missing too, the first one is loaded again, for its error message. */
 static celspan_status load_either(celspan_context *context, const cs_module_desc *desc,
-                                  celspan_status failure, const void **table) {
-  celspan_status status = load(context, desc, failure, table);
+                                  uint32_t version, celspan_status failure, const void **table) {
+  celspan_status status = load(context, desc, version, failure, table);
   if (status == CELSPAN_OK || !desc->other || named_file(desc) || errno == ENOMEM)
     return status;
-  status = load(context, desc->other, failure, table);
-  return status == CELSPAN_OK ? status : load(context, desc, failure, table);
+  status = load(context, desc->other, version, failure, table);
+  return status == CELSPAN_OK ? status : load(context, desc, version, failure, table);
 }
 
 /* Volatile, because compilers recognize memory that is allocated and freed at once, and leave out
@@ -191,10 +191,10 @@ static bool has_room(void) {
 
 /* A failed allocation can be seen in errno, even if the loader gives another reason. */
 celspan_status cs_module_load(celspan_context *context, const cs_module_desc *desc,
-                              celspan_status failure, const void **table) {
+                              uint32_t version, celspan_status failure, const void **table) {
   errno = 0;
   celspan_status status =
-      has_room() ? load_either(context, desc, failure, table) : cs_fail_memory(context);
+      has_room() ? load_either(context, desc, version, failure, table) : cs_fail_memory(context);
   if (status == CELSPAN_OK || errno != ENOMEM)
     return status;
   return cs_fail(context, CELSPAN_NO_MEMORY, "out of memory in loading the module %s", desc->file);

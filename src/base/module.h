@@ -16,22 +16,19 @@ typedef struct cs_module_desc {
   const char *folder;   /* where its sources lie below src/: "plugins/oiio" */
   const char *override; /* the environment variable that names a file instead */
   const char *symbol;   /* a function without arguments that returns the table */
-  const char *purpose;  /* for the message: "reading and writing pictures" */
+  const char *purpose;  /* for the message: "reading and writing pictures"; of art: the caller's */
   const char *advice;   /* for the message: what to install */
-  uint32_t version;     /* the version with which the table begins, as a uint32_t */
   /* The module to load if this one cannot be loaded, unless the environment names a file; NULL:
    * none. */
   const struct cs_module_desc *other;
 } cs_module_desc;
 
-/* The names of one of celspan's own modules, made of its name, its name in capitals, and its
- * folder. */
-#define CS_MODULE(name, capitals, place)                                                           \
-  .file = "celspan-" name ".so", .folder = "plugins/" place,                                       \
-  .override = "CELSPAN_" capitals "_MODULE", .symbol = "celspan_" name "_module"
+extern const cs_module_desc cs_modules_picture, cs_modules_art, cs_modules_colour, cs_modules_space,
+    cs_modules_pdf, cs_modules_web;
 
-/* The table, valid for the rest of the process. Status `failure` (INPUT or OUTPUT) when there is no
- * such module, it cannot be read or loaded, or it is of another version; the message says what to
- * do. NO_MEMORY. Any thread. */
+/* The table, valid for the rest of the process; it begins with `version`, as a uint32_t. Status
+ * `failure` (INPUT or OUTPUT) when there is no such module, it cannot be read or loaded, or it is
+ * of another version; the message says what to do. NO_MEMORY. Any thread. */
 CELSPAN_CHECKED celspan_status cs_module_load(celspan_context *context, const cs_module_desc *desc,
-                                              celspan_status failure, const void **table);
+                                              uint32_t version, celspan_status failure,
+                                              const void **table);

@@ -2,8 +2,8 @@
 #include "base/module.h"
 
 celspan_status cs_module_load(celspan_context *context, const cs_module_desc *desc,
-                              celspan_status failure, const void **table) {
-  (void)table;
+                              uint32_t version, celspan_status failure, const void **table) {
+  (void)version, (void)table;
   return cs_fail(context, failure,
                  "%s needs the module %s, which this program cannot load: it was built with "
                  "-Dmodules=false",

@@ -12,18 +12,9 @@
 enum { NAME_SIZE = 8192 }; /* bytes; paths may be 4096 long */
 
 static celspan_status load(celspan_context *context, const cs_space_module **out) {
-  static const cs_module_desc desc = {
-      CS_MODULE("space", "SPACE", "ocio"),
-      .purpose = "writing in spaces of OpenColorIO",
-#ifdef CELSPAN_WITHOUT_SPACES
-      .advice = "this celspan was built without OpenColorIO; build it with -Dspaces=enabled",
-#else
-      .advice = "install OpenColorIO and the celspan package with colour spaces",
-#endif
-      .version = CS_SPACE_MODULE_VERSION,
-  };
   const void *table;
-  CS_TRY(cs_module_load(context, &desc, CELSPAN_INPUT, &table));
+  CS_TRY(
+      cs_module_load(context, &cs_modules_space, CS_SPACE_MODULE_VERSION, CELSPAN_INPUT, &table));
   *out = table;
   return CELSPAN_OK;
 }

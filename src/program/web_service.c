@@ -102,18 +102,8 @@ static int counts(lua_State *L) {
 /* ---------------------------------------------------------------- the server */
 
 static celspan_status load(celspan_context *context, const cs_web_module **out) {
-  static const cs_module_desc desc = {
-      CS_MODULE("web", "WEB", "web"),
-      .purpose = "showing a film in a browser",
-#ifdef CELSPAN_WITHOUT_WEB
-      .advice = "this celspan was built without libmicrohttpd; build it with -Dweb=enabled",
-#else
-      .advice = "install libmicrohttpd and the celspan package with the web module",
-#endif
-      .version = CS_WEB_MODULE_VERSION,
-  };
   const void *table;
-  CS_TRY(cs_module_load(context, &desc, CELSPAN_INPUT, &table));
+  CS_TRY(cs_module_load(context, &cs_modules_web, CS_WEB_MODULE_VERSION, CELSPAN_INPUT, &table));
   *out = table;
   return CELSPAN_OK;
 }

@@ -9,19 +9,10 @@ static bool put(void *user, const void *bytes, size_t size) {
 }
 
 celspan_status cs_plot_pdf_open(cs_plot_text *text, cs_plotter *out) {
-  static const cs_module_desc desc = {
-      CS_MODULE("pdf", "PDF", "cairo"),
-      .purpose = "writing PDF",
-#ifdef CELSPAN_WITHOUT_PDF
-      .advice = "this celspan was built without Cairo; build it with -Dpdf=enabled",
-#else
-      .advice = "install Cairo and the celspan package with the PDF module",
-#endif
-      .version = CS_PDF_MODULE_VERSION,
-  };
   const cs_pdf_output output = {.maker = cs_context_maker(text->context), .put = put, .user = text};
   const void *table;
-  CS_TRY(cs_module_load(text->context, &desc, CELSPAN_OUTPUT, &table));
+  CS_TRY(cs_module_load(text->context, &cs_modules_pdf, CS_PDF_MODULE_VERSION, CELSPAN_OUTPUT,
+                        &table));
   const cs_pdf_module *module = table;
   return module->open(&output, out) == CELSPAN_OK ? CELSPAN_OK : cs_fail_memory(text->context);
 }

@@ -14,29 +14,6 @@
 /* If there are more entries of surfaces than this, unused ones are removed. */
 #define SURFACES_LEAST 256
 
-static const cs_module_desc raster_module = {
-    .file = "celspan-raster.so",
-    .folder = "plugins/raster",
-    .override = "CELSPAN_PICTURE_MODULE",
-    .symbol = "celspan_picture_module",
-    .purpose = "reading and writing pictures",
-    .advice = "install celspan again",
-    .version = CS_PICTURE_MODULE_VERSION,
-};
-
-static const cs_module_desc picture_module = {
-    CS_MODULE("picture", "PICTURE", "oiio"),
-    .other = &raster_module,
-    .purpose = "reading and writing pictures",
-#ifdef CELSPAN_WITHOUT_PICTURES
-    .advice = "this celspan was built without OpenImageIO, so it writes PNG, Targa and span files "
-              "and reads no pictures; build it with -Dpictures=enabled",
-#else
-    .advice = "install OpenImageIO and the celspan package with pictures",
-#endif
-    .version = CS_PICTURE_MODULE_VERSION,
-};
-
 /* ---------------------------------------------------------------- the store itself */
 
 static void destroy_entry(cs_picture_store *store, cs_picture_entry *entry) {
@@ -104,7 +81,7 @@ static celspan_status load_module(celspan_context *context, cs_picture_store *st
   if (store->module)
     return CELSPAN_OK;
   const void *table;
-  CS_TRY(cs_module_load(context, &picture_module, failure, &table));
+  CS_TRY(cs_module_load(context, &cs_modules_picture, CS_PICTURE_MODULE_VERSION, failure, &table));
   store->module = table;
   return CELSPAN_OK;
 }

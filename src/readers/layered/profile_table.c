@@ -23,19 +23,10 @@ cs_hash cs_profile_table_hash(const cs_colour_request *request) {
 }
 
 celspan_status cs_profile_table_module(celspan_context *context, const cs_colour_module **out) {
-  static const cs_module_desc desc = {
-      CS_MODULE("colour", "COLOUR", "icc"),
-      .purpose = "reading colour profiles",
-#ifdef CELSPAN_WITHOUT_COLOUR
-      .advice = "this celspan was built without Little CMS; build it with -Dcolour=enabled",
-#else
-      .advice = "install Little CMS and the celspan package with colour profiles",
-#endif
-      .version = CS_COLOUR_MODULE_VERSION,
-  };
   const void *table = context->root->colour_module;
   if (!table)
-    CS_TRY(cs_module_load(context, &desc, CELSPAN_INPUT, &table));
+    CS_TRY(cs_module_load(context, &cs_modules_colour, CS_COLOUR_MODULE_VERSION, CELSPAN_INPUT,
+                          &table));
   *out = table;
   return CELSPAN_OK;
 }
@@ -44,9 +35,8 @@ static celspan_status fill(celspan_context *context, const cs_input *input,
                            const cs_colour_request *request, cs_colour_table *out) {
   const cs_colour_module *module;
   cs_picture_failure failure;
-#ifdef CELSPAN_WITHOUT_COLOUR
-  return CELSPAN_OK; /* the form is unknown */
-#endif
+  if (!CELSPAN_WITH_COLOUR)
+    return CELSPAN_OK; /* the form is unknown */
   CS_TRY(cs_profile_table_module(context, &module));
   celspan_status status = module->sample(request, out, &failure);
   if (status == CELSPAN_NO_MEMORY)

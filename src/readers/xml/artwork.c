@@ -29,19 +29,10 @@ static const cs_service_kind loaded_kind = {create, destroy, trim};
 
 static celspan_status load(celspan_context *context, const char *purpose,
                            const cs_art_module **out) {
-  const cs_module_desc desc = {
-      CS_MODULE("art", "ART", "type"),
-      .purpose = purpose,
-#ifdef CELSPAN_WITHOUT_ART
-      .advice = "this celspan was built without expat, HarfBuzz, FriBidi and libunibreak; build it "
-                "with -Dart=enabled",
-#else
-      .advice = "install the celspan package with drawings and type",
-#endif
-      .version = CS_ART_MODULE_VERSION,
-  };
+  cs_module_desc desc = cs_modules_art;
   const void *table;
-  CS_TRY(cs_module_load(context, &desc, CELSPAN_INPUT, &table));
+  desc.purpose = purpose;
+  CS_TRY(cs_module_load(context, &desc, CS_ART_MODULE_VERSION, CELSPAN_INPUT, &table));
   *out = table;
   return CELSPAN_OK;
 }
