@@ -180,21 +180,4 @@ static celspan_status close_file(void *user, const char **reason) {
   return CELSPAN_OK;
 }
 
-void cs_plot_svg_open(cs_plot_text *text, cs_plotter *out) {
-  *out = (cs_plotter){.user = text,
-                      .begin_page = begin_page,
-                      .gradients = gradients,
-                      .begin_group = begin_group,
-                      .end_group = end_group,
-                      .begin_path = begin_path,
-                      .move = move,
-                      .line = line,
-                      .curve = curve,
-                      .close_path = close_path,
-                      .end_path = end_path,
-                      .begin_picture = begin_picture,
-                      .bytes = bytes,
-                      .end_picture = end_picture,
-                      .end_page = end_page,
-                      .close = close_file};
-}
+void cs_plot_svg_open(cs_plot_text *text, cs_plotter *out) { *out = CS_PLOTTER(text); }

@@ -65,6 +65,15 @@ typedef struct cs_plotter {
   celspan_status (*close)(void *user, const char **reason);
 } cs_plotter;
 
+/* The plotter of a file of C whose functions have the names of the members. */
+#define CS_PLOTTER(state)                                                                          \
+  (cs_plotter) {                                                                                   \
+    .user = (state), .begin_page = begin_page, .gradients = gradients, .begin_group = begin_group, \
+    .end_group = end_group, .begin_path = begin_path, .move = move, .line = line, .curve = curve,  \
+    .close_path = close_path, .end_path = end_path, .begin_picture = begin_picture,                \
+    .bytes = bytes, .end_picture = end_picture, .end_page = end_page, .close = close_file          \
+  }
+
 /* ---------------------------------------------------------------- the PDF module */
 
 #define CS_PDF_MODULE_VERSION 1u

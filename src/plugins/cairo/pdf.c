@@ -260,22 +260,7 @@ static celspan_status open_file(const cs_pdf_output *output, cs_plotter *out) {
   pdf->surface = cairo_pdf_surface_create_for_stream(put, pdf, 1, 1);
   if (cairo_surface_status(pdf->surface) == CAIRO_STATUS_SUCCESS)
     set_facts(pdf->surface, output->maker);
-  *out = (cs_plotter){.user = pdf,
-                      .begin_page = begin_page,
-                      .gradients = gradients,
-                      .begin_group = begin_group,
-                      .end_group = end_group,
-                      .begin_path = begin_path,
-                      .move = move,
-                      .line = line,
-                      .curve = curve,
-                      .close_path = close_path,
-                      .end_path = end_path,
-                      .begin_picture = begin_picture,
-                      .bytes = bytes,
-                      .end_picture = end_picture,
-                      .end_page = end_page,
-                      .close = close_file};
+  *out = CS_PLOTTER(pdf);
   return CELSPAN_OK;
 }
 
