@@ -43,22 +43,32 @@ typedef struct render_job {
   cs_sequence played; /* the frames of the film whose sound is heard; none: those of `frames` */
   cs_progress progress;
   cs_summary summary;
-  cs_record record; /* of frames that are files */
-  cs_whole whole;   /* of a film that is one file */
-  bool surveys;     /* frames are built, but not rendered */
-  bool is_video;
-  cs_video video; /* used if the output is a video */
-  bool is_plane;
-  cs_plane_film *plane; /* used if the film becomes one plane file */
-  bool is_pages;
-  cs_plot *pages;  /* used if the film becomes one PDF */
+  cs_record record;            /* of frames that are files */
+  cs_whole whole;              /* of a film that is one file */
+  bool surveys;                /* frames are built, but not rendered */
+  const struct stream *stream; /* NULL: frames are files, or are only hashed */
+  cs_video video;              /* of the stream `into_video`; the next two are of theirs */
+  cs_plane_film *plane;
+  cs_plot *pages;
   cs_slots raw;    /* of frames that go to standard output; none: they are written in rows */
   int64_t *failed; /* frames; owned */
   size_t failed_count, failed_capacity;
   cs_exit outcome; /* of the reported failure */
 } render_job;
 
-/* ---------------------------------------------------------------- frames */
+/* ---------------------------------------------------------------- streams */
+
+/* Where frames go that are no files of their own. */
+typedef struct stream {
+  celspan_status (*put)(void *user, const cs_shoot_put *one);
+  /* For those that are made in slots; see frames/film/shoot.h. */
+  celspan_status (*give)(void *user, size_t slot);
+  celspan_status (*repeat)(void *user);
+  /* NULL: it is standard output, and not a file that all frames share. */
+  cs_exit (*open)(render_job *job);
+  celspan_status (*commit)(render_job *job);
+  void (*discard)(render_job *job);
+} stream;
 
 static celspan_coding raw_coding(const render_job *job, const celspan_frame_desc *frame) {
   celspan_coding coding = cs_target_coding(job->request);
@@ -66,13 +76,11 @@ static celspan_coding raw_coding(const render_job *job, const celspan_frame_desc
   return coding;
 }
 
-static celspan_status put_raw(void *user, celspan_context *context, const celspan_frame_desc *desc,
-                              size_t slot, cs_shoot_frame *frame) {
+static celspan_status put_raw(void *user, const cs_shoot_put *one) {
   const render_job *job = user;
-  (void)frame;
-  const celspan_coding coding = raw_coding(job, desc);
-  return job->raw.count ? cs_raw_frame_make(context, desc, &coding, &job->raw, slot)
-                        : cs_raw_frame_print(context, desc, &coding);
+  const celspan_coding coding = raw_coding(job, one->desc);
+  return job->raw.count ? cs_raw_frame_make(one->context, one->desc, &coding, &job->raw, one->slot)
+                        : cs_raw_frame_print(one->context, one->desc, &coding);
 }
 
 static celspan_status give_raw(void *user, size_t slot) {
@@ -80,11 +88,16 @@ static celspan_status give_raw(void *user, size_t slot) {
   return cs_raw_frame_give(job->script->context, &job->raw, slot);
 }
 
-static celspan_status put_video(void *user, celspan_context *context,
-                                const celspan_frame_desc *desc, size_t slot,
-                                cs_shoot_frame *frame) {
-  const render_job *job = user;
-  return cs_video_put(&job->video, context, desc, slot, frame->digest);
+static const stream into_output = {.put = put_raw, .give = give_raw};
+
+static cs_exit open_video(render_job *job) {
+  const cs_sequence *played = job->played.count ? &job->played : &job->frames;
+  return cs_video_target_open(&job->video, job->script, job->request, &job->frame, played);
+}
+
+static celspan_status put_video(void *user, const cs_shoot_put *one) {
+  render_job *job = user;
+  return cs_video_put(&job->video, one->context, one->desc, one->slot, one->frame->digest);
 }
 
 static celspan_status give_video(void *user, size_t slot) {
@@ -95,23 +108,49 @@ static celspan_status repeat_video(void *user) {
   return cs_video_repeat(&((render_job *)user)->video);
 }
 
-static celspan_status put_plane(void *user, celspan_context *context,
-                                const celspan_frame_desc *desc, size_t slot,
-                                cs_shoot_frame *frame) {
-  const render_job *job = user;
-  (void)context;
-  (void)slot;
-  return cs_plane_film_put(job->plane, desc, frame->is_named ? &frame->scene : NULL);
+static celspan_status commit_video(render_job *job) { return cs_video_finish(&job->video); }
+
+static void discard_video(render_job *job) { cs_video_discard(&job->video); }
+
+static const stream into_video = {put_video,  give_video,   repeat_video,
+                                  open_video, commit_video, discard_video};
+
+static cs_exit open_plane(render_job *job) {
+  const cs_film_info *film = &job->script->film;
+  celspan_depth depth = CELSPAN_DEPTH_DEFAULT;
+  cs_request_read(job->request, "--depth", &depth);
+  const cs_plane_film_desc desc = {.width = film->width,
+                                   .height = film->height,
+                                   .frames_second = film->frames_second,
+                                   .depth = cs_plane_depth(depth)};
+  celspan_context *context = job->script->context;
+  return cs_report_failure(context, cs_plane_film_create(context, job->output, &desc, &job->plane),
+                           NULL);
 }
 
-static celspan_status put_page(void *user, celspan_context *context, const celspan_frame_desc *desc,
-                               size_t slot, cs_shoot_frame *frame) {
+static celspan_status put_plane(void *user, const cs_shoot_put *one) {
+  const cs_shoot_frame *frame = one->frame;
+  return cs_plane_film_put(((render_job *)user)->plane, one->desc,
+                           frame->is_named ? &frame->scene : NULL);
+}
+
+static celspan_status commit_plane(render_job *job) { return cs_plane_film_commit(job->plane); }
+
+static void discard_plane(render_job *job) { cs_plane_film_discard(job->plane); }
+
+static const stream into_plane = {
+    .put = put_plane, .open = open_plane, .commit = commit_plane, .discard = discard_plane};
+
+static cs_exit open_pages(render_job *job) {
+  celspan_context *context = job->script->context;
+  const cs_plot_desc desc = cs_drawing_target_read(job->request);
+  return cs_report_failure(context, cs_plot_begin(context, job->output, &desc, &job->pages), NULL);
+}
+
+static celspan_status put_page(void *user, const cs_shoot_put *one) {
   render_job *job = user;
   cs_plot_facts facts;
-  (void)context;
-  (void)slot;
-  (void)frame;
-  CS_TRY(cs_plot_add_frame(job->pages, desc, &facts));
+  CS_TRY(cs_plot_add_frame(job->pages, one->desc, &facts));
   if (!job->has_noted) {
     const cs_plot_desc drawing = cs_drawing_target_read(job->request);
     cs_drawing_target_report(job->script->context, job->output, &drawing, &facts);
@@ -119,6 +158,31 @@ static celspan_status put_page(void *user, celspan_context *context, const celsp
   }
   return CELSPAN_OK;
 }
+
+static celspan_status commit_pages(render_job *job) { return cs_plot_end(job->pages, CELSPAN_OK); }
+
+static void discard_pages(render_job *job) { (void)!cs_plot_end(job->pages, CELSPAN_CANCELLED); }
+
+static const stream into_pages = {
+    .put = put_page, .open = open_pages, .commit = commit_pages, .discard = discard_pages};
+
+/* Only where the frames are known, it is known whether the output is one picture, a film of planes,
+ * a PDF of several pages or a video. */
+static const stream *choose_stream(const render_job *job) {
+  const cs_request *request = job->request;
+  const bool has_several = job->frames.count > 1;
+  return has_several && cs_target_is_plane_film(request)         ? &into_plane
+         : has_several && cs_drawing_target_is_film(request)     ? &into_pages
+         : cs_video_target_is_wanted(request, job->frames.count) ? &into_video
+         : job->output && cs_target_is_stream(job->output)       ? &into_output
+                                                                 : NULL;
+}
+
+static bool is_video(const render_job *job) { return job->stream == &into_video; }
+
+static bool is_whole(const render_job *job) { return job->stream && job->stream->open; }
+
+/* ---------------------------------------------------------------- files */
 
 /* Whether files have more than the frame. */
 static bool is_apart(const render_job *job) {
@@ -138,16 +202,6 @@ static celspan_status put_drawing(void *user, celspan_context *context,
   const render_job *job = user;
   (void)file;
   return cs_drawing_target_write_frame(context, desc, path, job->request);
-}
-
-/* Whether frames go to standard output. */
-static bool is_stream(const render_job *job) {
-  return job->output && cs_target_is_stream(job->output);
-}
-
-/* Whether all frames go into one file. */
-static bool is_whole(const render_job *job) {
-  return job->is_video || job->is_plane || job->is_pages;
 }
 
 static bool keep(void *user, cs_shoot_frame *frame) {
@@ -185,10 +239,10 @@ static celspan_status report_failure(render_job *job, int64_t number, celspan_st
 
 static const char *destination_of(const render_job *job, const cs_shoot_frame *frame) {
   const char *output = job->output;
-  return !output          ? "hashed"
-         : is_stream(job) ? "standard output"
-         : is_whole(job)  ? output
-                          : frame->path;
+  return !output         ? "hashed"
+         : is_whole(job) ? output
+         : job->stream   ? "standard output"
+                         : frame->path;
 }
 
 /* Says once in a run that layers over each other are not the frame. */
@@ -278,7 +332,7 @@ static cs_exit write_summary(const render_job *job, cs_exit outcome) {
                               .failed = {job->failed, job->failed_count},
                               .outcome = outcome,
                               .has_video =
-                                  job->is_video && cs_video_target_runs_ffmpeg(job->request)};
+                                  is_video(job) && cs_video_target_runs_ffmpeg(job->request)};
   cs_exit written = cs_summary_write(&job->summary, job->script->context, &run);
   return outcome == CS_EXIT_OK ? written : outcome;
 }
@@ -307,17 +361,13 @@ static bool keeps_nothing(const render_job *job) {
   return cs_request_read(job->request, "--memory", &memory) && memory == 0;
 }
 
-/* Adds where frames go that are no files of their own. */
 static void add_stream(const render_job *job, cs_shoot *shoot) {
-  shoot->put = job->is_video    ? put_video
-               : job->is_plane  ? put_plane
-               : job->is_pages  ? put_page
-               : is_stream(job) ? put_raw
-                                : NULL;
-  shoot->slots = job->is_video ? job->video.slots.count : job->raw.count;
+  const stream *into = job->stream;
+  shoot->put = into->put;
+  shoot->slots = is_video(job) ? job->video.slots.count : job->raw.count;
   if (shoot->slots > 0) {
-    shoot->give = job->is_video ? give_video : give_raw;
-    shoot->repeat = job->is_video ? repeat_video : NULL;
+    shoot->give = into->give;
+    shoot->repeat = into->repeat;
   }
 }
 
@@ -325,7 +375,7 @@ static celspan_status run_shoot(render_job *job) {
   cs_shoot shoot = {.context = job->script->context,
                     .film = job->script->film,
                     .frames = &job->frames,
-                    .pattern = is_stream(job) || is_whole(job) ? NULL : job->output,
+                    .pattern = job->stream ? NULL : job->output,
                     .frame = job->frame,
                     .file = describe_file(job),
                     .has_digests = job->has_digests,
@@ -340,7 +390,8 @@ static celspan_status run_shoot(render_job *job) {
                     .build = build,
                     .finished = finished,
                     .tick = tick};
-  add_stream(job, &shoot);
+  if (job->stream)
+    add_stream(job, &shoot);
   return cs_shoot_run(&shoot);
 }
 
@@ -348,7 +399,7 @@ static celspan_status run_shoot(render_job *job) {
  * each other. */
 static celspan_status open_raw(render_job *job) {
   const celspan_coding coding = raw_coding(job, &job->frame);
-  return is_stream(job) && job->frames.count > 1 && !keeps_nothing(job)
+  return job->stream == &into_output && job->frames.count > 1 && !keeps_nothing(job)
              ? cs_raw_frame_slots(job->script->context, &job->frame, &coding, &job->raw)
              : CELSPAN_OK;
 }
@@ -362,27 +413,11 @@ static cs_exit shoot(render_job *job) {
                                     : cs_report_failure(job->script->context, status, NULL);
 }
 
-/* Discards the file after a failure, which has been reported. */
-static void discard_whole(render_job *job) {
-  if (job->is_video)
-    cs_video_discard(&job->video);
-  else if (job->is_plane)
-    cs_plane_film_discard(job->plane);
-  else
-    (void)!cs_plot_end(job->pages, CELSPAN_CANCELLED);
-}
-
-static celspan_status commit_whole(render_job *job) {
-  return job->is_video   ? cs_video_finish(&job->video)
-         : job->is_plane ? cs_plane_film_commit(job->plane)
-                         : cs_plot_end(job->pages, CELSPAN_OK);
-}
-
 /* Gives the file its final name, and adds it to the record. */
 static celspan_status complete_whole(render_job *job) {
   celspan_context *context = job->script->context;
   context->contents = job->resumes ? &job->whole.file.contents : NULL;
-  celspan_status status = commit_whole(job);
+  celspan_status status = job->stream->commit(job);
   context->contents = NULL;
   return status == CELSPAN_OK && job->resumes ? cs_whole_finish(&job->whole) : status;
 }
@@ -390,12 +425,12 @@ static celspan_status complete_whole(render_job *job) {
 /* The frames of a video are finished only when the whole file is. */
 static cs_exit shoot_whole(render_job *job) {
   cs_exit outcome = shoot(job);
-  if (outcome != CS_EXIT_OK) {
-    discard_whole(job);
+  if (outcome != CS_EXIT_OK) { /* it has been reported */
+    job->stream->discard(job);
     return outcome;
   }
   CS_TRY_EXIT(cs_report_failure(job->script->context, complete_whole(job), NULL));
-  return job->is_video ? cs_video_target_add_poster(job->script, job->request, &job->frame)
+  return is_video(job) ? cs_video_target_add_poster(job->script, job->request, &job->frame)
                        : CS_EXIT_OK;
 }
 
@@ -419,35 +454,8 @@ static cs_exit resume_frames(render_job *job) {
   return outcome;
 }
 
-static cs_exit open_plane(render_job *job) {
-  const cs_film_info *film = &job->script->film;
-  celspan_depth depth = CELSPAN_DEPTH_DEFAULT;
-  cs_request_read(job->request, "--depth", &depth);
-  const cs_plane_film_desc desc = {.width = film->width,
-                                   .height = film->height,
-                                   .frames_second = film->frames_second,
-                                   .depth = cs_plane_depth(depth)};
-  celspan_context *context = job->script->context;
-  return cs_report_failure(context, cs_plane_film_create(context, job->output, &desc, &job->plane),
-                           NULL);
-}
-
-static cs_exit open_pages(render_job *job) {
-  celspan_context *context = job->script->context;
-  const cs_plot_desc desc = cs_drawing_target_read(job->request);
-  return cs_report_failure(context, cs_plot_begin(context, job->output, &desc, &job->pages), NULL);
-}
-
-static cs_exit open_whole(render_job *job) {
-  const cs_sequence *played = job->played.count ? &job->played : &job->frames;
-  return job->is_video
-             ? cs_video_target_open(&job->video, job->script, job->request, &job->frame, played)
-         : job->is_plane ? open_plane(job)
-                         : open_pages(job);
-}
-
 static cs_exit make_whole(render_job *job) {
-  CS_TRY_EXIT(open_whole(job));
+  CS_TRY_EXIT(job->stream->open(job));
   return render_all(job);
 }
 
@@ -462,7 +470,7 @@ static bool is_unchanged(render_job *job) {
   job->surveys = true;
   celspan_status status = run_shoot(job);
   job->surveys = false;
-  bool is_all = !job->is_video || cs_video_target_has_poster(job->script, job->request);
+  bool is_all = !is_video(job) || cs_video_target_has_poster(job->script, job->request);
   return status == CELSPAN_OK && is_all && cs_whole_is_kept(&job->whole);
 }
 
@@ -504,7 +512,7 @@ static cs_exit report_no_frames(const render_job *job) {
 static cs_exit retime(render_job *job) {
   double rate;
   celspan_context *context = job->script->context;
-  if (!job->is_video || !cs_request_read(job->request, "--fps", &rate))
+  if (!is_video(job) || !cs_request_read(job->request, "--fps", &rate))
     return CS_EXIT_OK;
   job->played = job->frames;
   celspan_status status = cs_sequence_retime(context, &job->played,
@@ -512,21 +520,16 @@ static cs_exit retime(render_job *job) {
   return cs_report_failure(context, status, "--fps");
 }
 
-/* Only here, where the frames are known, it is known whether the output is one picture, a film of
- * planes, a PDF of several pages or a video. */
 static cs_exit make_frames(render_job *job) {
   const cs_request *request = job->request;
   if (job->frames.count == 0)
     return report_no_frames(job);
   CS_TRY_EXIT(cs_change_refuse(job->script, &job->change, &job->frames));
-  job->is_plane = cs_target_is_plane_film(request) && job->frames.count > 1;
-  job->is_pages = cs_drawing_target_is_film(request) && job->frames.count > 1;
-  job->is_video =
-      !job->is_plane && !job->is_pages && cs_video_target_is_wanted(request, job->frames.count);
+  job->stream = choose_stream(job);
   CS_TRY_EXIT(retime(job));
   if (is_whole(job))
     return job->resumes ? resume_whole(job) : make_whole(job);
-  if (job->output && !cs_target_is_stream(job->output))
+  if (job->output && !job->stream)
     CS_TRY_EXIT(cs_refusals_of_output(job->script->context, request, job->frames.count));
   return job->resumes ? resume_frames(job) : render_all(job);
 }

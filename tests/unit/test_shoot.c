@@ -135,14 +135,14 @@ static celspan_status build_stream(void *user, int64_t number, cs_film_frame *ou
   return cs_film_frame_init(out, t->scenes->context, &exposure, 1);
 }
 
-static celspan_status put_in_slot(void *user, celspan_context *context,
-                                  const celspan_frame_desc *desc, size_t slot,
-                                  cs_shoot_frame *frame) {
+static celspan_status put_in_slot(void *user, const cs_shoot_put *one) {
   stream *t = user;
-  CS_TRY(fail_at(t, context, MAKING, frame->number));
-  t->in_slot[slot] = frame->number;
+  cs_shoot_frame *frame = one->frame;
+  CS_TRY(fail_at(t, one->context, MAKING, frame->number));
+  t->in_slot[one->slot] = frame->number;
   frame->digest[0] = (uint64_t)(frame->number / 2);
-  return celspan_frame_pixels(context, desc, NULL, t->slots.frames[slot], (size_t)4 * WIDTH, NULL);
+  return celspan_frame_pixels(one->context, one->desc, NULL, t->slots.frames[one->slot],
+                              (size_t)4 * WIDTH, NULL);
 }
 
 static celspan_status give_slot(void *user, size_t slot) {

@@ -192,7 +192,7 @@ static celspan_status make_frame(const job *j, celspan_context *context,
   const cs_shoot *shoot = j->shoot;
   cs_shoot_frame *frame = &task->frame;
   if (shoot->put)
-    return shoot->put(shoot->user, context, desc, task->slot, frame);
+    return shoot->put(shoot->user, &(cs_shoot_put){context, desc, task->slot, frame});
   if (!shoot->pattern)
     return celspan_frame_digest(context, desc, shoot->file.coding, frame->digest);
   if (cs_plane_is_wanted(frame->path, shoot->file.format))

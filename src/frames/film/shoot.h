@@ -45,6 +45,14 @@ typedef struct cs_shoot_frame {
   cs_file_contents contents; /* of its file, where that was made or copied */
 } cs_shoot_frame;
 
+/* A frame on its way into something else than a file. */
+typedef struct cs_shoot_put {
+  celspan_context *context; /* of the thread */
+  const celspan_frame_desc *desc;
+  size_t slot;
+  cs_shoot_frame *frame;
+} cs_shoot_put;
+
 typedef struct cs_shoot {
   celspan_context *context;
   cs_film_info film;
@@ -59,11 +67,10 @@ typedef struct cs_shoot {
   /* The exposures of a frame: new. Errors: with their sentence in the context. Calling thread, in
    * order. */
   celspan_status (*build)(void *user, int64_t number, cs_film_frame *out);
-  /* The function that is called for each frame instead of writing a file; it sets frame->digest
-   * where there are digests. With `give`, it makes the frame in a slot, in any thread; otherwise it
+  /* The function that is called for each frame instead of writing a file; it sets the
+   * digest where there are digests. With `give`, it makes the frame in a slot, in any thread; otherwise it
    * is called by the calling thread, in order, and slot is 0. NULL: files. */
-  celspan_status (*put)(void *user, celspan_context *context, const celspan_frame_desc *desc,
-                        size_t slot, cs_shoot_frame *frame);
+  celspan_status (*put)(void *user, const cs_shoot_put *one);
   size_t slots; /* of the stream; 0 without `give` */
   /* Gives the frame in a slot on; the slot is free afterwards. Calling thread, in order. NULL: it
    * is no stream. */
