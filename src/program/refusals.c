@@ -1,5 +1,7 @@
 #include "program/refusals.h"
 
+#include <string.h>
+
 #include "frames/plane/plane.h"
 #include "program/drawing_target.h"
 #include "program/layers_target.h"
@@ -32,6 +34,11 @@ static cs_exit refuse_stream(const cs_request *request) {
   return CS_EXIT_OK;
 }
 
+/* A shared file in messages: "a plane file", "a PDF file". */
+static const char *name_of(const char *shared) {
+  return strcmp(shared, "pdf") == 0 ? "PDF" : shared;
+}
+
 static cs_exit refuse_resume(const cs_request *request, const char *output) {
   bool resumes = cs_request_has(request, "--resume");
   if (cs_request_has(request, "--force") && !resumes)
@@ -40,7 +47,7 @@ static cs_exit refuse_resume(const cs_request *request, const char *output) {
   if (cs_request_has(request, "--keep-going") && shared)
     return cs_report_usage("%s: a %s file is made whole: leave --keep-going out, or render "
                            "shot.####.%s",
-                           output, shared, shared);
+                           output, name_of(shared), shared);
   if (resumes && (!output || cs_target_is_stream(output)))
     return cs_report_usage("--resume looks for the frames of an earlier run: give -o "
                            "shot.####.png");
@@ -85,8 +92,8 @@ static cs_exit refuse_division(const cs_request *request, const char *output) {
   const char *shared = cs_target_shared(request);
   if (shared)
     return cs_report_usage(
-        "%s: a %s file of several frames is made in one run; render shot.####.%s", option, shared,
-        shared);
+        "%s: a %s file of several frames is made in one run; render shot.####.%s", option,
+        name_of(shared), shared);
   return CS_EXIT_OK;
 }
 

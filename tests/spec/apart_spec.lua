@@ -300,7 +300,7 @@ describe("--layers cels", function()
     refused("--layers cels --hash", only)
     refused("--layers cels --hash -o 'x.#.exr'", "leave it or --layers out")
     refused("--layers cels --colour srgb -o 'x.#.exr'", "linear light: leave --colour out")
-    refused("--layers cels --depth 8 -o 'x.#.exr'", "openexr files hold depth half, float, not 8")
+    refused("--layers cels --depth 8 -o 'x.#.exr'", "EXR files hold depth half, float, not 8")
     refused("--layers cels --strip 1/1 -o 'x.#.exr'", "strips can be joined only as")
     refused("--layers parts -o 'x.#.exr'", "cels")
     bench:write("film.lua", HEAD .. [[local cels = {}

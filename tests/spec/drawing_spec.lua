@@ -487,8 +487,10 @@ return celspan.film { size = { 60, 40 }, frames = 2, space = "srgb", frame = fun
   it("refuses what it does not have", function()
     refused(2, "--precision is for SVG", "render light.lua -o x.pdf --precision 3")
     refused(2, "--crop is for pictures", "render light.lua -o x.pdf --crop 0,0,9,9")
-    refused(2, "--keep-going", "render light.lua -o x.pdf --keep-going")
-    refused(2, "render shot.####.pdf", "render light.lua -o x.pdf --task 1/2")
+    refused(2, "a PDF file is made whole: leave --keep-going out, or render shot.####.pdf",
+      "render light.lua -o x.pdf --keep-going")
+    refused(2, "a PDF file of several frames is made in one run; render shot.####.pdf",
+      "render light.lua -o x.pdf --task 1/2")
     refused(6, "a side of PDF has at most 14400", "render light.lua -o x.pdf --size 14401x9")
     bench:write("light.png", "no picture")
     refused(2, "a drawing is made of a script", "convert light.png x.pdf")

@@ -140,7 +140,7 @@ describe("PNG and Targa files", function()
   it("are refused if the size is too large for Targa", function()
     local code, _, err = render("f.tga", false, "--size 65536x2")
     assert.are_not.equal(0, code)
-    assert.truthy(err:find("f.tga: the frame is 65536 x 2 pixels; targa files hold at most "
+    assert.truthy(err:find("f.tga: the frame is 65536 x 2 pixels; Targa files hold at most "
       .. "65535 a side",
       1, true), err)
     assert.is_nil(io.open(bench.folder .. "/f.tga"))

@@ -24,6 +24,7 @@
 typedef struct file_format {
   const char *endings; /* of paths, each between spaces */
   const char *name;    /* the name in the module */
+  const char *title;   /* in messages */
   int32_t side;        /* pixels, at most */
   int64_t pixels;      /* width times height at most; 0: any */
   int channels;        /* 4, or 3: the frame over black */
@@ -35,28 +36,31 @@ typedef struct file_format {
 } file_format;
 
 static const file_format formats[] = {
-    {" exr openexr ", "openexr", 1048576, 0, 4, CELSPAN_DEPTH_HALF,
+    {" exr openexr ", "openexr", "EXR", 1048576, 0, 4, CELSPAN_DEPTH_HALF,
      HAS(CELSPAN_DEPTH_HALF) | HAS(CELSPAN_DEPTH_FLOAT), false, true, false},
-    {" tif tiff ", "tiff", 1048576, 0, 4, CELSPAN_DEPTH_8,
+    {" tif tiff ", "tiff", "TIFF", 1048576, 0, 4, CELSPAN_DEPTH_8,
      HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16) | HAS(CELSPAN_DEPTH_FLOAT), false, false, false},
     /* The writer of this format keeps the whole picture in memory. */
-    {" dpx ", "dpx", 1048576, (int64_t)1 << 28, 3, CELSPAN_DEPTH_16,
+    {" dpx ", "dpx", "DPX", 1048576, (int64_t)1 << 28, 3, CELSPAN_DEPTH_16,
      HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16), true, true, false},
-    {" jpg jpeg ", "jpeg", 65500, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true, false},
+    {" jpg jpeg ", "jpeg", "JPEG", 65500, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true,
+     false},
     /* Sizes in the file are 32 bits. */
-    {" bmp ", "bmp", 1048576, (int64_t)1 << 30, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false,
-     true, false},
-    {" hdr rgbe ", "hdr", 1048576, 0, 3, CELSPAN_DEPTH_FLOAT, HAS(CELSPAN_DEPTH_FLOAT), false, true,
-     false},
+    {" bmp ", "bmp", "BMP", 1048576, (int64_t)1 << 30, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8),
+     false, true, false},
+    {" hdr rgbe ", "hdr", "HDR", 1048576, 0, 3, CELSPAN_DEPTH_FLOAT, HAS(CELSPAN_DEPTH_FLOAT),
+     false, true, false},
     /* In files of sixteen bits, values would be shifted by a byte. */
-    {" ppm pnm ", "pnm", 1048576, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true, false},
-    /* The writer of this format divides by alpha with a curve of its own, so it gets no alpha. */
-    {" webp ", "webp", 16383, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true, false},
-    {" gif ", "gif", 65535, (int64_t)1 << 28, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true,
+    {" ppm pnm ", "pnm", "PNM", 1048576, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true,
      false},
-    {" jp2 j2k jpeg2000 ", "jpeg2000", 65535, (int64_t)1 << 28, 3, CELSPAN_DEPTH_8,
+    /* The writer of this format divides by alpha with a curve of its own, so it gets no alpha. */
+    {" webp ", "webp", "WebP", 16383, 0, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8), false, true,
+     false},
+    {" gif ", "gif", "GIF", 65535, (int64_t)1 << 28, 3, CELSPAN_DEPTH_8, HAS(CELSPAN_DEPTH_8),
+     false, true, false},
+    {" jp2 j2k jpeg2000 ", "jpeg2000", "JPEG 2000", 65535, (int64_t)1 << 28, 3, CELSPAN_DEPTH_8,
      HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16), false, true, false},
-    {" avif ", CS_PICTURE_AVIF, CS_AVIF_SIDE, CS_AVIF_PIXELS, 4, CELSPAN_DEPTH_8,
+    {" avif ", CS_PICTURE_AVIF, "AVIF", CS_AVIF_SIDE, CS_AVIF_PIXELS, 4, CELSPAN_DEPTH_8,
      HAS(CELSPAN_DEPTH_8) | HAS(CELSPAN_DEPTH_16), false, false, true},
 };
 
@@ -114,15 +118,15 @@ static celspan_status choose_coding(celspan_context *context, const char *path,
     char depths[64];
     list_depths(format, depths, sizeof depths);
     return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: %s files hold depth %s, not %s", path,
-                   format->name, depths, depth_name(asked->depth));
+                   format->title, depths, depth_name(asked->depth));
   }
   if (format->channels == 4 && format->is_multiplied && asked->alpha == CELSPAN_ALPHA_STRAIGHT)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "%s: %s files hold premultiplied alpha, not straight", path, format->name);
+                   "%s: %s files hold premultiplied alpha, not straight", path, format->title);
   if (format->is_tagged && (asked->convert || asked->transfer == CELSPAN_TRANSFER_CINEON))
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
                    "%s: %s files hold colours as srgb, rec709 or linear, not as %s", path,
-                   format->name, asked->convert ? cs_pixels_colour(asked) : "cineon");
+                   format->title, asked->convert ? cs_pixels_colour(asked) : "cineon");
   celspan_coding coding = *asked;
   if (format->is_film && coding.transfer == CELSPAN_TRANSFER_DEFAULT && !coding.convert)
     coding.transfer = CELSPAN_TRANSFER_CINEON;
@@ -148,11 +152,11 @@ static celspan_status check_size(celspan_context *context, const picture_sink *s
   if (width > format->side || height > format->side)
     return cs_fail(context, CELSPAN_LIMIT,
                    "%s: the frame is %d x %d pixels; %s files hold at most %d a side", sink->path,
-                   (int)width, (int)height, format->name, (int)format->side);
+                   (int)width, (int)height, format->title, (int)format->side);
   if (format->pixels && (int64_t)width * height > format->pixels)
     return cs_fail(context, CELSPAN_LIMIT,
                    "%s: the frame is %d x %d pixels; %s files hold at most %lld pixels", sink->path,
-                   (int)width, (int)height, format->name, (long long)format->pixels);
+                   (int)width, (int)height, format->title, (long long)format->pixels);
   return CELSPAN_OK;
 }
 

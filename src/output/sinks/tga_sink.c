@@ -153,7 +153,7 @@ static celspan_status begin(void *user, celspan_context *context, int32_t width,
   int32_t whole = sink->strip.height > height ? sink->strip.height : height;
   if (width > CS_TGA_SIDE_MOST || whole > CS_TGA_SIDE_MOST)
     return cs_fail(context, CELSPAN_LIMIT,
-                   "%s: the frame is %d x %d pixels; targa files hold at most %d a side",
+                   "%s: the frame is %d x %d pixels; Targa files hold at most %d a side",
                    sink->path, (int)width, (int)whole, CS_TGA_SIDE_MOST);
   CS_TRY(cs_strip_check(context, sink->path, sink->strip, height));
   sink->width = width;
@@ -194,7 +194,7 @@ celspan_status cs_sink_tga(celspan_context *context, const char *path,
   celspan_coding coding = cs_pixels_resolve(file->coding, CELSPAN_DEPTH_8);
   if (coding.depth != CELSPAN_DEPTH_8)
     return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "%s: targa files hold depth 8; for more use PNG, EXR or TIFF", path);
+                   "%s: Targa files hold depth 8; for more use PNG, EXR or TIFF", path);
   const char *title = file->title ? file->title : "";
   size_t path_size = strlen(path) + 1, title_size = strlen(title) + 1;
   size_t size = sizeof(tga_sink) + path_size + title_size;
