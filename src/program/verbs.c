@@ -7,198 +7,156 @@
 
 /* ---------------------------------------------------------------- options of several verbs */
 
-#define OUTPUT(value, help)                                                                        \
-  { "-o", value, &cs_argument_file, help }
+/* A row in a macro. */
+#define OPTION(name, takes, argument, help)                                                        \
+  { name, takes, argument, help }
+
+#define OUTPUT(value, help) OPTION("-o", value, &cs_argument_file, help)
 #define FRAMES                                                                                     \
-  {                                                                                                \
-    "--frames", "LIST", &cs_argument_frames,                                                       \
-        "the frames, such as 1-10,20-30:2,45; of a film also 2s-4s, or names of its marks; "       \
-        "default: all"                                                                             \
-  }
-#define FRAME                                                                                      \
-  { "--frame", "N", &cs_argument_integer, "the frame number; default: the first" }
+  OPTION("--frames", "LIST", &cs_argument_frames,                                                  \
+         "the frames, such as 1-10,20-30:2,45; of a film also 2s-4s, or names of its marks; "      \
+         "default: all")
+#define FRAME OPTION("--frame", "N", &cs_argument_integer, "the frame number; default: the first")
 #define SIZE                                                                                       \
-  {                                                                                                \
-    "--size", "WxH", &cs_argument_size,                                                            \
-        "pixels of the whole frame; each axis is scaled separately"                                \
-  }
+  OPTION("--size", "WxH", &cs_argument_size,                                                       \
+         "pixels of the whole frame; each axis is scaled separately")
 #define SCALE(more)                                                                                \
-  { "--scale", "S", &cs_argument_scale, "pixels per film unit, instead of --size" more }
+  OPTION("--scale", "S", &cs_argument_scale, "pixels per film unit, instead of --size" more)
 #define SCALE_DRAWING SCALE("; of a drawing: of pictures in it, default: 2")
 #define CROP                                                                                       \
-  { "--crop", "X,Y,W,H", &cs_argument_crop, "the part to render, in pixels of the output" }
+  OPTION("--crop", "X,Y,W,H", &cs_argument_crop, "the part to render, in pixels of the output")
 #define ANTIALIAS                                                                                  \
-  {                                                                                                \
-    "--antialias", "MODE", &cs_argument_antialias,                                                 \
-        "area (the average over each pixel), none (pixel centres), or KERNEL[:ROWS]: "             \
-        "box, gaussian, mitchell or lanczos; ROWS: the parts into which a row of "                 \
-        "pixels is cut, 16; default: each rostrum's own"                                           \
-  }
-#define TABLE(help)                                                                                \
-  { "--table", "FILE", &cs_argument_file, help }
+  OPTION("--antialias", "MODE", &cs_argument_antialias,                                            \
+         "area (the average over each pixel), none (pixel centres), or KERNEL[:ROWS]: "            \
+         "box, gaussian, mitchell or lanczos; ROWS: the parts into which a row of "                \
+         "pixels is cut, 16; default: each rostrum's own")
+#define TABLE(help) OPTION("--table", "FILE", &cs_argument_file, help)
 #define WORKERS                                                                                    \
-  {                                                                                                \
-    "--workers", "N", &cs_argument_workers,                                                        \
-        "the number of rendering threads; default: one per processor"                              \
-  }
+  OPTION("--workers", "N", &cs_argument_workers,                                                   \
+         "the number of rendering threads; default: one per processor")
 #define OCIO                                                                                       \
-  {                                                                                                \
-    "--ocio", "FILE", &cs_argument_file,                                                           \
-        "the OpenColorIO configuration; default: the environment variable OCIO"                    \
-  }
+  OPTION("--ocio", "FILE", &cs_argument_file,                                                      \
+         "the OpenColorIO configuration; default: the environment variable OCIO")
 /* The coding of a file's pixels. */
 #define CODING                                                                                     \
-  {"--format", "NAME", &cs_argument_format, "the file format; default: by the extension of OUT"},  \
-      {"--depth", "DEPTH", &cs_argument_depth, "8, 16, half or float; default: by the format"},    \
-      {"--colour", "CODING", &cs_argument_colour,                                                  \
-       "srgb, linear, rec709, cineon, or a space of --ocio; default: srgb, floats linear"},        \
-      {"--display", "NAME", &cs_argument_text,                                                     \
-       "instead of --colour: as this display of --ocio shows the light"},                          \
-      {"--view", "NAME", &cs_argument_text,                                                        \
-       "in this view of the display; default: the configuration's"},                               \
-      OCIO, {                                                                                      \
-    "--alpha", "KIND", &cs_argument_alpha,                                                         \
-        "straight or premultiplied; default: straight, floats premultiplied"                       \
-  }
+  OPTION("--format", "NAME", &cs_argument_format,                                                  \
+         "the file format; default: by the extension of OUT"),                                     \
+      OPTION("--depth", "DEPTH", &cs_argument_depth,                                               \
+             "8, 16, half or float; default: by the format"),                                      \
+      OPTION("--colour", "CODING", &cs_argument_colour,                                            \
+             "srgb, linear, rec709, cineon, or a space of --ocio; default: srgb, floats linear"),  \
+      OPTION("--display", "NAME", &cs_argument_text,                                               \
+             "instead of --colour: as this display of --ocio shows the light"),                    \
+      OPTION("--view", "NAME", &cs_argument_text,                                                  \
+             "in this view of the display; default: the configuration's"),                         \
+      OCIO,                                                                                        \
+      OPTION("--alpha", "KIND", &cs_argument_alpha,                                                \
+             "straight or premultiplied; default: straight, floats premultiplied")
 #define DITHER                                                                                     \
-  {"--dither", NULL, NULL,                                                                         \
-   "8 bits without banding: rounded up or down by the position of the pixel; the default of "      \
-   "videos"},                                                                                      \
-  {                                                                                                \
-    "--no-dither", NULL, NULL, "8 bits rounded to nearest; the default except of videos"           \
-  }
+  OPTION(                                                                                          \
+      "--dither", NULL, NULL,                                                                      \
+      "8 bits without banding: rounded up or down by the position of the pixel; the default of "   \
+      "videos"),                                                                                   \
+      OPTION("--no-dither", NULL, NULL, "8 bits rounded to nearest; the default except of videos")
 #define DRAWING                                                                                    \
-  {"--flat", "HOW", &cs_argument_flat,                                                             \
-   "of a drawing: over (areas continue under each other, so that no seams show; default) or "      \
-   "regions (areas that do not overlap)"},                                                         \
-  {                                                                                                \
-    "--precision", "N", &cs_argument_precision,                                                    \
-        "of an SVG drawing: digits after the point, 0 to 9; default: 3"                            \
-  }
+  OPTION(                                                                                          \
+      "--flat", "HOW", &cs_argument_flat,                                                          \
+      "of a drawing: over (areas continue under each other, so that no seams show; default) or "   \
+      "regions (areas that do not overlap)"),                                                      \
+      OPTION("--precision", "N", &cs_argument_precision,                                           \
+             "of an SVG drawing: digits after the point, 0 to 9; default: 3")
 #define FIT                                                                                        \
-  {                                                                                                \
-    "--fit", "HOW", &cs_argument_fit,                                                              \
-        "where --size has another shape than the film: stretch, contain (with clear bars) or "     \
-        "cover"                                                                                    \
-  }
+  OPTION("--fit", "HOW", &cs_argument_fit,                                                         \
+         "where --size has another shape than the film: stretch, contain (with clear bars) or "    \
+         "cover")
 #define BACKGROUND                                                                                 \
-  {                                                                                                \
-    "--background", "RGB", &cs_argument_tint,                                                      \
-        "a back light of this colour, with matte 1, behind everything"                             \
-  }
+  OPTION("--background", "RGB", &cs_argument_tint,                                                 \
+         "a back light of this colour, with matte 1, behind everything")
 #define CEL                                                                                        \
-  {                                                                                                \
-    "--cel", "NAME", &cs_argument_cel,                                                             \
-        "only the cels with this name (cel:named), with their lights"                              \
-  }
+  OPTION("--cel", "NAME", &cs_argument_cel,                                                        \
+         "only the cels with this name (cel:named), with their lights")
 #define LAYERS                                                                                     \
-  {                                                                                                \
-    "--layers", "WHAT", &cs_argument_layers,                                                       \
-        "cels: an OpenEXR, OpenRaster or Photoshop file also has each cel alone; of PNG, a file "  \
-        "a cel"                                                                                    \
-  }
+  OPTION("--layers", "WHAT", &cs_argument_layers,                                                  \
+         "cels: an OpenEXR, OpenRaster or Photoshop file also has each cel alone; of PNG, a file " \
+         "a cel")
 #define CRYPTOMATTE                                                                                \
-  {                                                                                                \
-    "--cryptomatte", "BY", &cs_argument_mattes,                                                    \
-        "an OpenEXR file also has mattes as Cryptomatte: cels, by their names, or names, of "      \
-        "objects"                                                                                  \
-  }
+  OPTION("--cryptomatte", "BY", &cs_argument_mattes,                                               \
+         "an OpenEXR file also has mattes as Cryptomatte: cels, by their names, or names, of "     \
+         "objects")
 #define ONION                                                                                      \
-  {                                                                                                \
-    "--onion", "B,A", &cs_argument_onion,                                                          \
-        "show the drawings of the B frames before (red) and of the A frames after (green) "        \
-        "behind the drawing of each frame"                                                         \
-  }
+  OPTION("--onion", "B,A", &cs_argument_onion,                                                     \
+         "show the drawings of the B frames before (red) and of the A frames after (green) "       \
+         "behind the drawing of each frame")
 #define LOUDNESS                                                                                   \
-  {                                                                                                \
-    "--loudness", "LUFS", &cs_argument_loudness,                                                   \
-        "the loudness of the whole sound by EBU R 128, such as -14; default: as it is mixed"       \
-  }
+  OPTION("--loudness", "LUFS", &cs_argument_loudness,                                              \
+         "the loudness of the whole sound by EBU R 128, such as -14; default: as it is mixed")
 #define RATE                                                                                       \
-  {                                                                                                \
-    "--fps", "N", &cs_argument_rate,                                                               \
-        "of a video: another rate of frames; the length is the film's, and pictures are held or "  \
-        "left out"                                                                                 \
-  }
+  OPTION("--fps", "N", &cs_argument_rate,                                                          \
+         "of a video: another rate of frames; the length is the film's, and pictures are held or " \
+         "left out")
 /* The coding of a video. */
 #define VIDEO                                                                                      \
-  {"--quality", "Q", &cs_argument_quality,                                                         \
-   "of a video: 0 (small) to 100 (hardly any loss); default: 75"},                                 \
-      {"--codec", "NAME", &cs_argument_codec,                                                      \
-       "of a video: h264, h265, av1, vp9, prores, prores422, prores422hq, dnxhr, ffv1"},           \
-      {"--max-size", "BYTES", &cs_argument_millions,                                               \
-       "of a video: the highest quality that fits into so many bytes, such as 8M"},                \
-      {"--crf", "N", &cs_argument_crf,                                                             \
-       "the constant rate factor of h264, h265, av1, vp9 or avif, instead of --quality"},          \
-      LOUDNESS, {                                                                                  \
-    "--loop", "N", &cs_argument_plays,                                                             \
-        "how often a .gif, .webp, .apng or .avif is played; default: 0, for ever"                  \
-  }
+  OPTION("--quality", "Q", &cs_argument_quality,                                                   \
+         "of a video: 0 (small) to 100 (hardly any loss); default: 75"),                           \
+      OPTION("--codec", "NAME", &cs_argument_codec,                                                \
+             "of a video: h264, h265, av1, vp9, prores, prores422, prores422hq, dnxhr, ffv1"),     \
+      OPTION("--max-size", "BYTES", &cs_argument_millions,                                         \
+             "of a video: the highest quality that fits into so many bytes, such as 8M"),          \
+      OPTION("--crf", "N", &cs_argument_crf,                                                       \
+             "the constant rate factor of h264, h265, av1, vp9 or avif, instead of --quality"),    \
+      LOUDNESS,                                                                                    \
+      OPTION("--loop", "N", &cs_argument_plays,                                                    \
+             "how often a .gif, .webp, .apng or .avif is played; default: 0, for ever")
 #define FORCE                                                                                      \
-  {                                                                                                \
-    "--force", NULL, NULL,                                                                         \
-        "with --resume: keep every complete frame file, even if its content would differ"          \
-  }
+  OPTION("--force", NULL, NULL,                                                                    \
+         "with --resume: keep every complete frame file, even if its content would differ")
 #define KEEP_GOING                                                                                 \
-  {                                                                                                \
-    "--keep-going", NULL, NULL,                                                                    \
-        "continue after frames that fail, or with --table after rows; the exit code is then 1"     \
-  }
+  OPTION("--keep-going", NULL, NULL,                                                               \
+         "continue after frames that fail, or with --table after rows; the exit code is then 1")
 #define MEMORY                                                                                     \
-  {                                                                                                \
-    "--memory", "MiB", &cs_argument_memory,                                                        \
-        "the size of the caches of decoded pictures and defocused cels; default: 768; "            \
-        "0: every frame is rendered as if it were the first"                                       \
-  }
+  OPTION("--memory", "MiB", &cs_argument_memory,                                                   \
+         "the size of the caches of decoded pictures and defocused cels; default: 768; "           \
+         "0: every frame is rendered as if it were the first")
 #define PROGRESS                                                                                   \
-  {                                                                                                \
-    "--progress", "HOW", &cs_argument_progress,                                                    \
-        "auto, bar, lines, none or json on standard error; openjd on standard output"              \
-  }
+  OPTION("--progress", "HOW", &cs_argument_progress,                                               \
+         "auto, bar, lines, none or json on standard error; openjd on standard output")
 #define LOG                                                                                        \
-  {                                                                                                \
-    "--log", "FILE", &cs_argument_file,                                                            \
-        "add each message and each frame to this file, with the time and the name of the machine"  \
-  }
-#define JSON                                                                                       \
-  { "--json", NULL, NULL, "print the same as a JSON object" }
+  OPTION(                                                                                          \
+      "--log", "FILE", &cs_argument_file,                                                          \
+      "add each message and each frame to this file, with the time and the name of the machine")
+#define JSON OPTION("--json", NULL, NULL, "print the same as a JSON object")
 /* The arguments of scripts. */
 #define SETTINGS                                                                                   \
-  {"--set", "NAME=V", &cs_argument_setting,                                                        \
-   "the value of a parameter that the script declares; may be given several times"},               \
-  {                                                                                                \
-    "--set-from", "FILE", &cs_argument_file, "values of parameters, as a JSON object"              \
-  }
+  OPTION("--set", "NAME=V", &cs_argument_setting,                                                  \
+         "the value of a parameter that the script declares; may be given several times"),         \
+      OPTION("--set-from", "FILE", &cs_argument_file, "values of parameters, as a JSON object")
 /* The arguments and the rights of scripts. */
 #define SCRIPT SETTINGS, RIGHTS
 #define RIGHTS                                                                                     \
-  {"--trust", NULL, NULL,                                                                          \
-   "give the script all of Lua, with files and programs, and no limits; decode "                   \
-   "pictures in this process, without limits"},                                                    \
-      {"--strict", NULL, NULL,                                                                     \
-       "let the kernel confine the process too: no other files, no programs, no "                  \
-       "network"},                                                                                 \
-      {"--allow", "DIR", &cs_argument_texts,                                                       \
-       "let the script also read this folder and the folders in it; may be given "                 \
-       "several times"},                                                                           \
-      {"--allow-system-fonts", NULL, NULL,                                                         \
-       "let the script also read the fonts that are installed: /usr/share/fonts, "                 \
-       "/usr/local/share/fonts, ~/.local/share/fonts and ~/.fonts"},                               \
-  {                                                                                                \
-    "--limit", "NAME=V", &cs_argument_limits,                                                      \
-        "limits, several separated by commas; 0: no limit. Of the script: "                        \
-        "memory=512M, steps=2e9 per frame, time=60 seconds of a processor per call, print=1M per " \
-        "frame; of rendering: render-memory=SIZE, by the memory there is; of "                     \
-        "decoding a picture: picture-memory=1G, picture-time=20 seconds per part. "                \
-        "These values are the defaults"                                                            \
-  }
+  OPTION("--trust", NULL, NULL,                                                                    \
+         "give the script all of Lua, with files and programs, and no limits; decode "             \
+         "pictures in this process, without limits"),                                              \
+      OPTION("--strict", NULL, NULL,                                                               \
+             "let the kernel confine the process too: no other files, no programs, no "            \
+             "network"),                                                                           \
+      OPTION("--allow", "DIR", &cs_argument_texts,                                                 \
+             "let the script also read this folder and the folders in it; may be given "           \
+             "several times"),                                                                     \
+      OPTION("--allow-system-fonts", NULL, NULL,                                                   \
+             "let the script also read the fonts that are installed: /usr/share/fonts, "           \
+             "/usr/local/share/fonts, ~/.local/share/fonts and ~/.fonts"),                         \
+      OPTION("--limit", "NAME=V", &cs_argument_limits,                                             \
+             "limits, several separated by commas; 0: no limit. Of the script: "                   \
+             "memory=512M, steps=2e9 per frame, time=60 seconds of a processor per call, "         \
+             "print=1M per frame; of rendering: render-memory=SIZE, by the memory there is; of "   \
+             "decoding a picture: picture-memory=1G, picture-time=20 seconds per part. "           \
+             "These values are the defaults")
 /* The rights of pictures, for verbs without a script. */
 #define PICTURE_RIGHTS                                                                             \
-  {"--trust", NULL, NULL, "decode pictures in this process, without limits"}, {                    \
-    "--limit", "NAME=V", &cs_argument_picture_limits,                                              \
-        "limits of decoding a picture; 0: no limit. picture-memory=1G and "                        \
-        "picture-time=20 seconds per part are the defaults"                                        \
-  }
+  OPTION("--trust", NULL, NULL, "decode pictures in this process, without limits"),                \
+      OPTION("--limit", "NAME=V", &cs_argument_picture_limits,                                     \
+             "limits of decoding a picture; 0: no limit. picture-memory=1G and "                   \
+             "picture-time=20 seconds per part are the defaults")
 
 /* ---------------------------------------------------------------- options of each */
 
