@@ -143,5 +143,9 @@ typedef struct cs_noun {
 /* The list of a noun with any number of items, with gaps. */
 #define CS_ITEMS(name, type)                                                                       \
   .list = CS_LIST_ITEMS, .has_gaps = true, .item = (name), .item_written = (type)
-/* For the options of a function that makes an object from an object. */
-#define CS_FROM_OBJECT .kind = &cs_kind_object, .list = CS_LIST_TUPLE, .item = "object"
+/* The options of a function that makes an object from an object; WORD_rows are their fields, and
+ * create_WORD makes the object. */
+#define CS_FROM_OBJECT(word, sentence)                                                             \
+  .name = #word, .about = (sentence), .table = "celspan." #word ".options",                        \
+  .kind = &cs_kind_object, .list = CS_LIST_TUPLE, .item = "object", .fields = word##_rows,         \
+  .create = create_##word

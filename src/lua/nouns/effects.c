@@ -67,12 +67,7 @@ static const cs_field blur_rows[] = {
     {"spin", CS_POINT(celspan_blur_desc, centre),
      .about = "Along arcs about this point; radius: degrees, at most 180"},
     {0}};
-const cs_noun cs_noun_blur = {.name = "blur",
-                              .about = "How an object is blurred.",
-                              .table = "celspan.blur.options",
-                              CS_FROM_OBJECT,
-                              .fields = blur_rows,
-                              .create = create_blur};
+const cs_noun cs_noun_blur = {CS_FROM_OBJECT(blur, "How an object is blurred.")};
 
 typedef struct displace_fields {
   celspan_displace_desc desc;
@@ -108,12 +103,7 @@ static const cs_field displace_rows[] = {
     {"space", CS_CHOICE(displace_fields, space, cs_space_words), .preset = "srgb",
      .about = "Of the channels: codes, or light"},
     {0}};
-const cs_noun cs_noun_displace = {.name = "displace",
-                                  .about = "How an object is displaced.",
-                                  .table = "celspan.displace.options",
-                                  CS_FROM_OBJECT,
-                                  .fields = displace_rows,
-                                  .create = create_displace};
+const cs_noun cs_noun_displace = {CS_FROM_OBJECT(displace, "How an object is displaced.")};
 
 static const cs_field sharpen_rows[] = {
     {"radius", CS_NUMBER(celspan_sharpen_desc, radius), .least = 0,
@@ -122,12 +112,7 @@ static const cs_field sharpen_rows[] = {
     {"amount", CS_NUMBER(celspan_sharpen_desc, amount), .least = 0, .most = CELSPAN_SHARPEN_MOST,
      .preset = "1", .about = "How often the difference is added"},
     {0}};
-const cs_noun cs_noun_sharpen = {.name = "sharpen",
-                                 .about = "How an object is sharpened.",
-                                 .table = "celspan.sharpen.options",
-                                 CS_FROM_OBJECT,
-                                 .fields = sharpen_rows,
-                                 .create = create_sharpen};
+const cs_noun cs_noun_sharpen = {CS_FROM_OBJECT(sharpen, "How an object is sharpened.")};
 
 static const cs_field shadow_rows[] = {
     {"offset", CS_POINT(celspan_shadow_desc, offset), .about = "How far the shadow is moved",
@@ -141,12 +126,7 @@ static const cs_field shadow_rows[] = {
     {"only", CS_FLAG(celspan_shadow_desc, is_alone),
      .about = "Whether the object itself is left out", .fallback = "false"},
     {0}};
-const cs_noun cs_noun_shadow = {.name = "shadow",
-                                .about = "What shadow an object has.",
-                                .table = "celspan.shadow.options",
-                                CS_FROM_OBJECT,
-                                .fields = shadow_rows,
-                                .create = create_shadow};
+const cs_noun cs_noun_shadow = {CS_FROM_OBJECT(shadow, "What shadow an object has.")};
 
 static const cs_field glow_rows[] = {
     {"radius", CS_NUMBER(celspan_glow_desc, radius), RADIUS, .is_required = true,
@@ -155,12 +135,7 @@ static const cs_field glow_rows[] = {
     {"gain", CS_NUMBER(celspan_glow_desc, gain), CS_FROM(0), .preset = "1",
      .about = "What its light is multiplied by"},
     {0}};
-const cs_noun cs_noun_glow = {.name = "glow",
-                              .about = "How an object glows.",
-                              .table = "celspan.glow.options",
-                              CS_FROM_OBJECT,
-                              .fields = glow_rows,
-                              .create = create_glow};
+const cs_noun cs_noun_glow = {CS_FROM_OBJECT(glow, "How an object glows.")};
 
 static const cs_field outline_rows[] = {
     {"width", CS_NUMBER(celspan_outline_desc, width), RADIUS, .is_required = true,
@@ -175,12 +150,7 @@ static const cs_field outline_rows[] = {
     {"only", CS_FLAG(celspan_outline_desc, is_alone),
      .about = "Whether the object itself is left out", .fallback = "false"},
     {0}};
-const cs_noun cs_noun_outline = {.name = "outline",
-                                 .about = "What outline an object has.",
-                                 .table = "celspan.outline.options",
-                                 CS_FROM_OBJECT,
-                                 .fields = outline_rows,
-                                 .create = create_outline};
+const cs_noun cs_noun_outline = {CS_FROM_OBJECT(outline, "What outline an object has.")};
 
 /* ---------------------------------------------------------------- methods */
 

@@ -134,12 +134,7 @@ static const cs_field matte_rows[] = {
     {"feather", CS_NUMBER(MATTE, feather), .most = CELSPAN_BLUR_MOST, .preset = "0",
      .about = "The radius of its blur"},
     {0}};
-const cs_noun cs_noun_matte = {.name = "matte",
-                               .about = "How a matte is used.",
-                               .table = "celspan.matte.options",
-                               CS_FROM_OBJECT,
-                               .fields = matte_rows,
-                               .create = create_matte};
+const cs_noun cs_noun_matte = {CS_FROM_OBJECT(matte, "How a matte is used.")};
 
 static void check_objects(lua_State *L) {
   static const char *const names[] = {"the art", "what it is matted by"};
