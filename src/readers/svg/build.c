@@ -265,8 +265,7 @@ static celspan_status read_effects(builder *b, const cs_svg_node *node, const cs
                                    cs_svg_item *item);
 
 static bool counts_in_shares(const cs_svg_node *mask) {
-  const char *units = cs_svg_node_value(mask, CS_SVG_MASK_CONTENT_UNITS);
-  return units && cs_svg_is_word(units, "objectBoundingBox");
+  return cs_svg_node_says(mask, CS_SVG_MASK_CONTENT_UNITS, "objectBoundingBox");
 }
 
 /* Draws the contents of a mask into `drawn`: the luminance of codes counts. place: in the units of

@@ -289,12 +289,11 @@ static celspan_status unite_children(cs_svg_reading *reading, const cs_svg_node 
 static celspan_status find_units(cs_svg_reading *reading, const cs_svg_node *node,
                                  const cs_svg_node *clip, const cs_svg_place *element,
                                  cs_svg_place *place, bool *is_sized) {
-  const char *units = cs_svg_node_value(clip, CS_SVG_CLIP_PATH_UNITS);
   cs_svg_place own = *element;
   celspan_box box = {0, 0, 0, 0};
   bool is_there = false;
   *is_sized = true;
-  if (!units || !cs_svg_is_word(units, "objectBoundingBox"))
+  if (!cs_svg_node_says(clip, CS_SVG_CLIP_PATH_UNITS, "objectBoundingBox"))
     return CELSPAN_OK;
   own.matrix = celspan_matrix_identity();
   CS_TRY(cs_svg_box_of(reading, node, &own, &box, &is_there));

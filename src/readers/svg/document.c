@@ -368,3 +368,7 @@ const char *cs_svg_node_value(const cs_svg_node *node, cs_svg_name name) {
       return node->attributes[i].value;
   return NULL;
 }
+
+bool cs_svg_node_says(const cs_svg_node *node, cs_svg_name name, const char *word) {
+  return cs_svg_is_word(cs_svg_node_value(node, name), word);
+}

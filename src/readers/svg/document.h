@@ -64,3 +64,5 @@ const cs_svg_node *cs_svg_document_find(const cs_svg_document *document, const c
                                         size_t size);
 /* The value of an attribute, or NULL. */
 const char *cs_svg_node_value(const cs_svg_node *node, cs_svg_name name);
+/* Whether the value is this word. */
+bool cs_svg_node_says(const cs_svg_node *node, cs_svg_name name, const char *word);

@@ -289,11 +289,6 @@ celspan_status cs_svg_product_read(const cs_svg_reading *reading, const cs_svg_r
 
 /* ---------------------------------------------------------------- types of matrices */
 
-static bool is_type(const cs_svg_node *node, const char *word) {
-  const char *type = cs_svg_node_value(node, CS_SVG_TYPE);
-  return type && cs_svg_is_word(type, word);
-}
-
 void cs_svg_hue_set(celspan_grade_desc *desc, double degrees) {
   desc->hue = DEGREES_TO_RADIANS * fmod(degrees, 360);
 }
@@ -314,13 +309,13 @@ celspan_status cs_svg_colour_matrix_read(cs_svg_reading *reading, const cs_svg_n
                                          cs_svg_step *step, const char **reason) {
   celspan_grade_desc desc = CELSPAN_GRADE_DESC;
   step->kind = CS_SVG_STEP_COLOUR;
-  if (is_type(node, "luminanceToAlpha")) {
+  if (cs_svg_node_says(node, CS_SVG_TYPE, "luminanceToAlpha")) {
     step->kind = CS_SVG_STEP_LUMA;
     return CELSPAN_OK;
   }
-  if (is_type(node, "saturate"))
+  if (cs_svg_node_says(node, CS_SVG_TYPE, "saturate"))
     desc.saturation = fmax(0, cs_svg_filter_number(node, CS_SVG_VALUES, 1));
-  else if (is_type(node, "hueRotate"))
+  else if (cs_svg_node_says(node, CS_SVG_TYPE, "hueRotate"))
     cs_svg_hue_set(&desc, cs_svg_filter_number(node, CS_SVG_VALUES, 0));
   else
     CS_TRY(read_matrix(reading, node, &desc, step, reason));

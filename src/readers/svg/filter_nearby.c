@@ -8,11 +8,6 @@
 #define DEGREES_TO_RADIANS (3.14159265358979323846 / 180)
 #define EXPONENT_MOST 128
 
-static bool has_word(const cs_svg_node *node, cs_svg_name name, const char *word) {
-  const char *text = cs_svg_node_value(node, name);
-  return text && cs_svg_is_word(text, word);
-}
-
 /* ---------------------------------------------------------------- feConvolveMatrix */
 
 /* The columns and rows of the matrix. */
@@ -57,8 +52,8 @@ static bool read_weights(const cs_svg_node *node, size_t count, double *values, 
 
 /* What lies beyond the edges: the pixels on them; the other side of the box, as a tile; nothing. */
 static void read_edges(const cs_svg_node *node, cs_svg_step *step, cs_nearby *fields) {
-  fields->continues = !has_word(node, CS_SVG_EDGE_MODE, "none");
-  if (!has_word(node, CS_SVG_EDGE_MODE, "wrap"))
+  fields->continues = !cs_svg_node_says(node, CS_SVG_EDGE_MODE, "none");
+  if (!cs_svg_node_says(node, CS_SVG_EDGE_MODE, "wrap"))
     return;
   fields->continues = false;
   step->tile = step->box;
@@ -82,7 +77,7 @@ celspan_status cs_svg_weights_read(const cs_svg_reading *reading, const cs_svg_n
   if (*reason)
     return CELSPAN_OK;
   fields.bias = cs_number_clamp(cs_svg_filter_number(node, CS_SVG_BIAS, 0), -1e6, 1e6);
-  fields.keeps_alpha = has_word(node, CS_SVG_PRESERVE_ALPHA, "true");
+  fields.keeps_alpha = cs_svg_node_says(node, CS_SVG_PRESERVE_ALPHA, "true");
   read_edges(node, step, &fields);
   return cs_nearby_create(reading->context, &fields, &step->nearby);
 }

@@ -200,12 +200,12 @@ static celspan_status read_displacement(filter *f) {
 
 /* The greatest and the least of the surrounding pixels are shapes if all pixels have one colour. */
 static celspan_status read_morphology(filter *f) {
-  const char *word = cs_svg_node_value(f->node, CS_SVG_OPERATOR);
+  const bool grows = cs_svg_node_says(f->node, CS_SVG_OPERATOR, "dilate");
   double values[2] = {0, 0};
   size_t count = cs_svg_filter_numbers(f->node, CS_SVG_RADIUS, values, 2);
   if (count == 1)
     values[1] = values[0];
-  f->step.kind = word && cs_svg_is_word(word, "dilate") ? CS_SVG_STEP_GROW : CS_SVG_STEP_SHRINK;
+  f->step.kind = grows ? CS_SVG_STEP_GROW : CS_SVG_STEP_SHRINK;
   f->step.radius = scaled(f, fmax(0, values[0]), fmax(0, values[1]));
   CS_TRY(take_input(f, f->node, CS_SVG_IN));
   if (fmax(f->step.radius.x, f->step.radius.y) > 0 &&
@@ -277,10 +277,10 @@ static celspan_status read_composite(filter *f) {
   for (size_t i = 0; word && i < sizeof operators / sizeof *operators; i++)
     if (cs_svg_is_word(word, operators[i].word))
       f->step.kind = operators[i].kind;
-  if (word && cs_svg_is_word(word, "lighter"))
+  if (cs_svg_is_word(word, "lighter"))
     f->step.blend = CELSPAN_BLEND_ADD;
   CS_TRY(take_both(f));
-  return word && cs_svg_is_word(word, "arithmetic") ? read_sum(f) : CELSPAN_OK;
+  return cs_svg_is_word(word, "arithmetic") ? read_sum(f) : CELSPAN_OK;
 }
 
 static celspan_status read_matrix(filter *f) {
@@ -351,8 +351,6 @@ static celspan_status read_image(filter *f) {
 /* ---------------------------------------------------------------- turbulence */
 
 static celspan_status read_turbulence(filter *f) {
-  const char *type = cs_svg_node_value(f->node, CS_SVG_TYPE);
-  const char *seam = cs_svg_node_value(f->node, CS_SVG_STITCH_TILES);
   double octaves = cs_svg_filter_number(f->node, CS_SVG_NUM_OCTAVES, 1);
   double values[2] = {0, 0};
   f->step.kind = CS_SVG_STEP_IMAGE;
@@ -365,8 +363,8 @@ static celspan_status read_turbulence(filter *f) {
       .frequency = {fmax(0, values[0]), fmax(0, values[1])},
       .octaves = cs_number_to_int32(octaves),
       .seed = cs_number_to_int32(cs_svg_filter_number(f->node, CS_SVG_SEED, 0)),
-      .is_fractal = type && cs_svg_is_word(type, "fractalNoise"),
-      .is_stitched = seam && cs_svg_is_word(seam, "stitch"),
+      .is_fractal = cs_svg_node_says(f->node, CS_SVG_TYPE, "fractalNoise"),
+      .is_stitched = cs_svg_node_says(f->node, CS_SVG_STITCH_TILES, "stitch"),
       .is_coded = f->style.filters_codes};
   return cs_svg_turbulence_make(f->reading, f->node, &turbulence, &f->step.object);
 }
@@ -480,11 +478,10 @@ static celspan_status note(const filter *f, const cs_svg_filter_call *call) {
 /* The region in user units. If it has no size, nothing is drawn, and there are no steps. */
 static celspan_status make_steps(filter *f) {
   cs_svg_recipe *recipe = f->recipe;
-  const char *units = cs_svg_node_value(f->owner, CS_SVG_PRIMITIVE_UNITS);
   cs_svg_region region;
   CS_TRY(
       cs_svg_region_find(f->reading, f->owner, CS_SVG_FILTER_UNITS, f->element, f->place, &region));
-  f->is_in_shares = units && cs_svg_is_word(units, "objectBoundingBox");
+  f->is_in_shares = cs_svg_node_says(f->owner, CS_SVG_PRIMITIVE_UNITS, "objectBoundingBox");
   if (!region.is_sized || (f->is_in_shares && !region.has_box))
     return CELSPAN_OK;
   const celspan_matrix user = celspan_matrix_then(region.own, recipe->back);

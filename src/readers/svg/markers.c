@@ -132,8 +132,7 @@ static celspan_status read_viewport(const marking *m, const cs_svg_node *marker,
 }
 
 static double scale_of(const marking *m, const cs_svg_node *marker) {
-  const char *units = cs_svg_node_value(marker, CS_SVG_MARKER_UNITS);
-  if (units && cs_svg_is_word(units, "userSpaceOnUse"))
+  if (cs_svg_node_says(marker, CS_SVG_MARKER_UNITS, "userSpaceOnUse"))
     return 1;
   return cs_svg_resolve(m->place->style.stroke_width, CS_SVG_AXIS_BOTH, &m->place->measure);
 }

@@ -155,8 +155,7 @@ static celspan_status ends_value(applying *a, cs_svg_mixed *out, cs_svg_mixed *l
 }
 
 static bool is_word_value(const applying *a, cs_svg_name name, const char *word) {
-  const char *text = value(a, name);
-  return text && cs_svg_is_word(text, word);
+  return cs_svg_is_word(value(a, name), word);
 }
 
 /* Adds the value to the one so far. */

@@ -182,9 +182,9 @@ celspan_status cs_svg_timing_read(const cs_svg_animations *all, const cs_svg_nod
   const char *restart = cs_svg_node_value(node, CS_SVG_RESTART);
   *out = (cs_svg_timing){.restart = CS_SVG_RESTART_ALWAYS};
   read_durations(node, out);
-  if (restart && cs_svg_is_word(restart, "never"))
+  if (cs_svg_is_word(restart, "never"))
     out->restart = CS_SVG_RESTART_NEVER;
-  else if (restart && cs_svg_is_word(restart, "whenNotActive"))
+  else if (cs_svg_is_word(restart, "whenNotActive"))
     out->restart = CS_SVG_RESTART_WHEN_NOT_ACTIVE;
   bool begin_is_open = false;
   CS_TRY(read_moments(all, node, CS_SVG_BEGIN, &out->begins, &out->begin_count, &begin_is_open));

@@ -17,9 +17,7 @@ static celspan_status join(const cs_css_place *place, cs_svg_name name, const ch
   return cs_svg_mixed_read(place, name, text, out);
 }
 
-static bool is_nothing(const cs_svg_mixed *value) {
-  return value->text && cs_svg_is_word(value->text, "none");
-}
+static bool is_nothing(const cs_svg_mixed *value) { return cs_svg_is_word(value->text, "none"); }
 
 static celspan_status multiply(const cs_css_place *place, const cs_svg_mixed *under,
                                cs_svg_mixed *value) {

@@ -272,7 +272,7 @@ static celspan_status read_end(animating *a, cs_svg_name name, const char *text,
                                cs_svg_mixed *out) {
   if (text && cs_svg_has_variable(text))
     CS_TRY(cs_svg_variable_fill(&a->reading->document->variables, a->from->variables, text, &text));
-  if (text && cs_svg_is_word(text, "currentColor"))
+  if (cs_svg_is_word(text, "currentColor"))
     CS_TRY(cs_svg_motion_base(a->reading, a->node, CS_SVG_COLOR, &text));
   if (!text)
     CS_TRY(cs_svg_motion_base(a->reading, a->node, name, &text));

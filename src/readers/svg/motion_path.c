@@ -169,16 +169,11 @@ static double turn_of(const cs_svg_node *node, double degrees) {
   return cs_svg_take_number(&rotate, &angle) ? angle : 0;
 }
 
-static bool says(const cs_svg_node *node, cs_svg_name name, const char *word) {
-  const char *text = cs_svg_node_value(node, name);
-  return text && cs_svg_is_word(text, word);
-}
-
 /* Only by, without a list, a line or a beginning, is always added. */
 static bool adds(const cs_svg_node *node, bool has_line) {
   bool is_by = !has_line && !cs_svg_node_value(node, CS_SVG_VALUES) &&
                !cs_svg_node_value(node, CS_SVG_FROM) && !cs_svg_node_value(node, CS_SVG_TO);
-  return is_by || says(node, CS_SVG_ADDITIVE, "sum");
+  return is_by || cs_svg_node_says(node, CS_SVG_ADDITIVE, "sum");
 }
 
 celspan_status cs_svg_motion_path(cs_svg_reading *reading, const cs_svg_animation *animation,
@@ -196,7 +191,7 @@ celspan_status cs_svg_motion_path(cs_svg_reading *reading, const cs_svg_animatio
     CS_TRY(spot_on_points(reading, node, progress->share, &at, &end, &counts));
   if (!counts)
     return CELSPAN_OK;
-  double rounds = says(node, CS_SVG_ACCUMULATE, "sum") ? progress->round : 0;
+  double rounds = cs_svg_node_says(node, CS_SVG_ACCUMULATE, "sum") ? progress->round : 0;
   at.point.x += end.point.x * rounds;
   at.point.y += end.point.y * rounds;
   if (!cs_number_is_sane(at.point.x) || !cs_number_is_sane(at.point.y))

@@ -42,14 +42,13 @@ static celspan_status note_unknown(run *r, const cs_svg_animation *it) {
 static celspan_status collect(run *r, cs_svg_node *node) {
   for (; node; node = node->next) {
     if (cs_svg_element_animates(node->element)) {
-      const char *fill = cs_svg_node_value(node, CS_SVG_FILL);
       const cs_svg_node *named = cs_svg_linked(r->reading, node);
       bool has_href = cs_svg_node_value(node, CS_SVG_HREF);
       cs_svg_animation *it = &r->all.items[r->all.count++];
       *it = (cs_svg_animation){.node = node,
                                .target = has_href ? (cs_svg_node *)(size_t)named : node->parent,
                                .name = name_of(node),
-                               .freezes = fill && cs_svg_is_word(fill, "freeze")};
+                               .freezes = cs_svg_node_says(node, CS_SVG_FILL, "freeze")};
       CS_TRY(note_unknown(r, it));
     }
     CS_TRY(collect(r, node->first));

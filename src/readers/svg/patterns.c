@@ -36,8 +36,7 @@ static const char *value_of(const pattern *p, cs_svg_name name) {
 }
 
 static bool is_word(const pattern *p, cs_svg_name name, const char *word) {
-  const char *value = value_of(p, name);
-  return value && cs_svg_is_word(value, word);
+  return cs_svg_is_word(value_of(p, name), word);
 }
 
 /* ---------------------------------------------------------------- places */

@@ -16,8 +16,7 @@ static celspan_status read_box(celspan_context *context, const cs_svg_node *node
 celspan_status cs_svg_region_find(cs_svg_reading *reading, const cs_svg_node *node,
                                   cs_svg_name units, const cs_svg_node *element,
                                   const cs_svg_place *place, cs_svg_region *out) {
-  const char *word = cs_svg_node_value(node, units);
-  bool is_in_user_space = word && cs_svg_is_word(word, "userSpaceOnUse"), is_there = false;
+  bool is_in_user_space = cs_svg_node_says(node, units, "userSpaceOnUse"), is_there = false;
   cs_svg_measure measure = place->measure;
   cs_svg_place own = *place;
   *out = (cs_svg_region){.own = place->matrix};

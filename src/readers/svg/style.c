@@ -41,11 +41,11 @@ static void read_spacing(const char *text, const cs_svg_measure *em, double *out
 }
 
 static void read_anchor(const char *text, cs_svg_anchor *out) {
-  if (text && cs_svg_is_word(text, "start"))
+  if (cs_svg_is_word(text, "start"))
     *out = CS_SVG_ANCHOR_START;
-  else if (text && cs_svg_is_word(text, "middle"))
+  else if (cs_svg_is_word(text, "middle"))
     *out = CS_SVG_ANCHOR_MIDDLE;
-  else if (text && cs_svg_is_word(text, "end"))
+  else if (cs_svg_is_word(text, "end"))
     *out = CS_SVG_ANCHOR_END;
 }
 
@@ -87,9 +87,9 @@ static void read_shift(const cs_svg_node *node, const char *text, const cs_svg_m
   if (node->element != CS_SVG_ELEMENT_TSPAN && node->element != CS_SVG_ELEMENT_TEXT_PATH &&
       node->element != CS_SVG_ELEMENT_A)
     *out = 0;
-  else if (text && cs_svg_is_word(text, "super"))
+  else if (cs_svg_is_word(text, "super"))
     *out += parent_em / 3;
-  else if (text && cs_svg_is_word(text, "sub"))
+  else if (cs_svg_is_word(text, "sub"))
     *out -= parent_em / 5;
   else if (text && cs_svg_parse_length(text, &length))
     *out += cs_svg_resolve(length, CS_SVG_AXIS_X, em);
@@ -151,9 +151,9 @@ static void read_share(const char *text, double inherited, double *out) {
 }
 
 static void read_rule(const char *text, celspan_rule *out) {
-  if (text && cs_svg_is_word(text, "evenodd"))
+  if (cs_svg_is_word(text, "evenodd"))
     *out = CELSPAN_RULE_EVENODD;
-  else if (text && cs_svg_is_word(text, "nonzero"))
+  else if (cs_svg_is_word(text, "nonzero"))
     *out = CELSPAN_RULE_NONZERO;
 }
 
@@ -241,18 +241,18 @@ static void inherit(const cs_svg_style *parent, cs_svg_style *out) {
 }
 
 static void read_cap_and_join(const char *cap, const char *join, cs_svg_style *out) {
-  if (cap && cs_svg_is_word(cap, "butt"))
+  if (cs_svg_is_word(cap, "butt"))
     out->cap = CELSPAN_STROKE_CAP_BUTT;
-  else if (cap && cs_svg_is_word(cap, "round"))
+  else if (cs_svg_is_word(cap, "round"))
     out->cap = CELSPAN_STROKE_CAP_ROUND;
-  else if (cap && cs_svg_is_word(cap, "square"))
+  else if (cs_svg_is_word(cap, "square"))
     out->cap = CELSPAN_STROKE_CAP_SQUARE;
   if (join && (cs_svg_is_word(join, "miter") || cs_svg_is_word(join, "miter-clip") ||
                cs_svg_is_word(join, "arcs")))
     out->join = CELSPAN_STROKE_JOIN_MITER; /* browsers do not support other joins here */
-  else if (join && cs_svg_is_word(join, "round"))
+  else if (cs_svg_is_word(join, "round"))
     out->join = CELSPAN_STROKE_JOIN_ROUND;
-  else if (join && cs_svg_is_word(join, "bevel"))
+  else if (cs_svg_is_word(join, "bevel"))
     out->join = CELSPAN_STROKE_JOIN_BEVEL;
 }
 
@@ -304,12 +304,12 @@ static void read_painting(const cs_svg_cascade *from, const cs_svg_style *parent
     out->is_visible = cs_svg_is_word(values[CS_SVG_VISIBILITY], "visible");
 }
 
-static bool is_inherited(const char *text) { return text && cs_svg_is_word(text, "inherit"); }
+static bool is_inherited(const char *text) { return cs_svg_is_word(text, "inherit"); }
 
 static void read_blend(const char *text, const cs_svg_style *parent, cs_svg_style *out) {
   if (is_inherited(text))
     out->blend = parent->blend;
-  else if (text && cs_svg_is_word(text, "plus-lighter"))
+  else if (cs_svg_is_word(text, "plus-lighter"))
     out->blend = CELSPAN_BLEND_ADD;
   for (int mode = 0; text && mode < CELSPAN_BLEND_ADD; mode++)
     if (cs_svg_is_word(text, cs_blend_words[mode]))
@@ -337,7 +337,7 @@ static void read_effects(const char *const *values, const cs_svg_style *parent, 
     out->filter = parent->filter;
   else if (filter && cs_svg_is_filter_list(filter, false))
     out->filter = filter;
-  out->isolates = values[CS_SVG_ISOLATION] && cs_svg_is_word(values[CS_SVG_ISOLATION], "isolate");
+  out->isolates = cs_svg_is_word(values[CS_SVG_ISOLATION], "isolate");
   read_blend(values[CS_SVG_MIX_BLEND_MODE], parent, out);
 }
 
@@ -355,10 +355,9 @@ static void read_own_colour(const char *text, const char *opacity, const cs_svg_
 
 static void read_own(const cs_svg_cascade *from, const cs_svg_style *parent, cs_svg_style *out) {
   const char *const *values = from->values;
-  out->is_displayed =
-      is_inherited(values[CS_SVG_DISPLAY])
-          ? parent->is_displayed
-          : !values[CS_SVG_DISPLAY] || !cs_svg_is_word(values[CS_SVG_DISPLAY], "none");
+  out->is_displayed = is_inherited(values[CS_SVG_DISPLAY])
+                          ? parent->is_displayed
+                          : !cs_svg_is_word(values[CS_SVG_DISPLAY], "none");
   read_share(values[CS_SVG_OPACITY], parent->opacity, &out->opacity);
   read_effects(values, parent, out);
   out->shows_overflow =
@@ -366,9 +365,8 @@ static void read_own(const cs_svg_cascade *from, const cs_svg_style *parent, cs_
           ? parent->shows_overflow
           : values[CS_SVG_OVERFLOW] && (cs_svg_is_word(values[CS_SVG_OVERFLOW], "visible") ||
                                         cs_svg_is_word(values[CS_SVG_OVERFLOW], "auto"));
-  out->keeps_width = values[CS_SVG_VECTOR_EFFECT] &&
-                     cs_svg_is_word(values[CS_SVG_VECTOR_EFFECT], "non-scaling-stroke");
-  out->uses_alpha = values[CS_SVG_MASK_TYPE] && cs_svg_is_word(values[CS_SVG_MASK_TYPE], "alpha");
+  out->keeps_width = cs_svg_is_word(values[CS_SVG_VECTOR_EFFECT], "non-scaling-stroke");
+  out->uses_alpha = cs_svg_is_word(values[CS_SVG_MASK_TYPE], "alpha");
   read_own_colour(values[CS_SVG_STOP_COLOR], values[CS_SVG_STOP_OPACITY], &parent->stop_colour, out,
                   &out->stop_colour);
   read_own_colour(values[CS_SVG_FLOOD_COLOR], values[CS_SVG_FLOOD_OPACITY], &parent->flood_colour,

@@ -191,13 +191,6 @@ static const struct function *take_function(const char **text) {
   return NULL;
 }
 
-static bool is_fit(const celspan_matrix *matrix) {
-  for (int i = 0; i < 9; i++)
-    if (!cs_number_is_sane(matrix->m[i]))
-      return false;
-  return true;
-}
-
 bool cs_svg_parse_transform(const char *text, const cs_svg_measure *measure, celspan_matrix *out) {
   celspan_matrix whole = celspan_matrix_identity();
   call c = {.measure = measure};
@@ -213,7 +206,7 @@ bool cs_svg_parse_transform(const char *text, const cs_svg_measure *measure, cel
     whole = celspan_matrix_then(step, whole);
   }
   *out = whole;
-  return is_fit(&whole);
+  return cs_matrix_is_sane(&whole);
 }
 
 /* ---------------------------------------------------------------- properties */

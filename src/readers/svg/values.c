@@ -46,6 +46,8 @@ bool cs_svg_take_word(const char **text, const char *word) {
 }
 
 bool cs_svg_is_word(const char *text, const char *word) {
+  if (!text)
+    return false;
   text = cs_svg_skip_space(text);
   return cs_svg_take_word(&text, word) && !*cs_svg_skip_space(text);
 }

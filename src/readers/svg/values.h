@@ -64,7 +64,7 @@ bool cs_svg_take_word(const char **text, const char *word);
 bool cs_svg_parse_length(const char *text, cs_svg_length *out);
 bool cs_svg_parse_share(const char *text, double *out); /* a number or a percentage, as a share */
 bool cs_svg_parse_view_box(const char *text, cs_svg_view_box *out);
-bool cs_svg_is_word(const char *text, const char *word);
+bool cs_svg_is_word(const char *text, const char *word); /* text: NULL is no word */
 /* Whether a value that could not be read is a number that is never allowed: NaN, infinite, beyond
  * 1e12. */
 bool cs_svg_is_unfit(const char *text);

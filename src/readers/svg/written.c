@@ -170,7 +170,6 @@ static celspan_status give_list(cs_svg_written *w, const cs_svg_node *node, cs_s
 static celspan_status add_length(cs_svg_written *w, const cs_svg_node *node,
                                  const cs_svg_measure *measure, size_t begin) {
   const cs_svg_length none = {-1, CS_SVG_UNIT_NUMBER};
-  const char *adjust = cs_svg_node_value(node, CS_SVG_LENGTH_ADJUST);
   double length;
   CS_TRY(cs_svg_length_of(w->reading->context, node, CS_SVG_TEXT_LENGTH, CS_SVG_AXIS_X, measure,
                           none, &length));
@@ -180,7 +179,7 @@ static celspan_status add_length(cs_svg_written *w, const cs_svg_node *node,
     return cs_svg_skip(w->reading, node, "textLength: a text has more than %d",
                        CS_SVG_TEXT_LENGTHS);
   w->lengths[w->length_count++] = (cs_svg_text_length){
-      begin, w->count, length, adjust && cs_svg_is_word(adjust, "spacingAndGlyphs")};
+      begin, w->count, length, cs_svg_node_says(node, CS_SVG_LENGTH_ADJUST, "spacingAndGlyphs")};
   return CELSPAN_OK;
 }
 
@@ -231,11 +230,10 @@ static celspan_status add_inner(cs_svg_written *w, const cs_svg_node *node, cs_s
 /* Along a line that does not exist, nothing is drawn. */
 static celspan_status add_path(cs_svg_written *w, const cs_svg_node *node,
                                const cs_svg_place *place) {
-  const char *side = cs_svg_node_value(node, CS_SVG_SIDE);
   bool is_there;
   if (w->path_count == CS_SVG_TEXT_PATHS)
     return cs_svg_skip(w->reading, node, "textPath: a text has more than %d", CS_SVG_TEXT_PATHS);
-  if (side && cs_svg_is_word(side, "right"))
+  if (cs_svg_node_says(node, CS_SVG_SIDE, "right"))
     CS_TRY(cs_svg_skip(w->reading, node, "side of textPath"));
   cs_svg_text_path *path = &w->paths[w->path_count++];
   const size_t begin = w->count;
