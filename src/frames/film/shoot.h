@@ -67,9 +67,9 @@ typedef struct cs_shoot {
   /* The exposures of a frame: new. Errors: with their sentence in the context. Calling thread, in
    * order. */
   celspan_status (*build)(void *user, int64_t number, cs_film_frame *out);
-  /* The function that is called for each frame instead of writing a file; it sets the
-   * digest where there are digests. With `give`, it makes the frame in a slot, in any thread; otherwise it
-   * is called by the calling thread, in order, and slot is 0. NULL: files. */
+  /* The function that is called for each frame instead of writing a file; it sets the digest where
+   * there are digests. With `give`, it makes the frame in a slot, in any thread; otherwise it is
+   * called by the calling thread, in order, and slot is 0. NULL: files. */
   celspan_status (*put)(void *user, const cs_shoot_put *one);
   size_t slots; /* of the stream; 0 without `give` */
   /* Gives the frame in a slot on; the slot is free afterwards. Calling thread, in order. NULL: it
