@@ -35,6 +35,11 @@ void cs_hash_number(cs_hash *hash, double number) {
   cs_hash_word(hash, bits);
 }
 
+void cs_hash_numbers(cs_hash *hash, const double *numbers, size_t count) {
+  for (size_t i = 0; i < count; i++)
+    cs_hash_number(hash, numbers[i]);
+}
+
 void cs_hash_bytes(cs_hash *hash, const void *bytes, size_t size) {
   const unsigned char *at = bytes;
   cs_hash_word(hash, size);

@@ -15,6 +15,7 @@ typedef struct cs_hash {
 cs_hash cs_hash_begin(uint64_t kind);
 void cs_hash_word(cs_hash *hash, uint64_t word);
 void cs_hash_number(cs_hash *hash, double number);
+void cs_hash_numbers(cs_hash *hash, const double *numbers, size_t count);
 void cs_hash_bytes(cs_hash *hash, const void *bytes, size_t size);
 void cs_hash_text(cs_hash *hash, const char *text); /* NULL differs from "" */
 void cs_hash_hash(cs_hash *hash, cs_hash other);

@@ -237,10 +237,8 @@ static cs_hash hash_of(const cs_fill *fill, const cs_parcels *parcels) {
   cs_hash_bytes(&hash, fill->code, sizeof fill->code);
   const double numbers[] = {fill->from.x, fill->from.y, fill->to.x,
                             fill->to.y,   fill->centre, fill->radius};
-  for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-    cs_hash_number(&hash, numbers[i]);
-  for (size_t i = 0; i < 6; i++)
-    cs_hash_number(&hash, fill->matrix[i]);
+  cs_hash_numbers(&hash, numbers, sizeof numbers / sizeof *numbers);
+  cs_hash_numbers(&hash, fill->matrix, 6);
   for (size_t i = 0; i < fill->stop_count; i++) {
     cs_hash_number(&hash, parcels->stops[fill->stop + i].at);
     cs_hash_bytes(&hash, parcels->stops[fill->stop + i].code, 4);

@@ -166,8 +166,7 @@ static celspan_status check_whole(const reader *r) {
 static void hash_cube(cs_cube *cube) {
   cs_hash hash = cs_hash_begin(cube->is_solid);
   cs_hash_word(&hash, cube->side);
-  for (int i = 0; i < 6; i++)
-    cs_hash_number(&hash, cube->domain[i]);
+  cs_hash_numbers(&hash, cube->domain, 6);
   for (size_t i = 0; i < cube->count; i++)
     for (int c = 0; c < 3; c++)
       cs_hash_number(&hash, (double)cube->values[i][c]);

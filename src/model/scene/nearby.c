@@ -4,20 +4,15 @@
 
 /* ---------------------------------------------------------------- values */
 
-static void hash_numbers(cs_hash *hash, const double *numbers, size_t count) {
-  for (size_t i = 0; i < count; i++)
-    cs_hash_number(hash, numbers[i]);
-}
-
 static void hash_light(cs_hash *hash, const cs_nearby_light *light) {
   const double numbers[] = {light->height, light->constant, light->exponent, light->focus,
                             light->cone};
   cs_hash_word(hash, light->source);
   cs_hash_word(hash, light->is_specular);
-  hash_numbers(hash, numbers, sizeof numbers / sizeof *numbers);
-  hash_numbers(hash, light->colour, 3);
-  hash_numbers(hash, light->from, 3);
-  hash_numbers(hash, light->towards, 3);
+  cs_hash_numbers(hash, numbers, sizeof numbers / sizeof *numbers);
+  cs_hash_numbers(hash, light->colour, 3);
+  cs_hash_numbers(hash, light->from, 3);
+  cs_hash_numbers(hash, light->towards, 3);
 }
 
 static cs_hash hash_nearby(const cs_nearby *nearby) {
@@ -33,8 +28,8 @@ static cs_hash hash_nearby(const cs_nearby *nearby) {
   for (size_t i = 0; i < sizeof words / sizeof *words; i++)
     cs_hash_word(&hash, words[i]);
   cs_value_hash_box(&hash, &nearby->box);
-  hash_numbers(&hash, numbers, sizeof numbers / sizeof *numbers);
-  hash_numbers(&hash, nearby->ground, 3);
+  cs_hash_numbers(&hash, numbers, sizeof numbers / sizeof *numbers);
+  cs_hash_numbers(&hash, nearby->ground, 3);
   hash_light(&hash, &nearby->light);
   cs_hash_word(&hash, nearby->count);
   for (size_t i = 0; i < nearby->count; i++)

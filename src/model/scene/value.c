@@ -12,8 +12,7 @@ void cs_value_hash_box(cs_hash *hash, const celspan_box *box) {
 }
 
 void cs_value_hash_matrix(cs_hash *hash, const celspan_matrix *matrix) {
-  for (int i = 0; i < 9; i++)
-    cs_hash_number(hash, matrix->m[i]);
+  cs_hash_numbers(hash, matrix->m, 9);
 }
 
 void cs_value_hash_paint(cs_hash *hash, const cs_paint *paint) {

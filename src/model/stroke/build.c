@@ -42,8 +42,7 @@ static void hash_part(cs_hash *hash, const cs_stroke_part *part) {
 
 static void hash_dashes(cs_hash *hash, const cs_dashes *dashes) {
   cs_hash_number(hash, dashes->pattern);
-  for (size_t i = 0; i < dashes->place_count; i++)
-    cs_hash_number(hash, dashes->places[i]);
+  cs_hash_numbers(hash, dashes->places, dashes->place_count);
   for (size_t i = 0; i < dashes->run_count; i++) {
     const cs_dashes_run *run = &dashes->runs[i];
     cs_hash_word(hash, run->contour);
@@ -64,8 +63,7 @@ static cs_hash hash_of(const cs_stroke *stroke) {
   cs_hash_number(&hash, stroke->miter);
   for (size_t i = 0; i < stroke->line.piece_count; i++)
     cs_hash_word(&hash, stroke->radius_degrees[i]);
-  for (size_t i = 0; i < stroke->radius_count; i++)
-    cs_hash_number(&hash, stroke->radii[i]);
+  cs_hash_numbers(&hash, stroke->radii, stroke->radius_count);
   cs_hash_word(&hash, stroke->part_count);
   if (stroke->dashes.place_count > 0)
     hash_dashes(&hash, &stroke->dashes);

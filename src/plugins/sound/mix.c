@@ -395,26 +395,21 @@ celspan_status cs_mix_find(celspan_context *context, const cs_mix_sound *sounds,
   return CELSPAN_OK;
 }
 
-static void hash_numbers(cs_hash *hash, const double *numbers, int count) {
-  for (int i = 0; i < count; i++)
-    cs_hash_number(hash, numbers[i]);
-}
-
 static void hash_sound(cs_hash *hash, const cs_mix_sound *sound) {
   cs_hash_text(hash, sound->path);
   if (!cs_address_is_data(sound->path))
     cs_open_hash(hash, sound->path);
-  hash_numbers(hash, (double[]){sound->start, sound->speed, sound->gain[0], sound->gain[1]}, 4);
+  cs_hash_numbers(hash, (double[]){sound->start, sound->speed, sound->gain[0], sound->gain[1]}, 4);
   cs_hash_word(hash, sound->passage_count);
   for (size_t i = 0; i < sound->passage_count; i++) {
     const celspan_sound_passage *p = &sound->passages[i];
-    hash_numbers(hash, (double[]){p->begin, p->end, p->fade_in, p->fade_out}, 4);
+    cs_hash_numbers(hash, (double[]){p->begin, p->end, p->fade_in, p->fade_out}, 4);
   }
   cs_hash_word(hash, sound->ducker_count);
   for (size_t i = 0; i < sound->ducker_count; i++) {
     const celspan_sound_ducker *d = &sound->duckers[i];
     cs_hash_word(hash, d->sound);
-    hash_numbers(hash, (double[]){d->gain, d->attack, d->release}, 3);
+    cs_hash_numbers(hash, (double[]){d->gain, d->attack, d->release}, 3);
   }
 }
 
