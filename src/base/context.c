@@ -397,7 +397,8 @@ celspan_status cs_context_service(celspan_context *context, const cs_service_kin
 void cs_context_trim(celspan_context *context) {
   for (cs_service *service = atomic_load(&context->root->services); service;
        service = service->next)
-    service->kind->trim(service);
+    if (service->kind->trim)
+      service->kind->trim(service);
   cs_spares_trim(&context->memory->spares);
 }
 

@@ -59,7 +59,8 @@ typedef struct cs_service cs_service;
 typedef struct cs_service_kind {
   celspan_status (*create)(celspan_context *context, cs_service **out);
   void (*destroy)(cs_service *service);
-  void (*trim)(cs_service *service); /* frees memory that is not in use; any thread */
+  /* Frees memory that is not in use; any thread. NULL: all is in use. */
+  void (*trim)(cs_service *service);
 } cs_service_kind;
 
 struct cs_service {

@@ -32,9 +32,7 @@ static void destroy(cs_service *service) {
   cs_mem_free(kept->memory, kept, sizeof *kept);
 }
 
-static void trim(cs_service *service) { (void)service; }
-
-static const cs_service_kind kind = {create, destroy, trim};
+static const cs_service_kind kind = {create, destroy, NULL};
 
 static const char *find(const notes *kept, const char *path) {
   for (size_t i = 0; i < NOTES; i++)

@@ -23,9 +23,7 @@ static void destroy(cs_service *service) {
   cs_mem_free(loaded->memory, loaded, sizeof *loaded);
 }
 
-static void trim(cs_service *service) { (void)service; }
-
-static const cs_service_kind loaded_kind = {create, destroy, trim};
+static const cs_service_kind loaded_kind = {create, destroy, NULL};
 
 static celspan_status load(celspan_context *context, const char *purpose,
                            const cs_art_module **out) {
