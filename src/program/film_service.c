@@ -476,12 +476,7 @@ static void set_facts(lua_State *L, const cs_film_info *info) {
   cs_put_text(L, "title", info->title);
   cs_put_flag(L, "has_sound", info->has_sound);
   cs_put_text(L, "space", cs_space_words[info->space - CELSPAN_SPACE_LINEAR]);
-  lua_createtable(L, 2, 0);
-  lua_pushinteger(L, info->width);
-  lua_rawseti(L, -2, 1);
-  lua_pushinteger(L, info->height);
-  lua_rawseti(L, -2, 2);
-  lua_setfield(L, -2, "size");
+  cs_put_pair(L, "size", info->width, info->height);
   set_marks(L, info);
 }
 

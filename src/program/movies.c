@@ -32,14 +32,8 @@ static int picture(lua_State *L) {
 }
 
 static void put_pair(lua_State *L, const char *name, const int32_t pair[2]) {
-  if (pair[0] == 0)
-    return;
-  lua_createtable(L, 2, 0);
-  for (int i = 0; i < 2; i++) {
-    lua_pushinteger(L, pair[i]);
-    lua_rawseti(L, -2, i + 1);
-  }
-  lua_setfield(L, -2, name);
+  if (pair[0] != 0)
+    cs_put_pair(L, name, pair[0], pair[1]);
 }
 
 /* The times in ticks, 8 bytes each. */

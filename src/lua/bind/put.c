@@ -15,6 +15,15 @@ void cs_put_number(lua_State *L, const char *name, lua_Number number) {
   lua_setfield(L, -2, name);
 }
 
+void cs_put_pair(lua_State *L, const char *name, lua_Integer first, lua_Integer second) {
+  lua_createtable(L, 2, 0);
+  lua_pushinteger(L, first);
+  lua_rawseti(L, -2, 1);
+  lua_pushinteger(L, second);
+  lua_rawseti(L, -2, 2);
+  lua_setfield(L, -2, name);
+}
+
 void cs_put_text(lua_State *L, const char *name, const char *text) {
   lua_pushstring(L, text);
   lua_setfield(L, -2, name);

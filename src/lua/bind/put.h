@@ -7,5 +7,6 @@
 void cs_put_flag(lua_State *L, const char *name, bool flag);
 void cs_put_integer(lua_State *L, const char *name, lua_Integer number);
 void cs_put_number(lua_State *L, const char *name, lua_Number number);
+void cs_put_pair(lua_State *L, const char *name, lua_Integer first, lua_Integer second);
 /* text: NULL puts nil. */
 void cs_put_text(lua_State *L, const char *name, const char *text);

@@ -110,12 +110,8 @@ static void check_film(const cs_form *form, cs_userdata *value) {
  */
 static void complete(lua_State *L, int table) {
   if (lua_getfield(L, table, "size") == LUA_TNIL) {
-    lua_createtable(L, 2, 0);
-    lua_pushinteger(L, 1920);
-    lua_rawseti(L, -2, 1);
-    lua_pushinteger(L, 1080);
-    lua_rawseti(L, -2, 2);
-    lua_setfield(L, table, "size");
+    lua_pushvalue(L, table);
+    cs_put_pair(L, "size", 1920, 1080);
   }
   lua_getfield(L, table, "fps");
   double fps = lua_tonumber(L, -1), frames = 1;
@@ -353,12 +349,7 @@ static void push_frame(lua_State *L, const cs_film_info *film, int64_t number) {
   cs_userdata *value = cs_userdata_push(L, &cs_noun_frame);
   *(uint64_t *)cs_userdata_own(value) = seed_of(film, number);
   lua_createtable(L, 0, 10);
-  lua_createtable(L, 2, 0);
-  lua_pushinteger(L, film->width);
-  lua_rawseti(L, -2, 1);
-  lua_pushinteger(L, film->height);
-  lua_rawseti(L, -2, 2);
-  lua_setfield(L, -2, "size");
+  cs_put_pair(L, "size", film->width, film->height);
   cs_put_integer(L, "number", number);
   cs_put_integer(L, "index", index);
   cs_put_integer(L, "count", film->count);
