@@ -27,7 +27,8 @@
 enum {
   HEAD = 4,
   PIECE = 65536,
-  ANSWER = 1 << 20 /* the bytes of an answer that a renderer can write without waiting */
+  REQUESTS = 1 << 16, /* the bytes of a pipe for requests: twice the longest one */
+  ANSWER = 1 << 20    /* the bytes of an answer that a renderer can write without waiting */
 };
 
 typedef struct renderer {
@@ -45,9 +46,9 @@ static void close_descriptor(int *descriptor) {
   *descriptor = -1;
 }
 
-/* Waits for the end of a renderer. */
-static void reap(renderer *r) {
-  if (r->id && waitpid(r->id, &r->status, 0) == r->id)
+/* Waits for the end of a renderer; with WNOHANG, asks for it. */
+static void reap(renderer *r, int options) {
+  if (r->id && waitpid(r->id, &r->status, options) == r->id)
     r->id = 0;
 }
 
@@ -63,7 +64,7 @@ static void end_renderer(renderer *r) {
 static int close_renderer(lua_State *L) {
   renderer *r = lua_touserdata(L, 1);
   end_renderer(r);
-  reap(r);
+  reap(r, 0);
   if (r->bytes)
     cs_mem_free(r->context->memory, r->bytes, r->capacity);
   r->bytes = NULL;
@@ -75,8 +76,9 @@ static renderer *self(lua_State *L) { return cs_service_opened(L); }
 
 /* ---------------------------------------------------------------- messages */
 
-/* Pushes whether a message was sent. A renderer reads each request before the next one is sent, so
- * small requests always fit into the pipe. kind, number: as in program/stage_service.c. */
+/* Pushes whether a message was sent. A renderer has read a request when it answers, and no other is
+ * sent before, so that one always fits into the pipe, with the numbers of those that are given up.
+ * kind, number: as in program/stage_service.c. */
 static int put_message(lua_State *L, unsigned char kind, size_t number, const char *text,
                        size_t size) {
   const renderer *r = self(L);
@@ -189,9 +191,9 @@ static int finish(lua_State *L) {
   renderer *r = self(L);
   char byte;
   if (r->answers >= 0 && read(r->answers, &byte, 1) == 0)
-    reap(r);
+    reap(r, 0);
   end_renderer(r);
-  reap(r);
+  reap(r, 0);
   if (WIFEXITED(r->status)) {
     lua_pushinteger(L, WEXITSTATUS(r->status));
     return 1;
@@ -207,11 +209,19 @@ static int kill_renderer(lua_State *L) {
   return 0;
 }
 
+/* renderer:is_gone() -> whether a renderer that was killed has ended */
+static int is_gone(lua_State *L) {
+  reap(self(L), WNOHANG);
+  lua_pushboolean(L, self(L)->id == 0);
+  return 1;
+}
+
 /* Opens three pipes: [0] for the renderer, [1] for the verb. */
 static int open_pipes(renderer *r, int files[3]) {
   int ends[2], error = cs_spawn_pipe(ends);
   files[0] = ends[0];
   r->requests = ends[1];
+  (void)fcntl(ends[1], F_SETPIPE_SZ, REQUESTS); /* a user's limit may have made it smaller */
   int *const mine[] = {&r->answers, &r->words};
   for (int i = 0; i < 2; i++) {
     files[i + 1] = -1;
@@ -246,9 +256,10 @@ static int spawn(renderer *r, const char *const *arguments) {
 
 /* renderer(words) -> a renderer | nil, message: this program with the words */
 static int open_renderer(lua_State *L) {
-  static const luaL_Reg methods[] = {CS_SERVICE(send),  CS_SERVICE(abandon),     CS_SERVICE(take),
-                                     CS_SERVICE(words), CS_SERVICE(descriptors), CS_SERVICE(finish),
-                                     CS_SERVICE(stop),  {"kill", kill_renderer}, {NULL, NULL}};
+  static const luaL_Reg methods[] = {
+      CS_SERVICE(send),        CS_SERVICE(abandon), CS_SERVICE(take), CS_SERVICE(words),
+      CS_SERVICE(descriptors), CS_SERVICE(finish),  CS_SERVICE(stop), {"kill", kill_renderer},
+      CS_SERVICE(is_gone),     {NULL, NULL}};
   const char **arguments = cs_service_push_words(L, 1);
   lua_createtable(L, 0, 8);
   renderer *r = cs_userdata_push_holder(L, "celspan.program.renderer", sizeof *r, close_renderer);

@@ -3,19 +3,23 @@
  *
  *   standard input --> next() --request--> the verb builds a frame --> film:draw()
  *           \--given up--> is_given_up                                   | any thread
- *                                next() <--pictures in their order-- ring
+ *                                    standard output <--picture-- ring <-/
  *
  * A message on standard input begins with four bytes. ASKED, and the size of the request that
  * follows; or GIVEN_UP, and the number of a request, counted from 1, whose picture is not wanted
- * any more. Numbers have three bytes, the highest first, and are counted modulo 2^24.
+ * any more. Numbers have three bytes, the highest first, and are counted modulo 2^24. Answers are
+ * described in program/verbs/stage.lua.
  *
  * INVARIANT: only the thread of the verb reads standard input. It alone uses the ring, except for
- * the pictures that other threads draw. A frame with procedures is drawn by the thread of the verb
- * before film:draw() returns, because procedures run in the state of the script.
+ * the pictures that other threads draw. A thread answers with its picture at once, so that a frame
+ * that is never built holds no picture back. A frame with procedures is drawn by the thread of the
+ * verb before film:draw() returns, because procedures run in the state of the script; its picture
+ * is put at the next call of next().
  */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdatomic.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -26,13 +30,15 @@
 #include "frames/render/frame.h"
 #include "lua/bind/userdata.h"
 #include "model/scene/scene.h"
+#include "program/json.h"
 #include "program/service.h"
 #include "program/stage.h"
 
 enum { HEAD = 4, ASKED = 0, GIVEN_UP = 1, REQUEST_MOST = 32768 };
 
-/* Pictures beyond one for each thread: one that waits for its thread. */
-enum { AHEAD = 1 };
+/* The most threads, and pictures beyond one for each thread: one that waits for its thread. The
+ * same numbers are in program/verbs/watch/renderers.lua, which asks for no more pictures. */
+enum { THREADS_MOST = 4, AHEAD = 1 };
 
 typedef struct stage stage;
 
@@ -41,14 +47,14 @@ typedef struct drawn {
   stage *stage;
   size_t item;     /* in the pipeline */
   uint32_t number; /* of its request */
-  bool is_here;    /* the thread of the verb draws it */
+  int64_t frame;
+  bool is_here; /* the thread of the verb draws it */
   atomic_bool is_given_up;
   cs_film_frame built; /* owned */
   celspan_frame_desc desc;
   cs_stage_kind kind;
   cs_stage_picture picture; /* owned */
   double seconds;           /* that drawing it took */
-  celspan_status status;
 } drawn;
 
 struct stage {
@@ -58,7 +64,7 @@ struct stage {
   uint32_t taken;   /* the number of the request that was taken last */
   bool is_given_up; /* that request */
   bool is_over;     /* no more messages will arrive */
-  int wake[2];      /* a pipe: a byte for each picture that another thread has made */
+  int wake[2];      /* a pipe: a byte for each picture that another thread has drawn */
   drawn *ring;      /* picture i lies at i % count; owned */
   size_t count, added, given;
   cs_pipeline *pipeline; /* NULL: there was no picture yet */
@@ -124,19 +130,62 @@ static bool is_wanted(void *user, int32_t rows_done, int32_t rows_total) {
          !(d->is_here && d->stage->is_over) && cs_pipeline_is_wanted(d->stage->pipeline, d->item);
 }
 
+static void put_number(uint32_t number) {
+  const unsigned char bytes[] = {(unsigned char)(number >> 24), (unsigned char)(number >> 16),
+                                 (unsigned char)(number >> 8), (unsigned char)number};
+  fwrite(bytes, 1, sizeof bytes, stdout);
+}
+
+/* Answers with a picture, or with the context's sentence about it. Any thread: the answer is one
+ * for the lock of standard output. If nobody reads it any more, no request will arrive either. */
+static void answer(const drawn *d, const celspan_context *context, celspan_status status) {
+  char message[CS_ERROR_SIZE + 32];
+  cs_json head;
+  size_t size = status == CELSPAN_OK ? d->picture.size : 0;
+  cs_json_begin(&head);
+  cs_json_integer(&head, "picture", d->number);
+  cs_json_number(&head, "seconds", d->seconds);
+  if (status != CELSPAN_OK) {
+    snprintf(message, sizeof message, "frame %lld: %s", (long long)d->frame,
+             celspan_context_error(context));
+    cs_json_text(&head, "message", message);
+  }
+  const char *text = cs_json_end(&head);
+  size_t head_size = strlen(text);
+  flockfile(stdout);
+  put_number((uint32_t)(sizeof(uint32_t) + head_size + size));
+  put_number((uint32_t)head_size);
+  fwrite(text, 1, head_size, stdout);
+  if (size)
+    fwrite(d->picture.bytes, 1, size, stdout);
+  fflush(stdout);
+  funlockfile(stdout);
+}
+
 static celspan_status make(void *user, celspan_context *context, int worker, size_t item) {
-  drawn *d = drawn_of(user, item);
+  const stage *s = user;
+  drawn *d = drawn_of(s, item);
   double begun = cs_clock_seconds();
   d->is_here = worker == 0;
   celspan_status status = cs_stage_make(&d->picture, context, &d->desc, d->kind);
+  d->picture.context = s->context; /* which has the same memory, and outlives the threads */
   d->seconds = cs_clock_seconds() - begun;
+  if (!d->is_here) {
+    answer(d, context, status);
+    cs_stage_release(&d->picture);
+  }
   return status;
 }
 
 static celspan_status deliver(void *user, celspan_context *context, size_t item,
                               celspan_status status) {
-  (void)context;
-  drawn_of(user, item)->status = status;
+  stage *s = user;
+  drawn *d = drawn_of(s, item);
+  if (d->is_here)
+    answer(d, context, status);
+  cs_stage_release(&d->picture);
+  cs_film_frame_finish(&d->built);
+  s->given++;
   return CELSPAN_OK;
 }
 
@@ -151,6 +200,7 @@ static celspan_status begin(stage *s, int workers) {
   if (s->pipeline)
     return CELSPAN_OK;
   int threads = cs_frame_workers(s->context, workers);
+  threads = threads < THREADS_MOST ? threads : THREADS_MOST;
   s->count = (size_t)threads + AHEAD;
   cs_pipeline_desc desc = {.count = SIZE_MAX,
                            .slots = s->count,
@@ -173,6 +223,7 @@ static void add(stage *s, cs_script *script, const celspan_frame_desc *desc, cs_
   *d = (drawn){.stage = s,
                .item = s->added++,
                .number = s->taken,
+               .frame = script->number,
                .built = script->frame,
                .desc = *desc,
                .kind = kind};
@@ -187,8 +238,8 @@ static void add(stage *s, cs_script *script, const celspan_frame_desc *desc, cs_
 
 /* film:draw(width, height, x, y, w, h, what, workers or nil, stage) -> true | nil, message: begins
  * to draw a part of the frame that was built last at this size: 8 bits, sRGB, straight alpha, as
- * "rgba", as a "png", or as "runs"; or as "spans", the kinds of its spans in RGBA. stage:next()
- * gives the picture. The film has no frame then. */
+ * "rgba", as a "png", or as "runs"; or as "spans", the kinds of its spans in RGBA. The picture is
+ * the answer to the request that stage:next() has given last. The film has no frame then. */
 int cs_stage_draw(lua_State *L, cs_script *script) {
   static const char *const kinds[] = {"rgba", "png", "spans", "runs", NULL};
   celspan_frame_desc desc;
@@ -200,8 +251,8 @@ int cs_stage_draw(lua_State *L, cs_script *script) {
     return 2;
   celspan_status status = begin(s, desc.workers);
   desc.workers = (int)luaL_optinteger(L, 9, desc.workers);
-  if (status == CELSPAN_OK && !cs_pipeline_has_room(s->pipeline))
-    status = cs_fail(s->context, CELSPAN_LIMIT, "too many pictures are wanted at the same time");
+  if (status == CELSPAN_OK) /* waits while there is no room */
+    status = cs_pipeline_deliver(s->pipeline, s->context, s->count - 1);
   if (status == CELSPAN_OK)
     add(s, script, &desc, kind);
   lua_pushboolean(L, status == CELSPAN_OK);
@@ -209,46 +260,29 @@ int cs_stage_draw(lua_State *L, cs_script *script) {
   return 2;
 }
 
-/* ---------------------------------------------------------------- answers */
-
-/* Pushes the next picture and forgets it. */
-static int give(lua_State *L, stage *s) {
-  drawn *d = drawn_of(s, s->given);
-  cs_service_try(L, cs_pipeline_deliver(s->pipeline, s->context, s->added - s->given - 1));
-  s->given++;
-  cs_film_frame_finish(&d->built);
-  lua_pushliteral(L, "picture");
-  lua_pushnumber(L, d->seconds);
-  if (d->status == CELSPAN_OK)
-    lua_pushlstring(L, (const char *)d->picture.bytes, d->picture.size);
-  else
-    lua_pushnil(L);
-  lua_pushstring(L, d->status == CELSPAN_OK ? NULL : celspan_context_error(s->context));
-  cs_stage_release(&d->picture);
-  return 4;
-}
+/* ---------------------------------------------------------------- requests */
 
 static int take_request(lua_State *L, stage *s) {
   s->taken = (s->taken + 1) & 0xffffff;
   s->is_given_up = false;
-  lua_pushliteral(L, "request");
   lua_pushlstring(L, (const char *)s->bytes + HEAD, s->size - HEAD);
   s->size = 0;
-  return 2;
+  return 1;
 }
 
-/* stage:next() -> "request", text | "picture", seconds, bytes or nil, message: what film:draw() has
- * begun, in that order | nothing: no more requests will arrive, or the program is to stop */
+/* stage:next() -> the next request | nil: no more will arrive, or the program is to stop; pictures
+ * that are still drawn are given up then */
 static int next(lua_State *L) {
   stage *s = cs_service_opened(L);
   while (!cs_interrupt_signal()) {
     if (s->pipeline && cs_pipeline_is_ready(s->pipeline))
-      return give(L, s);
-    if (has_request(s))
+      cs_service_try(L, cs_pipeline_deliver(s->pipeline, s->context, s->added - s->given - 1));
+    else if (has_request(s))
       return take_request(L, s);
-    if (s->is_over)
+    else if (s->is_over)
       break;
-    hear(s, -1);
+    else
+      hear(s, -1);
   }
   return 0;
 }

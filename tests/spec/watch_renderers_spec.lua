@@ -18,6 +18,7 @@ local function new_process()
   function process.words() return "" end
   function process.finish() return 1 end
   function process.kill() end
+  function process.is_gone() return true end
   started[#started + 1] = process
   return process
 end
@@ -60,20 +61,22 @@ local function step(times)
   for _ = 1, times or 1 do pool:step() end
 end
 
---- Lets a renderer answer with a head and bytes, which are nil if it refuses.
+--- Lets a renderer answer with a head and bytes.
 local function put(i, head, bytes)
-  head.good, head.message, head.files = bytes ~= nil, "no", {}
+  head.files = {}
   table.insert(started[i].answers, (">s4"):pack(program.json(head)) .. (bytes or ""))
 end
 
---- Lets a renderer answer the request that it was sent last.
-local function answer(i, bytes) put(i, {}, bytes) end
+--- Lets a renderer answer the request that it was sent last; bytes: nil if it refuses.
+local function answer(i, bytes) put(i, { good = bytes ~= nil, message = "no" }, bytes) end
 
 --- Lets it say that it has built the frame that it was sent last.
-local function begin(i) put(i, { begun = true }, "") end
+local function begin(i) put(i, { good = true, begun = true, seconds = 1, camera = "c" }) end
 
---- Lets it answer with the picture that it has begun first.
-local function draw(i, bytes) put(i, { picture = true }, bytes) end
+--- Lets it give the picture of its request with this number; bytes: nil if it failed.
+local function draw(i, number, bytes)
+  put(i, { picture = number, seconds = 2, message = not bytes and "no" or nil }, bytes)
+end
 
 --- The frames that a renderer was sent, each with its workers.
 local function sent(i)
@@ -110,12 +113,43 @@ describe("frames that are wanted at once #plain", function()
     assert.same({ "1 by 1" }, sent(1))
     begin(1)
     step()
-    draw(1, "one")
+    draw(1, 1, "one")
     begin(1)
     step()
-    draw(1, "two")
+    draw(1, 2, "two")
     step()
     assert.same({ "1:one", "2:two" }, results)
+  end)
+
+  it("are given in the order in which they are drawn", function()
+    for number = 1, 3 do ask(number) end
+    for _ = 1, 2 do
+      step()
+      begin(1)
+    end
+    step() -- the third is being built, perhaps for ever
+    draw(1, 2, "two")
+    draw(1, 1, "one")
+    step()
+    assert.same({ "2:two", "1:one" }, results)
+  end)
+
+  it("may be drawn before it is said that they are begun", function()
+    local heads = {}
+    ask(1, { done = function(head, bytes) table.insert(heads, { head, bytes }) end })
+    step()
+    draw(1, 1, "one")
+    step()
+    assert.same({}, heads)
+    begin(1)
+    step()
+    assert.same({ { { good = true, seconds = 3, camera = "c" }, "one" } }, heads)
+    ask(2)
+    step()
+    draw(1, 2, "two")
+    answer(1)
+    step()
+    assert.same({ "2:422" }, results)
   end)
 
   it("wait where enough are drawn, and other requests do not", function()
@@ -129,7 +163,7 @@ describe("frames that are wanted at once #plain", function()
     assert.same({ "1 by 1", "2 by 1", "3 by 1", "costs" }, sent(1))
     answer(1, "costs")
     step()
-    draw(1, "one")
+    draw(1, 1, "one")
     step()
     assert.same({ "6:costs", "1:one" }, results)
     assert.equal("4 by 1", sent(1)[5])
@@ -145,8 +179,8 @@ describe("frames that are wanted at once #plain", function()
     for _, wish in ipairs { "w2", "w2", "w3", "w4", "none" } do pool:abandon(wish) end
     assert.same({ 2, 3 }, started[1].abandoned)
     answer(1)
-    draw(1, "one")
-    draw(1)
+    draw(1, 1, "one")
+    draw(1, 2)
     step()
     assert.same({ "4:503", "3:503", "1:one", "2:503" }, results)
   end)
@@ -158,24 +192,30 @@ describe("frames that are wanted at once #plain", function()
     step()
     begin(1)
     step()
-    draw(1)
+    draw(1, 2)
     begin(1)
     step()
-    draw(1, "three")
+    draw(1, 3, "three")
     step()
     assert.same({ "1:422", "2:422", "3:three" }, results)
   end)
 
-  it("fail with their renderer, and others do not", function()
+  it("are drawn by another renderer when theirs has ended, once", function()
     for number = 1, 3 do ask(number) end
     step()
     begin(1)
     step()
     table.insert(started[1].answers, false)
     step(2)
+    assert.same({ "2:500" }, results)
+    assert.same({ "1 by 1" }, sent(2))
+    begin(2)
+    step()
+    assert.same({ "1 by 1", "3 by 1" }, sent(2))
+    table.insert(started[2].answers, false)
+    step(2)
     table.sort(results)
-    assert.same({ "1:500", "2:500" }, results)
-    assert.same({ "3 by 2" }, sent(2))
+    assert.same({ "1:500", "2:500", "3:500" }, results)
   end)
 
   it("may begin everything again when one fails", function()
@@ -195,13 +235,13 @@ describe("frames that are wanted at once #plain", function()
   end)
 
   it("end a renderer that answers what it was not asked", function()
-    for _, put_it in ipairs { answer, begin, draw } do
+    for _, put_it in ipairs { answer, begin } do
       started, results = {}, {}
       renderers_of {}
       ask(1)
       step()
       begin(1)
-      draw(1, "one")
+      draw(1, 1, "one")
       put_it(1, "more")
       step()
       assert.same({ "1:one" }, results)
@@ -209,6 +249,15 @@ describe("frames that are wanted at once #plain", function()
       step()
       assert.same({ "2 by 2" }, sent(2))
     end
+  end)
+
+  it("fail where the answer cannot be used", function()
+    ask(1, { done = function() error "no" end })
+    step()
+    answer(1, "bytes")
+    step()
+    assert.same({ "1:500" }, results)
+    assert.is_nil(pool.list[1])
   end)
 end)
 
@@ -218,7 +267,7 @@ describe("a frame that is wanted alone #plain", function()
       ask(number)
       step()
       begin(1)
-      draw(1, "done")
+      draw(1, number, "done")
       step()
     end
     assert.same({ "1 by 2", "2 by 2", "3 by 2" }, sent(1))
@@ -234,7 +283,7 @@ describe("another renderer #plain", function()
     assert.equal(1, #started)
     now = 0.3
     step()
-    assert.same({ { "1 by 2" }, { "2 by 2" } }, { sent(1), sent(2) })
+    assert.same({ { "1 by 2" }, { "2 by 1" } }, { sent(1), sent(2) })
   end)
 
   it("is not started while frames are only slow", function()
@@ -244,7 +293,7 @@ describe("another renderer #plain", function()
       begin(1)
       now = now + 0.2
       step()
-      if number > 1 then draw(1, "done") end
+      if number > 1 then draw(1, number - 1, "done") end
       now = now + 0.2
     end
     assert.equal(1, #started)
@@ -258,7 +307,7 @@ describe("another renderer #plain", function()
     step(2)
     answer(1, "one")
     begin(2)
-    draw(2, "two")
+    draw(2, 1, "two")
     step()
     now = 30
     step(2)

@@ -23,6 +23,25 @@ end }
 ]]):format(steps)
 end
 
+--- A film that threads draw.
+local DRAWN = [[
+local celspan = require "celspan"
+return celspan.film { size = { 640, 360 }, frames = 9, frame = function(f)
+  local discs = {}
+  for i = 1, 300 do
+    discs[i] = celspan.circle { centre = { 2 * i, 180 }, radius = 90 - f.number, texture = "red" }
+  end
+  return celspan.rostrum { celspan.cel(discs) }
+end }
+]]
+
+--- A request for a frame of a width, as a renderer reads it.
+local function wanted(number, width)
+  local ask = '{ "want": "frame", "number": %d, "size": [%d, 9], "crop": [0, 0, %d, 9],'
+    .. ' "what": "rgba" }'
+  return (">s4"):pack(ask:format(number, width, width))
+end
+
 --- A request as a renderer reads it, and that it is given up.
 local function abandoned(text) return (">s4I4"):pack(text, 1 << 24 | 1) end
 
@@ -70,6 +89,27 @@ describe("a slow frame", function()
     local _, head = (">I4s4"):unpack(out, at)
     local rows = json.decode(head).message:match "stopped after (%d+) of 720 rows"
     assert.is_true(tonumber(rows) <= 64, head) -- in two seconds there are some hundreds
+  end)
+
+  it("holds no picture back that was begun before it #plain", function()
+    local endless = DRAWN:gsub("  local discs", "  while f.number == 2 do end\n%0")
+    watching.begin { asks = wanted(1, 90) .. wanted(2, 90), ["shot.lua"] = endless }
+    local code = watching.bench:inside(([[{
+      { cat asks; exec sleep 60; } 2>/dev/null |
+        '%s' stage shot.lua --limit time=600,steps=0 >answers 2>/dev/null &
+      timeout 60 sh -c 'until grep -aq picture answers; do sleep 0.02; done'
+      code=$?; kill $!; exit $code; }]]):format(workbench.absolute))
+    assert.equal(0, code)
+  end)
+
+  it("is left when there are no more requests #plain", function()
+    local asks = wanted(1, 4000) .. wanted(3, 4000) .. wanted(4, 90)
+    watching.begin { asks = asks, ["shot.lua"] = DRAWN }
+    for _ = 1, 5 do
+      local code = watching.bench:inside(("'%s' stage shot.lua --workers 2 <asks >answers")
+        :format(workbench.absolute))
+      assert.equal(0, code)
+    end
   end)
 
   it("is shown coarse first, then sharp, and gives way to the next one #plain", function()

@@ -4,12 +4,12 @@
 --   standard input    { "want": "frame", "number": 3, ... }, as program/stage_service.c reads it
 --   standard output   size, size of the head, { "good": true, ... }, bytes
 --
--- Sizes have four bytes, the highest first. A frame that was built is said to be `begun`; its
--- picture, in whose head there is `picture`, comes after those of frames that were begun before it,
--- and meanwhile other requests are answered. Every answer has in `files` the paths that the script
--- has asked for since the one before, { path, whether it was let read there }. What the script
--- prints goes to standard error: while it is run, and for pictures. Frames that are built for other
--- reasons, such as checks of all of them, print nothing.
+-- Sizes have four bytes, the highest first. The answer for a frame says that it has `begun`; its
+-- picture, in whose head `picture` is the number of the request, comes by itself when it is drawn,
+-- perhaps before that. Every other answer has in `files` the paths that the script has asked for
+-- since the one before, { path, whether it was let read there }. What the script prints goes to
+-- standard error: while it is run, and for pictures. Frames that are built for other reasons, such
+-- as checks of all of them, print nothing.
 local program, request = ...
 local json = require "celspan.json"
 local texts = require "celspan.files"
@@ -31,7 +31,8 @@ local function put(head, bytes)
   end
   local text = program.json(head)
   bytes = bytes or ""
-  io.stdout:write(string.pack(">I4s4", 4 + #text + #bytes, text), bytes)
+  -- one write, because other threads write pictures
+  io.stdout:write(string.pack(">I4s4", 4 + #text + #bytes, text) .. bytes)
   io.stdout:flush()
 end
 
@@ -169,30 +170,19 @@ local function of_view(ask, method, ...)
   return film[method](film, w, h, x, y, width, height, ...)
 end
 
-local begun = {} -- the heads of pictures that are being drawn, in their order
-
 --- ask.made: { file, line }: only what this line made is shown. ask.workers: the threads that may
 --- draw it; nil: those of the command line.
 function answers.frame(ask)
   local began = program.clock()
   if not build(ask) then return end
-  local head = { picture = true, good = true, camera = film:camera(), number = ask.number }
+  local head = { good = true, begun = true, camera = film:camera() }
   if ask.made then film:keep_line(ask.made[1], ask.made[2]) end
   head.seconds = program.clock() - began
   local is_begun, message = of_view(ask, "draw", ask.what, ask.workers, requests)
   if not is_begun then return refuse(("frame %d: %s"):format(ask.number, message)) end
   note_points(ask) -- procedures read points while they draw
   head.points = ask.points
-  table.insert(begun, head)
-  put { good = true, begun = true }
-end
-
---- Answers with a picture that was drawn. seconds: that drawing it took.
-local function put_picture(seconds, bytes, message)
-  local head = table.remove(begun, 1)
-  head.good, head.seconds = bytes ~= nil, head.seconds + seconds
-  if message then head.message = ("frame %d: %s"):format(head.number, message) end
-  put(head, bytes)
+  put(head)
 end
 
 --- The cost of the frame, which is the first of `costs`, and the cost of each of its cels alone.
@@ -495,10 +485,4 @@ local function answer(text)
   if not is_answered then refuse(program.reported() or tostring(fault)) end
 end
 
-for kind, first, bytes, message in requests.next, requests do
-  if kind == "picture" then
-    put_picture(first, bytes, message)
-  else
-    answer(first)
-  end
-end
+for text in requests.next, requests do answer(text) end

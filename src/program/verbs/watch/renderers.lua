@@ -11,7 +11,7 @@
 -- when they have nothing to do.
 --
 -- So a script that hangs or eats memory costs one renderer, which its limits end, and the others
--- answer meanwhile.
+-- answer meanwhile. Pictures that it was drawing are drawn by another one.
 --
 -- INVARIANT: each request that was asked is answered by exactly one call of done or failed.
 local program, request = ...
@@ -22,6 +22,8 @@ local SOON, LATE = 0.25, 1.5 -- seconds
 local IDLE = 20              -- a renderer that is not needed ends after this many seconds
 local TAIL = 2000            -- bytes of the last words that are kept
 local REQUEST_MOST = 32700   -- the most bytes of a request to a renderer, without its workers
+-- frames that a renderer draws: one for each thread, as in program/stage_service.c, and one more
+local DRAWN_MOST, DRAWN_AHEAD = 4, 1
 
 local renderers = {}
 renderers.__index = renderers
@@ -40,7 +42,7 @@ end
 function renderers.new(script, note_files)
   program.divide_memory(RENDERERS_MOST * #request) -- for the renderers of each film
   local workers = math.tointeger(request.workers) or 0
-  return setmetatable({ script = script, list = {}, queue = {}, values = {},
+  return setmetatable({ script = script, list = {}, queue = {}, killed = {}, values = {},
                         note_files = note_files,
                         workers = workers > 0 and workers or program.processors() }, renderers)
 end
@@ -133,26 +135,67 @@ local function finish(one, ...)
   for _, job in ipairs(jobs) do job.failed(...) end
 end
 
---- Takes an answer of a renderer, and hands it to its job. A trusted script can write to the same
---- pipe, so the message may be anything; what is wrong with it is raised as an error.
-function renderers:give(one, message)
-  local text, at = (">s4"):unpack(message)
-  local head = assert(json.decode(text))
-  self.note_files(head.files)
-  local job
-  if head.picture then
-    job = assert(table.remove(one.drawing, 1))
-  else
-    job, one.building = assert(one.building), nil
-  end
-  if head.begun then
-    table.insert(one.drawing, job)
-  elseif head.good then
-    job.done(head, message:sub(at))
+--- Ends a job with an answer.
+local function settle(job, head, bytes)
+  if head.good then
+    local is_taken, fault = pcall(job.done, head, bytes)
+    if is_taken then return end
+    job.failed("the renderer's answer cannot be read", 500)
+    error(fault, 0)
   elseif job.is_abandoned then
     job.failed(NOT_WANTED, 503)
   else
     job.failed(head.message, 422)
+  end
+end
+
+--- Ends the job of a picture with what was said when it was begun and when it was drawn.
+local function settle_picture(job, head, bytes)
+  local whole = { camera = job.begun.camera, points = job.begun.points }
+  whole.good, whole.message = head.message == nil, head.message
+  whole.seconds = job.begun.seconds + head.seconds
+  settle(job, whole, bytes)
+end
+
+--- Takes a picture. It may come before the renderer has said that it is begun, or after that was
+--- refused.
+local function take_picture(one, head, bytes)
+  local building = one.building
+  if building and building.number == head.picture then
+    building.drawn = { head, bytes }
+    return
+  end
+  for i, job in ipairs(one.drawing) do
+    if job.number == head.picture then
+      return settle_picture(table.remove(one.drawing, i), head, bytes)
+    end
+  end
+end
+
+--- Takes an answer of a renderer, and hands it to its job. A trusted script can write to the same
+--- pipe, so the message may be anything; what is wrong with it is raised as an error.
+function renderers:give(one, message)
+  local text, at = (">s4"):unpack(message)
+  local head, bytes = assert(json.decode(text)), message:sub(at)
+  if head.picture then return take_picture(one, head, bytes) end
+  self.note_files(head.files)
+  local job = assert(one.building)
+  one.building = nil
+  if not head.begun then return settle(job, head, bytes) end
+  job.begun = head
+  if job.drawn then return settle_picture(job, table.unpack(job.drawn)) end
+  table.insert(one.drawing, job)
+end
+
+--- Puts the pictures that a renderer was drawing when it ended back into the queue, once: the frame
+--- that it was building may have ended it.
+function renderers:save_pictures(one)
+  for i = #one.drawing, 1, -1 do
+    local job = one.drawing[i]
+    if not job.is_again and not job.is_abandoned then
+      job.is_again, job.since = true, program.clock()
+      table.insert(self.queue, 1, table.remove(one.drawing, i))
+    end
   end
 end
 
@@ -162,6 +205,7 @@ function renderers:listen(one)
   for message in one.process.take, one.process do
     if not message then
       hear(one)
+      self:save_pictures(one)
       finish(one, last_words(one), 500)
       return false
     end
@@ -179,7 +223,8 @@ end
 --- Takes the next job for a renderer from the queue; patient jobs come last. nil: it can take
 --- none.
 function renderers:next_job(one)
-  local is_full, patient = #one.drawing > self.workers, nil
+  local is_full = #one.drawing >= math.min(self.workers, DRAWN_MOST) + DRAWN_AHEAD
+  local patient
   for i, job in ipairs(self.queue) do
     if job.is_patient then
       patient = patient or i
@@ -190,24 +235,26 @@ function renderers:next_job(one)
   return patient and table.remove(self.queue, patient)
 end
 
---- The workers of the next frame: an equal share of the processors, for as many frames as are drawn
---- then or wait.
+local function is_frame(job) return job and job.ask.want == "frame" end
+
+--- The workers of a frame that is being built: an equal share of the processors, for as many frames
+--- as are built or drawn, or wait.
 function renderers:share()
-  local frames = 1
-  for _, job in ipairs(self.queue) do frames = frames + (job.ask.want == "frame" and 1 or 0) end
-  for _, one in ipairs(self.list) do frames = frames + #one.drawing end
-  return math.max(1, self.workers // frames)
+  local frames = 0
+  for _, job in ipairs(self.queue) do frames = frames + (is_frame(job) and 1 or 0) end
+  for _, one in ipairs(self.list) do
+    frames = frames + #one.drawing + (is_frame(one.building) and 1 or 0)
+  end
+  return self.workers // math.min(self.workers, math.max(1, frames))
 end
 
 --- Sends a job to a renderer.
 function renderers:give_job(one, job)
-  one.sent, one.used = one.sent + 1, program.clock()
+  one.sent, one.used = one.sent + 1 & 0xffffff, program.clock()
   job.number = one.sent
   one.building = job
   job.ask.workers = self:share()
-  if not one.process:send(program.json(job.ask)) then
-    finish(one, "the renderer has ended", 500)
-  end
+  one.process:send(program.json(job.ask)) -- if it has ended, `listen` reads its last words
 end
 
 function renderers:hand_out()
@@ -245,6 +292,12 @@ function renderers:hurry()
   self.queue = {}
 end
 
+--- Ends a renderer, and does not wait for that.
+function renderers:kill(one)
+  one.process:kill()
+  table.insert(self.killed, one.process)
+end
+
 --- Whether a renderer has ended, or is not needed any more.
 function renderers:is_over(one)
   if not self:listen(one) then return true end
@@ -254,7 +307,10 @@ end
 function renderers:step()
   local list = self.list -- a job that has failed may close all of them, and then there is another
   for i = #list, 1, -1 do
-    if self:is_over(list[i]) then table.remove(list, i).process:kill() end
+    if self:is_over(list[i]) then self:kill(table.remove(list, i)) end
+  end
+  for i = #self.killed, 1, -1 do
+    if self.killed[i]:is_gone() then table.remove(self.killed, i) end
   end
   self:hand_out()
   self:hurry()
@@ -276,7 +332,7 @@ function renderers:close(message, status)
   self.list, self.queue = {}, {}
   for _, one in ipairs(list) do
     hear(one)
-    one.process:kill()
+    self:kill(one)
     finish(one, message, status)
   end
   for _, job in ipairs(queue) do job.failed(message, status) end
