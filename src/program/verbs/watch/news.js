@@ -83,13 +83,15 @@ function takeFrames(isFirst) {
   if (isFirst && state.alone) start(1);
 }
 
-/** The film was saved, has failed, or is ready. */
+/** The film was saved, has failed, or is ready. The picture is asked for first; while the film is
+ * built, all that is known is of the one before. If the timeline gets other rows, the window of the
+ * picture has another size, which page.js hears of. */
 function takeFilm() {
-  if (!state.building) takeSound();
-  drawTimeline();
-  measureDesk(); // the timeline may have other rows now
-  if (outlined.place) outline(outlined.place);
   if (state.shown) look();
+  if (state.building) return;
+  takeSound();
+  drawTimeline();
+  if (outlined.place) outline(outlined.place);
 }
 
 export async function listen() {
