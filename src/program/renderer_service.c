@@ -4,7 +4,8 @@
  *   verb --request--> standard input  | renderer | standard output --answers--> verb
  *                                                | standard error  --words----> verb
  *
- * A message is its size, four bytes with the highest first, and that many bytes.
+ * An answer is its size, four bytes with the highest first, and that many bytes. What requests are
+ * is said in program/stage_service.c.
  *
  * INVARIANT: reading never waits. A renderer ends when its verb does, for whatever reason.
  */

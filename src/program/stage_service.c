@@ -36,9 +36,9 @@
 
 enum { HEAD = 4, ASKED = 0, GIVEN_UP = 1, REQUEST_MOST = 32768 };
 
-/* The most threads, and pictures beyond one for each thread: one that waits for its thread. The
- * same numbers are in program/verbs/watch/renderers.lua, which asks for no more pictures. */
-enum { THREADS_MOST = 4, AHEAD = 1 };
+/* The most threads, as in program/verbs/watch/renderers.lua, and the places of the ring. A place is
+ * free again when all pictures before it are answered, too: a slow one leaves many to others. */
+enum { THREADS_MOST = 4, PLACES = 64 };
 
 typedef struct stage stage;
 
@@ -65,12 +65,12 @@ struct stage {
   bool is_given_up; /* that request */
   bool is_over;     /* no more messages will arrive */
   int wake[2];      /* a pipe: a byte for each picture that another thread has drawn */
-  drawn *ring;      /* picture i lies at i % count; owned */
-  size_t count, added, given;
+  drawn *ring;      /* picture i lies at i % PLACES; owned */
+  size_t added, given;
   cs_pipeline *pipeline; /* NULL: there was no picture yet */
 };
 
-static drawn *drawn_of(const stage *s, size_t item) { return &s->ring[item % s->count]; }
+static drawn *drawn_of(const stage *s, size_t item) { return &s->ring[item % PLACES]; }
 
 /* ---------------------------------------------------------------- messages */
 
@@ -173,6 +173,7 @@ static celspan_status make(void *user, celspan_context *context, int worker, siz
   if (!d->is_here) {
     answer(d, context, status);
     cs_stage_release(&d->picture);
+    cs_film_frame_finish(&d->built);
   }
   return status;
 }
@@ -189,6 +190,14 @@ static celspan_status deliver(void *user, celspan_context *context, size_t item,
   return CELSPAN_OK;
 }
 
+/* Waiting for a place, which is rare: the pictures before it may be given up. */
+static celspan_status idle(void *user, celspan_context *context) {
+  stage *s = user;
+  hear(s, 0);
+  return s->is_over ? cs_fail(context, CELSPAN_CANCELLED, "no more requests will arrive")
+                    : CELSPAN_OK;
+}
+
 /* If the pipe is full, there are enough bytes in it. */
 static void tell(void *user) {
   const stage *s = user;
@@ -201,17 +210,17 @@ static celspan_status begin(stage *s, int workers) {
     return CELSPAN_OK;
   int threads = cs_frame_workers(s->context, workers);
   threads = threads < THREADS_MOST ? threads : THREADS_MOST;
-  s->count = (size_t)threads + AHEAD;
   cs_pipeline_desc desc = {.count = SIZE_MAX,
-                           .slots = s->count,
+                           .slots = PLACES,
                            .threads = threads,
                            .keeps_going = true,
                            .user = s,
                            .make = make,
                            .deliver = deliver,
+                           .idle = idle,
                            .tell = tell};
   if (!s->ring)
-    CS_TRY(CS_MAKE(s->context, s->ring, s->count));
+    CS_TRY(CS_MAKE(s->context, s->ring, PLACES));
   return cs_pipeline_create(s->context, &desc, &s->pipeline);
 }
 
@@ -252,7 +261,7 @@ int cs_stage_draw(lua_State *L, cs_script *script) {
   celspan_status status = begin(s, desc.workers);
   desc.workers = (int)luaL_optinteger(L, 9, desc.workers);
   if (status == CELSPAN_OK) /* waits while there is no room */
-    status = cs_pipeline_deliver(s->pipeline, s->context, s->count - 1);
+    status = cs_pipeline_deliver(s->pipeline, s->context, PLACES - 1);
   if (status == CELSPAN_OK)
     add(s, script, &desc, kind);
   lua_pushboolean(L, status == CELSPAN_OK);
@@ -293,12 +302,12 @@ static int close_stage(lua_State *L) {
   stage *s = lua_touserdata(L, 1);
   cs_pipeline_destroy(s->pipeline);
   s->pipeline = NULL;
-  for (size_t i = 0; s->ring && i < s->count; i++) {
+  for (size_t i = 0; s->ring && i < PLACES; i++) {
     cs_film_frame_finish(&s->ring[i].built);
     cs_stage_release(&s->ring[i].picture);
   }
   if (s->ring)
-    cs_mem_free(s->context->memory, s->ring, s->count * sizeof *s->ring);
+    cs_mem_free(s->context->memory, s->ring, PLACES * sizeof *s->ring);
   s->ring = NULL;
   for (int i = 0; i < 2; i++) {
     if (s->wake[i] >= 0)

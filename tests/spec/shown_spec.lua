@@ -114,10 +114,15 @@ function shows.watch(file)
   local ask = '{"want":"frame","number":1,"size":[8,8],"crop":[0,0,8,8],"what":"rgba"}'
   bench:write("ask", string.pack(">s4", ask))
   -- The picture is given up when the requests end.
-  local wait = ("(cat ask; until grep -q picture answer-%s; do sleep 0.02; done) | timeout 20 "
-    .. "'%s' stage %s >answer-%s"):format(file[1], workbench.absolute, file[1], file[1])
-  bench:inside(wait)
-  return (bench:read("answer-" .. file[1])):byte(-4)
+  local wait = ("(cat ask; for i in $(seq 900); do grep -qE 'picture|false' answer-%s && break; "
+    .. "sleep 0.02; done) | timeout 20 '%s' stage %s >answer-%s")
+  bench:inside(wait:format(file[1], workbench.absolute, file[1], file[1]))
+  local answers, at, message, head = bench:read("answer-" .. file[1]), 1, nil, nil
+  repeat -- the picture may come before the answer that says that it is begun
+    message, at = (">s4"):unpack(answers, at)
+    head = (">s4"):unpack(message)
+  until head:find "picture"
+  return message:byte(-4)
 end
 
 function shows.trace(file)

@@ -29,7 +29,7 @@ local celspan = require "celspan"
 return celspan.film { size = { 640, 360 }, frames = 9, frame = function(f)
   local discs = {}
   for i = 1, 300 do
-    discs[i] = celspan.circle { centre = { 2 * i, 180 }, radius = 90 - f.number, texture = "red" }
+    discs[i] = celspan.circle { centre = { 2 * i, 180 }, radius = 90 - f.number, texture = "#f00" }
   end
   return celspan.rostrum { celspan.cel(discs) }
 end }

@@ -4,12 +4,12 @@
 --   standard input    { "want": "frame", "number": 3, ... }, as program/stage_service.c reads it
 --   standard output   size, size of the head, { "good": true, ... }, bytes
 --
--- Sizes have four bytes, the highest first. The answer for a frame says that it has `begun`; its
+-- Sizes have four bytes, the highest first. The answer for a frame says that it has `begun`. Its
 -- picture, in whose head `picture` is the number of the request, comes by itself when it is drawn,
--- perhaps before that. Every other answer has in `files` the paths that the script has asked for
--- since the one before, { path, whether it was let read there }. What the script prints goes to
--- standard error: while it is run, and for pictures. Frames that are built for other reasons, such
--- as checks of all of them, print nothing.
+-- and may come before the answer that says so. All answers but pictures have in `files` the paths
+-- that the script has asked for since the answer before, { path, whether it was let read there }.
+-- What the script prints goes to standard error: while it is run, and for pictures. Frames that are
+-- built for other reasons, such as checks of all of them, print nothing.
 local program, request = ...
 local json = require "celspan.json"
 local texts = require "celspan.files"
