@@ -857,6 +857,30 @@ static void check_crowd(void) {
   CHECK(watch.blocks == 0);
 }
 
+/* Bands of one frame do not make each other forgotten, however many there are. */
+static void check_tall(void) {
+  enum { SCENES = 12, WIDE = 16, TALL = 2160 };
+  memory_watch watch = {0};
+  static studio s;
+  static unsigned char pixels[4 * WIDE * TALL];
+  s.context = context_of(&watch, 64 << 20);
+  for (int k = 0; k < 3 * SCENES; k++) {
+    shot now = begin_shot();
+    plain(&s, &now);
+    now.cels[0].opacity = 1 - k / 3 * 0.05;
+    celspan_exposure exposure = {rostrum_of(&s, &now), 1};
+    celspan_frame_desc frame = studio_frame(&exposure, 1, WIDE, TALL, NULL);
+    celspan_statistics statistics = CELSPAN_STATISTICS;
+    frame.repeats = true;
+    frame.workers = 1; /* a band that two workers share is not copied */
+    studio_check(&s, celspan_frame_pixels(s.context, &frame, NULL, pixels, 4 * WIDE, &statistics));
+    CHECK(k % 3 < 2 || statistics.rows_held == TALL);
+    studio_finish(&s);
+  }
+  celspan_context_destroy(s.context);
+  CHECK(watch.blocks == 0);
+}
+
 /* ---------------------------------------------------------------- failures and threads */
 
 static bool gives_up(void *user, int32_t rows_done, int32_t rows_total) {
@@ -1038,6 +1062,7 @@ int main(void) {
   check_turning();
   check_copies();
   check_crowd();
+  check_tall();
   check_given_up();
   check_memory();
   check_lights_alone();

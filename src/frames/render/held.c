@@ -9,7 +9,8 @@
 
 /* ---------------------------------------------------------------- the cache */
 
-#define MET 4096 /* keys that were met are remembered, at most: a power of two */
+#define MET 16384 /* keys that were met are remembered, at most: a power of two */
+#define APART 256 /* bands one after the other that never take each other's places */
 
 typedef struct entry {
   cs_cache_entry entry;
@@ -73,9 +74,10 @@ cs_cache_counts cs_held_count(celspan_context *context) {
   return service ? cs_cache_count(&((store *)service)->cache) : (cs_cache_counts){0};
 }
 
-/* Whether a key was met before; from now on it was. */
-static bool was_met(store *from, cs_hash key) {
-  return atomic_exchange(&from->met[key.b % MET], key.a) == key.a;
+/* Whether the key of a band was met before; from now on it was. */
+static bool was_met(store *from, size_t number, cs_hash key) {
+  size_t place = number % APART + key.b % (MET / APART) * APART;
+  return atomic_exchange(&from->met[place], key.a) == key.a;
 }
 
 /* ---------------------------------------------------------------- the parts of a key */
@@ -184,7 +186,8 @@ static void find_band(cs_held *held, band *b) {
   if (b->kept)
     held->bytes += b->kept->entry.bytes;
   else
-    b->is_wanted = was_met(held->store, b->key);
+    b->is_wanted =
+        was_met(held->store, (size_t)held->first_band + (size_t)(b - held->bands), b->key);
 }
 
 static bool suits(const celspan_context *context, const cs_frame *frame,

@@ -12,12 +12,12 @@
  *   frame     sizes, rows, columns, spaces, errors, filter; files of pictures, and when they were
  *             changed
  *   band      its number
- *   exposure  its weight, camera, lights, grade
+ *   exposure  its weight, and all of its rostrum but the cels: camera, lights, grade, space,
+ *             antialiasing
  *   stack     what decides the last bits in all rows: how high the tiles of the cull are, whether
- *             crowds are painted by themselves, whether light is folded by a table, and whether any
- *             cel has a mode
- *   cel       its hash, in the order of the cels, with the margin of the filter; where there is a
- *             table, the number of its first layer
+ *             crowds are painted by themselves, and whether any cel has a mode
+ *   cel       its hash, in the order of the cels, with the margin of the filter; where light is
+ *             folded by a table, the number of its first layer
  *   light     the flat back light of a cel, before the cel, in all bands
  *   map       all that it is made of, its place and its light; the light behind it, in all bands
  *
