@@ -16,7 +16,7 @@ typedef struct cs_module_desc {
   const char *folder;   /* where its sources lie below src/: "plugins/oiio" */
   const char *override; /* the environment variable that names a file instead */
   const char *symbol;   /* a function without arguments that returns the table */
-  const char *purpose;  /* for the message: "reading and writing pictures"; of art: the caller's */
+  const char *purpose;  /* for the message: "reading and writing pictures"; NULL: callers give it */
   const char *advice;   /* for the message: what to install */
   /* The module to load if this one cannot be loaded, unless the environment names a file; NULL:
    * none. */

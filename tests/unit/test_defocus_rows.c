@@ -150,6 +150,17 @@ static void check_sums(cs_isa isa, test_random *random) {
   CHECK(memcmp(out[0], out[1], sizeof out[0]) == 0);
 }
 
+/* The weighted mean of four values, by their differences from the second one. */
+static float mean(const float weights[3], float a, float b, float c, float d) {
+  return b - (weights[0] * (b - a) + weights[1] * (b - c) + weights[2] * (b - d));
+}
+
+static void check_mixed(const float *const four[4], const float weights[3], const float *mixed,
+                        size_t count) {
+  for (size_t i = 0; i < count; i++)
+    CHECK(fabsf(mixed[i] - mean(weights, four[0][i], four[1][i], four[2][i], four[3][i])) < 1e-5f);
+}
+
 /* Four rows mixed into one, and columns of it, as many as there are. */
 static void check_regrid(cs_isa isa, test_random *random) {
   enum { NODES = 40, COLUMNS = 13 };
@@ -166,6 +177,7 @@ static void check_regrid(cs_isa isa, test_random *random) {
     cs_isa by = i == 0 ? CS_ISA_ANY : isa;
     const float *const four[4] = {rows[0], rows[1], rows[2], rows[3]};
     CS_WIDE_CHOOSE(by, cs_regrid_mix)(four, columns[0].weights, 4 * across, mixed[i][0]);
+    check_mixed(four, columns[0].weights, mixed[i][0], 4 * across);
     CS_WIDE_CHOOSE(by, cs_regrid_across)
     (columns, count, (const float(*)[4])mixed[i], out[i]);
   }

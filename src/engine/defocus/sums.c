@@ -195,7 +195,7 @@ celspan_status cs_defocus_sums_fill(const cs_defocus_sums *sums, cs_row_maker *m
   celspan_status status = cs_defocus_samples_init(context, rows, &s.samples);
   s.row = cs_mem_array(memory, placed, sizeof *s.row);
   s.placed = cs_mem_array(memory, placed, sizeof *s.placed);
-  s.across = cs_mem_resize(memory, NULL, 0, across * sizeof *s.across); /* not read unset */
+  s.across = cs_mem_resize(memory, NULL, 0, across * sizeof *s.across); /* written first */
   s.out = cs_mem_array(memory, TILE, sizeof *s.out);
   if (sums->sharpens)
     s.middle = cs_mem_array(memory, across, sizeof *s.middle);

@@ -8,7 +8,8 @@
  */
 #include "engine/defocus/sums.h"
 
-/* In a pass: as many as can be added to without keeping sums in memory, or as fill it. */
+/* Of sums in a pass: so many that they stay in registers, and that CS_DEFOCUS_SUMS_TOGETHER nodes
+ * fill whole passes. */
 #define REGISTERS (CS_WIDE_LANES == 8 ? 8 : 4)
 #define FLOATS (REGISTERS * CS_WIDE_LANES)
 

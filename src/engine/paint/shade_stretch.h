@@ -1,5 +1,5 @@
-/* The stretches of a gradient from one stop to the next, which places of a row lie in one, and the
- * shares of the way of these: for kernels (base/wide.h). */
+/* The stretches of a gradient from one stop to the next; which places of a row lie in one, and
+ * their shares of the way from its beginning to its end: for kernels (base/wide.h). */
 #pragma once
 
 #include <assert.h>

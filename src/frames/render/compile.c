@@ -270,8 +270,8 @@ static celspan_status note(const cs_compiler *c, cs_plan_shown shown) {
   return CS_APPEND(c->context, plan->shown, plan->shown_count, plan->shown_capacity, shown);
 }
 
-/* Notes a cel, and its flat back light if it has one: in the plan is what belongs to them, behind
- * what the plan had before. */
+/* Notes a cel, and before it its flat back light, if it has one. before: the numbers of chains,
+ * layers and lights that the plan had before the cel was compiled. */
 static celspan_status note_cel(const cs_compiler *c, const celspan_cel *cel,
                                const size_t before[3]) {
   const cs_boundary_set *set = &c->plan->boundaries;
