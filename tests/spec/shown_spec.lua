@@ -117,7 +117,8 @@ function shows.watch(file)
   local wait = ("(cat ask; for i in $(seq 900); do grep -qE 'picture|false' answer-%s && break; "
     .. "sleep 0.02; done) | timeout 20 '%s' stage %s >answer-%s")
   bench:inside(wait:format(file[1], workbench.absolute, file[1], file[1]))
-  local answers, at, message, head = bench:read("answer-" .. file[1]), 1, nil, nil
+  local answers, at = bench:read("answer-" .. file[1]), 1
+  local message, head
   repeat -- the picture may come before the answer that says that it is begun
     message, at = (">s4"):unpack(answers, at)
     head = (">s4"):unpack(message)
