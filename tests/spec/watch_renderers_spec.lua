@@ -336,7 +336,7 @@ describe("the pictures of frames that are wanted at once", function()
   before_each(function() watching.begin { ["shot.lua"] = FILM } end)
   after_each(watching.finish)
 
-  it("are those of frames that are wanted alone #workers", function()
+  it("are those of frames that are wanted alone #workers #always", function()
     if not present.web() then return pending "celspan was built without libmicrohttpd" end
     if not present.program "node" then return pending "there is no node" end
     local said = watching.speak(watching.watch "shot.lua --workers 7", [=[
