@@ -1,9 +1,10 @@
-/* Build tool: texts as arrays of bytes, each ended by a zero.
+/* Build tool: files as arrays of bytes, each ended by a zero.
  *
  *   embed OUT.c NAME=FILE ...                   an array NAME for each file
  *   embed OUT.c --table HEADER TABLE FILE ...   one table, with the names of the files without
- *                                               folders; HEADER declares cs_verb_text and the table
+ *                                               folders; HEADER declares cs_built_in and the table
  */
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +12,11 @@
 static void stop(const char *what, const char *path) {
   fprintf(stderr, "embed: %s %s\n", what, path);
   exit(1);
+}
+
+static bool is_text(const char *path) {
+  const char *dot = strrchr(path, '.');
+  return !dot || strcmp(dot, ".luac") != 0;
 }
 
 /* The bytes of a file and the final zero, as an initialiser. */
@@ -21,7 +27,7 @@ static void write_bytes(FILE *out, const char *path) {
   long count = 0;
   fputs("{", out);
   for (int c; (c = getc(in)) != EOF; count++) {
-    if (c == 0)
+    if (c == 0 && is_text(path))
       stop("not a text:", path);
     fprintf(out, "%s%d,", count % 24 ? "" : "\n  ", c);
   }
@@ -54,7 +60,7 @@ static void write_table(FILE *out, const char *header, const char *table, int co
     fprintf(out, "static const unsigned char text_%d[] = ", i);
     write_bytes(out, paths[i]);
   }
-  fprintf(out, "\nconst cs_verb_text %s[] = {\n", table);
+  fprintf(out, "\nconst cs_built_in %s[] = {\n", table);
   for (int i = 0; i < count; i++)
     fprintf(out, "  {\"%s\", (const char *)text_%d, sizeof text_%d - 1},\n", name_of(paths[i]), i,
             i);

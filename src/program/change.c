@@ -322,7 +322,7 @@ static int lay(lua_State *L) {
   static const luaL_Reg functions[] = {
       {"same", same}, {"same_art", same_art}, {"differing", differing}, {NULL, NULL}};
   const cs_onion *o = lua_touserdata(L, 2);
-  cs_verb_text_load(L, "onion.lua");
+  cs_built_in_load(L, cs_verb_texts, "", "onion.lua");
   luaL_newlib(L, functions);
   lua_pushvalue(L, 1);
   lua_pushinteger(L, o->counts[0]);

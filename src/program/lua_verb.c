@@ -166,13 +166,13 @@ static int run(lua_State *L) {
   open_libraries(L, session->context);
   push_program(L);
   push_request(L, session->request);
-  cs_verb_text_load(L, "program.lua");
+  cs_built_in_load(L, cs_verb_texts, "", "program.lua");
   lua_pushvalue(L, 1);
   lua_call(L, 1, 0);
   const cs_verb *verb = session->request->verb;
   bool runs_rows = !verb->plans_rows && cs_request_has(session->request, "--table");
   lua_pushfstring(L, "%s.lua", runs_rows ? "table" : verb->name);
-  cs_verb_text_load(L, lua_tostring(L, -1));
+  cs_built_in_load(L, cs_verb_texts, "", lua_tostring(L, -1));
   lua_insert(L, 1);
   lua_settop(L, 3);
   lua_call(L, 2, 1);

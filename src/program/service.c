@@ -187,7 +187,7 @@ static int refuse_rights(lua_State *L) {
 
 /* text(name) -> a text of verbs/ */
 static int push_text(lua_State *L) {
-  const cs_verb_text *text = cs_verb_text_find(luaL_checkstring(L, 1));
+  const cs_built_in *text = cs_built_in_find(cs_verb_texts, luaL_checkstring(L, 1));
   lua_pushlstring(L, text->bytes, text->size);
   return 1;
 }

@@ -10,7 +10,8 @@
 #define MOST_CALLERS 6 /* named in a message: the first ones of a chain and the last one */
 #define MOST_CALLS 500 /* searched for these: for each, Lua walks from the innermost call */
 
-/* Whether the function belongs to a built-in module; their names begin like this: embed.c. */
+/* Whether the function belongs to a built-in module; their names begin like this:
+ * built_in.c. */
 static bool is_own(const lua_Debug *info) {
   static const char own[] = "@celspan/";
   return strncmp(info->source, own, sizeof own - 1) == 0;

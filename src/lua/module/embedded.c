@@ -4,25 +4,19 @@
 #include <string.h>
 
 #include "celspan/lua.h"
+#include "lua/bind/built_in.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/require.h"
 #include "lua/module/core.h"
 
-/* The names of the modules begin with this, so that the caller finder recognizes them: see
- * lua/bind/caller.c. */
-#define CHUNK "@celspan/"
+extern const cs_built_in cs_module_texts[];
 
 /* ---------------------------------------------------------------- opening */
 
-/* Runs the text with the globals of celspan's own chunks. */
-static int run(lua_State *L, const char *name, const unsigned char *text) {
-  const char *source = (const char *)text;
+static int run(lua_State *L, const char *folder, const char *file) {
   luaL_requiref(L, "celspan", luaopen_celspan, 0);
   lua_pop(L, 1);
-  if (luaL_loadbufferx(L, source, strlen(source), name, "t") != LUA_OK)
-    return lua_error(L);
-  cs_require_push_globals(L);
-  lua_setupvalue(L, -2, 1);
+  cs_built_in_load(L, cs_module_texts, folder, file);
   lua_call(L, 0, 1);
   return 1;
 }
@@ -39,16 +33,10 @@ static int refuse(lua_State *L, const char *name) {
                     lua_tostring(L, -1), name);
 }
 
-#define DECLARE(name, folder) extern const unsigned char cs_lua_##name[];
-CS_PUBLIC(DECLARE)
-CS_PRIVATE(DECLARE)
-
 /* Functions with names, so that a single celspan.so is also loaded for `require "celspan.ease"`. */
 #define OPEN(name, folder)                                                                         \
   CELSPAN_API int luaopen_celspan_##name(lua_State *L);                                            \
-  int luaopen_celspan_##name(lua_State *L) {                                                       \
-    return run(L, CHUNK #folder "/" #name ".lua", cs_lua_##name);                                  \
-  }
+  int luaopen_celspan_##name(lua_State *L) { return run(L, #folder "/", #name ".lua"); }
 CS_PUBLIC(OPEN)
 
 #define REFUSE(name, folder)                                                                       \
@@ -58,9 +46,7 @@ CS_PRIVATE(REFUSE)
 REFUSE(core, module)
 
 #define OPEN_PRIVATE(name, folder)                                                                 \
-  static int open_##name(lua_State *L) {                                                           \
-    return run(L, CHUNK #folder "/" #name ".lua", cs_lua_##name);                                  \
-  }
+  static int open_##name(lua_State *L) { return run(L, #folder "/", #name ".lua"); }
 CS_PRIVATE(OPEN_PRIVATE)
 
 void cs_embedded_open(lua_State *L) {
@@ -76,27 +62,20 @@ void cs_embedded_open(lua_State *L) {
 
 /* ---------------------------------------------------------------- names */
 
-static const struct {
-  const char *name;
-  const unsigned char *text;
-} public_texts[] = {
-#define TEXT(name, folder) {#name, cs_lua_##name},
-    CS_PUBLIC(TEXT)};
-
-static const unsigned char *find_text(const char *name) {
-  for (size_t i = 0; i < sizeof public_texts / sizeof *public_texts; i++)
-    if (strcmp(public_texts[i].name, name) == 0)
-      return public_texts[i].text;
-  return NULL;
+bool cs_embedded_has(const char *name) {
+#define NAME(name, folder) #name,
+  static const char *const names[] = {CS_PUBLIC(NAME)};
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+    if (strcmp(names[i], name) == 0)
+      return true;
+  return false;
 }
-
-bool cs_embedded_has(const char *name) { return find_text(name); }
 
 int cs_embedded_source(lua_State *L) {
   const char *name = luaL_checkstring(L, 1);
-  const unsigned char *text = find_text(name);
-  if (!text)
+  if (!cs_embedded_has(name))
     return luaL_error(L, "there is no module celspan.%s for scripts", name);
-  lua_pushstring(L, (const char *)text);
+  const cs_built_in *file = cs_built_in_find(cs_module_texts, lua_pushfstring(L, "%s.lua", name));
+  lua_pushlstring(L, file->bytes, file->size);
   return 1;
 }
