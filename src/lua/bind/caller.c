@@ -160,18 +160,20 @@ static int first_caller(lua_State *L, const char *position, lua_CFunction last) 
   return position[0] ? 1 : innermost + 1;
 }
 
-/* Appends to the text on top of the stack. */
-static void append(lua_State *L, const char *before, const char *text) {
-  lua_pushfstring(L, "%s%s", before, text);
-  lua_concat(L, 2);
+/* Appends to a list of places. It is made for each value of a script, and joining a text for each
+ * place would take several times as long. */
+static void append(luaL_Buffer *list, const char *before, const char *text) {
+  luaL_addstring(list, before);
+  luaL_addstring(list, text);
 }
 
 void cs_caller_push_chain(lua_State *L, const char *position, lua_CFunction last) {
   lua_Debug info;
   place before = {""};
   int count = 0;
+  luaL_Buffer list;
   luaL_checkstack(L, 6, "too many callers");
-  lua_pushliteral(L, "");
+  luaL_buffinit(L, &list);
   for (int level = next_file(L, first_caller(L, position, last), last, &info); level;
        level = next_file(L, level + 1, last, &info)) {
     place p = place_of(&info);
@@ -179,12 +181,13 @@ void cs_caller_push_chain(lua_State *L, const char *position, lua_CFunction last
       continue;
     before = p;
     if (++count < MOST_CALLERS)
-      append(L, count == 1 ? " (called from " : ", ", p.text);
+      append(&list, count == 1 ? " (called from " : ", ", p.text);
   }
   if (count >= MOST_CALLERS)
-    append(L, count > MOST_CALLERS ? ", ..., " : ", ", before.text);
+    append(&list, count > MOST_CALLERS ? ", ..., " : ", ", before.text);
   if (count)
-    append(L, ")", "");
+    luaL_addstring(&list, ")");
+  luaL_pushresult(&list);
 }
 
 void cs_caller_push_callers(lua_State *L) {
@@ -192,21 +195,23 @@ void cs_caller_push_callers(lua_State *L) {
   int level = 1, count = 0;
   while (get(L, level, &info) && (info.currentline <= 0 || is_own(&info)))
     level++;
+  luaL_Buffer list;
   luaL_checkstack(L, 6, "too many callers");
-  lua_pushliteral(L, "");
-  if (!lua_getstack(L, level, &info))
-    return;
-  lua_getinfo(L, "nSl", &info);
-  place before = place_of(&info);
-  if (info.name)
-    append(L, "in ", info.name);
-  while (++level <= MOST_CALLS && count < MOST_CALLERS && get(L, level, &info)) {
+  luaL_buffinit(L, &list);
+  bool is_called = lua_getstack(L, level, &info) && lua_getinfo(L, "nSl", &info);
+  place before = is_called ? place_of(&info) : (place){""};
+  if (is_called && info.name)
+    append(&list, "in ", info.name);
+  while (is_called && ++level <= MOST_CALLS && count < MOST_CALLERS && get(L, level, &info)) {
+    if (!is_file(&info))
+      continue;
     place p = place_of(&info);
-    if (!is_file(&info) || strcmp(p.text, before.text) == 0)
+    if (strcmp(p.text, before.text) == 0)
       continue;
     before = p;
-    append(L, ++count > 1 ? ", " : lua_rawlen(L, -1) > 0 ? ", from " : "from ", p.text);
+    append(&list, ++count > 1 ? ", " : luaL_bufflen(&list) > 0 ? ", from " : "from ", p.text);
   }
+  luaL_pushresult(&list);
 }
 
 /* ---------------------------------------------------------------- functions */
