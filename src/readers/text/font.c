@@ -87,7 +87,7 @@ static int read_file(const char *file, uint8_t *bytes, size_t size) {
 static celspan_status load_file(celspan_context *context, const char *file, size_t size,
                                 uint8_t **bytes) {
   char text[CS_ERROR_TEXT_SIZE];
-  uint8_t *made = cs_mem_array(context->memory, size, 1);
+  uint8_t *made = size > 0 ? cs_mem_resize(context->memory, NULL, 0, size) : NULL;
   if (!made && size > 0)
     return cs_fail_memory(context);
   int error = read_file(file, made, size);
