@@ -284,11 +284,17 @@ static int ask_module(lua_State *L) {
   return 1;
 }
 
-/* film:ask(module, what, text) -> a text: calls a function of one of celspan's modules in the state
- * of the script. */
-static int ask(lua_State *L) {
+/* The same; "" if the module has not been loaded. */
+static int ask_loaded_module(lua_State *L) {
+  if (cs_require_is_loaded(L, lua_touserdata(L, 1)))
+    return ask_module(L);
+  lua_pushliteral(L, "");
+  return 1;
+}
+
+static int ask_by(lua_State *L, lua_CFunction asking) {
   lua_State *script = self(L)->script.L;
-  lua_pushcfunction(script, ask_module);
+  lua_pushcfunction(script, asking);
   for (int i = 2; i <= 4; i++)
     lua_pushlightuserdata(script, (void *)luaL_checkstring(L, i));
   int outcome = lua_pcall(script, 3, 1, 0);
@@ -300,6 +306,14 @@ static int ask(lua_State *L) {
   lua_pop(script, 1);
   return 1;
 }
+
+/* film:ask(module, what, text) -> a text: calls a function of one of celspan's modules in the state
+ * of the script. */
+static int ask(lua_State *L) { return ask_by(L, ask_module); }
+
+/* film:kept(module, what, text): the same for what a private module keeps of the script; "": the
+ * script does not use the module, which is not loaded for this. */
+static int kept(lua_State *L) { return ask_by(L, ask_loaded_module); }
 
 /* film:names(add): calls add(kind, name, source or nil, line) for each value that has a name. */
 static int names(lua_State *L) {
@@ -487,18 +501,23 @@ static int describe(lua_State *L) {
 
 /* Sets the methods of the film on top of the stack. */
 static void set_methods(lua_State *L) {
-  static const luaL_Reg methods[] = {
-      CS_SERVICE(build),      {"try", try_frame},        {"onion", try_onion},
-      CS_SERVICE(at),         CS_SERVICE(chosen),        CS_SERVICE(exposures),
-      CS_SERVICE(words),      CS_SERVICE(numbers),       CS_SERVICE(view_size),
-      CS_SERVICE(lay_onion),  CS_SERVICE(check_tracks),  CS_SERVICE(scene),
-      CS_SERVICE(counts),     CS_SERVICE(names),         CS_SERVICE(ask),
-      CS_SERVICE(faults),     CS_SERVICE(drop_warnings), CS_SERVICE(files),
-      CS_SERVICE(draw),       CS_SERVICE(hits),          CS_SERVICE(alter),
-      CS_SERVICE(keep_line),  CS_SERVICE(keep_callers),  CS_SERVICE(silence),
-      CS_SERVICE(costs),      CS_SERVICE(camera),        CS_SERVICE(hold_camera),
-      CS_SERVICE(use_camera), CS_SERVICE(sound),         CS_SERVICE(wave),
-      CS_SERVICE(tree),       CS_SERVICE(refuse),        {NULL, NULL}};
+  static const luaL_Reg methods[] = {CS_SERVICE(build),        {"try", try_frame},
+                                     {"onion", try_onion},     CS_SERVICE(at),
+                                     CS_SERVICE(chosen),       CS_SERVICE(exposures),
+                                     CS_SERVICE(words),        CS_SERVICE(numbers),
+                                     CS_SERVICE(view_size),    CS_SERVICE(lay_onion),
+                                     CS_SERVICE(check_tracks), CS_SERVICE(scene),
+                                     CS_SERVICE(counts),       CS_SERVICE(names),
+                                     CS_SERVICE(ask),          CS_SERVICE(kept),
+                                     CS_SERVICE(faults),       CS_SERVICE(drop_warnings),
+                                     CS_SERVICE(files),        CS_SERVICE(draw),
+                                     CS_SERVICE(hits),         CS_SERVICE(alter),
+                                     CS_SERVICE(keep_line),    CS_SERVICE(keep_callers),
+                                     CS_SERVICE(silence),      CS_SERVICE(costs),
+                                     CS_SERVICE(camera),       CS_SERVICE(hold_camera),
+                                     CS_SERVICE(use_camera),   CS_SERVICE(sound),
+                                     CS_SERVICE(wave),         CS_SERVICE(tree),
+                                     CS_SERVICE(refuse),       {NULL, NULL}};
   lua_createtable(L, 0, 2);
   lua_pushcfunction(L, describe);
   lua_setfield(L, -2, "__tostring");

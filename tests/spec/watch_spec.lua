@@ -377,6 +377,42 @@ describe("the server of celspan watch", function()
     assert.same({ false, false, true }, good)
   end)
 
+  it("has renderers that load no modules of celspan for what the script does not do", function()
+    local loads = [[
+local celspan = require "celspan"
+local box = { 0, 0, 8, 8 }
+local function film()
+  return celspan.film { size = { 8, 8 }, frames = 2, frame = function()
+    local names = {}
+    for name in pairs(debug.getregistry()["celspan.loaded"] or {}) do names[#names + 1] = name end
+    table.sort(names)
+    print("loaded:" .. table.concat(names, ","))
+    return celspan.rostrum { celspan.cel { celspan.rect(box) } }
+  end }
+end
+]]
+    bench:write("loads.lua", loads .. "return film()")
+    bench:write("cuts.lua", loads .. 'celspan.parameters { side = 8 }\n'
+      .. 'return require "celspan.cut" { film(), film() }')
+    bench:write("requests", (">s4s4"):pack('{"want":"film"}',
+      '{"want":"frame","number":1,"size":[8,8],"crop":[0,0,8,8],"what":"picture"}'))
+    local function loaded(script)
+      local code, out, err = bench:inside(("'%s' stage %s --trust <requests")
+        :format(workbench.absolute, script))
+      assert.equal(0, code, err)
+      local answer = (">s4"):unpack(out)
+      return json.decode((">s4"):unpack(answer)), err:match "loaded:([^\n]*)"
+    end
+    local plain, of_plain = loaded "loads.lua"
+    assert.equal("", of_plain)
+    assert.same({}, plain.parameters)
+    assert.is_nil(plain.film.shots)
+    local cut, of_cut = loaded "cuts.lua"
+    assert.truthy(of_cut:find "celspan.shots" and of_cut:find "celspan.parameters", of_cut)
+    assert.equal("side", cut.parameters[1].name)
+    assert.equal(2, #cut.film.shots)
+  end)
+
   it("ends its renderers with itself", function()
     local address = watch()
     speak(address, [=[return (await web.get("/frame/1.png")).status;]=])

@@ -1,6 +1,5 @@
 #include "lua/bind/require.h"
 
-#include <stdbool.h>
 #include <string.h>
 
 /* Tables in the registry. */
@@ -65,6 +64,13 @@ void cs_require_public(lua_State *L, const char *name) {
 void cs_require_module(lua_State *L, const char *name) {
   if (!push_module(L, LOADED, OPENERS, name))
     cs_require_public(L, name);
+}
+
+bool cs_require_is_loaded(lua_State *L, const char *name) {
+  luaL_getsubtable(L, LUA_REGISTRYINDEX, LOADED);
+  bool is_loaded = lua_getfield(L, -1, name) != LUA_TNIL;
+  lua_pop(L, 2);
+  return is_loaded;
 }
 
 /* ---------------------------------------------------------------- celspan's own chunks */

@@ -11,6 +11,7 @@
 
 #include <lauxlib.h>
 #include <lua.h>
+#include <stdbool.h>
 
 /* Gives the state private modules: functions that return them. Raises. */
 void cs_require_give(lua_State *L, const luaL_Reg *modules);
@@ -22,7 +23,9 @@ void cs_require_forget(lua_State *L);
 
 /* Pushes a private or public module, which is loaded at its first use. Raises. */
 void cs_require_module(lua_State *L, const char *name);
-/* The same for a script, which has only public modules. */
+/* Whether that module has been loaded. Raises. */
+bool cs_require_is_loaded(lua_State *L, const char *name);
+/* cs_require_module for a script, which has only public modules. */
 void cs_require_public(lua_State *L, const char *name);
 
 /* A method that is written in Lua; a list of them is ended by one without a name. Errors are raised

@@ -53,8 +53,10 @@ end
 --- The parameters of the film in the order of the script, each described as in JSON Schema.
 local function parameters()
   local list, places = {}, {}
+  local described = film:kept("celspan.parameters", "schema", "")
+  if described == "" then return { list = {} } end
   local text = texts.read(request[1], SCRIPT_MOST) or ""
-  local schema = assert(json.decode(film:ask("celspan.parameters", "schema", "")))
+  local schema = assert(json.decode(described))
   for name, one in pairs(schema.properties) do
     one.name, places[name] = name, place_of(text, name)
     if type(one.default) == "table" then one.default = { list = one.default } end
@@ -133,7 +135,7 @@ local before = "," -- those that the script has read before any frame
 
 --- Those and the points that the script has read since this was asked for last.
 local function with_points(known)
-  for name in film:ask("celspan.parameters", "reads", ""):gmatch "[^,]+," do
+  for name in film:kept("celspan.parameters", "reads", ""):gmatch "[^,]+," do
     if not known:find("," .. name, 1, true) then known = known .. name end
   end
   return known
@@ -357,7 +359,7 @@ end
 --- The first `count` shapes of the mouths that the film has read, as rows.
 local function lips_of(count)
   local rows = { list = {} }
-  for path, shapes in film:ask("celspan.mouths", "kept_text", ""):gmatch "(%Z*)%z(%Z*)%z" do
+  for path, shapes in film:kept("celspan.mouths", "kept_text", ""):gmatch "(%Z*)%z(%Z*)%z" do
     local row = { name = path:match "[^/]*$", cells = { list = {} } }
     for frame, shape in shapes:gmatch "(%d+) ([^\n]*)\n" do
       if math.tointeger(frame) > count then break end
@@ -472,7 +474,7 @@ local good, made = pcall(program.film, request[1])
 if good then
   film = made
   film:keep_callers(false)
-  local text = film:ask("celspan.shots", "text", tostring(film.frames))
+  local text = film:kept("celspan.shots", "text", tostring(film.frames))
   parts = text ~= "" and json.decode(text) or nil
   before = with_points(before)
 end
