@@ -11,6 +11,7 @@
 #include "model/colour/space.h"
 
 #define TOGETHER 64 /* channels: all loops have this length, so that there is no remainder */
+#define ALONE 8     /* up to so many channels are converted in less time one by one */
 
 typedef struct channels {
   float s[TOGETHER], there[TOGETHER], colours[TOGETHER]; /* as in space.h */
@@ -76,7 +77,12 @@ static inline void join(channels *all) {
   }
 }
 
-void CS_WIDE(cs_space_channels)(celspan_space to, const float *shares, int32_t count, float *s) {
+static void convert_alone(celspan_space to, const float *shares, int32_t count, float *s) {
+  for (int32_t i = 0; i < count; i++)
+    s[i] = cs_space_channel(to, s[i], shares[i]);
+}
+
+static void convert(celspan_space to, const float *shares, int32_t count, float *s) {
   channels all = {.s = {0}};
   for (; count > 0; count -= TOGETHER, shares += TOGETHER, s += TOGETHER) {
     int32_t some = count < TOGETHER ? count : TOGETHER;
@@ -84,8 +90,7 @@ void CS_WIDE(cs_space_channels)(celspan_space to, const float *shares, int32_t c
     memcpy(all.there, shares, (size_t)some * sizeof *shares);
     find_colours(&all);
     if (!find_sizes(&all)) {
-      for (int32_t i = 0; i < some; i++)
-        s[i] = cs_space_channel(to, s[i], shares[i]);
+      convert_alone(to, shares, some, s);
       continue;
     }
     if (to == CELSPAN_SPACE_SRGB)
@@ -95,6 +100,10 @@ void CS_WIDE(cs_space_channels)(celspan_space to, const float *shares, int32_t c
     join(&all);
     memcpy(s, all.s, (size_t)some * sizeof *s);
   }
+}
+
+void CS_WIDE(cs_space_channels)(celspan_space to, const float *shares, int32_t count, float *s) {
+  (count <= ALONE ? convert_alone : convert)(to, shares, count, s);
 }
 
 void CS_WIDE(cs_space_codes)(int32_t count, float *colours) {
