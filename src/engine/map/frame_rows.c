@@ -86,13 +86,20 @@ bool cs_map_frame_has(const cs_map_frame *frame, int32_t y) {
 
 /* ---------------------------------------------------------------- a row */
 
+/* The fold of the sheets from the camera to before one of them. */
+typedef struct folded {
+  cs_map_fold fold;
+  int32_t end;             /* the first column where one of these sheets changes */
+  uint32_t broken, varied; /* how many of these sheets are broken, and how many vary */
+} folded;
+
 /* Where a row is being folded. */
 typedef struct folding {
   cs_map_maker *maker;
   int32_t y;
   const cs_map_span *at[CS_MAP_DRAWINGS]; /* the span of each sheet */
-  cs_map_shown shown[CS_MAP_DRAWINGS];    /* drawings that may be visible at x, from the camera */
-  size_t shown_count, broken_count, varied_count;
+  folded before[CS_MAP_DRAWINGS + 1];     /* of each sheet that may be visible, and one more */
+  size_t shown_count;                     /* sheets that may be visible, from the camera */
 } folding;
 
 /* is_even: all sheets are even; a constant of each caller. */
@@ -112,39 +119,32 @@ static inline cs_v4 through_of(const folding *f, size_t i, const cs_map_span *sp
   return rows->drawing->through ? rows->through[span - rows->spans] : cs_map_even(span->colour);
 }
 
-/* Folds `count` sheets at a column, up to the first one that nothing shines through. *end: gets the
- * end of the columns where the sheets stay the same. Cells that vary are left out of the fold.
- * varies: whether any cell varies or is coloured: a constant of each caller. */
-static inline cs_map_fold fold_sheets(folding *f, int32_t x, size_t count, int32_t *end,
-                                      bool varies) {
+/* Folds `count` sheets at a column, up to the first one that nothing shines through. It continues
+ * from the first sheet that has changed since the column before. Cells that vary are left out of
+ * the fold. varies: whether any cell varies or is coloured: a constant of each caller. */
+static inline folded fold_sheets(folding *f, int32_t x, size_t count, bool varies) {
   const cs_map_frame *frame = f->maker->frame;
-  cs_map_fold fold = cs_map_fold_begin;
-  size_t i = 0, broken_count = 0;
-  f->varied_count = 0;
-  for (bool is_hidden = false; i < count && lets_through(&fold, !varies) && !is_hidden; i++) {
+  size_t i = f->shown_count > 0 ? f->shown_count - 1 : 0;
+  while (i > 0 && f->before[i].end <= x)
+    i--;
+  folded all = f->before[i];
+  for (bool is_hidden = false; i < count && lets_through(&all.fold, !varies) && !is_hidden; i++) {
     const cs_map_span *span = f->at[i];
     while (span->end <= x)
       span++;
     f->at[i] = span;
-    *end = span->end < *end ? span->end : *end;
-    broken_count += span->cell == CS_MAP_BROKEN;
-    f->varied_count += varies && span->share_count > 0;
+    all.end = span->end < all.end ? span->end : all.end;
+    all.broken += span->cell == CS_MAP_BROKEN;
+    all.varied += varies && span->share_count > 0;
     if (varies && span->share_count > 0)
       is_hidden = hides(f->maker->rows[i].drawing, span);
     else
-      cs_map_fold_add(&fold, &frame->sheets[i], span->colour,
+      cs_map_fold_add(&all.fold, &frame->sheets[i], span->colour,
                       varies ? through_of(f, i, span) : cs_map_even(span->colour));
+    f->before[i + 1] = all;
   }
   f->shown_count = i;
-  f->broken_count = broken_count;
-  return fold;
-}
-
-/* Lists the drawings that may be visible, after a fold. */
-static void list_shown(folding *f) {
-  for (size_t i = 0; i < f->shown_count; i++)
-    f->shown[i] =
-        (cs_map_shown){&f->maker->frame->sheets[i], f->at[i]->colour, through_of(f, i, f->at[i])};
+  return all;
 }
 
 /* The transmission of a varying sheet in the pixels of its span where its alpha is 0: a cell that
@@ -157,7 +157,7 @@ static cs_v4 clear_of(const folding *f, size_t i) {
     return cs_v4_all(1);
   for (uint32_t n = 0; n < span->share_count; n++)
     through += rows->shares[span->share + n].share;
-  return f->shown[i].through + cs_v4_all(through);
+  return through_of(f, i, span) + cs_v4_all(through);
 }
 
 /* The colours of a sheet from x to end, which are in one of its spans. */
@@ -206,26 +206,31 @@ static celspan_status add_lines(folding *f, size_t i, int32_t x) {
                           span > first ? span[-1].end : 0, x, f->y);
 }
 
+/* The mean of a sheet at x, and the lines of a broken one. */
+static celspan_status find_shown(folding *f, size_t i, int32_t x, cs_map_shown *out) {
+  *out = (cs_map_shown){&f->maker->frame->sheets[i], f->at[i]->colour, through_of(f, i, f->at[i])};
+  if (f->at[i]->share_count > 0) {
+    CS_TRY(find_colours(f, i, x, x + 1, &out->colour));
+    out->through = clear_of(f, i) - cs_v4_all(out->colour[3]);
+  }
+  return f->at[i]->cell == CS_MAP_BROKEN ? add_lines(f, i, x) : CELSPAN_OK;
+}
+
 /* Solves the pixel at x, where several sheets that can be shown are broken. */
-static celspan_status solve(folding *f, int32_t x, cs_v4 *out) {
+static celspan_status solve(folding *f, int32_t x, uint32_t broken_count, cs_v4 *out) {
   cs_map_maker *maker = f->maker;
   cs_map_exact *exact = &maker->exact;
-  list_shown(f);
-  for (size_t i = 0; i < f->shown_count; i++) {
-    CS_TRY(find_colours(f, i, x, x + 1, &f->shown[i].colour));
-    if (f->at[i]->share_count > 0)
-      f->shown[i].through = clear_of(f, i) - cs_v4_all(f->shown[i].colour[3]);
-    if (f->at[i]->cell == CS_MAP_BROKEN)
-      CS_TRY(add_lines(f, i, x));
-  }
-  if (f->broken_count == 2 && exact->line_count <= CS_MAP_EXACT_LINES) {
-    *out = cs_map_exact_pair(exact, maker->frame, f->shown, f->shown_count);
+  cs_map_shown shown[CS_MAP_DRAWINGS];
+  for (size_t i = 0; i < f->shown_count; i++)
+    CS_TRY(find_shown(f, i, x, &shown[i]));
+  if (broken_count == 2 && exact->line_count <= CS_MAP_EXACT_LINES) {
+    *out = cs_map_exact_pair(exact, maker->frame, shown, f->shown_count);
     return CELSPAN_OK;
   }
   for (size_t i = 0; i < f->shown_count; i++)
     if (f->at[i]->cell == CS_MAP_BROKEN)
-      CS_TRY(find_base(f, i, x, &f->shown[i]));
-  return cs_map_exact_mean(maker->context, exact, maker->frame, f->shown, f->shown_count, out);
+      CS_TRY(find_base(f, i, x, &shown[i]));
+  return cs_map_exact_mean(maker->context, exact, maker->frame, shown, f->shown_count, out);
 }
 
 /* Whether nothing can be seen behind the last of the sheets that are shown. */
@@ -238,12 +243,12 @@ static bool is_rearmost(const folding *f, const cs_map_fold *fold) {
 }
 
 /* Whether only one cell is visible, with nothing in front of it. */
-static bool is_bare(const folding *f, const cs_map_fold *fold) {
+static bool is_bare(const folding *f, const folded *all) {
   size_t last = f->shown_count - 1;
   const cs_map_span *span = f->at[last];
-  return f->varied_count == 1 && span->share_count > 0 && span->cell != CS_MAP_BROKEN &&
-         is_rearmost(f, fold) && cs_map_brush_is_bare(f->maker->rows[last].drawing) &&
-         cs_v4_same(fold->t, cs_v4_all(1)) && cs_v4_same(fold->e, cs_v4_all(0));
+  return all->varied == 1 && span->share_count > 0 && span->cell != CS_MAP_BROKEN &&
+         is_rearmost(f, &all->fold) && cs_map_brush_is_bare(f->maker->rows[last].drawing) &&
+         cs_v4_same(all->fold.t, cs_v4_all(1)) && cs_v4_same(all->fold.e, cs_v4_all(0));
 }
 
 /* Paints a cell of a sheet as a run. */
@@ -263,26 +268,19 @@ typedef struct affine {
 
 /* The colour of the frame where the sheet that varies has this colour. */
 static cs_v4 fold_with(const folding *f, size_t varied, cs_v4 colour) {
-  cs_map_fold fold = cs_map_fold_begin;
-  for (size_t i = 0; i < f->shown_count; i++)
-    cs_map_fold_add(&fold, f->shown[i].sheet, i == varied ? colour : f->shown[i].colour,
-                    i == varied ? cs_map_even(colour) : f->shown[i].through);
-  return cs_map_fold_end(fold, f->maker->frame);
-}
-
-/* The share of a sheet's light that can be seen. */
-static cs_v4 transmission_before(const folding *f, size_t sheet) {
-  cs_v4 t = cs_v4_all(1);
-  for (size_t i = 0; i < sheet; i++)
-    t *= f->shown[i].through;
-  return t;
+  const cs_map_frame *frame = f->maker->frame;
+  cs_map_fold fold = f->before[varied].fold;
+  cs_map_fold_add(&fold, &frame->sheets[varied], colour, cs_map_even(colour));
+  for (size_t i = varied + 1; i < f->shown_count; i++)
+    cs_map_fold_add(&fold, &frame->sheets[i], f->at[i]->colour, through_of(f, i, f->at[i]));
+  return cs_map_fold_end(fold, frame);
 }
 
 static affine find_affine(const folding *f, size_t varied) {
   cs_v4 light = f->maker->rows[varied].drawing->light;
   cs_v4 base = fold_with(f, varied, cs_v4_all(0));
   cs_v4 covered = fold_with(f, varied, (cs_v4){0, 0, 0, light[3]});
-  cs_v4 scale = transmission_before(f, varied) * light;
+  cs_v4 scale = f->before[varied].fold.t * light;
   scale[3] = 0;
   return (affine){base, scale, covered - base};
 }
@@ -312,14 +310,19 @@ static celspan_status put_through(const cs_map_maker *maker, const affine *p,
                          slope_through(p, cs_v4_load(span->slope)));
 }
 
-/* The number of the only sheet that varies, if all sheets before and behind it are flat; otherwise
- * the number of sheets. */
-static size_t only_varied(const folding *f) {
+/* The first sheet that varies. */
+static size_t first_varied(const folding *f) {
   size_t i = 0;
-  while (f->at[i]->share_count == 0)
+  while (f->before[i + 1].varied == 0)
     i++;
-  bool is_one = f->varied_count == 1 && f->at[i]->cell != CS_MAP_BROKEN;
-  return is_one && !f->maker->rows[i].drawing->grade ? i : f->shown_count;
+  return i;
+}
+
+/* Whether a sheet, the first that varies, is the only one, and its spans can be seen among flat
+ * ones. */
+static bool varies_alone(const folding *f, const folded *all, size_t sheet) {
+  return all->varied == 1 && f->at[sheet]->cell != CS_MAP_BROKEN &&
+         !f->maker->rows[sheet].drawing->grade;
 }
 
 /* Whether spans that are seen among flat ones deviate from their curve by at most twice their own
@@ -340,38 +343,49 @@ static celspan_status paint_affine(folding *f, const affine *p, size_t varied, i
 
 /* ---------------------------------------------------------------- all that vary */
 
-/* Folds the sheets pixel by pixel. */
-static celspan_status fold_batch(folding *f, int32_t x, int32_t end, float *out) {
-  cs_map_fold folds[CS_OVER_ROW_BATCH];
+/* Adds a sheet that varies to the folds of the pixels [x, end). */
+static celspan_status add_varied(folding *f, size_t i, int32_t x, int32_t end, cs_map_fold *folds) {
+  const cs_map_sheet *sheet = &f->maker->frame->sheets[i];
+  const cs_v4 clear = clear_of(f, i);
   cs_v4 colours[CS_OVER_ROW_BATCH];
+  CS_TRY(find_colours(f, i, x, end, colours));
   for (int32_t k = 0; k < end - x; k++)
-    folds[k] = cs_map_fold_begin;
-  for (size_t i = 0; i < f->shown_count; i++) {
-    const bool is_varied = f->at[i]->share_count > 0;
-    const cs_v4 clear = is_varied ? clear_of(f, i) : f->shown[i].through;
-    CS_TRY(find_colours(f, i, x, end, colours));
+    cs_map_fold_add(&folds[k], sheet, colours[k], clear - cs_v4_all(colours[k][3]));
+  return CELSPAN_OK;
+}
+
+/* Folds the sheets pixel by pixel, from the first one that varies. */
+static celspan_status fold_batch(folding *f, size_t varied, int32_t x, int32_t end, float *out) {
+  const cs_map_frame *frame = f->maker->frame;
+  cs_map_fold folds[CS_OVER_ROW_BATCH];
+  for (int32_t k = 0; k < end - x; k++)
+    folds[k] = f->before[varied].fold;
+  for (size_t i = varied; i < f->shown_count; i++) {
+    if (f->at[i]->share_count > 0) {
+      CS_TRY(add_varied(f, i, x, end, folds));
+      continue;
+    }
+    const cs_v4 colour = f->at[i]->colour, through = through_of(f, i, f->at[i]);
     for (int32_t k = 0; k < end - x; k++)
-      cs_map_fold_add(&folds[k], f->shown[i].sheet, colours[k],
-                      is_varied ? clear - cs_v4_all(colours[k][3]) : clear);
+      cs_map_fold_add(&folds[k], &frame->sheets[i], colour, through);
   }
   for (int32_t k = 0; k < end - x; k++)
-    cs_v4_store(out + (size_t)4 * (size_t)k, cs_map_fold_end(folds[k], f->maker->frame));
+    cs_v4_store(out + (size_t)4 * (size_t)k, cs_map_fold_end(folds[k], frame));
   return CELSPAN_OK;
 }
 
 /* The columns [x, end), in which something varies. */
-static celspan_status paint_varied(folding *f, const cs_map_fold *fold, int32_t x, int32_t end,
+static celspan_status paint_varied(folding *f, const folded *all, int32_t x, int32_t end,
                                    cs_row *out) {
   float *colours, one[4];
-  list_shown(f);
-  if (is_bare(f, fold))
+  if (is_bare(f, all))
     return paint_run(f, f->shown_count - 1, x, end, out);
+  const size_t varied = first_varied(f);
   if (end == x + 1) {
-    CS_TRY(fold_batch(f, x, end, one));
+    CS_TRY(fold_batch(f, varied, x, end, one));
     return cs_row_single(f->maker->context, out, x, end, cs_v4_load(one));
   }
-  size_t varied = only_varied(f);
-  if (varied < f->shown_count) {
+  if (varies_alone(f, all, varied)) {
     const affine p = find_affine(f, varied);
     if (keeps_error(&p))
       return paint_affine(f, &p, varied, x, end, out);
@@ -379,61 +393,23 @@ static celspan_status paint_varied(folding *f, const cs_map_fold *fold, int32_t 
   CS_TRY(cs_row_array(f->maker->context, out, x, end, &colours));
   for (int32_t next; x < end; colours += (size_t)4 * (size_t)(next - x), x = next) {
     next = end - x < CS_OVER_ROW_BATCH ? end : x + CS_OVER_ROW_BATCH;
-    CS_TRY(fold_batch(f, x, next, colours));
+    CS_TRY(fold_batch(f, varied, x, next, colours));
   }
   return CELSPAN_OK;
 }
 
-/* Writes the columns [x, end), in which only the last sheet changes. near: the fold of all other
- * sheets. */
-static celspan_status fold_last(folding *f, cs_map_fold near, int32_t x, int32_t end,
-                                cs_row_writer *writer) {
-  const size_t last = f->maker->frame->count - 1, near_count = f->broken_count;
-  /* Copies, so that everything that does not depend on the colour of the last sheet is computed
-   * once. */
-  const cs_map_sheet sheet = {.back = f->maker->frame->sheets[last].back,
-                              .keep = f->maker->frame->sheets[last].keep};
-  const cs_map_frame frame = {.back = f->maker->frame->back, .keep = f->maker->frame->keep};
-  const cs_map_span *span = f->at[last];
-  for (int32_t stop; x < end; x = stop) {
-    while (span->end <= x)
-      span++;
-    cs_map_fold fold = near;
-    cs_map_fold_add(&fold, &sheet, span->colour, cs_map_even(span->colour));
-    cs_v4 colour = cs_map_fold_end_even(fold, &frame);
-    stop = span->end < end ? span->end : end;
-    if (near_count > 0 && near_count + (span->cell == CS_MAP_BROKEN) > 1) {
-      stop = x + 1;
-      f->at[last] = span;
-      f->broken_count = near_count + (span->cell == CS_MAP_BROKEN);
-      f->shown_count = last + 1;
-      CS_TRY(solve(f, x, &colour));
-    }
-    cs_row_writer_to(writer, stop, colour);
-  }
-  f->at[last] = span;
-  return CELSPAN_OK;
-}
-
-/* A row in which nothing varies. Where the near sheets do not change for many columns, the last
- * sheet is folded under them, span by span. */
+/* A row in which nothing varies. */
 static celspan_status make_flat_row(folding *f, cs_row *out) {
   const cs_map_maker *maker = f->maker;
   int32_t width = maker->frame->width;
   CS_TRY(cs_row_room(maker->context, out, (size_t)width));
   cs_row_writer writer = cs_row_writer_begin(out, 0);
   for (int32_t x = 0, end; x < width; x = end) {
-    end = width;
-    const cs_map_fold near = fold_sheets(f, x, maker->frame->count - 1, &end, false);
-    if (lets_through(&near, true)) {
-      CS_TRY(fold_last(f, near, x, end, &writer));
-      continue;
-    }
-    cs_v4 colour = cs_map_fold_end_even(near, maker->frame);
-    if (f->broken_count > 1) {
-      end = x + 1;
-      CS_TRY(solve(f, x, &colour));
-    }
+    const folded all = fold_sheets(f, x, maker->frame->count, false);
+    cs_v4 colour = cs_map_fold_end_even(all.fold, maker->frame);
+    end = all.broken > 1 ? x + 1 : all.end;
+    if (all.broken > 1)
+      CS_TRY(solve(f, x, all.broken, &colour));
     cs_row_writer_to(&writer, end, colour);
   }
   cs_row_writer_end(&writer);
@@ -444,17 +420,15 @@ static celspan_status make_varied_row(folding *f, cs_row *out) {
   const cs_map_maker *maker = f->maker;
   int32_t width = maker->frame->width;
   for (int32_t x = 0, end; x < width; x = end) {
-    end = width;
-    cs_map_fold fold = fold_sheets(f, x, maker->frame->count, &end, true);
-    cs_v4 colour = cs_map_fold_end(fold, maker->frame);
-    if (f->broken_count > 1) {
-      end = x + 1;
-      CS_TRY(solve(f, x, &colour));
-    } else if (f->varied_count > 0) {
-      CS_TRY(paint_varied(f, &fold, x, end, out));
-      continue;
-    }
-    CS_TRY(cs_row_single(maker->context, out, x, end, colour));
+    const folded all = fold_sheets(f, x, maker->frame->count, true);
+    cs_v4 colour = cs_map_fold_end(all.fold, maker->frame);
+    end = all.broken > 1 ? x + 1 : all.end;
+    if (all.broken > 1)
+      CS_TRY(solve(f, x, all.broken, &colour));
+    if (all.broken <= 1 && all.varied > 0)
+      CS_TRY(paint_varied(f, &all, x, end, out));
+    else
+      CS_TRY(cs_row_single(maker->context, out, x, end, colour));
   }
   return CELSPAN_OK;
 }
@@ -463,6 +437,8 @@ static celspan_status make_row(folding *f, cs_row *out) {
   const cs_map_maker *maker = f->maker;
   for (size_t i = 0; i < maker->frame->count; i++)
     f->at[i] = maker->rows[i].spans + maker->rows[i].first[f->y - maker->row];
+  f->before[0] = (folded){.fold = cs_map_fold_begin, .end = maker->frame->width};
+  f->shown_count = 0;
   return maker->varies || maker->frame->count == 0 ? make_varied_row(f, out)
                                                    : make_flat_row(f, out);
 }

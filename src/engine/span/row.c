@@ -188,10 +188,10 @@ celspan_status cs_row_append(celspan_context *context, cs_row *out, const cs_row
 
 /* ---------------------------------------------------------------- exposures */
 
+#define EXPOSED 64 /* columns that are summed together */
+
 static inline cs_v4 colour_at(const celspan_span *span, int32_t x) {
   cs_v4 colour = cs_v4_load(span->colour);
-  if (span->kind == CELSPAN_SPAN_ARRAY)
-    return cs_v4_load(span->array + 4 * (size_t)(x - span->x0));
   if (span->kind == CELSPAN_SPAN_GRADIENT)
     return colour + cs_v4_load(span->slope) * (float)(x - span->origin);
   return colour;
@@ -228,7 +228,7 @@ static celspan_status expose_gradient(celspan_context *context, cs_row *out, int
     rest_slope[3] = 0;
   }
   CS_TRY(cs_row_gradient(context, out, x0, bend, colour, slope));
-  return cs_row_gradient(context, out, bend, x1, rest, rest_slope);
+  return bend < x1 ? cs_row_gradient(context, out, bend, x1, rest, rest_slope) : CELSPAN_OK;
 }
 
 /* One span of each row, and their weights. All of these spans cover [x0, x1). */
@@ -246,18 +246,25 @@ static cs_v4 light_of(cs_v4 codes) {
   return cs_v4_load(rgba);
 }
 
-/* Adds the light of one span in columns [x0, x1). */
-static void add_light(const exposed *e, size_t i, int32_t x0, int32_t x1, float *sums) {
-  const celspan_span *span = e->spans[i];
-  const float weight = e->weights[i];
-  const bool is_coded = e->space == CELSPAN_SPACE_SRGB;
-  for (int32_t x = x0; x < x1; x++, sums += 4) {
-    cs_v4 colour = colour_at(span, x);
-    cs_v4_store(sums, cs_v4_load(sums) + weight * (is_coded ? light_of(colour) : colour));
-  }
+static cs_v4 codes_of(cs_v4 light) {
+  float rgba[4];
+  cs_v4_store(rgba, light);
+  cs_space_encode(CELSPAN_SPACE_SRGB, rgba);
+  return cs_v4_load(rgba);
 }
 
-/* The sums of columns [x0, x1), span by span: each is what the columns are one by one. */
+/* Adds the light of one span in columns [x0, x1). */
+static void add_light(const exposed *e, size_t i, int32_t x0, int32_t x1, float *sums) {
+  const float weight = e->weights[i];
+  cs_v4 colours[EXPOSED];
+  cs_row_spread_span(e->spans[i], x0, x1, colours);
+  for (int32_t k = 0; k < x1 - x0 && e->space == CELSPAN_SPACE_SRGB; k++)
+    colours[k] = light_of(colours[k]);
+  for (int32_t k = 0; k < x1 - x0; k++)
+    cs_v4_store(sums + 4 * k, cs_v4_load(sums + 4 * k) + weight * colours[k]);
+}
+
+/* The sums of at most EXPOSED columns, span by span: each is what the columns are one by one. */
 static void put_sums(const exposed *e, int32_t x0, int32_t x1, float *sums) {
   const size_t count = 4 * (size_t)(x1 - x0);
   memset(sums, 0, count * sizeof *sums);
@@ -274,35 +281,34 @@ static celspan_status expose_array(celspan_context *context, cs_row *out, const 
                                    int32_t x0, int32_t x1) {
   float *colours;
   CS_TRY(cs_row_array(context, out, x0, x1, &colours));
-  put_sums(e, x0, x1, colours);
+  for (int32_t x = x0, stop; x < x1; x = stop) {
+    stop = x1 - x < EXPOSED ? x1 : x + EXPOSED;
+    put_sums(e, x, stop, colours + 4 * (size_t)(x - x0));
+  }
   return CELSPAN_OK;
 }
 
 /* Light does not change linearly along a gradient of codes. */
-static bool needs_array(const exposed *e) {
-  for (size_t i = 0; i < e->count; i++)
-    if (e->spans[i]->kind == CELSPAN_SPAN_ARRAY ||
-        (e->spans[i]->kind == CELSPAN_SPAN_GRADIENT && e->space == CELSPAN_SPACE_SRGB))
-      return true;
-  return false;
-}
-
 static celspan_status expose_interval(celspan_context *context, cs_row *out, const exposed *e,
                                       int32_t x0, int32_t x1) {
+  const bool is_coded = e->space == CELSPAN_SPACE_SRGB;
   cs_v4 first = cs_v4_all(0), slope = cs_v4_all(0);
-  if (needs_array(e))
-    return expose_array(context, out, e, x0, x1);
-  if (e->space == CELSPAN_SPACE_SRGB) {
-    float sum[4];
-    put_sums(e, x0, x0 + 1, sum);
-    return cs_row_single(context, out, x0, x1, cs_v4_load(sum));
-  }
+  bool is_single = true;
   for (size_t i = 0; i < e->count; i++) {
-    first += e->weights[i] * colour_at(e->spans[i], x0);
-    if (e->spans[i]->kind == CELSPAN_SPAN_GRADIENT)
-      slope += e->weights[i] * cs_v4_load(e->spans[i]->slope);
+    const celspan_span *span = e->spans[i];
+    const bool is_gradient = span->kind == CELSPAN_SPAN_GRADIENT;
+    if (span->kind == CELSPAN_SPAN_ARRAY || (is_gradient && is_coded))
+      return expose_array(context, out, e, x0, x1);
+    const cs_v4 colour = colour_at(span, x0);
+    first += e->weights[i] * (is_coded ? light_of(colour) : colour);
+    if (is_gradient)
+      slope += e->weights[i] * cs_v4_load(span->slope);
+    is_single &= !is_gradient;
   }
-  return expose_gradient(context, out, x0, x1, first, slope);
+  if (!is_single)
+    return expose_gradient(context, out, x0, x1, first, slope);
+  first[3] = first[3] > 1 ? 1 : first[3];
+  return cs_row_single(context, out, x0, x1, is_coded ? codes_of(first) : first);
 }
 
 celspan_status cs_row_expose(celspan_context *context, cs_row *out, celspan_space space,
