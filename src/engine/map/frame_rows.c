@@ -9,6 +9,12 @@
 
 /* ---------------------------------------------------------------- life */
 
+/* Whether a sheet may change a fold where its drawing is clear. */
+static bool has_back(const cs_map_sheet *sheet) {
+  return sheet->plan || sheet->drawing.through || sheet->keep != 1 ||
+         !cs_v4_same(sheet->back, cs_v4_all(0));
+}
+
 celspan_status cs_map_maker_init(cs_map_maker *maker, celspan_context *context,
                                  const cs_map_frame *frame) {
   *maker = (cs_map_maker){.context = context, .frame = frame, .row = -1};
@@ -23,7 +29,10 @@ celspan_status cs_map_maker_init(cs_map_maker *maker, celspan_context *context,
     const cs_map_drawing *drawing = sheet->plan ? &maker->swept[i].drawing : &sheet->drawing;
     if (sheet->plan)
       CS_TRY(cs_map_swept_init(&maker->swept[i], context, sheet->plan));
-    maker->rows[i] = (cs_map_rows){.drawing = drawing, .brush = &maker->brushes[i], .row = -1};
+    maker->rows[i] = (cs_map_rows){.drawing = drawing,
+                                   .brush = &maker->brushes[i],
+                                   .row = -1,
+                                   .has_back = has_back(sheet)};
     CS_TRY(cs_map_brush_init(&maker->brushes[i], context, drawing));
     maker->varies |= drawing->stack.layer_count > 0 || drawing->through;
   }
@@ -138,7 +147,7 @@ static inline folded fold_sheets(folding *f, int32_t x, size_t count, bool varie
     all.varied += varies && span->share_count > 0;
     if (varies && span->share_count > 0)
       is_hidden = hides(f->maker->rows[i].drawing, span);
-    else
+    else if (span->cell > 0 || f->maker->rows[i].has_back)
       cs_map_fold_add(&all.fold, &frame->sheets[i], span->colour,
                       varies ? through_of(f, i, span) : cs_map_even(span->colour));
     f->before[i + 1] = all;

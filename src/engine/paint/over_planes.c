@@ -71,12 +71,6 @@ static void fold(cs_painter *painter, const cs_program *program, const cs_batch 
   }
 }
 
-/* Premultiplied RGBA of pixel k. */
-static inline cs_v4 colour_at(const cs_over_planes *planes, int32_t k) {
-  return (cs_v4){planes->light[0][k], planes->light[1][k], planes->light[2][k],
-                 1 - planes->keep * planes->through[k]};
-}
-
 /* ---------------------------------------------------------------- ahead */
 
 static inline bool is_of(const cs_over_planes_ahead *ahead, const cs_program *program) {
@@ -120,12 +114,32 @@ static inline cs_run run_of(const cs_batch *batch) {
   return (cs_run){batch->columns[0], batch->columns[batch->count - 1] + 1, batch->y};
 }
 
+/* Premultiplied RGBA of `count` pixels from a first one on. */
+static void put_colours(const cs_over_planes *planes, int32_t first, int32_t count,
+                        float (*rgba)[4]) {
+  for (int32_t k = 0; k < count; k += 4) {
+    const cs_v4 r = cs_v4_load(planes->light[0] + first + k);
+    const cs_v4 g = cs_v4_load(planes->light[1] + first + k);
+    const cs_v4 b = cs_v4_load(planes->light[2] + first + k);
+    const cs_v4 a = 1 - planes->keep * cs_v4_load(planes->through + first + k);
+    const cs_v4 rg = __builtin_shufflevector(r, g, 0, 4, 1, 5);
+    const cs_v4 ba = __builtin_shufflevector(b, a, 0, 4, 1, 5);
+    const cs_v4 next_rg = __builtin_shufflevector(r, g, 2, 6, 3, 7);
+    const cs_v4 next_ba = __builtin_shufflevector(b, a, 2, 6, 3, 7);
+    const cs_v4 pixels[4] = {__builtin_shufflevector(rg, ba, 0, 1, 4, 5),
+                             __builtin_shufflevector(rg, ba, 2, 3, 6, 7),
+                             __builtin_shufflevector(next_rg, next_ba, 0, 1, 4, 5),
+                             __builtin_shufflevector(next_rg, next_ba, 2, 3, 6, 7)};
+    for (int32_t i = 0; i < 4 && k + i < count; i++)
+      cs_v4_store(rgba[k + i], pixels[i]);
+  }
+}
+
 static void copy_ready(const cs_over_planes_ahead *ahead, const cs_batch *batch, float (*rgba)[4]) {
-  const int32_t first = batch->x0 - ahead->run.x0;
   for (int32_t k = 0; k < batch->count && batch->columns; k++)
-    cs_v4_store(rgba[k], colour_at(&ahead->planes, batch->columns[k] - ahead->run.x0));
-  for (int32_t k = 0; k < batch->count && !batch->columns; k++)
-    cs_v4_store(rgba[k], colour_at(&ahead->planes, first + k));
+    put_colours(&ahead->planes, batch->columns[k] - ahead->run.x0, 1, rgba + k);
+  if (!batch->columns)
+    put_colours(&ahead->planes, batch->x0 - ahead->run.x0, batch->count, rgba);
 }
 
 bool cs_over_planes_ready(const cs_painter *painter, const cs_program *program,
@@ -142,8 +156,7 @@ bool cs_over_planes_colours(cs_painter *painter, const cs_program *program, cons
   if (!cs_over_planes_fits(painter->stack, program))
     return false;
   fold(painter, program, batch, &planes);
-  for (int32_t k = 0; k < batch->count; k++)
-    cs_v4_store(rgba[k], colour_at(&planes, k));
+  put_colours(&planes, 0, batch->count, rgba);
   return true;
 }
 
