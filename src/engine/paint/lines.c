@@ -40,6 +40,7 @@
  * colour. */
 typedef struct cut_list {
   int32_t *columns, *other; /* other: room to merge into */
+  double *breaks;           /* of one layer */
   size_t count;
 } cut_list;
 
@@ -47,7 +48,6 @@ typedef struct finder {
   cs_painter *painter;
   const cs_program *program;
   cs_run run;
-  cs_arena *arena;
 } finder;
 
 /* ---------------------------------------------------------------- breaks of one layer */
@@ -122,14 +122,10 @@ CS_SORT_DEFINE(sort_columns, int32_t, is_before)
 
 static celspan_status add_formula(const finder *f, cs_item item, cut_list *list) {
   size_t count;
-  double *breaks =
-      cs_arena_take(f->painter->context, f->arena, break_limit(f, item) * sizeof *breaks);
   int32_t *columns = list->columns + list->count;
-  if (!breaks)
-    return CELSPAN_NO_MEMORY;
-  CS_TRY(find_breaks(f, item, breaks, &count));
+  CS_TRY(find_breaks(f, item, list->breaks, &count));
   for (size_t i = 0; i < count; i++)
-    columns[i] = cs_number_first_centre(breaks[i]);
+    columns[i] = cs_number_first_centre(list->breaks[i]);
   sort_columns(columns, count);
   merge(list, count);
   return CELSPAN_OK;
@@ -150,22 +146,26 @@ static celspan_status add_item(const finder *f, cs_item item, cut_list *list) {
   return CELSPAN_OK;
 }
 
-static celspan_status make_room(const finder *f, cut_list *out) {
+static celspan_status make_room(const finder *f, cs_arena *arena, cut_list *out) {
   size_t limit = 2;
   for (uint32_t i = 0; i < f->program->length; i++)
     limit += break_limit(f, f->program->items[i]);
+  out->breaks =
+      cs_arena_take(f->painter->context, arena, limit * (sizeof(double) + 2 * sizeof(int32_t)));
+  if (!out->breaks)
+    return CELSPAN_NO_MEMORY;
+  out->columns = (int32_t *)(out->breaks + limit);
+  out->other = out->columns + limit;
   out->count = 0;
-  out->columns = cs_arena_take(f->painter->context, f->arena, limit * sizeof(int32_t));
-  out->other = cs_arena_take(f->painter->context, f->arena, limit * sizeof(int32_t));
-  return out->columns && out->other ? CELSPAN_OK : CELSPAN_NO_MEMORY;
+  return CELSPAN_OK;
 }
 
 /* The columns at which a run is cut, ascending, its own two ends among them. The pictures of the
  * program are grids (cs_sampler_is_grid). Errors: NO_MEMORY, and those of making defocused cels. */
 static CELSPAN_CHECKED celspan_status find_ends(cs_painter *painter, const cs_program *program,
                                                 cs_run run, cs_row *row, cut_list *out) {
-  finder f = {painter, program, run, &row->colours};
-  CS_TRY(make_room(&f, out));
+  finder f = {painter, program, run};
+  CS_TRY(make_room(&f, &row->colours, out));
   for (uint32_t i = 0; i < program->length; i++)
     CS_TRY(add_item(&f, program->items[i], out));
   size_t kept = 1;
@@ -245,6 +245,8 @@ typedef enum line_shape {
   CURVED = 5    /* its ends and the quarters; more if they are not on a line */
 } line_shape;
 
+enum { MOST_BENDS = 2 }; /* of one layer: where there are more, several layers vary: no table */
+
 static int bend_of(const cs_painter *painter, const cs_layer *layer) {
   if (layer->kind == CS_LAYER_FLAT)
     return 0;
@@ -266,8 +268,7 @@ static int count_bends(const cs_painter *painter, const cs_program *program) {
 /* One layer that is linear between two cuts gives a line, since light, fades and flat layers act
  * linearly; the product of two such layers gives a curve, and so do modes, mattes, and pictures of
  * light where codes are mixed. */
-static line_shape shape_of(const cs_painter *painter, const cs_program *program) {
-  int bends = count_bends(painter, program);
+static line_shape shape_of(const cs_painter *painter, const cs_program *program, int bends) {
   if (bends > 0 && cs_program_curves(painter->stack, program))
     return CURVED;
   return bends == 0 ? STEPPED : bends == 1 ? STRAIGHT : CURVED;
@@ -349,8 +350,7 @@ static size_t pick_batch(line_shape shape, const cut_list *ends, size_t line, do
   return line;
 }
 
-static celspan_status put_lines(colour_curve *c, const cut_list *ends) {
-  line_shape shape = shape_of(c->painter, c->program);
+static celspan_status put_lines(colour_curve *c, line_shape shape, const cut_list *ends) {
   int32_t columns[CS_OVER_ROW_BATCH], count;
   float rgba[CS_OVER_ROW_BATCH][4];
   c->curve.test = test_program;
@@ -381,11 +381,13 @@ celspan_status cs_lines_run(cs_painter *painter, const cs_program *program, cs_r
                     .short_from = run.x0,
                     .short_end = run.x0};
   cut_list ends;
-  CS_TRY(cs_gradient_table_find(painter->gradients, program, &c.table));
+  const int bends = count_bends(painter, program);
+  if (bends > MOST_BENDS && run.x1 - run.x0 < SHORT) /* its lines would be short */
+    return cs_painter_pixels(painter, program, run, row);
+  if (bends <= MOST_BENDS)
+    CS_TRY(cs_gradient_table_find(painter->gradients, program, &c.table));
   if (cs_gradient_run_fits(c.table))
     return cs_gradient_run(painter, c.table, run, row);
-  if (run.x1 - run.x0 < SHORT && count_bends(painter, program) > 2) /* its lines would be short */
-    return cs_painter_pixels(painter, program, run, row);
   CS_TRY(find_ends(painter, program, run, row, &ends));
-  return put_lines(&c, &ends);
+  return put_lines(&c, shape_of(painter, program, bends), &ends);
 }

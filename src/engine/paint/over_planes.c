@@ -85,8 +85,8 @@ static inline const cs_over_planes_ahead *find_ahead(const cs_painter *painter,
                                                      const cs_program *program, cs_run run) {
   for (int i = 0; i < 2; i++) {
     const cs_over_planes_ahead *ahead = &painter->ahead[i];
-    if (ahead->run.x0 <= run.x0 && run.x1 <= ahead->run.x1 && ahead->run.y == run.y &&
-        ahead->length == program->length && is_of(ahead, program))
+    if (ahead->length == program->length && ahead->run.x0 <= run.x0 && run.x1 <= ahead->run.x1 &&
+        ahead->run.y == run.y && is_of(ahead, program))
       return ahead;
   }
   return NULL;
