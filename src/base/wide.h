@@ -27,7 +27,7 @@ static inline cs_isa cs_isa_best(void) {
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
     return CS_ISA_AVX512;
-  return __builtin_cpu_supports("avx2") ? CS_ISA_AVX2 : CS_ISA_ANY;
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? CS_ISA_AVX2 : CS_ISA_ANY;
 }
 #else
 #define CS_WIDE_CHOOSE(isa, name) ((void)(isa), name##_any)
