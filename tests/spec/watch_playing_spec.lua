@@ -16,8 +16,8 @@ end }
 
 local function film(good) return (FILM:gsub("GOOD", tostring(good))) end
 
---- Steps in the page of a film that is shown. The page counts the ticks that wait for a moment to
---- draw, and keeps what was asked for: the number of the frame, the build, and the status.
+--- Steps in the page of a film that is shown. The page counts the ticks, and those that wait for a
+--- moment to draw, and keeps what was asked for: the number of the frame, the build, the status.
 local function see(script, steps)
   watching.bench:inside "mkdir film"
   watching.bench:write("film/shot.lua", script)
@@ -29,7 +29,7 @@ local function see(script, steps)
     const save = text => page.write(folder + "/shot.lua", text);
     await page.until(`${number} === 1`);
     await page.get(`(() => {
-      window.most = 0;
+      window.most = window.ticks = 0;
       window.asked = [];
       const real = window.fetch, next = window.requestAnimationFrame, waiting = new Set();
       window.fetch = async (address, more) => {
@@ -41,7 +41,10 @@ local function see(script, steps)
         return answer;
       };
       window.requestAnimationFrame = act => {
-        if (act.name === "tick") waiting.add(act = act.bind(null));
+        if (act.name === "tick") {
+          ticks++;
+          waiting.add(act = act.bind(null));
+        }
         most = Math.max(most, waiting.size);
         return next(now => { waiting.delete(act); act(now); });
       };
@@ -68,6 +71,21 @@ describe("playing in the page of celspan watch #plain", function()
       await page.until(`${number} < 20`);
       return { most: await page.get("most"), name };]=])
     assert.same({ most = 1, name = "Play" }, said)
+  end)
+
+  it("asks for a moment to draw only when there is a frame to show", function()
+    local said = see((film(48):gsub("fps = %d+", "fps = 4")), [=[
+      await page.get(`(() => {
+        window.shown = window.ticks = 0;
+        new MutationObserver(records => { shown += records.length; }).observe(
+          document.querySelector("#stage"), { attributeFilter: ["data-frame"] });
+      })()`);
+      await page.press("l");
+      await page.until("shown >= 8");
+      await page.press("k");
+      return page.get("({ shown, ticks })");]=])
+    -- the first tick shows the frame that is there
+    assert.is_true(said.ticks <= said.shown + 1, said.ticks)
   end)
 
   it("continues over frames that fail, shows their errors, and asks for each once", function()

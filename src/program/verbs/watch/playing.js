@@ -1,6 +1,8 @@
 // Playing: frames in time, by the clock of the sound while it is heard.
 //
-// While the film plays, several pictures are asked for ahead.
+//   clock, arrivals --> proceed: asks for pictures ahead --if one is due--> tick: shows it
+//
+// A moment to draw costs the browser much, so it is asked for only when something is due.
 import { showFault } from "/faults.js";
 import { showNumbers } from "/news.js";
 import { newPace, nextPlace, noteArrival } from "/pace.js";
@@ -13,7 +15,8 @@ import {
 } from "/state.js";
 import { drawRuler, followHead } from "/timeline.js";
 
-let isTicking = false; // one chain of ticks, however often playing begins again
+let isTicking = false; // a tick waits: never two, however often playing begins again
+let timer = 0;         // of the next call of proceed
 // pictures that are requested ahead while playing, and at the same time
 const AHEAD = 8, AT_ONCE = 3;
 const BEHIND = 24;           // frames that a picture may be late
@@ -47,8 +50,7 @@ export function start(direction) {
   else endSound();
   play.shown = -1;
   showPlaying(true);
-  if (!isTicking) requestAnimationFrame(tick);
-  isTicking = true;
+  proceed();
 }
 
 function stop() {
@@ -108,7 +110,10 @@ function askBoth(number) {
   const began = performance.now();
   Promise.all(missing.map(fetchOne)).then(all => {
     if (all.every(Boolean)) noteArrival(pace, began / 1000, performance.now() / 1000);
-  }).finally(() => asked.delete(number));
+  }).finally(() => {
+    asked.delete(number);
+    proceed();
+  });
   return true;
 }
 
@@ -165,23 +170,39 @@ function showRate(now) {
   setWords("rate", age > 0.5 ? `${(play.painted.length / age).toFixed(1)} fps` : "");
 }
 
-function tick(now) {
-  isTicking = play.direction !== 0 && Boolean(state.film);
-  if (!isTicking) return;
-  const elapsed = passedSeconds() * state.film.fps * play.speed, passed = Math.floor(elapsed);
-  const due = dueFrame(passed);
-  if (due) {
-    play.shown = due.at;
-    view.number = due.number;
-    due.all.forEach(showDue);
-    play.painted.push(now);
-    showNumbers();
-    followHead();
-  }
+const isPlaying = () => play.direction !== 0 && Boolean(state.film);
+
+/** Frames since the start. */
+const elapsedFrames = () => passedSeconds() * state.film.fps * play.speed;
+
+/** Asks for the next pictures, and for a moment to draw if one is due. It is called again at the
+ * next frame of the film, and when a picture arrives. A page that is not seen asks for nothing. */
+function proceed() {
+  clearTimeout(timer);
+  if (!isPlaying()) return;
+  const elapsed = elapsedFrames(), passed = Math.floor(elapsed);
+  const rest = (passed + 1 - elapsed) / state.film.fps / play.speed; // seconds
+  timer = setTimeout(proceed, Math.ceil(rest * 1000));
+  if (document.hidden) return;
   askAhead(elapsed);
   if (play.direction > 0) feedSound(onward(play.number, passed) - 1 + elapsed - passed);
-  showRate(now);
+  if (isTicking || !dueFrame(passed)) return;
+  isTicking = true;
   requestAnimationFrame(tick);
+}
+
+/** Shows the frame that is due. */
+function tick(now) {
+  isTicking = false;
+  const due = isPlaying() && dueFrame(Math.floor(elapsedFrames()));
+  if (!due) return;
+  play.shown = due.at;
+  view.number = due.number;
+  due.all.forEach(showDue);
+  play.painted.push(now);
+  showNumbers();
+  followHead();
+  showRate(now);
 }
 
 /** Plays on from here at another speed. */
