@@ -63,9 +63,9 @@ typedef struct cs_convolve_range {
 typedef struct cs_convolve {
   const cs_kernel *kernel;
   int32_t width;
-  double (*changes)[4]; /* by column: the change of the sum of flat colours */
+  cs_v4d *changes; /* by column: the change of the sum of flat colours */
   /* even shapes, by column: by how much the change differs from the change of the column before */
-  double (*slopes)[4];
+  cs_v4d *slopes;
   cs_v4 *values;                   /* by column: what is added at this column only */
   float *sums;                     /* separable kernels: scratch */
   uint64_t *touched;               /* one bit for each column: something changes there */

@@ -113,8 +113,8 @@ typedef struct summing {
   double y;                /* centre */
   size_t rows;             /* under the kernel */
   int32_t at;              /* the current column */
-  double sum[4];           /* at this column: the weighted sum of the flat colours */
-  double slope[4];         /* by how much the sum grows from each column to the next */
+  cs_v4d sum;              /* at this column: the weighted sum of the flat colours */
+  cs_v4d slope;            /* by how much the sum grows from each column to the next */
   cs_v4 here;              /* added at the current column only */
   size_t varying;          /* terms whose weight is more than NOTHING */
   cs_convolve_range range; /* the range of the colours under the kernel, except near edges */
@@ -123,6 +123,11 @@ typedef struct summing {
 /* Rounds a sum of colours times weights, where the weights sum to 1. Bits beyond the 40th are
  * errors of rounding. Without them, the mean of a single colour is this colour to the bit. */
 static double tidy(double value) { return rint(value * 0x1p40) * 0x1p-40; }
+
+static cs_v4 tidy_colour(cs_v4d sum) {
+  return cs_v4_narrow(
+      (cs_v4d){{tidy(sum.low[0]), tidy(sum.low[1])}, {tidy(sum.high[0]), tidy(sum.high[1])}});
+}
 
 /* Finds the range of the colours at the heights of a row. */
 static void find_range(cs_convolve *convolve, size_t row) {
@@ -165,10 +170,9 @@ static void apply_passed_events(summing *s, int32_t p) {
 
 static void advance_to(summing *s, int32_t p) {
   cs_convolve *convolve = s->convolve;
-  for (int c = 0; c < 4; c++) {
-    s->sum[c] += s->slope[c] * (p - s->at) + convolve->changes[p][c];
-    s->slope[c] += convolve->slopes ? convolve->slopes[p][c] : 0;
-  }
+  s->sum = cs_v4d_add(s->sum, cs_v4d_add(cs_v4d_scale(p - s->at, s->slope), convolve->changes[p]));
+  if (convolve->slopes)
+    s->slope = cs_v4d_add(s->slope, convolve->slopes[p]);
   s->here = convolve->values[p];
   s->at = p;
   for (uint32_t at = convolve->shifts_at[p]; at != 0; at = convolve->shifts[at - 1].next) {
@@ -189,17 +193,7 @@ static cs_v4 clamp(cs_v4 colour, cs_convolve_range range) {
 }
 
 static cs_v4 flat_sum(const summing *s, int32_t x) {
-  cs_v4 colour;
-  for (int c = 0; c < 4; c++)
-    colour[c] = (float)tidy(s->sum[c] + s->slope[c] * (x - s->at));
-  return colour + s->here;
-}
-
-static cs_v4 flat_slope(const summing *s) {
-  cs_v4 slope;
-  for (int c = 0; c < 4; c++)
-    slope[c] = (float)tidy(s->slope[c]);
-  return slope;
+  return tidy_colour(cs_v4d_add(s->sum, cs_v4d_scale(x - s->at, s->slope))) + s->here;
 }
 
 static cs_v4 clamp_alpha(cs_v4 colour) {
@@ -255,14 +249,16 @@ static celspan_status mix(summing *s, int32_t x0, int32_t x1, cs_convolve_range 
   return CELSPAN_OK;
 }
 
+static bool is_nothing(cs_v4d v) {
+  return fabs(v.low[0]) <= NOTHING && fabs(v.low[1]) <= NOTHING && fabs(v.high[0]) <= NOTHING &&
+         fabs(v.high[1]) <= NOTHING;
+}
+
 /* The program that fills the kernel alone; NULL if another program or a flat colour is also visible
  * under the kernel. */
 static const cs_program *lone_program(const summing *s) {
-  if (s->varying != 1)
+  if (s->varying != 1 || !is_nothing(s->sum) || !is_nothing(s->slope))
     return NULL;
-  for (int c = 0; c < 4; c++)
-    if (fabs(s->sum[c]) > NOTHING || fabs(s->slope[c]) > NOTHING)
-      return NULL;
   for (size_t i = 0; i < s->convolve->term_count; i++)
     if (fabs(s->convolve->terms[i].weight - 1) <= NOTHING)
       return &s->convolve->terms[i].program;
@@ -283,7 +279,8 @@ static celspan_status write(summing *s, int32_t x0, int32_t x1) {
   cs_v4 colour = flat_sum(s, x0);
   if (convolve->kernel->is_signed)
     colour = clamp(colour, range);
-  return cs_row_gradient(s->painter->context, s->out, x0, x1, clamp_alpha(colour), flat_slope(s));
+  return cs_row_gradient(s->painter->context, s->out, x0, x1, clamp_alpha(colour),
+                         tidy_colour(s->slope));
 }
 
 static int32_t next_touched(const cs_convolve *convolve, int32_t p) {
@@ -319,9 +316,8 @@ static CELSPAN_CHECKED celspan_status convolve_row(cs_convolve *convolve, cs_pai
                .out = out,
                .y = y + 0.5,
                .rows = count,
-               .range = cs_convolve_nothing()};
-  for (int c = 0; c < 4; c++)
-    s.sum[c] = (double)retained_rows[0]->base[c];
+               .range = cs_convolve_nothing(),
+               .sum = cs_v4_wide(retained_rows[0]->base)};
   if (convolve->kernel->is_signed)
     join_ranges(&s);
   return sum_row(&s);

@@ -35,20 +35,23 @@ static inline int32_t whole_below(double x) {
 
 /* ---------------------------------------------------------------- columns */
 
-static void touch(cs_convolve *convolve, int32_t p) {
-  uint64_t bit = (uint64_t)1 << (p % 64), *word = &convolve->touched[p / 64];
-  if (*word & bit)
-    return;
-  *word |= bit;
-  memset(convolve->changes[p], 0, sizeof convolve->changes[p]);
+static void begin_column(cs_convolve *convolve, int32_t p) {
+  convolve->changes[p] = (cs_v4d){0};
   if (convolve->slopes)
-    memset(convolve->slopes[p], 0, sizeof convolve->slopes[p]);
+    convolve->slopes[p] = (cs_v4d){0};
   convolve->values[p] = cs_v4_all(0);
   convolve->shifts_at[p] = 0;
   if (convolve->kernel->is_signed) {
     convolve->passed_at[p] = 0;
     convolve->near[p] = cs_convolve_nothing();
   }
+}
+
+static inline void touch(cs_convolve *convolve, int32_t p) {
+  uint64_t bit = (uint64_t)1 << (p % 64), *word = &convolve->touched[p / 64];
+  if (!(*word & bit))
+    begin_column(convolve, p);
+  *word |= bit;
 }
 
 static inline void shift_term(const cs_scatter *g, int32_t p, const cs_cell *cell, double weight) {
@@ -61,23 +64,25 @@ static inline void shift_term(const cs_scatter *g, int32_t p, const cs_cell *cel
   convolve->shifts_at[p] = (uint32_t)convolve->shift_count;
 }
 
-/* Adds the step between two colours that are programs. Errors: NO_MEMORY. */
-static celspan_status add_shift(const cs_scatter *g, const cs_border *edge, int32_t p,
-                                double weight) {
+/* Makes room for steps at `columns` columns. Errors: NO_MEMORY. */
+static celspan_status reserve_shifts(const cs_scatter *g, int32_t columns) {
   cs_convolve *convolve = g->convolve;
-  CS_TRY(CS_RESERVE(g->context, convolve->shifts, convolve->shift_capacity,
-                    convolve->shift_count + 2));
+  return CS_RESERVE(g->context, convolve->shifts, convolve->shift_capacity,
+                    convolve->shift_count + 2 * (size_t)columns);
+}
+
+/* Adds the step between two colours that are programs. There is room for it. */
+static inline void add_shift(const cs_scatter *g, const cs_border *edge, int32_t p, double weight) {
   shift_term(g, p, edge->left, -weight);
   shift_term(g, p, edge->right, weight);
-  return CELSPAN_OK;
 }
 
 /* From column p on, which is touched, the share of the colour right of the edge grows by `weight`,
  * and the share of the colour left of the edge shrinks by the same amount. */
 static void add_step(cs_scatter *g, const cs_border *edge, int32_t p, double weight) {
-  double *sum = g->convolve->changes[p];
-  for (int c = 0; c < 4; c++)
-    sum[c] += weight * ((double)edge->right->colour[c] - (double)edge->left->colour[c]);
+  cs_v4d *sum = &g->convolve->changes[p];
+  cs_v4d step = cs_v4d_step(edge->left->colour, edge->right->colour);
+  *sum = cs_v4d_add(*sum, cs_v4d_scale(weight, step));
 }
 
 /* ---------------------------------------------------------------- edges */
@@ -126,7 +131,7 @@ static bool has_flat_sides(const cs_border *edge) {
 static int count_segments(const cs_kernel *kernel, double height, double across) {
   double wanted = kernel->rows * kernel->sharpness * sqrt(height * across);
   double least = across * kernel->sharpness / WIDEST;
-  return (int)ceil(fmax(wanted, fmax(least, 1)));
+  return -whole_below(-cs_number_most(wanted, cs_number_most(least, 1)));
 }
 
 /* Segments that are summed together. They divide the kernels of the columns [first, end); in the
@@ -198,12 +203,13 @@ static celspan_status put_stretch(cs_scatter *g, const cs_border *edge, const st
   int32_t end = s->end < convolve->width ? s->end : convolve->width;
   bool is_flat = has_flat_sides(edge);
   double before = 0;
+  CS_TRY(reserve_shifts(g, (end > first ? end - first : 0) + 1));
   for (int32_t p = first; p < end; p++) {
     float share = sums[p - s->first];
     touch(convolve, p);
     convolve->values[p] += share * step;
     if (!is_flat)
-      CS_TRY(add_shift(g, edge, p, (double)share - before));
+      add_shift(g, edge, p, (double)share - before);
     before = (double)share;
   }
   if (convolve->kernel->is_signed) {
@@ -216,7 +222,8 @@ static celspan_status put_stretch(cs_scatter *g, const cs_border *edge, const st
   int32_t rest = s->end > 0 ? s->end : 0;
   touch(convolve, rest);
   add_step(g, edge, rest, s->weight);
-  return add_shift(g, edge, rest, s->weight - before);
+  add_shift(g, edge, rest, s->weight - before);
+  return CELSPAN_OK;
 }
 
 /* Adds the stretch `cut` of an edge, in `count` segments that are summed together. */
@@ -224,7 +231,8 @@ static celspan_status add_stretch(cs_scatter *g, const cs_border *edge, const cs
                                   int count) {
   const cs_kernel *kernel = g->convolve->kernel;
   float *sums = g->convolve->sums;
-  double low = fmin(cut->xa, cut->xb) - 0.5, high = fmax(cut->xa, cut->xb) - 0.5;
+  double low = cs_number_least(cut->xa, cut->xb) - 0.5;
+  double high = cs_number_most(cut->xa, cut->xb) - 0.5;
   double above = cs_kernel_above(kernel, cut->ya - g->centre), begin = above;
   stretch s = {whole_below(low) - kernel->columns, whole_below(high) + kernel->columns + 2, 0};
   if (s.first >= g->convolve->width)
@@ -251,7 +259,7 @@ static celspan_status scatter_separable(cs_scatter *g, const cs_border *edge) {
   if (!cut_line(&edge->line, g->centre - kernel->radius_y, g->centre + kernel->radius_y, &within))
     return CELSPAN_OK;
   double height = within.yb - within.ya, across = within.xb - within.xa;
-  int stretches = (int)ceil(fmax(fabs(across) / STRETCH, 1));
+  int stretches = -whole_below(-cs_number_most(fabs(across) / STRETCH, 1));
   int segments = count_segments(kernel, height, fabs(across));
   segments = (segments + stretches - 1) / stretches;
   cut = within;
@@ -315,13 +323,15 @@ static celspan_status spread(cs_scatter *g, const cs_border *edge, const segment
   bool is_upright = across < NARROW * length, is_flat = has_flat_sides(edge);
   double scale = 1 / (is_upright ? length : length * across);
   cs_v4 step = (float)t->weight * (edge->right->colour - edge->left->colour);
+  int32_t first = t->first > 0 ? t->first : 0;
   int32_t stop = t->end < convolve->width ? t->end : convolve->width;
-  for (int32_t p = t->first > 0 ? t->first : 0; p < stop; p++) {
+  CS_TRY(reserve_shifts(g, (stop > first ? stop - first : 0) + 1));
+  for (int32_t p = first; p < stop; p++) {
     double now = share_right(t, p + 0.5, is_upright, scale);
     touch(convolve, p);
     convolve->values[p] += (float)now * step;
     if (!is_flat)
-      CS_TRY(add_shift(g, edge, p, t->weight * (now - before)));
+      add_shift(g, edge, p, t->weight * (now - before));
     before = now;
   }
   if (t->end >= convolve->width)
@@ -329,13 +339,14 @@ static celspan_status spread(cs_scatter *g, const cs_border *edge, const segment
   int32_t rest = t->end > 0 ? t->end : 0;
   touch(convolve, rest);
   add_step(g, edge, rest, t->weight);
-  return add_shift(g, edge, rest, t->weight * (1 - before));
+  add_shift(g, edge, rest, t->weight * (1 - before));
+  return CELSPAN_OK;
 }
 
 static void tilt(cs_scatter *g, const cs_border *edge, int32_t p, double slope) {
-  double *sum = g->convolve->slopes[p];
-  for (int c = 0; c < 4; c++)
-    sum[c] += slope * ((double)edge->right->colour[c] - (double)edge->left->colour[c]);
+  cs_v4d *sum = &g->convolve->slopes[p];
+  cs_v4d step = cs_v4d_step(edge->left->colour, edge->right->colour);
+  *sum = cs_v4d_add(*sum, cs_v4d_scale(slope, step));
 }
 
 /* An upright segment between flat colours under a chord is a ramp: one change where it begins, one
