@@ -72,10 +72,11 @@ typedef struct cs_convolve {
   uint32_t *shifts_at, *passed_at; /* lists by column; 0: empty */
   cs_convolve_range *near;         /* signed kernels: the range of the colours near a column */
   cs_convolve_term *terms;
+  double *weights; /* of the terms, in the columns that are mixed at a time */
   cs_convolve_shift *shifts;
   cs_convolve_passed *passed;
   cs_convolve_sub_row *sub_rows; /* CS_CONVOLVE_SUB_ROWS a row */
-  size_t term_count, term_capacity;
+  size_t term_count, term_capacity, weight_capacity;
   size_t shift_count, shift_capacity;
   size_t passed_count, passed_capacity;
   cs_convolve_range *ranges; /* of the sub-rows of each row */

@@ -76,6 +76,7 @@ static void finish_convolve(cs_convolve *convolve, cs_memory *memory) {
   cs_mem_free(memory, convolve->passed_at, columns * sizeof(uint32_t));
   cs_mem_free(memory, convolve->near, columns * sizeof *convolve->near);
   cs_mem_free(memory, convolve->terms, convolve->term_capacity * sizeof *convolve->terms);
+  cs_mem_free(memory, convolve->weights, convolve->weight_capacity * sizeof *convolve->weights);
   cs_mem_free(memory, convolve->shifts, convolve->shift_capacity * sizeof *convolve->shifts);
   cs_mem_free(memory, convolve->passed, convolve->passed_capacity * sizeof *convolve->passed);
   cs_mem_free(memory, convolve->sub_rows, convolve->sub_row_capacity * sizeof *convolve->sub_rows);
@@ -106,6 +107,15 @@ static celspan_status begin_sub_rows(cs_convolve *convolve, celspan_context *con
   return CELSPAN_OK;
 }
 
+#define MIXED 64 /* columns mixed at a time */
+
+/* A column in which layers that vary have some weight. */
+typedef struct mixed_column {
+  cs_v4 colour;            /* of the flat colours; then of all */
+  cs_convolve_range range; /* of the colours under the kernel */
+  float *out;
+} mixed_column;
+
 typedef struct summing {
   cs_convolve *convolve;
   cs_painter *painter;
@@ -118,6 +128,10 @@ typedef struct summing {
   cs_v4 here;              /* added at the current column only */
   size_t varying;          /* terms whose weight is more than NOTHING */
   cs_convolve_range range; /* the range of the colours under the kernel, except near edges */
+  /* Columns that are mixed, side by side, but not yet written. */
+  int32_t mixed_from;
+  size_t mixed_count;
+  mixed_column *mixed; /* MIXED */
 } summing;
 
 /* Rounds a sum of colours times weights, where the weights sum to 1. Bits beyond the 40th are
@@ -201,50 +215,60 @@ static cs_v4 clamp_alpha(cs_v4 colour) {
   return colour;
 }
 
-/* Adds a term, by its weight, to the colours of the columns from x0 on. */
-static celspan_status add_term(summing *s, const cs_convolve_term *term, int32_t x0, int32_t x1,
-                               cs_v4 *colours, cs_convolve_range *ranges) {
-  float rgba[64][4];
-  for (int32_t x = x0; x < x1; x += 64) {
-    int32_t end = x1 - x < 64 ? x1 : x + 64;
-    CS_TRY(cs_painter_program_colours(s->painter, &term->program, (cs_run){x, end, s->y}, rgba));
-    for (int32_t k = x; k < end; k++) {
-      cs_v4 colour = cs_v4_load(rgba[k - x]);
-      colours[k - x0] += (float)term->weight * colour;
-      cs_convolve_widen(&ranges[k - x0], colour);
-    }
+/* Adds a term, by its weights, to the mixed columns [from, end). */
+static celspan_status add_term(summing *s, size_t term, size_t from, size_t end) {
+  float rgba[MIXED][4];
+  const double *weights = s->convolve->weights + term * MIXED;
+  int32_t x = s->mixed_from;
+  CS_TRY(cs_painter_program_colours(s->painter, &s->convolve->terms[term].program,
+                                    (cs_run){x + (int32_t)from, x + (int32_t)end, s->y}, rgba));
+  for (size_t k = from; k < end; k++) {
+    cs_v4 colour = cs_v4_load(rgba[k - from]);
+    s->mixed[k].colour += (float)weights[k] * colour;
+    cs_convolve_widen(&s->mixed[k].range, colour);
   }
   return CELSPAN_OK;
 }
 
-#define MIXED 64 /* columns mixed at a time */
-
-/* Writes up to MIXED columns in which layers that vary have some weight. */
-static celspan_status mix_some(summing *s, int32_t x0, int32_t x1, cs_convolve_range range,
-                               float *out) {
-  cs_convolve *convolve = s->convolve;
-  cs_v4 colours[MIXED];
-  cs_convolve_range ranges[MIXED];
-  for (int32_t k = 0; k < x1 - x0; k++) {
-    colours[k] = flat_sum(s, x0 + k);
-    ranges[k] = range;
-  }
-  for (size_t i = 0; i < convolve->term_count; i++)
-    if (fabs(convolve->terms[i].weight) > NOTHING)
-      CS_TRY(add_term(s, &convolve->terms[i], x0, x1, colours, ranges));
-  for (int32_t k = 0; k < x1 - x0; k++) {
-    cs_v4 colour = convolve->kernel->is_signed ? clamp(colours[k], ranges[k]) : colours[k];
-    cs_v4_store(out + 4 * (size_t)k, clamp_alpha(colour));
+/* Adds a term where it has some weight. */
+static celspan_status add_term_parts(summing *s, size_t term) {
+  const double *weights = s->convolve->weights + term * MIXED;
+  for (size_t k = 0, end; k < s->mixed_count; k = end + 1) {
+    for (end = k; end < s->mixed_count && fabs(weights[end]) > NOTHING;)
+      end++;
+    if (end > k)
+      CS_TRY(add_term(s, term, k, end));
   }
   return CELSPAN_OK;
 }
 
+/* Writes the mixed columns. */
+static celspan_status finish_mixed(summing *s) {
+  for (size_t i = 0; s->mixed_count > 0 && i < s->convolve->term_count; i++)
+    CS_TRY(add_term_parts(s, i));
+  for (size_t k = 0; k < s->mixed_count; k++) {
+    const mixed_column *m = &s->mixed[k];
+    bool is_signed = s->convolve->kernel->is_signed;
+    cs_v4_store(m->out, clamp_alpha(is_signed ? clamp(m->colour, m->range) : m->colour));
+  }
+  s->mixed_count = 0;
+  return CELSPAN_OK;
+}
+
+/* Mixes the columns [x0, x1), in which layers that vary have some weight, with those before them:
+ * programs are cheaper in several columns at once. */
 static celspan_status mix(summing *s, int32_t x0, int32_t x1, cs_convolve_range range) {
+  cs_convolve *convolve = s->convolve;
   float *colours;
   CS_TRY(cs_row_array(s->painter->context, s->out, x0, x1, &colours));
-  for (int32_t x = x0; x < x1; x += MIXED) {
-    int32_t end = x1 - x < MIXED ? x1 : x + MIXED;
-    CS_TRY(mix_some(s, x, end, range, colours + 4 * (size_t)(x - x0)));
+  for (int32_t x = x0; x < x1; x++, colours += 4) {
+    if (s->mixed_count == MIXED || x != s->mixed_from + (int32_t)s->mixed_count)
+      CS_TRY(finish_mixed(s));
+    if (s->mixed_count == 0)
+      s->mixed_from = x;
+    for (size_t i = 0; i < convolve->term_count; i++)
+      convolve->weights[i * MIXED + s->mixed_count] = convolve->terms[i].weight;
+    s->mixed[s->mixed_count++] = (mixed_column){flat_sum(s, x), range, colours};
   }
   return CELSPAN_OK;
 }
@@ -301,7 +325,7 @@ static celspan_status sum_row(summing *s) {
     CS_TRY(write(s, p, next));
     p = next;
   }
-  return CELSPAN_OK;
+  return finish_mixed(s);
 }
 
 /* Row y from `count` retained rows, sealed, from the topmost under its kernel to the lowest.
@@ -311,11 +335,15 @@ static CELSPAN_CHECKED celspan_status convolve_row(cs_convolve *convolve, cs_pai
                                                    size_t count, int32_t y, cs_row *out) {
   CS_TRY(begin_sub_rows(convolve, painter->context, retained_rows, count, y));
   CS_TRY(cs_scatter_rows(convolve, painter, retained_rows, count, y));
+  CS_TRY(CS_RESERVE(painter->context, convolve->weights, convolve->weight_capacity,
+                    convolve->term_count * MIXED));
+  mixed_column mixed[MIXED];
   summing s = {.convolve = convolve,
                .painter = painter,
                .out = out,
                .y = y + 0.5,
                .rows = count,
+               .mixed = mixed,
                .range = cs_convolve_nothing(),
                .sum = cs_v4_wide(retained_rows[0]->base)};
   if (convolve->kernel->is_signed)
