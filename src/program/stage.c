@@ -56,6 +56,11 @@ static size_t equal(const uint32_t *a, const uint32_t *b, size_t most) {
   return count;
 }
 
+/* As equal, but 0 for fewer than `least`, as at most places: this is found without a loop. */
+static inline size_t equal_run(const uint32_t *a, const uint32_t *b, size_t most, size_t least) {
+  return most < least || memcmp(a, b, least * sizeof *a) != 0 ? 0 : equal(a, b, most);
+}
+
 static uint32_t head(uint32_t kind, size_t count) { return kind << 30 | (uint32_t)count; }
 
 /* Writes the pixels [from, to) without changes. Returns the number of words. */
@@ -71,10 +76,10 @@ static size_t put_literals(const uint32_t *pixels, size_t from, size_t to, uint3
 static size_t pack_runs(const uint32_t *pixels, size_t count, size_t width, uint32_t *out) {
   size_t used = 0, literal = 0; /* the pixels [literal, at) have not been put */
   for (size_t at = 0; at < count;) {
-    size_t above = at >= width ? equal(pixels + at, pixels + at - width, count - at) : 0;
-    size_t fill = above < RUN_LEAST ? equal(pixels + at + 1, pixels + at, count - at - 1) + 1 : 0;
-    size_t run = above > fill ? above : fill;
-    if (run < RUN_LEAST) {
+    const uint32_t *here = pixels + at;
+    size_t above = at >= width ? equal_run(here, here - width, count - at, RUN_LEAST) : 0;
+    size_t run = above ? above : equal_run(here + 1, here, count - at - 1, RUN_LEAST - 1) + 1;
+    if (run == 1) {
       at++;
       continue;
     }
