@@ -115,6 +115,59 @@ return celspan.film { size = { 64, 36 }, fps = 24, frames = 48, marks = { bell =
     end
   end)
 
+  it("asks for the picture of a value together with it, and for all else afterwards", function()
+    watching.begin { ["shot.lua"] = [[
+local celspan = require "celspan"
+local p = celspan.parameters { size = { 3, min = 1, max = 9 } }
+return celspan.film { size = { 64, 36 }, frames = 48,
+  frame = function()
+    return celspan.rostrum { celspan.cel { celspan.circle { centre = { 9, 9 }, radius = p.size } } }
+  end }
+]] }
+    local said = watching.see(watching.watch(), [=[
+      const stageOf = `document.querySelector("#stage")`;
+      await page.until(`${stageOf}.dataset.build > 0
+        && performance.getEntriesByType("resource").some(one => one.name.includes("/wave.json"))`);
+      await page.get(`(() => {
+        const ask = window.fetch, first = ${stageOf}.dataset.build;
+        const nameOf = address => address.replace(/[?].*/, "");
+        window.said = [];
+        window.drawn = 0;
+        const { clearRect } = CanvasRenderingContext2D.prototype;
+        CanvasRenderingContext2D.prototype.clearRect = function(...box) {
+          drawn++;
+          clearRect.apply(this, box);
+        };
+        history.replaceState = () => said.push("address");
+        window.fetch = async (address, more) => {
+          said.push("ask " + nameOf(address));
+          const answer = await ask(address, more);
+          said.push("answer " + nameOf(address));
+          return answer;
+        };
+        new MutationObserver(() => {
+          if (${stageOf}.dataset.build !== first && !said.includes("seen")) {
+            said.push("seen", drawn);
+          }
+        }).observe(${stageOf}, { attributes: true });
+        const field = document.querySelector("#form [name=size]");
+        field.value = 7;
+        field.dispatchEvent(new Event("input", { bubbles: true }));
+      })()`);
+      await page.until(`said.includes("ask /wave.json") && said.includes("address")`);
+      return { list: await page.get("said") };]=])
+    assert.same({ "ask /parameters", "ask /frame/1.runs" }, { said.list[1], said.list[2] })
+    local count, at = {}, nil
+    for i, what in ipairs(said.list) do
+      if what == "seen" then at = i end
+      count[what] = (count[what] or 0) + 1
+      assert.is_true(at ~= nil or what ~= "ask /wave.json" and what ~= "address", what)
+    end
+    assert.equal(0, said.list[at + 1], "canvases that were drawn again before the picture")
+    assert.equal(1, count["ask /frame/1.runs"])
+    assert.equal(1, count.address)
+  end)
+
   it("writes nothing again that a value has not changed", function()
     watching.begin { ["shot.lua"] = [[
 local celspan = require "celspan"
@@ -142,7 +195,8 @@ end }
     for _, id in ipairs(said.list) do written[id] = true end
     assert.is_true(written.stage)
     for _, id in ipairs { "marks", "shots", "title", "frame", "timecode", "zoom", "facts", "spot",
-                          "compare", "render-state", "render-progress", "render-cancel" } do
+                          "compare", "render-state", "render-progress", "render-cancel", "mute",
+                          "overlay" } do
       assert.is_nil(written[id], id)
     end
   end)

@@ -567,8 +567,8 @@ describe("the page of celspan watch #plain", function()
           Math.round(stage.height / 2), 1, 1).data]; })()`);
       const plain = await colour(8.4);
       await page.press("n");
-      await page.until(`document.querySelector("#onion").textContent === "Onion skin 1"`);
-      await page.pause(0.7);
+      await page.until(`document.querySelector("#onion").textContent === "Onion skin 1"
+        && !document.querySelector("#stage").hasAttribute("data-stale")`);
       // The ball is from 8 to 20, and before and after that a unit to the left and to the right.
       return { plain, before: await colour(7.4), after: await colour(20.5),
                ground: await colour(40), ball: await colour(14) };]=])
@@ -626,11 +626,13 @@ describe("the page of celspan watch #plain", function()
       await put("color", "#3333cc");
       colours.push(await colour());
       await put("range", "29.99999");
+      await page.until(`location.hash.endsWith("&size=30")`);
       const said = { first, colours,
                      command: await page.get(`document.querySelector("#command").value`),
                      address: await page.get("location.hash") };
       await page.get(`document.querySelector("#reset-values").click()`);
-      await page.until(`document.querySelector("#form input[type=range]").value === "5"`);
+      await page.until(`document.querySelector("#form input[type=range]").value === "5"
+        && !location.hash`);
       return { ...said, last: await page.get("location.hash") };]=])
     -- In the order of the script.
     assert.equal("#33cc33|left|5|5|true|it's|false", said.first)

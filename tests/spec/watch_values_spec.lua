@@ -72,6 +72,17 @@ describe("values of parameters", function()
     assert.same({ "20,18", "3" }, { said.start.lamp, said.start.size })
   end)
 
+  it("come with a picture that was asked for before them", function()
+    local said = watching.speak(watching.watch(), GIVE .. [=[
+      const pixel = async query => (await web.get("/frame/1.rgba?crop=20,18,1,1" + query)).body;
+      const old = await pixel(""), early = pixel("&build=2");
+      const now = await pixel("&build=1");
+      await give({ tint: "#00f" });
+      return { isOld: now === old, isNew: await early === await pixel(""),
+               isOther: await early !== old };]=])
+    assert.same({ isOld = true, isNew = true, isOther = true }, said)
+  end)
+
   it("have lines as the script declares them", function()
     local said = watching.speak(watching.watch(), GIVE .. [=[
       await give({ lamp: "30.5,9", mood: "wild", is_lit: "false", size: "2.50" });
@@ -117,7 +128,9 @@ describe("the form of values #plain", function()
       await type("lamp", "30, 9");
       await page.until(`${field("lamp")}.value === "30,9"`);
       await page.until(`document.querySelector("#source").value.startsWith("lamp = { 30, 9")`);
-      const changed = await backs(), source = await value("source"), given = await hash();
+      const changed = await backs(), source = await value("source");
+      await page.until(`location.hash`);
+      const given = await hash();
       await type("lamp", "left");
       await page.until(`${wrong("lamp")}`);
       const fault = await page.get(wrong("lamp"));
@@ -136,7 +149,8 @@ describe("the form of values #plain", function()
         await page.until(`document.querySelectorAll("#form .back:not([hidden])")
           .length === ${left}`);
       }
-      await page.until(`document.querySelector("#sources").hidden`);
+      await page.until(`document.querySelector("#sources").hidden
+        && !location.hash.includes("lamp")`);
       return { first, started, changed, source, given, fault, isMarked, error, command, again,
                last: await hash(), lamp: await page.get(`${field("lamp")}.value`) };
       function server() { return "]=] .. address .. [=["; }]=])

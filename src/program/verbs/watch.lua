@@ -51,7 +51,7 @@ local places = part "places.lua".new(files)
 -- news: the number of changes that pages must know. here: the line that an editor has named.
 local state = { news = 1 }
 local held = {}    -- requests for news: id, over
-local waiting = {} -- requests for a film that is built for the first time: answer(), film, over
+local waiting = {} -- requests for a film that is built later: answer(), film, build, over
 
 local function tell() state.news = state.news + 1 end
 
@@ -400,14 +400,22 @@ local function give_of(id, film, path, fields)
   refuse(id, 404, "there is no such address")
 end
 
+--- Whether a request is about a film that is built for the first time, or of values that have not
+--- come yet.
+local function is_awaited(one)
+  local film = one.film
+  return film.is_building and not film.is_shown or one.build > film.build_number
+end
+
 local function route(id, path, fields)
   if pages[path] then return give_text(id, pages[path]) end
   if own[path] then return own[path](id, fields) end
   local film = side_of(id, fields)
   if not film then return end
-  if film.is_shown or not film.is_building then return give_of(id, film, path, fields) end
-  waiting[#waiting + 1] = { film = film, over = program.clock() + HELD,
-                            answer = function() attempt(id, give_of, id, film, path, fields) end }
+  local one = { film = film, build = math.tointeger(fields.build) or 0,
+                over = program.clock() + HELD,
+                answer = function() attempt(id, give_of, id, film, path, fields) end }
+  if is_awaited(one) then waiting[#waiting + 1] = one else one.answer() end
 end
 
 --- Things that can be changed, by POST with a JSON object.
@@ -506,12 +514,11 @@ local function give_news()
   held, announced = later, state.news
 end
 
---- Answers requests that wait for a film that can be asked now, or has failed.
+--- Answers requests whose films can be asked now, or have failed.
 local function give_films()
   local now, later = program.clock(), {}
   for _, one in ipairs(waiting) do
-    local is_awaited = one.film.is_building and not one.film.is_shown
-    if is_awaited and now < one.over then
+    if is_awaited(one) and now < one.over then
       later[#later + 1] = one
     else
       one.answer()

@@ -3,7 +3,9 @@ import { post, read } from "/fetch.js";
 import { isOpen } from "/panels.js";
 import { nameOf } from "/pictures.js";
 import { setSpot } from "/points.js";
-import { clamp, element, here, isReady, main, play, state, stateOf, view } from "/state.js";
+import {
+  buildOf, clamp, element, here, isReady, main, play, state, stateOf, view,
+} from "/state.js";
 import { gridOf } from "/view.js";
 
 let chosen = null; // the point that was clicked, in film units: { one, x, y }
@@ -101,8 +103,8 @@ export function inspect(one, clientX, clientY) {
 /** Shows the colour and the objects at the point that was clicked, in the frame of a lane now. */
 export async function showPoint(one) {
   if (chosen?.one !== one || !isOpen("inspector") || play.direction !== 0 || !isReady(one)) return;
-  const { x, y } = chosen, { film, build } = stateOf(one), frame = nameOf(one, view.number);
-  const wanted = [one.side, build, frame, x, y].join(" ");
+  const { x, y } = chosen, { film } = stateOf(one), frame = nameOf(one, view.number);
+  const wanted = [one.side, buildOf(one), frame, x, y].join(" ");
   showColour(one, film.size, x, y);
   setSpot(one === main ? chosen : null);
   if (wanted === chosenFor) return;

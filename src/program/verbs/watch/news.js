@@ -3,7 +3,7 @@ import { showComparing } from "/beside.js";
 import { showFault, showFaults, showNews } from "/faults.js";
 import { fetch, firstState, pause } from "/fetch.js";
 import { outline, outlined } from "/over.js";
-import { forget, look } from "/pictures.js";
+import { forget, isSeen, look } from "/pictures.js";
 import { start, takeSound } from "/playing.js";
 import { showRender, showRenderCommand } from "/render.js";
 import { loadSheet } from "/rows.js";
@@ -36,6 +36,7 @@ function showState() {
   const title = state.film?.title || state.script;
   setWords("title", title);
   write(document, "title", `${title} – celspan`);
+  showNumbers();
   showNews();
   for (const one of lanes()) if (!stateOf(one).building) showFault(one);
 }
@@ -46,7 +47,9 @@ const isNewFilm = (old, news) => news
 
 function takeState(news) {
   const old = { ...state }, { film } = old;
-  Object.assign(state, news, { film: news.film || film, second: news.second || null });
+  const isSame = film && JSON.stringify(film) === JSON.stringify(news.film);
+  Object.assign(state, news, { film: isSame ? film : news.film || film,
+                               second: news.second || null });
   document.body.classList.toggle("alone", news.alone);
   showComparing();
   if (state.film && (!film || film.frames !== state.film.frames)) takeFrames(!film);
@@ -61,7 +64,7 @@ function takeState(news) {
   loadSheet();
   if (state.second && old.second?.build !== state.second.build) forget(beside);
   if (old.build !== state.build) forget(main);
-  if (isNewFilm(old, state)) takeFilm();
+  if (isNewFilm(old, state)) takeFilm(film);
   else if (isNewFilm(old.second, state.second)) look();
 }
 
@@ -84,13 +87,13 @@ function takeFrames(isFirst) {
 }
 
 /** The film was saved, has failed, or is ready. The picture is asked for first; while the film is
- * built, all that is known is of the one before. If the timeline gets other rows, the window of the
- * picture has another size, which page.js hears of. */
-function takeFilm() {
-  if (state.shown) look();
+ * built, all that is known is of the one before, `old`. If the timeline gets other rows, the window
+ * of the picture has another size, which page.js hears of. */
+function takeFilm(old) {
+  if (state.shown && !lanes().every(isSeen)) look();
   if (state.building) return;
   takeSound();
-  drawTimeline();
+  if (state.film !== old || !state.shown) drawTimeline();
   if (outlined.place) outline(outlined.place);
 }
 

@@ -8,7 +8,7 @@ import { outline, outlined } from "/over.js";
 import { isOpen } from "/panels.js";
 import { look, nameOf } from "/pictures.js";
 import { cels, foldButton, folded, queryCels, switchesOf } from "/rows.js";
-import { desk, element, here, main, play, refill, state, view } from "/state.js";
+import { buildOf, desk, element, here, main, play, refill, state, view } from "/state.js";
 
 const TREE_MOST = 2000; // of the server's answer
 const tree = { list: [], address: "" };
@@ -18,7 +18,7 @@ export const celNames = () => tree.list.map(one => one.cel).filter(Boolean);
 /** Asks for the tree of the frame that is shown, if it is seen. */
 export async function loadObjects() {
   if (here("objects").hidden || !state.shown || play.direction !== 0) return;
-  const address = `/objects.json?frame=${nameOf(main, view.number)}&build=${state.build}`;
+  const address = `/objects.json?frame=${nameOf(main, view.number)}&build=${buildOf(main)}`;
   if (address === tree.address) return;
   tree.address = address;
   setReading(true);

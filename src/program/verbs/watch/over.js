@@ -1,7 +1,7 @@
 // What lies over the picture: kinds of spans, and the outline of what a line made.
 import { read } from "/fetch.js";
 import { fetchPicture, look } from "/pictures.js";
-import { looks, main, overlay, play, setPressed, state } from "/state.js";
+import { looks, main, overlay, play, setPressed, state, write } from "/state.js";
 import { drawRuler } from "/timeline.js";
 
 // The line whose results are outlined, { file, line }, and the runs of frames that contain some.
@@ -34,7 +34,7 @@ export function overlays() {
 export async function layOver(picture) {
   const wanted = overlays();
   if (wanted.length === 0 || play.direction !== 0) {
-    overlay.hidden = true;
+    write(overlay, "hidden", true);
     return;
   }
   const [, , w, h] = picture.crop, out = new Uint8ClampedArray(4 * w * h);

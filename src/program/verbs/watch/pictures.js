@@ -17,8 +17,8 @@ import { placePoints } from "/points.js";
 import { cels } from "/rows.js";
 import { unpack } from "/runs.js";
 import {
-  beside, clamp, here, isReady, lanes, looks, main, overlay, part, play, ratio, setPressed, stage,
-  state, stateOf, view, write, writeAttribute,
+  beside, buildOf, clamp, here, isReady, lanes, looks, main, overlay, part, play, ratio, setPressed,
+  stage, state, stateOf, view, write, writeAttribute,
 } from "/state.js";
 import { drawRuler, loadWave } from "/timeline.js";
 import { fit, frameSize, visible } from "/view.js";
@@ -43,11 +43,15 @@ function keep(address, picture) {
   }
 }
 
-/** Forgets the pictures of a film, and which of its frames could not be made. */
+/** Forgets the pictures of a film that are older than it, and which of its frames could not be
+ * made. */
 export function forget(one) {
-  one.refused.clear();
+  const build = buildOf(one);
+  for (const [number, refusal] of one.refused) {
+    if (refusal.build !== build) one.refused.delete(number);
+  }
   for (const [address, picture] of kept) {
-    if (picture.lane !== one) continue;
+    if (picture.lane !== one || picture.build === build) continue;
     kept.delete(address);
     keptBytes -= picture.bytes.byteLength;
   }
@@ -69,7 +73,7 @@ const onionOf = one => one === main && looks.onion && play.direction === 0
 /** The part of a frame that is visible. coarse: that many pixels are one, in each direction. plain:
  * the address without an onion skin; query: how cels are shown. */
 export function wish(number, coarse = 1, one = main) {
-  const crop = visible(one), build = stateOf(one).build;
+  const crop = visible(one), build = buildOf(one);
   if (!crop) return null;
   let size = frameSize(one), area = crop;
   if (coarse > 1) {
@@ -101,7 +105,7 @@ export async function fetchPicture(wanted) {
   const picture = { ...wanted, bytes, points: answer.headers.get("Celspan-Points"),
                     seconds: Number(answer.headers.get("Celspan-Seconds")) };
   if (isSeenNow(picture)) noteTime(picture.number, picture.seconds, picture.build);
-  if (wanted.build === stateOf(wanted.lane)?.build) keep(wanted.address, picture);
+  if (wanted.build === buildOf(wanted.lane)) keep(wanted.address, picture);
   return picture;
 }
 
@@ -115,12 +119,15 @@ function matteOf(bytes) {
   return out;
 }
 
+/** Whether the picture of a lane as it is now is painted. */
+export const isSeen = one => isReady(one)
+  && one.painted?.address === wish(view.number, 1, one)?.address;
+
 /** Marks the canvas of a lane while it does not show what was wanted last: values, frame, place. It
  * is only seen after a while: a filter costs the browser two thirds of the time of a frame. */
 export function markStale(one) {
   const isSent = !one.isSending && !one.isChanged && one.painted?.build >= one.wantedBuild;
-  const isSeen = isReady(one) && one.painted?.address === wish(view.number, 1, one)?.address;
-  const isStale = !(isSent && isSeen) && play.direction === 0;
+  const isStale = !(isSent && isSeen(one)) && play.direction === 0;
   if (!one.canvas.toggleAttribute("data-stale", isStale)) {
     clearTimeout(one.late);
     one.late = 0;
@@ -132,7 +139,7 @@ export function markStale(one) {
 
 /** Whether a picture is of the first film as it is seen now, without an onion skin. */
 const isSeenNow = one => one.lane === main && !one.isOver && one.address === one.plain
-  && one.build === state.build && one.query === cels.query;
+  && one.build === buildOf(main) && one.query === cels.query;
 
 /** The numbers of the frames whose pictures are kept as they are seen now. */
 export function keptFrames() {
@@ -202,12 +209,16 @@ export function look() {
   if (view.isFitted) fit();
   place();
   showNumbers();
-  for (const one of lanes()) {
-    one.isWanted = true;
-    if (!one.isAsking && isReady(one)) ask(one);
-    else abandonOld(one);
-    markStale(one);
-  }
+  lanes().forEach(want);
+}
+
+/** Wants the picture of a lane as it is now, unless it is on its way. */
+export function want(one) {
+  const onWay = one.fetching?.wanted.address;
+  one.isWanted = !isReady(one) || wish(view.number, 1, one)?.address !== onWay;
+  if (!one.isAsking && isReady(one)) ask(one);
+  else abandonOld(one);
+  markStale(one);
 }
 
 async function ask(one) {
@@ -250,7 +261,7 @@ async function paintMeanwhile(fine, arrival) {
   if (await Promise.race([has, pause(SLOW)]) || isOver() || play.direction !== 0 || !coarse) return;
   has.then(() => abandon(coarse));
   const picture = await fetchPicture(coarse).catch(() => null);
-  if (picture && !isOver() && fine.build === stateOf(one)?.build) paint(picture);
+  if (picture && !isOver() && fine.build === buildOf(one)) paint(picture);
 }
 
 async function takeBest(picture) {
@@ -282,9 +293,9 @@ async function abandonOld(one) {
   abandon(old.wanted);
 }
 
-/** What is shown with a picture of the first film. */
+/** What is shown with a picture of the first film, which is seen first. */
 async function addTo(picture) {
-  drawRuler();
+  requestAnimationFrame(() => setTimeout(drawRuler));
   await addHeld(picture);
   await layOver(picture);
   await loadCosts(picture);

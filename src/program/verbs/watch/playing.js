@@ -11,7 +11,7 @@ import {
   beginSound, endSound, feedSound, hasSound, heardSeconds, muteSound, setSoundOf, tapSound,
 } from "/sound.js";
 import {
-  clamp, element, here, icon, isReady, lanes, loop, play, setPressed, setWords, state, view,
+  clamp, element, here, icon, isReady, lanes, loop, play, setPressed, setWords, state, view, write,
 } from "/state.js";
 import { drawRuler, followHead } from "/timeline.js";
 
@@ -223,7 +223,7 @@ export function setLoop(from, to) {
 
 export function takeSound() {
   setSoundOf(state.film, state.build);
-  here("mute").hidden = !hasSound();
+  write(here("mute"), "hidden", !hasSound());
   if (play.direction > 0) start(1);
 }
 

@@ -47,6 +47,9 @@ export const stateOf = one => one === main ? state : state.second;
 export const isComparing = () => Boolean(state.second);
 export const lanes = () => isComparing() ? [main, beside] : [main];
 
+/** The build whose pictures a lane wants: values that are on their way will make the next one. */
+export const buildOf = one => Math.max(stateOf(one)?.build ?? 0, one.wantedBuild);
+
 /** An element of a lane: those of the second have a 2 after their names. */
 export const part = (one, id) => here(one === main ? id : `${id}2`);
 

@@ -5,17 +5,19 @@
 //
 // Hands change `span`, the loop or the frame; everything here is drawn from them.
 import { isSlow } from "/cost.js";
-import { read } from "/fetch.js";
+import { pause, read } from "/fetch.js";
 import { outlined } from "/over.js";
 import { keptFrames } from "/pictures.js";
 import { jump } from "/playing.js";
 import { SHEET_MOST, drawSheet, showSheet } from "/rows.js";
 import {
-  clamp, element, here, loop, ratio, refill, span, state, timecode, view, write,
+  buildOf, clamp, element, here, loop, main, ratio, refill, span, state, timecode, view, write,
+  writeAttribute,
 } from "/state.js";
 
 const RULER = 26, WAVE = 26;   // CSS pixels
 const WAVE_COLUMNS = 2000;
+const REST = 0.3;              // seconds without another build
 const LABEL_LEAST = 68;        // pixels between two numbers of the ruler, where they are short
 const LABEL_GAP = 20, DIGIT = 7;
 const SNAP = 6;                // pixels within which a drag goes to a mark
@@ -25,7 +27,7 @@ const BLOCKS_MOST = 1000;      // shots, or marks, that are shown at once
 const MARK_LEAST = 12, EDGE = 9; // pixels: of a mark; how far a block goes beyond the window
 
 let width = 1;                        // of the rows, in CSS pixels
-export const heard = { columns: [], lips: [], build: 0 }; // of /wave.json
+export const heard = { columns: [], lips: [], text: "", build: 0 }; // of /wave.json
 
 export const unit = () => width / (span.to - span.from);
 export const xOf = frame => (frame - span.from) * unit();
@@ -206,15 +208,22 @@ export function goToMark(direction) {
 
 // ---------------------------------------------------------------- the sound
 
-/** Asks for the wave of the sound and the mouths, once for a save. */
+/** Asks for the wave of the sound and the mouths, once for a save; for values as soon as they rest.
+ * What is the same as before is not drawn again. */
 export async function loadWave() {
-  if (!state.shown || heard.build === state.build) return;
-  const build = heard.build = state.build, isWanted = () => build === state.build;
+  const build = buildOf(main), isFirst = heard.build === 0;
+  const isWanted = () => build === buildOf(main);
+  if (!state.shown || heard.build === build) return;
+  heard.build = build;
+  if (!isFirst) await pause(REST);
+  if (!isWanted()) return;
   setBusy("wave", true);
   const said = await read(`/wave.json?columns=${WAVE_COLUMNS}&build=${build}`, isWanted);
   if (!isWanted()) return;
-  Object.assign(heard, { columns: [], lips: [] }, said);
+  const text = JSON.stringify(said), isSame = !isFirst && text === heard.text;
+  Object.assign(heard, { columns: [], lips: [] }, said, { text });
   setBusy("wave", false);
+  if (isSame) return;
   showSheet();
   drawTimeline();
 }
@@ -239,7 +248,7 @@ export const busy = new Set(); // what is being read
 export function setBusy(what, isOn) {
   if (isOn) busy.add(what);
   else busy.delete(what);
-  here("timeline").setAttribute("aria-busy", busy.size > 0);
+  writeAttribute(here("timeline"), "aria-busy", String(busy.size > 0));
 }
 
 let headPlace = ""; // of the playhead, as it was written last

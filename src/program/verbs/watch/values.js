@@ -2,15 +2,16 @@
 import { nameLanes } from "/beside.js";
 import { post } from "/fetch.js";
 import { fieldOf, markField } from "/fields.js";
-import { markStale } from "/pictures.js";
+import { markStale, want } from "/pictures.js";
 import { placePoints } from "/points.js";
 import {
-  beside, element, here, isComparing, isReady, lanes, main, part, state, stateOf, write,
+  beside, buildOf, element, here, isComparing, isReady, lanes, main, part, state, stateOf, write,
 } from "/state.js";
 
 // The address contains the values by name. A mark precedes those of the second film, and shows by
 // itself that the second film is visible.
 const MARK = "2:";
+const ADDRESS_PAUSE = 300; // milliseconds
 
 export function readAddress() {
   for (const [name, value] of new URLSearchParams(location.hash.slice(1))) {
@@ -18,6 +19,15 @@ export function readAddress() {
     if (name !== MARK) one.given.set(one === beside ? name.slice(MARK.length) : name, value);
     else post("/compare", { on: true }).catch(() => {});
   }
+}
+
+let addressTimer = 0;
+
+/** Writes the address when no value has changed for a while: browsers ask for the icon again for
+ * each address, and refuse to take more than a few in a second. */
+function writeAddressLater() {
+  clearTimeout(addressTimer);
+  addressTimer = setTimeout(writeAddress, ADDRESS_PAUSE);
 }
 
 export function writeAddress() {
@@ -29,7 +39,8 @@ export function writeAddress() {
 
 const namesOf = one => stateOf(one)?.parameters.map(known => known.name) ?? [];
 
-/** Sends the values; while they are on their way, only the newest are kept. */
+/** Sends the values, and asks for the picture with them, which the server answers when it has them;
+ * while they are on their way, only the newest are kept. */
 async function sendValues(one) {
   one.isChanged = true;
   markStale(one);
@@ -37,12 +48,15 @@ async function sendValues(one) {
   one.isSending = true;
   while (one.isChanged) {
     one.isChanged = false;
-    writeAddress();
     const path = one === main ? "/parameters" : "/parameters?side=2";
-    const sent = Object.fromEntries(one.given);
-    const answer = await post(path, sent).catch(() => null);
+    const sent = Object.fromEntries(one.given), arrival = post(path, sent).catch(() => null);
+    one.wantedBuild = buildOf(one) + 1;
+    want(one);
+    const answer = await arrival;
     if (answer?.ok) takeAnswer(one, sent, await answer.json());
+    else one.wantedBuild = 0;
   }
+  writeAddressLater();
   one.isSending = false;
   markStale(one);
   showForm(one);
@@ -56,7 +70,6 @@ function takeAnswer(one, sent, { build, values, refused }) {
   if (one.isChanged || !stateOf(one)) return;
   one.given = new URLSearchParams(namesOf(one).filter(name => Object.hasOwn(values, name))
     .map(name => [name, values[name]]));
-  writeAddress();
   for (const [name, value] of one.given) {
     const field = part(one, "form").elements.namedItem(name);
     if (field?.value === sent[name] && !one.wrong[name]) field.value = value;
