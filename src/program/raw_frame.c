@@ -5,16 +5,17 @@
 #include <string.h>
 
 #include "base/context.h"
+#include "frames/render/frame.h"
+#include "output/sinks/coder.h"
 #include "output/sinks/pixels.h"
 
 /* Bytes that are written together: a system call for each row takes long. */
 #define RAW_TOGETHER ((size_t)128 << 10)
 
-/* A sink that writes the rows of a frame to standard output as coded pixels without a header. */
+/* A sink that writes coded rows of a frame to standard output, without a header. */
 typedef struct raw_rows {
-  celspan_coding coding; /* without defaults, except that the depth for dithering is set */
-  int32_t x, y;          /* the place of the first pixel in the whole frame */
-  unsigned char *rows;   /* rows that are not written yet */
+  size_t pixel_size;
+  unsigned char *rows; /* rows that are not written yet */
   size_t row_size, count, capacity;
 } raw_rows;
 
@@ -22,7 +23,7 @@ static celspan_status begin_raw(void *user, celspan_context *context, int32_t wi
                                 int32_t height) {
   raw_rows *raw = user;
   (void)height;
-  raw->row_size = (size_t)width * celspan_coding_pixel_size(&raw->coding);
+  raw->row_size = (size_t)width * raw->pixel_size;
   raw->capacity = raw->row_size < RAW_TOGETHER ? RAW_TOGETHER / raw->row_size : 1;
   raw->rows = cs_mem_resize(context->memory, NULL, 0, raw->capacity * raw->row_size);
   return raw->rows ? CELSPAN_OK : cs_fail_memory(context);
@@ -46,8 +47,8 @@ static celspan_status flush(celspan_context *context) {
 static celspan_status put_raw_row(void *user, celspan_context *context, int32_t y,
                                   const celspan_span *spans, size_t span_count) {
   raw_rows *raw = user;
-  unsigned char *row = raw->rows + raw->count++ * raw->row_size;
-  celspan_spans_code_at(&raw->coding, raw->x, raw->y + y, spans, span_count, row);
+  (void)y, (void)span_count;
+  memcpy(raw->rows + raw->count++ * raw->row_size, spans->codes, raw->row_size);
   return raw->count == raw->capacity ? write_raw(raw, context) : CELSPAN_OK;
 }
 
@@ -60,22 +61,13 @@ static celspan_status end_raw(void *user, celspan_context *context, celspan_stat
   return outcome == CELSPAN_OK ? flush(context) : outcome;
 }
 
-static celspan_sink raw_sink(raw_rows *raw, const celspan_coding *coding,
-                             const celspan_frame_desc *frame) {
-  bool dithers = coding->depth == CELSPAN_DEPTH_8_DITHER;
-  *raw = (raw_rows){
-      .coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8), .x = frame->crop_x, .y = frame->crop_y};
-  bool takes_codes = !dithers && cs_pixels_takes_codes(&raw->coding);
-  if (dithers)
-    raw->coding.depth = CELSPAN_DEPTH_8_DITHER;
-  return (celspan_sink){sizeof(celspan_sink), raw, begin_raw, put_raw_row, end_raw, takes_codes};
-}
-
 celspan_status cs_raw_frame_print(celspan_context *context, const celspan_frame_desc *frame,
                                   const celspan_coding *coding) {
-  raw_rows raw;
-  celspan_sink sink = raw_sink(&raw, coding, frame);
-  return celspan_frame_render(context, frame, &sink, NULL);
+  const cs_coder coder = cs_coder_of(coding, frame->crop_x, frame->crop_y);
+  raw_rows raw = {.pixel_size = celspan_coding_pixel_size(&coder.coding)};
+  celspan_sink sink = {sizeof sink, &raw, begin_raw, put_raw_row, end_raw, false};
+  CS_TRY(cs_coder_sink(context, &coder, &sink));
+  return cs_frame_render_own(context, frame, &sink, NULL);
 }
 
 /* ---------------------------------------------------------------- slots */

@@ -1,6 +1,7 @@
 /* Dithering: means are preserved, exact numbers are not changed, and a pixel depends only on its
  * colour and place.
  */
+#include "output/sinks/coder.h"
 #include "output/sinks/dither.h"
 
 #include <math.h>
@@ -300,7 +301,7 @@ static void test_failing_allocations(void) {
     celspan_sink sink;
     CHECK(cs_sink_digest(context, &plain, digest, &sink) == CELSPAN_OK);
     watch.fail_at = watch.allocations + n;
-    celspan_status status = cs_dither_sink(context, &coding, &plain, 0, 0, &sink);
+    celspan_status status = cs_coder_dither(context, &coding, &plain, 0, 0, &sink);
     CHECK((status == CELSPAN_OK) == (n > 1));
     if (status == CELSPAN_OK) {
       CHECK(sink.begin(sink.user, context, 10, 10) == CELSPAN_NO_MEMORY);
@@ -327,7 +328,7 @@ static void test_shares(celspan_alpha alpha) {
     cs_shares shares;
     void *worker = NULL;
     CHECK(cs_sink_memory(context, &plain, pixels, sizeof pixels[0], &sink) == CELSPAN_OK);
-    CHECK(cs_dither_sink(context, &coding, &plain, 5, 7, &sink) == CELSPAN_OK);
+    CHECK(cs_coder_dither(context, &coding, &plain, 5, 7, &sink) == CELSPAN_OK);
     CHECK(sink.begin(sink.user, context, 9, 2) == CELSPAN_OK);
     CHECK(cs_sink_shares(&sink, &shares));
     watch.fail_at = watch.allocations + n;

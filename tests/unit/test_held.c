@@ -8,6 +8,9 @@
 
 #include "base/thread_pool.h"
 #include "frames/render/ways.h"
+#include "output/sinks/pixels.h"
+#include "output/sinks/planes_sink.h"
+#include "output/sinks/sink.h"
 #include "tests/support/memory.h"
 #include "tests/support/picture.h"
 #include "tests/support/random.h"
@@ -27,6 +30,9 @@ static celspan_context *context_of(memory_watch *watch, size_t bytes) {
 
 /* ---------------------------------------------------------------- frames */
 
+/* Where pixels go. A sink of the test gets codes and nothing else. */
+typedef enum into { INTO_MEMORY, INTO_PLANES, INTO_OWN, INTO_DIGEST } into;
+
 /* What one frame is made of. A change acts on it by number. */
 typedef struct shot {
   celspan_rostrum_desc rostrum;
@@ -36,7 +42,9 @@ typedef struct shot {
   celspan_frame_desc frame;
   celspan_filter_desc filter;
   celspan_exposure exposures[2];
-  celspan_depth depth;
+  celspan_coding coding;
+  int32_t x, y; /* the place of the crop, beyond that in the frame: thresholds of dithering */
+  into into;
   bool is_alone; /* not one frame of several */
 } shot;
 
@@ -47,20 +55,69 @@ static celspan_rostrum *rostrum_of(studio *s, const shot *from) {
   return studio_rostrum(s, from->rostrum, cels, CELS);
 }
 
+/* Coded rows, one after the other. */
+typedef struct own_rows {
+  unsigned char *bytes;
+  size_t stride;
+} own_rows;
+
+static celspan_status begin_own(void *user, celspan_context *context, int32_t width,
+                                int32_t height) {
+  (void)user, (void)context, (void)width, (void)height;
+  return CELSPAN_OK;
+}
+
+static celspan_status put_own(void *user, celspan_context *context, int32_t y,
+                              const celspan_span *spans, size_t count) {
+  const own_rows *rows = user;
+  (void)context;
+  if (CHECK(count == 1 && spans->kind == CELSPAN_SPAN_ARRAY && spans->codes))
+    memcpy(rows->bytes + (size_t)y * rows->stride, spans->codes, rows->stride);
+  return CELSPAN_OK;
+}
+
+static celspan_status end_own(void *user, celspan_context *context, celspan_status outcome) {
+  (void)user, (void)context;
+  return outcome;
+}
+
+/* planes, rows: live as long as the sink, and have the place of the pixels. */
+static celspan_sink sink_of(studio *s, const shot *from, cs_planes *planes, own_rows *rows) {
+  const cs_coder coder = planes->coder;
+  celspan_sink sink = {sizeof sink, rows, begin_own, put_own, end_own, false};
+  if (from->into == INTO_PLANES)
+    return cs_planes_sink(planes);
+  if (from->into == INTO_OWN) {
+    studio_check(s, cs_coder_sink(s->context, &coder, &sink));
+    return sink;
+  }
+  if (from->into == INTO_MEMORY)
+    studio_check(s, cs_sink_memory(s->context, &coder.coding, rows->bytes, rows->stride, &sink));
+  else
+    studio_check(s, cs_sink_digest(s->context, &coder.coding, (uint64_t *)rows->bytes, &sink));
+  studio_check(s,
+               cs_coder_dither(s->context, &from->coding, &coder.coding, coder.x, coder.y, &sink));
+  return sink;
+}
+
 /* The pixels of a frame, and how many of its rows were held. */
 static uint64_t draw(studio *s, shot *from, int workers, float *pixels) {
   celspan_statistics statistics = CELSPAN_STATISTICS;
-  celspan_coding coding = CELSPAN_CODING;
-  coding.depth = from->depth;
   celspan_frame_desc *desc = &from->frame;
   int32_t width = desc->crop_width ? desc->crop_width : desc->width;
+  cs_planes planes = {
+      .coder = cs_coder_of(&from->coding, desc->crop_x + from->x, desc->crop_y + from->y),
+      .is_halved = true,
+      .bytes = (unsigned char *)pixels};
+  planes.coder.coding.space = desc->space;
+  own_rows rows = {planes.bytes, (size_t)width * cs_pixels_size(&planes.coder.coding)};
   from->exposures[0].rostrum = rostrum_of(s, from);
   desc->exposures = from->exposures;
   desc->filter = &from->filter;
   desc->workers = workers;
   desc->repeats = !from->is_alone;
-  size_t stride = (size_t)width * (from->depth == CELSPAN_DEPTH_8 ? 4 : 16);
-  studio_check(s, celspan_frame_pixels(s->context, desc, &coding, pixels, stride, &statistics));
+  celspan_sink sink = sink_of(s, from, &planes, &rows);
+  studio_check(s, cs_frame_render_own(s->context, desc, &sink, &statistics));
   return statistics.rows_held;
 }
 
@@ -78,7 +135,8 @@ static shot begin_shot(void) {
                .frame = CELSPAN_FRAME_DESC,
                .filter = CELSPAN_FILTER_DESC,
                .exposures[0].weight = 1,
-               .depth = CELSPAN_DEPTH_FLOAT};
+               .coding = CELSPAN_CODING};
+  made.coding.depth = CELSPAN_DEPTH_FLOAT;
   made.frame.film_width = made.frame.width = WIDTH;
   made.frame.film_height = made.frame.height = HEIGHT;
   made.frame.exposure_count = 1;
@@ -160,6 +218,17 @@ static void choose_kind(test_random *random, celspan_cel_desc *cel) {
 
 /* ---------------------------------------------------------------- random films */
 
+static void choose_coding(test_random *random, shot *film) {
+  static const celspan_depth depths[] = {CELSPAN_DEPTH_8, CELSPAN_DEPTH_8_DITHER, CELSPAN_DEPTH_16,
+                                         CELSPAN_DEPTH_FLOAT};
+  film->coding.depth = depths[random_below(random, 4)];
+  film->coding.alpha =
+      random_below(random, 2) ? CELSPAN_ALPHA_STRAIGHT : CELSPAN_ALPHA_PREMULTIPLIED;
+  film->into = film->coding.depth == CELSPAN_DEPTH_16 || random_below(random, 2) ? INTO_OWN
+               : film->coding.depth == CELSPAN_DEPTH_FLOAT                       ? INTO_MEMORY
+                                                                                 : INTO_PLANES;
+}
+
 /* Cels that stay, and others that move in some rows. */
 static void check_film(studio *s, studio *bare, uint64_t seed, uint64_t *rows) {
   enum { FRAMES = 6 };
@@ -182,7 +251,7 @@ static void check_film(studio *s, studio *bare, uint64_t seed, uint64_t *rows) {
   film.frame.has_antialias = seed % 5 == 1;
   film.frame.antialias = CELSPAN_ANTIALIAS_FILTER;
   film.frame.strip_rows = seed % 7 == 2 ? 13 : 0;
-  film.depth = seed % 2 ? CELSPAN_DEPTH_8 : CELSPAN_DEPTH_FLOAT;
+  choose_coding(&random, &film);
   for (int k = 0; k < FRAMES; k++) {
     uint64_t held;
     if (k > 2 && film.shapes[CELS - 1] > 0) /* the first frames do not differ */
@@ -347,6 +416,33 @@ static void blurred(studio *s, shot *made) {
     fill(s, &random, made, i, 4, 0, 110);
     made->cels[i].defocus_radius = i > 0 ? 2 + i : 0;
   }
+}
+
+/* Into codes that are kept: of 8 bits, such as pictures may have and others, of 16 bits, dithered,
+ * and dithered from above the frame. */
+static void coded(studio *s, shot *made) {
+  plain(s, made);
+  made->coding.depth = CELSPAN_DEPTH_8;
+}
+static void premultiplied(studio *s, shot *made) {
+  coded(s, made);
+  made->coding.alpha = CELSPAN_ALPHA_PREMULTIPLIED;
+}
+static void deep(studio *s, shot *made) {
+  plain(s, made);
+  made->coding.depth = CELSPAN_DEPTH_16;
+  made->coding.transfer = CELSPAN_TRANSFER_SRGB;
+  made->coding.alpha = CELSPAN_ALPHA_STRAIGHT;
+}
+static void dithered(studio *s, shot *made) {
+  gradients(s, made);
+  made->coding.depth = CELSPAN_DEPTH_8_DITHER;
+}
+static void above(studio *s, shot *made) {
+  dithered(s, made);
+  made->frame.crop_y = -8;
+  made->frame.crop_width = WIDTH;
+  made->frame.crop_height = HEIGHT + 8;
 }
 
 /* ---------------------------------------------------------------- the parts of a key */
@@ -543,7 +639,62 @@ static void weight(studio *s, shot *made) {
 }
 static void depth(studio *s, shot *made) {
   (void)s;
-  made->depth = CELSPAN_DEPTH_8;
+  made->coding.depth = CELSPAN_DEPTH_8;
+}
+/* A sink that takes codes, and has no coder. */
+static void digest(studio *s, shot *made) {
+  depth(s, made);
+  made->into = INTO_DIGEST;
+}
+static void halves(studio *s, shot *made) {
+  (void)s;
+  made->coding.depth = CELSPAN_DEPTH_HALF;
+}
+static void transfer(studio *s, shot *made) {
+  (void)s;
+  made->coding.transfer = CELSPAN_TRANSFER_REC709;
+}
+static void alpha(studio *s, shot *made) {
+  (void)s;
+  made->coding.alpha = CELSPAN_ALPHA_PREMULTIPLIED;
+}
+static void dither(studio *s, shot *made) {
+  (void)s;
+  made->coding.depth = CELSPAN_DEPTH_8_DITHER;
+}
+static void planes(studio *s, shot *made) {
+  (void)s;
+  made->into = INTO_PLANES;
+}
+static void place_x(studio *s, shot *made) {
+  (void)s;
+  made->x = 5;
+}
+static void place_y(studio *s, shot *made) {
+  (void)s;
+  made->y = 5;
+}
+/* The first row is coded as the row above the frame was. */
+static void below(studio *s, shot *made) {
+  (void)s;
+  made->frame.crop_y = 0;
+  made->frame.crop_height = HEIGHT;
+  made->y = -8;
+}
+static void brighten(void *user, float *rgba, size_t count) {
+  for (size_t i = 0; i < 4 * count; i++)
+    rgba[i] *= i % 4 < 3 ? *(const float *)user : 1;
+}
+static float more = 1.5f, less = 0.5f;
+/* Into codes of a conversion, which are not kept. */
+static void converted(studio *s, shot *made) {
+  coded(s, made);
+  made->coding.convert = brighten;
+  made->coding.user = &more;
+}
+static void conversion(studio *s, shot *made) {
+  (void)s;
+  made->coding.user = &less;
 }
 
 /* Two frames that differ in one thing. */
@@ -572,7 +723,7 @@ static const difference differences[] = {
     DIFFERENCE(gradients, film_width), DIFFERENCE(gradients, film_height),
     DIFFERENCE(plain, frame_space),    DIFFERENCE(plain, frame_antialias),
     DIFFERENCE(plain, weight),         DIFFERENCE(plain, depth),
-    DIFFERENCE(pixels, depth),         DIFFERENCE(cropped, crop_x),
+    DIFFERENCE(pixels, digest),        DIFFERENCE(cropped, crop_x),
     DIFFERENCE(cropped, width),        DIFFERENCE(cropped, height),
     DIFFERENCE(gradients, tolerance),  DIFFERENCE(filtered, recoloured),
     DIFFERENCE(filtered, radius),      DIFFERENCE(hidden, hiding),
@@ -586,7 +737,12 @@ static const difference differences[] = {
     DIFFERENCE(rich, moved),           DIFFERENCE(rich, first_moved),
     DIFFERENCE(turned, first_turned),  DIFFERENCE(turned, cel_front),
     DIFFERENCE(rich, cel_blur),        DIFFERENCE(rich, order),
-    DIFFERENCE(rich, viewport),
+    DIFFERENCE(rich, viewport),        DIFFERENCE(deep, transfer),
+    DIFFERENCE(deep, alpha),           DIFFERENCE(premultiplied, dither),
+    DIFFERENCE(coded, planes),         DIFFERENCE(deep, halves),
+    DIFFERENCE(dithered, planes),      DIFFERENCE(dithered, place_x),
+    DIFFERENCE(dithered, place_y),     DIFFERENCE(dithered, crop_y),
+    DIFFERENCE(above, below),          DIFFERENCE(converted, conversion),
 };
 
 /* Two frames in turn, of which both are held in the end: were the change not in the keys, one frame
@@ -750,6 +906,47 @@ static void check_rows(void) {
   CHECK(held_rows(0, 12) == 0);
   uint64_t few = held_rows(1 << 18, 12);
   CHECK(few > 0 && few < 10 * (HEIGHT - CS_FRAME_BAND));
+}
+
+/* Codes are kept instead of the spans that they were made of, where they are no floats and a whole
+ * frame of them has room, and are given out from the copy on. Where it has not, most spans have. */
+static void check_codes(size_t bytes, celspan_depth depth, bool are_kept) {
+  memory_watch watch = {0};
+  static studio s;
+  static float pixels[4 * PIXELS];
+  s.context = context_of(&watch, bytes);
+  shot now = begin_shot();
+  plain(&s, &now);
+  now.coding.depth = depth;
+  celspan_exposure exposure = {rostrum_of(&s, &now), 1};
+  celspan_frame_desc frame = studio_frame(&exposure, 1, WIDTH, HEIGHT, NULL);
+  celspan_statistics statistics = CELSPAN_STATISTICS;
+  frame.repeats = true;
+  for (int k = 0; k < 3; k++) {
+    studio_check(
+        &s, celspan_frame_pixels(s.context, &frame, &now.coding, pixels, 16 * WIDTH, &statistics));
+    CHECK((statistics.spans == HEIGHT) == (k > 0 && are_kept));
+  }
+  CHECK(statistics.rows_held >= HEIGHT / 4 * 3);
+  studio_finish(&s);
+  celspan_context_destroy(s.context);
+}
+
+/* Where everything is freed after each frame, nothing is copied. */
+static void check_trimmed(void) {
+  memory_watch watch = {0};
+  static studio s;
+  static float pixels[4 * PIXELS];
+  s.context = context_of(&watch, 64 << 20);
+  for (int k = 0; k < 4; k++) {
+    shot now = begin_shot();
+    plain(&s, &now);
+    CHECK(draw(&s, &now, 1, pixels) == 0);
+    studio_finish(&s);
+    cs_context_trim(s.context);
+  }
+  CHECK(cs_held_count(s.context).made == 0);
+  celspan_context_destroy(s.context);
 }
 
 /* A copy that is given up in the first rows of a band is not taken up again in its last ones. */
@@ -1058,6 +1255,10 @@ int main(void) {
   check_not_held(dashes, true);
   check_not_held(plain, false);
   check_rows();
+  check_codes(64 << 20, CELSPAN_DEPTH_8_DITHER, true);
+  check_codes(64 << 20, CELSPAN_DEPTH_FLOAT, false);
+  check_codes(PIXELS * 4 * 8, CELSPAN_DEPTH_8_DITHER, false);
+  check_trimmed();
   check_given_up_copies();
   check_turning();
   check_copies();

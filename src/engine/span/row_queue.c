@@ -57,19 +57,39 @@ static size_t colours_size(const celspan_span *spans, size_t count) {
   return (size_t)spans[count - 1].x1 * 4 * sizeof(float);
 }
 
-static celspan_status add_colours(celspan_context *context, cs_row_queue *queue,
-                                  const celspan_span *spans, size_t count) {
+/* Adds a row of one array. *bytes: its room. */
+static celspan_status add_array(celspan_context *context, cs_row_queue *queue, int32_t width,
+                                size_t size, celspan_span **span, void **bytes) {
   size_t first = spans_so_far(queue);
   CS_TRY(reserve(context, queue, first + 1));
-  float *colours = cs_arena_take(context, &queue->arrays, colours_size(spans, count));
-  if (!colours)
+  *bytes = cs_arena_take(context, &queue->arrays, size);
+  if (!*bytes)
     return CELSPAN_NO_MEMORY;
+  *span = &queue->spans[first];
+  **span = (celspan_span){.x1 = width, .kind = CELSPAN_SPAN_ARRAY};
+  queue->ends[queue->count++] = (cs_row_queue_end){first + 1, {.arrays = 1}};
+  return CELSPAN_OK;
+}
+
+celspan_status cs_row_queue_codes(celspan_context *context, cs_row_queue *queue, int32_t width,
+                                  size_t size, unsigned char **codes) {
+  celspan_span *span;
+  void *bytes;
+  CS_TRY(add_array(context, queue, width, size, &span, &bytes));
+  span->codes = *codes = bytes;
+  return CELSPAN_OK;
+}
+
+static celspan_status add_colours(celspan_context *context, cs_row_queue *queue,
+                                  const celspan_span *spans, size_t count) {
+  celspan_span *span;
+  void *bytes;
+  CS_TRY(add_array(context, queue, spans[count - 1].x1, colours_size(spans, count), &span, &bytes));
+  float *colours = bytes;
   for (size_t i = 0; i < count; i++)
     for (int32_t x = spans[i].x0; x < spans[i].x1; x++)
       celspan_span_colour(&spans[i], x, colours + 4 * (size_t)x);
-  queue->spans[first] = (celspan_span){
-      .x0 = 0, .x1 = spans[count - 1].x1, .kind = CELSPAN_SPAN_ARRAY, .array = colours};
-  queue->ends[queue->count++] = (cs_row_queue_end){first + 1, {.arrays = 1}};
+  span->array = colours;
   return CELSPAN_OK;
 }
 

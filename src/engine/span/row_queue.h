@@ -39,6 +39,11 @@ CELSPAN_CHECKED celspan_status cs_row_queue_add(celspan_context *context, cs_row
  * is smaller than its spans. */
 CELSPAN_CHECKED celspan_status cs_row_queue_add_small(celspan_context *context, cs_row_queue *queue,
                                                       const celspan_span *spans, size_t count);
+/* Adds a row that is one array of codes. *codes: room for `size` bytes, to be filled by the
+ * caller. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_row_queue_codes(celspan_context *context, cs_row_queue *queue,
+                                                  int32_t width, size_t size,
+                                                  unsigned char **codes);
 /* All bytes that it has allocated. */
 size_t cs_row_queue_bytes(const cs_row_queue *queue);
 cs_row_queue_row cs_row_queue_get(const cs_row_queue *queue, size_t row);

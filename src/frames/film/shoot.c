@@ -8,7 +8,7 @@
 #include "frames/plane/plane.h"
 #include "model/scene/scene.h"
 #include "model/scene/walk.h"
-#include "output/sinks/dither.h"
+#include "output/sinks/coder.h"
 #include "output/sinks/file_copy.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/sink.h"
@@ -164,7 +164,7 @@ static celspan_status make_both(celspan_context *context, const celspan_frame_de
   CS_TRY(cs_sink_file(context, path, &placed, &tee.sinks[0]));
   celspan_status status = cs_sink_digest(context, &coding, digest, &tee.sinks[1]);
   if (status == CELSPAN_OK)
-    status = cs_dither_sink(context, &asked, &coding, frame->crop_x, frame->crop_y, &tee.sinks[1]);
+    status = cs_coder_dither(context, &asked, &coding, frame->crop_x, frame->crop_y, &tee.sinks[1]);
   if (status != CELSPAN_OK) {
     cs_sink_discard(context, &tee.sinks[0]);
     return status;

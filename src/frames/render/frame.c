@@ -4,6 +4,7 @@
 #include "frames/render/compile.h"
 #include "frames/render/drawings.h"
 #include "model/scene/check.h"
+#include "output/sinks/pixels.h"
 
 #define SIDE_LIMIT 1048576
 #define WORKER_LIMIT 1024
@@ -216,6 +217,19 @@ celspan_status cs_frame_create(celspan_context *context, const celspan_frame_des
   else
     cs_frame_free(&frame, context->memory);
   return status;
+}
+
+celspan_status cs_frame_queue_row(celspan_context *context, const cs_frame *frame, int32_t y,
+                                  const cs_row *row, cs_row_queue *out) {
+  const cs_coder *coder = frame->coder;
+  unsigned char *codes;
+  if (!coder)
+    return cs_row_queue_add(context, out, row->spans, row->count);
+  int32_t width = frame->crop_width;
+  size_t size = (size_t)width * cs_pixels_size(&coder->coding);
+  CS_TRY(cs_row_queue_codes(context, out, width, size, &codes));
+  cs_coder_row(coder, y, row->spans, row->count, codes);
+  return CELSPAN_OK;
 }
 
 void cs_frame_free(cs_frame *frame, cs_memory *memory) {

@@ -11,7 +11,9 @@
 #pragma once
 
 #include "engine/map/sheets.h"
+#include "engine/span/row_queue.h"
 #include "frames/render/compile.h"
+#include "output/sinks/coder.h"
 
 #define CS_FRAME_BAND 16 /* rows that are held together (held.h), a multiple of CS_MAP_ROWS */
 
@@ -31,8 +33,9 @@ typedef struct cs_frame {
   int32_t crop_x, crop_y, crop_width, crop_height;
   int workers; /* at least 1 */
   int strip_height;
-  struct cs_held *held; /* held.h; NULL: no bands are held */
-  bool takes_codes;     /* rows may contain codes, because their sink takes them */
+  struct cs_held *held;  /* held.h; NULL: no bands are held */
+  bool takes_codes;      /* rows may contain codes, because their sink takes them */
+  const cs_coder *coder; /* cs_sink_coder of the sink; NULL where held bands keep spans */
 } cs_frame;
 
 /* Whether the description can be read and rendered. Errors: BAD_ARGUMENT and LIMIT, naming the
@@ -52,6 +55,9 @@ CELSPAN_CHECKED celspan_status cs_frame_compile(celspan_context *context, const 
 void cs_frame_free_plans(const cs_frame *frame, cs_plan *plans, cs_memory *memory);
 /* cs_context_workers, up to the most threads of a frame. */
 int cs_frame_workers(celspan_context *context, int wanted);
+/* Copies row y of the crop, coded where the frame has a coder. Any thread. Errors: NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_frame_queue_row(celspan_context *context, const cs_frame *frame,
+                                                  int32_t y, const cs_row *row, cs_row_queue *out);
 
 /* ---- render.c */
 

@@ -6,6 +6,7 @@
 #include "engine/compose/over_table.h"
 #include "frames/render/drawings.h"
 #include "model/scene/walk.h"
+#include "output/sinks/pixels.h"
 
 /* ---------------------------------------------------------------- the cache */
 
@@ -65,7 +66,13 @@ static void destroy(cs_service *service) {
   cs_mem_free(memory, old, sizeof *old);
 }
 
-static void trim(cs_service *service) { cs_cache_trim(&((store *)service)->cache); }
+/* Forgets the keys, too: where caches are freed after each frame, no copy would be of use. */
+static void trim(cs_service *service) {
+  store *from = (store *)service;
+  cs_cache_trim(&from->cache);
+  for (size_t i = 0; i < MET; i++)
+    atomic_store_explicit(&from->met[i], 0, memory_order_relaxed);
+}
 
 static const cs_service_kind kind = {create, destroy, trim};
 
@@ -108,6 +115,18 @@ static void add(cs_held *held, double top, double bottom, cs_hash hash) {
 
 static void add_everywhere(cs_held *held, cs_hash hash) { add(held, -HUGE_VAL, HUGE_VAL, hash); }
 
+/* What decides the codes of colours. The space of the coding is that of the frame. */
+static void hash_coder(cs_hash *hash, const cs_frame *frame) {
+  const cs_coder *coder = frame->coder;
+  const int32_t numbers[] = {(int32_t)coder->coding.depth,
+                             (int32_t)coder->coding.transfer,
+                             (int32_t)coder->coding.alpha,
+                             coder->dithers,
+                             coder->x,
+                             coder->y - frame->crop_y};
+  cs_hash_bytes(hash, numbers, sizeof numbers);
+}
+
 static void add_frame(cs_held *held, const cs_frame *frame, const celspan_frame_desc *desc) {
   const cs_view *view = &frame->view;
   cs_hash hash = cs_hash_begin(0x68656c64u);
@@ -119,6 +138,8 @@ static void add_frame(cs_held *held, const cs_frame *frame, const celspan_frame_
   cs_hash_number(&hash, (double)view->span_error);
   cs_hash_word(&hash, view->space);
   cs_hash_word(&hash, frame->takes_codes);
+  if (frame->coder)
+    hash_coder(&hash, frame);
   if (frame->has_antialias)
     cs_antialias_hash(&hash, &frame->antialias);
   cs_hash_hash(&hash, cs_walk_hash_files(desc->exposures, desc->exposure_count));
@@ -199,6 +220,15 @@ static bool suits(const celspan_context *context, const cs_frame *frame,
   return suits;
 }
 
+/* Spans are kept where the codes of the whole frame have no room: an eighth of them is added for
+ * what arenas leave free. */
+static void choose_form(cs_frame *frame, size_t budget) {
+  size_t pixels = (size_t)frame->crop_width * (size_t)(frame->view.end_row - frame->view.first_row);
+  size_t bytes = frame->coder ? pixels * cs_pixels_size(&frame->coder->coding) : 0;
+  if (bytes + bytes / 8 > budget)
+    frame->coder = NULL;
+}
+
 static size_t size_of(size_t bands) { return sizeof(cs_held) + bands * sizeof(band); }
 
 celspan_status cs_held_begin(celspan_context *context, const celspan_frame_desc *desc,
@@ -208,6 +238,7 @@ celspan_status cs_held_begin(celspan_context *context, const celspan_frame_desc 
   if (!suits(context, frame, desc))
     return CELSPAN_OK;
   CS_TRY(cs_context_service(context, &kind, &service));
+  choose_form(frame, context->root->held_bytes);
   int32_t first = first_row / CS_FRAME_BAND;
   size_t count = (size_t)((end_row - 1) / CS_FRAME_BAND + 1 - first);
   cs_held *held = cs_mem_resize(context->memory, NULL, 0, size_of(count));
@@ -259,66 +290,71 @@ static band *band_of(const cs_frame *frame, int32_t y) {
   return held ? &held->bands[y / CS_FRAME_BAND - held->first_band] : NULL;
 }
 
+/* Gives out a row of a queue. */
+static void give(cs_held_copy *copy, const cs_row_queue *rows, size_t index) {
+  const cs_row_queue_row row = cs_row_queue_get(rows, index);
+  /* the same span, which may be written: a row's member says so, though none is */
+  copy->given = (cs_row){
+      .spans = rows->spans + (row.spans - rows->spans), .count = row.count, .varied = row.varied};
+}
+
 const cs_row *cs_held_find(const cs_frame *frame, cs_held_copy *copy, int32_t y) {
   const band *b = band_of(frame, y);
   if (!b || !b->kept)
     return NULL;
-  const cs_row_queue *rows = &b->kept->rows;
-  const cs_row_queue_row row = cs_row_queue_get(rows, (size_t)(y - first_of(frame->held, b)));
-  /* the same span, which may be written: a row's member says so, though none is */
-  copy->given = (cs_row){
-      .spans = rows->spans + (row.spans - rows->spans), .count = row.count, .varied = row.varied};
+  give(copy, &b->kept->rows, (size_t)(y - first_of(frame->held, b)));
   return &copy->given;
 }
 
 /* Takes the rows of a band that is complete, unless there is no room. Several workers may make a
  * band of one row, which lies above the share of one of them. */
-static celspan_status complete(celspan_context *context, cs_held *held, band *b,
-                               cs_row_queue *rows) {
+static bool complete(celspan_context *context, cs_held *held, band *b, cs_row_queue *rows) {
   size_t bytes = sizeof(entry) + cs_row_queue_bytes(rows);
   cs_cache_entry *made;
   entry *none = NULL;
-  if (atomic_fetch_add(&held->bytes, bytes) + bytes > held->store->cache.budget) {
-    atomic_fetch_sub(&held->bytes, bytes);
-    return CELSPAN_OK;
-  }
-  CS_TRY(cs_cache_create(&held->store->cache, context, key_of(b), bytes, &made));
-  ((entry *)made)->rows = *rows;
-  *rows = (cs_row_queue){0};
-  if (!atomic_compare_exchange_strong(&b->finished, &none, (entry *)made)) {
-    atomic_fetch_sub(&held->bytes, bytes);
+  if (atomic_fetch_add(&held->bytes, bytes) + bytes <= held->store->cache.budget &&
+      cs_cache_create(&held->store->cache, context, key_of(b), bytes, &made) == CELSPAN_OK) {
+    ((entry *)made)->rows = *rows;
+    *rows = (cs_row_queue){0};
+    if (atomic_compare_exchange_strong(&b->finished, &none, (entry *)made))
+      return true;
     cs_cache_discard(&held->store->cache, made);
   }
-  return CELSPAN_OK;
+  atomic_fetch_sub(&held->bytes, bytes);
+  return false;
 }
 
-/* Copies the next row; the last one completes the copy. */
-static celspan_status copy_row(celspan_context *context, cs_held *held, band *b, cs_held_copy *copy,
-                               const cs_row *row) {
-  CS_TRY(cs_row_queue_add(context, &copy->rows, row->spans, row->count));
-  return copy->next == end_of(held, b) ? complete(context, held, b, &copy->rows) : CELSPAN_OK;
+/* Copies row y of the frame, which is the next one, and gives the copy out; the last one completes
+ * the copy of the band. */
+static bool copy_row(celspan_context *context, const cs_frame *frame, band *b, cs_held_copy *copy,
+                     int32_t y, const cs_row *row) {
+  cs_held *held = frame->held;
+  cs_row_queue *rows = &copy->rows;
+  if (cs_frame_queue_row(context, frame, y - frame->crop_y, row, rows) != CELSPAN_OK ||
+      cs_row_queue_bytes(rows) + held->bytes > held->store->cache.budget)
+    return false;
+  give(copy, rows, rows->count - 1);
+  return y + 1 < end_of(held, b) || complete(context, held, b, rows);
 }
 
 /* A copy only saves time: where there is no room for it, it is given up, and the frame is made. */
-void cs_held_add(celspan_context *context, const cs_frame *frame, cs_held_copy *copy, int32_t y,
-                 const cs_row *row) {
-  cs_held *held = frame->held;
+const cs_row *cs_held_add(celspan_context *context, const cs_frame *frame, cs_held_copy *copy,
+                          int32_t y, const cs_row *row) {
   band *b = band_of(frame, y);
   if (!b || !b->is_wanted)
-    return;
-  if (y == first_of(held, b)) {
+    return row;
+  if (y == first_of(frame->held, b)) {
     cs_row_queue_clear(&copy->rows);
     copy->next = y;
   }
   if (y != copy->next)
-    return;
+    return row;
   copy->next = y + 1;
-  celspan_status status = copy_row(context, held, b, copy, row);
-  size_t bytes = cs_row_queue_bytes(&copy->rows) + held->bytes;
-  if (status != CELSPAN_OK || bytes > held->store->cache.budget) {
-    cs_held_copy_finish(copy, context->memory);
-    copy->next = -1;
-  }
+  if (copy_row(context, frame, b, copy, y, row))
+    return &copy->given;
+  cs_held_copy_finish(copy, context->memory);
+  copy->next = -1;
+  return row;
 }
 
 void cs_held_copy_finish(cs_held_copy *copy, cs_memory *memory) {

@@ -8,9 +8,12 @@
  * cache of the context; a later band of that key is given out from there. So a film in which
  * everything moves copies nothing: of a key that was met, eight bytes are noted.
  *
+ * Where the sink codes whole rows and does nothing else (output/sinks/coder.h), a copy has their
+ * codes instead of their spans, so that no pixel of a held band is coded again.
+ *
  * The parts of a key, of which those of a cel are only in the bands that it reaches
  *   frame     sizes, rows, columns, spaces, errors, filter; files of pictures, and when they were
- *             changed
+ *             changed; of codes, all of the coder
  *   band      its number
  *   exposure  its weight, and all of its rostrum but the cels: camera, lights, grade, space,
  *             antialiasing
@@ -25,7 +28,7 @@
  * to the foot, and these reach all bands of the row.
  *
  * Invariants
- *   - spans that are given out are the spans that would be made, bit by bit;
+ *   - what is given out is the spans that would be made, bit by bit, or the codes of these;
  *   - copies are put into the cache only after the whole frame has been made.
  * Frames with procedures, crowded frames, and frames in which a map lacks a zone, hold nothing.
  */
@@ -39,7 +42,7 @@
 typedef struct cs_held_copy {
   cs_row_queue rows;
   int32_t next; /* the row of the frame that comes next */
-  cs_row given; /* borrows the spans of a kept band */
+  cs_row given; /* borrows the spans of a band that is kept or copied */
 } cs_held_copy;
 
 /* Finds the bands of a frame, before its rows are made: frame->held, which stays NULL where nothing
@@ -53,9 +56,10 @@ uint64_t cs_held_rows(const cs_frame *frame);
 
 /* Row y of the frame, if it is kept; else NULL. */
 const cs_row *cs_held_find(const cs_frame *frame, cs_held_copy *copy, int32_t y);
-/* Copies a row that was made, where its band shall be kept and there is room for the copy. */
-void cs_held_add(celspan_context *context, const cs_frame *frame, cs_held_copy *copy, int32_t y,
-                 const cs_row *row);
+/* Copies a row that was made, where its band shall be kept and there is room for the copy. Returns
+ * what shall be given out instead of the row: the copy, or the row itself. */
+const cs_row *cs_held_add(celspan_context *context, const cs_frame *frame, cs_held_copy *copy,
+                          int32_t y, const cs_row *row);
 void cs_held_copy_finish(cs_held_copy *copy, cs_memory *memory);
 /* Bytes of all kept bands, and how many were kept and found. */
 cs_cache_counts cs_held_count(celspan_context *context);

@@ -6,7 +6,7 @@
 #include "frames/render/row_worker.h"
 #include "model/scene/check.h"
 #include "model/scene/inspect.h"
-#include "output/sinks/dither.h"
+#include "output/sinks/coder.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/sink.h"
 
@@ -81,6 +81,7 @@ static celspan_status render(celspan_context *context, const celspan_frame_desc 
   celspan_status status = cs_frame_create(context, desc, &frame);
   if (status == CELSPAN_OK) {
     frame.takes_codes = sink->takes_codes;
+    frame.coder = cs_sink_coder(sink);
     count_cels(&frame, &counted);
     status = cs_held_begin(context, desc, &frame);
     counted.rows_held = cs_held_rows(&frame);
@@ -129,11 +130,8 @@ void celspan_spans_code_at(const celspan_coding *coding, int32_t x, int32_t y,
   celspan_coding whole;
   if (cs_pixels_read(NULL, &coding, &whole) != CELSPAN_OK)
     return;
-  celspan_coding resolved = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
-  if (coding->depth == CELSPAN_DEPTH_8_DITHER)
-    cs_dither_row(&resolved, x, y, spans, span_count, pixels);
-  else
-    cs_pixels_row(&resolved, spans, span_count, pixels);
+  const cs_coder coder = cs_coder_of(coding, x, 0);
+  cs_coder_row(&coder, y, spans, span_count, pixels);
 }
 
 /* Checks a frame and reads a coding into *whole, which *coding points to then. *resolved: without
@@ -156,7 +154,7 @@ celspan_status celspan_frame_pixels(celspan_context *context, const celspan_fram
   celspan_coding whole, resolved;
   CS_TRY(read_coding(context, desc, &coding, &whole, &resolved));
   CS_TRY(cs_sink_memory(context, &resolved, pixels, stride, &sink));
-  CS_TRY(cs_dither_sink(context, coding, &resolved, desc->crop_x, desc->crop_y, &sink));
+  CS_TRY(cs_coder_dither(context, coding, &resolved, desc->crop_x, desc->crop_y, &sink));
   return cs_frame_render_own(context, desc, &sink, statistics);
 }
 
@@ -221,7 +219,7 @@ celspan_status celspan_frame_digest(celspan_context *context, const celspan_fram
   CS_TRY(read_coding(context, desc, &coding, &whole, &resolved));
   CS_TRY(cs_check_given(context, "frame", "the digest", digest));
   CS_TRY(cs_sink_digest(context, &resolved, digest, &sink));
-  CS_TRY(cs_dither_sink(context, coding, &resolved, desc->crop_x, desc->crop_y, &sink));
+  CS_TRY(cs_coder_dither(context, coding, &resolved, desc->crop_x, desc->crop_y, &sink));
   return cs_frame_render_own(context, desc, &sink, NULL);
 }
 

@@ -208,7 +208,7 @@ celspan_status cs_row_worker_row(cs_row_worker *worker, int32_t y, const cs_row 
   if (is_outside)
     return CELSPAN_OK;
   CS_TRY(crop_row(worker, row));
-  cs_held_add(&worker->context, frame, &worker->held, place, row);
+  *out = cs_held_add(&worker->context, frame, &worker->held, place, row);
   return CELSPAN_OK;
 }
 

@@ -144,7 +144,7 @@ static celspan_status make_rows(strips *s, int worker, int32_t index, strip *mad
   for (int32_t y = first_row(s, index); y < end; y++) {
     const cs_row *row;
     CS_TRY(cs_row_worker_row(row_worker, y, &row));
-    CS_TRY(cs_row_queue_add(&row_worker->context, &made->rows, row->spans, row->count));
+    CS_TRY(cs_frame_queue_row(&row_worker->context, s->frame, y, row, &made->rows));
   }
   return CELSPAN_OK;
 }

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "base/open.h"
-#include "output/sinks/dither.h"
+#include "output/sinks/coder.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/planes_sink.h"
 #include "output/sinks/sink.h"
@@ -170,14 +170,12 @@ static celspan_coding plain_coding(const cs_video *video, const celspan_frame_de
 
 static celspan_sink planes_sink(const cs_video *video, const celspan_frame_desc *desc,
                                 unsigned char *pixels, cs_planes *planes) {
-  *planes = (cs_planes){.coding = plain_coding(video, desc),
-                        .x = desc->crop_x,
-                        .y = desc->crop_y,
-                        .dithers = video->coding.depth == CELSPAN_DEPTH_8_DITHER,
+  *planes = (cs_planes){.coder = cs_coder_of(&video->coding, desc->crop_x, desc->crop_y),
                         .is_halved = video->layout == CS_VIDEO_420,
                         .bytes = pixels};
+  planes->coder.coding.space = desc->space;
   if (celspan_frame_is_opaque(desc)) /* the same result, faster */
-    planes->coding.alpha = CELSPAN_ALPHA_STRAIGHT;
+    planes->coder.coding.alpha = CELSPAN_ALPHA_STRAIGHT;
   return cs_planes_sink(planes);
 }
 
@@ -191,7 +189,7 @@ static celspan_status open_sink(const cs_video *video, celspan_context *context,
   }
   celspan_coding plain = plain_coding(video, desc);
   CS_TRY(cs_sink_memory(context, &plain, pixels, video->stride, out));
-  return cs_dither_sink(context, &video->coding, &plain, desc->crop_x, desc->crop_y, out);
+  return cs_coder_dither(context, &video->coding, &plain, desc->crop_x, desc->crop_y, out);
 }
 
 /* A sink that hashes RGBA pixels. */
@@ -200,7 +198,7 @@ static celspan_status open_digest(const cs_video *video, celspan_context *contex
                                   celspan_sink *out) {
   celspan_coding plain = plain_coding(video, desc);
   CS_TRY(cs_sink_digest(context, &plain, digest, out));
-  return cs_dither_sink(context, &video->coding, &plain, desc->crop_x, desc->crop_y, out);
+  return cs_coder_dither(context, &video->coding, &plain, desc->crop_x, desc->crop_y, out);
 }
 
 /* Makes and hashes the frame in one pass over its rows. */

@@ -21,13 +21,6 @@
 void cs_dither_row(const celspan_coding *coding, int32_t x, int32_t y, const celspan_span *spans,
                    size_t span_count, unsigned char *row);
 
-/* If the requested coding has the depth 8_DITHER, puts a sink that dithers in front of *sink, which
- * takes pixels in `coding`, resolved; otherwise does nothing. x, y: the place of the first pixel.
- * On failure *sink is discarded. Errors: NO_MEMORY. */
-CELSPAN_CHECKED celspan_status cs_dither_sink(celspan_context *context, const celspan_coding *asked,
-                                              const celspan_coding *coding, int32_t x, int32_t y,
-                                              celspan_sink *sink);
-
 /* ---- dither_wide.c */
 
 enum { CS_DITHER_PERIOD = 16 }; /* pixels after which thresholds repeat, along x and along y */

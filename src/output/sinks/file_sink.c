@@ -5,7 +5,7 @@
 
 #include "base/context.h"
 #include "base/description.h"
-#include "output/sinks/dither.h"
+#include "output/sinks/coder.h"
 #include "output/sinks/file.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/shares.h"
@@ -250,7 +250,7 @@ static celspan_status create(celspan_context *context, const char *path,
   CS_TRY(format->create(context, path, file, &sink));
   if (format->is_dithered) {
     celspan_coding coding = cs_pixels_resolve(file->coding, CELSPAN_DEPTH_8);
-    CS_TRY(cs_dither_sink(context, file->coding, &coding, file->place_x, file->place_y, &sink));
+    CS_TRY(cs_coder_dither(context, file->coding, &coding, file->place_x, file->place_y, &sink));
   }
   *out = sink;
   return CELSPAN_OK;
@@ -287,11 +287,19 @@ celspan_status celspan_file_sink_create(celspan_context *context, const char *pa
 }
 
 bool cs_sink_shares(const celspan_sink *sink, cs_shares *out) {
-  const celspan_sink *outer = open_guard(sink), *inner = cs_dither_sink_inner(outer);
+  const celspan_sink *outer = open_guard(sink), *inner = cs_coder_sink_inner(outer);
   *out = (cs_shares){.rows = 0};
   if (inner->row && !cs_memory_sink_shares(inner, out) && !cs_planes_sink_shares(inner, out) &&
       !cs_png_sink_shares(inner, out) && !cs_span_sink_shares(inner, out))
     return false;
-  cs_dither_sink_shares(outer, out);
+  cs_coder_sink_shares(outer, out);
   return true;
+}
+
+const cs_coder *cs_sink_coder(const celspan_sink *sink) {
+  const cs_coder *coder = cs_coder_sink_own(sink);
+  coder = coder ? coder : cs_memory_sink_coder(sink);
+  coder = coder ? coder : cs_planes_sink_coder(sink);
+  return coder && coder->coding.depth != CELSPAN_DEPTH_FLOAT && !coder->coding.convert ? coder
+                                                                                       : NULL;
 }

@@ -1,11 +1,12 @@
 /* Pixels into the caller's memory; for measurements, into one row for each thread, which is
  * overwritten each time. */
+#include "output/sinks/coder.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/shares.h"
 #include "output/sinks/sink.h"
 
 typedef struct memory_sink {
-  celspan_coding coding;
+  cs_coder coder;
   unsigned char *pixels; /* NULL: rows are dropped */
   size_t stride;
   size_t row_size;
@@ -15,7 +16,7 @@ typedef struct memory_sink {
 static celspan_status begin(void *user, celspan_context *context, int32_t width, int32_t height) {
   memory_sink *sink = user;
   (void)height;
-  sink->row_size = (size_t)width * cs_pixels_size(&sink->coding);
+  sink->row_size = (size_t)width * cs_pixels_size(&sink->coder.coding);
   if (!sink->pixels)
     sink->row = cs_mem_array(context->memory, 1, sink->row_size);
   if (sink->pixels ? sink->stride >= sink->row_size : sink->row != NULL)
@@ -38,7 +39,7 @@ static celspan_status fill_row(void *user, void *worker, celspan_context *contex
                                const celspan_span *spans, size_t span_count) {
   const memory_sink *sink = user;
   (void)context;
-  cs_pixels_row(&sink->coding, spans, span_count, row_pixels(user, worker, y));
+  cs_coder_row(&sink->coder, y, spans, span_count, row_pixels(user, worker, y));
   return CELSPAN_OK;
 }
 
@@ -58,12 +59,16 @@ celspan_status cs_sink_memory(celspan_context *context, const celspan_coding *co
                               size_t stride, celspan_sink *out) {
   memory_sink *sink;
   CS_TRY(CS_MAKE(context, sink, 1));
-  sink->coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
+  sink->coder.coding = cs_pixels_resolve(coding, CELSPAN_DEPTH_8);
   sink->pixels = pixels;
   sink->stride = stride;
   *out = (celspan_sink){CS_SINK_CALLS, .user = sink,
-                        .takes_codes = cs_pixels_takes_codes(&sink->coding)};
+                        .takes_codes = cs_pixels_takes_codes(&sink->coder.coding)};
   return CELSPAN_OK;
+}
+
+const cs_coder *cs_memory_sink_coder(const celspan_sink *sink) {
+  return sink->row == put_row ? &((const memory_sink *)sink->user)->coder : NULL;
 }
 
 /* ---------------------------------------------------------------- several threads */

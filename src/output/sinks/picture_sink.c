@@ -10,7 +10,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "output/sinks/dither.h"
+#include "output/sinks/coder.h"
 #include "output/sinks/file.h"
 #include "output/sinks/picture_file.h"
 #include "output/sinks/pixels.h"
@@ -308,5 +308,5 @@ celspan_status cs_sink_picture(celspan_context *context, const char *path,
   *sink = made;
   *out = (celspan_sink){CS_SINK_CALLS, .user = sink,
                         .takes_codes = cs_pixels_takes_codes(&sink->coding)};
-  return cs_dither_sink(context, file->coding, &sink->coding, file->place_x, file->place_y, out);
+  return cs_coder_dither(context, file->coding, &sink->coding, file->place_x, file->place_y, out);
 }

@@ -1,6 +1,5 @@
 #include "output/sinks/planes_sink.h"
 
-#include "output/sinks/dither.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/shares.h"
 #include "output/sinks/sink.h"
@@ -53,23 +52,14 @@ static void put_chroma(const cs_planes *planes, int32_t y, const uint32_t *rows,
   }
 }
 
-static void code_row(const cs_planes *planes, int32_t y, const celspan_span *spans,
-                     size_t span_count, uint32_t *row) {
-  if (planes->dithers)
-    cs_dither_row(&planes->coding, planes->x, planes->y + y, spans, span_count,
-                  (unsigned char *)row);
-  else
-    cs_pixels_row(&planes->coding, spans, span_count, row);
-  row[row_pixels(planes) - 1] = row[planes->width - 1];
-}
-
 /* rows: two rows, owned by the thread. */
 static celspan_status fill_row(void *user, void *rows, celspan_context *context, int32_t y,
                                const celspan_span *spans, size_t span_count) {
   const cs_planes *planes = user;
   uint32_t *row = (uint32_t *)rows + (size_t)(y % 2) * row_pixels(planes);
   (void)context;
-  code_row(planes, y, spans, span_count, row);
+  cs_coder_row(&planes->coder, y, spans, span_count, row);
+  row[row_pixels(planes) - 1] = row[planes->width - 1];
   CS_WIDE_CHOOSE(cs_isa_best(), cs_ycbcr_luma)
   (row, planes->width, planes->bytes + (size_t)y * (size_t)planes->width);
   put_chroma(planes, y, rows, row);
@@ -103,7 +93,12 @@ static celspan_status end(void *user, celspan_context *context, celspan_status o
 celspan_sink cs_planes_sink(cs_planes *planes) {
   planes->rows = NULL;
   return (celspan_sink){CS_SINK_CALLS, .user = planes,
-                        .takes_codes = !planes->dithers && cs_pixels_takes_codes(&planes->coding)};
+                        .takes_codes =
+                            !planes->coder.dithers && cs_pixels_takes_codes(&planes->coder.coding)};
+}
+
+const cs_coder *cs_planes_sink_coder(const celspan_sink *sink) {
+  return sink->row == put_row ? &((const cs_planes *)sink->user)->coder : NULL;
 }
 
 bool cs_planes_sink_shares(const celspan_sink *sink, cs_shares *out) {

@@ -8,13 +8,10 @@
  */
 #pragma once
 
-#include "base/context.h"
-#include "celspan/celspan.h"
+#include "output/sinks/coder.h"
 
 typedef struct cs_planes {
-  celspan_coding coding; /* resolved, of 8 bits */
-  int32_t x, y;          /* the place of the first pixel in the whole frame */
-  bool dithers;
+  cs_coder coder;       /* of 8 bits */
   bool is_halved;       /* 4:2:0 */
   unsigned char *bytes; /* of all planes; borrowed */
   int32_t width, height;

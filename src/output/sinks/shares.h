@@ -50,10 +50,15 @@ bool cs_memory_sink_shares(const celspan_sink *sink, cs_shares *out);
 bool cs_planes_sink_shares(const celspan_sink *sink, cs_shares *out);
 bool cs_png_sink_shares(const celspan_sink *sink, cs_shares *out);
 bool cs_span_sink_shares(const celspan_sink *sink, cs_shares *out);
-/* The sink for which this one dithers (output/sinks/dither.h); any other sink is its own. */
-const celspan_sink *cs_dither_sink_inner(const celspan_sink *sink);
+/* The sink for which this one codes (output/sinks/coder.h); any other sink is its own. */
+const celspan_sink *cs_coder_sink_inner(const celspan_sink *sink);
 /* Makes of the shares of that sink those of this one. */
-void cs_dither_sink_shares(const celspan_sink *sink, cs_shares *shares);
+void cs_coder_sink_shares(const celspan_sink *sink, cs_shares *shares);
+/* The coder of a sink of each kind (output/sinks/coder.h); NULL: the sink is of another kind.
+ * cs_sink_coder calls all these functions. */
+const struct cs_coder *cs_coder_sink_own(const celspan_sink *sink);
+const struct cs_coder *cs_memory_sink_coder(const celspan_sink *sink);
+const struct cs_coder *cs_planes_sink_coder(const celspan_sink *sink);
 /* Whether the sink, which has begun, can receive rows in shares. A sink without `row` always
  * can. */
 bool cs_sink_shares(const celspan_sink *sink, cs_shares *out);
