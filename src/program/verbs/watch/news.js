@@ -13,7 +13,7 @@ import {
 } from "/state.js";
 import { drawTimeline, placeHead, shotsAt, showRows } from "/timeline.js";
 import { sendGiven, showForm } from "/values.js";
-import { measureDesk } from "/view.js";
+import { fit, measureDesk } from "/view.js";
 
 export function showNumbers() {
   if (!state.film) return;
@@ -53,8 +53,7 @@ function takeState(news) {
   document.body.classList.toggle("alone", news.alone);
   showComparing();
   if (state.film && (!film || film.frames !== state.film.frames)) takeFrames(!film);
-  const isFirst = !film && state.shown && !lanes().some(one => one.given.size);
-  if (isFirst) lookFirst();
+  if (!film && state.shown) lookFirst();
   lanes().forEach(showForm);
   sendGiven();
   if (state.here && state.here.count !== outlined.count) outline(state.here);
@@ -68,12 +67,13 @@ function takeState(news) {
   else if (isNewFilm(old.second, state.second)) look();
 }
 
-/** Asks for the first picture, before anything is laid out but the rows of the timeline, which take
- * room from the picture. */
+/** Asks for the first picture, which comes with the values of the address if it has some. Before it
+ * nothing is laid out but the rows of the timeline, which take room from the picture. */
 function lookFirst() {
   showRows();
   measureDesk();
-  look();
+  if (lanes().some(one => one.given.size)) fit();
+  else look();
 }
 
 /** The film has another number of frames than before; the first one opens at its poster. */
