@@ -29,10 +29,8 @@ celspan_status cs_map_maker_init(cs_map_maker *maker, celspan_context *context,
     const cs_map_drawing *drawing = sheet->plan ? &maker->swept[i].drawing : &sheet->drawing;
     if (sheet->plan)
       CS_TRY(cs_map_swept_init(&maker->swept[i], context, sheet->plan));
-    maker->rows[i] = (cs_map_rows){.drawing = drawing,
-                                   .brush = &maker->brushes[i],
-                                   .row = -1,
-                                   .has_back = has_back(sheet)};
+    maker->rows[i] = (cs_map_rows){
+        .drawing = drawing, .brush = &maker->brushes[i], .row = -1, .has_back = has_back(sheet)};
     CS_TRY(cs_map_brush_init(&maker->brushes[i], context, drawing));
     maker->varies |= drawing->stack.layer_count > 0 || drawing->through;
   }

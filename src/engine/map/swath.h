@@ -78,7 +78,7 @@ typedef struct cs_map_rows {
   const cs_map_drawing *drawing; /* borrowed */
   struct cs_map_brush *brush;    /* of the cells that vary: brush.h. Borrowed */
   int32_t row;                   /* the first row; -1: no rows have been made */
-  bool has_back;                 /* where it is clear, it may show something all the same */
+  bool has_back;                 /* where it is clear, something may still be added */
   uint32_t next;                 /* all borders before this one have been visited */
   cs_map_live *lives;            /* the borders that are crossed, in the order of the map */
   cs_map_point *places; /* the places of their points on the frame, in UNITths of a pixel */

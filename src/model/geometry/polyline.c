@@ -81,29 +81,6 @@ static cs_polyline_point at(const cs_boundary_set *set, const cs_boundary_piece 
   return cs_polyline_power(c, t);
 }
 
-static inline void put_point(cs_polyline_point p, int k, cs_polyline_points *points) {
-  points->x[k] = p.x;
-  points->y[k] = p.y;
-  points->slope_x[k] = p.slope_x;
-  points->slope_y[k] = p.slope_y;
-  points->bend_x[k] = p.bend_x;
-  points->bend_y[k] = p.bend_y;
-}
-
-/* The vertices of a piece that is not in powers. */
-static void find_vertices(const cs_boundary_set *set, const cs_boundary_piece *piece,
-                          uint32_t first, uint32_t stride, cs_polyline_vertices *out) {
-  cs_polyline_points points = {0};
-  cs_polyline_seats seats;
-  for (int k = 0; k <= piece->group; k++)
-    put_point(at(set, piece, cs_polyline_parameter(piece, first + stride * (uint32_t)k)), k,
-              &points);
-  CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_sit)(&points, piece, first, stride, &seats);
-  for (int k = 0; k <= piece->group; k++)
-    put_point(at(set, piece, seats.t[k + 1]), k, &points);
-  CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_place)(&points, piece, first, stride, &seats, out);
-}
-
 /* ---------------------------------------------------------------- groups */
 
 /* The vertices of a group, or every `stride`-th vertex of a leap. */
@@ -114,7 +91,8 @@ static void make_vertices(const cs_boundary_set *set, const cs_boundary_piece *p
     load_powers(set, piece, c);
     CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_powers)(c, piece, first, stride, v);
   } else {
-    find_vertices(set, piece, first, stride, v);
+    CS_WIDE_CHOOSE(cs_isa_best(), cs_polyline_rational)
+    (set->points + piece->point, piece, first, stride, v);
   }
 }
 

@@ -61,28 +61,9 @@ void cs_polyline_displaced(const cs_boundary_set *set, const cs_boundary_piece *
 /* Groups of vertices in vector code: all vertices of a group at once (polyline_wide.c).
  *
  *   points at even steps --seats--> parameters --points there--> places beside the curve
- *
- * A piece in powers goes all the way at once (cs_polyline_powers); the points of others are made
- * one at a time between the two steps (polyline.c).
  */
 
 #define CS_POLYLINE_ROOM (CS_BOUNDARY_GROUP + 1)
-
-/* The fields of cs_polyline_point, of all vertices of a group. */
-typedef struct cs_polyline_points {
-  double x[CS_POLYLINE_ROOM], y[CS_POLYLINE_ROOM];
-  double slope_x[CS_POLYLINE_ROOM], slope_y[CS_POLYLINE_ROOM];
-  double bend_x[CS_POLYLINE_ROOM], bend_y[CS_POLYLINE_ROOM];
-} cs_polyline_points;
-
-/* The seats of a group's vertices. */
-typedef struct cs_polyline_seats {
-  /* t of vertex k is at k + 1; 0 before the first and after the last vertex */
-  double t[CS_POLYLINE_ROOM + 2];
-  double y[CS_POLYLINE_ROOM];      /* for each vertex the nearest whole height */
-  int64_t whole[CS_POLYLINE_ROOM]; /* -1: the vertex is moved to this height; 0: it is not moved */
-  double bent[CS_POLYLINE_ROOM];   /* 1: no arc can be near the curve at this vertex; otherwise 0 */
-} cs_polyline_seats;
 
 /* The vertices of a group: on the curve, and displaced so that chords keep the area. Elements
  * beyond a short group are not used. */
@@ -102,14 +83,10 @@ typedef struct cs_polyline_vertices {
 CS_WIDE_DECLARE(void, cs_polyline_powers,
                 (const double c[8], const cs_boundary_piece *piece, uint32_t first, uint32_t stride,
                  cs_polyline_vertices *out));
-/* The two steps of the function above. points: the points at even steps, and the points at the
- * seats. */
-CS_WIDE_DECLARE(void, cs_polyline_sit,
-                (const cs_polyline_points *points, const cs_boundary_piece *piece, uint32_t first,
-                 uint32_t stride, cs_polyline_seats *out));
-CS_WIDE_DECLARE(void, cs_polyline_place,
-                (const cs_polyline_points *points, const cs_boundary_piece *piece, uint32_t first,
-                 uint32_t stride, const cs_polyline_seats *seats, cs_polyline_vertices *out));
+/* The same for a piece that is not in powers. points: of its curve. */
+CS_WIDE_DECLARE(void, cs_polyline_rational,
+                (const cs_hpoint *points, const cs_boundary_piece *piece, uint32_t first,
+                 uint32_t stride, cs_polyline_vertices *out));
 
 /* An arc: x + down (mean + curve (down - height)) at y + down. */
 typedef struct cs_polyline_arc {

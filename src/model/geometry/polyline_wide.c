@@ -101,12 +101,66 @@ static inline spots at_powers(const powers *c, lanes t) {
                  c->bend_y[1] * t + c->bend_y[0]};
 }
 
-static inline spots load_spots(const cs_polyline_points *p, int k) {
-  return (spots){load(p->x + k),       load(p->y + k),      load(p->slope_x + k),
-                 load(p->slope_y + k), load(p->bend_x + k), load(p->bend_y + k)};
+/* A curve with weights. */
+typedef struct rational {
+  const cs_hpoint *points;
+  int degree;
+} rational;
+
+typedef struct weighted {
+  lanes x, y, w;
+} weighted;
+
+/* De Casteljau's scheme down to three points. */
+static inline void find_last_three(const rational *c, lanes t, weighted *p) {
+  const lanes zero = {0};
+  weighted work[CS_BEZIER_DEGREE + 1];
+  for (int i = 0; i <= c->degree; i++)
+    work[i] = (weighted){zero + c->points[i].x, zero + c->points[i].y, zero + c->points[i].w};
+  for (int level = c->degree; level > 2; level--)
+    for (int i = 0; i < level; i++) {
+      work[i].x += t * (work[i + 1].x - work[i].x);
+      work[i].y += t * (work[i + 1].y - work[i].y);
+      work[i].w += t * (work[i + 1].w - work[i].w);
+    }
+  memcpy(p, work, 3 * sizeof *p);
+}
+
+/* As at_rational in polyline.c. */
+static inline spots at_rational(const rational *c, lanes t) {
+  weighted p[3];
+  find_last_three(c, t, p);
+  const double degree = c->degree, scale = degree * (degree - 1.0);
+  lanes s = 1 - t, b0 = s * s, b1 = 2 * s * t, b2 = t * t;
+  lanes w = b0 * p[0].w + b1 * p[1].w + b2 * p[2].w;
+  lanes w1 = degree * (s * (p[1].w - p[0].w) + t * (p[2].w - p[1].w));
+  lanes w2 = scale * (p[0].w - 2 * p[1].w + p[2].w);
+  lanes x1 = degree * (s * (p[1].x - p[0].x) + t * (p[2].x - p[1].x));
+  lanes y1 = degree * (s * (p[1].y - p[0].y) + t * (p[2].y - p[1].y));
+  lanes by_w = 1 / w;
+  lanes x = (b0 * p[0].x + b1 * p[1].x + b2 * p[2].x) * by_w;
+  lanes y = (b0 * p[0].y + b1 * p[1].y + b2 * p[2].y) * by_w;
+  lanes slope_x = (x1 - w1 * x) * by_w, slope_y = (y1 - w1 * y) * by_w;
+  lanes x2 = scale * (p[0].x - 2 * p[1].x + p[2].x);
+  lanes y2 = scale * (p[0].y - 2 * p[1].y + p[2].y);
+  return (spots){x,
+                 y,
+                 slope_x,
+                 slope_y,
+                 (x2 - 2 * w1 * slope_x - w2 * x) * by_w,
+                 (y2 - 2 * w1 * slope_y - w2 * y) * by_w};
 }
 
 /* ---------------------------------------------------------------- seats */
+
+/* The seats of a group's vertices. */
+typedef struct seat_list {
+  /* t of vertex k is at k + 1; 0 before the first and after the last vertex */
+  double t[CS_POLYLINE_ROOM + 2];
+  double y[CS_POLYLINE_ROOM];      /* for each vertex the nearest whole height */
+  int64_t whole[CS_POLYLINE_ROOM]; /* -1: the vertex is moved to this height; 0: it is not moved */
+  double bent[CS_POLYLINE_ROOM];   /* 1: no arc can be near the curve at this vertex; otherwise 0 */
+} seat_list;
 
 /* The vertices in the lanes, by number, and some of their values that are needed often. */
 typedef struct places {
@@ -135,7 +189,7 @@ static inline masks are_bent(const spots *p) {
 
 /* p: at the even parameters. A seat is chosen so that the vertex lies near the whole height after
  * it has been displaced. Steps lower than a row have no whole heights to move to. */
-static inline void sit(const spots *p, const places *at, int k, cs_polyline_seats *out) {
+static inline void sit(const spots *p, const places *at, int k, seat_list *out) {
   /* the sum of a number and this is rounded to a whole number */
   const lanes bias = (lanes){0} + 0x1.8p52;
   const cs_boundary_piece *piece = at->piece;
@@ -160,7 +214,7 @@ typedef struct limits {
 } limits;
 
 static inline limits find_limits(const cs_boundary_piece *piece, uint32_t first, uint32_t stride,
-                                 const cs_polyline_seats *seats) {
+                                 const seat_list *seats) {
   uint32_t end = first + stride * piece->group;
   double even = piece->step * piece->step;
   bool is_bent_above = seats->bent[0] > 0, is_bent_below = seats->bent[piece->group] > 0;
@@ -219,7 +273,7 @@ static inline void displace(const cs_boundary_piece *piece, const ways *from, la
 }
 
 static inline void place(const cs_boundary_piece *piece, const limits *most, const spots *p, int k,
-                         const cs_polyline_seats *seats, cs_polyline_vertices *restrict out) {
+                         const seat_list *seats, cs_polyline_vertices *restrict out) {
   lanes t = load(seats->t + 1 + k), number = load(numbers + k);
   lanes before = t - load(seats->t + k), after = load(seats->t + 2 + k) - t;
   masks whole;
@@ -242,7 +296,7 @@ static inline void set_end(cs_polyline_vertices *v, int k, double x, double y) {
 
 /* Sets the ends of the piece and measures the chords. */
 static inline void finish(const cs_boundary_piece *piece, uint32_t first, uint32_t end,
-                          const cs_polyline_seats *seats, cs_polyline_vertices *restrict out) {
+                          const seat_list *seats, cs_polyline_vertices *restrict out) {
   const int group = piece->group;
   out->is_bent_above = seats->bent[0] > 0;
   out->is_bent_below = seats->bent[group] > 0;
@@ -259,46 +313,39 @@ static inline void finish(const cs_boundary_piece *piece, uint32_t first, uint32
 
 /* ---------------------------------------------------------------- groups */
 
-void CS_WIDE(cs_polyline_sit)(const cs_polyline_points *points, const cs_boundary_piece *piece,
-                              uint32_t first, uint32_t stride, cs_polyline_seats *restrict out) {
+/* plain: NULL where the curve is rational; a constant of each caller. */
+static inline void make_group(const powers *plain, const rational *other,
+                              const cs_boundary_piece *piece, uint32_t first, uint32_t stride,
+                              cs_polyline_vertices *restrict out) {
   const cs_boundary_piece own = *piece;
-  out->t[0] = out->t[CS_POLYLINE_ROOM + 1] = 0;
-  for (int k = 0; k <= own.group; k += LANES) {
-    const places at = places_of(&own, first, stride, k);
-    const spots p = load_spots(points, k);
-    sit(&p, &at, k, out);
-  }
-}
-
-void CS_WIDE(cs_polyline_place)(const cs_polyline_points *points, const cs_boundary_piece *piece,
-                                uint32_t first, uint32_t stride, const cs_polyline_seats *seats,
-                                cs_polyline_vertices *restrict out) {
-  const cs_boundary_piece own = *piece;
-  const limits most = find_limits(&own, first, stride, seats);
-  for (int k = 0; k <= own.group; k += LANES) {
-    const spots p = load_spots(points, k);
-    place(&own, &most, &p, k, seats, out);
-  }
-  finish(&own, first, first + stride * own.group, seats, out);
-}
-
-void CS_WIDE(cs_polyline_powers)(const double c[8], const cs_boundary_piece *piece, uint32_t first,
-                                 uint32_t stride, cs_polyline_vertices *restrict out) {
-  const cs_boundary_piece own = *piece;
-  const powers curve = load_powers(c);
-  cs_polyline_seats seats;
+  seat_list seats;
   seats.t[0] = seats.t[CS_POLYLINE_ROOM + 1] = 0;
   for (int k = 0; k <= own.group; k += LANES) {
     const places at = places_of(&own, first, stride, k);
-    const spots p = at_powers(&curve, parameters(&at));
+    const lanes t = parameters(&at);
+    const spots p = plain ? at_powers(plain, t) : at_rational(other, t);
     sit(&p, &at, k, &seats);
   }
   const limits most = find_limits(&own, first, stride, &seats);
   for (int k = 0; k <= own.group; k += LANES) {
-    const spots p = at_powers(&curve, load(seats.t + 1 + k));
+    const lanes t = load(seats.t + 1 + k);
+    const spots p = plain ? at_powers(plain, t) : at_rational(other, t);
     place(&own, &most, &p, k, &seats, out);
   }
   finish(&own, first, first + stride * own.group, &seats, out);
+}
+
+void CS_WIDE(cs_polyline_powers)(const double c[8], const cs_boundary_piece *piece, uint32_t first,
+                                 uint32_t stride, cs_polyline_vertices *restrict out) {
+  const powers curve = load_powers(c);
+  make_group(&curve, NULL, piece, first, stride, out);
+}
+
+void CS_WIDE(cs_polyline_rational)(const cs_hpoint *points, const cs_boundary_piece *piece,
+                                   uint32_t first, uint32_t stride,
+                                   cs_polyline_vertices *restrict out) {
+  const rational curve = {points, piece->degree};
+  make_group(NULL, &curve, piece, first, stride, out);
 }
 
 bool CS_WIDE(cs_polyline_strays)(const cs_polyline_arc *arc, const cs_polyline_vertices *vertices,
