@@ -83,14 +83,14 @@ static void test_exposing(void) {
   cs_row_finish(&sum, context->memory);
 }
 
-enum { EXPOSURES = 3, COLUMNS = 60 };
+enum { EXPOSURES = 3, COLUMNS = 1200 };
 
 /* Spans of every kind, which end elsewhere in every row; its arrays are longer or shorter than the
  * spans that lie beside them. */
 static void fill_row(cs_row *row, int number) {
   cs_row_init(row);
   for (int32_t x0 = 0, k = number; x0 < COLUMNS; k++) {
-    int32_t x1 = x0 + 1 + (5 * k + 3 * number) % 11;
+    int32_t x1 = x0 + 1 + 20 * ((5 * k + 3 * number) % 11);
     x1 = x1 < COLUMNS ? x1 : COLUMNS;
     float *array;
     cs_v4 colour = grey(0.03f * (float)(k % 29), 0.1f * (float)(k % 7));
