@@ -486,11 +486,12 @@ static celspan_status close_between(cs_window *window) {
   const cs_border *border = &window->borders->border;
   int32_t p0 = window->from, p1 = window->end;
   float left[CS_WINDOW_NARROW][4], right[CS_WINDOW_NARROW][4], room[4 * FEW], *sum;
-  double areas[CS_WINDOW_NARROW] = {0};
+  double areas[CS_WINDOW_NARROW];
   cs_run run = {p0, p1, window->centre};
   CS_TRY(find_colours(window, border->left, run, left));
   CS_TRY(find_colours(window, border->right, run, right));
   CS_TRY(open_pixels(window, p0, p1, room, &sum));
+  memset(areas, 0, (size_t)(p1 - p0) * sizeof *areas);
   for (size_t i = 0; i < window->border_count; i++)
     add_areas(window, &window->borders[i].piece, areas);
   for (int32_t k = 0; k < p1 - p0; k++)

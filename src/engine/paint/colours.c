@@ -212,11 +212,10 @@ static inline bool is_ahead(const cs_painter *painter) {
   return painter->ahead && painter->ahead->length > 0;
 }
 
-celspan_status cs_painter_batch_colours(cs_painter *painter, const cs_program *program,
-                                        const cs_batch *batch, float (*rgba)[4]) {
+/* The colours of a batch that has not been folded ahead. */
+static celspan_status batch_colours(cs_painter *painter, const cs_program *program,
+                                    const cs_batch *batch, float (*rgba)[4]) {
   const cs_gradient_table *table;
-  if (is_ahead(painter) && cs_over_planes_ready(painter, program, batch, rgba))
-    return CELSPAN_OK;
   CS_TRY(cs_gradient_table_find(painter->gradients, program, &table));
   if (!table && cs_over_planes_colours(painter, program, batch, rgba))
     return CELSPAN_OK;
@@ -232,6 +231,13 @@ celspan_status cs_painter_batch_colours(cs_painter *painter, const cs_program *p
   CS_TRY(fold_bare(painter, program, batch, &over));
   cs_over_bare_end(painter->isa, painter->stack, &over, rgba);
   return CELSPAN_OK;
+}
+
+celspan_status cs_painter_batch_colours(cs_painter *painter, const cs_program *program,
+                                        const cs_batch *batch, float (*rgba)[4]) {
+  if (is_ahead(painter) && cs_over_planes_ready(painter, program, batch, rgba))
+    return CELSPAN_OK;
+  return batch_colours(painter, program, batch, rgba);
 }
 
 celspan_status cs_painter_batch_codes(cs_painter *painter, const cs_program *program,
@@ -303,13 +309,16 @@ static celspan_status find_shown(cs_painter *painter, const cs_program *program,
 celspan_status cs_painter_program_colours(cs_painter *painter, const cs_program *program,
                                           cs_run run, float (*rgba)[4]) {
   const cs_batch batch = {NULL, run.x0, run.x1 - run.x0, run.y};
+  if (batch.count <= 0)
+    return CELSPAN_OK;
   if (is_ahead(painter) && batch.count <= CS_FEW_PIXELS &&
       cs_over_planes_ready(painter, program, &batch, rgba))
     return CELSPAN_OK;
-  if (run.x1 - run.x0 <= CS_FEW_PIXELS && cs_few_fits(painter->stack, program))
+  if (batch.count <= CS_FEW_PIXELS && cs_few_fits(painter->stack, program))
     return cs_few_colours(painter, program, run, rgba);
   if (!cs_shown_varies(painter->stack, program))
-    return cs_painter_shown_colours(painter, program, run, rgba);
+    return batch.count <= CS_FEW_PIXELS ? batch_colours(painter, program, &batch, rgba)
+                                        : cs_painter_shown_colours(painter, program, run, rgba);
   int32_t stride = cs_shown_stride(painter, program);
   const cs_shown *shown = &painter->shown[0];
   for (int32_t x = run.x0, end; x < run.x1; rgba += end - x, x = end) {

@@ -372,22 +372,24 @@ static celspan_status put_lines(colour_curve *c, line_shape shape, const cut_lis
 
 celspan_status cs_lines_run(cs_painter *painter, const cs_program *program, cs_run run,
                             cs_row *row) {
-  colour_curve c = {.curve = {.context = painter->context,
-                              .tolerance = cs_halving_tolerance(painter->stack->span_error),
-                              .row = row},
-                    .painter = painter,
-                    .program = program,
-                    .y = run.y,
-                    .short_from = run.x0,
-                    .short_end = run.x0};
+  const cs_gradient_table *table = NULL;
   cut_list ends;
   const int bends = count_bends(painter, program);
   if (bends > MOST_BENDS && run.x1 - run.x0 < SHORT) /* its lines would be short */
     return cs_painter_pixels(painter, program, run, row);
   if (bends <= MOST_BENDS)
-    CS_TRY(cs_gradient_table_find(painter->gradients, program, &c.table));
-  if (cs_gradient_run_fits(c.table))
-    return cs_gradient_run(painter, c.table, run, row);
+    CS_TRY(cs_gradient_table_find(painter->gradients, program, &table));
+  if (cs_gradient_run_fits(table))
+    return cs_gradient_run(painter, table, run, row);
   CS_TRY(find_ends(painter, program, run, row, &ends));
+  colour_curve c = {.curve = {.context = painter->context,
+                              .tolerance = cs_halving_tolerance(painter->stack->span_error),
+                              .row = row},
+                    .painter = painter,
+                    .program = program,
+                    .table = table,
+                    .y = run.y,
+                    .short_from = run.x0,
+                    .short_end = run.x0};
   return put_lines(&c, shape_of(painter, program, bends), &ends);
 }
