@@ -2,7 +2,8 @@
  *
  * A file of kernels (wide_sources in the folder's meson.build) is compiled once for every set of
  * instructions; its functions are named by CS_WIDE, and one is chosen at run time. Every lane is
- * plain IEEE arithmetic and nothing is fused, so the bits are the same whichever function runs.
+ * plain IEEE arithmetic and nothing is fused, so the bits are the same whichever function runs. The
+ * exception is the curve of model/colour/srgb8_lanes.h, whose result is checked.
  */
 #pragma once
 

@@ -932,6 +932,35 @@ static void check_codes(size_t bytes, celspan_depth depth, bool are_kept) {
   celspan_context_destroy(s.context);
 }
 
+static celspan_status pass_over(void *user, celspan_context *context, int32_t y,
+                                const celspan_span *spans, size_t count) {
+  (void)user, (void)context, (void)y, (void)spans, (void)count;
+  return CELSPAN_OK;
+}
+
+/* Rows that wait in strips are spans, where codes have no room. */
+static void check_wide(void) {
+  enum { WIDE = 200000 };
+  memory_watch watch = {0};
+  static studio s;
+  s.context = context_of(&watch, 8 << 20);
+  shot now = begin_shot();
+  plain(&s, &now);
+  celspan_exposure exposure = {rostrum_of(&s, &now), 1};
+  celspan_frame_desc frame = studio_frame(&exposure, 1, WIDE, HEIGHT, NULL);
+  celspan_statistics statistics = CELSPAN_STATISTICS;
+  celspan_sink sink = {sizeof sink, NULL, begin_own, pass_over, end_own, false};
+  now.coding.depth = CELSPAN_DEPTH_8_DITHER;
+  cs_coder coder = cs_coder_of(&now.coding, 0, 0);
+  coder.coding.space = frame.space;
+  frame.workers = 2;
+  studio_check(&s, cs_coder_sink(s.context, &coder, &sink));
+  studio_check(&s, cs_frame_render_own(s.context, &frame, &sink, &statistics));
+  CHECK(statistics.peak_bytes < (size_t)WIDE * HEIGHT);
+  studio_finish(&s);
+  celspan_context_destroy(s.context);
+}
+
 /* Where everything is freed after each frame, nothing is copied. */
 static void check_trimmed(void) {
   memory_watch watch = {0};
@@ -1257,7 +1286,8 @@ int main(void) {
   check_rows();
   check_codes(64 << 20, CELSPAN_DEPTH_8_DITHER, true);
   check_codes(64 << 20, CELSPAN_DEPTH_FLOAT, false);
-  check_codes(PIXELS * 4 * 8, CELSPAN_DEPTH_8_DITHER, false);
+  check_codes(PIXELS * 4 * 10, CELSPAN_DEPTH_8_DITHER, false);
+  check_wide();
   check_trimmed();
   check_given_up_copies();
   check_turning();

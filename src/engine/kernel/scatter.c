@@ -203,7 +203,8 @@ static celspan_status put_stretch(cs_scatter *g, const cs_border *edge, const st
   int32_t end = s->end < convolve->width ? s->end : convolve->width;
   bool is_flat = has_flat_sides(edge);
   double before = 0;
-  CS_TRY(reserve_shifts(g, (end > first ? end - first : 0) + 1));
+  if (!is_flat)
+    CS_TRY(reserve_shifts(g, (end > first ? end - first : 0) + 1));
   for (int32_t p = first; p < end; p++) {
     float share = sums[p - s->first];
     touch(convolve, p);
@@ -325,7 +326,8 @@ static celspan_status spread(cs_scatter *g, const cs_border *edge, const segment
   cs_v4 step = (float)t->weight * (edge->right->colour - edge->left->colour);
   int32_t first = t->first > 0 ? t->first : 0;
   int32_t stop = t->end < convolve->width ? t->end : convolve->width;
-  CS_TRY(reserve_shifts(g, (stop > first ? stop - first : 0) + 1));
+  if (!is_flat)
+    CS_TRY(reserve_shifts(g, (stop > first ? stop - first : 0) + 1));
   for (int32_t p = first; p < stop; p++) {
     double now = share_right(t, p + 0.5, is_upright, scale);
     touch(convolve, p);

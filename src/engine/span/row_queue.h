@@ -32,7 +32,7 @@ typedef struct cs_row_queue_row {
 /* A zeroed queue is empty. */
 void cs_row_queue_finish(cs_row_queue *queue, cs_memory *memory);
 void cs_row_queue_clear(cs_row_queue *queue);
-/* spans: copied, with their arrays. Errors: NO_MEMORY. */
+/* spans: copied, with their arrays, where codes have 4 bytes a pixel. Errors: NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_row_queue_add(celspan_context *context, cs_row_queue *queue,
                                                 const celspan_span *spans, size_t count);
 /* The same for a row without gaps from column 0 on. It is stored as one array of colours where that

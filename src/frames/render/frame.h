@@ -35,7 +35,7 @@ typedef struct cs_frame {
   int strip_height;
   struct cs_held *held;  /* held.h; NULL: no bands are held */
   bool takes_codes;      /* rows may contain codes, because their sink takes them */
-  const cs_coder *coder; /* cs_sink_coder of the sink; NULL where held bands keep spans */
+  const cs_coder *coder; /* cs_sink_coder of the sink; NULL where spans are kept (held.c) */
 } cs_frame;
 
 /* Whether the description can be read and rendered. Errors: BAD_ARGUMENT and LIMIT, naming the

@@ -220,12 +220,12 @@ static bool suits(const celspan_context *context, const cs_frame *frame,
   return suits;
 }
 
-/* Spans are kept where the codes of the whole frame have no room: an eighth of them is added for
- * what arenas leave free. */
+/* Rows are kept, and wait in strips, as spans where the codes of the whole frame have no room: half
+ * of them is added for what arenas leave free. So codes never take more memory than may be held. */
 static void choose_form(cs_frame *frame, size_t budget) {
   size_t pixels = (size_t)frame->crop_width * (size_t)(frame->view.end_row - frame->view.first_row);
   size_t bytes = frame->coder ? pixels * cs_pixels_size(&frame->coder->coding) : 0;
-  if (bytes + bytes / 8 > budget)
+  if (bytes + bytes / 2 > budget)
     frame->coder = NULL;
 }
 
@@ -235,10 +235,10 @@ celspan_status cs_held_begin(celspan_context *context, const celspan_frame_desc 
                              cs_frame *frame) {
   cs_service *service;
   int32_t first_row = frame->view.first_row, end_row = frame->view.end_row;
+  choose_form(frame, context->root->held_bytes);
   if (!suits(context, frame, desc))
     return CELSPAN_OK;
   CS_TRY(cs_context_service(context, &kind, &service));
-  choose_form(frame, context->root->held_bytes);
   int32_t first = first_row / CS_FRAME_BAND;
   size_t count = (size_t)((end_row - 1) / CS_FRAME_BAND + 1 - first);
   cs_held *held = cs_mem_resize(context->memory, NULL, 0, size_of(count));

@@ -6,8 +6,9 @@
  * and the shares are then joined in order. The calling thread works too while it has nothing to
  * deliver.
  *
- * INVARIANT: the sink gets the same spans whatever the number of workers and the height of strips;
- * if rows fail, the failure of the topmost of them is reported.
+ * INVARIANT: the sink gets the same spans, or the codes of these where the frame has a coder,
+ * whatever the number of workers and the height of strips; if rows fail, the failure of the topmost
+ * of them is reported.
  */
 #include "frames/render/row_worker.h"
 

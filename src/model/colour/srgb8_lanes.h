@@ -102,13 +102,15 @@ static inline cs_wide cs_srgb8_octave(cs_wide x) {
 #endif
 }
 
-/* a + b c, rounded once. Here alone that is right: the curve is approximated, and its result is
- * checked. */
+/* a + b c, rounded once or twice. Here alone that is right: the curve is approximated, and its
+ * result is checked. */
 static inline cs_wide cs_srgb8_add(cs_wide a, cs_wide b, cs_wide c) {
 #ifdef __AVX512F__
   return (cs_wide)_mm512_fmadd_ps((__m512)b, (__m512)c, (__m512)a);
-#else
+#elif defined(__FMA__)
   return (cs_wide)_mm256_fmadd_ps((__m256)b, (__m256)c, (__m256)a);
+#else
+  return a + b * c;
 #endif
 }
 

@@ -49,8 +49,7 @@ bool cs_pixels_primaries(const celspan_coding *coding, float xy[CS_PRIMARIES]);
 celspan_coding cs_pixels_resolve(const celspan_coding *coding, celspan_depth default_depth);
 
 /* Writes one row of pixels: the spans cover [0, width) without gap. A single span is coded once and
- * repeated. Codes of arrays are copied: they have 8 bits and this coding. coding: resolved.
- * Threads: any. */
+ * repeated. Codes of arrays are copied: they are in this coding. coding: resolved. Threads: any. */
 void cs_pixels_row(const celspan_coding *coding, const celspan_span *spans, size_t span_count,
                    void *row);
 /* Whether array spans may contain codes, which are already coded pixels, in this coding. coding:
