@@ -11,7 +11,7 @@
 #include "model/colour/space.h"
 
 #define TOGETHER 64 /* channels: all loops have this length, so that there is no remainder */
-#define ALONE 8     /* up to so many channels are converted in less time one by one */
+#define ALONE 8     /* channels at most: they are converted in less time one by one */
 
 typedef struct channels {
   float s[TOGETHER], there[TOGETHER], colours[TOGETHER]; /* as in space.h */
