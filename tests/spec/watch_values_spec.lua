@@ -83,6 +83,16 @@ describe("values of parameters", function()
     assert.same({ isOld = true, isNew = true, isOther = true }, said)
   end)
 
+  it("may never come: the picture that waits for them is given up", function()
+    local said = watching.speak(watching.watch(), GIVE .. [=[
+      const held = web.get("/frame/1.rgba?build=9&wish=late"), now = await web.get("/frame/1.rgba");
+      const body = JSON.stringify({ wish: "late" });
+      await web.get("/abandon", { method: "POST", headers, body });
+      const answer = await held;
+      return { now: now.status, status: answer.status, body: answer.body };]=])
+    assert.same({ now = 200, status = 503, body = "it is not wanted any more\n" }, said)
+  end)
+
   it("have lines as the script declares them", function()
     local said = watching.speak(watching.watch(), GIVE .. [=[
       await give({ lamp: "30.5,9", mood: "wild", is_lit: "false", size: "2.50" });

@@ -23,7 +23,7 @@ void cs_require_forget(lua_State *L);
 
 /* Pushes a private or public module, which is loaded at its first use. Raises. */
 void cs_require_module(lua_State *L, const char *name);
-/* Whether that module has been loaded. Raises. */
+/* Whether that private module has been loaded. Raises. */
 bool cs_require_is_loaded(lua_State *L, const char *name);
 /* cs_require_module for a script, which has only public modules. */
 void cs_require_public(lua_State *L, const char *name);

@@ -17,6 +17,7 @@ local guard, watched, choices = part "guard.lua", part "watched.lua", part "choi
 local programs, joining = part "programs.lua", part "joining.lua"
 
 local HELD = 20            -- seconds for which a request waits for news, or for a film
+local SOON = 5             -- and for values that are sent with it
 local SIDE_MOST = 1048576  -- pixels
 local PIXELS_MOST = 1 << 25 -- of a picture
 local ONION_MOST = 16       -- frames before, and after
@@ -51,7 +52,7 @@ local places = part "places.lua".new(files)
 -- news: the number of changes that pages must know. here: the line that an editor has named.
 local state = { news = 1 }
 local held = {}    -- requests for news: id, over
-local waiting = {} -- requests for a film that is built later: answer(), film, build, over
+local waiting = {} -- requests for a film that is built later: id, wish, answer(), film, build, over
 
 local function tell() state.news = state.news + 1 end
 
@@ -412,8 +413,9 @@ local function route(id, path, fields)
   if own[path] then return own[path](id, fields) end
   local film = side_of(id, fields)
   if not film then return end
-  local one = { film = film, build = math.tointeger(fields.build) or 0,
-                over = program.clock() + HELD,
+  local build = math.tointeger(fields.build) or 0
+  local one = { id = id, wish = fields.wish, film = film, build = build,
+                over = program.clock() + (build > film.build_number and SOON or HELD),
                 answer = function() attempt(id, give_of, id, film, path, fields) end }
   if is_awaited(one) then waiting[#waiting + 1] = one else one.answer() end
 end
@@ -434,10 +436,20 @@ posts["/parameters"] = function(id, given, film)
   give_json(id, { build = film.build_number, values = values, refused = refused })
 end
 
+--- Gives up a request that waits for values.
+local function forget(film, wish)
+  for i = #waiting, 1, -1 do
+    if waiting[i].film == film and waiting[i].wish == wish then
+      refuse(table.remove(waiting, i).id, 503, "it is not wanted any more")
+    end
+  end
+end
+
 --- The picture that was requested with this `wish` is not wanted any more, { wish = }.
 posts["/abandon"] = function(id, given, film)
   if type(given.wish) ~= "string" then return refuse(id, 400, "write { \"wish\": ... }") end
   film.pool:abandon(given.wish)
+  forget(film, given.wish)
   give_json(id, {})
 end
 
@@ -514,12 +526,15 @@ local function give_news()
   held, announced = later, state.news
 end
 
---- Answers requests whose films can be asked now, or have failed.
+--- Answers requests whose films can be asked now, or have failed. Where values did not come, the
+--- picture would be of others.
 local function give_films()
   local now, later = program.clock(), {}
   for _, one in ipairs(waiting) do
     if is_awaited(one) and now < one.over then
       later[#later + 1] = one
+    elseif one.build > one.film.build_number then
+      refuse(one.id, 503, "the values have not come")
     else
       one.answer()
     end

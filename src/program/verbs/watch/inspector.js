@@ -61,7 +61,8 @@ export function pointOf(one, clientX, clientY) {
 /** The objects at a point, from front to back. */
 export async function hitsAt(one, { x, y }, isWanted) {
   const name = nameOf(one, view.number);
-  return await read(`/at/${x.toFixed(6)},${y.toFixed(6)}.json?frame=${name}&side=${one.side}`,
+  const place = `/at/${x.toFixed(6)},${y.toFixed(6)}.json`;
+  return await read(`${place}?frame=${name}&build=${buildOf(one)}&side=${one.side}`,
                     isWanted) ?? [];
 }
 

@@ -8,10 +8,10 @@ import { start, takeSound } from "/playing.js";
 import { showRender, showRenderCommand } from "/render.js";
 import { loadSheet } from "/rows.js";
 import {
-  beside, clamp, here, lanes, loop, main, setWords, span, state, stateOf, timecode, view, write,
-  writeAttribute,
+  beside, clamp, here, lanes, loop, main, play, setWords, span, state, stateOf, timecode, view,
+  write, writeAttribute,
 } from "/state.js";
-import { drawTimeline, placeHead, shotsAt, showRows } from "/timeline.js";
+import { drawRuler, drawTimeline, placeHead, shotsAt, showRows } from "/timeline.js";
 import { sendGiven, showForm } from "/values.js";
 import { fit, measureDesk } from "/view.js";
 
@@ -94,6 +94,7 @@ function takeFilm(old) {
   if (state.building) return;
   takeSound();
   if (state.film !== old || !state.shown) drawTimeline();
+  else if (play.direction !== 0) drawRuler();
   if (outlined.place) outline(outlined.place);
 }
 

@@ -311,6 +311,7 @@ export async function failed(fault, wanted) {
   if (fault.status !== 503) noteSeen();
   if (fault.status === 422) {
     one.refused.set(wanted.number, { build: wanted.build, message: fault.message.trim() });
+    if (one === main) drawRuler();
     return showFault(one);
   }
   if (!one.isWanted) await pause(0.3);

@@ -20,6 +20,7 @@ let timer = 0;         // of the next call of proceed
 // pictures that are requested ahead while playing, and at the same time
 const AHEAD = 8, AT_ONCE = 3;
 const BEHIND = 24;           // frames that a picture may be late
+const REST_MOST = 200;       // milliseconds between two looks at the clock
 
 function go(number) {
   if (!state.film) return;
@@ -50,7 +51,8 @@ export function start(direction) {
   else endSound();
   play.shown = -1;
   showPlaying(true);
-  proceed();
+  clearTimeout(timer);
+  timer = setTimeout(proceed); // a film that plays at once has no place in the window yet
 }
 
 function stop() {
@@ -176,16 +178,19 @@ const isPlaying = () => play.direction !== 0 && Boolean(state.film);
 const elapsedFrames = () => passedSeconds() * state.film.fps * play.speed;
 
 /** Asks for the next pictures, and for a moment to draw if one is due. It is called again at the
- * next frame of the film, and when a picture arrives. A page that is not seen asks for nothing. */
+ * next frame of the film, or before it, so that the sound is fed, and when a picture arrives. A
+ * page that is not seen asks for nothing. */
 function proceed() {
   clearTimeout(timer);
   if (!isPlaying()) return;
   const elapsed = elapsedFrames(), passed = Math.floor(elapsed);
   const rest = (passed + 1 - elapsed) / state.film.fps / play.speed; // seconds
-  timer = setTimeout(proceed, Math.ceil(rest * 1000));
+  timer = setTimeout(proceed, Math.min(Math.ceil(rest * 1000), REST_MOST));
   if (document.hidden) return;
   askAhead(elapsed);
   if (play.direction > 0) feedSound(onward(play.number, passed) - 1 + elapsed - passed);
+  const now = performance.now();
+  if (!(now - play.painted.at(-1) < 1000)) showRate(now); // also where there is none
   if (isTicking || !dueFrame(passed)) return;
   isTicking = true;
   requestAnimationFrame(tick);

@@ -223,7 +223,7 @@ export async function loadWave() {
   const text = JSON.stringify(said), isSame = !isFirst && text === heard.text;
   Object.assign(heard, { columns: [], lips: [] }, said, { text });
   setBusy("wave", false);
-  if (isSame) return;
+  if (isSame && heard.columns.length > 0) return;
   showSheet();
   drawTimeline();
 }

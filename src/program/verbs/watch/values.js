@@ -54,7 +54,10 @@ async function sendValues(one) {
     want(one);
     const answer = await arrival;
     if (answer?.ok) takeAnswer(one, sent, await answer.json());
-    else one.wantedBuild = 0;
+    else {
+      one.wantedBuild = 0;
+      want(one);
+    }
   }
   writeAddressLater();
   one.isSending = false;
