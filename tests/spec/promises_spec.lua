@@ -149,7 +149,7 @@ end)
 --- Objects of the library, without those of the program, of generators, and of units that are built
 --- only with self-checks.
 local OBJECTS = ("find '%s/src' '%s/subprojects' -name '*.o' ! -path '%s/*/tests/*' "
-  .. "! -path '*embed*' ! -path '*headings*' ! -path '*make_*' "
+  .. "! -path '*embed*' ! -path '*headings*' ! -path '*make_*' ! -path '*compile.p*' "
   .. "! -path '*libprogram_*' ! -path '*/plugin/*' "
   .. "! -name 'base_self_check*'"):format(BUILD, BUILD, BUILD)
 

@@ -5,6 +5,8 @@
 
 #include "lua/bind/require.h"
 
+#pragma weak lua_ident /* LuaJIT and interpreters that export functions alone lack it: then NULL */
+
 const cs_built_in *cs_built_in_find(const cs_built_in *files, const char *name) {
   while (files->name && strcmp(files->name, name) != 0)
     files++;
@@ -15,9 +17,9 @@ const cs_built_in *cs_built_in_find(const cs_built_in *files, const char *name) 
  * file begins (compile.c); false: nothing is pushed. */
 static bool load_bytecode(lua_State *L, const cs_built_in *files, const char *name) {
   const cs_built_in *file = cs_built_in_find(files, lua_pushfstring(L, "%sc", name));
-  const size_t head = strlen(lua_ident) + 1;
+  const size_t head = lua_ident ? strlen(lua_ident) + 1 : 0;
   lua_pop(L, 1);
-  if (!file || file->size < head || memcmp(file->bytes, lua_ident, head) != 0)
+  if (!file || head == 0 || file->size < head || memcmp(file->bytes, lua_ident, head) != 0)
     return false;
   if (luaL_loadbufferx(L, file->bytes + head, file->size - head, name, "b") == LUA_OK)
     return true;

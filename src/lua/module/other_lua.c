@@ -17,11 +17,6 @@ int luaL_error(lua_State *L, const char *format, ...);
   __attribute__((visibility("default"))) int name(lua_State *L);                                   \
   int name(lua_State *L) { return luaL_error(L, "this celspan.so is a module for Lua 5.4"); }
 
-/* The release, by which bytecode is chosen (lua/bind/built_in.c): LuaJIT has no such name, and
- * neither have interpreters that export functions alone. */
-__attribute__((visibility("default"))) extern const char lua_ident[];
-const char lua_ident[] = "an unknown Lua";
-
 OTHER_LUA(luaL_buffinitsize)
 OTHER_LUA(luaL_checkversion_)
 OTHER_LUA(luaL_getsubtable)
