@@ -4,6 +4,9 @@
 #include <math.h>
 #include <string.h>
 
+typedef double number;
+#include "model/geometry/polyline_point.h"
+
 /* A single chord must be nearer than the tolerance, because its vertices are the ends of the piece,
  * which cannot be displaced to keep the area. */
 #define ONE_CHORD (CS_BOUNDARY_TOLERANCE / 8)
@@ -27,39 +30,6 @@
 
 /* ---------------------------------------------------------------- evaluation */
 
-/* De Casteljau's scheme down to three points, which give the value and both derivatives; then the
- * quotient rule. */
-static cs_polyline_point at_rational(const cs_hpoint *points, int degree, double t) {
-  cs_hpoint work[CS_BEZIER_DEGREE + 1];
-  for (int i = 0; degree > 2 && i <= degree; i++)
-    work[i] = points[i];
-  for (int level = degree; level > 2; level--)
-    for (int i = 0; i < level; i++) {
-      work[i].x += t * (work[i + 1].x - work[i].x);
-      work[i].y += t * (work[i + 1].y - work[i].y);
-      work[i].w += t * (work[i + 1].w - work[i].w);
-    }
-  const cs_hpoint *p = degree > 2 ? work : points;
-  double s = 1 - t, b0 = s * s, b1 = 2 * s * t, b2 = t * t, scale = degree * (degree - 1.0);
-  double w = b0 * p[0].w + b1 * p[1].w + b2 * p[2].w;
-  double w1 = degree * (s * (p[1].w - p[0].w) + t * (p[2].w - p[1].w));
-  double w2 = scale * (p[0].w - 2 * p[1].w + p[2].w);
-  double x1 = degree * (s * (p[1].x - p[0].x) + t * (p[2].x - p[1].x));
-  double y1 = degree * (s * (p[1].y - p[0].y) + t * (p[2].y - p[1].y));
-  double by_w = 1 / w;
-  double x = (b0 * p[0].x + b1 * p[1].x + b2 * p[2].x) * by_w;
-  double y = (b0 * p[0].y + b1 * p[1].y + b2 * p[2].y) * by_w;
-  double slope_x = (x1 - w1 * x) * by_w, slope_y = (y1 - w1 * y) * by_w;
-  double x2 = scale * (p[0].x - 2 * p[1].x + p[2].x);
-  double y2 = scale * (p[0].y - 2 * p[1].y + p[2].y);
-  return (cs_polyline_point){x,
-                             y,
-                             slope_x,
-                             slope_y,
-                             (x2 - 2 * w1 * slope_x - w2 * x) * by_w,
-                             (y2 - 2 * w1 * slope_y - w2 * y) * by_w};
-}
-
 /* The coefficients of a piece in powers: 4 of x and 4 of y. */
 static inline void load_powers(const cs_boundary_set *set, const cs_boundary_piece *piece,
                                double c[8]) {
@@ -76,7 +46,7 @@ static inline void load_powers(const cs_boundary_set *set, const cs_boundary_pie
 static cs_polyline_point at(const cs_boundary_set *set, const cs_boundary_piece *piece, double t) {
   double c[8];
   if (!piece->is_power)
-    return at_rational(set->points + piece->point, piece->degree, t);
+    return cs_polyline_weigh(set->points + piece->point, piece->degree, t);
   load_powers(set, piece, c);
   return cs_polyline_power(c, t);
 }
@@ -266,7 +236,7 @@ static double rational_bend(const cs_bezier *curve) {
   double largest = 0;
   int steps = 4 * curve->degree;
   for (int i = 0; i <= steps; i++) {
-    cs_polyline_point p = at_rational(curve->points, curve->degree, (double)i / steps);
+    cs_polyline_point p = cs_polyline_weigh(curve->points, curve->degree, (double)i / steps);
     largest = fmax(largest, p.bend_x * p.bend_x + p.bend_y * p.bend_y);
   }
   return SAMPLING_MARGIN * sqrt(largest);

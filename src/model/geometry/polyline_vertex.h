@@ -31,20 +31,6 @@
  * sqrt(2). */
 #define CS_POLYLINE_LEAD 0.29289321881345254
 
-/* A point of a curve, with its first and second derivatives by the parameter. */
-typedef struct cs_polyline_point {
-  double x, y, slope_x, slope_y, bend_x, bend_y;
-} cs_polyline_point;
-
-static inline cs_polyline_point cs_polyline_power(const double c[8], double t) {
-  return (cs_polyline_point){((c[3] * t + c[2]) * t + c[1]) * t + c[0],
-                             ((c[7] * t + c[6]) * t + c[5]) * t + c[4],
-                             (3 * c[3] * t + 2 * c[2]) * t + c[1],
-                             (3 * c[7] * t + 2 * c[6]) * t + c[5],
-                             6 * c[3] * t + 2 * c[2],
-                             6 * c[7] * t + 2 * c[6]};
-}
-
 /* The step of the parameter from vertex to vertex of a piece of two chords or more. */
 static inline double cs_polyline_step(uint32_t chords) {
   return 1 / (chords - 2 * CS_POLYLINE_LEAD);

@@ -13,6 +13,8 @@ enum { LANES = CS_WIDE_LANES / 2 };
 
 typedef double lanes __attribute__((vector_size(8 * LANES)));
 typedef int64_t masks __attribute__((vector_size(8 * LANES)));
+typedef lanes number;
+#include "model/geometry/polyline_point.h"
 
 static const double numbers[CS_POLYLINE_ROOM] = {0, 1, 2, 3, 4, 5, 6, 7};
 
@@ -71,86 +73,6 @@ static inline lanes clamp(lanes a, double low, double high) {
   return least(most(a, zero + low), zero + high);
 }
 
-/* One cs_polyline_point in each lane. */
-typedef struct spots {
-  lanes x, y, slope_x, slope_y, bend_x, bend_y;
-} spots;
-
-/* A curve in powers of its parameter, and its derivatives. */
-typedef struct powers {
-  double x[4], y[4], slope_x[3], slope_y[3], bend_x[2], bend_y[2];
-} powers;
-
-static inline powers load_powers(const double c[8]) {
-  return (powers){{c[0], c[1], c[2], c[3]},   {c[4], c[5], c[6], c[7]}, {c[1], 2 * c[2], 3 * c[3]},
-                  {c[5], 2 * c[6], 3 * c[7]}, {2 * c[2], 6 * c[3]},     {2 * c[6], 6 * c[7]}};
-}
-
-static inline lanes cubic(const double c[4], lanes t) {
-  return ((c[3] * t + c[2]) * t + c[1]) * t + c[0];
-}
-
-static inline lanes quadratic(const double c[3], lanes t) { return (c[2] * t + c[1]) * t + c[0]; }
-
-static inline spots at_powers(const powers *c, lanes t) {
-  return (spots){cubic(c->x, t),
-                 cubic(c->y, t),
-                 quadratic(c->slope_x, t),
-                 quadratic(c->slope_y, t),
-                 c->bend_x[1] * t + c->bend_x[0],
-                 c->bend_y[1] * t + c->bend_y[0]};
-}
-
-/* A curve with weights. */
-typedef struct rational {
-  const cs_hpoint *points;
-  int degree;
-} rational;
-
-typedef struct weighted {
-  lanes x, y, w;
-} weighted;
-
-/* De Casteljau's scheme down to three points. */
-static inline void find_last_three(const rational *c, lanes t, weighted *p) {
-  const lanes zero = {0};
-  weighted work[CS_BEZIER_DEGREE + 1];
-  for (int i = 0; i <= c->degree; i++)
-    work[i] = (weighted){zero + c->points[i].x, zero + c->points[i].y, zero + c->points[i].w};
-  for (int level = c->degree; level > 2; level--)
-    for (int i = 0; i < level; i++) {
-      work[i].x += t * (work[i + 1].x - work[i].x);
-      work[i].y += t * (work[i + 1].y - work[i].y);
-      work[i].w += t * (work[i + 1].w - work[i].w);
-    }
-  memcpy(p, work, 3 * sizeof *p);
-}
-
-/* As at_rational in polyline.c. */
-static inline spots at_rational(const rational *c, lanes t) {
-  weighted p[3];
-  find_last_three(c, t, p);
-  const double degree = c->degree, scale = degree * (degree - 1.0);
-  lanes s = 1 - t, b0 = s * s, b1 = 2 * s * t, b2 = t * t;
-  lanes w = b0 * p[0].w + b1 * p[1].w + b2 * p[2].w;
-  lanes w1 = degree * (s * (p[1].w - p[0].w) + t * (p[2].w - p[1].w));
-  lanes w2 = scale * (p[0].w - 2 * p[1].w + p[2].w);
-  lanes x1 = degree * (s * (p[1].x - p[0].x) + t * (p[2].x - p[1].x));
-  lanes y1 = degree * (s * (p[1].y - p[0].y) + t * (p[2].y - p[1].y));
-  lanes by_w = 1 / w;
-  lanes x = (b0 * p[0].x + b1 * p[1].x + b2 * p[2].x) * by_w;
-  lanes y = (b0 * p[0].y + b1 * p[1].y + b2 * p[2].y) * by_w;
-  lanes slope_x = (x1 - w1 * x) * by_w, slope_y = (y1 - w1 * y) * by_w;
-  lanes x2 = scale * (p[0].x - 2 * p[1].x + p[2].x);
-  lanes y2 = scale * (p[0].y - 2 * p[1].y + p[2].y);
-  return (spots){x,
-                 y,
-                 slope_x,
-                 slope_y,
-                 (x2 - 2 * w1 * slope_x - w2 * x) * by_w,
-                 (y2 - 2 * w1 * slope_y - w2 * y) * by_w};
-}
-
 /* ---------------------------------------------------------------- seats */
 
 /* The seats of a group's vertices. */
@@ -181,7 +103,7 @@ static inline lanes parameters(const places *at) {
 }
 
 /* Whether no arc can be near the curve; if so, the vertex is displaced even if it is a border. */
-static inline masks are_bent(const spots *p) {
+static inline masks are_bent(const cs_polyline_point *p) {
   lanes cross = magnitude(p->bend_x * p->slope_y - p->bend_y * p->slope_x);
   lanes wide = most(magnitude(p->slope_x), p->slope_y);
   return cross > BENT * (p->slope_y * p->slope_y) * wide;
@@ -189,7 +111,7 @@ static inline masks are_bent(const spots *p) {
 
 /* p: at the even parameters. A seat is chosen so that the vertex lies near the whole height after
  * it has been displaced. Steps lower than a row have no whole heights to move to. */
-static inline void sit(const spots *p, const places *at, int k, seat_list *out) {
+static inline void sit(const cs_polyline_point *p, const places *at, int k, seat_list *out) {
   /* the sum of a number and this is rounded to a whole number */
   const lanes bias = (lanes){0} + 0x1.8p52;
   const cs_boundary_piece *piece = at->piece;
@@ -256,8 +178,8 @@ typedef struct ways {
 /* A seat at a whole height was found by one step of Newton's method, so the curve is not quite at
  * the height there; the vertex is moved along the tangent by the rest. Rounding may place the curve
  * beyond an end of a piece of hardly any height, where no vertex may lie. p: at the seats. */
-static inline ways find_ways(const cs_boundary_piece *piece, const spots *p, masks whole,
-                             lanes height) {
+static inline ways find_ways(const cs_boundary_piece *piece, const cs_polyline_point *p,
+                             masks whole, lanes height) {
   lanes run = where(whole, p->slope_x / p->slope_y);
   lanes y = clamp(either(whole, height, p->y), piece->y0, piece->y1);
   return (ways){p->x + (height - p->y) * run, y, p->bend_y * run - p->bend_x,
@@ -272,19 +194,20 @@ static inline void displace(const cs_boundary_piece *piece, const ways *from, la
   store(y, least(most(from->y + lift, highest), lowest));
 }
 
-static inline void place(const cs_boundary_piece *piece, const limits *most, const spots *p, int k,
-                         const seat_list *seats, cs_polyline_vertices *restrict out) {
-  lanes t = load(seats->t + 1 + k), number = load(numbers + k);
+static inline void place(const cs_boundary_piece *piece, const limits *most,
+                         const cs_polyline_point *p, int k, const seat_list *seats,
+                         cs_polyline_vertices *restrict out) {
+  lanes t = load(seats->t + 1 + k), vertex = load(numbers + k);
   lanes before = t - load(seats->t + k), after = load(seats->t + 2 + k) - t;
   masks whole;
   memcpy(&whole, seats->whole + k, sizeof whole);
   ways from = find_ways(piece, p, whole, load(seats->y + k));
-  lanes shares = find_shares(piece, most, number, before, after);
+  lanes shares = find_shares(piece, most, vertex, before, after);
   store(out->on_x + k, from.x);
   store(out->on_y + k, from.y);
   displace(piece, &from, shares, most->lift, out->x + k, out->y + k);
   if (most->is_halved)
-    displace(piece, &from, find_halved(piece, shares, number, before, after), most->lift,
+    displace(piece, &from, find_halved(piece, shares, vertex, before, after), most->lift,
              out->halved_x + k, out->halved_y + k);
 }
 
@@ -313,23 +236,26 @@ static inline void finish(const cs_boundary_piece *piece, uint32_t first, uint32
 
 /* ---------------------------------------------------------------- groups */
 
-/* plain: NULL where the curve is rational; a constant of each caller. */
-static inline void make_group(const powers *plain, const rational *other,
+/* powers: NULL where the curve is rational; a constant of each caller. */
+static inline void make_group(const double *powers, const cs_hpoint *points,
                               const cs_boundary_piece *piece, uint32_t first, uint32_t stride,
                               cs_polyline_vertices *restrict out) {
   const cs_boundary_piece own = *piece;
+  const int degree = own.degree;
   seat_list seats;
   seats.t[0] = seats.t[CS_POLYLINE_ROOM + 1] = 0;
   for (int k = 0; k <= own.group; k += LANES) {
     const places at = places_of(&own, first, stride, k);
     const lanes t = parameters(&at);
-    const spots p = plain ? at_powers(plain, t) : at_rational(other, t);
+    const cs_polyline_point p =
+        powers ? cs_polyline_power(powers, t) : cs_polyline_weigh(points, degree, t);
     sit(&p, &at, k, &seats);
   }
   const limits most = find_limits(&own, first, stride, &seats);
   for (int k = 0; k <= own.group; k += LANES) {
     const lanes t = load(seats.t + 1 + k);
-    const spots p = plain ? at_powers(plain, t) : at_rational(other, t);
+    const cs_polyline_point p =
+        powers ? cs_polyline_power(powers, t) : cs_polyline_weigh(points, degree, t);
     place(&own, &most, &p, k, &seats, out);
   }
   finish(&own, first, first + stride * own.group, &seats, out);
@@ -337,15 +263,15 @@ static inline void make_group(const powers *plain, const rational *other,
 
 void CS_WIDE(cs_polyline_powers)(const double c[8], const cs_boundary_piece *piece, uint32_t first,
                                  uint32_t stride, cs_polyline_vertices *restrict out) {
-  const powers curve = load_powers(c);
-  make_group(&curve, NULL, piece, first, stride, out);
+  double own[8];
+  memcpy(own, c, sizeof own);
+  make_group(own, NULL, piece, first, stride, out);
 }
 
 void CS_WIDE(cs_polyline_rational)(const cs_hpoint *points, const cs_boundary_piece *piece,
                                    uint32_t first, uint32_t stride,
                                    cs_polyline_vertices *restrict out) {
-  const rational curve = {points, piece->degree};
-  make_group(NULL, &curve, piece, first, stride, out);
+  make_group(NULL, points, piece, first, stride, out);
 }
 
 bool CS_WIDE(cs_polyline_strays)(const cs_polyline_arc *arc, const cs_polyline_vertices *vertices,
