@@ -88,6 +88,7 @@ describe("the page of celspan watch #plain", function()
           await page.press("Escape"); await page.press("Escape");
         }
         await page.press("p");
+        await page.settle();
         const box = await page.get(`(() => { const box = document.querySelector("#stage")
           .getBoundingClientRect(); return [box.left + 9, box.top + 9]; })()`);
         await page.click(...box);

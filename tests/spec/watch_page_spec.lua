@@ -454,6 +454,7 @@ describe("the page of celspan watch under hands #plain", function()
     local said = see [=[
       await page.press("s"); await page.press("p");
       await page.until(`document.querySelectorAll("[data-row]").length === 3`);
+      await page.settle();
       const at = await of("#stage", `(box => [box.x + box.width / 4, box.y + box.height / 4])(
         one.getBoundingClientRect())`);
       const middle = `(box => [box.x + box.width / 2, box.y + box.height / 2])(

@@ -250,6 +250,7 @@ describe("the page of celspan watch as a studio #plain", function()
       await page.until(`document.querySelectorAll("[data-object]").length === 3`);
       const paths = await page.get(`[...document.querySelectorAll("[data-object]")]
         .map(one => one.dataset.object)`);
+      await page.settle();
       const box = await page.get(`(() => { const box = document.querySelector("#stage")
         .getBoundingClientRect(); return [box.left + box.width * 24 / 64, box.top + box.height / 2];
       })()`);
@@ -263,9 +264,11 @@ describe("the page of celspan watch as a studio #plain", function()
         .map(one => one.name)`);
       const group = await page.get(`document.querySelector("#form fieldset").textContent`);
       const old = await page.get(stage("build"));
-      await page.get(`document.querySelector("[data-point=sun]").focus()`);
-      await page.press("ArrowRight");
-      const isStale = await page.get(`"stale" in document.querySelector("#stage").dataset`);
+      const isStale = await page.get(`(sun => {
+        sun.focus();
+        sun.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true }));
+        return "stale" in document.querySelector("#stage").dataset;
+      })(document.querySelector("[data-point=sun]"))`);
       await page.until(`${stage("build")} !== "${old}"`);
       await page.until(`!("stale" in document.querySelector("#stage").dataset)`);
       const command = await page.get(`document.querySelector("#command").value`);

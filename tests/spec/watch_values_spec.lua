@@ -220,6 +220,7 @@ return celspan.film { size = { 64, 36 }, frames = 9, frame = function()
       await page.get(`document.querySelector("#handles").click()`);
       const on = await isHidden();
       await page.press("p");
+      await page.settle();
       await page.click(...await page.get(`(box => [box.left + box.width / 2,
         box.top + box.height / 2])(${handle}.getBoundingClientRect())`));
       await page.until(`document.querySelector("#hits").textContent.includes("shot.lua:7")`);

@@ -105,6 +105,12 @@ async function open(address) {
       }
       throw new Error(`never true: ${expression}`);
     },
+    /** Waits until the page is laid out and drawn as it is now: places that are asked for before
+     * that, after a panel was opened, are old ones. */
+    async settle() {
+      await page.get(`new Promise(done => requestAnimationFrame(
+        () => requestAnimationFrame(() => done())))`);
+    },
     async press(key, modifiers = 0) {
       const params = { key, code: CODES[key], modifiers, text: key.length === 1 ? key : TEXTS[key] };
       await call("Input.dispatchKeyEvent", { type: "keyDown", ...params });
