@@ -102,6 +102,25 @@ static void test_channels(celspan_space to, cs_isa isa) {
   }
 }
 
+/* So have the colours of pixels, of which some are black; the fourth channel stays. */
+static void test_pixels(celspan_space to, cs_isa isa) {
+  enum { MOST = 150 };
+  float s[4 * MOST], shares[4 * MOST], wanted[4 * MOST];
+  test_random random = {5};
+  for (int32_t count = 0; count <= MOST; count++) {
+    for (int32_t i = 0; i < 4 * count; i++) {
+      const bool is_black = (i / 4 + count) % 5 < count % 4, is_beyond = (i + count) % 97 == 0;
+      s[i] = is_beyond                         ? NAN
+             : is_black || (i + count) % 9 < 3 ? 0
+                                               : (float)random_between(&random, -0.2, 1.2);
+      shares[i] = i % 3 == 0 ? 0 : (float)random_between(&random, 0, 1);
+      wanted[i] = i % 4 == 3 ? s[i] : cs_space_channel(to, s[i], shares[i]);
+    }
+    CS_WIDE_CHOOSE(isa, cs_space_pixels)(to, shares, count, s);
+    CHECK(memcmp(s, wanted, 4 * (size_t)count * sizeof *s) == 0);
+  }
+}
+
 static void test_paints(void) {
   test_random random = {3};
   for (int i = 0; i < PAIRS; i++) {
@@ -131,8 +150,10 @@ int main(void) {
     test_oracle((celspan_space)to);
     test_engine((celspan_space)to);
     test_ends((celspan_space)to);
-    for (int isa = CS_ISA_ANY; isa <= (int)cs_isa_best(); isa++)
+    for (int isa = CS_ISA_ANY; isa <= (int)cs_isa_best(); isa++) {
       test_channels((celspan_space)to, (cs_isa)isa);
+      test_pixels((celspan_space)to, (cs_isa)isa);
+    }
   }
   test_paints();
   test_inside();

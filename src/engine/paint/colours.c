@@ -51,12 +51,10 @@ static void code_samples(const cs_painter *painter, const cs_image_layer *image,
   float alphas[CS_OVER_ROW_BATCH][4];
   if (image->texture->variation->use != CELSPAN_PICTURE_PAINT || image->space != CELSPAN_SPACE_SRGB)
     return;
-  memset(alphas, 0, (size_t)count * sizeof *alphas);
   for (int32_t k = 0; k < count; k++)
     cs_v4_store(alphas[k], cs_v4_all(rgba[k][3]));
-  CS_WIDE_CHOOSE(painter->isa, cs_space_channels)(image->space, alphas[0], 4 * count, rgba[0]);
-  for (int32_t k = 0; k < count; k++)
-    rgba[k][3] = alphas[k][3];
+  CS_WIDE_CHOOSE(painter->isa, cs_space_pixels)
+  (image->space, alphas[0], count, rgba[0]);
 }
 
 static celspan_status sample_picture(cs_painter *painter, const cs_layer *layer,

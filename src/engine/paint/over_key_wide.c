@@ -16,7 +16,7 @@ static void convert(celspan_space from, celspan_space to, int32_t count, float (
     return;
   for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
     cs_wide_store(whole[i], cs_wide_all(1));
-  CS_WIDE(cs_space_channels)(to, whole[0], 4 * count, colours[0]);
+  CS_WIDE(cs_space_pixels)(to, whole[0], count, colours[0]);
 }
 
 /* Takes the spill off; false where no pixel has any. */

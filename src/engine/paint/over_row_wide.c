@@ -124,7 +124,7 @@ static inline void leave_space(cs_over_row_state *state, int32_t count, celspan_
   shares[0][0] = 0; /* as the compiler asks: the loop fills all that is read */
   for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
     cs_wide_store(shares[i], 1 - keep * cs_wide_load(state->t[i]));
-  CS_WIDE(cs_space_channels)(to, shares[0], 4 * count, state->e[0]);
+  CS_WIDE(cs_space_pixels)(to, shares[0], count, state->e[0]);
   for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
     cs_wide_store(state->e[i], (cs_wide)((cs_wide_int)cs_wide_load(state->e[i]) & colours));
 }

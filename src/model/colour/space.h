@@ -40,6 +40,9 @@ float cs_space_channel(celspan_space to, float s, float share);
 /* Converts `count` channels at once, to the same bits as one by one. (space_wide.c) */
 CS_WIDE_DECLARE(void, cs_space_channels,
                 (celspan_space to, const float *shares, int32_t count, float *s));
+/* The same for the first three channels of `count` pixels; the fourth stays. */
+CS_WIDE_DECLARE(void, cs_space_pixels,
+                (celspan_space to, const float *shares, int32_t count, float *s));
 /* The sRGB codes of straight light, to the bits of cs_transfer_encode. (space_wide.c) */
 CS_WIDE_DECLARE(void, cs_space_codes, (int32_t count, float *colours));
 

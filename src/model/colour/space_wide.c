@@ -11,6 +11,7 @@
 #include "model/colour/space.h"
 
 #define TOGETHER 64 /* channels: all loops have this length, so that there is no remainder */
+#define PIXELS 64   /* side by side: no channels are left over where none is clear */
 #define ALONE 8     /* channels at most: they are converted in less time one by one */
 
 typedef struct channels {
@@ -104,6 +105,44 @@ static void convert(celspan_space to, const float *shares, int32_t count, float 
 
 void CS_WIDE(cs_space_channels)(celspan_space to, const float *shares, int32_t count, float *s) {
   (count <= ALONE ? convert_alone : convert)(to, shares, count, s);
+}
+
+/* Pixels side by side without their alphas; black ones, which stay black, are left out. Each is
+ * written with one lane more than it has colours: the next one, or nobody, has the place.
+ *
+ *   s  rgb- 0000 rgb- --pack--> rgbrgb --convert--> rgb- 0000 rgb-
+ */
+typedef struct packed {
+  float s[3 * PIXELS + 1], shares[3 * PIXELS + 1];
+  int32_t from[PIXELS]; /* their places in the row */
+} packed;
+
+static inline bool is_black(cs_v4 s) {
+  typedef int64_t words __attribute__((vector_size(16)));
+  const words lanes = (words)(s != 0);
+  return (lanes[0] | lanes[1]) == 0;
+}
+
+static inline int32_t pack(const float *shares, int32_t count, const float *s, packed *out) {
+  int32_t size = 0;
+  for (int32_t k = 0; k < count; k++) {
+    const cs_v4 colour = cs_v4_load(s + 4 * k);
+    cs_v4_store(out->s + 3 * size, colour);
+    cs_v4_store(out->shares + 3 * size, cs_v4_load(shares + 4 * k));
+    out->from[size] = k;
+    size += !is_black(colour);
+  }
+  return size;
+}
+
+void CS_WIDE(cs_space_pixels)(celspan_space to, const float *shares, int32_t count, float *s) {
+  packed work;
+  for (; count > 0; count -= PIXELS, shares += 4 * PIXELS, s += 4 * PIXELS) {
+    int32_t size = pack(shares, count < PIXELS ? count : PIXELS, s, &work);
+    CS_WIDE(cs_space_channels)(to, work.shares, 3 * size, work.s);
+    for (int32_t i = 0; i < size; i++)
+      memcpy(s + 4 * work.from[i], work.s + 3 * i, 3 * sizeof(float));
+  }
 }
 
 void CS_WIDE(cs_space_codes)(int32_t count, float *colours) {
