@@ -49,8 +49,9 @@ static void begin_column(cs_convolve *convolve, int32_t p) {
 
 static inline void touch(cs_convolve *convolve, int32_t p) {
   uint64_t bit = (uint64_t)1 << (p % 64), *word = &convolve->touched[p / 64];
-  if (!(*word & bit))
-    begin_column(convolve, p);
+  if (*word & bit)
+    return;
+  begin_column(convolve, p);
   *word |= bit;
 }
 
@@ -194,6 +195,26 @@ static cs_convolve_range range_of(const cs_border *edge) {
   return range;
 }
 
+/* The term of the cell at one side of an edge grows, in the columns [first, end), by `sign` times
+ * what the shares, one for each of them, grow by. There is room for these steps. */
+static void shift_columns(const cs_scatter *g, const cs_cell *cell, double sign, int32_t first,
+                          int32_t end, const float *shares) {
+  cs_convolve *convolve = g->convolve;
+  if (cell->length == 0)
+    return;
+  uint32_t term = g->terms[cs_retained_number(g->retained, cell)], *last = convolve->shifts_at;
+  cs_convolve_shift *shift = convolve->shifts + convolve->shift_count;
+  uint32_t number = (uint32_t)convolve->shift_count;
+  double before = 0;
+  for (int32_t p = first; p < end; p++) {
+    double share = (double)shares[p - first];
+    *shift++ = (cs_convolve_shift){last[p], term, sign * (share - before)};
+    last[p] = ++number;
+    before = share;
+  }
+  convolve->shift_count = number;
+}
+
 /* Adds the colour step of a stretch to its columns, by the sums of its segments. */
 static celspan_status put_stretch(cs_scatter *g, const cs_border *edge, const stretch *s,
                                   const float *sums) {
@@ -201,17 +222,17 @@ static celspan_status put_stretch(cs_scatter *g, const cs_border *edge, const st
   cs_v4 step = edge->right->colour - edge->left->colour;
   int32_t first = s->first > 0 ? s->first : 0;
   int32_t end = s->end < convolve->width ? s->end : convolve->width;
-  bool is_flat = has_flat_sides(edge);
-  double before = 0;
-  if (!is_flat)
-    CS_TRY(reserve_shifts(g, (end > first ? end - first : 0) + 1));
+  int32_t count = end > first ? end - first : 0;
+  const float *shares = count > 0 ? sums + (first - s->first) : sums;
+  cs_v4 *values = convolve->values;
   for (int32_t p = first; p < end; p++) {
-    float share = sums[p - s->first];
     touch(convolve, p);
-    convolve->values[p] += share * step;
-    if (!is_flat)
-      add_shift(g, edge, p, (double)share - before);
-    before = (double)share;
+    values[p] += shares[p - first] * step;
+  }
+  if (!has_flat_sides(edge)) {
+    CS_TRY(reserve_shifts(g, count + 1));
+    shift_columns(g, edge->left, -1, first, end, shares);
+    shift_columns(g, edge->right, 1, first, end, shares);
   }
   if (convolve->kernel->is_signed) {
     cs_convolve_range range = range_of(edge);
@@ -223,7 +244,7 @@ static celspan_status put_stretch(cs_scatter *g, const cs_border *edge, const st
   int32_t rest = s->end > 0 ? s->end : 0;
   touch(convolve, rest);
   add_step(g, edge, rest, s->weight);
-  add_shift(g, edge, rest, s->weight - before);
+  add_shift(g, edge, rest, s->weight - (count > 0 ? (double)shares[count - 1] : 0));
   return CELSPAN_OK;
 }
 
