@@ -113,7 +113,6 @@ static celspan_status begin_sub_rows(cs_convolve *convolve, celspan_context *con
 typedef struct mixed_column {
   cs_v4 colour;            /* of the flat colours; then of all */
   cs_convolve_range range; /* of the colours under the kernel */
-  float *out;
 } mixed_column;
 
 typedef struct summing {
@@ -244,12 +243,17 @@ static celspan_status add_term_parts(summing *s, size_t term) {
 
 /* Writes the mixed columns. */
 static celspan_status finish_mixed(summing *s) {
-  for (size_t i = 0; s->mixed_count > 0 && i < s->convolve->term_count; i++)
+  float *colours;
+  int32_t end = s->mixed_from + (int32_t)s->mixed_count;
+  if (s->mixed_count == 0)
+    return CELSPAN_OK;
+  for (size_t i = 0; i < s->convolve->term_count; i++)
     CS_TRY(add_term_parts(s, i));
+  CS_TRY(cs_row_array(s->painter->context, s->out, s->mixed_from, end, &colours));
   for (size_t k = 0; k < s->mixed_count; k++) {
     const mixed_column *m = &s->mixed[k];
     bool is_signed = s->convolve->kernel->is_signed;
-    cs_v4_store(m->out, clamp_alpha(is_signed ? clamp(m->colour, m->range) : m->colour));
+    cs_v4_store(colours + 4 * k, clamp_alpha(is_signed ? clamp(m->colour, m->range) : m->colour));
   }
   s->mixed_count = 0;
   return CELSPAN_OK;
@@ -259,16 +263,14 @@ static celspan_status finish_mixed(summing *s) {
  * programs are cheaper in several columns at once. */
 static celspan_status mix(summing *s, int32_t x0, int32_t x1, cs_convolve_range range) {
   cs_convolve *convolve = s->convolve;
-  float *colours;
-  CS_TRY(cs_row_array(s->painter->context, s->out, x0, x1, &colours));
-  for (int32_t x = x0; x < x1; x++, colours += 4) {
-    if (s->mixed_count == MIXED || x != s->mixed_from + (int32_t)s->mixed_count)
+  for (int32_t x = x0; x < x1; x++) {
+    if (s->mixed_count == MIXED)
       CS_TRY(finish_mixed(s));
     if (s->mixed_count == 0)
       s->mixed_from = x;
     for (size_t i = 0; i < convolve->term_count; i++)
       convolve->weights[i * MIXED + s->mixed_count] = convolve->terms[i].weight;
-    s->mixed[s->mixed_count++] = (mixed_column){flat_sum(s, x), range, colours};
+    s->mixed[s->mixed_count++] = (mixed_column){flat_sum(s, x), range};
   }
   return CELSPAN_OK;
 }
@@ -296,10 +298,11 @@ static celspan_status write(summing *s, int32_t x0, int32_t x1) {
   if (convolve->kernel->is_signed)
     range = cs_convolve_both(range, convolve->near[x0]);
   const cs_program *program = lone_program(s);
+  if (!program && s->varying > 0)
+    return mix(s, x0, x1, range);
+  CS_TRY(finish_mixed(s));
   if (program)
     return cs_painter_run_program(s->painter, program, (cs_run){x0, x1, s->y}, s->out);
-  if (s->varying > 0)
-    return mix(s, x0, x1, range);
   cs_v4 colour = flat_sum(s, x0);
   if (convolve->kernel->is_signed)
     colour = clamp(colour, range);
