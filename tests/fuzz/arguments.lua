@@ -225,13 +225,17 @@ end
 
 -- ---------------------------------------------------------------- calls
 
+--- This file as positions name it: the folder that the project is in may have the library's name.
+local HERE = (debug.getinfo(1, "S").short_src:gsub("%p", "%%%0")) .. ":%d+:"
+
 local function is_sentence(message)
   if message == NASTY or message == "a nasty error" then return true end
   if type(message) ~= "string" then return false, "an error that is not a string" end
   if #message > MOST_MESSAGE then return false, "a message longer than a page" end
+  local said = message:gsub(HERE, "")
   for _, inside in ipairs { "attempt to ", "bad argument", "celspan/[%l_/]+%.lua:", "celspan broke",
     "stack overflow" } do
-    if message:find(inside) and not message:find "nasty" then
+    if said:find(inside) and not message:find "nasty" then
       return false, "a message about the inside"
     end
   end
