@@ -49,7 +49,7 @@ local expected = {
   ["greenscreen"] = "green_screen", ["luma key"] = "green_screen",
   ["erode"] = "lua matte", ["dilate"] = "lua matte", ["keymix"] = "lua matte",
   ["holdout"] = "lua composite", ["stencil"] = "lua composite", ["keylight"] = "green_screen",
-  ["unpremult"] = 'docs/lua.md, "Grades"', ["lut"] = 'docs/lua.md, "Grades"',
+  ["unpremult"] = 'docs/lua.md, "Grades"', ["premultiply"] = 'docs/lua.md, "Grades"', ["lut"] = 'docs/lua.md, "Grades"',
   ["color grading"] = 'docs/lua.md, "Grades"', ["key"] = "lua keys",
   ["picture in picture"] = "picture_in_picture",
   ["precomp"] = 'docs/guide.md, "A composition inside another"', ["lens flare"] = "lua placed:glow",

@@ -26,7 +26,7 @@ local function stem(word)
   local short = word:gsub("([^su])s$", "%1")
   short = short:gsub("^(...+)ing$", "%1"):gsub("^(...+)ed$", "%1")
   if short ~= word then short = short:gsub("([bdgmnprt])%1$", "%1") end
-  return #short > 3 and short:gsub("e$", "") or short
+  return #short > 3 and short:gsub("e$", ""):gsub("y$", "i") or short
 end
 
 --- The words of a text in lower case, except small words.
