@@ -90,7 +90,7 @@ make_npm() {
   mkdir -p "$tree"
   tar -xzf "$dist/$name.tar.gz" -C "$tree" --strip-components=1
   sed "s/@VERSION@/$release/" packaging/npm/package.json.in >"$tree/package.json"
-  cp packaging/npm/README.md "$tree"
+  cp packaging/npm/README.md LICENSE "$tree"
   packed "$work/npm" package "$dist/celspan-$release.tgz"
 }
 

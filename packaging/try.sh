@@ -60,7 +60,8 @@ try_npm() {
   cp packaging/verbs.sh "$place"
   # shellcheck disable=SC2016
   trial "npm, offline" unshare --net sh -c 'cd "$0" && echo "{}" >package.json &&
-    npm install --offline --no-audit --no-fund "$1" && npx --offline celspan init by-npx &&
+    npm install --offline --no-audit --no-fund "$1" && test -s node_modules/celspan/LICENSE &&
+    npx --offline celspan init by-npx &&
     npx --offline celspan render by-npx/film.lua --frames 1 -o one.png --progress none &&
     sh verbs.sh "$0/node_modules/.bin/celspan"' "$place" "$dist/celspan-$release.tgz"
 }
