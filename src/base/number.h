@@ -58,6 +58,14 @@ static inline float cs_number_clampf(float x, float low, float high) {
   return x < low ? low : x > high ? high : x;
 }
 
+/* The nearest number of single precision. Compilers must keep the detour: where gcc 12 rounds two
+ * numbers at once and widens them again, it takes both steps away, as if nothing was rounded. It
+ * compares numbers of lanes and means their bits. */
+static inline double cs_number_single(double x) {
+  volatile float single = (float)x;
+  return (double)single;
+}
+
 /* The row of a table at `at`, 0 .. rows, for interpolation between this row and the next one; the
  * table has rows + 1 rows. At the very end it is the last row but one. */
 static inline int32_t cs_number_row(double at, int32_t rows) {

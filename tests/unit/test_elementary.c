@@ -6,9 +6,11 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/functions.h"
 #include "base/hash.h"
+#include "base/number.h"
 #include "tests/support/check.h"
 #include "tests/support/random.h"
 
@@ -150,8 +152,34 @@ static void check_all_numbers(void) {
     CHECK(cs_function_log2(ldexp(1, i)) == i && cs_function_pow(2, i) == ldexp(1, i));
 }
 
+/* A number of single precision by the bits of a double: 29 of them go, to the nearest even one. */
+static double by_bits(double x) {
+  uint64_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  bits += 0xfffffff + (bits >> 29 & 1);
+  bits &= ~(uint64_t)0x1fffffff;
+  memcpy(&x, &bits, sizeof x);
+  return x;
+}
+
+static void round_both(const double *restrict x, double *restrict rounded) {
+  rounded[0] = cs_number_single(x[0]);
+  rounded[1] = cs_number_single(x[1]);
+}
+
+/* Of neighbours in memory, in a function of its own, as compilers compute two numbers at once. */
+static void check_single(void) {
+  void (*volatile round)(const double *restrict, double *restrict) = round_both;
+  for (int i = 0; i < 1000; i++) {
+    double x[2] = {uniform(-1, 1), uniform(-1e9, 1e9)}, rounded[2];
+    round(x, rounded);
+    CHECK(rounded[0] == by_bits(x[0]) && rounded[1] == by_bits(x[1]));
+  }
+}
+
 int main(void) {
   check_all_numbers();
+  check_single();
   check_angles(10);
   check_angles(1e15);
   check_angles(1e300);

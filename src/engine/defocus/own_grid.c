@@ -21,11 +21,12 @@
 #define PARTS 8       /* the part is rounded to this share of the frame's nodes */
 #define LEAST_STEP 16 /* but at least to this number of nodes */
 
-/* The values of the grid along an axis that follow from the frame. */
+/* The values of the grid along an axis that follow from the frame. Those of single precision are
+ * equal in frames that differ only in the last bits of a product of matrices. */
 typedef struct grid_axis {
   double scale;   /* pixels for one of the cel's units */
-  float turn[2];  /* the direction of the axis in the cel, of length 1 */
-  float radius;   /* in the cel's units */
+  double turn[2]; /* the direction of the axis in the cel, of length 1; of single precision */
+  double radius;  /* in the cel's units; of single precision */
   double density; /* nodes for one of the cel's units */
 } grid_axis;
 
@@ -57,8 +58,8 @@ static void choose_density(const cs_blur *blur, bool varies, grid_axis axes[2], 
   *samples = is_wide ? SAMPLES_FINE : SAMPLES_LEAST;
   for (int k = 0; k < 2; k++) {
     grid_axis *a = &axes[k];
-    double least = nodes_in_radius(blur->kind) / (double)a->radius;
-    double most = SAMPLES_FINE / (double)a->radius;
+    double least = nodes_in_radius(blur->kind) / a->radius;
+    double most = SAMPLES_FINE / a->radius;
     a->density = is_sampled ? cs_number_clamp(class_of(a->scale), least, most) : least;
   }
 }
@@ -69,23 +70,22 @@ static bool find_axis(const celspan_matrix *matrix, const cs_blur *blur, int k, 
   const double *m = matrix->m + 3 * k;
   double radius = cs_defocus_radius(blur, k), least = LEAST_RADIUS;
   out->scale = cs_number_length(m[0], m[1]);
-  out->turn[0] = (float)(m[0] / out->scale);
-  out->turn[1] = (float)(m[1] / out->scale);
-  out->radius = (float)(radius / out->scale);
+  out->turn[0] = cs_number_single(m[0] / out->scale);
+  out->turn[1] = cs_number_single(m[1] / out->scale);
+  out->radius = cs_number_single(radius / out->scale);
   if (blur->kind != CELSPAN_DEFOCUS_GAUSSIAN)
     least = blur->kind == CELSPAN_DEFOCUS_DISC ? NODES_DISC : NODES_BOX;
   return cs_number_is_sane(out->scale) && out->scale > 1 / CS_NUMBER_LIMIT && radius >= least;
 }
 
-/* The blur on the grid, in single precision, so that two blurs are equal if they differ only in the
- * last bits of a product of matrices. */
+/* The blur on the grid: nodes for numbers of single precision. */
 static cs_blur blur_on(const cs_blur *blur, const grid_axis axes[2]) {
   cs_blur out = {.kind = blur->kind,
-                 .radius_x = (double)axes[0].radius * axes[0].density,
-                 .radius_y = (double)axes[1].radius * axes[1].density};
+                 .radius_x = axes[0].radius * axes[0].density,
+                 .radius_y = axes[1].radius * axes[1].density};
   for (int k = 0; k < 4; k++) {
     const grid_axis *a = &axes[k % 2];
-    out.edges[k / 2][k % 2] = (double)(float)(blur->edges[k / 2][k % 2] / a->scale) * a->density;
+    out.edges[k / 2][k % 2] = cs_number_single(blur->edges[k / 2][k % 2] / a->scale) * a->density;
   }
   return out;
 }
@@ -125,8 +125,8 @@ static void find_matrix(const celspan_matrix *placement, const grid_axis axes[2]
   out->matrix = celspan_matrix_identity();
   for (int k = 0; k < 2; k++) {
     const grid_axis *a = &axes[k];
-    out->matrix.m[3 * k] = a->density * (double)a->turn[0];
-    out->matrix.m[3 * k + 1] = a->density * (double)a->turn[1];
+    out->matrix.m[3 * k] = a->density * a->turn[0];
+    out->matrix.m[3 * k + 1] = a->density * a->turn[1];
     out->scale[k] = a->density / a->scale;
     out->offset[k] = -placement->m[3 * k + 2] * out->scale[k];
   }
