@@ -91,9 +91,17 @@ local function check_words(tree, fault)
   return count
 end
 
+local function check_roundings(tree, fault)
+  for _, one in ipairs(house.roundings(tree)) do
+    fault("src/%s: (double)(float), which a compiler may take away: call cs_number_single", one)
+  end
+  return #tree.files
+end
+
 local function check_tree(tree, root, fault)
   return check_functions(tree, fault) + check_circles(tree, fault)
     + check_types(tree, fault) + check_calls(tree, fault)
+    + check_roundings(tree, fault)
     + check_includes(tree, fault) + check_words(tree, fault) + map.check(tree, root, fault)
     + modules.check(root, fault)
 end
