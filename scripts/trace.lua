@@ -1,5 +1,6 @@
--- Trace: a scanned ink drawing becomes shapes. Each is coloured by a point inside it, the tail
--- moves by itself, and the fish swims, sharp at every size.
+-- Trace: a picture of an ink drawing becomes shapes. Each is coloured by a point inside it, the
+-- tail moves by itself, and the fish swims, sharp at every size. A script drew the picture as a
+-- scanner would see the drawing.
 local celspan = require "celspan"
 local trace = require "celspan.trace"
 

@@ -40,8 +40,8 @@ io.write [[
 
 The films of this repository, each with its script to take apart, and with the commands that show
 it and make a video of it. `./run docs` makes this page. [The cookbook](cookbook.md) has shorter
-scripts, one for each task. `celspan init first` writes another film, which is seen here in [celspan
-watch](watch.md), the page that shows a film again each time its script is saved:
+scripts, one for each task. [`celspan watch`](watch.md) shows a film again each time its script is
+saved, here a small film of five shots:
 
 ![the page of celspan watch](pictures/watch.png)
 ]]

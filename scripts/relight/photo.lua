@@ -1,5 +1,5 @@
--- A photograph for scripts/relight.lua: a house on a hill at noon, with film grain, as a picture of
--- floats in memory. Its light is known, because it is drawn here.
+-- Stands for a photograph in scripts/relight.lua: a house on a hill at noon, with film grain, as a
+-- picture of floats in memory. Its light is known, because it is drawn here.
 local celspan = require "celspan"
 
 local photo = { width = 640, height = 360, light = { 1.1, 1.05, 0.9 } }

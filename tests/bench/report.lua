@@ -31,7 +31,10 @@ local function drawings_and_films()
 
 Antialiased, to 8-bit pixels, one thread. A figure is the time of the fastest of Skia, AGG, Qt and
 Cairo divided by celspan's, and its name: at 2, celspan takes half the time; below 1, the other is
-faster. 1k is 1024 pixels a side, 2k 2048, 4k 4096, 30k 30,000, 1M a million.
+faster. Blend2D is not one of the four, because Debian has no package of it. Its published times,
+from another machine, are shorter than theirs, and at 1k several times shorter than celspan's: see
+the [plots](#scaling-with-size). 1k is 1024 pixels a side, 2k 2048, 4k 4096, 30k 30,000, 1M a
+million.
 ]]
   films.first(page)
   shapes.ratios(page)
