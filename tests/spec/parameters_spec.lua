@@ -168,6 +168,10 @@ return celspan.film { size = { 8, 8 }, frame = function() return celspan.rostrum
       ["side = { 'a', 'b', 'a' }"] = "'side' has the choice \"a\" twice",
       ["tint = { colour = 'red' }"] =
         "'tint' has the default 'red', which is not a colour, such as \"#f80\" or \"#ff8800\"",
+      ["speed = { 1, mni = 0 }"] =
+        "'speed' is a number, which has no field 'mni'; did you mean 'min'?",
+      ["side = { 'a', 'b', grop = 'x' }"] =
+        "'side' is a choice, which has no field 'grop'; did you mean 'group'?",
       ["speed = { 1, most = 4 }"] = "'speed' is a number, which has no field 'most'",
       ["['a-b'] = 1"] = "'a-b' is not a name: letters, digits and _, not beginning with a digit",
       ["[setmetatable({}, { __tostring = print })] = 1"] =

@@ -135,11 +135,25 @@ local known = { number = { 1, min = 1, max = 1 }, boolean = { 1 }, text = { 1 },
                 point = { 1, 1, point = 1 } }
 local common = { about = "a string", group = "a string" } -- fields of all kinds
 
+--- "; did you mean 'min'?", or nothing if no field is near.
+local function hint_of(kind, field)
+  local names = {}
+  for _, list in ipairs { known[kind], common } do
+    for one in pairs(list) do
+      if type(one) == "string" then names[#names + 1] = one end
+    end
+  end
+  table.sort(names)
+  local hint = type(field) == "string" and core.nearest(field, names)
+  return hint and ("; did you mean '%s'?"):format(hint) or ""
+end
+
 local function check_names(name, kind, given)
   for field in pairs(given) do
     if not (known[kind][field] or common[field])
       and not (kind == "choice" and math.type(field) == "integer") then
-      refuse(name, "is a %s, which has no field '%s'", kind, fields.key(field))
+      refuse(name, "is a %s, which has no field '%s'%s", kind, fields.key(field),
+        hint_of(kind, field))
     end
   end
 end
