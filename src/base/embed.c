@@ -15,8 +15,12 @@ static void stop(const char *what, const char *path) {
 }
 
 static bool is_text(const char *path) {
+  static const char *const others[] = {".luac", ".ttf", ".wav"};
   const char *dot = strrchr(path, '.');
-  return !dot || strcmp(dot, ".luac") != 0;
+  for (size_t i = 0; dot && i < sizeof others / sizeof *others; i++)
+    if (strcmp(dot, others[i]) == 0)
+      return false;
+  return true;
 }
 
 /* The bytes of a file and the final zero, as an initialiser. */

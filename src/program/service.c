@@ -185,10 +185,13 @@ static int refuse_rights(lua_State *L) {
   return 0;
 }
 
-/* text(name) -> a text of verbs/ */
+/* text(name) -> a text of verbs/, or nil */
 static int push_text(lua_State *L) {
   const cs_built_in *text = cs_built_in_find(cs_verb_texts, luaL_checkstring(L, 1));
-  lua_pushlstring(L, text->bytes, text->size);
+  if (text)
+    lua_pushlstring(L, text->bytes, text->size);
+  else
+    lua_pushnil(L);
   return 1;
 }
 

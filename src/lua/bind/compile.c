@@ -1,11 +1,13 @@
-/* Build tool: files in Lua as bytecode of the Lua that it is linked with.
+/* Build tool: files in Lua as bytecode of the Lua that it is linked with, or what they print.
  *
  *   compile FOLDER CHUNK FILE ...   base/json.lua as CHUNK becomes FOLDER/json.luac
+ *   compile FILE                    runs it; LUA_PATH is where it requires from
  *
  * A file begins with the release of Lua and a zero. Nothing is stripped, so that errors have the
  * same lines and names as those of the text.
  */
 #include <lauxlib.h>
+#include <lualib.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -55,10 +57,18 @@ static void dump(lua_State *L, const char *folder, const char *chunk) {
     stop("cannot write", path);
 }
 
+static void run(lua_State *L, const char *path) {
+  luaL_openlibs(L);
+  if (luaL_dofile(L, path) != LUA_OK)
+    stop("cannot run", lua_tostring(L, -1));
+}
+
 int main(int argument_count, char **arguments) {
   lua_State *L = luaL_newstate();
-  if (!L || argument_count < 4 || argument_count % 2)
-    stop("usage:", "compile FOLDER CHUNK FILE ...");
+  if (!L || argument_count == 1 || argument_count % 2)
+    stop("usage:", "compile FOLDER CHUNK FILE ..., or compile FILE");
+  if (argument_count == 2)
+    run(L, arguments[1]);
   for (int i = 2; i < argument_count; i += 2) {
     load(L, arguments[i], arguments[i + 1]);
     dump(L, arguments[1], arguments[i]);

@@ -2,9 +2,8 @@
 --
 --   project/ --@NAME@, @ANNOTATIONS@ replaced--> NAME/...
 --
--- No existing file is replaced: the folder must be new or empty. The sound is computed by the
--- project's own program, and the picture that the spec compares the film with is rendered from the
--- film itself, so that the tests pass from the start.
+-- No existing file is replaced: the folder must be new or empty. The project's own program computes
+-- the sound: when celspan is built, or here if celspan was built on another kind of machine.
 local program, request = ...
 
 local NAME_MOST, PATH_MOST = 100, 2047
@@ -14,7 +13,7 @@ local texts = { -- by the names of the files
   ["timing.lua"] = "timing.lua", ["tune.lua"] = "tune.lua",
   ["spec/film_spec.lua"] = "film_spec.lua", ["README.md"] = "README.md",
   [".luarc.json"] = "luarc.json", [".luacheckrc"] = "luacheckrc", [".busted"] = "busted",
-  [".gitignore"] = "gitignore",
+  [".gitignore"] = "gitignore", ["type/block.ttf"] = "block.ttf",
   [".vscode/tasks.json"] = "tasks.json", [".vscode/extensions.json"] = "extensions.json",
 }
 
@@ -61,13 +60,7 @@ local function printed(file)
   return table.concat(pieces)
 end
 
-program.save(folder .. "/tune.wav", printed "tune.lua")
-local film = program.film(folder .. "/film.lua")
-for _, mark in ipairs(film.marks) do
-  if mark.name == "catch" then
-    program.write(program.still(film, film:at(mark.frame)), folder .. "/spec/catch.png")
-  end
-end
+program.save(folder .. "/tune.wav", program.text "tune.wav" or printed "tune.lua")
 local shown = folder:find "[^%w_./-]" and ("'%s'"):format(folder) or folder -- for a shell
 print(("%s: a film of six seconds, with its sound and its spec\n  cd %s\n"
   .. "  celspan watch film.lua\n  celspan render film.lua -o out/film.mp4\n"

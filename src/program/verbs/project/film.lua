@@ -3,7 +3,7 @@
 --   celspan watch film.lua                     in the browser, while you change it
 --   celspan render film.lua -o out/film.mp4    needs ffmpeg
 --
--- For letters, copy a font file into this folder: README.md says which are there to copy.
+-- Letters: celspan.text { "Hello", font = "type/block.ttf", size = 60, at = { 100, 100 } }
 local celspan = require "celspan"
 local ease = require "celspan.ease"
 local multiplane = require "celspan.multiplane"

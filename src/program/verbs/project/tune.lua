@@ -1,7 +1,7 @@
 -- Computes the tune of the film, a WAV, in plain Lua:  lua5.4 tune.lua > tune.wav
 local when = require "timing"
 
-local RATE, TAU = 24000, 2 * math.pi
+local RATE, TAU = 16000, 2 * math.pi
 local samples = {}
 for i = 1, when.length * RATE do samples[i] = 0 end
 
