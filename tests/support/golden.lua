@@ -63,9 +63,9 @@ local function lines_of(asked)
 end
 
 --- The digests of the frames in order: workers end in any order.
-local function ask_render(arguments)
+local function ask_render(arguments, program)
   local lines, message = lines_of(("%s render %s --hash --progress none")
-    :format(command, arguments))
+    :format(program or command, arguments))
   if not lines then return nil, message end
   table.sort(lines, function(a, b) return tonumber(a:match "%S+") < tonumber(b:match "%S+") end)
   return table.concat(lines, "\n") .. "\n"
@@ -78,10 +78,11 @@ local function ask_example(arguments)
   return lines[1]:match "%x+" .. "\n"
 end
 
---- The current answer to a question; nil and a message if it fails.
-function golden.answer(question)
+--- The current answer to a question; nil and a message if it fails. program: another celspan that
+--- is asked, unless the question is of an example.
+function golden.answer(question, program)
   local kind, arguments = question:match "^(%S+) (.*)$"
-  return (kind == "example" and ask_example or ask_render)(arguments)
+  return (kind == "example" and ask_example or ask_render)(arguments, program)
 end
 
 --- Whether a question needs a module that was not built.
@@ -91,11 +92,16 @@ function golden.lacks_module(question)
   return shipped.lacks_module(script) or script:find "/text/" and not present.art()
 end
 
---- Representative frames of a film: the first, one in the middle, the last.
-local function frames_of(script)
+--- The numbers of a film's first and last frame.
+local function ends_of(script)
   local told = assert(lines_of(("%s info %s"):format(command, script)))
   local text = table.concat(told, "\n")
-  local first, last = tonumber(text:match "first (%-?%d+)"), tonumber(text:match "last (%-?%d+)")
+  return tonumber(text:match "first (%-?%d+)"), tonumber(text:match "last (%-?%d+)")
+end
+
+--- Representative frames of a film: the first, one in the middle, the last.
+local function frames_of(script)
+  local first, last = ends_of(script)
   if last - first < 2 then return ("%d-%d"):format(first, last) end
   return ("%d,%d,%d"):format(first, (first + last) // 2, last)
 end
@@ -113,6 +119,18 @@ function golden.drawn()
   for _, case in ipairs(golden.cases()) do
     local path = case .. ".lua"
     list[#list + 1] = { path, function() return ("render %s --allow scripts"):format(path) end }
+  end
+  return list
+end
+
+--- Questions for every script that ships, in frames so wide that loops of each width of the
+--- processor's instructions have whole blocks and a rest.
+function golden.wide()
+  local list = {}
+  for _, path in ipairs(shipped.scripts()) do
+    local script = path .. shipped.options(path)
+    local frames = ("%d-%d:19"):format(ends_of(script))
+    list[#list + 1] = ("render %s --size 640x360 --frames %s"):format(script, frames)
   end
   return list
 end
