@@ -13,6 +13,8 @@
 #   aarch64      another processor, in emulation, with Debian's libraries for the modules
 #   armhf        likewise
 #   i386         likewise, but not in emulation where the kernel runs its programs
+#   memory       this processor, in clang's memory sanitizer, which reports every branch and write
+#                that depends on memory that was never written; only if it is named
 #
 # --sample: one question in ten.
 set -u -o pipefail
@@ -47,7 +49,7 @@ options() {
   echo -Dpictures=disabled -Dcolour=disabled -Dweb=disabled -Dtests=false -Doptimization=1 \
     -Ddebug=false
   case $1 in
-  musl | wasm | windows) echo -Dmodules=false -Draster=disabled -Dart=disabled ;;
+  musl | wasm | windows | memory) echo -Dmodules=false -Draster=disabled -Dart=disabled ;;
   *) echo -Draster=enabled -Dart=enabled ;;
   esac
   # Meson takes the version of emcc for one of clang that does not know C17, which it is set to.
@@ -57,7 +59,7 @@ options() {
 # build PLATFORM: quietly, unless it fails.
 build() {
   local folder=$out/$1/build log=$out/$1/log targets=("${programs[@]}")
-  [[ $1 =~ musl|wasm|windows ]] || targets+=(examples/example_{painting,letters}
+  [[ $1 =~ musl|wasm|windows|memory ]] || targets+=(examples/example_{painting,letters}
     src/plugins/raster/celspan-raster.so src/plugins/type/celspan-art.so)
   [ "$1" != wasm ] || targets=("${targets[@]/%/.js}")
   [ "$1" != windows ] || targets=("${targets[@]/%/.exe}")

@@ -49,8 +49,10 @@ static void blend_all(const blending *b, celspan_blend mode, cs_over_row_state *
   }
 }
 
-void CS_WIDE(cs_over_row_blend)(const cs_over_row_state *source, int32_t count, float fade,
+void CS_WIDE(cs_over_row_blend)(cs_over_row_state *source, int32_t count, float fade,
                                 celspan_blend mode, float keep, cs_over_row_state *back) {
+  cs_over_wide_clear_rest(source->t, count);
+  cs_over_wide_clear_rest(back->t, count);
   const blending b = {source, fade, keep, count};
   if (mode == CELSPAN_BLEND_ADD)
     add_all(&b, back);

@@ -40,6 +40,7 @@ void CS_WIDE(cs_over_row_key)(cs_over_row_state *state, int32_t count, const cs_
     const cs_wide e = (cs_wide)((cs_wide_int)cs_wide_load(state->e[i]) & rgb);
     cs_wide_store(colours[i], cs_keying_lanes_straight(e, there_at(state, i)));
   }
+  cs_over_wide_clear_rest(colours, count);
   convert(space, CELSPAN_SPACE_SRGB, count, colours);
   for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
     cs_wide_store(stays[i], cs_keying_lanes_stays(key, cs_wide_load(colours[i])));

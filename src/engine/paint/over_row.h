@@ -141,7 +141,7 @@ CS_WIDE_DECLARE(void, cs_over_row_matte,
                 (const cs_over_row_state *head, int32_t count, const cs_group *group, float fade,
                  cs_over_row_state *art));
 CS_WIDE_DECLARE(void, cs_over_row_to_rgba,
-                (const cs_over_row_state *state, int32_t count, float keep, float (*rgba)[4]));
+                (cs_over_row_state * state, int32_t count, float keep, float (*rgba)[4]));
 
 /* ---- over_key_wide.c */
 
@@ -156,5 +156,5 @@ CS_WIDE_DECLARE(void, cs_over_row_key,
  * backdrop. keep: the share of transparency that the mattes of back lights leave in the
  * backdrop. */
 CS_WIDE_DECLARE(void, cs_over_row_blend,
-                (const cs_over_row_state *source, int32_t count, float fade, celspan_blend mode,
+                (cs_over_row_state * source, int32_t count, float fade, celspan_blend mode,
                  float keep, cs_over_row_state *back));

@@ -173,8 +173,9 @@ static inline cs_wide to_rgba(cs_wide e, cs_wide t, float keep) {
   return cs_wide_choose(colours, e, 1 - keep * cs_over_wide_mean(t));
 }
 
-void CS_WIDE(cs_over_row_to_rgba)(const cs_over_row_state *state, int32_t count, float keep,
+void CS_WIDE(cs_over_row_to_rgba)(cs_over_row_state *state, int32_t count, float keep,
                                   float (*rgba)[4]) {
+  cs_over_wide_clear_rest(state->t, count);
   for (int32_t i = 0; i < count; i += CS_OVER_WIDE_PIXELS)
     cs_over_wide_put(to_rgba(cs_wide_load(state->e[i]), cs_wide_load(state->t[i]), keep), i, count,
                      rgba);

@@ -28,3 +28,10 @@ static inline void cs_over_wide_put(cs_wide colour, int32_t i, int32_t count, fl
   else
     memcpy(rgba[i], &colour, (size_t)(count - i) * sizeof *rgba);
 }
+
+/* Sets the pixels after the last one of a row to 0, as far as its last register goes: nobody has
+ * written them, and a register may be asked whether any of its pixels has a property. */
+static inline void cs_over_wide_clear_rest(float (*row)[4], int32_t count) {
+  for (int32_t i = count; i % CS_OVER_WIDE_PIXELS != 0; i++)
+    memset(row[i], 0, sizeof *row);
+}
