@@ -265,6 +265,38 @@ describe("an offset", function()
     assert.same({ true, true }, { holds("round", -7, -7), holds("bevel", -4.9, -4.9) })
   end)
 
+  --- How many of 100 by 100 pixels an object contains, once it is offset with sharp corners.
+  local function offset_area(object, distance)
+    local count = 0
+    object = celspan.offset(object, distance, { join = "miter" })
+    for y = 0, 99 do
+      for x = 0, 99 do count = count + (object:contains(x + 0.5, y + 0.5) and 1 or 0) end
+    end
+    return count
+  end
+
+  it("moves what is taken away the other way", function()
+    local ring = rect(10, 10, 80, 80) - rect(40, 40, 20, 20)
+    assert.same({ 86 * 86 - 14 * 14, 74 * 74 - 26 * 26 }, { offset_area(ring, 3),
+      offset_area(ring, -3) })
+    local nested = rect(0, 0, 100, 100) - ring
+    assert.same({ 100 * 100 - 74 * 74 + 26 * 26, 94 * 94 - 86 * 86 + 14 * 14 },
+      { offset_area(nested, 3), offset_area(nested, -3) })
+  end)
+
+  it("of an exclusive or moves all its outlines, and paints each place once", function()
+    local function both(texture)
+      return celspan.xor { rect(10, 10, 40, 40, texture), rect(30, 30, 40, 40, texture) }
+    end
+    assert.same({ 2 * 46 * 46 - 26 * 26 - 14 * 14, 2 * (34 * 34 - 20 * 20) },
+      { offset_area(both(), 3), offset_area(both(), -3) })
+    local pale = celspan.offset(both(celspan.rgb(1, 0, 0, 0.5)), 3)
+    for _, x in ipairs { 8, 20, 28, 32 } do
+      close(0.5, select(4, celspan.probe(celspan.rostrum { celspan.cel { pale } }, x, 20,
+        { film = { 80, 80 } })), 1e-6)
+    end
+  end)
+
   it("paints a translucent shape once", function()
     local shape = celspan.offset(rect(20, 20, 40, 40, celspan.rgb(1, 0, 0, 0.5)), 10)
     for _, x in ipairs { 12, 25, 40 } do

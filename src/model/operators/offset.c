@@ -271,10 +271,62 @@ static celspan_status grow_primitive(const growing *g, const cs_primitive_data *
 static celspan_status grow(const growing *g, celspan_object *object, const celspan_matrix *around,
                            celspan_object **out);
 
-/* The first operand of a shape that a pattern fills is the plane of the pattern. */
+/* All points within the distance of an object's outline. */
+static celspan_status make_rim_of(const growing *g, celspan_object *object,
+                                  const celspan_matrix *matrix, celspan_object **out) {
+  const growing more = {g->context, fabs(g->distance), g->join, g->limit},
+                less = {g->context, -fabs(g->distance), g->join, g->limit};
+  celspan_object *outer, *inner;
+  CS_TRY(grow(&more, object, matrix, &outer));
+  celspan_status status = grow(&less, object, matrix, &inner);
+  if (status == CELSPAN_OK)
+    return combine(g, CELSPAN_OPERATOR_DIFFERENCE, outer, inner, out);
+  celspan_object_unref(outer);
+  return status;
+}
+
+/* parts: the exclusive or itself, in its place, and the rims. What lies in a rim and not in the
+ * exclusive or is added when it grows. */
+static celspan_status join_rims(const growing *g, celspan_object *const *parts, size_t count,
+                                celspan_object **out) {
+  celspan_object *rims;
+  if (g->distance < 0)
+    return celspan_object_create_boolean(g->context, CELSPAN_OPERATOR_DIFFERENCE, parts, count,
+                                         out);
+  CS_TRY(celspan_object_create_boolean(g->context, CELSPAN_OPERATOR_UNION, parts + 1, count - 1,
+                                       &rims));
+  CS_TRY(combine(g, CELSPAN_OPERATOR_DIFFERENCE, rims, celspan_object_ref(parts[0]), &rims));
+  return combine(g, CELSPAN_OPERATOR_UNION, rims, celspan_object_ref(parts[0]), out);
+}
+
+/* The outline of an exclusive or is that of all its operands. */
+static celspan_status grow_xor(const growing *g, const cs_boolean *boolean,
+                               const celspan_matrix *matrix, celspan_object **out) {
+  celspan_context *context = g->context;
+  const size_t count = boolean->operand_count + 1;
+  celspan_object *shape, **parts = cs_mem_array(context->memory, count, sizeof *parts);
+  if (!parts)
+    return cs_fail_memory(context);
+  celspan_status status =
+      cs_boolean_like(context, boolean, boolean->operands, boolean->operand_count, &shape);
+  if (status == CELSPAN_OK) {
+    status = celspan_object_transform(context, shape, matrix, &parts[0]);
+    celspan_object_unref(shape);
+  }
+  for (size_t i = 1; status == CELSPAN_OK && i < count; i++)
+    status = make_rim_of(g, boolean->operands[i - 1], matrix, &parts[i]);
+  if (status == CELSPAN_OK)
+    status = join_rims(g, parts, count, out);
+  cs_primitive_data_list_free(context->memory, parts, count);
+  return status;
+}
+
+/* The first operand of a shape that a pattern fills is the plane of the pattern. What is taken away
+ * moves the other way. */
 static celspan_status grow_boolean(const growing *g, const cs_boolean *boolean,
                                    const celspan_matrix *matrix, celspan_object **out) {
   celspan_context *context = g->context;
+  const growing taken = {context, -g->distance, g->join, g->limit};
   size_t count = boolean->operand_count;
   celspan_object **operands = cs_mem_array(context->memory, count, sizeof *operands);
   if (!operands && count > 0)
@@ -284,7 +336,8 @@ static celspan_status grow_boolean(const growing *g, const cs_boolean *boolean,
     if (boolean->is_filled && i == 0)
       status = celspan_object_transform(context, boolean->operands[i], matrix, &operands[i]);
     else
-      status = grow(g, boolean->operands[i], matrix, &operands[i]);
+      status = grow(boolean->op == CELSPAN_OPERATOR_DIFFERENCE && i > 0 ? &taken : g,
+                    boolean->operands[i], matrix, &operands[i]);
   }
   if (status == CELSPAN_OK && boolean->is_filled)
     status = cs_pattern_refill(context, operands[1], &operands[0]);
@@ -318,9 +371,13 @@ static celspan_status grow(const growing *g, celspan_object *object, const celsp
   const cs_primitive_data *data = object->data;
   const celspan_matrix matrix = celspan_matrix_then(*object->matrix, *around);
   celspan_object *made = NULL;
-  celspan_status status = data->kind == CS_PRIMITIVE_DATA_BOOLEAN
-                              ? grow_boolean(g, data->boolean, &matrix, &made)
-                              : grow_primitive(g, data, &matrix, &made);
+  celspan_status status;
+  if (data->kind != CS_PRIMITIVE_DATA_BOOLEAN)
+    status = grow_primitive(g, data, &matrix, &made);
+  else if (data->boolean->op == CELSPAN_OPERATOR_XOR)
+    status = grow_xor(g, data->boolean, &matrix, &made);
+  else
+    status = grow_boolean(g, data->boolean, &matrix, &made);
   if (status == CELSPAN_OK)
     status = finish(g, object, &made);
   return CS_GIVE(status, made, celspan_object_unref, out);
