@@ -241,6 +241,32 @@ describe("footage", function()
     assert(#codes > 40 * W * H * 4, said)
   end)
 
+  it_decodes("says how many pictures are missing where a container counts them", function()
+    local function cut(name, share)
+      local whole = bench:read(name)
+      bench:write(name, whole:sub(1, math.floor(#whole * share)))
+    end
+    make(bench, "a.mp4", TEST(24, 2) .. X264 "yuv420p" .. "-movflags +faststart")
+    make(bench, "a.avi", TEST(24, 2) .. "-c:v mjpeg")
+    make(bench, "one.mp4", "-f lavfi -i testsrc=s=64x36:r=24:d=1 " .. X264 "yuv420p"
+      .. "-movflags +faststart")
+    local whole = bench:read "a.mp4"
+    local at = assert(whole:find("elst", 1, true)) + 12
+    bench:write("trimmed.mp4", whole:sub(1, at - 1) .. (">I4"):pack(1000) .. whole:sub(at + 4))
+    local _, said = render(bench, "trimmed.mp4", "frame")
+    assert.matches("^64 36 24%.0000 24 1%.000 ", said)
+    cut("a.mp4", 0.7)
+    cut("a.avi", 0.5)
+    cut("one.mp4", 2 / 3)
+    fails("a.mp4", "the movie a.mp4 ends early: it has %d+ of the 48 pictures that it counts; ")
+    fails("a.avi", "the movie a.avi ends early: it has %d+ of the 48 pictures that it counts; ")
+    for _, verb in ipairs { "info one.mp4", "check --trust film.lua -- one.mp4 frame" } do
+      local code, _, err = bench:celspan_inside(verb)
+      assert.equal(4, code, verb .. err)
+      assert.matches("one.mp4 ends early: it has %d+ of the 24 pictures", err)
+    end
+  end)
+
   it_decodes("refuses what is not a movie with pictures, in one sentence", function()
     make(bench, "sound.mp4", "-f lavfi -i sine=d=1 -c:a aac")
     fails("sound.mp4", "the movie sound.mp4 has no moving pictures, only sound")

@@ -27,7 +27,9 @@ typedef struct reading {
   packet *packets;
   size_t count, capacity;
   bool lacks_time[STREAMS]; /* of streams: a packet has no time */
+  int64_t seen[STREAMS];    /* packets of streams, also of pictures that an edit list leaves out */
   int video;                /* the stream of the movie; -1: not found yet */
+  int64_t promised, length; /* of it: pictures, and ticks of all that are shown; 0: not given */
   char line[LINE];
   size_t size; /* of the line */
   bool is_long;
@@ -83,6 +85,7 @@ static celspan_status add_packet(reading *r, const char *line) {
   char flags[8] = "";
   if (!find_number(line, "stream_index", &stream) || stream < 0 || stream >= STREAMS)
     return CELSPAN_OK;
+  r->seen[stream]++;
   find_text(line, "flags", flags, sizeof flags);
   if (strchr(flags, 'D'))
     return CELSPAN_OK;
@@ -125,6 +128,8 @@ static void read_video(reading *r, const char *line) {
   find_text(line, "color_transfer", out->transfer, sizeof out->transfer);
   find_text(line, "chroma_location", out->site, sizeof out->site);
   find_text(line, "color_range", out->range, sizeof out->range);
+  find_number(line, "nb_frames", &r->promised);
+  find_number(line, "duration_ts", &r->length);
   out->has_alpha = alpha == 1;
   out->turns = turns_of(line);
 }
@@ -223,7 +228,19 @@ static celspan_status take_pictures(reading *r) {
   return CELSPAN_OK;
 }
 
-static celspan_status check(reading *r) {
+/* Whether the file lacks pictures that its container counts. Those that an edit list leaves out may
+ * lack, too, but do not count in the length. The length of an avi is that of what is there, and its
+ * count is often wrong by one. */
+static bool ends_early(const reading *r, const char *kind) {
+  const cs_listing *out = r->out;
+  const int64_t missing = r->promised - r->seen[r->video];
+  if (strcmp(kind, "avi") == 0)
+    return missing > 1;
+  const int64_t shown = out->pictures[out->count - 1].time - out->pictures[0].time + out->last;
+  return missing > 0 && shown < r->length && shown + out->last <= r->length;
+}
+
+static celspan_status check(reading *r, const char *kind) {
   const cs_listing *out = r->out;
   const char *path = r->path;
   if (r->video < 0)
@@ -240,6 +257,11 @@ static celspan_status check(reading *r) {
                        ? "not all of its pictures have a time; pack it again: "
                          "ffmpeg -fflags +genpts -i FILE -c copy FILE.mkv"
                        : "it has no pictures; it ends before the first one");
+  if (ends_early(r, kind))
+    return cs_fail(r->context, CELSPAN_INPUT,
+                   "the movie %s ends early: it has %lld of the %lld pictures that it counts; copy "
+                   "the file again, or keep what is there: ffmpeg -i FILE -c copy FILE.mkv",
+                   path, (long long)r->seen[r->video], (long long)r->promised);
   return CELSPAN_OK;
 }
 
@@ -258,7 +280,7 @@ celspan_status cs_listing_read(celspan_context *context, const char *path, const
   if (status == CELSPAN_OK)
     status = read_all(r, &media);
   if (status == CELSPAN_OK)
-    status = check(r);
+    status = check(r, file->kind);
   cs_media_close(&media);
   cs_mem_free(context->memory, r->packets, r->capacity * sizeof *r->packets);
   cs_mem_free(context->memory, r, sizeof *r);
