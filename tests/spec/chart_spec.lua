@@ -195,7 +195,13 @@ describe("a chart", function()
                                                                        y = "v" },
       ["data[1] must be a row with the field 'x', got number"] = one { x = "x" },
       ["data[1].x must be a text or a finite number, at most 1e12, got nil"] = one {
-        data = { { v = 1 } }, x = "x", y = "v" },
+        data = { { v = 1 }, { x = 1 } }, x = "x", y = "v" },
+      ["no row of 'data' has a field 'N'; did you mean 'n'?"] = one {
+        data = { { day = "Mon", m = 2, n = 3 }, { n = 4 } }, x = "day", y = "N" },
+      ["no row of 'data' has a field 'dey'; did you mean 'day'?"] = one {
+        data = { { day = "Mon", n = 3 } }, x = "dey", y = "n" },
+      ["no row of 'data' has a field 'tons'; there are day, n"] = one {
+        data = { { day = "Mon", n = 3 } }, y = { "n", "tons" } },
       ["field 'y' must be the name of a field of the rows, or a list of names"] = one { y = {} },
       ['a chart of the kind "bar" shows at most 1000 rows, got 1001'] = one { data = long },
       ["the box must have a width and a height above 0, got 100 by 0"] = one {

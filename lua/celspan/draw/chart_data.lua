@@ -15,6 +15,23 @@ local MOST = 1e12 -- as everywhere in celspan
 
 local function refuse(text, ...) core.refuse("chart: " .. text:format(...)) end
 
+--- Refuses a field that no row has. Rows that are no tables are refused by their number.
+local function check_field(rows, field)
+  local names, is_named = {}, {}
+  for i = 1, rawlen(rows) do
+    if type(rows[i]) ~= "table" or rows[i][field] ~= nil then return end
+    for name in pairs(rows[i]) do
+      if type(name) == "string" and not is_named[name] then
+        names[#names + 1], is_named[name] = name, true
+      end
+    end
+  end
+  table.sort(names)
+  local hint = core.nearest(field, names)
+  refuse("no row of 'data' has a field '%s'%s", field, hint and ("; did you mean '%s'?"):format(hint)
+    or #names > 0 and "; there are " .. table.concat(names, ", ") or "")
+end
+
 --- The value of a row in a field; without a field, the row itself.
 local function value_of(row, i, field)
   if field and type(row) ~= "table" then
@@ -94,8 +111,10 @@ function data.read(given, most)
   if total > most then
     refuse("a chart of the kind %q shows at most %d rows, got %d", given.kind, most, total)
   end
+  if given.x then check_field(rows, given.x) end
   for k, field in ipairs(fields_of(given.y)) do
     local values = {}
+    if field then check_field(rows, field) end
     for i = 1, total do values[i] = value_of(rows[i], i, field) end
     series[k] = { name = field or "", values = values }
   end

@@ -2,6 +2,7 @@
 
 #include <stdbool.h>
 #include <string.h>
+#include <strings.h>
 
 #define LONGEST 32
 
@@ -85,6 +86,9 @@ const char *cs_suggest_name(const char *word, const char *const *names, size_t c
   const char *other = find_other(word, names, count);
   if (other)
     return other;
+  for (size_t i = 0; i < count; i++)
+    if (strcasecmp(word, names[i]) == 0)
+      return names[i];
   const char *best = NULL;
   /* one mistake in a short word, two in a longer one */
   int best_distance = (int)strlen(word) <= 4 ? 2 : 3;
