@@ -341,7 +341,11 @@ void celspan_context_set_origin(celspan_context *context, const char *source, in
     at->line = 0;
 }
 
-const char *celspan_context_error(const celspan_context *context) { return context->error; }
+const char *celspan_context_error(const celspan_context *context) {
+  return context ? context->error
+                 : "there is no context: celspan_context_create makes one, and celspan_lua_open "
+                   "opens celspan in a Lua state";
+}
 
 void celspan_context_memory(const celspan_context *context, size_t *bytes, size_t *peak_bytes,
                             uint64_t *allocations) {

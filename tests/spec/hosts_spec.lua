@@ -153,6 +153,19 @@ describe("a host", function()
   local in_cpp = present.program "c++" and it or pending
   in_cpp("in C++ draws the same #plain", function() compiled("cpp", "c++ -std=c++17 -x c++") end)
 
+  local with_config = present.program "pkg-config" and it or pending
+  with_config("is built against the build folder by pkg-config alone #plain", function()
+    for source, run in pairs {
+      hello = "%s/hello %s/found.png && cmp %s/c.png %s/found.png",
+      host = "%s/host scripts/booleans.lua 32 18 >%s/found.ppm && head -c 2 %s/found.ppm %s/found.ppm",
+    } do
+      good("cc examples/%s.c -o %s/%s $(PKG_CONFIG_PATH=%s/meson-uninstalled pkg-config --cflags "
+        .. "--libs %s)", source, folder, source, BUILD,
+        source == "host" and "celspan-lua" or "celspan")
+      good(run, folder, folder, folder, folder)
+    end
+  end)
+
   local in_clang = present.program "clang" and it or pending
   in_clang("of Microsoft's compiler reads the headers: no attributes of GNU's", function()
     for _, language in ipairs { "c -std=c17", "c++ -std=c++17" } do

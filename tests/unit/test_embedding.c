@@ -216,6 +216,25 @@ static void check_procedures(void) {
   close_host(&h);
 }
 
+static void check_unready_states(void) {
+  memory_watch watch = {0};
+  celspan_context *context = memory_watch_context(&watch);
+  lua_State *L = luaL_newstate();
+  CHECK(celspan_lua_run(L, "film.lua", 0, NULL) == CELSPAN_BAD_ARGUMENT);
+  CHECK(celspan_lua_sandbox(L, NULL) == CELSPAN_BAD_ARGUMENT);
+  CHECK_TEXT(celspan_context_error(celspan_lua_context(L)),
+             "there is no context: celspan_context_create makes one, and celspan_lua_open opens "
+             "celspan in a Lua state");
+  CHECK(celspan_lua_open(L, context) == CELSPAN_OK);
+  CHECK(celspan_lua_run(L, "scripts/booleans.lua", 0, NULL) == CELSPAN_CALLBACK);
+  CHECK_TEXT(celspan_context_error(context),
+             "the Lua state has no library 'package', with which scripts find celspan: call "
+             "luaL_openlibs or celspan_lua_sandbox before celspan_lua_run");
+  CHECK(lua_gettop(L) == 0);
+  lua_close(L);
+  celspan_context_destroy(context);
+}
+
 static void check_faults(void) {
   host h, other;
   celspan_frame_desc frame = CELSPAN_FRAME_DESC;
@@ -531,6 +550,7 @@ int main(void) {
   check_rostrums();
   check_procedures();
   check_faults();
+  check_unready_states();
   check_sandbox();
   check_own_context();
   check_memory(false);

@@ -155,7 +155,7 @@ CELSPAN_API CELSPAN_CHECKED celspan_status celspan_context_create(const celspan_
                                                                   celspan_context **out);
 /* Scene values may outlive their context. NULL is ignored. */
 CELSPAN_API void celspan_context_destroy(celspan_context *context);
-/* The sentence of the last failure in this context, "" before any. Valid until the next call. */
+/* The last failure in a sentence, "" before any; of NULL, what lacks. Valid until the next call. */
 CELSPAN_API const char *celspan_context_error(const celspan_context *context);
 /* Records a sentence and returns `status`: for sinks and callbacks that fail. */
 CELSPAN_API celspan_status celspan_context_fail(celspan_context *context, celspan_status status,

@@ -64,7 +64,9 @@ bool cs_lua_script_accepts(const char *path) {
 
 /* Puts `before` in front of package[field] and removes the current directory from it. */
 static void set_path(lua_State *L, const char *field, const char *before, const char *const *here) {
-  lua_getglobal(L, "package");
+  if (lua_getglobal(L, "package") != LUA_TTABLE)
+    luaL_error(L, "the Lua state has no library 'package', with which scripts find celspan: call "
+                  "luaL_openlibs or celspan_lua_sandbox before celspan_lua_run");
   int package = lua_gettop(L);
   lua_getfield(L, package, field);
   lua_pushfstring(L, ";%s", luaL_optstring(L, -1, ""));
