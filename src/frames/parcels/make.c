@@ -69,8 +69,7 @@ static celspan_status collect(collecting *g, cs_parcels *out) {
 
 /* Where one arc ends and the next one begins, a plane may have rounded their heights differently.
  * Heights that are so near become one. */
-enum { NEAR = 1, TOGETHER = 4, APART = 64 }; /* units: two heights; all of them; what may remain */
-enum { STEPS_APART = 4 };                    /* and that in steps of the plane's grid */
+enum { NEAR = 1, TOGETHER = 4 }; /* units: two heights; all of them */
 
 typedef struct arc_height {
   int32_t height;
@@ -263,9 +262,7 @@ static celspan_status walk_all(const tracing *t, uint32_t set_count, size_t *fir
 celspan_status cs_parcels_walk(celspan_context *context, cs_parcels *parcels, const uint32_t *sets,
                                uint32_t set_count, size_t *first) {
   const size_t most = 4 * parcels->arc_count + 1;
-  tracing t = {context, parcels, NULL, NULL, 0, APART};
-  if (parcels->rows > 1)
-    t.apart = STEPS_APART * parcels->rows;
+  tracing t = {context, parcels, NULL, NULL, 0, cs_parcels_apart(parcels)};
   celspan_status status = CS_MAKE(context, t.ends, most);
   if (status == CELSPAN_OK)
     status = CS_MAKE(context, t.partners, most);

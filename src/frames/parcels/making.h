@@ -24,6 +24,7 @@ typedef struct cs_side_change {
   int side;
   int32_t height;
   int64_t by;
+  uint64_t squares; /* by how much the sum of their squares does */
 } cs_side_change;
 
 typedef struct cs_frame_sides {
@@ -35,7 +36,8 @@ typedef struct cs_frame_sides {
 CELSPAN_CHECKED celspan_status cs_sides_add(celspan_context *context, cs_frame_sides *sides,
                                             int side, int32_t top, int32_t foot, uint32_t left,
                                             uint32_t right);
-/* Appends the arcs along the sides. Errors: those of cs_arc_put. */
+/* Appends the arcs along the sides; is_sum becomes true where several fills lie along one. Errors:
+ * those of cs_arc_put. */
 CELSPAN_CHECKED celspan_status cs_sides_put(celspan_context *context, cs_frame_sides *sides,
                                             cs_parcels *parcels);
 void cs_sides_finish(cs_frame_sides *sides, cs_memory *memory);
@@ -51,14 +53,11 @@ CELSPAN_CHECKED celspan_status cs_arc_refuse(celspan_context *context);
 CELSPAN_CHECKED celspan_status cs_arc_put_side(celspan_context *context, int side, int32_t top,
                                                int32_t foot, uint32_t fill, cs_parcels *parcels);
 
-/* An arc at a height, and where. */
-typedef struct cs_passing {
-  double x;
-  uint32_t arc;
-} cs_passing;
-/* The arcs at a height, from left to right. share: of the frame's height. out: room for all arcs.
- * Returns how many there are. */
-size_t cs_passing_list(const cs_parcels *parcels, double share, cs_passing *out);
+/* Heights in units that may be one, because the plane has rounded them: in steps of its grid. */
+static inline int32_t cs_parcels_apart(const cs_parcels *parcels) {
+  enum { UNITS = 64, STEPS = 4 };
+  return parcels->rows > 1 ? STEPS * parcels->rows : UNITS;
+}
 
 /* The share of a curve, or of a line, at which it comes to a height in film units; where an arc is
  * at a height. */

@@ -13,6 +13,7 @@ static celspan_status draw_png(celspan_context *context, const char *path,
   celspan_coding coding = CELSPAN_CODING;
   celspan_sink sink;
   coding.depth = CELSPAN_DEPTH_8;
+  coding.space = picture->frame ? picture->frame->space : CELSPAN_SPACE_LINEAR;
   file.format = "png";
   file.coding = &coding;
   file.is_opaque = picture->is_opaque;

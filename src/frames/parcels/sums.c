@@ -1,14 +1,21 @@
-/* Arcs at a height; and whether a plane is one picture: at some heights, each place between two
- * arcs must have one fill. Where several pictures are added up, such as the exposures of a frame,
- * places have several.
+/* Where arcs are at a height; and whether a plane is one picture: at some heights, each place
+ * between two arcs must have one fill. Where several pictures are added up, such as the exposures
+ * of a frame, places have several. What lies along the sides of the frame has no arcs, and is
+ * examined by cs_sides_put.
  */
 #include <math.h>
 
 #include "base/sort.h"
 #include "frames/parcels/making.h"
 
-enum { HEIGHTS = 32, ROOT_STEPS = 40 };
+enum { HEIGHTS = 32, HEIGHTS_MOST = 288, ROOT_STEPS = 40 };
 #define NEAR 4e-6 /* of the width: arcs that are nearer than this are at one place */
+
+/* An arc at a height, and where. */
+typedef struct cs_passing {
+  double x;
+  uint32_t arc;
+} cs_passing;
 
 static inline bool is_before(const cs_passing *a, const cs_passing *b) {
   return a->x != b->x ? a->x < b->x : a->arc < b->arc;
@@ -46,7 +53,9 @@ double cs_arc_x(const cs_parcels *parcels, uint32_t arc, double y) {
   return curve->is_line ? p[0].x + t * (p[3].x - p[0].x) : at(p, t).x;
 }
 
-size_t cs_passing_list(const cs_parcels *parcels, double share, cs_passing *out) {
+/* Lists the arcs at a height, from left to right. share: of the frame's height. out: room for all
+ * arcs. Returns how many there are. */
+static size_t list_passings(const cs_parcels *parcels, double share, cs_passing *out) {
   const double units = share * PLANEFILE_SIDE;
   size_t count = 0;
   for (uint32_t i = 0; i < parcels->arc_count; i++) {
@@ -79,24 +88,49 @@ static bool is_single(const cs_parcels *parcels, const cs_passing *all, size_t c
   return single;
 }
 
-static bool are_single(const cs_parcels *parcels, cs_passing *all, int32_t *counts) {
-  for (int i = 0; i < HEIGHTS; i++) {
-    size_t count = cs_passing_list(parcels, (i + 0.4321) / HEIGHTS, all);
-    if (!is_single(parcels, all, count, counts))
+/* What heights are examined with. */
+typedef struct examining {
+  const cs_parcels *parcels;
+  cs_passing *all;
+  int32_t *counts;
+  double shares[HEIGHTS_MOST]; /* the heights so far, as shares of the frame's */
+  size_t count;
+} examining;
+
+static bool examine(examining *e, double share) {
+  e->shares[e->count++] = share;
+  return is_single(e->parcels, e->all, list_passings(e->parcels, share, e->all), e->counts);
+}
+
+/* Whether a height so far meets the arc, or the arc is no taller than the plane's rounding. */
+static bool is_met(const examining *e, const cs_parcel_arc *arc) {
+  bool met = arc->foot - arc->top <= cs_parcels_apart(e->parcels);
+  for (size_t i = 0; i < e->count && !met; i++)
+    met = e->shares[i] * PLANEFILE_SIDE >= arc->top && e->shares[i] * PLANEFILE_SIDE < arc->foot;
+  return met;
+}
+
+/* Examines some heights, and then the middles of arcs between them, as of a small disc. */
+static bool are_single(examining *e) {
+  for (int i = 0; i < HEIGHTS; i++)
+    if (!examine(e, (i + 0.4321) / HEIGHTS))
+      return false;
+  for (uint32_t i = 0; i < e->parcels->arc_count && e->count < HEIGHTS_MOST; i++) {
+    const cs_parcel_arc *arc = &e->parcels->arcs[i];
+    if (!is_met(e, arc) && !examine(e, ((double)arc->top + arc->foot) / 2 / PLANEFILE_SIDE))
       return false;
   }
   return true;
 }
 
 celspan_status cs_parcels_refuse_sums(celspan_context *context, const cs_parcels *parcels) {
-  cs_passing *all = NULL;
-  int32_t *counts;
-  CS_TRY(CS_MAKE(context, counts, parcels->fill_count));
-  celspan_status status = CS_MAKE(context, all, parcels->arc_count + 1);
-  if (status == CELSPAN_OK && !are_single(parcels, all, counts))
+  examining e = {.parcels = parcels};
+  CS_TRY(CS_MAKE(context, e.counts, parcels->fill_count));
+  celspan_status status = CS_MAKE(context, e.all, parcels->arc_count + 1);
+  if (status == CELSPAN_OK && (parcels->is_sum || !are_single(&e)))
     status = cs_fail(context, CELSPAN_BAD_ARGUMENT,
                      "the plane is a sum of several pictures, as motion blur is, and has no areas");
-  cs_mem_free(context->memory, all, (parcels->arc_count + 1) * sizeof *all);
-  cs_mem_free(context->memory, counts, parcels->fill_count * sizeof *counts);
+  cs_mem_free(context->memory, e.all, (parcels->arc_count + 1) * sizeof *e.all);
+  cs_mem_free(context->memory, e.counts, parcels->fill_count * sizeof *e.counts);
   return status;
 }
