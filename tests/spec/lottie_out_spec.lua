@@ -296,6 +296,49 @@ describe("a film as Lottie", function()
     is_film(path, 24)
   end)
 
+  it("leans a layer that is turned and then scaled by unequal factors", function()
+    film(24, "srgb", [[local star = celspan.star { centre = { 0, 0 }, points = 5, outer = 40,
+        inner = 18, texture = "#c03010" }
+      return celspan.rostrum { celspan.cel { (i == 3 and star:scale(0) or star):rotate(15 * i)
+        :scale(0.5 + t, i > 20 and -0.8 or 0.8):translate(80, 45):named "star" } }]])
+    local path, said, document = out "leans.json"
+    assert.same({ "", 1 }, { said, #document.layers })
+    assert.is_true(keys_of(document.layers[1].ks.sk) > 10)
+    is_film(path, 24)
+  end)
+
+  it("has one layer and one picture of an image that only moves", function()
+    film(12, "srgb", [[local photo = celspan.image { x = 0, y = 0, w = 32, h = 16,
+        size = { 2, 1 }, pixels = "\xff\x20\x10\xff\x20\x40\xc0\x80", sampling = "nearest" }
+      return celspan.rostrum { back = "#d0e0d0",
+        celspan.cel { celspan.rect { 60, 0, 30, 90, texture = "#103010" },
+          photo:translate(8 * i, 10):named "photo" },
+        celspan.cel { celspan.group { photo:scale(1, 1 + t), celspan.rect { 4, 4, 8, 60 } }
+          :translate(4 * i, 40) } }]])
+    local path, said, document = out "photo.json"
+    local layers = by_name(document)
+    assert.equal("", said)
+    assert.same({ 5, 2, 2 }, { #document.layers, #document.assets, layers.photo.ty })
+    assert.same({ 32, 16 }, { document.assets[1].w, document.assets[1].h })
+    assert.same({ 2, 0 }, { keys_of(layers.photo.ks.p), keys_of(layers.photo.ks.s) })
+    is_film(path, 12)
+    is_film(out "photo.lottie", 12)
+  end)
+
+  it("has an image in its frames where players would mix other colours", function()
+    local code = [[return celspan.rostrum { back = "#ffffff", celspan.cel { front = %s,
+      celspan.image { x = 0, y = 0, w = 32, h = 16, size = { 1, 1 }, pixels = "\xff\x20\x10%s" }
+        :translate(8 * i, 10) } }]]
+    film(2, "linear", code:format("{ 1, 1, 1 }", "\\x80"))
+    assert.matches("cel 1: light that is mixed", select(2, out "clear.json"))
+    film(2, "linear", code:format("{ 0.5, 0.5, 0.5 }", "\\xff"))
+    assert.matches("cel 1: a picture in another light than white", select(2, out "lit.json"))
+    film(2, "linear", code:format("{ 1, 1, 1 }", "\\xff"))
+    local path, said = out "opaque.json"
+    assert.equal("", said)
+    is_film(path, 2)
+  end)
+
   it("has areas of an outline of more curves than a layer may have", function()
     local code = [[return celspan.rostrum { celspan.cel { celspan.path {
       d = "M0 0" .. ("l1 1 0 1"):rep(%d) .. "z" } } }]]

@@ -4,7 +4,8 @@
  *   cel     name, line, matrix, fade, front = { r, g, b }, why, and its objects as a list
  *   placed  name, line, matrix, fade, why, data; a matrix is a, b, c, d, e, f as in celspan.affine
  *   data    kind "group" and what it holds as a list of placed objects; kind "outline", with rule,
- *           contours and a fill; or kind "other", with why
+ *           contours and a fill; kind "image", with contours and an object that shows it; or kind
+ *           "other", with why
  *   fill    kind "flat", "linear" or "radial"; stops { at, r, g, b, alpha }; points; radius
  *
  * Equal data are one table in all frames, so that a table is known again by its identity:
@@ -104,7 +105,7 @@ static const char *refuse_fill(const celspan_texture *texture) {
   case CS_TEXTURE_NOISE:
     return "noise";
   case CS_TEXTURE_PICTURE:
-    return "a picture";
+    return v->use != CELSPAN_PICTURE_PAINT || v->medium ? "a gel" : NULL;
   case CS_TEXTURE_PATTERN:
     break;
   }
@@ -196,22 +197,33 @@ static bool has_contours(lua_State *L, const cs_primitive_data *data) {
   return status == CELSPAN_OK;
 }
 
+/* Puts an object of the data, where they are. */
+static void put_image(lua_State *L, const cs_primitive_data *data) {
+  celspan_object *object = NULL;
+  cs_userdata *made = cs_bare_push(L, &cs_noun_image);
+  cs_host_try(L, "render",
+              cs_primitive_data_object(cs_host_context(L), (cs_primitive_data *)data, &object));
+  made->handle = object;
+  lua_setfield(L, -2, "object");
+}
+
 static void put_data(const asked *of, const cs_primitive_data *data) {
   lua_State *L = of->L;
+  const bool is_outline = data->kind == CS_PRIMITIVE_DATA_OUTLINE;
+  const bool is_image = is_outline && data->texture->kind == CS_TEXTURE_PICTURE;
   const char *why = refuse_data(of, data);
-  if (!why && data->kind == CS_PRIMITIVE_DATA_OUTLINE && !has_contours(L, data))
+  if (!why && is_outline && !has_contours(L, data))
     why = "an outline of too many curves";
   cs_put_text(L, "why", why);
-  cs_put_text(L, "kind",
-              why                                       ? "other"
-              : data->kind == CS_PRIMITIVE_DATA_OUTLINE ? "outline"
-                                                        : "group");
+  cs_put_text(L, "kind", why ? "other" : is_image ? "image" : is_outline ? "outline" : "group");
   if (why)
     return;
-  if (data->kind == CS_PRIMITIVE_DATA_OUTLINE) {
+  if (is_image)
+    put_image(L, data);
+  else if (is_outline)
     put_fill(L, data->texture);
+  if (is_outline)
     return;
-  }
   for (size_t i = 0; i < data->boolean->operand_count; i++) {
     push_placed(of, data->boolean->operands[i]);
     lua_rawseti(L, -2, (lua_Integer)i + 1);

@@ -6,6 +6,9 @@ local affine = require "celspan.affine"
 local celspan = require "celspan"
 local core = require "celspan.core"
 
+local IMAGE_MOST = 8192 -- units of a side of an image, which is --scale pixels each
+local NEAR = 1e-6 -- pixels
+
 local Bake = {}
 Bake.__index = Bake
 
@@ -14,7 +17,8 @@ local bake = {}
 --- job: film, layers, shapes, keys and pool; path: of the output; numbers: of the frames.
 function bake.new(job)
   job.is_archive = program.has_ending(job.path, ".lottie")
-  job.pictures, job.reasons, job.known, job.members = {}, {}, {}, {}
+  job.pictures, job.reasons, job.known, job.members, job.images = {}, {}, {}, {}, {}
+  job.layers.film.draw = function(...) return job:image_of(...) end
   return setmetatable(job, Bake)
 end
 
@@ -28,11 +32,41 @@ function Bake:object_refusal(placed, map)
     or self.shapes.refusal(placed.data, is_upright and affine.translation(0, 0) or whole)
 end
 
+--- An image alone, at a scale, in a film of its box.
+function Bake:film_of(data, scale)
+  local left, top, right, bottom = table.unpack(self.shapes.box(data))
+  local w, h = right - left, bottom - top
+  local part = math.min(scale, IMAGE_MOST / math.max(w, h))
+  local size = { math.max(1, math.ceil(w * part - NEAR)), math.max(1, math.ceil(h * part - NEAR)) }
+  local object = data.object:translate(-left, -top):scale(size[1] / w, size[2] / h)
+  return celspan.film { size = size, space = self.film.space, frame = function()
+    return celspan.rostrum { celspan.cel { object } }
+  end }
+end
+
 --- Whether light passes through what is drawn of a cel.
 function Bake:is_clear(cel)
   if cel.fade < 1 then return true end
+  local function shines(image)
+    if self.shapes.is_flat(image) then return false end
+    local bytes = assert(celspan.pixels(self:film_of(image, 1))):bytes()
+    for i = 4, #bytes, 4 do
+      if bytes:byte(i) < 255 then return true end
+    end
+    return false
+  end
   for _, placed in ipairs(cel) do
-    if placed.fade < 1 or self.shapes.is_clear(placed.data) then return true end
+    if placed.fade < 1 or self.shapes.is_clear(placed.data, shines) then return true end
+  end
+  return false
+end
+
+--- Whether light changes the colours of an image in a cel.
+function Bake:is_lit(cel)
+  local front = cel.front
+  if front[1] == 1 and front[2] == 1 and front[3] == 1 then return false end
+  for _, placed in ipairs(cel) do
+    if self.shapes.has_image(placed.data) then return true end
   end
   return false
 end
@@ -50,6 +84,7 @@ function Bake:cel_refusal(structure, i)
     local why = self:object_refusal(placed, cel.matrix)
     if why then return why end
   end
+  if self:is_lit(cel) then return "a picture in another light than white" end
   if self.film.space ~= "srgb" and not self:is_alone(structure, i) and self:is_clear(cel) then
     return "light that is mixed, where players mix codes"
   end
@@ -142,24 +177,40 @@ function Bake:check_size()
   end
 end
 
-function Bake:add_drawn(picture, number)
-  self:check_size()
-  local bytes, width, height = program.png(program.still(self.film, picture.shown), self.path)
-  local asset = { id = "picture" .. number, w = width, h = height, u = "", e = 1 }
+--- A new asset: the picture of a film.
+function Bake:asset_of(film)
+  local bytes, width, height = program.png(film, self.path)
+  local assets = self.layers.assets
+  local name = #assets + 1
+  local asset = { id = "picture" .. name, w = width, h = height, u = "", e = 1 }
   if self.is_archive then
-    asset.u, asset.p, asset.e = "i/", ("%d.png"):format(number), 0
+    asset.u, asset.p, asset.e = "i/", ("%d.png"):format(name), 0
     self.members[#self.members + 1] = { "i/" .. asset.p, bytes }
   else
     asset.p = "data:image/png;base64," .. program.base64(bytes)
   end
   self.layers:weigh(self.is_archive and #bytes or #asset.p)
-  self.layers:add_picture(asset, picture)
+  assets[name] = asset
+  return asset
+end
+
+--- The asset of an image that is shown at a scale.
+function Bake:image_of(data, scale)
+  local images = self.images[data] or {}
+  self.images[data] = images
+  images[scale] = images[scale] or self:asset_of(self:film_of(data, scale))
+  return images[scale]
+end
+
+function Bake:add_drawn(picture)
+  self:check_size()
+  self.layers:add_picture(self:asset_of(program.still(self.film, picture.shown)), picture)
 end
 
 --- Adds the layers of all pictures, which lie behind all others.
 function Bake:add_layers()
   local below, above = self.pool "lines", self.pool "areas"
-  for i, picture in ipairs(self.pictures) do
+  for _, picture in ipairs(self.pictures) do
     local parcels, why = self:parcels_of(picture)
     for _, reason in ipairs(picture.reasons) do
       reason[parcels and "areas" or "drawn"] = why or true
@@ -169,7 +220,7 @@ function Bake:add_layers()
       below:add(lines, picture.items)
       above:add(areas, picture.items)
     else
-      self:add_drawn(picture, i)
+      self:add_drawn(picture)
     end
   end
   below:add_layers()

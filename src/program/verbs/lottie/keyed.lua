@@ -91,10 +91,28 @@ function keys.is_upright(map)
   return math.abs(a * b + d * e) <= SKEWED * (a * a + b * b + d * d + e * e) / 2
 end
 
+local SLOPE = 8 -- how far an axis may lean: players limit a skew to 85 degrees
+
+--- How far the axis down leans, before the turn, for each unit along it.
+local function slope(map)
+  local a, b, _, d, e = table.unpack(map)
+  local size = a * e - b * d
+  return size ~= 0 and (a * b + d * e) / size or 0
+end
+
+--- Whether a skew, a turn and scales can say all of these maps.
+function keys.can_lean(maps)
+  for _, map in ipairs(maps) do
+    if math.abs(slope(map)) > SLOPE then return false end
+  end
+  return true
+end
+
 --- The turn in degrees and the scales of a map, as near as possible to those of the frame before.
 local function split(map, before)
   local a, b, _, d, e = table.unpack(map)
   local across, down = math.sqrt(a * a + d * d), math.sqrt(b * b + e * e)
+  if not keys.is_upright(map) then down = math.abs(a * e - b * d) / across end
   local mirror = a * e - b * d < 0 and -1 or 1
   if across + down < 1e-12 then return before and before[1] or 0, 0, 0 end
   local turn = math.deg(across > 0 and math.atan(d, a) or math.atan(-b * mirror, e * mirror))
@@ -121,17 +139,18 @@ function keys.placed(map, digits)
            o = text.still(100) }
 end
 
---- Values of the frames: turns, scales in hundredths, and where the anchor is.
+--- Values of the frames: turns, scales in hundredths, where the anchor is, and skews.
 local function values_of(maps, anchor)
-  local turns, scales, places, before = {}, {}, {}, nil
+  local turns, scales, places, skews, before = {}, {}, {}, {}, nil
   for i, map in ipairs(maps) do
     local turn, across, down = split(map, before)
     before = { turn, across, down }
     turns[i], scales[i] = { turn }, { 100 * across, 100 * down }
+    skews[i] = { keys.is_upright(map) and 0 or -math.deg(math.atan(slope(map))) }
     places[i] = { map[1] * anchor[1] + map[2] * anchor[2] + map[3],
                   map[4] * anchor[1] + map[5] * anchor[2] + map[6] }
   end
-  return turns, scales, places
+  return turns, scales, places, skews
 end
 
 --- The point that stays while the map turns from one frame to another; nil: there is none.
@@ -157,7 +176,7 @@ local function count(property) return property.a == 1 and #property.k or 0 end
 
 --- The transform of a layer about an anchor.
 local function about(maps, start, box, anchor)
-  local turns, scales, places = values_of(maps, anchor)
+  local turns, scales, places, skews = values_of(maps, anchor)
   local reach = 0 -- of the art, from the anchor
   for _, x in ipairs { box[1], box[3] } do
     for _, y in ipairs { box[2], box[4] } do
@@ -165,17 +184,22 @@ local function about(maps, start, box, anchor)
     end
   end
   reach = math.max(reach, 1e-6)
-  local changing = 0
-  for _, values in ipairs { turns, scales, places } do
+  local changing, lean = 0, 0
+  for _, values in ipairs { turns, scales, places, skews } do
     if varies(values) then changing = changing + 1 end
   end
-  local part = NEAR / math.sqrt(2) / math.max(changing, 1) -- of each number
+  for _, skew in ipairs(skews) do lean = math.max(lean, math.abs(math.tan(math.rad(skew[1])))) end
+  local part = NEAR / math.sqrt(2) / math.max(changing, 1) / (1 + lean) -- of each number
   local turn = math.deg(part / math.max(reach * keys.scale(maps), 1e-6))
   local scale = 100 * part / reach
-  return { a = text.still(anchor),
-           p = keys.property(places, start, { part, part }),
-           r = keys.property(turns, start, { turn }, text.digits(turn)),
-           s = keys.property(scales, start, { scale, scale }, text.digits(scale)) }
+  local made = { a = text.still(anchor),
+                 p = keys.property(places, start, { part, part }),
+                 r = keys.property(turns, start, { turn }, text.digits(turn)),
+                 s = keys.property(scales, start, { scale, scale }, text.digits(scale)) }
+  if lean > 0 then -- an axis that leans is shorter than what it moves, as `part` allows for
+    made.sk, made.sa = keys.property(skews, start, { turn }, text.digits(turn)), text.still(0)
+  end
+  return made
 end
 
 local function rounded(value) return math.floor(value * 1000 + 0.5) / 1000 end

@@ -16,7 +16,8 @@ Layers.__index = Layers
 
 local MOST = 256 << 20 -- bytes of shapes and pictures: players read a file at once
 
---- film: size { w, h } and the count of frames; path: of the output.
+--- film: size { w, h }, the count of frames, and draw(data, scale), which returns the asset of an
+--- image; path: of the output.
 local function new(film, path)
   return setmetatable({ film = film, path = path, bytes = 0, assets = {},
                         main = { layers = {} } }, Layers)
@@ -127,14 +128,36 @@ function Layers:add_shapes(comp, track, bend)
               shapes = self:written(shapes.items(item.data, bend, item.front, keys.scale(maps))) })
 end
 
+--- An image layer of a picture that stays, in pixels of its asset.
+function Layers:add_image(comp, track)
+  local first, last = tracks.range(track)
+  local data = track.items[first].data
+  local box, maps = shapes.box(data), maps_of(track, first, last)
+  if shapes.is_flat(data) or keys.scale(maps) == 0 then return end
+  local asset = self.film.draw(data, keys.scale(maps))
+  local fit = { (box[3] - box[1]) / asset.w, 0, box[1], 0, (box[4] - box[2]) / asset.h, box[2] }
+  for i, map in ipairs(maps) do maps[i] = affine.compose(map, fit) end
+  local ks = keys.transform(maps, first - 1, { 0, 0, asset.w, asset.h })
+  ks.o = opacity_of(track, first, last)
+  add(comp, { ty = 2, nm = track.name or "picture", refId = asset.id, ip = first - 1, op = last,
+              ks = ks })
+end
+
 local function bend_of(map)
   if keys.is_upright(map) then return "" end
   return ("%.9g %.9g %.9g %.9g"):format(map[1], map[2], map[4], map[5])
 end
 
---- Data that stay, whose axes may be turned against each other: that is bent in the shapes.
+--- Data that stay, whose axes may be turned against each other: that is bent in the shapes where
+--- it stays, too.
 function Layers:add_still(comp, track)
-  for _, part in ipairs(tracks.parted(track, function(item) return bend_of(item.map) end)) do
+  local _, any = next(track.items)
+  if any.data.kind == "image" then return self:add_image(comp, track) end
+  local parts = tracks.parted(track, function(item) return bend_of(item.map) end)
+  if parts[2] and keys.can_lean(maps_of(track, tracks.range(track))) then
+    return self:add_shapes(comp, track, IDENTITY)
+  end
+  for _, part in ipairs(parts) do
     local map = part.items[tracks.range(part)].map
     local bend = IDENTITY
     if bend_of(map) ~= "" then
@@ -163,7 +186,7 @@ local function stays(track, around)
     if not item or before and not tracks.is_same(before.placed, item.placed) then return false end
     before = before or item
   end
-  return not shapes.has_faded_group { kind = "group", before.placed }
+  return not shapes.need_layers { kind = "group", before.placed }
 end
 
 --- Tracks that stay in their group as one.
@@ -227,12 +250,12 @@ function Layers:add(comp, track)
     comp, track = self:inside(comp, track), unfaded(track)
   end
   local _, item = next(track.items)
-  if item.data.kind == "outline" then
+  if item.data.kind == "outline" or item.data.kind == "image" then
     for _, part in ipairs(tracks.parted(track, function(one) return one.data end)) do
       self:add_lit(comp, part)
     end
   elseif not item.data.is_joined
-      and (item.data.kind ~= "group" or changes(track) or shapes.has_faded_group(item.data)) then
+      and (item.data.kind ~= "group" or changes(track) or shapes.need_layers(item.data)) then
     self:add_group(comp, track)
   else
     self:add_lit(comp, track)
@@ -244,7 +267,6 @@ function Layers:add_picture(asset, track)
   local first, last = tracks.range(track)
   local w, h = table.unpack(self.film.size)
   local scaled = { w / asset.w, 0, 0, 0, h / asset.h, 0 }
-  self.assets[#self.assets + 1] = asset
   add(self.main, { ty = 2, nm = "picture", refId = asset.id, ip = first - 1, op = last,
                    ks = in_place(track, first, last, scaled) })
 end

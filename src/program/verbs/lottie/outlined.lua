@@ -98,7 +98,9 @@ end
 --- Why the data, moved by a map, cannot be shapes; nil: they can.
 function shapes.refusal(data, map)
   if data.why then return data.why end
-  if data.kind == "outline" then
+  if data.kind == "image" then
+    return not keys.can_lean { map } and "a picture with skewed axes" or nil
+  elseif data.kind == "outline" then
     local is_bent = data.fill.kind == "radial" and not keys.is_upright(map)
     return is_bent and "a radial gradient with skewed axes" or nil
   end
@@ -108,15 +110,15 @@ function shapes.refusal(data, map)
   end
 end
 
---- Calls visit(data, map, fade) for all outlines, the rearmost first.
+--- Calls visit(data, map, fade) for all outlines and images, the rearmost first.
 local function each(data, map, fade, visit)
-  if data.kind == "outline" then return visit(data, map, fade) end
+  if data.kind ~= "group" then return visit(data, map, fade) end
   for _, placed in ipairs(data) do
     each(placed.data, affine.compose(map, placed.matrix), fade * placed.fade, visit)
   end
 end
 
---- How many outlines data have.
+--- How many outlines and images data have.
 function shapes.count(data)
   if not data.count then
     local count = 0
@@ -126,24 +128,33 @@ function shapes.count(data)
   return data.count
 end
 
---- Whether a group inside the data is faded as a whole.
-function shapes.has_faded_group(data)
-  if data.kind == "outline" then return false end
+--- Whether the data need more than a layer of shapes: a group inside that is faded as a whole, or
+--- an image.
+function shapes.need_layers(data)
+  if data.kind ~= "group" then return data.kind == "image" end
   for _, placed in ipairs(data) do
     local inner = placed.data
-    if placed.fade < 1 and shapes.count(inner) > 1 or shapes.has_faded_group(inner) then
+    if placed.fade < 1 and shapes.count(inner) > 1 or shapes.need_layers(inner) then
       return true
     end
   end
   return false
 end
 
---- Whether anything in the data lets through what lies behind it.
-function shapes.is_clear(data)
+--- Whether there is an image among the data.
+function shapes.has_image(data)
+  local has = false
+  each(data, IDENTITY, 1, function(one) has = has or one.kind == "image" end)
+  return has
+end
+
+--- Whether anything in the data lets through what lies behind it. shines(image): whether it does.
+function shapes.is_clear(data, shines)
   if data.clear == nil then
     data.clear = false
     each(data, IDENTITY, 1, function(outline, _, fade)
-      for _, stop in ipairs(outline.fill.stops) do
+      if outline.kind == "image" then data.clear = data.clear or fade < 1 or shines(outline) end
+      for _, stop in ipairs(outline.fill and outline.fill.stops or {}) do
         if stop[5] * fade < 1 then data.clear = true end
       end
     end)
@@ -168,6 +179,12 @@ function shapes.box(data)
     data.box = left <= right and { left, top, right, bottom } or false
   end
   return data.box or nil
+end
+
+--- Whether nothing of the data can be seen, because they have no area.
+function shapes.is_flat(data)
+  local box = shapes.box(data)
+  return not box or box[1] == box[3] or box[2] == box[4]
 end
 
 --- The digits of places that are shown at a scale.
