@@ -1,7 +1,9 @@
 -- The picture module for where OpenImageIO is missing, beside the one over OpenImageIO: what both
 -- read and write is the same, and damaged files are refused.
-local profile = require "tests.support.profile"
+local paintings = require "tests.support.paintings"
 local present = require "tests.support.present"
+local profile = require "tests.support.profile"
+local stored = require "tests.support.stored"
 local workbench = require "tests.support.workbench"
 
 local RASTER = workbench.build .. "/src/plugins/raster/celspan-raster.so"
@@ -52,7 +54,121 @@ local cases = { -- the file, and how it is written
   { "b.png", "--depth 16" },
 }
 
+-- ---------------------------------------------------------------- every kind of PNG
+
+local W, H = 9, 7 -- neither is a multiple of what interlacing divides by
+local CHANNELS = { [0] = 1, [2] = 3, [3] = 1, [4] = 2, [6] = 4 }
+local kinds = { -- the colour type and the depth
+  { 0, 1 }, { 0, 2 }, { 0, 4 }, { 0, 8 }, { 0, 16 }, { 2, 8 }, { 2, 16 }, { 3, 1 }, { 3, 2 },
+  { 3, 4 }, { 3, 8 }, { 4, 8 }, { 4, 16 }, { 6, 8 }, { 6, 16 },
+}
+-- The first column and row of each pass of interlacing, and the steps.
+local passes = { { 0, 0, 8, 8 }, { 4, 0, 8, 8 }, { 0, 4, 4, 8 }, { 2, 0, 4, 4 }, { 0, 2, 2, 4 },
+                 { 1, 0, 2, 2 }, { 0, 1, 1, 2 } }
+
+local function sample(x, y, channel, depth)
+  if channel % 2 == 1 or depth == 1 then return (3 * x + 5 * y) * 977 % (1 << depth) end
+  return (1 << depth) - 1 - (x + 2 * y) % 5 * channel
+end
+
+--- The samples of a row from column x on, each `step` columns, as bytes; the last one is filled.
+local function packed_row(x, y, step, colour, depth)
+  local bits, count, out = 0, 0, {}
+  for column = x, W - 1, step do
+    for channel = 1, CHANNELS[colour] do
+      bits, count = bits << depth | sample(column, y, channel, depth), count + depth
+      while count >= 8 do
+        count = count - 8
+        out[#out + 1] = string.char(bits >> count & 255)
+      end
+    end
+  end
+  if count > 0 then out[#out + 1] = string.char(bits << 8 - count & 255) end
+  return "\0" .. table.concat(out)
+end
+
+local function rows_of(colour, depth, is_interlaced)
+  local rows = {}
+  for _, pass in ipairs(is_interlaced and passes or { { 0, 0, 1, 1 } }) do
+    for y = pass[2], pass[1] < W and H - 1 or -1, pass[4] do
+      rows[#rows + 1] = packed_row(pass[1], y, pass[3], colour, depth)
+    end
+  end
+  return table.concat(rows)
+end
+
+--- Entry i of the palette.
+local function entry(i) return string.char(i, 255 - i, i * 7 % 256) end
+
+local function palette(depth)
+  local entries = {}
+  for i = 0, (1 << depth) - 1 do entries[i + 1] = entry(i) end
+  return stored.chunk("PLTE", table.concat(entries))
+end
+
+--- The same pixels as those of celspan.picture, in 16 bits.
+local function plain_pixels(colour, depth)
+  local out, most = {}, (1 << depth) - 1
+  for y = 0, H - 1 do
+    for x = 0, W - 1 do
+      local s = {}
+      for channel = 1, CHANNELS[colour] do
+        s[channel] = sample(x, y, channel, depth) * 65535 // most
+      end
+      if colour == 3 then
+        s = { entry(sample(x, y, 1, depth)):byte(1, 3) }
+        for i = 1, 3 do s[i] = s[i] * 257 end
+      end
+      local alpha = colour == 4 and s[2] or s[4] or 65535
+      if #s < 3 then s = { s[1], s[1], s[1] } end
+      out[#out + 1] = string.pack("I2I2I2I2", s[1], s[2], s[3], alpha)
+    end
+  end
+  return table.concat(out)
+end
+
+--- Three rows of pictures, a column for each kind: plain, interlaced, and as the pixels are meant.
+local KINDS = [[
+local celspan = require "celspan"
+local shown = {}
+for column = 0, 14 do
+  for row, name in ipairs { "plain", "interlaced", "meant" } do
+    local place = { x = 10 * column, y = 8 * row - 8, w = 9, h = 7 }
+    if name == "meant" then
+      place.size, place.format = { 9, 7 }, "rgba16"
+      local file <close> = assert(io.open("meant" .. column, "rb"))
+      place.pixels = file:read "a"
+    else
+      place.file = name .. column .. ".png"
+    end
+    shown[#shown + 1] = celspan.image(place)
+  end
+end
+return celspan.film { size = { 150, 24 }, frame = function()
+  return celspan.rostrum { antialias = "none", celspan.cel(shown) }
+end }
+]]
+
 describe("the picture module without OpenImageIO", function()
+  it("reads PNG of every kind, plain and interlaced, as their pixels are meant", function()
+    for column, kind in ipairs(kinds) do
+      local colour, depth = kind[1], kind[2]
+      for name, interlaced in pairs { plain = 0, interlaced = 1 } do
+        bench:write(("%s%d.png"):format(name, column - 1), paintings.png_of(W, H, depth, colour,
+          rows_of(colour, depth, interlaced == 1), colour == 3 and palette(depth), interlaced))
+      end
+      bench:write(("meant%d"):format(column - 1), plain_pixels(colour, depth))
+    end
+    bench:write("film.lua", KINDS)
+    for _, with in ipairs { WITH, present.pictures() and "" or nil } do
+      good(with, "render film.lua -o - --depth 16 --trust --progress none >kinds")
+      local bytes, size = bench:read "kinds", 150 * 8 * 8
+      assert.equal(3 * size, #bytes)
+      assert.is_true(bytes:sub(1, size) == bytes:sub(size + 1, 2 * size), "interlaced " .. with)
+      assert.is_true(bytes:sub(1, size) == bytes:sub(2 * size + 1), "meant " .. with)
+    end
+  end)
+
   local it_compares = present.pictures() and it or pending
 
   it_compares("reads what OpenImageIO writes, as OpenImageIO does", function()
