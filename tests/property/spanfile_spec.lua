@@ -35,8 +35,8 @@ local function run(command)
 end
 
 local function compare(folder, picture, depth, pixel_size)
-  local command = ("%s render %s/film.lua --trust --progress none --depth %s -o %%s -- %s"):format(
-    BINARY, folder, depth, picture)
+  local command = ("'%s' render %s/film.lua --trust --progress none --depth %s -o %%s -- %s")
+    :format(BINARY, folder, depth, picture)
   run(command:format(folder .. "/####.span"))
   local raw, size, wrong = run(command:format "-"), WIDTH * HEIGHT * pixel_size, {}
   assert.equal(COUNT * size, #raw)

@@ -428,7 +428,7 @@ describe("the sandbox", function()
   describe("of a host", function()
     local function host(text)
       bench:write("scripts/hosted.lua", head() .. text)
-      return bench:shell(("cd '%s' && %s/examples/example_sandbox scripts/hosted.lua")
+      return bench:shell(("cd '%s' && '%s/examples/example_sandbox' scripts/hosted.lua")
         :format(bench.folder, workbench.build))
     end
 

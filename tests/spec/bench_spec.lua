@@ -296,7 +296,7 @@ describe("the films of the benchmark", function()
   end)
 
   it("are a part of it, while an unknown part is an error", function()
-    local code, _, message = bench:shell(("LUA_CPATH='%s/?.so' %s/tests/lua_host "
+    local code, _, message = bench:shell(("LUA_CPATH='%s/?.so' '%s/tests/lua_host' "
       .. "tests/bench/main.lua nowhere nowhere --quick flim"):format(workbench.build,
         workbench.build))
     assert.equal(2, code)

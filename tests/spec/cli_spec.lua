@@ -15,7 +15,7 @@ local bench, folder
 local function read(path) return bench:read(path) end
 local function write(name, text) return bench:write(name, text) end
 local function shell(command) return bench:shell(command) end
-local function celspan(arguments) return bench:shell(BINARY .. " " .. arguments) end
+local function celspan(arguments) return bench:shell("'" .. BINARY .. "' " .. arguments) end
 local function files_in(path) return bench:files(path:sub(#folder + 2)) end
 
 -- Large enough to be still running when a signal comes.
@@ -49,7 +49,7 @@ describe("the command line", function()
 
   it("says that a limit of the stack is too low #plain", function()
     for kib, wanted in pairs { [64] = 33, [512] = 33, [1024] = 0 } do
-      local code, _, err = shell(("ulimit -s %d; %s check %s"):format(kib, BINARY, plain))
+      local code, _, err = shell(("ulimit -s %d; '%s' check %s"):format(kib, BINARY, plain))
       assert.equal(wanted, code, err)
       if wanted == 33 then
         assert.equal(("celspan: error: the stack is limited to %d KiB; at least 1024 are needed "
@@ -420,7 +420,7 @@ complete_words celspan render film.lua -- -
     -- Runs celspan with a pipe that nobody reads: its exit code and what it says.
     local function unread(arguments)
       local gone = ("%s/gone"):format(folder)
-      shell(("rm -f %s; { while [ ! -e %s ]; do sleep 0.01; done; %s %s 2>%s/said; "
+      shell(("rm -f %s; { while [ ! -e %s ]; do sleep 0.01; done; '%s' %s 2>%s/said; "
         .. "echo $? >%s/code; } | { exec <&-; : >%s; }"):format(gone, gone, BINARY, arguments,
         folder, folder, gone))
       return tonumber(read(folder .. "/code")), read(folder .. "/said")
@@ -441,7 +441,7 @@ complete_words celspan render film.lua -- -
 
   -- The libraries that a run opens, as the dynamic linker reports.
   local function libraries(arguments)
-    local code, _, err = shell("LD_DEBUG=files " .. BINARY .. " " .. arguments)
+    local code, _, err = shell("LD_DEBUG=files '" .. BINARY .. "' " .. arguments)
     assert.equal(0, code)
     assert.truthy(err:find("libc.so", 1, true), "the dynamic linker prints nothing")
     return err
@@ -533,7 +533,7 @@ complete_words celspan render film.lua -- -
       local slow = write("slow.lua", SLOW:format "0.12")
       for columns, left in pairs { [0] = "] +%d+ %%  frame 2 of 3", [20] = "" } do
         local code, out =
-          shell(("script -qec 'stty cols %d; %s render --trust %s --hash' /dev/null </dev/null")
+          shell(("script -qec 'stty cols %d; \"%s\" render --trust %s --hash' /dev/null </dev/null")
           :format(columns, BINARY, slow))
         assert.equal(0, code, out)
         local bar = out:match("%[#[#.]*" .. left)
@@ -663,14 +663,14 @@ complete_words celspan render film.lua -- -
 
     it("ends a script that ignores a signal", function()
       local script = write("loop.lua", "while true do pcall(function() while true do end end) end")
-      local code, out, err = shell(BINARY .. " info " .. script
+      local code, out, err = shell("'" .. BINARY .. "' info " .. script
         .. " & pid=$!; sleep 0.2; kill -TERM $pid; wait $pid; exit $?")
       assert.same({ 143, "" }, { code, out }, err)
     end)
 
     it("stops at a signal, dies by it and leaves no incomplete frame", function()
       local script = write("long.lua", LONG)
-      local code, _, err = shell(BINARY .. " render " .. script
+      local code, _, err = shell("'" .. BINARY .. "' render " .. script
         .. " --size 4000x4000 --progress none -o "
         .. folder .. "/out/f.####.png & pid=$!; sleep 0.5; kill -TERM $pid; wait $pid; exit $?")
       assert.equal(143, code, err)
@@ -964,7 +964,7 @@ end }]])
         local begun = folder .. "/begun"
         local script = film(100000000, ("if n == 100 then io.open(%q, 'w'):close() end "
           .. "if n %% 2 == 0 then error 'even' end"):format(begun))
-        local code, _, err = shell(BOUNDED .. BINARY .. " check --trust " .. script
+        local code, _, err = shell(BOUNDED .. "'" .. BINARY .. "' check --trust " .. script
           .. " & pid=$!; until [ -e " .. begun .. " ]; do sleep 0.1; done; kill -TERM $pid; "
           .. "wait $pid; exit $?")
         assert.equal(143, code, err)
@@ -1100,7 +1100,7 @@ end }]])
       local path = bench:write("prints.lua",
         'print("a\\27]52;c;eA==\\7 \\u{9b}2J \\u{e4}\\tb\\r\\0") '
         .. 'return require "celspan".rostrum {}')
-      local command = ("%s render %s --hash --progress none"):format(workbench.absolute, path)
+      local command = ("\"%s\" render %s --hash --progress none"):format(workbench.absolute, path)
       local _, _, plain_words = bench:shell(command)
       assert.equal("a\27]52;c;eA==\7 \u{9b}2J \u{e4}\tb\r\0\n", plain_words)
       local _, shown = bench:shell(("script -qec '%s' /dev/null </dev/null"):format(command))

@@ -128,7 +128,7 @@ describe("a rostrum with a size", function()
         celspan.cel {} }
       return celspan.rostrum { celspan.cel { inner, inner, celspan.rect { 0, 0, 1, 1 } } }]]
     out:close()
-    local pipe = assert(io.popen(workbench.binary .. " info " .. file))
+    local pipe = assert(io.popen("'" .. workbench.binary .. "' info " .. file))
     local text = pipe:read "a"
     pipe:close()
     os.remove(file)

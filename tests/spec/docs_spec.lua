@@ -46,10 +46,10 @@ end
 setup(function()
   folder = os.tmpname()
   os.remove(folder)
-  assert(os.execute(("mkdir -p %s/bin && ln -s %s %s/bin/celspan"):format(folder, BINARY, folder)))
-  assert(os.execute(("cp -r %s/scripts/pictures %s/scripts/drawings %s/scripts/type "
-    .. "%s/scripts/paintings "
-    .. "%s/scripts/demo/line.tsv %s/"):format(root, root, root, root, root, folder)))
+  assert(os.execute(("mkdir -p %s/bin && ln -s '%s' %s/bin/celspan")
+    :format(folder, BINARY, folder)))
+  assert(os.execute(("cd scripts && cp -r pictures drawings type paintings demo/line.tsv %s/")
+    :format(folder)))
   for _, page in ipairs(pages) do
     markdown.save(page, folder, function(block)
       return block.language == "lua" and block.name or block.language == "text"
@@ -230,9 +230,9 @@ describe("the command line's page", function()
 
   it("names every verb and option of the program, and no other", function()
     local known = {}
-    for verb in system.output(BINARY .. " help"):gmatch "\n  (%l+) +[A-Z%[]" do
+    for verb in system.output("'" .. BINARY .. "' help"):gmatch "\n  (%l+) +[A-Z%[]" do
       assert.is_truthy(text:find("\n## " .. verb .. "\n", 1, true) or verb == "help", verb)
-      for option in system.output(BINARY .. " help " .. verb):gmatch "\n  (%-[%w-]+)" do
+      for option in system.output("'" .. BINARY .. "' help " .. verb):gmatch "\n  (%-[%w-]+)" do
         known[option] = true
         local named = "`" .. option:gsub("%-", "%%-") .. "[` ]"
         assert.is_truthy(text:find(named), verb .. " " .. option)
@@ -526,14 +526,14 @@ describe("the pictures", function()
 
   it("are what their scripts make (./run docs makes them again) #full", function()
     local made = folder .. "/made"
-    local code, _, message = run(("cd %s && lua5.4 docs/pictures/make.lua %s %s")
+    local code, _, message = run(("cd '%s' && lua5.4 docs/pictures/make.lua '%s' %s")
       :format(root, BINARY, made))
     check_code(code, message)
     for _, picture in ipairs(pictures) do
       local now = ("%s/%s.png"):format(made, picture.name)
       local kept = ("%s/docs/pictures/%s.png"):format(root, picture.name)
       if markdown.read(now) ~= markdown.read(kept) then
-        local status, printed = run(("celspan compare %s %s --fail 0.02"):format(now, kept))
+        local status, printed = run(("celspan compare %s '%s' --fail 0.02"):format(now, kept))
         assert.are.equal(0, status, picture.name .. ": " .. printed)
       end
     end

@@ -78,14 +78,14 @@ end }
     local test = present.program(path) and it or pending
     test("shows what the program celspan renders: " .. program, function()
       write("film.lua", film)
-      good("%s %s/film.lua 80 45 >%s/film.ppm", path, folder, folder)
-      good("%s render %s/film.lua --size 80x45 --progress none -o %s/film.#.png", BINARY, folder,
+      good("'%s' %s/film.lua 80 45 >%s/film.ppm", path, folder, folder)
+      good("'%s' render %s/film.lua --size 80x45 --progress none -o %s/film.#.png", BINARY, folder,
         folder)
       for frame = 1, 2 do -- pictures one after the other, of 13 bytes and the pixels each
         good("tail -c +%d %s/film.ppm | head -c %d >%s/one.ppm",
           1 + (frame - 1) * (13 + 80 * 45 * 3),
           folder, 13 + 80 * 45 * 3, folder)
-        good("%s compare %s/one.ppm %s/film.%d.png", BINARY, folder, folder, frame)
+        good("'%s' compare %s/one.ppm %s/film.%d.png", BINARY, folder, folder, frame)
       end
     end)
 
@@ -104,17 +104,17 @@ return celspan.film { size = { 160, 90 }, frames = 2, frame = function(f)
   return celspan.rostrum { celspan.cel { drawing(f.number) }, back = require "late" }
 end }]])
       write("film.lua", film)
-      good("cd %s/elsewhere && %s ../films/demo.lua 80 45 >../beside.ppm", folder, path)
-      good("%s %s/film.lua 80 45 | cmp - %s/beside.ppm", path, folder, folder)
+      good("cd %s/elsewhere && '%s' ../films/demo.lua 80 45 >../beside.ppm", folder, path)
+      good("'%s' %s/film.lua 80 45 | cmp - %s/beside.ppm", path, folder, folder)
       good("rm %s/films/late.lua", folder)
-      local ended_well, text = run("%s %s/films/demo.lua 80 45 >/dev/null", path, folder)
+      local ended_well, text = run("'%s' %s/films/demo.lua 80 45 >/dev/null", path, folder)
       assert.is_false(ended_well)
       assert.is_truthy(text:find("no file '" .. folder .. "/films/late.lua'", 1, true), text)
     end)
 
     test("says what is wrong with a film: " .. program, function()
       write("wrong.lua", film:gsub("radius = 30", "raduis = 30"))
-      local ended_well, text = run("%s %s/wrong.lua 80 45", path, folder)
+      local ended_well, text = run("'%s' %s/wrong.lua 80 45", path, folder)
       assert.is_false(ended_well)
       assert.is_truthy(text:find "wrong.lua:3: frame 1: circle: .*raduis", text)
     end)
@@ -136,10 +136,10 @@ return celspan.film { fps = 10, frames = 20, marks = { title = 1, chase = 1 + p.
     local parameters = "parameter side left of left, right\nparameter speed 1 (0 to 4)\n"
     assert.equal(parameters .. "mark title 1-4\nmark chase 5-20\n"
       .. "sound " .. folder .. "/voice.wav from 1 s on, 0.5 times as loud\n",
-      good("%s %s/film.lua", path, folder))
+      good("'%s' %s/film.lua", path, folder))
     assert.equal(parameters .. "mark title 1-12\nmark chase 13-20\n"
       .. "sound " .. folder .. "/voice.wav from 3 s on, 0.5 times as loud\n",
-      good("%s %s/film.lua side=right speed=3", path, folder))
+      good("'%s' %s/film.lua side=right speed=3", path, folder))
   end)
 
   test("says which value is wrong", function()
@@ -149,7 +149,7 @@ return celspan.film { fps = 10, frames = 20, marks = { title = 1, chase = 1 + p.
       ["sped=1"] = "set: the script has no parameter 'sped'; did you mean 'speed'?",
       speed = "'speed' is not NAME=VALUE",
     } do
-      local ended_well, text = run("%s %s/film.lua %s", path, folder, given)
+      local ended_well, text = run("'%s' %s/film.lua %s", path, folder, given)
       assert.is_false(ended_well)
       assert.equal("facts: " .. message .. "\n", text)
     end
@@ -161,7 +161,7 @@ describe("the module", function()
 
   local reads = present.program "readelf" and it or pending
   reads("is not linked with Lua, which the interpreter has", function()
-    local text = good("readelf -d %s", module)
+    local text = good("readelf -d '%s'", module)
     assert.is_truthy(text:find("NEEDED", 1, true))
     assert.is_nil(text:find "NEEDED[^\n]*lua")
   end)
@@ -185,9 +185,9 @@ describe("an installation that was moved", function()
   -- The folders of an installation, in a place that no build knows.
   local function install()
     local libraries = folder .. "/moved/lib/any"
-    good("mkdir -p %s/lua/5.4 %s/celspan && cp %s/celspan.so %s/lua/5.4", libraries, libraries,
+    good("mkdir -p %s/lua/5.4 %s/celspan && cp '%s/celspan.so' %s/lua/5.4", libraries, libraries,
       BUILD, libraries)
-    good("find %s/src -name 'celspan-*.so' -exec cp {} %s/celspan ';'", BUILD, libraries)
+    good("find '%s/src' -name 'celspan-*.so' -exec cp {} %s/celspan ';'", BUILD, libraries)
     return libraries .. "/lua/5.4"
   end
 
@@ -197,7 +197,7 @@ describe("an installation that was moved", function()
 local celspan = require "celspan"
 celspan.text { "A", font = ..., size = 9 }
 ]])
-    good("cd %s && LUA_PATH= LUA_CPATH='%s/?.so' %s/tests/lua_host letters.lua "
+    good("cd %s && LUA_PATH= LUA_CPATH='%s/?.so' '%s/tests/lua_host' letters.lua "
       .. "\"$OLDPWD/scripts/type/block.ttf\"", folder, install(), BUILD)
   end)
 end)
@@ -207,11 +207,11 @@ describe("the rockspec", function()
   test("is well-formed, and makes a rock of what is built", function()
     local luarocks = "luarocks --lua-version 5.4"
     good("%s lint celspan-scm-1.rockspec", luarocks)
-    good("CELSPAN_BUILD=%s %s make --deps-mode none --tree %s/rocks celspan-scm-1.rockspec", BUILD,
-      luarocks, folder)
+    good("CELSPAN_BUILD='%s' %s make --deps-mode none --tree %s/rocks celspan-scm-1.rockspec",
+      BUILD, luarocks, folder)
     good("test -s %s/rocks/lib/luarocks/rocks-5.4/celspan/scm-1/annotations/celspan.d.lua", folder)
     write("rock.lua", 'assert(require "celspan"._VERSION and require "celspan.ease" "inOutSine")')
-    good("LUA_PATH= LUA_CPATH='%s/rocks/lib/lua/5.4/?.so' %s/tests/lua_host %s/rock.lua", folder,
+    good("LUA_PATH= LUA_CPATH='%s/rocks/lib/lua/5.4/?.so' '%s/tests/lua_host' %s/rock.lua", folder,
       BUILD,
       folder)
   end)

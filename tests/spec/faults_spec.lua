@@ -7,6 +7,8 @@ local prng = require "tests.support.prng"
 local workbench = require "tests.support.workbench"
 
 local LIBRARY = workbench.build .. "/tests/libfaulty.so"
+-- By its name, because a path in LD_PRELOAD ends at a space.
+local PRELOADED = ("LD_LIBRARY_PATH='%s/tests' LD_PRELOAD=libfaulty.so"):format(workbench.build)
 local ALL = tonumber(os.getenv "CELSPAN_STARVE") -- one call in ALL is tried
 local SAMPLES = 1 -- the number of calls of a format that fail with an errno
 local FAULTS = tonumber(os.getenv "CELSPAN_FAULTS") or 1
@@ -55,23 +57,23 @@ local function make(format, plan, options)
     or format.sounds and "sound film.lua"
     or ("render film.lua --workers %d --progress none %s %s"):format(format.workers or 1,
       format.options or "", options or "")
-  return bench:shell(("cd '%s' && mkdir -p out && %s %s %s -o %s"):format(bench.folder, plan or "",
-    workbench.absolute, command, output))
+  return bench:shell(("cd '%s' && mkdir -p out && %s '%s' %s -o %s"):format(bench.folder,
+    plan or "", workbench.absolute, command, output))
 end
 
 --- The strips that a format joins.
 local function make_strips(ending)
   for i = 1, 2 do
     local code, _, err =
-      bench:shell(("cd '%s' && %s render film.lua --frames 1 --size 40x300 --strip %d/2 "
+      bench:shell(("cd '%s' && '%s' render film.lua --frames 1 --size 40x300 --strip %d/2 "
       .. "--progress none -o strips/%d.%s"):format(bench.folder, workbench.absolute, i, i, ending))
     assert.are.equal(0, code, err)
   end
 end
 
 local function faulty(at, lasts, number, call)
-  return ("FAULT_AT=%d FAULT_LASTING=%d FAULT_ERROR=%d FAULT_COUNT=count %s LD_PRELOAD=%s"):format(
-    at, lasts and 1 or 0, number, call and "FAULT_CALL=" .. call or "", LIBRARY)
+  return ("FAULT_AT=%d FAULT_LASTING=%d FAULT_ERROR=%d FAULT_COUNT=count %s %s"):format(
+    at, lasts and 1 or 0, number, call and "FAULT_CALL=" .. call or "", PRELOADED)
 end
 
 --- Every file of the folder out, except celspan's own record, by its name.
@@ -286,7 +288,7 @@ describe("a folder that cannot be read to its end #plain", function()
     for i = 1, 5 do bench:write(("f.%d.span"):format(i), "") end
     for at = 1, 8 do
       local plan = faulty(at, false, 5) .. " FAULT_CALL=readdir64 "
-      local code, _, err = bench:shell(("cd '%s' && %s %s %s"):format(bench.folder, plan,
+      local code, _, err = bench:shell(("cd '%s' && %s '%s' %s"):format(bench.folder, plan,
         workbench.absolute, command))
       assert.is_true(code == 4 or code == 5, ("entry %d: exit code %d: %s"):format(at, code, err))
       assert.is_truthy(err:find(message, 1, true), err)
@@ -300,7 +302,7 @@ describe("a folder that cannot be read to its end #plain", function()
   it("is not mistaken for an empty one", function()
     if not has_library() then return pending "the library that makes calls fail is not built" end
     bench:shell(("mkdir '%s/film'"):format(bench.folder))
-    local code, _, err = bench:shell(("cd '%s' && %s FAULT_CALL=readdir64 %s init film")
+    local code, _, err = bench:shell(("cd '%s' && %s FAULT_CALL=readdir64 '%s' init film")
       :format(bench.folder, faulty(3, false, 5), workbench.absolute))
     assert.are.equal(5, code)
     assert.is_truthy(err:find("film: cannot be read: Input/output error", 1, true), err)

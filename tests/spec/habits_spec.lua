@@ -323,7 +323,7 @@ return celspan.rostrum { celspan.cel { celspan.text { "A", font = "%s", size = 2
       :format(bench.folder, bench.folder, path))
     bench:write("film/film.lua", SCRIPT:format(path))
     refused(3, "--allow-system-fonts", "check film/film.lua")
-    local code, _, message = bench:inside(("HOME=$PWD/home %s check film/film.lua "
+    local code, _, message = bench:inside(("HOME=$PWD/home '%s' check film/film.lua "
       .. "--allow-system-fonts"):format(workbench.absolute))
     assert.equal(0, code, message)
     refused(2, "--allow-system-fonts", "check film/film.lua --trust --allow-system-fonts")

@@ -53,10 +53,10 @@ describe("the interface", function()
   end
 
   it("is what the library exports", function()
-    exports(header.plain "", "nm -D --defined-only %s", LIBRARY)
-    assert.is_nil(good("nm -D --defined-only %s", LIBRARY):find " T cs_")
+    exports(header.plain "", "nm -D --defined-only '%s'", LIBRARY)
+    assert.is_nil(good("nm -D --defined-only '%s'", LIBRARY):find " T cs_")
     exports(header.plain("", { header.LUA }),
-      "nm -g --defined-only %s/src/lua/module/libcelspan_lua.a", BUILD)
+      "nm -g --defined-only '%s/src/lua/module/libcelspan_lua.a'", BUILD)
   end)
 
   it("settles for every structure how it may grow", function()
@@ -145,8 +145,8 @@ describe("a host", function()
 
   local function compiled(name, compiler)
     good("%s -pedantic -Wall -Wextra -Werror -Isrc/include -o %s/%s examples/hello.c %s", compiler,
-      folder, name, "-x none " .. LIBRARY)
-    draws(name, "LD_LIBRARY_PATH=%s/src %s/%s %s/%s.png", BUILD, folder, name, folder, name)
+      folder, name, "-x none '" .. LIBRARY .. "'")
+    draws(name, "LD_LIBRARY_PATH='%s/src' %s/%s %s/%s.png", BUILD, folder, name, folder, name)
   end
 
   it("in C draws a frame #plain", function() compiled("c", "cc -std=c17") end)
@@ -190,9 +190,9 @@ describe("a host", function()
 
   --- Builds the host with these declarations; it draws the same picture.
   local function draws_changed(name)
-    good("cc -std=c17 -o %s/%s -DFACE='\"%s/%s.h\"' tests/face/host.c %s", folder, name, folder,
+    good("cc -std=c17 -o %s/%s -DFACE='\"%s/%s.h\"' tests/face/host.c '%s'", folder, name, folder,
       name, LIBRARY)
-    draws(name, "LD_LIBRARY_PATH=%s/src %s/%s %s/%s.png", BUILD, folder, name, folder, name)
+    draws(name, "LD_LIBRARY_PATH='%s/src' %s/%s %s/%s.png", BUILD, folder, name, folder, name)
   end
 
   it("that is built with the interface that is kept draws the same #plain", function()
@@ -217,12 +217,12 @@ describe("a host", function()
   local in_python = present.program "python3" and it or pending
   in_python("in Python, with a binding made from the headers, draws the same #plain", function()
     good("lua5.4 tests/face/main.lua python >%s/celspan.py", folder)
-    draws("python", "python3 tests/face/host.py %s/celspan.py %s %s/python.png", folder, LIBRARY,
+    draws("python", "python3 tests/face/host.py %s/celspan.py '%s' %s/python.png", folder, LIBRARY,
       folder)
   end)
 
   local in_luajit = present.program "luajit" and it or pending
   in_luajit("in LuaJIT, with the interface that is kept, draws the same #plain", function()
-    draws("luajit", "luajit tests/face/host.lua %s %s %s/luajit.png", KEPT, LIBRARY, folder)
+    draws("luajit", "luajit tests/face/host.lua %s '%s' %s/luajit.png", KEPT, LIBRARY, folder)
   end)
 end)

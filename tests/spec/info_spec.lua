@@ -14,7 +14,7 @@ local bench, folder
 local function read(path) return bench:read(path) end
 local function write(name, text) return bench:write(name, text) end
 local function shell(command) return bench:shell(command) end
-local function celspan(arguments) return bench:shell(BINARY .. " " .. arguments) end
+local function celspan(arguments) return bench:shell("'" .. BINARY .. "' " .. arguments) end
 
 local it_reads_pictures = present.pictures() and it or pending
 
@@ -268,7 +268,7 @@ describe("the verb info", function()
     it("still runs scripts with odd beginnings or bytes, and from pipes", function()
       local script = "P1 = 3 -- \233\27\n" .. PLAIN
       assert.equal(0, (celspan("info " .. write("odd.lua", script))))
-      assert.equal(0, (shell("cat " .. folder .. "/odd.lua | " .. BINARY .. " info /dev/stdin")))
+      assert.equal(0, (shell("cat " .. folder .. "/odd.lua | '" .. BINARY .. "' info /dev/stdin")))
     end)
   end)
 
@@ -278,7 +278,7 @@ describe("the verb info", function()
         local celspan = require "celspan"
         return celspan.film{ size = {8, 4}, frames = 550000, frame = function(f)
           return celspan.rostrum{ brightness = f.number } end }]])
-      local code, out, err = shell(BOUNDED .. BINARY .. " info " .. script)
+      local code, out, err = shell(BOUNDED .. "'" .. BINARY .. "' info " .. script)
       assert.equal(0, code, err)
       assert.truthy(out:find("\ndifferent_at_least 524288\n$"), out)
     end)

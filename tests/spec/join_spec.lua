@@ -146,7 +146,7 @@ describe("the temporary file of a killed join", function()
     end
     bench:write(".joined.tga.0001.part", "of a run that still works")
     local code, _, err =
-      bench:shell(("cd '%s' && flock .joined.tga.0001.part %s join s/#.tga -o joined.tga")
+      bench:shell(("cd '%s' && flock .joined.tga.0001.part '%s' join s/#.tga -o joined.tga")
       :format(bench.folder, workbench.absolute))
     assert.equal(0, code, err)
     local left = table.concat(bench:files(), " ")
@@ -410,7 +410,7 @@ describe("render --task", function()
   end)
 
   it("is numbered by the array of a farm", function()
-    assert.equal(0, (bench:inside(("SGE_TASK_ID=2 SGE_TASK_FIRST=1 SGE_TASK_LAST=2 %s render "
+    assert.equal(0, (bench:inside(("SGE_TASK_ID=2 SGE_TASK_FIRST=1 SGE_TASK_LAST=2 '%s' render "
       .. "film.lua --task env -o p/#.png --size 30x90"):format(workbench.absolute))))
     assert.equal("2.png 3.png", table.concat(bench:files "p", " "))
     refused(2, "in an indexed job of Kubernetes", "render film.lua --task env -o p/#.png")

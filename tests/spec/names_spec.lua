@@ -138,7 +138,7 @@ return celspan.rostrum { camera = { centre = { 0, 0 }, width = 5 },
   teardown(function() bench:remove() end)
 
   local function celspan_says(arguments)
-    local code, out, err = bench:shell(workbench.binary .. " " .. arguments)
+    local code, out, err = bench:shell("'" .. workbench.binary .. "' " .. arguments)
     return code, out .. err
   end
 

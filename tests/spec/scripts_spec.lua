@@ -15,7 +15,7 @@ local MOST_FRAMES = 24
 local MOST_CHECKED = HAS_ALL and math.huge or 300
 
 local function run(arguments)
-  local text, ended_well = system.output(("%s %s"):format(BINARY, arguments))
+  local text, ended_well = system.output(("'%s' %s"):format(BINARY, arguments))
   return ended_well and text
 end
 

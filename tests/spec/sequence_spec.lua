@@ -259,11 +259,11 @@ describe("frames to standard output by several workers", function()
 
   it("end with 5 when nobody reads them any more #workers", function()
     for workers = 1, 3 do
-      local _, out = bench:shell(("{ %s render %s/film.lua -o - --workers %d --progress none 2>&3; "
-        .. "echo $? >&3; } 3>&1 >/dev/full"):format(workbench.binary, bench.folder, workers))
+      local _, out = bench:shell(("{ '%s' render %s/film.lua -o - --workers %d --progress none "
+        .. "2>&3; echo $? >&3; } 3>&1 >/dev/full"):format(workbench.binary, bench.folder, workers))
       assert.is_truthy(out:find "^celspan: error: frame 1: standard output: [^\n]+\n", out)
       assert.is_truthy(out:find "\n5\n$", out)
-      local _, said = bench:shell(("{ { %s render %s/film.lua -o - --workers %d --progress none "
+      local _, said = bench:shell(("{ { '%s' render %s/film.lua -o - --workers %d --progress none "
         .. "2>&3; echo $? >&3; } | head -c 1000 >/dev/null; } 3>&1")
         :format(workbench.binary, bench.folder, workers))
       assert.is_truthy(said:find "frame %d+: standard output: Broken pipe\n", said)
@@ -482,7 +482,7 @@ describe("--progress", function()
     bench:write("slow.lua", (FILM:gsub("frames = 12", "frames = 100000"):gsub("local at = .-\n",
       'local at = f.number\n  if at == 2 then error "no moon" end\n')))
     local code =
-      bench:shell(("%s render %s/slow.lua --hash --keep-going --progress json 2>%s/log & "
+      bench:shell(("'%s' render %s/slow.lua --hash --keep-going --progress json 2>%s/log & "
       .. "pid=$!; sleep 0.5; kill -TERM $pid; wait $pid; exit $?")
       :format(workbench.binary, bench.folder,
       bench.folder))
@@ -494,7 +494,7 @@ describe("--progress", function()
   end)
 
   it("json reports a full standard output before the end", function()
-    local code, _, err = bench:shell(("%s render %s/film.lua --hash --progress json >/dev/full")
+    local code, _, err = bench:shell(("'%s' render %s/film.lua --hash --progress json >/dev/full")
       :format(workbench.binary, bench.folder))
     local lines, last = course(err)
     assert.is_truthy(lines:find("frame 12, error, end$"), lines)

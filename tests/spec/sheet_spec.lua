@@ -722,7 +722,7 @@ describe("the sheet of a film", function()
 
   it("names exactly the frames on which the mouth of the demo changes", function()
     local path = folder .. "/demo.txt"
-    assert.are.equal(0, (bench:celspan("sheet %s/scripts/demo.lua -o %s", root, path)))
+    assert.are.equal(0, (bench:celspan("sheet '%s/scripts/demo.lua' -o %s", root, path)))
     local s = assert(sheet.read(path))
     local mouths = assert(lips.read(root .. "/scripts/demo/line.tsv", { fps = 24 }))
     local wanted, found, numbers, count = {}, {}, {}, 0

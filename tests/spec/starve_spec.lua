@@ -9,6 +9,8 @@ local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
 local LIBRARY = workbench.build .. "/tests/libstarve.so"
+-- By its name, because a path in LD_PRELOAD ends at a space.
+local PRELOADED = ("LD_LIBRARY_PATH='%s/tests' LD_PRELOAD=libstarve.so"):format(workbench.build)
 local ALL = os.getenv "CELSPAN_STARVE"
 local FAULTS = tonumber(os.getenv "CELSPAN_FAULTS") or 1
 local SAMPLES = math.max(60 // FAULTS, 1)
@@ -51,8 +53,8 @@ local function starve(plan, ending, command)
                              UNTIL = plan.last or false } do
     if value then variables[#variables + 1] = ("STARVE_%s=%d"):format(name, value) end
   end
-  return bench:shell(("cd '%s' && rm -rf out && %s LD_PRELOAD=%s %s %s %s%s"):format(bench.folder,
-    table.concat(variables, " "), LIBRARY, plan.may_die and "timeout -s KILL 5" or "",
+  return bench:shell(("cd '%s' && rm -rf out && %s %s %s '%s' %s%s"):format(bench.folder,
+    table.concat(variables, " "), PRELOADED, plan.may_die and "timeout -s KILL 5" or "",
     bench.absolute,
     command or RENDER:format(plan.last and 0 or 1), ending))
 end

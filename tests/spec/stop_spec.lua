@@ -58,7 +58,7 @@ end
 --- "--trust" by default. Returns standard error.
 local function stop(text, signal, code, options)
   bench:write("film.lua", text)
-  local started = ("%s render %s film.lua -o out/f.##.png --progress none")
+  local started = ("'%s' render %s film.lua -o out/f.##.png --progress none")
     :format(workbench.absolute, options or "--trust")
   local got, out, err = bench:shell(([[cd '%s' && mkdir out && { %s 2>said & pid=$!
     (sleep %d; kill -KILL $pid) >/dev/null 2>&1 & late=$!

@@ -341,7 +341,8 @@ describe("a stroke in a scene", function()
         return celspan.film { size = { 512, 512 }, frames = 1,
           frame = function() return celspan.rostrum { celspan.cel(art) } end }]]):format(width))
       file:close()
-      local pipe = assert(io.popen(workbench.binary .. " spans --stats --workers 1 " .. path))
+      local pipe = assert(io.popen(("'%s' spans --stats --workers 1 %s")
+        :format(workbench.binary, path)))
       local out = pipe:read "a"
       pipe:close()
       os.remove(path)

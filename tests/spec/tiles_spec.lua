@@ -398,7 +398,7 @@ describe("a resumed run", function()
   end)
 
   it("ends by its signal and leaves no incomplete file", function()
-    local code = shell(("timeout -s INT 0.5 %s tiles %s --size 20000x20000 --tile 32 --overlap 0 "
+    local code = shell(("timeout -s INT 0.5 '%s' tiles %s --size 20000x20000 --tile 32 --overlap 0 "
       .. "--tiles-limit 1000000 -o %s/p --progress none"):format(workbench.binary, script, folder))
     assert.is_true(code == 124 or code == 130, tostring(code))
     assert.are.equal(0, count_files(folder .. "/p", "*.part"))

@@ -6,9 +6,9 @@ command -v busted >/dev/null || { echo "1..0 # SKIP busted is not installed" && 
 folder=$(cd "$1" && pwd)
 shift
 [ -z "${CELSPAN_PART:-}" ] || set -- --exclude-tags=full "$@"
-# --cpath, because the path in .busted would load the module of build/. busted passes its arguments
-# to a shell without quotes: one path, without a semicolon.
+# --cpath, because the path in .busted would load the module of build/.
+modules=$(dirname "$(find "$folder" -name celspan.so -print -quit)")
 CELSPAN="$folder/celspan" CELSPAN_BUILD="$folder" LUA_PATH="$PWD/?.lua;;" \
 CELSPAN_SEED="${CELSPAN_SEED:-$(cat tests/seed)}" \
-  exec busted --helper=tests/support/checked.lua --lua="$folder/tests/lua_host" \
-  --cpath="$(dirname "$(find "$folder" -name celspan.so -print -quit)")/?.so" -o TAP "$@"
+  exec "$folder/tests/lua_host" tests/support/busted.lua --ignore-lua \
+  --helper=tests/support/checked.lua --cpath="$modules/?.so" -o TAP "$@"

@@ -72,7 +72,7 @@ local function ask_render(arguments, program)
 end
 
 local function ask_example(arguments)
-  local lines, message = lines_of(("%s/examples/example_%s | md5sum")
+  local lines, message = lines_of(("'%s'/examples/example_%s | md5sum")
     :format(workbench.build, arguments))
   if not lines then return nil, message end
   return lines[1]:match "%x+" .. "\n"

@@ -55,7 +55,7 @@ end
 
 --- Runs celspan with arguments, which are a format for string.format.
 function workbench:celspan(arguments, ...)
-  return self:shell(BINARY .. " " .. arguments:format(...))
+  return self:shell("'" .. BINARY .. "' " .. arguments:format(...))
 end
 
 --- The same, in the folder.
