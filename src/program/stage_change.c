@@ -174,7 +174,7 @@ int cs_stage_use_camera(lua_State *L, cs_script *script, const celspan_rostrum *
 /* The objects that a line of the script made, in their places in the cel that is searched. */
 typedef struct made {
   celspan_context *context;
-  const char *source;
+  const char *source, *name, *label; /* NULL: of any name; in any cel */
   int32_t line;
   celspan_object **objects; /* owned, with references */
   size_t count, capacity;
@@ -182,7 +182,8 @@ typedef struct made {
 } made;
 
 static bool is_made(const made *m, cs_mark mark) {
-  return mark.line == m->line && mark.source && strcmp(mark.source, m->source) == 0;
+  return mark.line == m->line && mark.source && strcmp(mark.source, m->source) == 0 &&
+         (!m->name || strcmp(cs_mark_name(mark), m->name) == 0);
 }
 
 static celspan_status add_made(made *m, celspan_object *object, const celspan_matrix *matrix) {
@@ -239,7 +240,10 @@ static celspan_status keep_made(void *user, const celspan_rostrum *from, size_t 
   const celspan_matrix none = celspan_matrix_identity();
   celspan_cel_desc desc = CELSPAN_CEL_DESC;
   celspan_cel *plain = NULL;
+  char room[CS_STAGE_LABEL];
   *out = NULL;
+  if (m->label && !cs_stage_part(cel) && strcmp(cs_stage_label(from, i, room), m->label) != 0)
+    return CELSPAN_OK;
   celspan_status status =
       find_made(m, cel->objects, cel->object_count, is_made(m, cel->mark), &none);
   desc.objects = m->objects;
@@ -255,12 +259,15 @@ static celspan_status keep_made(void *user, const celspan_rostrum *from, size_t 
   return status;
 }
 
-/* film:keep_line(source, line) -> whether the line made anything in the frame that was built last,
- * which then shows only these objects, in white light | nil, message */
+/* film:keep_line(source, line, name or nil, label or nil) -> whether the line made anything in the
+ * frame that was built last, of that name and in the cel of that label, which then shows only these
+ * objects, in white light | nil, message */
 int cs_stage_keep_line(lua_State *L, cs_script *script) {
   made m = {.context = script->context,
             .source = luaL_checkstring(L, 2),
-            .line = (int32_t)luaL_checkinteger(L, 3)};
+            .line = (int32_t)luaL_checkinteger(L, 3),
+            .name = luaL_optstring(L, 4, NULL),
+            .label = luaL_optstring(L, 5, NULL)};
   celspan_status status = change_frame(script, keep_made, &m);
   cs_mem_free(m.context->memory, m.objects, m.capacity * sizeof *m.objects);
   if (status != CELSPAN_OK)

@@ -14,11 +14,13 @@ typedef struct search {
   const cs_script *script;
   celspan_point point;
   size_t count;     /* of the items found */
+  int depth;        /* of the items that are searched */
   double share;     /* of the exposures of what is searched */
   const char *part; /* the shot of a cut in which the search is; "": none. NULL: it is no cut */
 } search;
 
-static celspan_status probe_cel(const search *s, celspan_cel *cel, bool *is_there) {
+/* *paint: new; the colour of a cel at the point in white light, straight; 0 where nothing is. */
+static celspan_status probe_cel(const search *s, celspan_cel *cel, cs_light *paint) {
   celspan_rostrum *rostrum;
   double rgba[4];
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
@@ -30,14 +32,16 @@ static celspan_status probe_cel(const search *s, celspan_cel *cel, bool *is_ther
   celspan_frame_desc frame = CELSPAN_FRAME_DESC;
   cs_film_expose(&s->script->film, &alone, &frame);
   celspan_status status = celspan_probe(s->context, &frame, s->point, rgba);
-  *is_there = status == CELSPAN_OK && rgba[3] > 0;
+  *paint = (cs_light){0};
+  if (status == CELSPAN_OK && rgba[3] > 0)
+    paint->flat = (celspan_light){(float)(rgba[0] / rgba[3]), (float)(rgba[1] / rgba[3]),
+                                  (float)(rgba[2] / rgba[3]), (float)rgba[3]};
   celspan_rostrum_unref(rostrum);
   return status;
 }
 
-/* Whether an object covers the point, if it is alone. */
 static celspan_status probe_object(const search *s, celspan_object *object,
-                                   const celspan_matrix *matrix, bool *is_there) {
+                                   const celspan_matrix *matrix, cs_light *paint) {
   celspan_object *placed;
   celspan_cel *cel = NULL;
   CS_TRY(celspan_object_transform(s->context, object, matrix, &placed));
@@ -46,7 +50,7 @@ static celspan_status probe_object(const search *s, celspan_object *object,
   desc.object_count = 1;
   celspan_status status = celspan_cel_create(s->context, &desc, &cel);
   if (status == CELSPAN_OK)
-    status = probe_cel(s, cel, is_there);
+    status = probe_cel(s, cel, paint);
   celspan_cel_unref(cel);
   celspan_object_unref(placed);
   return status;
@@ -74,13 +78,17 @@ static void push_light(lua_State *L, const cs_light *light) {
   }
 }
 
-/* light: the front light of a cel; NULL: of an object. */
-static void add_hit(search *s, cs_mark mark, double opacity, const cs_light *light) {
+/* light: the front light of a cel. object: with its paint at the point. The other one is NULL. */
+static void add_hit(search *s, cs_mark mark, double opacity, const cs_light *light,
+                    const celspan_object *object, const cs_light *paint) {
   celspan_origin origin = cs_mark_origin(mark);
   s->count++;
   lua_pushvalue(s->L, 4);
-  lua_createtable(s->L, 0, 10);
+  lua_createtable(s->L, 0, 13);
   cs_put_text(s->L, "kind", light ? "cel" : "object");
+  cs_put_integer(s->L, "depth", s->depth);
+  if (object && object->data->kind == CS_PRIMITIVE_DATA_OUTLINE)
+    cs_put_text(s->L, "form", object->data->stroke ? "stroke" : "fill");
   cs_put_text(s->L, "shot", s->part && s->part[0] ? s->part : NULL);
   cs_put_number(s->L, "share", s->share);
   cs_put_text(s->L, "name", cs_mark_name(mark));
@@ -90,10 +98,8 @@ static void add_hit(search *s, cs_mark mark, double opacity, const cs_light *lig
   cs_put_number(s->L, "opacity", opacity);
   push_callers(s, mark);
   lua_setfield(s->L, -2, "callers");
-  if (light) {
-    push_light(s->L, light);
-    lua_setfield(s->L, -2, "light");
-  }
+  push_light(s->L, light ? light : paint);
+  lua_setfield(s->L, -2, light ? "light" : "paint");
   lua_call(s->L, 1, 0);
 }
 
@@ -110,17 +116,19 @@ static celspan_status search_objects(search *s, celspan_object *const *objects, 
                                      const celspan_matrix *matrix) {
   for (size_t i = count; i-- > 0;) {
     const cs_primitive_data *data = objects[i]->data;
-    bool is_there = false;
-    CS_TRY(probe_object(s, objects[i], matrix, &is_there));
-    if (!is_there)
+    cs_light paint;
+    CS_TRY(probe_object(s, objects[i], matrix, &paint));
+    if (!(paint.flat.a > 0))
       continue;
     celspan_matrix inner = celspan_matrix_then(*objects[i]->matrix, *matrix);
+    s->depth++;
     if (data->kind == CS_PRIMITIVE_DATA_BOOLEAN)
       CS_TRY(search_objects(s, data->boolean->operands, data->boolean->operand_count, &inner));
     if (data->kind == CS_PRIMITIVE_DATA_ROSTRUM)
       CS_TRY(search_rostrum(s, data->rostrum, (extent){data->rostrum->width, data->rostrum->height},
                             &inner));
-    add_hit(s, objects[i]->mark, objects[i]->fade, NULL);
+    s->depth--;
+    add_hit(s, objects[i]->mark, objects[i]->fade, NULL, objects[i], &paint);
   }
   return CELSPAN_OK;
 }
@@ -136,10 +144,12 @@ static celspan_status search_rostrum(search *s, const celspan_rostrum *rostrum, 
     CS_TRY(cs_scene_cel_matrix(s->context, rostrum, i, film.width, film.height, &placed));
     celspan_matrix inner = celspan_matrix_then(placed, *matrix);
     size_t before = s->count;
+    s->depth++;
     CS_TRY(search_objects(s, cel->objects, cel->object_count, &inner));
+    s->depth--;
     const cs_light light = cs_scene_front(rostrum, cel);
     if (s->count > before)
-      add_hit(s, cel->mark, cel->opacity, &light);
+      add_hit(s, cel->mark, cel->opacity, &light, NULL, NULL);
   }
   s->part = outer;
   return CELSPAN_OK;
@@ -166,12 +176,13 @@ static celspan_status search_exposure(search *s, size_t i) {
                         (extent){s->script->film.width, s->script->film.height}, &none);
 }
 
-/* film:hits(x, y, add, is_cut) -> nil | message: calls add({ kind =, name =, shot =, share =, file
- * =, line =, callers =, opacity =, light = }) for each object and cel that covers the point in the
- * frame that was built last, from front to back; of a cut for one shot after the other. Each
- * follows its own parts. shot: its shot; nil: none. share: of its shot in the frame. file and line:
- * nil if they are not known. light: that shines on a cel, its red, green and blue, or "texture". x,
- * y: film units. */
+/* film:hits(x, y, add, is_cut) -> nil | message: calls add({ kind =, depth =, name =, shot =,
+ * share =, file =, line =, callers =, opacity =, light =, form =, paint = }) for each object and cel
+ * that covers the point in the frame that was built last, from front to back; of a cut for one shot
+ * after the other. Each follows its own parts, which are deeper. shot: its shot; nil: none. share: of
+ * its shot in the frame. file and line: nil if they are not known. light: of a cel, red, green and
+ * blue, or "texture". paint: of an object at the point, in white light; form: "fill" or "stroke" of
+ * an outline. x, y: film units. */
 int cs_stage_hits(lua_State *L, cs_script *script) {
   search s = {.L = L,
               .context = script->context,

@@ -153,6 +153,7 @@ return {
   ["lua/celspan/read/sound.lua"] = { "spec/mix", "spec/spectrum" },
   ["lua/celspan/read/spectrum.lua"] = { "spec/spectrum" },
   ["lua/celspan/film/soundtrack.lua"] = { "spec/mix" },
+  ["lua/celspan/film/scenes.lua"] = { "spec/desk", "spec/watch_cels" },
   ["lua/celspan/film/shots.lua"] = { "spec/watch_shots", "spec/watch_cels" },
   ["heard.c"] = { "unit/embedding", "spec/mix", "spec/embedding" },
   ["parameters.c"] = { "unit/embedding", "spec/parameters", "spec/embedding" },

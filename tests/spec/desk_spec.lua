@@ -514,18 +514,19 @@ describe("render --onion", function()
     end
   end)
 
-  --- The middle row of frame 6, as pixels of 8 bits.
-  local function row_of(options)
-    local code, bytes = run("render shot.lua --frames 6 -o - --crop 0,10,40,1 "
-      .. options)
+  --- The middle row of a frame, as pixels of 8 bits.
+  local function row_of(options, frame)
+    local code, bytes = run(("render shot.lua --frames %d -o - --crop 0,10,40,1 ")
+      :format(frame or 6) .. options)
     assert.equal(0, code)
     return bytes
   end
 
-  --- The columns where onion skin changes something, as text.
-  local function changed(script, onion)
+  --- The columns where onion skin changes something in a frame, as text.
+  local function changed(script, onion, frame)
     bench:write("shot.lua", script)
-    local plain, skinned, list = row_of "", row_of("--onion " .. onion), {}
+    local plain = row_of(onion:match "%-%-cel.*" or "", frame)
+    local skinned, list = row_of("--onion " .. onion, frame), {}
     for x = 0, 39 do
       local from, to = 4 * x + 1, 4 * x + 4
       if plain:sub(from, to) ~= skinned:sub(from, to) then list[#list + 1] = x end
@@ -566,8 +567,50 @@ end }]]):format(cels)
     assert.is_true(#changed(film:format(20), "1,1") > 40)
   end)
 
+  it("counts drawings, also of a ball on twos behind a cloud on ones", function()
+    local film = film_of [[celspan.rostrum { celspan.cel { ground },
+      celspan.cel { celspan.rect { 8 * (f.index // 2), 0, 4, 20 } }:named "ball",
+      celspan.cel { celspan.rect { 28 + f.index, 0, 1, 20 } } }]]
+    local both = "8 9 10 11 24 25 26 27 "
+    assert.equal(both .. "31 33", changed(film, "1,1", 5))
+    assert.equal(both .. "32 34", changed(film, "1,1", 6))
+    for frame = 5, 6 do
+      assert.equal("0 1 2 3 8 9 10 11 24 25 26 27 32 33 34 35",
+        changed(film, "2,2 --cel ball", frame))
+    end
+  end)
+
+  it("passes over drawings that return", function()
+    assert.equal("0 1 30 31", changed(film_of [[celspan.rostrum { celspan.cel { ground },
+      celspan.cel { celspan.rect { ({ 30, 30, 0, 10, 0, 10 })[f.number] or 10, 0, 2, 20 } } }]],
+      "2,0"))
+  end)
+
+  it("finds the drawings around one that is held for long, and of other cels half a second on",
+    function()
+      local film = film_of([[celspan.rostrum { celspan.cel { ground },
+        celspan.cel { celspan.rect { f.number > %d and 9 or 0, 0, 2, 20 } },
+        celspan.cel { celspan.rect { f.number > %d and 29 or 20, 0, 2, 20 } } }]])
+        :gsub("frames = 12", "frames = 200"):gsub("f.index / 20", "0")
+      assert.equal("29 30", changed(film:format(199, 99), "1,1"))
+      assert.equal("9 10 29 30", changed(film:format(110, 99), "1,1"))
+      assert.equal("", changed(film:format(199, 198), "1,1"))
+    end)
+
+  it("shows nothing of held planes before a multiplane camera that pans or moves in", function()
+    for _, camera in ipairs { "x = 4 * f.index", "z = 9 * f.index", "x = f.index, z = -f.index" } do
+      local film = film_of([[multiplane { film = { 40, 20 }, camera = { %s }, aperture = 1,
+        { celspan.cel { celspan.rect { -99, -99, 300, 300, texture = "#fff" } }, z = 900 },
+        { celspan.cel { celspan.rect { 12, 0, 4, 20 } }, z = 300 },
+        { celspan.cel { celspan.rect { 4 * BALL, 0, 4, 20 } }, z = 0 },
+        over = { celspan.cel { celspan.rect { 0, 0, 3, 20 } } } }]]):format(camera)
+      assert.equal("", changed(film:gsub("BALL", "1"), "2,2"), camera)
+      assert.are_not.equal("", changed(film:gsub("BALL", "f.index"), "2,2"), camera)
+    end
+  end)
+
   it("shows nothing of planes that only a multiplane camera moves", function()
-    assert.equal("10 11 12 13 22 23 24", changed(film_of [[multiplane {
+    assert.equal("10 11 12 13 22 23 24 25", changed(film_of [[multiplane {
       film = { 40, 20 }, camera = { x = f.index / 3 }, focal = 100,
       { celspan.cel { celspan.rect { -99, 0, 200, 20, texture = "#fff" } }, z = 100 },
       { celspan.cel { celspan.rect { 30, 0, 4, 20, texture = "#888" } }, z = 50 },

@@ -122,6 +122,18 @@ describe("the page of a plane", function()
     assert.is_true(drawn:find("\10\200\90\255", 1, true) ~= nil)
   end)
 
+  it("has a picture of the first frame, which is there without script", function()
+    bench:write("film.lua", (FILM:gsub("frames = 1", "fps = 8, frames = 3")
+      :gsub("function%(%)", "function(f)"):gsub("{ 80, 45 }", "{ 20 * f.number, 45 }")))
+    celspan "render film.lua -o a.plane"
+    celspan "plane a.plane -o a.html"
+    local page = bench:read "a.html":gsub("<script.->.-</script>", "")
+    bench:write("a.base64", page:match '<img src="data:image/png;base64,([^"]*)" alt="a.plane">')
+    done "base64 -d a.base64 >a.png"
+    celspan "convert a.plane b.png --frame 1 --size 1280x720"
+    assert.matches("largest_difference 0 ", celspan "compare a.png b.png --fail 0.002", 1, true)
+  end)
+
   it("has a player of at most 45 KB, packed, and loads nothing", function()
     celspan "render film.lua -o a.plane"
     celspan 'plane a.plane -o a.html --title "a <b> & \\"c\\""'

@@ -682,6 +682,33 @@ describe("the sheet of a film", function()
     for n = 2, #changes do assert.is_true(s:marks("c", n).moved, n) end
   end)
 
+  it("names the parts of a rostrum that has a name, such as a shot, by it", function()
+    local s = sheet_of(2, function(f)
+      local shot = celspan.rostrum { size = { 20, 20 }, celspan.cel { hand:named "nell" }:named "nell",
+        celspan.cel { fist } }:named(f.number == 1 and "day" or "night")
+      return celspan.rostrum { celspan.cel { shot }, celspan.cel { hand }:named "sign" }
+    end)
+    assert.are.same({ "cel 1", "day/nell", "day/nell (object)", "day/cel 2", "sign", "night/nell",
+                      "night/nell (object)", "night/cel 2" }, s.layers)
+    write("day.lua", [[
+local celspan = require "celspan"
+local cut = require "celspan.cut"
+local function shot()
+  return celspan.film { size = { 9, 9 }, fps = 24, frames = 3, frame = function()
+    return celspan.rostrum { celspan.cel { celspan.rect { 0, 0, 9, 9 } }:named "nell",
+      celspan.cel { celspan.rect { 0, 0, 9, 9 } } }
+  end }
+end
+return cut { { film = shot(), name = "day" }, cut.dissolve(1 / 24), shot() }
+]])
+    local code, out = bench:celspan_inside "sheet day.lua --json"
+    assert.are.equal(0, code)
+    local names = {}
+    for name in out:gmatch '"name": "([^"]*)","changes"' do names[#names + 1] = name end
+    table.sort(names)
+    assert.are.same({ "day/cel 2", "day/nell", "shot 2/cel 2", "shot 2/nell" }, names)
+  end)
+
   it("recognises a drawing that returns, and frames without one", function()
     local s = sheet_of(5, function(f)
       local art = ({ hand, fist, hand })[f.number]
@@ -705,7 +732,7 @@ describe("the sheet of a film", function()
         celspan.cel { celspan.union { hand:fade(f.number / 2):named "x", fist } } }
       return celspan.rostrum { celspan.cel { inner }:named "x" }
     end)
-    assert.are.same({ "x", "x/cel 1", "x (object)" }, s.layers)
+    assert.are.same({ "x", "x (object)" }, s.layers) -- the inner cel is no part of its own
     assert.are.equal("1 1", exposed(s, "x (object)"))
     assert.is_true(s:marks("x (object)", 2).moved)
     assert.are.equal("1 2", exposed(s, "x"))

@@ -19,6 +19,7 @@
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
+local scenes = require "celspan.scenes"
 
 local known = { "planes", film = "table", camera = "table", focal = "number", focus = "number",
                 focus_on = "number", aperture = "number", fit = "boolean", over = "table",
@@ -32,20 +33,29 @@ local function fits(plane, scene)
   return scene.fit
 end
 
---- The cel of a plane as the camera sees it.
-local function seen(plane, scene, focal, distance, blur)
-  local cx, cy = scene.film[1] / 2, scene.film[2] / 2
-  local camera = scene.camera or {}
-  local cel = plane[1]
-  if fits(plane, scene) then cel = cel:scale((focal + (plane.z or 0)) / focal, nil, cx, cy) end
-  cel = cel:translate(-cx - (camera.x or 0), -cy - (camera.y or 0))
-    :scale(focal / distance):translate(cx, cy)
+--- A cel at a distance as a lens sees it.
+local function seen(cel, lens, distance)
+  local blur = lens.aperture * math.abs(distance - lens.focus) / distance
+  cel = cel:translate(-lens.cx - lens.x, -lens.cy - lens.y)
+    :scale(lens.focal / distance):translate(lens.cx, lens.cy)
   if blur == 0 then return cel end
   local own = cel.defocus or 0
   local radius = type(own) == "table" and own.radius or own
   local kernel = type(own) == "table" and own.kernel or "gaussian"
   radius = math.sqrt(radius * radius + blur * blur) -- variances add
   return cel:with { defocus = { radius = radius, kernel = kernel } }
+end
+
+--- The cels of planes, { cel, z = depth or nil }, that a lens sees. Without a depth: over all.
+local function see(planes, lens)
+  local cels = {}
+  for _, plane in ipairs(planes) do
+    local distance = plane.z and lens.focal + plane.z - lens.z
+    if not distance or distance > 0 then
+      cels[#cels + 1] = distance and seen(plane[1], lens, distance) or plane[1]
+    end
+  end
+  return cels
 end
 
 local cel_metatable = getmetatable(celspan.cel {})
@@ -91,27 +101,24 @@ local function multiplane(_, scene)
   fields.check("multiplane", scene, known)
   check(scene)
   fields.check("multiplane: camera", scene.camera or {}, known_camera)
-  local focal, aperture = scene.focal or 1000, scene.aperture or 0
-  local function distance_of(z) return focal + z - (scene.camera and scene.camera.z or 0) end
-  local focus = scene.focus_on and distance_of(scene.focus_on) or scene.focus or focal
-  local order = {}
-  for i = 1, rawlen(scene) do order[i] = i end
-  table.sort(order, function(a, b)
-    local za, zb = scene[a].z or 0, scene[b].z or 0
-    if za ~= zb then return za > zb end
-    return a < b
-  end)
-  local cels = { front = scene.front, back = scene.back, brightness = scene.brightness,
-                 antialias = scene.antialias }
-  for _, i in ipairs(order) do
-    local distance = distance_of(scene[i].z or 0)
-    if distance > 0 then
-      local blur = aperture * math.abs(distance - focus) / distance
-      cels[#cels + 1] = seen(scene[i], scene, focal, distance, blur)
-    end
+  local camera, focal, planes = scene.camera or {}, scene.focal or 1000, {}
+  local lens = { x = camera.x or 0, y = camera.y or 0, z = camera.z or 0, focal = focal,
+                 aperture = scene.aperture or 0, cx = scene.film[1] / 2, cy = scene.film[2] / 2 }
+  lens.focus = scene.focus_on and focal + scene.focus_on - lens.z or scene.focus or focal
+  for i = 1, rawlen(scene) do
+    local cel, z = scene[i][1], scene[i].z or 0
+    if fits(scene[i], scene) then cel = cel:scale((focal + z) / focal, nil, lens.cx, lens.cy) end
+    planes[i] = { cel, z = z, place = i }
   end
-  for _, cel in ipairs(scene.over or {}) do cels[#cels + 1] = cel end
-  return celspan.rostrum(cels)
+  table.sort(planes, function(a, b)
+    if a.z ~= b.z then return a.z > b.z end
+    return a.place < b.place
+  end)
+  for _, cel in ipairs(scene.over or {}) do planes[#planes + 1] = { cel } end
+  local cels = see(planes, lens)
+  cels.front, cels.back = scene.front, scene.back
+  cels.brightness, cels.antialias = scene.brightness, scene.antialias
+  return scenes.keep(celspan.rostrum(cels), planes, lens, see)
 end
 
 ---@class celspan.multiplane

@@ -2,6 +2,7 @@
 local celspan = require "celspan"
 local fields = require "celspan.fields"
 local json = require "celspan.json"
+local scenes = require "celspan.scenes"
 
 local shots = {}
 
@@ -33,7 +34,8 @@ end
 --- name of the shot.
 function shots.marked(result, shot)
   local function named(value)
-    return getmetatable(value) == rostrum_metatable and value:named(shot.label) or value
+    return getmetatable(value) == rostrum_metatable and scenes.named(value, shot.label)
+      or value
   end
   if not is_marking then return result end
   if type(result) ~= "table" then return named(result) end

@@ -24,6 +24,7 @@ typedef struct list {
   bool has_boxes;
   int table; /* index of the list on the stack */
   lua_Integer count;
+  const char *owner; /* for a sheet, the name of the rostrum around what is searched, or "" */
   const celspan_rostrum *rostrum; /* of the exposure; and the cel of it that is being searched */
   size_t place;
   /* the index of the cels before this cel, as a rostrum; nil until a text of the cel needs it */
@@ -57,7 +58,8 @@ static void add(list *to, const part *one) {
   lua_State *L = to->L;
   lua_createtable(L, 0, 5);
   cs_put_text(L, "kind", one->kind);
-  cs_put_text(L, "name", one->name);
+  lua_pushfstring(L, "%s%s%s", to->owner, to->owner[0] ? "/" : "", one->name);
+  lua_setfield(L, -2, "name");
   set_hash(L, "drawing", one->drawing);
   set_hash(L, "placement", one->placement);
   if (!one->is_known) {
@@ -221,13 +223,17 @@ static void add_objects(list *to, celspan_object *const *objects, size_t count, 
 }
 
 /* A cel without a name in a nested composition is identified by the path of indices that leads to
- * it. */
+ * it. In a sheet it is no part of its own: what changes in it changes the cel around it. */
 static void add_cel(list *to, const celspan_cel *cel, const around *at, const char *path,
                     size_t place) {
   char own[PATH_SIZE];
   snprintf(own, sizeof own, "%s%scel %zu", path, path[0] ? "/" : "", place);
   const char *name = cs_mark_name(cel->mark);
   part one = {.kind = "cel", .name = name[0] ? name : own};
+  if (!to->has_boxes && at->is_inner && path[0] && !name[0]) {
+    add_objects(to, cel->objects, cel->object_count, at, path);
+    return;
+  }
   one.is_known = celspan_cel_hash(cel, one.drawing, one.placement);
   add(to, &one);
   if (to->has_boxes) {
@@ -243,6 +249,11 @@ static void add_cel(list *to, const celspan_cel *cel, const around *at, const ch
 
 static void add_rostrum(list *to, const celspan_rostrum *rostrum, const around *at,
                         const char *path) {
+  const char *owner = to->owner, *name = cs_mark_name(rostrum->mark);
+  if (!to->has_boxes && name[0]) {
+    to->owner = name;
+    path = "";
+  }
   for (size_t i = 0; i < rostrum->cel_count; i++) {
     around inner = *at;
     celspan_matrix placed;
@@ -259,13 +270,14 @@ static void add_rostrum(list *to, const celspan_rostrum *rostrum, const around *
     }
     add_cel(to, rostrum->cels[i], &inner, path, i + 1);
   }
+  to->owner = owner;
 }
 
 /* (exposures [, width, height of the film]) */
 int cs_parts_list(lua_State *L) {
   celspan_frame_desc desc;
   lua_settop(L, 3);
-  list to = {.L = L, .context = cs_host_context(L), .has_boxes = !lua_isnil(L, 2)};
+  list to = {.L = L, .context = cs_host_context(L), .has_boxes = !lua_isnil(L, 2), .owner = ""};
   around at = {.matrix = celspan_matrix_identity(),
                .fade = 1,
                .width = luaL_optnumber(L, 2, 0),

@@ -9,24 +9,33 @@
 -- front of which nothing lies, the rearmost objects that the other frames hold too. If the frame is
 -- still one opaque drawing, the skins lie over it.
 --
--- A skin is made of what the frame itself does not hold, and of its pixels only those that differ
--- from the frame's drawing (program/change.c). It is made at the size of the output, and tinted
--- twice: its colours under a light of the tint, and half over them its outline filled with the
--- tint, so that black lines show too.
+-- Skins count drawings: the first skin before a frame has the nearest drawing of each cel that the
+-- frame does not hold, the second one the nearest that is in neither, and so on.
 --
--- A camera that moves shows nothing: the camera of the frame sees the other frames too, and where
--- the rearmost cel and another one are only shifted and scaled, as celspan.multiplane does it, cels
--- that are only shifted and scaled count as held. With the name of a cel, all others are left out.
+--   frames   35  36  37  38  39  40
+--   bird      a   a   b   b   c   c    first skins at 37 and at 38: a, c
+--   cloud     1   2   3   4   5   6                       at 37: 2, 4
+--
+-- Only pixels that differ from the frame's drawing are shown (program/change.c). A skin is made at
+-- the size of the output, and tinted twice: its colours under a light of the tint, and half over
+-- them its outline filled with the tint, so that black lines show too.
+--
+-- A camera that moves shows nothing: the camera of the frame sees the other frames too, also the
+-- camera of celspan.multiplane. Where a script itself shifts and scales the rearmost cel and some
+-- others, cels that are only shifted and scaled count as held. With the name of a cel, all others
+-- are left out.
 --
 -- For celspan watch each cel has its label (program/stage_tree.c) as its name, and `labels` chooses
 -- the cels that skins are made of, and then those that are hidden: "\nnell\ncel 2\n" .. "\nsun\n".
 -- "\n": none; then skins are made of all that are no ground. nil: a render.
 local core, film, before, after, width, height, name, labels = ...
 local celspan = require "celspan"
+local scenes = require "celspan.scenes"
 
 local RED, GREEN = { 1, 0.18, 0.12 }, { 0.1, 0.75, 0.2 }
 local COARSE = 64 -- pixels a side, to find out whether a cel covers the frame
 local NAME_MOST = 255 -- bytes
+local FAR, FARTHER = 120, 12 -- frames to the nearest drawing, and from one to those of other cels
 local SKIN = "\u{F0000}" -- the name of a skin among cels with labels: of no script's language
 
 local skinned, hidden = "\n", "\n" -- the two parts of `labels`
@@ -75,14 +84,16 @@ local function chosen(rostrum)
   return remade(rostrum, cels, rostrum.camera)
 end
 
---- The exposures of a frame, each {rostrum, weight}.
-local function exposures_of(number)
-  local made = film:at(number)
-  if getmetatable(made) == rostrum_metatable then return { { chosen(made), 1 } } end
-  local list = {}
+--- The exposures of a frame, each { rostrum, weight, the rostrum of the script }. like: those of a
+--- frame whose multiplane cameras see it; nil: its own do.
+local function exposures_of(number, like)
+  local made, list = film:at(number), {}
+  if getmetatable(made) == rostrum_metatable then made = { made } end
   for i, exposure in ipairs(made) do
     local is_bare = getmetatable(exposure) == rostrum_metatable
-    list[i] = is_bare and { chosen(exposure), 1 } or { chosen(exposure[1]), exposure[2] or 1 }
+    local own, by = is_bare and exposure or exposure[1], like and (like[i] or like[1])[3]
+    local seen = by and scenes.under(own, by) or own
+    list[i] = { chosen(seen), not is_bare and exposure[2] or 1, own }
   end
   return list
 end
@@ -186,21 +197,79 @@ local function drawing_of(frame, others, is_like)
   return list, grounds
 end
 
---- The drawing of another frame, without everything that this frame has, too; nil: nothing is left.
-local function rest_of(other, frame, is_like)
-  local list, has_any, camera = drawing_of(other, { frame }, is_like), false, frame[1][1].camera
-  if skinned ~= "\n" then list = slice(other, 1, #other) end
-  for i, exposure in ipairs(list) do
-    local cels = {}
-    for j = 1, #exposure[1] do
-      if is_chosen(exposure[1][j]) and not holds(frame, exposure[1][j], is_like) then
-        cels[#cels + 1] = exposure[1][j]:with { back = { 0, 0, 0, 0 } }
-      end
-    end
-    has_any = has_any or #cels > 0
-    list[i] = { remade(exposure[1], cels, camera), exposure[2] }
+-- ---------------------------------------------------------------- drawings of other frames
+
+--- What each cel of a rostrum is called in all frames: by its exposure, its name, and which one of
+--- this name it is.
+local function keys_of(rostrum, exposure)
+  local keys, counts = {}, {}
+  for i = 1, #rostrum do
+    local own = ("%d %s\n"):format(exposure, rostrum[i].name or "")
+    counts[own] = (counts[own] or 0) + 1
+    keys[i] = own .. counts[own]
   end
-  return has_any and list or nil
+  return keys
+end
+
+--- Calls visit(cel, key, exposure) for the cels of a frame of which skins may be made.
+local function each_drawn(frame, other, is_like, visit)
+  local list = skinned == "\n" and drawing_of(frame, { other }, is_like) or frame
+  for i, exposure in ipairs(frame) do
+    local keys = keys_of(exposure[1], i)
+    for j = #keys - #list[i][1] + 1, #keys do
+      if is_chosen(exposure[1][j]) then visit(exposure[1][j], keys[j], i) end
+    end
+  end
+end
+
+--- The rank of a drawing among the `side.count` nearest of its cel; nil: it is known, or too far.
+local function rank_of(side, key, cel, is_like)
+  local known = side.known[key] or {}
+  if #known == side.count then return nil end
+  for _, drawing in ipairs(known) do
+    if is_like(drawing, cel) then return nil end
+  end
+  known[#known + 1], side.known[key] = cel, known
+  return #known
+end
+
+--- Adds the drawings of a frame that are new on a side: { rank =, raw =, other =, and the cels of
+--- each exposure }. Returns whether there are any.
+local function add_drawings(side, raw)
+  local frame, other = parted_frame(side.frame, { raw }), parted_frame(raw, { side.frame })
+  local is_like, by_rank, before_it = likeness(frame, { other }), {}, #side
+  each_drawn(other, frame, is_like, function(cel, key, i)
+    local rank = not holds(frame, cel, is_like) and rank_of(side, key, cel, is_like)
+    if not rank then return end
+    local one = by_rank[rank] or { rank = rank, raw = raw, other = other }
+    one[i] = one[i] or {}
+    table.insert(one[i], cel:with { back = { 0, 0, 0, 0 } })
+    by_rank[rank] = one
+  end)
+  for rank = 1, side.count do side[#side + 1] = by_rank[rank] end
+  if #side == before_it then return false end
+  each_drawn(frame, {}, is_like, function(_, key) side.known[key] = side.known[key] or {} end)
+  return true
+end
+
+--- Whether all cels of the frame's drawing have as many drawings as are wanted.
+local function is_full(side)
+  for _, drawings in pairs(side.known) do
+    if #drawings < side.count then return false end
+  end
+  return next(side.known) ~= nil
+end
+
+--- The drawings on one side of a frame, the nearest first. step: -1 or 1.
+local function side_of(frame, number, step, count, tint)
+  local side, distance, last = { frame = frame, known = {}, count = count, tint = tint }, 1, FAR
+  while distance <= last and count > 0 and not is_full(side) do
+    local other = number + step * distance
+    if other < film.first or other >= film.first + film.frames then break end
+    if add_drawings(side, exposures_of(other, frame)) then last = distance + FARTHER end
+    distance = distance + 1
+  end
+  return side
 end
 
 -- ---------------------------------------------------------------- skins
@@ -227,13 +296,17 @@ local function skin(rest, own, tint, opacity)
       celspan.cel { image_of(filled), front = tint, opacity = 0.5 } } })
 end
 
---- Skins, the farthest frame first; the frames after this one lie over those before it.
-local function skins_of(frame, drawing, others, is_like)
-  local skins, own = {}, nil
-  for _, other in ipairs(others) do
-    local rest = rest_of(other, frame, is_like)
-    own = own or rest and pixels_of(drawing, { width, height })
-    if rest then skins[#skins + 1] = skin(rest, own, other.tint, other.opacity) end
+--- Skins, the farthest first; those of frames after this one lie over those before it.
+local function skins_of(frame, drawing, sides)
+  local skins, own, camera = {}, pixels_of(drawing, { width, height }), frame[1][1].camera
+  for _, side in ipairs(sides) do
+    for place = #side, 1, -1 do
+      local one, rest = side[place], {}
+      for i, exposure in ipairs(one.other) do
+        rest[i] = { remade(exposure[1], one[i] or {}, camera), exposure[2] }
+      end
+      skins[#skins + 1] = skin(rest, own, side.tint, 0.5 ^ one.rank)
+    end
   end
   return skins
 end
@@ -257,32 +330,17 @@ end
 
 -- ---------------------------------------------------------------- frames
 
---- The frames around a frame, as far as the film extends, in the order of their skins.
-local function around(number)
-  local others = {}
-  local function add(distance, tint)
-    local neighbour = number + distance
-    if neighbour >= film.first and neighbour < film.first + film.frames then
-      local other = exposures_of(neighbour)
-      other.tint, other.opacity = tint, 0.5 ^ math.abs(distance)
-      others[#others + 1] = other
-    end
-  end
-  for distance = before, 1, -1 do add(-distance, RED) end
-  for distance = after, 1, -1 do add(distance, GREEN) end
-  return others
-end
-
 local function frame_at(number)
-  local frame, others = exposures_of(number), around(number)
-  if #others == 0 or not frame[1] then return frame end
-  local opened = parted_frame(frame, others)
-  for _, other in ipairs(others) do
-    for i, exposure in ipairs(parted_frame(other, { frame })) do other[i] = exposure end
+  local frame, raws, others = exposures_of(number), {}, {}
+  if not frame[1] then return frame end
+  local sides = { side_of(frame, number, -1, before, RED), side_of(frame, number, 1, after, GREEN) }
+  for _, side in ipairs(sides) do
+    for _, one in ipairs(side) do raws[#raws + 1], others[#others + 1] = one.raw, one.other end
   end
-  local is_like = likeness(opened, others)
-  local drawing, grounds = drawing_of(opened, others, is_like)
-  local skins, list = skins_of(opened, drawing, others, is_like), {}
+  if #others == 0 then return frame end
+  local opened = parted_frame(frame, raws)
+  local drawing, grounds = drawing_of(opened, others, likeness(opened, others))
+  local skins, list = skins_of(opened, drawing, sides), {}
   for i, exposure in ipairs(opened) do
     list[i] = { laid(exposure[1], grounds[i], skins), exposure[2] }
   end

@@ -1,7 +1,10 @@
 --- celspan plane FILE -o PAGE: a page that shows a plane at any size, by the element celspan-film.
---- The plane and the element, with its decoder as WebAssembly, are in the page. Without a FILE, the
---- script of the element alone.
+--- The plane and the element, with its decoder as WebAssembly, are in the page, and the first frame
+--- as a picture for browsers without script. Without a FILE, the script of the element alone.
 local program, request = ...
+local celspan = require "celspan"
+
+local STILL_MOST = 1280 -- pixels of the longer side of the picture
 
 local function bytes_of(path)
   local file, message = io.open(path, "rb")
@@ -26,13 +29,24 @@ if module == "none" then
 end
 local function filled(name, fields) return (program.text(name):gsub("@(%u+)@", fields)) end
 local player = filled("celspan-film.js", {
-  VERSION = require "celspan"._VERSION:match "%S+$", VIEWER = program.text "viewer.js",
+  VERSION = celspan._VERSION:match "%S+$", VIEWER = program.text "viewer.js",
   DECODER = filled("decoder.js", { MODULE = module }),
 })
 if not path then return program.save(page, player) end
 program.refuse_self(path, page)
 program.plane(path) -- fails if the file is not a plane
+
+--- The first frame of the plane as the bytes of a PNG.
+local function still()
+  local plane = program.check(celspan.plane_read(path))
+  local by = STILL_MOST / math.max(plane.width, plane.height)
+  local size = { math.ceil(plane.width * by), math.ceil(plane.height * by) }
+  local image = program.check(plane:pixels { size = size })
+  return (program.png(celspan.rostrum { size = size, celspan.cel { celspan.image { size = size,
+    pixels = image:bytes { depth = 8 }, format = "rgba8", x = 0, y = 0 } } }, page))
+end
+
 program.save(page, filled("plane.html", {
   TITLE = program.markup(request.title or path:match "[^/]*$"),
-  PLAYER = player, PLANE = program.base64(bytes_of(path)),
+  PLAYER = player, PLANE = program.base64(bytes_of(path)), STILL = program.base64(still()),
 }))

@@ -40,6 +40,7 @@ end
 if not is_script then program.refuse_rights() end
 
 local film = is_script and program.film()
+if film then film:kept("celspan.shots", "mark", "on") end -- the parts of a shot have its name
 local made = film and sheet.of(film, request.frames and { frames = film:numbers() })
   or program.input(sheet.read(input))
 if request.json then return print(program.json(facts_of(made))) end

@@ -172,13 +172,14 @@ local function of_view(ask, method, ...)
   return film[method](film, w, h, x, y, width, height, ...)
 end
 
---- ask.made: { file, line }: only what this line made is shown. ask.workers: the threads that may
---- draw it; nil: those of the command line.
+--- ask.made: { file, line [, name [, label]] }: only what this line made is shown, of that name and
+--- in the cel of that label. ask.workers: the threads that may draw it; nil: those of the command
+--- line.
 function answers.frame(ask)
   local began = program.clock()
   if not build(ask) then return end
   local head = { good = true, begun = true, camera = film:camera() }
-  if ask.made then film:keep_line(ask.made[1], ask.made[2]) end
+  if ask.made then film:keep_line(table.unpack(ask.made)) end
   head.seconds = program.clock() - began
   local is_begun, message = of_view(ask, "draw", ask.what, ask.workers, requests)
   if not is_begun then return refuse(("frame %d: %s"):format(ask.number, message)) end
@@ -322,14 +323,13 @@ local function add_rows(rows, from, to)
   return sheet ~= nil
 end
 
---- Adds the rows of a shot, which are named by it: "evening / nell / mouth". A shot with something
---- over it is itself in a cel without a name.
+--- Adds the rows of a shot, which are named by it: "evening / nell / mouth".
 local function add_shot(rows, shot, last)
   local begin, labels = #rows + 1, new_labels()
-  local is_added = add_rows(rows, shot.from, math.min(shot.to, last))
+  local is_added = marked(add_rows, rows, shot.from, math.min(shot.to, last))
   for i = begin, #rows do
-    local row = rows[i]
-    local name = row.name:gsub("^cel 1/", "")
+    local row, own = rows[i], shot.name .. "/"
+    local name = row.name:sub(1, #own) == own and row.name:sub(#own + 1) or row.name
     row.cel, row.of = label_of(labels, name, row.cells, shot)
     row.shot, row.name = shot.name, shot.name .. " / " .. name:gsub("/", " / ")
     if shot.to < last then table.insert(row.cells.list, { shot.to + 1, "" }) end

@@ -205,7 +205,8 @@ end
 --- Adds what is shown instead of the frame's colours: "spans", or only what a line made.
 local function add_show(id, ask, fields)
   if fields.show == "made" then
-    ask.made = { list = { fields.file or "", math.tointeger(fields.line) or 0 } }
+    ask.made = { list = { fields.file or "", math.tointeger(fields.line) or 0, fields.name,
+                          fields.cel } }
   elseif fields.show == "spans" then
     ask.what = "spans"
   elseif fields.show then

@@ -85,6 +85,7 @@ export function showFaults() {
   const groups = groupFaults(), kinds = JSON.stringify([state.errors, state.editor]);
   label("check", `Faults ${groups.length}`);
   here("check").classList.toggle("bad", groups.length > 0);
+  here("check").querySelector("use").setAttribute("href", groups.length ? "#i-faults" : "#i-fine");
   setWords("checked", checkedText(groups.length));
   if (kinds === listed) return;
   listed = kinds;

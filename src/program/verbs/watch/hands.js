@@ -34,11 +34,11 @@ function goToTyped() {
 const FIELDS = "select, textarea, input:not([type=range], [type=checkbox])"; // that take keys
 let isPointed = false; // whether the focus came by a pointer, and not by keys
 
-/** Leaves a field, otherwise a menu, otherwise the outline of what a line made. */
+/** Leaves a field, otherwise closes a menu, also from a field in it, otherwise ends the outline of
+ * what a line made. */
 function leave({ target }) {
   const field = target.closest(FIELDS);
   if (field?.closest("main")) field.blur();
-  else if (field?.closest(".menu")) field.closest(".menu").firstElementChild.focus();
   else if (!closeMenus()) outline(null);
 }
 

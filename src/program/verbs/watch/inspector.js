@@ -66,17 +66,43 @@ export async function hitsAt(one, { x, y }, isWanted) {
                     isWanted) ?? [];
 }
 
-/** The opacity of an object that is not opaque, and the light on a cel that is not white. */
-function looksOf({ opacity = 1, light }) {
-  const shine = Array.isArray(light) ? light.map(one => Number(one.toFixed(3))).join(", ") : light;
-  const words = [opacity < 1 && `opacity ${Number(opacity.toFixed(3))}`,
-                 shine && shine !== "1, 1, 1" && `light ${shine}`];
-  return words.filter(Boolean).map(textContent => element("small", { textContent }));
+/** The code of sRGB of a channel of light. */
+const codeOf = one => clamp(Math.round(255 * (one <= 0.0031308 ? 12.92 * one
+  : 1.055 * one ** (1 / 2.4) - 0.055)), 0, 255);
+
+/** Words, after a chip of their colour if there is one. */
+function saidOf(words, light) {
+  const chip = element("i", { className: "chip" });
+  chip.style.backgroundColor = `rgb(${light?.map(codeOf)})`;
+  return words ? [" ", element("small", {}, ...light ? [chip] : [], words)] : [];
+}
+
+/** The opacity of an object that is not opaque, its paint, and light on a cel that is not white. */
+function looksOf({ opacity = 1, light, paint }) {
+  const isFlat = Array.isArray(light), isWhite = isFlat && light.every(one => one === 1);
+  const shine = isFlat ? light.map(one => Number(one.toFixed(3))).join(", ") : light;
+  return [...saidOf(opacity < 1 && `opacity ${Number(opacity.toFixed(3))}`),
+          ...saidOf(paint && `paint #${paint.map(codeOf).map(hex).join("")}`, paint),
+          ...saidOf(shine && !isWhite && `light ${shine}`, isFlat ? light : null)];
+}
+
+/** The items that are listed, each with its `words`: an outline without a name has its owner's.
+ * Left out are groups and inner cels without a name, and what says the same as the item before. */
+function wordsOf(hits) {
+  const names = [];
+  const list = [...hits].reverse().map(hit => {
+    names.length = hit.depth;
+    const owner = names.at(-1), { name, kind, depth, form = depth ? "" : kind } = hit;
+    names.push(name || owner);
+    return { ...hit, words: name ? `${name} (${kind})`
+      : form && (owner ? `${owner}, ${form}` : `${form} without a name`) };
+  }).reverse().filter(one => one.words);
+  const textOf = one => one && JSON.stringify([one.words, one.file, one.line, one.paint]);
+  return list.filter((one, i) => textOf(one) !== textOf(list[i - 1]));
 }
 
 function hitItem(hit) {
-  const words = hit.name ? `${hit.name} (${hit.kind})` : `${hit.kind} without a name`;
-  return element("li", {}, words, ...looksOf(hit).flatMap(one => [" ", one]),
+  return element("li", {}, hit.words, ...looksOf(hit),
                  element("p", {}, placeButton(hit),
                          ...hit.via ? [" ", ...placesOf(hit.via, hit.callers)] : []));
 }
@@ -117,5 +143,5 @@ export async function showPoint(one) {
   if (wanted !== chosenFor) return;
   here("inspector").setAttribute("aria-busy", "false");
   here("hint").textContent = hits.length ? "" : "Nothing is there.";
-  here("hits").replaceChildren(...belowShots(hits, hitItem));
+  here("hits").replaceChildren(...belowShots(wordsOf(hits), hitItem));
 }

@@ -1,7 +1,7 @@
 // The outliner: a tree of the frame's cels, and of what has a name in them.
 //
 //   /objects.json?frame=N --> tree --> a row for each
-//   the pointer over a row outlines what its line made; over the picture, it names the object there
+//   the pointer over a row outlines what it names; over the picture, it names the object there
 import { newest, pause, post, read } from "/fetch.js";
 import { belowShots, hitsAt, pointOf } from "/inspector.js";
 import { outline, outlined } from "/over.js";
@@ -41,17 +41,20 @@ function setReading(isOn) {
 }
 
 /** The rows with what they are called, their paths, "shot/cel/name", and whether they have parts.
- * cel: the label by which a cel is shown in another way. */
+ * An inner cel without a name has the name of the row above. cel: the label by which a cel is shown
+ * in another way; place: what is outlined. */
 function pathsOf(list) {
   const names = [], seen = new Map();
   return list.map((one, i) => {
-    const cel = one.label, label = one.name || cel?.replace(/^.*\//, "") || one.kind;
     names.length = one.depth;
+    const cel = one.label, own = cel?.slice(one.shot ? one.shot.length + 1 : 0);
+    const label = one.name || own || names.at(-1);
     names.push(label);
     const plain = [...one.shot ? [one.shot] : [], ...names].join("/"), count = seen.get(plain) || 0;
     seen.set(plain, count + 1);
     return { ...one, cel, label, path: count ? `${plain} ${count + 1}` : plain,
-             isParent: (list[i + 1]?.depth ?? 0) > one.depth };
+             isParent: (list[i + 1]?.depth ?? 0) > one.depth,
+             place: one.file && { file: one.file, line: one.line, name: one.name, cel: names[0] } };
   });
 }
 
@@ -83,7 +86,7 @@ function objectRow(one) {
   row.style.setProperty("--depth", one.depth + Boolean(one.shot));
   for (const event of ["pointerenter", "pointerleave", "focusin", "focusout"]) {
     const isIn = /enter|in$/.test(event);
-    row.addEventListener(event, () => outline(isIn && one.file ? one : null));
+    row.addEventListener(event, () => outline(isIn && one.place || null));
   }
   return row;
 }

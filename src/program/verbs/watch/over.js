@@ -4,8 +4,8 @@ import { fetchPicture, look } from "/pictures.js";
 import { looks, main, overlay, play, setPressed, state, write } from "/state.js";
 import { drawRuler } from "/timeline.js";
 
-// The line whose results are outlined, { file, line }, and the runs of frames that contain some.
-// count: how many lines editors have named.
+// The line whose results are outlined, { file, line }, or only those of that name, and in that cel;
+// and the runs of frames that contain some. count: how many lines editors have named.
 export const outlined = { place: null, runs: [], count: 0 };
 const OUTLINE = [255, 150, 30, 255];
 
@@ -26,7 +26,9 @@ function drawBorder(picture, out) {
 /** What is to lie over a picture, as parts of an address. */
 export function overlays() {
   const place = outlined.place;
-  const line = place && `&show=made&file=${encodeURIComponent(place.file)}&line=${place.line}`;
+  const part = name => place[name] === undefined ? ""
+    : `&${name}=${encodeURIComponent(place[name])}`;
+  const line = place && `&show=made${["file", "line", "name", "cel"].map(part).join("")}`;
   return [...looks.hasSpans ? ["&show=spans"] : [], ...line ? [line] : []];
 }
 

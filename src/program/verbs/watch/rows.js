@@ -18,7 +18,7 @@ const ROW = 22, STRIP = 32;  // CSS pixels
 export const SHEET_MOST = 10000;    // frames of a sheet, as the server has them
 const ROWS_MOST = 2000;      // rows that are shown
 const NARROW = 12;           // CSS pixels below which boxes are not told apart
-const ONION_MOST = 3;        // frames before and after
+const ONION_MOST = 3;        // drawings before and after
 const sheet = { rows: [], parents: new Set(), shown: [], builds: "" };
 const unfolded = new Map();  // whether the rows of a shot are shown, by its name
 export const folded = new Set(); // cels, and other rows of the outliner, without their parts
@@ -136,7 +136,7 @@ const SWITCHES = {
   h: ["Hide", "hide", "Hides this cel"],
   l: ["Unlit", "light", "Takes its lights away: white light is on it"],
   f: ["Sharp", "blur", "Takes its defocus away"],
-  o: ["Onion", "onion", "Shows its frames before and after behind it"],
+  o: ["Onion", "onion", "Shows its drawings before and after behind it"],
 };
 const letters = new Map(); // by the names of the cels
 
@@ -200,7 +200,7 @@ export function resetCels() {
   look();
 }
 
-/** The onion skin of one more frame before and after, or none. */
+/** The onion skin of one more drawing before and after, or none. */
 export function nextOnion() {
   looks.onion = (looks.onion + 1) % (ONION_MOST + 1);
   label("onion", looks.onion ? `Onion skin ${looks.onion}` : "Onion skin");
@@ -237,7 +237,7 @@ function drawRow(brush, row, y, colours) {
 function drawWords(brush, box, y, colours) {
   const words = box?.name ?? `${box?.count} drawings`, x = Math.max(box?.x, 0);
   brush.fillStyle = colours.text;
-  if (box?.end - x > 8 + 7 * words.length) brush.fillText(words, x + 5, y + 15);
+  if (box?.end - x > 7 + brush.measureText(words).width) brush.fillText(words, x + 5, y + 15);
   return null;
 }
 

@@ -21,7 +21,7 @@ export const play = { direction: 0, speed: 1, start: 0, isHeard: false, passed: 
                       shown: -1, painted: [], place: -1, isAsked: false };
 // How pictures are looked at. mixing: "", "wipe" or "differ"; held: the frame that others are
 // compared with, 0: the frame before the last save; older: the picture at this place before it;
-// onion: the number of frames before and after. hasHandles: whether points have some.
+// onion: the number of drawings before and after. hasHandles: whether points have some.
 export const looks = { isMatte: false, hasSpans: false, mixing: "", held: 0, older: null,
                        onion: 0, hasHandles: true };
 // The part of the film that the timeline shows, in frames from 0.
