@@ -10,7 +10,7 @@
 #include "program/video_colours.h"
 
 enum {
-  MOST_SIDE = 16384, /* the limit of H.264, VP9 and WebP */
+  MOST_SIDE = 16384, /* the limit of H.264 and VP9 */
   QUALITY = 75       /* the default */
 };
 
@@ -59,16 +59,16 @@ bool cs_video_target_is_wanted(const cs_request *request, size_t frame_count) {
   const cs_video_format *format = format_of(request);
   if (!format || !format->is_picture)
     return format != NULL;
-  bool is_still = frame_count == 1 && !format->codecs[0]->is_module; /* that has options, too */
+  bool is_still = frame_count == 1 && !format->codes_stills;
   return !is_still && !cs_sequence_has_number(cs_request_text(request, "-o"));
 }
 
 static bool is_limited(const cs_video_codec *codec) {
-  return codec->most_crf > 0 && !codec->is_module;
+  return codec->most_crf > 0 && !codec->module;
 }
 
 bool cs_video_target_runs_ffmpeg(const cs_request *request) {
-  return !format_of(request)->codecs[0]->is_module;
+  return !format_of(request)->codecs[0]->module;
 }
 
 /* Whether a codec of the format has a quality that --max-size can choose. */
@@ -136,10 +136,10 @@ static cs_exit refuse_options(const cs_request *request, const cs_video_format *
   if (options.coding.transfer == CELSPAN_TRANSFER_LINEAR ||
       options.coding.transfer == CELSPAN_TRANSFER_CINEON)
     return cs_report_usage("%s: a video is coded as srgb or rec709: leave --colour out", output);
-  if (options.codec->is_module && options.coding.alpha == CELSPAN_ALPHA_PREMULTIPLIED)
-    return cs_report_usage("%s: films in AVIF hold straight alpha: leave --alpha out, or render "
+  if (options.codec->module && options.coding.alpha == CELSPAN_ALPHA_PREMULTIPLIED)
+    return cs_report_usage("%s: films in %s hold straight alpha: leave --alpha out, or render "
                            "shot.####.avif",
-                           output);
+                           output, options.codec->title);
   if (options.coding.depth == CELSPAN_DEPTH_HALF || options.coding.depth == CELSPAN_DEPTH_FLOAT)
     return cs_report_usage("%s: a video takes --depth 8 or 16", output);
   if (!cs_video_pixels(&options))
@@ -161,14 +161,15 @@ static cs_exit refuse_size(const cs_video_desc *video) {
   const cs_video_codec *codec = video->options.codec;
   int32_t width = video->frames.width, height = video->frames.height;
   int32_t even_width = width > 1 ? width & ~1 : 2, even_height = height > 1 ? height & ~1 : 2;
-  int32_t side = codec->is_module ? CS_AVIF_SIDE : MOST_SIDE;
+  int32_t side = codec->most_side ? codec->most_side : MOST_SIDE;
   if (width > side || height > side)
     return cs_report_usage("%s: %d x %d pixels: %s has at most %d a side", output, (int)width,
-                           (int)height, codec->is_module ? "AVIF" : "a video", (int)side);
-  if (codec->is_module && (int64_t)width * height > CS_AVIF_PIXELS)
-    return cs_report_usage("%s: %d x %d pixels: AVIF has at most %lld together, because programs "
+                           (int)height, codec->title ? codec->title : "a video", (int)side);
+  if (codec->module && (int64_t)width * height > CS_AVIF_PIXELS)
+    return cs_report_usage("%s: %d x %d pixels: %s has at most %lld together, because programs "
                            "refuse to read more",
-                           output, (int)width, (int)height, (long long)CS_AVIF_PIXELS);
+                           output, (int)width, (int)height, codec->title,
+                           (long long)CS_AVIF_PIXELS);
   if (width < codec->least_width || height < codec->least_height)
     return cs_report_usage("%s: %d x %d pixels: %s needs at least %d x %d: give a larger --size, "
                            "or another --codec",
@@ -282,6 +283,7 @@ static cs_video_desc describe(const cs_script *script, const cs_request *request
   bool has_memory = cs_request_read(request, "--memory", &memory);
   cs_video_desc desc = {.path = cs_request_text(request, "-o"),
                         .format = format_of(request),
+                        .title = script->film.title,
                         .options = options_of(request, codec_of(request)),
                         .frames = {.width = is_part ? frame->crop_width : frame->width,
                                    .height = is_part ? frame->crop_height : frame->height,

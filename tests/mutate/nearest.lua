@@ -92,7 +92,7 @@ return {
   web = { "spec/watch" },
   watch = { "spec/watch" },
   tiles = { "unit/tiles", "spec/tiles" },
-  avif = { "spec/avif", "unit/picture_sink" },
+  moving = { "spec/avif", "spec/faithful", "unit/picture_sink" },
   video = { "spec/video", "spec/sound", "spec/avif", "spec/played" },
   footage = { "unit/footage", "spec/footage", "spec/footage_bad" },
   sound = { "spec/mix", "spec/sound", "spec/video" },

@@ -10,6 +10,7 @@
  *   prores422hq prores_ks      4:2:2, 10 bits                    none     -q:v 12
  *   dnxhr       dnxhd (HQX)    4:2:2, 10 bits                    none     a fixed rate
  *   ffv1        ffv1           RGB, 8 or 16 bits                 as deep  without loss
+ *   webp        the module's   4:2:0 or RGB, 8 bits              8 bits   90
  *   avif        the module's   4:4:4, 8 or 12 bits               as deep  -crf 24
  *   gif, webp, apng, avif: the only codecs of the formats of these names
  *
@@ -38,7 +39,6 @@ static const char *const PRORES_422HQ[] = {"-c:v",    "prores_ks", "-profile:v",
 static const char *const DNXHR[] = {"-c:v", "dnxhd", "-profile:v", "dnxhr_hqx", NULL};
 static const char *const FFV1[] = {"-c:v", "ffv1", "-level", "3", "-g", "1", NULL};
 static const char *const GIF[] = {"-c:v", "gif", NULL};
-static const char *const WEBP[] = {"-c:v", "libwebp_anim", NULL};
 static const char *const APNG[] = {"-c:v", "apng", "-pred", "mixed", NULL};
 
 #define HALVED .is_halved = true, .pixels = "yuv420p", .deep_pixels = "yuv420p10le"
@@ -115,13 +115,15 @@ const cs_video_codec cs_codec_gif = {.name = "gif",
                                      .best = 256, /* colours of a frame's palette */
                                      .worst = 8};
 const cs_video_codec cs_codec_webp = {.name = "webp",
-                                      .encoder = WEBP,
-                                      .is_rgb = true,
-                                      .pixels = "bgra",
-                                      .alpha_pixels = "bgra",
-                                      .quality = "-quality",
-                                      .best = 100,
-                                      .worst = 0};
+                                      .module = CS_PICTURE_WEBP,
+                                      .title = "WebP",
+                                      .most_side = CS_WEBP_SIDE,
+                                      .pixel_bytes = 40,
+                                      .pixels = "rgba",
+                                      .alpha_pixels = "rgba",
+                                      .quality = "", /* set by the module */
+                                      .best = 110,   /* nothing is lost */
+                                      .worst = 30};
 const cs_video_codec cs_codec_apng = {.name = "apng",
                                       .encoder = APNG,
                                       .is_rgb = true,
@@ -133,7 +135,9 @@ const cs_video_codec cs_codec_apng = {.name = "apng",
 enum { AVIF_BEST = 11, AVIF_WORST = 63 };
 _Static_assert(AVIF_WORST + (AVIF_BEST - AVIF_WORST) * 75 / 100 == CS_AVIF_CRF, "quality 75");
 const cs_video_codec cs_codec_avif = {.name = CS_PICTURE_AVIF,
-                                      .is_module = true,
+                                      .module = CS_PICTURE_AVIF,
+                                      .title = "AVIF",
+                                      .most_side = CS_AVIF_SIDE,
                                       .pixels = "rgba",
                                       .deep_pixels = "rgba64le",
                                       .alpha_pixels = "rgba",

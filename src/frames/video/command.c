@@ -3,11 +3,13 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "base/utf8.h"
 #include "frames/process/child.h"
 #include "frames/video/format.h"
 
 #define FROM_RGB                                                                                   \
   "scale=out_color_matrix=bt709:out_range=tv:flags=area+accurate_rnd+full_chroma_int,"
+#define MOST_NAME 2000           /* bytes of a title */
 #define MOST_DENOMINATOR 1001000 /* of frames per second: NTSC rates such as 24000/1001 are exact */
 
 /* ---------------------------------------------------------------- arguments */
@@ -241,13 +243,25 @@ static void add_inputs(cs_video_command *command, const cs_video_options *option
     add_chapters(command, chapters);
 }
 
+static void add_name(cs_video_command *command, const char *key, const char *name) {
+  if (!name)
+    return;
+  add(command, "-metadata");
+  add_text(command, "%s=%.*s", key, (int)cs_utf8_cut(name, MOST_NAME), name);
+}
+
+/* Formats name the program in fields of different names, and each takes those that it has. */
+static void add_names(cs_video_command *command, const cs_video_extras *extras) {
+  add_name(command, "title", extras->title);
+  add_name(command, "encoding_tool", extras->maker);
+  add_name(command, "comment", extras->maker);
+}
+
 /* Everything after the encoders. */
 static void add_output(cs_video_command *command, const cs_video_format *format,
                        const cs_video_options *options, const char *file) {
-  if (format->flags) {
-    add(command, "-movflags");
-    add(command, format->flags);
-  }
+  if (format->flags)
+    add_all(command, format->flags);
   if (format->plays)
     add_plays(command, format, options->plays);
   add_format(command, format->muxer);
@@ -277,6 +291,7 @@ void cs_video_command_encode(cs_video_command *command, const cs_video_format *f
   if (has_sound)
     add_sound(command, format->sound, 1);
   add_extra_streams(command, format, 1 + has_sound + (own.chapters != NULL), &own);
+  add_names(command, &own);
   add_output(command, format, options, file);
 }
 
@@ -310,6 +325,7 @@ void cs_video_command_repeat(cs_video_command *command, const cs_video_format *f
   if (has_sound)
     add_sound(command, format->sound, 0);
   add_extra_streams(command, format, 1, &own);
+  add_names(command, &own);
   add_output(command, format, options, file);
 }
 

@@ -14,7 +14,10 @@ static const char *const OPUS[] = {"-c:a", "libopus", "-b:a", "160k", NULL};
 
 #define SUBRIP "srt"
 #define ENDLESS 1e6
-#define ISO_FLAGS "+faststart+write_colr" /* the index comes first; colour tags are written */
+/* The index comes first; colour tags are written. */
+static const char *const ISO_FLAGS[] = {"-movflags", "+faststart+write_colr", NULL};
+/* Identifiers are not random. */
+static const char *const EBML_FLAGS[] = {"-fflags", "+bitexact", NULL};
 #define EBML "\x1a\x45\xdf\xa3"
 
 static const cs_video_format FORMATS[] = {
@@ -39,6 +42,7 @@ static const cs_video_format FORMATS[] = {
      .poster = CS_POSTER_BESIDE,
      .captions = "srt",
      .captions_form = SUBRIP,
+     .flags = EBML_FLAGS,
      .mark = {0, EBML}},
     {.name = "mov",
      .muxer = "mov",
@@ -61,6 +65,7 @@ static const cs_video_format FORMATS[] = {
      .poster = CS_POSTER_BESIDE,
      .captions = "copy", /* the encoder writes no entities */
      .captions_form = "webvtt",
+     .flags = EBML_FLAGS,
      .mark = {0, EBML}},
     {.name = "gif",
      .muxer = "gif",
@@ -71,11 +76,10 @@ static const cs_video_format FORMATS[] = {
      .counts_repeats = true,
      .mark = {0, "GIF8"}},
     {.name = "webp",
-     .muxer = "webp",
      .codecs = {&cs_codec_webp},
      .is_picture = true,
      .most_frames_second = 1000,
-     .plays = "-loop",
+     .plays = "", /* set by the module */
      .mark = {8, "WEBP"}},
     {.name = "apng",
      .muxer = "apng",
@@ -86,6 +90,7 @@ static const cs_video_format FORMATS[] = {
     {.name = CS_PICTURE_AVIF,
      .codecs = {&cs_codec_avif},
      .is_picture = true,
+     .codes_stills = true,
      .most_frames_second = 1000,
      .plays = "", /* set by the module */
      .mark = {4, "ftyp"}},

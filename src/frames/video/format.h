@@ -29,9 +29,12 @@ typedef struct cs_video_codec {
   bool is_halved;                    /* the encoder accepts even sides only */
   bool is_rgb;                       /* the encoder accepts RGB; the file has no colour tags */
   bool is_indexed;                   /* few colours for the whole film, for which ffmpeg dithers */
-  bool is_module;                    /* the picture module codes, and not ffmpeg: frames are RGBA */
   bool is_deep;                      /* frames have 16 bits unless options request fewer */
   int32_t least_width, least_height; /* pixels */
+  int32_t most_side;                 /* 0: that of all videos */
+  const char *module; /* the picture module codes this format of its own: RGBA; NULL: ffmpeg does */
+  const char *title;  /* of these formats, in sentences */
+  size_t pixel_bytes; /* that the module holds for each pixel of a frame; 0: it is not counted */
   const char *quality; /* the option for the quality; NULL: a palette's size, or it has none */
   double best, worst;  /* its values at quality 100 and 0 */
   int32_t most_crf;    /* the greatest value of -crf; 0: the encoder has no such option */
@@ -52,8 +55,9 @@ typedef struct cs_video_format {
   const char *muxer;                             /* its name in ffmpeg */
   const cs_video_codec *codecs[CS_VIDEO_CODECS]; /* the default first; NULL after the last */
   bool is_picture;                               /* one frame is a picture; several are a video */
-  double most_frames_second;                     /* the resolution of its clock */
-  const char *flags;                             /* of the muxer, or NULL */
+  bool codes_stills;         /* one frame is coded as several are, with the options of a video */
+  double most_frames_second; /* the resolution of its clock */
+  const char *const *flags;  /* options of the muxer, or NULL */
   const char *plays;   /* the muxer's option for how often it is played; NULL: players decide */
   bool counts_repeats; /* that option counts what follows the first time */
   const char *const *sound; /* options of ffmpeg; NULL: the format has no sound */
@@ -105,6 +109,8 @@ typedef struct cs_video_frames {
 
 /* Texts and a picture that a video has in addition; NULL: none. */
 typedef struct cs_video_extras {
+  const char *title;     /* of the film */
+  const char *maker;     /* the program, with its version and commit */
   const char *chapters;  /* the address of a text in the format ffmetadata */
   const char *captions;  /* the name of a file in the captions_form of the format */
   const char *poster;    /* the name of a file of pixels: RGBA of 8 bits */

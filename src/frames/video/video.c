@@ -9,11 +9,8 @@
 #include "output/sinks/pixels.h"
 #include "output/sinks/planes_sink.h"
 #include "output/sinks/sink.h"
-#include "output/sinks/temporary.h"
 
 /* ---------------------------------------------------------------- opening */
-
-static bool is_same(const char *pattern, const char *name) { return strcmp(pattern, name) == 0; }
 
 static size_t frame_size(const cs_video *video, int32_t width, int32_t height) {
   return video->layout == CS_VIDEO_RGBA
@@ -48,7 +45,6 @@ static celspan_status write_extras(cs_video *video, const cs_video_desc *desc) {
 static celspan_status prepare(cs_video *video, const cs_video_desc *desc,
                               cs_video_command *command) {
   const char *name;
-  cs_temporary_sweep(video->path, is_same);
   CS_TRY(open_file(video, &video->file, &name));
   CS_TRY(write_extras(video, desc));
   if (desc->most_bytes == 0 && !desc->options.codec->is_indexed) {
@@ -75,25 +71,39 @@ static void discard_files(cs_video *video) {
   cs_file_discard(video->file, video->context);
 }
 
-static bool is_of_module(const cs_video *video) { return video->options.codec->is_module; }
+static bool is_of_module(const cs_video *video) { return video->options.codec->module != NULL; }
+
+/* Counts what the module will hold. */
+static celspan_status reserve(cs_video *video, const cs_video_desc *desc) {
+  cs_memory *memory = video->context->memory;
+  size_t pixels = (size_t)desc->frames.width * (size_t)desc->frames.height,
+         bytes = pixels * desc->options.codec->pixel_bytes;
+  if (!cs_account_allows(memory, bytes))
+    return cs_fail_memory(video->context);
+  cs_account_beside(memory, bytes);
+  video->beside = bytes;
+  return CELSPAN_OK;
+}
 
 static celspan_status open_picture(cs_video *video, const cs_video_desc *desc) {
   const cs_video_options *options = &desc->options;
   const celspan_coding coding = cs_pixels_resolve(&video->coding, CELSPAN_DEPTH_8);
   const cs_picture_output output = {.name = video->path,
-                                    .format = desc->format->name,
+                                    .format = options->codec->module,
                                     .width = desc->frames.width,
                                     .height = desc->frames.height,
                                     .channels = 4,
                                     .depth = coding.depth,
                                     .is_straight = coding.alpha == CELSPAN_ALPHA_STRAIGHT,
                                     .colour = cs_pixels_colour(&coding),
+                                    .title = desc->title,
                                     .frames_second = desc->frames.frames_second,
-                                    .avif = {.crf = cs_video_quality(options),
-                                             .plays = options->plays,
-                                             .is_opaque = options->is_opaque,
-                                             .primaries = options->primaries,
-                                             .transfer = options->transfer}};
+                                    .moving = {.quality = cs_video_quality(options),
+                                               .plays = options->plays,
+                                               .is_opaque = options->is_opaque,
+                                               .primaries = options->primaries,
+                                               .transfer = options->transfer}};
+  CS_TRY(reserve(video, desc));
   video->pixels = cs_mem_array(video->context->memory, (size_t)desc->frames.height, video->stride);
   if (!video->pixels)
     return cs_fail_memory(video->context);
@@ -104,6 +114,8 @@ static void close_picture(cs_video *video) {
   cs_picture_file_discard(&video->picture, video->context);
   cs_mem_free(video->context->memory, video->pixels, video->stride * (size_t)video->extras.height);
   video->pixels = NULL;
+  cs_account_beside(video->context->memory, 0 - video->beside);
+  video->beside = 0;
 }
 
 static celspan_status give_picture(cs_video *video) {
@@ -112,7 +124,6 @@ static celspan_status give_picture(cs_video *video) {
 }
 
 static celspan_status open_module(cs_video *out, const cs_video_desc *desc) {
-  cs_temporary_sweep(out->path, is_same);
   celspan_status status = open_picture(out, desc);
   if (status != CELSPAN_OK)
     close_picture(out);
@@ -145,7 +156,10 @@ celspan_status cs_video_open(cs_video *out, celspan_context *context, const cs_v
                     .coding = cs_video_coding(&desc->options),
                     .layout = cs_video_layout_of(&desc->options),
                     .options = desc->options,
-                    .extras = {.width = desc->frames.width, .height = desc->frames.height},
+                    .extras = {.title = desc->title,
+                               .maker = cs_context_maker(context),
+                               .width = desc->frames.width,
+                               .height = desc->frames.height},
                     .most_bytes = desc->most_bytes,
                     .has_sound = desc->sound.user != NULL,
                     .has_digests = desc->has_digests};

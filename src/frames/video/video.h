@@ -9,7 +9,7 @@
  *   with few colours:
  *   frames --> ffmpeg --> master --ffmpeg--> palette; both --ffmpeg--> .film.gif.1a2b.part
  *
- *   AVIF: frames --> slots --> picture_file.h --> film.avif
+ *   AVIF, WebP: frames --> slots --> picture_file.h --> film.avif
  *
  * INVARIANT: the file appears under its name when cs_video_finish returns OK, not before. After
  * cs_video_finish and cs_video_discard there is no temporary file and no process.
@@ -29,6 +29,7 @@ typedef struct cs_video_desc {
   cs_video_options options; /* which the format supports */
   cs_video_frames frames;
   cs_sound_stream sound;       /* as long as the frames; none: there is no sound */
+  const char *title;           /* of the film, or NULL; borrowed until the video ends */
   const char *chapters;        /* as in cs_video_extras; NULL: none */
   const char *captions;        /* a text in the captions_form of the format; NULL: none */
   const unsigned char *poster; /* RGBA of 8 bits, of the frames' size; NULL: none */
@@ -47,7 +48,7 @@ typedef struct cs_video {
   size_t stride;              /* of RGBA */
   cs_file *file;              /* owned */
   cs_file *captions, *poster; /* which ffmpeg reads; owned; NULL: none */
-  cs_video_extras extras;     /* their names, without the chapters */
+  cs_video_extras extras;     /* without the chapters; its title and maker are borrowed */
   /* where the file has a limit or a palette: */
   cs_file *master; /* the frames without loss; owned; NULL: there is no limit and no palette */
   cs_video_options options;
@@ -57,6 +58,7 @@ typedef struct cs_video {
   /* where the picture module codes, instead of the encoder and the files: */
   cs_picture_file picture;
   unsigned char *pixels; /* of the frame given last; owned */
+  size_t beside;         /* bytes that the module may hold, counted in the context */
   bool has_digests;
   cs_slots slots; /* of the frames that are made; owned */
 } cs_video;

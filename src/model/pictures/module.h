@@ -18,13 +18,15 @@
 extern "C" {
 #endif
 
-#define CS_PICTURE_MODULE_VERSION 7u
+#define CS_PICTURE_MODULE_VERSION 8u
 #define CS_PICTURE_SIDE 1048576
 #define CS_PICTURE_CHANNELS 1024
 #define CS_PICTURE_SPACE 256   /* bytes of the name of a space in a file */
 #define CS_PICTURE_SOFTWARE 64 /* bytes of the name of the program, with its version */
 #define CS_PICTURE_OTHER "other"
-#define CS_PICTURE_AVIF "avif" /* cs_picture_output.format, which modules write with libavif */
+/* cs_picture_output.format of what modules write with libavif, and of films with libwebp. */
+#define CS_PICTURE_AVIF "avif"
+#define CS_PICTURE_WEBP "webp film"
 /* Before the name of a space in the project of a DPX file, which has no place for it. */
 #define CS_PICTURE_PROJECT "celspan:colour "
 
@@ -79,15 +81,17 @@ typedef struct cs_picture_part {
 typedef struct cs_picture_reader cs_picture_reader;
 typedef struct cs_picture_writer cs_picture_writer;
 
-/* What only AVIF has. Its file may have several pictures: after the last row of one, the first row
- * of the next one follows. */
-typedef struct cs_picture_avif {
-  int32_t crf;                 /* from 0, which loses nothing of a single picture, to 63 */
+/* What only these two have. Their file may have several pictures: after the last row of one, the
+ * first row of the next one follows. */
+typedef struct cs_picture_moving {
+  /* of AVIF: from 0, which loses nothing of a single picture, to 63; of WebP: from 0 to 100, and
+   * above that nothing is lost */
+  int32_t quality;
   int32_t plays;               /* how often several pictures are played; 0: for ever */
   int32_t threads;             /* of the encoder; its bytes do not depend on them */
   int32_t is_opaque;           /* alpha is not kept */
   int32_t primaries, transfer; /* numbers of ITU-T H.273; 0: those of the colour */
-} cs_picture_avif;
+} cs_picture_moving;
 
 /* A file to be written. Rows are interleaved channels of `depth` in the machine's byte order. */
 typedef struct cs_picture_output {
@@ -109,7 +113,7 @@ typedef struct cs_picture_output {
   float primaries[8];
   double frames_second; /* 0: none */
   int32_t frame;
-  cs_picture_avif avif;
+  cs_picture_moving moving;
 } cs_picture_output;
 
 typedef struct cs_picture_module {

@@ -32,7 +32,7 @@ celspan_status cs_picture_file_open(celspan_context *context, const cs_picture_o
   out->output.put = put;
   out->output.user = out;
   snprintf(out->output.software, sizeof out->output.software, "%s", cs_context_maker(context));
-  out->output.avif.threads = cs_context_workers(context, 0, MOST_THREADS);
+  out->output.moving.threads = cs_context_workers(context, 0, MOST_THREADS);
   CS_TRY(cs_store_module(context, CELSPAN_OUTPUT, &out->module));
   CS_TRY(cs_file_create(context, NULL, output->name, &out->file));
   celspan_status status = out->module->write_open(&out->output, &out->writer, &failure);
@@ -51,10 +51,10 @@ celspan_status cs_picture_file_rows(cs_picture_file *file, celspan_context *cont
 }
 
 /* Some writers report success for a file that cannot be read. That of AVIF checks its files itself,
- * because the module reads none. */
+ * because the module reads none; of a film, the module reads one picture at most. */
 static celspan_status check_file(const cs_picture_file *file, celspan_context *context) {
   const cs_picture_output *output = &file->output;
-  if (strcmp(output->format, CS_PICTURE_AVIF) == 0)
+  if (strcmp(output->format, CS_PICTURE_AVIF) == 0 || strcmp(output->format, CS_PICTURE_WEBP) == 0)
     return CELSPAN_OK;
   cs_picture_request request = {0};
   CS_TRY(cs_file_temporary(file->file, context, &request.file));

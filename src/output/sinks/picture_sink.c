@@ -232,7 +232,7 @@ static celspan_status open_file(picture_sink *sink, celspan_context *context) {
                               .title = sink->title,
                               .frames_second = sink->frames_second,
                               .frame = sink->frame,
-                              .avif = {.crf = CS_AVIF_CRF}};
+                              .moving = {.quality = CS_AVIF_CRF}};
   output.has_primaries = cs_pixels_primaries(&sink->coding, output.primaries);
   return cs_picture_file_open(context, &output, &sink->file);
 }

@@ -90,7 +90,7 @@ static celspan_status begin(cs_picture_writer *writer, const cs_picture_output *
                                    .has_title = output->title != NULL,
                                    .has_names = output->names != NULL,
                                    .frames_second = output->frames_second,
-                                   .avif = output->avif}};
+                                   .moving = output->moving}};
   memcpy(message.output.software, output->software, sizeof message.output.software);
   memcpy(message.output.primaries, output->primaries, sizeof message.output.primaries);
   if (!cs_worker_put_texts(writer->worker, texts, 4 + name_count))

@@ -101,7 +101,7 @@ typedef struct cs_message_output {
   float primaries[8];
   char software[CS_PICTURE_SOFTWARE];
   double frames_second;
-  cs_picture_avif avif;
+  cs_picture_moving moving;
 } cs_message_output;
 
 typedef struct cs_message {

@@ -277,7 +277,7 @@ static void open_writer(worker_loop *loop, cs_message *message) {
                               .has_primaries = from->has_primaries != 0,
                               .frames_second = from->frames_second,
                               .frame = from->frame,
-                              .avif = from->avif};
+                              .moving = from->moving};
   memcpy(output.software, from->software, sizeof output.software);
   memcpy(output.primaries, from->primaries, sizeof output.primaries);
   celspan_status status = loop->module->write_open(&output, &loop->writer, &failure);

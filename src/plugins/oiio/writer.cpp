@@ -12,7 +12,7 @@
 #include <memory>
 
 #include "output/exr/rate.h"
-#include "plugins/avif/avif.h"
+#include "plugins/moving/moving.h"
 #include "plugins/oiio/shared.h"
 
 using OIIO::ImageOutput;
@@ -69,7 +69,7 @@ private:
 } // namespace
 
 struct cs_picture_writer {
-  cs_avif *avif = nullptr; /* then the rest is empty: the library does not write this format */
+  cs_moving *moving = nullptr; /* then the rest is empty: the library does not write such a file */
   std::string name;
   std::unique_ptr<Target> target;
   std::unique_ptr<ImageOutput> output;
@@ -163,14 +163,14 @@ ImageSpec make_spec(const cs_picture_output &output) {
 
 } // namespace
 
-static celspan_status open_avif(const cs_picture_output *output, cs_picture_writer **out,
-                                cs_picture_failure *failure) {
+static celspan_status open_moving(const cs_picture_output *output, cs_picture_writer **out,
+                                  cs_picture_failure *failure) {
   std::unique_ptr<cs_picture_writer> writer(new (std::nothrow) cs_picture_writer);
   if (!writer) {
     failure->text[0] = '\0';
     return failure->status = CELSPAN_NO_MEMORY;
   }
-  celspan_status status = cs_avif_open(output, &writer->avif, failure);
+  celspan_status status = cs_moving_open(output, &writer->moving, failure);
   if (status == CELSPAN_OK)
     *out = writer.release();
   return status;
@@ -178,8 +178,8 @@ static celspan_status open_avif(const cs_picture_output *output, cs_picture_writ
 
 celspan_status open_writer(const cs_picture_output *output, cs_picture_writer **out,
                            cs_picture_failure *failure) {
-  if (strcmp(output->format, CS_PICTURE_AVIF) == 0)
-    return open_avif(output, out, failure);
+  if (cs_moving_has(output))
+    return open_moving(output, out, failure);
   return fence(failure, CELSPAN_OUTPUT, output->name, [&] {
     prepare_library();
     auto writer = std::make_unique<cs_picture_writer>();
@@ -202,8 +202,8 @@ celspan_status open_writer(const cs_picture_output *output, cs_picture_writer **
 
 celspan_status write_writer(cs_picture_writer *writer, int32_t y, int32_t count, const void *rows,
                             cs_picture_failure *failure) {
-  if (writer->avif)
-    return cs_avif_rows(writer->avif, count, rows, failure);
+  if (writer->moving)
+    return cs_moving_rows(writer->moving, count, rows, failure);
   return fence(failure, CELSPAN_OUTPUT, writer->name, [&] {
     if (!writer->output->write_scanlines(y, y + count, 0, writer->spec.format, rows))
       fail_output(*writer, writer->output->geterror());
@@ -213,8 +213,8 @@ celspan_status write_writer(cs_picture_writer *writer, int32_t y, int32_t count,
 }
 
 celspan_status close_writer(cs_picture_writer *writer, cs_picture_failure *failure) {
-  if (writer->avif) {
-    celspan_status status = cs_avif_close(writer->avif, failure);
+  if (writer->moving) {
+    celspan_status status = cs_moving_close(writer->moving, failure);
     delete writer;
     return status;
   }
@@ -229,8 +229,8 @@ celspan_status close_writer(cs_picture_writer *writer, cs_picture_failure *failu
 }
 
 void abandon_writer(cs_picture_writer *writer) {
-  if (writer->avif)
-    cs_avif_abandon(writer->avif);
+  if (writer->moving)
+    cs_moving_abandon(writer->moving);
   cs_picture_failure ignored;
   std::string name = writer->name;
   celspan_status status = fence(&ignored, CELSPAN_OUTPUT, name, [&] { delete writer; });

@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "plugins/avif/avif.h"
+#include "plugins/moving/moving.h"
 
 struct cs_picture_writer {
-  cs_avif *avif; /* NULL: the rest is used */
+  cs_moving *moving; /* NULL: the rest is used */
   const cs_write_format *format;
   cs_write_target target;
   cs_picture_output output; /* with copies of the texts */
@@ -31,8 +31,8 @@ size_t cs_write_row(const cs_picture_output *output) {
 }
 
 static void destroy(cs_picture_writer *writer) {
-  if (writer->avif)
-    cs_avif_abandon(writer->avif);
+  if (writer->moving)
+    cs_moving_abandon(writer->moving);
   if (writer->self)
     writer->format->destroy(writer->self);
   for (int i = 0; i < CS_PICTURE_CHANNELS; i++)
@@ -70,12 +70,12 @@ static bool copy_output(cs_picture_writer *writer, const cs_picture_output *outp
   return is_good;
 }
 
-static celspan_status open_avif(const cs_picture_output *output, cs_picture_writer **out,
-                                cs_picture_failure *failure) {
+static celspan_status open_moving(const cs_picture_output *output, cs_picture_writer **out,
+                                  cs_picture_failure *failure) {
   cs_picture_writer *writer = calloc(1, sizeof *writer);
   if (!writer)
     return cs_raster_fail(failure, CELSPAN_NO_MEMORY, "%s: out of memory", output->name);
-  celspan_status status = cs_avif_open(output, &writer->avif, failure);
+  celspan_status status = cs_moving_open(output, &writer->moving, failure);
   if (status == CELSPAN_OK)
     *out = writer;
   else
@@ -85,8 +85,8 @@ static celspan_status open_avif(const cs_picture_output *output, cs_picture_writ
 
 celspan_status cs_write_open(const cs_picture_output *output, cs_picture_writer **out,
                              cs_picture_failure *failure) {
-  if (strcmp(output->format, CS_PICTURE_AVIF) == 0)
-    return open_avif(output, out, failure);
+  if (cs_moving_has(output))
+    return open_moving(output, out, failure);
   const cs_write_format *format = find(output->format);
   if (!format)
     return cs_raster_fail(failure, CELSPAN_OUTPUT,
@@ -124,20 +124,21 @@ static celspan_status judge(const cs_picture_writer *writer, bool is_good,
 celspan_status cs_write_rows(cs_picture_writer *writer, int32_t y, int32_t count, const void *rows,
                              cs_picture_failure *failure) {
   (void)y;
-  if (writer->avif)
-    return cs_avif_rows(writer->avif, count, rows, failure);
+  if (writer->moving)
+    return cs_moving_rows(writer->moving, count, rows, failure);
   return judge(writer, writer->format->rows(writer->self, count, rows), failure);
 }
 
-static celspan_status close_avif(cs_picture_writer *writer, cs_picture_failure *failure) {
-  celspan_status status = cs_avif_close(writer->avif, failure);
-  writer->avif = NULL;
+static celspan_status close_moving(cs_picture_writer *writer, cs_picture_failure *failure) {
+  celspan_status status = cs_moving_close(writer->moving, failure);
+  writer->moving = NULL;
   return status;
 }
 
 celspan_status cs_write_close(cs_picture_writer *writer, cs_picture_failure *failure) {
-  celspan_status status = writer->avif ? close_avif(writer, failure)
-                                       : judge(writer, writer->format->end(writer->self), failure);
+  celspan_status status = writer->moving
+                              ? close_moving(writer, failure)
+                              : judge(writer, writer->format->end(writer->self), failure);
   destroy(writer);
   return status;
 }

@@ -5,7 +5,7 @@ local c_source = require "tests.support.rooms.c_source"
 local tree = {}
 tree.__index = tree
 
-local BUILT_APART = { "plugins/avif", "plugins/cairo", "plugins/ocio", "plugins/oiio",
+local BUILT_APART = { "plugins/moving", "plugins/cairo", "plugins/ocio", "plugins/oiio",
   "plugins/raster", "plugins/type", "plugins/icc", "plugins/web", "lua/bind", "lua/nouns",
   "lua/module", "lua/sandbox", "program" }
 local PUBLIC = "include/celspan"
