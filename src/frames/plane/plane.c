@@ -131,7 +131,7 @@ static celspan_status check_plan(celspan_context *context, const cs_plan *plan) 
 static celspan_status show(celspan_context *context, const celspan_exposure *exposure,
                            const cs_view *view, cs_plane_frame *out) {
   CS_TRY(CS_RESERVE(context, out->shown, out->shown_capacity, out->shown_count + 1));
-  CS_TRY(cs_rostrum_shown(context, exposure->rostrum, view->film_width, view->film_height,
+  CS_TRY(cs_rostrum_shown(context, exposure->rostrum, view->film_width, view->film_height, 0,
                           cs_space_inside(view->film_space, view->space),
                           &out->shown[out->shown_count]));
   out->shown_count++;

@@ -1,5 +1,7 @@
 #include "frames/render/frame.h"
 
+#include <math.h>
+
 #include "base/number.h"
 #include "frames/render/compile.h"
 #include "frames/render/drawings.h"
@@ -153,14 +155,26 @@ static void set_view(cs_frame *frame, const celspan_frame_desc *desc) {
                           .space = cs_space_inside(desc->space, CELSPAN_SPACE_LINEAR)};
 }
 
+/* How far the pixel filter of an exposure reads beyond the frame, in film units. */
+static double margin_of(const cs_frame *frame, const celspan_rostrum *rostrum) {
+  const cs_view *view = &frame->view;
+  const cs_antialias *antialias = frame->has_antialias ? &frame->antialias : &rostrum->antialias;
+  return antialias->mode == CELSPAN_ANTIALIAS_FILTER
+             ? (antialias->radius + 1) *
+                   fmax(view->film_width / view->width, view->film_height / view->height)
+             : 0;
+}
+
 /* The exposures of a weight above 0. */
 static celspan_status set_rostrums(celspan_context *context, const celspan_frame_desc *desc,
                                    cs_frame *frame) {
   const cs_view *view = &frame->view;
   for (size_t i = 0; i < desc->exposure_count; i++)
     if (desc->exposures[i].weight != 0) {
-      CS_TRY(cs_rostrum_shown(context, desc->exposures[i].rostrum, view->film_width,
-                              view->film_height, view->space, &frame->rostrums[frame->count]));
+      celspan_rostrum *rostrum = desc->exposures[i].rostrum;
+      CS_TRY(cs_rostrum_shown(context, rostrum, view->film_width, view->film_height,
+                              margin_of(frame, rostrum), view->space,
+                              &frame->rostrums[frame->count]));
       frame->weights[frame->count++] = (float)desc->exposures[i].weight;
     }
   return CELSPAN_OK;
@@ -175,12 +189,12 @@ static celspan_status set_exposures(celspan_context *context, const celspan_fram
   frame->rostrums = cs_mem_array(context->memory, count, sizeof *frame->rostrums);
   if (count > 0 && (!frame->plans || !frame->maps || !frame->weights || !frame->rostrums))
     return cs_fail_memory(context);
-  CS_TRY(set_rostrums(context, desc, frame));
   frame->repeats = desc->repeats;
   frame->has_antialias = desc->has_antialias;
-  return desc->has_antialias ? cs_antialias_make(context, "frame: antialias", desc->antialias,
-                                                 desc->filter, &frame->antialias)
-                             : CELSPAN_OK;
+  if (desc->has_antialias)
+    CS_TRY(cs_antialias_make(context, "frame: antialias", desc->antialias, desc->filter,
+                             &frame->antialias));
+  return set_rostrums(context, desc, frame);
 }
 
 static celspan_status fill_frame(celspan_context *context, const celspan_frame_desc *desc,

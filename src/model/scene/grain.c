@@ -9,29 +9,39 @@
 #include "model/scene/check.h"
 #include "model/scene/primitive_data.h"
 
+/* What is drawn of a rostrum: its frame, and how far a pixel filter reads beyond it. */
+typedef struct grain_view {
+  double width, height, margin;
+  celspan_space space;
+} grain_view;
+
 /* The rostrum without its grain, as an object of a size, in a space. */
 static celspan_status make_art(celspan_context *context, const celspan_rostrum *from,
-                               const celspan_box *frame, celspan_space space,
-                               celspan_object **out) {
+                               const grain_view *view, celspan_object **out) {
   celspan_rostrum *bare;
   CS_TRY(cs_rostrum_with(context, from, from->cels, from->cel_count, &bare));
   celspan_texture_unref(bare->grain);
   bare->grain = NULL;
-  bare->space = space;
+  bare->space = view->space;
   bare->has_size = true;
-  bare->width = frame->width;
-  bare->height = frame->height;
+  bare->width = view->width;
+  bare->height = view->height;
   cs_rostrum_rehash(bare);
-  celspan_status status = cs_nested_create(context, bare, out);
+  celspan_status status = cs_nested_create(context, bare, view->margin, out);
   celspan_rostrum_unref(bare);
   return status;
 }
 
 /* A sheet of grain over the frame, which is where its backdrop is. */
 static celspan_status make_sheet(celspan_context *context, const celspan_rostrum *from,
-                                 const celspan_box *frame, celspan_object **out) {
-  const celspan_rect_desc desc = {sizeof desc,   frame->x, frame->y,   frame->width,
-                                  frame->height, 0,        from->grain};
+                                 const grain_view *view, celspan_object **out) {
+  const double margin = view->margin;
+  const celspan_rect_desc desc = {.struct_size = sizeof desc,
+                                  .x = -margin,
+                                  .y = -margin,
+                                  .width = view->width + 2 * margin,
+                                  .height = view->height + 2 * margin,
+                                  .texture = from->grain};
   celspan_object *rect;
   CS_TRY(celspan_object_create_rect(context, &desc, &rect));
   celspan_status status = cs_object_blend_within(context, rect, CELSPAN_BLEND_LINEAR_LIGHT, out);
@@ -41,13 +51,12 @@ static celspan_status make_sheet(celspan_context *context, const celspan_rostrum
 
 /* Both, in the codes of which one is added to the other. */
 static celspan_status make_grainy(celspan_context *context, const celspan_rostrum *from,
-                                  const celspan_box *frame, celspan_space space,
-                                  celspan_object **out) {
+                                  const grain_view *view, celspan_object **out) {
   celspan_object *parts[2] = {NULL, NULL};
   celspan_group_desc desc = CELSPAN_GROUP_DESC;
-  celspan_status status = make_art(context, from, frame, space, &parts[0]);
+  celspan_status status = make_art(context, from, view, &parts[0]);
   if (status == CELSPAN_OK)
-    status = make_sheet(context, from, frame, &parts[1]);
+    status = make_sheet(context, from, view, &parts[1]);
   desc.objects = parts;
   desc.object_count = 2;
   desc.isolate = CELSPAN_ISOLATION_ON;
@@ -61,8 +70,7 @@ static celspan_status make_grainy(celspan_context *context, const celspan_rostru
 
 /* A rostrum of a size, in a space, with one cel, of this object under white light. */
 static celspan_status make_whole(celspan_context *context, celspan_object *object,
-                                 const celspan_box *frame, celspan_space space,
-                                 celspan_rostrum **out) {
+                                 const grain_view *view, celspan_rostrum **out) {
   celspan_cel_desc one = CELSPAN_CEL_DESC;
   celspan_rostrum_desc desc = CELSPAN_ROSTRUM_DESC;
   celspan_cel *cel;
@@ -71,27 +79,27 @@ static celspan_status make_whole(celspan_context *context, celspan_object *objec
   CS_TRY(celspan_cel_create(context, &one, &cel));
   desc.cels = &cel;
   desc.cel_count = 1;
-  desc.space = space;
+  desc.space = view->space;
   desc.has_size = true;
-  desc.width = frame->width;
-  desc.height = frame->height;
+  desc.width = view->width;
+  desc.height = view->height;
   celspan_status status = celspan_rostrum_create(context, &desc, out);
   celspan_cel_unref(cel);
   return status;
 }
 
 celspan_status cs_rostrum_shown(celspan_context *context, celspan_rostrum *rostrum, double width,
-                                double height, celspan_space space, celspan_rostrum **out) {
-  const celspan_box frame = {0, 0, width, height};
+                                double height, double margin, celspan_space space,
+                                celspan_rostrum **out) {
+  const grain_view view = {width, height, margin, cs_space_inside(rostrum->space, space)};
   celspan_object *grainy;
   if (!rostrum->grain) {
     *out = celspan_rostrum_ref(rostrum);
     return CELSPAN_OK;
   }
-  space = cs_space_inside(rostrum->space, space);
-  CS_TRY(make_grainy(context, rostrum, &frame, space, &grainy));
+  CS_TRY(make_grainy(context, rostrum, &view, &grainy));
   celspan_rostrum *shown;
-  celspan_status status = make_whole(context, grainy, &frame, space, &shown);
+  celspan_status status = make_whole(context, grainy, &view, &shown);
   celspan_object_unref(grainy);
   CS_TRY(status);
   status = cs_antialias_copy(context, &rostrum->antialias, &shown->antialias);
@@ -106,10 +114,10 @@ celspan_status celspan_object_create_rostrum(celspan_context *context, celspan_r
   celspan_rostrum *shown;
   CS_TRY(cs_check_given(context, "rostrum", "the rostrum", rostrum));
   if (!rostrum->grain || !rostrum->has_size)
-    return cs_nested_create(context, rostrum, out);
-  CS_TRY(cs_rostrum_shown(context, rostrum, rostrum->width, rostrum->height, CELSPAN_SPACE_LINEAR,
-                          &shown));
-  celspan_status status = cs_nested_create(context, shown, out);
+    return cs_nested_create(context, rostrum, 0, out);
+  CS_TRY(cs_rostrum_shown(context, rostrum, rostrum->width, rostrum->height, 0,
+                          CELSPAN_SPACE_LINEAR, &shown));
+  celspan_status status = cs_nested_create(context, shown, 0, out);
   celspan_rostrum_unref(shown);
   return status;
 }

@@ -49,10 +49,11 @@ celspan_status cs_primitive_data_fill_rostrum(celspan_context *context, cs_primi
   return measure(context, data);
 }
 
-celspan_status cs_nested_create(celspan_context *context, celspan_rostrum *rostrum,
+celspan_status cs_nested_create(celspan_context *context, celspan_rostrum *rostrum, double margin,
                                 celspan_object **out) {
   CS_TRY(check(context, rostrum));
-  const celspan_box frame = {0, 0, rostrum->width, rostrum->height};
+  const celspan_box frame = {-margin, -margin, rostrum->width + 2 * margin,
+                             rostrum->height + 2 * margin};
   cs_primitive_data *data;
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_ROSTRUM, NULL, &data));
   celspan_status status = cs_primitive_data_fill_rostrum(context, data, rostrum, &frame);

@@ -92,9 +92,10 @@ CELSPAN_CHECKED celspan_status cs_object_graded(celspan_context *context, celspa
                                                 const celspan_grade_desc *fields,
                                                 celspan_object **out);
 
-/* As celspan_object_create_rostrum, without the grain of the rostrum. */
+/* As celspan_object_create_rostrum, without the grain of the rostrum. margin: how far it is seen
+ * beyond its frame. */
 CELSPAN_CHECKED celspan_status cs_nested_create(celspan_context *context, celspan_rostrum *rostrum,
-                                                celspan_object **out);
+                                                double margin, celspan_object **out);
 
 /* The names of the operators, in their order, and of mattes. */
 extern const char *const cs_boolean_words[];

@@ -426,7 +426,7 @@ static celspan_status add_exposure(const probe_call *probe, const celspan_exposu
   cs_oracle_sight seen;
   celspan_rostrum *shown;
   CS_TRY(cs_rostrum_shown(probe->context, exposure->rostrum, probe->film_width, probe->film_height,
-                          probe->space, &shown));
+                          0, probe->space, &shown));
   celspan_status status = see_whole(probe, shown, &seen);
   celspan_rostrum_unref(shown);
   CS_TRY(status);

@@ -358,10 +358,12 @@ void cs_rostrum_rehash(celspan_rostrum *rostrum);
 /* *out: new; what is drawn instead of a rostrum that is the frame of a film, or an object of that
  * size. Without grain it is the rostrum itself. With grain it has one cel, in which the rostrum is
  * an object under a sheet of grain; everything that asks for cels, their names and lights asks the
- * rostrum. space: of the film. Errors: those of celspan_object_create_rostrum. */
+ * rostrum. margin: how far beyond the frame it is right, for filters, in film units; 0 for an
+ * object, which ends at its frame. space: of the film. Errors: those of
+ * celspan_object_create_rostrum. */
 CELSPAN_CHECKED celspan_status cs_rostrum_shown(celspan_context *context, celspan_rostrum *rostrum,
-                                                double width, double height, celspan_space space,
-                                                celspan_rostrum **out);
+                                                double width, double height, double margin,
+                                                celspan_space space, celspan_rostrum **out);
 /* A hash of the contents of exposures, independent of the frame's size. Exposures with equal hashes
  * show the same, provided that they contain no procedure and the files of their pictures do not
  * change. */
