@@ -19,7 +19,7 @@
 /* In ascending order of width. */
 typedef enum cs_isa { CS_ISA_ANY, CS_ISA_AVX2, CS_ISA_AVX512 } cs_isa;
 
-#if defined(__x86_64__) && !defined(_WIN32)
+#ifdef __x86_64__
 #define CS_WIDE_CHOOSE(isa, name)                                                                  \
   ((isa) == CS_ISA_AVX512 ? name##_avx512 : (isa) == CS_ISA_AVX2 ? name##_avx2 : name##_any)
 

@@ -9,7 +9,6 @@
 #   x86-64-avx2  likewise
 #   musl         another C library, linked statically, without modules
 #   wasm         WebAssembly in node, without modules, threads and processes
-#   windows      in wine, linked statically, without modules and processes
 #   aarch64      another processor, in emulation, with Debian's libraries for the modules
 #   armhf        likewise
 #   i386         likewise, but not in emulation where the kernel runs its programs
@@ -39,7 +38,6 @@ emulator() {
   aarch64) echo "qemu-aarch64 -L $out/aarch64" ;;
   armhf) echo "qemu-arm -L $out/armhf" ;;
   wasm) echo node --no-experimental-fetch ;; # emcc's programs would fetch their own file
-  windows) echo "env WINEDEBUG=-all WINEPREFIX=$out/windows/wine /usr/lib/wine/wine64" ;;
   i386) i386_loader || echo "qemu-i386 -L $out/i386" ;;
   esac
 }
@@ -49,7 +47,7 @@ options() {
   echo -Dpictures=disabled -Dcolour=disabled -Dweb=disabled -Dtests=false -Doptimization=1 \
     -Ddebug=false
   case $1 in
-  musl | wasm | windows | memory) echo -Dmodules=false -Draster=disabled -Dart=disabled ;;
+  musl | wasm | memory) echo -Dmodules=false -Draster=disabled -Dart=disabled ;;
   *) echo -Draster=enabled -Dart=enabled ;;
   esac
   # Meson takes the version of emcc for one of clang that does not know C17, which it is set to.
@@ -59,10 +57,9 @@ options() {
 # build PLATFORM: quietly, unless it fails.
 build() {
   local folder=$out/$1/build log=$out/$1/log targets=("${programs[@]}")
-  [[ $1 =~ musl|wasm|windows|memory ]] || targets+=(examples/example_{painting,letters}
+  [[ $1 =~ musl|wasm|memory ]] || targets+=(examples/example_{painting,letters}
     src/plugins/raster/celspan-raster.so src/plugins/type/celspan-art.so)
   [ "$1" != wasm ] || targets=("${targets[@]/%/.js}")
-  [ "$1" != windows ] || targets=("${targets[@]/%/.exe}")
   mkdir -p "$out/$1"
   {
     # shellcheck disable=SC2046
@@ -82,7 +79,7 @@ ask() {
   local commands=$out/$1/commands name program
   mkdir -p "$commands/examples"
   for name in celspan examples/example_{surface,memory,embed,host,painting,letters}; do
-    for program in "$2/$name"{,.js,.exe}; do
+    for program in "$2/$name"{,.js}; do
       [ -f "$program" ] || continue
       printf '#!/bin/sh\nexec %s "%s" "$@"\n' "$(emulator "$1")" "$program" >"$commands/$name"
       chmod +x "$commands/$name"
@@ -92,7 +89,7 @@ ask() {
 }
 
 [ "${1:-}" != --sample ] || { every=10 && shift; }
-[ $# != 0 ] || set -- x86-64 musl wasm windows aarch64 armhf i386
+[ $# != 0 ] || set -- x86-64 musl wasm aarch64 armhf i386
 echo "| platform | equal | different | not asked |"
 echo "|---|---|---|---|"
 for platform in "$@"; do

@@ -189,7 +189,7 @@ static celspan_status start_worker(cs_media *m, celspan_context *context, cs_wor
   return CELSPAN_OK;
 }
 
-/* Some systems have no processes for us, such as Windows: no more memory would help there. */
+/* Some systems have no processes for us, such as WebAssembly: no more memory would help there. */
 static celspan_status fail_pipe(const cs_media *m, celspan_context *context, int error) {
   if (error == ENOSYS)
     return cs_fail(context, CELSPAN_OUTPUT,

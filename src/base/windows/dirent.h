@@ -1,6 +1,0 @@
-/* See base/windows/everywhere.h. */
-#pragma once
-
-#include_next <dirent.h>
-
-int dirfd(DIR *folder);
