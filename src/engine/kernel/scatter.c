@@ -9,6 +9,8 @@
  *                       /                    columns whose kernel is right of it: the whole step,
  *                                            which is a change at the first of them, and for signed
  *                                            kernels a passed event
+ *
+ * One file, because separable and even kernels share the steps of an edge.
  */
 #include "engine/kernel/convolve_parts.h"
 

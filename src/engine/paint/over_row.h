@@ -47,13 +47,11 @@ typedef struct cs_over_row_state {
 typedef struct cs_over_row_outer {
   cs_over_row_state *outer; /* of the group around it, put aside */
   bool is_clear;            /* nothing has been added to `outer` yet */
-  cs_over_row_state
-      *head;         /* GROUND and MATTE: the composited head, not yet faded; NULL: no head was
-                        met */
-  float head_fade;   /* there */
-  float (*front)[4]; /* its front light, where that has a shape */
-  uint32_t group;    /* the group around it, entered before, or CS_STACK_NONE */
-  float keep;        /* of the group around it */
+  cs_over_row_state *head;  /* GROUND and MATTE: composited, not yet faded; NULL: none was met */
+  float head_fade;          /* there */
+  float (*front)[4];        /* its front light, where that has a shape */
+  uint32_t group;           /* the group around it, entered before, or CS_STACK_NONE */
+  float keep;               /* of the group around it */
 } cs_over_row_outer;
 
 typedef struct cs_over_row {

@@ -1,3 +1,4 @@
+/* One file, because a page of a plane and one of a frame are put by the same steps. */
 #include "frames/parcels/plot.h"
 
 #include <math.h>

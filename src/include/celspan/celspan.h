@@ -827,9 +827,8 @@ typedef struct celspan_grade_desc {
   double contrast; /* (c - pivot) * contrast + pivot; 0 or more */
   bool has_pivot;  /* else 0.18, and 0.46 in SRGB */
   double pivot;
-  double saturation,
-      hue; /* the matrices of SVG's and CSS's filters, with 0.2126, 0.7152 and 0.0722;
-                             hue: radians */
+  /* The matrices of SVG's and CSS's filters, with 0.2126, 0.7152 and 0.0722; hue: radians. */
+  double saturation, hue;
   double temperature, tint; /* -1..1: red times 2^(t/2), green 2^(-tint/2), blue 2^(-t/2), divided
                                by what that makes of white's luma */
   double gamma;             /* sign(c) |c|^(1/gamma) */
@@ -1423,9 +1422,9 @@ typedef struct celspan_frame_desc {
    * 2^-20 .. 1. Finer ones are more spans. */
   bool has_tolerance; /* false: 1/1023 */
   double tolerance;
-  celspan_space
-      space; /* in which pixels are antialiased, and of the numbers in spans; exposures add
-                          light in any space */
+  /* In which pixels are antialiased, and of the numbers in spans; exposures add light in any
+   * space. */
+  celspan_space space;
   /* Whether its drawings are likely to return in other frames, as those of a film do: the maps
    * that it makes of them (docs/how-it-works.md) may then take the place of older ones in the
    * context; otherwise they are kept only where there is room. And rows that are the same as in an

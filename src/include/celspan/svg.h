@@ -21,9 +21,9 @@ typedef struct celspan_svg celspan_svg;
 
 /* A font for the texts of a drawing. */
 typedef struct celspan_svg_font {
-  const char
-      *family; /* as font-family names it, capital or small; "Family Bold", "Family Italic" and
-                         "Family Bold Italic" are faces of it; "default": for every other family */
+  /* As font-family names it, capital or small; "Family Bold", "Family Italic" and "Family Bold
+   * Italic" are faces of it; "default": for every other family. */
+  const char *family;
   const char *file;
 } celspan_svg_font;
 

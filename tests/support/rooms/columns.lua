@@ -12,13 +12,13 @@ local FIND = "find %s -type d \\( -name 'build*' -o -name out -o -name '.?*' \\)
 
 --- Whether a line of a header has only a name and a comment, and the line before it only the type.
 local function is_torn(before, line)
-  return line:find "^%s+%*?[%a_][%w_]*[^%s(]*; /%*" and before:find "^%s+[%a_][%w_ ,]*[%w_,]$"
+  return line:find "^%s+%*?[%a_][%w_]*[^%s(]*;%s+/%*" and before:find "^%s+[%a_][%w_ ,]*[%w_,]$"
 end
 
 --- Reports a file by fault(sentence), at most once, with a line for each of its faulty lines.
 local function check_file(path, fault)
   local number, long, before = 0, {}, ""
-  local is_header = path:find "%.h$" and not path:find "/include/celspan/"
+  local is_header = path:find "%.h$"
   for line in io.lines(path) do
     number = number + 1
     local length = utf8.len(line) or #line
