@@ -65,7 +65,7 @@ static void run(lua_State *L, const char *path) {
 
 int main(int argument_count, char **arguments) {
   lua_State *L = luaL_newstate();
-  if (!L || argument_count == 1 || argument_count % 2)
+  if (!L || argument_count % 2)
     stop("usage:", "compile FOLDER CHUNK FILE ..., or compile FILE");
   if (argument_count == 2)
     run(L, arguments[1]);
