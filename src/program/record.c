@@ -12,7 +12,6 @@
 #include "base/sort.h"
 #include "frames/process/journal.h"
 #include "output/sinks/file_copy.h"
-#include "output/sinks/temporary.h"
 #include "program/commit.h"
 #include "program/layers_target.h"
 #include "program/spaces.h"
@@ -151,7 +150,6 @@ celspan_status cs_record_open(cs_record *record, const cs_script *script, const 
                         output + folder);
   if (length >= (int)sizeof record->path)
     return cs_fail(record->context, CELSPAN_OUTPUT, "%.80s...: the name is too long", output);
-  cs_temporary_sweep(output, cs_sequence_matches);
   return read_record(record);
 }
 
@@ -205,8 +203,7 @@ static celspan_status append(const cs_record *record, const char *text) {
   return cs_journal_add(record->descriptor, text) ? CELSPAN_OK : fail(record, "cannot write");
 }
 
-/* Called only for the first line, because the folder exists after a frame has been written. */
-static celspan_status open_for_lines(cs_record *record) {
+static celspan_status open_file(cs_record *record) {
   char head[sizeof HEAD] = "";
   record->descriptor = cs_journal_open(record->path);
   if (record->descriptor < 0)
@@ -219,6 +216,14 @@ static celspan_status open_for_lines(cs_record *record) {
   if (size > 0 && ftruncate(record->descriptor, 0) != 0) /* the file was of another version */
     return fail(record, "cannot write");
   return append(record, HEAD);
+}
+
+/* Called only for the first line, because the folder exists after a frame has been written. */
+static celspan_status open_for_lines(cs_record *record) {
+  char text[LINE_SIZE];
+  CS_TRY(open_file(record));
+  snprintf(text, sizeof text, "by %s\n", cs_context_maker(record->context));
+  return append(record, text);
 }
 
 celspan_status cs_record_add(cs_record *record, const cs_shoot_frame *frame) {

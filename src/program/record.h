@@ -3,6 +3,7 @@
  *
  *   .shot.####.png.frames
  *     celspan frames 1
+ *     by VERSION (COMMIT)                         of the program that adds the lines which follow
  *     frame NUMBER KEY BYTES CONTENTS PIXELS      hashes as 32 hexadecimal digits; PIXELS may be -
  *
  * KEY is the hash of everything that decides how a frame comes out: the scene, the picture files as
@@ -35,8 +36,8 @@ typedef struct cs_record {
   size_t count, capacity;
 } cs_record;
 
-/* Reads the record of the request's output, if it exists, and removes unfinished files of runs that
- * were killed. frame: the view. Errors: OUTPUT, NO_MEMORY. */
+/* Reads the record of the request's output, if it exists. frame: the view. Errors: OUTPUT,
+ * NO_MEMORY. */
 CELSPAN_CHECKED celspan_status cs_record_open(cs_record *record, const cs_script *script,
                                               const cs_request *request,
                                               const celspan_frame_desc *frame);

@@ -15,6 +15,7 @@
 #include "frames/film/shoot.h"
 #include "frames/plane/plane.h"
 #include "frames/video/video.h"
+#include "output/sinks/temporary.h"
 #include "program/change.h"
 #include "program/drawing_target.h"
 #include "program/layers_target.h"
@@ -143,7 +144,8 @@ static const stream into_plane = {
 
 static cs_exit open_pages(render_job *job) {
   celspan_context *context = job->script->context;
-  const cs_plot_desc desc = cs_drawing_target_read(job->request);
+  cs_plot_desc desc = cs_drawing_target_read(job->request);
+  desc.title = job->script->film.title;
   return cs_report_failure(context, cs_plot_begin(context, job->output, &desc, &job->pages), NULL);
 }
 
@@ -200,8 +202,7 @@ static celspan_status put_drawing(void *user, celspan_context *context,
                                   const celspan_frame_desc *desc, const char *path,
                                   const celspan_file_desc *file) {
   const render_job *job = user;
-  (void)file;
-  return cs_drawing_target_write_frame(context, desc, path, job->request);
+  return cs_drawing_target_write_frame(context, desc, file->title, path, job->request);
 }
 
 static bool keep(void *user, cs_shoot_frame *frame) {
@@ -525,6 +526,8 @@ static cs_exit make_frames(render_job *job) {
   if (job->frames.count == 0)
     return report_no_frames(job);
   CS_TRY_EXIT(cs_change_refuse(job->script, &job->change, &job->frames));
+  if (job->output)
+    cs_temporary_sweep(job->output, cs_sequence_matches);
   job->stream = choose_stream(job);
   CS_TRY_EXIT(retime(job));
   if (is_whole(job))

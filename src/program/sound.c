@@ -9,7 +9,9 @@
 #include <strings.h>
 
 #include "base/context.h"
+#include "frames/film/sequence.h"
 #include "output/sinks/file.h"
+#include "output/sinks/temporary.h"
 #include "plugins/sound/wave_file.h"
 #include "program/progress.h"
 #include "program/soundtrack.h"
@@ -64,6 +66,7 @@ static cs_exit write_file(cs_script *script, const cs_request *request, const cs
   cs_sound_stream samples;
   int64_t moments;
   double peak = 0;
+  cs_temporary_sweep(output, cs_sequence_matches);
   CS_TRY_EXIT(cs_soundtrack_open(script, request, frames, stem, &samples, &moments));
   celspan_status status =
       cs_wave_file_write(script->context, output, &samples, moments, is_float, &peak);
