@@ -97,11 +97,12 @@ void cs_drawing_target_report(const celspan_context *context, const char *path,
 
 /* Writes a file of one page: a frame, or else a plane. */
 static celspan_status write_page(celspan_context *context, const celspan_frame_desc *frame,
-                                 const celspan_plane *plane, const char *path,
+                                 const celspan_plane *plane, const char *title, const char *path,
                                  const cs_request *request) {
   cs_plot *plot;
   cs_plot_facts facts;
-  const cs_plot_desc desc = cs_drawing_target_read(request);
+  cs_plot_desc desc = cs_drawing_target_read(request);
+  desc.title = title;
   CS_TRY(cs_plot_begin(context, path, &desc, &plot));
   celspan_status status =
       frame ? cs_plot_add_frame(plot, frame, &facts) : cs_plot_add_plane(plot, plane, &facts);
@@ -111,12 +112,12 @@ static celspan_status write_page(celspan_context *context, const celspan_frame_d
 }
 
 celspan_status cs_drawing_target_write_frame(celspan_context *context,
-                                             const celspan_frame_desc *frame, const char *path,
-                                             const cs_request *request) {
-  return write_page(context, frame, NULL, path, request);
+                                             const celspan_frame_desc *frame, const char *title,
+                                             const char *path, const cs_request *request) {
+  return write_page(context, frame, NULL, title, path, request);
 }
 
 celspan_status cs_drawing_target_write_plane(celspan_context *context, const celspan_plane *plane,
                                              const char *path, const cs_request *request) {
-  return write_page(context, NULL, plane, path, request);
+  return write_page(context, NULL, plane, NULL, path, request);
 }

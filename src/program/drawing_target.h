@@ -23,7 +23,7 @@ void cs_drawing_target_report(const celspan_context *context, const char *path,
 /* Write a file of one page, with frames/parcels/plot.h, and report it. */
 CELSPAN_CHECKED celspan_status cs_drawing_target_write_frame(celspan_context *context,
                                                              const celspan_frame_desc *frame,
-                                                             const char *path,
+                                                             const char *title, const char *path,
                                                              const cs_request *request);
 CELSPAN_CHECKED celspan_status cs_drawing_target_write_plane(celspan_context *context,
                                                              const celspan_plane *plane,

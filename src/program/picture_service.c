@@ -480,10 +480,10 @@ static int write_plane(lua_State *L, const celspan_frame_desc *frame, const char
 static int write_drawing(lua_State *L, const cs_still *still, const celspan_frame_desc *frame,
                          const char *path) {
   const cs_session *session = cs_service_session(L);
-  cs_service_try(
-      L, still->plane
-             ? cs_drawing_target_write_plane(session->context, still->plane, path, session->request)
-             : cs_drawing_target_write_frame(session->context, frame, path, session->request));
+  cs_service_try(L, still->plane ? cs_drawing_target_write_plane(session->context, still->plane,
+                                                                 path, session->request)
+                                 : cs_drawing_target_write_frame(session->context, frame, NULL,
+                                                                 path, session->request));
   return 0;
 }
 

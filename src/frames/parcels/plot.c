@@ -486,7 +486,8 @@ celspan_status cs_plot_begin(celspan_context *context, const char *path, const c
                              cs_plot **out) {
   cs_plot *plot;
   CS_TRY(CS_MAKE(context, plot, 1));
-  plot->text = (cs_plot_text){.context = context, .precision = desc->precision};
+  plot->text =
+      (cs_plot_text){.context = context, .title = desc->title, .precision = desc->precision};
   plot->desc = *desc;
   celspan_status status = open_file(plot, path);
   *out = status == CELSPAN_OK ? plot : NULL;

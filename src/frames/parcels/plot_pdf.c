@@ -9,7 +9,8 @@ static bool put(void *user, const void *bytes, size_t size) {
 }
 
 celspan_status cs_plot_pdf_open(cs_plot_text *text, cs_plotter *out) {
-  const cs_pdf_output output = {.maker = cs_context_maker(text->context), .put = put, .user = text};
+  const cs_pdf_output output = {
+      .maker = cs_context_maker(text->context), .title = text->title, .put = put, .user = text};
   const void *table;
   CS_TRY(cs_module_load(text->context, &cs_modules_pdf, CS_PDF_MODULE_VERSION, CELSPAN_OUTPUT,
                         &table));

@@ -156,6 +156,18 @@ static void end_picture(void *user) { cs_plot_put(user, "\"/>\n"); }
 
 /* ---------------------------------------------------------------- the page */
 
+static void put_title(cs_plot_text *to) {
+  if (!to->title)
+    return;
+  cs_plot_put(to, "<title>");
+  for (const char *at = to->title; *at; at++)
+    if (*at == '<' || *at == '&')
+      cs_plot_put(to, *at == '<' ? "&lt;" : "&amp;");
+    else
+      cs_plot_put(to, "%c", *at >= 0 && *at < ' ' ? ' ' : *at);
+  cs_plot_put(to, "</title>\n");
+}
+
 static void begin_page(void *user, const cs_plotter_page *page) {
   cs_plot_put(user, "<svg xmlns=\"http://www.w3.org/2000/svg\" "
                     "xmlns:xlink=\"http://www.w3.org/1999/xlink\" viewBox=\"0 0 ");
@@ -166,6 +178,7 @@ static void begin_page(void *user, const cs_plotter_page *page) {
   put_digits(user, "width", page->across, MATRIX_DIGITS);
   put_digits(user, "height", page->down, MATRIX_DIGITS);
   cs_plot_put(user, " preserveAspectRatio=\"none\">\n");
+  put_title(user);
 }
 
 /* The text keeps the failure itself. */

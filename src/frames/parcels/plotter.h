@@ -76,11 +76,12 @@ typedef struct cs_plotter {
 
 /* ---------------------------------------------------------------- the PDF module */
 
-#define CS_PDF_MODULE_VERSION 1u
+#define CS_PDF_MODULE_VERSION 2u
 #define CS_PDF_SIDE 14400 /* points, at most: more is beyond what programs show */
 
 typedef struct cs_pdf_output {
   const char *maker; /* the program, for the head of the file; copied */
+  const char *title; /* of the film, likewise; NULL: none */
   /* Appends bytes to the file; false: that failed. */
   bool (*put)(void *user, const void *bytes, size_t size);
   void *user;

@@ -246,8 +246,10 @@ static cairo_status_t put(void *user, const unsigned char *from, unsigned size) 
 }
 
 /* A date that is no date is left out. */
-static void set_facts(cairo_surface_t *surface, const char *maker) {
-  cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATOR, maker);
+static void set_facts(cairo_surface_t *surface, const cs_pdf_output *output) {
+  cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATOR, output->maker);
+  if (output->title)
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, output->title);
   cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "");
 }
 
@@ -259,7 +261,7 @@ static celspan_status open_file(const cs_pdf_output *output, cs_plotter *out) {
   pdf->output = *output;
   pdf->surface = cairo_pdf_surface_create_for_stream(put, pdf, 1, 1);
   if (cairo_surface_status(pdf->surface) == CAIRO_STATUS_SUCCESS)
-    set_facts(pdf->surface, output->maker);
+    set_facts(pdf->surface, output);
   *out = CS_PLOTTER(pdf);
   return CELSPAN_OK;
 }
