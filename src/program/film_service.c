@@ -180,15 +180,30 @@ static int try_onion(lua_State *L) {
   return push_outcome(L, f, cs_change_try_onion(&f->script, &onion, luaL_checkinteger(L, 2)));
 }
 
-static celspan_status read_captions(cs_script *script) {
+/* Pushes them onto the stack of the script. Nothing is pushed if it fails. */
+static celspan_status push_captions(cs_script *script) {
   const cs_film_info *info = &script->film;
-  if (!info->has_captions)
-    return CELSPAN_OK;
-  celspan_status status = cs_subtitles_push(script->L, CS_SCRIPT_FILM, "srt", 0,
-                                            (double)info->count / info->frames_second);
+  if (info->has_captions)
+    return cs_subtitles_push(script->L, CS_SCRIPT_FILM, "srt", 0,
+                             (double)info->count / info->frames_second);
+  lua_pushliteral(script->L, "");
+  return CELSPAN_OK;
+}
+
+static celspan_status read_captions(cs_script *script) {
+  celspan_status status = push_captions(script);
   if (status == CELSPAN_OK)
     lua_pop(script->L, 1);
   return status;
+}
+
+/* film:captions() -> the text of a .srt file; "": there are none */
+static int captions(lua_State *L) {
+  cs_script *script = &self(L)->script;
+  cs_service_try(L, push_captions(script));
+  lua_pushstring(L, lua_tostring(script->L, -1));
+  lua_pop(script->L, 1);
+  return 1;
 }
 
 /* film:check_tracks(is_silent) -> 0, or the exit code for a fault of the sound or else of the
@@ -489,6 +504,7 @@ static void set_facts(lua_State *L, const cs_film_info *info) {
   cs_put_number(L, "fps", info->frames_second);
   cs_put_text(L, "title", info->title);
   cs_put_flag(L, "has_sound", info->has_sound);
+  cs_put_flag(L, "has_poster", info->has_poster);
   cs_put_text(L, "space", cs_space_words[info->space - CELSPAN_SPACE_LINEAR]);
   cs_put_pair(L, "size", info->width, info->height);
   set_marks(L, info);
@@ -501,23 +517,41 @@ static int describe(lua_State *L) {
 
 /* Sets the methods of the film on top of the stack. */
 static void set_methods(lua_State *L) {
-  static const luaL_Reg methods[] = {CS_SERVICE(build),        {"try", try_frame},
-                                     {"onion", try_onion},     CS_SERVICE(at),
-                                     CS_SERVICE(chosen),       CS_SERVICE(exposures),
-                                     CS_SERVICE(words),        CS_SERVICE(numbers),
-                                     CS_SERVICE(view_size),    CS_SERVICE(lay_onion),
-                                     CS_SERVICE(check_tracks), CS_SERVICE(scene),
-                                     CS_SERVICE(counts),       CS_SERVICE(names),
-                                     CS_SERVICE(ask),          CS_SERVICE(kept),
-                                     CS_SERVICE(faults),       CS_SERVICE(drop_warnings),
-                                     CS_SERVICE(files),        CS_SERVICE(draw),
-                                     CS_SERVICE(hits),         CS_SERVICE(alter),
-                                     CS_SERVICE(keep_line),    CS_SERVICE(keep_callers),
-                                     CS_SERVICE(silence),      CS_SERVICE(costs),
-                                     CS_SERVICE(camera),       CS_SERVICE(hold_camera),
-                                     CS_SERVICE(use_camera),   CS_SERVICE(sound),
-                                     CS_SERVICE(wave),         CS_SERVICE(tree),
-                                     CS_SERVICE(refuse),       {NULL, NULL}};
+  static const luaL_Reg methods[] = {CS_SERVICE(build),
+                                     {"try", try_frame},
+                                     {"onion", try_onion},
+                                     CS_SERVICE(at),
+                                     CS_SERVICE(chosen),
+                                     CS_SERVICE(exposures),
+                                     CS_SERVICE(words),
+                                     CS_SERVICE(numbers),
+                                     CS_SERVICE(view_size),
+                                     CS_SERVICE(lay_onion),
+                                     CS_SERVICE(check_tracks),
+                                     CS_SERVICE(scene),
+                                     CS_SERVICE(counts),
+                                     CS_SERVICE(names),
+                                     CS_SERVICE(ask),
+                                     CS_SERVICE(kept),
+                                     CS_SERVICE(faults),
+                                     CS_SERVICE(drop_warnings),
+                                     CS_SERVICE(files),
+                                     CS_SERVICE(draw),
+                                     CS_SERVICE(hits),
+                                     CS_SERVICE(alter),
+                                     CS_SERVICE(keep_line),
+                                     CS_SERVICE(keep_callers),
+                                     CS_SERVICE(silence),
+                                     CS_SERVICE(costs),
+                                     CS_SERVICE(camera),
+                                     CS_SERVICE(hold_camera),
+                                     CS_SERVICE(use_camera),
+                                     CS_SERVICE(sound),
+                                     CS_SERVICE(wave),
+                                     CS_SERVICE(tree),
+                                     CS_SERVICE(refuse),
+                                     CS_SERVICE(captions),
+                                     {NULL, NULL}};
   lua_createtable(L, 0, 2);
   lua_pushcfunction(L, describe);
   lua_setfield(L, -2, "__tostring");

@@ -3,11 +3,12 @@
 --   .svg, .ora, .kra, .psd     the whole file at its own size: one frame, or for a drawing that
 --                              moves FPS frames for each second
 --   .json, .lottie             the animation; its slots and themes are parameters
---   a movie, x.####.png        its pictures, one a frame; the sound, and of files the rate, are
---                              parameters
+--   a movie, x.####.png        its pictures, one a frame; the sound, what else goes with the
+--                              pictures, and of files the rate, are parameters
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
+local json = require "celspan.json"
 local layers = require "celspan.layers"
 local ordered = require "celspan.ordered"
 local parameters = require "celspan.parameters"
@@ -119,14 +120,43 @@ end
 
 -- ---------------------------------------------------------------- footage
 
---- The pictures of a clip as a film with another sound, unless that is "". A frame shows what the
---- clip shows at its middle: where the rate varies, pictures are held or left out.
-local function shown(clip, path, sound)
+--- The parameters of pictures.
+local function declare_given(more)
+  local wanted = {
+    sound = { "", about = "A sound instead of the file's own" },
+    title = { "", about = "The title" },
+    marks = { "", about = "Names of frames, in JSON: {\"title\": 1}" },
+    captions = { "", about = "A .srt or .vtt file" },
+    poster = { 0, min = 0, about = "The frame that stands for the film; 0: none" },
+  }
+  for name, one in pairs(more) do wanted[name] = one end
+  return parameters.declare(wanted)
+end
+
+--- The marks in a text, without those of frames after the last one.
+local function marks_in(text, frames)
+  if text == "" then return nil end
+  local marks = json.decode(text)
+  if type(marks) ~= "table" then error("the parameter 'marks' is not an object of JSON", 0) end
+  for name, frame in pairs(marks) do
+    if type(frame) == "number" and frame > frames then marks[name] = nil end
+  end
+  return marks
+end
+
+local function unless(value, none) return value ~= none and value or nil end
+
+--- The pictures of a clip as a film with what is given. A frame shows what the clip shows at its
+--- middle: where the rate varies, pictures are held or left out.
+local function shown(clip, path, given)
   local w, h = clip.size[1], clip.size[2]
+  local frames = math.max(1, math.floor(clip.seconds * clip.fps + 0.5))
   return celspan.film {
-    size = clip.size, fps = clip.fps, title = path:match "[^/]*$",
-    frames = math.max(1, math.floor(clip.seconds * clip.fps + 0.5)),
-    sound = sound ~= "" and sound or clip.sound and path or nil,
+    size = clip.size, fps = clip.fps, frames = frames,
+    title = unless(given.title, "") or path:match "[^/]*$",
+    sound = unless(given.sound, "") or clip.sound and path or nil,
+    marks = marks_in(given.marks, frames), captions = unless(given.captions, ""),
+    poster = given.poster > 0 and given.poster <= frames and given.poster or nil,
     frame = function(f)
       return celspan.rostrum { celspan.cel {
         celspan.rect { 0, 0, w, h, texture = clip:at(f.middle) } } }
@@ -134,18 +164,15 @@ local function shown(clip, path, sound)
   }
 end
 
-local SOUND = { "", about = "A sound instead of the file's own" }
-
 local function movie(path)
   if not core.is_movie((core.find(path))) then return nil end
-  local given = parameters.declare { sound = SOUND }
-  return shown(celspan.footage { file = path }, path, given.sound)
+  return shown(celspan.footage { file = path }, path, declare_given {})
 end
 
 local function files(path)
-  local given = parameters.declare { sound = SOUND,
+  local given = declare_given {
     fps = { FPS, min = 0.01, max = 1000, about = "Frames per second" } }
-  return shown(celspan.footage { file = path, fps = given.fps }, path, given.sound)
+  return shown(celspan.footage { file = path, fps = given.fps }, path, given)
 end
 
 --- What is not shown of it is passed to `show`. nil: the file is not of this kind.

@@ -3,8 +3,9 @@
 ---
 ---   frames.####.png --celspan render--> film.mp4      the pictures are a film (artwork.lua)
 ---   film.lua --celspan sound--> .film.mp4.sound.wav --^
+---            --its captions--> .film.mp4.captions.srt -^
 ---
---- If a run is killed, that file remains; the next run replaces and removes it.
+--- If a run is killed, these files remain; the next run replaces and removes them.
 local program, request = ...
 
 local ONLY_VIDEO = { "quality", "codec", "max_size", "crf", "loop", "loudness", "fps", "sound",
@@ -28,11 +29,16 @@ local function rate()
   return ("%.17g"):format((above or request.fps) / (below or 1))
 end
 
+--- The name of a file beside the output.
+local function beside(output, ending)
+  local folder, base = output:match "^(.-)([^/]*)$"
+  return folder .. "." .. base:sub(1, NAME_MOST - 1 - #ending) .. ending
+end
+
 --- Writes the sound of a script to a file beside the output. Returns its name, or nil and the exit
 --- code.
 local function mix(script, output)
-  local folder, base = output:match "^(.-)([^/]*)$"
-  local name = folder .. "." .. base:sub(1, NAME_MOST - #"..sound.wav") .. ".sound.wav"
+  local name = beside(output, ".sound.wav")
   local words = { "sound", script, "-o", name, "--progress", "none" }
   for _, option in ipairs(request.given) do
     if RIGHTS[option.name] then
@@ -45,16 +51,37 @@ local function mix(script, output)
   return nil, code
 end
 
+--- Adds the settings that give the pictures the title, the marks, the poster and the captions of a
+--- script, whose first frame is the first picture. Returns the name of a file that was written for
+--- them, or nil.
+local function carry(script, output, settings)
+  local film = program.film(script, true)
+  local marks, text, name = {}, film:captions(), beside(output, ".captions.srt")
+  local function add(key, value) settings[#settings + 1] = { key, value } end
+  for i, mark in ipairs(film.marks) do marks[i] = { mark.name, mark.frame - film.first + 1 } end
+  if film.title then add("title", film.title) end
+  if #marks > 0 then add("marks", require "celspan.json".encode(marks)) end
+  if film.has_poster then add("poster", tostring(film.poster - film.first + 1)) end
+  if text == "" then return nil end
+  local file, message = io.open(name, "w")
+  if not file or not file:write(text) or not file:close() then
+    program.fail("output", "%s", message or name .. ": cannot be written")
+  end
+  add("captions", program.resolve(name))
+  return name
+end
+
 --- Makes the output of a film of pictures; returns the exit code.
 local function render(input, output)
   local words, settings = { "render", input, "-o", output }, {}
   local function add(...) table.move({ ... }, 1, select("#", ...), #words + 1, words) end
-  local sound, made, code = request.sound
+  local sound, made, written, code = request.sound
   if request.frame then add("--frames", request.frame) end
   if request.fps then settings[1] = { "fps", rate() } end
   if sound and program.kind(sound) == "script" then
     made, code = mix(sound, output)
     if not made then return code end
+    written = carry(sound, output, settings)
     sound = made
   end
   if sound then
@@ -63,7 +90,7 @@ local function render(input, output)
     if not request.trust then add("--allow", sound:match "^(.*/)") end
   end
   code = run(program.pass_on(words, request, OWN, settings))
-  if made then os.remove(made) end
+  for _, name in pairs { made, written } do os.remove(name) end
   return code
 end
 
