@@ -200,7 +200,7 @@ describe("a chart", function()
         data = { { day = "Mon", m = 2, n = 3 }, { n = 4 } }, x = "day", y = "N" },
       ["no row of 'data' has a field 'dey'; did you mean 'day'?"] = one {
         data = { { day = "Mon", n = 3 } }, x = "dey", y = "n" },
-      ["no row of 'data' has a field 'tons'; there are day, n"] = one {
+      ["no row of 'data' has a field 'tons'"] = one {
         data = { { day = "Mon", n = 3 } }, y = { "n", "tons" } },
       ["field 'y' must be the name of a field of the rows, or a list of names"] = one { y = {} },
       ['a chart of the kind "bar" shows at most 1000 rows, got 1001'] = one { data = long },

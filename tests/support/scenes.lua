@@ -400,6 +400,15 @@ function maker:primitive()
   return self.made[#self.made]
 end
 
+--- Every other time a circle is taken away from the object, or joined to it by exclusive or.
+function maker:cut(object)
+  local own = self.cuts
+  if not own:once(2) then return object end
+  return ("celspan.%s{ %s, celspan.circle{ centre = {%s, %s}, radius = %s } }"):format(
+    own:pick { "difference", "xor" }, object, text_of(own:between(0, 40)),
+    text_of(own:between(0, 30)), text_of(own:between(3, 20)))
+end
+
 --- Path operators on an object. They have their own series of random numbers, as patterns have.
 function maker:changed(object)
   local own = self.changes
@@ -424,7 +433,7 @@ function maker:changed(object)
         number(0, 1), own:pick { "above", "below" })
     end,
     function()
-      return ("celspan.offset(%s, %s, { join = %q })"):format(object, number(-4, 4),
+      return ("celspan.offset(%s, %s, { join = %q })"):format(self:cut(object), number(-4, 4),
         own:pick { "round", "miter", "bevel" })
     end,
     function()
@@ -791,7 +800,7 @@ local function start(seed, options)
     fillings = prng.new(seed ~ 0x7061747465726e), outlines = prng.new(seed ~ 0x6f75746c696e65),
     changes = prng.new(seed ~ 0x6368616e6765), keys = prng.new(seed ~ 0x6b657973),
     noises = prng.new(seed ~ 0x6e6f697365), shifts = prng.new(seed ~ 0x736869667473),
-    has_shifts = options.has_shifts,
+    cuts = prng.new(seed ~ 0x63757473), has_shifts = options.has_shifts,
     has_modes = options.has_modes ~= false and seed % 2 == 0,
     has_spaces = options.has_modes ~= false and seed % 4 == 0,
     has_grades = options.has_grades ~= false, has_patterns = options.has_patterns ~= false,

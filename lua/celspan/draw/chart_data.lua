@@ -17,19 +17,17 @@ local function refuse(text, ...) core.refuse("chart: " .. text:format(...)) end
 
 --- Refuses a field that no row has. Rows that are no tables are refused by their number.
 local function check_field(rows, field)
-  local names, is_named = {}, {}
+  local names = {}
   for i = 1, rawlen(rows) do
     if type(rows[i]) ~= "table" or rows[i][field] ~= nil then return end
-    for name in pairs(rows[i]) do
-      if type(name) == "string" and not is_named[name] then
-        names[#names + 1], is_named[name] = name, true
-      end
+    for name in pairs(i <= 100 and rows[i] or {}) do
+      names[#names + 1] = type(name) == "string" and name or nil
     end
   end
   table.sort(names)
   local hint = core.nearest(field, names)
-  refuse("no row of 'data' has a field '%s'%s", field, hint and ("; did you mean '%s'?"):format(hint)
-    or #names > 0 and "; there are " .. table.concat(names, ", ") or "")
+  refuse("no row of 'data' has a field '%s'%s", field,
+    hint and ("; did you mean '%s'?"):format(hint) or "")
 end
 
 --- The value of a row in a field; without a field, the row itself.

@@ -85,8 +85,9 @@ static void make_listing(const cs_message *message, const char *file, cs_media_a
   begin(out, "ffprobe");
   ADD(out, "-of", "compact", "-show_entries",
       "stream=index,codec_type,codec_name,width,height,pix_fmt,sample_aspect_ratio,color_range,"
-      "color_space,color_transfer,color_primaries,chroma_location,time_base,avg_frame_rate,nb_frames,"
-      "duration_ts:stream_disposition=attached_pic:stream_tags=alpha_mode:stream_side_data=rotation:"
+      "color_space,color_transfer,color_primaries,chroma_location,time_base,avg_frame_rate,"
+      "nb_frames,duration_ts:"
+      "stream_disposition=attached_pic:stream_tags=alpha_mode:stream_side_data=rotation:"
       "packet=stream_index,pts,duration,flags");
   add_input(out, message->text, file);
 }
