@@ -147,7 +147,7 @@ export LDFLAGS="-Wl,-Bsymbolic -Wl,--gc-sections -Wl,--exclude-libs,${hidden%:}"
 meson setup build source --prefix="/build/$name" --libdir=lib --strip \
   -Doptimization=s -Ddebug=false \
   -Dtests=false -Dpictures=disabled -Draster=enabled -Dart=enabled -Dcolour=enabled \
-  -Dspaces=disabled -Davif=disabled -Dpdf=disabled -Dweb=enabled
+  -Dspaces=disabled -Davif=disabled -Dwebp=enabled -Dpdf=disabled -Dweb=enabled
 ninja -C build -j "$(nproc)"
 meson install -C build --quiet --no-rebuild
 tree=/build/$name

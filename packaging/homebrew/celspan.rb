@@ -20,6 +20,7 @@ class Celspan < Formula
   depends_on "little-cms2"
   depends_on "lua"
   depends_on "openimageio"
+  depends_on "webp"
   depends_on "zlib"
 
   def install

@@ -15,6 +15,7 @@ pkgs.stdenv.mkDerivation {
     libavif
     libmicrohttpd
     libunibreak
+    libwebp
     lua5_4
     openimageio
     zlib
