@@ -19,6 +19,9 @@ local KEPT = 8 -- numbered files that stay open though no frame shows them
 
 local function refuse(text, ...) core.refuse("footage: " .. text:format(...)) end
 
+--- Refuses because files are not there, which is no fault of the script.
+local function miss(text, ...) core.miss("footage", text:format(...)) end
+
 ---@class celspan.footage
 ---@field size number[] {w, h} in pixels, upright, with square pixels
 ---@field fps number Pictures a second; of a movie without a constant rate the mean
@@ -66,7 +69,7 @@ local function find_numbers(pattern)
   if tried and (not numbers or #numbers == 0) then numbers = core.frames(tried) or numbers end
   if not numbers then refuse("%s", message) end
   if #numbers == 0 then
-    refuse("%s: there are no such files%s", pattern,
+    miss("%s: there are no such files%s", pattern,
       tried and "; also looked for at " .. tried or "")
   end
   return numbers
@@ -103,7 +106,7 @@ local function open_files(given)
   local numbers = find_numbers(given.file)
   local missing, count = missing_in(numbers)
   if count > 0 then
-    refuse("%s: %s missing: %s", given.file, count == 1 and "a file is" or count .. " files are",
+    miss("%s: %s missing: %s", given.file, count == 1 and "a file is" or count .. " files are",
       missing)
   end
   if given.alpha then

@@ -48,6 +48,14 @@ static int nearest(lua_State *L) {
  * celspan. */
 static int refuse(lua_State *L) { return cs_caller_error(L, "%s", luaL_checkstring(L, 1)); }
 
+/* core.miss(noun, sentence): the same for an input that is not there, which is no fault of the
+ * script: the exit code is that of the core for such a file. */
+static int miss(lua_State *L) {
+  const char *noun = luaL_checkstring(L, 1), *sentence = luaL_checkstring(L, 2);
+  cs_host_try(L, noun, cs_fail(cs_host_context(L), CELSPAN_INPUT, "%s", sentence));
+  return 0;
+}
+
 /* Pushes a C function. Its upvalue is the only argument, a function. */
 static int push_around(lua_State *L, lua_CFunction around) {
   luaL_checktype(L, 1, LUA_TFUNCTION);
@@ -97,6 +105,7 @@ static const luaL_Reg core_functions[] = {{"find", find},
                                           {"nouns", cs_nouns_push},
                                           {"source", cs_embedded_source},
                                           {"refuse", refuse},
+                                          {"miss", miss},
                                           {"warns", cs_warnings_kept},
                                           {"warn", cs_warnings_add},
                                           {"entry", entry},
