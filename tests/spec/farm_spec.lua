@@ -486,6 +486,15 @@ describe("celspan farm", function()
     assert.equal(4, (celspan "farm none.lua -o o/#.png --slurm"))
   end)
 
+  it("says how a video is made of the frames, with its rate and its sound", function()
+    local how = "give -o my film.####.png, and when all are there, make the video of them: celspan "
+      .. "convert 'my film.####.png' 'my film.mp4' --fps "
+    bench:write("film.lua", (farm.FILM:gsub("frames = 7", "fps = 30000 / 1001, frames = 7")))
+    refused(how .. "30000/1001\n", "farm film.lua -o 'my film.mp4' --slurm")
+    bench:write("film.lua", (farm.FILM:gsub("frames = 7", "fps = 12, sound = 'a.wav', frames = 7")))
+    refused(how .. "12 --sound film.lua\n", "farm film.lua -o 'my film.mp4' --slurm")
+  end)
+
   it("refuses what every task would refuse", function()
     for options, text in pairs {
       ["-o o.#.png --quality 50"] = "--quality is only for videos",

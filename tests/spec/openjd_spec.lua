@@ -61,6 +61,28 @@ describe("the template of Open Job Description", function()
     same(odd .. "/{{y}}.5.png", "whole/5.png")
   end)
 
+  it("has paths without dots in them, by whose beginnings farms map them", function()
+    assert.equal(true, os.execute(("mkdir -p '%s/far/deep' && ln -s far/deep '%s/link'"):format(
+      bench.folder, bench.folder)))
+    local function values(command)
+      local code, out, err = shell(command)
+      assert.equal(0, code, err)
+      local by_name = {}
+      for _, one in ipairs(assert(json.decode(out)).parameterDefinitions) do
+        by_name[one.name] = one.default
+      end
+      return by_name
+    end
+    local plain = values '"$CELSPAN" farm film.lua --openjd -o o/#.png'
+    local dotted = values(
+      'cd far && "$CELSPAN" farm .././film.lua --openjd -o ../far/../o/#.png')
+    for _, name in ipairs { "Script", "Folder", "Output" } do
+      assert.equal(plain[name], dotted[name])
+    end
+    assert.equal(bench.folder .. "/link/../o",
+      values('"$CELSPAN" farm film.lua --openjd -o link/../o/#.png').Output) -- the link makes it far/o
+  end)
+
   it("refuses values that a template cannot contain", function()
     refused("has more than 1024 characters",
       "farm film.lua --openjd -o o/#.png -- " .. word("\n" .. ("x"):rep(1024)))

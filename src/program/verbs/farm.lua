@@ -26,8 +26,20 @@ local ARRAY_MOST = 1000 -- the most tasks of an array that Slurm accepts by defa
 
 -- ---------------------------------------------------------------- both engines
 
+--- A path without "." and ".." in it, because rules that map paths compare their beginnings. Where a
+--- link leads ".." to another folder than the names say, the path stays as it is.
+local function plain_path(path)
+  local parts = {}
+  for part in path:gmatch "[^/]+" do
+    if part == ".." then table.remove(parts) elseif part ~= "." then parts[#parts + 1] = part end
+  end
+  local short = "/" .. table.concat(parts, "/") .. (path:match "[^/](/)$" or "")
+  return program.resolve(path) == program.resolve(short) and short or path
+end
+
 local function absolute(path, folder)
-  return path:sub(1, 1) == "/" and path or folder:gsub("/$", "") .. "/" .. path
+  local full = path:sub(1, 1) == "/" and path or folder:gsub("/$", "") .. "/" .. path
+  return (full .. "/"):find "/%.%.?/" and plain_path(full) or full
 end
 
 --- The ending of a strip's file, which is that of its picture.
@@ -257,8 +269,9 @@ local function refuse()
     program.usage("--strips %s: at most %d strips can be joined at once", request.strips,
       STRIPS_MOST)
   end
-  if output == "-" or not request.table and program.is_video(output) then
-    program.usage "a farm makes files of frames: give -o shot.####.png (and make a video of them)"
+  if output == "-" then program.usage "a farm makes files of frames: give -o shot.####.png" end
+  if request.table == "-" then
+    program.usage "--table -: each task reads the table, too: give the name of a file"
   end
   local named = request.format and "x." .. request.format or output
   if program.has_ending(named, ".svg", ".pdf", ".json", ".lottie") then
@@ -267,6 +280,20 @@ local function refuse()
   end
   if request.log then refuse_log() end
   if #output > program.path_most then program.usage("%.80s...: the name is too long", output) end
+end
+
+--- Frames per second as --fps takes them: 25, 30000/1001.
+local function rate_of(film)
+  local above = math.floor(film.fps * 1.001 + 0.5) * 1000
+  return film.fps == above / 1001 and above .. "/1001" or ("%.14g"):format(film.fps)
+end
+
+--- Refuses a video, whose frames are made by several tasks, and says how it is made of them.
+local function refuse_video(film, output)
+  local frames = output:gsub("%.[^./]*$", "") .. ".####.png"
+  program.usage("%s: a farm makes files of frames: give -o %s, and when all are there, make the "
+    .. "video of them: celspan convert %s %s --fps %s%s", output, frames, quoted(frames),
+    quoted(output), rate_of(film), film.has_sound and " --sound " .. quoted(request[1]) or "")
 end
 
 --- How many tasks have the most of `chunk`.
@@ -296,6 +323,7 @@ end
 
 --- Sets the numbers of frames and tasks, and the output of each task.
 local function count_tasks(job, film)
+  if program.is_video(request.output) then refuse_video(film, request.output) end
   local numbers = film:numbers(request.output)
   job.frames, job.tasks, job.output = #numbers, math.tointeger(request.strips), request.output
   job.numbers = numbers
