@@ -206,6 +206,8 @@ cs_exit cs_lua_verb_run(celspan_context *context, const cs_request *request) {
   lua_pushlightuserdata(L, &session);
   cs_script_watch(L);
   cs_exit outcome = outcome_of(L, &session, cs_lua_error_call(L, 1, 1));
+  if (session.progress.frame_count > 0)
+    cs_progress_end(&session.progress, (cs_progress_failures){NULL, 0}, (int)outcome);
   cs_script_watch(NULL);
   lua_close(L);
   return outcome;

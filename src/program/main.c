@@ -107,6 +107,8 @@ static cs_exit run(cs_request *request) {
 
 static cs_exit begin_log(const cs_request *request) {
   const char *path = request->verb->plans_rows ? NULL : cs_request_text(request, "--log");
+  if (path && cs_request_has(request, "--table") && strchr(path, '{'))
+    return CS_EXIT_OK; /* each row has its own */
   if (path && !cs_log_open(path)) {
     cs_report_error("%s: the log cannot be written: %s", path, strerror(errno));
     return CS_EXIT_OUTPUT;

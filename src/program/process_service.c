@@ -3,7 +3,7 @@
  *   start --> celspan ...      what it prints goes to a file, its descriptor 3 is another
  *   wait  <-- the one that ended
  *
- * A signal that asks to stop ends them.
+ * A signal that asks to stop ends them, and they do not outlive this program, however it ends.
  */
 #include <errno.h>
 #include <limits.h>
@@ -59,7 +59,8 @@ static int start(lua_State *L) {
   const cs_spawn_desc desc = {.path = cs_program_path(),
                               .arguments = words,
                               .files = files,
-                              .file_count = has_other ? 4 : 3};
+                              .file_count = has_other ? 4 : 3,
+                              .bound_by = SIGTERM};
   int error = cs_spawn(&process, &desc);
   errno = error;
   if (error)

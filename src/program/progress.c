@@ -27,9 +27,27 @@ static void start_json(size_t frame_count) {
   cs_report_event(&event);
 }
 
-void cs_progress_start(cs_progress *progress, cs_progress_style style, size_t frame_count) {
-  *progress =
-      (cs_progress){.frame_count = frame_count, .noun = "frame", .started = cs_clock_seconds()};
+/* A log may be that of many runs: a line of their beginning and their end says which. */
+static void log_run(const cs_progress *progress, const char *what, const char *how) {
+  bool has_output = progress->output != NULL;
+  cs_report_log("%s: %s%s%s", what, has_output ? progress->output : "", has_output ? ": " : "",
+                how);
+}
+
+static void log_start(const cs_progress *progress) {
+  char how[48];
+  snprintf(how, sizeof how, "%zu frame%s", progress->frame_count,
+           progress->frame_count == 1 ? "" : "s");
+  log_run(progress, "begins", how);
+}
+
+void cs_progress_start(cs_progress *progress, const cs_request *request, cs_progress_style style,
+                       size_t frame_count) {
+  cs_request_read(request, "--progress", &style);
+  *progress = (cs_progress){.frame_count = frame_count,
+                            .noun = "frame",
+                            .output = cs_request_text(request, "-o"),
+                            .started = cs_clock_seconds()};
   /* A log gets at most one line a second by default; with the style for lines, one for every
    * frame. */
   progress->pause = style == CS_PROGRESS_LINES ? 0 : 1;
@@ -41,7 +59,7 @@ void cs_progress_start(cs_progress *progress, cs_progress_style style, size_t fr
   }
   progress->style = style;
   progress->shown = progress->started;
-  cs_report_log("begins: %zu frame%s", frame_count, frame_count == 1 ? "" : "s");
+  log_start(progress);
   if (style == CS_PROGRESS_JSON)
     start_json(frame_count);
   if (style == CS_PROGRESS_OPENJD)
@@ -158,9 +176,13 @@ void cs_progress_frame(cs_progress *progress, int64_t frame, const char *what, c
   progress->shown = now;
 }
 
-/* "exit" is the program's exit code: 128 plus its number after a signal. */
-static void end_json(const cs_progress *progress, cs_progress_failures failed, int outcome) {
+/* The exit code of the program, which is 128 plus its number after a signal. */
+static int exit_of(int outcome) {
   int stopped_by = cs_interrupt_signal();
+  return stopped_by ? CS_EXIT_SIGNAL + stopped_by : outcome;
+}
+
+static void end_json(const cs_progress *progress, cs_progress_failures failed, int outcome) {
   cs_json event;
   cs_json_begin(&event);
   cs_json_text(&event, "event", "end");
@@ -168,7 +190,7 @@ static void end_json(const cs_progress *progress, cs_progress_failures failed, i
   cs_json_integer(&event, "copied", (int64_t)progress->copied);
   cs_json_integer(&event, "kept", (int64_t)progress->kept);
   cs_json_number(&event, "seconds", cs_clock_seconds() - progress->started);
-  cs_json_integer(&event, "exit", stopped_by ? CS_EXIT_SIGNAL + stopped_by : outcome);
+  cs_json_integer(&event, "exit", exit_of(outcome));
   cs_json_integer(&event, "failures", (int64_t)failed.count);
   cs_json_integers(&event, "failed", failed.frames, failed.count);
   cs_report_event(&event);
@@ -193,16 +215,20 @@ static void end_words(const cs_progress *progress) {
       format_count(kept, sizeof kept, progress->kept, "kept"));
 }
 
+static void log_end(const cs_progress *progress, size_t failures, int outcome) {
+  char how[192];
+  snprintf(how, sizeof how, "%zu of %zu finished, %zu failed, in %.3f seconds, exit code %d",
+           progress->frames_done, progress->frame_count, failures,
+           cs_clock_seconds() - progress->started, exit_of(outcome));
+  log_run(progress, "ends", how);
+}
+
 void cs_progress_end(cs_progress *progress, cs_progress_failures failed, int outcome) {
   if (progress->style == CS_PROGRESS_BAR) {
     clear_bar();
     cs_report_before_line(NULL);
   }
-  int stopped_by = cs_interrupt_signal();
-  cs_report_log("ends: %zu of %zu finished, %zu failed, in %.3f seconds, exit code %d",
-                progress->frames_done, progress->frame_count, failed.count,
-                cs_clock_seconds() - progress->started,
-                stopped_by ? CS_EXIT_SIGNAL + stopped_by : outcome);
+  log_end(progress, failed.count, outcome);
   if (progress->style == CS_PROGRESS_JSON)
     end_json(progress, failed, outcome);
   else if (progress->style != CS_PROGRESS_NONE && progress->frames_done == progress->frame_count)

@@ -12,20 +12,23 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "program/argument.h"
+#include "program/request.h"
 
 typedef struct cs_progress {
   cs_progress_style style; /* never AUTO once started */
   size_t frame_count, frames_done;
   size_t copied, kept;   /* of the finished frames */
   const char *noun;      /* of the counted items: "frame", unless it is changed after the start */
+  const char *output;    /* of -o, for the log; NULL: there is none */
   double started, shown; /* seconds of the monotonic clock */
   double pause;          /* the least seconds between two lines, or between two states of the bar */
 } cs_progress;
 
 /* From now on diagnostics have the form for this style. */
 void cs_progress_choose(cs_progress_style style);
-void cs_progress_start(cs_progress *progress, cs_progress_style style, size_t frame_count);
+/* style: that of a request without --progress. */
+void cs_progress_start(cs_progress *progress, const cs_request *request, cs_progress_style style,
+                       size_t frame_count);
 /* share: of the frames that are being made, in frames. Returns false after a signal to stop. */
 bool cs_progress_tick(cs_progress *progress, double share);
 /* Counts a finished frame. what: the file; how: "made", "copied" or "kept". */

@@ -436,9 +436,7 @@ static cs_exit shoot_whole(render_job *job) {
 }
 
 static void start_progress(render_job *job) {
-  cs_progress_style style = CS_PROGRESS_AUTO;
-  cs_request_read(job->request, "--progress", &style);
-  cs_progress_start(&job->progress, style, job->frames.count);
+  cs_progress_start(&job->progress, job->request, CS_PROGRESS_AUTO, job->frames.count);
 }
 
 static cs_exit render_all(render_job *job) {

@@ -245,7 +245,7 @@ static int spawn(renderer *r, const char *const *arguments) {
                               .arguments = arguments,
                               .files = files,
                               .file_count = 3,
-                              .is_bound = true};
+                              .bound_by = SIGKILL};
   if (!error)
     error = cs_spawn(&r->id, &desc);
   if (error)

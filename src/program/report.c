@@ -13,12 +13,15 @@
 
 enum {
   SENTENCE = 8192,       /* bytes; paths may be 4096 long */
-  VISIBLE = 5 * SENTENCE /* the greatest size of a sentence after make_visible */
+  VISIBLE = 5 * SENTENCE, /* the greatest size of a sentence after make_visible */
+  PIECE = 1024 /* of a printed line, which fits into an event, however it is written there */
 };
 
 static void (*clear_line)(void);
 static cs_report_form chosen;
 static char last[SENTENCE];
+static int64_t row_line;
+static char row_output[SENTENCE];
 
 const char *cs_report_last(void) { return last[0] ? last : NULL; }
 
@@ -78,8 +81,56 @@ static void make_visible(const char *text, char out[VISIBLE]) {
   *out = 0;
 }
 
+void cs_report_row(int64_t line, const char *output) {
+  row_line = line;
+  snprintf(row_output, sizeof row_output, "%s", output);
+}
+
+/* The members of an event that has a message. */
+static void put_message(cs_json *event, const char *name, const int64_t *number, const char *text) {
+  cs_json_begin(event);
+  cs_json_text(event, "event", name);
+  if (row_output[0]) {
+    cs_json_integer(event, "line", row_line);
+    cs_json_text(event, "output", row_output);
+  }
+  if (number)
+    cs_json_integer(event, "number", *number);
+  cs_json_text(event, "message", text);
+  cs_report_event(event);
+}
+
+/* The bytes of a printed text up to its first new line, at most PIECE, and no part of a character
+ * at the end. */
+static size_t size_of_piece(const char *text, size_t size) {
+  size_t most = size < PIECE ? size : PIECE, end = 0;
+  while (most < size && most > PIECE - 3 && (text[most] & 0xc0) == 0x80)
+    most--;
+  while (end < most && text[end] != '\n')
+    end++;
+  return end;
+}
+
+/* A text that a script printed, as events. */
+static void print_pieces(const char *text, size_t size) {
+  for (size_t used; size > 0; text += used, size -= used) {
+    cs_json event;
+    char piece[PIECE + 1];
+    used = size_of_piece(text, size);
+    for (size_t i = 0; i < used; i++)
+      piece[i] = text[i] ? text[i] : '?';
+    piece[used] = 0;
+    put_message(&event, "print", NULL, piece);
+    used += used < size && text[used] == '\n';
+  }
+}
+
 void cs_report_printed(void *user, const char *text, size_t size) {
   (void)user;
+  if (chosen == CS_REPORT_JSON) {
+    print_pieces(text, size);
+    return;
+  }
   bool is_shown = isatty(STDERR_FILENO);
   for (size_t used; is_shown && size > 0; text += used, size -= used) {
     char shown[CS_VISIBLE];
@@ -98,12 +149,7 @@ static void print_words(bool is_error, const char *visible) {
 /* number: NULL, or the number of the frame that failed. */
 static void print_event(bool is_error, const int64_t *number, const char *text) {
   cs_json event;
-  cs_json_begin(&event);
-  cs_json_text(&event, "event", is_error ? "error" : "note");
-  if (number)
-    cs_json_integer(&event, "number", *number);
-  cs_json_text(&event, "message", text);
-  cs_report_event(&event);
+  put_message(&event, is_error ? "error" : "note", number, text);
 }
 
 /* A log that can no longer be written is said once, and not there. */

@@ -55,14 +55,20 @@ cs_exit cs_report_failure(const celspan_context *context, celspan_status status,
 cs_exit cs_report_frame_failure(const celspan_context *context, celspan_status status,
                                 int64_t number);
 
-/* Writes a script's output to standard error; on a terminal, only characters that the terminal may
- * show (base/visible.h). user: not used. */
+/* From now on events are about this row of a table: its line, and the file that it makes; output "":
+ * about no row. */
+void cs_report_row(int64_t line, const char *output);
+
+/* Writes a script's output to standard error: as events "print", a line each or a part of a long
+ * one, if diagnostics are JSON; on a terminal, only characters that the terminal may show
+ * (base/visible.h). user: not used. */
 void cs_report_printed(void *user, const char *text, size_t size);
 
 /* The form of diagnostics. */
 typedef enum cs_report_form {
   CS_REPORT_WORDS = 0, /* "celspan: error: ..." */
-  CS_REPORT_JSON,  /* {"event":"error","number":3,"message":"..."}; the number only for a frame */
+  CS_REPORT_JSON,  /* {"event":"error","number":3,"message":"..."}; the number only for a frame,
+                    * and before it "line" and "output" for a row */
   CS_REPORT_OPENJD /* in words, with errors on standard output, too: "openjd_fail: ..." */
 } cs_report_form;
 

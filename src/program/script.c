@@ -194,22 +194,31 @@ static void give_sounds(lua_State *L) {
 /* Text that a script prints goes to standard error, because standard output is for results. A
  * script cannot end the program: otherwise a run that did nothing could look complete. */
 static const char HOUSE_RULES[] =
-    "local stderr, pack, concat, tostring = io.stderr, table.pack, table.concat, tostring\n"
-    "io.output(stderr)\n"
+    "local show, pack, concat, tostring = ..., table.pack, table.concat, tostring\n"
+    "io.output(io.stderr)\n"
     "function print(...)\n"
     "  local words = pack(...)\n"
     "  for i = 1, words.n do words[i] = tostring(words[i]) end\n"
-    "  stderr:write(concat(words, '\\t'), '\\n')\n"
+    "  show(concat(words, '\\t') .. '\\n')\n"
     "end\n"
     "function os.exit() error('os.exit: a script cannot end celspan; raise an error', 2) end\n";
+
+int cs_script_show(lua_State *L) {
+  size_t size;
+  const char *text = luaL_checklstring(L, 1, &size);
+  cs_report_printed(NULL, text, size);
+  return 0;
+}
 
 /* Opens the functions of a trusted script. If the script has limits, its pcall and xpcall do not
  * catch an exceeded limit, but pass it on. */
 static void open_trusted(lua_State *L, bool has_limits) {
   static const luaL_Reg catching[] = {
       {"pcall", cs_guard_pcall}, {"xpcall", cs_guard_xpcall}, {NULL, NULL}};
-  if (luaL_dostring(L, HOUSE_RULES) != LUA_OK)
+  if (luaL_loadstring(L, HOUSE_RULES) != LUA_OK)
     lua_error(L);
+  lua_pushcfunction(L, cs_script_show);
+  lua_call(L, 1, 0);
   lua_pushglobaltable(L);
   luaL_setfuncs(L, has_limits ? catching : catching + 2, 0);
   lua_pop(L, 1);

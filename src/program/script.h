@@ -28,6 +28,8 @@ typedef struct cs_script {
 void cs_script_watch(lua_State *L);
 /* From now on a signal interrupts only scripts: the verb checks for signals itself. */
 void cs_script_unwatch(void);
+/* For Lua, show(text): writes the output of a script to standard error. */
+int cs_script_show(lua_State *L);
 /* Reports that a new state could not be prepared, for the reason on top of its stack; NULL: there
  * was no memory for the state. Returns the outcome. */
 cs_exit cs_script_report_start(lua_State *L);

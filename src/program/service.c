@@ -133,11 +133,24 @@ static int check_input(lua_State *L) {
   return cs_service_end(L, is_starved ? CS_EXIT_MEMORY : CS_EXIT_INPUT);
 }
 
-/* show(text): writes the output of a script to standard error */
-static int show(lua_State *L) {
-  size_t size;
-  const char *text = luaL_checklstring(L, 1, &size);
-  cs_report_printed(NULL, text, size);
+/* row(line, output): messages in JSON are about this row of a table; without arguments: about none */
+static int row(lua_State *L) {
+  cs_report_row(luaL_optinteger(L, 1, 0), luaL_optstring(L, 2, ""));
+  return 0;
+}
+
+/* count_frames(count): the verb makes frames, and reports their progress if it is asked for */
+static int count_frames(lua_State *L) {
+  cs_session *session = cs_service_session(L);
+  cs_progress_start(&session->progress, session->request, CS_PROGRESS_NONE,
+                    (size_t)luaL_checkinteger(L, 1));
+  return 0;
+}
+
+/* made_frame(number, output): one of them is on this sheet */
+static int made_frame(lua_State *L) {
+  cs_progress_frame(&cs_service_session(L)->progress, luaL_checkinteger(L, 1),
+                    luaL_checkstring(L, 2), "made");
   return 0;
 }
 
@@ -153,11 +166,14 @@ static int outcome(lua_State *L) {
   return 1;
 }
 
-/* is_stopped() -> whether a signal asked to stop. A verb that calls is_stopped ends by itself, so
+/* is_stopped() -> the number of the signal that asked to stop, or false. A verb that calls is_stopped ends by itself, so
  * from the first call on, signals do not interrupt its Lua. */
 static int is_stopped(lua_State *L) {
   cs_script_unwatch();
-  lua_pushboolean(L, cs_interrupt_signal() != 0);
+  if (cs_interrupt_signal())
+    lua_pushinteger(L, cs_interrupt_signal());
+  else
+    lua_pushboolean(L, false);
   return 1;
 }
 
@@ -198,10 +214,12 @@ static int push_text(lua_State *L) {
 void cs_service_add_reports(lua_State *L) {
   static const luaL_Reg services[] = {CS_SERVICE(note),       {"error", report_error},
                                       CS_SERVICE(fail),       CS_SERVICE(check),
-                                      {"input", check_input}, CS_SERVICE(show),
+                                      {"input", check_input}, {"show", cs_script_show},
                                       CS_SERVICE(refuse),     CS_SERVICE(refuse_rights),
                                       CS_SERVICE(outcome),    CS_SERVICE(reported),
                                       CS_SERVICE(is_stopped), {"text", push_text},
-                                      CS_SERVICE(task),       {NULL, NULL}};
+                                      CS_SERVICE(task),       CS_SERVICE(row),
+                                      CS_SERVICE(count_frames), CS_SERVICE(made_frame),
+                                      {NULL, NULL}};
   cs_service_add(L, services);
 }

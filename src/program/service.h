@@ -8,13 +8,14 @@
 
 #include <lauxlib.h>
 
-#include "program/request.h"
+#include "program/progress.h"
 
 /* One run of a verb that is written in Lua. */
 typedef struct cs_session {
   celspan_context *context;
   const cs_request *request;
   cs_exit outcome; /* of the service that ended the verb; OK: no service did */
+  cs_progress progress; /* frame_count 0: the verb does not count frames */
 } cs_session;
 
 /* A service or method whose name in Lua is the name of its function. */

@@ -155,9 +155,7 @@ static cs_exit make(cs_script *script, const cs_request *request, const cs_seque
                     bool is_float) {
   bool is_kept = false;
   cs_progress progress;
-  cs_progress_style style = CS_PROGRESS_NONE;
-  cs_request_read(request, "--progress", &style);
-  cs_progress_start(&progress, style, 1);
+  cs_progress_start(&progress, request, CS_PROGRESS_NONE, 1);
   progress.noun = "sound";
   cs_exit outcome =
       cs_request_has(request, "--resume")  ? resume(script, request, frames, is_float, &is_kept)

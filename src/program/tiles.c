@@ -292,7 +292,6 @@ static void summarise(const tiles_job *job) {
 }
 
 static cs_exit make_pyramid(tiles_job *job) {
-  cs_progress_style style = CS_PROGRESS_AUTO;
   job->render = (cs_tile_render){.context = job->context,
                                  .frame = &job->frame,
                                  .pyramid = &job->pyramid,
@@ -305,8 +304,8 @@ static cs_exit make_pyramid(tiles_job *job) {
                                  .user = job};
   set_background(job, job->render.background);
   cs_request_read(job->request, "--workers", &job->render.workers);
-  cs_request_read(job->request, "--progress", &style);
-  cs_progress_start(&job->progress, style, cs_tile_render_row_count(&job->render));
+  cs_progress_start(&job->progress, job->request, CS_PROGRESS_AUTO,
+                    cs_tile_render_row_count(&job->render));
   job->progress.noun = "tile row";
   celspan_status status = cs_tile_render_run(&job->render);
   if (status == CELSPAN_OK)

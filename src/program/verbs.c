@@ -359,6 +359,7 @@ static const cs_option CONTACT[] = {
     ONION,
     TABLE("a sheet for each row of a CSV file, whose columns are parameters, or {NAME} in SHEET"),
     WORKERS,
+    PROGRESS,
     SCRIPT,
     {0}};
 
@@ -370,6 +371,7 @@ static const cs_option SPRITES[] = {
     {"--padding", "N", &cs_argument_pixels, "clear pixels around each sprite; default: 2"},
     TABLE("a sheet for each row of a CSV file, whose columns are parameters, or {NAME} in SHEET"),
     WORKERS,
+    PROGRESS,
     SCRIPT,
     {0}};
 

@@ -304,7 +304,7 @@ describe("--table", function()
   it("is refused before the first frame", function()
     for rows, message in pairs {
       ["lang,size\nen,1\n"] =
-        "column 'size' is neither a parameter of the script nor {size} in OUT",
+        "column 'size' is neither a parameter of the script nor {size} in OUT; did you mean 'side'?",
       ["lang,speed\nen,1\nde,9\n"] = "line 3: speed is '9'; it must be a number from 0 to 4",
       ["lang\n../x\n"] = "line 2: column 'lang' is '../x': in the name of a file it must not be "
         .. "empty nor have / or .. in it",
@@ -389,7 +389,7 @@ describe("--table", function()
       code, _, err = film_of("n\n1\n2\n4\n", "--keep-going --resume --progress json", output)
       assert.are.equal(1, code, err)
       local last, ways = events(err)
-      assert.are.equal("2 kept, 4 made", ways)
+      assert.are.equal("2 kept, 3 failed, 4 made", ways)
       assert.are.same({ "end", 2, 3, 1, 1, 1, { 3 }, { bad } }, { last.event, last.done,
         last.count, last.kept, last.failures, last.exit, last.failed, last.outputs })
       code, _, err = film_of("n\n1\n", "--resume --set tint=#0f0 --progress json", output)

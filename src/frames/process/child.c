@@ -64,7 +64,7 @@ static int start(cs_child *child, const char *const *arguments, pipes *p) {
   const cs_spawn_desc desc = {.arguments = arguments,
                               .files = files,
                               .file_count = p->samples[0] >= 0 ? 4 : 3,
-                              .is_bound = true};
+                              .bound_by = SIGKILL};
   fcntl(p->input[1], F_SETPIPE_SZ, PIPE_BYTES);
   int error = cs_spawn(&child->id, &desc);
   if (error)

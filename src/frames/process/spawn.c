@@ -46,8 +46,8 @@ static bool set_files(const cs_spawn_desc *desc) {
 }
 
 /* A parent that ended before the call of prctl is noticed by its number. */
-static bool bind_to(pid_t parent) {
-  return prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && getppid() == parent;
+static bool bind_to(pid_t parent, int signal) {
+  return prctl(PR_SET_PDEATHSIG, signal) == 0 && getppid() == parent;
 }
 
 /* report: a pipe, which gets an errno if the program cannot be started. */
@@ -55,7 +55,7 @@ static _Noreturn void become(const cs_spawn_desc *desc, pid_t parent, int report
   setpgid(0, 0);
   set_signals();
   errno = ESRCH;
-  if ((!desc->is_bound || bind_to(parent)) && set_files(desc))
+  if ((!desc->bound_by || bind_to(parent, desc->bound_by)) && set_files(desc))
     execvp(desc->path ? desc->path : desc->arguments[0], (char *const *)(size_t)desc->arguments);
   int error = errno;
   ssize_t written = write(report, &error, sizeof error);

@@ -18,7 +18,8 @@ typedef struct cs_spawn_desc {
    * same or beyond those of the list; /dev/null; or unchanged */
   const int *files;
   size_t file_count;
-  bool is_bound; /* the kernel ends it when the thread that starts it ends, for whatever reason */
+  int bound_by; /* the signal that it gets when the thread that starts it ends, for whatever reason;
+                 * 0: none */
 } cs_spawn_desc;
 
 /* Opens a pipe whose ends have numbers that no file of a new process gets, even if lower ones are

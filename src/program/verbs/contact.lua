@@ -27,8 +27,8 @@ local function panel_of(film, number, size, x, y)
     pixels = pixels:bytes { depth = 16, colour = "srgb", alpha = "straight" } }
 end
 
---- The page with the frames of these numbers, and its size.
-local function page_of(film, numbers, columns, panel)
+--- The page with the frames of these numbers, and its size. path: for the progress.
+local function page_of(film, numbers, columns, panel, path)
   local w, h = panel[1], panel[2]
   local across, down = math.min(columns, #numbers), (#numbers - 1) // columns + 1
   local width, height = GAP + across * (w + GAP), GAP + down * (h + LABEL)
@@ -39,6 +39,7 @@ local function page_of(film, numbers, columns, panel)
     objects[count + 1] = celspan.rect { x - 1, y - 1, w + 2, h + 2, texture = "#8a8780" }
     objects[count + 2] = celspan.rect { x, y, w, h, texture = "#fff" }
     objects[count + 3] = panel_of(film, number, panel, x, y)
+    program.made_frame(number, path)
     objects[count + 4] = number_at(tostring(number), x + 1, y + h + 6)
   end
   return celspan.rostrum { celspan.cel(objects) }, width, height
@@ -84,13 +85,14 @@ local function make_sheet(film, output)
       .. "--scale, --size or --grid", math.min(panels, shown), size[1], size[2])
   end
   film:lay_onion(size[1], size[2])
+  program.count_frames(shown)
   for page = 1, (shown + panels - 1) // panels do
     local on_page = {}
     for i = (page - 1) * panels, math.min(page * panels, shown) - 1 do
       on_page[#on_page + 1] = numbers[i + 1]
     end
     local path = program.check(core.frame_name(output, page))
-    local rostrum, width, height = page_of(film, on_page, columns, size)
+    local rostrum, width, height = page_of(film, on_page, columns, size, path)
     program.check(celspan.render(rostrum, path, { size = { width, height },
       workers = math.tointeger(request.workers) }))
   end

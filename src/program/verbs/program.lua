@@ -192,8 +192,8 @@ function program.until_stopped(call, ...)
 end
 
 --- Runs processes, as many at a time as `workers`. next_item() returns the next item, or nil after
---- the last. start(item) returns its process, or nil if it could not be started; then no more
---- processes are started. finish(item, code, signal, name) is called in the order of the items, and
+--- the last. start(item) returns its process, or nil and its exit code if it needs none, or nil if it
+--- could not be started; then no more processes are started. finish(item, code, signal, name) is called in the order of the items, and
 --- returns false to start no more. Returns how many were finished, and whether all could be
 --- started.
 function program.run_all(next_item, workers, start, finish)
@@ -204,10 +204,11 @@ function program.run_all(next_item, workers, start, finish)
   while running > 0 or item do
     if program.is_stopped() or not goes_on then item = nil end
     if item and running < workers then
-      local process = start(item)
-      if process then
-        started, running = started + 1, running + 1
-        items[started], by_process[process] = item, started
+      local process, code = start(item)
+      if process or code then
+        started = started + 1
+        items[started], ended[started] = item, code and { nil, code }
+        if process then by_process[process], running = started, running + 1 end
         item = next_item()
       else
         item, is_well = nil, false
@@ -217,12 +218,12 @@ function program.run_all(next_item, workers, start, finish)
       local place = by_process[one[1]]
       if not one[1] then break end
       if place then ended[place], by_process[one[1]], running = one, nil, running - 1 end
-      while ended[finished + 1] do
-        finished = finished + 1
-        local answer = finish(items[finished], table.unpack(ended[finished], 2, 4))
-        goes_on = goes_on and answer ~= false
-        items[finished], ended[finished] = nil, nil
-      end
+    end
+    while ended[finished + 1] do
+      finished = finished + 1
+      local answer = finish(items[finished], table.unpack(ended[finished], 2, 4))
+      goes_on = goes_on and answer ~= false
+      items[finished], ended[finished] = nil, nil
     end
   end
   return finished, is_well

@@ -56,6 +56,7 @@ end
 --- The sprites of a film, and for each of its frames { sprite =, box = }.
 local function read_frames(film, numbers, size)
   local sprites, frames, known, pixels = {}, {}, {}, 0
+  program.count_frames(#numbers)
   for i, number in ipairs(numbers) do
     local image = program.check(celspan.pixels(program.still(film, film:at(number)),
       { size = size, workers = workers }))
@@ -74,6 +75,7 @@ local function read_frames(film, numbers, size)
         .. "limit: give fewer --frames, or a smaller --scale or --size", number, PIXELS_MOST)
     end
     frames[i] = { sprite = alike[art], box = box, number = number }
+    program.made_frame(number, request.output)
   end
   return sprites, frames
 end

@@ -9,14 +9,14 @@ local program, request = ...
 local json = require "celspan.json"
 
 local is_check = request.verb == "check" -- no files are written
-local has_events = request.verb == "render" or request.verb == "sound"
+local has_events = not is_check
 local is_json = request.progress == "json"
 local NAMED_MOST = 20 -- the most failed rows that the summary names
 
 --- The options that are not passed to a row's process, because it has its own values for them, or
 --- no use.
 local own = { ["-o"] = true, ["--table"] = true, ["--workers"] = true, ["--progress"] = true,
-              ["--keep-going"] = true, ["--task"] = true }
+              ["--keep-going"] = true, ["--task"] = true, ["--log"] = true }
 
 local function words_of(item, threads)
   local words = { request.verb, request[1] }
@@ -26,13 +26,16 @@ local function words_of(item, threads)
     add("--workers", tostring(threads))
   end
   if has_events then add("--progress", "json") end
+  if item.log then add("--log", item.log) end
   return program.pass_on(words, request, own, item.settings)
 end
 
 -- ---------------------------------------------------------------- the processes
 
---- Starts the process of an item; nil: it could not be started, and this was reported.
+--- Starts the process of an item; nil and an exit code: it needs none; nil: it could not be started,
+--- and this was reported.
 local function start(item)
+  if item.fault then return nil, 2 end
   local process, message
   item.printed, message = io.tmpfile()
   if item.printed then process, message = program.start(item.words, item.printed) end
@@ -46,6 +49,18 @@ local function event_of(line)
   return type(event) == "table" and event.event and event or nil
 end
 
+--- Writes an event as a line of JSON, if the request asks for this.
+local function tell(event)
+  if is_json then io.stderr:write((program.json(event):gsub("\n *", "")), "\n") end
+end
+
+--- How a message of a process is shown in words.
+local SHOWN = {
+  error = function(text) program.error("%s", text) end,
+  note = function(text) program.note("%s", text) end,
+  print = function(text) program.show(text .. "\n") end,
+}
+
 --- Shows the output of a process; its exit code says what went wrong. Returns its last event.
 local function show(item)
   local last
@@ -54,13 +69,12 @@ local function show(item)
     local event = event_of(line)
     last = event or last
     if not event then
-      io.stderr:write(line)
-    elseif event.event == "error" and not is_json then
-      program.error("%s", event.message)
-    elseif event.event == "note" and not is_json then
-      program.note("%s", event.message)
-    elseif event.event == "error" or event.event == "note" then
-      io.stderr:write(line)
+      program.show(line)
+    elseif SHOWN[event.event] and is_json then
+      event.line, event.output = item.line, item.output
+      tell(event)
+    elseif SHOWN[event.event] then
+      SHOWN[event.event](event.message)
     end
   end
   item.printed:close()
@@ -69,19 +83,25 @@ end
 
 -- ---------------------------------------------------------------- reports
 
---- Writes an event as a line of JSON, if the request asks for this.
-local function tell(event)
-  if is_json then io.stderr:write((program.json(event):gsub("\n *", "")), "\n") end
-end
-
 --- Counts what was done with the rows; updated when they end.
 local function new_tally(count)
-  return { count = count, ended = 0, made = 0, kept = 0, failed = {}, outcome = 0,
-           began = program.clock() }
+  return { count = count, made = 0, kept = 0, failed = {}, outcome = 0, began = program.clock() }
 end
 
 local function place_of(item)
   return is_check and item.output or ("line %d (%s)"):format(item.line, item.output)
+end
+
+--- How many rows have ended: those that are whole, and those that failed.
+local function ended_of(tally) return tally.made + tally.kept + #tally.failed end
+
+--- Reports a row that has ended. code: its exit code if it failed.
+local function tell_row(tally, item, how, code)
+  tell { event = "row", line = item.line, output = item.output, how = how, exit = code,
+         done = tally.made + tally.kept, failures = #tally.failed, count = tally.count }
+  if request.progress == "openjd" then
+    print(("openjd_progress: %.1f"):format(100 * ended_of(tally) / tally.count))
+  end
 end
 
 --- Counts a row that is finished; last: the last event of its process.
@@ -89,21 +109,21 @@ local function count_row(tally, item, last)
   local is_kept = last and last.event == "end" and last.kept == last.count
   local how = is_kept and "kept" or "made"
   tally[how] = tally[how] + 1
-  tell { event = "row", line = item.line, output = item.output, how = how, done = tally.ended,
-         count = tally.count }
-  if request.progress == "openjd" then
-    print(("openjd_progress: %.1f"):format(100 * tally.ended / tally.count))
-  end
+  tell_row(tally, item, how)
   if not is_json and request.progress ~= "none" then
-    program.note("%d/%d %s%s", tally.ended, tally.count, item.output, is_kept and ": kept" or "")
+    program.note("%d/%d %s%s", ended_of(tally), tally.count, item.output,
+      is_kept and ": kept" or "")
   end
 end
 
 local function count_failure(tally, item, code, signal, name)
   table.insert(tally.failed, item)
   if tally.outcome == 0 then tally.outcome = code or 128 + signal end
-  program.error("--table %s: %s: %s", request.table, place_of(item),
-    code and "exit code " .. code or "ended by signal " .. signal .. " (" .. name .. ")")
+  program.row(item.line, item.output)
+  program.error("--table %s: %s: %s", request.table, place_of(item), item.fault or code
+    and "exit code " .. code or "ended by signal " .. signal .. " (" .. name .. ")")
+  program.row()
+  tell_row(tally, item, "failed", code or 128 + signal)
 end
 
 --- "39 made, 1 failed: line 18 (r17.mp4)".
@@ -115,19 +135,21 @@ local function summary_of(tally)
   add(tally.made, is_check and "without a fault" or "made")
   add(tally.kept, "kept")
   add(#tally.failed, "failed")
-  add(tally.count - tally.ended, "not begun or not finished")
+  add(tally.count - ended_of(tally), "not begun or not finished")
   for i = 1, math.min(NAMED_MOST, #tally.failed) do names[i] = place_of(tally.failed[i]) end
   if #tally.failed > NAMED_MOST then names[#names + 1] = "and others" end
   return table.concat(parts, ", ") .. (names[1] and ": " .. table.concat(names, ", ") or "")
 end
 
 local function sum_up(tally, code)
+  local stopped_by = program.is_stopped()
   local lines, outputs = { list = {} }, { list = {} }
   for i, item in ipairs(tally.failed) do
     lines.list[i], outputs.list[i] = item.line, item.output
   end
   tell { event = "end", done = tally.made + tally.kept, count = tally.count, kept = tally.kept,
-         failures = #tally.failed, failed = lines, outputs = outputs, exit = code,
+         failures = #tally.failed, failed = lines, outputs = outputs,
+         exit = stopped_by and 128 + stopped_by or code,
          seconds = math.floor((program.clock() - tally.began) * 1000) / 1000 }
   if is_json then return end
   if #tally.failed > 0 then
@@ -161,13 +183,14 @@ local function make_rows(tally, rows, first)
     return item
   end
   local function finish(item, code, ...)
-    local last = show(item)
+    local last = not item.fault and show(item)
     item.words = nil
-    tally.ended = tally.ended + 1
     if code == 0 then
       count_row(tally, item, last)
       return true
     end
+    -- A row that the same signal stopped has not failed.
+    if program.is_stopped() and (code or 128) >= 128 then return false end
     count_failure(tally, item, code, ...)
     return request.keep_going ~= nil or is_check
   end

@@ -3,12 +3,19 @@
 -- Rows are read from the text one by one, twice, so that only the names of the outputs are kept.
 --
 --   rows.count    how many there are, all of which were checked
---   rows.next()   the next row: { line =, output =, settings = { { name, value }, ... } } | nil
+--   rows.next()   the next row: { line =, output =, settings = { { name, value }, ... }, log =,
+--                 fault = } | nil
+--
+--   log     of --log, if it is given
+--   fault   a sentence about a value that the script does not allow: only of `check`, and with
+--           --keep-going; otherwise the whole table is refused for it
 local program, request, film = ...
+local core = require "celspan.core"
 local csv = require "celspan.csv"
 local json = require "celspan.json"
 
 local is_check = request.verb == "check" -- no files are written
+local is_lenient = is_check or request.keep_going -- a row that is wrong fails alone
 local PIECE = 65536 -- bytes of the table that are read at a time
 
 -- ---------------------------------------------------------------- the table
@@ -16,7 +23,7 @@ local PIECE = 65536 -- bytes of the table that are read at a time
 --- The text of the table, which may come through a pipe.
 local function read_text(path)
   local pieces, size = {}, 0
-  local file, message = io.open(path, "rb")
+  local file, message = io.open(path == "-" and "/dev/stdin" or path, "rb")
   while file and size <= csv.most_bytes do
     local piece, problem = file:read(PIECE)
     if problem then program.fail("input", "--table %s: %s", path, problem) end
@@ -29,7 +36,12 @@ local function read_text(path)
     program.fail("input", "--table %s: it has more than %d bytes, which is the limit", path,
       csv.most_bytes)
   end
-  return table.concat(pieces)
+  local text = table.concat(pieces)
+  if text:find "^%s*[{[]" then
+    program.fail("input", "--table %s: this is JSON, and a table is CSV: its first line has the "
+      .. "names of the columns, and each other line is a row", path)
+  end
+  return text
 end
 
 --- Returns the results of a call that reads the table.
@@ -52,11 +64,9 @@ end
 --- Whether {name} in OUT is the place for the names of sounds, and not for a column.
 local function is_for_stems(name) return request.stems and name == "name" end
 
---- The output of a row: each {name} in OUT is replaced by the text in that column. For `check`, the
---- line of the row.
-local function output_of(row, line, columns)
-  if is_check then return "line " .. line end
-  local output = request.output:gsub("{([%w_]+)}", function(name)
+--- A name of a file in which each {name} is replaced by the text in that column of a row.
+local function filled(pattern, row, line, columns)
+  local path = pattern:gsub("{([%w_]+)}", function(name)
     if is_for_stems(name) then return nil end
     local text = row[columns[name]]
     if text == "" or text:find "/" or text:find("..", 1, true) or text:find "%c" then
@@ -65,11 +75,25 @@ local function output_of(row, line, columns)
     end
     return text
   end)
-  if #output > program.path_most then
+  if #path > program.path_most then
     program.usage("--table %s: line %d: the name of the output has more than %d bytes",
       request.table, line, program.path_most)
   end
-  return output
+  return path
+end
+
+--- The output of a row; for `check`, its line.
+local function output_of(row, line, columns)
+  return is_check and "line " .. line or filled(request.output, row, line, columns)
+end
+
+--- A sentence about the first value of a row that the script does not allow; nil: it allows all.
+local function fault_of(row, header, is_parameter)
+  for i, name in ipairs(header) do
+    local fault = is_parameter[name]
+      and film:ask("celspan.parameters", "fault", name .. "=" .. row[i]) or ""
+    if fault ~= "" then return fault end
+  end
 end
 
 -- ---------------------------------------------------------------- checks
@@ -83,6 +107,15 @@ local function parameters()
   return names
 end
 
+--- The end of a message about a column that nothing uses: what was probably meant.
+local function meant_by(name, is_parameter)
+  local names = {}
+  for known in pairs(is_parameter) do names[#names + 1] = known end
+  for known in request.output:gmatch "{([%w_]+)}" do names[#names + 1] = known end
+  local near = core.nearest(name, names)
+  return near and ("; did you mean '%s'?"):format(near) or ""
+end
+
 --- The places of the columns by their names.
 local function check_header(header, is_parameter)
   if #header == 0 then
@@ -90,20 +123,22 @@ local function check_header(header, is_parameter)
   end
   local columns = try(csv.columns, header)
   if is_check then return columns end
+  local places = request.output .. (request.log or "")
   for _, name in ipairs(header) do
-    local has_place = request.output:find("{" .. name .. "}", 1, true) and not is_for_stems(name)
+    local has_place = places:find("{" .. name .. "}", 1, true) and not is_for_stems(name)
     if not is_parameter[name] and is_for_stems(name) then
       program.usage("--table %s: {name} in OUT is the name of a sound with --stems: call the "
         .. "column 'name' otherwise", request.table)
     elseif not is_parameter[name] and not has_place then
-      program.usage("--table %s: column '%s' is neither a parameter of the script nor {%s} in OUT",
-        request.table, name, name)
+      program.usage("--table %s: column '%s' is neither a parameter of the script nor {%s} in OUT%s",
+        request.table, name, name, meant_by(name, is_parameter))
     end
   end
-  for name in request.output:gmatch "{([%w_]+)}" do
+  for name in places:gmatch "{([%w_]+)}" do
     if not columns[name] and not is_for_stems(name) then
-      program.usage("--table %s: there is no column '%s' for {%s} in OUT; there are %s",
-        request.table, name, name, table.concat(header, ", "))
+      program.usage("--table %s: there is no column '%s' for {%s} in %s; there are %s",
+        request.table, name, name, request.output:find("{" .. name .. "}", 1, true) and "OUT"
+        or "--log", table.concat(header, ", "))
     end
   end
   return columns
@@ -115,13 +150,8 @@ local function check_rows(text, columns, is_parameter)
   local header, next_row = reader(text)
   local lines, count = {}, 0
   for row, line in next_row do
-    for i, name in ipairs(header) do
-      local fault = is_parameter[name]
-        and film:ask("celspan.parameters", "fault", name .. "=" .. row[i]) or ""
-      if fault ~= "" then
-        program.usage("--table %s: line %d: %s", request.table, line, fault)
-      end
-    end
+    local fault = not is_lenient and fault_of(row, header, is_parameter)
+    if fault then program.usage("--table %s: line %d: %s", request.table, line, fault) end
     local output = output_of(row, line, columns)
     if lines[output] then
       program.usage("--table %s: lines %d and %d would both make %s: put a column in OUT, as "
@@ -149,7 +179,9 @@ function rows.next()
   for i, name in ipairs(header) do
     if is_parameter[name] then settings[#settings + 1] = { name, row[i] } end
   end
-  return { line = line, output = output_of(row, line, columns), settings = settings }
+  return { line = line, output = output_of(row, line, columns), settings = settings,
+           log = request.log and filled(request.log, row, line, columns),
+           fault = is_lenient and fault_of(row, header, is_parameter) or nil }
 end
 
 return rows
