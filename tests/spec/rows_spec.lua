@@ -53,7 +53,7 @@ end
 --- rows have begun: $pid is the run, $rows the rows.
 local function interrupt(options, rows, act)
   return bench:inside(([[{
-    %s render film.lua --trust --table rows.csv %s 2>said & pid=$!
+    '%s' render film.lua --trust --table rows.csv %s 2>said & pid=$!
     for row in %s; do
       for i in $(seq 200); do [ -s $row.begun ] && break; sleep 0.05; done
       rows="$rows $(cat $row.begun)"
