@@ -9,8 +9,8 @@ local workbench = require "tests.support.workbench"
 local FILM = [[
 local celspan = require "celspan"
 return celspan.film { size = { 32, 16 }, fps = 24, frames = 8, first = 101,
-  title = "Moons & <seas>", marks = { night = 101, day = 105, dusk = 108 }, poster = 103, captions = "said.srt",
-  sound = "tone.wav", frame = function(f)
+  title = "Moons & <seas>", marks = { night = 101, day = 105, dusk = 108 }, poster = 103,
+  captions = "said.srt", sound = "tone.wav", frame = function(f)
     return celspan.rostrum { celspan.cel { celspan.rect { f.index, 0, 16, 16,
       texture = celspan.rgb "#c06040" } } }
   end }

@@ -1,6 +1,6 @@
-/* WebP with the pictures of a film: of each picture, the blocks that have changed.
+/* WebP with the pictures of a film: of each picture, the patches that have changed.
  *
- *   picture --compared with--> changed blocks --box around them--> libwebp --> a frame of the file
+ *   picture --compared with--> changed patches --box around them--> libwebp --> a frame of the file
  *               shown                             both with and without loss: the smaller one
  *
  * The encoder of animations in libwebp compares each picture with the one before it, and leaves out
@@ -21,7 +21,7 @@
 #include "plugins/moving/moving.h"
 
 enum {
-  BLOCK = 16,    /* pixels a side: those of libwebp */
+  PATCH = 16,    /* pixels a side: those of libwebp */
   PIXEL = 4,     /* bytes */
   PATIENCE = 15, /* frames for which no coding without loss is tried after one that was larger */
   HEAD = 44,     /* bytes in front of the frames */
@@ -39,8 +39,8 @@ typedef struct box {
 typedef struct writing {
   cs_moving *moving;
   unsigned char *shown;
-  unsigned char *changed; /* one of each block: 1, or else 0 */
-  int32_t across;         /* blocks in a row */
+  unsigned char *changed; /* one of each patch: 1, or else 0 */
+  int32_t across;         /* patches in a row */
   int tolerance;
   WebPMemoryWriter coded; /* the frame that is held; empty: there is none */
   unsigned char flags;    /* of that frame */
@@ -62,22 +62,22 @@ static bool is_whole(const writing *w) { return w->moving->output.moving.quality
 
 /* ---------------------------------------------------------------- changes */
 
-/* A block of the picture. */
-static box block_at(const writing *w, int32_t column, int32_t row) {
+/* A patch of the picture. */
+static box patch_at(const writing *w, int32_t column, int32_t row) {
   const cs_picture_output *output = &w->moving->output;
-  return (box){column * BLOCK, row * BLOCK, least((column + 1) * BLOCK, output->width),
-               least((row + 1) * BLOCK, output->height)};
+  return (box){column * PATCH, row * PATCH, least((column + 1) * PATCH, output->width),
+               least((row + 1) * PATCH, output->height)};
 }
 
 static size_t place_of(const writing *w, int32_t x, int32_t y) {
   return (size_t)y * w->moving->row + (size_t)x * PIXEL;
 }
 
-static bool differs(const writing *w, box block) {
-  size_t size = (size_t)(block.right - block.left) * PIXEL;
-  for (int32_t y = block.top; y < block.bottom; y++) {
-    const unsigned char *a = w->moving->pixels + place_of(w, block.left, y),
-                        *b = w->shown + place_of(w, block.left, y);
+static bool differs(const writing *w, box patch) {
+  size_t size = (size_t)(patch.right - patch.left) * PIXEL;
+  for (int32_t y = patch.top; y < patch.bottom; y++) {
+    const unsigned char *a = w->moving->pixels + place_of(w, patch.left, y),
+                        *b = w->shown + place_of(w, patch.left, y);
     for (size_t i = 0; i < size; i++)
       if (abs(a[i] - b[i]) > w->tolerance)
         return true;
@@ -85,25 +85,25 @@ static bool differs(const writing *w, box block) {
   return false;
 }
 
-static void copy(const writing *w, box block, const unsigned char *from, unsigned char *to) {
-  for (int32_t y = block.top; y < block.bottom; y++) {
-    size_t at = place_of(w, block.left, y);
-    memcpy(to + at, from + at, (size_t)(block.right - block.left) * PIXEL);
+static void copy(const writing *w, box patch, const unsigned char *from, unsigned char *to) {
+  for (int32_t y = patch.top; y < patch.bottom; y++) {
+    size_t at = place_of(w, patch.left, y);
+    memcpy(to + at, from + at, (size_t)(patch.right - patch.left) * PIXEL);
   }
 }
 
 /* Sets alpha, or finds out whether it is 1 everywhere. */
-static bool is_opaque(const writing *w, box block) {
-  for (int32_t y = block.top; y < block.bottom; y++)
-    for (int32_t x = block.left; x < block.right; x++)
+static bool is_opaque(const writing *w, box patch) {
+  for (int32_t y = patch.top; y < patch.bottom; y++)
+    for (int32_t x = patch.left; x < patch.right; x++)
       if (w->moving->pixels[place_of(w, x, y) + 3] != UINT8_MAX)
         return false;
   return true;
 }
 
-static void set_alpha(const writing *w, box block, unsigned char alpha) {
-  for (int32_t y = block.top; y < block.bottom; y++)
-    for (int32_t x = block.left; x < block.right; x++)
+static void set_alpha(const writing *w, box patch, unsigned char alpha) {
+  for (int32_t y = patch.top; y < patch.bottom; y++)
+    for (int32_t x = patch.left; x < patch.right; x++)
       w->moving->pixels[place_of(w, x, y) + 3] = alpha;
 }
 
@@ -114,34 +114,34 @@ static box joined(box a, box b) {
                a.bottom > b.bottom ? a.bottom : b.bottom};
 }
 
-/* Marks the blocks that are coded. *opaque: whether they all are. Returns the box around them. */
+/* Marks the patches that are coded. *opaque: whether they all are. Returns the box around them. */
 static box mark(writing *w, bool has_all, bool *opaque) {
   box around = {0};
   *opaque = true;
-  for (int32_t row = 0; row * BLOCK < w->moving->output.height; row++)
+  for (int32_t row = 0; row * PATCH < w->moving->output.height; row++)
     for (int32_t column = 0; column < w->across; column++) {
-      box block = block_at(w, column, row);
-      bool is_changed = has_all || differs(w, block);
+      box patch = patch_at(w, column, row);
+      bool is_changed = has_all || differs(w, patch);
       w->changed[(size_t)row * (size_t)w->across + (size_t)column] = is_changed;
       if (!is_changed)
         continue;
-      *opaque = *opaque && is_opaque(w, block);
-      around = joined(around, block);
-      copy(w, block, w->moving->pixels, w->shown);
+      *opaque = *opaque && is_opaque(w, patch);
+      around = joined(around, patch);
+      copy(w, patch, w->moving->pixels, w->shown);
     }
   return around;
 }
 
-/* Blocks in the box that are not coded: clear, so that what is there remains, or as they are shown
+/* Patches in the box that are not coded: clear, so that the pixels below remain, or as they are shown
  * where the box replaces everything. */
 static void fill(const writing *w, box around, bool is_clear) {
-  for (int32_t row = around.top / BLOCK; row * BLOCK < around.bottom; row++)
-    for (int32_t column = around.left / BLOCK; column * BLOCK < around.right; column++)
+  for (int32_t row = around.top / PATCH; row * PATCH < around.bottom; row++)
+    for (int32_t column = around.left / PATCH; column * PATCH < around.right; column++)
       if (!w->changed[(size_t)row * (size_t)w->across + (size_t)column]) {
         if (is_clear)
-          set_alpha(w, block_at(w, column, row), 0);
+          set_alpha(w, patch_at(w, column, row), 0);
         else
-          copy(w, block_at(w, column, row), w->shown, w->moving->pixels);
+          copy(w, patch_at(w, column, row), w->shown, w->moving->pixels);
       }
 }
 
@@ -155,7 +155,7 @@ static bool configure(const writing *w, bool is_lossless, WebPConfig *config) {
   config->method = is_lossless && !is_whole(w) ? 1 : 4;
   config->use_sharp_yuv = 1;
   config->exact =
-      !is_lossless; /* a clear block beside others keeps its colours, or shows in them */
+      !is_lossless; /* a clear patch beside others keeps its colours, or shows in them */
   return true;
 }
 
@@ -286,7 +286,7 @@ static celspan_status put_metadata(writing *w, cs_picture_failure *failure) {
   return status;
 }
 
-/* A file may have clear pixels in its frames, and does where blocks remain. */
+/* A file may have clear pixels in its frames, and does where patches remain. */
 static celspan_status put_head(const writing *w, cs_picture_failure *failure) {
   const cs_picture_output *output = &w->moving->output;
   int32_t plays = output->moving.plays;
@@ -325,11 +325,11 @@ static void destroy(void *self) {
 static celspan_status open(cs_moving *moving, cs_picture_failure *failure) {
   const unsigned char head[HEAD] = {0}; /* until it is known */
   const cs_picture_output *output = &moving->output;
-  int32_t rows = (output->height + BLOCK - 1) / BLOCK, quality = output->moving.quality;
+  int32_t rows = (output->height + PATCH - 1) / PATCH, quality = output->moving.quality;
   writing *w = moving->self = calloc(1, sizeof *w);
   if (w) {
     w->moving = moving;
-    w->across = (output->width + BLOCK - 1) / BLOCK;
+    w->across = (output->width + PATCH - 1) / PATCH;
     w->tolerance = quality > 100 ? 0 : 1 + (100 - quality) / 10;
     w->shown = malloc(moving->row * (size_t)output->height);
     w->changed = malloc((size_t)w->across * (size_t)rows);
