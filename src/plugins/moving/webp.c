@@ -132,8 +132,8 @@ static box mark(writing *w, bool has_all, bool *opaque) {
   return around;
 }
 
-/* Patches in the box that are not coded: clear, so that the pixels below remain, or as they are shown
- * where the box replaces everything. */
+/* Patches in the box that are not coded: clear, so that the pixels below remain, or as they are
+ * shown where the box replaces everything. */
 static void fill(const writing *w, box around, bool is_clear) {
   for (int32_t row = around.top / PATCH; row * PATCH < around.bottom; row++)
     for (int32_t column = around.left / PATCH; column * PATCH < around.right; column++)
