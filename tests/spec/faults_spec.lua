@@ -183,6 +183,7 @@ local formats = {
   { output = "f.wav", sounds = SILENCE },
   { output = "f.mp4", is_video = true }, { output = "f.gif", is_video = true },
   { output = "f.avif", is_video = true, has_module = true, is_apart = true },
+  { output = "f.webp", is_video = true, has_module = true, is_apart = true },
   { output = "f.png", joins = "png" }, { output = "f.tga", joins = "tga" },
   { output = "f.span", joins = "span" },
 }
