@@ -8,7 +8,7 @@ local workbench = require "tests.support.workbench"
 
 local PYTHON = "/usr/bin/python3"
 
---- A disc that moves over nothing and fades, and stands still at the end. With "bad" a frame fails.
+--- A disc that moves over nothing and fades, and rests at the end. With "bad" a frame fails.
 local FILM = [[
 local celspan = require "celspan"
 local kind = ...
@@ -75,7 +75,7 @@ describe("a film in WebP", function()
     end
     assert.equal(501, sum) -- 15 frames of 1001/30000 seconds
     for i = 1, #list - 1 do assert.is_true(list[i] % 33 <= 2, list[i]) end
-    assert.is_true(list[#list] > 100) -- the disc stands
+    assert.is_true(list[#list] > 100) -- the disc rests
     render "-o film.webp --quality 100 --no-dither"
     assert.equal(9, select(2, times "film.webp":gsub("%S+", "")))
     local found = bench:read "pixels.raw"
