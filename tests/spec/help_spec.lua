@@ -75,6 +75,16 @@ local expected = {
   ["HDR out"] = 'docs/formats.md, "Formats"', ["stereo"] = "mixed_sound",
   ["dissolve"] = "lua dissolve",
   ["shape booleans"] = 'docs/guide.md, "Booleans"',
+  ["frame rate 29.97"] = 'docs/guide.md, "Film and frames"',
+  ["python binding"] = 'docs/c.md, "Other languages"', ["embed in c"] = 'docs/c.md, "Lua inside"',
+  ["contexts and memory"] = 'docs/c.md, "Contexts and memory"',
+  ["celspan_rostrum_write"] = 'docs/c.md, "The shortest program"',
+  ["pull request"] = 'docs/command-line.md, "What changed between two commits"',
+  ["ci"] = 'docs/command-line.md, "What changed between two commits"',
+  ["visual regression"] = 'docs/command-line.md, "What changed between two commits"',
+  ["mp4 too large"] = 'docs/command-line.md, "A video that is too large"',
+  ["failed rows"] = 'docs/command-line.md, "Rows that failed"',
+  ["accept a new reference"] = 'docs/guide.md, "The animator\'s desk"',
   ["parralax"] = 'docs/guide.md, "Parallax"', ["xsheet"] = 'docs/guide.md, "Exposure sheets"',
 }
 

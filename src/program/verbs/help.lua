@@ -139,6 +139,10 @@ local function put_nearest(out, recipes, words)
   local find = program.part("search.lua", require "celspan.core".nearest,
     program.part "synonyms.lua")
   local found = find(topics, words, SHOWN)
+  if words:find "^celspan_[%w_]+$" then
+    out:write(words, " is a name of C: celspan.h and the other headers in include/celspan say what it "
+      .. "does, and docs/c.md introduces them.\n")
+  end
   if #found == 0 then
     program.usage("there is nothing about '%s'; celspan help lists the verbs, celspan help "
       .. "cookbook the tasks, and celspan help lua the names", words)

@@ -26,7 +26,8 @@ for page, heading, text in headings:gmatch "\n([^\t\n]*)\t([^\t]*)\t([^\n]*)" do
   local is_name = page == "lua.md" and heading:find "^[%l]+[.:]" or heading:find "^Module "
   if not is_name and not (page == "command-line.md" and is_verb[heading]) then
     text = plain(text)
-    add { title = plain(heading), text = text, about = first_sentence(text),
+    local title = plain(heading) .. (page == "c.md" and not heading:find "^C " and " in C" or "")
+    add { title = title, text = text, about = first_sentence(text),
           read = ('docs/%s, "%s"'):format(page, plain(heading)) }
   end
 end
