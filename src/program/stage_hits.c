@@ -177,12 +177,12 @@ static celspan_status search_exposure(search *s, size_t i) {
 }
 
 /* film:hits(x, y, add, is_cut) -> nil | message: calls add({ kind =, depth =, name =, shot =,
- * share =, file =, line =, callers =, opacity =, light =, form =, paint = }) for each object and cel
- * that covers the point in the frame that was built last, from front to back; of a cut for one shot
- * after the other. Each follows its own parts, which are deeper. shot: its shot; nil: none. share: of
- * its shot in the frame. file and line: nil if they are not known. light: of a cel, red, green and
- * blue, or "texture". paint: of an object at the point, in white light; form: "fill" or "stroke" of
- * an outline. x, y: film units. */
+ * share =, file =, line =, callers =, opacity =, light =, form =, paint = }) for each object and
+ * cel that covers the point in the frame that was built last, from front to back; of a cut for one
+ * shot after the other. Each follows its own parts, which are deeper. shot: its shot; nil: none.
+ * share: of its shot in the frame. file and line: nil if they are not known. light: of a cel, red,
+ * green and blue, or "texture". paint: of an object at the point, in white light; form: "fill" or
+ * "stroke" of an outline. x, y: film units. */
 int cs_stage_hits(lua_State *L, cs_script *script) {
   search s = {.L = L,
               .context = script->context,

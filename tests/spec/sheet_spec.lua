@@ -684,12 +684,13 @@ describe("the sheet of a film", function()
 
   it("names the parts of a rostrum that has a name, such as a shot, by it", function()
     local s = sheet_of(2, function(f)
-      local shot = celspan.rostrum { size = { 20, 20 }, celspan.cel { hand:named "nell" }:named "nell",
-        celspan.cel { fist } }:named(f.number == 1 and "day" or "night")
+      local shot = celspan.rostrum { size = { 20, 20 },
+        celspan.cel { hand:named "nell" }:named "nell", celspan.cel { fist } }
+      shot = shot:named(f.number == 1 and "day" or "night")
       return celspan.rostrum { celspan.cel { shot }, celspan.cel { hand }:named "sign" }
     end)
-    assert.are.same({ "cel 1", "day/nell", "day/nell (object)", "day/cel 2", "sign", "night/nell",
-                      "night/nell (object)", "night/cel 2" }, s.layers)
+    assert.are.same({ "cel 1", "day", "day/nell", "day/nell (object)", "day/cel 2", "sign", "night",
+                      "night/nell", "night/nell (object)", "night/cel 2" }, s.layers)
     write("day.lua", [[
 local celspan = require "celspan"
 local cut = require "celspan.cut"
@@ -704,7 +705,7 @@ return cut { { film = shot(), name = "day" }, cut.dissolve(1 / 24), shot() }
     local code, out = bench:celspan_inside "sheet day.lua --json"
     assert.are.equal(0, code)
     local names = {}
-    for name in out:gmatch '"name": "([^"]*)","changes"' do names[#names + 1] = name end
+    for name in out:gmatch '"name": "([^"]+)"' do names[#names + 1] = name end
     table.sort(names)
     assert.are.same({ "day/cel 2", "day/nell", "shot 2/cel 2", "shot 2/nell" }, names)
   end)

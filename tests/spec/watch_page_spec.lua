@@ -56,11 +56,12 @@ local cel = celspan.cel
 local function box(x) return celspan.rect { x, 2, 8, 8, texture = "#3b5578" } end
 local far = box(40):named "wing"
 local sun = celspan.circle { centre = { 32, 26 }, radius = 4, texture = "#fd0" }
-local wing = celspan.group { celspan.group { box(4), celspan.stroke { box(4), width = 2 } } }
+local wing = celspan.group { celspan.group { box(4),
+  celspan.stroke { d = "M 4 2 h 8", width = 2, texture = "#fff" } } }
 return celspan.film { size = { 64, 36 }, frames = 4, frame = function(f)
   return celspan.rostrum { front = { 1, 0.5, 0.5 },
     celspan.cel { celspan.rect { 0, 0, 64, 36, texture = "#048" },
-      sun:glow { radius = 1 + f.index } }:named "sky",
+      sun:glow { radius = 1 + f.index, colour = "#fd0" } }:named "sky",
     cel { wing:named "wing" }:named "near", cel { far }:named "far", cel { box(52) } }
 end }
 ]]
@@ -143,7 +144,7 @@ describe("the page of celspan watch under hands #plain", function()
           .join("").trim()`), chip: await of("#hits .chip", "one.style.backgroundColor") };]=],
       GLOW)
     assert.same({ "0 cel 4", "0 far", "1 wing", "0 near", "1 wing", "0 sky", "1 sky" }, said.tree)
-    assert.same({ { 3, 13 }, { 40, 48 }, { 52, 60 } }, said.lines)
+    assert.same({ { 4, 12 }, { 40, 48 }, { 52, 60 } }, said.lines)
     assert.same({ "cel 4", "far", "wing", "near", "sky" }, said.rows)
     assert.same({ "wing, fill paint #3b5578", "wing (object) paint #3b5578",
                   "near (cel) light 1, 0.5, 0.5", "sky, fill paint #004488",

@@ -153,9 +153,9 @@ describe("the page of celspan watch #plain", function()
       return { tree, both, first, mixed, last, plain, day: await items("hits"),
                none: await page.get(`document.querySelector("#inspector").ariaBusy`) };]=])
     assert.same({ "= day", "day/bird", "day/sky", "= night", "night/lamp", "night/sky" }, said.tree)
-    assert.same({ "night", "object without a name", "lamp (cel)", "object without a name",
-                  "sky (cel)", "day", "object without a name", "sky (cel)" }, said.both)
-    assert.same({ "day", "object without a name", "sky (cel)" }, said.day)
+    assert.same({ "night", "lamp, fill paint #ffdd00", "lamp (cel)", "sky, fill paint #000033",
+                  "sky (cel)", "day", "sky, fill paint #88ccff", "sky (cel)" }, said.both)
+    assert.same({ "day", "sky, fill paint #88ccff", "sky (cel)" }, said.day)
     assert.truthy(said.first:find ", frame 23$" and said.last:find ", frame 34$", said.last)
     assert.equal("#aa9227", said.plain)
     assert.not_equal(said.plain, said.mixed)
