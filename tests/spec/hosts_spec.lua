@@ -155,17 +155,16 @@ describe("a host", function()
 
   local with_config = present.program "pkg-config" and it or pending
   with_config("is built against the build folder by pkg-config alone #plain", function()
-    for source, run in pairs {
-      hello = "%s/hello %s/found.png && cmp %s/c.png %s/found.png",
-      host = "%s/host scripts/booleans.lua 32 18 >%s/found.ppm && head -c 2 %s/found.ppm "
-        .. "%s/found.ppm",
-    } do
+    local function finds(library, source, arguments, head)
       -- pkg-config prints words for a shell: a space in a path has a backslash before it.
-      good("eval cc examples/%s.c -o %s/%s \"$(PKG_CONFIG_PATH='%s/meson-uninstalled' pkg-config "
-        .. "--cflags --libs %s)\"", source, folder, source, BUILD,
-        source == "host" and "celspan-lua" or "celspan")
-      good(run, folder, folder, folder, folder)
+      good("eval cc examples/%s.c -o %s/found \"$(PKG_CONFIG_PATH='%s/meson-uninstalled' "
+        .. "pkg-config --cflags --libs %s)\"", source, folder, BUILD, library)
+      good("cd %s && ./found %s && head -c 4 found.png | grep -q %s", folder, arguments, head)
     end
+    local script = bench:write("dot.lua", "local celspan = require 'celspan'\n"
+      .. "return celspan.rostrum { back = '#fff' }")
+    finds("celspan", "hello", "found.png", "PNG")
+    finds("celspan-lua", "host", script .. " 32 18 >found.png", "P6")
   end)
 
   local in_clang = present.program "clang" and it or pending
