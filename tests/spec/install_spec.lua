@@ -160,13 +160,12 @@ describe("celspan", function()
   it_mounts("reads pictures and starts processes where /proc is not mounted", function()
     if not present.pictures() then return pending "celspan was built without OpenImageIO" end
     local function without_proc(arguments)
-      return bench:shell(("unshare --mount sh -c 'umount -l /proc && exec %s %s'")
+      return bench:shell(("unshare --mount sh -c 'umount -l /proc && exec \"%s\" %s'")
         :format(workbench.absolute, arguments))
     end
     local code, out, err = without_proc "info scripts/pictures/canal.png"
     assert.same({ 0, "" }, { code, err })
-    assert.same(out, (select(2, bench:shell(workbench.absolute
-      .. " info scripts/pictures/canal.png"))))
+    assert.same(out, (select(2, bench:celspan "info scripts/pictures/canal.png")))
     local rendered, _, why = without_proc(("render scripts/picture.lua --frames 1 "
       .. "-o %s/a.png --progress none"):format(bench.folder))
     assert.same({ 0, "" }, { rendered, why })
@@ -176,7 +175,7 @@ describe("celspan", function()
     bench:write("plain.lua", require "tests.support.plain_film")
     local code, _, err = bench:shell(([[unshare --mount sh -c '
       mount -t tmpfs -o ro,noexec none /mnt && cd "%s" &&
-      HOME=/mnt TMPDIR=/mnt exec %s render plain.lua --frames 1 -o a.png --progress none']])
+      HOME=/mnt TMPDIR=/mnt exec "%s" render plain.lua --frames 1 -o a.png --progress none']])
       :format(bench.folder, workbench.absolute))
     assert.same({ 0, "" }, { code, err })
   end)

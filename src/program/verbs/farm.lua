@@ -213,7 +213,7 @@ end
 
 --- A line for each task, for any shell and any program that runs lines, and one that joins strips.
 local function commands(job)
-  local lines, head = {}, ("cd -- %s && ${CELSPAN:-celspan} "):format(quoted(job.folder))
+  local lines, head = {}, ("cd -- %s && \"${CELSPAN:-celspan}\" "):format(quoted(job.folder))
   local words, parts = words_of(job), {}
   if (job.folder .. job.script .. job.output .. words .. log_words(job, "")):find "%c" then
     return nil, "--commands: a command is a line, and a name or an argument has control characters"
