@@ -66,9 +66,9 @@ with open("pixels.raw", "wb") as out:
 local DELIVERIES = {
   { "film.mp4", 2, 1 }, { "film.mov", 2, 0.5 }, { "film.webm", 2, 1 },
   { "film.mkv", 2, 0.5 }, { "film.webp", 2, 1 }, { "film.avif", 2, 0.5 },
-  { "film.apng", 0, 0 }, { "film.mkv --codec ffv1", 0, 0 }, { "film.webp --quality 100", 0, 0 },
-  { "film.gif", 255, 100 },
+  { "film.apng", 0, 0 }, { "film.mkv --codec ffv1", 0, 0 },
 }
+if is_verbose then table.insert(DELIVERIES, { "film.gif", 255, 100 }) end -- it has no bounds
 
 describe("every frame of a film in", function()
   local bench, plain
