@@ -12,7 +12,7 @@
 #include "program/log.h"
 
 enum {
-  SENTENCE = 8192,       /* bytes; paths may be 4096 long */
+  SENTENCE = 8192,        /* bytes; paths may be 4096 long */
   VISIBLE = 5 * SENTENCE, /* the greatest size of a sentence after make_visible */
   PIECE = 1024 /* of a printed line, which fits into an event, however it is written there */
 };

@@ -212,14 +212,22 @@ static int push_text(lua_State *L) {
 }
 
 void cs_service_add_reports(lua_State *L) {
-  static const luaL_Reg services[] = {CS_SERVICE(note),       {"error", report_error},
-                                      CS_SERVICE(fail),       CS_SERVICE(check),
-                                      {"input", check_input}, {"show", cs_script_show},
-                                      CS_SERVICE(refuse),     CS_SERVICE(refuse_rights),
-                                      CS_SERVICE(outcome),    CS_SERVICE(reported),
-                                      CS_SERVICE(is_stopped), {"text", push_text},
-                                      CS_SERVICE(task),       CS_SERVICE(row),
-                                      CS_SERVICE(count_frames), CS_SERVICE(made_frame),
+  static const luaL_Reg services[] = {CS_SERVICE(note),
+                                      {"error", report_error},
+                                      CS_SERVICE(fail),
+                                      CS_SERVICE(check),
+                                      {"input", check_input},
+                                      {"show", cs_script_show},
+                                      CS_SERVICE(refuse),
+                                      CS_SERVICE(refuse_rights),
+                                      CS_SERVICE(outcome),
+                                      CS_SERVICE(reported),
+                                      CS_SERVICE(is_stopped),
+                                      {"text", push_text},
+                                      CS_SERVICE(task),
+                                      CS_SERVICE(row),
+                                      CS_SERVICE(count_frames),
+                                      CS_SERVICE(made_frame),
                                       {NULL, NULL}};
   cs_service_add(L, services);
 }

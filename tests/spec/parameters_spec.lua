@@ -304,7 +304,8 @@ describe("--table", function()
   it("is refused before the first frame", function()
     for rows, message in pairs {
       ["lang,size\nen,1\n"] =
-        "column 'size' is neither a parameter of the script nor {size} in OUT; did you mean 'side'?",
+        "column 'size' is neither a parameter of the script nor {size} in OUT; did you mean "
+        .. "'side'?",
       ["lang,speed\nen,1\nde,9\n"] = "line 3: speed is '9'; it must be a number from 0 to 4",
       ["lang\n../x\n"] = "line 2: column 'lang' is '../x': in the name of a file it must not be "
         .. "empty nor have / or .. in it",

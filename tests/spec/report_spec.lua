@@ -54,8 +54,8 @@ describe("the log of a run", function()
       assert.equal(("note: begins: %s.##.png: 6 frames"):format(style), lines[2])
       assert.equal(("note: frame 1: %s.01.png: made (1 of 6)"):format(style), lines[3])
       assert.equal(("note: frame 3: %s.03.png: copied (3 of 6)"):format(style), lines[5])
-      assert.is_truthy(lines[9]:find("^note: ends: %w+.##.png: 6 of 6 finished, 0 failed, in %S+ seconds, "
-        .. "exit code 0$"), lines[9])
+      assert.is_truthy(lines[9]:find("^note: ends: %w+.##.png: 6 of 6 finished, 0 failed, in %S+ "
+        .. "seconds, exit code 0$"), lines[9])
     end
   end)
 

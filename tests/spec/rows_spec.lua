@@ -1,5 +1,5 @@
--- The rows of --table as an orchestrator sees them: events, logs, faults of single rows, and what is
--- left when the run ends early.
+-- The rows of --table as an orchestrator sees them: events, logs, faults of single rows, and what
+-- is left when the run ends early.
 local json = require "celspan.json"
 local present = require "tests.support.present"
 local workbench = require "tests.support.workbench"
@@ -141,7 +141,7 @@ describe("the rows of a table", function()
   it("fail alone with a value that is not allowed, under --keep-going and in check", function()
     local rows = "id,n\na,1\nb,140\nc,2\n"
     local why = "line 3 (b.plane): n is '140'; it must be a number from 0 to 10\n"
-    local code, err = render(rows, "--keep-going")
+    local code, err, _ = render(rows, "--keep-going")
     assert.equal(1, code, err)
     assert.truthy(err:find("rows.csv: " .. why, 1, true), err)
     assert.truthy(bench:read "a.plane" and bench:read "c.plane")

@@ -26,8 +26,8 @@ local ARRAY_MOST = 1000 -- the most tasks of an array that Slurm accepts by defa
 
 -- ---------------------------------------------------------------- both engines
 
---- A path without "." and ".." in it, because rules that map paths compare their beginnings. Where a
---- link leads ".." to another folder than the names say, the path stays as it is.
+--- A path without "." and ".." in it, because rules that map paths compare their beginnings. Where
+--- a link leads ".." to another folder than the names say, the path stays as it is.
 local function plain_path(path)
   local parts = {}
   for part in path:gmatch "[^/]+" do

@@ -140,8 +140,8 @@ local function put_nearest(out, recipes, words)
     program.part "synonyms.lua")
   local found = find(topics, words, SHOWN)
   if words:find "^celspan_[%w_]+$" then
-    out:write(words, " is a name of C: celspan.h and the other headers in include/celspan say what it "
-      .. "does, and docs/c.md introduces them.\n")
+    out:write(words, " is a name of C: celspan.h and the other headers in include/celspan say what "
+      .. "it does, and docs/c.md introduces them.\n")
   end
   if #found == 0 then
     program.usage("there is nothing about '%s'; celspan help lists the verbs, celspan help "

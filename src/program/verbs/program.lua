@@ -192,10 +192,10 @@ function program.until_stopped(call, ...)
 end
 
 --- Runs processes, as many at a time as `workers`. next_item() returns the next item, or nil after
---- the last. start(item) returns its process, or nil and its exit code if it needs none, or nil if it
---- could not be started; then no more processes are started. finish(item, code, signal, name) is called in the order of the items, and
---- returns false to start no more. Returns how many were finished, and whether all could be
---- started.
+--- the last. start(item) returns its process, or nil and its exit code if it needs none, or nil if
+--- it could not be started; then no more processes are started. finish(item, code, signal, name) is
+--- called in the order of the items, and returns false to start no more. Returns how many were
+--- finished, and whether all could be started.
 function program.run_all(next_item, workers, start, finish)
   local by_process, ended, items = {}, {}, {}
   local running, started, finished, is_well, goes_on = 0, 0, 0, true, true

@@ -32,8 +32,8 @@ end
 
 -- ---------------------------------------------------------------- the processes
 
---- Starts the process of an item; nil and an exit code: it needs none; nil: it could not be started,
---- and this was reported.
+--- Starts the process of an item; nil and an exit code: it needs none; nil: it could not be
+--- started, and this was reported.
 local function start(item)
   if item.fault then return nil, 2 end
   local process, message

@@ -130,8 +130,8 @@ local function check_header(header, is_parameter)
       program.usage("--table %s: {name} in OUT is the name of a sound with --stems: call the "
         .. "column 'name' otherwise", request.table)
     elseif not is_parameter[name] and not has_place then
-      program.usage("--table %s: column '%s' is neither a parameter of the script nor {%s} in OUT%s",
-        request.table, name, name, meant_by(name, is_parameter))
+      program.usage("--table %s: column '%s' is neither a parameter of the script nor {%s} in "
+        .. "OUT%s", request.table, name, name, meant_by(name, is_parameter))
     end
   end
   for name in places:gmatch "{([%w_]+)}" do
