@@ -3,7 +3,7 @@ local present = require "tests.support.present"
 local system = require "tests.support.system"
 local workbench = require "tests.support.workbench"
 
--- A gradient, an array beside single colours, a blur, a picture, a coloured medium, a mode and a key.
+-- A gradient, an array beside single colours, a blur, a picture, a coloured medium, a mode, a key.
 local SCRIPT = [[
 local celspan = require "celspan"
 local glow = celspan.radial { centre = { 20, 12 }, radius = 14, { 0, "#fff" }, { 1, "#f800" } }
@@ -62,8 +62,8 @@ describe("valgrind #plain", function()
     end)
   end
 
-  -- Where a side is odd, the last register of a row has pixels to spare. None has a picture: valgrind
-  -- does not know all instructions of the module that reads them.
+  -- Where a side is odd, the last register of a row has pixels to spare. No script has a picture:
+  -- valgrind does not know all instructions of the module that reads them.
   local options = "--size 47x27 --depth float -o - --trust -- "
   test("is silent when scripts with gradients and gels are drawn", function()
     is_silent("middles.lua", options .. "waving turn gradient lights_and_gels layers")

@@ -38,8 +38,8 @@ CELSPAN_API int luaopen_celspan(lua_State *L);
  * Errors: BAD_ARGUMENT when the state has another context; NO_MEMORY. The sentence is in
  * `context`. */
 CELSPAN_API CELSPAN_CHECKED celspan_status celspan_lua_open(lua_State *L, celspan_context *context);
-/* The context of a state; NULL when celspan was not opened in it, or is closed again: then the other
- * functions return BAD_ARGUMENT, and celspan_context_error of NULL has the sentence. */
+/* The context of a state; NULL when celspan was not opened in it, or is closed again: then the
+ * other functions return BAD_ARGUMENT, and celspan_context_error of NULL has the sentence. */
 CELSPAN_API celspan_context *celspan_lua_context(lua_State *L);
 
 /* The sandbox of the program celspan (docs/sandbox.md), for hosts that load strangers' films: what

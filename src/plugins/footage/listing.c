@@ -27,7 +27,7 @@ typedef struct reading {
   packet *packets;
   size_t count, capacity;
   bool lacks_time[STREAMS]; /* of streams: a packet has no time */
-  int64_t seen[STREAMS];    /* packets of streams, also of pictures that an edit list leaves out */
+  int64_t listed[STREAMS];  /* packets of streams, also of pictures that an edit list leaves out */
   int video;                /* the stream of the movie; -1: not found yet */
   int64_t promised, length; /* of it: pictures, and ticks of all that are shown; 0: not given */
   char line[LINE];
@@ -85,7 +85,7 @@ static celspan_status add_packet(reading *r, const char *line) {
   char flags[8] = "";
   if (!find_number(line, "stream_index", &stream) || stream < 0 || stream >= STREAMS)
     return CELSPAN_OK;
-  r->seen[stream]++;
+  r->listed[stream]++;
   find_text(line, "flags", flags, sizeof flags);
   if (strchr(flags, 'D'))
     return CELSPAN_OK;
@@ -229,11 +229,11 @@ static celspan_status take_pictures(reading *r) {
 }
 
 /* Whether the file lacks pictures that its container counts. Those that an edit list leaves out may
- * lack, too, but do not count in the length. The length of an avi is that of what is there, and its
- * count is often wrong by one. */
+ * lack, too, but do not count in the length. The length of an avi is shortened with the file, and
+ * its count is often wrong by one. */
 static bool ends_early(const reading *r, const char *kind) {
   const cs_listing *out = r->out;
-  const int64_t missing = r->promised - r->seen[r->video];
+  const int64_t missing = r->promised - r->listed[r->video];
   if (strcmp(kind, "avi") == 0)
     return missing > 1;
   const int64_t shown = out->pictures[out->count - 1].time - out->pictures[0].time + out->last;
@@ -260,8 +260,8 @@ static celspan_status check(reading *r, const char *kind) {
   if (ends_early(r, kind))
     return cs_fail(r->context, CELSPAN_INPUT,
                    "the movie %s ends early: it has %lld of the %lld pictures that it counts; copy "
-                   "the file again, or keep what is there: ffmpeg -i FILE -c copy FILE.mkv",
-                   path, (long long)r->seen[r->video], (long long)r->promised);
+                   "the file again, or keep these: ffmpeg -i FILE -c copy FILE.mkv",
+                   path, (long long)r->listed[r->video], (long long)r->promised);
   return CELSPAN_OK;
 }
 

@@ -131,9 +131,9 @@ local AGAIN_ALL, AGAIN_LEAST, AGAIN_PART = 9, 3, 10
 
 --- Which of `count` frames are built again in each of `states` fresh films: lists of their places,
 --- the last place first. All lists together have one place in every AGAIN_PART, and at least
---- AGAIN_LEAST; of up to AGAIN_ALL frames they have all, and if there are fewer than that, these are
---- in several lists. The choice depends on the count alone, so it is the same each time. A single frame is in each list twice; otherwise a
---- counter would not be found.
+--- AGAIN_LEAST; of up to AGAIN_ALL frames they have all, and fewer frames than AGAIN_ALL are
+--- in several lists. The choice depends on the count alone, so it is the same each time. A single
+--- frame is in each list twice; otherwise a counter would not be found.
 function program.sample(count, states)
   local least = count > AGAIN_ALL and AGAIN_LEAST or AGAIN_ALL
   local share = math.ceil(math.max(least, count / AGAIN_PART) / states)
