@@ -85,8 +85,8 @@
          "objects")
 #define ONION                                                                                      \
   OPTION("--onion", "B,A", &cs_argument_onion,                                                     \
-         "show the drawings of the B frames before (red) and of the A frames after (green) "       \
-         "behind the drawing of each frame")
+         "show the B drawings before (red) and the A drawings after (green), counted for each "    \
+         "cel, behind the drawing of each frame")
 #define LOUDNESS                                                                                   \
   OPTION("--loudness", "LUFS", &cs_argument_loudness,                                              \
          "the loudness of the whole sound by EBU R 128, such as -14; default: as it is mixed")
