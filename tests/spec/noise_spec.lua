@@ -211,6 +211,36 @@ describe("grain", function()
     assert.is_true(most <= 1, most)
   end)
 
+  it("reaches as far beyond the frame as filters read", function()
+    local function shown(grain, kernel, crop, workers)
+      local film = celspan.film { size = { 30, 20 }, grain = grain, frame = function()
+        return celspan.rostrum { back = "#357", antialias = kernel,
+          camera = { centre = { 14, 9 }, width = 26 },
+          celspan.cel { celspan.circle { centre = { 1, 2 }, radius = 7, texture = "#fc8" } } }
+      end }
+      return assert(celspan.pixels(film, { crop = crop, workers = workers,
+        size = { 40, 27 } })):bytes { depth = 16 }
+    end
+    for _, kernel in ipairs { { kernel = "gaussian" }, { kernel = "lanczos" },
+      { kernel = "box", radius = 4 } } do
+      local plain, bare, grainy = shown(nil, kernel), shown({ amount = 0 }, kernel),
+        shown({ amount = 0.1 }, kernel)
+      local most, alpha = 0, 65535
+      for at = 1, #plain, 2 do
+        local code = ("<I2"):unpack(bare, at)
+        most = math.max(most, math.abs(code - ("<I2"):unpack(plain, at)))
+        if at % 8 == 7 then alpha = math.min(alpha, (("<I2"):unpack(grainy, at))) end
+      end
+      assert.is_true(most <= 1, ("%s: %d"):format(kernel.kernel, most))
+      assert.equal(65535, alpha, kernel.kernel)
+      assert.equal(grainy, shown({ amount = 0.1 }, kernel, nil, 2))
+      local part = shown({ amount = 0.1 }, kernel, { 33, 0, 7, 27 })
+      for y = 0, 26 do
+        assert.equal(grainy:sub(y * 320 + 265, y * 320 + 320), part:sub(y * 56 + 1, y * 56 + 56))
+      end
+    end
+  end)
+
   it("is in all exposures of a frame", function()
     local film = grey({ amount = 0.05 }, { frame = function()
       local half = { celspan.rostrum { back = "#808080" }, 0.5 }
