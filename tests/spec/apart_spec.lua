@@ -155,6 +155,29 @@ describe("--layers cels", function()
     end
   end)
 
+  it("says where light is cut that is brighter than white alone", function()
+    local function film(back, front, top)
+      return HEAD .. ([[return celspan.film { size = { 2, 1 }, space = "srgb", frame = function()
+        return celspan.rostrum { back = %s,
+          celspan.cel { box(0, 0, 1, 1, "#fa4"), opacity = 0.5, front = %s }:named "low",
+          %s } end }]]):format(back, front, top or "")
+    end
+    local top = 'celspan.cel { box(0, 0, 2, 1, "#2228") }'
+    local bright = "its back light is brighter than its matte"
+    local lit = "cel 1 'low' (film.lua:9) is lit"
+    for _, one in ipairs { { film("'#77bbf680'", "'#fff'"), bright }, { film("'#222'", "'#fff'") },
+      { film("'#222'", "{ 1, 1.5, 1 }", top), lit }, { film("'#222'", "{ 1, 1.5, 1 }") } } do
+      for _, ending in ipairs { "ora", "psd", "png" } do
+        local err = render(one[1], "--frames 1 --layers cels -o x." .. ending)
+        if one[2] then
+          assert.matches("its layers over each other are not the frame: " .. one[2], err, 1, true)
+        else
+          assert.equal("", err)
+        end
+      end
+    end
+  end)
+
   it_reads("has the cels of a film with grain, each with that grain", function()
     local grainy = SUMS:gsub("frames = 2", "frames = 2, grain = { amount = 0.1 }")
     render(grainy, "--frames 1 --depth float --layers cels --cryptomatte cels -o x.exr")

@@ -1,5 +1,6 @@
 /* The reasons are those of the fold (engine/compose/over.h): a layer over another one is
  * e + t * e', with the same t for the three channels, and nothing is done to the result. */
+#include <math.h>
 #include <stdio.h>
 
 #include "frames/apart/apart.h"
@@ -67,15 +68,20 @@ static const char *reason_of(const celspan_cel *cel, cs_apart_format format, cel
                       : back_reason(&cel->back, format);
 }
 
+/* Writes what prevents it. index: of a cel, from 1. */
+static bool refuse_cel(const celspan_rostrum *rostrum, size_t index, const char *reason,
+                       char *why) {
+  cs_mark_text mark = cs_mark_describe(rostrum->cels[index - 1]->mark);
+  snprintf(why, CS_APART_WHY, "cel %zu%s %s", index, mark.text, reason);
+  return false;
+}
+
 static bool cels_sum(const celspan_rostrum *rostrum, cs_apart_format format, celspan_space space,
                      char *why) {
   for (size_t i = 0; i < rostrum->cel_count; i++) {
     const char *reason = reason_of(rostrum->cels[i], format, space);
-    if (!reason)
-      continue;
-    cs_mark_text mark = cs_mark_describe(rostrum->cels[i]->mark);
-    snprintf(why, CS_APART_WHY, "cel %zu%s %s", i + 1, mark.text, reason);
-    return false;
+    if (reason)
+      return refuse_cel(rostrum, i + 1, reason, why);
   }
   return true;
 }
@@ -118,6 +124,27 @@ static const char *mixing_of(cs_apart_format format, const celspan_coding *codin
                    "space = \"srgb\"";
 }
 
+static bool is_brighter(const cs_light *light, celspan_space space, double by, double than) {
+  const celspan_light flat = space == CELSPAN_SPACE_SRGB ? light->coded : light->flat;
+  return fmax(flat.r, fmax(flat.g, flat.b)) * by > than * 1.0001;
+}
+
+/* Whether no light is cut in a layer, where such files end at white, that another one dims. */
+static bool lights_sum(const celspan_rostrum *rostrum, celspan_space space, char *why) {
+  const cs_light *back = &rostrum->back;
+  if (rostrum->cel_count > 0 && !back->texture &&
+      is_brighter(back, space, rostrum->brightness, back->flat.a)) {
+    snprintf(why, CS_APART_WHY, "its back light is brighter than its matte, which such files cut");
+    return false;
+  }
+  for (size_t i = 1; i < rostrum->cel_count; i++) {
+    const cs_light front = cs_scene_front(rostrum, rostrum->cels[i - 1]);
+    if (is_brighter(&front, space, 1, 1))
+      return refuse_cel(rostrum, i, "is lit by more than 1, and such files end at white", why);
+  }
+  return true;
+}
+
 bool cs_apart_sums(const celspan_exposure *exposures, size_t count, cs_apart_format format,
                    const celspan_coding *coding, celspan_space film_space, char why[CS_APART_WHY]) {
   const celspan_exposure *whole = find_whole(exposures, count);
@@ -139,5 +166,6 @@ bool cs_apart_sums(const celspan_exposure *exposures, size_t count, cs_apart_for
              rostrum->grade ? "a grade" : "grain");
     return false;
   }
-  return cels_sum(rostrum, format, space, why);
+  return cels_sum(rostrum, format, space, why) &&
+         (format == CS_APART_EXR || lights_sum(rostrum, space, why));
 }
