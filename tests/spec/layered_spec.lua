@@ -182,6 +182,26 @@ NORMAL 255 (0, 0, 300, 200) cel_6
     assert.equal("0", out)
   end)
 
+  it_compares("writes clear Photoshop documents of 16 bits that pictures are read from", function()
+    local clear = film():gsub("back = {[^}]*}", "back = { 0, 0, 0, 0 }")
+    render(clear, "--frames 1 --depth 16 --layers cels -o x.psd")
+    render(clear, "--frames 1 --depth 16 -o frame.png")
+    local code, err = run "compare x.psd frame.png --fail 0.006" -- of edges of little alpha
+    assert.equal(0, code, err)
+    run "convert x.psd converted.png --depth 16"
+    render([[local celspan = require "celspan"
+      return celspan.film { size = { 300, 200 }, space = "srgb", frame = function()
+        return celspan.rostrum { celspan.cel { celspan.image { file = "x.psd" } } } end }]],
+      "--frames 1 --depth 16 -o drawn.png")
+    for _, name in ipairs { "converted.png", "drawn.png" } do
+      code, err = run("compare frame.png --fail 0.006 " .. name)
+      assert.equal(0, code, name .. err)
+    end
+    local _, _, facts = run "info x.psd"
+    assert.matches("alpha straight", facts)
+    assert.is_nil(facts:find "subimage 1")
+  end)
+
   it("keeps names of any kind in Photoshop documents", function()
     local long = ("ž"):rep(127) .. "n"
     render(film(([[celspan.cel { box(1, 1, 5, 5, "#fff") }:named "猫 🐈",

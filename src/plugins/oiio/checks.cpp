@@ -242,6 +242,42 @@ uint64_t rows_of_record(Numbers &numbers, int length_bytes) {
   return rows * colours + mask_rows * masks;
 }
 
+/* Whether the layers of 16 or 32 bits say that the merged picture has alpha. They are in a block
+ * behind the list of layers of 8 bits, which is empty. numbers: behind that list, in a part that
+ * ends at `end`. */
+bool has_deep_transparency(Numbers numbers, uint64_t end, int length_bytes) {
+  const uint64_t block = 0x3842494d, deep16 = 0x4c723136, deep32 = 0x4c723332; /* 8BIM, Lr16, .. */
+  numbers.skip(numbers.next(4)); /* the masks of all layers */
+  while (numbers.at() < end && !numbers.is_over() && numbers.next(4) == block) {
+    uint64_t name = numbers.next(4);
+    bool is_list = name == deep16 || name == deep32;
+    uint64_t length = numbers.next(is_list ? length_bytes : 4);
+    if (is_list)
+      return int16_t(uint16_t(numbers.next(2))) < 0;
+    numbers.skip((length + 3) / 4 * 4);
+  }
+  return false;
+}
+
+/* The library asks the list of layers of 8 bits alone whether the merged picture has alpha, and
+ * then needs no block after it. So a list with one layer of no pixels replaces them all. at: of
+ * the length of the list. size: of the length and all after it. */
+void show_transparency(Source &source, uint64_t at, uint64_t size, int length_bytes) {
+  static const char list[] = "\xff\xff"                         /* one layer, and there is alpha */
+                             "\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0" /* its rectangle */
+                             "\0\0"                             /* channels */
+                             "8BIMnorm\xff\0\0\0"
+                             "\0\0\0\x0c\0\0\0\0\0\0\0\0\0\0\0"; /* no mask, no name */
+  std::vector<char> bytes;
+  if (size < uint64_t(length_bytes) + sizeof list)
+    return;
+  for (int i = length_bytes - 1; i >= 0; i--)
+    bytes.push_back(char((size - uint64_t(length_bytes)) >> 8 * i));
+  bytes.insert(bytes.end(), list, list + sizeof list);
+  source.replace(int64_t(at), std::move(bytes));
+  source.has_stand_in = true;
+}
+
 void check_psd(Source &source) {
   bool is_transparent = has_transparency(source);
   Numbers numbers(source, 4);
@@ -251,7 +287,11 @@ void check_psd(Source &source) {
   uint64_t resources = length_of(source, numbers);
   hide_thumbnails(source, numbers, resources);
   numbers.skip(resources);
-  uint64_t section = numbers.next(length_bytes), list = numbers.next(length_bytes), rows = 0;
+  uint64_t section = numbers.next(length_bytes), start = numbers.at();
+  uint64_t list = numbers.next(length_bytes), rows = 0;
+  if (section > 0 && list == 0 && is_transparent &&
+      has_deep_transparency(numbers, start + section, length_bytes))
+    show_transparency(source, start, section, length_bytes);
   if (section == 0 || list == 0)
     return;
   uint64_t at = numbers.at();

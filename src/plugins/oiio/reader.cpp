@@ -663,7 +663,7 @@ void list_parts(cs_picture_reader &reader, bool (*put)(void *user, const cs_pict
   reader.source->forgive();
   for (int i = 0; i < SUBIMAGES; i++) {
     ImageSpec spec = reader.input->spec(i);
-    if (spec.undefined())
+    if (spec.undefined() || (i > 0 && reader.source->has_stand_in))
       return;
     cs_picture_part part = describe_part(spec, i, name_of(spec));
     if (!put(user, &part))

@@ -31,6 +31,9 @@ public:
   /* Whether the path still leads to the same unchanged file. */
   bool is_unchanged() const;
 
+  /* Whether the parts after the first one are not those of the file, but were put into it. */
+  bool has_stand_in = false;
+
 private:
   struct Patch {
     int64_t from;
