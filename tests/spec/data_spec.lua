@@ -175,6 +175,9 @@ describe("captions", function()
       ["1\n00:01,000 -> 00:02,000\na"] = "line 1: '1' begins a block without times",
       ["WEBVTT\n\n00:61.000 --> 00:62.000\n"] = "line 3: '00:61.000 --> 00:62.000' must be two "
         .. "times with an arrow, 00:00:01.000 --> 00:00:02.500",
+      ["1\n00:00:00,000 --> 99999999999999999999:00:00,000\nx"] =
+        "line 2: the caption ends after 99999999999999999999:00:00,000; at most 1000000 hours are "
+        .. "read",
       ["\n\n1\n00:00:03,000 --> 00:00:02,000"] = "line 4: the caption ends (00:00:02,000) before "
         .. "it begins (00:00:03,000), or at the same time",
       ["1\nx\n00:00:03,000 --> 00:00:04,000"] = "line 2: the times of a caption are on its first "

@@ -166,6 +166,16 @@ describe("a drawing", function()
     assert.are.same({}, art.skipped)
   end)
 
+  it("is rendered as it is at the beginning, where it is set for ever", function()
+    local path = bench:write("set.svg", moving.document { box '<set attributeName="x" to="40"/>' })
+    assert.is_nil(svg.load(path).seconds)
+    local code, out, err = bench:celspan("probe %s 42 2", path)
+    assert.same({ 0, "" }, { code, err })
+    local _, beside = bench:celspan("probe %s 2 2", path)
+    assert.are_not.equal(out, beside)
+    assert.matches("0 0 0 0", beside)
+  end)
+
   it("says how long it moves", function()
     local function seconds(text) return read(text).seconds end
     local function moves(more) return box('<animate attributeName="x" to="9" ' .. more .. "/>") end

@@ -159,6 +159,18 @@ describe("wrong calls", function()
     }
   end)
 
+  it("of files name what is wrong with the name", function()
+    local zero = "the name of a file must not hold a zero byte, got 'm.mp4\\0...'"
+    check {
+      { function() celspan.footage { file = "m.mp4\0.png" } end, zero },
+      { function() celspan.read "m.mp4\0" end, zero },
+      { function() require "celspan.svg".read "m.mp4\0" end, zero },
+      { function() celspan.plane_read "m.mp4\0" end, zero },
+      { function() require "celspan.oca".read "hero" end,
+        "oca: read takes a folder and the name of a document in it, got string and nil" },
+    }
+  end)
+
   it("of texts say which", function()
     check {
       { function()

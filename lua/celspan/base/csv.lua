@@ -200,7 +200,7 @@ local function check_options(options)
   for column, kind in pairs(options.types or {}) do
     if not readers[kind] then
       core.refuse(("csv: the type of column '%s' must be \"number\", \"boolean\" or \"string\"")
-        :format(tostring(column)))
+        :format(fields.key(column)))
     end
   end
 end

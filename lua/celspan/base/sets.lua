@@ -79,7 +79,7 @@ end
 local function check(noun, whole, parts, set, choice)
   if type(set) ~= "string" or type(choice) ~= "string" and choice ~= false then
     core.refuse(("%s takes a name for each set, such as { mouth = \"C\" }, got %s = %s"):format(
-      noun, tostring(set), type(choice) == "string" and choice or fields.kind(choice)))
+      noun, fields.key(set), type(choice) == "string" and choice or fields.kind(choice)))
   end
   local members, names = sets.members(parts, set)
   if #names == 0 then

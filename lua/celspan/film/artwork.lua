@@ -49,8 +49,9 @@ local function drawing(path)
   for i, note in ipairs(art.skipped) do
     notes[i] = ("line %d: %s"):format(note.line, with_advice(note.what))
   end
-  if not art.seconds then return { celspan.cel { art.object } }, art.width, art.height, notes end
   local function at(seconds) return { celspan.cel { art:at(seconds) } } end
+  -- what is set for ever at the beginning has no end, and so no seconds
+  if not art.seconds then return at(0), art.width, art.height, notes end
   return at(0), art.width, art.height, notes, frames_of(art, notes), at
 end
 

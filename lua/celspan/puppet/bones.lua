@@ -35,7 +35,7 @@ local names_of = bones.names_of
 local function read_joints(given, joints)
   for name, point in next, given or {} do
     if type(name) ~= "string" then
-      refuse("joints are given by name: joints = { knee = { 120, 340 } }, got %s", tostring(name))
+      refuse("joints are given by name: joints = { knee = { 120, 340 } }, got %s", fields.key(name))
     end
     fields.numbers("puppet", ("joint '%s': its value %%d"):format(name), point, 2, "{x, y}", 6)
     joints[name] = { point[1], point[2] }
@@ -73,7 +73,7 @@ local function read_parts(rig, name, parts)
   if parts == nil then return rig.by_name[name] and { name } or {} end
   for i = 1, rawlen(parts) do
     if type(parts[i]) ~= "string" or not rig.by_name[parts[i]] then
-      refuse("bone '%s': the artwork has no part '%s'%s", name, tostring(parts[i]),
+      refuse("bone '%s': the artwork has no part '%s'%s", name, fields.key(parts[i]),
         help(parts[i], names_of(rig.by_name)))
     end
   end
@@ -205,7 +205,7 @@ local known_reach = { "x, y", bones = "number", pole = "table", stretch = "boole
 --- A target of a pose.
 function bones.read_reach(rig, joint, given)
   if not rig.joints[joint] then
-    refuse("reach: there is no joint '%s'%s", tostring(joint), help(joint, names_of(rig.joints)))
+    refuse("reach: there is no joint '%s'%s", fields.key(joint), help(joint, names_of(rig.joints)))
   end
   fields.check(("puppet: reach '%s'"):format(joint), given, known_reach, 6)
   fields.numbers("puppet", ("reach '%s': its value %%d"):format(joint), given, 2, "{x, y}", 6)

@@ -135,18 +135,18 @@ local function read_switches(rig, given)
   for set, members in next, given or {} do
     local names = members
     if type(set) == "number" then set, names = members, nil end
-    local found, sorted = sets.members(rig.by_name, tostring(set))
+    local found, sorted = sets.members(rig.by_name, fields.key(set))
     if bones.reserved[set] or rig.bones[set] then
-      refuse("a switch cannot have the name '%s': it is a %s", tostring(set),
+      refuse("a switch cannot have the name '%s': it is a %s", fields.key(set),
         bones.reserved[set] and "field of poses" or "bone")
     end
     if #sorted == 0 then
-      refuse("switch '%s': the artwork has no parts '%s A', '%s B' and so on%s", tostring(set),
-        tostring(set), tostring(set), sets.hint(rig.by_name, tostring(set)))
+      refuse("switch '%s': the artwork has no parts '%s A', '%s B' and so on%s", fields.key(set),
+        fields.key(set), fields.key(set), sets.hint(rig.by_name, fields.key(set)))
     end
     for _, name in ipairs(names or {}) do
       if not found[name] then
-        refuse("switch '%s': there is no part '%s %s'%s", set, set, tostring(name),
+        refuse("switch '%s': there is no part '%s %s'%s", set, set, fields.key(name),
           help(name, sorted))
       end
     end
@@ -189,7 +189,7 @@ local function read_pose(rig, pose)
       local names = names_of(rig.bones)
       for other in pairs(rig.switches) do names[#names + 1] = other end
       for other in pairs(bones.reserved) do names[#names + 1] = other end
-      refuse("the pose has '%s', which is no bone, switch or field%s", tostring(name),
+      refuse("the pose has '%s', which is no bone, switch or field%s", fields.key(name),
         help(name, names))
     end
   end
@@ -234,7 +234,7 @@ local function ordered_part(rig, name)
   local bone = rig.bones[name]
   if bone and #bone.parts == 1 then return rig.parts[bone.parts[1]] end
   refuse("the order of the pose names '%s', which is no part that moves, and no bone with one "
-    .. "part%s", tostring(name), help(name, names_of(rig.parts)))
+    .. "part%s", fields.key(name), help(name, names_of(rig.parts)))
 end
 
 --- The parts that are drawn in another order: lists by the part that they are over or under, and
@@ -438,7 +438,7 @@ end
 function methods:joint(pose, name)
   fields.self("puppet", Rig, self, "joint")
   if not self.joints[name] then
-    refuse("there is no joint '%s'%s", tostring(name), help(name, names_of(self.joints)))
+    refuse("there is no joint '%s'%s", fields.key(name), help(name, names_of(self.joints)))
   end
   local frames, at = place(self, pose)
   local x, y = bones.joint_in(self, frames, name)

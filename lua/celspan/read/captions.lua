@@ -22,6 +22,8 @@ local Captions = {}
 Captions.__index = fields.reads("a list of captions", Captions)
 Captions.__name = "celspan.captions"
 
+local MOST_HOURS = 1000000
+
 local function fail(line, format, ...)
   error({ message = ("line %d: "):format(line) .. format:format(...) }, 0)
 end
@@ -78,6 +80,10 @@ local function read_times(line, number)
   if not from or not to then
     fail(number, "'%s' must be two times with an arrow, 00:00:01.000 --> 00:00:02.500",
       line:sub(1, 60))
+  end
+  if to > 3600 * MOST_HOURS then
+    fail(number, "the caption ends after %s; at most %d hours are read", last:sub(1, 60),
+      MOST_HOURS)
   end
   if to <= from then
     fail(number, "the caption ends (%s) before it begins (%s), or at the same time", last, first)

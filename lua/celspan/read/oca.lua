@@ -219,6 +219,10 @@ end
 ---@return table? read
 ---@return string? message
 function oca.read(folder, document)
+  if type(folder) ~= "string" or type(document) ~= "string" then
+    core.refuse(("oca: read takes a folder and the name of a document in it, got %s and %s"):format(
+      fields.kind(folder), fields.kind(document)))
+  end
   local path = folder .. "/" .. document
   local text, message = files.read(path, json.most_bytes)
   if not text then return nil, message end

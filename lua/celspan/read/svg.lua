@@ -190,7 +190,7 @@ local function list_fonts(options, find)
     if type(family) ~= "string" or type(file) ~= "string" then
       return nil, ("svg: fonts is a table of files by family, such as { Arial = \"arial.ttf\" }, "
         .. "got %s = %s")
-        :format(tostring(family), fields.kind(file))
+        :format(fields.key(family), fields.kind(file))
     end
     list[#list + 1] = { family, find(file) }
   end

@@ -199,7 +199,8 @@ local function make(given)
   for _, field in ipairs { "drawings", "marks" } do
     for name, value in next, given[field] or {} do
       if not places[name] or type(value) ~= "table" then
-        columns.fail("%s: %s must be a layer, with a table from frames", field, tostring(name))
+        columns.fail("%s: %s must be a layer, with a table from frames", field,
+          fields.key(name))
       end
     end
   end

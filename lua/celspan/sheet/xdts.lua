@@ -247,7 +247,7 @@ function xdts.decode(text, which)
     end
   end
   columns.fail("timeTables has %d tables, and none of them is %s", #tables,
-    type(which) == "string" and ("%q"):format(which) or tostring(which))
+    type(which) == "string" and ("%q"):format(which) or fields.shown(which))
 end
 
 -- ---------------------------------------------------------------- writing

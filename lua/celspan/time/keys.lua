@@ -145,7 +145,7 @@ local function problem_of(key)
   end
   for name in next, key do
     if name ~= 1 and name ~= 2 and name ~= 3 then
-      return ("has an unknown field %s: a key is {time, value [, ease]}"):format(tostring(name))
+      return ("has an unknown field %s: a key is {time, value [, ease]}"):format(fields.key(name))
     end
   end
   local good, curve = pcall(ease, key[3] or "linear")
@@ -235,7 +235,7 @@ local function new(_, list)
   fields.check("keys", list, { "keys", loop = "string" })
   if rawlen(list) == 0 then core.refuse("keys: needs at least one key {time, value}") end
   if list.loop ~= nil and not loops[list.loop] then
-    core.refuse(('keys: loop must be "repeat" or "mirror", got %s'):format(tostring(list.loop)))
+    core.refuse(('keys: loop must be "repeat" or "mirror", got %s'):format(fields.key(list.loop)))
   end
   local keys, kind = read_keys(list)
   return setmetatable({ keys = keys, kind = kind, loop = list.loop }, Track)

@@ -1,11 +1,20 @@
 #include "lua/bind/files.h"
 
+#include <lauxlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "base/tried.h"
 #include "lua/bind/caller.h"
 #include "lua/bind/host.h"
+
+const char *cs_files_name(lua_State *L, int index) {
+  size_t size;
+  const char *name = luaL_checklstring(L, index, &size);
+  if (strlen(name) != size)
+    cs_caller_error(L, "the name of a file must not hold a zero byte, got '%s\\0...'", name);
+  return name;
+}
 
 /* Replaces the folder on top of the stack by the file in it. */
 static const char *push_in_folder(lua_State *L, const char *name) {

@@ -10,6 +10,9 @@
 
 #include <lua.h>
 
+/* The name of a file at an index. Raises if it is no text, or has a zero byte, where C would cut
+ * it: another file would be read. */
+const char *cs_files_name(lua_State *L, int index);
 /* Pushes the path of the file; and after it the other place that was searched, if the file is in
  * neither place, otherwise nil. *tried: this text or NULL. folder: of a Lua file, where the search
  * begins; NULL: there is none. Raises if a sandbox does not allow the script to read there. */

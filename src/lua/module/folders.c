@@ -67,10 +67,12 @@ static bool lies_in(const char *folder, const char *path) {
 }
 
 int cs_folders_within(lua_State *L) {
-  const char *folder = luaL_checkstring(L, 1);
-  const char *path = lua_pushfstring(L, "%s/%s", folder, luaL_checkstring(L, 2));
+  size_t size;
+  const char *folder = luaL_checkstring(L, 1), *name = luaL_checklstring(L, 2, &size);
+  const char *path = lua_pushfstring(L, "%s/%s", folder, name);
   char *real_folder = realpath(folder, NULL), *real_path = realpath(path, NULL);
-  bool is_within = real_folder && real_path && lies_in(real_folder, real_path);
+  bool is_within = real_folder && real_path && strlen(name) == size && /* no zero byte */
+                   lies_in(real_folder, real_path);
   free(real_folder);
   free(real_path);
   if (!is_within)

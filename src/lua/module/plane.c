@@ -74,7 +74,7 @@ int cs_plane_open_file(lua_State *L) {
     return cs_caller_error(L,
                            "plane_read: argument 1 must be a file name like \"one.plane\", got %s",
                            cs_userdata_type(L, 1));
-  path = cs_files_find(L, lua_tostring(L, 1), &tried);
+  path = cs_files_find(L, cs_files_name(L, 1), &tried);
   return finish(L, celspan_plane_read(cs_host_context(L), path, push_plane(L)));
 }
 

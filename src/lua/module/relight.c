@@ -186,7 +186,7 @@ int cs_relight_write(lua_State *L) {
 }
 
 int cs_relight_read(lua_State *L) {
-  const char *path = cs_files_find(L, luaL_checkstring(L, 1), NULL);
+  const char *path = cs_files_find(L, cs_files_name(L, 1), NULL);
   celspan_context *context = cs_host_context(L);
   celspan_texture *texture = NULL;
   cs_userdata *value = push_value(L, context);

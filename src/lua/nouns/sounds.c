@@ -219,7 +219,7 @@ static void put_file(lua_State *L, const char *folder) {
     cs_put_text(L, "path", lua_tostring(L, -2));
     return;
   }
-  cs_files_find_from(L, folder, lua_tostring(L, -2), &tried);
+  cs_files_find_from(L, folder, cs_files_name(L, -2), &tried);
   lua_setfield(L, -3, "tried");
   lua_setfield(L, -2, "path");
 }
