@@ -97,6 +97,36 @@ describe("keyframes", function()
     assert.is_true(middle(moving(list), 2) < 12)
   end)
 
+  it("may be many more than there are frames", function()
+    local list = {}
+    for i = 0, 120000 do
+      list[i + 1] = ('{"t":%g,"s":[%d,50],"i":{"x":0.5,"y":1},"o":{"x":0.5,"y":0}}'):format(
+        i / 1000, i % 100)
+    end
+    list[120001] = '{"t":120,"s":[70,50]}'
+    local path = write(document({ layer({ box(2, 2) },
+      { op = 200, ks = { p = { a = 1, k = "=[" .. table.concat(list, ",") .. "]" } } }) },
+      { op = 200 }))
+    local art = assert(lottie.read(path))
+    assert.near(1, middle(art, 0.001), 1e-3)
+    assert.near(70, middle(art, 120), 1e-3)
+    -- at most 500 steps of Lua and 1 kB a key
+    local code, _, err = bench:celspan("render %s --frames 50 --hash --progress none "
+      .. "--limit steps=%d,memory=128M", path, 120000 * 500)
+    assert.equal(0, code, err)
+  end)
+
+  it("are in the order of their times, however they are written", function()
+    local list = keys { { 60, { 90, 50 } }, { 0, { 10, 50 } }, { 40, { 50, 50 } } }
+    local art = moving(list)
+    for frame, want in pairs { [0] = 10, [20] = 30, [50] = 70, [60] = 90, [99] = 90 } do
+      assert.near(want, middle(art, frame), 1e-9)
+    end
+    list.k[2].s = nil -- the first one: it begins with no value
+    assert.near(20, middle(moving { a = 1, k = { list.k[2], { t = 40, e = { 90, 50 },
+      s = { 20, 50 } }, { t = 50 } } }, 40), 1e-9)
+  end)
+
   it("of old files have their end in the same key", function()
     local art = moving { k = { { t = 0, s = { 10, 50 }, e = { 50, 50 } },
                                { t = 40, s = { 50, 50 }, e = { 90, 50 } }, { t = 60 } } }
@@ -534,6 +564,60 @@ describe("a bad file", function()
     assert.is_string((refused(good:sub(1, 50), "lottie")))
     assert.matches("manifest.json names no animation",
       (refused(lotties.archive { { "manifest.json", "{}" } }, "lottie")))
+  end)
+
+  it("is named as no animation if it is JSON, or has such a name, and not a script", function()
+    for text, message in pairs { [""] = "it is empty", ["\239\187\191[1]"] = "JSON is no object",
+      ["null"] = "JSON is no object", ["[[]]"] = "JSON is no object" } do
+      local path = bench:write("none.json", text)
+      local code, _, err = bench:celspan("info %s", path)
+      assert.equal(3, code, err)
+      assert.matches("it is no Lottie animation: .*" .. message, err)
+    end
+  end)
+
+  it("that is too deep or too large is a fault of the input for each verb", function()
+    local drawing = '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9">%s%s</svg>'
+    local bomb = lotties.bomb()
+    local files = {
+      ["deep.json"] = '{"v":' .. ("["):rep(300) .. ("]"):rep(300) .. "}",
+      ["many.json"] = lotties.json(document({ { ty = 0, refId = "c0" } }, { assets = (function()
+        local assets = {}
+        for i = 0, 18 do
+          local one = { ty = 0, refId = "c" .. i + 1 }
+          assets[i + 1] = { id = "c" .. i, layers = { one, one } }
+        end
+        return assets
+      end)() })),
+      ["deep.svg"] = drawing:format(("<g>"):rep(1000), ("</g>"):rep(1000)),
+      ["bomb.lottie"] = lotties.archive { { "manifest.json",
+        lotties.json { animations = { { id = "m" } } } }, { "a/m.json", bomb, 8 } },
+      ["first.lottie"] = lotties.archive { { "manifest.json", bomb, 8 } },
+    }
+    for name, text in pairs(files) do
+      local path = bench:write(name, text)
+      for _, words in ipairs { "info %s", "render %s --hash --progress none" } do
+        local code, _, err = bench:celspan(words, path)
+        assert.equal(4, code, name .. ": " .. words .. ": " .. err)
+      end
+      os.remove(path)
+    end
+  end)
+
+  it("names kinds that are no numbers or texts without an address", function()
+    local art = read({ { ty = { 4 }, ip = 0, op = 9, ks = {} }, { ty = 2, refId = { 1 }, ks = {} },
+      layer({ box(2, 2) }, { ef = { { ty = { 1 } } }, sy = { { ty = { 2 } } } }) })
+    assert.same({ "layers[0]: layers of the kind table are left out",
+      "layers[1]: the picture 'table' is not in the file",
+      "layers[2].ef[0] 'art': the effect table is left out",
+      "layers[2].sy[0] 'art': the layer style table is left out" }, art.skipped)
+  end)
+
+  it("has no pictures with a zero byte in their names", function()
+    bench:write("ok.png", "x")
+    local art = read({ { ty = 2, refId = "p", ip = 0, op = 9, ks = {} } },
+      { assets = { { id = "p", p = "ok.png\0../x", u = "", w = 4, h = 4 } } })
+    assert.matches("there is no file 'ok.png", art.skipped[1], 1, true)
   end)
 
   it("with compositions or parents in circles is drawn without them", function()

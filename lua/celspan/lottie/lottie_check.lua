@@ -1,5 +1,6 @@
 --- Whether a document is a Lottie animation that can be drawn: its size, its times, and how much it
 --- holds when all of its compositions are unfolded.
+local core = require "celspan.core"
 local values = require "celspan.lottie_values"
 
 local check = {}
@@ -40,11 +41,11 @@ local function count(list, assets, counted, depth)
     end
     if depth > MOST_DEPTH then
       error({ message = ("layers: compositions are nested more than %d deep; that is the limit")
-        :format(MOST_DEPTH) }, 0)
+        :format(MOST_DEPTH), is_excess = true }, 0)
     end
     if total > check.most_layers then
       error({ message = ("layers: with all compositions unfolded there are more than %d; that is "
-        .. "the limit"):format(check.most_layers) }, 0)
+        .. "the limit"):format(check.most_layers), is_excess = true }, 0)
     end
   end
   return total
@@ -79,6 +80,7 @@ function check.examine(document, assets)
   local good, result = pcall(examine, document, assets)
   if good then return result end
   if type(result) ~= "table" then error(result, 0) end
+  if result.is_excess then return core.excess(result.message) end
   return nil, result.message
 end
 

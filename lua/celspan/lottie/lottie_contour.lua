@@ -12,20 +12,32 @@ local contours = {}
 local ROUND = 0.5519150244935106 -- of a quarter of a circle, in radii
 local MOST_POINTS = 1000 -- of a star
 
+--- Adds a vertex and its handles.
+local function add(list, x, y, ix, iy, ox, oy)
+  local k = #list
+  list[k + 1], list[k + 2], list[k + 3], list[k + 4], list[k + 5], list[k + 6] = x, y, ix, iy, ox,
+    oy
+end
+
+--- Two numbers of a file.
+local function pair(given)
+  if type(given) ~= "table" then return values.number(given, 0), 0 end
+  return values.number(given[1], 0), values.number(given[2], 0)
+end
+
 --- An outline of a file. closed: what is written beside it, in old files.
 function contours.read(given, closed)
   local list = { closed = closed and true or false }
   if not values.table(given) then return list end
   if given.c ~= nil then list.closed = values.flag(given.c) end
-  local points, into, out = values.items(given.v), values.table(given.i) or {},
-    values.table(given.o) or {}
-  for n, item in ipairs(points) do
-    local at = values.list(item[2], { 0, 0 }, 2)
-    local i, o = values.list(into[item[1]], { 0, 0 }, 2), values.list(out[item[1]], { 0, 0 }, 2)
-    local k = 6 * (n - 1)
-    list[k + 1], list[k + 2] = at[1], at[2]
-    list[k + 3], list[k + 4] = at[1] + i[1], at[2] + i[2]
-    list[k + 5], list[k + 6] = at[1] + o[1], at[2] + o[2]
+  local into, out = values.table(given.i) or {}, values.table(given.o) or {}
+  for n, point in ipairs(values.table(given.v) or {}) do
+    if values.table(point) then
+      local x, y = pair(point)
+      local ix, iy = pair(into[n])
+      local ox, oy = pair(out[n])
+      add(list, x, y, x + ix, y + iy, x + ox, y + oy)
+    end
   end
   return list
 end
@@ -122,12 +134,6 @@ function contours.of_cubics(c)
 end
 
 -- ---------------------------------------------------------------- forms
-
-local function add(list, x, y, ix, iy, ox, oy)
-  local k = #list
-  list[k + 1], list[k + 2], list[k + 3], list[k + 4], list[k + 5], list[k + 6] = x, y, ix, iy, ox,
-    oy
-end
 
 --- An ellipse, clockwise from its top.
 function contours.ellipse(x, y, rx, ry)

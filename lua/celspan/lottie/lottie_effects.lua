@@ -1,6 +1,7 @@
 --- Effects of layers that celspan has: tint, fill, levels, blur and drop shadow; and of the layer
 --- styles the drop shadow. Others are noted.
 local celspan = require "celspan"
+local fields = require "celspan.fields"
 local paint = require "celspan.lottie_paint"
 local property = require "celspan.lottie_property"
 local values = require "celspan.lottie_values"
@@ -139,7 +140,7 @@ local function add_effects(scope, item, list)
     if own and readers[effect.ty] then
       moves = add(list, readers[effect.ty](own, effect)) or moves
     elseif own and not is_control[effect.ty] then
-      own.note(("the effect %s is left out"):format(values.name(effect.mn, tostring(effect.ty))))
+      own.note(("the effect %s is left out"):format(values.name(effect.mn, fields.key(effect.ty))))
     end
   end
   return moves
@@ -163,7 +164,7 @@ local function add_styles(scope, item, list)
         function(t) return opacity(t) / 100 end, function(t) return -90 - angle(t) end,
         number("d", 5), number("s", 5), function() return 0 end), state) or moves
     else
-      own.note(("the layer style %s is left out"):format(tostring(style.ty)))
+      own.note(("the layer style %s is left out"):format(fields.key(style.ty)))
     end
   end
   return moves
@@ -183,4 +184,4 @@ function effects.compile(scope, item)
   end, moves
 end
 
-return require "celspan.fields".seal("lottie_effects", effects)
+return fields.seal("lottie_effects", effects)

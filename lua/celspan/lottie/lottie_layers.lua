@@ -4,6 +4,7 @@
 local affine = require "celspan.affine"
 local celspan = require "celspan"
 local effects = require "celspan.lottie_effects"
+local fields = require "celspan.fields"
 local masks = require "celspan.lottie_masks"
 local paint = require "celspan.lottie_paint"
 local property = require "celspan.lottie_property"
@@ -86,7 +87,8 @@ local function content_of(scope, item)
   local read = contents[item.ty]
   if read then return read(scope, item) end
   if item.ty ~= 3 then
-    scope.note(others[item.ty] or ("layers of the kind %s are left out"):format(tostring(item.ty)))
+    scope.note(others[item.ty] or ("layers of the kind %s are left out"):format(
+      fields.key(item.ty)))
   end
 end
 
@@ -290,7 +292,7 @@ end
 function layers.asset(root, id)
   local asset = root.assets[id]
   if not asset or not values.table(asset.item.layers) then
-    return nil, ("the composition '%s' is not in the file"):format(tostring(id))
+    return nil, ("the composition '%s' is not in the file"):format(fields.key(id))
   end
   if asset.is_open then return nil, "the composition contains itself; it is left out" end
   if asset.get then return asset.get end
@@ -312,4 +314,4 @@ end
 --- The whole animation.
 function layers.compile(scope, list) return composition(scope.within "layers", list) end
 
-return require "celspan.fields".seal("lottie_layers", layers)
+return fields.seal("lottie_layers", layers)

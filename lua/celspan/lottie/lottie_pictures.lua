@@ -1,6 +1,7 @@
 --- The pictures of an animation: in the file itself, in its archive, or in files beside it.
 local celspan = require "celspan"
 local core = require "celspan.core"
+local fields = require "celspan.fields"
 local source = require "celspan.lottie_source"
 local values = require "celspan.lottie_values"
 
@@ -59,10 +60,10 @@ function pictures.reader(found, assets)
   local known = {}
   return function(id)
     local asset = assets[id]
-    if not asset then return nil, ("the picture '%s' is not in the file"):format(tostring(id)) end
+    if not asset then return nil, ("the picture '%s' is not in the file"):format(fields.key(id)) end
     if known[asset] == nil then known[asset] = { open(found, asset.item) } end
     local object, message = known[asset][1], known[asset][2]
-    return object, message and ("the picture '%s' is missing: %s"):format(tostring(id), message)
+    return object, message and ("the picture '%s' is missing: %s"):format(fields.key(id), message)
   end
 end
 
@@ -107,4 +108,4 @@ function pictures.sounds(found, assets)
   end
 end
 
-return require "celspan.fields".seal("lottie_pictures", pictures)
+return fields.seal("lottie_pictures", pictures)

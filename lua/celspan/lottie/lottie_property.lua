@@ -5,7 +5,8 @@
 --          t           t           t
 --
 -- A property is a number, a list of numbers, or an outline (lottie_contour.lua), which is a list of
--- numbers, too.
+-- numbers, too. A file may have many more keys than a film has frames, so what a key holds is read
+-- when a frame needs it.
 local contours = require "celspan.lottie_contour"
 local ease = require "celspan.ease"
 local values = require "celspan.lottie_values"
@@ -13,7 +14,6 @@ local values = require "celspan.lottie_values"
 local property = {}
 
 local SAMPLES = 48 -- of the length of a spatial curve
-local MOST_KEYS = 100000
 
 -- ---------------------------------------------------------------- eases
 
@@ -39,14 +39,13 @@ local function ease_of(key)
   return ease(("bezier:%.14g,%.14g,%.14g,%.14g"):format(x1, y1, x2, y2))
 end
 
---- Whether a dimension that changes would have another ease than the first one.
-local function is_uneven(key, from, to)
-  for _, handle in ipairs { values.table(key.o) or {}, values.table(key.i) or {} } do
-    for _, axis in ipairs { "x", "y" } do
-      local list = values.table(handle[axis]) or {}
-      for i = 2, math.min(#list, #from, #to) do
-        if list[i] ~= list[1] and from[i] ~= to[i] then return true end
-      end
+--- Whether a coordinate of a handle is another one for a dimension that changes in a segment.
+local function is_uneven(handle, axis, segment_of, i)
+  local list = values.table(handle) and values.table(handle[axis])
+  for n = 2, list and #list or 0 do
+    if list[n] ~= list[1] then
+      local from, to = segment_of(i).from, segment_of(i).to
+      if n <= math.min(#from, #to) and from[n] ~= to[n] then return true end
     end
   end
   return false
@@ -102,40 +101,61 @@ end
 
 -- ---------------------------------------------------------------- keyframes
 
---- The keys of a list, in the order of their times.
+--- The keys of a list and their times, in the order of their times.
 local function keys_of(list)
-  local keys = {}
-  for i = 1, math.min(#list, MOST_KEYS) do
-    local key = values.table(list[i])
-    if key and type(key.t) == "number" then
-      keys[#keys + 1] = { key = key, t = values.frame(key.t, 0), place = i }
+  local keys, times, order, is_sorted = {}, {}, {}, true
+  for _, key in ipairs(list) do
+    if values.table(key) and type(key.t) == "number" then
+      local n = #order + 1
+      keys[n], times[n], order[n] = key, values.frame(key.t, 0), n
+      is_sorted = is_sorted and times[n] >= (times[n - 1] or times[n])
     end
   end
-  table.sort(keys, function(a, b) return a.t < b.t or a.t == b.t and a.place < b.place end)
-  return keys
+  if is_sorted then return keys, times end
+  table.sort(order, function(a, b) return times[a] < times[b] or times[a] == times[b] and a < b end)
+  local sorted, sorted_times = {}, {}
+  for i, n in ipairs(order) do sorted[i], sorted_times[i] = keys[n], times[n] end
+  return sorted, sorted_times
 end
 
 local function has_value(given)
-  return given ~= nil and (type(given) ~= "table" or values.table(given))
+  return given and (type(given) ~= "table" or values.table(given))
 end
 
---- The start and the end of every key; read: makes a value of what a key holds. note: takes what
---- looks different.
-local function segments_of(keys, read, note)
-  local list, before = {}, nil
-  for i, one in ipairs(keys) do
-    local key, after = one.key, keys[i + 1]
-    local from = has_value(key.s) and read(key.s) or before or read(nil)
-    local to = has_value(key.e) and read(key.e)
-      or after and has_value(after.key.s) and read(after.key.s) or from
-    list[i] = { t = one.t, from = from, to = to, is_held = values.flag(key.h),
-                ease = ease_of(key), way = way_of(key, from, to) }
-    if after and is_uneven(key, from, to) then
-      note "has an ease for each dimension; the first stands for all"
-    end
-    before = to
+--- What every key begins and ends with, as the file has it; false: nothing.
+local function ends_of(keys)
+  local from, to = {}, {}
+  for i, key in ipairs(keys) do
+    local after = keys[i + 1]
+    from[i] = has_value(key.s) and key.s or to[i - 1] or false
+    to[i] = has_value(key.e) and key.e or after and has_value(after.s) and after.s or from[i]
   end
-  return list
+  return from, to
+end
+
+--- A function that makes the segment of a key, once. read: makes a value of what a key holds.
+local function segments_of(keys, times, read)
+  local from, to = ends_of(keys)
+  local made = {}
+  return function(i)
+    if not made[i] then
+      local key, a, b = keys[i], read(from[i] or nil), read(to[i] or nil)
+      made[i] = { t = times[i], from = a, to = b, is_held = values.flag(key.h),
+                  ease = ease_of(key), way = way_of(key, a, b) }
+    end
+    return made[i]
+  end
+end
+
+--- Notes where the eases of the dimensions differ.
+local function note_uneven(keys, segment_of, note)
+  for i = 1, #keys - 1 do
+    local o, into = keys[i].o, keys[i].i
+    if is_uneven(o, "x", segment_of, i) or is_uneven(o, "y", segment_of, i)
+      or is_uneven(into, "x", segment_of, i) or is_uneven(into, "y", segment_of, i) then
+      return note "has an ease for each dimension; the first stands for all"
+    end
+  end
 end
 
 --- Mixes two lists; the shape of an outline is that of the first.
@@ -153,25 +173,23 @@ local function within(segment, length, t)
   return value
 end
 
---- The value of a list of segments at a frame.
-local function value_at(list, t)
-  local low, high = 1, #list
+--- The value at a frame.
+local function value_at(times, segment_of, t)
+  local low, high = 1, #times
   while low < high do
     local middle = (low + high + 1) // 2
-    if list[middle].t <= t then low = middle else high = middle - 1 end
+    if times[middle] <= t then low = middle else high = middle - 1 end
   end
-  local segment, after = list[low], list[low + 1]
-  if t <= segment.t then return segment.from end
-  if not after then return segment.from end
-  if segment.is_held then return segment.from end
-  return within(segment, after.t - segment.t, t)
+  local segment, after = segment_of(low), times[low + 1]
+  if t <= segment.t or not after or segment.is_held then return segment.from end
+  return within(segment, after - segment.t, t)
 end
 
 --- A function of the frame, which keeps its last value.
-local function animate(segments)
+local function animate(times, segment_of)
   local last, value
   return function(t)
-    if t ~= last then last, value = t, value_at(segments, t) end
+    if t ~= last then last, value = t, value_at(times, segment_of, t) end
     return value
   end
 end
@@ -206,12 +224,13 @@ local function compile(scope, given, what, read, kind)
   given = resolve(scope, given, kind)
   note_expression(scope, given, what)
   local content = content_of(given)
-  local keys = has_keys(content) and keys_of(content)
-  if keys and #keys > 1 then
-    local function note(text) scope.note(("%s %s"):format(what, text)) end
-    return animate(segments_of(keys, read, note)), true
+  local keys, times = keys_of(has_keys(content) and content or {})
+  if #keys > 1 then
+    local segment_of = segments_of(keys, times, read)
+    note_uneven(keys, segment_of, function(text) scope.note(("%s %s"):format(what, text)) end)
+    return animate(times, segment_of), true
   end
-  if keys and keys[1] then content = has_value(keys[1].key.s) and keys[1].key.s or keys[1].key.e end
+  if keys[1] then content = has_value(keys[1].s) and keys[1].s or keys[1].e end
   local value = read(content)
   return function() return value end, false
 end

@@ -20,15 +20,14 @@ local function decode(text, name)
   return value
 end
 
---- What a function of an archive returns for a member, in the folder of either version.
+--- What a function of an archive returns for a member, in the folder of either version. The last
+--- failure is that of the member.
 local function in_folders(ask, archive, kind, name, most)
-  local message
-  for _, folder in ipairs(folders[kind]) do
-    local answer, problem = ask(archive, folder .. name, most)
-    if answer then return answer end
-    message = message or problem
+  local newer, older = folders[kind][1] .. name, folders[kind][2] .. name
+  if not core.archive_size(archive, newer) and core.archive_size(archive, older) then
+    return ask(archive, older, most)
   end
-  return nil, message
+  return ask(archive, newer, most)
 end
 
 local function member(archive, kind, name)
@@ -84,6 +83,7 @@ function source.open(path)
   if not text then return nil, message end
   local found_at = core.find(path)
   if text:sub(1, 4) == "PK\3\4" then return open_archive(path, found_at) end
+  if not text:find "%S" then return nil, path .. ": it is no Lottie animation: it is empty" end
   local document, problem = decode(text, path)
   if document == nil then return nil, problem end
   return { document = document, folder = found_at:match "^(.*)/[^/]*$" or ".", themes = {},

@@ -136,6 +136,10 @@ int cs_host_fail(lua_State *L, celspan_status status) {
   return 2;
 }
 
+int cs_host_fail_input(lua_State *L, celspan_status status) {
+  return cs_host_fail(L, status == CELSPAN_LIMIT ? CELSPAN_INPUT : status);
+}
+
 celspan_status cs_host_blame(lua_State *L, const char *message) {
   cs_host *host = cs_host_get(L);
   const char *sentence = sentence_of(host);

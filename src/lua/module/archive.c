@@ -1,5 +1,6 @@
 /* Members of zip archives, for readers that are written in Lua. */
 #include <lauxlib.h>
+#include <string.h>
 
 #include "lua/bind/host.h"
 #include "lua/bind/userdata.h"
@@ -42,11 +43,12 @@ static celspan_status find(archive *a, const char *name, const cs_zip_member **m
 
 /* path, name -> archive: finds the member. */
 static celspan_status open(lua_State *L, archive **a, const cs_zip_member **member) {
-  const char *path = luaL_checkstring(L, 1), *name = luaL_checkstring(L, 2);
+  size_t size;
+  const char *path = luaL_checkstring(L, 1), *name = luaL_checklstring(L, 2, &size);
   cs_host_admit(L, path);
   *a = cs_userdata_push_holder(L, "celspan.archive", sizeof **a, release);
   **a = (archive){.context = cs_host_context(L), .input = {.path = path}};
-  return find(*a, name, member);
+  return find(*a, strlen(name) == size ? name : "", member); /* no name has a zero byte */
 }
 
 /* archive, result -> archive, result: the memory does not wait for the collector. */
@@ -65,7 +67,7 @@ int cs_archive_member(lua_State *L) {
   if (status == CELSPAN_OK)
     status = cs_zip_load(a->context, &a->input, member, (size_t)most, &a->bytes, &a->size);
   if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+    return cs_host_fail_input(L, status);
   lua_pushlstring(L, (const char *)a->bytes, a->size);
   return finish(L);
 }
@@ -75,7 +77,7 @@ int cs_archive_size(lua_State *L) {
   const cs_zip_member *member;
   celspan_status status = open(L, &a, &member);
   if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+    return cs_host_fail_input(L, status);
   lua_pushinteger(L, (lua_Integer)member->unpacked);
   return finish(L);
 }

@@ -15,8 +15,8 @@
 
 enum { HEAD = 64 };
 
-/* The first sign after white space and a byte order mark: '<' of an XML document, '{' of a JSON
- * object. No script begins with these. */
+/* The first sign after white space and a byte order mark: '<' of an XML document, '{' or '[' of
+ * JSON. No script begins with these. */
 static char first_sign(const char *head) {
   const char *start = strncmp(head, "\xEF\xBB\xBF", 3) == 0 ? head + 3 : head;
   return start[strspn(start, " \t\r\n")];
@@ -29,6 +29,14 @@ static bool is_lottie(const char *head, const char *path) {
   const char *dot = strrchr(path, '.');
   return memcmp(head + NAME, mimetype, sizeof mimetype - 1) != 0 && dot &&
          strcasecmp(dot, ".lottie") == 0;
+}
+
+/* Whether a file is JSON by its name or its first sign. The reader says what is wrong with it. */
+static bool is_json(const char *head, const char *path) {
+  const char *dot = strrchr(path, '.');
+  bool is_named = dot && (strcasecmp(dot, ".json") == 0 || strcasecmp(dot, ".lottie") == 0);
+  return first_sign(head) == '{' || first_sign(head) == '[' ||
+         (is_named && access(path, F_OK) == 0);
 }
 
 /* The start of a regular file, as a text; "" if it is not one. Returns whether it is a folder. */
@@ -68,7 +76,7 @@ cs_artwork cs_artwork_of(const char *path) {
              ? is_lottie(head, path) ? CS_ARTWORK_LOTTIE : CS_ARTWORK_ARCHIVE
          : strncmp(head, "8BPS", 4) == 0 ? CS_ARTWORK_PSD
          : first_sign(head) == '<'       ? CS_ARTWORK_SVG
-         : first_sign(head) == '{'       ? CS_ARTWORK_LOTTIE
+         : is_json(head, path)           ? CS_ARTWORK_LOTTIE
                                          : CS_ARTWORK_NONE;
 }
 

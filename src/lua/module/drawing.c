@@ -55,7 +55,7 @@ static drawing *push_drawing(lua_State *L) {
 /* The drawing as the result of a call; or nil, and the message of the failure. */
 static int answer(lua_State *L, const drawing *made, celspan_status status) {
   if (status != CELSPAN_OK)
-    return cs_host_fail(L, status);
+    return cs_host_fail_input(L, status);
   for (const cs_svg_named *one = made->svg->named; one; one = one->next)
     cs_host_remember(L, one->path);
   return 1;
@@ -320,7 +320,7 @@ static int parse(lua_State *L) {
   cs_named_begin(L, context);
   celspan_status status = celspan_svg_read(context, &desc, &made->svg);
   cs_named_end(context);
-  return status == CELSPAN_OK ? 1 : cs_host_fail(L, status);
+  return status == CELSPAN_OK ? 1 : cs_host_fail_input(L, status);
 }
 
 void cs_drawing_open(lua_State *L) {

@@ -30,9 +30,9 @@ static int fail_text(lua_State *L, const char *path, const char *reason) {
 }
 
 static int fail_length(lua_State *L, const char *path, lua_Integer most) {
-  luaL_pushfail(L);
-  lua_pushfstring(L, "%s: it has more than %I bytes, which is the limit", path, (LUAI_UACINT)most);
-  return 2;
+  return cs_host_fail(L, cs_fail(cs_host_context(L), CELSPAN_INPUT,
+                                 "%s: it has more than %lld bytes, which is the limit", path,
+                                 (long long)most));
 }
 
 /* Pushes the text. size: the size of the file if it is known; files in /proc have none. */

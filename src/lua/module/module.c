@@ -24,7 +24,7 @@
  * was searched. */
 static int find(lua_State *L) {
   const char *tried;
-  cs_files_find(L, luaL_checkstring(L, 1), &tried);
+  cs_files_find(L, cs_files_name(L, 1), &tried);
   return 2;
 }
 
@@ -54,6 +54,11 @@ static int miss(lua_State *L) {
   const char *noun = luaL_checkstring(L, 1), *sentence = luaL_checkstring(L, 2);
   cs_host_try(L, noun, cs_fail(cs_host_context(L), CELSPAN_INPUT, "%s", sentence));
   return 0;
+}
+
+/* core.excess(message) -> nil, message: a file is too large or too deep for its reader. */
+static int excess(lua_State *L) {
+  return cs_host_fail(L, cs_fail(cs_host_context(L), CELSPAN_INPUT, "%s", luaL_checkstring(L, 1)));
 }
 
 /* Pushes a C function. Its upvalue is the only argument, a function. */
@@ -106,6 +111,7 @@ static const luaL_Reg core_functions[] = {{"find", find},
                                           {"source", cs_embedded_source},
                                           {"refuse", refuse},
                                           {"miss", miss},
+                                          {"excess", excess},
                                           {"warns", cs_warnings_kept},
                                           {"warn", cs_warnings_add},
                                           {"entry", entry},
@@ -143,6 +149,7 @@ static const luaL_Reg core_functions[] = {{"find", find},
                                           {"folder", cs_folders_names},
                                           {"within", cs_folders_within},
                                           {"file_text", cs_file_text},
+                                          {"json", cs_json_text_read},
                                           {"trace", cs_tracing_make},
                                           {"trace_write", cs_tracing_write},
                                           {"tracker", cs_track_tracker},
