@@ -145,6 +145,15 @@ static bool lights_sum(const celspan_rostrum *rostrum, celspan_space space, char
   return true;
 }
 
+/* Whether a kernel takes away: what it makes of the frame, or of a layer, stays within the colours
+ * that are there. */
+static bool is_signed(const cs_antialias *antialias) {
+  bool is = false;
+  for (int i = 0; i < CS_ANTIALIAS_SAMPLES && antialias->mode == CELSPAN_ANTIALIAS_FILTER; i++)
+    is |= antialias->samples[i] < 0;
+  return is;
+}
+
 bool cs_apart_sums(const celspan_exposure *exposures, size_t count, cs_apart_format format,
                    const celspan_coding *coding, celspan_space film_space, char why[CS_APART_WHY]) {
   const celspan_exposure *whole = find_whole(exposures, count);
@@ -164,6 +173,12 @@ bool cs_apart_sums(const celspan_exposure *exposures, size_t count, cs_apart_for
   if (rostrum->grade || rostrum->grain) {
     snprintf(why, CS_APART_WHY, "its rostrum has %s, which each layer has for itself",
              rostrum->grade ? "a grade" : "grain");
+    return false;
+  }
+  if (rostrum->cel_count > 0 && is_signed(&rostrum->antialias)) {
+    snprintf(why, CS_APART_WHY,
+             "the kernel of its antialiasing is negative somewhere, and colours "
+             "stay within those around them, in each layer for itself");
     return false;
   }
   return cels_sum(rostrum, format, space, why) &&
