@@ -192,8 +192,8 @@ end
 --- name; -o and options; the reader; how many codes the page of the format allows; and:
 --- is_near: vectors; edges: how many more beside an edge, where areas are mixed one over the other;
 --- has: what is needed; refuses(row): a part of the reason; differs(row): where the layers are not
---- the frame, a part of what must be said; space: in which alone they are; every: one in so many rows
---- is compared, because each takes a process.
+--- the frame, a part of what must be said; space: in which alone they are; every: one in so many
+--- rows is compared, because each takes a process.
 local COLUMNS = {
   -- lua.md, celspan.pixels: coded from light, also where the film mixes codes
   { "pixels", "- > q.rgba", function()

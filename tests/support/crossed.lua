@@ -46,8 +46,8 @@ local function camera() return { centre = { 22, 16 }, width = 40, rotate = 20 } 
 
 local crossed = {}
 
---- { name, the frame }; and what the frame has: bright lights, noise, a picture, a sum of exposures,
---- grain of the whole, a kernel with negative weights, gradients under a mode.
+--- { name, the frame }; and what the frame has: bright lights, noise, a picture, a sum of
+--- exposures, grain of the whole, a kernel with negative weights, gradients under a mode.
 crossed.rows = {
   { "opaque shapes", function() return over("#fff", cel(shapes(32))) end },
   { "shapes over nothing", function() return over(nil, cel(shapes(32))) end },
@@ -61,15 +61,21 @@ crossed.rows = {
       disc(24, 16, 10, "#2060c0a0")))
   end },
   { "a translucent ground", function() return over({ 0.2, 0.3, 0.4, 0.5 }, cel(shapes(32))) end },
-  { "light from behind above 1", function() return over({ 2, 1.5, 1.2 }, cel(shapes(32))) end, is_bright = true },
+  { "light from behind above 1", function()
+    return over({ 2, 1.5, 1.2 }, cel(shapes(32)))
+  end, is_bright = true },
   { "light in front above 1", function()
     return celspan.rostrum { front = { 2, 1.5, 1.2 }, back = "#202020", cel(shapes(32)) }
   end, is_bright = true },
   { "two exposures", function()
     return sum(over("#fff", cel(shapes(28))), over("#fff", cel(shapes(36))))
   end, is_sum = true },
-  { "two equal exposures", function() return sum(still "#808080", still "#808080") end, is_sum = true },
-  { "two full exposures", function() return sum(still "#ff0000", still "#0000ff") end, is_sum = true },
+  { "two equal exposures", function()
+    return sum(still "#808080", still "#808080")
+  end, is_sum = true },
+  { "two full exposures", function()
+    return sum(still "#ff0000", still "#0000ff")
+  end, is_sum = true },
   { "exposures of bands", function()
     local function bands(y)
       return over("#fff", cel(rect { 0, 0, W, y, texture = "#4080c0" },
@@ -90,9 +96,13 @@ crossed.rows = {
   { "a gaussian kernel", function() return filtered "gaussian" end },
   { "a mitchell kernel", function() return filtered "mitchell" end, is_signed = true },
   { "a lanczos kernel", function() return filtered "lanczos" end, is_signed = true },
-  { "grain and a gaussian kernel", function() return filtered("gaussian", { amount = 0.05 }) end, has_noise = true, has_grain = true },
+  { "grain and a gaussian kernel", function()
+    return filtered("gaussian", { amount = 0.05 })
+  end, has_noise = true, has_grain = true },
   { "a picture", function() return over("#fff", cel(photo(255))) end, has_picture = true },
-  { "a translucent picture", function() return over("#fff", cel(photo(128))) end, has_picture = true },
+  { "a translucent picture", function()
+    return over("#fff", cel(photo(128)))
+  end, has_picture = true },
   { "a picture as the frame", function()
     return over(nil, cel(photo(255):translate(-8, -4):scale(W / 32, H / 24)))
   end, has_picture = true },
