@@ -82,14 +82,14 @@ local function distance(list, place, channel, value, edges)
   return off
 end
 
---- The largest difference of a picture from that of the reference, as the column judges it.
-local function difference(own, other, column)
+--- The largest difference of a picture from that of the reference, as the column judges the row.
+local function difference(own, other, column, row)
   if own.bytes == other then return 0 end
   local most, a, b = 0, own.numbers, numbers(other)
   assert(#a == #b, "the pictures have different sizes")
   for i = 1, #a do
     local off = math.abs(a[i] - b[i])
-    if off > most and column.is_near then
+    if off > most and column.is_near and not row.is_small then
       off = distance(a, (i - 1) // 4, (i - 1) % 4 + 1, b[i], column.edges)
     end
     most = math.max(most, off)
@@ -277,7 +277,7 @@ local function cell(column, number, read, said)
     return found and found:find(why, 1, true) and "refused"
   end
   local got = read(number)
-  local off = got and difference(reference()[number], got, column)
+  local off = got and difference(reference()[number], got, column, row)
   why = off and off > column[4] and column.differs and column.differs(row)
   if not why then return off end
   said = render(("%d-%d"):format(number, number), column[2])

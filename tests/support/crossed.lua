@@ -47,7 +47,8 @@ local function camera() return { centre = { 22, 16 }, width = 40, rotate = 20 } 
 local crossed = {}
 
 --- { name, the frame }; and what the frame has: bright lights, noise, a picture, a sum of
---- exposures, grain of the whole, a kernel with negative weights, gradients under a mode.
+--- exposures, grain of the whole, a kernel with negative weights, gradients under a mode; or
+--- whether what it has is smaller than a pixel.
 crossed.rows = {
   { "opaque shapes", function() return over("#fff", cel(shapes(32))) end },
   { "shapes over nothing", function() return over(nil, cel(shapes(32))) end },
@@ -86,7 +87,7 @@ crossed.rows = {
   { "exposures of a small disc", function()
     local function dot(x) return over(nil, cel(disc(x, 16.93, 0.3, "#000"))) end
     return sum(dot(20.4), dot(20.6))
-  end, is_sum = true },
+  end, is_sum = true, is_small = true },
   { "grain of a cel", function()
     return over("#fff", celspan.cel { grain = { amount = 0.05 }, shapes(32) })
   end, has_noise = true },
