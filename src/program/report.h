@@ -55,8 +55,8 @@ cs_exit cs_report_failure(const celspan_context *context, celspan_status status,
 cs_exit cs_report_frame_failure(const celspan_context *context, celspan_status status,
                                 int64_t number);
 
-/* From now on events are about this row of a table: its line, and the file that it makes; output "":
- * about no row. */
+/* From now on events are about this row of a table: its line, and the file that it makes;
+ * output "": about no row. */
 void cs_report_row(int64_t line, const char *output);
 
 /* Writes a script's output to standard error: as events "print", a line each or a part of a long

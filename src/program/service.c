@@ -133,7 +133,8 @@ static int check_input(lua_State *L) {
   return cs_service_end(L, is_starved ? CS_EXIT_MEMORY : CS_EXIT_INPUT);
 }
 
-/* row(line, output): messages in JSON are about this row of a table; without arguments: about none */
+/* row(line, output): messages in JSON are about this row of a table; without arguments, about
+ * none */
 static int row(lua_State *L) {
   cs_report_row(luaL_optinteger(L, 1, 0), luaL_optstring(L, 2, ""));
   return 0;
@@ -166,8 +167,8 @@ static int outcome(lua_State *L) {
   return 1;
 }
 
-/* is_stopped() -> the number of the signal that asked to stop, or false. A verb that calls is_stopped ends by itself, so
- * from the first call on, signals do not interrupt its Lua. */
+/* is_stopped() -> the number of the signal that asked to stop, or false. A verb that calls
+ * is_stopped ends by itself, so from the first call on, signals do not interrupt its Lua. */
 static int is_stopped(lua_State *L) {
   cs_script_unwatch();
   if (cs_interrupt_signal())

@@ -382,7 +382,7 @@ describe("a sound", function()
     end
   end)
 
-  it("is refused with a sentence where no other program can be started, as in WebAssembly", function()
+  it("is refused with a sentence where no other program can be started", function()
     if not present.program "strace" then return pending "there is no strace" end
     bench:write("in/film.wav", tone())
     local code, _, err = in_folder("ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0 strace -f "
