@@ -122,7 +122,7 @@ return {
   { "footage", "pictures" }, { "render queue", "farms" }, { "batch", "farms", "parameters" },
   { "template", "parameters" }, { "preview", "watch" }, { "storyboard", "contact" },
   { "python binding", "other languages in c" }, { "ctypes", "other languages in c" },
-  { "embed in c", "lua inside in c" }, { "embed", "lua inside in c", "element for pages" },
+  { "embed in c", "lua inside in c" }, { "embed", "lua inside in c" },
   { "host", "lua inside in c" },
   { "pull request", "what changed between two commits" },
   { "ci", "what changed between two commits" },
