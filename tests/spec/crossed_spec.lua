@@ -70,7 +70,7 @@ end
 
 local EDGE = 8 -- codes: what lies beside an edge differs by more
 
---- How far a channel of a pixel is from what is around it in the frame. edges: how many codes that
+--- How far a channel of a pixel is from the colours of the pixels around it in the frame. edges: how many codes that
 --- may be beside an edge.
 local function distance(list, place, channel, value, edges)
   local x, y, low, high = place % W, place // W, range(list, place % W, place // W, channel)
@@ -192,7 +192,7 @@ end
 --- name; -o and options; the reader; how many codes the page of the format allows; and:
 --- is_near: vectors; edges: how many more beside an edge, where areas are mixed one over the other;
 --- has: what is needed; refuses(row): a part of the reason; differs(row): where the layers are not
---- the frame, a part of what must be said; space: in which alone they are; every: one in so many
+--- the frame, a part of what must be said; space: in which alone they are; every: one in that many
 --- rows is compared, because each takes a process.
 local COLUMNS = {
   -- lua.md, celspan.pixels: coded from light, also where the film mixes codes
