@@ -70,8 +70,8 @@ end
 
 local EDGE = 8 -- codes: what lies beside an edge differs by more
 
---- How far a channel of a pixel is from the colours of the pixels around it in the frame. edges: how many codes that
---- may be beside an edge.
+--- How far a channel of a pixel is from the colours of the pixels around it in the frame. edges:
+--- how many codes that may be beside an edge.
 local function distance(list, place, channel, value, edges)
   local x, y, low, high = place % W, place // W, range(list, place % W, place // W, channel)
   local off = math.max(low - value, value - high, 0)
