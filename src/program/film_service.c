@@ -206,14 +206,6 @@ static int captions(lua_State *L) {
   return 1;
 }
 
-/* film:poster() -> the number of the frame that the film says stands for it; nil: it says none */
-static int poster(lua_State *L) {
-  const cs_film_info *info = &self(L)->script.film;
-  if (info->has_poster)
-    lua_pushinteger(L, info->poster);
-  return info->has_poster;
-}
-
 /* film:check_tracks(is_silent) -> 0, or the exit code for a fault of the sound or else of the
  * captions, both of which are read; it is reported unless is_silent */
 static int check_tracks(lua_State *L) {
@@ -504,10 +496,11 @@ static void set_marks(lua_State *L, const cs_film_info *info) {
   lua_setfield(L, -2, "marks");
 }
 
-/* Sets the fields of a celspan.film. */
+/* Sets the fields of a celspan.film; has_poster: whether it says which frame stands for it. */
 static void set_facts(lua_State *L, const cs_film_info *info) {
   cs_put_integer(L, "first", info->first);
   cs_put_integer(L, "poster", info->poster);
+  cs_put_flag(L, "has_poster", info->has_poster);
   cs_put_integer(L, "frames", info->count);
   cs_put_number(L, "fps", info->frames_second);
   cs_put_text(L, "title", info->title);
@@ -524,19 +517,41 @@ static int describe(lua_State *L) {
 
 /* Sets the methods of the film on top of the stack. */
 static void set_methods(lua_State *L) {
-  static const luaL_Reg methods[] = {
-      CS_SERVICE(build),       {"try", try_frame},       {"onion", try_onion},
-      CS_SERVICE(at),          CS_SERVICE(chosen),       CS_SERVICE(exposures),
-      CS_SERVICE(words),       CS_SERVICE(numbers),      CS_SERVICE(view_size),
-      CS_SERVICE(lay_onion),   CS_SERVICE(check_tracks), CS_SERVICE(scene),
-      CS_SERVICE(counts),      CS_SERVICE(names),        CS_SERVICE(ask),
-      CS_SERVICE(kept),        CS_SERVICE(faults),       CS_SERVICE(drop_warnings),
-      CS_SERVICE(files),       CS_SERVICE(draw),         CS_SERVICE(hits),
-      CS_SERVICE(alter),       CS_SERVICE(keep_line),    CS_SERVICE(keep_callers),
-      CS_SERVICE(silence),     CS_SERVICE(costs),        CS_SERVICE(camera),
-      CS_SERVICE(hold_camera), CS_SERVICE(use_camera),   CS_SERVICE(sound),
-      CS_SERVICE(wave),        CS_SERVICE(tree),         CS_SERVICE(refuse),
-      CS_SERVICE(captions),    CS_SERVICE(poster),       {NULL, NULL}};
+  static const luaL_Reg methods[] = {CS_SERVICE(build),
+                                     {"try", try_frame},
+                                     {"onion", try_onion},
+                                     CS_SERVICE(at),
+                                     CS_SERVICE(chosen),
+                                     CS_SERVICE(exposures),
+                                     CS_SERVICE(words),
+                                     CS_SERVICE(numbers),
+                                     CS_SERVICE(view_size),
+                                     CS_SERVICE(lay_onion),
+                                     CS_SERVICE(check_tracks),
+                                     CS_SERVICE(scene),
+                                     CS_SERVICE(counts),
+                                     CS_SERVICE(names),
+                                     CS_SERVICE(ask),
+                                     CS_SERVICE(kept),
+                                     CS_SERVICE(faults),
+                                     CS_SERVICE(drop_warnings),
+                                     CS_SERVICE(files),
+                                     CS_SERVICE(draw),
+                                     CS_SERVICE(hits),
+                                     CS_SERVICE(alter),
+                                     CS_SERVICE(keep_line),
+                                     CS_SERVICE(keep_callers),
+                                     CS_SERVICE(silence),
+                                     CS_SERVICE(costs),
+                                     CS_SERVICE(camera),
+                                     CS_SERVICE(hold_camera),
+                                     CS_SERVICE(use_camera),
+                                     CS_SERVICE(sound),
+                                     CS_SERVICE(wave),
+                                     CS_SERVICE(tree),
+                                     CS_SERVICE(refuse),
+                                     CS_SERVICE(captions),
+                                     {NULL, NULL}};
   lua_createtable(L, 0, 2);
   lua_pushcfunction(L, describe);
   lua_setfield(L, -2, "__tostring");

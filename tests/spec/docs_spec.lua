@@ -56,7 +56,7 @@ setup(function()
     end)
   end
   pack_card()
-  assert(os.execute(("cd %s && %s sounds.lua"):format(folder, interpreter)))
+  assert(os.execute(("cd %s && '%s' sounds.lua"):format(folder, interpreter)))
 end)
 
 teardown(function() os.execute("rm -r " .. folder) end)
@@ -126,7 +126,7 @@ describe("the examples of", function()
         it(place(page, block) .. " load", function()
           write_example(block)
           local code, _, message =
-            run(("LUA_PATH='./?.lua;;' LUA_CPATH='%s' %s -e 'require "
+            run(("LUA_PATH='./?.lua;;' LUA_CPATH='%s' '%s' -e 'require "
             .. "\"%s\"' /dev/null")
             :format(package.cpath, interpreter, block.name))
           assert.are.equal(0, code, message)
@@ -151,7 +151,7 @@ describe("the examples of", function()
       elseif block.language == "lua" then
         it(place(page, block) .. " run", function()
           local path = write_example(block)
-          local code, printed, message = run(("LUA_PATH=';;' LUA_CPATH='%s' %s %s")
+          local code, printed, message = run(("LUA_PATH=';;' LUA_CPATH='%s' '%s' %s")
             :format(package.cpath, interpreter, path))
           check_code(code, message)
           assert.are.equal(promised(block.text), printed)

@@ -76,7 +76,7 @@ int cs_painting_read(lua_State *L) {
   int32_t width, height;
   celspan_status status = celspan_painting_read(context, path, painting);
   if (status != CELSPAN_OK)
-    return cs_host_fail_input(L, status);
+    return cs_host_fail(L, status);
   celspan_painting_size(*painting, &width, &height);
   lua_createtable(L, 0, 4);
   cs_put_integer(L, "width", width);

@@ -61,8 +61,7 @@ local function carry(script, output, settings)
   for i, mark in ipairs(film.marks) do marks[i] = { mark.name, mark.frame - film.first + 1 } end
   if film.title then add("title", film.title) end
   if #marks > 0 then add("marks", require "celspan.json".encode(marks)) end
-  local poster = film:poster()
-  if poster then add("poster", tostring(poster - film.first + 1)) end
+  if film.has_poster then add("poster", tostring(film.poster - film.first + 1)) end
   if text == "" then return nil end
   local file, message = io.open(name, "w")
   if not file or not file:write(text) or not file:close() then
