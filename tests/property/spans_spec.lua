@@ -101,7 +101,8 @@ local function statistics(script, options)
   file:write(script)
   file:close()
   local pipe =
-    assert(io.popen(("%s spans %s --stats --workers 1 %s"):format(celspan_command, path, options)))
+    assert(io.popen(("'%s' spans %s --stats --workers 1 %s")
+      :format(celspan_command, path, options)))
   local line = pipe:read "a"
   pipe:close()
   os.remove(path)
@@ -133,7 +134,7 @@ end
 describe("a row a million pixels wide", function()
   -- Edges far from the left coincide with pixels' edges by rounding; row 741157 has one that did.
   it("is covered by its spans without overlap", function()
-    local command = ("%s spans scripts/terapixel.lua --size 1000000x1000000 --rows 741150-741160")
+    local command = ("'%s' spans scripts/terapixel.lua --size 1000000x1000000 --rows 741150-741160")
       :format(celspan_command)
     local pipe, ends, count = assert(io.popen(command)), {}, 0
     for line in pipe:lines() do

@@ -76,13 +76,13 @@ return celspan.rostrum { size = { 8, 8 }, celspan.cel { celspan.rect { 0, 0, 4, 
   it("ends with 0 if standard output is closed and nothing is written to it", function()
     bench:write("still.lua", [[local celspan = require "celspan"
 return celspan.rostrum { size = { 8, 8 }, celspan.cel { celspan.rect { 0, 0, 4, 4 } } }]])
-    local whole = ("%s render %s/still.lua -o %s/%%s.png --progress none")
+    local whole = ("'%s' render %s/still.lua -o %s/%%s.png --progress none")
       :format(bench.binary, bench.folder,
       bench.folder)
     assert.are.equal(0, (bench:shell(whole:format "open")))
     assert.are.equal(0, (bench:shell(whole:format "closed" .. " >&-")))
     assert.are.equal(bench:read "open.png", bench:read "closed.png")
     assert.are.equal(5,
-      (bench:shell(("%s probe %s/still.lua 1 1 >&-"):format(bench.binary, bench.folder))))
+      (bench:shell(("'%s' probe %s/still.lua 1 1 >&-"):format(bench.binary, bench.folder))))
   end)
 end)

@@ -258,7 +258,7 @@ describe("a film of pictures in memory", function()
   it("needs no picture module", function()
     bench:write("film.lua", script)
     local code, _, err =
-      bench:shell(("LD_DEBUG=files CELSPAN_PICTURE_MODULE=/nonexistent.so %s render %s/film.lua "
+      bench:shell(("LD_DEBUG=files CELSPAN_PICTURE_MODULE=/nonexistent.so '%s' render %s/film.lua "
       .. "-o %s/alone/f.#.png --progress none"):format(bench.binary, bench.folder, bench.folder))
     assert.are.equal(0, code, err)
     assert.is_truthy(err:find("libc.so", 1, true), "the dynamic linker prints nothing")

@@ -152,9 +152,10 @@ describe("frames by several workers", function()
     bench:write("long.lua", (FILM:gsub("frames = 12", "frames = 100000")
       :gsub("f.number < 7", "f.number > 0"):gsub("f.index", "f.index %% 977 / 7")))
     local code, _, err =
-      bench:shell(("%s render %s/long.lua --size 900x600 --workers 3 --progress none"
-      .. " -o %s/out/f.######.png & pid=$!; sleep 0.7; kill -INT $pid; wait $pid; exit $?")
-      :format("env --default-signal=INT " .. bench.binary, bench.folder, bench.folder))
+      bench:shell(("env --default-signal=INT '%s' render %s/long.lua --size 900x600 --workers 3"
+      .. " --progress none -o %s/out/f.######.png & pid=$!; "
+      .. "sleep 0.7; kill -INT $pid; wait $pid; exit $?")
+      :format(bench.binary, bench.folder, bench.folder))
     assert.are.equal(130, code, err)
     for _, name in ipairs(bench:files "out") do
       assert.is_truthy(name:find("^f%.%d+%.png$"), name)
@@ -164,7 +165,7 @@ describe("frames by several workers", function()
 
   it("leave no files if a file may not grow #workers", function()
     local code, _, err =
-      bench:shell(("ulimit -f 4; %s render %s/film.lua --size 3000x2000 --workers 2 "
+      bench:shell(("ulimit -f 4; '%s' render %s/film.lua --size 3000x2000 --workers 2 "
       .. "--depth 16 --progress none -o %s/out/f.##.png")
       :format(bench.binary, bench.folder, bench.folder))
     assert.are.equal(5, code, err)
@@ -510,7 +511,7 @@ describe("--progress", function()
     for name, broken in pairs(names) do
       local output = bench.folder .. "/" .. name .. ".#.png"
       local code, _, err =
-        bench:shell(("%s render %s/film.lua --frames 1 --size 4x4 --progress json -o '%s'")
+        bench:shell(("'%s' render %s/film.lua --frames 1 --size 4x4 --progress json -o '%s'")
         :format(bench.binary, bench.folder, output))
       assert.are.equal(0, code, err)
       local expected = broken and (name:gsub("[\x80-\xff]", "\u{fffd}")) or name
@@ -669,7 +670,7 @@ describe("--resume", function()
 
   it("after kill -9, at any moment, gives the same as a run that was never killed", function()
     for i = 1, 6 do -- a build for coverage would leave truncated counts: it must write none
-      bench:shell(("GCOV_PREFIX=/dev/null %s render %s/film.lua -o %s/out/f.##.png --resume "
+      bench:shell(("GCOV_PREFIX=/dev/null '%s' render %s/film.lua -o %s/out/f.##.png --resume "
         .. "--workers 2 --size 1200x800 "
         .. "--progress none & pid=$!; sleep %.2f; kill -9 $pid; wait $pid")
         :format(bench.binary, bench.folder, bench.folder, 0.02 * i * i))
@@ -692,7 +693,7 @@ describe("--resume", function()
                             ".f.03.pngx00ff.part" } do
       bench:write("out/" .. name, "half")
     end
-    local code, _, err = bench:shell(("flock %s/out/.f.04.png.0001.part %s render %s/film.lua "
+    local code, _, err = bench:shell(("flock %s/out/.f.04.png.0001.part '%s' render %s/film.lua "
       .. "-o %s/out/f.##.png --resume --frames 1 --progress none")
       :format(bench.folder, bench.binary,
       bench.folder, bench.folder))

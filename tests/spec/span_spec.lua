@@ -151,13 +151,13 @@ end }]])
     local function leaves_nothing() return #bench:files "out" == 0 end
     write("many.lua", MANY)
     assert(os.execute("mkdir '" .. bench.folder .. "/out'"))
-    local arguments = " render many.lua -o out/x.span --size 1000000x1000000 --progress none"
-    local code, _, err = shell("ulimit -f 4; " .. workbench.absolute .. arguments
+    local arguments = "' render many.lua -o out/x.span --size 1000000x1000000 --progress none"
+    local code, _, err = shell("ulimit -f 4; '" .. workbench.absolute .. arguments
       .. " --crop 0,0,1000000,9000")
     assert.equal(5, code, err)
     assert.truthy(err:find("out/x.span: cannot write", 1, true), err)
     assert.is_true(leaves_nothing())
-    code = shell("timeout -s INT 0.5 " .. workbench.absolute .. arguments)
+    code = shell("timeout -s INT 0.5 '" .. workbench.absolute .. arguments)
     assert.equal(124, code)
     assert.is_true(leaves_nothing())
   end)

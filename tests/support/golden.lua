@@ -21,7 +21,7 @@ end
 --- The script's current spans, with these rights instead of reading from the scripts that ship; or
 --- nil and a message (celspan's own goes to standard error).
 function golden.actual(case, rights)
-  local pipe = assert(io.popen(("%s spans %s.lua %s"):format(command, case,
+  local pipe = assert(io.popen(("'%s' spans %s.lua %s"):format(command, case,
     rights or "--allow scripts")))
   local text = pipe:read "a"
   if pipe:close() then return text end
@@ -64,7 +64,7 @@ end
 
 --- The digests of the frames in order: workers end in any order.
 local function ask_render(arguments, program)
-  local lines, message = lines_of(("%s render %s --hash --progress none")
+  local lines, message = lines_of(("'%s' render %s --hash --progress none")
     :format(program or command, arguments))
   if not lines then return nil, message end
   table.sort(lines, function(a, b) return tonumber(a:match "%S+") < tonumber(b:match "%S+") end)
@@ -94,7 +94,7 @@ end
 
 --- The numbers of a film's first and last frame.
 local function ends_of(script)
-  local told = assert(lines_of(("%s info %s"):format(command, script)))
+  local told = assert(lines_of(("'%s' info %s"):format(command, script)))
   local text = table.concat(told, "\n")
   return tonumber(text:match "first (%-?%d+)"), tonumber(text:match "last (%-?%d+)")
 end
