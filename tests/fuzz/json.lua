@@ -4,9 +4,11 @@ local json = require "celspan.json"
 
 local target = {}
 
+local MOST_DEPTH = 100 -- levels
+
 --- Raises an error if a value contains anything that JSON does not have, or is nested too deep.
 local function check(value, depth)
-  assert(depth <= json.most_depth + 1, "nested deeper than allowed")
+  assert(depth <= MOST_DEPTH + 1, "nested deeper than allowed")
   if type(value) == "table" and value ~= json.null then
     for name, one in pairs(value) do
       assert(type(name) == "string" or math.type(name) == "integer", "a name of another kind")

@@ -35,7 +35,7 @@ local function run(command)
 end
 
 local function compare(folder, picture, depth, pixel_size)
-  local command = ("'%s' render %s/film.lua --trust --progress none --depth %s -o %%s -- %s")
+  local command = ("'%s' render %s/film.lua --trust --progress none --depth %s -o %%s -- '%s'")
     :format(BINARY, folder, depth, picture)
   run(command:format(folder .. "/####.span"))
   local raw, size, wrong = run(command:format "-"), WIDTH * HEIGHT * pixel_size, {}

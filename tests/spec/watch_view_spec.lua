@@ -345,15 +345,18 @@ describe("the page of celspan watch over its picture #plain", function()
 
   it("compares any frame with one that is held", function()
     local said = watching.see(watching.watch(), COLOUR .. [=[
+      const middle = (channel, value) => page.until(`(() => {
+        const canvas = document.querySelector("#stage");
+        return canvas.getContext("2d").getImageData(canvas.width >> 1, canvas.height >> 1, 1, 1)
+          .data[${channel}] === ${value}; })()`);
       await page.press("h");
       await page.press("d");
+      await middle(1, 0);
       const same = await colour("stage", 0.5, 0.5);
       await page.press("ArrowLeft");
       await page.until(`${stage("frame")} === "2"`);
       // The ball of frame 3 is green there, and the ground of frame 2 is not.
-      await page.until(`document.querySelector("#stage").getContext("2d").getImageData(
-        document.querySelector("#stage").width >> 1, document.querySelector("#stage").height >> 1,
-        1, 1).data[0] === 255`);
+      await middle(0, 255);
       const other = await colour("stage", 0.5, 0.5), beside = await colour("stage", 0.05, 0.05);
       await page.press("w");
       const left = await colour("stage", 0.45, 0.5), right = await colour("stage", 0.55, 0.5);
