@@ -146,7 +146,7 @@ describe("AVIF", function()
   it("has the same bytes at any time, on any number of threads, from both modules", function()
     local first, raster = nil, workbench.build .. "/src/plugins/raster/celspan-raster.so"
     local ways = { "", "taskset -c 0 " }
-    if present.program(raster) then ways[3] = "CELSPAN_PICTURE_MODULE=" .. raster .. " " end
+    if present.program(raster) then ways[3] = "CELSPAN_PICTURE_MODULE='" .. raster .. "' " end
     for _, way in ipairs(ways) do
       local code, _, err = bench:inside(("%s'%s' render film.lua -o film.avif --progress none")
         :format(way, workbench.absolute))

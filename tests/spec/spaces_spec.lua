@@ -448,7 +448,7 @@ return celspan.rostrum { size = { 256, 48 }, celspan.cel { celspan.rect { 0, 0, 
     rendered("ramp.lua", "--background '#000' -o plain.png")
     local raster = workbench.build .. "/src/plugins/raster/celspan-raster.so"
     local modules = { "" }
-    if present.program(raster) then modules[2] = "CELSPAN_PICTURE_MODULE=" .. raster .. " " end
+    if present.program(raster) then modules[2] = "CELSPAN_PICTURE_MODULE='" .. raster .. "' " end
     for _, module in ipairs(modules) do
       local function said(file)
         local code, out, err = bench:inside(("%s'%s' info %s"):format(module, workbench.absolute,

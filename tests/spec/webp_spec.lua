@@ -53,7 +53,7 @@ describe("a film in WebP", function()
   it("has the same bytes on any number of workers, and from both modules", function()
     local raster = workbench.build .. "/src/plugins/raster/celspan-raster.so"
     local ways, first = { "", "", "" }, nil
-    if present.program(raster) then ways[4] = "CELSPAN_PICTURE_MODULE=" .. raster .. " " end
+    if present.program(raster) then ways[4] = "CELSPAN_PICTURE_MODULE='" .. raster .. "' " end
     for i, way in ipairs(ways) do
       local code, _, err = bench:inside(("%s'%s' render film.lua -o film.webp --workers %d "
         .. "--progress none"):format(way, workbench.absolute, i))
