@@ -35,7 +35,7 @@ local function run(command)
 end
 
 local function compare(folder, picture, depth, pixel_size)
-  local command = ("'%s' render %s/film.lua --trust --progress none --depth %s -o %%s -- '%s'")
+  local command = ("'%s' render %s/film.lua --trust --progress none --depth %s -o %%s -- %s")
     :format(BINARY, folder, depth, picture)
   run(command:format(folder .. "/####.span"))
   local raw, size, wrong = run(command:format "-"), WIDTH * HEIGHT * pixel_size, {}
@@ -53,7 +53,8 @@ describe("a span file", function()
     local film = assert(io.open(folder .. "/film.lua", "w"))
     film:write(SCRIPT:format(WIDTH, HEIGHT, COUNT))
     film:close()
-    local picture = present.pictures() and os.getenv "PWD" .. "/scripts/pictures/village.png" or ""
+    local picture = present.pictures()
+      and ("'%s/scripts/pictures/village.png'"):format(os.getenv "PWD") or ""
     compare(folder, picture, "8", 4)
     compare(folder, picture, "half", 8)
     run("rm -rf " .. folder)

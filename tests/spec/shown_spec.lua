@@ -199,7 +199,7 @@ describe("a file", function()
     local font = os.getenv "PWD" .. "/scripts/type/block.ttf"
     local _, err = run "render text.svg -o bare.png"
     assert.matches("no font is given: 'celspan render --set font=FILE' gives one", err, 1, true)
-    _, err = run("render text.svg -o set.png --set font=%s --allow %s", font,
+    _, err = run("render text.svg -o set.png --set 'font=%s' --allow '%s'", font,
       font:match "^(.*)/")
     assert.is_nil(err:find("no font is given", 1, true))
     assert.equal(1, (bench:celspan_inside "compare bare.png set.png"))

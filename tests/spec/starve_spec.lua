@@ -255,7 +255,7 @@ local function sweep_join(lasts)
     .. scenes.outlines)
   for i = 1, 2 do
     local code, _, err =
-      bench:shell(("cd '%s' && %s render film.lua --size 40x300 --strip %d/2 --progress none "
+      bench:shell(("cd '%s' && '%s' render film.lua --size 40x300 --strip %d/2 --progress none "
       .. "-o strips/%d.png"):format(bench.folder, bench.absolute, i, i))
     assert.are.equal(0, code, err)
   end
