@@ -171,7 +171,8 @@ static void round_both(const double *restrict x, double *restrict rounded) {
 static void check_single(void) {
   void (*volatile round)(const double *restrict, double *restrict) = round_both;
   for (int i = 0; i < 1000; i++) {
-    double x[2] = {uniform(-1, 1), uniform(-1e9, 1e9)}, rounded[2];
+    double first = uniform(-1, 1), second = uniform(-1e9, 1e9);
+    double x[2] = {first, second}, rounded[2];
     round(x, rounded);
     CHECK(rounded[0] == by_bits(x[0]) && rounded[1] == by_bits(x[1]));
   }

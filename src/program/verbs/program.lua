@@ -127,16 +127,15 @@ function program.markup(text) return (text:gsub('[&<>"]', ENTITIES)) end
 program.impure = "the frame function is not pure: called again, it returned another scene; let it "
   .. "depend on its argument alone, not on a counter outside it or on # of a table with holes"
 
-local AGAIN_ALL, AGAIN_LEAST, AGAIN_PART = 9, 3, 10
+local AGAIN_LEAST, AGAIN_PART = 9, 10
 
 --- Which of `count` frames are built again in each of `states` fresh films: lists of their places,
 --- the last place first. All lists together have one place in every AGAIN_PART, and at least
---- AGAIN_LEAST; of up to AGAIN_ALL frames they have all, and fewer frames than AGAIN_ALL are
---- in several lists. The choice depends on the count alone, so it is the same each time. A single
---- frame is in each list twice; otherwise a counter would not be found.
+--- AGAIN_LEAST. The choice depends on the count alone, so it is the same each time. If there are
+--- fewer frames, they are in several lists. A single frame is in each list twice; otherwise a
+--- counter would not be found.
 function program.sample(count, states)
-  local least = count > AGAIN_ALL and AGAIN_LEAST or AGAIN_ALL
-  local share = math.ceil(math.max(least, count / AGAIN_PART) / states)
+  local share = math.ceil(math.max(AGAIN_LEAST, count / AGAIN_PART) / states)
   local parts = math.min(count, share) * states
   local lists = {}
   math.randomseed(count)
