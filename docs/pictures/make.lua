@@ -39,7 +39,7 @@ local function render(script, picture, output, argument, options)
   if picture.allow then add("--allow", picture.allow) end
   if options and options ~= "" then add(options) end
   if argument then add("--allow", argument, "--", argument) end
-  run(binary .. " render", table.unpack(arguments))
+  run(("'%s' render"):format(binary), table.unpack(arguments))
 end
 
 local parts = folder .. "/parts"
@@ -56,8 +56,8 @@ for _, picture in ipairs(list) do
   local script, options = picture.script, nil
   if not script then script, options = extract(picture.page, picture.name) end
   if picture.before then
-    run(("modules=$(realpath $(dirname %s)) && cd %s/examples && LUA_CPATH=$modules/?.so lua5.4")
-      :format(binary, folder), picture.before .. ".lua")
+    run(("modules=$(realpath \"$(dirname '%s')\") && cd %s/examples && "
+      .. "LUA_CPATH=\"$modules/?.so\" lua5.4"):format(binary, folder), picture.before .. ".lua")
   end
   local output = folder .. "/" .. picture.name .. ".png"
   if picture.strip then
