@@ -7,6 +7,7 @@ local list = require "docs.pictures.list"
 
 local binary, folder = ...
 assert(binary and folder, "usage: lua5.4 docs/pictures/make.lua BINARY FOLDER")
+local program = ("'%s'"):format(binary)
 
 local function run(command, ...)
   local words = {}
@@ -39,7 +40,7 @@ local function render(script, picture, output, argument, options)
   if picture.allow then add("--allow", picture.allow) end
   if options and options ~= "" then add(options) end
   if argument then add("--allow", argument, "--", argument) end
-  run(("'%s' render"):format(binary), table.unpack(arguments))
+  run(program .. " render", table.unpack(arguments))
 end
 
 local parts = folder .. "/parts"
@@ -62,12 +63,12 @@ for _, picture in ipairs(list) do
   local output = folder .. "/" .. picture.name .. ".png"
   if picture.strip then
     local _, commas = picture.strip:gsub(",", "")
-    run(binary .. " contact", script, "--grid", commas + 1 .. "x1", "--frames", picture.strip,
+    run(program .. " contact", script, "--grid", commas + 1 .. "x1", "--frames", picture.strip,
       "--size", "320x180", "-o", output, options ~= "" and options or nil)
   elseif picture.grid then
     local sheet = ("%s/%s.sheet.png"):format(parts, picture.name)
-    run(binary .. " contact", script, "--grid", picture.grid, "-o", sheet)
-    run(binary .. " convert", sheet, output, "--size", picture.size)
+    run(program .. " contact", script, "--grid", picture.grid, "-o", sheet)
+    run(program .. " convert", sheet, output, "--size", picture.size)
   else
     render(script, picture, output, picture.parts and absolute, options)
   end
