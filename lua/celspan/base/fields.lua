@@ -62,12 +62,18 @@ function fields.space(noun, space)
   end
 end
 
+--- The end of a message about a name that is not among `names`: "; did you mean 'min'?"; nil if
+--- none is near.
+function fields.hint(name, names)
+  local near = type(name) == "string" and core.nearest(name, names)
+  return near and ("; did you mean '%s'?"):format(near) or nil
+end
+
 --- Raises an error: `noun` has no field or method of this name. The message suggests the nearest of
 --- `names`.
 local function refuse_name(noun, name, names)
   table.sort(names)
-  local hint = core.nearest(name, names)
-  core.refuse(("%s has no '%s'%s"):format(noun, name, hint and ("; did you mean '%s'?"):format(hint)
+  core.refuse(("%s has no '%s'%s"):format(noun, name, fields.hint(name, names)
     or #names > 0 and "; there are " .. table.concat(names, ", ") or ""))
 end
 
@@ -170,10 +176,8 @@ function fields.check(noun, given, known)
   table.sort(names)
   local unknown = unknown_in(given, known)
   if unknown then
-    local hint = core.nearest(unknown, names)
     core.refuse(("%s: unknown field '%s'%s"):format(noun, unknown,
-      hint and ("; did you mean '%s'?"):format(hint)
-        or "; the fields are " .. table.concat(names, ", ")))
+      fields.hint(unknown, names) or "; the fields are " .. table.concat(names, ", ")))
   end
   if known[1] == nil and rawlen(given) > 0 then
     core.refuse(("%s: takes named fields only, but was given a list"):format(noun))

@@ -52,8 +52,7 @@ function sets.hint(parts, set)
   end
   for name in pairs(known) do names[#names + 1] = name end
   table.sort(names)
-  local nearest = core.nearest(set, names)
-  return nearest and ("; did you mean '%s'?"):format(nearest) or ""
+  return fields.hint(set, names) or ""
 end
 
 --- The members of a set: the names of the parts, by member. Also a sorted list of the members.
@@ -87,9 +86,8 @@ local function check(noun, whole, parts, set, choice)
       set, sets.hint(parts, set)))
   end
   if choice and not members[choice] then
-    local hint = core.nearest(choice, names)
     core.refuse(("%s: the parts of '%s' are %s, and not '%s'%s"):format(noun, set,
-      table.concat(names, ", "), choice, hint and ("; did you mean '%s'?"):format(hint) or ""))
+      table.concat(names, ", "), choice, fields.hint(choice, names) or ""))
   end
   return members
 end

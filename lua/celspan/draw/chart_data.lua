@@ -25,9 +25,7 @@ local function check_field(rows, field)
     end
   end
   table.sort(names)
-  local hint = core.nearest(field, names)
-  refuse("no row of 'data' has a field '%s'%s", field,
-    hint and ("; did you mean '%s'?"):format(hint) or "")
+  refuse("no row of 'data' has a field '%s'%s", field, fields.hint(field, names) or "")
 end
 
 --- The value of a row in a field; without a field, the row itself.

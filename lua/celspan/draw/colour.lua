@@ -180,10 +180,8 @@ end
 local function set_of(palette, name)
   local set = type(name) == "string" and palette.sets[name]
   if set then return set end
-  local hint = type(name) == "string" and core.nearest(name, palette.names)
   refuse("there is no palette '%s'%s", fields.key(name),
-    hint and ("; did you mean '%s'?"):format(hint)
-      or "; there are " .. table.concat(palette.names, ", "))
+    fields.hint(name, palette.names) or "; there are " .. table.concat(palette.names, ", "))
 end
 
 --- The colours of a set by name.

@@ -144,8 +144,7 @@ local function hint_of(kind, field)
     end
   end
   table.sort(names)
-  local hint = type(field) == "string" and core.nearest(field, names)
-  return hint and ("; did you mean '%s'?"):format(hint) or ""
+  return fields.hint(field, names) or ""
 end
 
 local function check_names(name, kind, given)
@@ -218,10 +217,8 @@ local function find(settings, declared, source, name)
     if one.name == name then return one end
     names[i] = one.name
   end
-  local hint = core.nearest(name, names)
   refuse_setting(settings, "%sthe script has no parameter '%s'%s", source, name,
-    hint and ("; did you mean '%s'?"):format(hint)
-      or #names > 0 and "; there are " .. table.concat(names, ", ") or "")
+    fields.hint(name, names) or #names > 0 and "; there are " .. table.concat(names, ", ") or "")
 end
 
 --- The value of a parameter; nil and a sentence: it cannot be that. is_text: the value is a text

@@ -2,7 +2,7 @@
 --
 --   "slots": { "tint": { "p": { "a": 0, "k": [1, 0, 0] } } }       and { "sid": "tint" } in layers
 local celspan = require "celspan"
-local core = require "celspan.core"
+local fields = require "celspan.fields"
 local ordered = require "celspan.ordered"
 local source = require "celspan.lottie_source"
 local values = require "celspan.lottie_values"
@@ -263,8 +263,7 @@ function slots.apply(found, list, theme, set, note)
   for _, name in ipairs(ordered.names(set or {})) do
     if not list[name] then
       local names = ordered.names(list)
-      local hint = core.nearest(name, names)
-      return ("there is no slot '%s'%s"):format(name, hint and ("; did you mean '%s'?"):format(hint)
+      return ("there is no slot '%s'%s"):format(name, fields.hint(name, names)
         or #names > 0 and "; there are " .. table.concat(names, ", ") or "")
     end
     list[name].given = set[name]

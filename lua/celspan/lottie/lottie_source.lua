@@ -4,6 +4,7 @@
 --              states/ID.json
 --   version 2: manifest.json, a/ID.json, i/NAME, u/NAME, t/ID.json, s/ID.json
 local core = require "celspan.core"
+local fields = require "celspan.fields"
 local files = require "celspan.files"
 local json = require "celspan.json"
 local values = require "celspan.lottie_values"
@@ -121,9 +122,7 @@ function source.theme(found, id)
   local known = false
   for _, one in ipairs(found.themes) do known = known or one == id end
   if not known then
-    local hint = core.nearest(id, found.themes)
-    return nil, ("there is no theme '%s'%s"):format(id,
-      hint and ("; did you mean '%s'?"):format(hint)
+    return nil, ("there is no theme '%s'%s"):format(id, fields.hint(id, found.themes)
       or #found.themes > 0 and "; there are " .. table.concat(found.themes, ", ") or "")
   end
   local text, message = member(found.archive, "theme", id .. ".json")

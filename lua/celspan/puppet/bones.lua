@@ -17,9 +17,8 @@ local refuse = bones.refuse
 --- The end of a message about a wrong name: the nearest of the names, or all of them.
 function bones.help(name, names)
   table.sort(names)
-  local hint = type(name) == "string" and core.nearest(name, names)
-  if hint then return ("; did you mean '%s'?"):format(hint) end
-  return #names > 0 and "; there are " .. table.concat(names, ", ") or "; there are none"
+  return fields.hint(name, names)
+    or #names > 0 and "; there are " .. table.concat(names, ", ") or "; there are none"
 end
 local help = bones.help
 

@@ -87,9 +87,8 @@ function Art:with(changes)
     local is_known = type(name) == "string"
       and (rawget(self.parts, name) ~= nil or numbers and numbers[name])
     if not is_known then
-      local hint = type(name) == "string" and core.nearest(name, names)
       core.refuse(("svg: the drawing has no part '%s'%s"):format(fields.key(name),
-        hint and ("; did you mean '%s'?"):format(hint) or ""))
+        fields.hint(name, names) or ""))
     end
     if type(change) ~= "function" then
       core.refuse(("svg: part '%s' must have a function, got %s"):format(name, fields.kind(change)))

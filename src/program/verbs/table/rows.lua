@@ -10,8 +10,8 @@
 --   fault   a sentence about a value that the script does not allow: only of `check`, and with
 --           --keep-going; otherwise the whole table is refused for it
 local program, request, film = ...
-local core = require "celspan.core"
 local csv = require "celspan.csv"
+local fields = require "celspan.fields"
 local json = require "celspan.json"
 
 local is_check = request.verb == "check" -- no files are written
@@ -112,8 +112,7 @@ local function meant_by(name, is_parameter)
   local names = {}
   for known in pairs(is_parameter) do names[#names + 1] = known end
   for known in request.output:gmatch "{([%w_]+)}" do names[#names + 1] = known end
-  local near = core.nearest(name, names)
-  return near and ("; did you mean '%s'?"):format(near) or ""
+  return fields.hint(name, names) or ""
 end
 
 --- The places of the columns by their names.
