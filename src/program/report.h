@@ -67,9 +67,10 @@ void cs_report_printed(void *user, const char *text, size_t size);
 /* The form of diagnostics. */
 typedef enum cs_report_form {
   CS_REPORT_WORDS = 0, /* "celspan: error: ..." */
-  CS_REPORT_JSON,      /* {"event":"error","number":3,"message":"..."}; the number only for a frame,
-                    * and before it "line" and "output" for a row */
-  CS_REPORT_OPENJD     /* in words, with errors on standard output, too: "openjd_fail: ..." */
+  /* {"event":"error","number":3,"message":"..."}; the number only for a frame, and before it "line"
+   * and "output" for a row */
+  CS_REPORT_JSON,
+  CS_REPORT_OPENJD /* in words, with errors on standard output, too: "openjd_fail: ..." */
 } cs_report_form;
 
 void cs_report_choose(cs_report_form form);

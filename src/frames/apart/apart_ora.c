@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/markup.h"
 #include "frames/apart/apart.h"
 #include "frames/render/frame.h"
 #include "model/colour/blend_names.h"
@@ -83,29 +84,13 @@ static celspan_status put_thumbnail(writing *w) {
 
 /* ---------------------------------------------------------------- the list of layers */
 
-/* As an attribute of XML. Returns where it ends. */
-static char *quote(char *out, const char *name) {
-  for (; *name; name++) {
-    const char *entity = *name == '&'   ? "&amp;"
-                         : *name == '<' ? "&lt;"
-                         : *name == '"' ? "&quot;"
-                                        : NULL;
-    if (entity)
-      out = stpcpy(out, entity);
-    else
-      *out++ = *name;
-  }
-  *out = '\0';
-  return out;
-}
-
-enum { ENTRY = 6 * CS_APART_NAME + 256 }; /* the most bytes of a layer in the list */
+enum { ENTRY = CS_MARKUP_MOST * CS_APART_NAME + 256 }; /* the most bytes of a layer in the list */
 
 static char *describe(char *out, const cs_apart *apart, size_t index) {
   const cs_apart_layer *layer = &apart->layers[index];
   char mode[CS_BLEND_WORD];
   cs_blend_openraster(layer->blend, mode);
-  out = quote(stpcpy(out, "  <layer name=\""), cs_apart_title(layer));
+  out = cs_markup_put(stpcpy(out, "  <layer name=\""), cs_apart_title(layer));
   return out + sprintf(out,
                        "\" src=\"data/%zu.png\" x=\"0\" y=\"0\" opacity=\"%.9g\" "
                        "visibility=\"visible\" composite-op=\"%s\"/>\n",

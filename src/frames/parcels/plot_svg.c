@@ -1,6 +1,8 @@
 /* Drawings as the text of SVG. */
 #include "frames/parcels/plot_svg.h"
 
+#include "base/markup.h"
+
 enum { CODE_DIGITS = 4, STOP_DIGITS = 6, SPARE_DIGITS = 3, MATRIX_DIGITS = 9 };
 
 /* ---------------------------------------------------------------- attributes */
@@ -159,12 +161,10 @@ static void end_picture(void *user) { cs_plot_put(user, "\"/>\n"); }
 static void put_title(cs_plot_text *to) {
   if (!to->title)
     return;
+  char room[2];
   cs_plot_put(to, "<title>");
   for (const char *at = to->title; *at; at++)
-    if (*at == '<' || *at == '&')
-      cs_plot_put(to, *at == '<' ? "&lt;" : "&amp;");
-    else
-      cs_plot_put(to, "%c", *at >= 0 && *at < ' ' ? ' ' : *at);
+    cs_plot_put(to, "%s", cs_markup_of(*at, room));
   cs_plot_put(to, "</title>\n");
 }
 

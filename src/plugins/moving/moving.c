@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/markup.h"
+
 /* ---------------------------------------------------------------- formats */
 
 static const struct {
@@ -52,23 +54,6 @@ celspan_status cs_moving_put(const cs_moving *moving, uint64_t offset, const voi
 
 /* ---------------------------------------------------------------- metadata */
 
-/* Writes a text into a document of XML, where control characters have no place. */
-static char *quote(char *out, const char *text) {
-  for (; *text; text++)
-    switch (*text) {
-    case '<':
-      out = stpcpy(out, "&lt;");
-      break;
-    case '&':
-      out = stpcpy(out, "&amp;");
-      break;
-    default:
-      *out++ = *text >= 0 && *text < ' ' ? ' ' : *text;
-    }
-  *out = '\0';
-  return out;
-}
-
 /* XMP: https://developer.adobe.com/xmp/docs/ */
 static char *make_metadata(const cs_picture_output *output) {
   static const char head[] =
@@ -77,16 +62,18 @@ static char *make_metadata(const cs_picture_output *output) {
       "xmlns:rdf='http://www.w3.org/1999/02/22-rdf-syntax-ns#'><rdf:Description rdf:about='' "
       "xmlns:xmp='http://ns.adobe.com/xap/1.0/' xmlns:dc='http://purl.org/dc/elements/1.1/'>"
       "<xmp:CreatorTool>",
+                    maker_end[] = "</xmp:CreatorTool>",
                     title[] = "<dc:title><rdf:Alt><rdf:li xml:lang='x-default'>",
                     end[] = "</rdf:li></rdf:Alt></dc:title>",
                     tail[] = "</rdf:Description></rdf:RDF></x:xmpmeta><?xpacket end='r'?>";
   size_t texts = strlen(output->software) + (output->title ? strlen(output->title) : 0);
-  char *made = malloc(sizeof head + sizeof title + sizeof end + sizeof tail + 5 * texts + 32);
+  char *made = malloc(sizeof head + sizeof maker_end + sizeof title + sizeof end + sizeof tail +
+                      CS_MARKUP_MOST * texts);
   if (!made)
     return NULL;
-  char *at = stpcpy(quote(stpcpy(made, head), output->software), "</xmp:CreatorTool>");
+  char *at = stpcpy(cs_markup_put(stpcpy(made, head), output->software), maker_end);
   if (output->title)
-    at = stpcpy(quote(stpcpy(at, title), output->title), end);
+    at = stpcpy(cs_markup_put(stpcpy(at, title), output->title), end);
   stpcpy(at, tail);
   return made;
 }

@@ -92,7 +92,6 @@ static void copy(const writing *w, box patch, const unsigned char *from, unsigne
   }
 }
 
-/* Sets alpha, or finds out whether it is 1 everywhere. */
 static bool is_opaque(const writing *w, box patch) {
   for (int32_t y = patch.top; y < patch.bottom; y++)
     for (int32_t x = patch.left; x < patch.right; x++)
@@ -258,20 +257,20 @@ static int64_t time_of(const writing *w, int64_t picture) {
 static celspan_status take(cs_moving *moving, cs_picture_failure *failure) {
   writing *w = moving->self;
   const cs_picture_output *output = &moving->output;
-  bool is_opaque;
+  bool are_opaque; /* the blocks that are coded */
   if (output->moving.is_opaque)
     set_alpha(w, (box){0, 0, output->width, output->height}, UINT8_MAX);
   int64_t now = time_of(w, w->count++), next = time_of(w, w->count);
-  box around = mark(w, !w->coded.mem || next - w->began > MOST_TIME, &is_opaque);
+  box around = mark(w, !w->coded.mem || next - w->began > MOST_TIME, &are_opaque);
   if (around.right == 0)
     return CELSPAN_OK;
   celspan_status status = flush(w, now, failure);
   if (status != CELSPAN_OK)
     return status;
-  fill(w, around, is_opaque);
+  fill(w, around, are_opaque);
   w->place = around;
   w->began = now;
-  w->flags = is_opaque ? 0 : REPLACES;
+  w->flags = are_opaque ? 0 : REPLACES;
   return code(w, failure);
 }
 
