@@ -66,14 +66,19 @@ export async function hitsAt(one, { x, y }, isWanted) {
                     isWanted) ?? [];
 }
 
-/** The code of sRGB of a channel of light. */
-const codeOf = one => clamp(Math.round(255 * (one <= 0.0031308 ? 12.92 * one
-  : 1.055 * one ** (1 / 2.4) - 0.055)), 0, 255);
+const shaded = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
+
+/** The codes of a light, such as [1, .8, .7], as "fff5e0". */
+function codesOf(light) {
+  shaded.fillStyle = `color(srgb-linear ${light.join(" ")})`;
+  shaded.fillRect(0, 0, 1, 1);
+  return [...shaded.getImageData(0, 0, 1, 1).data].slice(0, 3).map(hex).join("");
+}
 
 /** Words, after a chip of their colour if there is one. */
 function saidOf(words, light) {
   const chip = element("i", { className: "chip" });
-  chip.style.backgroundColor = `rgb(${light?.map(codeOf)})`;
+  if (light) chip.style.backgroundColor = `#${codesOf(light)}`;
   return words ? [" ", element("small", {}, ...light ? [chip] : [], words)] : [];
 }
 
@@ -82,7 +87,7 @@ function looksOf({ opacity = 1, light, paint }) {
   const isFlat = Array.isArray(light), isWhite = isFlat && light.every(one => one === 1);
   const shine = isFlat ? light.map(one => Number(one.toFixed(3))).join(", ") : light;
   return [...saidOf(opacity < 1 && `opacity ${Number(opacity.toFixed(3))}`),
-          ...saidOf(paint && `paint #${paint.map(codeOf).map(hex).join("")}`, paint),
+          ...saidOf(paint && `paint #${codesOf(paint)}`, paint),
           ...saidOf(shine && !isWhite && `light ${shine}`, isFlat ? light : null)];
 }
 
