@@ -161,6 +161,20 @@ end }]]
     assert.are.equal("1-24", warns("nothing but one colour is seen for 1 s").frames)
   end)
 
+  local TITLE = [[
+local celspan = require "celspan"
+return celspan.film { size = { 320, 180 }, fps = 24, frames = %d, frame = function()
+  return celspan.rostrum { celspan.cel { celspan.text { "Two words", font = "block.ttf", size = 24,
+    at = { 20, 40 }, texture = "#fff" } } }
+end }]]
+
+  it_sets_type("includes a title that stands 3 s longer than it takes to be read", function()
+    bench:write("film.lua", TITLE:format(96))
+    assert.same({}, warnings())
+    bench:write("film.lua", TITLE:format(97))
+    warns "nothing changes for 4.042 s"
+  end)
+
   it_sets_type("is described as text and as JSON", function()
     film(48, 'f.index < 24 and cel(text("Good day", 20, 40, "#fff")):named "title" or nil')
     local code, out, err = bench:celspan_inside "describe film.lua"

@@ -21,6 +21,7 @@ local POINTS, AREAS = 24, 48 -- points and areas along the longer side
 local SEEMS = 0.2      -- the share of the points that must flash before a flash is suspected
 local PARTS_MOST = 1000
 local STRETCH = 1      -- stretches of at least this many seconds without a change are listed
+local TITLE = 3        -- the seconds that a text may stand longer than its words need
 local COLLECTED = 4    -- garbage is collected after this many frames
 local CUT = 0.08       -- the least mean change of luminance in a cut,
 local CUT_RATIO = 3    -- and how many times greater it is than the changes before and after
@@ -292,14 +293,14 @@ function survey:shown_seconds(text)
   end
 end
 
---- Whether reading the texts of a stretch takes as long as the stretch lasts.
+--- Whether the texts of a stretch may stand as long as the stretch lasts.
 function survey:is_read(stretch)
   local count = 0
   for _, text in ipairs(self.texts.list) do
     local is_in = text.first <= stretch.last and text.last >= stretch.first
     count = count + (is_in and texts.words_in(text.words) or 0)
   end
-  return count > 0 and seconds(stretch) <= texts.needed(count)
+  return count > 0 and seconds(stretch) <= texts.needed(count) + TITLE
 end
 
 --- Things that could harm or annoy a viewer: a list of { message =, first =, last = }.
