@@ -19,14 +19,20 @@
 /* In ascending order of width. */
 typedef enum cs_isa { CS_ISA_ANY, CS_ISA_AVX2, CS_ISA_AVX512 } cs_isa;
 
+/* A build may be limited to narrower registers, for tools that do not know the widest. */
+#ifndef CS_ISA_MOST
+#define CS_ISA_MOST CS_ISA_AVX512
+#endif
+
 #ifdef __x86_64__
 #define CS_WIDE_CHOOSE(isa, name)                                                                  \
   ((isa) == CS_ISA_AVX512 ? name##_avx512 : (isa) == CS_ISA_AVX2 ? name##_avx2 : name##_any)
 
 /* The widest set of instructions that this processor has. */
 static inline cs_isa cs_isa_best(void) {
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+  if (CS_ISA_MOST >= CS_ISA_AVX512 && __builtin_cpu_supports("avx512f") &&
+      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl"))
     return CS_ISA_AVX512;
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? CS_ISA_AVX2 : CS_ISA_ANY;
 }
