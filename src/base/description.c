@@ -20,14 +20,6 @@ static bool is_size(size_t size) {
   return size >= sizeof size && size <= SIZE_MOST && size % sizeof size == 0;
 }
 
-/* Whether the end of the size lies inside a field. */
-static bool is_cut(const cs_description *description, size_t size) {
-  for (size_t i = 0; i < description->field_count; i++)
-    if (description->fields[i].begin < size && size < description->fields[i].end)
-      return true;
-  return false;
-}
-
 static bool is_zero(const void *given, size_t begin, size_t end) {
   const unsigned char *bytes = given;
   while (begin < end && bytes[begin] == 0)
@@ -45,8 +37,6 @@ celspan_status cs_description_read(celspan_context *context, const char *noun,
   memcpy(&size, given, sizeof size);
   if (!is_size(size))
     return refuse(context, noun, description, size, "which no description has");
-  if (is_cut(description, size))
-    return refuse(context, noun, description, size, "which ends inside a field");
   if (size < description->needed)
     return refuse(context, noun, description, size, "so that fields are missing that it needs");
   if (size > description->size && !is_zero(given, description->size, size))

@@ -6,24 +6,18 @@
  *     host's      size | a | b | c | d | 0 |    the host is later: its further fields must be 0
  *
  * INVARIANT: behind the door every description is full, so nothing else looks at struct_size, and a
- * field is read only if the host has it.
+ * field is read only if the host has it. A size is a multiple of 8; that it is the end of a field is
+ * not checked, as the macros of the header set it.
  */
 #pragma once
 
 #include "base/context.h"
-
-/* The range of bytes that a field occupies in a description. */
-typedef struct cs_description_field {
-  uint16_t begin, end;
-} cs_description_field;
 
 typedef struct cs_description {
   const char *type;
   const void *defaults;
   size_t size;   /* of the whole description */
   size_t needed; /* bytes up to the end of the last field that must be given */
-  const cs_description_field *fields;
-  size_t field_count;
 } cs_description;
 
 #define CS_DESCRIPTIONS(EACH)                                                                      \

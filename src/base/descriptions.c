@@ -7,21 +7,17 @@
 #include "celspan/trace.h"
 #include "celspan/track.h"
 
-#include "base/fields.h"
-
 #define LIGHT                                                                                      \
   { .gain = 1, .matte = 1 }
 
 /* The last field that must be given, then the defaults that are not 0. */
 #define DESCRIBE(type_, last, ...)                                                                 \
   static const type_ type_##_defaults = {.struct_size = sizeof(type_), __VA_ARGS__};               \
-  const cs_description cs_##type_##_description = {                                                \
-      .type = #type_,                                                                              \
-      .defaults = &type_##_defaults,                                                               \
-      .size = sizeof(type_),                                                                       \
-      .needed = offsetof(type_, last) + sizeof(((type_ *)0)->last),                                \
-      .fields = type_##_fields,                                                                    \
-      .field_count = sizeof type_##_fields / sizeof *type_##_fields};                              \
+  const cs_description cs_##type_##_description = {.type = #type_,                                 \
+                                                   .defaults = &type_##_defaults,                  \
+                                                   .size = sizeof(type_),                          \
+                                                   .needed = offsetof(type_, last) +               \
+                                                             sizeof(((type_ *)0)->last)};          \
   void type_##_default(type_ *out, size_t struct_size) {                                           \
     cs_description_write(&cs_##type_##_description, &type_##_defaults, out, struct_size);          \
   }

@@ -75,25 +75,6 @@ describe("the interface", function()
       fault("celspan_glyphs_count(", "celspan_glyphs_count(celspan_glyph *out, "))
   end)
 
-  it("has fields that the library knows", function()
-    local function list(text)
-      local all = {}
-      for field in text:gmatch "FIELD(%([%w_]+,%s*[%w_]+%))" do
-        all[#all + 1] = field:gsub("%s", "")
-      end
-      return all
-    end
-    assert.same(list(good "lua5.4 tests/face/main.lua fields"), list(read "src/base/fields.h"))
-    local names, limits = {}, read "src/lua/sandbox/sandbox.c":match "fields%[%] = (%b{})"
-    for name in limits:gmatch "FIELD%(([%w_]+)%)" do names[#names + 1] = name end
-    for _, struct in ipairs(header.parse(now).structs) do
-      if struct.name == "celspan_lua_limits" then
-        for i, field in ipairs(struct.fields) do assert.equal(field.name, names[i]) end
-        assert.equal(#struct.fields, #names)
-      end
-    end
-  end)
-
   --- The verdict on the kept interface with a part of it replaced.
   local function verdict(from, to)
     local kept = read(KEPT):gsub("%s+", " ")

@@ -39,8 +39,8 @@
  *
  * In C, CELSPAN_DESC(celspan_rect_desc, .width = 3, .height = 2) is a description in one
  * expression; fields that are not named are 0 there, so it is for those whose defaults are all 0.
- * A description may end after any field that it needs: the rest has its defaults. It may be longer
- * than the library knows if all bytes behind its last field are 0. Other sizes are BAD_ARGUMENT.
+ * A description may end after any field once it has those that it needs: the rest has its defaults.
+ * It may be longer than the library knows if the further bytes are 0. Sizes are multiples of 8.
  *
  * Results: structures that the library fills for a program begin with struct_size too, so that it
  * fills what the program has. Begin with their macro: celspan_statistics s = CELSPAN_STATISTICS.

@@ -351,19 +351,10 @@ static const celspan_lua_limits usual = {.struct_size = sizeof usual,
                                          .seconds = 60,
                                          .print = (size_t)1 << 20};
 
-#define FIELD(name)                                                                                \
-  { offsetof(celspan_lua_limits, name), offsetof(celspan_lua_limits, name) + sizeof usual.name }
-static const cs_description_field fields[] = {FIELD(struct_size),    FIELD(memory),  FIELD(steps),
-                                              FIELD(seconds),        FIELD(print),   FIELD(folders),
-                                              FIELD(folder_count),   FIELD(search),  FIELD(printed),
-                                              FIELD(is_interrupted), FIELD(overdue), FIELD(user)};
-#undef FIELD
 static const cs_description description = {.type = "celspan_lua_limits",
                                            .defaults = &usual,
                                            .size = sizeof usual,
-                                           .needed = sizeof usual.struct_size,
-                                           .fields = fields,
-                                           .field_count = sizeof fields / sizeof *fields};
+                                           .needed = sizeof usual.struct_size};
 
 void celspan_lua_limits_default(celspan_lua_limits *out, size_t struct_size) {
   cs_description_write(&description, &usual, out, struct_size);
