@@ -13,10 +13,6 @@ enum {
   FOLDER = CS_CONTROL_GROUP_PATH /* of a path */
 };
 
-/* The hierarchies: in version 1 every controller may have its own. */
-typedef enum hierarchy { VERSION_2, MEMORY, PROCESSORS, HIERARCHIES } hierarchy;
-static const char *const controllers[HIERARCHIES] = {"", "memory", "cpu"};
-
 /* ---------------------------------------------------------------- texts */
 
 /* The start of a file as a text. false: it cannot be read. */
@@ -59,17 +55,6 @@ static uint64_t number_in(const char *folder, const char *name) {
   char text[TEXT];
   const char *end;
   return read_in(folder, name, text) ? number_at(text, &end) : CS_CONTROL_GROUP_NONE;
-}
-
-/* Whether a list, separated by commas, has the word. */
-static bool has_word(const char *list, const char *word) {
-  size_t length = strlen(word);
-  for (const char *at = list; at; at = strchr(at, ',')) {
-    at += *at == ',';
-    if (strncmp(at, word, length) == 0 && (!at[length] || at[length] == ','))
-      return true;
-  }
-  return false;
 }
 
 /* ---------------------------------------------------------------- lines */
@@ -121,23 +106,18 @@ static void each_line(const char *folder, const char *name, void (*take)(void *u
 
 /* ---------------------------------------------------------------- places */
 
-typedef struct places {
-  char path[HIERARCHIES][FOLDER];  /* of the group in its hierarchy; "": the process is in none */
-  char mount[HIERARCHIES][FOLDER]; /* where the hierarchy is mounted; "": it is not mounted */
-  char group[HIERARCHIES][FOLDER]; /* the folder of the group */
-  bool is_below[HIERARCHIES];      /* the path of the group is below the mount's root */
-} places;
+typedef struct place {
+  char path[FOLDER];  /* of the group in the hierarchy; "": the process is in none */
+  char mount[FOLDER]; /* where the hierarchy is mounted; "": it is not mounted */
+  char group[FOLDER]; /* the folder of the group */
+  bool is_below;      /* the path of the group is below the mount's root */
+} place;
 
-/* A line of /proc/PROCESS/cgroup: NUMBER:CONTROLLERS:PATH. Version 2 is number 0. */
+/* A line of /proc/PROCESS/cgroup: NUMBER:CONTROLLERS:PATH. Version 2 has 0::PATH. */
 static void take_group(void *user, char *line) {
-  places *p = user;
-  char *names = strchr(line, ':'), *path = names ? strchr(names + 1, ':') : NULL;
-  if (!path || path[1] != '/')
-    return;
-  *names++ = *path++ = '\0';
-  for (hierarchy h = 0; h < HIERARCHIES; h++)
-    if (h == VERSION_2 ? strcmp(line, "0") == 0 && !*names : has_word(names, controllers[h]))
-      snprintf(p->path[h], FOLDER, "%s", path);
+  place *p = user;
+  if (strncmp(line, "0::/", 4) == 0)
+    snprintf(p->path, FOLDER, "%s", line + 3);
 }
 
 static bool is_octal(const char *at) {
@@ -164,66 +144,54 @@ static const char *below(const char *path, const char *root) {
   return is_there && !strstr(path, "/..") ? path + length : NULL;
 }
 
-/* If a hierarchy is mounted several times, the first mount that shows the group is used. */
-static void place_group(places *p, hierarchy h, const char *root, const char *mount) {
-  const char *inside = below(p->path[h], root);
-  if (!p->path[h][0] || p->is_below[h] || (p->mount[h][0] && !inside))
+/* If the hierarchy is mounted several times, the first mount that shows the group is used. */
+static void place_group(place *p, const char *root, const char *mount) {
+  const char *inside = below(p->path, root);
+  if (!p->path[0] || p->is_below || (p->mount[0] && !inside))
     return;
-  p->is_below[h] = inside != NULL;
-  snprintf(p->mount[h], FOLDER, "%s", mount);
-  if (!inside || strcmp(inside, "/") == 0 ||
-      !make_path(p->group[h], mount, inside + (*inside == '/')))
-    snprintf(p->group[h], FOLDER, "%s", mount);
+  p->is_below = inside != NULL;
+  snprintf(p->mount, FOLDER, "%s", mount);
+  if (!inside || strcmp(inside, "/") == 0 || !make_path(p->group, mount, inside + (*inside == '/')))
+    snprintf(p->group, FOLDER, "%s", mount);
 }
 
 /* A line of /proc/PROCESS/mountinfo:
  *
- *   36 35 0:29 ROOT MOUNT rw,relatime shared:7 - cgroup cgroup rw,memory
+ *   36 35 0:29 ROOT MOUNT rw,relatime shared:7 - cgroup2 cgroup2 rw
  */
 static void take_mount(void *user, char *line) {
   enum { FIELDS = 5, ROOT = 3, MOUNT = 4 };
   char *fields[FIELDS], *kind = strstr(line, " - "), *more = NULL;
-  if (!kind || strncmp(kind, " - cgroup", 9) != 0)
+  if (!kind || strncmp(kind, " - cgroup2 ", 11) != 0)
     return;
   *kind = '\0';
   for (int i = 0; i < FIELDS; i++)
     if (!(fields[i] = strtok_r(i ? NULL : line, " ", &more)))
       return;
-  bool is_version_2 = strncmp(kind + 3, "cgroup2 ", 8) == 0;
-  const char *options = strrchr(kind + 2, ' '); /* there is a space at kind + 2 */
   decode(fields[ROOT]);
   decode(fields[MOUNT]);
-  for (hierarchy h = 0; h < HIERARCHIES; h++)
-    if (h == VERSION_2 ? is_version_2 : !is_version_2 && has_word(options + 1, controllers[h]))
-      place_group(user, h, fields[ROOT], fields[MOUNT]);
+  place_group(user, fields[ROOT], fields[MOUNT]);
 }
 
 /* ---------------------------------------------------------------- limits */
 
-static void limit_processors(cs_control_group *group, uint64_t quota, uint64_t period) {
+static void find_processors(cs_control_group *group, const char *folder) {
+  char text[TEXT];
+  const char *end;
+  if (!read_in(folder, "cpu.max", text))
+    return;
+  uint64_t quota = number_at(text, &end);
+  uint64_t period = *end == ' ' ? number_at(end + 1, &end) : CS_CONTROL_GROUP_NONE;
   if (quota == CS_CONTROL_GROUP_NONE || period == CS_CONTROL_GROUP_NONE || !quota || !period)
     return;
   double count = (double)quota / (double)period;
   group->processors = count < group->processors ? count : group->processors;
 }
 
-static void find_processors(cs_control_group *group, const char *folder) {
-  char text[TEXT];
-  const char *end;
-  if (read_in(folder, "cpu.max", text)) {
-    uint64_t quota = number_at(text, &end);
-    limit_processors(group, quota, *end == ' ' ? number_at(end + 1, &end) : CS_CONTROL_GROUP_NONE);
-  }
-  limit_processors(group, number_in(folder, "cpu.cfs_quota_us"),
-                   number_in(folder, "cpu.cfs_period_us"));
-}
-
-static uint64_t least(uint64_t a, uint64_t b) { return a < b ? a : b; }
-
 /* *room: how many bytes the limit of the group leaves. */
 static void find_memory(cs_control_group *group, const char *folder, uint64_t *room) {
-  uint64_t limit = least(least(number_in(folder, "memory.max"), number_in(folder, "memory.high")),
-                         number_in(folder, "memory.limit_in_bytes"));
+  uint64_t most = number_in(folder, "memory.max"), high = number_in(folder, "memory.high");
+  uint64_t limit = most < high ? most : high;
   if (limit == CS_CONTROL_GROUP_NONE)
     return;
   int usage, stat;
@@ -241,14 +209,12 @@ static void find_memory(cs_control_group *group, const char *folder, uint64_t *r
 }
 
 /* Goes from a group up to the mount; changes the path. */
-static void walk_up(cs_control_group *group, places *p, hierarchy h, uint64_t *room) {
-  char *folder = p->group[h];
-  size_t top = strlen(p->mount[h]);
+static void walk_up(cs_control_group *group, place *p, uint64_t *room) {
+  char *folder = p->group;
+  size_t top = strlen(p->mount);
   for (;;) {
-    if (h != MEMORY)
-      find_processors(group, folder);
-    if (h != PROCESSORS)
-      find_memory(group, folder, room);
+    find_processors(group, folder);
+    find_memory(group, folder, room);
     char *slash = strrchr(folder, '/');
     if (!slash || (size_t)(slash - folder) < top)
       return;
@@ -264,14 +230,13 @@ void cs_control_group_read(const char *process, const char *folder, cs_control_g
     find_memory(out, folder, &room);
     return;
   }
-  places *p = calloc(1, sizeof *p);
+  place *p = calloc(1, sizeof *p);
   if (!p)
     return;
   each_line(process, "cgroup", take_group, p);
   each_line(process, "mountinfo", take_mount, p);
-  for (hierarchy h = 0; h < HIERARCHIES; h++)
-    if (p->mount[h][0])
-      walk_up(out, p, h, &room);
+  if (p->mount[0])
+    walk_up(out, p, &room);
   free(p);
 }
 
@@ -279,22 +244,18 @@ void cs_control_group_read(const char *process, const char *folder, cs_control_g
 
 void cs_control_group_open(const char *folder, int *usage, int *stat) {
   *usage = open_in(folder, "memory.current");
-  if (*usage < 0)
-    *usage = open_in(folder, "memory.usage_in_bytes");
   *stat = open_in(folder, "memory.stat");
 }
 
-/* A number of memory.stat. In version 1 a name counts the group alone; the name with "total_"
- * before it, in a later line, also counts the groups below it. */
+/* A number of memory.stat; 0: there is no such name. */
 static uint64_t number_of(const char *text, const char *name) {
   uint64_t found = 0;
   size_t length = strlen(name);
   for (const char *line = text; line; line = strchr(line, '\n')) {
     const char *end;
     line += *line == '\n';
-    const char *at = strncmp(line, "total_", 6) == 0 ? line + 6 : line;
-    if (strncmp(at, name, length) == 0 && at[length] == ' ')
-      found = number_at(at + length + 1, &end);
+    if (strncmp(line, name, length) == 0 && line[length] == ' ')
+      found = number_at(line + length + 1, &end);
   }
   return found == CS_CONTROL_GROUP_NONE ? 0 : found;
 }

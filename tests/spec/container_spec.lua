@@ -8,7 +8,7 @@ local LIMIT = 150 << 20
 
 local bench
 
---- Files like those of a control group of version 2, with one processor.
+--- Files like those of a control group, with one processor.
 local function pretend()
   os.execute(("mkdir -p '%s/group'"):format(bench.folder))
   bench:write("group/memory.max", LIMIT .. "\n")
@@ -90,20 +90,12 @@ end
 --- A shell script that runs its arguments in a new control group below its own; code 99: it could
 --- not be made. It prints the peak of the group, if it counts one.
 local IN_GROUP = [[
-inside() { # FOLDER FILE: of the limit
-  [ -e "$1/$2" ] && mkdir "$1/celspan-test-$$" 2>/dev/null || return
-  group=$1/celspan-test-$$
-  echo 157286400 2>/dev/null >"$group/$2" && return
-  rmdir "$group"; group=
-}
-path() { sed -n "s/^[0-9]*:$1://p" /proc/self/cgroup; }
-group=
-inside "/sys/fs/cgroup/memory$(path memory)" memory.limit_in_bytes
-[ "$group" ] || inside "/sys/fs/cgroup$(path '')" memory.max
-[ "$group" ] || exit 99
+group=/sys/fs/cgroup$(sed -n 's/^0:://p' /proc/self/cgroup)/celspan-test-$$
+[ -e "${group%/*}/memory.max" ] && mkdir "$group" 2>/dev/null || exit 99
+echo 157286400 2>/dev/null >"$group/memory.max" || { rmdir "$group"; exit 99; }
 ( echo 0 >"$group/cgroup.procs" && exec "$@" )
 code=$?
-cat "$group/memory.max_usage_in_bytes" "$group/memory.peak" 2>/dev/null
+cat "$group/memory.peak" 2>/dev/null
 rmdir "$group"
 exit "$code"
 ]]

@@ -1,5 +1,5 @@
-/* base/control_group.c: the limits of control groups of version 1, 2 and both, in files that the
- * test writes; and base/ceiling.c, which asks such a group. */
+/* base/control_group.c: the limits of control groups, in files that the test writes; and
+ * base/ceiling.c, which asks such a group. */
 #include "base/ceiling.h"
 #include "base/control_group.h"
 
@@ -55,7 +55,7 @@ static cs_control_group read_group(const char *name) {
   return group;
 }
 
-static void check_version_2(void) {
+static void check_limits(void) {
   put(place("two/cgroup"), "0::/jobs/seven\n");
   put_mounts(
       "two",
@@ -97,35 +97,30 @@ static void check_names(void) {
   CHECK(read_group("odd").memory == 7 * MIB);
 }
 
-static const char both[] =
-    "30 1 0:1 / @/one/cpu rw shared:1 shared:2 - cgroup cgroup rw,cpu,cpuacct\n"
-    "31 1 0:2 /docker/ab @/one/memory rw - cgroup none rw,memory\n"
-    "32 1 0:3 / @/one/unified rw - cgroup2 cgroup2 rw,nsdelegate\n";
-
-static void check_version_1(void) {
-  put(place("one/cgroup"), "9:memory:/docker/ab\n4:cpu,cpuacct:/user\n3:cpuset:/x\n0::/user\n");
-  put_mounts("one", both);
-  put(place("one/memory/memory.limit_in_bytes"), "157286400\n");
-  put(place("one/memory/memory.usage_in_bytes"), "104857600\n");
-  put(place("one/memory/memory.stat"),
-      "inactive_file 1\nactive_file 1\ntotal_inactive_file 52428800\ntotal_active_file 10485760\n");
-  put(place("one/cpu/user/cpu.cfs_quota_us"), "250000\n");
-  put(place("one/cpu/user/cpu.cfs_period_us"), "100000\n");
-  put(place("one/unified/user/memory.max"), "max\n");
+/* A process that is also in groups of version 1, whose limits are not looked at, and that sees its
+ * group by several mounts, or from outside. */
+static void check_mounts(void) {
+  put(place("one/cgroup"), "9:memory:/docker/ab\n4:cpu,cpuacct:/user\n0::/docker/ab\n");
+  put_mounts("one", "30 1 0:1 / @/one/v1 rw shared:1 shared:2 - cgroup cgroup rw,memory,cpu\n"
+                    "31 1 0:2 /other @/one/other rw - cgroup2 none rw\n"
+                    "32 1 0:2 /docker @/one/m rw - cgroup2 cgroup2 rw,nsdelegate\n");
+  put(place("one/v1/docker/ab/memory.max"), "1048576\n");
+  put(place("one/m/ab/memory.max"), "157286400\n");
+  put(place("one/m/ab/memory.current"), "104857600\n");
+  put(place("one/m/ab/memory.stat"), "inactive_file 52428800\nactive_file 10485760\n");
+  put(place("one/m/ab/cpu.max"), "250000 100000\n");
   cs_control_group group = read_group("one");
   CHECK(group.memory == 150 * MIB && group.processors == 2.5);
   int usage, stat;
   cs_control_group_open(group.folder, &usage, &stat);
   CHECK(cs_control_group_used(usage, stat) == 40 * MIB);
-  put(place("one/cpu/user/cpu.cfs_quota_us"), "-1\n");
-  CHECK(read_group("one").processors == HUGE_VAL);
-  put(place("one/cgroup"), "9:memory:/of/the/host\n"); /* the mount's root is the group */
-  CHECK(read_group("one").memory == 150 * MIB);
-  put(place("one/cgroup"), "9:memory:/../elsewhere\n");
-  CHECK(read_group("one").memory == 150 * MIB);
-  put(place("one/unified/user/memory.max"), "1048576\n");
-  put(place("one/cgroup"), "9:memory:/docker/ab\n0::/user\n");
-  CHECK(read_group("one").memory == MIB);
+  put(place("one/other/memory.max"), "2097152\n");
+  put(place("one/cgroup"), "0::/of/the/host\n"); /* the first mount's root is the group */
+  CHECK(read_group("one").memory == 2 * MIB);
+  put(place("one/cgroup"), "0::/../elsewhere\n");
+  CHECK(read_group("one").memory == 2 * MIB);
+  put(place("one/cgroup"), "9:memory:/docker/ab\n");
+  CHECK(read_group("one").memory == CS_CONTROL_GROUP_NONE);
 }
 
 static void check_numbers(void) {
@@ -195,10 +190,10 @@ int main(void) {
   char command[64];
   if (!mkdtemp(root))
     return 1;
-  check_version_2();
+  check_limits();
   check_room();
   check_names();
-  check_version_1();
+  check_mounts();
   check_numbers();
   check_nothing();
   check_ceiling();
