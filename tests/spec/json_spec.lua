@@ -37,4 +37,24 @@ describe("json", function()
     assert.is_truthy(json.decode(("["):rep(99) .. ("]"):rep(99)))
     assert.are.equal(20000, #json.decode("[" .. ("1,"):rep(19999) .. "1]"))
   end)
+
+  it("writes objects in their order, or plain tables by their names", function()
+    local ordered = { { "b", { list = { 1, "x\n" } } }, { "a", { } } }
+    assert.equal('{\n  "b": [\n    1,\n    "x\\n"\n  ],\n  "a": {}\n}', json.encode(ordered))
+    assert.equal('{"b":[1,"x\\n"],"a":{}}', json.encode(ordered, { compact = true }))
+    local text = '{"a":[["k",1],[true]],"b":{"list":"z","n":null},"c":[]}'
+    local plain = { plain = true, compact = true }
+    local value = json.decode(text)
+    value.c = { list = {} } -- an empty table is an object
+    assert.equal(text, json.encode(value, plain))
+  end)
+
+  it("writes names in another order, and values in another form", function()
+    local function value(one) return math.type(one) == "float" and ("%.1f"):format(one) or nil end
+    local function is_before(a, b) return a > b end
+    local options = { plain = true, compact = true, is_before = is_before, value = value }
+    assert.equal('{"b":0.3,"a":[1,2.0]}', json.encode({ a = { 1, 2.0 }, b = 1 / 3 }, options))
+    assert.has_error(function() json.encode({}, { plan = true }) end,
+      "json.encode: unknown field 'plan'; did you mean 'plain'?")
+  end)
 end)

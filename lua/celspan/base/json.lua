@@ -5,6 +5,7 @@
 -- Objects and arrays become tables, null becomes json.null. A name that is twice in an object has
 -- its last value.
 local core = require "celspan.core"
+local fields = require "celspan.fields"
 
 local json = { null = setmetatable({}, { __tostring = function() return "null" end }) }
 
@@ -48,24 +49,52 @@ local function encode_text(text)
   end) .. '"'
 end
 
---- Writes a value as JSON. Objects are lists of { name, value }, so that they keep their order; a
---- list has the field `list`.
----@param value any
----@param indent? string Before every line but the first; default ""
----@return string text
-function json.encode(value, indent)
-  if type(value) ~= "table" then
-    return type(value) == "string" and encode_text(value) or tostring(value)
-  end
-  indent = indent or ""
-  local inner, items = indent .. "  ", {}
-  for i, item in ipairs(value.list or value) do
-    items[i] = inner .. (value.list and json.encode(item, inner)
-      or encode_text(item[1]) .. ": " .. json.encode(item[2], inner))
-  end
-  local open, close = value.list and "[" or "{", value.list and "]" or "}"
-  if #items == 0 then return open .. close end
-  return ("%s\n%s\n%s%s"):format(open, table.concat(items, ",\n"), indent, close)
+local function by_name(a, b) return a < b end
+
+--- The items of a list, and true; or the members of an object, each a name and a value.
+local function parts_of(value, options)
+  local list = value.list
+  if not options.plain then return list or value, list ~= nil end
+  if type(list) == "table" and (list[1] ~= nil or next(list) == nil) then return list, true end
+  if value[1] ~= nil then return value, true end
+  local names, members = {}, {}
+  for name in pairs(value) do names[#names + 1] = name end
+  table.sort(names, options.is_before or by_name)
+  for i, name in ipairs(names) do members[i] = { name, value[name] } end
+  return members, false
 end
 
-return require "celspan.fields".seal("json", json)
+--- line: between the parts of the table that contains the value; "" in compact texts.
+local function encode(value, options, line)
+  local given = options.value and options.value(value)
+  if given then return given end
+  if type(value) == "string" then return encode_text(value) end
+  if type(value) ~= "table" or value == json.null then return tostring(value) end
+  local parts, is_list = parts_of(value, options)
+  local inner, colon = line .. "  ", ": "
+  if options.compact then inner, colon = "", ":" end
+  local texts = {}
+  for i, part in ipairs(parts) do
+    texts[i] = is_list and encode(part, options, inner)
+      or encode_text(part[1]) .. colon .. encode(part[2], options, inner)
+  end
+  local open, close = is_list and "[" or "{", is_list and "]" or "}"
+  if #texts == 0 then return open .. close end
+  return open .. inner .. table.concat(texts, "," .. inner) .. line .. close
+end
+
+local OPTIONS = { plain = "boolean", compact = "boolean", is_before = "function",
+                  value = "function" }
+
+--- Writes a value as JSON. Objects are lists of { name, value }, so that they keep their order; a
+--- list has the field `list`. plain: tables are as `decode` returns them. compact: without spaces.
+---@param value any
+---@param options? { plain?: boolean, compact?: boolean, is_before?: fun(a: string, b: string): boolean, value?: fun(value: any): string? }
+---@return string text
+function json.encode(value, options)
+  options = options or {}
+  fields.check("json.encode", options, OPTIONS)
+  return encode(value, options, options.compact and "" or "\n")
+end
+
+return fields.seal("json", json)

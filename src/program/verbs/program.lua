@@ -88,35 +88,16 @@ function program.place_of(sentence)
   return path, math.tointeger(line)
 end
 
---- The items of a table that is a list: of { list = items }, or the table's own items; nil: the
---- table is an object.
-local function items_of(one)
-  local list = one.list
-  if type(list) == "table" and (list[1] ~= nil or next(list) == nil) then return list end
-  return one[1] ~= nil and one or nil
-end
-
 --- A text; if it is not UTF-8, with question marks for all bytes beyond ASCII.
 function program.utf8(text) return utf8.len(text) and text or (text:gsub("[\x80-\xff]", "?")) end
 
+local PLAIN = { plain = true, value = function(one)
+  return type(one) == "string" and require "celspan.json".encode(program.utf8(one)) or nil
+end }
+
 --- A value as JSON: tables with a field `list`, or with items, become lists; other tables become
 --- objects.
-function program.json(value)
-  local function ordered(one)
-    if type(one) == "string" then return program.utf8(one) end
-    if type(one) ~= "table" then return one end
-    local items, names, listed = {}, {}, items_of(one)
-    if listed then
-      for i, item in ipairs(listed) do items[i] = ordered(item) end
-      return { list = items }
-    end
-    for name in pairs(one) do names[#names + 1] = name end
-    table.sort(names)
-    for i, name in ipairs(names) do items[i] = { name, ordered(one[name]) } end
-    return items
-  end
-  return require "celspan.json".encode(ordered(value))
-end
+function program.json(value) return require "celspan.json".encode(value, PLAIN) end
 
 local ENTITIES = { ["&"] = "&amp;", ["<"] = "&lt;", [">"] = "&gt;", ['"'] = "&quot;" }
 

@@ -44,36 +44,16 @@ function text.still(value, digits)
   return { a = 0, k = value }
 end
 
-local function written(value, parts)
-  if type(value) == "number" then
-    parts[#parts + 1] = text.number(value)
-  elseif type(value) ~= "table" then
-    parts[#parts + 1] = json.encode(value)
-  elseif value.raw then
-    parts[#parts + 1] = value.raw
-  elseif value[1] ~= nil or next(value) == nil then
-    for i, item in ipairs(value) do
-      parts[#parts + 1] = i == 1 and "[" or ","
-      written(item, parts)
-    end
-    parts[#parts + 1] = value[1] == nil and "[]" or "]"
-  else
-    local names = {}
-    for name in pairs(value) do names[#names + 1] = name end
-    table.sort(names, is_before)
-    for i, name in ipairs(names) do
-      parts[#parts + 1] = (i == 1 and "{" or ",") .. json.encode(name) .. ":"
-      written(value[name], parts)
-    end
-    parts[#parts + 1] = "}"
-  end
+--- What is written in a way of its own: numbers, texts that are ready, and tables without items,
+--- which are lists.
+local function own(value)
+  if type(value) == "number" then return text.number(value) end
+  return type(value) == "table" and (value.raw or next(value) == nil and "[]") or nil
 end
 
+local OPTIONS = { plain = true, compact = true, is_before = is_before, value = own }
+
 --- The whole value.
-function text.encode(value)
-  local parts = {}
-  written(value, parts)
-  return table.concat(parts)
-end
+function text.encode(value) return json.encode(value, OPTIONS) end
 
 return text
