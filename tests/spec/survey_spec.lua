@@ -168,7 +168,7 @@ return celspan.film { size = { 320, 180 }, fps = 24, frames = %d, frame = functi
     at = { 20, 40 }, texture = "#fff" } } }
 end }]]
 
-  it_sets_type("includes a title that stands 3 s longer than it takes to be read", function()
+  it_sets_type("includes a title that is shown 3 s longer than it takes to be read", function()
     bench:write("film.lua", TITLE:format(96))
     assert.same({}, warnings())
     bench:write("film.lua", TITLE:format(97))

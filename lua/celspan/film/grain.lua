@@ -17,13 +17,8 @@ local function seed_of(options, frame)
   return ((options.seed or 0) + 0x9e3779b1 * (options.frame or frame or 0)) % 0x7fffffff
 end
 
---- The light of a code.
-local function decode(code)
-  return code <= 0.04045 and code / 12.92 or ((code + 0.055) / 1.055) ^ 2.4
-end
-
 local function grey(code)
-  local light = decode(code)
+  local light = core.light(code)
   return celspan.rgb(light, light, light)
 end
 

@@ -37,6 +37,7 @@
 
 #include "engine/compose/stack.h"
 #include "model/colour/blend.h"
+#include "model/colour/primaries.h"
 #include "model/colour/space.h"
 
 /* The light and the transmission of some layers by themselves. Lane 3 of e has no meaning. */
@@ -127,7 +128,7 @@ static inline cs_over_pair cs_over_develop(const cs_group *group, cs_over_pair p
 
 /* The share of the art that a matte keeps. head: the composited layers of the matte. */
 static inline float cs_over_strength(const cs_group *group, cs_over_pair head) {
-  float luma = 0.2126f * head.e[0] + 0.7152f * head.e[1] + 0.0722f * head.e[2];
+  float luma = CS_LUMA(float, head.e[0], head.e[1], head.e[2]);
   float m = group->is_luma ? luma : cs_over_alpha(head.t, 1);
   m = m > 0 ? m : 0;
   m = m < 1 ? m : 1;

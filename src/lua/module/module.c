@@ -17,6 +17,8 @@
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/placed.h"
 #include "lua/nouns/random.h"
+#include "model/colour/primaries.h"
+#include "model/colour/transfer.h"
 
 #define MOST_NAMES 512
 
@@ -42,6 +44,25 @@ static int nearest(lua_State *L) {
   }
   lua_pushstring(L, cs_suggest_name(word, names, count));
   return 1;
+}
+
+/* core.code(light) and core.light(code): the curve of sRGB, for numbers of at least 0. */
+static int code_of(lua_State *L) {
+  lua_pushnumber(L, cs_transfer_code(luaL_checknumber(L, 1)));
+  return 1;
+}
+
+static int light_of(lua_State *L) {
+  lua_pushnumber(L, cs_transfer_light(luaL_checknumber(L, 1)));
+  return 1;
+}
+
+/* core.luma(): the weights of the channels in luma. */
+static int luma(lua_State *L) {
+  lua_pushnumber(L, CS_LUMA_RED);
+  lua_pushnumber(L, CS_LUMA_GREEN);
+  lua_pushnumber(L, CS_LUMA_BLUE);
+  return 3;
 }
 
 /* core.refuse(message): raises it at the line of the nearest caller that does not belong to
@@ -110,6 +131,9 @@ static const luaL_Reg core_functions[] = {{"find", find},
                                           {"nouns", cs_nouns_push},
                                           {"source", cs_embedded_source},
                                           {"refuse", refuse},
+                                          {"code", code_of},
+                                          {"light", light_of},
+                                          {"luma", luma},
                                           {"miss", miss},
                                           {"excess", excess},
                                           {"warns", cs_warnings_kept},

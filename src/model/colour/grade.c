@@ -5,11 +5,12 @@
 
 #include "base/elementary.h"
 #include "base/number.h"
+#include "model/colour/primaries.h"
 #include "model/colour/transfer.h"
 
 #define LN2 0.69314718055994530942
 
-static const double luma[3] = {0.2126, 0.7152, 0.0722};
+static const double luma[3] = {CS_LUMA_RED, CS_LUMA_GREEN, CS_LUMA_BLUE};
 
 /* ---------------------------------------------------------------- affine maps */
 

@@ -4,7 +4,7 @@
 
 /* Cb and Cr. */
 static void chroma_of(const double codes[3], double chroma[2]) {
-  const double luma = 0.2126 * codes[0] + 0.7152 * codes[1] + 0.0722 * codes[2];
+  const double luma = CS_LUMA(double, codes[0], codes[1], codes[2]);
   chroma[0] = (codes[2] - luma) / 1.8556;
   chroma[1] = (codes[0] - luma) / 1.5748;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/wide.h"
+#include "model/colour/primaries.h"
 
 #define CS_KEYING_ACROSS 0.57735027f /* 1 / tan 60 degrees */
 #define CS_KEYING_MOST 0.9f          /* of a colour counts as spill when the rest takes its place */
@@ -36,8 +37,8 @@ static inline cs_wide cs_keying_lanes_straight(cs_wide e, cs_wide there) {
 }
 
 static inline cs_wide cs_keying_lanes_luma(cs_wide codes) {
-  return 0.2126f * CS_WIDE_SPREAD(codes, 0) + 0.7152f * CS_WIDE_SPREAD(codes, 1) +
-         0.0722f * CS_WIDE_SPREAD(codes, 2);
+  return CS_LUMA(float, CS_WIDE_SPREAD(codes, 0), CS_WIDE_SPREAD(codes, 1),
+                 CS_WIDE_SPREAD(codes, 2));
 }
 
 static inline cs_wide cs_keying_lanes_cb(cs_wide codes, cs_wide luma) {

@@ -33,7 +33,7 @@ static void print_power(const char *storage, const char *name, double exponent) 
 }
 
 static double srgb_to_linear(double coded) {
-  return coded <= 0.04045 ? coded / 12.92 : cs_elementary_pow((coded + 0.055) / 1.055, 2.4);
+  return cs_power_srgb_decoded(coded, cs_elementary_pow(cs_power_srgb_base(coded), 2.4));
 }
 
 /* srgb8_step[k]: the least float whose code is at least k; [256] is greater than every float in

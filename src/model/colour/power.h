@@ -65,14 +65,15 @@ static inline double cs_power_of(const cs_power *power, double x) {
 
 #define CS_POWER_SRGB_LIGHT 0.0031308 /* of linear light */
 #define CS_POWER_SRGB_CODE 0.04045    /* of codes in 0..1 */
+#define CS_POWER_SRGB_SLOPE 12.92     /* of the line, from light to codes */
 
 /* The base whose power is the light of a code. */
 static inline double cs_power_srgb_base(double code) { return (code + 0.055) / 1.055; }
 
 static inline double cs_power_srgb_encoded(double light, double power) {
-  return light <= CS_POWER_SRGB_LIGHT ? 12.92 * light : 1.055 * power - 0.055;
+  return light <= CS_POWER_SRGB_LIGHT ? CS_POWER_SRGB_SLOPE * light : 1.055 * power - 0.055;
 }
 
 static inline double cs_power_srgb_decoded(double code, double power) {
-  return code <= CS_POWER_SRGB_CODE ? code / 12.92 : power;
+  return code <= CS_POWER_SRGB_CODE ? code / CS_POWER_SRGB_SLOPE : power;
 }

@@ -12,6 +12,14 @@
 
 enum { CS_PRIMARIES = 8 };
 
+/* The weights of luma in BT.709 and sRGB (ITU-R BT.709, 3.2), and the luma of a colour; `number` is
+ * the type of the weights, float or double. */
+#define CS_LUMA_RED 0.2126
+#define CS_LUMA_GREEN 0.7152
+#define CS_LUMA_BLUE 0.0722
+#define CS_LUMA(number, r, g, b)                                                                   \
+  ((number)CS_LUMA_RED * (r) + (number)CS_LUMA_GREEN * (g) + (number)CS_LUMA_BLUE * (b))
+
 typedef struct cs_known_primaries {
   const char *name;
   float xy[CS_PRIMARIES];

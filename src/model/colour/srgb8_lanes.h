@@ -10,6 +10,7 @@
 #include <stdbool.h>
 
 #include "base/wide.h"
+#include "model/colour/power.h"
 #include "model/colour/srgb8.h"
 
 /* The sRGB curve in vector code, rounded to codes.
@@ -34,6 +35,8 @@
 #include <immintrin.h>
 
 #define CS_SRGB8_UNSURE 0x1p-12f
+#define CS_SRGB8_SLOPE (255 * (float)CS_POWER_SRGB_SLOPE)
+#define CS_SRGB8_KNEE ((float)CS_POWER_SRGB_LIGHT)
 
 /* 255 * 1.055 * 2^(e / 2.4), by the last four bits of the exponent e + 127 of a float from 2^-13 to
  * 1. Smaller floats lie on the straight part of the curve. */
@@ -180,8 +183,8 @@ static inline void cs_srgb8_settle(cs_wide rgba, bool is_coded, unsigned unsure,
 
 /* 255 times the codes of colours between 0 and 1. */
 static inline cs_wide cs_srgb8_numbers(cs_wide straight, bool is_coded) {
-  const cs_wide slope = CS_WIDE_PIXEL(255 * 12.92f, 255 * 12.92f, 255 * 12.92f, 255);
-  const cs_wide knee = CS_WIDE_PIXEL(0.0031308f, 0.0031308f, 0.0031308f, 2);
+  const cs_wide slope = CS_WIDE_PIXEL(CS_SRGB8_SLOPE, CS_SRGB8_SLOPE, CS_SRGB8_SLOPE, 255);
+  const cs_wide knee = CS_WIDE_PIXEL(CS_SRGB8_KNEE, CS_SRGB8_KNEE, CS_SRGB8_KNEE, 2);
   return is_coded ? straight * 255 : cs_srgb8_coded(straight, slope, knee);
 }
 
@@ -251,8 +254,8 @@ static inline cs_wide_int cs_srgb8_settle_planes(const cs_srgb8_planes *colours,
  * there is no division. Sets a bit of `unsure` for each lane that is not certain. */
 static inline cs_wide_int cs_srgb8_lift_planes(const cs_srgb8_planes *colours, bool is_coded,
                                                bool is_straight, cs_wide lift, unsigned *unsure) {
-  const cs_wide one = cs_wide_all(1), slope = cs_wide_all(255 * 12.92f);
-  const cs_wide knee = cs_wide_all(0.0031308f);
+  const cs_wide one = cs_wide_all(1), slope = cs_wide_all(CS_SRGB8_SLOPE);
+  const cs_wide knee = cs_wide_all(CS_SRGB8_KNEE);
   const cs_wide_int none = {0};
   cs_wide alpha = colours->channels[3];
   bool is_opaque = cs_srgb8_differ((cs_wide_int)alpha, (cs_wide_int)one) == 0;

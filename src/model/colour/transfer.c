@@ -11,10 +11,10 @@ static double power(const cs_power *of, double x) {
 
 /* ---------------------------------------------------------------- the curves, for x >= 0 */
 
-static double srgb_encode(double x) {
+double cs_transfer_code(double x) {
   return cs_power_srgb_encoded(x, x <= CS_POWER_SRGB_LIGHT ? 0 : power(&cs_power_srgb_encoding, x));
 }
-static double srgb_decode(double x) {
+double cs_transfer_light(double x) {
   double base = cs_power_srgb_base(x);
   return cs_power_srgb_decoded(x,
                                x <= CS_POWER_SRGB_CODE ? 0 : power(&cs_power_srgb_decoding, base));
@@ -58,7 +58,7 @@ static float mirrored(curve of, float x) {
 float cs_transfer_decode(celspan_transfer transfer, float coded) {
   switch (transfer) {
   case CELSPAN_TRANSFER_SRGB:
-    return mirrored(srgb_decode, coded);
+    return mirrored(cs_transfer_light, coded);
   case CELSPAN_TRANSFER_REC709:
     return mirrored(rec709_decode, coded);
   case CELSPAN_TRANSFER_CINEON:
@@ -71,7 +71,7 @@ float cs_transfer_decode(celspan_transfer transfer, float coded) {
 float cs_transfer_encode(celspan_transfer transfer, float linear) {
   switch (transfer) {
   case CELSPAN_TRANSFER_SRGB:
-    return mirrored(srgb_encode, linear);
+    return mirrored(cs_transfer_code, linear);
   case CELSPAN_TRANSFER_REC709:
     return mirrored(rec709_encode, linear);
   case CELSPAN_TRANSFER_CINEON:

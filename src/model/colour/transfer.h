@@ -9,6 +9,9 @@
 
 float cs_transfer_decode(celspan_transfer transfer, float coded);
 float cs_transfer_encode(celspan_transfer transfer, float linear);
+/* The code of sRGB of light, and the light of a code, both at least 0. */
+double cs_transfer_code(double light);
+double cs_transfer_light(double code);
 /* An exact and fast conversion of linear light 0..1 to an 8-bit sRGB code: the true curve, rounded
  * to nearest. */
 uint8_t cs_transfer_srgb8(float linear);

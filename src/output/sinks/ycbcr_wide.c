@@ -1,5 +1,7 @@
 #include "output/sinks/ycbcr.h"
 
+#include "model/colour/primaries.h"
+
 /* The bytes of a pixel, for both byte orders of machines. */
 #if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
 #define BYTE(pixel, i) (int32_t)((pixel) >> (24 - 8 * (i)) & 255)
@@ -7,9 +9,9 @@
 #define BYTE(pixel, i) (int32_t)((pixel) >> 8 * (i)&255)
 #endif
 
-#define RED 0.2126
-#define GREEN 0.7152
-#define BLUE 0.0722
+#define RED CS_LUMA_RED
+#define GREEN CS_LUMA_GREEN
+#define BLUE CS_LUMA_BLUE
 #define LUMA (219 / 255.0)
 #define CB (224 / 255.0 / (2 - 2 * BLUE))
 #define CR (224 / 255.0 / (2 - 2 * RED))

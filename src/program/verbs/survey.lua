@@ -17,11 +17,12 @@ local texts = program.part("texts.lua", film)
 local survey = {}
 survey.__index = survey
 
+local RED, GREEN, BLUE = core.luma()
 local POINTS, AREAS = 24, 48 -- points and areas along the longer side
 local SEEMS = 0.2      -- the share of the points that must flash before a flash is suspected
 local PARTS_MOST = 1000
 local STRETCH = 1      -- stretches of at least this many seconds without a change are listed
-local TITLE = 3        -- the seconds that a text may stand longer than its words need
+local TITLE = 3        -- the seconds that a text may last longer than its words need
 local COLLECTED = 4    -- garbage is collected after this many frames
 local CUT = 0.08       -- the least mean change of luminance in a cut,
 local CUT_RATIO = 3    -- and how many times greater it is than the changes before and after
@@ -54,7 +55,7 @@ local function look(exposures, view)
     local r, g, b, a
     r, g, b, a, at = ("<ffff"):unpack(bytes, at)
     is_plain = is_plain and r == r0 and g == g0 and b == b0
-    lights[i] = math.min(1, math.max(0, 0.2126 * r + 0.7152 * g + 0.0722 * b))
+    lights[i] = math.min(1, math.max(0, RED * r + GREEN * g + BLUE * b))
     alphas[i] = a
   end
   return lights, alphas, is_plain
@@ -293,7 +294,7 @@ function survey:shown_seconds(text)
   end
 end
 
---- Whether the texts of a stretch may stand as long as the stretch lasts.
+--- Whether the texts of a stretch may remain as long as the stretch lasts.
 function survey:is_read(stretch)
   local count = 0
   for _, text in ipairs(self.texts.list) do

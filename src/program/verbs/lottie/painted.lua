@@ -1,5 +1,6 @@
 --- Fills of Lottie: colours and gradients of what a frame's structure holds (core.scenery).
 local text, is_coded = ...
+local core = require "celspan.core"
 
 local still = text.still
 
@@ -12,7 +13,7 @@ local DEEPEST = 6 -- halvings of the way between two stops
 local function code(light)
   if light <= 0 then return 0 end
   if light >= 1 then return 1 end
-  return light <= 0.0031308 and 12.92 * light or 1.055 * light ^ (1 / 2.4) - 0.055
+  return core.code(light)
 end
 
 --- What a film mixes of a pigment in this light: codes, or light.
