@@ -6,8 +6,8 @@
  *     host's      size | a | b | c | d | 0 |    the host is later: its further fields must be 0
  *
  * INVARIANT: behind the door every description is full, so nothing else looks at struct_size, and a
- * field is read only if the host has it. A size is a multiple of 8. Whether it is the end of a field
- * is not checked, because the macros of the public headers set it.
+ * field is read only if the host has it. A size is a multiple of 8. Whether a field ends there is
+ * not checked, because the macros of the public headers set the size.
  */
 #pragma once
 

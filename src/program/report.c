@@ -7,14 +7,14 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/visible.h"
 #include "frames/process/interrupt.h"
 #include "program/log.h"
 
 enum {
   SENTENCE = 8192,        /* bytes; paths may be 4096 long */
   VISIBLE = 5 * SENTENCE, /* the greatest size of a sentence after make_visible */
-  PIECE = 1024 /* of a printed line, which fits into an event, however it is written there */
+  PIECE = 1024, /* of a printed line, which fits into an event, however it is written there */
+  SHOWN = 5     /* of the longest text for one character, with a zero */
 };
 
 static void (*clear_line)(void);
@@ -69,13 +69,31 @@ void cs_report_openjd(const char *name, const char *format, ...) {
   print_openjd(name, text);
 }
 
+/* Text of scripts and of files as a terminal may show it: it does not move the cursor, colour or
+ * clear anything, or change the clipboard. Controls are written as numbers, such as \x1b, except
+ * new lines and tabs. The controls of the set C1 are C2 80 to C2 9F in UTF-8.
+ *
+ * Writes the visible form of the first character of a text that is not "", and a zero. size: of the
+ * text. Returns how many bytes the character has in the text. */
+static size_t visible_first(const char *text, size_t size, char out[SHOWN]) {
+  const unsigned char *at = (const unsigned char *)text;
+  bool is_long = *at == 0xc2 && (size == 1 || (at[1] & 0xe0) == 0x80);
+  bool is_shown = (*at >= ' ' || *at == '\n' || *at == '\t') && *at != 0x7f && !is_long;
+  bool is_pair = is_long && size > 1;
+  out[0] = *text;
+  out[1] = 0;
+  if (!is_shown)
+    snprintf(out, SHOWN, "\\x%02x", at[is_pair]);
+  return is_pair ? 2 : 1;
+}
+
 /* Texts from scripts and names of files must not look like separate messages: after a new line they
  * are indented. */
 static void make_visible(const char *text, char out[VISIBLE]) {
   size_t size = strlen(text);
   for (size_t used; size > 0; text += used, size -= used) {
-    char shown[CS_VISIBLE];
-    used = cs_visible_first(text, size, shown);
+    char shown[SHOWN];
+    used = visible_first(text, size, shown);
     out = stpcpy(out, *shown == '\n' ? "\n    " : shown);
   }
   *out = 0;
@@ -133,8 +151,8 @@ void cs_report_printed(void *user, const char *text, size_t size) {
   }
   bool is_shown = isatty(STDERR_FILENO);
   for (size_t used; is_shown && size > 0; text += used, size -= used) {
-    char shown[CS_VISIBLE];
-    used = cs_visible_first(text, size, shown);
+    char shown[SHOWN];
+    used = visible_first(text, size, shown);
     fputs(shown, stderr);
   }
   fwrite(text, 1, size, stderr);

@@ -60,8 +60,7 @@ cs_exit cs_report_frame_failure(const celspan_context *context, celspan_status s
 void cs_report_row(int64_t line, const char *output);
 
 /* Writes a script's output to standard error: as events "print", a line each or a part of a long
- * one, if diagnostics are JSON; on a terminal, only characters that the terminal may show
- * (base/visible.h). user: not used. */
+ * one, if diagnostics are JSON; on a terminal, only characters that it may show. user: not used. */
 void cs_report_printed(void *user, const char *text, size_t size);
 
 /* The form of diagnostics. */

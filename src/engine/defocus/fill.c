@@ -2,7 +2,6 @@
 
 #include "base/number.h"
 #include "engine/defocus/lines.h"
-#include "engine/defocus/means.h"
 #include "engine/row/row.h"
 
 #define GROUP CS_DEFOCUSED_GROUP
@@ -175,12 +174,39 @@ static celspan_status fill_band(const cs_defocus *defocus, celspan_context *cont
 
 /* ---------------------------------------------------------------- rows that are made together */
 
+/* Means over pixels, which shifted cels read:
+ *
+ *     plan --row--> spans: | single | array          | gradient |
+ *                            ||       ||               ||
+ *     band --row--> nodes: o o o o  o o o o o o o o   o o o o      one for each pixel
+ *
+ * A grid of a cel's own whose kernel is the pixel needs no more than its rows, pixel by pixel. */
+static celspan_status spread_rows(cs_row_maker *maker, cs_row *row, size_t columns, int32_t first,
+                                  int32_t end, float (*nodes)[4]) {
+  for (int32_t y = first; y < end; y++, nodes += columns) {
+    CS_TRY(cs_row_make(maker, y, row));
+    for (size_t i = 0; i < row->count; i++)
+      cs_row_spread_span(&row->spans[i], row->spans[i].x0, row->spans[i].x1,
+                         (cs_v4 *)(void *)nodes[row->spans[i].x0]);
+  }
+  return CELSPAN_OK;
+}
+
+static celspan_status fill_means(celspan_context *context, cs_row_maker *maker, int32_t columns,
+                                 int32_t first, int32_t end, float (*nodes)[4]) {
+  cs_row row;
+  cs_row_init(&row);
+  celspan_status status = spread_rows(maker, &row, (size_t)columns, first, end, nodes);
+  cs_row_finish(&row, context->memory);
+  return status;
+}
+
 static celspan_status sum_rows(const cs_defocus *defocus, celspan_context *context,
                                cs_row_maker *maker, int plane, int32_t first, int32_t end,
                                float (*nodes)[4]) {
   int32_t columns = defocus->grid.columns;
   if (defocus->way == CS_DEFOCUS_MEANS)
-    return cs_means_fill(context, maker, columns, first, end, nodes);
+    return fill_means(context, maker, columns, first, end, nodes);
   if (defocus->way == CS_DEFOCUS_NEIGHBOURS)
     return cs_defocus_neighbours_fill(&defocus->neighbours, maker, columns, first, end, nodes);
   return defocus->way == CS_DEFOCUS_SUMS

@@ -1,5 +1,5 @@
 /* The bands of a layer: rows that are summed together (sums.h, slices.h, neighbours.h), those of
- * means (means.h), of what is read along a shift (shifted.h), or of flat art, which are made one
+ * means over pixels, of what is read along a shift (shifted.h), or of flat art, which are made one
  * after the other from its boundaries alone, through the kernel of the plans or line by line
  * (lines.h).
  *

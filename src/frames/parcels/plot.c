@@ -6,9 +6,8 @@
 #include <strings.h>
 
 #include "frames/parcels/boxes.h"
-#include "frames/parcels/plot_pdf.h"
 #include "frames/parcels/plot_picture.h"
-#include "frames/parcels/plot_svg.h"
+#include "frames/parcels/plot_text.h"
 #include "frames/parcels/under.h"
 #include "frames/plane/plane.h"
 #include "frames/render/frame.h"

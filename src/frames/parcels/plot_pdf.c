@@ -1,6 +1,6 @@
-#include "frames/parcels/plot_pdf.h"
-
+/* Drawings as PDF. */
 #include "base/module.h"
+#include "frames/parcels/plot_text.h"
 
 static bool put(void *user, const void *bytes, size_t size) {
   cs_plot_text *text = user;

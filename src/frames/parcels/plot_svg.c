@@ -1,7 +1,6 @@
 /* Drawings as the text of SVG. */
-#include "frames/parcels/plot_svg.h"
-
 #include "base/markup.h"
+#include "frames/parcels/plot_text.h"
 
 enum { CODE_DIGITS = 4, STOP_DIGITS = 6, SPARE_DIGITS = 3, MATRIX_DIGITS = 9 };
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "celspan/celspan.h"
+#include "frames/parcels/plotter.h"
 #include "output/sinks/file.h"
 
 typedef struct cs_plot_text {
@@ -36,3 +37,9 @@ void cs_plot_line(cs_plot_text *out, celspan_point to);
 /* points: after the one where the path is. */
 void cs_plot_curve(cs_plot_text *out, const celspan_point points[3]);
 void cs_plot_close(cs_plot_text *out);
+
+/* The plotter of SVG, over the text of a file. */
+void cs_plot_svg_open(cs_plot_text *text, cs_plotter *out);
+/* The plotter of PDF, which a module has; it puts bytes into the file of a text. Errors: OUTPUT if
+ * there is no module, NO_MEMORY. */
+CELSPAN_CHECKED celspan_status cs_plot_pdf_open(cs_plot_text *text, cs_plotter *out);

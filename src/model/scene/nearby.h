@@ -67,3 +67,10 @@ CELSPAN_CHECKED celspan_status cs_nearby_create(celspan_context *context, const 
                                                 cs_nearby **out);
 cs_nearby *cs_nearby_ref(cs_nearby *nearby);
 void cs_nearby_unref(cs_nearby *nearby);
+
+/* An object without a mode, or nothing (NULL), changed by a rule inside a frame. *out: new. Errors:
+ * NO_MEMORY, BAD_ARGUMENT, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_nearby_object_create(celspan_context *context,
+                                                       celspan_object *object, cs_nearby *nearby,
+                                                       const celspan_box *frame,
+                                                       celspan_object **out);

@@ -1,11 +1,12 @@
-#include "model/scene/nearby_object.h"
-
+/* Objects that are changed by a rule about neighbouring pixels: of SVG filters, and sharpened
+ * ones. */
 #include <math.h>
 
 #include "base/description.h"
 #include "model/scene/bounds.h"
 #include "model/scene/check.h"
 #include "model/scene/effect.h"
+#include "model/scene/nearby.h"
 
 /* The frame as a clear object, so that the rule acts on all of it. */
 static celspan_status make_clear(celspan_context *context, const celspan_box *frame,

@@ -1,4 +1,5 @@
-#include "output/photoshop/pack_bits.h"
+/* PackBits. */
+#include "output/photoshop/bytes.h"
 
 #include <stdbool.h>
 #include <string.h>

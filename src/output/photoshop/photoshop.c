@@ -4,8 +4,7 @@
 #include <string.h>
 
 #include "model/colour/blend_names.h"
-#include "output/photoshop/big_endian.h"
-#include "output/photoshop/srgb_profile.h"
+#include "output/photoshop/bytes.h"
 
 /* The most bytes of a record, and of everything before the records. */
 enum { RECORD = 1200, FRONT = 1024 + CS_SRGB_PROFILE };

@@ -5,8 +5,7 @@
 
 #include "base/error_text.h"
 #include "base/open.h"
-#include "output/photoshop/big_endian.h"
-#include "output/photoshop/pack_bits.h"
+#include "output/photoshop/bytes.h"
 #include "output/photoshop/photoshop.h"
 #include "output/sinks/pixels.h"
 #include "output/sinks/sink.h"

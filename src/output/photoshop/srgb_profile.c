@@ -1,9 +1,8 @@
-#include "output/photoshop/srgb_profile.h"
+/* A colour profile of sRGB. */
+#include "output/photoshop/bytes.h"
 
 #include <stdbool.h>
 #include <string.h>
-
-#include "output/photoshop/big_endian.h"
 
 /* Numbers are in units of 1/65536. The primaries of sRGB are adapted from its white, D65, to D50 by
  * Bradford's matrix, and their sum is exactly D50. */

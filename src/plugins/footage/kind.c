@@ -1,11 +1,11 @@
-#include "plugins/footage/kind.h"
-
+/* Files of movies, which are opened by name here and nowhere else. */
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/open.h"
+#include "plugins/footage/listing.h"
 #include "plugins/isolate/media_kind.h"
 
 static celspan_status refuse(celspan_context *context, const char *path, const char *tried,

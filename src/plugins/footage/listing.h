@@ -10,12 +10,25 @@
  */
 #pragma once
 
-#include "plugins/footage/kind.h"
+#include "base/context.h"
 
 enum {
   CS_LISTING_SIDE = 32768,      /* pixels */
   CS_LISTING_PICTURES = 4000000 /* of a movie: 46 hours at 24 a second */
 };
+
+/* A file that was opened, and what changes when the file changes. */
+typedef struct cs_kind_file {
+  const char *kind; /* the name of its container in ffmpeg */
+  int descriptor;
+  int64_t size, time; /* nanoseconds */
+  uint64_t number;
+} cs_kind_file;
+
+/* Opens a movie; the caller closes its descriptor. tried: another path that does not exist either,
+ * or NULL. Errors: INPUT. */
+CELSPAN_CHECKED celspan_status cs_kind_open(celspan_context *context, const char *path,
+                                            const char *tried, cs_kind_file *out);
 
 typedef struct cs_listing_picture {
   int64_t time; /* ticks */

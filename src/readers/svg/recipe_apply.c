@@ -4,7 +4,7 @@
 #include "base/context.h"
 #include "model/scene/bounds.h"
 #include "model/scene/displace.h"
-#include "model/scene/nearby_object.h"
+#include "model/scene/nearby.h"
 #include "model/scene/primitive_data.h"
 #include "readers/svg/objects.h"
 #include "readers/svg/recipe.h"
