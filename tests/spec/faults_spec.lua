@@ -260,7 +260,7 @@ describe("the hooks of tests/faults", function()
 
   it("exist for every call to the system that src/ makes", function()
     local build, hooked, seen = workbench.build, hooks(), 0
-    local list = io.popen(("find '%s/src' '%s/celspan.p' -name '*.o' | xargs nm -u 2>&1")
+    local list = io.popen(("find '%s/src' '%s/celspan.p' -name '*.o' -print0 | xargs -0 nm -u 2>&1")
       :format(build, build))
     local made = {}
     for name in list:lines() do
