@@ -69,12 +69,17 @@ function fields.hint(name, names)
   return near and ("; did you mean '%s'?"):format(near) or nil
 end
 
+--- As fields.hint, but if no name is near, the end says all names; "" if there are none.
+function fields.choice(name, names)
+  return fields.hint(name, names)
+    or #names > 0 and "; there are " .. table.concat(names, ", ") or ""
+end
+
 --- Raises an error: `noun` has no field or method of this name. The message suggests the nearest of
 --- `names`.
 local function refuse_name(noun, name, names)
   table.sort(names)
-  core.refuse(("%s has no '%s'%s"):format(noun, name, fields.hint(name, names)
-    or #names > 0 and "; there are " .. table.concat(names, ", ") or ""))
+  core.refuse(("%s has no '%s'%s"):format(noun, name, fields.choice(name, names)))
 end
 
 --- Raises an error unless `self` is a value of this class (its metatable). Like all errors of the

@@ -180,8 +180,7 @@ end
 local function set_of(palette, name)
   local set = type(name) == "string" and palette.sets[name]
   if set then return set end
-  refuse("there is no palette '%s'%s", fields.key(name),
-    fields.hint(name, palette.names) or "; there are " .. table.concat(palette.names, ", "))
+  refuse("there is no palette '%s'%s", fields.key(name), fields.choice(name, palette.names))
 end
 
 --- The colours of a set by name.

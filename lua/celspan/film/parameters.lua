@@ -218,7 +218,7 @@ local function find(settings, declared, source, name)
     names[i] = one.name
   end
   refuse_setting(settings, "%sthe script has no parameter '%s'%s", source, name,
-    fields.hint(name, names) or #names > 0 and "; there are " .. table.concat(names, ", ") or "")
+    fields.choice(name, names))
 end
 
 --- The value of a parameter; nil and a sentence: it cannot be that. is_text: the value is a text

@@ -263,11 +263,10 @@ function slots.apply(found, list, theme, set, note)
   for _, name in ipairs(ordered.names(set or {})) do
     if not list[name] then
       local names = ordered.names(list)
-      return ("there is no slot '%s'%s"):format(name, fields.hint(name, names)
-        or #names > 0 and "; there are " .. table.concat(names, ", ") or "")
+      return ("there is no slot '%s'%s"):format(name, fields.choice(name, names))
     end
     list[name].given = set[name]
   end
 end
 
-return require "celspan.fields".seal("lottie_slots", slots)
+return fields.seal("lottie_slots", slots)

@@ -122,8 +122,7 @@ function source.theme(found, id)
   local known = false
   for _, one in ipairs(found.themes) do known = known or one == id end
   if not known then
-    return nil, ("there is no theme '%s'%s"):format(id, fields.hint(id, found.themes)
-      or #found.themes > 0 and "; there are " .. table.concat(found.themes, ", ") or "")
+    return nil, ("there is no theme '%s'%s"):format(id, fields.choice(id, found.themes))
   end
   local text, message = member(found.archive, "theme", id .. ".json")
   if not text then return nil, message end

@@ -17,8 +17,7 @@ local refuse = bones.refuse
 --- The end of a message about a wrong name: the nearest of the names, or all of them.
 function bones.help(name, names)
   table.sort(names)
-  return fields.hint(name, names)
-    or #names > 0 and "; there are " .. table.concat(names, ", ") or "; there are none"
+  return #names > 0 and fields.choice(name, names) or "; there are none"
 end
 local help = bones.help
 
