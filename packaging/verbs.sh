@@ -89,7 +89,7 @@ expect 0 sheet "$film"
 expect "0 4 5" sound "$film" -o sound.wav
 expect "0 5" render "$film" --frames 1-5 -o film.mp4
 expect 0 contact "$film" -o contact.png
-expect 0 sprites "$film" -o sprites.png
+expect 0 sprites "$film" --scale 0.25 -o sprites.png
 expect 0 relight tiles.1.png -o light.png --light grey --to "#ffffff"
 expect 0 trace tiles.1.png -o art.svg
 expect 0 track tiles.#.png --from 1 --at 15,5,110,100 --frames 1-3
