@@ -112,7 +112,7 @@ describe("a drawing", function()
   end)
 
   it_measures("of regions has areas that meet at one point where flat borders end", function()
-    done("render %s/scripts/demo.lua -o x.svg --flat regions --precision 6 --frames 12",
+    done("render '%s/scripts/demo.lua' -o x.svg --flat regions --precision 6 --frames 12",
       os.getenv "PWD")
     local count, overlap = measured()
     assert.is_true(count >= 60 and overlap <= 1e-6)
