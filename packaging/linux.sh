@@ -8,9 +8,9 @@
 #
 # What the modules need is linked statically, as the program's Lua always is. What Debian 11 has in
 # too old a version, or not as a static library, is built from the source packages of Debian 12:
-# expat, Little CMS, HarfBuzz without the libraries that it does not need here, and libmicrohttpd
-# without TLS. Meson and the kernel's headers are Debian 12's, too. libunibreak lies beside its
-# module.
+# expat, Little CMS, HarfBuzz without the libraries that it does not need here, the part of OpenEXR
+# that is C, and libmicrohttpd without TLS. Meson and the kernel's headers are Debian 12's, too.
+# libunibreak lies beside its module.
 set -eu
 mirror=$1 name=$2
 cd /build
@@ -103,6 +103,28 @@ make_lcms2() {
   described lcms2 "$(version lcms2)" "-llcms2 -pthread -lm"
 }
 
+# What CMake would write into its headers is what the part in C asks them for.
+make_openexr() {
+  fetched imath
+  fetched openexr
+  local lib=/build/openexr/src/lib/OpenEXRCore imath=/build/imath/src/Imath
+  cp "$lib"/openexr*.h "$imath"/{half,ImathExport,ImathNamespace,ImathPlatform}.h "$prefix/include"
+  echo "#define ILMTHREAD_THREADING_ENABLED 1" >"$prefix/include/IlmThreadConfig.h"
+  cat >"$prefix/include/OpenEXRConfig.h" <<TEXT
+#define OPENEXR_EXPORT
+#define OPENEXR_VERSION_MAJOR 3
+#define OPENEXR_VERSION_MINOR 1
+#define OPENEXR_VERSION_PATCH 5
+TEXT
+  cat >"$prefix/include/ImathConfig.h" <<TEXT
+#define IMATH_LIKELY(x) __builtin_expect(x, 1)
+#define IMATH_UNLIKELY(x) __builtin_expect(x, 0)
+TEXT
+  (mkdir openexr/made && cd openexr/made && gcc "${flags[@]}" -DIMATH_HALF_NO_LOOKUP_TABLE \
+    "-I$prefix/include" -c "$lib"/*.c && ar rcs "$prefix/lib/libOpenEXRCore.a" ./*.o)
+  described OpenEXR "$(version openexr)" "-lOpenEXRCore -lz -pthread -lm"
+}
+
 make_microhttpd() {
   fetched libmicrohttpd
   (cd libmicrohttpd && CFLAGS="${flags[*]}" ./configure -q --prefix="$prefix" --disable-shared \
@@ -129,6 +151,7 @@ TEXT
 make_expat
 make_harfbuzz
 make_lcms2
+make_openexr
 make_microhttpd
 described libtiff-4 4 "-ltiff -lwebp -lzstd -llzma -ljbig -ljpeg -ldeflate -lz -pthread -lm"
 copy_stderr png16 jpeg tiff
@@ -136,7 +159,7 @@ copy_stderr png16 jpeg tiff
 # for the modules alone.
 static=(fribidi z png png16 jpeg tiff webp zstd lzma jbig deflate)
 for library in "${static[@]}"; do rm "$libraries/lib$library.so"; done
-hidden=$(printf 'lib%s.a:' "${static[@]}" expat harfbuzz lcms2 microhttpd)
+hidden=$(printf 'lib%s.a:' "${static[@]}" expat harfbuzz lcms2 microhttpd OpenEXRCore)
 
 # ---------------------------------------------------------------- celspan
 
@@ -183,7 +206,7 @@ font fonts-comic-neue ComicNeue-Bold.otf
 font fonts-courier-prime "Courier Prime.otf"
 
 mkdir -p "$tree/share/doc/celspan/libraries"
-for package in expat harfbuzz lcms2 libmicrohttpd; do
+for package in expat harfbuzz imath lcms2 libmicrohttpd openexr; do
   cp "$package/debian/copyright" "$tree/share/doc/celspan/libraries/$package.txt"
 done
 for package in libdeflate-dev libfribidi-dev libjbig-dev libjpeg62-turbo-dev liblua5.4-dev \
@@ -192,8 +215,8 @@ for package in libdeflate-dev libfribidi-dev libjbig-dev libjpeg62-turbo-dev lib
 done
 cat >"$tree/share/doc/celspan/libraries/README" <<TEXT
 The program and its modules contain these libraries, as Debian has them: Lua, zlib, expat,
-HarfBuzz, FriBidi, libunibreak, Little CMS, libmicrohttpd, libpng, libjpeg-turbo, libwebp and
-libtiff with what it decompresses by. Their licences are beside this file.
+HarfBuzz, FriBidi, libunibreak, Little CMS, libmicrohttpd, libpng, libjpeg-turbo, libwebp,
+OpenEXR's reader, and libtiff with what it decompresses by. Their licences are beside this file.
 Two are under the LGPL, FriBidi in lib/celspan/celspan-art.so and libmicrohttpd in
 lib/celspan/celspan-web.so: celspan's source builds these files again with other versions of them
 (packaging/linux.sh).

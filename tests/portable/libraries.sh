@@ -11,7 +11,7 @@ mkdir -p "$2/sources" "$2/$name"
 folder=$(cd "$2" && pwd)
 out=$folder/$name
 MODULE_PACKAGES=(libexpat1-dev libharfbuzz-dev libfribidi-dev libunibreak-dev libpng-dev
-  libjpeg62-turbo-dev libtiff-dev libwebp-dev)
+  libjpeg62-turbo-dev libopenexr-dev libtiff-dev libwebp-dev)
 
 # What Debian calls the processor, and the folder of its libraries; nothing: it has no such.
 case $name in

@@ -149,6 +149,35 @@ return celspan.film { size = { 150, 24 }, frame = function()
 end }
 ]]
 
+-- ---------------------------------------------------------------- every kind of OpenEXR
+
+--- What oiiotool makes of a picture of red, green, blue and alpha, a file for each. It has 33 rows,
+--- so that the last chunk has one row, where others have 16 or 32.
+local exrs = {
+  "--ch Y=R", "--ch Y=R,A=A", "--ch R=R,B=B", "--ch light.R=R,light.G=G,light.B=B,light.A=A",
+  "--ch c1=R,c2=G,c3=B", "--ch Red=R,Green=G,Blue=B,Alpha=A", "--ch Z=R,V=A,light.R=G,light.G=B",
+  "--ch R,G,B --fullsize 80x50-5-4", "--ch Y=R --fullsize 30x20+9+5", "-d R=float -d G=uint32",
+  "--fullsize 30x50+9-5 --tile 16 16", "--attrib Orientation 6", "--ch R,G,B,A,u.R=B,u.G=R,u.B=G",
+}
+for _, packing in ipairs { "none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a" } do
+  for _, form in ipairs { "half", "float --tile 16 16", "half --tile 32 8", "uint32" } do
+    exrs[#exrs + 1] = ("-d %s --compression %s"):format(form, packing)
+  end
+end
+
+--- All of these over a colour, which shows where they have no pixels.
+local SHEET = [[
+local celspan = require "celspan"
+local shown = { celspan.rect { 0, 0, 630, 350, texture = "#48c" } }
+for i = 0, COUNT - 1 do
+  shown[i + 2] = celspan.image { x = i % 9 * 70, y = i // 9 * 70, w = 61, h = 61,
+    file = ("%d.exr"):format(i + 1) }
+end
+return celspan.film { size = { 630, 350 }, frame = function()
+  return celspan.rostrum { antialias = "none", celspan.cel(shown) }
+end }
+]]
+
 describe("the picture module without OpenImageIO", function()
   it("reads PNG of every kind, plain and interlaced, as their pixels are meant", function()
     for column, kind in ipairs(kinds) do
@@ -200,6 +229,67 @@ describe("the picture module without OpenImageIO", function()
       local code, _, err = bench:inside(("oiiotool %s -o %s"):format(command, name))
       assert.equal(0, code, err)
       assert.is_true(pixels("", name) == pixels(WITH, name), name)
+    end
+  end)
+
+  it_makes("reads OpenEXR of every packing, in tiles, layers and windows, as the other", function()
+    good("", "render film.lua -o a.exr --progress none")
+    local list = {}
+    for i, how in ipairs(exrs) do
+      list[i] = ("--pop --dup -d half --scanline %s -o %d.exr"):format(how, i)
+    end
+    local code, _, err = bench:inside("oiiotool a.exr --cut 61x33 --dup "
+      .. table.concat(list, " "))
+    assert.equal(0, code, err)
+    bench:write("film.lua", (SHEET:gsub("COUNT", #exrs)))
+    for name, with in pairs { other = "", own = WITH } do
+      good(with, "render film.lua -o - --depth 16 --trust --progress none >%s", name)
+    end
+    assert.is_true(bench:read "other" == bench:read "own")
+    for _, i in ipairs { 3, 4, 7, 8, 10, 12, 13, #exrs } do
+      local facts = ("info %d.exr"):format(i)
+      assert.equal(good("", facts), good(WITH, facts))
+    end
+  end)
+
+  it_makes("reads parts of OpenEXR by number and by name", function()
+    good("", "render film.lua -o a.exr --progress none")
+    local code, _, err = bench:inside("oiiotool a.exr --ch Z=R --attrib oiio:subimagename depth "
+      .. "a.exr --tile 16 16 --attrib oiio:subimagename light --siappend -o parts.exr")
+    assert.equal(0, code, err)
+    assert.equal(good("", "info parts.exr"), good(WITH, "info parts.exr"))
+    bench:write("film.lua", [[
+local celspan = require "celspan"
+local shown = {}
+for i, part in ipairs { {}, { subimage = 1 }, { layer = "light" } } do
+  shown[i] = celspan.rect { 0, 40 * i - 40, 61, 38, texture = celspan.picture {
+    file = "parts.exr", subimage = part.subimage, layer = part.layer, sampling = "nearest" } }
+end
+return celspan.film { size = { 61, 120 }, frame = function()
+  return celspan.rostrum { antialias = "none", celspan.cel(shown) }
+end }
+]])
+    for name, with in pairs { other = "", own = WITH } do
+      good(with, "render film.lua -o - --depth 16 --trust --progress none >%s", name)
+    end
+    assert.is_true(bench:read "other" == bench:read "own")
+  end)
+
+  it_makes("refuses OpenEXR that it does not read, with the reason", function()
+    good("", "render film.lua -o a.exr --progress none %s", ALPHA)
+    local code, _, err = bench:inside("oiiotool a.exr --ch R --compression none -o plain.exr "
+      .. "--compression dwaa -o dwa.exr")
+    assert.equal(0, code, err)
+    local plain = bench:read "plain.exr"
+    local channel = plain:find("R\0\1\0\0\0", 1, true)
+    local chunk = select(2, plain:find("\0\0\0\0" .. string.pack("<I4", 2 * 61), 1, true))
+    for name, bytes in pairs {
+      ["another size"] = plain:sub(1, channel + 9) .. string.char(61) .. plain:sub(channel + 11),
+      ["is corrupt or truncated"] = plain:sub(1, chunk - 4) .. "\9" .. plain:sub(chunk - 2),
+      ["needs OpenImageIO"] = bench:read "dwa.exr" } do -- later versions of OpenEXR read it
+      bench:write("bad.exr", bytes)
+      code, _, err = run(WITH, "convert bad.exr seen.png")
+      assert.truthy(code == 4 and err:find(name, 1, true) or name == "needs OpenImageIO", err)
     end
   end)
 

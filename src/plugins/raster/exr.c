@@ -1,353 +1,398 @@
-#include "plugins/raster/exr.h"
-
+/* OpenEXR, by OpenEXRCore: scan lines and tiles of every packing, chosen as plugins/oiio chooses.
+ *
+ *   chunk --library--> rows of channels as they are stored --put_rows--> raster of floats
+ *
+ * The library's own conversions to floats are not used: where one channel of four is read, they
+ * write the others, too. Beside the raster only one chunk is in memory. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
-#include <zlib.h>
+#define IMATH_HALF_NO_LOOKUP_TABLE
+#include <half.h>
+#include <openexr.h>
 
 #include "model/colour/transfer_names.h"
+#include "plugins/raster/raster.h"
 
-enum {
-  NAME = 256,    /* bytes of a name, with its end */
-  TILED = 0x200, /* flags behind the version */
-  DEEP = 0x800,
-  PARTS = 0x1000,
-  PACKED_NONE = 0,
-  PACKED_RUNS = 1
-};
-
-typedef struct channel {
-  char name[NAME];
-  cs_exr_type type;
-  int output; /* the channel of the raster; -1: it is not read */
-} channel;
-
-typedef struct window {
-  int32_t x0, y0, x1, y1; /* the last column and row are included */
-} window;
+typedef exr_attr_chlist_entry_t channel;
 
 typedef struct reading {
   const cs_raster_file *file;
-  size_t at;
-  bool is_over;      /* a read went beyond the end */
-  channel *channels; /* CS_PICTURE_CHANNELS; owned */
-  int count;
-  int packing;
-  window data, shown;
-  char colour[CS_PICTURE_SPACE];
   cs_raster *out;
   cs_picture_failure *failure;
-  unsigned char *rows, *scratch; /* of a chunk */
-  size_t row;                    /* bytes of one row */
+  exr_context_t exr;
+  int part;
+  const exr_attr_chlist_t *channels;          /* as they are stored */
+  const channel *sorted[CS_PICTURE_CHANNELS]; /* by `compare` */
+  const channel *chosen[4];                   /* for each channel of the raster; NULL: 1 */
+  exr_attr_box2i_t data, shown;               /* with their last columns and rows */
+  exr_decode_pipeline_t chunk;
+  exr_result_t (*unpack)(exr_decode_pipeline_t *chunk);
 } reading;
 
 static celspan_status fail(const reading *r, const char *text) {
   return cs_raster_fail(r->failure, CELSPAN_INPUT, "%s", text);
 }
 
-/* ---------------------------------------------------------------- bytes */
-
-static const unsigned char *take(reading *r, size_t size) {
-  r->is_over = r->is_over || size > r->file->size - r->at;
-  const unsigned char *bytes = r->file->bytes + r->at;
-  r->at += r->is_over ? 0 : size;
-  return r->is_over ? NULL : bytes;
+static celspan_status fail_by(const reading *r, exr_result_t result) {
+  if (result == EXR_ERR_OUT_OF_MEMORY)
+    return cs_raster_fail(r->failure, CELSPAN_NO_MEMORY, "out of memory");
+  return fail(r, result == EXR_ERR_FEATURE_NOT_IMPLEMENTED
+                     ? "is compressed in a way that needs OpenImageIO; save it with ZIP"
+                     : "is corrupt or truncated");
 }
 
-static uint32_t number_of(const unsigned char *bytes) {
-  return bytes ? (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 |
-                     (uint32_t)bytes[3] << 24
-               : 0;
+/* ---------------------------------------------------------------- the file in memory */
+
+static int64_t read_bytes(exr_const_context_t exr, void *user, void *out, uint64_t size,
+                          uint64_t offset, exr_stream_error_func_ptr_t report) {
+  const cs_raster_file *file = user;
+  uint64_t left = offset < file->size ? file->size - offset : 0, got = size < left ? size : left;
+  (void)exr, (void)report;
+  memcpy(out, file->bytes + (got ? offset : 0), (size_t)got);
+  return (int64_t)got;
 }
 
-static int32_t number(reading *r) { return (int32_t)number_of(take(r, 4)); }
-
-/* Reads a text up to its 0; an empty text ends a list. */
-static bool take_name(reading *r, char out[NAME]) {
-  const unsigned char *from = r->file->bytes + r->at;
-  size_t left = r->file->size - r->at;
-  const unsigned char *end = memchr(from, 0, left < NAME ? left : NAME);
-  out[0] = '\0';
-  r->is_over = r->is_over || !end;
-  if (r->is_over)
-    return false;
-  memcpy(out, from, (size_t)(end - from) + 1);
-  r->at += (size_t)(end - from) + 1;
-  return out[0] != '\0';
+static int64_t size_of(exr_const_context_t exr, void *user) {
+  (void)exr;
+  return (int64_t)((const cs_raster_file *)user)->size;
 }
 
-/* ---------------------------------------------------------------- the header */
+static void ignore(exr_const_context_t exr, exr_result_t result, const char *text) {
+  (void)exr, (void)result, (void)text;
+}
 
-static celspan_status read_channels(reading *r) {
-  char name[NAME];
-  while (take_name(r, name)) {
-    if (r->count == CS_PICTURE_CHANNELS)
-      return cs_raster_fail(r->failure, CELSPAN_LIMIT, "has more than %d channels",
-                            CS_PICTURE_CHANNELS);
-    channel *c = &r->channels[r->count++];
-    memcpy(c->name, name, NAME);
-    c->type = (cs_exr_type)number(r);
-    c->output = -1;
-    take(r, 4);
-    bool is_full = number(r) == 1;
-    is_full = number(r) == 1 && is_full;
-    if (!r->is_over && (c->type > CS_EXR_FLOAT || !is_full))
+/* What a damaged chunk leaves out is the same in every run. */
+static void *take_clear(size_t size) { return calloc(1, size); }
+
+/* ---------------------------------------------------------------- channels */
+
+/* The bytes of a name up to its last dot, after which there is the name in a layer. */
+static size_t layer_size(const channel *c) {
+  const char *dot = strrchr(c->name.str, '.');
+  return dot ? (size_t)(dot - c->name.str) + 1 : 0;
+}
+
+static bool is_named(const channel *c, const char *name) {
+  return strcasecmp(c->name.str + layer_size(c), name) == 0;
+}
+
+static int rank(const channel *c) {
+  static const char *const names[] = {"R",    "Red",  "G",  "Green", "B",     "Blue", "Y",
+                                      "real", "imag", "A",  "Alpha", "AR",    "RA",   "AG",
+                                      "GA",   "AB",   "BA", "Z",     "Depth", "Zback"};
+  int count = (int)(sizeof names / sizeof *names), i = 0;
+  while (i < count && !is_named(c, names[i]))
+    i++;
+  return i;
+}
+
+/* The order of OpenImageIO: by layers, then usual names before others. */
+static int compare(const void *left, const void *right) {
+  const channel *a = *(const channel *const *)left, *b = *(const channel *const *)right;
+  size_t sizes[] = {layer_size(a), layer_size(b)};
+  bool is_shorter = sizes[0] < sizes[1];
+  int order = strncmp(a->name.str, b->name.str, sizes[is_shorter ? 0 : 1]);
+  if (order == 0 && sizes[0] != sizes[1])
+    order = is_shorter ? -1 : 1;
+  if (order == 0)
+    order = rank(a) - rank(b);
+  return order ? order : a < b ? -1 : 1;
+}
+
+/* layer: the first `size` bytes of the name, with the dot. */
+static const channel *find(const reading *r, const char *layer, size_t size, const char *name) {
+  for (int i = 0; i < r->channels->num_channels; i++) {
+    const channel *c = r->sorted[i];
+    if (strncasecmp(c->name.str, layer, size) == 0 && strcasecmp(c->name.str + size, name) == 0)
+      return c;
+  }
+  return NULL;
+}
+
+/* The colours of a layer: three, or grey. Returns how many. */
+static int find_colours(const reading *r, const char *layer, size_t size, const channel *out[3]) {
+  static const char *const names[] = {"R", "G", "B"};
+  for (int i = 0; i < 3; i++)
+    out[i] = find(r, layer, size, names[i]);
+  if (out[0] && out[1] && out[2])
+    return 3;
+  out[0] = find(r, layer, size, "Y");
+  return out[0] ? 1 : 0;
+}
+
+/* Without a layer, channels of any names are colours, and the last one of two or four may be
+ * alpha. */
+static celspan_status choose_channels(reading *r, const char *name) {
+  char layer[CS_PICTURE_SPACE + 1] = "";
+  size_t size = name ? (size_t)snprintf(layer, sizeof layer, "%s.", name) : 0;
+  int stored = r->channels->num_channels;
+  int count = size < sizeof layer ? find_colours(r, layer, size, r->chosen) : 0;
+  if (!count && name)
+    return cs_raster_fail(r->failure, CELSPAN_INPUT, "has no layer \"%s\"", name);
+  if (!count) {
+    count = stored >= 3 ? 3 : 1;
+    memcpy(r->chosen, r->sorted, (size_t)count * sizeof *r->chosen);
+  }
+  const channel *alpha = find(r, layer, size, "A"), *last = r->sorted[stored - 1];
+  if (!alpha && !name && (stored == 2 || stored == 4) &&
+      (is_named(last, "A") || is_named(last, "Alpha")))
+    alpha = last;
+  r->out->is_multiplied = alpha != NULL;
+  r->out->lacks_alpha = !alpha && memcmp(&r->data, &r->shown, sizeof r->data) != 0;
+  r->chosen[count] = alpha;
+  r->out->channels = count + (alpha || r->out->lacks_alpha);
+  return CELSPAN_OK;
+}
+
+/* ---------------------------------------------------------------- parts */
+
+/* Whether a window is within the limits. Pixels beyond the display window are decoded, too. */
+static bool is_sane(exr_attr_box2i_t w) {
+  int64_t width = (int64_t)w.max.x - w.min.x + 1, height = (int64_t)w.max.y - w.min.y + 1;
+  return width >= 1 && height >= 1 && width <= CS_PICTURE_SIDE && height <= CS_PICTURE_SIDE &&
+         (uint64_t)(width * height) <= CS_RASTER_PIXELS;
+}
+
+static int32_t width_of(exr_attr_box2i_t w) { return w.max.x - w.min.x + 1; }
+
+static int32_t height_of(exr_attr_box2i_t w) { return w.max.y - w.min.y + 1; }
+
+static celspan_status open_part(reading *r, int part) {
+  exr_storage_t storage;
+  exr_result_t results[] = {
+      exr_get_storage(r->exr, part, &storage), exr_get_channels(r->exr, part, &r->channels),
+      exr_get_data_window(r->exr, part, &r->data), exr_get_display_window(r->exr, part, &r->shown)};
+  for (size_t i = 0; i < sizeof results / sizeof *results; i++)
+    if (results[i] != EXR_ERR_SUCCESS)
+      return fail_by(r, results[i]);
+  int count = r->channels->num_channels;
+  r->part = part;
+  if (storage == EXR_STORAGE_DEEP_SCANLINE || storage == EXR_STORAGE_DEEP_TILED)
+    return fail(r, "has deep data, which are not read: save it flattened");
+  if (!is_sane(r->data) || !is_sane(r->shown))
+    return cs_raster_fail(r->failure, CELSPAN_LIMIT, "has a window without pixels, or too large");
+  if (count < 1)
+    return fail(r, "is a picture without channels");
+  if (count > CS_PICTURE_CHANNELS)
+    return cs_raster_fail(r->failure, CELSPAN_LIMIT, "has %d channels; at most %d are read", count,
+                          CS_PICTURE_CHANNELS);
+  for (int i = 0; i < count; i++) {
+    r->sorted[i] = r->channels->entries + i;
+    if (r->sorted[i]->x_sampling != 1 || r->sorted[i]->y_sampling != 1)
       return fail(r, "has channels of another size than the picture, which are not read");
   }
+  qsort(r->sorted, (size_t)count, sizeof *r->sorted, compare);
   return CELSPAN_OK;
 }
 
-static window take_window(reading *r) {
-  window w;
-  w.x0 = number(r), w.y0 = number(r), w.x1 = number(r), w.y1 = number(r);
-  return w;
+/* What all channels have in common; FLOAT: they have different types. */
+static exr_pixel_type_t type_of(const reading *r) {
+  const channel *c = r->channels->entries;
+  for (int i = 1; i < r->channels->num_channels; i++)
+    if (c[i].pixel_type != c->pixel_type)
+      return EXR_PIXEL_FLOAT;
+  return c->pixel_type;
 }
 
-static void take_colour(reading *r, size_t size) {
-  const unsigned char *text = take(r, size);
-  if (text && size < sizeof r->colour)
-    memcpy(r->colour, text, size);
+static cs_picture_part *add_part(const reading *r, int subimage, const char *name, size_t size) {
+  static const char *const depths[] = {
+      [EXR_PIXEL_UINT] = "32", [EXR_PIXEL_HALF] = "half", [EXR_PIXEL_FLOAT] = "float"};
+  cs_picture_part *part = &r->out->parts[r->out->part_count++];
+  *part = (cs_picture_part){.subimage = subimage,
+                            .width = width_of(r->data),
+                            .height = height_of(r->data),
+                            .channels = r->channels->num_channels};
+  snprintf(part->name, sizeof part->name, "%.*s", (int)size, name);
+  snprintf(part->depth, sizeof part->depth, "%s", depths[type_of(r)]);
+  return part;
 }
 
-static void take_primaries(reading *r, cs_raster *out) {
-  for (int i = 0; i < 8; i++) {
-    uint32_t bits = (uint32_t)number(r);
-    memcpy(&out->primaries[i], &bits, sizeof bits);
+/* The layers of a part are groups of channels such as light.R, light.G, light.B. */
+static void add_layers(const reading *r) {
+  const channel *found[3];
+  for (int i = 0, end; i < r->channels->num_channels; i = end) {
+    const char *name = r->sorted[i]->name.str;
+    size_t size = layer_size(r->sorted[i]);
+    for (end = i + 1; end < r->channels->num_channels; end++)
+      if (layer_size(r->sorted[end]) != size || strncmp(r->sorted[end]->name.str, name, size) != 0)
+        break;
+    if (size > 1 && find_colours(r, name, size, found))
+      add_part(r, -1, name, size - 1)->channels = end - i;
   }
-  out->has_primaries = true;
 }
 
-static celspan_status read_attribute(reading *r, const char *name) {
-  char type[NAME];
-  take_name(r, type);
-  size_t size = (uint32_t)number(r), from = r->at;
-  celspan_status status = CELSPAN_OK;
-  if (strcmp(name, "channels") == 0)
-    status = read_channels(r);
-  else if (strcmp(name, "compression") == 0) {
-    const unsigned char *packing = take(r, 1);
-    r->packing = packing ? *packing : -1;
-  } else if (strcmp(name, "dataWindow") == 0)
-    r->data = take_window(r);
-  else if (strcmp(name, "displayWindow") == 0)
-    r->shown = take_window(r);
-  else if (strcmp(name, "celspan:colour") == 0)
-    take_colour(r, size);
-  else if (strcmp(name, "chromaticities") == 0 && size == sizeof r->out->primaries)
-    take_primaries(r, r->out);
-  r->at = from;
-  take(r, size);
-  return status;
-}
-
-static celspan_status read_header(reading *r) {
-  char name[NAME];
-  take(r, 4);
-  uint32_t version = (uint32_t)number(r);
-  if (version & (TILED | DEEP | PARTS))
-    return fail(r, "has tiles, deep data or several parts: reading them needs OpenImageIO");
-  r->packing = -1;
-  while (take_name(r, name)) {
-    celspan_status status = read_attribute(r, name);
-    if (status != CELSPAN_OK)
-      return status;
+/* Lists the parts up to the first that cannot be read, and opens the one that is asked for. */
+static celspan_status choose_part(reading *r) {
+  const char *layer = r->file->layer, *name;
+  int count = 0, chosen = layer ? 0 : r->file->subimage;
+  exr_get_count(r->exr, &count);
+  r->out->parts = calloc((size_t)count + CS_PICTURE_CHANNELS, sizeof *r->out->parts);
+  if (!r->out->parts)
+    return fail_by(r, EXR_ERR_OUT_OF_MEMORY);
+  for (int i = 0; i < count && open_part(r, i) == CELSPAN_OK; i++) {
+    bool has_name = exr_get_name(r->exr, i, &name) == EXR_ERR_SUCCESS;
+    add_part(r, i, has_name ? name : "", CS_PICTURE_SPACE);
+    if (i == 0)
+      add_layers(r);
+    if (layer && has_name && strcmp(name, layer) == 0) {
+      chosen = i;
+      layer = NULL;
+    }
   }
-  if (r->is_over || r->count == 0)
-    return fail(r, "is corrupt or truncated");
-  if (r->packing < PACKED_NONE || r->packing > CS_EXR_ROWS)
-    return fail(r, "is compressed in a way that needs OpenImageIO; save it with ZIP");
-  return CELSPAN_OK;
-}
-
-/* ---------------------------------------------------------------- the form */
-
-/* The channel of this name in the requested layer; -1: there is none. */
-static int find(const reading *r, const char *name) {
-  char whole[NAME + 2];
-  const char *layer = r->file->layer;
-  snprintf(whole, sizeof whole, "%s%s%s", layer ? layer : "", layer ? "." : "", name);
-  for (int i = 0; i < r->count; i++)
-    if (strcmp(r->channels[i].name, whole) == 0)
-      return i;
-  return -1;
-}
-
-static celspan_status choose_channels(reading *r) {
-  static const char *const colours[] = {"R", "G", "B"};
-  int grey = find(r, "Y"), alpha = find(r, "A");
-  bool has_colours = find(r, "R") >= 0 && find(r, "G") >= 0 && find(r, "B") >= 0;
-  if (!has_colours && grey < 0 && r->file->layer)
-    return cs_raster_fail(r->failure, CELSPAN_INPUT, "has no layer \"%s\"", r->file->layer);
-  int count = has_colours ? 3 : 1;
-  for (int i = 0; i < count; i++)
-    r->channels[has_colours ? find(r, colours[i]) : grey >= 0 ? grey : 0].output = i;
-  if (alpha >= 0)
-    r->channels[alpha].output = count++;
-  r->out->channels = count;
-  r->out->bits = 32;
-  r->out->is_multiplied = alpha >= 0;
-  return CELSPAN_OK;
+  if (chosen >= count)
+    return cs_raster_fail(r->failure, CELSPAN_INPUT, "has no subimage %d", chosen);
+  celspan_status status = open_part(r, chosen);
+  return status == CELSPAN_OK ? choose_channels(r, layer) : status;
 }
 
 /* Codes in another space are of no use without it; light is, if its primaries are known. */
 static void choose_colour(reading *r) {
-  celspan_transfer own = CELSPAN_TRANSFER_LINEAR;
-  bool is_own = cs_transfer_parse(r->colour, &own), is_known = is_own || r->out->has_primaries;
-  r->out->colour = is_known || !r->colour[0] ? cs_transfer_name(own) : CS_PICTURE_OTHER;
-  r->out->names_colour = r->colour[0] && (is_own || !is_known);
-  if (!is_own)
-    memcpy(r->out->space, r->colour, sizeof r->colour);
+  celspan_transfer own;
+  exr_attr_chromaticities_t primaries;
+  const char *text = NULL;
+  cs_raster *out = r->out;
+  int32_t size;
+  out->bits = 32;
+  out->stored = r->channels->num_channels;
+  out->is_whole = type_of(r) == EXR_PIXEL_UINT;
+  out->has_primaries =
+      exr_attr_get_chromaticities(r->exr, r->part, "chromaticities", &primaries) == EXR_ERR_SUCCESS;
+  if (out->has_primaries)
+    memcpy(out->primaries, &primaries, sizeof out->primaries);
+  bool has_name =
+      exr_attr_get_string(r->exr, r->part, "celspan:colour", &size, &text) == EXR_ERR_SUCCESS &&
+      text && *text;
+  bool is_own = has_name && cs_transfer_parse(text, &own);
+  bool is_other = has_name && !is_own && !out->has_primaries;
+  out->colour = is_own          ? cs_transfer_name(own)
+                : is_other      ? CS_PICTURE_OTHER
+                : out->is_whole ? "srgb"
+                                : "linear";
+  out->names_colour = is_own || is_other;
+  if (has_name && !is_own)
+    snprintf(out->space, sizeof out->space, "%s", text);
+  exr_attr_get_int(r->exr, r->part, "Orientation", &out->orientation);
 }
 
-/* ---------------------------------------------------------------- rows */
+/* ---------------------------------------------------------------- pixels */
 
-/* The reverse of what is done before compression: changes `from`, and fills `out`. */
-static void restore(unsigned char *from, size_t size, unsigned char *out) {
-  for (size_t i = 1; i < size; i++)
-    from[i] = (unsigned char)(from[i] + from[i - 1] - 128);
-  for (size_t i = 0; i < size; i++)
-    out[i] = from[i / 2 + (i % 2 ? (size + 1) / 2 : 0)];
-}
-
-static bool unpack_runs(const unsigned char *from, size_t size, unsigned char *out, size_t room) {
-  size_t done = 0;
-  for (size_t at = 0; at < size;) {
-    int length = (signed char)from[at++];
-    size_t count = length < 0 ? (size_t)-length : (size_t)length + 1;
-    if (count > room - done || (length < 0 ? count : 1) > size - at)
-      return false;
-    if (length < 0)
-      memcpy(out + done, from + at, count);
-    else
-      memset(out + done, from[at], count);
-    at += length < 0 ? count : 1;
-    done += count;
-  }
-  return done == room;
-}
-
-/* The rows of a chunk before they were compressed. */
-static bool unpack(reading *r, const unsigned char *from, size_t size, size_t room) {
-  uLongf got = (uLongf)room;
-  if (size == room) { /* stored without compression, which would not have made them smaller */
-    memcpy(r->rows, from, size);
-    return true;
-  }
-  bool is_good = r->packing == PACKED_RUNS ? unpack_runs(from, size, r->scratch, room)
-                 : r->packing >= CS_EXR_ROW
-                     ? uncompress(r->scratch, &got, from, (uLong)size) == Z_OK && got == room
-                     : false;
-  if (is_good)
-    restore(r->scratch, room, r->rows);
-  return is_good;
-}
-
-static float half_value(uint32_t half) {
-  uint32_t sign = (half & 0x8000u) << 16, exponent = half >> 10 & 31u, part = half & 1023u;
+/* Whole numbers are shares of the largest one, as OpenImageIO has them. */
+static float value_of(const unsigned char *bytes, exr_pixel_type_t type) {
+  uint32_t whole;
   float value;
-  if (exponent == 0) {
-    value = (float)part / 16777216;
-    return sign ? -value : value;
+  if (type == EXR_PIXEL_HALF)
+    return imath_half_to_float((uint16_t)(bytes[0] | bytes[1] << 8));
+  memcpy(&whole, bytes, sizeof whole);
+  memcpy(&value, bytes, sizeof value);
+  return type == EXR_PIXEL_UINT ? (float)(whole / 4294967295.0) : value;
+}
+
+/* Puts a row of a channel, from column `left` of the display window on. */
+static void put_row(const reading *r, const channel *c, const unsigned char *row, int64_t left,
+                    int64_t y) {
+  int64_t from = left < 0 ? -left : 0, room = r->out->width - left, width = r->chunk.chunk.width;
+  size_t count = (size_t)r->out->channels, size = c && c->pixel_type == EXR_PIXEL_HALF ? 2 : 4;
+  float *out = (float *)r->out->pixels + (size_t)y * (size_t)r->out->width * count;
+  for (size_t i = 0; i < count; i++)
+    for (int64_t x = from; r->chosen[i] == c && x < (room < width ? room : width); x++)
+      out[(size_t)(x + left) * count + i] = c ? value_of(row + (size_t)x * size, c->pixel_type) : 1;
+}
+
+/* Puts the chunk that was read, whose first pixel is there in the display window. */
+static void put_rows(const reading *r, int64_t left, int64_t top) {
+  const exr_chunk_info_t *chunk = &r->chunk.chunk;
+  const unsigned char *from = r->chunk.unpacked_buffer;
+  for (int64_t y = top; y < top + chunk->height; y++) {
+    bool is_shown = y >= 0 && y < r->out->height;
+    for (int i = 0; i < r->channels->num_channels; i++) {
+      const channel *c = r->channels->entries + i;
+      if (is_shown)
+        put_row(r, c, from, left, y);
+      from += (size_t)chunk->width * (c->pixel_type == EXR_PIXEL_HALF ? 2 : 4);
+    }
+    if (is_shown && r->out->lacks_alpha)
+      put_row(r, NULL, NULL, left, y);
   }
-  uint32_t bits = sign | (exponent == 31 ? 255u : exponent + 112) << 23 | part << 13;
-  memcpy(&value, &bits, sizeof value);
-  return value;
 }
 
-static float value_of(const unsigned char *bytes, cs_exr_type type) {
-  float value;
-  if (type == CS_EXR_HALF)
-    return half_value((uint32_t)bytes[0] | (uint32_t)bytes[1] << 8);
-  uint32_t bits = number_of(bytes);
-  if (type == CS_EXR_WHOLE)
-    return (float)bits;
-  memcpy(&value, &bits, sizeof value);
-  return value;
-}
-
-static size_t size_of(cs_exr_type type) { return type == CS_EXR_HALF ? 2 : 4; }
-
-/* Copies a row of the data window into the display window. */
-static void put_row(const reading *r, const unsigned char *row, int64_t y) {
-  int64_t width = (int64_t)r->data.x1 - r->data.x0 + 1, left = (int64_t)r->data.x0 - r->shown.x0;
-  int count = r->out->channels;
-  float *out = (float *)r->out->pixels + (size_t)y * (size_t)r->out->width * (size_t)count;
-  for (int i = 0; i < r->count; row += (size_t)width * size_of(r->channels[i].type), i++) {
-    const channel *c = &r->channels[i];
-    int64_t from = left < 0 ? -left : 0;
-    int64_t to = left + width > r->out->width ? r->out->width - left : width;
-    for (int64_t x = from; x < to && c->output >= 0; x++)
-      out[(x + left) * count + c->output] = value_of(row + (size_t)x * size_of(c->type), c->type);
+/* Reads a chunk and puts it. A chunk that is as large as its pixels is not packed, whatever the
+ * library believes of B44. A smaller one is packed, or else damaged. */
+static exr_result_t read_chunk(reading *r, const exr_chunk_info_t *info, int64_t x, int64_t y) {
+  bool is_packed = info->packed_size != info->unpacked_size;
+  exr_result_t result = EXR_ERR_SUCCESS;
+  if (r->chunk.context)
+    result = exr_decoding_update(r->exr, r->part, info, &r->chunk);
+  else {
+    result = exr_decoding_initialize(r->exr, r->part, info, &r->chunk);
+    if (result == EXR_ERR_SUCCESS)
+      result = exr_decoding_choose_default_routines(r->exr, r->part, &r->chunk);
+    r->unpack = r->chunk.decompress_fn;
+    r->chunk.unpack_and_convert_fn = NULL;
   }
+  r->chunk.decompress_fn = is_packed ? r->unpack : NULL;
+  if (result == EXR_ERR_SUCCESS)
+    result = is_packed && !r->unpack ? EXR_ERR_CORRUPT_CHUNK
+                                     : exr_decoding_run(r->exr, r->part, &r->chunk);
+  if (result == EXR_ERR_SUCCESS)
+    put_rows(r, x + r->data.min.x - r->shown.min.x, y + r->data.min.y - r->shown.min.y);
+  return result;
 }
 
-static bool read_chunk(reading *r, uint64_t place, int lines) {
-  r->at = place < r->file->size ? (size_t)place : r->file->size;
-  int64_t y = (int64_t)number(r) - r->data.y0, height = (int64_t)r->data.y1 - r->data.y0 + 1;
-  size_t size = (uint32_t)number(r);
-  const unsigned char *from = take(r, size);
-  if (!from || y < 0 || y >= height)
-    return false;
-  int64_t count = height - y < lines ? height - y : lines;
-  if (!unpack(r, from, size, (size_t)count * r->row))
-    return false;
-  for (int64_t i = 0; i < count; i++) {
-    int64_t shown = y + i + r->data.y0 - r->shown.y0;
-    if (shown >= 0 && shown < r->out->height)
-      put_row(r, r->rows + (size_t)i * r->row, shown);
-  }
-  return true;
+/* Scan lines are chunks as wide as the picture, whose height the library says. */
+static exr_result_t read_chunks(reading *r) {
+  exr_storage_t storage;
+  exr_chunk_info_t info;
+  uint32_t w = (uint32_t)width_of(r->data), h = 1;
+  exr_result_t result = exr_get_storage(r->exr, r->part, &storage);
+  bool is_tiled = result == EXR_ERR_SUCCESS && storage == EXR_STORAGE_TILED;
+  if (is_tiled)
+    result = exr_get_tile_descriptor(r->exr, r->part, &w, &h, NULL, NULL);
+  if (w < 1 || w > INT32_MAX || h < 1 || h > INT32_MAX)
+    result = EXR_ERR_FILE_BAD_HEADER;
+  for (int64_t y = 0; y < height_of(r->data) && result == EXR_ERR_SUCCESS; y += h)
+    for (int64_t x = 0; x < width_of(r->data) && result == EXR_ERR_SUCCESS; x += w) {
+      result =
+          is_tiled
+              ? exr_read_tile_chunk_info(r->exr, r->part, (int)(x / w), (int)(y / h), 0, 0, &info)
+              : exr_read_scanline_chunk_info(r->exr, r->part, (int)(y + r->data.min.y), &info);
+      if (result == EXR_ERR_SUCCESS)
+        result = read_chunk(r, &info, x, y);
+      if (result == EXR_ERR_SUCCESS && !is_tiled)
+        h = (uint32_t)info.height;
+    }
+  return result;
 }
 
-static celspan_status read_chunks(reading *r) {
-  int lines = r->packing == CS_EXR_ROWS ? CS_EXR_LINES : 1;
-  int64_t height = (int64_t)r->data.y1 - r->data.y0 + 1,
-          width = (int64_t)r->data.x1 - r->data.x0 + 1;
-  for (int i = 0; i < r->count; i++)
-    r->row += (size_t)width * size_of(r->channels[i].type);
-  int64_t chunks = (height + lines - 1) / lines;
-  size_t list = r->at;
-  if (!take(r, (size_t)chunks * 8))
-    return fail(r, "is truncated");
-  r->rows = malloc(r->row * (size_t)lines);
-  r->scratch = malloc(r->row * (size_t)lines);
-  if (!r->rows || !r->scratch)
-    return cs_raster_fail(r->failure, CELSPAN_NO_MEMORY, "out of memory");
-  for (int64_t i = 0; i < chunks; i++) {
-    const unsigned char *place = r->file->bytes + list + 8 * (size_t)i;
-    if (!read_chunk(r, number_of(place) | (uint64_t)number_of(place + 4) << 32, lines))
-      return fail(r, "is corrupt or truncated");
-  }
-  return CELSPAN_OK;
-}
-
-/* Whether a window is within the limits; its parts outside of the display window are not kept. */
-static bool is_sane(window w) {
-  int64_t width = (int64_t)w.x1 - w.x0 + 1, height = (int64_t)w.y1 - w.y0 + 1;
-  return width >= 1 && height >= 1 && width <= CS_PICTURE_SIDE && height <= CS_PICTURE_SIDE &&
-         (uint64_t)(width * height) <= CS_RASTER_PIXELS;
+static celspan_status read_opened(reading *r) {
+  celspan_status status = choose_part(r);
+  if (status != CELSPAN_OK)
+    return status;
+  choose_colour(r);
+  status = cs_raster_make(r->out, (uint64_t)width_of(r->shown), (uint64_t)height_of(r->shown),
+                          r->failure);
+  if (status != CELSPAN_OK)
+    return status;
+  exr_result_t result = read_chunks(r);
+  exr_decoding_destroy(r->exr, &r->chunk);
+  return result == EXR_ERR_SUCCESS ? CELSPAN_OK : fail_by(r, result);
 }
 
 celspan_status cs_raster_exr(const cs_raster_file *file, cs_raster *out,
                              cs_picture_failure *failure) {
   reading r = {.file = file, .out = out, .failure = failure};
-  r.channels = malloc(CS_PICTURE_CHANNELS * sizeof *r.channels);
-  if (!r.channels)
-    return cs_raster_fail(failure, CELSPAN_NO_MEMORY, "out of memory");
-  celspan_status status = read_header(&r);
-  if (status == CELSPAN_OK)
-    status = choose_channels(&r);
-  choose_colour(&r);
-  if (status == CELSPAN_OK && !(is_sane(r.data) && is_sane(r.shown)))
-    status = cs_raster_fail(failure, CELSPAN_LIMIT, "has a window without pixels, or too large");
-  if (status == CELSPAN_OK)
-    status = cs_raster_make(out, (uint64_t)((int64_t)r.shown.x1 - r.shown.x0 + 1),
-                            (uint64_t)((int64_t)r.shown.y1 - r.shown.y0 + 1), failure);
-  if (status == CELSPAN_OK)
-    status = read_chunks(&r);
-  free(r.channels);
-  free(r.rows);
-  free(r.scratch);
+  cs_raster_file readable = *file;
+  exr_context_initializer_t start = EXR_DEFAULT_CONTEXT_INITIALIZER;
+  start.error_handler_fn = ignore;
+  start.alloc_fn = take_clear;
+  start.user_data = &readable;
+  start.read_fn = read_bytes;
+  start.size_fn = size_of;
+  start.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+  exr_result_t result = exr_start_read(&r.exr, "picture", &start);
+  celspan_status status = result == EXR_ERR_SUCCESS ? read_opened(&r) : fail_by(&r, result);
+  exr_finish(&r.exr);
   return status;
 }

@@ -71,8 +71,8 @@ static celspan_status decode(const cs_raster_file *file, cs_raster *out,
     if (!is_it)
       continue;
     *out = (cs_raster){.format = formats[i].format, .orientation = 1};
-    bool has_parts = formats[i].decode == cs_raster_tiff,
-         has_layers = formats[i].decode == cs_raster_exr;
+    bool has_layers = formats[i].decode == cs_raster_exr,
+         has_parts = has_layers || formats[i].decode == cs_raster_tiff;
     if (file->subimage && !has_parts)
       return cs_raster_fail(failure, CELSPAN_INPUT, "has no subimage %d", file->subimage);
     if (file->layer && !has_layers)
@@ -95,9 +95,9 @@ static void describe(const cs_raster *raster, const struct stat *found, cs_pictu
   *header = (cs_picture_header){
       .info = {.width = turns ? raster->height : raster->width,
                .height = turns ? raster->width : raster->height,
-               .channels = raster->channels,
-               .has_alpha = has_alpha(raster),
-               .is_float = raster->bits == 32},
+               .channels = raster->stored ? raster->stored : raster->channels,
+               .has_alpha = has_alpha(raster) && !raster->lacks_alpha,
+               .is_float = raster->bits == 32 && !raster->is_whole},
       .alpha = raster->is_multiplied ? CS_PICTURE_ALPHA_CODED : CS_PICTURE_ALPHA_STRAIGHT,
       .bits = raster->bits == 32 ? 0 : raster->bits,
       .is_whole = true,
@@ -224,7 +224,11 @@ static celspan_status list_reader(cs_picture_reader *reader,
            raster->bits == 32   ? "float"
            : raster->bits == 16 ? "16"
                                 : "8");
-  put(user, &part);
+  for (int i = 0; i < raster->part_count; i++)
+    if (!put(user, &raster->parts[i]))
+      return CELSPAN_OK;
+  if (!raster->part_count)
+    put(user, &part);
   return CELSPAN_OK;
 }
 

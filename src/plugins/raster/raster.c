@@ -35,5 +35,6 @@ celspan_status cs_raster_make(cs_raster *raster, uint64_t width, uint64_t height
 
 void cs_raster_finish(cs_raster *raster) {
   free(raster->pixels);
-  raster->pixels = NULL;
+  free(raster->parts);
+  *raster = (cs_raster){.pixels = NULL};
 }

@@ -19,10 +19,15 @@ typedef struct cs_raster {
   bool names_colour, has_primaries;
   float primaries[8];
   int32_t width, height;
-  int channels;    /* in `pixels`: 1 grey, 2 grey and alpha, 3 colours, 4 colours and alpha */
-  int bits;        /* of a value: 8, 16, or 32 for floats */
-  int orientation; /* TIFF's: 1 upright .. 8 */
+  int channels;     /* in `pixels`: 1 grey, 2 grey and alpha, 3 colours, 4 colours and alpha */
+  int bits;         /* of a value: 8, 16, or 32 for floats */
+  bool is_whole;    /* the floats are shares of whole numbers in the file */
+  bool lacks_alpha; /* the file has none: that in `pixels` says where the file has pixels */
+  int orientation;  /* TIFF's: 1 upright .. 8 */
   bool is_multiplied;
+  cs_picture_part *parts; /* what else is in the file; owned; NULL: nothing */
+  int part_count;
+  int stored;   /* channels in the file; 0: those in `pixels` */
   void *pixels; /* rows from the top, interleaved, in the machine's byte order */
 } cs_raster;
 
