@@ -9,6 +9,10 @@
  *     blue     [ b b b b b b b b   b b b b ...
  *     through  [ t t t t t t t t   t t t t ...     transmission
  *
+ * Both layouts remain. Without this one, a frame of scripts/demo.lua takes 3.1 % more instructions
+ * (171.1 million instead of 166.0, at 1280 x 720). Without over_row.h, this one would need a
+ * transmission for each channel, groups, keys, mattes and blend modes.
+ *
  * Invariant: the arithmetic is that of over_row.h, so the bits are the same.
  */
 #pragma once
