@@ -143,8 +143,21 @@ typedef struct celspan_nurbs_desc { size_t struct_size; const celspan_point *poi
   *weights; size_t point_count; int degree; const double *knots; size_t knot_count;
   celspan_nurbs_closure closure; celspan_rule rule; celspan_texture *texture; } celspan_nurbs_desc;
 void celspan_nurbs_desc_default(celspan_nurbs_desc *out, size_t struct_size);
+typedef struct celspan_contour { const celspan_point *points; size_t point_count; bool closed; }
+  celspan_contour;
+typedef struct celspan_contours celspan_contours;
+celspan_status celspan_contours_create(celspan_context *context, celspan_contours **out);
+void celspan_contours_move_to(celspan_contours *contours, double x, double y);
+void celspan_contours_line_to(celspan_contours *contours, double x, double y);
+void celspan_contours_cubic_to(celspan_contours *contours, double x1, double y1, double x2, double
+  y2, double x, double y);
+void celspan_contours_close(celspan_contours *contours);
+celspan_status celspan_contours_get(celspan_contours *contours, const celspan_contour **out, size_t
+  *count);
+void celspan_contours_destroy(celspan_contours *contours);
 typedef struct celspan_path_desc { size_t struct_size; const char *data; celspan_rule rule;
-  celspan_texture *texture; } celspan_path_desc;
+  celspan_texture *texture; const celspan_contour *contours; size_t contour_count; }
+  celspan_path_desc;
 void celspan_path_desc_default(celspan_path_desc *out, size_t struct_size);
 typedef enum celspan_stroke_cap { CELSPAN_STROKE_CAP_BUTT = 0, CELSPAN_STROKE_CAP_ROUND,
   CELSPAN_STROKE_CAP_SQUARE } celspan_stroke_cap;
@@ -156,7 +169,8 @@ typedef struct celspan_stroke_desc { size_t struct_size; const celspan_point *po
   *widths; size_t point_count; int degree; bool closed; const char *data; celspan_object *outline;
   double width; celspan_stroke_cap cap; celspan_stroke_join join; double miter; const double
   *dashes; size_t dash_count; double dash_offset; double taper[2]; double from, to; celspan_texture
-  *texture; celspan_stroke_profile profile; } celspan_stroke_desc;
+  *texture; celspan_stroke_profile profile; const celspan_contour *contours; size_t contour_count;
+  } celspan_stroke_desc;
 void celspan_stroke_desc_default(celspan_stroke_desc *out, size_t struct_size);
 typedef enum celspan_fit { CELSPAN_FIT_FILL = 0, CELSPAN_FIT_CONTAIN, CELSPAN_FIT_COVER }
   celspan_fit;

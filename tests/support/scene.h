@@ -99,7 +99,7 @@ static inline celspan_object *studio_polygon(studio *s, const celspan_point *poi
 }
 
 static inline celspan_object *studio_path(studio *s, const char *data, celspan_texture *texture) {
-  celspan_path_desc desc = {sizeof desc, data, CELSPAN_RULE_NONZERO, texture};
+  const celspan_path_desc desc = {.struct_size = sizeof desc, .data = data, .texture = texture};
   STUDIO_TAKE(s, objects, object_count, celspan_object,
               celspan_object_create_path(s->context, &desc, &made));
 }

@@ -115,8 +115,9 @@ static void test_outline_doors(studio *s) {
       .struct_size = sizeof nurbs, .degree = 3, .points = points, .point_count = 4};
   REFUSED(s, celspan_object_create_nurbs(s->context, &nurbs, &out),
           "nurbs: points[4].x must be a finite number, got nan");
-  celspan_path_desc path = {sizeof path, NULL, CELSPAN_RULE_NONZERO, NULL};
-  REFUSED(s, celspan_object_create_path(s->context, &path, &out), "path: d is missing");
+  celspan_path_desc path = {.struct_size = sizeof path};
+  REFUSED(s, celspan_object_create_path(s->context, &path, &out),
+          "path: one of d and contours must be given");
   path.data = "M0 0 h1e12 h1e12 h1e12 v5";
   CHECK(celspan_object_create_path(s->context, &path, &out) == CELSPAN_BAD_ARGUMENT);
   celspan_scanline_desc scanline = {.struct_size = sizeof scanline, .bounds = {0, 0, 1, 1}};
@@ -681,11 +682,11 @@ static celspan_status build_primitives(celspan_context *context, everything *all
                                                         .points = square,
                                                         .point_count = 4},
                                   &all->objects[4]));
-  CS_TRY(celspan_object_create_path(context,
-                                    &(celspan_path_desc){sizeof(celspan_path_desc),
-                                                         "M0 0 C 1 2 3 4 5 6 A 3 3 0 1 1 2 2Z", 0,
-                                                         NULL},
-                                    &all->objects[5]));
+  CS_TRY(celspan_object_create_path(
+      context,
+      &(celspan_path_desc){.struct_size = sizeof(celspan_path_desc),
+                           .data = "M0 0 C 1 2 3 4 5 6 A 3 3 0 1 1 2 2Z"},
+      &all->objects[5]));
   CS_TRY(celspan_object_create_scanline(
       context,
       &(celspan_scanline_desc){

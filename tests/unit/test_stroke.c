@@ -702,11 +702,11 @@ static void test_object_stroke(celspan_context *context) {
   CHECK(celspan_object_stroke(context, pale, &desc, &none) == CELSPAN_BAD_ARGUMENT);
   desc.data = path.data;
   CHECK(celspan_object_create_stroke(context, &desc, &none) == CELSPAN_BAD_ARGUMENT);
-  CHECK(strstr(celspan_context_error(context), "only one of points, d and outline"));
+  CHECK(strstr(celspan_context_error(context), "only one of points, d, outline and contours"));
   desc.data = NULL;
   desc.points = NULL;
   CHECK(celspan_object_create_stroke(context, &desc, &none) == CELSPAN_BAD_ARGUMENT);
-  CHECK(strstr(celspan_context_error(context), "one of points, d and outline"));
+  CHECK(strstr(celspan_context_error(context), "one of points, d, outline and contours"));
   celspan_object *both[2] = {square, large}, *joined = NULL;
   CHECK(celspan_object_create_boolean(context, CELSPAN_OPERATOR_UNION, both, 2, &joined) ==
         CELSPAN_OK);

@@ -12,7 +12,7 @@
  *   Order        later is nearer the camera, in every list.
  *   Colour       linear light, float, wherever it is given. What comes out is premultiplied RGBA in
  *                the frame's working space, which is linear light unless the frame says otherwise.
- *   Angles       radians, clockwise on screen.
+ *   Angles       radians, clockwise on screen; those of a blur are degrees, as in scripts.
  *   Matrices     row-major 3x3, column vectors: x' = (a x + b y + c)/(g x + h y + i).
  *   Intervals    [x0, x1) is half-open everywhere.
  *
@@ -602,11 +602,62 @@ typedef struct celspan_nurbs_desc {
 CELSPAN_DESCRIPTION(celspan_nurbs_desc)
 #define CELSPAN_NURBS_DESC (celspan_nurbs_desc_initial())
 
+/* A line of straight pieces and cubics, in the units of the object that it becomes. It begins at
+ * its first point. Each piece then has three: two control points, and its end. A piece whose
+ * control points are equal to its two ends is straight.
+ *
+ *       1 o - - - o 2
+ *        .         .         A cubic from 0 to 3, and a straight piece from 3 to 6, whose control
+ *     0 *         3 * 4      points are 4, which is equal to 3, and 5, which is equal to 6.
+ *                    |
+ *                  5 * 6     point_count is 7
+ */
+typedef struct celspan_contour {
+  const celspan_point *points;
+  size_t point_count; /* 1, and 3 more for each piece */
+  bool closed;        /* a stroke of it is joined at its ends, with a straight piece between them if
+                       * they differ; a path is closed in any case */
+} celspan_contour;
+
+/* Contours that are drawn point by point, for programs that do not keep arrays of them:
+ *
+ *   celspan_contours_move_to(contours, 0, 0);
+ *   celspan_contours_line_to(contours, 90, 0);
+ *   celspan_contours_cubic_to(contours, 90, 50, 50, 90, 0, 90);
+ *   celspan_contours_close(contours);
+ *   status = celspan_contours_get(contours, &desc.contours, &desc.contour_count);
+ *
+ * Numbers are not checked before an object is made of them. If memory runs out,
+ * celspan_contours_get says so. Only for the thread of the context, which must outlive them. */
+typedef struct celspan_contours celspan_contours;
+
+/* *out: new, without contours. Errors: NO_MEMORY. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_contours_create(celspan_context *context,
+                                                                   celspan_contours **out);
+/* Begins a contour. */
+CELSPAN_API void celspan_contours_move_to(celspan_contours *contours, double x, double y);
+/* A piece from the current point. Where there is none, a contour begins at the first point given;
+ * and after a contour was closed, at the point where that one began. */
+CELSPAN_API void celspan_contours_line_to(celspan_contours *contours, double x, double y);
+CELSPAN_API void celspan_contours_cubic_to(celspan_contours *contours, double x1, double y1,
+                                           double x2, double y2, double x, double y);
+/* Closes the contour that was begun last; nothing if there is none, or if it is closed. */
+CELSPAN_API void celspan_contours_close(celspan_contours *contours);
+/* *out, *count: all contours, which are valid until more is drawn or the contours are destroyed.
+ * *out is never NULL. Errors: NO_MEMORY. */
+CELSPAN_API CELSPAN_CHECKED celspan_status celspan_contours_get(celspan_contours *contours,
+                                                                const celspan_contour **out,
+                                                                size_t *count);
+CELSPAN_API void celspan_contours_destroy(celspan_contours *contours); /* NULL is ignored */
+
+/* Of data and contours, one is given. */
 typedef struct celspan_path_desc {
   size_t struct_size;
   const char *data; /* SVG path data; open subpaths are closed; copied */
   celspan_rule rule;
   celspan_texture *texture;
+  const celspan_contour *contours; /* NULL: not given; copied */
+  size_t contour_count;            /* 0: nothing is drawn */
 } celspan_path_desc;
 
 CELSPAN_DESCRIPTION(celspan_path_desc)
@@ -630,10 +681,10 @@ typedef enum celspan_stroke_profile {
   CELSPAN_STROKE_PROFILE_ROUND         /* u (2 - u): no corner where the taper ends */
 } celspan_stroke_profile;
 
-/* A line and its width: of points, data and outline, one is given. The sides are the envelope of a
- * disc of that width that moves along the line, caps and joins have the width there, and a smooth
- * point has no join. The outline is made again for every frame, as fine as that frame needs.
- * Lengths are measured in the stroke's own units, along the line. */
+/* A line and its width: of points, data, outline and contours, one is given. The sides are the
+ * envelope of a disc of that width that moves along the line, caps and joins have the width there,
+ * and a smooth point has no join. The outline is made again for every frame, as fine as that frame
+ * needs. Lengths are measured in the stroke's own units, along the line. */
 typedef struct celspan_stroke_desc {
   size_t struct_size;
   const celspan_point *points; /* of a spline, clamped or, when closed, periodic; copied */
@@ -656,7 +707,9 @@ typedef struct celspan_stroke_desc {
                           * 0, scaled down together when it is shorter; not with dashes; 0 0 */
   double from, to;      /* the part of the whole length that is drawn, clamped to 0..1; 0 and 1 */
   celspan_texture *texture;
-  celspan_stroke_profile profile; /* of tapers */
+  celspan_stroke_profile profile;  /* of tapers */
+  const celspan_contour *contours; /* as of a path */
+  size_t contour_count;
 } celspan_stroke_desc;
 
 CELSPAN_DESCRIPTION(celspan_stroke_desc)

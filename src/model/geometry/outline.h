@@ -81,7 +81,7 @@ CELSPAN_CHECKED celspan_status cs_outline_nurbs(celspan_context *context, cs_out
 /* Errors: BAD_ARGUMENT naming the offset and the expected input. */
 CELSPAN_CHECKED celspan_status cs_outline_path(celspan_context *context, cs_outline *outline,
                                                const char *data);
-/* The contours that path data close with Z, and the pieces that continue the arc of the previous
+/* The contours of a line that are closed, and the pieces that continue the arc of the previous
  * piece; both ascending; finish frees them. */
 typedef struct cs_outline_closed {
   uint32_t *contours, *inner;
@@ -95,6 +95,11 @@ void cs_outline_closed_finish(cs_outline_closed *closed, cs_memory *memory);
  * it makes a line of no length. Errors: as above. */
 CELSPAN_CHECKED celspan_status cs_outline_path_open(celspan_context *context, cs_outline *outline,
                                                     cs_outline_closed *closed, const char *data);
+/* closed: of a line, gets the contours that are flagged; NULL: all are closed. A contour of one
+ * point makes a line of no length if it is closed, and else nothing. Errors: NO_MEMORY, LIMIT. */
+CELSPAN_CHECKED celspan_status cs_outline_contours(celspan_context *context, cs_outline *outline,
+                                                   cs_outline_closed *closed,
+                                                   const celspan_contour *contours, size_t count);
 
 /* An outline that will not change, in one block with its arrays: it has no room to grow. The
  * original does not change. Errors: NO_MEMORY. */

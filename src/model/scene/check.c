@@ -160,3 +160,47 @@ celspan_status cs_check_list(celspan_context *context, const char *noun, const c
                    field, most);
   return count > 0 ? cs_check_given(context, noun, field, items) : CELSPAN_OK;
 }
+
+celspan_status cs_check_one(celspan_context *context, const char *noun, const char *ways,
+                            int given) {
+  if (given == 1)
+    return CELSPAN_OK;
+  return cs_fail(context, CELSPAN_BAD_ARGUMENT, "%s: %s of %s must be given", noun,
+                 given == 0 ? "one" : "only one", ways);
+}
+
+/* ---------------------------------------------------------------- contours */
+
+/* number: of the contour; place: of the coordinate in it, from 0. */
+static celspan_status check_coordinate(celspan_context *context, const char *noun, size_t number,
+                                       size_t place, double value) {
+  char name[NAME_SIZE];
+  if (cs_number_is_sane(value))
+    return CELSPAN_OK;
+  snprintf(name, sizeof name, "contours[%zu][%zu]", number, place + 1);
+  return cs_check_number(context, noun, name, value);
+}
+
+static celspan_status check_contour(celspan_context *context, const char *noun, size_t number,
+                                    const celspan_contour *contour) {
+  size_t count = contour->point_count;
+  if (!contour->points || count > CS_CHECK_ITEMS || count % 3 != 1)
+    return cs_fail(context,
+                   contour->points && count % 3 == 1 ? CELSPAN_LIMIT : CELSPAN_BAD_ARGUMENT,
+                   "%s: contours[%zu] has %zu numbers; it must have 2, and 6 more for each piece, "
+                   "at most %zu in all",
+                   noun, number, contour->points ? 2 * count : 0, 2 * CS_CHECK_ITEMS);
+  for (size_t i = 0; i < count; i++) {
+    CS_TRY(check_coordinate(context, noun, number, 2 * i, contour->points[i].x));
+    CS_TRY(check_coordinate(context, noun, number, 2 * i + 1, contour->points[i].y));
+  }
+  return CELSPAN_OK;
+}
+
+celspan_status cs_check_contours(celspan_context *context, const char *noun,
+                                 const celspan_contour *contours, size_t count) {
+  CS_TRY(cs_check_list(context, noun, "contours", contours, count, CS_CHECK_ITEMS));
+  for (size_t i = 0; i < count; i++)
+    CS_TRY(check_contour(context, noun, i + 1, &contours[i]));
+  return CELSPAN_OK;
+}

@@ -74,3 +74,11 @@ CELSPAN_CHECKED celspan_status cs_check_given(celspan_context *context, const ch
 CELSPAN_CHECKED celspan_status cs_check_list(celspan_context *context, const char *noun,
                                              const char *field, const void *items, size_t count,
                                              size_t most);
+/* Contours have the right numbers of points, all of which are numbers. A message counts the numbers
+ * as scripts do: contours[2][9] is the x of the fifth point. Errors: also LIMIT. */
+CELSPAN_CHECKED celspan_status cs_check_contours(celspan_context *context, const char *noun,
+                                                 const celspan_contour *contours, size_t count);
+/* A line or an outline that can be given in several ways: one of them is. given: how many are.
+ * ways: for the message, "points, d and outline". */
+CELSPAN_CHECKED celspan_status cs_check_one(celspan_context *context, const char *noun,
+                                            const char *ways, int given);

@@ -176,12 +176,17 @@ celspan_status celspan_object_create_nurbs(celspan_context *context, const celsp
 celspan_status celspan_object_create_path(celspan_context *context, const celspan_path_desc *desc,
                                           celspan_object **out) {
   CS_READ(context, "path", celspan_path_desc, desc);
-  CS_TRY(cs_check_given(context, "path", "d", desc->data));
+  CS_TRY(cs_check_one(context, "path", "d and contours",
+                      (desc->data != NULL) + (desc->contours != NULL)));
+  if (desc->contours)
+    CS_TRY(cs_check_contours(context, "path", desc->contours, desc->contour_count));
   cs_primitive_data *data;
   CS_TRY(begin(context, "path", desc->rule, desc->texture, &data));
   cs_outline outline;
   cs_outline_init(&outline);
-  celspan_status status = cs_outline_path(context, &outline, desc->data);
+  celspan_status status = desc->data ? cs_outline_path(context, &outline, desc->data)
+                                     : cs_outline_contours(context, &outline, NULL, desc->contours,
+                                                           desc->contour_count);
   return cs_primitive_data_complete(context, data, &outline, status, out);
 }
 

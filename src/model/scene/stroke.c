@@ -106,6 +106,8 @@ static celspan_status create(celspan_context *context, const celspan_stroke_desc
   CS_TRY(check_numbers(context, desc));
   if (outlined)
     CS_TRY(check_outline(context, outlined));
+  else if (desc->contours)
+    CS_TRY(cs_check_contours(context, NOUN, desc->contours, desc->contour_count));
   else if (!desc->data)
     CS_TRY(check_points(context, desc));
   CS_TRY(cs_primitive_data_create(context, CS_PRIMITIVE_DATA_OUTLINE, desc->texture, &data));
@@ -129,11 +131,9 @@ celspan_status cs_primitive_data_of_line(celspan_context *context, const cs_outl
 celspan_status celspan_object_create_stroke(celspan_context *context,
                                             const celspan_stroke_desc *desc, celspan_object **out) {
   CS_READ(context, NOUN, celspan_stroke_desc, desc);
-  int given = (desc->points != NULL) + (desc->data != NULL) + (desc->outline != NULL);
-  if (given != 1)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "stroke: %s of points, d and outline must be given",
-                   given == 0 ? "one" : "only one");
+  CS_TRY(cs_check_one(context, NOUN, "points, d, outline and contours",
+                      (desc->points != NULL) + (desc->data != NULL) + (desc->outline != NULL) +
+                          (desc->contours != NULL)));
   return create(context, desc, desc->outline, out);
 }
 
@@ -141,9 +141,11 @@ celspan_status celspan_object_stroke(celspan_context *context, celspan_object *o
                                      const celspan_stroke_desc *desc, celspan_object **out) {
   CS_READ(context, NOUN, celspan_stroke_desc, desc);
   CS_TRY(cs_check_given(context, NOUN, "the object", object));
-  if (desc->points || desc->data)
-    return cs_fail(context, CELSPAN_BAD_ARGUMENT,
-                   "stroke: the line is the object's outline; points and d do not go with it");
+  if (desc->points || desc->data || desc->contours)
+    return cs_fail(
+        context, CELSPAN_BAD_ARGUMENT,
+        "stroke: the line is the object's outline; points, d and contours do not go with "
+        "it");
   celspan_object *plain, *placed;
   CS_TRY(create(context, desc, object, &plain));
   celspan_status status = celspan_object_transform(context, plain, object->matrix, &placed);

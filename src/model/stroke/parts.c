@@ -212,6 +212,9 @@ celspan_status cs_stroke_raw_init(celspan_context *context, cs_stroke_raw *raw,
   cs_outline_init(&raw->widths);
   if (outline)
     return add_outline(context, raw, outline, closed);
+  if (desc->contours)
+    return cs_outline_contours(context, &raw->line, &raw->closed, desc->contours,
+                               desc->contour_count);
   return desc->data ? cs_outline_path_open(context, &raw->line, &raw->closed, desc->data)
                     : add_points(context, raw, desc);
 }
