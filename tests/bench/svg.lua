@@ -1,7 +1,7 @@
 --- The filled shapes of an SVG drawing, as the benchmark's path lines: enough to draw real artwork
 --- with every renderer alike. Strokes, text, clips and masks are left out; a gradient is replaced
 --- by the mean of its stops.
-local pathdata = require "tests.support.own" "celspan.pathdata"
+local walk = require "tests.bench.walk"
 
 local svg = {}
 
@@ -116,7 +116,7 @@ end
 
 -- ---------------------------------------------------------------- outlines
 
---- A pen of pathdata.walk that writes absolute M, L, C and Z under a transform.
+--- A pen of walk that writes absolute M, L, C and Z under a transform.
 local Pen = {}
 Pen.__index = Pen
 
@@ -194,7 +194,7 @@ end
 local function path_line(state, colour, data)
   local alpha = math.floor(255 * colour[4] * state.opacity * share(state.fill_opacity) + 0.5)
   local pen = setmetatable({ matrix = state.matrix, out = {} }, Pen)
-  if alpha == 0 or not pathdata.walk(data, pen) or #pen.out < 2 then return nil end
+  if alpha == 0 or not walk(data, pen) or #pen.out < 2 then return nil end
   return ("path %s %d %d %d %d %s"):format(state.rule == "evenodd" and "evenodd" or "nonzero",
     colour[1] // 1, colour[2] // 1, colour[3] // 1, alpha, table.concat(pen.out))
 end

@@ -191,7 +191,7 @@ describe("letters", function()
       ["letters: the second argument must be a function, got string"] = function()
         celspan.letters(fields, "word")
       end,
-      ["letters: along must be path data or a path, got boolean"] = function()
+      ["letters: along must be path data, contours or a path, got boolean"] = function()
         celspan.letters(fields, nil, { along = true })
       end,
       ['letters: field \'by\' must be "letter", "word" or "line", got "words"'] = function()

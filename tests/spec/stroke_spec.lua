@@ -117,8 +117,8 @@ describe("a stroke", function()
   it("is refused with the reason", function()
     local line = { { 0, 0 }, { 9, 0 } }
     for message, fields in pairs {
-      ["give one of 'points', 'd' and 'outline'"] = { width = 3 },
-      ["give only one of 'points', 'd' and 'outline'"] = { points = line, d = "M0 0" },
+      ["give one of 'points', 'd', 'outline' and 'contours'"] = { width = 3 },
+      ["give only one of 'points', 'd', 'outline' and 'contours'"] = { points = line, d = "M0 0" },
       ["width is %-1; it must be 0 or more"] = { points = line, width = -1 },
       ["points%[2%]%.width is %-4"] = { points = { { 0, 0 }, { 1, 1, -4 } } },
       ["'width' must be a finite number, got nan"] = { points = line, width = 0 / 0 },

@@ -461,7 +461,7 @@ describe("a brush", function()
   it("refuses what it cannot draw", function()
     raised.each {
       ["brush: needs the field 'd', the path of the line"] = function() celspan.brush {} end,
-      ["brush: d must be path data or a path, got number"] = function()
+      ["brush: d must be path data, contours or a path, got number"] = function()
         celspan.brush { d = 7 }
       end,
       ["brush: field 'width' must be above 0, got 0"] = function()

@@ -22,6 +22,10 @@ return [==[
 ---@alias celspan.antialias "area"|"none"|celspan.filter The exact mean over each pixel, pixel centres, or a kernel
 ---@alias celspan.exposures celspan.rostrum|table[] A rostrum, or {{rostrum, weight}, ...}: light adds
 
+--- x, y of the beginning, and six numbers for each piece: two control points and its end.
+---@class celspan.contour: number[]
+---@field closed? boolean Of a stroke: whether it returns to its beginning
+
 ---@class celspan
 ---@field _VERSION string "celspan 0.1.0"
 ---@field clear celspan.paint Nothing at all: light passes unchanged
@@ -211,7 +215,7 @@ function celspan.around(object, margin) end
 --- nothing. With `along`, path data or a path, the text runs along it; a letter then has `degrees`.
 ---@param text celspan.text.fields
 ---@param change? fun(letter: celspan.letter, i: integer, n: integer): celspan.object?
----@param options? { by?: "letter"|"word"|"line", along?: string|celspan.shape, start?: number }
+---@param options? { by?: "letter"|"word"|"line", along?: string|celspan.contour[]|celspan.shape, start?: number }
 ---@return celspan.object
 function celspan.letters(text, change, options) end
 
@@ -409,7 +413,7 @@ function object:stroke(style) end
 --- How an object is bent: one of map, along, lattice, bones and pins is given.
 ---@class celspan.warp.options
 ---@field map? fun(x: number, y: number): number, number
----@field along? string|celspan.path Path data or a path
+---@field along? string|celspan.contour[]|celspan.path Path data, contours or a path
 ---@field start? number With `along`: a share of its length. Default 0
 ---@field stretch? boolean With `along`: to the rest of its length
 ---@field lattice? { columns?: integer, rows?: integer, points: celspan.point[], smooth?: boolean, box?: number[] }

@@ -77,15 +77,15 @@ local function samples_of(profile, from, to)
 end
 
 --- Adds a side as curves, from its first sample to its last, or in reverse.
-local function add_side(text, xs, ys, first, last, step)
+local function add_side(contour, xs, ys, first, last, step)
   local function slope(i)
     local a, b = math.max(0, i - 1), math.min(SAMPLES, i + 1)
     return (ys[b] - ys[a]) / (xs[b] - xs[a])
   end
   for i = first, last - step, step do
     local j, third = i + step, (xs[i + step] - xs[i]) / 3
-    text[#text + 1] = ("C%.17g %.17g %.17g %.17g %.17g %.17g"):format(xs[i] + third,
-      ys[i] + slope(i) * third, xs[j] - third, ys[j] - slope(j) * third, xs[j], ys[j])
+    table.move({ xs[i] + third, ys[i] + slope(i) * third, xs[j] - third, ys[j] - slope(j) * third,
+                 xs[j], ys[j] }, 1, 6, #contour + 1, contour)
   end
 end
 
@@ -94,11 +94,12 @@ local function outline_of(profile, from, to)
   local xs, above = samples_of(profile, from, to)
   local below = {}
   for i = 0, SAMPLES do below[i] = -above[i] end
-  local text = { ("M%.17g %.17g"):format(xs[0], below[0]) }
-  add_side(text, xs, below, 0, SAMPLES, 1)
-  text[#text + 1] = ("L%.17g %.17g"):format(xs[SAMPLES], above[SAMPLES])
-  add_side(text, xs, above, SAMPLES, 0, -1)
-  return table.concat(text) .. "Z"
+  local contour, tip = { xs[0], below[0] }, xs[SAMPLES]
+  add_side(contour, xs, below, 0, SAMPLES, 1)
+  table.move({ tip, below[SAMPLES], tip, above[SAMPLES], tip, above[SAMPLES] }, 1, 6, #contour + 1,
+    contour)
+  add_side(contour, xs, above, SAMPLES, 0, -1)
+  return contour
 end
 
 --- celspan.brush(options)
@@ -116,7 +117,8 @@ function brush.line(options)
   local line = { curve = curve, width = width, nib = options.nib or 45,
                  from = from * curve.length, length = (to - from) * curve.length }
   local profile = profile_of(options.profile or "round", line)
-  local straight = celspan.path { d = outline_of(profile, from, to), texture = options.texture }
+  local straight = celspan.path { contours = { outline_of(profile, from, to) },
+                                  texture = options.texture }
   return warp.apply(straight:scale(curve.length, width), { along = options.d, start = from,
     within = options.within, pieces = options.pieces })
 end

@@ -3,6 +3,7 @@
 -- A plot has a place for its rows and values: plot.x, y, w, h, the rectangle within the axes; slot,
 -- the room of a row of bars; at(i), the x of a row; up(value), the y of a value.
 local celspan = require "celspan"
+local curves = require "celspan.curves"
 local data = require "celspan.chart_data"
 local ease = require "celspan.ease"
 local fields = require "celspan.fields"
@@ -17,12 +18,14 @@ local ALONE, TOGETHER, SPARE = 0.66, 0.8, 0.06 -- shares of the slot; of a bar, 
 
 -- ---------------------------------------------------------------- bars
 
---- A bar from the base to the value, with a round end.
-local function bar_data(x, width, base, top, radius)
+--- A bar from the base to the value, with a round end, as a contour.
+local function bar_of(x, width, base, top, radius)
   local r = math.min(radius, width / 2, math.abs(top - base))
-  local back = top < base and r or -r
-  return ("M%.7g %.7gV%.7gQ%.7g %.7g %.7g %.7gH%.7gQ%.7g %.7g %.7g %.7gV%.7gZ"):format(x, base,
-    top + back, x, top, x + r, top, x + width - r, x + width, top, x + width, top + back, base)
+  local back, right = top < base and r or -r, x + width
+  local shoulder, near, far = top + back, back / 3, r / 3 -- of the control points of the corners
+  return { x, base, x, base, x, shoulder, x, shoulder, x, top + near, x + far, top, x + r, top,
+           x + r, top, right - r, top, right - r, top, right - far, top, right, top + near, right,
+           shoulder, right, shoulder, right, base, right, base }
 end
 
 --- How many series there are, and how far apart their bars are in the slot of a row.
@@ -44,15 +47,16 @@ local function grown(chart, i)
 end
 
 local function bars_of(chart, plot, k)
-  local paths, base = {}, plot.up(0)
+  local contours, base = {}, plot.up(0)
   for i, value in ipairs(chart.data.series[k].values) do
     local share = grown(chart, i)
     if value and share > 0 then
       local x, width = bar_place(chart, plot, i, k)
-      paths[#paths + 1] = bar_data(x, width, base, plot.up(value * share), chart.style.size / 3)
+      contours[#contours + 1] = bar_of(x, width, base, plot.up(value * share),
+        chart.style.size / 3)
     end
   end
-  return paths[1] and celspan.path { d = table.concat(paths), texture = chart.colour(k) }
+  return contours[1] and celspan.path { contours = contours, texture = chart.colour(k) }
 end
 
 --- The values as they are written at the bars; nil where they would collide.
@@ -124,16 +128,6 @@ local function runs_of(plot, values, reached, high, low)
   return runs
 end
 
---- Path data through the points of a run, backwards with the second y if `is_low`.
-local function line_data(run, is_low)
-  local parts = {}
-  for i, point in ipairs(run) do
-    local at = is_low and #run + 1 - i or i
-    parts[at] = ("%.7g %.7g"):format(point[1], is_low and point[3] or point[2])
-  end
-  return table.concat(parts, "L")
-end
-
 --- The x up to which lines are drawn.
 local function reached_of(chart, plot)
   return chart.progress > 0 and plot.x + plot.w * line_ease(chart.progress) or -math.huge
@@ -141,14 +135,13 @@ end
 
 --- A line with round joins, and a dot at its end. A run of one point is a dot.
 local function add_line(objects, chart, runs, k)
-  local width, paths = chart.style.size / 4, {}
+  local width, contours = chart.style.size / 4, {}
   for i, run in ipairs(runs) do
-    local line = line_data(run)
-    paths[i] = "M" .. line .. (#run == 1 and "L" .. line or "")
+    contours[i] = curves.through(#run > 1 and run or { run[1], run[1] })
   end
-  if #paths == 0 then return end
+  if #contours == 0 then return end
   local tip = runs[#runs][#runs[#runs]]
-  objects[#objects + 1] = celspan.stroke { d = table.concat(paths), width = width, cap = "round",
+  objects[#objects + 1] = celspan.stroke { contours = contours, width = width, cap = "round",
     join = "round", texture = chart.colour(k) }
   objects[#objects + 1] = celspan.circle { centre = { tip[1], tip[2] }, radius = 1.3 * width,
     texture = chart.colour(k) }
@@ -167,6 +160,15 @@ end
 
 local ALONE_FADE = 0.25 -- of an area under its line
 
+--- The area between the two lines of a run.
+local function area_of(run, texture)
+  local corners = { texture = texture }
+  for i, point in ipairs(run) do
+    corners[i], corners[2 * #run + 1 - i] = { point[1], point[2] }, { point[1], point[3] }
+  end
+  return celspan.polygon(corners)
+end
+
 --- Areas on one another: values is a list of the sums of the series up to each.
 function marks.area(chart, plot)
   local objects, reached, below = {}, reached_of(chart, plot), nil
@@ -175,8 +177,7 @@ function marks.area(chart, plot)
     local runs = runs_of(plot, sums, reached, function(i) return plot.up(sums[i]) end,
       function(i) return plot.up(under and under[i] or 0) end)
     if runs[1] then
-      local area = celspan.path { texture = chart.colour(k),
-        d = "M" .. line_data(runs[1]) .. "L" .. line_data(runs[1], true) .. "Z" }
+      local area = area_of(runs[1], chart.colour(k))
       objects[#objects + 1] = #chart.sums == 1 and area:fade(ALONE_FADE) or area
       if #chart.sums == 1 then add_line(objects, chart, runs, k) end
     end

@@ -21,6 +21,7 @@ local GAP = 0.025                        -- between slices, of the radius
 local STEM, ARM = 0.8, 0.9               -- of the line to a name, in ems: away from the pie, aside
 local LINE, LEADING = 0.07, 1.5          -- its width, and from name to name, in ems
 local LEAST = 1e-9                       -- a slice that is a smaller share is not drawn
+local FAR = 2.2                          -- of the radius: chords of a third of a circle are outside
 
 local function refuse(text, ...) core.refuse("chart: " .. text:format(...)) end
 
@@ -59,24 +60,23 @@ local function point(pie, angle, radius)
   return pie.x + radius * sin(angle), pie.y - radius * cos(angle)
 end
 
---- An arc of a circle as path data, in parts of at most a third of it.
-local function arc_data(pie, from, to, radius)
-  local parts, pieces = {}, math.max(1, math.ceil(math.abs(to - from) / (2 * pi / 3)))
-  for i = 1, pieces do
-    local x, y = point(pie, from + (to - from) * i / pieces, radius)
-    parts[i] = ("A%.6g %.6g 0 0 %d %.7g %.7g"):format(radius, radius, to > from and 1 or 0, x, y)
+--- The triangles from the middle that cover a part of the circle, as one polygon.
+local function wedge(pie, from, to, texture)
+  local pieces = math.max(1, math.ceil((to - from) / (2 * pi / 3)))
+  local corners = { { pie.x, pie.y }, texture = texture }
+  for i = 0, pieces do
+    corners[i + 2] = { point(pie, from + (to - from) * i / pieces, FAR * pie.radius) }
   end
-  return table.concat(parts)
+  return celspan.polygon(corners)
 end
 
---- A part of the ring between two angles.
-local function sector(pie, from, to, texture)
-  local inner = pie.radius * pie.hole
-  local x, y = point(pie, from, pie.radius)
-  local inner_x, inner_y = point(pie, to, inner)
-  return celspan.path { texture = texture, d = ("M%.7g %.7g%sL%.7g %.7g%sZ"):format(x, y,
-    arc_data(pie, from, to, pie.radius), inner_x, inner_y,
-    inner > 0 and arc_data(pie, to, from, inner) or "") }
+--- The circle, with its hole.
+local function ring(pie)
+  local function circle(radius)
+    return celspan.circle { centre = { pie.x, pie.y }, radius = radius }
+  end
+  local whole = circle(pie.radius)
+  return pie.hole > 0 and whole - circle(pie.radius * pie.hole) or whole
 end
 
 --- The gap at the beginning of a slice, from the middle outwards.
@@ -88,14 +88,14 @@ end
 
 --- The slices as far as they are open, without the gaps between them.
 local function drawn(chart, pie, slices, open)
-  local sectors, parts = {}, {}
+  local wedges, parts = {}, {}
   for _, slice in ipairs(slices) do
     if slice.from < open then
-      sectors[#sectors + 1] = sector(pie, slice.from, math.min(slice.to, open),
+      wedges[#wedges + 1] = wedge(pie, slice.from, math.min(slice.to, open),
         chart.colour(slice.k))
     end
   end
-  parts[1] = celspan.union(sectors)
+  parts[1] = celspan.clip(celspan.union(wedges), ring(pie))
   for _, slice in ipairs(#slices > 1 and slices or {}) do
     parts[#parts + 1] = gap_at(pie, slice.from)
   end

@@ -232,7 +232,7 @@ local function as_it_is(letter) return letter.object end
 --- get spaces. With `along`, the text follows a path.
 ---@param text celspan.text.fields As for celspan.glyphs
 ---@param change? fun(letter: celspan.letter, i: integer, n: integer): celspan.object?
----@param options? { by?: "letter"|"word"|"line", along?: string|celspan.shape, start?: number }
+---@param options? { by?: "letter"|"word"|"line", along?: string|celspan.contour[]|celspan.shape, start?: number }
 ---@return celspan.object
 function layout.letters(text, change, options)
   options = options or {}

@@ -2,20 +2,10 @@
 local celspan = require "celspan"
 local core = require "celspan.core"
 local fields = require "celspan.fields"
-local outlines = require "celspan.outlines"
 
 local merge = {}
 
 local function refuse(text, ...) core.refuse("merge: " .. text:format(...)) end
-
---- The path data of contours as core.anatomy gives them.
-local function data_of(contours)
-  local pairs_of = {}
-  for i, contour in ipairs(contours) do
-    pairs_of[i] = { contour, contour, open = contour.open }
-  end
-  return outlines.data(pairs_of, 0)
-end
 
 --- The texture of a node.
 local function texture_of(node) return node.paint and celspan.paint(node.paint) or node.texture end
@@ -37,9 +27,11 @@ local function collect(node, list)
 end
 
 local function join(nodes, texture)
-  local data = {}
-  for i, node in ipairs(nodes) do data[i] = data_of(node.contours) end
-  return celspan.path { d = table.concat(data), texture = texture }
+  local contours = {}
+  for _, node in ipairs(nodes) do
+    table.move(node.contours, 1, #node.contours, #contours + 1, contours)
+  end
+  return celspan.path { contours = contours, texture = texture }
 end
 
 local operators = { add = celspan.union, subtract = celspan.difference,

@@ -72,10 +72,12 @@ local function plan_outlines(p, q, steering)
   end
   local match = outlines.match(p.contours, q.contours, steering, refuse)
   return function(u)
-    local d, style = outlines.data(match, u), u < 0.5 and p or q
+    local contours, style = outlines.between(match, u), u < 0.5 and p or q
     return finish(painted(p, q, u, function(texture)
-      if not p.line then return celspan.path { d = d, rule = style.rule, texture = texture } end
-      return celspan.stroke { d = d, width = between(p.line.width, q.line.width, u),
+      if not p.line then
+        return celspan.path { contours = contours, rule = style.rule, texture = texture }
+      end
+      return celspan.stroke { contours = contours, width = between(p.line.width, q.line.width, u),
                               cap = style.line.cap, join = style.line.join,
                               miter = between(p.line.miter, q.line.miter, u), texture = texture }
     end), p, q, u)

@@ -33,10 +33,25 @@ end
 
 local function distance(x, y, u, v) return math.sqrt((x - u) ^ 2 + (y - v) ^ 2) end
 
+--- The contour with the control points of its straight pieces at their thirds, so that even steps
+--- of the parameter are even on them, too.
+local function evened(contour)
+  local list = table.move(contour, 1, #contour, 1, { closed = contour.closed })
+  for i = 1, #list - 6, 6 do
+    local x, y, u, v = list[i], list[i + 1], list[i + 6], list[i + 7]
+    if x == list[i + 2] and y == list[i + 3] and u == list[i + 4] and v == list[i + 5] then
+      list[i + 2], list[i + 3] = x + (u - x) / 3, y + (v - y) / 3
+      list[i + 4], list[i + 5] = x + 2 * (u - x) / 3, y + 2 * (v - y) / 3
+    end
+  end
+  return list
+end
+
 --- The contour as pieces with their positions, as shares of its length. Each piece has its own
 --- lengths at even parameters.
-local function measure(contour)
-  local way = { contour = contour, open = contour.open, length = 0, area = 0 }
+local function measure(given)
+  local contour = evened(given)
+  local way = { contour = contour, open = not contour.closed, length = 0, area = 0 }
   local left, top, right, bottom = math.huge, math.huge, -math.huge, -math.huge
   for i = 1, #contour - 6, 6 do
     local piece, x, y = { at = i, start = way.length, [0] = 0 }, contour[i], contour[i + 1]
@@ -104,7 +119,7 @@ function outlines.distance(contour, x, y)
 end
 
 local function reversed(contour)
-  local back = { open = contour.open }
+  local back = { closed = contour.closed }
   for i = #contour - 1, 1, -2 do
     back[#back + 1] = contour[i]
     back[#back + 1] = contour[i + 1]
@@ -333,7 +348,7 @@ local kept = { count = 0 }
 
 --- A contour as a string: equal only for equal numbers.
 local function digits_of(contour)
-  local parts = { contour.open and "open" or "closed" }
+  local parts = { contour.closed and "closed" or "open" }
   for i = 1, #contour, 2 do
     parts[#parts + 1] = ("dd"):pack(contour[i], contour[i + 1])
   end
@@ -521,8 +536,8 @@ local function turn_lines(ones, others)
   end
 end
 
---- Makes the argument of outlines.data. steering.places: { x, y, x, y, contours = the contours of
---- `a` that it is for }.
+--- Makes the argument of outlines.between. steering.places: { x, y, x, y, contours = the contours
+--- of `a` that it is for }.
 function outlines.match(a, b, steering, refuse)
   local ones, first = measure_all(a)
   local others, second = measure_all(b)
@@ -553,20 +568,15 @@ function outlines.match(a, b, steering, refuse)
   return match
 end
 
---- The path data between the sides of a match.
-function outlines.data(match, u)
-  local text = {}
-  for _, pair in ipairs(match) do
-    local p, q = pair[1], pair[2]
-    local function at(i) return p[i] + (q[i] - p[i]) * u end
-    text[#text + 1] = ("M%.17g %.17g"):format(at(1), at(2))
-    for i = 3, #p, 6 do
-      text[#text + 1] = ("C%.17g %.17g %.17g %.17g %.17g %.17g"):format(at(i), at(i + 1),
-        at(i + 2), at(i + 3), at(i + 4), at(i + 5))
-    end
-    if not pair.open then text[#text + 1] = "Z" end
+--- The contours between the sides of a match.
+function outlines.between(match, u)
+  local contours = {}
+  for n, pair in ipairs(match) do
+    local p, q, contour = pair[1], pair[2], { closed = not pair.open }
+    for i = 1, #p do contour[i] = p[i] + (q[i] - p[i]) * u end
+    contours[n] = contour
   end
-  return table.concat(text)
+  return contours
 end
 
 return outlines

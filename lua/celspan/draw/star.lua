@@ -79,15 +79,13 @@ end
 
 local function curved(s, texture)
   local x, y, ax, ay = joint(s, 0)
-  local data = { ("M%.17g %.17g"):format(x, y) }
+  local contour = { x, y, closed = true }
   for i = 1, s.count do
     local nx, ny, bx, by = joint(s, i % s.count)
-    data[i + 1] = ("C%.17g %.17g %.17g %.17g %.17g %.17g"):format(x + ax, y + ay, nx - bx, ny - by,
-      nx, ny)
+    table.move({ x + ax, y + ay, nx - bx, ny - by, nx, ny }, 1, 6, #contour + 1, contour)
     x, y, ax, ay = nx, ny, bx, by
   end
-  data[#data + 1] = "Z"
-  return celspan.path { d = table.concat(data), texture = texture }
+  return celspan.path { contours = { contour }, texture = texture }
 end
 
 --- A star, or a regular polygon.

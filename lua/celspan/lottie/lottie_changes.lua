@@ -10,7 +10,6 @@ local core = require "celspan.core"
 local forms = require "celspan.lottie_forms"
 local geometry = require "celspan.lottie_geometry"
 local property = require "celspan.lottie_property"
-local trim = require "celspan.lottie_trim"
 
 local changes = {}
 
@@ -35,23 +34,11 @@ local function each(list, moves, change, operator)
   end)
 end
 
---- A change of one outline as a change of several.
-local function of_each(change)
-  return function(lists, t)
-    local changed = {}
-    for i, outline in ipairs(lists) do changed[i] = change(outline, t) end
-    return changed
-  end
-end
-
 --- An operator of celspan as a change of outlines.
 local function through(operator)
   return function(lists, t)
-    local d = contours.data(lists)
-    if d == "" then return {} end
-    local changed = core.anatomy(operator(celspan.stroke { d = d, width = THIN }, t)).contours
-    for i, contour in ipairs(changed) do changed[i] = contours.of_cubics(contour) end
-    return changed
+    if not lists[1] then return {} end
+    return core.anatomy(operator(celspan.stroke { contours = lists, width = THIN }, t)).contours
   end
 end
 
@@ -75,10 +62,7 @@ function kinds.tm(scope, item)
   local to = read(property.number, item.e, "the end", 100)
   local offset = read(property.number, item.o, "the offset", 0)
   local note = item.m == 2 and note_groups(scope)
-  local function cut(lists, t)
-    return trim.cut(lists, from(t) / 100, to(t) / 100, offset(t) / 360)
-  end
-  local function cut_object(object, t)
+  local function trim(object, t)
     return celspan.trim(object, from(t) / 100, to(t) / 100,
       { offset = offset(t) / 360, together = true })
   end
@@ -87,7 +71,7 @@ function kinds.tm(scope, item)
       note(list)
       list = geometry.list(geometry.join(list))
     end
-    return each(list, state.moves, cut, cut_object)
+    return each(list, state.moves, through(trim), trim)
   end
 end
 
@@ -95,7 +79,11 @@ end
 
 function kinds.rd(scope, item)
   local radius, moves = property.number(scope, item.r, "the radius", 0)
-  local round = of_each(function(outline, t) return contours.round(outline, radius(t)) end)
+  local function round(lists, t)
+    local rounded = {}
+    for i, outline in ipairs(lists) do rounded[i] = contours.round(outline, radius(t)) end
+    return rounded
+  end
   return function(list)
     return each(list, moves, round,
       function(object, t) return celspan.round_corners(object, math.max(0, radius(t))) end)
@@ -104,12 +92,10 @@ end
 
 function kinds.pb(scope, item)
   local share, moves = property.number(scope, item.a, "the amount", 0)
-  local pucker = of_each(function(outline, t) return contours.pucker(outline, share(t) / 100) end)
-  return function(list)
-    return each(list, moves, pucker, function(object, t)
-      return celspan.pucker(object, math.max(-1, math.min(1, share(t) / 100)))
-    end)
+  local function pucker(object, t)
+    return celspan.pucker(object, math.max(-1, math.min(1, share(t) / 100)))
   end
+  return function(list) return each(list, moves, through(pucker), pucker) end
 end
 
 function kinds.zz(scope, item)

@@ -16,6 +16,7 @@ function forms.reader(scope)
 end
 
 local function directed(list, item)
+  if #list == 0 then return {} end
   return { item.d == 3 and contours.reverse(list) or list }
 end
 
@@ -23,10 +24,7 @@ local kinds = {}
 
 function kinds.sh(scope, item)
   local outline, moves = property.outline(scope, item.ks, "the path", item.closed == true)
-  return function(t)
-    local list = outline(t)
-    return #list > 0 and directed(list, item) or {}
-  end, moves
+  return function(t) return directed(outline(t), item) end, moves
 end
 
 function kinds.rc(scope, item)

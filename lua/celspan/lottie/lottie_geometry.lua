@@ -143,10 +143,12 @@ end
 --- The object of a geometry in a style; nil: a line of nothing.
 function geometry.draw(one, t, style)
   if one.draw then return one.draw(t, style) end
-  local d, line = contours.data(one.get(t)), style.line
-  if not line then return celspan.path { d = d, texture = style.texture, rule = style.rule } end
-  if d == "" then return nil end
-  line.d, line.texture = d, style.texture
+  local outlines, line = one.get(t), style.line
+  if not line then
+    return celspan.path { contours = outlines, texture = style.texture, rule = style.rule }
+  end
+  if not outlines[1] then return nil end
+  line.contours, line.texture = outlines, style.texture
   return celspan.stroke(line)
 end
 

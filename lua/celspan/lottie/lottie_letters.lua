@@ -21,8 +21,8 @@ local function collect(list, found)
     local path = item.ty == "sh" and values.table(item.ks)
     if path then
       local k = values.table(path.k)
-      local outline = contours.read(k and (values.table(k[1]) or k), false)
-      outline.closed = true -- some files say that the outlines of letters are open
+      -- some files say that the outlines of letters are open
+      local outline = contours.read(k and (values.table(k[1]) or k), true, true)
       if #outline > 0 then found[#found + 1] = outline end
     end
   end
@@ -212,9 +212,8 @@ end
 function letters.object(letter, texture, stroke)
   if letter.outlines then
     if #letter.outlines == 0 then return nil end
-    letter.d = letter.d or contours.data(letter.outlines)
     local k = letter.scale
-    local fields = { d = letter.d, texture = texture, width = stroke and stroke / k }
+    local fields = { contours = letter.outlines, texture = texture, width = stroke and stroke / k }
     return (stroke and celspan.stroke or celspan.path)(fields):scale(k)
   end
   local object = letter.object

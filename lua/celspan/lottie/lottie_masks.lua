@@ -1,6 +1,5 @@
 --- Masks and mattes of a layer: where it is present.
 local celspan = require "celspan"
-local contours = require "celspan.lottie_contour"
 local paint = require "celspan.lottie_paint"
 local property = require "celspan.lottie_property"
 local values = require "celspan.lottie_values"
@@ -16,10 +15,9 @@ local function everywhere() return celspan.rect { -FAR, -FAR, 2 * FAR, 2 * FAR,
 
 --- The area of a mask, grown or shrunk by a distance.
 local function area(list, grow)
-  local d = contours.data({ list })
-  local shape = celspan.path { d = d, texture = "#fff" }
+  local shape = celspan.path { contours = { list }, texture = "#fff" }
   if grow == 0 then return shape end
-  local edge = celspan.stroke { d = d, width = 2 * math.abs(grow), join = "round", closed = true,
+  local edge = celspan.stroke { contours = { list }, width = 2 * math.abs(grow), join = "round",
                                 texture = "#fff" }
   return grow > 0 and shape | edge or shape - edge
 end

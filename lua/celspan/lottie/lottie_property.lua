@@ -8,12 +8,11 @@
 -- numbers, too. A file may have many more keys than a film has frames, so what a key holds is read
 -- when a frame needs it.
 local contours = require "celspan.lottie_contour"
+local curves = require "celspan.curves"
 local ease = require "celspan.ease"
 local values = require "celspan.lottie_values"
 
 local property = {}
-
-local SAMPLES = 48 -- of the length of a spatial curve
 
 -- ---------------------------------------------------------------- eases
 
@@ -53,50 +52,16 @@ end
 
 -- ---------------------------------------------------------------- spatial curves
 
---- A point of a cubic.
-local function cubic(p, u)
-  local v = 1 - u
-  local a, b, c, d = v * v * v, 3 * v * v * u, 3 * v * u * u, u * u * u
-  return a * p[1] + b * p[3] + c * p[5] + d * p[7], a * p[2] + b * p[4] + c * p[6] + d * p[8]
-end
-
---- Lengths at even parameters.
-local function measure(p)
-  local lengths, x, y = { [0] = 0 }, p[1], p[2]
-  for i = 1, SAMPLES do
-    local nx, ny = cubic(p, i / SAMPLES)
-    lengths[i] = lengths[i - 1] + math.sqrt((nx - x) ^ 2 + (ny - y) ^ 2)
-    x, y = nx, ny
-  end
-  return lengths
-end
-
---- The point at a share of the length. Beyond the ends it continues straight.
-local function along(p, lengths, share)
-  local want, last = share * lengths[SAMPLES], SAMPLES - 1
-  local low, high = 0, last
-  while low < high do
-    local middle = (low + high + 1) // 2
-    if lengths[middle] <= want then low = middle else high = middle - 1 end
-  end
-  local span = lengths[low + 1] - lengths[low]
-  local u = span > 0 and (want - lengths[low]) / span or 0
-  if u >= 0 and u <= 1 then return cubic(p, (low + u) / SAMPLES) end
-  local x0, y0 = cubic(p, low / SAMPLES)
-  local x1, y1 = cubic(p, (low + 1) / SAMPLES)
-  return x0 + u * (x1 - x0), y0 + u * (y1 - y0)
-end
-
 --- The way of a point between two keys, where its handles are not zero.
 local function way_of(key, from, to)
   local out, into = values.table(key.to), values.table(key.ti)
   if not out or not into or #from < 2 then return nil end
   local o, i = values.list(out, { 0, 0 }, 2), values.list(into, { 0, 0 }, 2)
   if o[1] == 0 and o[2] == 0 and i[1] == 0 and i[2] == 0 then return nil end
-  local p = { from[1], from[2], from[1] + o[1], from[2] + o[2],
-              to[1] + i[1], to[2] + i[2], to[1], to[2] }
-  local lengths = measure(p)
-  return lengths[SAMPLES] > 0 and function(share) return along(p, lengths, share) end or nil
+  local curve = curves.of("lottie", { { from[1], from[2], from[1] + o[1], from[2] + o[2],
+                                        to[1] + i[1], to[2] + i[2], to[1], to[2] } })
+  return curve and curve.length > 0 and function(share) return curve:at(share * curve.length) end
+    or nil
 end
 
 -- ---------------------------------------------------------------- keyframes

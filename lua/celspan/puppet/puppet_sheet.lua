@@ -5,10 +5,6 @@ local bones = require "celspan.bones"
 
 local BONE, JOINT_MARK, FAN = "#1769aa", "#ffffff", "#e8590c" -- colours of a sheet
 
-local function line(d, width, colour)
-  return celspan.stroke { d = d, width = width, cap = "round", join = "round", texture = colour }
-end
-
 --- A bone as a kite, whose broad end is at the bone's first joint.
 local function kite(frame, bone, size)
   local along, across = math.min(bone.length / 5, 3 * size), math.min(bone.length / 8, 2 * size)
@@ -25,15 +21,17 @@ end
 local function fan(base, bone, size)
   if bone.low == -math.huge then return nil end
   local radius = math.min(bone.length / 2, 12 * size)
-  local words = {}
+  local centre = { affine.apply(base, bone.x, bone.y) }
+  local points = { centre }
   for i = 0, 24 do
     local map = affine.compose(base,
       affine.turn(bone.low + (bone.high - bone.low) * i / 24, bone.x, bone.y))
-    words[#words + 1] = ("%.6g %.6g"):format(affine.apply(map, bone.x + bone.ux * radius,
-                                                          bone.y + bone.uy * radius))
+    points[#points + 1] = { affine.apply(map, bone.x + bone.ux * radius,
+                                         bone.y + bone.uy * radius) }
   end
-  local centre = ("%.6g %.6g"):format(affine.apply(base, bone.x, bone.y))
-  return line("M" .. centre .. "L" .. table.concat(words, "L") .. "L" .. centre, size / 3, FAN)
+  points[#points + 1] = centre
+  return celspan.stroke { points = points, width = size / 3, cap = "round", join = "round",
+                          texture = FAN }
 end
 
 local function mark(x, y, size)

@@ -91,7 +91,7 @@ function mixers.number(a, b, u)
 end
 
 function mixers.array(a, b, u)
-  local mixed = {}
+  local mixed = { closed = a.closed } -- of a contour
   for i = 1, #a do mixed[i] = a[i] + (b[i] - a[i]) * u end
   return mixed
 end

@@ -24,24 +24,29 @@ local Way = {}
 Way.__index = fields.reads("a way", Way)
 Way.__name = "celspan.motion.way"
 
-local function curve_of(outline)
-  if type(outline) == "string" then
-    local curve, message = curves.of_data(outline)
-    return curve or core.refuse("motion: " .. message)
+--- A list of points, which have two numbers each, as contours; contours have more numbers.
+local function contours_of(given)
+  local list = table.move(given, 1, rawlen(given), 1, {})
+  if #list == 0 then core.refuse("motion: along needs at least one point") end
+  if type(list[1]) == "table" and rawlen(list[1]) > 3 then return list end
+  for i, point in ipairs(list) do
+    fields.numbers("motion", ("point %d: its value %%d"):format(i), point, 2, "{x, y}")
   end
-  if type(outline) ~= "table" then
-    core.refuse("motion: along takes path data or a list of points {x, y}, got "
-      .. fields.kind(outline))
-  end
-  for i = 1, rawlen(outline) do
-    fields.numbers("motion", ("point %d: its value %%d"):format(i), outline[i], 2, "{x, y}")
-  end
-  if rawlen(outline) == 0 then core.refuse("motion: along needs at least one point") end
-  return curves.of_points(table.move(outline, 1, rawlen(outline), 1, {}))
+  return { curves.through(list) }
 end
 
---- A path along path data or points, measured by arc length.
----@param outline string|number[][]
+local function curve_of(outline)
+  if type(outline) ~= "string" and type(outline) ~= "table" then
+    core.refuse("motion: along takes path data, contours or a list of points {x, y}, got "
+      .. fields.kind(outline))
+  end
+  local line = type(outline) == "string" and outline or contours_of(outline)
+  local curve, message = curves.of("motion", line)
+  return curve or core.refuse("motion: " .. message)
+end
+
+--- A path along path data, contours or points, measured by arc length.
+---@param outline string|celspan.contour[]|number[][]
 ---@return celspan.motion.way
 function motion.along(outline)
   local curve = curve_of(outline)

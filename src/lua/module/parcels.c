@@ -65,9 +65,8 @@ static void add_line(contour *c, celspan_point to) {
   const celspan_point from = c->at;
   if (from.x == to.x && from.y == to.y)
     return;
-  for (int k = 1; k <= 2; k++)
-    add_point(c,
-              (celspan_point){from.x + k * (to.x - from.x) / 3, from.y + k * (to.y - from.y) / 3});
+  add_point(c, from);
+  add_point(c, to);
   add_point(c, to);
 }
 

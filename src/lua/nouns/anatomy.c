@@ -3,8 +3,8 @@
  * A node: name, fade, and
  *   kind "boolean"  op, object, filled (its operands are the plane of a pattern and the shape that
  *                   it fills), and the nodes of its operands as a list
- *   kind "outline"  object, rule, paint or texture, and contours; of an even line also line, whose
- *                   width, cap, join and miter are those of a stroke
+ *   kind "outline"  object, rule, paint or texture, and contours as celspan.path takes them; of an
+ *                   even line also line, whose width, cap, join and miter are those of a stroke
  *   kind "other"    object, as it is placed
  * All points and textures are placed in the units around the whole object.
  */
@@ -70,38 +70,29 @@ static void add_number(lua_State *L, lua_Integer *count, double number) {
   lua_rawseti(L, -2, ++*count);
 }
 
-/* Appends the points of a cubic piece after its first one. A line becomes a cubic whose control
- * points are at the thirds of the line. */
+/* Appends the points of a piece after its first one. */
 static void add_piece(lua_State *L, const cs_outline *outline, size_t i, lua_Integer *count) {
+  static const int of_line[] = {0, 1, 1}, of_cubic[] = {1, 2, 3};
   const cs_hpoint *p = outline->points + outline->starts[i];
-  if (outline->degrees[i] == 3) {
-    for (int k = 1; k <= 3; k++) {
-      add_number(L, count, p[k].x);
-      add_number(L, count, p[k].y);
-    }
-    return;
+  for (int k = 0; k < 3; k++) {
+    const cs_hpoint *at = &p[outline->degrees[i] == 3 ? of_cubic[k] : of_line[k]];
+    add_number(L, count, at->x);
+    add_number(L, count, at->y);
   }
-  for (int k = 1; k <= 2; k++) {
-    add_number(L, count, p[0].x + k * (p[1].x - p[0].x) / 3);
-    add_number(L, count, p[0].y + k * (p[1].y - p[0].y) / 3);
-  }
-  add_number(L, count, p[1].x);
-  add_number(L, count, p[1].y);
 }
 
 static bool is_point_same(cs_hpoint a, cs_hpoint b) { return a.x == b.x && a.y == b.y; }
 
-/* Pushes a contour of cubics: x, y, and six numbers a piece. is_open: the contour need not return
- * to its beginning, and the line that would close it is left out. */
+/* Pushes a contour of the pieces from begin to end. */
 static void push_contour(lua_State *L, const cs_outline *outline, size_t begin, size_t end,
-                         bool is_open) {
+                         bool is_closed) {
   lua_Integer count = 0;
   lua_createtable(L, (int)(6 * (end - begin) + 2), 1);
   add_number(L, &count, outline->points[outline->starts[begin]].x);
   add_number(L, &count, outline->points[outline->starts[begin]].y);
   for (size_t i = begin; i < end; i++)
     add_piece(L, outline, i, &count);
-  cs_put_flag(L, "open", is_open);
+  cs_put_flag(L, "closed", is_closed);
 }
 
 /* Whether a contour of a line is open, and its end differs from its beginning. */
@@ -146,7 +137,7 @@ static celspan_status put_contours(lua_State *L, const cs_outline *outline,
     size_t begin, end;
     cs_stroke_contour(plain, c, &begin, &end);
     bool is_open = line && !is_closed(line, c);
-    push_contour(L, plain, begin, is_open && is_parted(line, c) ? end - 1 : end, is_open);
+    push_contour(L, plain, begin, is_open && is_parted(line, c) ? end - 1 : end, !is_open);
     lua_rawseti(L, -2, (lua_Integer)c + 1);
   }
   lua_setfield(L, -3, "contours");

@@ -61,6 +61,9 @@ int cs_anatomy_move(lua_State *L);
  * diagonal of the bounds. Errors: NO_MEMORY; LIMIT for too many curves, without `contours`. */
 CELSPAN_CHECKED celspan_status cs_anatomy_put_filled(lua_State *L, const cs_primitive_data *data,
                                                      double within);
+/* The functions behind lines that are measured (ruler.c). */
+int cs_ruler_make(lua_State *L);
+int cs_ruler_at(lua_State *L);
 /* (rostrum, width, height, space, shared) -> the frame's structure as tables (scenery.c). */
 int cs_scenery_of(lua_State *L);
 int cs_scenery_key(lua_State *L);

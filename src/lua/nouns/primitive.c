@@ -5,6 +5,7 @@
 #include "lua/bind/host.h"
 #include "lua/bind/list.h"
 #include "lua/bind/numbers.h"
+#include "lua/nouns/contours.h"
 #include "lua/nouns/nouns.h"
 #include "lua/nouns/texture.h"
 
@@ -165,16 +166,22 @@ static const cs_field nurbs_fields[] = {
 static void create_path(const cs_form *form, cs_userdata *value) {
   celspan_path_desc desc = {.struct_size = sizeof desc, .data = NULL};
   cs_fields_read(form, &desc);
+  if (!desc.data && !cs_form_has(form, "contours"))
+    cs_form_fail(form, "give one of 'd' and 'contours'");
+  const cs_contour_list given = cs_contours_field(form);
+  desc.contours = given.items;
+  desc.contour_count = given.count;
   celspan_object *object = NULL;
   cs_form_try(form, celspan_object_create_path(cs_host_context(form->L), &desc, &object));
   value->handle = object;
 }
 
-static const cs_field path_fields[] = {{"d", CS_TEXT(celspan_path_desc, data), .is_required = true,
-                                        .about = "SVG path data; open subpaths are closed"},
-                                       {RULE(celspan_path_desc)},
-                                       {CS_TEXTURE(celspan_path_desc, texture)},
-                                       {0}};
+static const cs_field path_fields[] = {
+    {"d", CS_TEXT(celspan_path_desc, data), .about = "SVG path data; open subpaths are closed"},
+    {CS_CONTOURS},
+    {RULE(celspan_path_desc)},
+    {CS_TEXTURE(celspan_path_desc, texture)},
+    {0}};
 
 /* ---------------------------------------------------------------- image */
 
@@ -220,6 +227,9 @@ const cs_noun cs_noun_polygon = {OBJECT(polygon), .about = "A closed polygon.",
                                  .item_written = "celspan.point"};
 const cs_noun cs_noun_nurbs = {OBJECT(nurbs),
                                .about = "A closed curve of any degree, with or without weights."};
-const cs_noun cs_noun_path = {OBJECT(path), .about = "The area inside lines, curves and arcs."};
+const cs_noun cs_noun_path = {OBJECT(path),
+                              .about = "The area inside lines, curves and arcs. Give one of d and "
+                                       "contours.",
+                              .either = {"d", "contours"}};
 const cs_noun cs_noun_image = {OBJECT(image), .about = "A rectangle textured with a picture.",
                                CS_TEXTURE_PICTURE_EITHER};

@@ -5,6 +5,7 @@
 #include "lua/bind/host.h"
 #include "lua/bind/list.h"
 #include "lua/bind/numbers.h"
+#include "lua/nouns/contours.h"
 #include "lua/nouns/nouns.h"
 
 /* Points and widths are scratch memory, left on the stack. */
@@ -48,12 +49,13 @@ static void read_outline(const cs_form *form, celspan_stroke_desc *desc) {
 }
 
 static void check_line(const cs_form *form) {
-  static const char *const names[] = {"points", "d", "outline"};
+  static const char *const names[] = {"points", "d", "outline", "contours"};
   int given = 0;
-  for (int i = 0; i < 3; i++)
+  for (int i = 0; i < 4; i++)
     given += cs_form_has(form, names[i]);
   if (given != 1)
-    cs_form_fail(form, "give %s of 'points', 'd' and 'outline'", given == 0 ? "one" : "only one");
+    cs_form_fail(form, "give %s of 'points', 'd', 'outline' and 'contours'",
+                 given == 0 ? "one" : "only one");
 }
 
 static void create(const cs_form *form, cs_userdata *value) {
@@ -63,6 +65,9 @@ static void create(const cs_form *form, cs_userdata *value) {
   desc.dashes = cs_form_array(form, "dash", &desc.dash_count);
   read_points(form, &desc);
   read_outline(form, &desc);
+  const cs_contour_list given = cs_contours_field(form);
+  desc.contours = given.items;
+  desc.contour_count = given.count;
   celspan_object *object = NULL;
   cs_form_try(form, celspan_object_create_stroke(cs_host_context(form->L), &desc, &object));
   value->handle = object;
@@ -97,6 +102,7 @@ static const cs_field fields[] = {
     {"points", CS_OWN("number[][]"), .about = "{x, y} or {x, y, width}"},
     {"d", CS_TEXT(DESC, data), .about = "SVG path data; Z closes a subpath"},
     {"outline", CS_OWN("celspan.object"), .about = "A primitive, in its own units"},
+    {CS_CONTOURS},
     {"closed", CS_FLAG(DESC, closed), .about = "Whether the line returns to its first point"},
     {"degree", CS_WHOLE(DESC, degree), .least = 1, .most = 15, .preset = "1",
      .about = "Of the spline through the points"},
@@ -105,7 +111,7 @@ const cs_noun cs_noun_stroke_style = {
     .name = "stroke.style", .table = "celspan.stroke.style", .fields = style_fields};
 const cs_noun cs_noun_stroke = {
     .name = "stroke",
-    .about = "A line with a width. Give exactly one of points, d and outline.",
+    .about = "A line with a width. Give exactly one of points, d, outline and contours.",
     .kind = &cs_kind_object,
     .fields = fields,
     .create = create};
